@@ -1,0 +1,1 @@
+"""Drum station: a practice room for electronic drum kits."""

@@ -1,0 +1,1 @@
+"""The words of the drum station: pieces, hits, time, errors, settings. Imports nothing of ours."""

@@ -1,0 +1,28 @@
+"""Whose fault it is: `BadInput` for a file or a user's word, `DeviceError` for the world.
+
+A broken promise of our own is an `assert`. The command line prints either error as one line and exits with 2.
+"""
+
+from pathlib import Path
+
+
+class StationError(Exception):
+    """An error that a user can read: one line, no traceback."""
+
+
+class BadInput(StationError):
+    """A file, an argument or a peer is at fault.
+
+    `source` names the file or argument, `place` where in it (such as "line 3, column 7"; may be empty),
+    `fault` what is wrong and what was expected.
+    """
+
+    def __init__(self, source: str | Path, place: str, fault: str) -> None:
+        self.source = str(source)
+        self.place = place
+        self.fault = fault
+        super().__init__(": ".join(part for part in (self.source, place, fault) if part))
+
+
+class DeviceError(StationError):
+    """A device, a driver, a disk or the operating system failed; the text says what to do about it."""

@@ -1,0 +1,62 @@
+"""What devices tell: immutable events, each with the session time (monotonic ns) at which it happened."""
+
+from dataclasses import dataclass
+
+from station.core.pieces import Articulation, Limb, Piece, Zone
+
+
+@dataclass(frozen=True, slots=True)
+class Hit:
+    """A stroke that was played.
+
+    `velocity` 1–127; `openness` of the hi-hat 0 closed … 1 open, None where the kit cannot tell; `midi_note` the
+    number as sent (0 where there was none); `position` 0 head's centre … 1 edge; `device` names the port.
+    """
+
+    at_ns: int
+    piece: Piece
+    zone: Zone
+    velocity: int
+    articulation: Articulation = Articulation.NORMAL
+    openness: float | None = None
+    midi_note: int = 0
+    position: float | None = None
+    limb: Limb = Limb.UNKNOWN
+    device: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Choke:
+    """A ringing cymbal was grabbed."""
+
+    at_ns: int
+    piece: Piece
+    device: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class PedalMoved:
+    """The hi-hat pedal is now at `openness` 0 closed … 1 open."""
+
+    at_ns: int
+    openness: float
+    device: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class DeviceLost:
+    """A device vanished; what it played until `at_ns` is safe."""
+
+    at_ns: int
+    device: str
+
+
+@dataclass(frozen=True, slots=True)
+class DeviceFound:
+    """A device appeared, or came back."""
+
+    at_ns: int
+    device: str
+
+
+DeviceEvent = Hit | Choke | PedalMoved | DeviceLost | DeviceFound

@@ -1,0 +1,104 @@
+"""Maps between MIDI note numbers and what is struck.
+
+`GENERAL_MIDI` is the General MIDI level 1 percussion map (MIDI Association, RP-003, table 3).
+`V_DRUMS` is what Roland's V-Drums send (TD-11, TD-17 and TD-27 owner's manuals; the Groove MIDI Dataset's table), which
+reuses some General MIDI numbers for rims and edges.
+"""
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+from station.core.pieces import Articulation, Piece, Zone
+
+
+@dataclass(frozen=True, slots=True)
+class Strike:
+    """What one MIDI note number means; `openness` 0 closed … 1 open, None where the number does not say."""
+
+    piece: Piece
+    zone: Zone = Zone.HEAD
+    articulation: Articulation = Articulation.NORMAL
+    openness: float | None = None
+
+
+KitMap = Mapping[int, Strike]
+
+_CLOSED = 0.0
+_OPEN = 1.0
+
+GENERAL_MIDI: KitMap = MappingProxyType(
+    {
+        35: Strike(Piece.KICK),
+        36: Strike(Piece.KICK),
+        37: Strike(Piece.SNARE, Zone.RIM, Articulation.CROSS_STICK),
+        38: Strike(Piece.SNARE),
+        39: Strike(Piece.CLAP),
+        40: Strike(Piece.SNARE, Zone.RIM, Articulation.RIM_SHOT),
+        41: Strike(Piece.FLOOR_TOM_2),
+        42: Strike(Piece.HIHAT, Zone.BOW, openness=_CLOSED),
+        43: Strike(Piece.FLOOR_TOM_1),
+        44: Strike(Piece.HIHAT_PEDAL, Zone.PEDAL, Articulation.CHICK, _CLOSED),
+        45: Strike(Piece.TOM_4),
+        46: Strike(Piece.HIHAT, Zone.BOW, openness=_OPEN),
+        47: Strike(Piece.TOM_3),
+        48: Strike(Piece.TOM_2),
+        49: Strike(Piece.CRASH_1, Zone.EDGE),
+        50: Strike(Piece.TOM_1),
+        51: Strike(Piece.RIDE, Zone.BOW),
+        52: Strike(Piece.CHINA, Zone.EDGE),
+        53: Strike(Piece.RIDE, Zone.BELL),
+        54: Strike(Piece.TAMBOURINE),
+        55: Strike(Piece.SPLASH, Zone.EDGE),
+        56: Strike(Piece.COWBELL),
+        57: Strike(Piece.CRASH_2, Zone.EDGE),
+        59: Strike(Piece.RIDE_2, Zone.BOW),
+    }
+)
+
+V_DRUMS: KitMap = MappingProxyType(
+    {
+        **GENERAL_MIDI,
+        22: Strike(Piece.HIHAT, Zone.EDGE, openness=_CLOSED),
+        26: Strike(Piece.HIHAT, Zone.EDGE, openness=_OPEN),
+        43: Strike(Piece.FLOOR_TOM_1),
+        45: Strike(Piece.TOM_2),
+        47: Strike(Piece.TOM_2, Zone.RIM),
+        48: Strike(Piece.TOM_1),
+        49: Strike(Piece.CRASH_1, Zone.BOW),
+        50: Strike(Piece.TOM_1, Zone.RIM),
+        52: Strike(Piece.CRASH_2, Zone.EDGE),
+        55: Strike(Piece.CRASH_1, Zone.EDGE),
+        57: Strike(Piece.CRASH_2, Zone.BOW),
+        58: Strike(Piece.FLOOR_TOM_1, Zone.RIM),
+        59: Strike(Piece.RIDE, Zone.EDGE),
+    }
+)
+
+_V_DRUMS_ALONE = frozenset({22, 26})
+"""Numbers that General MIDI leaves undefined and every V-Drums hi-hat sends."""
+
+
+def guess_map(midi_notes: Collection[int]) -> KitMap:
+    """The map that a file with these note numbers was most likely written for: V-Drums or General MIDI."""
+    return V_DRUMS if _V_DRUMS_ALONE.intersection(midi_notes) else GENERAL_MIDI
+
+
+def strike_of(midi_note: int, kit_map: KitMap) -> Strike:
+    """What `midi_note` means on this kit; a number that the map lacks is `Piece.PERCUSSION`."""
+    return kit_map.get(midi_note, Strike(Piece.PERCUSSION))
+
+
+_HALF_OPEN = 0.5
+
+
+def general_midi_note(strike: Strike) -> int:
+    """The General MIDI number that sounds closest to `strike` (hi-hat open from openness 0.5 up)."""
+    if strike.piece is Piece.HIHAT:
+        return 46 if (strike.openness or 0.0) >= _HALF_OPEN else 42
+    exact = {(s.piece, s.zone, s.articulation): n for n, s in reversed(GENERAL_MIDI.items())}
+    key = (strike.piece, strike.zone, strike.articulation)
+    if key in exact:
+        return 36 if strike.piece is Piece.KICK else exact[key]
+    by_piece = {s.piece: n for n, s in reversed(GENERAL_MIDI.items())}
+    return {Piece.KICK: 36, Piece.SNARE: 38, Piece.RIDE: 51}.get(strike.piece, by_piece.get(strike.piece, 54))

@@ -1,0 +1,89 @@
+"""The user's settings: one TOML file, read whole and written whole.
+
+An unknown key or a value of another type is the file's fault and named with its key; a file that does not exist is the
+defaults. Writing goes through a temporary file beside it, so that a full disk never leaves half a file.
+"""
+
+import tomllib
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+
+from platformdirs import user_config_path, user_documents_path
+
+from station.core.errors import BadInput
+from station.core.files import write_whole
+
+APP_NAME = "drum-station"
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """What a user has chosen.
+
+    `kit` part of the MIDI port's name, empty for the first kit found; `output` part of the sound device's name, empty for
+    the system's default; `block_frames` the size of one audio block, 0 for the driver's own choice; `rate_hz` its sample
+    rate; latencies in milliseconds, subtracted from every hit (input) and added to every written time (output).
+    """
+
+    student: str = "student"
+    kit: str = ""
+    output: str = ""
+    block_frames: int = 0
+    rate_hz: int = 48_000
+    input_latency_ms: float = 0.0
+    output_latency_ms: float = 0.0
+    own_sound: bool = True
+    sessions: str = ""
+
+    @property
+    def sessions_dir(self) -> Path:
+        """Where sessions are kept: `sessions`, or a folder of ours in the user's documents."""
+        return Path(self.sessions) if self.sessions else user_documents_path() / "Drum station"
+
+
+def settings_path() -> Path:
+    """Where this user's settings live on this system."""
+    return user_config_path(APP_NAME, appauthor=False) / "settings.toml"
+
+
+def load_settings(path: Path | None = None) -> Settings:
+    """Settings from `path` (this user's by default); raises `BadInput` for a file that is not ours."""
+    source = path or settings_path()
+    try:
+        raw = tomllib.loads(source.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        return Settings()
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as fault:
+        raise BadInput(source, "", str(fault)) from fault
+    return _checked(raw, source)
+
+
+def _checked(raw: dict[str, object], source: Path) -> Settings:
+    types = {f.name: type(getattr(Settings(), f.name)) for f in fields(Settings)}
+    values: dict[str, object] = {}
+    for key, value in raw.items():
+        if key not in types:
+            raise BadInput(source, key, f"no such setting; there are {', '.join(types)}")
+        if types[key] is float and type(value) is int:
+            value = float(value)  # noqa: PLW2901 - TOML writes 5.0 and 5 alike for a person
+        if type(value) is not types[key]:
+            raise BadInput(source, key, f"expected {types[key].__name__}, found {value!r}")
+        values[key] = value
+    return Settings(**values)  # type: ignore[arg-type] # each value's type was compared with its field's default
+
+
+def save_settings(settings: Settings, path: Path | None = None) -> Path:
+    """Write every setting to `path` (this user's by default) and return it; raises `DeviceError` if the disk refuses."""
+    target = path or settings_path()
+    lines = [f"{key} = {_toml(value)}\n" for key, value in asdict(settings).items()]
+    write_whole(target, "".join(lines).encode())
+    return target
+
+
+def _toml(value: object) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        escaped = value.replace("\\", "\\\\").replace('"', '\\"')
+        return f'"{escaped}"'
+    return str(value)

@@ -1,0 +1,1 @@
+"""Written and played music as immutable values: Score, TempoMap, Performance, Judgement."""

@@ -1,0 +1,55 @@
+"""Judgements: written notes and played hits paired, or left alone.
+
+Asynchrony is played minus written: **negative is early**.
+"""
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class Label(IntEnum):
+    """What became of a note or a hit."""
+
+    MATCH = 0
+    MISS = 1
+    EXTRA = 2
+    WRONG_PIECE = 3
+    IGNORED = 4
+    """A hit that nobody counts: unwritten foot timekeeping, a chick that closes an open hat, and their like."""
+
+
+@dataclass(frozen=True, slots=True)
+class Judgement:
+    """One note, one hit, or the two paired.
+
+    `note_index` None for extras, `hit_index` None for misses. `asynchrony_ns` played − written and `velocity_error`
+    played − written where both are there, else None.
+    """
+
+    label: Label
+    note_index: int | None
+    hit_index: int | None
+    asynchrony_ns: int | None = None
+    velocity_error: int | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Matching:
+    """A whole alignment as arrays: one label a note (n,) and a hit (m,), and each one's partner or −1.
+
+    `hit_of_note` (n,) and `note_of_hit` (m,) are inverse to each other; notes are MATCH, MISS or WRONG_PIECE,
+    hits MATCH, EXTRA, WRONG_PIECE or IGNORED.
+    """
+
+    hit_of_note: NDArray[np.int64]
+    note_of_hit: NDArray[np.int64]
+    note_label: NDArray[np.uint8]
+    hit_label: NDArray[np.uint8]
+
+    def count(self, label: Label) -> int:
+        """How many notes (for MISS, MATCH, WRONG_PIECE) or hits (for EXTRA, IGNORED) bear `label`."""
+        labels = self.hit_label if label in (Label.EXTRA, Label.IGNORED) else self.note_label
+        return int(np.count_nonzero(labels == label))

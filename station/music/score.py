@@ -1,0 +1,175 @@
+"""The written music: an immutable table of strokes over a tempo map.
+
+Every stroke that a player must make is a row, the grace strokes of flams and drags and the strokes of diddles and open
+rolls included, so that sound, motion and alignment need no second notion of a note. A grace stroke stands on the tick of
+its main stroke and sounds `lead_ms` before it, whatever the tempo: its spacing belongs to the hand, not to the beat. A
+buzz roll is one row with a duration.
+
+Rows are ordered by tick, then grace strokes first, then piece; `Score.notes` is read-only.
+"""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone
+from station.core.units import NS_PER_MS, NS_PER_S, PPQ
+from station.music.tempo import TempoMap
+
+NOTE_DTYPE = np.dtype(
+    [
+        ("tick", np.int64),
+        ("duration_ticks", np.int64),  # of rolls; 0 for a stroke
+        ("lead_ms", np.float32),  # > 0 for grace strokes: how long before the tick they sound
+        ("openness", np.float32),  # hi-hat 0 closed … 1 open; NaN where it is not said
+        ("choke_ticks", np.int64),  # > 0: the cymbal is grabbed so long after the stroke
+        ("piece", np.uint8),
+        ("zone", np.uint8),
+        ("articulation", np.uint8),
+        ("velocity", np.uint8),  # 1–127
+        ("dynamic", np.uint8),
+        ("ornament", np.uint8),
+        ("limb", np.int8),  # the written sticking; Limb.UNKNOWN where none is written
+        ("midi_note", np.uint8),  # as in the file it came from; 0 where there was none
+    ]
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Note:
+    """One written stroke; the fields are those of `NOTE_DTYPE`, `openness` None where it is not said."""
+
+    tick: int
+    piece: Piece
+    zone: Zone = Zone.HEAD
+    velocity: int = 80
+    articulation: Articulation = Articulation.NORMAL
+    dynamic: Dynamic = Dynamic.NORMAL
+    limb: Limb = Limb.UNKNOWN
+    openness: float | None = None
+    ornament: Ornament = Ornament.NONE
+    lead_ms: float = 0.0
+    duration_ticks: int = 0
+    choke_ticks: int = 0
+    midi_note: int = 0
+
+
+def _row(note: Note) -> tuple[float | int, ...]:
+    openness = np.nan if note.openness is None else note.openness
+    values = {name: getattr(note, name) for name in NOTE_DTYPE.names or ()} | {"openness": openness}
+    return tuple(values[name] for name in NOTE_DTYPE.names or ())
+
+
+def _note(row: np.void) -> Note:
+    return Note(
+        tick=int(row["tick"]),
+        piece=Piece(row["piece"]),
+        zone=Zone(row["zone"]),
+        velocity=int(row["velocity"]),
+        articulation=Articulation(row["articulation"]),
+        dynamic=Dynamic(row["dynamic"]),
+        limb=Limb(row["limb"]),
+        openness=None if np.isnan(row["openness"]) else float(row["openness"]),
+        ornament=Ornament(row["ornament"]),
+        lead_ms=float(row["lead_ms"]),
+        duration_ticks=int(row["duration_ticks"]),
+        choke_ticks=int(row["choke_ticks"]),
+        midi_note=int(row["midi_note"]),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Score:
+    """Strokes (`notes`, shape (n,), dtype `NOTE_DTYPE`) over `tempo_map`; `end_tick` is where the last bar ends."""
+
+    notes: NDArray[np.void]
+    tempo_map: TempoMap = field(default_factory=TempoMap)
+    end_tick: int = 0
+    title: str = ""
+
+    @classmethod
+    def from_array(
+        cls, notes: NDArray[np.void], tempo_map: TempoMap, end_tick: int | None = None, title: str = ""
+    ) -> "Score":
+        """A score of rows in any order; without `end_tick` it ends with the bar of its last stroke."""
+        rows = notes[np.lexsort((notes["piece"], -notes["lead_ms"], notes["tick"]))]
+        rows.setflags(write=False)
+        if end_tick is None:
+            last = int(rows["tick"].max()) if len(rows) else 0
+            end_tick = tempo_map.bar_start(int(tempo_map.bars_at(last)) + 1)
+        return cls(rows, tempo_map, end_tick, title)
+
+    @classmethod
+    def from_notes(
+        cls, notes: Iterable[Note], tempo_map: TempoMap, end_tick: int | None = None, title: str = ""
+    ) -> "Score":
+        """A score of `notes` in any order."""
+        return cls.from_array(np.array([_row(n) for n in notes], NOTE_DTYPE), tempo_map, end_tick, title)
+
+    def __len__(self) -> int:
+        return len(self.notes)
+
+    def __getitem__(self, index: int) -> Note:
+        return _note(self.notes[index])
+
+    def __iter__(self) -> Iterator[Note]:
+        return (_note(row) for row in self.notes)
+
+    @cached_property
+    def onset_ns(self) -> NDArray[np.int64]:
+        """When each stroke sounds, in ns from tick 0 (a grace stroke on tick 0 is negative)."""
+        onsets: NDArray[np.int64] = self.tempo_map.ns_at(self.notes["tick"])
+        onsets = onsets - np.rint(self.notes["lead_ms"].astype(np.float64) * NS_PER_MS).astype(np.int64)
+        onsets.setflags(write=False)
+        return onsets
+
+    @cached_property
+    def onset_s(self) -> NDArray[np.float64]:
+        """When each stroke sounds, in seconds from tick 0."""
+        return self.onset_ns / NS_PER_S
+
+    @cached_property
+    def is_grace(self) -> NDArray[np.bool_]:
+        """Which rows are the grace strokes of flams and drags."""
+        return np.asarray(self.notes["lead_ms"] > 0)
+
+    @cached_property
+    def bar(self) -> NDArray[np.int64]:
+        """Index of the bar of each stroke, from 0."""
+        return self.tempo_map.bars_at(self.notes["tick"])
+
+    @property
+    def bar_count(self) -> int:
+        """How many bars there are, the last one whole."""
+        return int(self.tempo_map.bars_at(max(self.end_tick - 1, 0))) + 1
+
+    @property
+    def length_ns(self) -> int:
+        """Time from tick 0 to `end_tick`."""
+        return int(self.tempo_map.ns_at(self.end_tick))
+
+    @property
+    def length_beats(self) -> float:
+        """Quarter notes from tick 0 to `end_tick`."""
+        return self.end_tick / PPQ
+
+    def bars(self, first: int, last: int) -> "Score":
+        """Bars `first` to `last` inclusive (from 0), moved to tick 0."""
+        start, end = self.tempo_map.bar_start(first), self.tempo_map.bar_start(last + 1)
+        rows = self.notes[(self.notes["tick"] >= start) & (self.notes["tick"] < end)].copy()
+        rows["tick"] -= start
+        return Score.from_array(rows, self.tempo_map.section(start, end), end - start, self.title)
+
+    def at_speed(self, factor: float) -> "Score":
+        """The same strokes played `factor` times as fast; grace leads keep their milliseconds."""
+        return replace(self, tempo_map=self.tempo_map.scaled(factor))
+
+    def with_limbs(self, limbs: NDArray[np.int8]) -> "Score":
+        """The same strokes with their limbs (shape (n,)) written."""
+        rows = self.notes.copy()
+        rows["limb"] = limbs
+        rows.setflags(write=False)
+        return replace(self, notes=rows)

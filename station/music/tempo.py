@@ -1,0 +1,220 @@
+"""Tempo and meter over score time: exact conversion between ticks, nanoseconds and bars.
+
+Tempo is kept as MIDI keeps it, in whole microseconds a quarter note, so that a tick's time is the rational
+`us_per_quarter * ticks / PPQ` summed over the segments. Segment starts are kept in units of 1/PPQ microseconds
+(integers, exact); only the last step to nanoseconds rounds, by at most half a nanosecond. Because a tick lasts far longer than a
+nanosecond at any legal tempo, ticks -> ns -> ticks is the identity.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from station.core.errors import BadInput
+from station.core.units import NS_PER_S, NS_PER_US, PPQ
+
+DEFAULT_US_PER_QUARTER = 500_000
+MIN_BPM, MAX_BPM = 10.0, 1000.0
+"""Our choice: below a quarter note lasts six seconds, above no drummer follows; files outside still read."""
+
+_US_PER_MINUTE = 60_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class TempoChange:
+    """From `tick` on, a quarter note lasts `us_per_quarter` microseconds."""
+
+    tick: int
+    us_per_quarter: int
+
+    @classmethod
+    def from_bpm(cls, tick: int, tempo_bpm: float) -> "TempoChange":
+        """A change to `tempo_bpm` quarter notes a minute, rounded to whole microseconds as MIDI does."""
+        return cls(tick, round(_US_PER_MINUTE / tempo_bpm))
+
+
+@dataclass(frozen=True, slots=True)
+class MeterChange:
+    """From `tick` on, bars have `beats` beats of 1/`unit` note. A change in mid-bar starts a new bar there."""
+
+    tick: int
+    beats: int
+    unit: int
+
+    @property
+    def beat_ticks(self) -> int:
+        """Length of one beat."""
+        return 4 * PPQ // self.unit
+
+    @property
+    def bar_ticks(self) -> int:
+        """Length of one whole bar."""
+        return self.beats * self.beat_ticks
+
+
+@dataclass(frozen=True, slots=True)
+class BarPosition:
+    """A place in the music as people count it: `bar` and `beat` from 0, `tick` within the beat."""
+
+    bar: int
+    beat: int
+    tick: int
+
+
+@dataclass(frozen=True)
+class TempoMap:
+    """The tempo and meter of a score from tick 0 to infinity; see the module's head for its exactness."""
+
+    tempos: tuple[TempoChange, ...] = (TempoChange(0, DEFAULT_US_PER_QUARTER),)
+    meters: tuple[MeterChange, ...] = (MeterChange(0, 4, 4),)
+
+    @classmethod
+    def build(cls, tempos: Iterable[TempoChange], meters: Iterable[MeterChange] = ()) -> "TempoMap":
+        """A map from changes in any order: the last on a tick counts; tick 0 gets 120 bpm and 4/4 if unsaid."""
+        by_tick = {0: TempoChange(0, DEFAULT_US_PER_QUARTER)} | {t.tick: t for t in sorted(tempos, key=_tick)}
+        meter_by_tick = {0: MeterChange(0, 4, 4)} | {m.tick: m for m in sorted(meters, key=_tick)}
+        for tempo in by_tick.values():
+            if tempo.us_per_quarter <= 0 or tempo.tick < 0:
+                raise BadInput("tempo map", f"tick {tempo.tick}", f"{tempo.us_per_quarter} µs a quarter is no tempo")
+        for meter in meter_by_tick.values():
+            if meter.beats <= 0 or meter.unit <= 0 or (4 * PPQ) % meter.unit or meter.tick < 0:
+                raise BadInput("tempo map", f"tick {meter.tick}", f"{meter.beats}/{meter.unit} is no meter")
+        return cls(
+            tuple(by_tick[t] for t in sorted(by_tick)),
+            tuple(meter_by_tick[t] for t in sorted(meter_by_tick)),
+        )
+
+    @classmethod
+    def constant(cls, tempo_bpm: float, beats: int = 4, unit: int = 4) -> "TempoMap":
+        """One tempo (quarter notes a minute) and one meter throughout."""
+        return cls.build([TempoChange.from_bpm(0, tempo_bpm)], [MeterChange(0, beats, unit)])
+
+    # --- time ---------------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def _segments(self) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+        """Start tick, µs a quarter, and the start time as whole µs and remaining 1/PPQ µs, of every tempo segment."""
+        ticks = np.array([t.tick for t in self.tempos], np.int64)
+        rates = np.array([t.us_per_quarter for t in self.tempos], np.int64)
+        starts, total = [0], 0
+        for i in range(1, len(ticks)):
+            total += int(ticks[i] - ticks[i - 1]) * int(rates[i - 1])
+            starts.append(total)
+        whole = np.array([s // PPQ for s in starts], np.int64)
+        rest = np.array([s % PPQ for s in starts], np.int64)
+        return ticks, rates, whole, rest
+
+    def ns_at(self, ticks: ArrayLike) -> NDArray[np.int64]:
+        """Time of each tick in ns from tick 0, to the nearest ns; any shape in, the same shape out."""
+        starts, rates, whole_us, rest = self._segments
+        t = np.asarray(ticks, np.int64)
+        i = np.maximum(np.searchsorted(starts, t, side="right") - 1, 0)
+        quarters, left = np.divmod(t - starts[i], PPQ)
+        parts = left * rates[i] + rest[i]  # of 1/PPQ µs; < 2^63 for every 24-bit MIDI tempo
+        us, part = np.divmod(parts, PPQ)
+        ns: NDArray[np.int64] = (whole_us[i] + quarters * rates[i] + us) * NS_PER_US + (2 * part * NS_PER_US + PPQ) // (
+            2 * PPQ
+        )
+        return ns
+
+    def seconds_at(self, ticks: ArrayLike) -> NDArray[np.float64]:
+        """Time of each tick in seconds from tick 0."""
+        return self.ns_at(ticks) / NS_PER_S
+
+    @cached_property
+    def _segment_starts_ns(self) -> NDArray[np.int64]:
+        return self.ns_at(self._segments[0])
+
+    def ticks_at_ns(self, ns: ArrayLike) -> NDArray[np.int64]:
+        """Nearest tick to each time; the inverse of `ns_at`."""
+        starts, rates, _, _ = self._segments
+        t = np.asarray(ns, np.int64)
+        i = np.maximum(np.searchsorted(self._segment_starts_ns, t, side="right") - 1, 0)
+        quarter_ns = rates[i] * NS_PER_US
+        quarters, left = np.divmod(t - self._segment_starts_ns[i], quarter_ns)
+        nearest: NDArray[np.int64] = starts[i] + quarters * PPQ + np.rint(left * (PPQ / quarter_ns)).astype(np.int64)
+        return nearest
+
+    def ticks_at(self, seconds: ArrayLike) -> NDArray[np.int64]:
+        """Nearest tick to each time in seconds."""
+        return self.ticks_at_ns(np.rint(np.asarray(seconds, np.float64) * NS_PER_S).astype(np.int64))
+
+    def bpm_at(self, tick: int) -> float:
+        """Quarter notes a minute at `tick`."""
+        starts, rates, _, _ = self._segments
+        i = max(int(np.searchsorted(starts, tick, side="right")) - 1, 0)
+        return _US_PER_MINUTE / int(rates[i])
+
+    def scaled(self, factor: float) -> "TempoMap":
+        """The same music played `factor` times as fast."""
+        return TempoMap(
+            tuple(TempoChange(t.tick, max(1, round(t.us_per_quarter / factor))) for t in self.tempos),
+            self.meters,
+        )
+
+    # --- bars ---------------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def _meter_bars(self) -> tuple[int, ...]:
+        """Index of the first bar of every meter; a bar that a change cuts short counts as one."""
+        bars = [0]
+        for before, after in zip(self.meters, self.meters[1:], strict=False):
+            bars.append(bars[-1] + -(-(after.tick - before.tick) // before.bar_ticks))
+        return tuple(bars)
+
+    def meter_at(self, tick: int) -> MeterChange:
+        """The meter in force at `tick`."""
+        return self.meters[max(sum(m.tick <= tick for m in self.meters) - 1, 0)]
+
+    def bar_start(self, bar: int) -> int:
+        """First tick of bar `bar` (from 0)."""
+        i = max(sum(first <= bar for first in self._meter_bars) - 1, 0)
+        return self.meters[i].tick + (bar - self._meter_bars[i]) * self.meters[i].bar_ticks
+
+    def bars_at(self, ticks: ArrayLike) -> NDArray[np.int64]:
+        """Index of the bar that holds each tick."""
+        t = np.asarray(ticks, np.int64)
+        starts = np.array([m.tick for m in self.meters], np.int64)
+        i = np.maximum(np.searchsorted(starts, t, side="right") - 1, 0)
+        lengths = np.array([m.bar_ticks for m in self.meters], np.int64)
+        bars: NDArray[np.int64] = np.array(self._meter_bars, np.int64)[i] + (t - starts[i]) // lengths[i]
+        return bars
+
+    def position_at(self, tick: int) -> BarPosition:
+        """Bar, beat and tick within the beat at `tick`."""
+        bar = int(self.bars_at(tick))
+        within = tick - self.bar_start(bar)
+        beat, rest = divmod(within, self.meter_at(tick).beat_ticks)
+        return BarPosition(bar, beat, rest)
+
+    def beats_between(self, start: int, end: int) -> list[tuple[int, int]]:
+        """Every beat in [start, end) as (tick, index of the beat in its bar)."""
+        beats: list[tuple[int, int]] = []
+        bar = int(self.bars_at(start))
+        while (first := self.bar_start(bar)) < end:
+            step, stop = self.meter_at(first).beat_ticks, min(self.bar_start(bar + 1), end)
+            beats += [(t, i) for i, t in enumerate(range(first, stop, step)) if t >= start]
+            bar += 1
+        return beats
+
+    def section(self, start: int, end: int) -> "TempoMap":
+        """The map of [start, end) moved to tick 0."""
+        tempos = [TempoChange(0, self._rate_at(start))] + [
+            TempoChange(t.tick - start, t.us_per_quarter) for t in self.tempos if start < t.tick < end
+        ]
+        at_start = self.meter_at(start)
+        meters = [MeterChange(0, at_start.beats, at_start.unit)] + [
+            MeterChange(m.tick - start, m.beats, m.unit) for m in self.meters if start < m.tick < end
+        ]
+        return TempoMap.build(tempos, meters)
+
+    def _rate_at(self, tick: int) -> int:
+        starts, rates, _, _ = self._segments
+        return int(rates[max(int(np.searchsorted(starts, tick, side="right")) - 1, 0)])
+
+
+def _tick(change: TempoChange | MeterChange) -> int:
+    return change.tick
