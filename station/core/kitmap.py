@@ -90,15 +90,21 @@ def strike_of(midi_note: int, kit_map: KitMap) -> Strike:
 
 
 _HALF_OPEN = 0.5
+_BEST_NOTE = {Piece.KICK: 36, Piece.SNARE: 38, Piece.RIDE: 51}
+"""Where General MIDI has several numbers for a piece, the plain one."""
+_LOWEST_NOTE = {strike.piece: note for note, strike in sorted(GENERAL_MIDI.items(), reverse=True)}
+_UNMAPPED_NOTE = 54
+"""Tambourine: a number that every General MIDI kit sounds and no drum set uses."""
 
 
-def general_midi_note(strike: Strike) -> int:
-    """The General MIDI number that sounds closest to `strike` (hi-hat open from openness 0.5 up)."""
-    if strike.piece is Piece.HIHAT:
-        return 46 if (strike.openness or 0.0) >= _HALF_OPEN else 42
-    exact = {(s.piece, s.zone, s.articulation): n for n, s in reversed(GENERAL_MIDI.items())}
-    key = (strike.piece, strike.zone, strike.articulation)
-    if key in exact:
-        return 36 if strike.piece is Piece.KICK else exact[key]
-    by_piece = {s.piece: n for n, s in reversed(GENERAL_MIDI.items())}
-    return {Piece.KICK: 36, Piece.SNARE: 38, Piece.RIDE: 51}.get(strike.piece, by_piece.get(strike.piece, 54))
+def general_midi_note(piece: Piece, zone: Zone, articulation: Articulation, openness: float | None = None) -> int:
+    """The General MIDI number that sounds closest (hi-hat open from openness 0.5 up)."""
+    if piece is Piece.HIHAT:
+        return 46 if (openness or 0.0) >= _HALF_OPEN else 42
+    if piece is Piece.SNARE and articulation is Articulation.CROSS_STICK:
+        return 37
+    if piece is Piece.SNARE and articulation is Articulation.RIM_SHOT:
+        return 40
+    if piece is Piece.RIDE and zone is Zone.BELL:
+        return 53
+    return _BEST_NOTE.get(piece, _LOWEST_NOTE.get(piece, _UNMAPPED_NOTE))

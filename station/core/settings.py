@@ -20,9 +20,9 @@ APP_NAME = "drum-station"
 class Settings:
     """What a user has chosen.
 
-    `kit` part of the MIDI port's name, empty for the first kit found; `output` part of the sound device's name, empty for
-    the system's default; `block_frames` the size of one audio block, 0 for the driver's own choice; `rate_hz` its sample
-    rate; latencies in milliseconds, subtracted from every hit (input) and added to every written time (output).
+    `kit` part of the MIDI port's name, empty for the first kit found; `output` part of the sound device's name, empty
+    for the system's default; `block_frames` the size of one audio block, 0 for the driver's own choice; `rate_hz` its
+    sample rate; latencies in milliseconds, subtracted from every hit (input) and added to every written time (output).
     """
 
     student: str = "student"
@@ -73,7 +73,7 @@ def _checked(raw: dict[str, object], source: Path) -> Settings:
 
 
 def save_settings(settings: Settings, path: Path | None = None) -> Path:
-    """Write every setting to `path` (this user's by default) and return it; raises `DeviceError` if the disk refuses."""
+    """Write all to `path` (this user's by default) and return it; raises `DeviceError` if the disk refuses."""
     target = path or settings_path()
     lines = [f"{key} = {_toml(value)}\n" for key, value in asdict(settings).items()]
     write_whole(target, "".join(lines).encode())

@@ -1,14 +1,14 @@
 """The written music: an immutable table of strokes over a tempo map.
 
-Every stroke that a player must make is a row, the grace strokes of flams and drags and the strokes of diddles and open
-rolls included, so that sound, motion and alignment need no second notion of a note. A grace stroke stands on the tick of
-its main stroke and sounds `lead_ms` before it, whatever the tempo: its spacing belongs to the hand, not to the beat. A
-buzz roll is one row with a duration.
+Every stroke that a player must make is a row, the grace strokes of flams and drags and the strokes of diddles and
+open rolls included, so that sound, motion and alignment need no second notion of a note. A grace stroke stands on
+the tick of its main stroke and sounds `lead_ms` before it, whatever the tempo: its spacing belongs to the hand, not
+to the beat. A buzz roll is one row with a duration.
 
 Rows are ordered by tick, then grace strokes first, then piece; `Score.notes` is read-only.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -162,6 +162,25 @@ class Score:
         rows = self.notes[(self.notes["tick"] >= start) & (self.notes["tick"] < end)].copy()
         rows["tick"] -= start
         return Score.from_array(rows, self.tempo_map.section(start, end), end - start, self.title)
+
+    def repeated(self, times: int) -> "Score":
+        """The score played `times` times without a gap, tempo and meter changes included."""
+        return Score.joined([self] * times)
+
+    @staticmethod
+    def joined(parts: Sequence["Score"]) -> "Score":
+        """All `parts` one after the other, each from the end of the one before; at least one part."""
+        assert parts, "nothing to join"
+        starts = np.cumsum([0] + [p.end_tick for p in parts]).tolist()
+        rows = np.concatenate([p.notes for p in parts])
+        rows["tick"] += np.repeat(np.array(starts[:-1], np.int64), [len(p) for p in parts])
+        tempos = [
+            replace(t, tick=t.tick + at) for at, p in zip(starts, parts, strict=False) for t in p.tempo_map.tempos
+        ]
+        meters = [
+            replace(m, tick=m.tick + at) for at, p in zip(starts, parts, strict=False) for m in p.tempo_map.meters
+        ]
+        return Score.from_array(rows, TempoMap.build(tempos, meters), starts[-1], parts[0].title)
 
     def at_speed(self, factor: float) -> "Score":
         """The same strokes played `factor` times as fast; grace leads keep their milliseconds."""

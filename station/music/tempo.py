@@ -2,8 +2,8 @@
 
 Tempo is kept as MIDI keeps it, in whole microseconds a quarter note, so that a tick's time is the rational
 `us_per_quarter * ticks / PPQ` summed over the segments. Segment starts are kept in units of 1/PPQ microseconds
-(integers, exact); only the last step to nanoseconds rounds, by at most half a nanosecond. Because a tick lasts far longer than a
-nanosecond at any legal tempo, ticks -> ns -> ticks is the identity.
+(integers, exact); only the last step to nanoseconds rounds, by at most half a nanosecond. Because a tick lasts far
+longer than a nanosecond at any legal tempo, ticks -> ns -> ticks is the identity.
 """
 
 from collections.abc import Iterable

@@ -1,0 +1,1 @@
+"""The window: wires engine, session and render together."""

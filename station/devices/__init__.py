@@ -1,0 +1,1 @@
+"""Transports (bytes) and decoders (pure), kit presets and captures."""

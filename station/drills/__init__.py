@@ -1,0 +1,1 @@
+"""Lessons, loops, rudiments and courses: what is practised."""

@@ -1,0 +1,138 @@
+"""What the app says to the engine and hears from it: plain immutable values that cross a process boundary.
+
+The transport has a zero, the session time at which cue time 0 is *heard*. Cues are placed on it in nanoseconds; the engine
+knows no bars and no lessons. While it runs, more cues may be added ahead of the play position, so that loops are gapless.
+"""
+
+from dataclasses import dataclass
+from enum import IntEnum
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.events import DeviceEvent
+from station.core.pieces import Articulation, Piece, Zone
+
+
+class Bus(IntEnum):
+    """The mixer's channels: each has a level and a pan."""
+
+    CLICK = 0
+    DEMONSTRATION = 1
+    STUDENT = 2
+
+
+class ClickVoice(IntEnum):
+    """Which click sounds; a cue of `Bus.CLICK` bears it in place of a piece."""
+
+    ACCENT = 0
+    BEAT = 1
+    SUBDIVISION = 2
+
+
+CUE_DTYPE = np.dtype(
+    [
+        ("at_ns", np.int64),  # from the transport's zero
+        ("bus", np.uint8),
+        ("piece", np.uint8),  # Piece, or ClickVoice on the click bus
+        ("zone", np.uint8),
+        ("articulation", np.uint8),
+        ("velocity", np.uint8),  # 1–127; 0 grabs the ringing cymbal (a choke)
+        ("openness", np.float32),  # hi-hat 0 closed … 1 open; NaN where it does not matter
+    ]
+)
+
+
+# --- to the engine ---------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, eq=False)
+class Play:
+    """Start the transport: cue time 0 is heard `start_in_ns` from now, or as soon after as the sound card can."""
+
+    cues: NDArray[np.void]
+    start_in_ns: int
+
+
+@dataclass(frozen=True, eq=False)
+class Queue:
+    """Add cues to the running transport; those already past are dropped and counted in the next `Status`."""
+
+    cues: NDArray[np.void]
+
+
+@dataclass(frozen=True, slots=True)
+class Stop:
+    """Stop the transport and drop its cues; what rings, rings out."""
+
+
+@dataclass(frozen=True, slots=True)
+class SetLevel:
+    """Set a bus's level (0 silent, 1 full) and pan (−1 left … 1 right)."""
+
+    bus: Bus
+    level: float
+    pan: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class KeyHit:
+    """A stroke played on the computer's keyboard, stamped `at_ns` when it was polled."""
+
+    at_ns: int
+    piece: Piece
+    zone: Zone
+    velocity: int
+    articulation: Articulation = Articulation.NORMAL
+    openness: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Record:
+    """Write every byte of every device to a capture at `path` from now on; None ends the capture."""
+
+    path: Path | None
+
+
+@dataclass(frozen=True, slots=True)
+class Quit:
+    """End the engine process."""
+
+
+Command = Play | Queue | Stop | SetLevel | KeyHit | Record | Quit
+
+
+# --- from the engine -------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Started:
+    """The transport runs; its zero is heard at session time `zero_ns`."""
+
+    zero_ns: int
+
+
+@dataclass(frozen=True, slots=True)
+class Notice:
+    """Something a user should read once, such as "no sound card: running silent"."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Status:
+    """How the engine is doing; sent once a second while it runs.
+
+    `underflows` audio blocks that came too late, `late_cues` cues that were queued after their time, both since the start;
+    `output_latency_ms` as the stream reports it, None when silent; `load` share of the block time used for mixing.
+    """
+
+    at_ns: int
+    underflows: int
+    late_cues: int
+    output_latency_ms: float | None
+    load: float
+
+
+EngineEvent = DeviceEvent | Started | Notice | Status

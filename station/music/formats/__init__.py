@@ -1,0 +1,1 @@
+"""File formats of music, one module each."""

@@ -1,0 +1,1 @@
+"""The practice session as a state machine, and the virtual student."""

@@ -1,0 +1,1 @@
+"""Draws snapshots of the drummer, the kit and the score."""

@@ -1,0 +1,1 @@
+"""Align, judge, summarise, advise: hits and notes in, judgements and figures out."""

@@ -1,0 +1,1 @@
+"""Drum kits, the mixer, the click and the sound card's output."""

@@ -1,0 +1,1 @@
+"""Fake devices at the byte level."""
