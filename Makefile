@@ -1,0 +1,48 @@
+# Two commands for a newcomer: `make practice` and `make test`. Each sets up what is missing first.
+# `make check` is what a developer runs before every commit; CI runs the same through `make test`.
+
+VENV := .venv
+BIN := $(VENV)/bin
+READY := $(VENV)/.ready
+
+.PHONY: practice test check format lint types imports unit setup setup-test bench clean help
+
+help:  ## list the targets
+	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
+
+practice: $(READY)  ## set up what is missing, then practise: in a window, or headless where there is no screen
+	@$(BIN)/station practice
+
+setup: $(READY)  ## install system packages, make .venv, install the station and its developers' tools
+
+$(READY): pyproject.toml constraints.txt tools/setup.sh
+	@tools/setup.sh $(VENV)
+	@touch $(READY)
+
+setup-test: $(READY)
+	@tools/setup.sh --test-packages
+
+test: setup-test check  ## the same set-up, then every check and every test
+
+check: format lint types imports unit  ## what must be green before a commit
+
+format: $(READY)
+	@$(BIN)/ruff format --check --quiet station tests benchmarks examples
+
+lint: $(READY)
+	@$(BIN)/ruff check --quiet --output-format concise station tests benchmarks examples
+
+types: $(READY)
+	@$(BIN)/mypy
+
+imports: $(READY)
+	@$(BIN)/lint-imports --no-cache | tail -n 12
+
+unit: $(READY)
+	@$(BIN)/python -m pytest -q -n 2 --dist worksteal
+
+bench: $(READY)  ## the benchmarks, at most five minutes
+	@$(BIN)/station bench
+
+clean:  ## remove the virtual environment and caches
+	rm -rf $(VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache

@@ -1,0 +1,68 @@
+#!/bin/sh
+# Sets the station up on a computer that has only git, make and Python 3.11 or newer.
+#
+#   tools/setup.sh DIR              system packages the station needs, a virtual environment in DIR, the station in it
+#   tools/setup.sh --test-packages  the system packages that only the tests need
+#
+# On Debian and Ubuntu missing packages come through apt (with sudo when not root); elsewhere a line says what to install.
+set -eu
+
+RUN_PACKAGES='libportaudio2 libegl1 libgl1 libgl1-mesa-dri libxrandr2 libxinerama1 libxcursor1 libxi6 libxkbcommon0'
+TEST_PACKAGES='xvfb jackd2'
+
+missing_of() {
+    for package in $1; do
+        dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q '^install ok installed' || printf '%s ' "$package"
+    done
+}
+
+as_root() {
+    if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi
+}
+
+install_system() {
+    if ! command -v apt-get >/dev/null 2>&1; then
+        echo "setup: not a Debian or Ubuntu; please see that what these bring is installed: $1" >&2
+        return 0
+    fi
+    missing=$(missing_of "$1")
+    [ -n "$missing" ] || return 0
+    if [ "$(id -u)" != 0 ] && ! command -v sudo >/dev/null 2>&1; then
+        echo "setup: not root and no sudo; please have these installed: $missing" >&2
+        return 0
+    fi
+    echo "setup: installing system packages: $missing"
+    as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq update
+    # shellcheck disable=SC2086 # a list of words
+    as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq install -y --no-install-recommends $missing >/dev/null
+}
+
+find_python() {
+    for python in "${PYTHON:-}" python3 python3.13 python3.12 python3.11; do
+        [ -n "$python" ] && command -v "$python" >/dev/null 2>&1 || continue
+        if "$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then
+            echo "$python"
+            return 0
+        fi
+    done
+    echo "setup: Python 3.11 or newer is needed and was not found; set PYTHON to it" >&2
+    return 2
+}
+
+if [ "${1:-}" = --test-packages ]; then
+    [ "$(uname -s)" = Linux ] || exit 0
+    install_system "$TEST_PACKAGES"
+    exit 0
+fi
+
+venv=${1:?usage: tools/setup.sh DIR}
+python=$(find_python)
+if [ "$(uname -s)" = Linux ]; then
+    if ! "$python" -c 'import ensurepip' >/dev/null 2>&1; then
+        RUN_PACKAGES="$RUN_PACKAGES $("$python" -c 'import sys; print("python%d.%d-venv" % sys.version_info[:2])')"
+    fi
+    install_system "$RUN_PACKAGES"
+fi
+[ -x "$venv/bin/python" ] || "$python" -m venv "$venv"
+echo "setup: installing the station into $venv"
+"$venv/bin/python" -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[dev]'
