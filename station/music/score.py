@@ -163,6 +163,12 @@ class Score:
         rows["tick"] -= start
         return Score.from_array(rows, self.tempo_map.section(start, end), end - start, self.title)
 
+    def until_ns(self, stop_ns: int) -> "Score":
+        """The strokes that sound before `stop_ns` from tick 0, over the same bars."""
+        rows = self.notes[self.onset_ns < stop_ns].copy()
+        rows.setflags(write=False)
+        return replace(self, notes=rows)
+
     def repeated(self, times: int) -> "Score":
         """The score played `times` times without a gap, tempo and meter changes included."""
         return Score.joined([self] * times)

@@ -1,0 +1,44 @@
+"""`station limbs SCORE`: who plays what."""
+
+import argparse
+
+from station.app.commands.output import print_json
+from station.app.commands.scores import load_score
+from station.core.pieces import Limb, Piece, word
+
+SCHEMA = "drum-station/limbs/1"
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add this command's words."""
+    from station.motion.limbs import METHODS
+
+    parser.add_argument("score", metavar="SCORE", help="a lesson or a MIDI file")
+    parser.add_argument("--method", choices=METHODS, default=METHODS[0], help="how limbs are assigned (%(default)s)")
+    parser.add_argument("--kit", default="", metavar="NAME", help="the drummer's kit: a shipped name or a file")
+    parser.add_argument("--json", action="store_true", help="print one JSON document")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Assign limbs and print them."""
+    from station.motion.kit import load_kit
+    from station.motion.limbs import assign_limbs
+
+    score = load_score(arguments.score)
+    assigned = assign_limbs(score, load_kit(arguments.kit), method=arguments.method)
+    rows = [
+        {
+            "index": i,
+            "time_s": round(float(score.onset_s[i]), 6),
+            "piece": word(Piece(score.notes["piece"][i])),
+            "limb": word(Limb(assigned.limbs[i])),
+            "why": assigned.why[i],
+        }
+        for i in range(len(score))
+    ]
+    if arguments.json:
+        print_json({"schema": SCHEMA, "method": assigned.method, "notes": rows})
+    else:
+        for row in rows:
+            print(f"{row['index']:6d} {row['time_s']:10.3f} s  {row['piece']:14} {row['limb']:11} {row['why']}")
+    return 0

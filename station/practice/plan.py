@@ -1,0 +1,203 @@
+"""A practice session laid out in time before it starts: count-in, demonstration, count-in, passes without a gap.
+
+Pure: a lesson and the student's wishes in; the score that will be judged, the cues that the engine will play and the
+segments of the timeline out. Times are nanoseconds from the transport's zero unless a name says otherwise.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.errors import BadInput
+from station.core.units import NS_PER_S
+from station.drills.lesson import Lesson
+from station.engine.messages import CUE_DTYPE, Bus, ClickVoice
+from station.music.score import Score
+from station.music.tempo import TempoMap
+
+MIN_TEMPO_BPM, MAX_TEMPO_BPM = 20.0, 400.0
+"""The range of GrooveScribe (PEERS); beyond it neither a click nor a drummer makes sense."""
+MAX_LOOPS = 1000
+"""Our choice: eight hours of a two-bar loop."""
+_ACCENT_VELOCITY, _BEAT_VELOCITY = 110, 90
+
+
+class Phase(IntEnum):
+    """What is going on in a session."""
+
+    COUNT_IN = 0
+    DEMONSTRATION = 1
+    PASS = 2
+    OVER = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Segment:
+    """A stretch of the timeline: the `index`-th (from 0) demonstration or pass, or the count-in before it."""
+
+    phase: Phase
+    index: int
+    start_ns: int
+    end_ns: int
+
+
+@dataclass(frozen=True, slots=True)
+class Wishes:
+    """What a student asks of a lesson; None leaves the choice to the lesson. `bars` (first, last) counts from 1."""
+
+    tempo_bpm: float | None = None
+    loops: int | None = None
+    bars: tuple[int, int] | None = None
+    demonstrations: int | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """A session laid out.
+
+    `section` is one pass at the practice tempo, `score` all passes in a row (what is judged), `first_bar` the lesson's bar
+    (from 0) where the section begins, `passes_start_ns` where tick 0 of `score` lies on the transport, `end_ns` where the
+    last pass ends, `cues` (n,) of `CUE_DTYPE` everything that sounds.
+    """
+
+    lesson: Lesson
+    tempo_bpm: float
+    section: Score
+    score: Score
+    first_bar: int
+    passes: int
+    segments: tuple[Segment, ...]
+    passes_start_ns: int
+    end_ns: int
+    cues: NDArray[np.void]
+
+    def segment_at(self, at_ns: int) -> Segment:
+        """The segment that holds transport time `at_ns`: the first before zero, `Phase.OVER` after the end."""
+        for segment in self.segments:
+            if at_ns < segment.end_ns:
+                return segment
+        return Segment(Phase.OVER, 0, self.end_ns, self.end_ns)
+
+
+def plan_practice(lesson: Lesson, wishes: Wishes) -> Plan:
+    """Lay out a session; raises `BadInput` for a tempo, a number of loops or bars that cannot be."""
+    tempo_bpm = _checked_tempo(wishes.tempo_bpm, lesson)
+    passes = _checked_loops(wishes.loops, lesson)
+    first, last = _checked_bars(wishes.bars, lesson)
+    section = lesson.score.bars(first, last).at_speed(tempo_bpm / lesson.tempo_bpm)
+    demonstrations = lesson.demonstrations if wishes.demonstrations is None else wishes.demonstrations
+
+    segments: list[Segment] = []
+    cues: list[NDArray[np.void]] = []
+    now_ns = 0
+    count_in = _count_in(section, max(lesson.count_in_bars, 1))
+    section_cues = np.concatenate([click_cues(section.tempo_map, section.end_tick), demonstration_cues(section)])
+    for phase, times in ((Phase.DEMONSTRATION, demonstrations), (Phase.PASS, passes)):
+        if times == 0:
+            continue
+        segments.append(Segment(Phase.COUNT_IN, 0, now_ns, now_ns + count_in.length_ns))
+        cues.append(_moved(click_cues(count_in.tempo_map, count_in.end_tick), now_ns))
+        now_ns += count_in.length_ns
+        whole = section.repeated(times)
+        ends = whole.tempo_map.ns_at(np.arange(1, times + 1) * section.end_tick)
+        if phase is Phase.DEMONSTRATION:
+            for start in (0, *ends[:-1].tolist()):
+                cues.append(_moved(section_cues, now_ns + start))
+        else:
+            passes_start_ns = now_ns
+            cues.append(_moved(click_cues(whole.tempo_map, whole.end_tick), now_ns))
+        segments += [
+            Segment(phase, i, now_ns + start, now_ns + end)
+            for i, (start, end) in enumerate(zip((0, *ends[:-1].tolist()), ends.tolist(), strict=True))
+        ]
+        now_ns += whole.length_ns
+    return Plan(
+        lesson=lesson,
+        tempo_bpm=tempo_bpm,
+        section=section,
+        score=section.repeated(passes),
+        first_bar=first,
+        passes=passes,
+        segments=tuple(segments),
+        passes_start_ns=passes_start_ns,
+        end_ns=now_ns,
+        cues=_in_order(cues),
+    )
+
+
+def click_cues(tempo_map: TempoMap, end_tick: int) -> NDArray[np.void]:
+    """A click on every beat of [0, `end_tick`), accented on each bar's first."""
+    beats = tempo_map.beats_between(0, end_tick)
+    cues = np.zeros(len(beats), CUE_DTYPE)
+    cues["at_ns"] = tempo_map.ns_at([tick for tick, _ in beats])
+    cues["bus"] = Bus.CLICK
+    first = np.array([index == 0 for _, index in beats], bool)
+    cues["piece"] = np.where(first, ClickVoice.ACCENT, ClickVoice.BEAT)
+    cues["velocity"] = np.where(first, _ACCENT_VELOCITY, _BEAT_VELOCITY)
+    cues["openness"] = np.nan
+    return cues
+
+
+def demonstration_cues(score: Score) -> NDArray[np.void]:
+    """Every stroke of `score`, and a cue of velocity 0 wherever a cymbal is grabbed."""
+    strokes = np.zeros(len(score), CUE_DTYPE)
+    for name in ("piece", "zone", "articulation", "velocity", "openness"):
+        strokes[name] = score.notes[name]
+    strokes["at_ns"] = score.onset_ns
+    strokes["bus"] = Bus.DEMONSTRATION
+    grabbed = score.notes["choke_ticks"] > 0
+    chokes = strokes[grabbed]
+    chokes["at_ns"] = score.tempo_map.ns_at(score.notes["tick"][grabbed] + score.notes["choke_ticks"][grabbed])
+    chokes["velocity"] = 0
+    return np.concatenate([strokes, chokes])
+
+
+def _count_in(section: Score, bars: int) -> Score:
+    """Empty bars at the section's first tempo and meter."""
+    meter, tempo = section.tempo_map.meters[0], section.tempo_map.tempos[0]
+    tempo_map = TempoMap.build([replace(tempo, tick=0)], [replace(meter, tick=0)])
+    return Score.from_notes([], tempo_map, bars * meter.bar_ticks)
+
+
+def _moved(cues: NDArray[np.void], by_ns: int) -> NDArray[np.void]:
+    moved = cues.copy()
+    moved["at_ns"] += by_ns
+    return moved
+
+
+def _in_order(parts: Iterable[NDArray[np.void]]) -> NDArray[np.void]:
+    cues = np.concatenate(list(parts))
+    return cues[np.argsort(cues["at_ns"], kind="stable")]
+
+
+def _checked_tempo(wish_bpm: float | None, lesson: Lesson) -> float:
+    tempo_bpm = lesson.tempo_bpm if wish_bpm is None else wish_bpm
+    if not MIN_TEMPO_BPM <= tempo_bpm <= MAX_TEMPO_BPM:  # also refuses NaN
+        limits = f"expected {MIN_TEMPO_BPM:g} to {MAX_TEMPO_BPM:g} beats a minute"
+        raise BadInput("--tempo", f"{tempo_bpm:g}", limits)
+    return tempo_bpm
+
+
+def _checked_loops(wish: int | None, lesson: Lesson) -> int:
+    loops = lesson.passes if wish is None else wish
+    if not 1 <= loops <= MAX_LOOPS:
+        raise BadInput("--loops", str(loops), f"expected 1 to {MAX_LOOPS}")
+    return loops
+
+
+def _checked_bars(wish: tuple[int, int] | None, lesson: Lesson) -> tuple[int, int]:
+    """First and last bar from 0."""
+    if wish is None:
+        return lesson.loop
+    first, last = wish
+    if not 1 <= first <= last <= lesson.score.bar_count:
+        raise BadInput("--bars", f"{first}-{last}", f"the lesson has bars 1 to {lesson.score.bar_count}")
+    return first - 1, last - 1
+
+
+TAIL_S = 1.0
+"""How long a session listens after its last bar, so that a late last stroke still counts; our choice."""
+TAIL_NS = round(TAIL_S * NS_PER_S)

@@ -1,0 +1,187 @@
+"""The practice session as a state machine: engine events and time in, judgements and state out.
+
+It owns no clock, thread, device or window: whoever runs it (the window, the terminal, a headless run, a test) hands it every
+event of the engine and now and then the time. Judgement depends on the events' own times alone, so that it is the same at
+any frame rate. Session time is monotonic nanoseconds; transport time starts at the engine's zero; score time at tick 0 of the
+plan's score.
+
+A hit's score time = its stamp − input latency − (the transport's zero + output latency) − the passes' start: what the student
+heard and played, compared where both are known.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from station.core.events import Choke, DeviceFound, DeviceLost, Hit
+from station.core.units import NS_PER_MS
+from station.engine.messages import Command, EngineEvent, Notice, Play, Started
+from station.music.judgement import Judgement, Label, Matching
+from station.music.performance import Performance
+from station.music.score import Score
+from station.practice.plan import TAIL_NS, Phase, Plan, Segment
+from station.scoring.align import align
+from station.scoring.follower import Follower
+from station.scoring.windows import DEFAULT_LEVEL, Windows
+
+LEAD_IN_NS = 300 * NS_PER_MS
+"""How long after `start` the first click is heard: time for the engine to wake; our choice."""
+EARLIEST_NS = 250 * NS_PER_MS
+"""A hit so long before the first bar is still judged, an earlier one belongs to the count-in; our choice."""
+
+
+@dataclass(frozen=True, slots=True)
+class Latency:
+    """Calibrated delays in ns that judgement subtracts: of the kit (`input_ns`) and of the sound (`output_ns`)."""
+
+    input_ns: int = 0
+    output_ns: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class SessionState:
+    """What a window shows: the segment, transport and score time, the newest verdict on each note, extras, notices."""
+
+    segment: Segment
+    transport_ns: int | None
+    score_ns: int | None
+    counts: dict[Label, int]
+    device_lost: str | None
+
+
+@dataclass(frozen=True, eq=False)
+class SessionResult:
+    """A session when it is over: the plan, what was played in score time, and the final alignment.
+
+    `score` is what is judged: the plan's, or, when the session was stopped early (`complete` False), its strokes up to
+    there.
+    """
+
+    plan: Plan
+    score: Score
+    performance: Performance
+    matching: Matching
+    latency: Latency
+    complete: bool
+
+
+@dataclass(eq=False)
+class Session:
+    """One practice session; call `start`, then `handle` every event and `advance` the time, until `over`."""
+
+    plan: Plan
+    latency: Latency = field(default_factory=Latency)
+    windows: Windows = DEFAULT_LEVEL
+
+    def __post_init__(self) -> None:
+        self._follower = Follower(self.plan.score, self.windows)
+        self._zero_ns: int | None = None
+        self._now_ns = 0
+        self._hits: list[Hit] = []
+        self._chokes: list[Choke] = []
+        self._verdict_of_note: dict[int, Judgement] = {}
+        self._verdict_of_hit: dict[int, Judgement] = {}
+        self._device_lost: str | None = None
+        self.notices: list[str] = []
+
+    def start(self) -> tuple[Command, ...]:
+        """The commands that set the engine going."""
+        return (Play(self.plan.cues, LEAD_IN_NS),)
+
+    # --- input ------------------------------------------------------------------------------------------------------
+
+    def handle(self, event: EngineEvent) -> tuple[Judgement, ...]:
+        """Take one event; returns what was judged because of it."""
+        match event:
+            case Hit():
+                return self._take_hit(event)
+            case Choke():
+                self._chokes.append(event)
+            case Started(zero_ns):
+                self._zero_ns = zero_ns
+            case DeviceLost(_, device):
+                self._device_lost = device
+                self.notices.append(f"{device} is gone; plug it in again, the session goes on")
+            case DeviceFound(_, device):
+                self._device_lost = None
+                self.notices.append(f"{device} is here")
+            case Notice(text):
+                self.notices.append(text)
+            case _:
+                pass
+        return ()
+
+    def advance(self, now_ns: int) -> tuple[Judgement, ...]:
+        """Tell the session time; returns the misses that it makes certain."""
+        self._now_ns = max(now_ns, self._now_ns)
+        score_ns = self._score_ns(self._now_ns)
+        return self._keep(self._follower.advance(score_ns)) if score_ns is not None else ()
+
+    def _take_hit(self, hit: Hit) -> tuple[Judgement, ...]:
+        score_ns = self._score_ns(hit.at_ns)
+        if score_ns is None or not self._is_judged(score_ns):
+            return ()
+        self._hits.append(hit)
+        return self._keep(self._follower.hit(hit, score_ns))
+
+    def _keep(self, verdicts: Iterable[Judgement]) -> tuple[Judgement, ...]:
+        kept = tuple(verdicts)
+        for verdict in kept:
+            if verdict.note_index is not None:
+                self._verdict_of_note[verdict.note_index] = verdict
+            if verdict.hit_index is not None:
+                self._verdict_of_hit[verdict.hit_index] = verdict
+        return kept
+
+    # --- output -----------------------------------------------------------------------------------------------------
+
+    @property
+    def over(self) -> bool:
+        """Whether the last bar and the tail after it have passed."""
+        at_ns = self._transport_ns(self._now_ns)
+        return at_ns is not None and at_ns >= self.plan.end_ns + TAIL_NS
+
+    def state(self) -> SessionState:
+        """What is going on, as of the last `advance`."""
+        transport_ns = self._transport_ns(self._now_ns)
+        counts = dict.fromkeys(Label, 0)
+        for verdict in self._verdict_of_note.values():
+            counts[verdict.label] += 1
+        for verdict in self._verdict_of_hit.values():
+            counts[verdict.label] += verdict.note_index is None
+        return SessionState(
+            segment=self.plan.segment_at(transport_ns if transport_ns is not None else -1),
+            transport_ns=transport_ns,
+            score_ns=self._score_ns(self._now_ns),
+            counts=counts,
+            device_lost=self._device_lost,
+        )
+
+    @property
+    def verdicts(self) -> dict[int, Judgement]:
+        """The newest verdict on every note that has one, by the note's index in the plan's score."""
+        return self._verdict_of_note
+
+    def result(self) -> SessionResult:
+        """The final alignment of all that was heard so far."""
+        performance = Performance.from_hits(self._hits, self._chokes).shifted(-self._origin_ns())
+        heard_until_ns = self._score_ns(self._now_ns)
+        complete = heard_until_ns is not None and heard_until_ns >= self.plan.score.length_ns
+        score = self.plan.score if complete else self.plan.score.until_ns(heard_until_ns or 0)
+        matching = align(score, performance, clocked=True)
+        return SessionResult(self.plan, score, performance, matching, self.latency, complete)
+
+    # --- time -------------------------------------------------------------------------------------------------------
+
+    def _transport_ns(self, at_ns: int) -> int | None:
+        return None if self._zero_ns is None else at_ns - self._zero_ns - self.latency.output_ns
+
+    def _score_ns(self, at_ns: int) -> int | None:
+        return None if self._zero_ns is None else at_ns - self._origin_ns()
+
+    def _origin_ns(self) -> int:
+        """The stamp of a hit that is exactly on tick 0 of the score."""
+        latency_ns = self.latency.input_ns + self.latency.output_ns
+        return (self._zero_ns or 0) + self.plan.passes_start_ns + latency_ns
+
+    def _is_judged(self, score_ns: int) -> bool:
+        return -EARLIEST_NS <= score_ns <= self.plan.score.length_ns + TAIL_NS
