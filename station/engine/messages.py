@@ -1,11 +1,11 @@
 """What the app says to the engine and hears from it: plain immutable values that cross a process boundary.
 
-The transport has a zero, the session time at which cue time 0 is *heard*. Cues are placed on it in nanoseconds; the engine
-knows no bars and no lessons. While it runs, more cues may be added ahead of the play position, so that loops are gapless.
+The transport has a zero, the session time at which cue time 0 is *heard*. Cues are placed on it in nanoseconds; the
+engine knows no bars and no lessons. While it runs, more cues may be added ahead of the play position, so that loops are
+gapless.
 """
 
 from dataclasses import dataclass
-from enum import IntEnum
 from pathlib import Path
 
 import numpy as np
@@ -13,23 +13,25 @@ from numpy.typing import NDArray
 
 from station.core.events import DeviceEvent
 from station.core.pieces import Articulation, Piece, Zone
+from station.sound.buses import Bus, ClickVoice
 
-
-class Bus(IntEnum):
-    """The mixer's channels: each has a level and a pan."""
-
-    CLICK = 0
-    DEMONSTRATION = 1
-    STUDENT = 2
-
-
-class ClickVoice(IntEnum):
-    """Which click sounds; a cue of `Bus.CLICK` bears it in place of a piece."""
-
-    ACCENT = 0
-    BEAT = 1
-    SUBDIVISION = 2
-
+__all__ = [
+    "CUE_DTYPE",
+    "Bus",
+    "ClickVoice",
+    "Command",
+    "EngineEvent",
+    "KeyHit",
+    "Notice",
+    "Play",
+    "Queue",
+    "Quit",
+    "Record",
+    "SetLevel",
+    "Started",
+    "Status",
+    "Stop",
+]
 
 CUE_DTYPE = np.dtype(
     [
@@ -124,7 +126,7 @@ class Notice:
 class Status:
     """How the engine is doing; sent once a second while it runs.
 
-    `underflows` audio blocks that came too late, `late_cues` cues that were queued after their time, both since the start;
+    `underflows` audio blocks that came too late, `late_cues` cues queued after their time, both since the start;
     `output_latency_ms` as the stream reports it, None when silent; `load` share of the block time used for mixing.
     """
 
