@@ -1,0 +1,43 @@
+"""From a driver's own time to session time: the moment at which a message came, not the moment at which we looked.
+
+A MIDI driver stamps each message as it arrives, on a clock of its own, and rtmidi hands on the differences between
+those stamps. We see each message some time later, when we poll: always later, never earlier. So the offset between the
+two clocks is the least (poll time − driver time) seen so far, let creep upwards slowly lest a driver's clock that runs
+slow make every stamp early. The error left is the creep since the last prompt poll and the driver's own quantisation.
+
+Times are integer nanoseconds; rtmidi's differences are seconds in floating point.
+"""
+
+from station.core.units import NS_PER_S
+
+CREEP_NS_PER_S = 100_000
+"""How fast the offset may grow: 100 parts in a million, twice what an ordinary crystal strays (our choice)."""
+
+_RESTART_AFTER_NS = 2 * NS_PER_S
+"""A message that seems to have waited this long did not: the driver dropped messages, and their differences with them
+(our choice: the engine polls every half millisecond, and the longest stall seen on a shared machine was 70 ms)."""
+
+
+class DriverClock:
+    """Turns the delta times of one connection into session time."""
+
+    def __init__(self) -> None:
+        self._driver_ns = 0
+        self._offset_ns: int | None = None
+        self._last_ns = 0
+
+    def stamp(self, delta_s: float, polled_ns: int) -> int:
+        """Session time of a message `delta_s` after the one before it, read at `polled_ns`; never goes back.
+
+        Never later than `polled_ns` unless an earlier message was already stamped later.
+        """
+        delta_ns = round(max(delta_s, 0.0) * NS_PER_S)
+        self._driver_ns += delta_ns
+        seen_ns = polled_ns - self._driver_ns
+        if self._offset_ns is None or seen_ns - self._offset_ns > _RESTART_AFTER_NS:
+            self._offset_ns = seen_ns
+        else:
+            crept_ns = self._offset_ns + delta_ns * CREEP_NS_PER_S // NS_PER_S
+            self._offset_ns = min(seen_ns, crept_ns)
+        self._last_ns = max(self._last_ns, self._driver_ns + self._offset_ns)
+        return self._last_ns
