@@ -1,0 +1,115 @@
+"""The drummer's body: its joints, how they hang together, and its measures as fractions of the stature.
+
+Segment lengths and joint heights after Winter and Drillis & Contini (HUMANS, Body). The distance from the wrist to the
+fulcrum of the grip is measured: 0.163 m in the 1.9 m player of Pearl 2023 (doi 10.1101/2023.10.09.561270).
+"""
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+
+class Joint(IntEnum):
+    """Points of the body whose positions a pose gives; right before left."""
+
+    PELVIS = 0
+    SPINE = 1
+    NECK = 2  # the base of the neck, between the shoulders
+    HEAD = 3  # where the skull sits on the neck
+    CROWN = 4  # the top of the head
+    RIGHT_SHOULDER = 5
+    RIGHT_ELBOW = 6
+    RIGHT_WRIST = 7
+    RIGHT_HAND = 8  # the fulcrum of the grip
+    LEFT_SHOULDER = 9
+    LEFT_ELBOW = 10
+    LEFT_WRIST = 11
+    LEFT_HAND = 12
+    RIGHT_HIP = 13
+    RIGHT_KNEE = 14
+    RIGHT_ANKLE = 15
+    RIGHT_TOE = 16
+    LEFT_HIP = 17
+    LEFT_KNEE = 18
+    LEFT_ANKLE = 19
+    LEFT_TOE = 20
+
+
+PARENT: dict[Joint, Joint | None] = {
+    Joint.PELVIS: None,
+    Joint.SPINE: Joint.PELVIS,
+    Joint.NECK: Joint.SPINE,
+    Joint.HEAD: Joint.NECK,
+    Joint.CROWN: Joint.HEAD,
+    Joint.RIGHT_SHOULDER: Joint.NECK,
+    Joint.RIGHT_ELBOW: Joint.RIGHT_SHOULDER,
+    Joint.RIGHT_WRIST: Joint.RIGHT_ELBOW,
+    Joint.RIGHT_HAND: Joint.RIGHT_WRIST,
+    Joint.LEFT_SHOULDER: Joint.NECK,
+    Joint.LEFT_ELBOW: Joint.LEFT_SHOULDER,
+    Joint.LEFT_WRIST: Joint.LEFT_ELBOW,
+    Joint.LEFT_HAND: Joint.LEFT_WRIST,
+    Joint.RIGHT_HIP: Joint.PELVIS,
+    Joint.RIGHT_KNEE: Joint.RIGHT_HIP,
+    Joint.RIGHT_ANKLE: Joint.RIGHT_KNEE,
+    Joint.RIGHT_TOE: Joint.RIGHT_ANKLE,
+    Joint.LEFT_HIP: Joint.PELVIS,
+    Joint.LEFT_KNEE: Joint.LEFT_HIP,
+    Joint.LEFT_ANKLE: Joint.LEFT_KNEE,
+    Joint.LEFT_TOE: Joint.LEFT_ANKLE,
+}
+"""The joint that each joint hangs from; the segment between the two is one bone."""
+
+
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """Lengths in metres, angles in radians."""
+
+    stature_m: float
+    trunk_m: float  # hip to shoulder height
+    shoulder_breadth_m: float
+    hip_breadth_m: float  # between the hip joints
+    neck_m: float
+    head_m: float  # from the joint on the neck to the crown
+    upper_arm_m: float
+    forearm_m: float
+    hand_m: float  # wrist to the fulcrum of the grip
+    thigh_m: float
+    shank_m: float
+    foot_m: float
+    ankle_height_m: float
+    stick_m: float = 0.406  # 5A
+    pivot: float = 1 / 3  # the fulcrum's place on the stick from the butt
+
+    @property
+    def stick_ahead_m(self) -> float:
+        """From the fulcrum to the tip."""
+        return self.stick_m * (1 - self.pivot)
+
+    @property
+    def stick_behind_m(self) -> float:
+        """From the fulcrum to the butt."""
+        return self.stick_m * self.pivot
+
+
+MEDIAN_STATURE_M = 1.759
+"""A median man (HUMANS, Body)."""
+
+
+def figure_of(stature_m: float = MEDIAN_STATURE_M) -> Figure:
+    """A figure of that stature with the published proportions."""
+    h = stature_m
+    return Figure(
+        stature_m=h,
+        trunk_m=0.288 * h,
+        shoulder_breadth_m=0.259 * h,
+        hip_breadth_m=0.115 * h,  # the breadth of the hips is .191; their joints lie at .6 of it (our choice)
+        neck_m=0.060 * h,
+        head_m=0.122 * h,
+        upper_arm_m=0.186 * h,
+        forearm_m=0.146 * h,
+        hand_m=0.086 * h,
+        thigh_m=0.245 * h,
+        shank_m=0.246 * h,
+        foot_m=0.152 * h,
+        ankle_height_m=0.039 * h,
+    )

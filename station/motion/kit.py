@@ -1,0 +1,178 @@
+"""The drum kit: its pieces, its pedals, which piece stands in for one that it lacks, and its TOML file.
+
+A file holds `title`, `handed` ("right" or "left"), `seat_m`, the tables `pedals.kick` and `pedals.hihat`, and a table
+for each piece, named as `core.pieces` names it. Angles are degrees in the file. Every fault is named by its key;
+`station/motion/data/kits/four_piece.toml` is a commented example.
+"""
+
+import difflib
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, replace
+from pathlib import Path
+from types import MappingProxyType
+
+from station.core.errors import BadInput
+from station.core.pieces import Limb, Piece, Zone, word
+from station.motion.piece import SPOTS, KitPiece, Spot, Target
+from station.motion.toml_table import Table, read_toml
+
+KITS = Path(__file__).parent / "data" / "kits"
+DEFAULT_KIT = "four_piece"
+
+
+@dataclass(frozen=True, slots=True)
+class Pedal:
+    """A footboard: its hinge under the heel, its toe end when it lies flat, and how far that is raised at rest."""
+
+    heel_m: tuple[float, float, float]
+    toe_m: tuple[float, float, float]
+    raised_rad: float
+
+
+_SUBSTITUTES: Mapping[Piece, tuple[Piece, ...]] = MappingProxyType(
+    {
+        Piece.CRASH_1: (Piece.CRASH_2, Piece.CHINA, Piece.RIDE),
+        Piece.CRASH_2: (Piece.CRASH_1, Piece.CHINA, Piece.RIDE),
+        Piece.SPLASH: (Piece.CRASH_1, Piece.CRASH_2, Piece.RIDE),
+        Piece.CHINA: (Piece.CRASH_2, Piece.CRASH_1, Piece.RIDE),
+        Piece.RIDE: (Piece.RIDE_2, Piece.CRASH_2, Piece.CRASH_1, Piece.HIHAT),
+        Piece.RIDE_2: (Piece.RIDE, Piece.CRASH_2, Piece.CRASH_1, Piece.HIHAT),
+        Piece.HIHAT: (Piece.RIDE, Piece.CRASH_1),
+        Piece.TOM_1: (Piece.TOM_2, Piece.TOM_3, Piece.TOM_4, Piece.FLOOR_TOM_1, Piece.SNARE),
+        Piece.TOM_2: (Piece.TOM_1, Piece.TOM_3, Piece.TOM_4, Piece.FLOOR_TOM_1, Piece.SNARE),
+        Piece.TOM_3: (Piece.TOM_2, Piece.TOM_4, Piece.TOM_1, Piece.FLOOR_TOM_1, Piece.SNARE),
+        Piece.TOM_4: (Piece.TOM_3, Piece.FLOOR_TOM_1, Piece.TOM_2, Piece.TOM_1, Piece.SNARE),
+        Piece.FLOOR_TOM_1: (Piece.FLOOR_TOM_2, Piece.TOM_4, Piece.TOM_3, Piece.TOM_2, Piece.TOM_1, Piece.SNARE),
+        Piece.FLOOR_TOM_2: (Piece.FLOOR_TOM_1, Piece.TOM_4, Piece.TOM_3, Piece.TOM_2, Piece.TOM_1, Piece.SNARE),
+        Piece.COWBELL: (Piece.RIDE, Piece.HIHAT),
+        Piece.TAMBOURINE: (Piece.HIHAT, Piece.RIDE),
+        Piece.CLAP: (Piece.SNARE,),
+        Piece.PERCUSSION: (Piece.RIDE, Piece.HIHAT, Piece.CRASH_1),
+        Piece.SNARE: (Piece.TOM_1,),
+    }
+)
+"""Which piece stands in for one that the kit lacks, best first: its like, then its neighbour (our choice)."""
+
+
+@dataclass(frozen=True)
+class Kit:
+    """All pieces of a kit and its pedals; `left_handed` kits lead with the left hand."""
+
+    name: str
+    title: str
+    left_handed: bool
+    seat_m: tuple[float, float, float]
+    pieces: Mapping[Piece, KitPiece]
+    pedals: Mapping[Piece, Pedal]
+
+    def stand_in(self, piece: Piece) -> Piece:
+        """`piece` if this kit has it, else the piece that is played in its place."""
+        played = Piece.HIHAT if piece is Piece.HIHAT_PEDAL else piece
+        if played in self.pieces:
+            return played
+        return next((p for p in _SUBSTITUTES.get(played, ()) if p in self.pieces), next(iter(self.pieces)))
+
+    def target(self, piece: Piece, zone: Zone, limb: Limb) -> Target:
+        """The point that `limb` aims at for `zone` of `piece`, on the piece that stands in for it if need be."""
+        return self.pieces[self.stand_in(piece)].target(zone, limb)
+
+
+_PIECES = {word(p): p for p in Piece}
+_ZONES = {word(z): z for z in Zone}
+_PIECE_KEYS = {
+    "radius_m": "radius_m",
+    "depth_m": "depth_m",
+    "tilt_x_deg": "tilt_x_rad",
+    "tilt_y_deg": "tilt_y_rad",
+    "wrist_radius_m": "wrist_radius_m",
+    "wrist_height_m": "wrist_height_m",
+}
+_MAX_TILT_DEG = 80.0
+
+
+def kit_names() -> list[str]:
+    """The kits that ship with the station."""
+    return sorted(p.stem for p in KITS.glob("*.toml"))
+
+
+def load_kit(name_or_path: str | Path = DEFAULT_KIT) -> Kit:
+    """A shipped kit by its name, or a kit file; raises `BadInput` with the place of the first fault."""
+    path = Path(name_or_path)
+    if path.suffix != ".toml":
+        path = KITS / f"{name_or_path}.toml"
+        if not path.exists():
+            near = difflib.get_close_matches(str(name_or_path), kit_names(), n=2) or kit_names()
+            raise BadInput(str(name_or_path), "", f"no such kit; there is {' and '.join(near)}")
+    return _kit(read_toml(path), path)
+
+
+def _kit(raw: Mapping[str, object], source: Path) -> Kit:
+    top = Table(raw, source, "")
+    handed = top.word("handed", ("right", "left"), "right")
+    pedals = top.table("pedals")
+    named = {key: _piece(Table(top.raw[key], source, key), key) for key in raw if key in _PIECES}
+    unknown = set(raw) - set(named) - {"title", "handed", "seat_m", "pedals"}
+    if unknown:
+        key = min(unknown)
+        near = difflib.get_close_matches(key, [*_PIECES, "title", "handed", "seat_m", "pedals"], n=1)
+        raise BadInput(source, key, "no such piece or key" + (f"; meant {near[0]}?" if near else ""))
+    for needed in ("kick", "snare"):
+        if needed not in named:
+            raise BadInput(source, "", f"a kit needs a {needed}")
+    return Kit(
+        name=source.stem,
+        title=str(raw.get("title", source.stem)),
+        left_handed=handed == "left",
+        seat_m=top.point("seat_m", (0.0, 0.0, 0.5)),
+        pieces=MappingProxyType({_PIECES[key]: piece for key, piece in named.items()}),
+        pedals=MappingProxyType(
+            {
+                Piece.KICK: _pedal(pedals.table("kick")),
+                Piece.HIHAT_PEDAL: _pedal(pedals.table("hihat")),
+            }
+        ),
+    )
+
+
+def _piece(table: "Table", name: str) -> KitPiece:
+    kind = table.word("kind", tuple(SPOTS), "drum")
+    table.only({"kind", "centre_m", "zones", *_PIECE_KEYS})
+    piece = KitPiece(
+        piece=_PIECES[name],
+        kind=kind,
+        centre_m=table.point("centre_m"),
+        radius_m=table.number("radius_m", 0.02, 1.0),
+        depth_m=table.number("depth_m", 0.0, 1.0, 0.02),
+        tilt_x_rad=math.radians(table.number("tilt_x_deg", -_MAX_TILT_DEG, _MAX_TILT_DEG, 0.0)),
+        tilt_y_rad=math.radians(table.number("tilt_y_deg", -_MAX_TILT_DEG, _MAX_TILT_DEG, 0.0)),
+        wrist_radius_m=table.number("wrist_radius_m", 0.05, 1.0, 0.40),
+        wrist_height_m=table.number("wrist_height_m", -0.5, 0.5, 0.06),
+    )
+    return replace(piece, spots=MappingProxyType(_spots(table, kind)))
+
+
+def _spots(table: "Table", kind: str) -> dict[Zone, Spot]:
+    spots = dict(SPOTS[kind])
+    zones = table.table("zones", {})
+    for key in zones.raw:
+        if key not in _ZONES:
+            raise BadInput(table.source, f"{zones.place}.{key}", f"no such zone; there are {', '.join(_ZONES)}")
+        spots[_ZONES[key]] = _spot(zones.table(key), spots.get(_ZONES[key], Spot(0.0, 0.0)))
+    return spots
+
+
+def _spot(table: "Table", default: Spot) -> Spot:
+    table.only({f.name for f in fields(Spot)})
+    with_shoulder = replace(default, shoulder=table.flag("shoulder", default.shoulder))
+    numbers: dict[str, float] = {key: table.number(key, -1.0, 1.0) for key in table.raw if key != "shoulder"}
+    return replace(with_shoulder, **numbers)  # type: ignore[arg-type] # the one key that is no number was taken out
+
+
+def _pedal(table: "Table") -> Pedal:
+    table.only({"heel_m", "toe_m", "raised_deg"})
+    return Pedal(
+        heel_m=table.point("heel_m"),
+        toe_m=table.point("toe_m"),
+        raised_rad=math.radians(table.number("raised_deg", 0.0, 60.0, 18.0)),
+    )

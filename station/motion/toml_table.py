@@ -1,0 +1,76 @@
+"""TOML tables that check what is taken from them and name the place of a fault: kits, figures and styles share them."""
+
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+
+from station.core.errors import BadInput
+
+_MAX_LENGTH_M = 3.0
+
+
+def read_toml(path: Path) -> dict[str, object]:
+    """The whole file; raises `BadInput` if it cannot be read or is not TOML."""
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as fault:
+        raise BadInput(path, "", str(fault)) from fault
+
+
+class Table:
+    """A TOML table that checks what is taken from it and names the place of a fault."""
+
+    def __init__(self, raw: object, source: Path, place: str) -> None:
+        if not isinstance(raw, Mapping):
+            raise BadInput(source, place, f"expected a table, found {raw!r}")
+        self.raw: Mapping[str, object] = raw
+        self.source = source
+        self.place = place
+
+    def _at(self, key: str) -> str:
+        return f"{self.place}.{key}" if self.place else key
+
+    def only(self, keys: set[str]) -> None:
+        """Refuse any key that is not in `keys`."""
+        for key in self.raw:
+            if key not in keys:
+                raise BadInput(self.source, self._at(key), f"no such key; there are {', '.join(sorted(keys))}")
+
+    def table(self, key: str, default: Mapping[str, object] | None = None) -> "Table":
+        """The table at `key`."""
+        if key not in self.raw and default is None:
+            raise BadInput(self.source, self._at(key), "is missing")
+        return Table(self.raw.get(key, default), self.source, self._at(key))
+
+    def number(self, key: str, low: float, high: float, default: float | None = None) -> float:
+        """The number at `key`, from `low` to `high`."""
+        value = self.raw.get(key, default)
+        if value is None:
+            raise BadInput(self.source, self._at(key), "is missing")
+        if isinstance(value, bool) or not isinstance(value, int | float) or not low <= value <= high:
+            raise BadInput(self.source, self._at(key), f"expected a number from {low:g} to {high:g}, found {value!r}")
+        return float(value)
+
+    def word(self, key: str, words: tuple[str, ...], default: str) -> str:
+        """One of `words` at `key`."""
+        value = self.raw.get(key, default)
+        if value not in words:
+            raise BadInput(self.source, self._at(key), f"expected {' or '.join(words)}, found {value!r}")
+        return str(value)
+
+    def flag(self, key: str, default: bool) -> bool:
+        """The truth value at `key`."""
+        value = self.raw.get(key, default)
+        if not isinstance(value, bool):
+            raise BadInput(self.source, self._at(key), f"expected true or false, found {value!r}")
+        return value
+
+    def point(self, key: str, default: tuple[float, float, float] | None = None) -> tuple[float, float, float]:
+        """The three lengths at `key`, in metres."""
+        value = self.raw.get(key, default)
+        if value is None:
+            raise BadInput(self.source, self._at(key), "is missing")
+        if not isinstance(value, list | tuple) or len(value) != 3:
+            raise BadInput(self.source, self._at(key), f"expected [right, forward, up] in metres, found {value!r}")
+        x, y, z = (Table({key: v}, self.source, self.place).number(key, -_MAX_LENGTH_M, _MAX_LENGTH_M) for v in value)
+        return x, y, z
