@@ -1,0 +1,47 @@
+"""The folder that a session leaves: `<sessions>/<student>/<date>_<lesson>/` with its capture and its report.
+
+Until there is a history, these folders are the memory of the station; every file in them is written whole or, like the capture,
+append-only.
+"""
+
+import json
+import re
+from datetime import datetime
+from pathlib import Path
+
+from station.core.errors import DeviceError
+from station.core.files import write_whole
+
+CAPTURE_NAME = "session.capture"
+DOCUMENT_NAME = "report.json"
+TEXT_NAME = "report.txt"
+PAIRS_NAME = "pairs.csv"
+PICTURE_NAME = "report.png"
+
+_UNSAFE = re.compile(r"[^\w.-]+")
+
+
+def folder_name(text: str) -> str:
+    """`text` as a name that every file system takes."""
+    return _UNSAFE.sub("-", text).strip("-.") or "unnamed"
+
+
+def session_folder(sessions: Path, student: str, lesson: str, started: datetime) -> Path:
+    """Make and return a new folder for a session; raises `DeviceError` where none can be made."""
+    stem = f"{started:%Y-%m-%dT%H-%M-%S}_{folder_name(lesson)}"
+    parent = sessions / folder_name(student)
+    for attempt in range(1, 1000):
+        path = parent / (stem if attempt == 1 else f"{stem}_{attempt}")
+        try:
+            path.mkdir(parents=True)
+        except FileExistsError:
+            continue
+        except OSError as fault:
+            raise DeviceError(f"{path}: no folder can be made: {fault.strerror or fault}") from fault
+        return path
+    raise DeviceError(f"{parent / stem}: a thousand sessions in one second")
+
+
+def write_document(path: Path, document: object) -> None:
+    """Write a JSON document whole; raises `DeviceError`."""
+    write_whole(path, (json.dumps(document, ensure_ascii=False, allow_nan=False, indent=2) + "\n").encode())
