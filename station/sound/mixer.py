@@ -1,0 +1,266 @@
+"""The mixer: strokes, chokes and clicks in, stereo blocks out; pure numpy, no thread, no clock, no card.
+
+Time base: frames since the mixer was made, at the kit's rate. An action falls on the frame it was asked for, whatever
+the block size: a block is rendered in pieces that end where an action is due, so the same actions give the same sound
+however the frames are asked for. Pieces hold at most `PIECE_FRAMES` frames: numpy keeps the lock for short arrays.
+
+Each ringing voice is copied into one row of a matrix; one product with the voices' gains (and slopes, for those that
+fade) sums them by bus. A voice that must go before its end fades in a straight line, so nothing clicks. The sum passes
+a limiter without look-ahead: linear to its knee, then a curve that never exceeds full scale.
+"""
+
+import heapq
+from collections.abc import Callable, Mapping
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.kitmap import Strike
+from station.core.pieces import Articulation, Piece
+from station.sound.buses import Bus, ClickVoice
+from station.sound.drum_kit import DrumKit, Frames, level_of
+from station.sound.limiter import soft_clip
+from station.sound.sounds import SoundName
+from station.sound.voice import Voice
+
+PIECE_FRAMES = 250
+"""numpy gives up the interpreter lock for operations on more than about 500 numbers; a frame has two."""
+
+MAX_VOICES = 32
+SAME_PIECE_VOICES = 6
+"""Our choice: so many strokes of one piece ring at once; a roll does not eat the voices of the others."""
+
+STEAL_S = 0.005
+RETIRE_S = 0.08
+CHOKE_S = 0.05
+"""A hand stops a cymbal within some 50 ms (our choice)."""
+CLOSE_S = 0.04
+"""So long a ringing hi-hat takes to fall silent as the pedal closes it (our choice)."""
+HALF_OPEN_RING_S = 0.9
+"""So long a hi-hat rings on that the pedal has brought from open to openness ½ (our choice: as its half-open sound)."""
+LEVEL_SLEW_S = 0.01
+"""A bus takes so long to a new level: no zipper noise."""
+
+
+class Mixer:
+    """Plays one drum kit and the click on three buses."""
+
+    def __init__(self, kit: DrumKit, clicks: Mapping[ClickVoice, Frames], max_voices: int = MAX_VOICES) -> None:
+        self.kit = kit
+        self.frame = 0
+        """The frame that the next block starts with."""
+        self._clicks = clicks
+        self._max_voices = max_voices
+        self._voices: list[Voice] = []
+        self._turns: dict[SoundName, int] = {}
+        self._pending: list[tuple[int, int, Callable[[], None]]] = []
+        self._order = 0
+        self._rows = np.zeros((max_voices, 2 * PIECE_FRAMES), np.float32)
+        self._gains = np.zeros((max_voices, 2 * len(Bus)), np.float32)
+        self._ramp = np.repeat(np.arange(PIECE_FRAMES, dtype=np.float32), 2)
+        self._tail = np.zeros((len(Bus), 2 * max(1, self._frames(STEAL_S))), np.float32)
+        self._tail_left = 0
+        self._levels = np.ones((len(Bus), 2), np.float32)
+        self._level_steps = np.zeros((len(Bus), 2), np.float32)
+        self._level_targets = self._levels.copy()
+        self._slew_left = 0
+
+    # --- what to play --------------------------------------------------------------------------------------------
+
+    def trigger(self, bus: Bus, strike: Strike, velocity: int, at_frame: int = 0) -> None:
+        """Sound a stroke of `velocity` 1–127 on `bus`, `at_frame` frames after the start of the next block.
+
+        `strike.openness` (None counts as closed) chooses the hi-hat's sound and damps one that rings more open; the
+        foot's chick stops it.
+        """
+        self._at(at_frame, partial(self._strike, bus, strike, velocity))
+
+    def click(self, voice: ClickVoice, velocity: int = 127, at_frame: int = 0) -> None:
+        """Sound a click of `velocity` 1–127 on the click bus, `at_frame` frames after the start of the next block."""
+        self._at(at_frame, partial(self._click, voice, velocity))
+
+    def choke(self, bus: Bus, piece: Piece, at_frame: int = 0) -> None:
+        """Grab the ringing `piece`: it falls silent within `CHOKE_S`."""
+        self._at(at_frame, partial(self._choke, bus, piece))
+
+    def pedal(self, bus: Bus, openness: float, at_frame: int = 0) -> None:
+        """Move the hi-hat's pedal: what rings more open than `openness` 0 closed … 1 open is damped accordingly."""
+        self._at(at_frame, partial(self._damp_hihat, bus, openness))
+
+    def set_level(self, bus: Bus, level: float, pan: float = 0.0) -> None:
+        """Set the level (0 silent, 1 full) and balance (−1 left … 1 right) of `bus`, from the next block on."""
+        pan = min(1.0, max(-1.0, pan))
+        level = min(1.0, max(0.0, level))
+        self._level_targets[bus] = level * min(1.0, 1.0 - pan), level * min(1.0, 1.0 + pan)
+        self._slew_left = max(1, self._frames(LEVEL_SLEW_S))
+        self._level_steps = (self._level_targets - self._levels) / np.float32(self._slew_left)
+
+    def drop_pending(self) -> None:
+        """Forget what was asked for and has not begun; what rings, rings out."""
+        self._pending.clear()
+
+    @property
+    def ringing(self) -> int:
+        """How many voices sound now."""
+        return len(self._voices)
+
+    # --- the blocks ----------------------------------------------------------------------------------------------
+
+    def render(self, frames: int) -> Frames:
+        """The next `frames` frames: float32 (frames, 2), all within ±1."""
+        block = np.empty((frames, 2), np.float32)
+        done = 0
+        while done < frames:
+            self._begin_due()
+            count = self._piece_length(frames - done)
+            self._mix(count, block[done : done + count])
+            self.frame += count
+            done += count
+        return soft_clip(block)
+
+    def _piece_length(self, wanted: int) -> int:
+        count = min(wanted, PIECE_FRAMES)
+        if self._pending:
+            count = min(count, self._pending[0][0] - self.frame)
+        if self._slew_left:
+            count = min(count, self._slew_left)
+        return count
+
+    def _mix(self, count: int, out: Frames) -> None:
+        """Write the next `count` frames, before the limiter, to `out`."""
+        size = 2 * count
+        buses = self._sum_voices(size)
+        if self._tail_left:
+            self._add_tail(buses, size)
+        stereo = buses.reshape(len(Bus), count, 2)
+        if self._slew_left:
+            ramp = np.arange(count, dtype=np.float32)[None, :, None]
+            np.einsum("bnc,bnc->nc", stereo, self._levels[:, None] + ramp * self._level_steps[:, None], out=out)
+            self._slew(count)
+        else:
+            np.einsum("bnc,bc->nc", stereo, self._levels, out=out)
+
+    def _sum_voices(self, size: int) -> NDArray[np.float32]:
+        """The three buses, (3, size) interleaved, of the next `size`/2 frames; voices that end are let go."""
+        voices = self._voices
+        if not voices:
+            return np.zeros((len(Bus), size), np.float32)
+        rows = self._rows[: len(voices), :size]
+        fading = False
+        for row, gains, voice in zip(rows, self._gains, voices, strict=False):
+            if voice.fading:
+                fading = True
+                gains[voice.bus] = voice.gain
+                gains[len(Bus) + voice.bus] = voice.slope
+            voice.copy_to(row, size)
+        sums = self._gains[: len(voices)].T.dot(rows)
+        buses: NDArray[np.float32] = sums[: len(Bus)]
+        if fading:
+            buses += sums[len(Bus) :] * self._ramp[:size]
+        for index in range(len(voices) - 1, -1, -1):
+            if voices[index].ended:
+                self._remove(index)
+        return buses
+
+    def _remove(self, index: int) -> None:
+        """Let voice `index` go; the last one takes its place."""
+        last = self._voices.pop()
+        if index < len(self._voices):
+            self._voices[index] = last
+            self._gains[index] = self._gains[len(self._voices)]
+
+    def _add_tail(self, buses: NDArray[np.float32], size: int) -> None:
+        """Add what stolen voices left behind, and move it on."""
+        tail = self._tail
+        width = min(size, tail.shape[1])
+        buses[:, :width] += tail[:, :width]
+        tail[:, : tail.shape[1] - width] = tail[:, width:].copy()
+        tail[:, tail.shape[1] - width :] = 0.0
+        self._tail_left = max(0, self._tail_left - width)
+
+    def _slew(self, count: int) -> None:
+        self._levels += count * self._level_steps
+        self._slew_left -= count
+        if not self._slew_left:
+            self._levels[:] = self._level_targets
+
+    # --- actions -------------------------------------------------------------------------------------------------
+
+    def _at(self, at_frame: int, action: Callable[[], None]) -> None:
+        heapq.heappush(self._pending, (self.frame + max(0, at_frame), self._order, action))
+        self._order += 1
+
+    def _begin_due(self) -> None:
+        while self._pending and self._pending[0][0] <= self.frame:
+            heapq.heappop(self._pending)[2]()
+
+    def _strike(self, bus: Bus, strike: Strike, velocity: int) -> None:
+        name, sound, timbre = self.kit.choose(strike)
+        turn = self._turns.get(name, 0)
+        self._turns[name] = turn + 1
+        piece, openness = strike.piece, strike.openness or 0.0
+        if piece in (Piece.HIHAT, Piece.HIHAT_PEDAL):
+            splashes = strike.articulation is Articulation.SPLASH
+            if piece is Piece.HIHAT_PEDAL:
+                openness = 0.0
+            self._damp_hihat(bus, openness)
+            piece, openness = Piece.HIHAT, 1.0 if splashes else openness
+        gain = sound.levels[velocity]
+        self._begin(Voice(sound.take(max(1.0, velocity * timbre), turn), bus, gain, piece, openness))
+
+    def _click(self, voice: ClickVoice, velocity: int) -> None:
+        self._begin(Voice(self._clicks[voice], Bus.CLICK, level_of(velocity), None))
+
+    def _begin(self, voice: Voice) -> None:
+        self._retire_oldest(voice)
+        if len(self._voices) == self._max_voices:
+            self._steal()
+        index = len(self._voices)
+        self._voices.append(voice)
+        self._gains[index] = 0.0
+        self._gains[index, voice.bus] = voice.gain
+
+    def _retire_oldest(self, newcomer: Voice) -> None:
+        """Fade the oldest voice of the newcomer's piece where too many ring."""
+        if newcomer.piece is None:
+            return
+        same = [v for v in self._voices if v.piece is newcomer.piece and v.bus is newcomer.bus and not v.fading]
+        if len(same) >= SAME_PIECE_VOICES:
+            max(same, key=lambda voice: voice.position).fade_within(self._frames(RETIRE_S))
+
+    def _steal(self) -> None:
+        """Free the place of the quietest voice; its last milliseconds fade out in the tail."""
+        index = self._quietest()
+        voice = self._voices[index]
+        voice.fade_within(self._tail.shape[1] // 2)
+        rest = np.zeros(self._tail.shape[1], np.float32)
+        gain, slope = voice.gain, voice.slope
+        voice.copy_to(rest, len(rest))
+        frames = np.repeat(np.arange(len(rest) // 2, dtype=np.float32), 2)
+        self._tail[voice.bus] += rest * (gain + slope * frames)
+        self._tail_left = self._tail.shape[1]
+        self._remove(index)
+
+    def _quietest(self) -> int:
+        """The voice that was quietest in the piece last mixed; one that has only just begun is never taken first."""
+        heard = [index for index, voice in enumerate(self._voices) if voice.position]
+        if not heard:
+            return 0
+        peaks = [self._voices[index].level_near() for index in heard]
+        return heard[int(np.argmin(peaks))]
+
+    def _choke(self, bus: Bus, piece: Piece) -> None:
+        self._fade(lambda voice: voice.bus is bus and voice.piece is piece, CHOKE_S)
+
+    def _damp_hihat(self, bus: Bus, openness: float) -> None:
+        ring_s = CLOSE_S + (HALF_OPEN_RING_S - CLOSE_S) * min(1.0, 2.0 * openness) ** 2
+        self._fade(lambda v: v.bus is bus and v.piece is Piece.HIHAT and v.openness > openness, ring_s)
+
+    def _fade(self, chosen: Callable[[Voice], bool], within_s: float) -> None:
+        for voice in self._voices:
+            if chosen(voice):
+                voice.fade_within(self._frames(within_s))
+
+    def _frames(self, seconds: float) -> int:
+        return round(seconds * self.kit.rate_hz)

@@ -1,0 +1,69 @@
+"""One ringing sound: where it stands, how loud it is, and how it fades when it must go before its end."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.pieces import Piece
+from station.sound.buses import Bus
+from station.sound.drum_kit import Frames
+
+_NEAR = 128
+"""Numbers (64 frames, 1.3 ms at 48 kHz) that tell how loud a voice is now."""
+
+
+class Voice:
+    """A sound that plays on a bus from its first frame to its last, or until it has faded.
+
+    `gain` is its amplitude factor now and `slope` the gain's change a frame; `piece` (None for a click) and `openness`
+    say what may choke or damp it.
+    """
+
+    __slots__ = ("_at", "_data", "_stop", "bus", "fading", "gain", "openness", "piece", "slope")
+
+    def __init__(self, frames: Frames, bus: Bus, gain: float, piece: Piece | None, openness: float = 0.0) -> None:
+        self._data = frames.reshape(-1)
+        self._at = 0
+        self._stop = len(self._data)
+        self.bus = bus
+        self.gain = gain
+        self.slope = 0.0
+        self.fading = False
+        self.piece = piece
+        self.openness = openness
+
+    @property
+    def position(self) -> int:
+        """Frames played so far."""
+        return self._at // 2
+
+    @property
+    def ended(self) -> bool:
+        """Whether it has nothing left to play."""
+        return self._at >= self._stop
+
+    def fade_within(self, frames: int) -> None:
+        """Fall to silence in a straight line over `frames` frames; one that fades faster already goes on so."""
+        frames = max(1, frames)
+        if self._at + 2 * frames >= self._stop and self.fading:
+            return
+        self.slope = -self.gain / frames
+        self._stop = min(self._stop, self._at + 2 * frames)
+        self.fading = True
+
+    def copy_to(self, row: NDArray[np.float32], size: int) -> None:
+        """Write the next `size` numbers (left, right, left …), without gain, to `row`, zeros after the end; move on."""
+        at = self._at
+        left = self._stop - at
+        if left >= size:
+            row[:size] = self._data[at : at + size]
+        else:
+            row[:left] = self._data[at : self._stop]
+            row[left:size] = 0.0
+        self._at = at + size
+        if self.fading:
+            self.gain += self.slope * (size // 2)
+
+    def level_near(self) -> float:
+        """The peak of the next millisecond or so, gain included."""
+        near = self._data[self._at : min(self._at + _NEAR, self._stop)]
+        return float(np.abs(near).max(initial=0.0)) * self.gain
