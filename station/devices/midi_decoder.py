@@ -38,6 +38,7 @@ class MidiDecoder:
         self._openness: float | None = None
         self._positions: dict[Piece, float] = {}
         self._held: dict[Piece, set[int]] = {}
+        self._controllers: dict[int, bytes] = {}  # the newest message of each controller that says how the kit stands
 
     def reset(self) -> None:
         """Start afresh, as after the kit was unplugged."""
@@ -45,6 +46,12 @@ class MidiDecoder:
         self._openness = None
         self._positions.clear()
         self._held.clear()
+        self._controllers.clear()
+
+    def bequeath(self) -> bytes:
+        """Bytes that bring a new decoder to this one's state, as a capture begins; lets go of held cymbals."""
+        self._held.clear()
+        return b"".join(self._controllers.values()) + self._tokens.unfinished()
 
     def feed(self, data: bytes, at_ns: int) -> list[DeviceEvent]:
         """The events that `data`, come at `at_ns`, completes; in order, each stamped `at_ns`."""
@@ -57,7 +64,7 @@ class MidiDecoder:
             if kind == _NOTE_ON and message[2]:
                 events.append(self._hit(message[1], message[2], at_ns))
             elif kind == _CONTROL_CHANGE:
-                self._take_controller(message[1], message[2], at_ns, events)
+                self._take_controller(message, at_ns, events)
             elif kind == _POLY_AFTERTOUCH:
                 self._take_aftertouch(message[1], message[2], at_ns, events)
         return events
@@ -82,13 +89,16 @@ class MidiDecoder:
             device=self.device,
         )
 
-    def _take_controller(self, number: int, value: int, at_ns: int, events: list[DeviceEvent]) -> None:
+    def _take_controller(self, message: bytes, at_ns: int, events: list[DeviceEvent]) -> None:
+        _, number, value = message
         if number == PEDAL_CONTROLLER and self.preset.pedal is not None:
+            self._controllers[number] = message
             openness = self.preset.pedal.openness(value)
             if openness != self._openness:
                 self._openness = openness
                 events.append(PedalMoved(at_ns, openness, self.device))
         elif (piece := self.preset.position_controllers.get(number)) is not None:
+            self._controllers[number] = message
             self._positions[piece] = value / _GREATEST
 
     def _take_aftertouch(self, note: int, value: int, at_ns: int, events: list[DeviceEvent]) -> None:

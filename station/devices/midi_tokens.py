@@ -36,6 +36,12 @@ class MidiTokenizer:
         self._status = 0
         self._data.clear()
 
+    def unfinished(self) -> bytes:
+        """Bytes that bring a new tokenizer to this one's state."""
+        if not self._status:
+            return bytes((_END_OF_SYSEX,))  # ends whatever is in force and is no message by itself
+        return bytes((self._status, *self._data))
+
     def feed(self, data: bytes) -> list[bytes]:
         """The messages that `data` completes, in order; the same for any division of the stream into pieces."""
         messages: list[bytes] = []

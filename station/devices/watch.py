@@ -1,0 +1,110 @@
+"""Keeps one kit connected: finds its port by part of its name, notices when it goes, opens it again when it comes back.
+
+A kit that vanishes in mid-bar costs nothing but the strokes of the time it is away: the session goes on, told by
+`DeviceLost` and `DeviceFound`. Pure but for the directory that it is given; time is what `poll` is told.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from station.core.errors import DeviceError
+from station.core.units import NS_PER_MS
+from station.devices.presets import GENERAL_MIDI_PRESET, preset_for, stable_name
+from station.devices.transport import Packet, PortDirectory, Transport
+
+SCAN_EVERY_NS = 400 * NS_PER_MS
+"""A kit is noticed and opened within 1 s of being plugged in, with room for the driver to announce it (our choice)."""
+
+_NO_KITS = ("midi through", "through port", "midi_playback", "virmidi")
+"""Parts of port names behind which no kit sits; they are opened only when asked for by name."""
+
+
+@dataclass(frozen=True, slots=True)
+class Findings:
+    """What one poll brought: the device's name (empty while there is none), its packets, whether it went or came."""
+
+    device: str
+    packets: list[Packet]
+    lost: bool = False
+    found: bool = False
+
+
+_NOTHING = Findings("", [])
+
+
+def choose_port(ports: Iterable[str], wanted: str) -> str | None:
+    """The port to open: the first whose name contains `wanted` in any case of letters.
+
+    With `wanted` empty the first of a module that has a preset, else the first behind which a kit may sit.
+    """
+    names = list(ports)
+    if wanted:
+        return next((name for name in names if wanted.lower() in name.lower()), None)
+    likely = [name for name in names if not any(part in name.lower() for part in _NO_KITS)]
+    known = [name for name in likely if preset_for(name) is not GENERAL_MIDI_PRESET]
+    return next(iter(known or likely), None)
+
+
+class KitWatch:
+    """The connection to one kit, kept up."""
+
+    def __init__(self, directory: PortDirectory, wanted: str = "") -> None:
+        self.wanted = wanted
+        self._directory = directory
+        self._transport: Transport | None = None
+        self._port = ""
+        self._device = ""
+        self._next_scan_ns: int | None = None
+
+    @property
+    def device(self) -> str:
+        """The name of the connected kit, empty while there is none."""
+        return self._device if self._transport else ""
+
+    def poll(self, now_ns: int) -> Findings:
+        """What came since the last poll; now and then looks which ports there are."""
+        if self._next_scan_ns is None or now_ns >= self._next_scan_ns:
+            self._next_scan_ns = now_ns + SCAN_EVERY_NS
+            return self._scan()
+        if self._transport is None:
+            return _NOTHING
+        try:
+            return Findings(self._device, self._transport.read())
+        except DeviceError:
+            return self._lose([])
+
+    def close(self) -> None:
+        """End the connection."""
+        if self._transport is not None:
+            self._transport.close()
+            self._transport = None
+
+    def _scan(self) -> Findings:
+        ports = self._directory.names()
+        if self._transport is None:
+            return self._find(ports)
+        try:
+            packets = self._transport.read()
+        except DeviceError:
+            return self._lose([])
+        return Findings(self._device, packets) if self._port in ports else self._lose(packets)
+
+    def _find(self, ports: list[str]) -> Findings:
+        port = self._choose(ports)
+        if port is None:
+            return _NOTHING
+        try:
+            self._transport = self._directory.open(port)
+        except DeviceError:  # taken by another program or gone again; the next scan tries anew
+            return _NOTHING
+        self._port, self._device = port, self._transport.name
+        return Findings(self._device, [], found=True)
+
+    def _choose(self, ports: list[str]) -> str | None:
+        """The kit that was lost if it is back, by its stable name, else the one that is wanted."""
+        back = next((port for port in ports if self._device and stable_name(port) == self._device), None)
+        return back or choose_port(ports, self.wanted)
+
+    def _lose(self, packets: list[Packet]) -> Findings:
+        self.close()
+        return Findings(self._device, packets, lost=True)
