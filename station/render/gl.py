@@ -1,0 +1,62 @@
+"""OpenGL contexts and pictures without a window.
+
+Everything is drawn with OpenGL 3.3 core, which every computer of the last twelve years has, in hardware or in software.
+"""
+
+import sys
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.errors import DeviceError
+
+GL_VERSION = 330
+
+_HELP = {
+    "linux": "install libegl1, libgl1 and libgl1-mesa-dri (Debian, Ubuntu) or mesa-libEGL and mesa-dri-drivers (Fedora)",
+    "darwin": "OpenGL 3.3 comes with macOS; without a screen it needs a logged-in user",
+    "win32": "install the graphics card's driver, or put Mesa's opengl32.dll beside python.exe",
+}
+
+
+def standalone_context() -> moderngl.Context:
+    """A context that draws without any window; raises `DeviceError` that says what to install."""
+    backends = ({"backend": "egl"}, {}) if sys.platform == "linux" else ({},)
+    faults: list[str] = []
+    for options in backends:
+        try:
+            return moderngl.create_context(standalone=True, require=GL_VERSION, **options)
+        except Exception as fault:
+            faults.append(str(fault))
+    raise DeviceError(f"OpenGL 3.3 cannot be had ({'; '.join(faults)}): {_HELP.get(sys.platform, 'install a driver')}")
+
+
+class Target:
+    """An off-screen picture of `size` (width, height) with depth, `samples` a pixel where the driver can."""
+
+    def __init__(self, ctx: moderngl.Context, size: tuple[int, int], samples: int = 0) -> None:
+        self.size = size
+        samples = min(samples, ctx.max_samples)
+        self._plain = ctx.framebuffer([ctx.texture(size, 4)], ctx.depth_renderbuffer(size))
+        self.framebuffer = self._plain
+        if samples > 1:
+            self.framebuffer = ctx.framebuffer(
+                [ctx.renderbuffer(size, 4, samples=samples)], ctx.depth_renderbuffer(size, samples=samples)
+            )
+        self._ctx = ctx
+
+    def read(self) -> NDArray[np.uint8]:
+        """The picture, shape (height, width, 3), top row first."""
+        if self.framebuffer is not self._plain:
+            self._ctx.copy_framebuffer(self._plain, self.framebuffer)
+        width, height = self.size
+        rgba = np.frombuffer(self._plain.read(components=4, alignment=1), np.uint8).reshape(height, width, 4)
+        return np.ascontiguousarray(rgba[::-1, :, :3])
+
+    def release(self) -> None:
+        """Give the memory back."""
+        for buffer in {id(b): b for b in (self.framebuffer, self._plain)}.values():
+            for attachment in (*buffer.color_attachments, buffer.depth_attachment):
+                attachment.release()
+            buffer.release()

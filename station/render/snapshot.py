@@ -1,0 +1,116 @@
+"""Everything that one picture shows, as an immutable value.
+
+The practice session fills snapshots; the window and the off-screen picture draw the same one. Score time is seconds from
+the score's tick 0; asynchronies are played − written, negative is early.
+"""
+
+from dataclasses import dataclass, field
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.pieces import Piece
+from station.motion.figure import Figure
+from station.motion.kit import Kit
+from station.motion.pose import Pose
+from station.music.judgement import Judgement, Label
+from station.music.score import Score
+
+PENDING = -1
+"""The label of a note that is not judged yet."""
+
+MARK_DTYPE = np.dtype([("label", np.int8), ("asynchrony_ms", np.float32), ("velocity_error", np.float32)])
+"""A note's judgement: `Label` or `PENDING`; played − written, NaN where nothing was played."""
+
+
+class Cue(IntEnum):
+    """The one coarse live cue: what the last strokes were like."""
+
+    NONE = 0
+    ON_TIME = 1
+    EARLY = 2
+    LATE = 3
+    MISSED = 4
+    WRONG_PIECE = 5
+
+
+@dataclass(frozen=True, slots=True)
+class Strike:
+    """A stroke that somebody played `age_s` ago; `student` tells the student's from the demonstrator's."""
+
+    piece: Piece
+    velocity: int
+    age_s: float
+    student: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Extra:
+    """A hit that answers no note: at `time_s` of the score on `piece`."""
+
+    time_s: float
+    piece: Piece
+
+
+@dataclass(frozen=True, slots=True)
+class Hud:
+    """What is written over the picture.
+
+    `phase` in words such as "Demonstration" or "Pass 2 of 4"; `bar` and `beat` from 1, None while nothing runs; `beats` a
+    bar; `count_in` the number to show large, None outside a count-in; `right`, `judged` this pass's counts; `message` a
+    sentence for the user; `cue` with `cue_age_s` since it came.
+    """
+
+    title: str = ""
+    phase: str = ""
+    bar: int | None = None
+    beat: int | None = None
+    beats: int = 4
+    bar_count: int = 0
+    tempo_bpm: float | None = None
+    count_in: int | None = None
+    right: int = 0
+    judged: int = 0
+    message: str = ""
+    cue: Cue = Cue.NONE
+    cue_age_s: float = 0.0
+
+
+def no_marks(score: Score) -> NDArray[np.void]:
+    """Marks of a score of which no note is judged yet, shape (n,), dtype `MARK_DTYPE`."""
+    marks = np.zeros(len(score), MARK_DTYPE)
+    marks["label"] = PENDING
+    marks["asynchrony_ms"] = marks["velocity_error"] = np.nan
+    return marks
+
+
+def mark(marks: NDArray[np.void], judgement: Judgement) -> None:
+    """Write one judgement of a note into `marks`; extras and ignored hits have no note and change nothing."""
+    if judgement.note_index is None or judgement.label in (Label.EXTRA, Label.IGNORED):
+        return
+    row = marks[judgement.note_index : judgement.note_index + 1]
+    row["label"] = judgement.label
+    row["asynchrony_ms"] = np.nan if judgement.asynchrony_ns is None else judgement.asynchrony_ns / 1e6
+    row["velocity_error"] = np.nan if judgement.velocity_error is None else judgement.velocity_error
+
+
+@dataclass(frozen=True, eq=False)
+class Snapshot:
+    """One instant of the practice room.
+
+    `position_s` is the score's time at the play line, negative in a count-in. `marks` (n,) of `MARK_DTYPE` belongs to
+    the rows of `score`; nobody writes to it after it was put here. `limbs` (n,) of `Limb` shows the sticking, None what
+    the score says. `pose` None draws the kit alone.
+    """
+
+    score: Score
+    position_s: float
+    kit: Kit
+    figure: Figure
+    pose: Pose | None = None
+    limbs: NDArray[np.int8] | None = None
+    marks: NDArray[np.void] | None = None
+    extras: tuple[Extra, ...] = ()
+    strikes: tuple[Strike, ...] = ()
+    hud: Hud = field(default_factory=Hud)
