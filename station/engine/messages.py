@@ -26,6 +26,7 @@ __all__ = [
     "Play",
     "Queue",
     "Quit",
+    "Ready",
     "Record",
     "SetLevel",
     "Started",
@@ -109,6 +110,13 @@ Command = Play | Queue | Stop | SetLevel | KeyHit | Record | Quit
 
 
 @dataclass(frozen=True, slots=True)
+class Ready:
+    """The engine process is up: hits are heard and sounded by the card named `output`, None when it runs silent."""
+
+    output: str | None
+
+
+@dataclass(frozen=True, slots=True)
 class Started:
     """The transport runs; its zero is heard at session time `zero_ns`."""
 
@@ -137,4 +145,4 @@ class Status:
     load: float
 
 
-EngineEvent = DeviceEvent | Started | Notice | Status
+EngineEvent = DeviceEvent | Ready | Started | Notice | Status

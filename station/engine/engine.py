@@ -1,0 +1,234 @@
+"""The real-time part as a plain object: bytes and commands in, events and blocks of sound out.
+
+It owns no thread, clock, port or card. Whoever runs it (the engine process, a headless session, a test) feeds it the
+bytes of the devices with their times, hands it commands, advances it to the present and, where there is a sound card,
+asks it for blocks. One thread may call everything but `render` while another calls `render`.
+
+Times are session time (monotonic ns). With a mixer the transport starts with the block that the card asks for next;
+without one it runs on the times that `advance` is told.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.errors import StationError
+from station.core.events import Choke, DeviceEvent, Hit, PedalMoved
+from station.core.kitmap import Strike
+from station.core.units import NS_PER_S
+from station.devices.capture_file import CaptureFile, CaptureSink
+from station.devices.decoders import DecoderBank
+from station.devices.presets import KitPreset
+from station.engine.messages import (
+    Command,
+    EngineEvent,
+    KeyHit,
+    Notice,
+    Play,
+    Queue,
+    Quit,
+    Record,
+    SetLevel,
+    Started,
+    Status,
+    Stop,
+)
+from station.engine.playback import CueRun
+from station.engine.player import Player
+from station.engine.recorder import Recorder
+from station.sound.mixer import Mixer
+
+STATUS_EVERY_NS = NS_PER_S
+KEYBOARD = "keyboard"
+"""The device that a stroke on the computer's keys names."""
+
+OpenCapture = Callable[[Path, int], CaptureSink]
+
+
+@dataclass(frozen=True, slots=True)
+class OutputState:
+    """How the sound card's stream is doing; the fields stand as in `Status`."""
+
+    underflows: int = 0
+    latency_ms: float | None = None
+    load: float = 0.0
+
+
+class Engine:
+    """Devices and commands in, sound and events out."""
+
+    def __init__(self, mixer: Mixer | None = None, open_capture: OpenCapture = CaptureFile) -> None:
+        self.output = OutputState()
+        """What the next `Status` tells of the sound card; set by whoever owns it."""
+        self.quitting = False
+        """Whether `Quit` was handled."""
+        self._player = Player(mixer)
+        self._open_capture = open_capture
+        self._decoders = DecoderBank()
+        self._devices: list[str] = []
+        self._recorder: Recorder | None = None
+        self._capture_fault: str | None = None
+        self._zero_ns: int | None = None
+        self._events: list[EngineEvent] = []
+        self._now_ns = 0
+        self._next_status_ns: int | None = None
+
+    # --- devices -----------------------------------------------------------------------------------------------------
+
+    def use_preset(self, device: str, preset: KitPreset) -> None:
+        """Understand `device` by `preset` instead of the one that its name suggests."""
+        self._decoders.add(device, preset)
+        if self._recorder is not None:
+            self._recorder.add_device(device, self._now_ns)
+
+    def feed(self, device: str, data: bytes, at_ns: int) -> None:
+        """Take bytes of `device` that came at `at_ns`; the strokes in them sound with the next block."""
+        if self._recorder is not None:
+            self._recorder.bytes_came(device, data, at_ns)
+        for event in self._decoders.feed(device, data, at_ns):
+            self._sound(event)
+            self._events.append(event)
+
+    def device_found(self, device: str, at_ns: int) -> None:
+        """`device` is connected, or connected again."""
+        if device not in self._devices:
+            self._devices.append(device)
+        event = self._decoders.found(device, at_ns)
+        if self._recorder is not None:
+            self._recorder.device_changed(event)
+        self._events.append(event)
+
+    def device_lost(self, device: str, at_ns: int) -> None:
+        """`device` is gone."""
+        if device in self._devices:
+            self._devices.remove(device)
+        event = self._decoders.lost(device, at_ns)
+        if self._recorder is not None:
+            self._recorder.device_changed(event)
+        self._events.append(event)
+
+    def _sound(self, event: DeviceEvent) -> None:
+        match event:
+            case Hit():
+                strike = Strike(event.piece, event.zone, event.articulation, event.openness)
+                self._player.strike(strike, event.velocity)
+            case Choke():
+                self._player.choke(event.piece)
+            case PedalMoved():
+                self._player.pedal(event.openness)
+            case _:
+                pass
+
+    # --- commands ----------------------------------------------------------------------------------------------------
+
+    def handle(self, command: Command) -> None:
+        """Obey the app; "now" is what `advance` was told last."""
+        match command:
+            case Play():
+                self._player.play(CueRun(command.cues), self._now_ns + command.start_in_ns)
+            case Queue():
+                self._player.queue(CueRun(command.cues))
+            case Stop():
+                self._zero_ns = None
+                self._player.stop()
+            case SetLevel():
+                self._player.set_level(command.bus, command.level, command.pan)
+            case KeyHit():
+                self._take_key(command)
+            case Record():
+                self._record(command.path)
+            case Quit():
+                self.quitting = True
+
+    def _take_key(self, key: KeyHit) -> None:
+        hit = Hit(
+            at_ns=key.at_ns,
+            piece=key.piece,
+            zone=key.zone,
+            velocity=key.velocity,
+            articulation=key.articulation,
+            openness=key.openness,
+            device=KEYBOARD,
+        )
+        self._sound(hit)
+        if self._recorder is not None:
+            self._recorder.stroke(hit)
+        self._events.append(hit)
+
+    def _record(self, path: Path | None) -> None:
+        self._end_capture()
+        if path is None:
+            return
+        try:
+            sink = self._open_capture(path, self._now_ns)
+        except StationError as fault:
+            self.notify(f"nothing is being recorded: {fault}")
+            return
+        self._recorder = Recorder(sink, self._decoders)
+        for device in self._devices:
+            self._recorder.add_device(device, self._now_ns)
+        if self._zero_ns is not None:
+            self._recorder.zero(self._zero_ns)
+
+    def _end_capture(self) -> None:
+        if self._recorder is not None:
+            self._recorder.close(self._now_ns)
+            self._tell_capture_fault()
+            self._recorder = None
+
+    # --- time --------------------------------------------------------------------------------------------------------
+
+    def notify(self, text: str) -> None:
+        """Tell the user something with the next `advance`."""
+        self._events.append(Notice(text))
+
+    def advance(self, now_ns: int) -> list[EngineEvent]:
+        """Move to `now_ns`; returns what happened since the last call, in the order in which it was found out."""
+        self._now_ns = now_ns
+        if self._player.is_silent:
+            self._player.pass_by(now_ns)
+        for zero_ns in self._player.take_zeros_ns():
+            self._zero_ns = zero_ns
+            self._events.append(Started(zero_ns))
+            if self._recorder is not None:
+                self._recorder.zero(zero_ns)
+        if self._next_status_ns is None:
+            self._next_status_ns = now_ns + STATUS_EVERY_NS
+        elif now_ns >= self._next_status_ns:
+            self._next_status_ns = now_ns + STATUS_EVERY_NS
+            self._tell_capture_fault()
+            self._events.append(self._status())
+        events, self._events = self._events, []
+        return events
+
+    def _status(self) -> Status:
+        return Status(
+            at_ns=self._now_ns,
+            underflows=self.output.underflows,
+            late_cues=self._player.late_cues,
+            output_latency_ms=self.output.latency_ms,
+            load=self.output.load,
+        )
+
+    def _tell_capture_fault(self) -> None:
+        fault = self._recorder.fault if self._recorder is not None else None
+        if fault is not None and fault != self._capture_fault:
+            self.notify(fault)
+        self._capture_fault = fault
+
+    def close(self) -> None:
+        """End the capture, so that its last hits are on the disk."""
+        self._end_capture()
+
+    # --- sound -------------------------------------------------------------------------------------------------------
+
+    def attach(self, mixer: Mixer | None) -> None:
+        """Sound through `mixer` from now on, None for a card that has gone; only while nobody calls `render`."""
+        self._player.attach(mixer)
+
+    def render(self, frames: int, dac_ns: int) -> NDArray[np.float32]:
+        """The next block of sound: float32 (frames, 2), whose first frame is heard at session time `dac_ns`."""
+        return self._player.render(frames, dac_ns)

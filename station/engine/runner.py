@@ -1,0 +1,47 @@
+"""One step of the engine's life: look at the kits, feed what they sent, look after the card, move on."""
+
+from collections.abc import Sequence
+
+from station.core.units import NS_PER_MS
+from station.devices.watch import KitWatch
+from station.engine.card import Card
+from station.engine.engine import Engine
+from station.engine.messages import EngineEvent
+
+SUPERVISE_EVERY_NS = 100 * NS_PER_MS
+
+
+class Runner:
+    """An engine with its kits and its card; `card` is None where no sound is wanted."""
+
+    def __init__(self, engine: Engine, kits: Sequence[KitWatch], card: Card | None) -> None:
+        self.engine = engine
+        self._kits = kits
+        self._card = card
+        self._next_supervision_ns = 0
+
+    def step(self, now_ns: int) -> list[EngineEvent]:
+        """Do all that is to do at `now_ns`; returns what happened."""
+        for kit in self._kits:
+            self._poll(kit, now_ns)
+        if self._card is not None and now_ns >= self._next_supervision_ns:
+            self._next_supervision_ns = now_ns + SUPERVISE_EVERY_NS
+            self._card.supervise(now_ns)
+        return self.engine.advance(now_ns)
+
+    def _poll(self, kit: KitWatch, now_ns: int) -> None:
+        findings = kit.poll(now_ns)
+        for packet in findings.packets:
+            self.engine.feed(findings.device, packet.data, packet.at_ns)
+        if findings.lost:
+            self.engine.device_lost(findings.device, now_ns)
+        if findings.found:
+            self.engine.device_found(findings.device, now_ns)
+
+    def close(self) -> None:
+        """Leave card, kits and capture, in that order: nothing is played any more, and every hit is on the disk."""
+        if self._card is not None:
+            self._card.close()
+        for kit in self._kits:
+            kit.close()
+        self.engine.close()
