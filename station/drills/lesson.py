@@ -1,0 +1,115 @@
+"""A lesson: a score to practise, and how to practise it. An immutable value; files are `lesson_file`'s business.
+
+Bars count from 0 here and from 1 in files and on the screen. `tempo_bpm` counts quarter notes, as the whole station
+does; `beat_ticks` is the beat that a teacher counts (a dotted quarter in 6/8).
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+
+from station.core.units import PPQ
+from station.drills.strokes import Velocities
+from station.drills.swing import STRAIGHT, Swing
+from station.music.score import Score
+
+LEVELS: Mapping[int, str] = MappingProxyType(
+    {1: "first steps", 2: "beginner", 3: "intermediate", 4: "advanced", 5: "expert"}
+)
+
+DEFAULT_PASSES = 8
+"""Our choice: with loops of 2–4 bars about a minute of playing."""
+DEFAULT_DEMONSTRATIONS = 2
+"""TEACHING, Defaults: demonstrate twice."""
+DEFAULT_MIN_ACCURACY = 0.9
+"""TEACHING, Defaults: a pass is at least 90 % right."""
+
+
+@dataclass(frozen=True, slots=True)
+class Goals:
+    """When the lesson is mastered; None leaves a goal to the station's own policy.
+
+    `min_accuracy` share of the notes right, 0–1; `max_sd_ms` spread of the asynchronies; `max_lean_ms` how far their
+    mean may lie from the written time (feel is free unless this asks); `max_swing_error` how far the swing ratio may
+    lie from the lesson's; `target_tempo_bpm` quarter notes a minute, the written tempo if None; `min_score` 0–100.
+    """
+
+    min_accuracy: float = DEFAULT_MIN_ACCURACY
+    max_sd_ms: float | None = None
+    max_lean_ms: float | None = None
+    max_swing_error: float | None = None
+    target_tempo_bpm: float | None = None
+    min_score: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """A named part of the lesson, such as "groove" or "fill": bars `first_bar` to `last_bar` inclusive, from 0."""
+
+    name: str
+    first_bar: int
+    last_bar: int
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Lesson:
+    """One lesson.
+
+    `name` is the file's stem; `level` 1–5 (`LEVELS`); `loop` the first and last bar that are practised, from 0,
+    inclusive; `passes` how often the loop is played; `demonstrations` how often the drummer plays it first; `kit` a
+    kit file's name, empty for the player's own; `sections` cover all bars in order.
+    """
+
+    name: str
+    title: str
+    score: Score
+    author: str = ""
+    level: int = 1
+    about: str = ""
+    tags: tuple[str, ...] = ()
+    kit: str = ""
+    loop: tuple[int, int] = (0, 0)
+    passes: int = DEFAULT_PASSES
+    count_in_bars: int = 1
+    demonstrations: int = DEFAULT_DEMONSTRATIONS
+    goals: Goals = field(default_factory=Goals)
+    swing: Swing = field(default_factory=Swing)
+    beat_ticks: int = PPQ
+    sections: tuple[Section, ...] = ()
+    velocities: Velocities = field(default_factory=Velocities)
+
+    @property
+    def tempo_bpm(self) -> float:
+        """Tempo of the first bar in quarter notes a minute."""
+        return self.score.tempo_map.bpm_at(0)
+
+    @property
+    def beats_a_minute(self) -> float:
+        """Tempo of the first bar in the lesson's own beat."""
+        return self.tempo_bpm * PPQ / self.beat_ticks
+
+    @property
+    def target_tempo_bpm(self) -> float:
+        """The tempo to reach, in quarter notes a minute."""
+        return self.goals.target_tempo_bpm or self.tempo_bpm
+
+    @property
+    def swing_ratio(self) -> float:
+        """Long to short, 1 where nothing swings."""
+        return self.swing.ratio
+
+    @property
+    def is_swung(self) -> bool:
+        """Whether offbeats come late."""
+        return self.swing.ratio != STRAIGHT
+
+    @property
+    def loop_score(self) -> Score:
+        """The bars of the loop, moved to tick 0."""
+        return self.score.bars(*self.loop)
+
+    @property
+    def meter(self) -> str:
+        """Meter of the first bar, such as 4/4."""
+        meter = self.score.tempo_map.meter_at(0)
+        return f"{meter.beats}/{meter.unit}"
