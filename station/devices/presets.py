@@ -49,7 +49,7 @@ class KitPreset:
     port_words: tuple[str, ...] = ()
     pedal: PedalRange | None = field(default_factory=PedalRange)
     choke_from: int = 1
-    position_controllers: Mapping[int, Piece] = MappingProxyType({})
+    position_controllers: Mapping[int, Piece] = field(default_factory=lambda: MappingProxyType({}))
 
 
 _HALF_OPEN = 0.5
