@@ -1,0 +1,140 @@
+"""Where in a score the things happen that students do badly: fills, waits, swung offbeats, second strokes of doubles.
+
+Each function returns one flag a row of the score, shape (n,), never set on grace strokes. They read what is written and
+nothing else, so that whoever plants a habit and whoever looks for it mean the same strokes. A row's *slot* is its tick.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.pieces import TOMS, Limb, Ornament, Piece
+from station.core.units import NS_PER_MS, PPQ
+from station.music.score import Score
+
+Flags = NDArray[np.bool_]
+
+TIMEKEEPERS = (Piece.HIHAT, Piece.RIDE, Piece.RIDE_2, Piece.COWBELL, Piece.TAMBOURINE)
+"""What keeps the time in a groove; where it stops and drums go on, there is a fill."""
+MIN_FILL_STROKES = 2
+"""Strokes of the hands in a beat of a fill, at least; our choice: fewer is a rest with an accent."""
+MAX_FILL_SHARE = 0.5
+"""Were more of the sounding beats like that, they would be the groove; our choice."""
+LONG_WAIT = 1.25
+"""A wait this many times the median is a long one: a slower tempo by a fifth, or a gap; our choice."""
+SWING_FRACTIONS = (0.54, 0.74)
+"""Where in its beat a swung offbeat lies: ratios 1.17 to 2.85, so that a dotted figure (3:1) is none; our choice."""
+LONGEST_DOUBLE_MS = 250
+"""Beyond, two strokes of one hand are two strokes and no double; our choice."""
+
+_PLACE_DIGITS = 3
+"""Fractions of a beat that agree to so many digits are one place, so that ticks may be rounded; our choice."""
+
+
+def slots(score: Score) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Ticks of the slots in order, shape (k,), and the slot of each row, shape (n,)."""
+    ticks, slot_of_row = np.unique(score.notes["tick"], return_inverse=True)
+    return ticks.astype(np.int64), slot_of_row.astype(np.int64)
+
+
+def fills(score: Score) -> Flags:
+    """Every stroke in the beats where the timekeeping stops and drums go on; none where nothing ever keeps time."""
+    notes = score.notes
+    main_hand = ~score.is_grace & ~np.isin(notes["piece"], (Piece.KICK, Piece.HIHAT_PEDAL))
+    beat = _beats(score)
+    count = int(beat.max(initial=-1)) + 1
+    drums = np.bincount(beat[main_hand & np.isin(notes["piece"], (Piece.SNARE, *TOMS))], minlength=count)
+    keeps = np.bincount(beat[main_hand & np.isin(notes["piece"], TIMEKEEPERS)], minlength=count) > 0
+    sounds = np.bincount(beat[main_hand], minlength=count) > 0
+    filled = (drums >= MIN_FILL_STROKES) & ~keeps
+    if not keeps.any() or filled.sum() > MAX_FILL_SHARE * sounds.sum():
+        return np.zeros(len(score), bool)
+    return np.asarray(~score.is_grace & filled[beat])
+
+
+def long_waits(score: Score) -> Flags:
+    """Strokes that come `LONG_WAIT` or more times the median wait after the slot before; never the first slot's."""
+    ticks, slot_of_row = slots(score)
+    if len(ticks) < 2:
+        return np.zeros(len(score), bool)
+    waits = np.diff(score.tempo_map.ns_at(ticks)).astype(np.float64)
+    is_long = np.concatenate([[False], waits >= LONG_WAIT * np.median(waits)])
+    return np.asarray(is_long[slot_of_row] & ~score.is_grace)
+
+
+def swung(score: Score) -> tuple[Flags, NDArray[np.int64], NDArray[np.float64]]:
+    """Swung offbeats, and of each the ticks of the unit that swings (a quarter or an eighth) and where in it it lies.
+
+    A beat swings where its only strokes are on it and at one later place within `SWING_FRACTIONS`; sixteenths swing
+    where both halves of the beat do so alike. All three have shape (n,); ticks and fractions mean nothing on other
+    rows.
+    """
+    within = (score.notes["tick"] - _beat_starts(score)) % PPQ
+    beat = _beats(score)
+    flags, spans, places = np.zeros(len(score), bool), np.full(len(score), PPQ), within / PPQ
+    order = np.argsort(beat, kind="stable")
+    for rows in np.split(order, np.flatnonzero(np.diff(beat[order])) + 1):
+        span = _swing_span({int(w) for w in within[rows]})
+        if span is not None:
+            spans[rows], places[rows] = span, (within[rows] % span) / span
+            flags[rows] = places[rows] > SWING_FRACTIONS[0]
+    return flags & ~score.is_grace, spans, places
+
+
+def _swing_span(within: set[int]) -> int | None:
+    """Length in ticks of the unit that swings in a beat with strokes at `within`; None where none does."""
+    for span in (PPQ, PPQ // 2):
+        offbeats = {round(w % span / span, _PLACE_DIGITS) for w in within} - {0.0}
+        halves_told = span == PPQ or PPQ // 2 in within
+        if len(offbeats) == 1 and SWING_FRACTIONS[0] < min(offbeats) < SWING_FRACTIONS[1] and halves_told:
+            return span
+    return None
+
+
+def second_of_doubles(score: Score) -> Flags:
+    """Second strokes of doubles: two quick strokes of one hand, alone in their slots, beside a stroke of the other.
+
+    Needs written sticking; rows of diddles without it pair up in order.
+    """
+    notes, flags = score.notes, np.zeros(len(score), bool)
+    hands = ~score.is_grace & np.isin(notes["limb"], (Limb.RIGHT_HAND, Limb.LEFT_HAND))
+    rows = np.flatnonzero(hands)
+    runs = np.split(rows, np.flatnonzero(_breaks(score, rows)) + 1)
+    flags[[run[1] for i, run in enumerate(runs) if len(run) == 2 and _beside_other_hand(score, runs, i)]] = True
+    diddles = np.flatnonzero(~score.is_grace & (notes["ornament"] == Ornament.DIDDLE) & ~hands)
+    flags[diddles[1::2]] = True
+    return flags
+
+
+def _breaks(score: Score, rows: NDArray[np.int64]) -> Flags:
+    """After which of `rows` a run of one hand ends: the hand changes, it is a chord, or the next is far."""
+    limb, at_ns = score.notes["limb"][rows], score.onset_ns[rows]
+    gaps = np.diff(at_ns)
+    return np.asarray((np.diff(limb) != 0) | (gaps > LONGEST_DOUBLE_MS * NS_PER_MS) | (gaps == 0))
+
+
+def _beside_other_hand(score: Score, runs: list[NDArray[np.int64]], i: int) -> bool:
+    """Whether run `i` is alone in its slots and the other hand strikes about as near as its own two strokes are."""
+    limb, at_ns, run = score.notes["limb"], score.onset_ns, runs[i]
+    reach = 1.5 * (at_ns[run[1]] - at_ns[run[0]])
+    before = runs[i - 1][-1] if i > 0 else None
+    after = runs[i + 1][0] if i + 1 < len(runs) else None
+    alone = (before is None or at_ns[before] < at_ns[run[0]]) and (after is None or at_ns[after] > at_ns[run[1]])
+    near_before = before is not None and limb[before] != limb[run[0]] and at_ns[run[0]] - at_ns[before] <= reach
+    near_after = after is not None and limb[after] != limb[run[0]] and at_ns[after] - at_ns[run[1]] <= reach
+    return bool(alone and (near_before or near_after))
+
+
+def _beat_starts(score: Score) -> NDArray[np.int64]:
+    """Tick on which the meter of each row began: quarters are counted from there."""
+    meters = np.array([m.tick for m in score.tempo_map.meters], np.int64)
+    starts: NDArray[np.int64] = meters[np.searchsorted(meters, score.notes["tick"], side="right") - 1]
+    return starts
+
+
+def _beats(score: Score) -> NDArray[np.int64]:
+    """Index of the quarter that holds each row, counted anew where the meter changes; rising with time, with gaps."""
+    starts = _beat_starts(score)
+    beats: NDArray[np.int64] = (
+        starts // PPQ + np.searchsorted(np.unique(starts), starts) + (score.notes["tick"] - starts) // PPQ
+    )
+    return beats

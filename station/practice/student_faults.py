@@ -1,0 +1,130 @@
+"""The habits that can be planted in a virtual student, as changes to what it would have played.
+
+Each habit of `student_spec.FAULTS` changes one of three things of a stroke: when it comes (`shift_ms`, negative is
+early), how far a grace stroke leads (`lead_ms`), or how loud it is (`level_db`, in the scale of HUMANS:
+40·log10(velocity/127)). Which strokes a habit concerns is read from the score by `music.passages`.
+"""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.pieces import Dynamic, Limb, Piece
+from station.core.units import NS_PER_MS, PPQ
+from station.music import passages
+from station.music.score import Score
+from station.practice.student_spec import Fault
+
+Floats = NDArray[np.float64]
+
+DB_PER_VELOCITY_DECADE = 40.0
+"""HUMANS: a level is about 40·log10(velocity/127) dB."""
+
+
+@dataclass(frozen=True, eq=False)
+class Habits:
+    """What all planted habits together do to each row: `shift_ms`, `lead_ms`, `level_db`, all of shape (n,)."""
+
+    shift_ms: Floats
+    lead_ms: Floats
+    level_db: Floats
+    strokes: dict[str, int]
+    """How many strokes each habit concerns."""
+
+
+def habits_of(score: Score, limbs: NDArray[np.int8], faults: Iterable[Fault]) -> Habits:
+    """All of `faults` applied to `score`, whose rows are played by `limbs` (n,)."""
+    changes = {name: np.zeros(len(score)) for name in ("shift_ms", "lead_ms", "level_db")}
+    strokes: dict[str, int] = {}
+    for fault in faults:
+        what, effect = _EFFECTS[fault.name]
+        change = effect(score, limbs, fault.size)
+        changes[what] += change
+        strokes[fault.name] = int(np.count_nonzero(change))
+    return Habits(strokes=strokes, **changes)
+
+
+def louder(velocity: Floats, level_db: Floats) -> Floats:
+    """`velocity` changed by `level_db`, unrounded and unbounded."""
+    changed: Floats = velocity * 10.0 ** (level_db / DB_PER_VELOCITY_DECADE)
+    return changed
+
+
+# --- the habits ------------------------------------------------------------------------------------------------------
+
+Effect = Callable[[Score, NDArray[np.int8], float], Floats]
+
+
+def _on(rows: NDArray[np.bool_], size: float) -> Floats:
+    return np.where(rows, size, 0.0)
+
+
+def _late_kick(score: Score, limbs: NDArray[np.int8], size: float) -> Floats:
+    return _on(score.notes["piece"] == Piece.KICK, size)
+
+
+def _slow_hihat_foot(score: Score, limbs: NDArray[np.int8], size: float) -> Floats:
+    return _on(score.notes["piece"] == Piece.HIHAT_PEDAL, size)
+
+
+def _drag_slow(score: Score, limbs: NDArray[np.int8], size: float) -> Floats:
+    return _on(passages.long_waits(score), size)
+
+
+def _uneven_doubles(score: Score, limbs: NDArray[np.int8], size: float) -> Floats:
+    return _on(passages.second_of_doubles(score), -size)
+
+
+def _rush_fills(score: Score, limbs: NDArray[np.int8], size: float) -> Floats:
+    """Ahead in proportion to how far into the fill a stroke is; the mean over each fill's strokes is `size`."""
+    shift = np.zeros(len(score))
+    rows = np.flatnonzero(passages.fills(score))
+    beat = score.notes["tick"][rows] // PPQ
+    for fill in np.split(rows, np.flatnonzero(np.diff(beat) > 1) + 1) if len(rows) else ():
+        place = np.unique(score.notes["tick"][fill], return_inverse=True)[1] + 1.0
+        shift[fill] = -size * place / place.mean()
+    return shift
+
+
+def _straight_swing(score: Score, limbs: NDArray[np.int8], size: float) -> Floats:
+    rows, spans, places = passages.swung(score)
+    place = places[rows]
+    ratio = np.maximum(place / (1.0 - place) - size, 1.0)
+    ticks, spans = score.notes["tick"][rows], spans[rows]
+    start = ticks - np.rint(place * spans).astype(np.int64)
+    span_ms = (score.tempo_map.ns_at(start + spans) - score.tempo_map.ns_at(start)) / NS_PER_MS
+    shift = np.zeros(len(score))
+    shift[rows] = (ratio / (1.0 + ratio) - place) * span_ms
+    return shift
+
+
+def _wide_flams(score: Score, limbs: NDArray[np.int8], size: float) -> Floats:
+    return _on(score.is_grace, size)
+
+
+def _weak_left(score: Score, limbs: NDArray[np.int8], size: float) -> Floats:
+    return _on(limbs == Limb.LEFT_HAND, -size)
+
+
+def _loud_ghosts(score: Score, limbs: NDArray[np.int8], size: float) -> Floats:
+    return _on((score.notes["dynamic"] == Dynamic.GHOST) & ~score.is_grace, size)
+
+
+def _flat_accents(score: Score, limbs: NDArray[np.int8], size: float) -> Floats:
+    return _on(score.notes["dynamic"] == Dynamic.ACCENT, -size)
+
+
+_EFFECTS: dict[str, tuple[str, Effect]] = {
+    "late_kick": ("shift_ms", _late_kick),
+    "rush_fills": ("shift_ms", _rush_fills),
+    "drag_slow": ("shift_ms", _drag_slow),
+    "straight_swing": ("shift_ms", _straight_swing),
+    "uneven_doubles": ("shift_ms", _uneven_doubles),
+    "slow_hihat_foot": ("shift_ms", _slow_hihat_foot),
+    "wide_flams": ("lead_ms", _wide_flams),
+    "weak_left": ("level_db", _weak_left),
+    "loud_ghosts": ("level_db", _loud_ghosts),
+    "flat_accents": ("level_db", _flat_accents),
+}

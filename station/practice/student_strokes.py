@@ -1,0 +1,95 @@
+"""How a virtual student's strokes are struck: piece, zone, loudness, and the cymbals that are grabbed.
+
+Velocities scatter about the written ones, changed by planted habits, and are clipped to 1–127, so that the mean of
+accents near the top comes out a little lower than written.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.pieces import CYMBALS, Articulation, Dynamic, Limb, Piece, Zone
+from station.music.judgement import Label
+from station.music.performance import CHOKE_DTYPE, HIT_DTYPE
+from station.music.score import Score
+from station.practice.student_faults import Habits, louder
+from station.practice.student_slips import PLAIN_VELOCITY, Slips
+from station.practice.student_spec import StudentSpec
+
+Floats = NDArray[np.float64]
+
+GREATEST_VELOCITY = 127
+_BOWS = np.array(sorted(CYMBALS | {Piece.HIHAT}), np.uint8)
+_WRITTEN = ("openness", "piece", "zone", "articulation", "velocity", "limb", "midi_note")
+
+
+@dataclass(frozen=True, slots=True)
+class Strokes:
+    """Strikes the strokes of one student; `written` and `extra` are where their loudness draws its chances from."""
+
+    spec: StudentSpec
+    written: np.random.Generator
+    extra: np.random.Generator
+
+    def of_notes(self, score: Score, limbs: NDArray[np.int8], habits: Habits, slips: Slips) -> NDArray[np.void]:
+        """A hit for every row, missed or not, at time 0: shape (n,) of `HIT_DTYPE`."""
+        hits = _as_written(score.notes)
+        hits["limb"], hits["piece"] = limbs, slips.piece
+        _make_plain(hits, slips.label == Label.WRONG_PIECE)
+        mean = louder(score.notes["velocity"].astype(np.float64), habits.level_db)
+        hits["velocity"] = self._velocities(mean, self.written)
+        return hits
+
+    def of_extras(self, score: Score, slips: Slips) -> NDArray[np.void]:
+        """A hit for every extra at time 0, struck as the score's plain strokes of its piece are, and never softly."""
+        usual = {piece: _usual_row(score, piece) for piece in np.unique(slips.extra_piece).tolist()}
+        rows = [usual[piece] for piece in slips.extra_piece.tolist()]
+        hits = _as_written(score.notes[rows])
+        not_in_score = hits["piece"] != slips.extra_piece
+        hits["piece"], hits["limb"], hits["midi_note"] = slips.extra_piece, Limb.UNKNOWN, 0
+        _make_plain(hits, not_in_score)
+        mean = np.maximum(hits["velocity"], PLAIN_VELOCITY).astype(np.float64)
+        hits["velocity"] = np.maximum(self._velocities(mean, self.extra), PLAIN_VELOCITY)
+        return hits
+
+    def _velocities(self, mean: Floats, rng: np.random.Generator) -> NDArray[np.uint8]:
+        share = self.spec.velocity_cv_pct / 100.0
+        sd = share * mean if self.spec.velocity_sd is None else np.full(len(mean), self.spec.velocity_sd)
+        drawn = np.rint(mean + sd * rng.standard_normal(len(mean)))
+        return np.clip(drawn, 1, GREATEST_VELOCITY).astype(np.uint8)
+
+
+def chokes_of(score: Score, slips: Slips, onset_ns: NDArray[np.int64]) -> NDArray[np.void]:
+    """The grabs (`CHOKE_DTYPE`) of cymbals that were struck, as long after their `onset_ns` (n,) as written."""
+    notes = score.notes
+    rows = (notes["choke_ticks"] > 0) & (slips.label == Label.MATCH)
+    ticks = notes["tick"][rows]
+    rings_ns = score.tempo_map.ns_at(ticks + notes["choke_ticks"][rows]) - score.tempo_map.ns_at(ticks)
+    chokes = np.zeros(int(rows.sum()), CHOKE_DTYPE)
+    chokes["at_ns"], chokes["piece"] = onset_ns[rows] + rings_ns, notes["piece"][rows]
+    return chokes
+
+
+def _as_written(notes: NDArray[np.void]) -> NDArray[np.void]:
+    hits = np.zeros(len(notes), HIT_DTYPE)
+    for name in _WRITTEN:
+        hits[name] = notes[name]
+    hits["position"] = np.nan
+    return hits
+
+
+def _make_plain(hits: NDArray[np.void], rows: NDArray[np.bool_]) -> None:
+    """Strike `rows` in the plainest way of their piece, for which nothing was written."""
+    hits["zone"][rows] = np.where(np.isin(hits["piece"][rows], _BOWS), Zone.BOW, Zone.HEAD)
+    hits["articulation"][rows] = Articulation.NORMAL
+    hits["midi_note"][rows] = 0
+    hits["openness"][rows] = np.nan
+
+
+def _usual_row(score: Score, piece: int) -> int:
+    """A row of `piece` that is plainly struck, as far as there is one; else row 0."""
+    notes = score.notes
+    oddity = score.is_grace.astype(int) + (notes["dynamic"] != Dynamic.NORMAL) + (notes["articulation"] != 0)
+    rows = np.flatnonzero(notes["piece"] == piece)
+    return int(rows[np.argmin(oddity[rows])]) if len(rows) else 0

@@ -1,0 +1,140 @@
+"""A student made of numbers, who plays a score as people do and knows what it did.
+
+`play(score, spec)` returns the hits, the same as MIDI bytes for the engine's decoder, and the truth: which hit answers
+which note. Times are score time in ns from tick 0 of the score; an early first stroke is before 0. What is written is
+on the click, so asynchronies are against it: played − written, **negative is early**.
+
+`student_spec` says what the student is like, `student_timing` and `student_onsets` when it strikes, `student_faults`
+its habits, `student_slips` what it gets wrong, `student_strokes` how it strikes, `student_midi` how that is sent.
+
+One seed is one playing. Each cause draws from a stream of its own, so that a spec with more misses has the same timing.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.units import NS_PER_MS
+from station.devices.presets import GENERAL_MIDI_PRESET, KitPreset
+from station.music.judgement import Label, Matching
+from station.music.performance import Performance
+from station.music.score import Score
+from station.practice.student_faults import habits_of
+from station.practice.student_limbs import limbs_of
+from station.practice.student_midi import TimedBytes, as_sent, midi_stream
+from station.practice.student_onsets import OnsetPlayer, Streams
+from station.practice.student_slips import Slipper, Slips
+from station.practice.student_spec import FAULTS, StudentSpec
+from station.practice.student_strokes import Strokes, chokes_of
+
+NOBODY = -1
+"""The partner of a note or hit that has none."""
+_STREAMS = 9
+
+
+@dataclass(frozen=True, eq=False)
+class VirtualPerformance:
+    """What a virtual student played, and the truth about it.
+
+    `performance` the hits as the kit reports them, each with the limb that played it; `truth` which hit answers which
+    note; `midi` the same hits as bytes with their times in ns, in order; `habit_strokes` how many strokes each planted
+    fault concerns.
+    """
+
+    score: Score
+    spec: StudentSpec
+    performance: Performance
+    truth: Matching
+    midi: list[TimedBytes]
+    habit_strokes: dict[str, int]
+
+    def asynchrony_ms(self) -> NDArray[np.float64]:
+        """Asynchronies of the main strokes that were rightly played, in the score's order; no grace strokes."""
+        rows = (self.truth.note_label == Label.MATCH) & ~self.score.is_grace
+        played_ns = self.performance.hits["at_ns"][self.truth.hit_of_note[rows]]
+        asynchrony: NDArray[np.float64] = (played_ns - self.score.onset_ns[rows]) / NS_PER_MS
+        return asynchrony
+
+    def truth_document(self) -> dict[str, object]:
+        """Counts and timing under the keys of the `practice` document, and what was planted; None is no data."""
+        asynchrony = self.asynchrony_ms()
+        return {
+            "spec": self.spec.text(),
+            "counts": {
+                "notes": len(self.score),
+                "hits": len(self.performance),
+                "matched": self.truth.count(Label.MATCH),
+                "misses": self.truth.count(Label.MISS),
+                "extras": self.truth.count(Label.EXTRA),
+                "wrong_piece": self.truth.count(Label.WRONG_PIECE),
+                "ignored": self.truth.count(Label.IGNORED),
+            },
+            "timing": {
+                "mean_signed_asynchrony_ms": float(asynchrony.mean()) if len(asynchrony) else None,
+                "sd_asynchrony_ms": float(asynchrony.std(ddof=1)) if len(asynchrony) > 1 else None,
+            },
+            "faults": [
+                {
+                    "fault": fault.name,
+                    "size": fault.size,
+                    "unit": FAULTS[fault.name].unit,
+                    "strokes": self.habit_strokes[fault.name],
+                }
+                for fault in self.spec.faults
+            ],
+        }
+
+
+class VirtualStudent:
+    """A student who remembers: its timekeeper and the sway of its tempo go on from one score to the next."""
+
+    def __init__(self, spec: StudentSpec, preset: KitPreset = GENERAL_MIDI_PRESET) -> None:
+        self.spec = spec
+        self.preset = preset
+        rng = [np.random.default_rng([spec.seed, stream]) for stream in range(_STREAMS)]
+        self._onsets = OnsetPlayer(spec, Streams(*rng[:5]))
+        self._slipper = Slipper(spec, rng[5], rng[6])
+        self._strokes = Strokes(spec, rng[7], rng[8])
+
+    def play(self, score: Score) -> VirtualPerformance:
+        """`score` played after what was played before; raises `BadInput` where the kit lacks one of its pieces."""
+        limbs = limbs_of(score)
+        habits = habits_of(score, limbs, self.spec.faults)
+        slips = self._slipper.slip(score, limbs)
+        timing = self._onsets.time(score, limbs)
+        notes = self._strokes.of_notes(score, limbs, habits, slips)
+        notes["at_ns"] = self._onsets.onsets_ns(score, timing, habits, slips)
+        extras = self._strokes.of_extras(score, slips)
+        extras["at_ns"] = self._onsets.extra_onsets_ns(score, timing, slips.extra_tick)
+        self._onsets.finish(score)
+
+        played = np.flatnonzero(slips.label != Label.MISS)
+        hits = np.concatenate([notes[played], extras])
+        order = np.argsort(hits["at_ns"], kind="stable")
+        chokes = chokes_of(score, slips, notes["at_ns"])
+        sent = as_sent(Performance.from_array(hits[order], chokes), self.preset)
+        return VirtualPerformance(
+            score=score,
+            spec=self.spec,
+            performance=sent,
+            truth=_truth(slips, played, order),
+            midi=midi_stream(sent, self.preset),
+            habit_strokes=habits.strokes,
+        )
+
+
+def play(score: Score, spec: StudentSpec, preset: KitPreset = GENERAL_MIDI_PRESET) -> VirtualPerformance:
+    """`score` played once by a new student; raises `BadInput` where the kit lacks one of its pieces."""
+    return VirtualStudent(spec, preset).play(score)
+
+
+def _truth(slips: Slips, played: NDArray[np.int64], order: NDArray[np.int64]) -> Matching:
+    """The matching of rows and hits: hit `j` is `order[j]` in the list of the rows `played` and then the extras."""
+    extras = len(slips.extra_tick)
+    note_of_hit = np.concatenate([played, np.full(extras, NOBODY)])[order]
+    hit_label = np.concatenate([slips.label[played], np.full(extras, Label.EXTRA)])[order].astype(np.uint8)
+    hit_of_note = np.full(len(slips.label), NOBODY, np.int64)
+    answers = np.flatnonzero(note_of_hit != NOBODY)
+    hit_of_note[note_of_hit[answers]] = answers
+    return Matching(hit_of_note, note_of_hit, slips.label, hit_label)
