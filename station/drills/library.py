@@ -1,0 +1,106 @@
+"""The lessons that ship with the station, and how a word or a path finds one.
+
+In a checkout they lie in `lessons/` beside the package, in an installed wheel in `station/shipped/lessons`. A lesson's
+name is its file's stem; names are unique, whatever folder a file lies in. Any other `.toml` file is a lesson by its path.
+"""
+
+from dataclasses import dataclass
+from difflib import get_close_matches
+from functools import cache
+from pathlib import Path
+
+import station
+from station.core.errors import BadInput
+from station.drills.lesson import Lesson
+from station.drills.lesson_file import read_lesson
+
+FIRST_LESSON = "rock-1"
+"""What a newcomer meets first."""
+
+__all__ = ["FIRST_LESSON", "LessonRow", "find_lesson", "lesson_names", "lesson_rows", "lessons_dir", "read_lesson"]
+
+_ENDING = ".toml"
+_NAMES_SHOWN = 5
+
+
+@dataclass(frozen=True, slots=True)
+class LessonRow:
+    """One row of the list of lessons; `tempo_bpm` is in the lesson's own beat; `folder` the kind: grooves, fills …."""
+
+    name: str
+    title: str
+    level: int
+    tempo_bpm: float
+    meter: str
+    bars: int
+    folder: str
+
+
+@cache
+def lessons_dir() -> Path:
+    """The folder of the shipped lessons."""
+    package = Path(station.__file__).parent
+    checkout = package.parent / "lessons"
+    return checkout if (package.parent / "pyproject.toml").is_file() else package / "shipped" / "lessons"
+
+
+def _files(folder: Path) -> dict[str, Path]:
+    return {path.stem: path for path in sorted(folder.rglob(f"*{_ENDING}"))}
+
+
+def lesson_names() -> list[str]:
+    """Names of all shipped lessons, sorted."""
+    return sorted(_files(lessons_dir()))
+
+
+def find_lesson(name_or_path: str) -> Lesson:
+    """The shipped lesson of that name, or the lesson in the file at that path.
+
+    Raises `BadInput`: the file's fault, or for an unknown name the shipped names nearest to it.
+    """
+    files = _files(lessons_dir())
+    if name_or_path in files:
+        return read_lesson(files[name_or_path])
+    path = Path(name_or_path)
+    if path.is_file() or path.suffix == _ENDING:
+        return read_lesson(path)
+    raise BadInput(name_or_path, "", f"no such lesson{_like(name_or_path, list(files))}")
+
+
+def _like(word: str, names: list[str]) -> str:
+    """The names that look like `word` or hold it; else where to look."""
+    lower = word.lower().replace("_", "-").replace(" ", "-")
+    close = get_close_matches(lower, names, _NAMES_SHOWN, 0.6)
+    holding = [n for n in names if lower and lower in n and n not in close]
+    near = (close + holding)[:_NAMES_SHOWN]
+    if not near:
+        return "; `station lesson list` shows all"
+    return f"; the nearest {'are' if len(near) > 1 else 'is'} {', '.join(near)}"
+
+
+def lesson_rows() -> list[LessonRow]:
+    """The list of shipped lessons: grooves, fills, rudiments, each by level and name."""
+    folder = lessons_dir()
+    rows = []
+    for path in _files(folder).values():
+        lesson = read_lesson(path)
+        kind = path.parent.name if path.parent != folder else ""
+        rows.append(
+            LessonRow(
+                lesson.name,
+                lesson.title,
+                lesson.level,
+                lesson.beats_a_minute,
+                lesson.meter,
+                lesson.score.bar_count,
+                kind,
+            )
+        )
+    return sorted(rows, key=lambda r: (_rank(r.folder), r.level, r.name))
+
+
+_FOLDERS = ("grooves", "fills", "rudiments")
+
+
+def _rank(folder: str) -> int:
+    return _FOLDERS.index(folder) if folder in _FOLDERS else len(_FOLDERS)
