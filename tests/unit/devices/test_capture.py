@@ -1,0 +1,105 @@
+"""The byte layout is checked against one record packed by hand from the table in the module's head."""
+
+import struct
+import zlib
+
+import pytest
+
+from station.core.errors import BadInput
+from station.core.events import Hit
+from station.core.pieces import Articulation, Piece, Zone
+from station.devices.capture import (
+    MAGIC,
+    Kind,
+    Record,
+    RecordWriter,
+    device_of,
+    device_record,
+    parse_capture,
+    stroke_of,
+    stroke_record,
+)
+
+RECORDS = [
+    device_record(1, 10, "Kit «ü»", "roland-td-17"),
+    Record(Kind.BYTES, 1, 20, bytes.fromhex("99 26 64")),
+    Record(Kind.BYTES, 1, 30, b""),
+    Record(Kind.LOST, 1, -40),
+    Record(Kind.END, 0, 50),
+]
+
+
+def encoded(records: list[Record]) -> bytes:
+    writer = RecordWriter()
+    return MAGIC + b"".join(writer.encode(record) for record in records)
+
+
+def test_a_record_is_laid_out_as_documented() -> None:
+    body = b"\x02" + b"\x01\x00" + b"\x03\x00\x00\x00" + struct.pack("<q", 20) + b"\x99\x26\x64"
+    check = struct.pack("<I", zlib.crc32(body, zlib.crc32(b"DRUMCAP1")))
+    assert encoded([Record(Kind.BYTES, 1, 20, b"\x99\x26\x64")]) == b"DRUMCAP1" + body + check
+
+
+def test_what_was_written_is_read() -> None:
+    capture = parse_capture(encoded(RECORDS))
+    assert list(capture.records) == RECORDS
+    assert capture.complete
+    assert capture.lost_bytes == 0
+
+
+def test_a_capture_cut_at_any_byte_reads_up_to_there() -> None:
+    data = encoded(RECORDS)
+    ends = [len(encoded(RECORDS[:count])) for count in range(len(RECORDS) + 1)]
+    for length in range(len(MAGIC), len(data)):
+        capture = parse_capture(data[:length])
+        whole = sum(end <= length for end in ends) - 1
+        assert list(capture.records) == RECORDS[:whole]
+        assert capture.lost_bytes == length - ends[whole]
+        assert not capture.complete
+
+
+def test_a_capture_with_any_byte_changed_reads_up_to_there() -> None:
+    data = encoded(RECORDS)
+    for at in range(len(MAGIC), len(data)):
+        damaged = data[:at] + bytes((data[at] ^ 0x10,)) + data[at + 1 :]
+        capture = parse_capture(damaged)
+        assert list(capture.records) == RECORDS[: len(capture.records)]
+        assert capture.good_bytes <= at
+        assert capture.lost_bytes == len(data) - capture.good_bytes
+
+
+def test_a_record_that_was_taken_out_or_moved_shows() -> None:
+    writer = RecordWriter()
+    parts = [writer.encode(record) for record in RECORDS]
+    without = MAGIC + b"".join(parts[:1] + parts[2:])
+    swapped = MAGIC + b"".join([parts[0], parts[2], parts[1], *parts[3:]])
+    assert list(parse_capture(without).records) == RECORDS[:1]
+    assert list(parse_capture(swapped).records) == RECORDS[:1]
+
+
+@pytest.mark.parametrize("data", [b"", b"MThd", b"DRUMCAP", b"\x00" * 100])
+def test_another_file_is_refused(data: bytes) -> None:
+    with pytest.raises(BadInput, match=r"song\.mid: byte 0: no capture"):
+        parse_capture(data, "song.mid")
+
+
+def test_a_device_has_a_name_and_a_preset() -> None:
+    assert device_of(RECORDS[0]) == ("Kit «ü»", "roland-td-17")
+
+
+@pytest.mark.parametrize("payload", [b"", b"[]", b"{}", b'{"name": 1, "preset": "x"}', b"\xff", b"3"])
+def test_a_device_that_cannot_be_read_is_the_files_fault(payload: bytes) -> None:
+    with pytest.raises(BadInput, match="device 1"):
+        device_of(Record(Kind.DEVICE, 1, 0, payload))
+
+
+@pytest.mark.parametrize("openness", [None, 0.0, 0.5])
+def test_a_stroke_without_bytes_comes_back_whole(openness: float | None) -> None:
+    hit = Hit(77, Piece.HIHAT, Zone.BOW, 90, Articulation.BUZZ, openness, device="keyboard")
+    assert stroke_of(stroke_record(2, hit), "keyboard") == hit
+
+
+@pytest.mark.parametrize("payload", [b"", b"\xff" * 8])
+def test_a_stroke_that_cannot_be_read_is_the_files_fault(payload: bytes) -> None:
+    with pytest.raises(BadInput, match="stroke at 5 ns"):
+        stroke_of(Record(Kind.STROKE, 2, 5, payload), "keyboard")

@@ -1,0 +1,137 @@
+"""Bytes as the modules' MIDI implementations and users' dumps give them; expected strokes from their note tables."""
+
+import pytest
+
+from station.core.events import Choke, DeviceEvent, Hit, PedalMoved
+from station.core.pieces import Articulation, Piece, Zone
+from station.devices.midi_decoder import MidiDecoder
+from station.devices.presets import GENERAL_MIDI_PRESET, preset_named
+
+AT_NS = 5_000
+
+
+def decode(data: str, preset: str = "roland-td-17") -> list[DeviceEvent]:
+    return MidiDecoder(preset_named(preset), "kit").feed(bytes.fromhex(data), AT_NS)
+
+
+def hits(data: str, preset: str = "roland-td-17") -> list[Hit]:
+    return [event for event in decode(data, preset) if isinstance(event, Hit)]
+
+
+def test_a_note_is_a_hit_with_its_velocity_time_note_and_device() -> None:
+    assert decode("99 26 64") == [
+        Hit(AT_NS, Piece.SNARE, Zone.HEAD, 100, Articulation.NORMAL, None, 38, device="kit"),
+    ]
+
+
+def test_every_channel_counts() -> None:
+    assert [hit.piece for hit in hits("90 24 64 9f 26 64")] == [Piece.KICK, Piece.SNARE]
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        pytest.param("99 26 00", id="velocity 0 is note off"),
+        pytest.param("89 26 40", id="note off"),
+        pytest.param("c9 05", id="program change"),
+        pytest.param("b9 58 40", id="high-resolution velocity prefix"),
+        pytest.param("fe f8 fe", id="active sensing and clock"),
+        pytest.param("f0 41 10 26 64 f7", id="system exclusive with note-like data"),
+        pytest.param("a9 2e 00", id="aftertouch 0, which the VQD106 sends before its hi-hat notes"),
+        pytest.param("a9 26 7f", id="aftertouch on a drum"),
+        pytest.param("e9 00 40", id="pitch bend"),
+    ],
+)
+def test_what_is_no_stroke_makes_no_event(data: str) -> None:
+    assert decode(data) == []
+
+
+def test_a_velocity_prefix_leaves_the_note_as_it_is() -> None:
+    assert [hit.velocity for hit in hits("b9 58 33 99 26 64")] == [100]
+
+
+def test_an_unknown_note_is_percussion_and_not_lost() -> None:
+    (hit,) = hits("99 66 50")
+    assert (hit.piece, hit.midi_note) == (Piece.PERCUSSION, 0x66)
+
+
+# --- the hi-hat: controller 4 goes from 0 open to 127 closed on Roland modules ---------------------------------------
+
+
+def test_the_pedal_tells_the_openness_of_the_next_stroke() -> None:
+    (hit,) = hits("b9 04 40 99 2e 64")
+    assert hit.openness == pytest.approx(63 / 127)
+
+
+def test_the_pedal_keeps_its_place_from_stroke_to_stroke() -> None:
+    assert [hit.openness for hit in hits("b9 04 7f 99 2a 64 99 16 64")] == [0.0, 0.0]
+
+
+def test_without_a_pedal_the_note_tells() -> None:
+    assert [hit.openness for hit in hits("99 2e 64 99 2a 64")] == [1.0, 0.0]
+
+
+def test_a_controller_that_is_stuck_does_not_close_an_open_hat() -> None:
+    assert [hit.openness for hit in hits("b9 04 7f 99 2e 64", "general-midi")] == [1.0]
+
+
+def test_a_note_that_does_not_tell_takes_the_pedals_word() -> None:
+    assert [hit.openness for hit in hits("99 08 64 b9 04 00 99 08 64", "alesis-crimson-2")] == [None, 1.0]
+
+
+def test_a_moving_pedal_is_told_once_a_place() -> None:
+    assert decode("b9 04 00 b9 04 00 b9 04 7f") == [PedalMoved(AT_NS, 1.0, "kit"), PedalMoved(AT_NS, 0.0, "kit")]
+
+
+def test_a_pedal_that_ends_at_90_is_shut_there() -> None:
+    assert decode("b9 04 5a", "roland-vqd106") == [PedalMoved(AT_NS, 0.0, "kit")]
+
+
+def test_other_pieces_do_not_take_the_pedals_place() -> None:
+    assert [hit.openness for hit in hits("b9 04 40 99 26 64 99 2c 64")] == [None, 0.0]
+
+
+# --- chokes ----------------------------------------------------------------------------------------------------------
+
+
+def test_a_grabbed_cymbal_is_choked_once_though_bow_and_edge_both_say_so() -> None:
+    assert decode("a9 31 7f a9 37 7f a9 31 00 a9 37 00") == [Choke(AT_NS, Piece.CRASH_1, "kit")]
+
+
+def test_a_cymbal_can_be_grabbed_again() -> None:
+    assert len(decode("a9 33 7f a9 33 00 a9 33 7f")) == 2
+
+
+def test_a_stroke_ends_a_grip_whose_release_was_lost() -> None:
+    events = decode("a9 33 7f 99 33 64 a9 33 7f")
+    assert [type(event) for event in events] == [Choke, Hit, Choke]
+
+
+# --- position --------------------------------------------------------------------------------------------------------
+
+
+def test_the_position_comes_before_its_note() -> None:
+    assert [hit.position for hit in hits("b9 10 7f 99 26 64 99 24 64", "roland-td-27")] == [1.0, None]
+
+
+def test_a_kit_without_position_ignores_the_controller() -> None:
+    assert [hit.position for hit in hits("b9 10 7f 99 26 64", "alesis-nitro")] == [None]
+
+
+# --- state -----------------------------------------------------------------------------------------------------------
+
+
+def test_each_message_has_the_time_of_the_bytes_that_completed_it() -> None:
+    decoder = MidiDecoder(GENERAL_MIDI_PRESET)
+    assert decoder.feed(bytes.fromhex("99 26 64 26"), 10)[0].at_ns == 10
+    assert decoder.feed(bytes.fromhex("40"), 20)[0].at_ns == 20
+
+
+def test_a_reset_forgets_pedal_and_half_a_message() -> None:
+    decoder = MidiDecoder(preset_named("roland-td-17"))
+    decoder.feed(bytes.fromhex("b9 04 00 99 26"), 0)
+    decoder.reset()
+    assert decoder.feed(bytes.fromhex("64"), 0) == []
+    (hit,) = decoder.feed(bytes.fromhex("99 2a 64"), 0)
+    assert isinstance(hit, Hit)
+    assert hit.openness == 0.0

@@ -1,0 +1,71 @@
+"""A simulated driver with known true times is the expected value."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.units import NS_PER_MS, NS_PER_S, NS_PER_US
+from station.devices.stamps import CREEP_NS_PER_S, DriverClock
+
+Times = NDArray[np.int64]
+
+
+def errors_ns(true_ns: Times, delay_ns: Times, driver_rate: float = 1.0) -> Times:
+    """Stamp − truth of messages at `true_ns` that are polled `delay_ns` later, by a driver's clock of `driver_rate`."""
+    clock = DriverClock()
+    deltas_s = np.diff(true_ns, prepend=true_ns[0]) * driver_rate / NS_PER_S
+    stamps = [
+        clock.stamp(float(delta), int(at + delay)) for delta, at, delay in zip(deltas_s, true_ns, delay_ns, strict=True)
+    ]
+    errors: Times = np.array(stamps) - true_ns
+    return errors
+
+
+def test_stamps_do_not_take_over_the_polls_jitter() -> None:
+    rng = np.random.default_rng(1)
+    true_ns = np.cumsum(rng.integers(20, 400, 2000) * NS_PER_MS)
+    delay_ns = rng.integers(0, 500, 2000) * NS_PER_US
+    delay_ns[rng.random(2000) < 0.02] += 60 * NS_PER_MS  # stalls
+    settled = errors_ns(true_ns, delay_ns)[100:]
+    assert settled.std() < 0.1 * NS_PER_MS
+    assert settled.max() < 0.5 * NS_PER_MS  # one prompt poll, however long the stalls
+    assert settled.min() >= 0
+
+
+def test_a_slow_drivers_clock_is_followed() -> None:
+    true_ns = np.arange(0, 600 * NS_PER_S, NS_PER_S // 4)
+    delay_ns = np.full(len(true_ns), 200 * NS_PER_US)
+    assert np.abs(errors_ns(true_ns, delay_ns, driver_rate=1 - 50e-6)).max() < 0.3 * NS_PER_MS
+
+
+def test_a_fast_drivers_clock_is_followed() -> None:
+    true_ns = np.arange(0, 600 * NS_PER_S, NS_PER_S // 4)
+    delay_ns = np.full(len(true_ns), 200 * NS_PER_US)
+    assert np.abs(errors_ns(true_ns, delay_ns, driver_rate=1 + 50e-6)).max() < 0.3 * NS_PER_MS
+
+
+def test_the_hits_of_a_stall_keep_their_spacing() -> None:
+    clock = DriverClock()
+    clock.stamp(0.0, 1 * NS_PER_S)
+    polled_ns = 1 * NS_PER_S + 300 * NS_PER_MS
+    late = [clock.stamp(0.1, polled_ns), clock.stamp(0.1, polled_ns)]
+    creep_ns = CREEP_NS_PER_S // 5
+    assert abs(late[0] - (1 * NS_PER_S + 100 * NS_PER_MS)) <= creep_ns
+    assert abs(late[1] - (1 * NS_PER_S + 200 * NS_PER_MS)) <= creep_ns
+
+
+def test_a_stamp_is_never_later_than_the_poll() -> None:
+    clock = DriverClock()
+    clock.stamp(0.0, 0)
+    assert clock.stamp(1.0, NS_PER_MS) == NS_PER_MS
+
+
+def test_dropped_messages_do_not_leave_the_stamps_in_the_past() -> None:
+    clock = DriverClock()
+    clock.stamp(0.0, 0)
+    assert clock.stamp(0.001, 10 * NS_PER_S) == 10 * NS_PER_S
+
+
+def test_time_never_goes_back() -> None:
+    clock = DriverClock()
+    first = clock.stamp(0.0, NS_PER_S)
+    assert clock.stamp(-3.0, NS_PER_S - NS_PER_MS) == first
