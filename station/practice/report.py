@@ -1,0 +1,106 @@
+"""What a session leaves for people and programs: the report as a JSON document and as text.
+
+The document is the assessment of `station.scoring.document` with the session's own facts under `session`, and with a virtual
+student its own account under `truth`. docs/report.md describes it.
+"""
+
+from dataclasses import dataclass
+
+from station.core.units import NS_PER_MS
+from station.practice.headless import VirtualSession
+from station.practice.session import SessionResult
+from station.scoring.document import Json, assessment
+from station.scoring.summary import View, summarise
+
+
+@dataclass(frozen=True, slots=True)
+class Circumstances:
+    """Who practised on what: the student's name, the kit (None: the computer's keyboard), whether keys were polled."""
+
+    student: str
+    device: str | None = None
+    hears_velocity: bool = True
+
+
+def practice_document(result: SessionResult, circumstances: Circumstances) -> dict[str, Json]:
+    """The report of a session."""
+    plan = result.plan
+    view = View(pass_bars=plan.section.bar_count, first_bar=plan.first_bar, hears_velocity=circumstances.hears_velocity)
+    document = assessment(summarise(result.score, result.performance, result.matching, view))
+    document["session"] = {
+        "lesson": plan.lesson.name,
+        "title": plan.lesson.title,
+        "student": circumstances.student,
+        "device": circumstances.device,
+        "tempo_bpm": round(plan.tempo_bpm, 3),
+        "bars": [plan.first_bar + 1, plan.first_bar + plan.section.bar_count],
+        "passes": plan.passes,
+        "complete": result.complete,
+        "input_latency_ms": result.latency.input_ns / NS_PER_MS,
+        "output_latency_ms": result.latency.output_ns / NS_PER_MS,
+    }
+    return document
+
+
+def with_truth(document: dict[str, Json], virtual: VirtualSession) -> dict[str, Json]:
+    """The document beside what the virtual student knows that it did."""
+    return {**document, "truth": virtual.student.truth_document()}
+
+
+# --- text ------------------------------------------------------------------------------------------------------------
+
+
+def report_text(document: dict[str, Json]) -> str:
+    """The report in words: the figures, each piece's lean and spread, and the advice."""
+    session, counts, timing = _table(document, "session"), _table(document, "counts"), _table(document, "timing")
+    bars = session["bars"]
+    assert isinstance(bars, list), "the report is ours"
+    lines = [
+        f"{session['title']} at {session['tempo_bpm']:g} bpm, bars {bars[0]}-{bars[1]}, {session['passes']} passes"
+        + ("" if session["complete"] else " (stopped early)"),
+        "",
+        f"Score {_figure(document['score'], '.0f')} of 100",
+        f"Notes {counts['notes']}: {counts['matched']} hit, {counts['misses']} missed, {counts['wrong_piece']} on a wrong piece;"
+        f" {counts['extras']} extra hits",
+        _timing_words(timing),
+        "",
+    ]
+    rows = [(piece, group) for piece, group in _table(document, "per_piece").items() if isinstance(group, dict)]
+    if rows:
+        lines.append(f"{'piece':14} {'notes':>5} {'hit':>5} {'missed':>6} {'wrong':>5} {'extra':>5} {'mean ms':>8} {'SD ms':>6}")
+    for piece, group in rows:
+        own = _table(group, "timing")
+        lines.append(
+            f"{piece:14} {group['notes']:>5} {group['matched']:>5} {group['misses']:>6} {group['wrong_piece']:>5}"
+            f" {group['extras']:>5} {_figure(own['mean_signed_asynchrony_ms'], '+.1f'):>8}"
+            f" {_figure(own['sd_asynchrony_ms'], '.1f'):>6}"
+        )
+    advice = document["advice"]
+    if isinstance(advice, list) and advice:
+        lines += ["", "What to practise next"]
+        lines += [f"* {item['text']}" for item in advice if isinstance(item, dict)]
+    latency = f"{session['input_latency_ms']:g} ms input, {session['output_latency_ms']:g} ms output"
+    lines += ["", f"Latency taken out: {latency}."]
+    return "\n".join(lines) + "\n"
+
+
+def _timing_words(timing: dict[str, Json]) -> str:
+    mean, sd = timing["mean_signed_asynchrony_ms"], timing["sd_asynchrony_ms"]
+    if not isinstance(mean, float | int):
+        return "Timing: nothing to measure"
+    where = "on the click" if abs(mean) < _ON_THE_CLICK_MS else f"{abs(mean):.1f} ms {'early' if mean < 0 else 'late'}"
+    return f"Timing: {where} on average, spread (SD) {_figure(sd, '.1f')} ms"
+
+
+_ON_THE_CLICK_MS = 1.0
+"""Nobody hears a millisecond (HUMANS: 6 ms is just noticeable at best)."""
+
+
+def _table(of: dict[str, Json], key: str) -> dict[str, Json]:
+    table = of[key]
+    assert isinstance(table, dict), "the report is ours"
+    return table
+
+
+def _figure(value: Json, spec: str) -> str:
+    return format(value, spec) if isinstance(value, float | int) else "–"
