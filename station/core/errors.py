@@ -7,7 +7,10 @@ from pathlib import Path
 
 
 class StationError(Exception):
-    """An error that a user can read: one line, no traceback."""
+    """An error that a user can read: one line, no traceback, whatever characters a file's name has."""
+
+    def __init__(self, line: str) -> None:
+        super().__init__("".join(c if c.isprintable() else " " for c in line))
 
 
 class BadInput(StationError):
@@ -22,6 +25,10 @@ class BadInput(StationError):
         self.place = place
         self.fault = fault
         super().__init__(": ".join(part for part in (self.source, place, fault) if part))
+
+    def __reduce__(self) -> tuple[type["BadInput"], tuple[str, str, str]]:
+        """Its parts, so that it crosses from one process to another."""
+        return type(self), (self.source, self.place, self.fault)
 
 
 class DeviceError(StationError):

@@ -93,8 +93,8 @@ _HALF_OPEN = 0.5
 _BEST_NOTE = {Piece.KICK: 36, Piece.SNARE: 38, Piece.RIDE: 51}
 """Where General MIDI has several numbers for a piece, the plain one."""
 _LOWEST_NOTE = {strike.piece: note for note, strike in sorted(GENERAL_MIDI.items(), reverse=True)}
-_UNMAPPED_NOTE = 54
-"""Tambourine: a number that every General MIDI kit sounds and no drum set uses."""
+_UNMAPPED_NOTE = 75
+"""Claves: a number that every General MIDI kit sounds, and that reads back as percussion of no kit."""
 
 
 def general_midi_note(piece: Piece, zone: Zone, articulation: Articulation, openness: float | None = None) -> int:

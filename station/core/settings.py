@@ -4,6 +4,7 @@ An unknown key or a value of another type is the file's fault and named with its
 defaults. Writing goes through a temporary file beside it, so that a full disk never leaves half a file.
 """
 
+import json
 import tomllib
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
@@ -14,6 +15,15 @@ from station.core.errors import BadInput
 from station.core.files import write_whole
 
 APP_NAME = "drum-station"
+
+
+_RANGES: dict[str, tuple[int, int]] = {
+    "block_frames": (0, 8192),
+    "rate_hz": (8_000, 384_000),
+    "input_latency_ms": (-1000, 1000),
+    "output_latency_ms": (-1000, 1000),
+}
+"""What a sound card or a person could mean; our choice, wide enough for every device on sale."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +63,9 @@ def load_settings(path: Path | None = None) -> Settings:
         raw = tomllib.loads(source.read_text(encoding="utf-8"))
     except FileNotFoundError:
         return Settings()
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as fault:
+    except OSError as fault:
+        raise BadInput(source, "", fault.strerror or str(fault)) from fault
+    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as fault:
         raise BadInput(source, "", str(fault)) from fault
     return _checked(raw, source)
 
@@ -68,8 +80,16 @@ def _checked(raw: dict[str, object], source: Path) -> Settings:
             value = float(value)  # noqa: PLW2901 - TOML writes 5.0 and 5 alike for a person
         if type(value) is not types[key]:
             raise BadInput(source, key, f"expected {types[key].__name__}, found {value!r}")
+        _check_range(key, value, source)
         values[key] = value
     return Settings(**values)  # type: ignore[arg-type] # each value's type was compared with its field's default
+
+
+def _check_range(key: str, value: object, source: Path) -> None:
+    if key in _RANGES and isinstance(value, int | float):
+        least, most = _RANGES[key]
+        if not least <= value <= most:
+            raise BadInput(source, key, f"expected {least} to {most}, found {value!r}")
 
 
 def save_settings(settings: Settings, path: Path | None = None) -> Path:
@@ -84,6 +104,6 @@ def _toml(value: object) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):
-        escaped = value.replace("\\", "\\\\").replace('"', '\\"')
-        return f'"{escaped}"'
+        # JSON's escapes are TOML's too, but TOML wants the delete character escaped as well
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     return str(value)

@@ -1,0 +1,91 @@
+"""Settings from TOML and back."""
+
+import tomllib
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from station.core.errors import BadInput
+from station.core.settings import Settings, load_settings, save_settings
+
+
+def written(tmp_path: Path, text: str) -> Path:
+    path = tmp_path / "settings.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_no_file_means_defaults(tmp_path: Path) -> None:
+    assert load_settings(tmp_path / "none.toml") == Settings()
+
+
+def test_what_is_not_written_keeps_its_default(tmp_path: Path) -> None:
+    assert load_settings(written(tmp_path, 'kit = "TD-17"\n')) == Settings(kit="TD-17")
+
+
+def test_a_whole_number_does_where_a_fraction_is_expected(tmp_path: Path) -> None:
+    assert load_settings(written(tmp_path, "input_latency_ms = 5\n")).input_latency_ms == 5.0
+
+
+@pytest.mark.parametrize(
+    ("text", "fault"),
+    [
+        ("kti = 1", "kti: no such setting; there are student, kit"),
+        ("rate_hz = true", "rate_hz: expected int, found True"),
+        ('block_frames = "64"', "block_frames: expected int, found '64'"),
+        ("block_frames = -1", "block_frames: expected 0 to 8192, found -1"),
+        ("rate_hz = 0", "rate_hz: expected 8000 to 384000, found 0"),
+        ("input_latency_ms = nan", "input_latency_ms: expected -1000 to 1000, found nan"),
+        ("output_latency_ms = 1e9", "output_latency_ms: expected -1000 to 1000, found 1000000000.0"),
+        ("kit = 7x\nrate_hz = 48000\n", "at line 1, column 8"),
+    ],
+)
+def test_a_fault_names_the_file_the_key_and_what_was_expected(tmp_path: Path, text: str, fault: str) -> None:
+    path = written(tmp_path, text)
+    with pytest.raises(BadInput) as raised:
+        load_settings(path)
+    assert str(raised.value).startswith(f"{path}: ")
+    assert fault in str(raised.value)
+
+
+def test_a_file_that_is_not_text_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "settings.toml"
+    path.write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(BadInput, match=r"settings\.toml"):
+        load_settings(path)
+
+
+def test_a_folder_in_its_place_is_refused_in_few_words(tmp_path: Path) -> None:
+    with pytest.raises(BadInput) as raised:
+        load_settings(tmp_path)
+    assert str(raised.value) == f"{tmp_path}: Is a directory"
+
+
+any_text = st.text(st.characters(exclude_categories=["Cs"]))
+
+
+@given(
+    settings=st.builds(
+        Settings,
+        student=any_text,
+        kit=any_text,
+        output=any_text,
+        block_frames=st.integers(0, 8192),
+        rate_hz=st.integers(8000, 384_000),
+        input_latency_ms=st.floats(-1000, 1000),
+        own_sound=st.booleans(),
+    )
+)
+def test_what_is_saved_is_toml_and_is_loaded_alike(
+    settings: Settings, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    path = save_settings(settings, tmp_path_factory.mktemp("settings") / "settings.toml")
+    assert tomllib.loads(path.read_text(encoding="utf-8"))["student"] == settings.student
+    assert load_settings(path) == settings
+
+
+def test_sessions_go_where_the_user_says() -> None:
+    assert Settings(sessions="/music/drums").sessions_dir == Path("/music/drums")
+    assert Settings().sessions_dir.name == "Drum station"
