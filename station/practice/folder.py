@@ -1,7 +1,7 @@
 """The folder that a session leaves: `<sessions>/<student>/<date>_<lesson>/` with its capture and its report.
 
-Until there is a history, these folders are the memory of the station; every file in them is written whole or, like the capture,
-append-only.
+Until there is a history, these folders are the memory of the station; every file in them is written whole or, like
+the capture, append-only.
 """
 
 import json

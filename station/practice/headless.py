@@ -1,4 +1,6 @@
-"""A session with a virtual student, faster than real time: the same engine, decoder and session, on a clock moved by hand."""
+"""A session with a virtual student, faster than real time: the same engine, decoder and session, on a clock moved
+by hand.
+"""
 
 from dataclasses import dataclass
 from pathlib import Path

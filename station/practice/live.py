@@ -3,14 +3,14 @@
 The capture is written by the engine as the bytes come, so that nothing that follows can lose a hit.
 """
 
-import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Protocol
 
 from station.core.clock import Clock
 from station.core.errors import DeviceError
-from station.engine.messages import Command, EngineEvent, Record, Stop
+from station.core.units import ns_from_s
+from station.engine.messages import Command, EngineEvent, Ready, Record, Stop
 from station.music.judgement import Judgement
 from station.practice.session import Session, SessionResult
 
@@ -54,10 +54,12 @@ def practise_live(engine: EngineLink, session: Session, clock: Clock, capture: P
     return session.result()
 
 
-def wait_for_kit(engine: EngineLink, session: Session, wait_s: float, tell: Tell) -> None:
-    """Let the engine find a kit, for at most `wait_s`; what it says meanwhile goes to the session."""
-    until_s = time.monotonic() + wait_s
-    while session.device is None and time.monotonic() < until_s:
+def wait_for_kit(engine: EngineLink, session: Session, clock: Clock, wait_s: float, tell: Tell) -> None:
+    """Let the engine wake and find a kit, for at most `wait_s` after it is ready."""
+    until_ns: int | None = None
+    while session.device is None and (until_ns is None or clock.now_ns() < until_ns):
         for event in engine.events(POLL_S):
             session.handle(event)
+            if isinstance(event, Ready):
+                until_ns = clock.now_ns() + ns_from_s(wait_s)
         tell(session, ())

@@ -58,9 +58,9 @@ class Wishes:
 class Plan:
     """A session laid out.
 
-    `section` is one pass at the practice tempo, `score` all passes in a row (what is judged), `first_bar` the lesson's bar
-    (from 0) where the section begins, `passes_start_ns` where tick 0 of `score` lies on the transport, `end_ns` where the
-    last pass ends, `cues` (n,) of `CUE_DTYPE` everything that sounds.
+    `section` is one pass at the practice tempo, `score` all passes in a row (what is judged), `first_bar` the lesson's
+    bar (from 0) where the section begins, `passes_start_ns` where tick 0 of `score` lies on the transport, `end_ns`
+    where the last pass ends, `cues` (n,) of `CUE_DTYPE` everything that sounds.
     """
 
     lesson: Lesson

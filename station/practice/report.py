@@ -1,7 +1,7 @@
 """What a session leaves for people and programs: the report as a JSON document and as text.
 
-The document is the assessment of `station.scoring.document` with the session's own facts under `session`, and with a virtual
-student its own account under `truth`. docs/report.md describes it.
+The document is the assessment of `station.scoring.document` with the session's own facts under `session`, and with a
+virtual student its own account under `truth`. docs/report.md describes it.
 """
 
 from dataclasses import dataclass
@@ -26,7 +26,7 @@ def practice_document(result: SessionResult, circumstances: Circumstances) -> di
     """The report of a session."""
     plan = result.plan
     view = View(pass_bars=plan.section.bar_count, first_bar=plan.first_bar, hears_velocity=circumstances.hears_velocity)
-    document = assessment(summarise(result.score, result.performance, result.matching, view))
+    document = assessment(summarise(result.score, result.performance, result.alignment, view))
     document["session"] = {
         "lesson": plan.lesson.name,
         "title": plan.lesson.title,
@@ -51,37 +51,46 @@ def with_truth(document: dict[str, Json], virtual: VirtualSession) -> dict[str, 
 
 
 def report_text(document: dict[str, Json]) -> str:
-    """The report in words: the figures, each piece's lean and spread, and the advice."""
-    session, counts, timing = _table(document, "session"), _table(document, "counts"), _table(document, "timing")
+    """The report of a session in words."""
+    session = _table(document, "session")
     bars = session["bars"]
     assert isinstance(bars, list), "the report is ours"
+    head = f"{session['title']} at {session['tempo_bpm']:g} bpm, bars {bars[0]}-{bars[1]}, {session['passes']} passes"
+    latency = f"{session['input_latency_ms']:g} ms input, {session['output_latency_ms']:g} ms output"
+    return (
+        f"{head}{'' if session['complete'] else ' (stopped early)'}\n\n"
+        f"{assessment_text(document)}\nLatency taken out: {latency}.\n"
+    )
+
+
+def assessment_text(document: dict[str, Json]) -> str:
+    """An assessment in words: the figures, each piece's lean and spread, and the advice."""
+    counts, timing = _table(document, "counts"), _table(document, "timing")
     lines = [
-        f"{session['title']} at {session['tempo_bpm']:g} bpm, bars {bars[0]}-{bars[1]}, {session['passes']} passes"
-        + ("" if session["complete"] else " (stopped early)"),
-        "",
         f"Score {_figure(document['score'], '.0f')} of 100",
-        f"Notes {counts['notes']}: {counts['matched']} hit, {counts['misses']} missed, {counts['wrong_piece']} on a wrong piece;"
-        f" {counts['extras']} extra hits",
+        f"Notes {counts['notes']}: {counts['matched']} hit, {counts['misses']} missed,"
+        f" {counts['wrong_piece']} on a wrong piece; {counts['extras']} extra hits",
         _timing_words(timing),
-        "",
     ]
     rows = [(piece, group) for piece, group in _table(document, "per_piece").items() if isinstance(group, dict)]
     if rows:
-        lines.append(f"{'piece':14} {'notes':>5} {'hit':>5} {'missed':>6} {'wrong':>5} {'extra':>5} {'mean ms':>8} {'SD ms':>6}")
-    for piece, group in rows:
-        own = _table(group, "timing")
-        lines.append(
-            f"{piece:14} {group['notes']:>5} {group['matched']:>5} {group['misses']:>6} {group['wrong_piece']:>5}"
-            f" {group['extras']:>5} {_figure(own['mean_signed_asynchrony_ms'], '+.1f'):>8}"
-            f" {_figure(own['sd_asynchrony_ms'], '.1f'):>6}"
-        )
+        lines += ["", f"{'piece':14}" + "".join(f"{name:>9}" for name in _COLUMNS)]
+    lines += [f"{piece:14}" + "".join(f"{cell:>9}" for cell in _cells(group)) for piece, group in rows]
     advice = document["advice"]
     if isinstance(advice, list) and advice:
         lines += ["", "What to practise next"]
         lines += [f"* {item['text']}" for item in advice if isinstance(item, dict)]
-    latency = f"{session['input_latency_ms']:g} ms input, {session['output_latency_ms']:g} ms output"
-    lines += ["", f"Latency taken out: {latency}."]
     return "\n".join(lines) + "\n"
+
+
+_COLUMNS = ("notes", "hit", "missed", "wrong", "extra", "mean ms", "SD ms")
+
+
+def _cells(group: dict[str, Json]) -> list[str]:
+    timing = _table(group, "timing")
+    counted = [str(group[key]) for key in ("notes", "matched", "misses", "wrong_piece", "extras")]
+    mean, sd = timing["mean_signed_asynchrony_ms"], timing["sd_asynchrony_ms"]
+    return [*counted, _figure(mean, "+.1f"), _figure(sd, ".1f")]
 
 
 def _timing_words(timing: dict[str, Json]) -> str:

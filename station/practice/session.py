@@ -1,12 +1,12 @@
 """The practice session as a state machine: engine events and time in, judgements and state out.
 
-It owns no clock, thread, device or window: whoever runs it (the window, the terminal, a headless run, a test) hands it every
-event of the engine and now and then the time. Judgement depends on the events' own times alone, so that it is the same at
-any frame rate. Session time is monotonic nanoseconds; transport time starts at the engine's zero; score time at tick 0 of the
-plan's score.
+It owns no clock, thread, device or window: whoever runs it (the window, the terminal, a headless run, a test) hands
+it every event of the engine and now and then the time. Judgement depends on the events' own times alone, so that it
+is the same at any frame rate. Session time is monotonic nanoseconds; transport time starts at the engine's zero;
+score time at tick 0 of the plan's score.
 
-A hit's score time = its stamp − input latency − (the transport's zero + output latency) − the passes' start: what the student
-heard and played, compared where both are known.
+A hit's score time = its stamp − input latency − (the transport's zero + output latency) − the passes' start: what the
+student heard and played, compared where both are known.
 """
 
 from collections.abc import Iterable
@@ -15,11 +15,11 @@ from dataclasses import dataclass, field
 from station.core.events import Choke, DeviceFound, DeviceLost, Hit
 from station.core.units import NS_PER_MS
 from station.engine.messages import Command, EngineEvent, Notice, Play, Started
-from station.music.judgement import Judgement, Label, Matching
+from station.music.judgement import Judgement, Label
 from station.music.performance import Performance
 from station.music.score import Score
-from station.practice.plan import TAIL_NS, Phase, Plan, Segment
-from station.scoring.align import align
+from station.practice.plan import TAIL_NS, Plan, Segment
+from station.scoring.align import Alignment, align
 from station.scoring.follower import Follower
 from station.scoring.windows import DEFAULT_LEVEL, Windows
 
@@ -39,13 +39,12 @@ class Latency:
 
 @dataclass(frozen=True, slots=True)
 class SessionState:
-    """What a window shows: the segment, transport and score time, the newest verdict on each note, extras, notices."""
+    """What a window shows: the segment, transport and score time, the counts of the verdicts so far."""
 
     segment: Segment
     transport_ns: int | None
     score_ns: int | None
     counts: dict[Label, int]
-    device_lost: str | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +58,7 @@ class SessionResult:
     plan: Plan
     score: Score
     performance: Performance
-    matching: Matching
+    alignment: Alignment
     latency: Latency
     complete: bool
 
@@ -80,8 +79,10 @@ class Session:
         self._chokes: list[Choke] = []
         self._verdict_of_note: dict[int, Judgement] = {}
         self._verdict_of_hit: dict[int, Judgement] = {}
-        self._device_lost: str | None = None
+        self.device: str | None = None
+        """The kit that is connected, as far as the engine has said."""
         self.notices: list[str] = []
+        """What a user should read once, in order."""
 
     def start(self) -> tuple[Command, ...]:
         """The commands that set the engine going."""
@@ -99,10 +100,10 @@ class Session:
             case Started(zero_ns):
                 self._zero_ns = zero_ns
             case DeviceLost(_, device):
-                self._device_lost = device
+                self.device = None
                 self.notices.append(f"{device} is gone; plug it in again, the session goes on")
             case DeviceFound(_, device):
-                self._device_lost = None
+                self.device = device
                 self.notices.append(f"{device} is here")
             case Notice(text):
                 self.notices.append(text)
@@ -153,7 +154,6 @@ class Session:
             transport_ns=transport_ns,
             score_ns=self._score_ns(self._now_ns),
             counts=counts,
-            device_lost=self._device_lost,
         )
 
     @property
@@ -167,8 +167,8 @@ class Session:
         heard_until_ns = self._score_ns(self._now_ns)
         complete = heard_until_ns is not None and heard_until_ns >= self.plan.score.length_ns
         score = self.plan.score if complete else self.plan.score.until_ns(heard_until_ns or 0)
-        matching = align(score, performance, clocked=True)
-        return SessionResult(self.plan, score, performance, matching, self.latency, complete)
+        alignment = align(score, performance, clocked=True)
+        return SessionResult(self.plan, score, performance, alignment, self.latency, complete)
 
     # --- time -------------------------------------------------------------------------------------------------------
 

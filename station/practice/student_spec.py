@@ -89,7 +89,7 @@ class StudentSpec:
 def _plain(number: float) -> str:
     """`number` in as few characters as read back alike."""
     short = f"{number:g}"
-    return short if float(short) == number else repr(number)
+    return short if isinstance(number, float) and float(short) == number else repr(number)
 
 
 PLAYERS: dict[str, StudentSpec] = {
@@ -243,5 +243,5 @@ def _listed(names: dict[str, FaultKind] | dict[str, StudentSpec] | dict[str, Key
 
 
 def _nearest(name: str, known: list[str]) -> str:
-    near = get_close_matches(name, known, 1)
+    near = [word for word in known if word.startswith(name)] or get_close_matches(name, known, 1)
     return f" (did you mean {near[0]}?)" if near else ""

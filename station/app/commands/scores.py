@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from station.core.errors import BadInput
+from station.music.performance import Performance
 from station.music.score import Score
 
 MIDI_ENDINGS = (".mid", ".midi", ".smf", ".kar")
@@ -11,6 +12,14 @@ MIDI_ENDINGS = (".mid", ".midi", ".smf", ".kar")
 def is_midi(name: str) -> bool:
     """Whether `name` ends as MIDI files do."""
     return Path(name).suffix.lower() in MIDI_ENDINGS
+
+
+def existing(name: str) -> Path:
+    """The path `name`; raises `BadInput` when there is no such file."""
+    path = Path(name)
+    if not path.is_file():
+        raise BadInput(name, "", "is a folder, not a file" if path.is_dir() else "no such file")
+    return path
 
 
 def load_score(name: str) -> Score:
@@ -24,9 +33,26 @@ def load_score(name: str) -> Score:
     return find_lesson(name).score
 
 
-def existing(name: str) -> Path:
-    """The path `name`; raises `BadInput` when there is no such file."""
-    path = Path(name)
-    if not path.is_file():
-        raise BadInput(name, "", "is a folder, not a file" if path.is_dir() else "no such file")
-    return path
+def load_score_and_performance(score_name: str, performance_name: str) -> tuple[Score, Performance]:
+    """Both; of two MIDI files each helps to tell which maker's note numbers the other uses."""
+    if not is_midi(performance_name):
+        return load_score(score_name), _performance_of_capture(existing(performance_name))
+    from station.music.formats.smf import guess_kit_map, performance_from_midi, read_midi, score_from_midi
+
+    performance = read_midi(existing(performance_name))
+    if not is_midi(score_name):
+        return load_score(score_name), performance_from_midi(performance)
+    score = read_midi(existing(score_name))
+    score_map, performance_map = guess_kit_map(score, performance), guess_kit_map(performance, score)
+    return score_from_midi(score, score_map), performance_from_midi(performance, performance_map)
+
+
+def _performance_of_capture(path: Path) -> Performance:
+    from station.core.events import Choke, Hit
+    from station.devices.capture import read_capture
+    from station.devices.replay import replay
+
+    events = list(replay(read_capture(path)))
+    hits = [event for event in events if isinstance(event, Hit)]
+    start_ns = hits[0].at_ns if hits else 0
+    return Performance.from_hits(hits, [event for event in events if isinstance(event, Choke)]).shifted(-start_ns)

@@ -1,0 +1,40 @@
+"""`station assess SCORE PERFORMANCE`: aligns and scores a recorded performance."""
+
+import argparse
+from pathlib import Path
+
+from station.app.commands.output import print_json, say
+from station.app.commands.scores import load_score_and_performance
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add this command's words."""
+    from station.scoring.windows import DEFAULT_LEVEL, LEVELS
+
+    parser.add_argument("score", metavar="SCORE", help="a lesson or a MIDI file")
+    parser.add_argument("performance", metavar="PERFORMANCE", help="a MIDI file or a capture")
+    parser.add_argument("--level", choices=LEVELS, default=DEFAULT_LEVEL.name, help="how strictly (%(default)s)")
+    parser.add_argument("--pairs", type=Path, metavar="FILE.csv", help="write which hit answers which note")
+    parser.add_argument("--json", action="store_true", help="print one JSON document")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Align, sum up, print."""
+    from station.practice.report import assessment_text
+    from station.scoring.align import align
+    from station.scoring.document import assessment
+    from station.scoring.pairs import write_pairs
+    from station.scoring.summary import View, summarise
+    from station.scoring.windows import find_windows
+
+    score, performance = load_score_and_performance(arguments.score, arguments.performance)
+    alignment = align(score, performance, clocked=False)
+    document = assessment(summarise(score, performance, alignment, View(find_windows(arguments.level))))
+    if arguments.pairs is not None:
+        write_pairs(arguments.pairs, score, performance, alignment)
+        say(f"pairs    {arguments.pairs}")
+    if arguments.json:
+        print_json(document)
+    else:
+        print(f"{score.title or arguments.score}\n\n{assessment_text(document)}", end="")
+    return 0

@@ -1,0 +1,208 @@
+"""`station practice [LESSON]`: a practice session in the window, in the terminal, or with a virtual student."""
+
+import argparse
+import os
+import shutil
+import sys
+import tempfile
+from dataclasses import replace
+from datetime import datetime
+from pathlib import Path
+
+from station.app.commands.output import print_json, say
+from station.core.errors import BadInput, DeviceError, StationError
+from station.core.files import write_whole
+from station.core.settings import Settings, load_settings
+from station.drills.lesson import Lesson
+from station.practice.folder import (
+    CAPTURE_NAME,
+    DOCUMENT_NAME,
+    PAIRS_NAME,
+    PICTURE_NAME,
+    TEXT_NAME,
+    session_folder,
+    write_document,
+)
+from station.practice.plan import Plan, Wishes, plan_practice
+from station.practice.report import Circumstances, practice_document, report_text, with_truth
+from station.practice.session import SessionResult
+from station.scoring.document import Json
+
+STAND_IN = "intermediate,seed=1"
+"""Who practises where there is neither a screen nor a kit."""
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add this command's words."""
+    parser.add_argument("lesson", metavar="LESSON", nargs="?", help="a lesson's name or file (the first lesson)")
+    parser.add_argument("--tempo", type=float, metavar="BPM", help="quarter notes a minute (the lesson's)")
+    parser.add_argument("--loops", type=int, metavar="N", help="how often the loop is played (the lesson's)")
+    parser.add_argument("--bars", type=_bars, metavar="A-B", help="bars to practise, from 1 (the lesson's loop)")
+    parser.add_argument("--kit", metavar="PORT", help="part of the MIDI port's name (the first kit found)")
+    parser.add_argument("--output", metavar="DEVICE", help="part of the sound output's name (the system's default)")
+    parser.add_argument("--block-frames", type=int, metavar="N", help="frames an audio block (the driver's choice)")
+    parser.add_argument("--virtual-student", metavar="SPEC", help="who plays instead of a person, such as pro,seed=3")
+    parser.add_argument(
+        "--headless", action="store_true", help="no window; a virtual student plays faster than real time"
+    )
+    parser.add_argument("--no-demonstration", action="store_true", help="count in and play at once")
+    parser.add_argument("--report", type=Path, metavar="DIR", help="where to leave the session (a new folder of yours)")
+    parser.add_argument("--student", metavar="NAME", help="whose session it is")
+    parser.add_argument("--json", action="store_true", help="print the report as one JSON document")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Practise."""
+    settings = _wanted(arguments, load_settings())
+    plan = plan_practice(_lesson(arguments.lesson), _wishes(arguments))
+    if arguments.virtual_student is not None:
+        return _virtual(plan, arguments.virtual_student, arguments, settings)
+    if not arguments.headless and has_screen():
+        from station.app.commands.window import open_window
+
+        return open_window(settings, plan)
+    if not arguments.headless and not _is_kit_there(settings.kit):
+        say("no screen and no kit here: a virtual student practises instead")
+        return _virtual(plan, STAND_IN, arguments, settings)
+    return _live(plan, arguments, settings)
+
+
+def has_screen() -> bool:
+    """Whether a window can be opened: Windows and macOS always have a screen, X11 and Wayland say so."""
+    return sys.platform in ("win32", "darwin") or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+
+
+# --- ways to practise ------------------------------------------------------------------------------------------------
+
+
+def _virtual(plan: Plan, spec: str, arguments: argparse.Namespace, settings: Settings) -> int:
+    from station.practice.headless import DEVICE, practise_virtually
+    from station.practice.student_spec import parse_spec
+
+    student = parse_spec(spec)
+    with _Folder(arguments.report, settings, plan) as folder:
+        virtual = practise_virtually(plan, student, folder.path / CAPTURE_NAME)
+        document = practice_document(virtual.result, Circumstances(settings.student, DEVICE))
+        folder.leave(virtual.result, with_truth(document, virtual), arguments.json)
+    return 0
+
+
+def _live(plan: Plan, arguments: argparse.Namespace, settings: Settings) -> int:
+    from station.app.commands.terminal import practise_in_terminal
+
+    with _Folder(arguments.report, settings, plan) as folder:
+        result, device = practise_in_terminal(plan, settings, folder.path / CAPTURE_NAME)
+        folder.leave(result, practice_document(result, Circumstances(settings.student, device)), arguments.json)
+    return 0
+
+
+def _is_kit_there(wanted: str) -> bool:
+    from station.devices.midi_ports import MidiDirectory
+    from station.devices.watch import choose_port
+
+    try:
+        return choose_port(MidiDirectory().names(), wanted) is not None
+    except DeviceError:
+        return False
+
+
+# --- what is left ----------------------------------------------------------------------------------------------------
+
+
+class _Folder:
+    """The session's folder: found empty at the start, so that a full disk shows before anybody plays."""
+
+    def __init__(self, wanted: Path | None, settings: Settings, plan: Plan) -> None:
+        self.path = wanted or session_folder(settings.sessions_dir, settings.student, plan.lesson.name, datetime.now())
+        self._made = wanted is None or not wanted.exists()
+        if wanted is not None:
+            make_folder(wanted)
+
+    def __enter__(self) -> "_Folder":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Take an empty folder away again."""
+        if self._made and self.path.is_dir() and not any(self.path.iterdir()):
+            self.path.rmdir()
+
+    def leave(self, result: SessionResult, document: dict[str, Json], as_json: bool) -> None:
+        """Write everything, then print the report; what the disk refuses is said after the report was printed."""
+        fault = None
+        try:
+            self._write(result, document)
+        except StationError as error:
+            fault = _rescued(error, self.path / CAPTURE_NAME)
+        if as_json:
+            print_json(document)
+        else:
+            print(report_text(document), end="")
+        if fault is not None:
+            raise fault
+        say(f"\nreport   {self.path / TEXT_NAME}")
+        if (picture := self.path / PICTURE_NAME).exists():
+            say(f"picture  {picture}")
+
+    def _write(self, result: SessionResult, document: dict[str, Json]) -> None:
+        from station.scoring.pairs import write_pairs
+
+        write_document(self.path / DOCUMENT_NAME, document)
+        write_whole(self.path / TEXT_NAME, report_text(document).encode())
+        write_pairs(self.path / PAIRS_NAME, result.score, result.performance, result.alignment)
+        self._draw(result)
+
+    def _draw(self, result: SessionResult) -> None:
+        from station.app.pictures import draw_session
+
+        try:
+            draw_session(result, self.path / PICTURE_NAME)
+        except StationError as fault:
+            say(f"no picture: {fault}")
+
+
+def _rescued(fault: StationError, capture: Path) -> StationError:
+    """The fault, with word of where the hits are safe."""
+    if capture.exists() and capture.stat().st_size:
+        return StationError(f"{fault}; every hit is safe in {capture}")
+    spare = Path(tempfile.gettempdir()) / f"drum-station-{datetime.now():%Y-%m-%dT%H-%M-%S}.capture"
+    try:
+        shutil.copyfile(capture, spare)
+    except OSError:
+        return fault
+    return StationError(f"{fault}; every hit is safe in {spare}")
+
+
+def make_folder(path: Path) -> None:
+    """Make the folder `path` where it is missing; raises `BadInput`."""
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as fault:
+        raise BadInput(path, "", f"no folder can be made: {fault.strerror or fault}") from fault
+
+
+# --- what was asked --------------------------------------------------------------------------------------------------
+
+
+def _lesson(name: str | None) -> Lesson:
+    from station.drills.library import find_lesson, lesson_rows
+
+    return find_lesson(name if name is not None else lesson_rows()[0].name)
+
+
+def _wishes(arguments: argparse.Namespace) -> Wishes:
+    demonstrations = 0 if arguments.no_demonstration else None
+    return Wishes(arguments.tempo, arguments.loops, arguments.bars, demonstrations)
+
+
+def _wanted(arguments: argparse.Namespace, settings: Settings) -> Settings:
+    """The settings with what the command line says instead."""
+    said = {name: getattr(arguments, name) for name in ("kit", "output", "block_frames", "student")}
+    return replace(settings, **{name: value for name, value in said.items() if value is not None})
+
+
+def _bars(text: str) -> tuple[int, int]:
+    first, dash, last = text.partition("-")
+    try:
+        return int(first), int(last if dash else first)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r}: expected two bars such as 1-4") from None

@@ -1,0 +1,90 @@
+"""A live session in the terminal: the engine's process plays and hears, every stroke is shown as it is judged."""
+
+import sys
+from pathlib import Path
+
+from station.core.clock import MonotonicClock
+from station.core.errors import DeviceError
+from station.core.settings import Settings
+from station.core.units import NS_PER_MS, ns_from_ms
+from station.engine.process import EngineConfig, EngineProcess
+from station.music.judgement import Judgement, Label
+from station.practice.live import practise_live, wait_for_kit
+from station.practice.plan import Phase, Plan, Segment
+from station.practice.session import Latency, Session, SessionResult
+from station.scoring.windows import Windows
+
+KIT_WAIT_S = 5.0
+"""How long to look for a kit before giving up: a USB kit announces itself within two seconds; our choice."""
+
+_MARKS = {Label.MISS: "o", Label.EXTRA: "+", Label.WRONG_PIECE: "x", Label.IGNORED: ""}
+_GOOD, _EARLY, _LATE = "|", "<", ">"
+LEGEND = f"{_GOOD} on time  {_EARLY} early  {_LATE} late  o missed  x wrong piece  + extra"
+
+_PHASES = {Phase.COUNT_IN: "count-in", Phase.DEMONSTRATION: "demonstration", Phase.PASS: "pass", Phase.OVER: ""}
+
+
+class _Display:
+    """Writes to standard error: a line a segment, a mark a judgement, notices between."""
+
+    def __init__(self, plan: Plan, windows: Windows) -> None:
+        self._plan = plan
+        self._windows = windows
+        self._segment: Segment | None = None
+        self._told = 0
+
+    def tell(self, session: Session, judged: tuple[Judgement, ...]) -> None:
+        """Show what is new."""
+        for notice in session.notices[self._told :]:
+            self._line(f"\n{notice}")
+        self._told = len(session.notices)
+        state = session.state()
+        if state.transport_ns is not None and state.segment != self._segment:
+            self._segment = state.segment
+            self._line(f"\n{self._title(state.segment)}")
+        marks = "".join(self._mark(verdict) for verdict in judged)
+        if marks:
+            self._line(marks)
+
+    def _title(self, segment: Segment) -> str:
+        count = {Phase.PASS: f" {segment.index + 1} of {self._plan.passes}  "}.get(segment.phase, "")
+        return f"{_PHASES[segment.phase]}{count}"
+
+    def _mark(self, verdict: Judgement) -> str:
+        if verdict.label is not Label.MATCH or verdict.asynchrony_ns is None:
+            return _MARKS[verdict.label]
+        if self._windows.grade(verdict.asynchrony_ns / NS_PER_MS) == 0:
+            return _GOOD
+        return _EARLY if verdict.asynchrony_ns < 0 else _LATE
+
+    @staticmethod
+    def _line(text: str) -> None:
+        sys.stderr.write(text)
+        sys.stderr.flush()
+
+
+def practise_in_terminal(plan: Plan, settings: Settings, capture: Path) -> tuple[SessionResult, str]:
+    """Practise `plan`; returns the result and the kit's name. Raises `DeviceError` where there is no kit."""
+    latency = Latency(ns_from_ms(settings.input_latency_ms), ns_from_ms(settings.output_latency_ms))
+    session = Session(plan, latency)
+    display = _Display(plan, session.windows)
+    with EngineProcess(EngineConfig.from_settings(settings)) as engine:
+        clock = MonotonicClock()
+        wait_for_kit(engine, session, clock, KIT_WAIT_S, display.tell)
+        device = session.device
+        if device is None:
+            raise DeviceError(_no_kit(settings.kit))
+        sys.stderr.write(f"\n{LEGEND}\n")
+        result = practise_live(engine, session, clock, capture, display.tell)
+        display.tell(session, ())
+        sys.stderr.write("\n")
+        return result, device
+
+
+def _no_kit(wanted: str) -> str:
+    from station.devices.midi_ports import MidiDirectory
+
+    ports = MidiDirectory().names()
+    looked_for = f"no MIDI port's name contains {wanted!r}" if wanted else "no kit is plugged in"
+    there = f"the ports are {', '.join(ports)}" if ports else "there is no MIDI port at all"
+    return f"{looked_for}; {there} (station practice --virtual-student intermediate needs none)"
