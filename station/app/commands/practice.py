@@ -1,15 +1,14 @@
 """`station practice [LESSON]`: a practice session in the window, in the terminal, or with a virtual student."""
 
 import argparse
-import os
 import shutil
-import sys
 import tempfile
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 
 from station.app.commands.output import print_json, say
+from station.app.health import has_screen
 from station.core.errors import BadInput, DeviceError, StationError
 from station.core.files import write_whole
 from station.core.settings import Settings, load_settings
@@ -65,11 +64,6 @@ def run(arguments: argparse.Namespace) -> int:
         say("no screen and no kit here: a virtual student practises instead")
         return _virtual(plan, STAND_IN, arguments, settings)
     return _live(plan, arguments, settings)
-
-
-def has_screen() -> bool:
-    """Whether a window can be opened: Windows and macOS always have a screen, X11 and Wayland say so."""
-    return sys.platform in ("win32", "darwin") or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
 
 
 # --- ways to practise ------------------------------------------------------------------------------------------------

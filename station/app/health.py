@@ -1,0 +1,90 @@
+"""What works on this computer: a look at each thing that the station needs or likes, and the remedy where it lacks."""
+
+import os
+import platform
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from station.core.errors import BadInput, DeviceError
+from station.core.settings import load_settings, settings_path
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """What was found: `works`, the `finding` in words, and what to do (`remedy`, empty where all is well)."""
+
+    name: str
+    works: bool
+    finding: str
+    remedy: str = ""
+
+
+def all_checks() -> tuple[Callable[[], Check], ...]:
+    """Every check, in the order in which a user meets what it checks."""
+    return (check_python, check_settings, check_midi, check_sound, check_picture, check_screen)
+
+
+def check_python() -> Check:
+    """The interpreter and the system."""
+    return Check("Python", True, f"{platform.python_version()} on {platform.platform(terse=True)}")
+
+
+def check_settings() -> Check:
+    """The settings file."""
+    path = settings_path()
+    try:
+        settings = load_settings()
+    except BadInput as fault:
+        return Check("settings", False, str(fault), "mend the line, or delete the file to get the defaults")
+    where = f"{path}{'' if path.exists() else ' (not there yet: defaults)'}; sessions in {settings.sessions_dir}"
+    return Check("settings", True, where)
+
+
+def check_midi() -> Check:
+    """The MIDI driver and the kits behind it."""
+    from station.devices.midi_ports import MidiDirectory
+
+    try:
+        directory = MidiDirectory()
+        ports = directory.names()
+    except DeviceError as fault:
+        return Check("kit (MIDI)", False, str(fault), "or play on the computer's keyboard, or with --virtual-student")
+    if not ports:
+        return Check("kit (MIDI)", False, f"{directory.driver} works, no kit is plugged in", "plug in a kit by USB")
+    return Check("kit (MIDI)", True, f"{directory.driver}: {', '.join(ports)}")
+
+
+def check_sound() -> Check:
+    """The sound library and its outputs."""
+    from station.sound.output import list_outputs
+
+    try:
+        outputs = list_outputs()
+    except DeviceError as fault:
+        return Check("sound", False, str(fault), "without it the station runs silent")
+    if not outputs:
+        return Check("sound", False, "no sound output", "connect one; until then the station runs silent")
+    return Check("sound", True, ", ".join(output.name for output in outputs))
+
+
+def check_picture() -> Check:
+    """OpenGL without a window, as for pictures and reports."""
+    from station.render.picture import renderer_name
+
+    try:
+        return Check("pictures", True, renderer_name())
+    except DeviceError as fault:
+        return Check("pictures", False, str(fault))
+
+
+def has_screen() -> bool:
+    """Whether a window can be opened: Windows and macOS always have a screen, X11 and Wayland say so."""
+    return sys.platform in ("win32", "darwin") or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+
+
+def check_screen() -> Check:
+    """A screen for the window."""
+    if has_screen():
+        return Check("screen", True, {"win32": "Windows", "darwin": "macOS"}.get(sys.platform, "X11 or Wayland"))
+    return Check("screen", False, "none: practice runs in the terminal", "log in to a desktop to get the window")
