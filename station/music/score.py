@@ -180,12 +180,11 @@ class Score:
         starts = np.cumsum([0] + [p.end_tick for p in parts]).tolist()
         rows = np.concatenate([p.notes for p in parts])
         rows["tick"] += np.repeat(np.array(starts[:-1], np.int64), [len(p) for p in parts])
-        tempos = [
-            replace(t, tick=t.tick + at) for at, p in zip(starts, parts, strict=False) for t in p.tempo_map.tempos
-        ]
-        meters = [
-            replace(m, tick=m.tick + at) for at, p in zip(starts, parts, strict=False) for m in p.tempo_map.meters
-        ]
+        tempos, meters = [], []
+        for at, part in zip(starts, parts, strict=False):
+            sounding = part.tempo_map.section(0, part.end_tick)  # what changes after its end is not for the next part
+            tempos += [replace(t, tick=t.tick + at) for t in sounding.tempos]
+            meters += [replace(m, tick=m.tick + at) for m in sounding.meters]
         return Score.from_array(rows, TempoMap.build(tempos, meters), starts[-1], parts[0].title)
 
     def at_speed(self, factor: float) -> "Score":
