@@ -9,6 +9,7 @@ import difflib
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
+from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
 
@@ -72,6 +73,11 @@ class Kit:
         if played in self.pieces:
             return played
         return next((p for p in _SUBSTITUTES.get(played, ()) if p in self.pieces), next(iter(self.pieces)))
+
+    @cached_property
+    def stand_in_table(self) -> tuple[Piece, ...]:
+        """`stand_in` of every piece, by its number."""
+        return tuple(self.stand_in(p) for p in sorted(Piece))
 
     def target(self, piece: Piece, zone: Zone, limb: Limb) -> Target:
         """The point that `limb` aims at for `zone` of `piece`, on the piece that stands in for it if need be."""

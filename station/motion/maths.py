@@ -1,0 +1,34 @@
+"""One set of formulas for one instant and for many: the functions that they need, on floats and on arrays.
+
+Forward kinematics is written once over `Maths`. On plain floats Python's own `math` is several times faster than numpy,
+which is what a live pose needs; on arrays numpy gives whole performances at once.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+Number = Any
+"""A float, or an array with a place for each instant: whichever the `Maths` at hand computes with."""
+
+Point = tuple[Number, Number, Number]
+
+
+@dataclass(frozen=True, slots=True)
+class Maths:
+    """The functions of one kind of number."""
+
+    sin: Callable[[Number], Number]
+    cos: Callable[[Number], Number]
+    acos: Callable[[Number], Number]
+    atan2: Callable[[Number, Number], Number]
+    sqrt: Callable[[Number], Number]
+    least: Callable[[Number, Number], Number]
+    most: Callable[[Number, Number], Number]
+
+
+ONE = Maths(math.sin, math.cos, math.acos, math.atan2, math.sqrt, min, max)
+MANY = Maths(np.sin, np.cos, np.arccos, np.arctan2, np.sqrt, np.minimum, np.maximum)

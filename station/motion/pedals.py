@@ -1,0 +1,88 @@
+"""The two footboards over time: the kick's stroke with its beater, the hi-hat's opening, closing and chick.
+
+A board's value is 1 raised (as its spring holds it) … 0 pressed down. The kick's beater follows its board by the chain
+and touches the head at 0. Like the hands' strokes the keys are Kochanek–Bartels with continuity broken at the impact.
+The hi-hat opens 60–100 ms before its open note and closes exactly on the chick (HUMANS: gap open 2–4 cm).
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.pieces import Articulation, Piece
+from station.motion.splines import Curves, cubics, slopes
+from station.music.score import Score
+
+Array = NDArray[np.float64]
+
+BEATER_SWING_RAD = np.radians(60.0)
+"""How far a raised board holds the beater back (HUMANS: 60° in 45 ms)."""
+OPEN_GAP_M = 0.035
+"""Between the cymbals of a hi-hat that is wide open (2–4 cm)."""
+
+_KICK_KEYS_S = np.array([-0.16, -0.055, 0.0, 0.06, 0.14])
+"""Rest, top, strike, rebound, rest again: 45 ms down and a spring's way back (our choice)."""
+_KICK_SHARES = np.array([0.85, 1.0, 0.0, 0.5, 0.85])
+_SOFTEST_SWING = 0.45
+"""The share of the full swing that the softest kick takes (our choice)."""
+_OPENING_S = 0.080
+_CLOSING_S = 0.060
+_CHICK_LIFT = 0.5
+_CHICK_LIFT_S = 0.14
+
+
+def kick_board(times_s: Array, velocity: Array) -> Curves:
+    """The kick's board over time from its strikes (n,), in order, and their velocities 1–127."""
+    if not len(times_s):
+        return _still(float(_KICK_SHARES[0]))
+    gaps = np.concatenate(([10.0], np.diff(times_s), [10.0]))
+    squeeze_before = np.minimum(1.0, 0.5 * gaps[:-1] / -_KICK_KEYS_S[0])
+    squeeze_after = np.minimum(1.0, 0.45 * gaps[1:] / _KICK_KEYS_S[-1])
+    swing = (_SOFTEST_SWING + (1 - _SOFTEST_SWING) * velocity / 127) * np.minimum(1.0, gaps[:-1] / 0.12)
+    squeeze = np.where(_KICK_KEYS_S < 0, squeeze_before[:, None], squeeze_after[:, None])
+    times = times_s[:, None] + _KICK_KEYS_S * squeeze
+    values = _KICK_SHARES * swing[:, None]
+    at_rest = _KICK_SHARES[0]
+    values[:, 0] = at_rest * squeeze_before + values[:, 0] * (1 - squeeze_before)
+    values[:, -1] = at_rest * squeeze_after + values[:, -1] * (1 - squeeze_after)
+    continuity = np.tile([0.0, 0.0, -1.0, 0.0, 0.0], len(times_s))
+    return _curve(times.reshape(-1), values.reshape(-1), continuity)
+
+
+def hat_board(score: Score, onset_s: Array) -> Curves:
+    """The hi-hat's board over time: open for open notes, shut for closed ones, down on every chick."""
+    notes = score.notes
+    keys: list[tuple[float, float, float]] = []  # time, value, continuity
+    level, last = 0.0, -10.0
+    hats = np.flatnonzero((notes["piece"] == Piece.HIHAT) | (notes["piece"] == Piece.HIHAT_PEDAL))
+    for row in hats[np.argsort(onset_s[hats], kind="stable")].tolist():
+        at, gap = float(onset_s[row]), float(onset_s[row]) - last
+        if notes["piece"][row] == Piece.HIHAT_PEDAL:
+            lift = max(level, _CHICK_LIFT if gap > 0.05 else 0.0)
+            if gap > 0.02:
+                keys += [(at - min(_CHICK_LIFT_S, 0.6 * gap), level, 0.0), (at - min(_CLOSING_S, 0.3 * gap), lift, 0.0)]
+            keys.append((at, 0.0, -1.0))
+            level = 0.0
+            if notes["articulation"][row] == Articulation.SPLASH:
+                keys.append((at + 0.06, 0.6, 0.0))
+                level = 0.6
+        else:
+            openness = notes["openness"][row]
+            wanted = 0.0 if np.isnan(openness) else float(openness)
+            if wanted != level and gap > 0.02:
+                moving = _OPENING_S if wanted > level else _CLOSING_S
+                keys += [(at - min(moving, 0.6 * gap), level, -1.0), (at, wanted, -1.0)]
+                level = wanted
+        last = at
+    if not keys:
+        return _still(0.0)
+    table = np.array(keys)
+    return _curve(np.maximum.accumulate(table[:, 0]), table[:, 1], table[:, 2])
+
+
+def _still(value: float) -> Curves:
+    return Curves(np.zeros(1), np.array([[[value, 0.0, 0.0, 0.0]]]))
+
+
+def _curve(times: Array, values: Array, continuity: Array) -> Curves:
+    into, out = slopes(times, values, 0.2, continuity)
+    return Curves(times, cubics(times, values, into, out)[:, None, :])

@@ -1,0 +1,80 @@
+"""Kochanek–Bartels splines: keyframes with tension, continuity and bias, kept as cubics.
+
+The tangents are those of Kochanek and Bartels (SIGGRAPH 1984, equations 8 and 9), written as slopes over time. Where
+keys are not evenly spaced each chord weighs by the other step, which is the slope of the parabola through the three
+keys; the paper's own adjustment lets a long rest bend the short stroke beside it. Continuity −1 breaks the slope at a
+key, as a stick's is at the impact (thesis § 4.3.3). Before the first and after the last key a curve holds its value.
+"""
+
+from bisect import bisect_right
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+
+_SHORTEST_S = 1e-6
+"""Keys closer than this count as this far apart, so that merged keyframes need no case of their own."""
+
+
+@dataclass(frozen=True, eq=False)
+class Curves:
+    """Channels that share their keys: `knots_s` (m,) and `cubics` (m, channels, 4), constant term first."""
+
+    knots_s: Array
+    cubics: Array
+
+    def at(self, time_s: float) -> list[float]:
+        """Every channel at one instant."""
+        i = bisect_right(self.knots_s, time_s) - 1
+        if i < 0:
+            first: list[float] = self.cubics[0, :, 0].tolist()
+            return first
+        u = time_s - self.knots_s[i]
+        rows: list[list[float]] = self.cubics[i].tolist()
+        return [((d * u + c) * u + b) * u + a for a, b, c, d in rows]
+
+    def many(self, time_s: ArrayLike) -> Array:
+        """Every channel at each time, (channels, n)."""
+        t = np.asarray(time_s, np.float64)
+        i = np.maximum(np.searchsorted(self.knots_s, t, side="right") - 1, 0)
+        u = np.maximum(t - self.knots_s[i], 0.0)[:, None]
+        a, b, c, d = np.moveaxis(self.cubics[i], 2, 0)
+        values: Array = (((d * u + c) * u + b) * u + a).T
+        return values
+
+
+def slopes(
+    times_s: Array, values: Array, tension: ArrayLike = 0.0, continuity: ArrayLike = 0.0, bias: ArrayLike = 0.0
+) -> tuple[Array, Array]:
+    """Slopes into and out of every key, each (..., m).
+
+    `times_s` (..., m) never falls; `values` (..., m); tension, continuity and bias −1 … 1, one for all or (..., m).
+    """
+    t, c, b = (np.asarray(x, np.float64) for x in (tension, continuity, bias))
+    steps = np.maximum(np.diff(times_s, axis=-1), _SHORTEST_S)
+    chords = np.diff(values, axis=-1) / steps
+    edge = np.zeros((*chords.shape[:-1], 1))
+    before, after = np.concatenate((edge, chords), -1), np.concatenate((chords, edge), -1)
+    span = np.concatenate((steps[..., :1], steps[..., :-1] + steps[..., 1:], steps[..., -1:]), -1)
+    one = np.ones((*steps.shape[:-1], 1))
+    earlier, later = np.concatenate((one, steps), -1) / span, np.concatenate((steps, one), -1) / span
+    back, forth = (1 - t) * (1 + b) * before, (1 - t) * (1 - b) * after
+    into = (1 - c) * later * back + (1 + c) * earlier * forth
+    out = (1 + c) * later * back + (1 - c) * earlier * forth
+    broken = np.broadcast_to(c <= -1, into.shape)
+    return np.where(broken, back, into), np.where(broken, forth, out)
+
+
+def cubics(times_s: Array, values: Array, into: Array, out: Array) -> Array:
+    """Power form of the Hermite segments, (..., m, 4) from the key's own time on; the last holds the last value."""
+    steps = np.maximum(np.diff(times_s, axis=-1), _SHORTEST_S)
+    rise = np.diff(values, axis=-1) / steps
+    leave, arrive = out[..., :-1], into[..., 1:]
+    result = np.zeros((*values.shape, 4))
+    result[..., 0] = values
+    result[..., :-1, 1] = leave
+    result[..., :-1, 2] = (3 * rise - 2 * leave - arrive) / steps
+    result[..., :-1, 3] = (leave + arrive - 2 * rise) / steps**2
+    return result

@@ -1,0 +1,190 @@
+"""The stroke: keyframes of shoulder, elbow, wrist and stick about each strike, as offsets from the contact's angles.
+
+SMED's three keyframes, preparation, strike and rebound, are the frame (thesis § 4.2). A whip needs more: each joint
+has a start, a middle and a top of its preparation, two keys on the way down, the strike, the rebound and the rest
+after it, each joint at times of its own. The template is read off the one measured full stroke (`data/stroke`, Pearl
+2023, doi 10.1101/2023.10.09.561270: 100 bpm, tip 56 cm high), time zero moved 5 ms before the tip's lowest sample,
+where its undisturbed fall meets the head. Offsets are zero at the strike, so that neither sliders nor the body's
+movement can take the tip off the drum. Seconds, radians, metres; joints in the order of `arm.Offsets`.
+
+Where strikes are near, the preparation is squeezed first; then rebound and preparation run into one another, and
+nearer still the amplitude shrinks in proportion to the gap (thesis figure 4.10).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.motion.arm import ArmLengths
+from station.motion.splines import Curves, cubics, slopes
+
+Array = NDArray[np.float64]
+
+WRIST = 2
+KEYS = 8
+"""Keys of a joint for each strike: start, middle, top, two on the way down, strike, rebound, rest."""
+
+# --- the measured stroke ----------------------------------------------------------------------------------------------
+
+FULL_HEIGHT_M = 0.56
+PEAK_RAD = np.radians([[19.2], [23.0], [33.2], [22.3]])
+"""How far each joint goes in a stroke from full height."""
+_BEFORE_S = np.array(
+    [
+        [0.600, 0.465, 0.340, 0.190, 0.090],
+        [0.540, 0.390, 0.140, 0.070, 0.036],
+        [0.590, 0.440, 0.103, 0.036, 0.014],
+        [0.540, 0.160, 0.034, 0.020, 0.010],
+    ]
+)
+"""Start, middle, top and two on the way down: seconds before the strike."""
+_SHARE_BEFORE = np.array(
+    [
+        [0.00, 0.66, 1.00, 0.53, -0.04],
+        [0.00, 0.07, 1.00, 0.62, 0.28],
+        [0.00, 0.55, 1.00, 0.70, 0.25],
+        [0.00, 0.47, 1.00, 0.88, 0.56],
+    ]
+)
+"""The same keys' values in shares of the joint's peak (the rest's height comes on top, for the wrist)."""
+_REBOUND_S = np.array([[0.050], [0.040], [0.046], [0.027]])
+_SHARE_REBOUND = np.array([[0.0], [-0.06], [0.36], [0.82]])
+_REST_S = np.array([[0.100], [0.100], [0.110], [0.085]])
+"""When each joint rests again after the strike."""
+_SHARE_AT_TOP = np.array([[0.65], [0.87], [0.86], [0.38]])
+"""Shares of the peaks at 207 ms before the strike, where the tip is highest."""
+_DOWN_S = 0.150
+"""The whip proper: this part of the template keeps its length while the preparation is squeezed."""
+
+# --- what changes with height and tempo: our choices, each to look as HUMANS describes --------------------------------
+
+_STILL_BELOW_M = np.array([[0.14], [0.06], [0.0], [0.0]])
+"""Taps and ghost strokes are wrist and fingers: below these heights shoulder and elbow are still."""
+_GROWTH = np.array([[1.0], [0.9], [0.7], [0.5]])
+"""How each joint's part grows with the height over that: distal joints are used first (Altenmüller 2020)."""
+_TIME_GROWTH = 1 / 3
+"""The time of a stroke grows with its height to this power, so that its speed grows with the other two thirds."""
+_REST_HEIGHT_M = 0.045
+"""Where the tip rests between strokes that are far apart (3.4–4.5 cm in the measured stroke)."""
+_FULL_GAP_S = 0.16
+_FULL_GAP_HEIGHT_M = 0.15
+"""A repetition in `_FULL_GAP_S` leaves room for a stroke of `_FULL_GAP_HEIGHT_M`; the time goes with its root."""
+_LEAST_PAUSE = 0.03
+"""Share of the gap that lies at least between the rest after a strike and the start of the next."""
+_LONG_S = 10.0
+"""The gap before the first and after the last strike."""
+_SHARE_MERGED = np.array([0.0, 0.85, 1.0, 0.7, 0.25])
+_MERGED_REBOUND, _MERGED_REST = 0.3, 0.5
+"""Where rebound and preparation are one: a plain rise from the strike to the next top, and down."""
+
+# --- how the splines pass each key: start, middle, top, down, down, strike, rebound, rest -----------------------------
+
+_STRIKE_INTO = np.array([[1.0], [1.0], [0.8], [1.0]])
+_STRIKE_OUT = np.array([[1.0], [1.0], [0.3], [1.35]])
+"""Slopes at the strike in shares of the chords before and after it: the wrist already slows down, the stick does not,
+and it leaves the head at half the speed (rebound ratio 0.51)."""
+_START_TENSION, _REST_TENSION = 0.6, 0.7
+_TENSION = np.zeros((4, KEYS))
+_TENSION[:, 5:6] = 1 - (_STRIKE_INTO + _STRIKE_OUT) / 2
+_BIAS = np.zeros((4, KEYS))
+_BIAS[:, 5:6] = (_STRIKE_INTO - _STRIKE_OUT) / (_STRIKE_INTO + _STRIKE_OUT)
+_CONTINUITY = np.array([0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0])
+
+
+@dataclass(frozen=True, slots=True)
+class Sliders:
+    """What a style does to the strokes: `gain` (4, n) on the amplitudes, `speed` (4, 1) on the pace, 1 as measured."""
+
+    gain: Array
+    speed: Array
+
+
+def amplitudes(height_m: Array, contact_angles: Array, lengths: ArmLengths) -> Array:
+    """How far each joint goes (4, n) so that the tip rises `height_m` (n,) over the contact.
+
+    `contact_angles` (4, n) are those of upper arm, forearm, hand and stick from hanging straight down, at the contact.
+    """
+    full = np.maximum(FULL_HEIGHT_M - _STILL_BELOW_M, 1e-9)
+    part = np.clip((height_m - _STILL_BELOW_M) / full, 0.0, 1.5) ** _GROWTH * PEAK_RAD
+    segments = np.array([[lengths.upper], [lengths.fore], [lengths.hand], [lengths.ahead]])
+    rest = np.cos(contact_angles)
+    turn = np.cumsum(part * _SHARE_AT_TOP, axis=0)
+    scale = np.ones_like(height_m)
+    for _ in range(3):  # Newton: the rise is nearly linear in the scale
+        angles = contact_angles + scale * turn
+        rise = (segments * (rest - np.cos(angles))).sum(0)
+        slope = (segments * turn * np.sin(angles)).sum(0)
+        scale = np.clip(scale - (rise - height_m) / np.maximum(slope, 1e-3), 0.3, 3.0)
+    result: Array = scale * part
+    return result
+
+
+def curves(times_s: Array, height_m: Array, amplitude: Array, lever_m: Array, sliders: Sliders) -> list[Curves]:
+    """The offsets of the four joints over time, for one hand.
+
+    `times_s` (n,) of the strikes, rising; `height_m` (n,); `amplitude` (4, n) as `amplitudes` gives it; `lever_m` (n,)
+    the distance from wrist to tip.
+    """
+    gaps = np.concatenate(([_LONG_S], np.diff(times_s), [_LONG_S]))
+    room = gaps[:-1] / (_FULL_GAP_S * np.sqrt(np.maximum(height_m, 0.01) / _FULL_GAP_HEIGHT_M))
+    peak = amplitude * sliders.gain * np.minimum(room, 1.0)
+    n = len(times_s)
+    times, merged = _times(times_s, gaps, height_m, sliders.speed)
+    values = _values(times, merged, peak, np.minimum(_REST_HEIGHT_M, 0.6 * height_m) / lever_m)
+    tension = np.tile(_TENSION[:, None, :], (1, n, 1))
+    tension[..., 0] = _START_TENSION * (1 - merged)
+    tension[..., 7] = _REST_TENSION * (1 - _next(merged))
+    flat = (4, n * KEYS)
+    into, out = slopes(
+        times.reshape(flat), values.reshape(flat), tension.reshape(flat), np.tile(_CONTINUITY, n), np.tile(_BIAS, n)
+    )
+    rows = cubics(times.reshape(flat), values.reshape(flat), into, out)
+    return [Curves(times[j].reshape(-1), rows[j, :, None, :]) for j in range(4)]
+
+
+def _next(per_stroke: Array) -> Array:
+    """Of each stroke, the value of the stroke after it; the last is its own neighbour."""
+    return np.concatenate((per_stroke[:, 1:], per_stroke[:, -1:]), 1)
+
+
+def _times(times_s: Array, gaps: Array, height_m: Array, speed: Array) -> tuple[Array, Array]:
+    """Times (4, n, KEYS) of all keys, and how far each preparation (4, n) is merged with the rebound before it, 0 … 1.
+
+    `gaps` (n + 1,) before and after each strike.
+    """
+    before, after = gaps[:-1], gaps[1:]
+    pace = (height_m / FULL_HEIGHT_M) ** _TIME_GROWTH / speed
+    rest = np.minimum(_REST_S * pace, 0.3 * after)
+    down = np.minimum(pace, 0.5 * before / _DOWN_S)
+    left = (1 - _LEAST_PAUSE) * before - _DOWN_S * down
+    left[:, 1:] -= rest[:, :-1]
+    up = np.clip(left / (_BEFORE_S[:, :1] - _DOWN_S), 0.0, pace)
+    times = np.empty((4, len(times_s), KEYS))
+    ahead = _BEFORE_S[:, None, :]
+    whip, preparation = np.minimum(ahead, _DOWN_S), np.maximum(ahead - _DOWN_S, 0.0)
+    times[..., :5] = times_s[:, None] - whip * down[..., None] - preparation * up[..., None]
+    times[..., 5] = times_s
+    times[..., 6] = times_s + _REBOUND_S / _REST_S * rest
+    times[..., 7] = times_s + rest
+    return times, 1.0 - up / pace
+
+
+def _values(times: Array, merged: Array, peak: Array, hold: Array) -> Array:
+    """Values (4, n, KEYS) of all keys; `hold` (n,) the wrist's angle of rest before each strike."""
+    values = np.zeros_like(times)
+    m, m_after, peak_after = merged[..., None], _next(merged), _next(peak)
+    held = np.zeros_like(peak)
+    held[WRIST] = hold
+    values[..., :5] = peak[..., None] * (_SHARE_BEFORE[:, None, :] * (1 - m) + _SHARE_MERGED * m)
+    values[..., 1] += 0.5 * held * (1 - merged)
+    low = np.minimum(1.0, 0.35 + 0.65 * peak_after / np.maximum(peak, 1e-6))  # a down stroke keeps the stick low
+    values[..., 6] = _SHARE_REBOUND * peak * low * (1 - m_after) + _MERGED_REBOUND * peak_after * m_after
+    values[..., 7] = _next(held) + _MERGED_REST * peak_after * m_after
+    # merged, the start is no key of its own but a point between the rest before it and the middle
+    rest_t, rest_v = times[:, :-1, 7], values[:, :-1, 7]
+    start_t, middle_t, middle_v = times[:, 1:, 0], times[:, 1:, 1], values[:, 1:, 1]
+    between = rest_v + (middle_v - rest_v) * (start_t - rest_t) / np.maximum(middle_t - rest_t, 1e-6)
+    values[..., 0] += held
+    values[:, 1:, 0] += merged[:, 1:] * (between - values[:, 1:, 0])
+    return values

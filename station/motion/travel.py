@@ -1,0 +1,103 @@
+"""The way of a hand between contacts: where its stick would touch, were there no stroke.
+
+From one strike to the next the contact stays, travels and stays again. The travel is a minimum-jerk movement (Flash and
+Hogan 1985), as hands travel (HUMANS), late in the gap, so that the preparation happens while travelling, and it is
+lifted over what stands between. A contact's seven numbers are those of `arm.Contact`.
+"""
+
+from bisect import bisect_right
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.motion.arm import Contact
+from station.motion.kit import Kit
+
+Array = NDArray[np.float64]
+
+_LEAVE_SHARE, _LEAVE_S = 0.15, 0.05
+_ARRIVE_SHARE, _ARRIVE_S = 0.28, 0.10
+"""A hand stays at least this share of the gap, or these seconds, after a strike and before the next: rebound and whip
+are played on the spot (our choice)."""
+_TRAVEL_S = 0.45
+"""Long gaps leave this long for the travel; HUMANS has 0.25 s for 40 cm at full speed."""
+
+
+@dataclass(frozen=True, eq=False)
+class Way:
+    """Contacts of one hand over time: `knots_s` (n,) strikes, `rows` (n, 17) start, 1/duration, lift, from, step."""
+
+    knots_s: Array
+    rows: Array
+
+    @classmethod
+    def of(cls, times_s: Array, contacts: Array, lift_m: Array) -> "Way":
+        """The way through `contacts` (n, 7) at `times_s` (n,), lifted by `lift_m` (n − 1,) on each stretch."""
+        gaps = np.diff(times_s)
+        end = times_s[1:] - np.minimum(_ARRIVE_SHARE * gaps, _ARRIVE_S)
+        start = np.maximum(times_s[:-1] + np.minimum(_LEAVE_SHARE * gaps, _LEAVE_S), end - _TRAVEL_S)
+        rows = np.zeros((len(times_s), 17))
+        rows[:-1, 0], rows[:-1, 1], rows[:-1, 2] = start, 1 / np.maximum(end - start, 1e-6), lift_m
+        rows[:, 3:10] = contacts
+        rows[:-1, 10:] = np.diff(contacts, axis=0)
+        return cls(times_s, rows)
+
+    def at(self, time_s: float) -> Contact:
+        """The contact at one instant."""
+        i = max(bisect_right(self.knots_s, time_s) - 1, 0)
+        t0, rate, lift, *way = self.rows[i].tolist()
+        u = min(max((time_s - t0) * rate, 0.0), 1.0)
+        s = u * u * u * (10 + u * (6 * u - 15))
+        hump = lift * (4 * u * (1 - u)) ** 2
+        x, y, z, rise, yaw, ahead, palm, dx, dy, dz, d_rise, d_yaw, d_ahead, d_palm = way
+        return Contact(
+            x + s * dx,
+            y + s * dy,
+            z + s * dz + hump,
+            rise + s * d_rise,
+            yaw + s * d_yaw,
+            ahead + s * d_ahead,
+            palm + s * d_palm,
+        )
+
+    def many(self, time_s: Array) -> Contact:
+        """The contact at each time."""
+        i = np.maximum(np.searchsorted(self.knots_s, time_s, side="right") - 1, 0)
+        t0, rate, lift, *way = self.rows[i].T
+        u = np.clip((time_s - t0) * rate, 0.0, 1.0)
+        s = u * u * u * (10 + u * (6 * u - 15))
+        values = [a + s * d for a, d in zip(way[:7], way[7:], strict=True)]
+        values[2] = values[2] + lift * (4 * u * (1 - u)) ** 2
+        return Contact(*values)
+
+
+CLEAR_M = 0.10
+"""The tip passes at least 10 cm above rims while it travels (what drummers look for)."""
+
+
+def lifts(kit: Kit, contacts: Array, played: NDArray[np.int64]) -> Array:
+    """How far each stretch between `contacts` (n, 7) must be lifted in its middle to clear what stands between.
+
+    `played` (n,) are the pieces there; a stretch on one piece needs no lift. Returns (n − 1,) metres.
+    """
+    start, end = contacts[:-1, :3], contacts[1:, :3]
+    along = np.linspace(0.15, 0.85, 8)[:, None, None]
+    way = start + along * (end - start)
+    hump = (4 * along[..., 0] * (1 - along[..., 0])) ** 2
+    need = np.zeros(len(start))
+    for piece in kit.pieces.values():
+        if piece.kind == "kick":
+            continue
+        flat = np.hypot(way[..., 0] - piece.centre[0], way[..., 1] - piece.centre[1])
+        nx, ny, nz = piece.normal
+        top = piece.centre[2] - (nx * (way[..., 0] - piece.centre[0]) + ny * (way[..., 1] - piece.centre[1])) / nz
+        short = np.where(flat < piece.radius_m + 0.03, (top + CLEAR_M - way[..., 2]) / hump, 0.0)
+        need = np.maximum(need, short.max(axis=0, initial=0.0))
+    moved = played[1:] != played[:-1]
+    lift: Array = np.where(moved, np.minimum(need, _HIGHEST_M), 0.0)
+    return lift
+
+
+_HIGHEST_M = 0.35
+"""No hand goes higher than this over the straight way (our choice)."""
