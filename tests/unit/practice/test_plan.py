@@ -1,0 +1,103 @@
+"""The timeline of a session, counted by hand: a two-bar lesson at 120 bpm, so that a bar lasts two seconds."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from station.core.errors import BadInput
+from station.core.pieces import Piece, Zone
+from station.core.units import NS_PER_S, PPQ
+from station.drills.lesson import Lesson
+from station.engine.messages import Bus, ClickVoice
+from station.music.score import Note, Score
+from station.music.tempo import TempoMap
+from station.practice.plan import Phase, Wishes, plan_practice
+from tests.fakes.scores import rock_beat
+
+BAR_NS = 2 * NS_PER_S
+
+
+def lesson(score: Score | None = None) -> Lesson:
+    return Lesson(
+        name="two-bars",
+        title="Two bars",
+        score=score or rock_beat(2),
+        loop=(0, 1),
+        passes=3,
+        count_in_bars=1,
+        demonstrations=2,
+    )
+
+
+def test_count_in_demonstrations_count_in_passes() -> None:
+    plan = plan_practice(lesson(), Wishes())
+    assert [(s.phase, s.index, s.start_ns // BAR_NS, s.end_ns // BAR_NS) for s in plan.segments] == [
+        (Phase.COUNT_IN, 0, 0, 1),
+        (Phase.DEMONSTRATION, 0, 1, 3),
+        (Phase.DEMONSTRATION, 1, 3, 5),
+        (Phase.COUNT_IN, 0, 5, 6),
+        (Phase.PASS, 0, 6, 8),
+        (Phase.PASS, 1, 8, 10),
+        (Phase.PASS, 2, 10, 12),
+    ]
+    assert plan.passes_start_ns == 6 * BAR_NS
+    assert plan.end_ns == 12 * BAR_NS
+    assert len(plan.score) == 3 * 2 * 13
+
+
+def test_clicks_sound_on_every_beat_and_accent_the_first() -> None:
+    plan = plan_practice(lesson(), Wishes(demonstrations=0, loops=1))
+    clicks = plan.cues[plan.cues["bus"] == Bus.CLICK]
+    assert clicks["at_ns"].tolist() == [i * NS_PER_S // 2 for i in range(3 * 4)]
+    accents = np.flatnonzero(clicks["piece"] == ClickVoice.ACCENT)
+    assert accents.tolist() == [0, 4, 8]
+
+
+def test_only_demonstrations_sound_strokes() -> None:
+    plan = plan_practice(lesson(), Wishes(demonstrations=1))
+    strokes = plan.cues[plan.cues["bus"] == Bus.DEMONSTRATION]
+    assert len(strokes) == 2 * 13
+    assert strokes["at_ns"].min() == BAR_NS
+    assert strokes["at_ns"].max() < 3 * BAR_NS
+
+
+def test_a_grabbed_cymbal_is_a_cue_of_velocity_0() -> None:
+    crash = Note(0, Piece.CRASH_1, Zone.EDGE, velocity=100, choke_ticks=PPQ)
+    one_bar = lesson(Score.from_notes([crash], TempoMap.constant(120)))
+    plan = plan_practice(replace(one_bar, loop=(0, 0)), Wishes(demonstrations=1))
+    strokes = plan.cues[plan.cues["bus"] == Bus.DEMONSTRATION]
+    assert strokes["velocity"].tolist() == [100, 0]
+    assert strokes["at_ns"].tolist() == [BAR_NS, BAR_NS + NS_PER_S // 2]
+
+
+def test_tempo_bars_and_loops_are_the_students_to_choose() -> None:
+    plan = plan_practice(lesson(), Wishes(tempo_bpm=60, bars=(2, 2), loops=2, demonstrations=0))
+    assert plan.first_bar == 1
+    assert plan.section.bar_count == 1
+    assert plan.end_ns == 3 * 2 * BAR_NS  # a bar of count-in and two of one bar, twice as long at half the tempo
+
+
+def test_segment_at_any_time() -> None:
+    plan = plan_practice(lesson(), Wishes())
+    assert plan.segment_at(-1).phase is Phase.COUNT_IN
+    assert plan.segment_at(6 * BAR_NS) == plan.segments[4]
+    assert plan.segment_at(12 * BAR_NS).phase is Phase.OVER
+
+
+@pytest.mark.parametrize(
+    ("wishes", "named"),
+    [
+        (Wishes(tempo_bpm=0), "--tempo: 0"),
+        (Wishes(tempo_bpm=-80), "--tempo: -80"),
+        (Wishes(tempo_bpm=float("nan")), "--tempo: nan"),
+        (Wishes(tempo_bpm=1e9), "--tempo: 1e"),
+        (Wishes(loops=0), "--loops: 0"),
+        (Wishes(bars=(0, 1)), "--bars: 0-1"),
+        (Wishes(bars=(2, 1)), "--bars: 2-1"),
+        (Wishes(bars=(1, 3)), "--bars: 1-3"),
+    ],
+)
+def test_what_cannot_be_is_refused(wishes: Wishes, named: str) -> None:
+    with pytest.raises(BadInput, match=named):
+        plan_practice(lesson(), wishes)

@@ -1,0 +1,129 @@
+"""The session as a state machine, driven by hand: one bar of four quarters on the snare at 120 bpm."""
+
+import pytest
+
+from station.core.events import DeviceFound, DeviceLost, Hit
+from station.core.pieces import Piece, Zone
+from station.core.units import NS_PER_MS, NS_PER_S, PPQ
+from station.drills.lesson import Lesson
+from station.engine.messages import Play, Started
+from station.music.judgement import Label
+from station.music.score import Note, Score
+from station.music.tempo import TempoMap
+from station.practice.plan import TAIL_NS, Phase, Wishes, plan_practice
+from station.practice.session import Latency, Session
+
+BAR_NS = 2 * NS_PER_S
+BEAT_NS = NS_PER_S // 2
+ZERO_NS = 50 * NS_PER_S
+
+
+def session(latency: Latency | None = None, loops: int = 1) -> Session:
+    score = Score.from_notes([Note(i * PPQ, Piece.SNARE) for i in range(4)], TempoMap.constant(120))
+    lesson = Lesson(name="quarters", title="Quarters", score=score)
+    made = Session(plan_practice(lesson, Wishes(demonstrations=0, loops=loops)), latency or Latency())
+    (play,) = made.start()
+    assert isinstance(play, Play)
+    made.handle(Started(ZERO_NS))
+    return made
+
+
+def snare(at_ns: int, piece: Piece = Piece.SNARE) -> Hit:
+    return Hit(ZERO_NS + BAR_NS + at_ns, piece, Zone.HEAD, 80)
+
+
+def test_hits_are_judged_as_they_come() -> None:
+    practice = session()
+    (early,) = practice.handle(snare(-7 * NS_PER_MS))
+    assert (early.label, early.note_index, early.asynchrony_ns) == (Label.MATCH, 0, -7 * NS_PER_MS)
+    (late,) = practice.handle(snare(BEAT_NS + 12 * NS_PER_MS))
+    assert (late.note_index, late.asynchrony_ns) == (1, 12 * NS_PER_MS)
+
+
+def test_a_note_that_nobody_plays_is_a_miss_in_time() -> None:
+    practice = session()
+    practice.handle(snare(0))
+    verdicts = practice.advance(ZERO_NS + BAR_NS + 2 * BEAT_NS - 100 * NS_PER_MS)
+    assert [(v.label, v.note_index) for v in verdicts] == [(Label.MISS, 1)]
+    assert practice.state().counts[Label.MISS] == 1
+
+
+def test_hits_of_count_in_are_not_judged() -> None:
+    practice = session()
+    assert practice.handle(snare(-BEAT_NS)) == ()
+    assert len(practice.result().performance) == 0
+
+
+def test_nothing_is_judged_before_the_transport_runs() -> None:
+    score = Score.from_notes([Note(0, Piece.SNARE)], TempoMap.constant(120))
+    practice = Session(plan_practice(Lesson(name="one", title="One", score=score), Wishes()))
+    assert practice.handle(snare(0)) == ()
+    assert practice.advance(ZERO_NS) == ()
+    assert not practice.over
+
+
+def test_latency_is_taken_out() -> None:
+    """A kit 4 ms late and a sound 10 ms late: a hit stamped 14 ms after its written time was on it."""
+    practice = session(Latency(input_ns=4 * NS_PER_MS, output_ns=10 * NS_PER_MS))
+    (verdict,) = practice.handle(snare(14 * NS_PER_MS))
+    assert verdict.asynchrony_ns == 0
+
+
+def test_phases_and_end() -> None:
+    practice = session()
+    practice.advance(ZERO_NS + BAR_NS // 2)
+    assert practice.state().segment.phase is Phase.COUNT_IN
+    practice.advance(ZERO_NS + BAR_NS)
+    assert practice.state().segment.phase is Phase.PASS
+    practice.advance(ZERO_NS + 2 * BAR_NS + TAIL_NS - 1)
+    assert not practice.over
+    practice.advance(ZERO_NS + 2 * BAR_NS + TAIL_NS)
+    assert practice.over
+
+
+def test_an_early_downbeat_belongs_to_the_next_pass() -> None:
+    practice = session(loops=2)
+    for beat in range(4):
+        practice.handle(snare(beat * BEAT_NS))
+    (verdict,) = practice.handle(snare(BAR_NS - 30 * NS_PER_MS))
+    assert (verdict.note_index, verdict.asynchrony_ns) == (4, -30 * NS_PER_MS)
+
+
+def test_a_session_that_was_stopped_judges_what_was_heard() -> None:
+    practice = session()
+    practice.handle(snare(0))
+    practice.handle(snare(BEAT_NS))
+    practice.advance(ZERO_NS + BAR_NS + 2 * BEAT_NS - 1)
+    result = practice.result()
+    assert not result.complete
+    assert len(result.score) == 2
+    assert result.alignment.count(Label.MATCH) == 2
+    assert result.alignment.count(Label.MISS) == 0
+
+
+@pytest.mark.parametrize("rate_hz", [1, 7, 60, 240])
+def test_the_frame_rate_changes_nothing(rate_hz: int) -> None:
+    played = [-20, 480, 1010, 1530, 1540]
+
+    def outcome(step_ns: int) -> tuple[list[int], list[int]]:
+        practice = session()
+        hits = [snare(ms * NS_PER_MS) for ms in played]
+        now_ns = ZERO_NS
+        while not practice.over:
+            now_ns += step_ns
+            while hits and hits[0].at_ns <= now_ns:
+                practice.handle(hits.pop(0))
+            practice.advance(now_ns)
+        live = dict(sorted(practice.verdicts.items()))
+        return [v.asynchrony_ns or 0 for v in live.values()], practice.result().alignment.hit_of_note.tolist()
+
+    assert outcome(NS_PER_S // rate_hz) == outcome(NS_PER_MS)
+
+
+def test_a_kit_that_goes_and_comes_is_told() -> None:
+    practice = session()
+    practice.handle(DeviceFound(0, "TD-17"))
+    assert practice.device == "TD-17"
+    practice.handle(DeviceLost(1, "TD-17"))
+    assert practice.device is None
+    assert [("gone" in text, "here" in text) for text in practice.notices] == [(False, True), (True, False)]
