@@ -1,0 +1,92 @@
+"""What things are made of, as numbers that the shader reads.
+
+Colours are sRGB 0–1 as one would pick them on a screen; the shader works with their squares, which is linear light
+closely enough. `roughness` 0 mirror … 1 chalk, `metal` 0 or 1, `coat` a clear varnish, `grain` how far highlights stretch
+across the tangent (lathe grooves), `sheen` the soft rim of cloth and skin, `emission` light of its own.
+"""
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class Material(IntEnum):
+    """Index into `TABLE`."""
+
+    FLOOR = 0
+    WALL = 1
+    SHELL = 2
+    CHROME = 3
+    HEAD = 4
+    FRONT_HEAD = 5
+    BRONZE = 6
+    BLACK = 7
+    RUBBER = 8
+    WOOD = 9
+    FELT = 10
+    CUSHION = 11
+    STEEL = 12
+    SHIRT = 13
+    TROUSERS = 14
+    SHOE = 15
+    SOLE = 16
+    SKIN = 17
+    HAIR = 18
+    EYE_WHITE = 19
+    EYE = 20
+    LIP = 21
+    HEADPHONES = 22
+    GLOW = 23
+    SHELL_RING = 24
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """How one material answers light; see the module's head."""
+
+    colour: tuple[float, float, float]
+    roughness: float
+    metal: float = 0.0
+    coat: float = 0.0
+    grain: float = 0.0
+    sheen: float = 0.0
+    emission: float = 0.0
+
+
+TABLE: dict[Material, Look] = {
+    Material.FLOOR: Look((1.00, 1.00, 1.00), 0.75, coat=0.05),
+    Material.WALL: Look((0.17, 0.19, 0.26), 1.0),
+    Material.SHELL: Look((0.06, 0.36, 0.42), 0.35, coat=1.0),
+    Material.CHROME: Look((0.90, 0.91, 0.93), 0.12, metal=1.0),
+    Material.HEAD: Look((0.93, 0.92, 0.88), 0.60, coat=0.12),
+    Material.FRONT_HEAD: Look((0.08, 0.09, 0.11), 0.30, coat=0.5),
+    Material.BRONZE: Look((0.93, 0.74, 0.40), 0.28, metal=1.0, grain=1.0),
+    Material.BLACK: Look((0.07, 0.07, 0.08), 0.45, coat=0.3),
+    Material.RUBBER: Look((0.06, 0.06, 0.07), 0.85),
+    Material.WOOD: Look((0.85, 0.66, 0.42), 0.50, coat=0.25),
+    Material.FELT: Look((0.82, 0.80, 0.74), 1.0, sheen=0.4),
+    Material.CUSHION: Look((0.12, 0.12, 0.14), 0.60, sheen=0.3),
+    Material.STEEL: Look((0.62, 0.64, 0.68), 0.25, metal=1.0),
+    Material.SHIRT: Look((0.91, 0.49, 0.20), 0.90, sheen=0.55),
+    Material.TROUSERS: Look((0.21, 0.26, 0.38), 0.92, sheen=0.40),
+    Material.SHOE: Look((0.80, 0.22, 0.20), 0.60, coat=0.15, sheen=0.2),
+    Material.SOLE: Look((0.93, 0.92, 0.90), 0.70),
+    Material.SKIN: Look((0.88, 0.65, 0.51), 0.55, sheen=0.60),
+    Material.HAIR: Look((0.20, 0.13, 0.10), 0.55, grain=0.25, sheen=0.35),
+    Material.EYE_WHITE: Look((0.97, 0.97, 0.98), 0.25, coat=0.6),
+    Material.EYE: Look((0.08, 0.06, 0.06), 0.10, coat=1.0),
+    Material.LIP: Look((0.62, 0.34, 0.30), 0.60),
+    Material.HEADPHONES: Look((0.14, 0.15, 0.18), 0.35, coat=0.5),
+    Material.GLOW: Look((1.00, 0.60, 0.24), 1.0, emission=1.0),
+    Material.SHELL_RING: Look((0.97, 0.55, 0.20), 0.35, coat=0.8),
+}
+
+
+def shader_table() -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Two arrays (materials, 4): linear colour and roughness; metal, coat + 2·emission, grain, sheen."""
+    looks = [TABLE[m] for m in Material]
+    first = np.array([(*(c * c for c in look.colour), look.roughness) for look in looks], np.float32)
+    second = np.array([(k.metal, k.coat + 2 * k.emission, k.grain, k.sheen) for k in looks], np.float32)
+    return first, second

@@ -1,0 +1,76 @@
+"""The little geometry that pictures need: frames, views and projections as 4 × 4 matrices for column vectors.
+
+World axes are the station's: x to the drummer's right, y forward, z up, metres. Clip space is OpenGL's.
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Matrix = NDArray[np.float64]
+Vector = NDArray[np.float64]
+
+
+def unit(v: ArrayLike) -> Vector:
+    """`v` (…, 3) at length 1; a zero vector stays zero."""
+    a = np.asarray(v, np.float64)
+    length = np.linalg.norm(a, axis=-1, keepdims=True)
+    return np.asarray(a / np.where(length > 0, length, 1.0), np.float64)
+
+
+def frame(origin: ArrayLike, along: ArrayLike, side: ArrayLike) -> Matrix:
+    """A rigid frame: its z axis points `along`, its x axis as nearly to `side` as can be; y = z × x."""
+    z = unit(along)
+    x = np.asarray(side, np.float64) - z * np.dot(side, z)
+    if np.linalg.norm(x) < 1e-6:  # any side will do where the wanted one lies along the axis
+        x = np.cross(z, [0.0, 0.0, 1.0]) if abs(z[2]) < 0.9 else np.cross(z, [0.0, 1.0, 0.0])
+    x = unit(x)
+    m = np.eye(4)
+    m[:3, 0], m[:3, 1], m[:3, 2], m[:3, 3] = x, np.cross(z, x), z, origin
+    return m
+
+
+def translation(offset: ArrayLike) -> Matrix:
+    """A shift."""
+    m = np.eye(4)
+    m[:3, 3] = offset
+    return m
+
+
+def rotation(axis: ArrayLike, angle_rad: float) -> Matrix:
+    """A right-handed turn about an axis through the origin (Rodrigues' formula)."""
+    x, y, z = unit(axis)
+    k = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    m = np.eye(4)
+    m[:3, :3] += np.sin(angle_rad) * k + (1 - np.cos(angle_rad)) * (k @ k)
+    return m
+
+
+def rotation_at(point: ArrayLike, axis: ArrayLike, angle_rad: float) -> Matrix:
+    """A turn about an axis through `point`."""
+    p = np.asarray(point, np.float64)
+    return translation(p) @ rotation(axis, angle_rad) @ translation(-p)
+
+
+def look_at(eye: ArrayLike, target: ArrayLike, up: ArrayLike = (0.0, 0.0, 1.0)) -> Matrix:
+    """World to view: the camera at `eye` looks along −z."""
+    e = np.asarray(eye, np.float64)
+    back = unit(e - np.asarray(target, np.float64))
+    right = unit(np.cross(up, back))
+    m = np.eye(4)
+    m[0, :3], m[1, :3], m[2, :3] = right, np.cross(back, right), back
+    m[:3, 3] = -m[:3, :3] @ e
+    return m
+
+
+def perspective(fov_y_rad: float, aspect: float, near: float, far: float) -> Matrix:
+    """View to clip; `aspect` is width over height."""
+    f = 1 / np.tan(fov_y_rad / 2)
+    m = np.zeros((4, 4))
+    m[0, 0], m[1, 1] = f / aspect, f
+    m[2, 2], m[2, 3], m[3, 2] = (far + near) / (near - far), 2 * far * near / (near - far), -1.0
+    return m
+
+
+def gl_bytes(matrices: Matrix) -> bytes:
+    """Matrices (…, 4, 4) as OpenGL wants them: float32, column by column."""
+    return np.ascontiguousarray(np.swapaxes(matrices, -1, -2), np.float32).tobytes()
