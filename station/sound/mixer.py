@@ -28,6 +28,8 @@ PIECE_FRAMES = 250
 """numpy gives up the interpreter lock for operations on more than about 500 numbers; a frame has two."""
 
 MAX_VOICES = 32
+HEARD = 32
+"""Numbers at the start of a voice's last piece that tell how loud it is."""
 SAME_PIECE_VOICES = 6
 """Our choice: so many strokes of one piece ring at once; a roll does not eat the voices of the others."""
 
@@ -51,15 +53,15 @@ class Mixer:
         self.frame = 0
         """The frame that the next block starts with."""
         self._clicks = clicks
-        self._max_voices = max_voices
         self._voices: list[Voice] = []
+        self._free_rows = list(range(max_voices))
         self._turns: dict[SoundName, int] = {}
         self._pending: list[tuple[int, int, Callable[[], None]]] = []
         self._order = 0
         self._rows = np.zeros((max_voices, 2 * PIECE_FRAMES), np.float32)
         self._gains = np.zeros((max_voices, 2 * len(Bus)), np.float32)
-        self._ramp = np.repeat(np.arange(PIECE_FRAMES, dtype=np.float32), 2)
         self._tail = np.zeros((len(Bus), 2 * max(1, self._frames(STEAL_S))), np.float32)
+        self._ramp = np.repeat(np.arange(max(PIECE_FRAMES, self._tail.shape[1] // 2), dtype=np.float32), 2)
         self._tail_left = 0
         self._levels = np.ones((len(Bus), 2), np.float32)
         self._level_steps = np.zeros((len(Bus), 2), np.float32)
@@ -143,32 +145,27 @@ class Mixer:
 
     def _sum_voices(self, size: int) -> NDArray[np.float32]:
         """The three buses, (3, size) interleaved, of the next `size`/2 frames; voices that end are let go."""
-        voices = self._voices
-        if not voices:
+        if not self._voices:
             return np.zeros((len(Bus), size), np.float32)
-        rows = self._rows[: len(voices), :size]
-        fading = False
-        for row, gains, voice in zip(rows, self._gains, voices, strict=False):
-            if voice.fading:
-                fading = True
-                gains[voice.bus] = voice.gain
-                gains[len(Bus) + voice.bus] = voice.slope
-            voice.copy_to(row, size)
-        sums = self._gains[: len(voices)].T.dot(rows)
+        rows = self._rows[:, :size]
+        fading = [voice for voice in self._voices if voice.fading]
+        for voice in fading:
+            self._gains[voice.row, voice.bus] = voice.gain
+            self._gains[voice.row, len(Bus) + voice.bus] = voice.slope
+        ended = [voice for voice in self._voices if not voice.copy_to(rows[voice.row])]
+        sums = self._gains.T.dot(rows)
         buses: NDArray[np.float32] = sums[: len(Bus)]
         if fading:
             buses += sums[len(Bus) :] * self._ramp[:size]
-        for index in range(len(voices) - 1, -1, -1):
-            if voices[index].ended:
-                self._remove(index)
+        for voice in ended:
+            self._release(voice)
         return buses
 
-    def _remove(self, index: int) -> None:
-        """Let voice `index` go; the last one takes its place."""
-        last = self._voices.pop()
-        if index < len(self._voices):
-            self._voices[index] = last
-            self._gains[index] = self._gains[len(self._voices)]
+    def _release(self, voice: Voice) -> None:
+        """Let a voice go: its row is free, and silent until another takes it."""
+        self._voices.remove(voice)
+        self._gains[voice.row] = 0.0
+        self._free_rows.append(voice.row)
 
     def _add_tail(self, buses: NDArray[np.float32], size: int) -> None:
         """Add what stolen voices left behind, and move it on."""
@@ -214,12 +211,11 @@ class Mixer:
 
     def _begin(self, voice: Voice) -> None:
         self._retire_oldest(voice)
-        if len(self._voices) == self._max_voices:
-            self._steal()
-        index = len(self._voices)
+        if not self._free_rows:
+            self._steal(self._quietest())
+        voice.row = self._free_rows.pop()
         self._voices.append(voice)
-        self._gains[index] = 0.0
-        self._gains[index, voice.bus] = voice.gain
+        self._gains[voice.row, voice.bus] = voice.gain
 
     def _retire_oldest(self, newcomer: Voice) -> None:
         """Fade the oldest voice of the newcomer's piece where too many ring."""
@@ -229,26 +225,21 @@ class Mixer:
         if len(same) >= SAME_PIECE_VOICES:
             max(same, key=lambda voice: voice.position).fade_within(self._frames(RETIRE_S))
 
-    def _steal(self) -> None:
-        """Free the place of the quietest voice; its last milliseconds fade out in the tail."""
-        index = self._quietest()
-        voice = self._voices[index]
-        voice.fade_within(self._tail.shape[1] // 2)
+    def _steal(self, voice: Voice) -> None:
+        """Free the place of `voice`; its last milliseconds fade out in the tail."""
         rest = np.zeros(self._tail.shape[1], np.float32)
+        voice.fade_within(len(rest) // 2)
         gain, slope = voice.gain, voice.slope
-        voice.copy_to(rest, len(rest))
-        frames = np.repeat(np.arange(len(rest) // 2, dtype=np.float32), 2)
-        self._tail[voice.bus] += rest * (gain + slope * frames)
-        self._tail_left = self._tail.shape[1]
-        self._remove(index)
+        voice.copy_to(rest)
+        self._tail[voice.bus] += rest * (gain + slope * self._ramp[: len(rest)])
+        self._tail_left = len(rest)
+        self._release(voice)
 
-    def _quietest(self) -> int:
-        """The voice that was quietest in the piece last mixed; one that has only just begun is never taken first."""
-        heard = [index for index, voice in enumerate(self._voices) if voice.position]
-        if not heard:
-            return 0
-        peaks = [self._voices[index].level_near() for index in heard]
-        return heard[int(np.argmin(peaks))]
+    def _quietest(self) -> Voice:
+        """The voice that was quietest when it was last mixed; one that has yet to begin goes only where all have."""
+        peaks = np.abs(self._rows[:, :HEARD]).max(axis=1) * self._gains[:, : len(Bus)].max(axis=1)
+        loudness = peaks.tolist()
+        return min(self._voices, key=lambda voice: (voice.position == 0, loudness[voice.row]))
 
     def _choke(self, bus: Bus, piece: Piece) -> None:
         self._fade(lambda voice: voice.bus is bus and voice.piece is piece, CHOKE_S)

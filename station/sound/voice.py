@@ -7,18 +7,15 @@ from station.core.pieces import Piece
 from station.sound.buses import Bus
 from station.sound.drum_kit import Frames
 
-_NEAR = 128
-"""Numbers (64 frames, 1.3 ms at 48 kHz) that tell how loud a voice is now."""
-
 
 class Voice:
     """A sound that plays on a bus from its first frame to its last, or until it has faded.
 
     `gain` is its amplitude factor now and `slope` the gain's change a frame; `piece` (None for a click) and `openness`
-    say what may choke or damp it.
+    say what may choke or damp it; `row` is its place in the mixer.
     """
 
-    __slots__ = ("_at", "_data", "_stop", "bus", "fading", "gain", "openness", "piece", "slope")
+    __slots__ = ("_at", "_data", "_stop", "bus", "fading", "gain", "openness", "piece", "row", "slope")
 
     def __init__(self, frames: Frames, bus: Bus, gain: float, piece: Piece | None, openness: float = 0.0) -> None:
         self._data = frames.reshape(-1)
@@ -30,16 +27,12 @@ class Voice:
         self.fading = False
         self.piece = piece
         self.openness = openness
+        self.row = -1
 
     @property
     def position(self) -> int:
         """Frames played so far."""
         return self._at // 2
-
-    @property
-    def ended(self) -> bool:
-        """Whether it has nothing left to play."""
-        return self._at >= self._stop
 
     def fade_within(self, frames: int) -> None:
         """Fall to silence in a straight line over `frames` frames; one that fades faster already goes on so."""
@@ -50,20 +43,20 @@ class Voice:
         self._stop = min(self._stop, self._at + 2 * frames)
         self.fading = True
 
-    def copy_to(self, row: NDArray[np.float32], size: int) -> None:
-        """Write the next `size` numbers (left, right, left …), without gain, to `row`, zeros after the end; move on."""
+    def copy_to(self, row: NDArray[np.float32]) -> bool:
+        """Fill `row` with the next numbers (left, right, left …), without gain, and move on; whether it still rings.
+
+        Zeros follow the end.
+        """
+        size = len(row)
         at = self._at
-        left = self._stop - at
-        if left >= size:
-            row[:size] = self._data[at : at + size]
-        else:
-            row[:left] = self._data[at : self._stop]
-            row[left:size] = 0.0
-        self._at = at + size
+        self._at = next_at = at + size
         if self.fading:
             self.gain += self.slope * (size // 2)
-
-    def level_near(self) -> float:
-        """The peak of the next millisecond or so, gain included."""
-        near = self._data[self._at : min(self._at + _NEAR, self._stop)]
-        return float(np.abs(near).max(initial=0.0)) * self.gain
+        if next_at < self._stop:
+            row[:] = self._data[at:next_at]
+            return True
+        left = self._stop - at
+        row[:left] = self._data[at : self._stop]
+        row[left:] = 0.0
+        return False
