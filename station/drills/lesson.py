@@ -12,6 +12,7 @@ from station.core.units import PPQ
 from station.drills.strokes import Velocities
 from station.drills.swing import STRAIGHT, Swing
 from station.music.score import Score
+from station.music.tempo import TempoChange
 
 LEVELS: Mapping[int, str] = MappingProxyType(
     {1: "first steps", 2: "beginner", 3: "intermediate", 4: "advanced", 5: "expert"}
@@ -80,13 +81,13 @@ class Lesson:
 
     @property
     def tempo_bpm(self) -> float:
-        """Tempo of the first bar in quarter notes a minute."""
-        return self.score.tempo_map.bpm_at(0)
+        """Tempo of the first bar in quarter notes a minute, as it was written."""
+        return tidy_bpm(self.score.tempo_map.tempos[0].us_per_quarter)
 
     @property
     def beats_a_minute(self) -> float:
-        """Tempo of the first bar in the lesson's own beat."""
-        return self.tempo_bpm * PPQ / self.beat_ticks
+        """Tempo of the first bar in the lesson's own beat, as it was written."""
+        return tidy_bpm(self.score.tempo_map.tempos[0].us_per_quarter, self.beat_ticks)
 
     @property
     def target_tempo_bpm(self) -> float:
@@ -113,3 +114,16 @@ class Lesson:
         """Meter of the first bar, such as 4/4."""
         meter = self.score.tempo_map.meter_at(0)
         return f"{meter.beats}/{meter.unit}"
+
+
+_MOST_DECIMALS = 9
+
+
+def tidy_bpm(us_per_quarter: int, beat_ticks: int = PPQ) -> float:
+    """Beats of `beat_ticks` a minute with the fewest decimals that give exactly this tempo again."""
+    exact = 60e6 / us_per_quarter * PPQ / beat_ticks
+    for decimals in range(_MOST_DECIMALS):
+        bpm = round(exact, decimals)
+        if bpm > 0 and TempoChange.from_bpm(0, bpm * beat_ticks / PPQ).us_per_quarter == us_per_quarter:
+            return bpm
+    return exact

@@ -1,7 +1,8 @@
 """The lessons that ship with the station, and how a word or a path finds one.
 
 In a checkout they lie in `lessons/` beside the package, in an installed wheel in `station/shipped/lessons`. A lesson's
-name is its file's stem; names are unique, whatever folder a file lies in. Any other `.toml` file is a lesson by its path.
+name is its file's stem; names are unique, whatever folder a file lies in. Any other `.toml` file is a lesson by its
+path.
 """
 
 from dataclasses import dataclass
