@@ -37,7 +37,7 @@ def _hihat(openness: float) -> Recipe:
             Noise(3500.0, 12000.0, rattle_db, 0.7 * ring_s, attack_s=0.002 + 0.004 * openness),
             Noise(2500.0, 9000.0, -15.0 - 4.0 * openness, 0.022),  # the stick
         ),
-        peak=0.32 + 0.08 * openness,
+        loudness_db=-25.0 + 4.0 * openness,
         layers=CYMBAL_LAYERS,
         tilt_db=1.8,
         pan=_HAT_PAN,
@@ -53,7 +53,7 @@ _CHICK = Recipe(
         Noise(4000.0, 9000.0, -9.0, 0.11),
         Noise(9000.0, 16500.0, -4.0, 0.08),
     ),
-    peak=0.24,
+    loudness_db=-29.0,
     layers=FOOT_LAYERS,
     tilt_db=1.5,
     pan=_HAT_PAN,
@@ -73,7 +73,7 @@ _FOOT_SPLASH = Recipe(
         Noise(11000.0, 16500.0, -10.0, 0.7),
         Noise(3000.0, 12000.0, -12.0, 0.06),  # the clash
     ),
-    peak=0.30,
+    loudness_db=-24.0,
     layers=FOOT_LAYERS,
     tilt_db=1.8,
     pan=_HAT_PAN,
@@ -89,13 +89,14 @@ _RIDE_BOW = Recipe(
         Cloud(1050.0, 2400.0, 26, -15.0, 3.0, attack_s=0.003),
         Cloud(2400.0, 5000.0, 44, -9.0, 2.7, attack_s=0.002),
         Cloud(5000.0, 9000.0, 70, -9.5, 2.0, attack_s=0.002),
-        Cloud(9000.0, 13000.0, 80, -13.0, 1.2),
+        Cloud(9000.0, 13000.0, 80, -14.0, 1.1),
+        Noise(8000.0, 15000.0, -16.0, 0.7),
         Noise(2000.0, 12000.0, -17.0, 0.010),  # the tip
         Noise(2500.0, 6000.0, -13.0, 0.045),  # and its ping
         Noise(6000.0, 11000.0, -10.0, 0.065),
         Noise(11000.0, 17500.0, -8.0, 0.090),
     ),
-    peak=0.34,
+    loudness_db=-26.5,
     layers=CYMBAL_LAYERS,
     tilt_db=1.6,
     pan=_RIDE_PAN,
@@ -117,7 +118,7 @@ _RIDE_BELL = Recipe(
         Noise(3000.0, 9000.0, -15.0, 0.030),
         Noise(9000.0, 16000.0, -18.0, 0.060),
     ),
-    peak=0.42,
+    loudness_db=-23.0,
     layers=CYMBAL_LAYERS,
     tilt_db=0.8,
     pan=_RIDE_PAN,
@@ -125,7 +126,7 @@ _RIDE_BELL = Recipe(
 )
 
 
-def _crash(size: float, ring: float, pan: float, peak: float) -> Recipe:
+def _crash(size: float, ring: float, pan: float, loudness_db: float) -> Recipe:
     """A cymbal struck on its edge: `size` divides its frequencies, `ring` multiplies its decays (1: 16 inches)."""
     return Recipe(
         rows=(
@@ -140,7 +141,7 @@ def _crash(size: float, ring: float, pan: float, peak: float) -> Recipe:
             Noise(900.0, 7000.0, -15.0, 0.08),  # the shank
             Noise(3000.0, 12000.0, -12.0, 0.25),
         ),
-        peak=peak,
+        loudness_db=loudness_db,
         layers=CYMBAL_LAYERS,
         tilt_db=4.5,
         pan=pan,
@@ -159,7 +160,7 @@ _CHINA = Recipe(
         Noise(10000.0, 16000.0, -13.0, 0.5),
         Noise(700.0, 6000.0, -12.0, 0.12),
     ),
-    peak=0.55,
+    loudness_db=-19.0,
     layers=CYMBAL_LAYERS,
     tilt_db=4.0,
     pan=0.55,
@@ -173,10 +174,10 @@ RECIPES: Mapping[SoundName, Recipe] = MappingProxyType(
         SoundName.HIHAT_FOOT_SPLASH: _FOOT_SPLASH,
         SoundName.RIDE_BOW: _RIDE_BOW,
         SoundName.RIDE_BELL: _RIDE_BELL,
-        SoundName.RIDE_EDGE: _crash(size=1.3, ring=1.35, pan=_RIDE_PAN, peak=0.5),
-        SoundName.CRASH_1: _crash(size=1.0, ring=1.0, pan=-0.40, peak=0.6),
-        SoundName.CRASH_2: _crash(size=1.17, ring=1.15, pan=0.42, peak=0.6),
-        SoundName.SPLASH: _crash(size=0.68, ring=0.38, pan=-0.12, peak=0.5),
+        SoundName.RIDE_EDGE: _crash(size=1.3, ring=1.35, pan=_RIDE_PAN, loudness_db=-19.0),
+        SoundName.CRASH_1: _crash(size=1.0, ring=1.0, pan=-0.40, loudness_db=-18.0),
+        SoundName.CRASH_2: _crash(size=1.17, ring=1.15, pan=0.42, loudness_db=-18.0),
+        SoundName.SPLASH: _crash(size=0.68, ring=0.38, pan=-0.12, loudness_db=-18.5),
         SoundName.CHINA: _CHINA,
     }
 )

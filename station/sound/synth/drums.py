@@ -22,15 +22,15 @@ _KICK = Recipe(
         Tone(205.0, -19.0, 0.12),
         Tone(320.0, -24.0, 0.10),
         Noise(300.0, 1000.0, -28.0, 0.09),
-        Noise(1500.0, 4000.0, -26.0, 0.035, soft_db=-3.0),  # the beater
-        Noise(4000.0, 8000.0, -33.0, 0.030, soft_db=-4.0),
+        Noise(1500.0, 4000.0, -22.0, 0.030, soft_db=-3.0),  # the beater
+        Noise(4000.0, 8000.0, -27.0, 0.025, soft_db=-4.0),
         Noise(1500.0, 6000.0, -44.0, 0.25, attack_s=0.008),  # the snare's wires answer
     ),
-    peak=0.8,
+    loudness_db=-10.0,
     layers=SHELL_LAYERS,
     glide=Glide(ratio=1.0, tau_s=0.016),
     tilt_db=3.0,
-    room_db=-15.0,
+    room_db=-18.0,
 )
 
 _HEAD: tuple[Row, ...] = (
@@ -42,23 +42,23 @@ _HEAD: tuple[Row, ...] = (
     Tone(955.0, -21.0, 0.13),
 )
 _WIRES: tuple[Row, ...] = (
-    Noise(500.0, 1000.0, -15.0, 0.36, soft_db=2.0, attack_s=0.001),
-    Noise(1000.0, 2000.0, -12.5, 0.46, soft_db=3.0, attack_s=0.001),
-    Noise(2000.0, 4000.0, -11.5, 0.46, soft_db=4.0, attack_s=0.001),
-    Noise(4000.0, 8000.0, -12.5, 0.42, soft_db=4.0, attack_s=0.001),
-    Noise(8000.0, 14000.0, -17.0, 0.34, soft_db=2.0, attack_s=0.001),
+    Noise(500.0, 1000.0, -14.0, 0.34, soft_db=2.0, attack_s=0.001),
+    Noise(1000.0, 2000.0, -10.5, 0.42, soft_db=2.0, attack_s=0.001),
+    Noise(2000.0, 4000.0, -9.0, 0.42, soft_db=2.5, attack_s=0.001),
+    Noise(4000.0, 8000.0, -9.5, 0.38, soft_db=2.5, attack_s=0.001),
+    Noise(8000.0, 14000.0, -13.5, 0.32, soft_db=2.0, attack_s=0.001),
 )
 _STICK: tuple[Row, ...] = (
-    Noise(600.0, 2500.0, -16.0, 0.030),
-    Noise(2500.0, 9000.0, -17.0, 0.020, soft_db=-4.0),
+    Noise(600.0, 2500.0, -15.0, 0.025),
+    Noise(2500.0, 9000.0, -13.5, 0.018, soft_db=-4.0),
 )
 
 _SNARE = Recipe(
     rows=(*_HEAD, *_WIRES, *_STICK),
-    peak=0.75,
+    loudness_db=-14.0,
     layers=SHELL_LAYERS,
     glide=Glide(ratio=0.10, tau_s=0.015),
-    tilt_db=1.8,
+    tilt_db=2.0,
     pan=-0.05,
     width=0.2,
     room_db=-11.0,
@@ -74,10 +74,10 @@ _RIM_SHOT = Recipe(
         Tone(1731.0, -11.0, 0.24),
         Tone(2610.0, -14.0, 0.16),
         *_WIRES,
-        Noise(800.0, 3000.0, -11.0, 0.030),
-        Noise(3000.0, 10000.0, -13.0, 0.022, soft_db=-2.0),
+        Noise(800.0, 3000.0, -10.0, 0.028),
+        Noise(3000.0, 10000.0, -11.0, 0.020, soft_db=-2.0),
     ),
-    peak=0.85,
+    loudness_db=-14.5,
     layers=SHELL_LAYERS,
     glide=Glide(ratio=0.06, tau_s=0.012),
     tilt_db=1.5,
@@ -98,7 +98,7 @@ _CROSS_STICK = Recipe(
         Noise(1500.0, 8000.0, -10.0, 0.025),
         Noise(1500.0, 7000.0, -24.0, 0.25, attack_s=0.004),
     ),
-    peak=0.45,
+    loudness_db=-20.5,
     layers=RIM_LAYERS,
     tilt_db=1.5,
     pan=-0.05,
@@ -108,7 +108,7 @@ _CROSS_STICK = Recipe(
 
 _BUZZ = Recipe(
     rows=(*_HEAD, *_WIRES, *_STICK),
-    peak=0.5,
+    loudness_db=-18.0,
     layers=(50, 90, 127),
     glide=Glide(ratio=0.04, tau_s=0.015),
     tilt_db=2.0,
@@ -132,14 +132,14 @@ def _tom(pitch_hz: float, t60_s: float, pan: float) -> Recipe:
             Tone(2.91 * pitch_hz, -18.0, 0.24 * t60_s),
             Tone(3.62 * pitch_hz, -21.0, 0.18 * t60_s),
             Noise(400.0, 1600.0, -19.0, 0.07),
-            Noise(1600.0, 6000.0, -23.0, 0.035, soft_db=-4.0),
+            Noise(1600.0, 6000.0, -21.0, 0.030, soft_db=-4.0),
             Noise(5000.0, 13000.0, -31.0, 0.050, soft_db=-4.0),
             Noise(1500.0, 6000.0, -36.0, 0.45, attack_s=0.008),  # the snare's wires answer
         ),
-        peak=0.7,
+        loudness_db=-13.5,
         layers=SHELL_LAYERS,
         glide=Glide(ratio=0.10, tau_s=0.045),
-        tilt_db=3.0,
+        tilt_db=4.0,
         pan=pan,
         width=0.15,
         room_db=-13.0,
@@ -159,7 +159,7 @@ def _tom_rim(pitch_hz: float, pan: float) -> Recipe:
             Tone(5.12 * hoop_hz, -12.0, 0.10),
             Noise(1500.0, 8000.0, -11.0, 0.028),
         ),
-        peak=0.5,
+        loudness_db=-18.5,
         layers=RIM_LAYERS,
         tilt_db=1.5,
         pan=pan,

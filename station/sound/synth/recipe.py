@@ -76,13 +76,13 @@ class Glide:
 class Recipe:
     """One sound of the kit.
 
-    `peak` of the hardest stroke (1 is full scale); `pan` −1 left … 1 right; `width` 0 a point … 1 as wide as the two
-    loudspeakers; `room_db` the ambience's energy relative to the sound's own, None for none; `echoes` further bounces
-    (delay in seconds, amplitude); `layers` the highest velocity of each layer.
+    `loudness_db` of the hardest stroke, its greatest RMS over 30 ms (0 is full scale); `pan` −1 left … 1 right;
+    `width` 0 a point … 1 as wide as the two loudspeakers; `room_db` the ambience's energy relative to the sound's own,
+    None for none; `echoes` further bounces (delay in seconds, amplitude); `layers` the highest velocity of each layer.
     """
 
     rows: tuple[Row, ...]
-    peak: float
+    loudness_db: float
     layers: tuple[int, ...]
     glide: Glide = Glide()
     tilt_db: float = 2.0

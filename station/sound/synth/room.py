@@ -23,7 +23,9 @@ _SOURCE_S = 0.35
 
 def in_room(dry: Mono, rate_hz: int) -> Frames:
     """What the room adds to `dry` (n,): float32 (n, 2), without the direct sound, of the same energy as `dry`."""
-    source = dry[: round(_SOURCE_S * rate_hz)]
+    source = dry[: round(_SOURCE_S * rate_hz)].copy()
+    fade = len(source) // 3
+    source[-fade:] *= np.linspace(1.0, 0.0, fade, dtype=np.float32)
     response = _response(rate_hz)
     size = 1 << (len(source) + len(response) - 1).bit_length()
     spectrum = np.fft.rfft(source, size)[:, None] * np.fft.rfft(response, size, axis=0)
