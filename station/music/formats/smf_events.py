@@ -134,8 +134,8 @@ class _TrackReader:
     # --- one by one ---------------------------------------------------------------------------------------------------
 
     def _take_event(self) -> None:
-        self.tick += self._number("delta time")
-        status = self._byte("event")
+        self.tick += self._number("a delta time")
+        status = self._byte("an event")
         if status < 0x80:
             if not self.running:
                 self._refuse(self.at - 1, f"data byte {status:02X} where a status byte was expected")
@@ -159,8 +159,8 @@ class _TrackReader:
 
     def _take_meta(self) -> None:
         event_at = self.at - 1
-        kind = self._byte("meta event")
-        body = self._body("meta event")
+        kind = self._byte("a meta event")
+        body = self._body("a meta event")
         if kind == _END_OF_TRACK:
             self.ended = True
         elif len(body) < _META_BYTES.get(kind, 0):
@@ -183,7 +183,7 @@ class _TrackReader:
         self.found.meters.append(MeterChange(self.tick, beats, 1 << power))
 
     def _take_sysex(self, status: int) -> None:
-        body = self._body("system exclusive message")
+        body = self._body("a system exclusive message")
         if status == 0xF0:
             self.found.sysex.append(SysEx(self.tick, body.removesuffix(b"\xf7")))
 
@@ -199,12 +199,12 @@ class _TrackReader:
 
     def _byte(self, of_what: str) -> int:
         if self.at >= self.stop:
-            self._refuse(self.stop, f"the track ends in the middle of a {of_what}")
+            self._refuse(self.stop, f"the track ends in the middle of {of_what}")
         self.at += 1
         return self.data[self.at - 1]
 
     def _data_byte(self) -> int:
-        byte = self._byte("message")
+        byte = self._byte("a message")
         if byte >= 0x80:
             self._refuse(self.at - 1, f"status byte {byte:02X} where a data byte was expected")
         return byte
@@ -217,13 +217,13 @@ class _TrackReader:
             value = value << 7 | byte & 0x7F
             if byte < 0x80:
                 return value
-        self._refuse(start, f"a {of_what} of more than {_MAX_DELTA_BYTES} bytes")
+        self._refuse(start, f"{of_what} of more than {_MAX_DELTA_BYTES} bytes")
 
     def _body(self, of_what: str) -> bytes:
         length_at = self.at
-        length = self._number(f"{of_what}'s length")
+        length = self._number(f"the length of {of_what}")
         if length > self.stop - self.at:
-            self._refuse(length_at, f"a {of_what} of {length} bytes, the track has {self.stop - self.at} left")
+            self._refuse(length_at, f"{of_what} of {length} bytes, the track has {self.stop - self.at} left")
         self.at += length
         return self.data[self.at - length : self.at]
 

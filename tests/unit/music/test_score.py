@@ -23,7 +23,7 @@ def groove(tempo_bpm: float = 120, end_tick: int | None = None) -> Score:
 
 
 def quarters(score: Score) -> list[float]:
-    return (score.notes["tick"] / PPQ).tolist()
+    return [tick / PPQ for tick in score.notes["tick"].tolist()]
 
 
 def test_strokes_are_ordered_by_tick_then_grace_then_piece() -> None:
