@@ -9,7 +9,8 @@ A hit's score time = its stamp − input latency − (the transport's zero + out
 student heard and played, compared where both are known.
 """
 
-from collections.abc import Iterable
+from collections import deque
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from station.core.events import Choke, DeviceFound, DeviceLost, Hit
@@ -25,6 +26,8 @@ from station.scoring.windows import DEFAULT_LEVEL, Windows
 
 LEAD_IN_NS = 300 * NS_PER_MS
 """How long after `start` the first click is heard: time for the engine to wake; our choice."""
+RECENT_HITS = 32
+"""How many hits a window may look back on to show what was struck just now; our choice."""
 EARLIEST_NS = 250 * NS_PER_MS
 """A hit so long before the first bar is still judged, an earlier one belongs to the count-in; our choice."""
 
@@ -78,6 +81,7 @@ class Session:
         self._hits: list[Hit] = []
         self._chokes: list[Choke] = []
         self._verdict_of_note: dict[int, Judgement] = {}
+        self._recent: deque[Hit] = deque(maxlen=RECENT_HITS)
         self._verdict_of_hit: dict[int, Judgement] = {}
         self.device: str | None = None
         """The kit that is connected, as far as the engine has said."""
@@ -118,6 +122,7 @@ class Session:
         return self._keep(self._follower.advance(score_ns)) if score_ns is not None else ()
 
     def _take_hit(self, hit: Hit) -> tuple[Judgement, ...]:
+        self._recent.append(hit)
         score_ns = self._score_ns(hit.at_ns)
         if score_ns is None or not self._is_judged(score_ns):
             return ()
@@ -157,9 +162,27 @@ class Session:
         )
 
     @property
-    def verdicts(self) -> dict[int, Judgement]:
+    def verdicts(self) -> Mapping[int, Judgement]:
         """The newest verdict on every note that has one, by the note's index in the plan's score."""
         return self._verdict_of_note
+
+    @property
+    def hits(self) -> Sequence[Hit]:
+        """The hits that are judged, in the order in which they came: a judgement's `hit_index` counts them."""
+        return self._hits
+
+    @property
+    def recent(self) -> Iterable[Hit]:
+        """The last hits, judged or not, the newest last."""
+        return self._recent
+
+    def extras(self) -> list[int]:
+        """Indices of the hits that answer no note, as far as is known."""
+        return [hit for hit, verdict in self._verdict_of_hit.items() if verdict.label is Label.EXTRA]
+
+    def score_ns(self, hit: Hit) -> int | None:
+        """The score time of a hit; None before the transport runs."""
+        return self._score_ns(hit.at_ns)
 
     def result(self) -> SessionResult:
         """The final alignment of all that was heard so far."""

@@ -1,0 +1,159 @@
+"""Fills snapshots: what the drummer, the score and the words over them show at one instant of a session.
+
+The drummer demonstrates, then plays along. The score shown is the demonstration's, then that of all passes in a row.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.units import NS_PER_MS, NS_PER_S
+from station.motion.drummer import Drummer
+from station.motion.figure import Figure, figure_of
+from station.motion.kit import Kit, load_kit
+from station.music.judgement import Judgement, Label
+from station.music.score import Score
+from station.practice.plan import Phase, Plan
+from station.practice.session import Session
+from station.render.snapshot import Cue, Extra, Hud, Snapshot, Strike, mark, no_marks
+from station.scoring.windows import Windows
+
+STRIKE_SHOWN_NS = 600 * NS_PER_MS
+"""How long a stroke may show on the kit; our choice."""
+CUE_SHOWN_NS = 1200 * NS_PER_MS
+"""How long the coarse cue stays after what caused it; our choice."""
+
+_CUE_OF = {Label.MISS: Cue.MISSED, Label.WRONG_PIECE: Cue.WRONG_PIECE}
+
+
+@dataclass(frozen=True, eq=False)
+class _Part:
+    """A drummer who plays `score`, which begins at `start_ns` of the transport."""
+
+    score: Score
+    drummer: Drummer
+    start_ns: int
+
+
+class Stage:
+    """One session's pictures. `kit` is the drummer's, by name or file; empty for the default."""
+
+    def __init__(self, plan: Plan, kit: str = "", figure: Figure | None = None) -> None:
+        self.plan = plan
+        self._kit: Kit = load_kit(kit)
+        self._figure = figure or figure_of()
+        demonstrations = [s for s in plan.segments if s.phase is Phase.DEMONSTRATION]
+        self._passes = self._part(plan.score, plan.passes_start_ns)
+        self._demonstration = (
+            self._part(plan.section.repeated(len(demonstrations)), demonstrations[0].start_ns)
+            if demonstrations
+            else self._passes
+        )
+        self._marks = no_marks(plan.score)
+        self._cue: Cue = Cue.NONE
+        self._cue_ns = 0
+
+    def _part(self, score: Score, start_ns: int) -> _Part:
+        return _Part(score, Drummer(score, self._kit, self._figure), start_ns)
+
+    def judged(self, verdicts: tuple[Judgement, ...], now_ns: int, windows: Windows) -> None:
+        """Take new judgements in; the marks that older snapshots hold stay as they were."""
+        if not verdicts:
+            return
+        self._marks = self._marks.copy()
+        for verdict in verdicts:
+            mark(self._marks, verdict)
+            cue = cue_of(verdict, windows)
+            if cue is not Cue.NONE:
+                self._cue, self._cue_ns = cue, now_ns
+
+    def snapshot(self, session: Session, now_ns: int, message: str = "") -> Snapshot:
+        """The picture at session time `now_ns`."""
+        state = session.state()
+        transport_ns = state.transport_ns if state.transport_ns is not None else -NS_PER_S
+        part = self._passes if transport_ns >= self._lead_of_passes_ns() else self._demonstration
+        position_s = (transport_ns - part.start_ns) / NS_PER_S
+        return Snapshot(
+            score=part.score,
+            position_s=position_s,
+            kit=self._kit,
+            figure=self._figure,
+            pose=part.drummer.pose(position_s),
+            limbs=part.drummer.assignment.limbs,
+            marks=self._marks if part is self._passes else None,
+            extras=self._extras(session) if part is self._passes else (),
+            strikes=self._strikes(session, now_ns),
+            hud=self._hud(session, now_ns, message),
+        )
+
+    def _lead_of_passes_ns(self) -> int:
+        """When the count-in to the first pass begins."""
+        count_ins = [s.start_ns for s in self.plan.segments if s.phase is Phase.COUNT_IN]
+        return count_ins[-1]
+
+    def _extras(self, session: Session) -> tuple[Extra, ...]:
+        hits = [session.hits[index] for index in session.extras()]
+        return tuple(Extra((session.score_ns(hit) or 0) / NS_PER_S, hit.piece) for hit in hits)
+
+    @staticmethod
+    def _strikes(session: Session, now_ns: int) -> tuple[Strike, ...]:
+        ages = ((hit, now_ns - hit.at_ns) for hit in session.recent)
+        return tuple(Strike(h.piece, h.velocity, age / NS_PER_S) for h, age in ages if 0 <= age < STRIKE_SHOWN_NS)
+
+    # --- words -------------------------------------------------------------------------------------------------------
+
+    def _hud(self, session: Session, now_ns: int, message: str) -> Hud:
+        plan, state = self.plan, session.state()
+        segment = state.segment
+        within_ns = (state.transport_ns or 0) - segment.start_ns
+        tempo_map = plan.section.tempo_map
+        place = None
+        if state.transport_ns is not None and within_ns >= 0 and segment.phase is not Phase.OVER:
+            place = tempo_map.position_at(int(tempo_map.ticks_at_ns(within_ns)))
+        counting = segment.phase is Phase.COUNT_IN
+        right, judged = self._counts(segment.index) if segment.phase is Phase.PASS else (0, 0)
+        age_ns = now_ns - self._cue_ns
+        return Hud(
+            title=plan.lesson.title,
+            phase=phase_words(plan, segment.phase, segment.index),
+            bar=None if place is None or counting else plan.first_bar + place.bar + 1,
+            beat=None if place is None else place.beat + 1,
+            beats=tempo_map.meters[0].beats,
+            bar_count=plan.lesson.score.bar_count,
+            tempo_bpm=plan.tempo_bpm,
+            count_in=place.beat + 1 if counting and place is not None else None,
+            right=right,
+            judged=judged,
+            message=message,
+            cue=self._cue if age_ns < CUE_SHOWN_NS else Cue.NONE,
+            cue_age_s=age_ns / NS_PER_S,
+        )
+
+    def _counts(self, pass_index: int) -> tuple[int, int]:
+        """Notes right and notes judged of one pass."""
+        per_pass = len(self.plan.section)
+        labels: NDArray[np.int8] = self._marks["label"][pass_index * per_pass : (pass_index + 1) * per_pass]
+        return int((labels == Label.MATCH).sum()), int((labels >= 0).sum())
+
+
+def cue_of(verdict: Judgement, windows: Windows) -> Cue:
+    """The coarse cue that a judgement gives; extras and ignored hits give none."""
+    if verdict.label is Label.MATCH and verdict.asynchrony_ns is not None:
+        if windows.grade(verdict.asynchrony_ns / NS_PER_MS) == 0:
+            return Cue.ON_TIME
+        return Cue.EARLY if verdict.asynchrony_ns < 0 else Cue.LATE
+    return _CUE_OF.get(verdict.label, Cue.NONE)
+
+
+def phase_words(plan: Plan, phase: Phase, index: int) -> str:
+    """What is going on, as the window writes it."""
+    match phase:
+        case Phase.PASS:
+            return f"Pass {index + 1} of {plan.passes}"
+        case Phase.DEMONSTRATION:
+            return "Demonstration"
+        case Phase.COUNT_IN:
+            return "Count-in"
+        case _:
+            return "Over"
