@@ -1,0 +1,46 @@
+"""The final alignment of a performance with a score: hits to notes one to one by least cost.
+
+With a click the hits come in score time already and only the player's lean must be found (`bias`). Without one the
+tempo, its drift, the place where the recording begins and the bars that were skipped or played again are unknown;
+`warp` finds them and `own_clock` says what was due. Both ways end in `settle`, which pairs.
+"""
+
+from collections.abc import Collection
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.pieces import Piece
+from station.music.performance import Performance
+from station.music.score import Score
+from station.scoring.alignment import Alignment, Reference, Timed, labelled
+from station.scoring.bias import common_bias_ns
+from station.scoring.classes import match_classes
+from station.scoring.ignored import Unwritten
+from station.scoring.own_clock import align_unclocked
+from station.scoring.pairing import Indices
+from station.scoring.settle import Side, Start, settle
+
+
+def align(score: Score, performance: Performance, clocked: bool, kit: Collection[Piece] | None = None) -> Alignment:
+    """Pair every hit and note that belong together.
+
+    `clocked`: the hits' times are score time (practice with a click), else nothing is known of tempo and offset.
+    `kit` names the pieces that the student's kit has; notes of others fold onto what is there. Never raises.
+    """
+    classes = match_classes(kit)
+    note_class, hit_class = classes[score.notes["piece"]], classes[performance.hits["piece"]]
+    if clocked or not np.isin(hit_class, note_class).any():
+        return align_clocked(score, performance, note_class, hit_class)
+    return align_unclocked(score, performance, note_class, hit_class)
+
+
+def align_clocked(score: Score, performance: Performance, note_class: Indices, hit_class: Indices) -> Alignment:
+    """The alignment of hits whose times are score time."""
+    at_ns: NDArray[np.int64] = np.asarray(performance.hits["at_ns"])
+    bias_ns = common_bias_ns(score.onset_ns, note_class, at_ns, hit_class)
+    unwritten = Unwritten(score).masks(performance, at_ns - bias_ns)
+    one = np.zeros(len(at_ns), np.int64)
+    notes = Side(score.onset_ns, note_class, np.zeros(len(score), np.int64))
+    settled = settle(notes, Side(at_ns, hit_class, one), ~score.is_grace, unwritten.feet, Start(bias_ns))
+    return labelled(settled, Timed(at_ns, score.onset_ns, at_ns, one, Reference.CLICK), unwritten.quiet)

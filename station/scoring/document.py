@@ -1,0 +1,107 @@
+"""The assessment as one JSON document, `drum-station/assessment/1`, described for readers in docs/report.md.
+
+Every figure is a number or null; null means "no data" and never zero. Percentages are 0–100, times in ms or s as their
+names say, bars are counted from 1 as people do.
+"""
+
+import json
+from collections.abc import Mapping
+
+from station.core.pieces import Dynamic, Limb, word
+from station.scoring.advice import advise
+from station.scoring.dynamics import Dynamics
+from station.scoring.summary import Group, Summary
+from station.scoring.timing import Spread
+
+SCHEMA = "drum-station/assessment/1"
+
+Json = dict[str, "Json"] | list["Json"] | str | float | int | bool | None
+
+_DECIMALS = 3
+
+
+def assessment(summary: Summary) -> dict[str, Json]:
+    """The document of `summary`; callers may add keys of their own."""
+    counts = summary.counts
+    return {
+        "schema": SCHEMA,
+        "score": _number(summary.points),
+        "level": summary.view.windows.name,
+        "reference": summary.alignment.reference.value,
+        "counts": {
+            "notes": counts.notes,
+            "hits": counts.hits,
+            "matched": counts.matched,
+            "misses": counts.misses,
+            "extras": counts.extras,
+            "wrong_piece": counts.wrong_piece,
+            "ignored": counts.ignored,
+        },
+        "timing": _timing(summary.timing),
+        "dynamics": None if summary.dynamics is None else _dynamics(summary.dynamics),
+        "per_piece": {word(piece): _group(group) for piece, group in summary.by_piece.items()},
+        "per_limb": _keyed(summary.by_limb),
+        "per_bar": [{"bar": bar + 1, **_group(group)} for bar, group in summary.by_bar.items()],
+        "per_subdivision": {name: _group(group) for name, group in summary.by_subdivision.items()},
+        "per_dynamic": _keyed(summary.by_dynamic),
+        "wrong_pieces": [
+            {"written": word(wrong.written), "played": word(wrong.played), "count": wrong.count}
+            for wrong in summary.wrong_pieces
+        ],
+        "advice": [
+            {
+                "fault": advice.fault,
+                "text": advice.text,
+                "bars": list(advice.bars),
+                "effect": _number(advice.effect),
+                "ci": [_number(end) for end in advice.ci],
+            }
+            for advice in advise(summary)
+        ],
+    }
+
+
+def to_text(document: Mapping[str, Json]) -> str:
+    """The document as JSON text with a newline at its end; a number that is none is a fault of ours."""
+    return json.dumps(document, ensure_ascii=False, indent=2, allow_nan=False) + "\n"
+
+
+def _number(value: float | None) -> float | None:
+    return None if value is None else round(float(value), _DECIMALS)
+
+
+def _timing(spread: Spread) -> dict[str, Json]:
+    return {
+        "mean_signed_asynchrony_ms": _number(spread.mean_ms),
+        "sd_asynchrony_ms": _number(spread.sd_ms),
+        "mean_ci_ms": None if spread.ci_ms is None else [_number(end) for end in spread.ci_ms],
+        "strokes": spread.count,
+    }
+
+
+def _group(group: Group) -> dict[str, Json]:
+    return {
+        "notes": group.notes,
+        "matched": group.matched,
+        "misses": group.misses,
+        "wrong_piece": group.wrong_piece,
+        "extras": group.extras,
+        "timing": _timing(group.timing),
+        "mean_velocity_error": _number(group.velocity_error),
+    }
+
+
+def _keyed(groups: Mapping[Limb, Group] | Mapping[Dynamic, Group]) -> dict[str, Json]:
+    return {word(key): _group(group) for key, group in groups.items()}
+
+
+def _dynamics(dynamics: Dynamics) -> dict[str, Json]:
+    names = [word(dynamic) for dynamic in Dynamic]
+    return {
+        "mean_velocity_error": _number(dynamics.mean_velocity_error),
+        "sd_velocity_error": _number(dynamics.sd_velocity_error),
+        "confusion": {
+            written: dict(zip(names, row, strict=True))
+            for written, row in zip(names, dynamics.confusion.tolist(), strict=True)
+        },
+    }

@@ -1,0 +1,127 @@
+"""Where in the score some hits were played, and how fast, when nothing is known: by voting.
+
+For each tempo tried, every pair of a hit and a note of its class votes for one place; the votes of pairs that belong
+together fall on one spot, the rest spread thin. A vote weighs what its class tells (`evidence`). The best spots are
+then played through by the tempo follower and judged by what hits *and* notes say: notes in the stretch that nobody hit
+speak against a tempo that is too fast.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.scoring.evidence import best_evidence, evidence
+from station.scoring.tracker import GATE_S, Place, Tracker
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+WINDOW_HITS, WINDOW_S = 48, 6.0
+"""So much music is known again: a bar or two of a groove (our choice)."""
+
+_BIN_S = 0.02
+_SPOTS = 12
+"""Spots that are played through; repeated bars give many alike (our choice)."""
+
+_APART_S = 0.06
+_MISS_COST = 2.0
+"""Nats against a note that nobody hit, about log(0.97/0.1): a seventh of the notes may be missing (our choice)."""
+
+_VOTES_AT_ONCE = 4_000_000
+"""Bounds the memory of a vote to about 64 MB."""
+
+
+@dataclass(frozen=True, eq=False)
+class Notes:
+    """What can be found: times in s, sorted (n,), classes (n,), `rates` of every class number, and their follower."""
+
+    at_s: Floats
+    classes: Indices
+    rates: Floats
+    tracker: Tracker
+
+
+@dataclass(frozen=True, eq=False)
+class Hits:
+    """Hits at `at_s`, sorted (m,), of `classes` (m,) that all occur among the notes."""
+
+    at_s: Floats
+    classes: Indices
+
+    def part(self, start: int, end: int) -> "Hits":
+        """Hits `start` … `end` − 1."""
+        return Hits(self.at_s[start:end], self.classes[start:end])
+
+    def window(self, start: int) -> "Hits":
+        """The `WINDOW_HITS` or `WINDOW_S` from hit `start` on, whatever ends first, a third of the hits at least."""
+        late = int(np.searchsorted(self.at_s, self.at_s[start] + WINDOW_S))
+        end = min(max(late, start + WINDOW_HITS // 3), start + WINDOW_HITS)
+        return self.part(start, end)
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """A place of the window's first hit, and what speaks for it in nats."""
+
+    place: Place
+    nats: float
+
+
+def candidates(notes: Notes, among: slice, hits: Hits, rates_tried: Floats) -> list[Candidate]:
+    """The likeliest places of the window `hits` at the tempi `rates_tried`, notes being taken from `among` only."""
+    spots = _best_spots(notes, among, hits, rates_tried)
+    return [Candidate(place, nats_for(notes, hits, place)) for place in spots]
+
+
+def nats_for(notes: Notes, hits: Hits, place: Place) -> float:
+    """What hits and notes of a window say for its beginning at `place`."""
+    places, distances, _ = notes.tracker.follow(hits.at_s.tolist(), hits.classes.tolist(), place)
+    off = np.array(distances)
+    near = np.abs(off) < GATE_S
+    first, last = np.searchsorted(notes.at_s, (min(places) - GATE_S, max(places) + GATE_S))
+    unheard = max(int(last - first) - int(near.sum()), 0)
+    return float(evidence(off, notes.rates[hits.classes]).sum()) - _MISS_COST * unheard
+
+
+def _best_spots(notes: Notes, among: slice, hits: Hits, rates_tried: Floats) -> list[Place]:
+    """Places with most votes, at least `_APART_S` from each other."""
+    found: list[tuple[float, float, float]] = []  # votes, score_s, rate
+    pairs = sum(
+        int((hits.classes == c).sum()) * int((notes.classes[among] == c).sum()) for c in np.unique(hits.classes)
+    )
+    step = max(1, _VOTES_AT_ONCE // max(pairs, 1))
+    for start in range(0, len(rates_tried), step):
+        found += _vote(notes, among, hits, rates_tried[start : start + step])
+    found.sort(reverse=True)
+    spots: list[Place] = []
+    for _, score_s, rate in found:
+        if all(abs(score_s - spot.score_s) > _APART_S or abs(rate / spot.rate - 1) > 0.1 for spot in spots):
+            spots.append(Place(float(hits.at_s[0]), score_s, rate))
+        if len(spots) == _SPOTS:
+            break
+    return spots
+
+
+def _vote(notes: Notes, among: slice, hits: Hits, rates_tried: Floats) -> list[tuple[float, float, float]]:
+    """The spots with most votes as (votes, score time of the first hit, rate)."""
+    note_s, note_class = notes.at_s[among], notes.classes[among]
+    if not len(note_s):
+        return []
+    since = hits.at_s - hits.at_s[0]
+    first_s = float(note_s[0]) - float(since[-1]) * float(rates_tried.max()) - 2 * _BIN_S
+    bins = int((float(note_s[-1]) - first_s) / _BIN_S) + 3
+    votes = np.zeros(len(rates_tried) * bins)
+    rows = (np.arange(len(rates_tried)) * bins)[:, None, None]
+    for c in np.unique(hits.classes):
+        spots = (
+            note_s[note_class == c][None, None, :]
+            - rates_tried[:, None, None] * since[hits.classes == c][None, :, None]
+        )
+        cells = (rows + np.rint((spots - first_s) / _BIN_S).astype(np.int64)).ravel()
+        weight = float(best_evidence(notes.rates[c : c + 1])[0])
+        votes += weight * np.bincount(cells, minlength=len(votes))
+    votes[1:-1] += 0.5 * (votes[:-2] + votes[2:])
+    most = min(8 * _SPOTS, len(votes))
+    best = np.argpartition(-votes, most - 1)[:most]
+    return [(float(votes[k]), first_s + int(k % bins) * _BIN_S, float(rates_tried[k // bins])) for k in best]

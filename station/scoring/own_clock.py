@@ -1,0 +1,100 @@
+"""Alignment without a click: the player's own clock is found, and what was due is told by it or by the file.
+
+A passage that was played more than once is paired with its last attempt; the hits of the others are extras.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.units import NS_PER_MS, NS_PER_S
+from station.music.performance import Performance
+from station.music.score import Score
+from station.scoring.alignment import Alignment, Reference, Timed, labelled
+from station.scoring.drift import local_trend, robust_sd
+from station.scoring.ignored import Unwritten
+from station.scoring.pairing import Indices, Times
+from station.scoring.settle import Settled, Side, Start, settle
+from station.scoring.warp import Warp, find_warp
+
+Floats = NDArray[np.float64]
+
+_START = Start(reach_ms=90.0, rounds=2)
+"""The way through the score is known to about 20 ms, so that the first reach is narrower than with a click."""
+
+_EDGE_S = 0.03
+_FRINGE_S = 0.15
+"""A stretch owns the notes between its first and last hit and this much around; and, where nobody does, so much."""
+
+SAME_BASE_MS, SAME_BASE_WANDER_MS = 100.0, 60.0
+"""A performance that starts within the first and wanders less than the second about it was recorded on the score's own
+time base (our choice: a lean and a latency; three times a bar's slow sway)."""
+
+_CURVE_HALF_WIDTH = 16
+"""Hits to both sides in the player's tempo curve: two bars in all, so that a fill's rush stays visible."""
+
+
+def align_unclocked(score: Score, performance: Performance, note_class: Indices, hit_class: Indices) -> Alignment:
+    """The alignment of hits of unknown tempo and offset; some hit has a class that some note has."""
+    at_ns: Times = np.asarray(performance.hits["at_ns"])
+    warp = find_warp(score.onset_s, note_class, at_ns / NS_PER_S, hit_class)
+    hit_ns = np.rint(warp.score_s * NS_PER_S).astype(np.int64)
+    unwritten = Unwritten(score).masks(performance, hit_ns)
+    notes = Side(score.onset_ns, note_class, owners(score.onset_s, warp))
+    hits = Side(hit_ns, hit_class, warp.stretch)
+    settled = settle(notes, hits, ~score.is_grace, unwritten.feet, _START)
+    return labelled(settled, _timed(score, at_ns, warp, settled), unwritten.quiet)
+
+
+def owners(note_s: Floats, warp: Warp) -> Indices:
+    """Which stretch's hits may answer each note, shape (n,): the last that passes over it; −1 where none does."""
+    first = np.full(int(warp.stretch[-1]) + 1, np.inf)
+    last = np.full(len(first), -np.inf)
+    np.minimum.at(first, warp.stretch, warp.score_s)
+    np.maximum.at(last, warp.stretch, warp.score_s)
+    owner = np.full(len(note_s), -1, np.int64)
+    for around in (_EDGE_S, _FRINGE_S):
+        free = owner < 0
+        for stretch in range(len(first)):
+            passed = (note_s >= first[stretch] - around) & (note_s <= last[stretch] + around)
+            owner[free & passed] = stretch
+    return owner
+
+
+def _timed(score: Score, at_ns: Times, warp: Warp, settled: Settled) -> Timed:
+    """When each paired note was due, by the file's time if that is the score's, else by the player's tempo curve."""
+    hit_of_note = np.where(settled.partner >= 0, settled.partner, settled.wrong)
+    score_ns = np.rint(warp.score_s * NS_PER_S).astype(np.int64)
+    told = np.flatnonzero((settled.partner >= 0) & ~score.is_grace)
+    told = told[np.argsort(at_ns[hit_of_note[told]], kind="stable")]
+    played, written = at_ns[hit_of_note[told]], score.onset_ns[told]
+    if _is_same_base(played, written):
+        return Timed(at_ns, score.onset_ns, score_ns, warp.stretch, Reference.FILE)
+    off_ns = score_ns[np.maximum(hit_of_note, 0)] - score.onset_ns - settled.trend_ns
+    pace = _paces(at_ns, warp)[np.maximum(hit_of_note, 0)]
+    due = at_ns[np.maximum(hit_of_note, 0)] - np.rint(off_ns / pace).astype(np.int64)
+    return Timed(at_ns, due, score_ns, warp.stretch, Reference.PLAYER)
+
+
+def _is_same_base(played_ns: Times, written_ns: Times) -> bool:
+    """Whether hits and their notes share one time base, but for a lean."""
+    off_ms = (played_ns - written_ns) / NS_PER_MS
+    scale = robust_sd(off_ms)
+    if scale is None or abs(float(np.median(off_ms))) > SAME_BASE_MS:
+        return False
+    trend = local_trend(played_ns / NS_PER_S, off_ms, _CURVE_HALF_WIDTH, max(scale, 1.0))
+    return float(np.abs(trend - np.median(off_ms)).max()) <= SAME_BASE_WANDER_MS
+
+
+def _paces(at_ns: Times, warp: Warp) -> Floats:
+    """Score seconds a played second around each hit (m,): 1 is the written tempo."""
+    count = len(at_ns)
+    pace = np.ones(count)
+    edges = np.flatnonzero(np.diff(warp.stretch, prepend=-1, append=-1))
+    for start, end in zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True):
+        k = np.arange(start, end)
+        low, high = np.maximum(k - _CURVE_HALF_WIDTH, start), np.minimum(k + _CURVE_HALF_WIDTH, end - 1)
+        took = (at_ns[high] - at_ns[low]) / NS_PER_S
+        passed = warp.score_s[high] - warp.score_s[low]
+        known = (took > 0.0) & (passed > 0.0)
+        pace[k[known]] = passed[known] / took[known]
+    return pace
