@@ -4,6 +4,10 @@ Messages are polled, never taken in rtmidi's callback: beside a busy Python thre
 lock inside the driver's thread, which loses notes. Nothing is filtered: a message carries the time since the one before
 it, be that active sensing or clock, and a capture holds every byte.
 
+rtmidi keeps Python's interpreter lock while it opens or closes. JACK then waits until every client has finished a
+period, and a sound callback in this process cannot finish one without that lock: so whatever changes JACK's graph
+happens inside `undisturbed`, in which the caller keeps its sound still.
+
 Without a sequencer device (a container, a kernel without ALSA) rtmidi's ALSA fails; then JACK is tried where this
 rtmidi has it. Drivers write to standard error of their own accord; it is closed to them while they start.
 """
@@ -12,7 +16,7 @@ import os
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 
 import rtmidi
 
@@ -38,10 +42,11 @@ _REMEDIES = {
     "jack": "no JACK server runs: start one (jackd, QjackCtl)",
 }
 
-RECONNECT_NS = 2 * NS_PER_S
-"""How often a JACK client that sees no port asks for a new server: joining one disturbs it a little (our choice)."""
+REJOIN_NS = NS_PER_S
+"""How often a new JACK server is looked for after ours has ended (our choice)."""
 
 MonotonicNs = Callable[[], int]
+Undisturbed = Callable[[], AbstractContextManager[None]]
 
 
 def compiled_drivers() -> tuple[str, ...]:
@@ -51,68 +56,117 @@ def compiled_drivers() -> tuple[str, ...]:
 
 
 class MidiDirectory:
-    """The MIDI inputs of this computer, by the first driver that works or by the one that is asked for."""
+    """The MIDI inputs of this computer, by the first driver that works or by the one that is asked for.
 
-    def __init__(self, driver: str = "auto", now_ns: MonotonicNs = time.monotonic_ns) -> None:
-        """Raises `BadInput` for a driver that there is not, `DeviceError` where none works."""
+    Raises `BadInput` for a driver that there is not, `DeviceError` where none works. `undisturbed` is entered around
+    all that a sound callback in this process could hold up.
+    """
+
+    def __init__(
+        self, driver: str = "auto", now_ns: MonotonicNs = time.monotonic_ns, undisturbed: Undisturbed = nullcontext
+    ) -> None:
         compiled = compiled_drivers()
         if driver not in ("auto", *compiled):
             raise BadInput(driver, "", f"no such MIDI driver here; there are auto, {', '.join(compiled)}")
         self._now_ns = now_ns
-        self._candidates = compiled if driver == "auto" else (driver,)
-        self._scanner, self.driver = self._start_scanner()
-        self._joined_ns = now_ns()
+        self._undisturbed = undisturbed
+        self._client = _first_client(compiled if driver == "auto" else (driver,))
+        self._next_try_ns = 0
 
-    def _start_scanner(self) -> tuple[rtmidi.MidiIn, str]:
-        faults: list[str] = []
-        for driver in self._candidates:
-            try:
-                return _new_input(driver, "scan"), driver
-            except (rtmidi.RtMidiError, OSError, RuntimeError) as fault:
-                faults.append(f"{_TITLES[driver]}: {_REMEDIES.get(driver, fault)}")
-        raise DeviceError("no MIDI driver works. " + ". ".join(faults or ["rtmidi was built without any"]))
+    @property
+    def driver(self) -> str:
+        """The driver in use, one of `compiled_drivers()`."""
+        return self._client.driver
 
     def names(self) -> list[str]:
         """The inputs that are there now; none where the driver's server has gone."""
-        ports = self._ports()
-        if not ports and self.driver == "jack" and self._now_ns() - self._joined_ns > RECONNECT_NS:
-            self._joined_ns = self._now_ns()
-            with suppress(DeviceError):  # a client does not outlive its server: perhaps there is a new one
-                fresh, self.driver = self._start_scanner()
-                self._scanner.delete()
-                self._scanner = fresh
-                ports = self._ports()
-        return ports
+        if not self._client.is_alive():
+            self._rejoin()
+        return self._client.ports()
 
-    def _ports(self) -> list[str]:
-        try:
-            return [port for port in self._scanner.get_ports() if CLIENT_NAME not in port]
-        except (rtmidi.RtMidiError, UnicodeDecodeError):
-            return []
+    def _rejoin(self) -> None:
+        """Look for a new server in place of the one that has ended; a client does not outlive its server."""
+        if self._now_ns() >= self._next_try_ns:
+            self._next_try_ns = self._now_ns() + REJOIN_NS
+            with self._undisturbed(), suppress(DeviceError):
+                fresh = _first_client((self.driver,))
+                self._client.close()
+                self._client = fresh
 
     def open(self, port: str) -> "MidiPort":
         """Open the input called `port`; raises `DeviceError` where it has gone or is taken."""
-        try:
-            connection = _new_input(self.driver, "kit")
-            index = connection.get_ports().index(port)
-            with _quiet_drivers():
-                connection.open_port(index, "in")
-        except (rtmidi.RtMidiError, OSError, RuntimeError, ValueError) as fault:
-            raise DeviceError(f"{port}: this MIDI port cannot be opened: {fault}") from fault
-        return MidiPort(stable_name(port), connection, self._now_ns)
+        with self._disturbing():
+            try:
+                connection = _new_input(self.driver, "kit")
+                connection.open_port(connection.get_ports().index(port), "in")
+            except (rtmidi.RtMidiError, OSError, RuntimeError, ValueError) as fault:
+                raise DeviceError(f"{port}: this MIDI port cannot be opened: {fault}") from fault
+        return MidiPort(stable_name(port), connection, self._now_ns, self._disturbing)
 
     def close(self) -> None:
         """Leave the driver; ports that were opened stay open."""
+        with self._disturbing():
+            self._client.close()
+
+    def _disturbing(self) -> AbstractContextManager[None]:
+        return self._undisturbed() if self.driver == "jack" else nullcontext()
+
+
+class _Client:
+    """What lists the ports of one driver; with JACK it also shows a port of its own, by which it knows its server."""
+
+    def __init__(self, driver: str) -> None:
+        self.driver = driver
+        self._scanner = _new_input(driver, "scan")
+        self._presence: rtmidi.MidiOut | None = None
+        if driver == "jack":
+            with _quiet_drivers():
+                self._presence = rtmidi.MidiOut(_APIS[driver], f"{CLIENT_NAME} presence")
+                self._presence.open_virtual_port("out")
+
+    def is_alive(self) -> bool:
+        """Whether the server that was joined still runs; drivers without one always live."""
+        return self._presence is None or any(CLIENT_NAME in port for port in self._all_ports())
+
+    def ports(self) -> list[str]:
+        """The inputs, our own left out."""
+        return [port for port in self._all_ports() if CLIENT_NAME not in port]
+
+    def _all_ports(self) -> list[str]:
+        try:
+            ports: list[str] = self._scanner.get_ports()
+        except (rtmidi.RtMidiError, UnicodeDecodeError):
+            return []
+        return ports
+
+    def close(self) -> None:
+        """Leave the driver."""
         self._scanner.delete()
+        if self._presence is not None:
+            self._presence.close_port()
+            self._presence.delete()
+
+
+def _first_client(drivers: tuple[str, ...]) -> _Client:
+    faults: list[str] = []
+    for driver in drivers:
+        try:
+            return _Client(driver)
+        except (rtmidi.RtMidiError, OSError, RuntimeError) as fault:
+            faults.append(f"{_TITLES[driver]}: {_REMEDIES.get(driver, fault)}")
+    raise DeviceError("no MIDI driver works. " + ". ".join(faults or ["rtmidi was built without any"]))
 
 
 class MidiPort:
     """One open MIDI input."""
 
-    def __init__(self, name: str, connection: rtmidi.MidiIn, now_ns: MonotonicNs) -> None:
+    def __init__(
+        self, name: str, connection: rtmidi.MidiIn, now_ns: MonotonicNs, disturbing: Undisturbed = nullcontext
+    ) -> None:
         self._name = name
         self._connection: rtmidi.MidiIn | None = connection
         self._now_ns = now_ns
+        self._disturbing = disturbing
         self._clock = DriverClock()
 
     @property
@@ -134,8 +188,9 @@ class MidiPort:
     def close(self) -> None:
         """End the connection; a closed port reads as empty."""
         if self._connection is not None:
-            self._connection.close_port()
-            self._connection.delete()
+            with self._disturbing():
+                self._connection.close_port()
+                self._connection.delete()
             self._connection = None
 
 

@@ -4,7 +4,8 @@ A card that is missing from the start is told of once and not asked for again; o
 its server ended, no block asked for in a while) is tried anew every few seconds, and the session goes on meanwhile.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_S
@@ -55,6 +56,23 @@ class Card:
         elif self._retry_ns is not None and now_ns >= self._retry_ns:
             self._reopen(now_ns)
 
+    @contextmanager
+    def paused(self) -> Iterator[None]:
+        """Keep the sound still for a moment, and with it every callback that could wait for the interpreter lock."""
+        output = self._output
+        if output is None:
+            yield
+            return
+        try:
+            output.pause()
+        except DeviceError as fault:
+            self._lose(fault, self._alive_ns)
+        try:
+            yield
+        finally:
+            if self._output is output:
+                self._resume(output)
+
     def close(self) -> None:
         """Give the card back; the engine runs silent from now on."""
         if self._output is not None:
@@ -96,6 +114,15 @@ class Card:
             underflows = self._underflows + output.underflows
             self._engine.output = OutputState(underflows, output.latency_ms, output.load)
             return
+        self._lose(fault, now_ns)
+
+    def _resume(self, output: Output) -> None:
+        try:
+            output.resume()
+        except DeviceError as fault:
+            self._lose(fault, self._alive_ns)
+
+    def _lose(self, fault: DeviceError, now_ns: int) -> None:
         self.close()
         self._retry_ns = now_ns + RETRY_NS
         self._engine.notify(f"{fault}; the session goes on, silent, and looks for it again")

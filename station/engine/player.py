@@ -35,6 +35,7 @@ class Player:
         self._zeros: deque[int] = deque()
         self._playback = Playback()
         self._levels = dict.fromkeys(Bus, _FULL)
+        self._passed_ns = 0
         self._mixer: Mixer | None = None
         self.attach(mixer)
 
@@ -106,9 +107,10 @@ class Player:
         return self._mixer.render(frames)
 
     def pass_by(self, now_ns: int) -> None:
-        """Stand in for the card where nothing sounds: what is due by `now_ns` is over."""
-        self._empty_inbox(now_ns)
-        self._playback.take(now_ns, now_ns)
+        """Stand in for the card where nothing sounds: what is due between the last call and `now_ns` is over."""
+        self._empty_inbox(self._passed_ns)
+        self._playback.take(self._passed_ns, now_ns)
+        self._passed_ns = now_ns
 
     def _empty_inbox(self, block_ns: int) -> None:
         while self._inbox:

@@ -20,6 +20,13 @@ class Runner:
         self._card = card
         self._next_supervision_ns = 0
 
+    def start(self, now_ns: int) -> None:
+        """Open kits and card, the kits first: what they change in the driver then disturbs no sound."""
+        for kit in self._kits:
+            self._poll(kit, now_ns)
+        if self._card is not None:
+            self._card.start(now_ns)
+
     def step(self, now_ns: int) -> list[EngineEvent]:
         """Do all that is to do at `now_ns`; returns what happened."""
         for kit in self._kits:

@@ -80,6 +80,14 @@ class Output(Protocol):
         """Begin to ask `render` for blocks; raises `DeviceError`."""
         ...
 
+    def pause(self) -> None:
+        """Ask for no blocks until `resume`, with the device kept; raises `DeviceError`."""
+        ...
+
+    def resume(self) -> None:
+        """Go on asking after `pause`; raises `DeviceError`."""
+        ...
+
     def close(self) -> None:
         """Stop and give the device back; harmless when closed already."""
         ...
@@ -97,6 +105,12 @@ class SilentOutput:
 
     def start(self, render: Renderer) -> None:
         """Do nothing: `render` is never called."""
+
+    def pause(self) -> None:
+        """Do nothing."""
+
+    def resume(self) -> None:
+        """Do nothing."""
 
     def close(self) -> None:
         """Do nothing."""
@@ -163,7 +177,7 @@ class CardOutput:
         self._abort: type[Exception] = sd.CallbackAbort
         self._error: type[Exception] = sd.PortAudioError
         self._render: Renderer | None = None
-        self._closing = False
+        self._stopping = False
         self._channels = min(2, device.channels)
         settings = {"device": device.index, "channels": self._channels, "dtype": "float32"}
         self.rate_hz = rate_hz
@@ -192,6 +206,20 @@ class CardOutput:
     def start(self, render: Renderer) -> None:
         """Begin to ask `render` for blocks, in the driver's thread; raises `DeviceError`."""
         self._render = render
+        self.resume()
+
+    def pause(self) -> None:
+        """Ask for no blocks until `resume`: nothing of the driver's then waits for the interpreter lock."""
+        self._stopping = True
+        try:
+            self._stream.stop()
+        except self._error as fault:
+            raise DeviceError(f"sound output {self.name!r} does not pause: {fault}") from fault
+
+    def resume(self) -> None:
+        """Go on asking after `pause`."""
+        self._stopping = False
+        self._clock.resync()
         try:
             self._stream.start()
         except self._error as fault:
@@ -199,11 +227,11 @@ class CardOutput:
 
     def close(self) -> None:
         """Stop and give the device back."""
-        self._closing = True
+        self._stopping = True
         self._stream.close(ignore_errors=True)
 
     def _finished(self) -> None:
-        if not self._closing and self.fault is None:
+        if not self._stopping and self.fault is None:
             self.fault = DeviceError(f"sound output {self.name!r} stopped: it was unplugged, or its server ended")
 
     def _callback(self, out: NDArray[np.float32], frames: int, times: "DriverTimes", status: "DriverStatus") -> None:

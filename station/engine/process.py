@@ -1,0 +1,261 @@
+"""The engine in a process of its own, which renders no picture: stamps and sound never wait for the window.
+
+The child polls the kits every half millisecond in its main thread; the sound card's driver asks for blocks in a thread
+of its own; two more threads carry commands in and events out, so that neither a busy app nor a full pipe holds up a
+stroke. The child ends when it is told, or when its parent is gone, however that came about; the parent learns of a
+child's end by the next call of `events` or `send`.
+"""
+
+import gc
+import os
+import signal
+import sys
+import threading
+import time
+import traceback
+from collections import deque
+from contextlib import nullcontext, suppress
+from dataclasses import dataclass
+from multiprocessing import get_context
+from multiprocessing.connection import Connection
+from queue import SimpleQueue
+from types import TracebackType
+from typing import Self
+
+from station.core.errors import DeviceError
+from station.core.settings import Settings
+from station.devices.midi_ports import MidiDirectory
+from station.devices.watch import KitWatch
+from station.engine.card import Card
+from station.engine.engine import Engine
+from station.engine.messages import Command, EngineEvent, Notice, Quit, Ready
+from station.engine.runner import Runner
+from station.sound.click import click_sounds
+from station.sound.kit_synth import synth_kit
+from station.sound.mixer import Mixer
+from station.sound.output import open_output
+
+POLL_S = 0.0004
+"""Pause between two looks at the kits; with the work itself and the system's timer slack about half a millisecond."""
+SWITCH_INTERVAL_S = 0.0002
+"""How soon the audio callback gets the interpreter lock; 5 ms, Python's own choice, is four blocks of sound."""
+QUIT_WITHIN_S = 3.0
+"""How long the child may take to write its capture and leave before it is ended by force (our choice)."""
+NICENESS = -11
+"""What desktop sound servers run at; granted only to those whom the system lets."""
+
+
+@dataclass(frozen=True, slots=True)
+class EngineConfig:
+    """What the engine process opens.
+
+    `kits` holds for each kit part of its port's name, empty for the first kit found; `midi_driver` is "auto" or one of
+    `station.devices.midi_ports.compiled_drivers()`; `output`, `block_frames` and `rate_hz` stand as in `Settings`;
+    without `sound` no card is opened.
+    """
+
+    kits: tuple[str, ...] = ("",)
+    midi_driver: str = "auto"
+    sound: bool = True
+    output: str = ""
+    block_frames: int = 0
+    rate_hz: int = 48_000
+
+    @classmethod
+    def from_settings(cls, settings: Settings) -> Self:
+        """What a user has chosen."""
+        return cls((settings.kit,), "auto", True, settings.output, settings.block_frames, settings.rate_hz)
+
+
+class EngineProcess:
+    """The engine as the app sees it: commands go in, events come out; use it as a context manager."""
+
+    def __init__(self, config: EngineConfig | None = None) -> None:
+        context = get_context("spawn")
+        self._events, events_out = context.Pipe(duplex=False)
+        commands_in, self._commands = context.Pipe(duplex=False)
+        self._process = context.Process(
+            target=run_engine, args=(config or EngineConfig(), commands_in, events_out), name="engine", daemon=True
+        )
+        self._process.start()
+        commands_in.close()  # the child has its own; ours would hide its end from us
+        events_out.close()
+        self._closed = False
+
+    @property
+    def is_alive(self) -> bool:
+        """Whether the child runs."""
+        return self._process.is_alive()
+
+    @property
+    def pid(self) -> int | None:
+        """The child's process number."""
+        return self._process.pid
+
+    def send(self, command: Command) -> None:
+        """Hand `command` to the engine; raises `DeviceError` if the engine has ended."""
+        try:
+            self._commands.send(command)
+        except OSError:
+            raise self._ended() from None
+
+    def events(self, wait_s: float = 0.0) -> list[EngineEvent]:
+        """What happened since the last call; waits up to `wait_s` for something to happen.
+
+        Raises `DeviceError` if the engine has ended and all that it said before was returned.
+        """
+        events: list[EngineEvent] = []
+        try:
+            while self._events.poll(0.0 if events else wait_s):
+                events += self._events.recv()
+        except (EOFError, OSError):
+            if not events:
+                raise self._ended() from None
+        return events
+
+    def _ended(self) -> DeviceError:
+        self._process.join(QUIT_WITHIN_S)
+        return DeviceError(f"the sound and MIDI engine has ended (exit code {self._process.exitcode}); start it again")
+
+    def close(self) -> None:
+        """End the engine; it writes its capture first."""
+        if self._closed:
+            return
+        self._closed = True
+        with suppress(OSError):
+            self._commands.send(Quit())
+        drain = threading.Thread(target=self._drain, daemon=True)
+        drain.start()  # a child that still has much to say must not wait for us while we wait for it
+        self._process.join(QUIT_WITHIN_S)
+        if self._process.is_alive():
+            self._process.kill()
+            self._process.join()
+        drain.join()
+        self._commands.close()
+        self._events.close()
+        self._process.close()
+
+    def _drain(self) -> None:
+        with suppress(EOFError, OSError):
+            while True:
+                self._events.recv()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, fault: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+
+# --- in the child ----------------------------------------------------------------------------------------------------
+
+
+def run_engine(
+    config: EngineConfig, commands: "Connection[None, Command]", events: "Connection[list[EngineEvent], None]"
+) -> None:
+    """The child's whole life."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches both; the parent asks the child to quit
+    if hasattr(os, "nice"):
+        with suppress(OSError):
+            os.nice(NICENESS)
+    outbox = _Outbox(events)
+    inbox = _Inbox(commands)
+    try:
+        _live(config, inbox, outbox)
+    except Exception as fault:
+        traceback.print_exc()
+        outbox.put([Notice(f"the sound and MIDI engine failed: {fault!r}")])
+        raise SystemExit(1) from fault
+    finally:
+        outbox.close()
+
+
+def _live(config: EngineConfig, inbox: "_Inbox", outbox: "_Outbox") -> None:
+    engine = Engine()
+    card = _card(engine, config) if config.sound else None
+    runner = Runner(engine, _kits(engine, config, card), card)
+    try:
+        runner.start(time.monotonic_ns())
+        sys.setswitchinterval(SWITCH_INTERVAL_S)  # not before: making the drum kit takes long turns
+        gc.collect()
+        gc.freeze()
+        gc.disable()  # a collection in the audio thread is a late block; what runs from here on makes no cycles
+        outbox.put([Ready(card.name if card is not None else None)])
+        while not (engine.quitting or inbox.is_closed):
+            happened = runner.step(time.monotonic_ns())
+            if happened:
+                outbox.put(happened)
+            for command in inbox.take():
+                engine.handle(command)
+            time.sleep(POLL_S)
+    finally:
+        runner.close()
+        outbox.put(engine.advance(time.monotonic_ns()))
+
+
+def _kits(engine: Engine, config: EngineConfig, card: Card | None) -> list[KitWatch]:
+    undisturbed = card.paused if card is not None else nullcontext
+    try:
+        directory = MidiDirectory(config.midi_driver, time.monotonic_ns, undisturbed)
+    except DeviceError as fault:
+        engine.notify(f"no kit can be heard: {fault}")
+        return []
+    return [KitWatch(directory, part) for part in config.kits]
+
+
+def _card(engine: Engine, config: EngineConfig) -> Card:
+    return Card(
+        engine,
+        lambda: open_output(config.output, config.block_frames, config.rate_hz),
+        lambda rate_hz: Mixer(synth_kit(rate_hz), click_sounds(rate_hz)),
+    )
+
+
+class _Outbox:
+    """Carries events to the parent in a thread of its own, for a pipe can be full."""
+
+    def __init__(self, events: "Connection[list[EngineEvent], None]") -> None:
+        self._events = events
+        self._queue: SimpleQueue[list[EngineEvent] | None] = SimpleQueue()
+        self._thread = threading.Thread(target=self._run, name="events", daemon=True)
+        self._thread.start()
+
+    def put(self, events: list[EngineEvent]) -> None:
+        """Send `events` soon."""
+        self._queue.put(events)
+
+    def close(self) -> None:
+        """Wait until everything is sent, or the parent is gone."""
+        self._queue.put(None)
+        self._thread.join(QUIT_WITHIN_S / 2)
+
+    def _run(self) -> None:
+        with suppress(OSError):
+            while (events := self._queue.get()) is not None:
+                self._events.send(events)
+
+
+class _Inbox:
+    """Receives commands in a thread of its own; closed once the parent is gone."""
+
+    def __init__(self, commands: "Connection[None, Command]") -> None:
+        self._commands = commands
+        self._received: deque[Command] = deque()
+        self.is_closed = False
+        threading.Thread(target=self._run, name="commands", daemon=True).start()
+
+    def take(self) -> list[Command]:
+        """The commands since the last call."""
+        commands = []
+        while self._received:
+            commands.append(self._received.popleft())
+        return commands
+
+    def _run(self) -> None:
+        try:
+            while True:
+                self._received.append(self._commands.recv())
+        except (EOFError, OSError):
+            self.is_closed = True

@@ -1,0 +1,59 @@
+"""A child process of a test that talks by lines: it says a word a line, and is told one a line."""
+
+import subprocess
+import sys
+from collections.abc import Mapping, Sequence
+from types import TracebackType
+from typing import Self
+
+
+def say(line: str) -> None:
+    """What a child says to its test."""
+    sys.stdout.write(line + "\n")
+    sys.stdout.flush()
+
+
+class Child:
+    """`python -m MODULE ARGUMENTS`, ended at the latest when its `with` block is left."""
+
+    def __init__(self, module: str, arguments: Sequence[str], env: Mapping[str, str]) -> None:
+        self._process = subprocess.Popen(
+            [sys.executable, "-m", module, *arguments],
+            env=dict(env),
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+            bufsize=1,
+        )
+
+    def expect(self, word: str) -> None:
+        """Wait for the next line and check it; the test's own timeout bounds the wait."""
+        assert self._process.stdout is not None
+        line = self._process.stdout.readline().strip()
+        assert line == word, f"the child said {line!r} instead of {word!r}"
+
+    def tell(self, line: str) -> None:
+        """Say one line to the child."""
+        assert self._process.stdin is not None
+        self._process.stdin.write(line + "\n")
+        self._process.stdin.flush()
+
+    def stop(self) -> None:
+        """Let the child end by itself, by force where it does not."""
+        if self._process.stdin is not None:
+            self._process.stdin.close()
+        try:
+            self._process.wait(5)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+        if self._process.stdout is not None:
+            self._process.stdout.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, fault: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.stop()

@@ -1,0 +1,139 @@
+"""Records what a program plays into JACK, in a process of its own, with the monotonic time of every frame.
+
+As a program: `python -m tests.fakes.jack_recorder FILE.npz`. It says `ready`, then obeys `connect REGEX` (the outputs
+of the program to be heard; says `connected`) and `stop` (writes FILE and says `done`).
+"""
+
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+import jack
+import numpy as np
+from numpy.typing import NDArray
+
+from tests.fakes.child import Child, say
+from tests.fakes.jack_server import JackServer
+
+_CONNECT_WITHIN_S = 10.0
+_WINDOW_BLOCKS = 200
+
+
+@dataclass(frozen=True)
+class Recording:
+    """What was heard: `sound` float32 (n, 2); `at_ns` (n,) the monotonic time at which JACK took each frame."""
+
+    sound: NDArray[np.float32]
+    at_ns: NDArray[np.int64]
+    lost_frames: int
+
+    def onsets(self, threshold: float, quiet_ns: int) -> list[int]:
+        """The frames at which sound exceeds `threshold` after at least `quiet_ns` below it."""
+        loud = np.flatnonzero(np.abs(self.sound).max(axis=1) > threshold)
+        if not len(loud):
+            return []
+        first = np.concatenate([[True], np.diff(self.at_ns[loud]) > quiet_ns])
+        return [int(frame) for frame in loud[first]]
+
+
+class JackRecorder:
+    """The recorder as the test sees it."""
+
+    def __init__(self, server: JackServer, folder: Path) -> None:
+        self._rate_hz = server.rate_hz
+        self._file = folder / "heard.npz"
+        self._child = Child(__name__, [str(self._file)], server.env)
+        self._child.expect("ready")
+
+    def connect(self, pattern: str) -> None:
+        """Listen to the audio outputs whose full names match `pattern`."""
+        self._child.tell(f"connect {pattern}")
+        self._child.expect("connected")
+
+    def stop(self) -> Recording:
+        """End recording; everything that was heard since the start."""
+        self._child.tell("stop")
+        self._child.expect("done")
+        with np.load(self._file) as heard:
+            return _timed(heard["sound"], heard["first_frame"], heard["called_ns"], self._rate_hz)
+
+    def __enter__(self) -> "JackRecorder":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._child.stop()
+
+
+def _timed(
+    sound: NDArray[np.float32], first_frame: NDArray[np.int64], called_ns: NDArray[np.int64], rate_hz: int
+) -> Recording:
+    """Give every frame its time: a callback comes soon after its period begins or late, but never before."""
+    frames_in_block = len(sound) // len(first_frame)
+    offset_ns = called_ns - first_frame * 1e9 / rate_hz
+    earliest = np.array(
+        [offset_ns[max(0, i - _WINDOW_BLOCKS) : i + _WINDOW_BLOCKS + 1].min() for i in range(len(offset_ns))]
+    )
+    begin_ns = first_frame * 1e9 / rate_hz + earliest
+    at_ns = (begin_ns[:, None] + np.arange(frames_in_block) * 1e9 / rate_hz).ravel()
+    lost = int((np.diff(first_frame) - frames_in_block).sum())
+    return Recording(sound, np.round(at_ns).astype(np.int64), lost)
+
+
+class _Listener:
+    """A JACK client that keeps every block of its two inputs."""
+
+    def __init__(self) -> None:
+        self.client = jack.Client("recorder", no_start_server=True)
+        self._inputs = [self.client.inports.register(name) for name in ("left", "right")]
+        self._blocks: list[NDArray[np.float32]] = []
+        self._first_frames: list[int] = []
+        self._called_ns: list[int] = []
+        self.client.set_process_callback(self._take)
+        self.client.activate()
+
+    def _take(self, _: int) -> None:
+        self._called_ns.append(time.monotonic_ns())
+        self._first_frames.append(self.client.last_frame_time)
+        self._blocks.append(np.column_stack([port.get_array() for port in self._inputs]))
+
+    def connect(self, pattern: str) -> None:
+        give_up_s = time.monotonic() + _CONNECT_WITHIN_S
+        while time.monotonic() < give_up_s:
+            found = self.client.get_ports(pattern, is_audio=True, is_output=True)
+            if len(found) >= len(self._inputs):
+                for source, target in zip(found, self._inputs, strict=False):
+                    self.client.connect(source, target)
+                return
+            time.sleep(0.02)
+        raise RuntimeError(f"no two audio outputs match {pattern!r}")
+
+    def write(self, path: Path) -> None:
+        self.client.deactivate()
+        count = min(len(self._blocks), len(self._first_frames))
+        np.savez(
+            path,
+            sound=np.concatenate(self._blocks[:count]),
+            first_frame=np.array(self._first_frames[:count], np.int64),
+            called_ns=np.array(self._called_ns[:count], np.int64),
+        )
+        self.client.close()
+
+
+def main(path: str) -> None:
+    """The child's whole life."""
+    listener = _Listener()
+    say("ready")
+    for line in sys.stdin:
+        word, _, rest = line.strip().partition(" ")
+        if word == "connect":
+            listener.connect(rest)
+            say("connected")
+        elif word == "stop":
+            listener.write(Path(path))
+            say("done")
+            return
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

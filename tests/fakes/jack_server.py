@@ -1,0 +1,122 @@
+"""A JACK server of the test's own: the sound card and the MIDI bus of a machine that has neither.
+
+`JackServer` starts `jackd` with its dummy driver as a child, under a name that no other server has, and waits until a
+client can really join. `JACK_DEFAULT_SERVER` in `env` leads children to it; `joined` leads this process to it.
+"""
+
+import contextlib
+import itertools
+import os
+import shutil
+import subprocess
+import tempfile
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+import jack
+import pytest
+
+START_WITHIN_S = 10.0
+ATTEMPTS = 3
+_NUMBERS = itertools.count()
+_CLIENT_PATIENCE_MS = 2_000  # a client that stalls on a shared machine is not thrown out
+
+
+def jackd_is_installed() -> bool:
+    return shutil.which("jackd") is not None
+
+
+class JackServer:
+    """A running server; use it as a context manager."""
+
+    def __init__(self, rate_hz: int = 48_000, period_frames: int = 64) -> None:
+        self.rate_hz = rate_hz
+        self.period_frames = period_frames
+        self.name = ""
+        self._process: subprocess.Popen[bytes] | None = None
+        self._log: Path | None = None
+
+    @property
+    def env(self) -> dict[str, str]:
+        """The environment for a child that shall join this server."""
+        return {**os.environ, "JACK_DEFAULT_SERVER": self.name, "JACK_NO_START_SERVER": "1"}
+
+    def start(self) -> None:
+        """Start; tries again where a server dies young, and without real-time priority where that is not granted."""
+        faults = []
+        for attempt in range(ATTEMPTS):
+            self._launch(realtime=attempt == 0)
+            if self._answers():
+                return
+            faults.append(self._read_log())
+            self.stop()
+        raise RuntimeError("jackd did not start:\n" + "\n".join(faults))
+
+    def stop(self) -> None:
+        """End the server, by force if it hangs."""
+        if self._process is not None:
+            self._process.terminate()
+            try:
+                self._process.wait(5)
+            except subprocess.TimeoutExpired:
+                self._process.kill()
+                self._process.wait()
+            self._process = None
+        if self._log is not None:
+            self._log.unlink(missing_ok=True)
+            self._log = None
+
+    def _launch(self, realtime: bool) -> None:
+        self.name = f"drum-test-{os.getpid()}-{next(_NUMBERS)}"
+        handle, path = tempfile.mkstemp(prefix="jackd-", suffix=".log")
+        self._log = Path(path)
+        options = [f"-n{self.name}", f"-t{_CLIENT_PATIENCE_MS}", "-R" if realtime else "-r"]
+        driver = ["-d", "dummy", "-r", str(self.rate_hz), "-p", str(self.period_frames)]
+        self._process = subprocess.Popen(
+            ["jackd", *options, *driver], stdin=subprocess.DEVNULL, stdout=handle, stderr=subprocess.STDOUT
+        )
+        os.close(handle)
+
+    def _answers(self) -> bool:
+        assert self._process is not None
+        jack.set_error_function(_say_nothing)  # it is not yet there, that is the point
+        give_up_s = time.monotonic() + START_WITHIN_S
+        while time.monotonic() < give_up_s and self._process.poll() is None:
+            with contextlib.suppress(jack.JackError):
+                client = jack.Client("probe", servername=self.name, no_start_server=True)
+                begun = client.frame_time
+                time.sleep(0.05)
+                runs = client.frame_time != begun
+                client.close()
+                if runs:
+                    return True
+            time.sleep(0.05)
+        return False
+
+    def _read_log(self) -> str:
+        return self._log.read_text(errors="replace") if self._log is not None else ""
+
+    def __enter__(self) -> Self:
+        self.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, fault: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.stop()
+
+
+def _say_nothing(_: str) -> None:
+    pass
+
+
+@contextlib.contextmanager
+def joined(server: JackServer) -> Iterator[None]:
+    """Clients that this process and its children open meanwhile join `server`."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("JACK_DEFAULT_SERVER", server.name)
+        patch.setenv("JACK_NO_START_SERVER", "1")
+        yield
