@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.motion.drummer import Drummer
 from station.motion.figure import Figure, figure_of
-from station.motion.kit import Kit, load_kit
+from station.motion.kit import DEFAULT_KIT, Kit, load_kit
 from station.music.judgement import Judgement, Label
 from station.music.score import Score
 from station.practice.plan import Phase, Plan
@@ -41,7 +41,7 @@ class Stage:
 
     def __init__(self, plan: Plan, kit: str = "", figure: Figure | None = None) -> None:
         self.plan = plan
-        self._kit: Kit = load_kit(kit)
+        self._kit: Kit = load_kit(kit or DEFAULT_KIT)
         self._figure = figure or figure_of()
         demonstrations = [s for s in plan.segments if s.phase is Phase.DEMONSTRATION]
         self._passes = self._part(plan.score, plan.passes_start_ns)

@@ -1,6 +1,4 @@
-"""A session with a virtual student, faster than real time: the same engine, decoder and session, on a clock moved
-by hand.
-"""
+"""A session with a virtual student: the same engine, decoder and session, on a clock that is moved by hand."""
 
 from dataclasses import dataclass
 from pathlib import Path

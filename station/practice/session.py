@@ -20,7 +20,8 @@ from station.music.judgement import Judgement, Label
 from station.music.performance import Performance
 from station.music.score import Score
 from station.practice.plan import TAIL_NS, Plan, Segment
-from station.scoring.align import Alignment, align
+from station.scoring.align import align
+from station.scoring.alignment import Alignment
 from station.scoring.follower import Follower
 from station.scoring.windows import DEFAULT_LEVEL, Windows
 

@@ -79,15 +79,16 @@ class Slipper:
         piece = score.notes["piece"].copy()
         draws = self._of_notes.random((len(score), 2))
         miss, wrong = self._spec.miss_pct / 100.0, self._spec.wrong_piece_pct / 100.0
+        main = main_of_rows(score)
+        leads = main == np.arange(len(score))
         hand = np.isin(limbs, (Limb.RIGHT_HAND, Limb.LEFT_HAND))
-        label[draws[:, 0] < miss] = Label.MISS
-        for row in np.flatnonzero(hand & (draws[:, 0] >= miss) & (draws[:, 0] < miss + wrong)).tolist():
+        label[leads & (draws[:, 0] < miss)] = Label.MISS
+        astray = leads & hand & (draws[:, 0] >= miss) & (draws[:, 0] < miss + wrong)
+        for row in np.flatnonzero(astray).tolist():
             if (other := where.free_neighbour(row, float(draws[row, 1]))) is not None:
                 label[row], piece[row] = Label.WRONG_PIECE, other
-        for grace, main in enumerate(main_of_rows(score).tolist()):
-            if main != grace:
-                label[grace] = label[main]
-                piece[grace] = piece[main] if label[main] == Label.WRONG_PIECE else piece[grace]
+        label = label[main]
+        piece = np.where(label == Label.WRONG_PIECE, piece[main], piece)
         ticks, pieces = self._extras(score, where, label)
         return Slips(label, piece, ticks, pieces)
 

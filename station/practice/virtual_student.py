@@ -27,6 +27,7 @@ from station.practice.student_onsets import OnsetPlayer, Streams
 from station.practice.student_slips import Slipper, Slips
 from station.practice.student_spec import FAULTS, StudentSpec
 from station.practice.student_strokes import Strokes, chokes_of
+from station.scoring.document import Json
 
 NOBODY = -1
 """The partner of a note or hit that has none."""
@@ -56,7 +57,7 @@ class VirtualPerformance:
         asynchrony: NDArray[np.float64] = (played_ns - self.score.onset_ns[rows]) / NS_PER_MS
         return asynchrony
 
-    def truth_document(self) -> dict[str, object]:
+    def truth_document(self) -> dict[str, Json]:
         """Counts and timing under the keys of the `practice` document, and what was planted; None is no data."""
         asynchrony = self.asynchrony_ms()
         return {

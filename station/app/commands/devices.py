@@ -63,8 +63,8 @@ def _list(arguments: argparse.Namespace) -> int:
         return 0
     print("Kits (MIDI inputs)", *[f"  {kit['port']}  [{kit['preset']}]" for kit in kits] or ["  none"], sep="\n")
     print("Sound outputs", *[f"  {output['name']}" for output in outputs] or ["  none"], sep="\n")
-    for fault in faults:
-        say(f"station: {fault}")
+    for text in faults:
+        say(f"station: {text}")
     return 0
 
 

@@ -21,11 +21,11 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Assign limbs and print them."""
-    from station.motion.kit import load_kit
+    from station.motion.kit import DEFAULT_KIT, load_kit
     from station.motion.limbs import assign_limbs
 
     score = load_score(arguments.score)
-    assigned = assign_limbs(score, load_kit(arguments.kit), method=arguments.method)
+    assigned = assign_limbs(score, load_kit(arguments.kit or DEFAULT_KIT), method=arguments.method)
     rows = [
         {
             "index": i,

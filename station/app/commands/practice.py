@@ -1,7 +1,6 @@
 """`station practice [LESSON]`: a practice session in the window, in the terminal, or with a virtual student."""
 
 import argparse
-import shutil
 import tempfile
 from dataclasses import replace
 from datetime import datetime
@@ -121,12 +120,12 @@ class _Folder:
             self.path.rmdir()
 
     def leave(self, result: SessionResult, document: dict[str, Json], as_json: bool) -> None:
-        """Write everything, then print the report; what the disk refuses is said after the report was printed."""
+        """Write everything, then print the report; what the disk refused is said after the report was printed."""
         fault = None
         try:
             self._write(result, document)
         except StationError as error:
-            fault = _rescued(error, self.path / CAPTURE_NAME)
+            fault = _rescued(error, result, document)
         if as_json:
             print_json(document)
         else:
@@ -154,14 +153,17 @@ class _Folder:
             say(f"no picture: {fault}")
 
 
-def _rescued(fault: StationError, capture: Path) -> StationError:
-    """The fault, with word of where the hits are safe."""
-    if capture.exists() and capture.stat().st_size:
-        return StationError(f"{fault}; every hit is safe in {capture}")
-    spare = Path(tempfile.gettempdir()) / f"drum-station-{datetime.now():%Y-%m-%dT%H-%M-%S}.capture"
+def _rescued(fault: StationError, result: SessionResult, document: dict[str, Json]) -> StationError:
+    """The fault, with word of where the hits are safe: another disk, or else the report that is printed."""
+    from station.music.formats.smf import write_performance
+    from station.scoring.pairs import pairs_csv
+
+    spare = Path(tempfile.gettempdir()) / f"drum-station-{datetime.now():%Y-%m-%dT%H-%M-%S-%f}.mid"
     try:
-        shutil.copyfile(capture, spare)
-    except OSError:
+        write_performance(result.performance, spare)
+    except StationError:
+        document["pairs_csv"] = pairs_csv(result.score, result.performance, result.alignment)
+        say("the disks are full: what was played is printed with --json, under pairs_csv")
         return fault
     return StationError(f"{fault}; every hit is safe in {spare}")
 
