@@ -82,8 +82,11 @@ def _openness(drums: Drums, meaning: _Meaning) -> NDArray[np.float32]:
 def _latest(drums: Drums, controller: int) -> NDArray[np.float64]:
     """The value of `controller` when each note sounds; NaN before its first."""
     moves = drums.controllers[drums.controllers["number"] == controller]
-    before = np.searchsorted(moves["tick"], drums.notes["tick"], side="right")
-    return np.concatenate(([np.nan], moves["value"]))[before]
+    tick, place = (np.concatenate([moves[name], drums.notes[name]]) for name in ("tick", "place"))
+    order = np.lexsort((place, tick))
+    latest = np.empty(len(order), np.int64)
+    latest[order] = np.maximum.accumulate(np.where(order < len(moves), order, -1))
+    return np.append(moves["value"], np.nan)[latest[len(moves) :]]
 
 
 def _chokes(drums: Drums, meaning: _Meaning) -> NDArray[np.void]:

@@ -31,6 +31,7 @@ TRACK_NOTE_DTYPE = np.dtype(
         ("channel", np.uint8),
         ("number", np.uint8),
         ("velocity", np.uint8),  # 1–127
+        ("place", np.int32),  # among the track's messages, which tells what came first on one tick
     ]
 )
 NOT_ENDED = -1
@@ -41,6 +42,7 @@ CONTROL_DTYPE = np.dtype(
         ("channel", np.uint8),
         ("number", np.uint8),  # of the controller, or of the note whose key is pressed (polyphonic aftertouch)
         ("value", np.uint8),
+        ("place", np.int32),
     ]
 )
 
@@ -80,7 +82,8 @@ class SysEx:
 class MidiTrack:
     """One track: `notes` (n,) of `TRACK_NOTE_DTYPE`, `controllers` and `aftertouch` of `CONTROL_DTYPE`, by file order.
 
-    All arrays are read-only; ticks count from the track's start and never fall. `end_tick` is its end-of-track event's.
+    All arrays are read-only; ticks count from the track's start and never fall. `end_tick` is its end-of-track event's;
+    `message_count` the messages among which `place` counts.
     """
 
     notes: NDArray[np.void]
@@ -91,6 +94,7 @@ class MidiTrack:
     texts: tuple[Text, ...] = ()
     sysex: tuple[SysEx, ...] = ()
     end_tick: int = 0
+    message_count: int = 0
 
     @property
     def name(self) -> str:

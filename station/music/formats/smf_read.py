@@ -132,6 +132,7 @@ def _track(events: TrackEvents) -> MidiTrack:
         texts=tuple(events.texts),
         sysex=tuple(events.sysex),
         end_tick=events.end_tick,
+        message_count=len(columns.tick),
     )
 
 
@@ -153,6 +154,7 @@ def _notes(columns: Columns, kind: NDArray[np.uint8]) -> NDArray[np.void]:
         ("channel", channel),
         ("number", number),
         ("velocity", velocity),
+        ("place", played),
     ):
         rows[name] = column[is_on]
     rows.setflags(write=False)
@@ -165,5 +167,6 @@ def _controls(columns: Columns, which: NDArray[np.bool_]) -> NDArray[np.void]:
     rows["channel"] = columns.status[which] & 0x0F
     rows["number"] = columns.first[which]
     rows["value"] = columns.second[which]
+    rows["place"] = np.flatnonzero(which)
     rows.setflags(write=False)
     return rows
