@@ -25,6 +25,11 @@ SWING_FRACTIONS = (0.54, 0.74)
 """Where in its beat a swung offbeat lies: ratios 1.17 to 2.85, so that a dotted figure (3:1) is none; our choice."""
 LONGEST_DOUBLE_MS = 250
 """Beyond, two strokes of one hand are two strokes and no double; our choice."""
+_DOUBLE_REACH = 1.5
+"""The other hand is beside a double if it strikes within so many of its intervals: triplets mix with eighths."""
+_OTHER_HAND = {int(Limb.RIGHT_HAND): int(Limb.LEFT_HAND), int(Limb.LEFT_HAND): int(Limb.RIGHT_HAND)}
+_BOTH_HANDS = -2
+"""Stands for a limb where the hands strike together."""
 
 _PLACE_DIGITS = 3
 """Fractions of a beat that agree to so many digits are one place, so that ticks may be rounded; our choice."""
@@ -98,30 +103,27 @@ def second_of_doubles(score: Score) -> Flags:
     notes, flags = score.notes, np.zeros(len(score), bool)
     hands = ~score.is_grace & np.isin(notes["limb"], (Limb.RIGHT_HAND, Limb.LEFT_HAND))
     rows = np.flatnonzero(hands)
-    runs = np.split(rows, np.flatnonzero(_breaks(score, rows)) + 1)
-    flags[[run[1] for i, run in enumerate(runs) if len(run) == 2 and _beside_other_hand(score, runs, i)]] = True
+    at_ns = score.onset_ns[rows]
+    gaps = np.diff(at_ns)
+    chord = np.concatenate([[False], gaps == 0]) | np.concatenate([gaps == 0, [False]])
+    hand = np.where(chord[: len(rows)], _BOTH_HANDS, notes["limb"][rows])
+    ends = (np.diff(hand) != 0) | (gaps > LONGEST_DOUBLE_MS * NS_PER_MS) | (gaps == 0)
+    for run in np.split(np.arange(len(rows)), np.flatnonzero(ends) + 1):
+        if len(run) == 2 and _beside_other_hand(hand, at_ns, int(run[0])):
+            flags[rows[run[1]]] = True
     diddles = np.flatnonzero(~score.is_grace & (notes["ornament"] == Ornament.DIDDLE) & ~hands)
     flags[diddles[1::2]] = True
     return flags
 
 
-def _breaks(score: Score, rows: NDArray[np.int64]) -> Flags:
-    """After which of `rows` a run of one hand ends: the hand changes, it is a chord, or the next is far."""
-    limb, at_ns = score.notes["limb"][rows], score.onset_ns[rows]
-    gaps = np.diff(at_ns)
-    return np.asarray((np.diff(limb) != 0) | (gaps > LONGEST_DOUBLE_MS * NS_PER_MS) | (gaps == 0))
-
-
-def _beside_other_hand(score: Score, runs: list[NDArray[np.int64]], i: int) -> bool:
-    """Whether run `i` is alone in its slots and the other hand strikes about as near as its own two strokes are."""
-    limb, at_ns, run = score.notes["limb"], score.onset_ns, runs[i]
-    reach = 1.5 * (at_ns[run[1]] - at_ns[run[0]])
-    before = runs[i - 1][-1] if i > 0 else None
-    after = runs[i + 1][0] if i + 1 < len(runs) else None
-    alone = (before is None or at_ns[before] < at_ns[run[0]]) and (after is None or at_ns[after] > at_ns[run[1]])
-    near_before = before is not None and limb[before] != limb[run[0]] and at_ns[run[0]] - at_ns[before] <= reach
-    near_after = after is not None and limb[after] != limb[run[0]] and at_ns[after] - at_ns[run[1]] <= reach
-    return bool(alone and (near_before or near_after))
+def _beside_other_hand(hand: NDArray[np.int8], at_ns: NDArray[np.int64], first: int) -> bool:
+    """Whether the other hand strikes alone before stroke `first` or after the next, about as near as these two are."""
+    other = _OTHER_HAND.get(int(hand[first]))
+    reach = _DOUBLE_REACH * (at_ns[first + 1] - at_ns[first])
+    before, after = first - 1, first + 2
+    near_before = before >= 0 and hand[before] == other and at_ns[first] - at_ns[before] <= reach
+    near_after = after < len(hand) and hand[after] == other and at_ns[after] - at_ns[first + 1] <= reach
+    return bool(near_before or near_after)
 
 
 def _beat_starts(score: Score) -> NDArray[np.int64]:
