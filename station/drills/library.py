@@ -26,12 +26,12 @@ _NAMES_SHOWN = 5
 
 @dataclass(frozen=True, slots=True)
 class LessonRow:
-    """One row of the list of lessons; `tempo_bpm` is in the lesson's own beat; `folder` the kind: grooves, fills …."""
+    """One row of the list of lessons; the tempo counts the lesson's own beat; `folder` is the kind: grooves, fills …."""
 
     name: str
     title: str
     level: int
-    tempo_bpm: float
+    beats_a_minute: float
     meter: str
     bars: int
     folder: str
