@@ -91,10 +91,10 @@ def named(view: View) -> Camera:
 
 
 _CAMERAS = {
-    View.FRONT: Camera((0.06, 0.38, 0.80), 72 * _DEG, 13 * _DEG, 3.0, 0.66),
-    View.SHOULDER: Camera((0.04, 0.62, 0.74), -112 * _DEG, 38 * _DEG, 1.55, 0.80),
-    View.EYES: Camera((0.05, 0.72, 0.62), -90 * _DEG, 47 * _DEG, 0.92, 1.15),
+    View.FRONT: Camera((0.06, 0.40, 0.70), 72 * _DEG, 13 * _DEG, 3.3, 0.66),
+    View.SHOULDER: Camera((0.02, 0.60, 0.70), -54 * _DEG, 50 * _DEG, 1.85, 0.78),
+    View.EYES: Camera((0.05, 0.74, 0.62), -90 * _DEG, 54 * _DEG, 0.86, 1.15),
     View.TOP: Camera((0.08, 0.48, 0.6), -90 * _DEG, 88 * _DEG, 2.1, 0.80),
-    View.HANDS: Camera((-0.03, 0.42, 0.76), 60 * _DEG, 28 * _DEG, 1.15, 0.62),
+    View.HANDS: Camera((-0.03, 0.42, 0.78), 60 * _DEG, 26 * _DEG, 1.15, 0.62),
     View.FEET: Camera((-0.02, 0.45, 0.16), -25 * _DEG, 22 * _DEG, 1.5, 0.62),
 }

@@ -120,19 +120,29 @@ def cymbal(radius: float, detail: Detail, bell: float = 0.19) -> Mesh:
     """A cymbal whose bow lies in the plane z = 0 at 0.6 of its radius; the bell rises above, the edge falls below."""
     rise = 0.055 * radius
     r = np.array([1.0, 0.985, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, bell * 1.15, bell, bell * 0.9, bell * 0.6, bell * 0.25])
+    if detail.hardware:
+        r = np.sort(np.concatenate([r, np.linspace(bell * 1.3, 0.97, 22)]))[::-1]
     bow = rise * (1 - (r / 0.98) ** 2) - rise * (1 - (0.6 / 0.98) ** 2)
     dome = np.where(r < bell, (BELL_ABOVE_BOW_M - 0.4 * rise) * np.sqrt(np.clip(1 - (r / bell) ** 2, 0, 1)), 0)
     top = np.stack([r * radius, bow + dome], axis=1)
     under = top[::-1] - [0.0, 0.0015]
     mesh = joined(
         [
-            lathe(top, detail.segments, Material.BRONZE),
+            _grooved(lathe(top, detail.segments, Material.BRONZE), detail),
             lathe(under, detail.segments, Material.BRONZE).shaded(0.55),
         ]
     )
     nut = lathe([(0.012, top[-1, 1]), (0.012, top[-1, 1] + 0.014), (0, top[-1, 1] + 0.016)], 10, Material.FELT)
     wing = rod([0, 0, top[-1, 1] + 0.014], [0, 0, top[-1, 1] + 0.034], 0.006, Material.CHROME, 8)
     return joined([mesh, nut, wing])
+
+
+def _grooved(mesh: Mesh, detail: Detail) -> Mesh:
+    """Every other ring reflects a little less: the tonal grooves of the lathe."""
+    if not detail.hardware:
+        return mesh
+    ring = np.arange(len(mesh.position)) // (detail.segments + 1)
+    return mesh.shaded(np.where(ring % 2 == 0, 1.0, 0.80))
 
 
 def hat_bottom(radius: float, detail: Detail) -> Mesh:

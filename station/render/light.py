@@ -18,7 +18,7 @@ class Light:
 
     at: tuple[float, float, float] = (1.15, 2.0, 3.3)
     target: tuple[float, float, float] = (0.03, 0.35, 0.6)
-    colour: tuple[float, float, float] = (2.55, 2.22, 1.85)
+    colour: tuple[float, float, float] = (1.62, 1.42, 1.20)
     sky: tuple[float, float, float] = (0.185, 0.205, 0.255)
     fov_rad: float = 0.82
 

@@ -40,6 +40,7 @@ class Material(IntEnum):
     HEADPHONES = 22
     GLOW = 23
     SHELL_RING = 24
+    BAND = 25
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +74,7 @@ TABLE: dict[Material, Look] = {
     Material.TROUSERS: Look((0.21, 0.26, 0.38), 0.92, sheen=0.40),
     Material.SHOE: Look((0.80, 0.22, 0.20), 0.60, coat=0.15, sheen=0.2),
     Material.SOLE: Look((0.93, 0.92, 0.90), 0.70),
-    Material.SKIN: Look((0.88, 0.65, 0.51), 0.55, sheen=0.60),
+    Material.SKIN: Look((0.86, 0.62, 0.48), 0.55, sheen=0.55),
     Material.HAIR: Look((0.20, 0.13, 0.10), 0.55, grain=0.25, sheen=0.35),
     Material.EYE_WHITE: Look((0.97, 0.97, 0.98), 0.25, coat=0.6),
     Material.EYE: Look((0.08, 0.06, 0.06), 0.10, coat=1.0),
@@ -81,6 +82,7 @@ TABLE: dict[Material, Look] = {
     Material.HEADPHONES: Look((0.14, 0.15, 0.18), 0.35, coat=0.5),
     Material.GLOW: Look((1.00, 0.60, 0.24), 1.0, emission=1.0),
     Material.SHELL_RING: Look((0.97, 0.55, 0.20), 0.35, coat=0.8),
+    Material.BAND: Look((0.06, 0.36, 0.42), 0.95, sheen=0.6),
 }
 
 

@@ -104,7 +104,7 @@ def _lay_rug(colour: NDArray[np.float32], x: NDArray[np.float32], y: NDArray[np.
     """A woven rug with two borders, a field of lozenges and a medallion."""
     hx, hy = _RUG_HALF
     edge = np.minimum(hx - np.abs(x), hy - np.abs(y))
-    field, border = np.array([0.46, 0.15, 0.16], np.float32), np.array([0.13, 0.17, 0.26], np.float32)
+    field, border = np.array([0.40, 0.13, 0.15], np.float32), np.array([0.13, 0.17, 0.26], np.float32)
     cream, gold = np.array([0.74, 0.64, 0.50], np.float32), np.array([0.70, 0.44, 0.20], np.float32)
     lozenge = np.abs(np.mod(x / 0.24, 1) - 0.5) + np.abs(np.mod(y / 0.24, 1) - 0.5)
     star = np.abs(x) / 0.80 + np.abs(y) / 0.66

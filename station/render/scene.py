@@ -14,12 +14,14 @@ from station.motion.figure import Figure
 from station.motion.kit import Kit
 from station.motion.pose import Pose
 from station.render import kit_rig, room, shaders
+from station.render.body import Skin, build_body
 from station.render.camera import Camera
 from station.render.drums import Detail
 from station.render.kit_rig import KitRig, build_kit, floor_discs
 from station.render.materials import shader_table
 from station.render.mesh import Mesh
 from station.render.light import Light
+from station.render.skeleton import Bone, Skeleton
 from station.render.space import gl_bytes, unit
 
 RIGID_DTYPE = np.dtype(
@@ -33,7 +35,20 @@ RIGID_DTYPE = np.dtype(
         ("pad", np.uint8),
     ]
 )
-_RIGID_LAYOUT = "3f 4f2 4f2 1i1 1i1 1f1 1x"
+SKIN_DTYPE = np.dtype(
+    [
+        ("position", np.float32, 3),
+        ("normal", np.float16, 4),
+        ("bones", np.uint8, 4),
+        ("weights", np.uint8, 4),
+        ("material", np.uint8),
+        ("ao", np.uint8),
+        ("pad", np.uint8, 2),
+    ]
+)
+_SKIN_LAYOUT = "3f 4f2 4i1 4f1 1i1 1f1 2x1"
+_SKIN_NAMES = ("position", "normal", "bones", "weights", "material", "ao")
+_RIGID_LAYOUT = "3f 4f2 4f2 1i1 1i1 1f1 1x1"
 _RIGID_NAMES = ("position", "normal", "tangent", "bone", "material", "ao")
 
 
@@ -49,9 +64,9 @@ class Quality:
 
 
 QUALITIES = (
-    Quality(0, 768, Detail(28, hardware=False), 1.6, 0),
-    Quality(1, 1024, Detail(48, hardware=True), 1.15, 4),
-    Quality(2, 2048, Detail(80, hardware=True), 0.8, 4),
+    Quality(0, 768, Detail(28, hardware=False), 2.2, 0),
+    Quality(1, 1024, Detail(48, hardware=True), 1.5, 4),
+    Quality(2, 2048, Detail(80, hardware=True), 1.0, 4),
 )
 """Lowest to highest; `figure_cell` multiplies the cell size that the figure's surface is cut with."""
 
@@ -72,14 +87,18 @@ class Scene:
         self.quality = quality
         self.rig: KitRig = build_kit(kit, figure, quality.detail)
         self._rigid_program = ctx.program(shaders.RIGID_VERTEX, shaders.solid_fragment(quality.level))
+        self._skin_program = ctx.program(shaders.SKIN_VERTEX, shaders.solid_fragment(quality.level))
+        self._skin_shadow = ctx.program(shaders.SKIN_SHADOW, shaders.SHADOW_FRAGMENT)
+        self.skeleton = Skeleton(figure)
         self._rigid_shadow = ctx.program(shaders.RIGID_SHADOW, shaders.SHADOW_FRAGMENT)
         self._palette = ctx.buffer(reserve=shaders.MAX_BONES * 80, dynamic=True)
         self._floor_program = ctx.program(shaders.ROOM_VERTEX, shaders.floor_fragment(quality.level))
         self._wall_program = ctx.program(shaders.ROOM_VERTEX, shaders.WALL_FRAGMENT)
         self._textures(kit)
         self._upload_rigid()
+        self._upload_skin(build_body(figure, quality.figure_cell))
         self._upload_room()
-        for program in (self._rigid_program, self._floor_program, self._wall_program):
+        for program in (self._rigid_program, self._skin_program, self._floor_program, self._wall_program):
             self._constants(program)
 
     def _textures(self, kit: Kit) -> None:
@@ -104,8 +123,22 @@ class Scene:
         content = [(self._vertices, _RIGID_LAYOUT, *_RIGID_NAMES)]
         self._rigid = self._ctx.vertex_array(self._rigid_program, content, self._faces)
         self._rigid_depth = self._ctx.vertex_array(
-            self._rigid_shadow, [(self._vertices, "3f 16x 1i1 3x", "position", "bone")], self._faces
+            self._rigid_shadow, [(self._vertices, "3f 16x1 1i1 3x1", "position", "bone")], self._faces
         )
+
+    def _upload_skin(self, skin: Skin) -> None:
+        rows = np.zeros(len(skin.position), SKIN_DTYPE)
+        rows["position"], rows["material"] = skin.position, skin.material
+        rows["normal"][:, :3] = skin.normal
+        rows["bones"] = skin.bones + self.rig.bone_count
+        rows["weights"] = _shares(skin.weights)
+        rows["ao"] = np.rint(skin.ao * 255)
+        vertices, faces = self._ctx.buffer(rows.tobytes()), self._ctx.buffer(skin.faces.tobytes())
+        content = [(vertices, _SKIN_LAYOUT, *_SKIN_NAMES)]
+        self._skin = self._ctx.vertex_array(self._skin_program, content, faces)
+        depth = [(vertices, "3f 8x1 4i1 4f1 4x1", "position", "bones", "weights")]
+        self._skin_depth = self._ctx.vertex_array(self._skin_shadow, depth, faces)
+        self._skin_triangles = len(skin.faces)
 
     def _upload_room(self) -> None:
         self._room = [
@@ -144,19 +177,22 @@ class Scene:
     @property
     def triangles(self) -> int:
         """How many triangles a picture draws, shadows apart."""
-        return self._faces.size // 12
+        return self._faces.size // 12 + self._skin_triangles
 
     def draw(self, target: moderngl.Framebuffer, camera: Camera, pose: Pose | None, viewport: tuple[int, int, int, int]) -> None:
         """Draw into `viewport` (x, y, width, height from the lower left) of `target`."""
         ctx = self._ctx
         matrices = np.tile(np.eye(4), (shaders.MAX_BONES, 1, 1))
-        matrices[: self.rig.bone_count] = kit_rig.bone_matrices(self.rig, pose)
+        first = self.rig.bone_count
+        matrices[:first] = kit_rig.bone_matrices(self.rig, pose)
+        if pose is not None:
+            matrices[first : first + len(Bone)] = self.skeleton.matrices(pose)
         glow = np.zeros((shaders.MAX_BONES, 4), np.float32)
         self._palette.write(gl_bytes(matrices) + glow.tobytes())
         self._palette.bind_to_uniform_block(0)
         ctx.disable(moderngl.BLEND | moderngl.CULL_FACE)
         ctx.enable(moderngl.DEPTH_TEST)
-        self._draw_shadows()
+        self._draw_shadows(pose is not None)
         target.use()
         ctx.viewport = viewport
         ctx.scissor = viewport
@@ -165,19 +201,31 @@ class Scene:
         self._wall.use(1)
         self._shadow.use(2)
         projection = gl_bytes(camera.matrix(viewport[2] / viewport[3]))
-        for program in (self._rigid_program, self._floor_program, self._wall_program):
+        for program in (self._skin_program, self._rigid_program, self._floor_program, self._wall_program):
             program["view_projection"].write(projection)
             if "eye" in program:
                 program["eye"] = camera.eye
+        if pose is not None:
+            self._skin.render()
         for part in (self._rigid, *self._room):  # nearest first, so that what is hidden is not shaded
             part.render()
         ctx.scissor = None
 
-    def _draw_shadows(self) -> None:
+    def _draw_shadows(self, with_figure: bool) -> None:
         self._shadow_buffer.use()
         self._shadow_buffer.clear(depth=1.0)
-        self._rigid_shadow["light_projection"].write(gl_bytes(_KEY.matrix()))
+        for program in (self._rigid_shadow, self._skin_shadow):
+            program["light_projection"].write(gl_bytes(_KEY.matrix()))
         self._rigid_depth.render()
+        if with_figure:
+            self._skin_depth.render()
+
+
+def _shares(weights: NDArray[np.float64]) -> NDArray[np.uint8]:
+    """Weights as 255ths that sum to 255 exactly, so that no corner is pulled towards the origin."""
+    parts = np.rint(weights * 255)
+    parts[:, 0] += 255 - parts.sum(axis=1)
+    return parts.astype(np.uint8)
 
 
 def _interleaved(mesh: Mesh) -> NDArray[np.void]:

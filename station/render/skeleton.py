@@ -1,0 +1,138 @@
+"""The bones that carry the figure's skin: their frames in any pose, and the pose in which the skin was made.
+
+The skin is made sitting, arms half bent, near to how a drummer always is, so that no joint ever turns far from it.
+"""
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+
+from station.motion.figure import Figure, Joint
+from station.motion.pose import Pose
+from station.render.space import Matrix, Vector, frame, unit
+
+
+class Bone(IntEnum):
+    """What moves as one; right before left."""
+
+    WAIST = 0
+    CHEST = 1
+    NECK = 2
+    HEAD = 3
+    RIGHT_UPPER_ARM = 4
+    RIGHT_FOREARM = 5
+    RIGHT_TWIST = 6  # the forearm's far half, which turns with the palm
+    RIGHT_HAND = 7
+    LEFT_UPPER_ARM = 8
+    LEFT_FOREARM = 9
+    LEFT_TWIST = 10
+    LEFT_HAND = 11
+    RIGHT_THIGH = 12
+    RIGHT_SHANK = 13
+    RIGHT_FOOT = 14
+    LEFT_THIGH = 15
+    LEFT_SHANK = 16
+    LEFT_FOOT = 17
+    EYES = 18  # the head, squeezed upright as the lids close
+
+
+_ARMS = (
+    (Bone.RIGHT_UPPER_ARM, Joint.RIGHT_SHOULDER, Joint.RIGHT_ELBOW, Joint.RIGHT_WRIST, Joint.RIGHT_HAND),
+    (Bone.LEFT_UPPER_ARM, Joint.LEFT_SHOULDER, Joint.LEFT_ELBOW, Joint.LEFT_WRIST, Joint.LEFT_HAND),
+)
+_LEGS = (
+    (Bone.RIGHT_THIGH, Joint.RIGHT_HIP, Joint.RIGHT_KNEE, Joint.RIGHT_ANKLE, Joint.RIGHT_TOE),
+    (Bone.LEFT_THIGH, Joint.LEFT_HIP, Joint.LEFT_KNEE, Joint.LEFT_ANKLE, Joint.LEFT_TOE),
+)
+EYE_HEIGHT = 0.098
+"""Where the eyes are above the joint of head and neck, in metres for `HEAD_M`."""
+HEAD_M = 0.2146
+"""The head's height that the face was designed for."""
+
+
+@dataclass(frozen=True, eq=False)
+class Stance:
+    """What the frames follow from: `joints_m` (21, 3), backs of the hands `palm` (2, 3), the head's directions."""
+
+    joints_m: Vector
+    palm: Vector
+    facing: Vector
+    head_up: Vector
+
+    @classmethod
+    def of(cls, pose: Pose) -> "Stance":
+        """That of a pose."""
+        return cls(pose.joints_m, pose.palm, pose.facing, pose.head_up)
+
+
+def bind_stance(figure: Figure) -> Stance:
+    """The stance in which the skin is made, sitting at the origin."""
+    j = np.zeros((len(Joint), 3))
+    j[Joint.PELVIS] = (0.0, 0.0, 0.59)
+    j[Joint.SPINE] = j[Joint.PELVIS] + [0.0, 0.005, 0.42 * figure.trunk_m]
+    j[Joint.NECK] = j[Joint.SPINE] + [0.0, 0.020, 0.58 * figure.trunk_m]
+    j[Joint.HEAD] = j[Joint.NECK] + [0.0, 0.010, figure.neck_m]
+    j[Joint.CROWN] = j[Joint.HEAD] + [0.0, 0.0, figure.head_m]
+    for side, (_, shoulder, elbow, wrist, hand) in zip((1.0, -1.0), _ARMS, strict=True):
+        out = np.array([side, 1.0, 1.0])
+        j[shoulder] = j[Joint.NECK] + [side * figure.shoulder_breadth_m / 2, 0.0, 0.0]
+        j[elbow] = j[shoulder] + figure.upper_arm_m * unit([0.22, 0.25, -0.94]) * out
+        j[wrist] = j[elbow] + figure.forearm_m * unit([-0.35, 0.92, 0.05]) * out
+        j[hand] = j[wrist] + figure.hand_m * unit([-0.30, 0.92, -0.12]) * out
+    for side, (_, hip, knee, ankle, toe) in zip((1.0, -1.0), _LEGS, strict=True):
+        out = np.array([side, 1.0, 1.0])
+        j[hip] = j[Joint.PELVIS] + [side * figure.hip_breadth_m / 2, 0.0, 0.0]
+        j[knee] = j[hip] + figure.thigh_m * unit([0.36, 0.92, -0.12]) * out
+        j[ankle] = j[knee] + figure.shank_m * unit([0.0, 0.10, -0.99])
+        j[toe] = j[ankle] + [0.0, 0.75 * figure.foot_m, -figure.ankle_height_m]
+    palm = np.array([unit([0.0, 0.13, 0.99]), unit([0.0, 0.13, 0.99])])
+    return Stance(j, palm, np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0]))
+
+
+def bone_frames(stance: Stance) -> Matrix:
+    """The frame of every bone but `EYES`, (18, 4, 4): z along the bone."""
+    j = stance.joints_m
+    frames = np.empty((len(Bone) - 1, 4, 4))
+    shoulders = j[Joint.RIGHT_SHOULDER] - j[Joint.LEFT_SHOULDER]
+    hips = j[Joint.RIGHT_HIP] - j[Joint.LEFT_HIP]
+    frames[Bone.WAIST] = frame(j[Joint.PELVIS], j[Joint.SPINE] - j[Joint.PELVIS], unit(hips) + 0.5 * unit(shoulders))
+    frames[Bone.CHEST] = frame(j[Joint.SPINE], j[Joint.NECK] - j[Joint.SPINE], shoulders)
+    right = np.cross(stance.facing, stance.head_up)
+    frames[Bone.NECK] = frame(j[Joint.NECK], j[Joint.HEAD] - j[Joint.NECK], unit(shoulders) + right)
+    frames[Bone.HEAD] = frame(j[Joint.HEAD], stance.head_up, right)
+    for (bone, *joints), palm in zip(_ARMS, stance.palm, strict=True):
+        a, b, c, d = (j[k] for k in joints)
+        hinge = np.cross(b - a, c - b)
+        frames[bone] = frame(a, b - a, hinge)
+        frames[bone + 1] = frame(b, c - b, hinge)
+        frames[bone + 2] = frame(b, c - b, np.cross(palm, c - b))
+        frames[bone + 3] = frame(c, d - c, np.cross(palm, d - c))
+    for bone, *joints in _LEGS:
+        a, b, c, d = (j[k] for k in joints)
+        hinge = np.cross(b - a, c - b)
+        frames[bone] = frame(a, b - a, hinge)
+        frames[bone + 1] = frame(b, c - b, hinge)
+        frames[bone + 2] = frame(c, d - c, hinge)
+    return frames
+
+
+class Skeleton:
+    """Turns poses into the matrices that carry the skin from where it was made."""
+
+    def __init__(self, figure: Figure) -> None:
+        self.bind = bind_stance(figure)
+        self.frames = bone_frames(self.bind)
+        self._back = np.linalg.inv(self.frames)
+        self._eye_height = EYE_HEIGHT * figure.head_m / HEAD_M
+
+    def matrices(self, pose: Pose) -> Matrix:
+        """One matrix a bone, (19, 4, 4)."""
+        out = np.empty((len(Bone), 4, 4))
+        frames = bone_frames(Stance.of(pose))
+        out[:-1] = frames @ self._back
+        lids = np.eye(4)
+        lids[2, 2] = 0.12 + 0.88 * pose.eyes
+        lids[2, 3] = self._eye_height * (1 - lids[2, 2])
+        out[Bone.EYES] = frames[Bone.HEAD] @ lids @ self._back[Bone.HEAD]
+        return out
