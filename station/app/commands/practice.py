@@ -180,9 +180,9 @@ def make_folder(path: Path) -> None:
 
 
 def _lesson(name: str | None) -> Lesson:
-    from station.drills.library import find_lesson, lesson_rows
+    from station.drills.library import FIRST_LESSON, find_lesson
 
-    return find_lesson(name if name is not None else lesson_rows()[0].name)
+    return find_lesson(FIRST_LESSON if name is None else name)
 
 
 def _wishes(arguments: argparse.Namespace) -> Wishes:

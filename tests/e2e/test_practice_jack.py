@@ -1,0 +1,116 @@
+"""The main job, whole: a fake kit in another process plays a lesson through rtmidi, the station judges and sounds it.
+
+Three real processes besides JACK's server: the station (with its engine's process), the kit and a recorder. Expected
+values are the kit's own account of what it sent and when, and what the recorder heard.
+"""
+
+import json
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.signal import butter, sosfiltfilt
+
+from station.core.errors import BadInput
+from station.core.units import NS_PER_MS, NS_PER_S
+from station.devices.capture import read_capture
+from station.devices.replay import transport_zeros_ns
+from station.drills.library import find_lesson
+from station.music.judgement import Label
+from station.practice.folder import CAPTURE_NAME
+from station.practice.plan import Wishes, plan_practice
+from station.practice.student_spec import parse_spec
+from station.practice.virtual_student import play
+from tests.fakes.jack_recorder import JackRecorder, Recording
+from tests.fakes.jack_server import JackServer, jackd_is_installed
+from tests.fakes.kit_player import KitPlayer, Stroke
+
+pytestmark = [
+    pytest.mark.jack,
+    pytest.mark.skipif(not jackd_is_installed(), reason="jackd is not installed (make test installs it)"),
+]
+
+LESSON, TEMPO_BPM = "rock-1", 120.0
+KICK = 36  # General MIDI
+TIMING_TOLERANCE_MS = 2.0
+"""JACK's MIDI through rtmidi is stamped within a period of 1.3 ms; the mean is steadier, but machines stall."""
+SOUND_WITHIN_NS = 60 * NS_PER_MS
+"""A kick's low end must begin so soon after the stroke was sent: two periods, the filter's blur, a stalled machine."""
+
+
+def start_station(server: JackServer, folder: Path) -> "subprocess.Popen[str]":
+    command = ["practice", LESSON, "--headless", "--json", "--no-demonstration", "--kit", "fake kit", "--loops", "1"]
+    command += ["--tempo", str(TEMPO_BPM), "--report", str(folder), "--student", "somebody"]
+    env = {**server.env, "XDG_CONFIG_HOME": str(folder / "config")}
+    return subprocess.Popen(
+        [sys.executable, "-m", "station.cli", *command],
+        env=env,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+def wait_for_zero_ns(capture: Path, station: "subprocess.Popen[str]") -> int:
+    """When the station's transport was at zero, as soon as its capture says so."""
+    while station.poll() is None:
+        try:
+            zeros = transport_zeros_ns(read_capture(capture))
+        except BadInput:
+            zeros = []
+        if zeros:
+            return zeros[0]
+        time.sleep(0.02)
+    pytest.fail(f"the station ended before it began: {station.stderr.read() if station.stderr else ''}")
+
+
+def low_onsets_ns(heard: Recording, rate_hz: int) -> NDArray[np.int64]:
+    """When the sound's low end (a kick has one, clicks, snare and hat do not) rises after a pause."""
+    low = sosfiltfilt(butter(4, 90, "lowpass", fs=rate_hz, output="sos"), heard.sound.mean(axis=1))
+    level = np.abs(low)
+    loud = np.flatnonzero(level > 0.15 * level.max())
+    first = np.concatenate([[True], np.diff(loud) > rate_hz // 10])
+    return heard.at_ns[loud[first]]
+
+
+def test_a_fake_kit_is_heard_judged_and_sounded(tmp_path: Path) -> None:
+    plan = plan_practice(find_lesson(LESSON), Wishes(TEMPO_BPM, 1, None, 0))
+    student = play(plan.score, parse_spec("seed=3,sd_ms=6,bias_ms=-15,miss_pct=6,extra_pct=4"))
+    strokes = [Stroke(at_ns, data) for at_ns, data in student.midi]
+    report = tmp_path / "session"
+    with JackServer() as server, KitPlayer(server, "Fake Kit", strokes, tmp_path) as kit:
+        with JackRecorder(server, tmp_path) as recorder, start_station(server, report) as station:
+            zero_ns = wait_for_zero_ns(report / CAPTURE_NAME, station)
+            start_ns = zero_ns + plan.passes_start_ns
+            kit.play(start_ns)
+            recorder.connect("(?i)portaudio|python")
+            sent = kit.truth()
+            out, err = station.communicate(timeout=60)
+            heard = recorder.stop()
+        assert station.returncode == 0, err
+    document = json.loads(out)
+
+    truth = student.truth
+    assert document["counts"]["notes"] == len(plan.score)
+    assert document["counts"]["hits"] == len(student.performance)
+    assert abs(document["counts"]["misses"] - truth.count(Label.MISS)) <= 1
+    assert abs(document["counts"]["extras"] - truth.count(Label.EXTRA)) <= 1
+    assert document["session"]["device"].startswith("Fake Kit")
+
+    late_ns = np.median([was.at_ns - start_ns - planned.at_ns for was, planned in zip(sent, strokes, strict=True)])
+    expected_ms = float(student.asynchrony_ms().mean() + late_ns / NS_PER_MS)
+    assert document["timing"]["mean_signed_asynchrony_ms"] == pytest.approx(expected_ms, abs=TIMING_TOLERANCE_MS)
+
+    kicks_ns = [stroke.at_ns for stroke in sent if stroke.data[:2] == bytes((0x99, KICK))]
+    onsets_ns = low_onsets_ns(heard, 48_000)
+    assert len(kicks_ns) >= 3
+    for at_ns in kicks_ns:
+        nearest_ns = onsets_ns[np.argmin(np.abs(onsets_ns - at_ns))]
+        assert abs(nearest_ns - at_ns) < SOUND_WITHIN_NS
+    assert len(onsets_ns) == len(kicks_ns)
+    assert {path.name for path in report.iterdir()} >= {CAPTURE_NAME, "report.json", "report.txt", "pairs.csv"}
+    assert (heard.at_ns[-1] - heard.at_ns[0]) / NS_PER_S > 3
