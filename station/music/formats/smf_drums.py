@@ -72,11 +72,16 @@ def _openness(drums: Drums, meaning: _Meaning) -> NDArray[np.float32]:
     written = meaning.openness[numbers]
     value = _latest(drums, PEDAL_CONTROLLER)
     is_hat = (meaning.piece[numbers] == Piece.HIHAT) & ~np.isnan(value)
-    shut_values = value[is_hat & (written == 0)]
-    shut = float(np.median(shut_values)) if len(shut_values) else _FULL
-    pedal = np.clip(1 - value / (shut if shut >= _LEAST_SHUT else _FULL), 0, 1).astype(np.float32)
+    shut = _FULL if drums.is_declared else _shut_value(value[is_hat & (written == 0)])
+    pedal = np.clip(1 - value / shut, 0, 1).astype(np.float32)
     agrees = is_hat & ~(np.abs(pedal - written) > CONTRADICTION)
     return np.where(agrees, pedal, written)
+
+
+def _shut_value(while_closed: NDArray[np.float64]) -> float:
+    """What controller 4 says when this kit's pedal is shut, from its values before notes that are closed."""
+    usual = float(np.median(while_closed)) if len(while_closed) else _FULL
+    return usual if usual >= _LEAST_SHUT else _FULL
 
 
 def _latest(drums: Drums, controller: int) -> NDArray[np.float64]:
@@ -166,7 +171,9 @@ def score_from_midi(midi: MidiFile, kit_map: KitMap | None = None) -> Score:
     """
     meaning = _Meaning.of(guess_kit_map(midi) if kit_map is None else kit_map)
     parts = [_part(drums, meaning) for drums in drums_of(midi)]
-    whole = Score.joined(parts) if parts else Score(np.empty(0, NOTE_DTYPE))
+    if not parts:
+        return Score.from_array(np.empty(0, NOTE_DTYPE), TempoMap(), title=midi.title)
+    whole = parts[0] if len(parts) == 1 else Score.joined(parts)
     return Score.from_array(whole.notes, whole.tempo_map, title=midi.title)
 
 

@@ -86,11 +86,14 @@ class Drums:
     """The drum notes of a sequence in order of time, with the controllers and key pressures of their channels.
 
     On one tick the earlier track comes first, and in a track the earlier message: `place` counts through all tracks.
-    `notes` (n,) of `TRACK_NOTE_DTYPE`, `controllers` and `aftertouch` of `CONTROL_DTYPE`.
+    `lone_channel` is the channel that plays drums in all tracks, None where each track says; `is_declared` whether
+    the file declares its map, and with it that controllers use their whole range. `notes` (n,) of `TRACK_NOTE_DTYPE`,
+    `controllers` and `aftertouch` of `CONTROL_DTYPE`.
     """
 
     sequence: MidiSequence
     lone_channel: int | None
+    is_declared: bool = False
 
     @cached_property
     def notes(self) -> NDArray[np.void]:
@@ -125,8 +128,8 @@ class Drums:
 
 def drums_of(midi: MidiFile) -> list[Drums]:
     """The drums of each sequence; raises `BadInput` for a file that has notes and none of them drums."""
-    lone = _lone_channel(midi)
-    drums = [Drums(sequence, lone) for sequence in midi.sequences]
+    lone, is_declared = _lone_channel(midi), _declared_map(midi) is not None
+    drums = [Drums(sequence, lone, is_declared) for sequence in midi.sequences]
     count = sum(len(track.notes) for track in midi.tracks)
     if count and not any(len(d.notes) for d in drums):
         raise BadInput(midi.source, "", f"no drums among its {count} notes: none on channel 10, no track named drums")

@@ -74,7 +74,8 @@ def _pickup_ticks(score: Score, onsets: NDArray[np.int64]) -> int:
 def _division(score: Score, onsets: NDArray[np.int64]) -> int:
     """The first of `_DIVISIONS` that holds every tick exactly, else the finest."""
     changes = [t.tick for t in score.tempo_map.tempos] + [m.tick for m in score.tempo_map.meters]
-    ticks = np.concatenate([onsets, np.array([*changes, score.end_tick], np.int64)])
+    chokes = score.notes["choke_ticks"]  # as distances: they are exact if their strokes are
+    ticks = np.concatenate([onsets, chokes, np.array([*changes, score.end_tick], np.int64)])
     return next((d for d in _DIVISIONS if not (ticks % (PPQ // d)).any()), _DIVISIONS[-1])
 
 

@@ -147,6 +147,12 @@ def test_what_is_odd_is_passed_over_and_told(data: bytes, oddity: str) -> None:
     assert parse_midi(data, NAME).oddities == (oddity,)
 
 
+def test_many_oddities_are_summed_up() -> None:
+    oddities = parse_midi(file(*[event(0, 0xF8)] * 50), NAME).oddities
+    assert len(oddities) == 21
+    assert oddities[-1] == "30 more system messages were skipped"
+
+
 # --- time -------------------------------------------------------------------------------------------------------------
 
 
@@ -253,7 +259,7 @@ def test_a_fault_in_a_long_stretch_is_found_at_its_byte() -> None:
 
 
 def test_a_huge_file_is_refused_before_it_is_understood() -> None:
-    with pytest.raises(BadInput, match="larger than 16 MiB"):
+    with pytest.raises(BadInput, match="larger than 8 MiB"):
         parse_midi(bytes(MAX_BYTES + 1), NAME)
 
 
