@@ -20,7 +20,8 @@ from station.core.units import NS_PER_MS, PPQ
 from station.music.judgement import Label
 from station.music.passages import slots
 from station.music.score import Score
-from station.practice.student_spec import StudentSpec
+from station.practice.student_form import Form
+from station.practice.student_sheet import Sheet
 
 CLEAR_MS = 100.0
 """Beyond the widest window that judges a beginner's stroke (YARG's ±70 ms, PEERS) by two of a student's SDs."""
@@ -67,36 +68,34 @@ class Slips:
 class Slipper:
     """Draws the slips of a student, score after score, each kind from a stream of its own."""
 
-    def __init__(self, spec: StudentSpec, of_notes: np.random.Generator, of_extras: np.random.Generator) -> None:
-        self._spec = spec
+    def __init__(self, of_notes: np.random.Generator, of_extras: np.random.Generator) -> None:
         self._of_notes = of_notes
         self._of_extras = of_extras
 
-    def slip(self, score: Score, limbs: NDArray[np.int8]) -> Slips:
-        """The slips in one playing of `score` by `limbs` (n,)."""
+    def slip(self, sheet: Sheet, form: Form) -> Slips:
+        """The slips in one playing of `sheet` by a student in this `form`."""
+        score = sheet.score
         where = _Where(score)
         label = np.full(len(score), Label.MATCH, np.uint8)
         piece = score.notes["piece"].copy()
-        draws = self._of_notes.random((len(score), 2))
-        miss, wrong = self._spec.miss_pct / 100.0, self._spec.wrong_piece_pct / 100.0
-        main = main_of_rows(score)
-        leads = main == np.arange(len(score))
-        hand = np.isin(limbs, (Limb.RIGHT_HAND, Limb.LEFT_HAND))
-        label[leads & (draws[:, 0] < miss)] = Label.MISS
-        astray = leads & hand & (draws[:, 0] >= miss) & (draws[:, 0] < miss + wrong)
-        for row in np.flatnonzero(astray).tolist():
-            if (other := where.free_neighbour(row, float(draws[row, 1]))) is not None:
+        chance, which = self._of_notes.random((len(score), 2)).T
+        hand = np.isin(sheet.limbs, (Limb.RIGHT_HAND, Limb.LEFT_HAND))
+        missed = chance < form.miss
+        astray = hand & ~missed & (chance < form.miss + form.wrong_piece)
+        label[missed] = Label.MISS
+        for row in np.intersect1d(np.flatnonzero(astray), sheet.main).tolist():
+            if (other := where.free_neighbour(row, float(which[row]))) is not None:
                 label[row], piece[row] = Label.WRONG_PIECE, other
-        label = label[main]
-        piece = np.where(label == Label.WRONG_PIECE, piece[main], piece)
-        ticks, pieces = self._extras(score, where, label)
-        return Slips(label, piece, ticks, pieces)
+        label = label[sheet.main]
+        piece = np.where(label == Label.WRONG_PIECE, piece[sheet.main], score.notes["piece"])
+        ticks, pieces = self._extras(score, where, label, form.extra)
+        return _wired(Slips(label, piece, ticks, pieces), score, form)
 
     def _extras(
-        self, score: Score, where: "_Where", label: NDArray[np.uint8]
+        self, score: Score, where: "_Where", label: NDArray[np.uint8], extra: float
     ) -> tuple[NDArray[np.int64], NDArray[np.uint8]]:
         """Ticks and pieces of the strokes that nobody wrote: the clearest places first, commoner pieces more often."""
-        count = int(self._of_extras.binomial(len(score), self._spec.extra_pct / 100.0)) if len(score) else 0
+        count = int(self._of_extras.binomial(len(score), extra)) if len(score) else 0
         if count == 0:
             return np.empty(0, np.int64), np.empty(0, np.uint8)
         step = _grid(score)
@@ -114,24 +113,17 @@ class Slipper:
         return chosen[:, 2].astype(np.int64), chosen[:, 3].astype(np.uint8)
 
 
-def main_of_rows(score: Score) -> NDArray[np.int64]:
-    """The row of each stroke's main stroke, shape (n,): itself, or for a grace stroke the stroke that it leads to.
-
-    That is a main stroke of its tick, of its own piece if there is one; a grace stroke that leads to none is its own.
-    """
-    notes, mains = score.notes, np.arange(len(score))
-    by_tick: dict[int, list[int]] = {}
-    for row in np.flatnonzero(~score.is_grace).tolist():
-        by_tick.setdefault(int(notes["tick"][row]), []).append(row)
-    for grace in np.flatnonzero(score.is_grace).tolist():
-        candidates = by_tick.get(int(notes["tick"][grace]), [])
-        rank = [
-            (notes["piece"][r] != notes["piece"][grace], notes["ornament"][r] != notes["ornament"][grace])
-            for r in candidates
-        ]
-        if candidates:
-            mains[grace] = candidates[rank.index(min(rank))]
-    return mains
+def _wired(slips: Slips, score: Score, form: Form) -> Slips:
+    """The slips as a kit with such wires reports them: what counts as right or wrong is what is reported."""
+    if not form.wires:
+        return slips
+    reported = np.arange(len(Piece), dtype=np.uint8)
+    for struck, heard in form.wires.items():
+        reported[struck] = heard
+    piece = reported[slips.piece]
+    right = np.where(piece == score.notes["piece"], Label.MATCH, Label.WRONG_PIECE)
+    label = np.where(slips.label == Label.MISS, slips.label, right).astype(np.uint8)
+    return Slips(label, piece, slips.extra_tick, reported[slips.extra_piece])
 
 
 class _Where:

@@ -14,8 +14,9 @@ from station.music.judgement import Label
 from station.music.performance import CHOKE_DTYPE, HIT_DTYPE
 from station.music.score import Score
 from station.practice.student_faults import Habits, louder
+from station.practice.student_form import Form
+from station.practice.student_sheet import Sheet
 from station.practice.student_slips import PLAIN_VELOCITY, Slips
-from station.practice.student_spec import StudentSpec
 
 Floats = NDArray[np.float64]
 
@@ -28,36 +29,35 @@ _WRITTEN = ("openness", "piece", "zone", "articulation", "velocity", "limb", "mi
 class Strokes:
     """Strikes the strokes of one student; `written` and `extra` are where their loudness draws its chances from."""
 
-    spec: StudentSpec
     written: np.random.Generator
     extra: np.random.Generator
 
-    def of_notes(self, score: Score, limbs: NDArray[np.int8], habits: Habits, slips: Slips) -> NDArray[np.void]:
+    def of_notes(self, sheet: Sheet, form: Form, habits: Habits, slips: Slips) -> NDArray[np.void]:
         """A hit for every row, missed or not, at time 0: shape (n,) of `HIT_DTYPE`."""
-        hits = _as_written(score.notes)
-        hits["limb"], hits["piece"] = limbs, slips.piece
+        hits = _as_written(sheet.score.notes)
+        hits["limb"], hits["piece"] = sheet.limbs, slips.piece
         _make_plain(hits, slips.label == Label.WRONG_PIECE)
-        mean = louder(score.notes["velocity"].astype(np.float64), habits.level_db)
-        hits["velocity"] = self._velocities(mean, self.written)
+        mean = louder(sheet.score.notes["velocity"].astype(np.float64), habits.level_db)
+        hits["velocity"] = _velocities(mean, form.velocity_sd, self.written)
         return hits
 
-    def of_extras(self, score: Score, slips: Slips) -> NDArray[np.void]:
+    def of_extras(self, sheet: Sheet, form: Form, slips: Slips) -> NDArray[np.void]:
         """A hit for every extra at time 0, struck as the score's plain strokes of its piece are, and never softly."""
-        usual = {piece: _usual_row(score, piece) for piece in np.unique(slips.extra_piece).tolist()}
+        usual = {piece: _usual_row(sheet.score, piece) for piece in np.unique(slips.extra_piece).tolist()}
         rows = [usual[piece] for piece in slips.extra_piece.tolist()]
-        hits = _as_written(score.notes[rows])
+        hits = _as_written(sheet.score.notes[rows])
         not_in_score = hits["piece"] != slips.extra_piece
         hits["piece"], hits["limb"], hits["midi_note"] = slips.extra_piece, Limb.UNKNOWN, 0
         _make_plain(hits, not_in_score)
         mean = np.maximum(hits["velocity"], PLAIN_VELOCITY).astype(np.float64)
-        hits["velocity"] = np.maximum(self._velocities(mean, self.extra), PLAIN_VELOCITY)
+        drawn = _velocities(mean, form.velocity_sd[rows], self.extra)
+        hits["velocity"] = np.maximum(drawn, PLAIN_VELOCITY)
         return hits
 
-    def _velocities(self, mean: Floats, rng: np.random.Generator) -> NDArray[np.uint8]:
-        share = self.spec.velocity_cv_pct / 100.0
-        sd = share * mean if self.spec.velocity_sd is None else np.full(len(mean), self.spec.velocity_sd)
-        drawn = np.rint(mean + sd * rng.standard_normal(len(mean)))
-        return np.clip(drawn, 1, GREATEST_VELOCITY).astype(np.uint8)
+
+def _velocities(mean: Floats, sd: Floats, rng: np.random.Generator) -> NDArray[np.uint8]:
+    drawn = np.rint(mean + sd * rng.standard_normal(len(mean)))
+    return np.clip(drawn, 1, GREATEST_VELOCITY).astype(np.uint8)
 
 
 def chokes_of(score: Score, slips: Slips, onset_ns: NDArray[np.int64]) -> NDArray[np.void]:

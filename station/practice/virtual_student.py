@@ -21,9 +21,10 @@ from station.music.judgement import Label, Matching
 from station.music.performance import Performance
 from station.music.score import Score
 from station.practice.student_faults import habits_of
-from station.practice.student_limbs import limbs_of
+from station.practice.student_form import Form, form_of
 from station.practice.student_midi import TimedBytes, as_sent, midi_stream
 from station.practice.student_onsets import OnsetPlayer, Streams
+from station.practice.student_sheet import Sheet
 from station.practice.student_slips import Slipper, Slips
 from station.practice.student_spec import FAULTS, StudentSpec
 from station.practice.student_strokes import Strokes, chokes_of
@@ -94,21 +95,25 @@ class VirtualStudent:
         self.spec = spec
         self.preset = preset
         rng = [np.random.default_rng([spec.seed, stream]) for stream in range(_STREAMS)]
-        self._onsets = OnsetPlayer(spec, Streams(*rng[:5]))
-        self._slipper = Slipper(spec, rng[5], rng[6])
-        self._strokes = Strokes(spec, rng[7], rng[8])
+        self._onsets = OnsetPlayer(spec.drift_pct, Streams(*rng[:5]))
+        self._slipper = Slipper(rng[5], rng[6])
+        self._strokes = Strokes(rng[7], rng[8])
 
-    def play(self, score: Score) -> VirtualPerformance:
-        """`score` played after what was played before; raises `BadInput` where the kit lacks one of its pieces."""
-        limbs = limbs_of(score)
-        habits = habits_of(score, limbs, self.spec.faults)
-        slips = self._slipper.slip(score, limbs)
-        timing = self._onsets.time(score, limbs)
-        notes = self._strokes.of_notes(score, limbs, habits, slips)
-        notes["at_ns"] = self._onsets.onsets_ns(score, timing, habits, slips)
-        extras = self._strokes.of_extras(score, slips)
-        extras["at_ns"] = self._onsets.extra_onsets_ns(score, timing, slips.extra_tick)
-        self._onsets.finish(score)
+    def play(self, score: Score, form: Form | None = None) -> VirtualPerformance:
+        """`score` played after what was played before, in the form that the specification says unless another is given.
+
+        Raises `BadInput` where the kit lacks one of its pieces.
+        """
+        sheet = Sheet.of(score)
+        form = form_of(self.spec, score) if form is None else form
+        habits = habits_of(score, sheet.limbs, self.spec.faults)
+        slips = self._slipper.slip(sheet, form)
+        timing = self._onsets.time(sheet, form)
+        notes = self._strokes.of_notes(sheet, form, habits, slips)
+        notes["at_ns"] = self._onsets.onsets_ns(sheet, timing, habits, slips)
+        extras = self._strokes.of_extras(sheet, form, slips)
+        extras["at_ns"] = self._onsets.extra_onsets_ns(sheet, timing, slips.extra_tick)
+        self._onsets.finish(sheet)
 
         played = np.flatnonzero(slips.label != Label.MISS)
         hits = np.concatenate([notes[played], extras])

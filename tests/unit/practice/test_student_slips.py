@@ -11,7 +11,8 @@ from station.core.units import NS_PER_MS, PPQ
 from station.music.judgement import Label
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
-from station.practice.student_slips import CLEAR_MS, PLAIN_VELOCITY, main_of_rows
+from station.practice.student_sheet import main_of_rows
+from station.practice.student_slips import CLEAR_MS, PLAIN_VELOCITY
 from station.practice.student_spec import parse_spec
 from station.practice.virtual_student import VirtualPerformance, play
 from tests.fakes import scores
