@@ -96,5 +96,5 @@ _CAMERAS = {
     View.EYES: Camera((0.05, 0.74, 0.62), -90 * _DEG, 54 * _DEG, 0.86, 1.15),
     View.TOP: Camera((0.08, 0.48, 0.6), -90 * _DEG, 88 * _DEG, 2.1, 0.80),
     View.HANDS: Camera((-0.03, 0.42, 0.78), 60 * _DEG, 26 * _DEG, 1.15, 0.62),
-    View.FEET: Camera((-0.02, 0.45, 0.16), -25 * _DEG, 22 * _DEG, 1.5, 0.62),
+    View.FEET: Camera((-0.04, 0.50, 0.20), 196 * _DEG, 14 * _DEG, 1.45, 0.62),
 }

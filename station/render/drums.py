@@ -13,6 +13,8 @@ from station.render.materials import Material
 from station.render.mesh import Mesh, box, joined, lathe, rod
 from station.render.space import rotation, translation
 
+STICK_M = 0.406
+"""A 5A stick (HUMANS, Kit); longer or shorter ones are stretched."""
 HAT_GAP_M = 0.006
 """How far the lower hi-hat's edge lies below the upper one's plane when closed."""
 _HOOP_M = 0.010

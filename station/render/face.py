@@ -25,9 +25,9 @@ def face_meshes(scale: float, fineness: float) -> list[Mesh]:
         *_lids(),
         *_brows(),
         *_mouth(),
-        *_headphones(),
+        *_headphones(fineness),
     ]
-    meshes = [_scaled(joined(parts).on_bone(Bone.HEAD), scale), _scaled(joined(_eyes()).on_bone(Bone.EYES), scale)]
+    meshes = [_scaled(joined(parts).on_bone(Bone.HEAD), scale), _scaled(joined(_eyes(fineness)).on_bone(Bone.EYES), scale)]
     return meshes
 
 
@@ -85,16 +85,16 @@ def _behind(field: Field, wall: Field) -> Field:
     return lambda p: -smooth_min(-field(p), -wall(p), 0.012)
 
 
-def _eyes() -> list[Mesh]:
+def _eyes(fineness: float) -> list[Mesh]:
     parts: list[Mesh] = []
     for side in (-1.0, 1.0):
         centre = _EYE * [side, 1, 1]
-        white = ball((0, 0, 0), 0.0185, Material.EYE_WHITE, 16)
+        white = ball((0, 0, 0), 0.0185, Material.EYE_WHITE, max(10, round(20 / fineness)))
         parts.append(_stretched(white, (0.98, 0.62, 1.06)).moved(translation(centre)))
         look = frame(centre + [0, 0.0088, 0], [side * 0.06, 1, -0.04], [1, 0, 0])
         iris = lathe([(0.0118, 0.0), (0.0108, 0.0022), (0.0068, 0.0038), (0.0, 0.0044)], 16, Material.EYE)
         parts.append(iris.moved(look))
-        parts.append(ball(centre + [0.0042, 0.0126, 0.0040], 0.0023, Material.EYE_WHITE, 8))
+        parts.append(ball(centre + [0.0042, 0.0126, 0.0040], 0.0023, Material.EYE_WHITE, 6))
     return parts
 
 
@@ -145,15 +145,16 @@ def _front(x: Array, z: Array) -> Array:
     return near
 
 
-def _headphones() -> list[Mesh]:
-    angle = np.linspace(0.10, np.pi - 0.10, 25)
+def _headphones(fineness: float) -> list[Mesh]:
+    angle = np.linspace(0.10, np.pi - 0.10, max(9, round(30 / fineness)))
     band = np.stack([0.098 * np.cos(angle), np.full_like(angle, -0.006), 0.100 + 0.132 * np.sin(angle)], axis=1)
-    parts = [tube(band + [0, dy, 0], 0.0065, Material.HEADPHONES, 8) for dy in (-0.009, 0.0, 0.009)]
+    parts = [tube(band + [0, dy, 0], 0.0065, Material.HEADPHONES, 6) for dy in (-0.009, 0.0, 0.009)]
+    segments = max(10, round(28 / fineness))
     cup = [(0.0, 0.0), (0.030, 0.0), (0.041, 0.006), (0.042, 0.018), (0.036, 0.027), (0.020, 0.031), (0.0, 0.031)]
     ring = [(0.0265, 0.0300), (0.0265, 0.0312), (0.0215, 0.0322)]
     for side in (-1.0, 1.0):
         turn = rotation([0, 1, 0], side * np.pi / 2)
         at = translation([side * 0.079, -0.006, 0.088])
-        parts.append(lathe(cup, 20, Material.HEADPHONES).moved(at @ turn))
-        parts.append(lathe(ring, 20, Material.GLOW).moved(at @ turn))
+        parts.append(lathe(cup, segments, Material.HEADPHONES).moved(at @ turn))
+        parts.append(lathe(ring, segments, Material.GLOW).moved(at @ turn))
     return parts

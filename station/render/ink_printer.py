@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.render.atlas import ATLAS_SIZE, SPREAD, Atlas
-from station.render.ink import SHAPE_DTYPE
+from station.render.ink import SHAPE_DTYPE, Colour
 
 _VERTEX = f"""
 #version 330 core
@@ -107,6 +107,26 @@ void main() {{
 }}
 """
 
+_FILL_VERTEX = """
+#version 330 core
+uniform vec4 area;            // left, top, right, bottom in clip space
+uniform vec4 top;
+uniform vec4 bottom;
+out vec4 v_colour;
+void main() {
+    vec2 at = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+    v_colour = mix(top, bottom, at.y);
+    gl_Position = vec4(mix(area.xy, area.zw, at), 0.0, 1.0);
+}
+"""
+
+_FILL_FRAGMENT = """
+#version 330 core
+in vec4 v_colour;
+out vec4 shade;
+void main() { shade = vec4(v_colour.rgb * v_colour.a, v_colour.a); }
+"""
+
 _LAYOUT = "2f 2f 2f 4f 3f 2f 1f 4f1 4f1/i"
 _NAMES = ("centre", "half_size", "axis", "uv", "style", "time_s", "kind", "colour", "colour_2")
 _EVERYWHERE = (-2.0, -1.0, 1e6, 1e6 + 1)
@@ -137,12 +157,37 @@ class InkPrinter:
         self._program = ctx.program(vertex_shader=_VERTEX, fragment_shader=_FRAGMENT)
         self._texture = ctx.texture((ATLAS_SIZE, ATLAS_SIZE), 1, dtype="f1")
         self._version = -1
+        self._fill_program = ctx.program(vertex_shader=_FILL_VERTEX, fragment_shader=_FILL_FRAGMENT)
+        self._fill = ctx.vertex_array(self._fill_program, [])
         self._allocate(1024)
 
     def _allocate(self, capacity: int) -> None:
         self._capacity = capacity
         self._buffer = self._ctx.buffer(reserve=capacity * SHAPE_DTYPE.itemsize, dynamic=True)
         self._vertices = self._ctx.vertex_array(self._program, [(self._buffer, _LAYOUT, *_NAMES)])
+
+    def fill(self, box: tuple[float, float, float, float], colours: tuple[Colour, Colour], sheet: Sheet) -> None:
+        """Fill `box` (left, top, width, height; pixels, y down) from the first colour to the second: a large plain panel.
+
+        Large areas deserve a shader that does nothing else, for without a graphics card every pixel counts.
+        """
+        width, height = sheet.size
+        left, top, across, down = box
+        program = self._fill_program
+        program["area"] = (
+            2 * left / width - 1,
+            1 - 2 * top / height,
+            2 * (left + across) / width - 1,
+            1 - 2 * (top + down) / height,
+        )
+        program["top"], program["bottom"] = colours
+        self._blend()
+        self._fill.render(moderngl.TRIANGLE_STRIP, vertices=4)
+
+    def _blend(self) -> None:
+        self._ctx.disable(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
+        self._ctx.enable(moderngl.BLEND)
+        self._ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
 
     def draw(self, shapes: NDArray[np.void], sheet: Sheet) -> None:
         """Draw `shapes`, first to last, over what is there."""
@@ -156,9 +201,7 @@ class InkPrinter:
         self._buffer.write(np.ascontiguousarray(shapes).tobytes())
         self._upload()
         self._set(sheet)
-        self._ctx.disable(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
-        self._ctx.enable(moderngl.BLEND)
-        self._ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
+        self._blend()
         self._vertices.render(moderngl.TRIANGLE_STRIP, vertices=4, instances=len(shapes))
 
     def _upload(self) -> None:

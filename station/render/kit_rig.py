@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Piece
-from station.motion.figure import Figure
 from station.motion.kit import Kit, Pedal
 from station.motion.piece import KitPiece
 from station.motion.pose import LEFT, RIGHT, Pose
@@ -44,7 +43,7 @@ class KitRig:
     bone_count: int
 
 
-def build_kit(kit: Kit, figure: Figure, detail: Detail) -> KitRig:
+def build_kit(kit: Kit, detail: Detail) -> KitRig:
     """Meshes of all pieces, their hardware, the throne and the sticks."""
     bones = {piece: 1 + i for i, piece in enumerate(kit.pieces)}
     first = 1 + len(bones)
@@ -54,7 +53,7 @@ def build_kit(kit: Kit, figure: Figure, detail: Detail) -> KitRig:
     parts += [_stands(kit, p, detail) for p in kit.pieces.values()]
     parts += _pedals(kit, boards, beater, axle)
     parts.append(_throne(kit.seat_m, detail))
-    parts += [drums.stick(figure.stick_m).on_bone(bone) for bone in sticks]
+    parts += [drums.stick(drums.STICK_M).on_bone(bone) for bone in sticks]
     return KitRig(kit, joined(parts), bones, boards, beater, sticks, axle, first + 5)
 
 
@@ -288,7 +287,9 @@ def bone_matrices(rig: KitRig, pose: Pose | None) -> Matrix:
         m[bone] = _raised(rig.kit.pedals[pedal], angle)
     m[rig.beater] = rotation_at(rig.axle_m, [1, 0, 0], pose.beater_rad)
     for side in (RIGHT, LEFT):
-        m[rig.sticks[side]] = frame(pose.butt_m[side], pose.tip_m[side] - pose.butt_m[side], [1, 0, 0])
+        along = pose.tip_m[side] - pose.butt_m[side]
+        m[rig.sticks[side]] = frame(pose.butt_m[side], along, [1, 0, 0])
+        m[rig.sticks[side]][:3, 2] *= np.linalg.norm(along) / drums.STICK_M
     return m
 
 

@@ -10,6 +10,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.pieces import Piece
 from station.motion.figure import Figure
 from station.motion.kit import Kit
 from station.motion.pose import Pose
@@ -64,7 +65,7 @@ class Quality:
 
 
 QUALITIES = (
-    Quality(0, 768, Detail(28, hardware=False), 2.2, 0),
+    Quality(0, 768, Detail(28, hardware=False), 2.5, 0),
     Quality(1, 1024, Detail(48, hardware=True), 1.5, 4),
     Quality(2, 2048, Detail(80, hardware=True), 1.0, 4),
 )
@@ -79,13 +80,17 @@ _RIM_COLOUR = (0.20, 0.34, 0.52)
 _GROUND = (0.060, 0.045, 0.040)
 
 
+Glow = dict[Piece, NDArray[np.float64]]
+"""Linear red, green and blue that a piece of the kit glows with."""
+
+
 class Scene:
     """One kit and one figure, ready to be drawn at one quality."""
 
     def __init__(self, ctx: moderngl.Context, kit: Kit, figure: Figure, quality: Quality) -> None:
         self._ctx = ctx
         self.quality = quality
-        self.rig: KitRig = build_kit(kit, figure, quality.detail)
+        self.rig: KitRig = build_kit(kit, quality.detail)
         self._rigid_program = ctx.program(shaders.RIGID_VERTEX, shaders.solid_fragment(quality.level))
         self._skin_program = ctx.program(shaders.SKIN_VERTEX, shaders.solid_fragment(quality.level))
         self._skin_shadow = ctx.program(shaders.SKIN_SHADOW, shaders.SHADOW_FRAGMENT)
@@ -179,16 +184,25 @@ class Scene:
         """How many triangles a picture draws, shadows apart."""
         return self._faces.size // 12 + self._skin_triangles
 
-    def draw(self, target: moderngl.Framebuffer, camera: Camera, pose: Pose | None, viewport: tuple[int, int, int, int]) -> None:
-        """Draw into `viewport` (x, y, width, height from the lower left) of `target`."""
+    def draw(
+        self,
+        target: moderngl.Framebuffer,
+        camera: Camera,
+        pose: Pose | None,
+        viewport: tuple[int, int, int, int],
+        glow: Glow | None = None,
+    ) -> None:
+        """Draw into `viewport` (x, y, width, height from the lower left) of `target`; `glow` lights struck pieces."""
         ctx = self._ctx
         matrices = np.tile(np.eye(4), (shaders.MAX_BONES, 1, 1))
         first = self.rig.bone_count
         matrices[:first] = kit_rig.bone_matrices(self.rig, pose)
         if pose is not None:
             matrices[first : first + len(Bone)] = self.skeleton.matrices(pose)
-        glow = np.zeros((shaders.MAX_BONES, 4), np.float32)
-        self._palette.write(gl_bytes(matrices) + glow.tobytes())
+        light = np.zeros((shaders.MAX_BONES, 4), np.float32)
+        for piece, colour in (glow or {}).items():
+            light[self.rig.piece_bones[piece], :3] = colour
+        self._palette.write(gl_bytes(matrices) + light.tobytes())
         self._palette.bind_to_uniform_block(0)
         ctx.disable(moderngl.BLEND | moderngl.CULL_FACE)
         ctx.enable(moderngl.DEPTH_TEST)

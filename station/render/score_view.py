@@ -1,8 +1,8 @@
 """The scrolling score: engraved bars pass a fixed play line, and judgements appear on the notes.
 
 A judged note bears a shape as well as a colour: a ring on time, an arrow that points left when early and right when late,
-a hollow cross when missed, a question mark's square when the wrong piece was struck. The tick beside the head stands
-where the hit fell, stretched by `TICK_ZOOM` so that a few milliseconds can be seen across a room.
+a hollow cross when missed, a question mark's square when the wrong piece was struck. The tick or
+arrow stands where the hit fell, stretched by `TICK_ZOOM` so that a few milliseconds can be seen across a room.
 """
 
 from dataclasses import dataclass
@@ -29,7 +29,8 @@ ON_TIME_MS = 25.0
 TICK_ZOOM = 5.0
 """The tick's distance from its head is the asynchrony stretched so much (our choice: 10 ms is half a head)."""
 _MARGIN_S = 1.5
-_MAX_TICK_SPACES = 1.9
+_NEAREST_ARROW, _FARTHEST_ARROW = 1.65, 2.1
+"""Spaces: beside the head, and still nearer to it than to the next."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +74,10 @@ class ScoreView:
         plain = Sheet(size, (place.left, place.middle_line), space)
         fade = (place.left + clef_width - 1.2 * space, place.left + clef_width + space, right - 3 * space, right)
         rolling = Sheet(size, (line_x, place.middle_line), space, snapshot.position_s, per_s, fade)
+        self._printer.fill((place.left, place.top, place.width, place.height), (PANEL, PANEL_LOW), plain)
+        self._printer.fill((place.left, place.top, place.width, 1.2), (PANEL_EDGE, PANEL_EDGE), plain)
+        glow = with_opacity(BRAND, 0.07)
+        self._printer.fill((line_x - 1.6 * space, place.top, 3.2 * space, place.height), (glow, glow), plain)
         self._printer.draw(self._paper(snapshot, place, line_x), plain)
         first_s = snapshot.position_s - BEFORE_S - _MARGIN_S
         last_s = snapshot.position_s + AFTER_S + _MARGIN_S
@@ -97,10 +102,7 @@ class ScoreView:
     def _paper(self, snapshot: Snapshot, place: Place, line_x: float) -> NDArray[np.void]:
         ink, space = Ink(self._atlas), place.space
         width, line = place.width / space, (line_x - place.left) / space
-        ink.box((0.0, engraving.TOP_Y), (width, place.height / space), PANEL, PANEL_LOW)
-        ink.box((0.0, engraving.TOP_Y), (width, 1.2 / space), PANEL_EDGE)
         engraving.staff_lines(ink, width)
-        ink.box((line - 1.6, engraving.TOP_Y), (3.2, place.height / space), with_opacity(BRAND, 0.07))
         ink.box((line - 0.14, engraving.TOP_Y), (0.28, place.height / space), with_opacity(BRAND, 0.95))
         engraving.clef(ink, 1.4)
         tick = max(int(snapshot.score.tempo_map.ticks_at(snapshot.position_s)), 0)
@@ -141,15 +143,15 @@ def draw_mark(ink: Ink, row: np.void, y: float, spaces_per_s: float) -> None:
 
 def _draw_timing(ink: Ink, asynchrony_ms: float, y: float, spaces_per_s: float) -> None:
     colour = timing_colour(asynchrony_ms)
+    shift = asynchrony_ms / 1000 * spaces_per_s * TICK_ZOOM
     if abs(asynchrony_ms) <= ON_TIME_MS:
         ink.ellipse((0.0, y), (1.0, 0.86), colour, 0.0, (0.0, 0.22, 0.0))
+        ink.line((shift, y - 0.95), (shift, y + 0.95), 0.24, colour)
     else:
         way = 1.0 if asynchrony_ms > 0 else -1.0
-        ink.ellipse((0.0, y), (1.0, 0.86), with_opacity(colour, 0.45), 0.0, (0.0, 0.16, 0.0))
-        ink.triangle((way * 1.75, y), (0.5, 0.62), colour, 0.0 if way > 0 else np.pi)
-    tick = asynchrony_ms / 1000 * spaces_per_s * TICK_ZOOM
-    tick = float(np.clip(tick, -_MAX_TICK_SPACES, _MAX_TICK_SPACES))
-    ink.line((tick, y - 0.95), (tick, y + 0.95), 0.24, colour)
+        tip = way * min(max(abs(shift), _NEAREST_ARROW), _FARTHEST_ARROW)
+        ink.ellipse((0.0, y), (1.0, 0.86), with_opacity(colour, 0.5), 0.0, (0.0, 0.16, 0.0))
+        ink.triangle((tip, y), (0.52, 0.66), colour, 0.0 if way > 0 else np.pi)
 
 
 def timing_colour(asynchrony_ms: float) -> Colour:

@@ -192,10 +192,14 @@ out vec4 shade;
 vec3 studio(vec3 r, float blur) {{            // what a mirror would show: dark floor, dim sky, two soft boxes
     float up = r.z * 0.5 + 0.5;
     vec3 light = mix(ground * 0.8, sky * 1.6, up * up);
+#if QUALITY == 0
+    return light + key_colour * 0.16 * smoothstep(0.60, 1.0, dot(r, vec3(0.5500, 0.6000, 0.5809)));
+#else
     float box = smoothstep(0.72 - blur * 0.5, 0.86 + blur * 0.3, dot(r, vec3(0.5500, 0.6000, 0.5809)));
     float strip = smoothstep(0.10 + blur * 0.3, 0.0, abs(r.z - 0.42 - 0.25 * r.x)) * smoothstep(-0.2, 0.7, -r.y);
     float back = smoothstep(0.16 + blur * 0.3, 0.0, abs(r.z - 0.30 + 0.15 * r.x)) * smoothstep(0.0, 0.9, r.y);
     return light + key_colour * 0.16 * box + rim_colour * 0.22 * strip + key_colour * 0.075 * back;
+#endif
 }}
 
 void main() {{

@@ -1,0 +1,144 @@
+"""What is written over the scene: lesson, phase, tempo, beat, count-in, the one coarse cue, a message.
+
+Sizes are pixels of a picture 720 high and grow with it, so that everything can be read two metres away.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.render.atlas import Atlas
+from station.render.fonts import Face
+from station.render.ink import Colour, Ink, Type
+from station.render.palette import (
+    BRAND,
+    EARLY,
+    GOOD,
+    INK,
+    INK_FAINT,
+    INK_SOFT,
+    LATE,
+    MISSED,
+    NIGHT,
+    PANEL,
+    WRONG,
+    with_opacity,
+)
+from station.render.snapshot import Cue, Hud
+
+_DESIGN_HEIGHT = 720.0
+_EDGE = 26.0
+_CUE_HOLD_S, _CUE_FADE_S = 0.45, 0.55
+"""A cue stands and then fades (our choice: gone before the next bar at usual tempos)."""
+
+
+@dataclass(frozen=True, slots=True)
+class _CueLook:
+    word: str
+    colour: Colour
+    way: int  # −1 arrow to the left, 1 to the right, 0 none
+
+
+_CUES = {
+    Cue.ON_TIME: _CueLook("on time", GOOD, 0),
+    Cue.EARLY: _CueLook("early", EARLY, -1),
+    Cue.LATE: _CueLook("late", LATE, 1),
+    Cue.MISSED: _CueLook("missed", MISSED, 0),
+    Cue.WRONG_PIECE: _CueLook("wrong pad", WRONG, 0),
+}
+
+
+def hud_shapes(hud: Hud, atlas: Atlas, size: tuple[float, float]) -> NDArray[np.void]:
+    """The shapes of the HUD for a picture area of `size` pixels (width, height above the score), origin top left."""
+    return _HudPage(hud, Ink(atlas), size).shapes()
+
+
+VEIL = (with_opacity(NIGHT, 0.72), with_opacity(NIGHT, 0.0))
+"""Behind the top lines, so that they read on any background: the colours of its upper and lower edge."""
+VEIL_HEIGHT = 112.0
+
+
+def scale(height: float) -> float:
+    """Pixels a design pixel where the scene is `height` pixels high."""
+    return max(height / (_DESIGN_HEIGHT * 0.70), 0.4)
+
+
+class _HudPage:
+    def __init__(self, hud: Hud, ink: Ink, size: tuple[float, float]) -> None:
+        self._hud, self._ink = hud, ink
+        self._k = scale(size[1])
+        self._width, self._height = size
+
+    def shapes(self) -> NDArray[np.void]:
+        self._title()
+        self._tempo()
+        if self._hud.count_in is not None:
+            self._count_in(self._hud.count_in)
+        elif self._hud.cue is not Cue.NONE:
+            self._cue(_CUES[self._hud.cue])
+        if self._hud.message:
+            self._message()
+        return self._ink.shapes()
+
+    def _title(self) -> None:
+        k, hud = self._k, self._hud
+        room = self._width * 0.56
+        title = Type(30 * k, INK, Face.BOLD)
+        self._ink.text(self._ink.fitted(hud.title, title, room), (_EDGE * k, 46 * k), title)
+        if hud.phase:
+            self._ink.ellipse(((_EDGE + 6) * k, 71 * k), (6 * k, 6 * k), BRAND)
+            phase = Type(20 * k, INK_SOFT)
+            self._ink.text(self._ink.fitted(hud.phase, phase, room), ((_EDGE + 20) * k, 78 * k), phase)
+
+    def _tempo(self) -> None:
+        k, hud = self._k, self._hud
+        right = self._width - _EDGE * k
+        if hud.tempo_bpm is not None:
+            width = self._ink.text("bpm", (right, 46 * k), Type(17 * k, INK_SOFT, Face.REGULAR, 1.0))
+            tempo = Type(34 * k, INK, Face.BOLD, 1.0)
+            self._ink.text(f"{hud.tempo_bpm:.0f}", (right - width - 6 * k, 46 * k), tempo)
+        if hud.bar is None or hud.beat is None:
+            return
+        x = right - 7 * k
+        for beat in range(hud.beats, 0, -1):
+            now = beat == hud.beat
+            size = (7.5 if now else 5.0) * k
+            self._ink.ellipse((x, 72 * k), (size, size), (BRAND if now else INK_FAINT))
+            x -= 21 * k
+        where = f"bar {hud.bar}" + (f" of {hud.bar_count}" if hud.bar_count else "")
+        width = self._ink.text(where, (x - 6 * k, 78 * k), Type(18 * k, INK_SOFT, Face.REGULAR, 1.0))
+        if hud.judged:
+            text = f"{hud.right} of {hud.judged} right"
+            self._ink.text(text, (right, 104 * k), Type(18 * k, INK_SOFT, Face.REGULAR, 1.0))
+
+    def _count_in(self, number: int) -> None:
+        k, centre = self._k, (self._width / 2, self._height * 0.52)
+        self._ink.ellipse(centre, (96 * k, 96 * k), with_opacity(NIGHT, 0.62))
+        self._ink.ellipse(centre, (96 * k, 96 * k), with_opacity(BRAND, 0.9), 0.0, (0.0, 5 * k, 0.0))
+        self._ink.text(str(number), (centre[0], centre[1] + 47 * k), Type(132 * k, INK, Face.BOLD, 0.5))
+
+    def _cue(self, look: _CueLook) -> None:
+        left = 1 - (self._hud.cue_age_s - _CUE_HOLD_S) / _CUE_FADE_S
+        opacity = float(np.clip(left, 0.0, 1.0))
+        if opacity <= 0:
+            return
+        k, style = self._k, Type(40 * self._k, with_opacity(look.colour, opacity), Face.BOLD, 0.5)
+        text = self._ink.width(look.word, style)
+        width = text + (2 * 46 if look.way else 52) * k
+        x, y = self._width / 2, self._height - 52 * k
+        panel = with_opacity(PANEL, opacity)
+        self._ink.box((x - width / 2, y - 31 * k), (width, 62 * k), panel, None, (31 * k, 0.0, 0.0))
+        self._ink.text(look.word, (x, y + 14 * k), style)
+        if look.way:
+            at = (x + look.way * (text / 2 + 20 * k), y)
+            self._ink.triangle(at, (9 * k, 13 * k), style.colour, 0.0 if look.way > 0 else np.pi)
+
+    def _message(self) -> None:
+        k = self._k
+        style = Type(21 * k, INK, Face.REGULAR, 0.5)
+        text = self._ink.fitted(self._hud.message, style, self._width * 0.82)
+        width = self._ink.width(text, style) + 44 * k
+        y = 132 * k
+        self._ink.box((self._width / 2 - width / 2, y - 20 * k), (width, 42 * k), PANEL, None, (12 * k, 0.0, 0.0))
+        self._ink.text(text, (self._width / 2, y + 8 * k), style)

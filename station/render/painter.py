@@ -1,0 +1,98 @@
+"""Paints a snapshot: scene above, score below, words over the scene. The window and the off-screen picture share it."""
+
+from collections.abc import Iterable
+
+import moderngl
+import numpy as np
+
+from station.core.pieces import Piece
+from station.motion.kit import Kit
+from station.motion.pose import Pose
+from station.render import hud
+from station.render.atlas import Atlas
+from station.render.camera import Camera, View, named
+from station.render.ink_printer import InkPrinter, Sheet
+from station.render.palette import BRAND, GOOD, NIGHT
+from station.render.scene import QUALITIES, Glow, Quality, Scene
+from station.render.score_view import Place, ScoreView
+from station.render.snapshot import Snapshot, Strike
+
+Area = tuple[int, int, int, int]
+"""Left, lower, width, height in pixels from the lower left corner, as OpenGL counts."""
+
+SCORE_SHARE = 0.30
+"""The score's share of the picture's height."""
+_GLOW_FADE_S = 0.16
+"""How fast a struck piece stops glowing (our choice)."""
+_DEMONSTRATOR_GLOW, _STUDENT_GLOW = 0.35, 0.9
+
+
+class Painter:
+    """Draws snapshots with one OpenGL context; keeps what consecutive snapshots share."""
+
+    def __init__(self, ctx: moderngl.Context, quality: Quality = QUALITIES[1]) -> None:
+        self._ctx = ctx
+        self.quality = quality
+        self.atlas = Atlas()
+        self.printer = InkPrinter(ctx, self.atlas)
+        self._score = ScoreView(self.printer, self.atlas)
+        self._scene: Scene | None = None
+        self._scene_key: tuple[int, int] = (0, 0)
+
+    def draw(
+        self,
+        snapshot: Snapshot,
+        target: moderngl.Framebuffer,
+        area: Area,
+        camera: Camera | None = None,
+        with_score: bool = True,
+    ) -> None:
+        """Draw `snapshot` into `area` of `target`, over what is there."""
+        left, low, width, height = area
+        score_height = round(height * SCORE_SHARE) if with_score else 0
+        scene_area = (left, low + score_height, width, height - score_height)
+        self._scene_of(snapshot).draw(
+            target, camera or named(View.SHOULDER), snapshot.pose, scene_area, _glow(snapshot)
+        )
+        self._ctx.viewport = area
+        if with_score:
+            place = Place(0.0, float(height - score_height), float(width), float(score_height))
+            self._score.draw(snapshot, place, (width, height))
+        words = hud.hud_shapes(snapshot.hud, self.atlas, (float(width), float(height - score_height)))
+        veil = (0.0, 0.0, float(width), hud.VEIL_HEIGHT * hud.scale(height - score_height))
+        self.printer.fill(veil, hud.VEIL, Sheet((width, height)))
+        self.printer.draw(words, Sheet((width, height)))
+
+    def _scene_of(self, snapshot: Snapshot) -> Scene:
+        key = (id(snapshot.kit), id(snapshot.figure))
+        if self._scene is None or key != self._scene_key:
+            self._scene = Scene(self._ctx, snapshot.kit, snapshot.figure, self.quality)
+            self._scene_key = key
+        return self._scene
+
+    @property
+    def background(self) -> tuple[float, float, float, float]:
+        """The colour of what no picture covers."""
+        return NIGHT
+
+
+def _glow(snapshot: Snapshot) -> Glow:
+    """How brightly each piece glows, in linear light: the demonstrator's strokes warm, the student's blue."""
+    warm, blue = np.square(BRAND[:3]), np.square(GOOD[:3])
+    glow: Glow = {}
+    for piece, light in _demonstrated(snapshot.kit, snapshot.pose):
+        glow[piece] = glow.get(piece, np.zeros(3)) + _DEMONSTRATOR_GLOW * light * warm
+    for piece, light in _struck(snapshot.kit, snapshot.strikes):
+        glow[piece] = glow.get(piece, np.zeros(3)) + _STUDENT_GLOW * light * blue
+    return glow
+
+
+def _demonstrated(kit: Kit, pose: Pose | None) -> Iterable[tuple[Piece, float]]:
+    if pose is not None:
+        yield from zip(kit.pieces, pose.flash.tolist(), strict=True)
+
+
+def _struck(kit: Kit, strikes: Iterable[Strike]) -> Iterable[tuple[Piece, float]]:
+    for strike in strikes:
+        if strike.student and strike.age_s >= 0:
+            yield kit.stand_in(strike.piece), float(np.exp(-strike.age_s / _GLOW_FADE_S)) * (0.35 + strike.velocity / 195)
