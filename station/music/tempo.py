@@ -54,6 +54,11 @@ class MeterChange:
         """Length of one whole bar."""
         return self.beats * self.beat_ticks
 
+    def continues(self, before: "MeterChange") -> bool:
+        """Whether nothing changes here: the same meter on a bar's start."""
+        on_a_bar = (self.tick - before.tick) % before.bar_ticks == 0
+        return on_a_bar and (self.beats, self.unit) == (before.beats, before.unit)
+
 
 @dataclass(frozen=True, slots=True)
 class BarPosition:
@@ -73,7 +78,10 @@ class TempoMap:
 
     @classmethod
     def build(cls, tempos: Iterable[TempoChange], meters: Iterable[MeterChange] = ()) -> "TempoMap":
-        """A map from changes in any order: the last on a tick counts; tick 0 gets 120 bpm and 4/4 if unsaid."""
+        """A map from changes in any order: the last on a tick counts; tick 0 gets 120 bpm and 4/4 if unsaid.
+
+        Changes that change nothing are left out. Raises `BadInput` for what is no tempo or no meter.
+        """
         by_tick = {0: TempoChange(0, DEFAULT_US_PER_QUARTER)} | {t.tick: t for t in sorted(tempos, key=_tick)}
         meter_by_tick = {0: MeterChange(0, 4, 4)} | {m.tick: m for m in sorted(meters, key=_tick)}
         for tempo in by_tick.values():
@@ -82,10 +90,15 @@ class TempoMap:
         for meter in meter_by_tick.values():
             if meter.beats <= 0 or meter.unit <= 0 or (4 * PPQ) % meter.unit or meter.tick < 0:
                 raise BadInput("tempo map", f"tick {meter.tick}", f"{meter.beats}/{meter.unit} is no meter")
-        return cls(
-            tuple(by_tick[t] for t in sorted(by_tick)),
-            tuple(meter_by_tick[t] for t in sorted(meter_by_tick)),
-        )
+        kept_tempos: list[TempoChange] = []
+        for tick in sorted(by_tick):
+            if not kept_tempos or by_tick[tick].us_per_quarter != kept_tempos[-1].us_per_quarter:
+                kept_tempos.append(by_tick[tick])
+        kept_meters: list[MeterChange] = []
+        for tick in sorted(meter_by_tick):
+            if not kept_meters or not meter_by_tick[tick].continues(kept_meters[-1]):
+                kept_meters.append(meter_by_tick[tick])
+        return cls(tuple(kept_tempos), tuple(kept_meters))
 
     @classmethod
     def constant(cls, tempo_bpm: float, beats: int = 4, unit: int = 4) -> "TempoMap":

@@ -1,0 +1,54 @@
+"""Pictures of sessions and scores without a window."""
+
+from dataclasses import replace
+from pathlib import Path
+
+from station.core.units import NS_PER_S
+from station.motion.drummer import Drummer
+from station.motion.figure import figure_of
+from station.motion.kit import DEFAULT_KIT, load_kit
+from station.music.judgement import Label
+from station.music.score import Score
+from station.practice.session import SessionResult
+from station.render.picture import draw_png
+from station.render.snapshot import Extra, Hud, Snapshot, mark, no_marks
+from station.scoring.alignment import judgements
+
+SIZE = (1280, 720)
+
+
+def draw_score(score: Score, at_s: float, path: Path, size: tuple[int, int] = SIZE, kit: str = "") -> None:
+    """The drummer playing `score` at `at_s` seconds, as a PNG; raises `DeviceError` without OpenGL or disk."""
+    draw_png(_picture_of(score, at_s, kit), path, size)
+
+
+def draw_session(result: SessionResult, path: Path) -> None:
+    """The last pass of a session, half into its first bar, every note with its judgement; raises `DeviceError`."""
+    plan = result.plan
+    last_pass_s = (result.score.length_ns - plan.section.length_ns) / NS_PER_S
+    bar_s = plan.section.length_ns / NS_PER_S / plan.section.bar_count
+    snapshot = _picture_of(result.score, last_pass_s + bar_s / 2, plan.lesson.kit)
+    marks = no_marks(result.score)
+    extras = []
+    for judgement in judgements(result.score, result.performance, result.alignment):
+        mark(marks, judgement)
+        if judgement.label is Label.EXTRA and judgement.hit_index is not None:
+            hit = result.performance[judgement.hit_index]
+            extras.append(Extra(hit.at_ns / NS_PER_S, hit.piece))
+    right = int((result.alignment.note_label == Label.MATCH).sum())
+    hud = Hud(
+        title=plan.lesson.title,
+        phase=f"{plan.passes} passes played",
+        tempo_bpm=plan.tempo_bpm,
+        right=right,
+        judged=len(result.score),
+    )
+    draw_png(replace(snapshot, marks=marks, extras=tuple(extras), hud=hud), path, SIZE)
+
+
+def _picture_of(score: Score, at_s: float, kit_name: str) -> Snapshot:
+    kit, figure = load_kit(kit_name or DEFAULT_KIT), figure_of()
+    drummer = Drummer(score, kit, figure)
+    place = score.tempo_map.position_at(int(score.tempo_map.ticks_at(at_s)))
+    hud = Hud(title=score.title, bar=place.bar + 1, beat=place.beat + 1, bar_count=score.bar_count)
+    return Snapshot(score, at_s, kit, figure, drummer.pose(at_s), drummer.assignment.limbs, hud=hud)
