@@ -1,9 +1,12 @@
 """The arm that really reaches the drum, in closed form (DESIGN § 5; thesis figures 4.15–4.18).
 
-A contact says where the stick touches and how it lies there. From it and the shoulder follow the wrist, by the cosine
-law the elbow and shoulder, and with the stroke's offsets on top of those angles everything up to the tip: at the strike
-the offsets are zero and the tip is on the point. Angles in the arm's vertical plane count from hanging straight down,
-forward positive; dir(θ) = (sin θ · heading, −cos θ).
+A contact says where the stick touches and how stick and hand lie there. From it and the shoulder follow the wrist, by
+the cosine law the elbow and shoulder, and with a stroke's offsets on top of those angles everything up to the tip: at
+the strike the offsets are zero and the tip is on the point. Angles in the arm's vertical plane count from hanging
+straight down, forward positive; dir(θ) = (sin θ · heading, −cos θ).
+
+DESIGN's b, δ and Σ are the matched grip, in which hand and stick share a vertical plane. Here each has its own heading,
+so that a traditional left hand, whose stick crosses the palm, is solved by the same lines.
 """
 
 import math
@@ -15,25 +18,28 @@ from station.motion.maths import Maths, Number, Point
 HALF_TURN = math.pi
 QUARTER_TURN = math.pi / 2
 
-_STRAIGHT = 0.9999
+STRAIGHT = 0.9995
 """An arm is never straighter than this share of its length: at 1 the elbow's angle has no slope (our choice)."""
 
 
 class Contact(NamedTuple):
-    """Where the stick touches, and how it lies there.
+    """Where the stick touches, and how hand and stick lie there.
 
-    Point `x`, `y`, `z`; the slope `rise_rad` of the line from there up to the wrist; `yaw_rad` by which that line is
-    turned from the shoulder's direction in plan (to the left positive); `ahead_m` from the fulcrum to the part of the
-    stick that touches; `palm_rad` the stick's angle μ in the hand.
+    Point `x`, `y`, `z`. `stick_rise` and `hand_rise`: the slopes up along the stick from the point to the fulcrum and
+    along the hand from there to the wrist. `stick_yaw` and `hand_yaw`: by how much those two are turned in plan, to
+    the left positive, from the direction towards the shoulder. `ahead_m` from the fulcrum to the part of the stick
+    that touches. `wing`: how far the elbow is swung to the drummer's right about the line from shoulder to wrist.
     """
 
     x: Number
     y: Number
     z: Number
-    rise_rad: Number
-    yaw_rad: Number
+    stick_rise: Number
+    hand_rise: Number
+    stick_yaw: Number
+    hand_yaw: Number
     ahead_m: Number
-    palm_rad: Number
+    wing: Number
 
 
 class Offsets(NamedTuple):
@@ -48,102 +54,114 @@ class Offsets(NamedTuple):
 class Arm(NamedTuple):
     """The solved arm.
 
-    Points; the normal of the `back` of the hand; the `angles` γ, β, α, μ; the arm plane's `heading_rad` κ (to the left
-    positive); and the distance from shoulder to wrist that is missing where the contact is out of reach (else 0).
+    Points, from the shoulder `root` on; `back`, the normal of the hand's back before any roll; the arm plane's heading
+    κ (to the left positive), γ, β; the wrist's extension and its deviation to the left; μ, the stick's angle in the
+    hand; and how far the shoulder had to come forward because the contact was out of the arm's reach (else 0).
     """
 
+    root: Point
     elbow: Point
     wrist: Point
     hand: Point
     tip: Point
     butt: Point
     back: Point
-    angles: tuple[Number, Number, Number, Number]
-    heading_rad: Number
+    heading: Number
+    shoulder: Number
+    elbow_bend: Number
+    extension: Number
+    deviation: Number
+    palm: Number
     missing_m: Number
 
 
 @dataclass(frozen=True, slots=True)
 class ArmLengths:
-    """Upper arm, forearm, hand to the fulcrum, fulcrum to the tip and to the butt, in metres."""
+    """Upper arm, forearm, hand to the fulcrum, fulcrum to the tip and to the butt, in metres.
+
+    `turns_hand`: 1 where the wrist's part of a stroke bends the hand, 0 where the forearm's roll swings the stick alone
+    (a traditional left hand).
+    """
 
     upper: float
     fore: float
     hand: float
     ahead: float
     behind: float
+    turns_hand: float = 1.0
 
 
-def solve(m: Maths, lengths: ArmLengths, shoulder: Point, contact: Contact, offsets: Offsets, wing_rad: Number) -> Arm:
-    """The arm at `shoulder` whose stick would touch `contact`, moved by `offsets`, its elbow swung out by `wing_rad`.
+def solve(m: Maths, lengths: ArmLengths, shoulder: Point, contact: Contact, offsets: Offsets) -> Arm:
+    """The arm at `shoulder` whose stick would touch `contact`, moved by `offsets`.
 
-    `wing_rad` turns the elbow about the line from shoulder to wrist, positive to the drummer's right, and moves nothing
-    else. Out of reach, the arm stretches towards the contact and says how much is missing.
+    Where the contact is out of reach, the shoulder itself comes forward by what is missing, as shoulders do a little.
     """
+    sin, cos, sqrt, most = m.sin, m.cos, m.sqrt, m.most
     sx, sy, sz = shoulder
-    upper, fore = lengths.upper, lengths.fore
-    # the wrist at the contact, on its line at the length b of hand and stick: b² = h² + S² + 2hS cos μ
-    h, ahead, mu = lengths.hand, contact.ahead_m, contact.palm_rad
-    cos_mu, sin_mu = m.cos(mu), m.sin(mu)
-    b = m.sqrt(h * h + ahead * ahead + 2 * h * ahead * cos_mu)
-    lean = m.atan2(ahead * sin_mu, h + ahead * cos_mu)
-    dx, dy = sx - contact.x, sy - contact.y
-    plan = m.sqrt(dx * dx + dy * dy)
-    cos_yaw, sin_yaw = m.cos(contact.yaw_rad), m.sin(contact.yaw_rad)
-    ux, uy = (dx * cos_yaw - dy * sin_yaw) / plan, (dx * sin_yaw + dy * cos_yaw) / plan
-    level = b * m.cos(contact.rise_rad)
-    wx, wy, wz = contact.x + level * ux, contact.y + level * uy, contact.z + b * m.sin(contact.rise_rad)
-    hand_0 = QUARTER_TURN - contact.rise_rad - lean  # Σ = π/2 − rise points from the wrist down to the contact
-    # the cosine law on upper arm, forearm and the distance between shoulder and wrist
-    rx, ry, rz = wx - sx, wy - sy, wz - sz
+    cx, cy, cz, stick_rise, hand_rise, stick_yaw, hand_yaw, touching, wing = contact
+    raised_shoulder, raised_elbow, raised_wrist, raised_stick = offsets
+    upper, fore, h = lengths.upper, lengths.fore, lengths.hand
+    # plan directions towards the player of the stick (ux, uy) and the hand (vx, vy)
+    dx, dy = sx - cx, sy - cy
+    plan = sqrt(dx * dx + dy * dy)
+    c, s = cos(stick_yaw) / plan, sin(stick_yaw) / plan
+    ux, uy = dx * c - dy * s, dx * s + dy * c
+    c, s = cos(hand_yaw) / plan, sin(hand_yaw) / plan
+    vx, vy = dx * c - dy * s, dx * s + dy * c
+    # the wrist at the contact: up the stick, up the hand
+    a, b = touching * cos(stick_rise), h * cos(hand_rise)
+    rx, ry = cx + a * ux + b * vx - sx, cy + a * uy + b * vy - sy
+    rz = cz + touching * sin(stick_rise) + h * sin(hand_rise) - sz
+    # the cosine law on upper arm, forearm and the distance from shoulder to wrist
     flat2 = rx * rx + ry * ry
-    flat = m.sqrt(flat2)
-    distance = m.sqrt(flat2 + rz * rz)
-    longest = _STRAIGHT * (upper + fore)
-    missing = m.most(distance - longest, 0.0)
-    d = m.least(distance, longest)
-    inside = m.acos((upper * upper + d * d - fore * fore) / (2 * upper * d))
-    gamma = m.atan2(flat, -rz) - inside + offsets.shoulder
-    bend = m.acos(m.most(m.least((upper * upper + fore * fore - d * d) / (2 * upper * fore), 1.0), -1.0))
-    beta = HALF_TURN - bend + offsets.elbow
+    flat = sqrt(flat2)
+    distance = sqrt(flat2 + rz * rz)
+    missing = most(distance - STRAIGHT * (upper + fore), 0.0)
+    given = missing / distance  # the shoulder comes along with what is missing
+    sx, sy, sz = sx + given * rx, sy + given * ry, sz + given * rz
+    d = most(distance - missing, 1.0001 * abs(upper - fore))
+    uu, ff, dd = upper * upper, fore * fore, d * d
+    gamma = m.atan2(flat, -rz) - m.acos((uu + dd - ff) / (2 * upper * d)) + raised_shoulder
+    beta = HALF_TURN - m.acos((uu + ff - dd) / (2 * upper * fore)) + raised_elbow
     # forward again, with the stroke on top
     ax, ay = rx / flat, ry / flat
-    sin_u, cos_u = m.sin(gamma), m.cos(gamma)
-    sin_f, cos_f = m.sin(gamma + beta), m.cos(gamma + beta)
-    reach, drop = upper * sin_u + fore * sin_f, upper * cos_u + fore * cos_f
+    sin_u, cos_u, fore_angle = sin(gamma), cos(gamma), gamma + beta
+    reach, drop = upper * sin_u + fore * sin(fore_angle), upper * cos_u + fore * cos(fore_angle)
     wx, wy, wz = sx + reach * ax, sy + reach * ay, sz - drop
-    elbow = _swing(
-        m, (sx, sy, sz), (upper * sin_u * ax, upper * sin_u * ay, -upper * cos_u), (reach, drop, ax, ay), wing_rad
-    )
-    hand = hand_0 + offsets.shoulder + offsets.elbow + offsets.wrist
-    stick = hand + mu + offsets.stick
-    sin_h, cos_h, sin_s, cos_s = m.sin(hand), m.cos(hand), m.sin(stick), m.cos(stick)
-    hx, hy, hz = wx - h * sin_h * ux, wy - h * sin_h * uy, wz - h * cos_h
+    # the elbow, swung about the line to the wrist: Rodrigues on upper·dir(γ), whose cross product is level
+    length = sqrt(reach * reach + drop * drop)
+    cos_w, sin_w = cos(wing), sin(wing)
+    k, kz = reach / length, -drop / length
+    e, ez = upper * sin_u, -upper * cos_u
+    along = (k * e + kz * ez) * (1 - cos_w)
+    level = (kz * e - k * ez) * sin_w
+    out, up = e * cos_w + k * along, ez * cos_w + kz * along
+    ex, ey, ez = sx + out * ax + level * ay, sy + out * ay - level * ax, sz + up
+    # hand and stick
+    lifted = raised_shoulder + raised_elbow
+    hand = QUARTER_TURN - hand_rise + lifted + lengths.turns_hand * raised_wrist
+    stick = QUARTER_TURN - stick_rise + lifted + raised_wrist + raised_stick
+    sin_h, cos_h, sin_s, cos_s = sin(hand), cos(hand), sin(stick), cos(stick)
+    px, py, pz = -sin_h * vx, -sin_h * vy, -cos_h
     tx, ty, tz = -sin_s * ux, -sin_s * uy, -cos_s
+    hx, hy, hz = wx + h * px, wy + h * py, wz + h * pz
+    # the wrist's angles: the forearm seen from the hand's own axes (along, back, left)
+    fx, fy, fz = (wx - ex) / fore, (wy - ey) / fore, (wz - ez) / fore
+    nx, ny, nz = -cos_h * vx, -cos_h * vy, sin_h
+    ahead_f, back_f, left_f = fx * px + fy * py + fz * pz, fx * nx + fy * ny + fz * nz, fx * vy - fy * vx
     return Arm(
-        elbow=elbow,
-        wrist=(wx, wy, wz),
-        hand=(hx, hy, hz),
-        tip=(hx + lengths.ahead * tx, hy + lengths.ahead * ty, hz + lengths.ahead * tz),
-        butt=(hx - lengths.behind * tx, hy - lengths.behind * ty, hz - lengths.behind * tz),
-        back=(-cos_h * ux, -cos_h * uy, sin_h),
-        angles=(gamma, beta, hand - gamma - beta, mu + offsets.stick),
-        heading_rad=m.atan2(-ax, ay),
-        missing_m=missing,
-    )
-
-
-def _swing(m: Maths, shoulder: Point, arm: Point, line: tuple[Number, ...], wing_rad: Number) -> Point:
-    """The elbow at `shoulder` + `arm`, turned by `wing_rad` about the line to the wrist (Rodrigues)."""
-    sx, sy, sz = shoulder
-    ex, ey, ez = arm
-    reach, drop, ax, ay = line
-    length = m.sqrt(reach * reach + drop * drop)
-    kx, ky, kz = reach * ax / length, reach * ay / length, -drop / length
-    cos_w, sin_w = m.cos(wing_rad), m.sin(wing_rad)
-    along = (kx * ex + ky * ey + kz * ez) * (1 - cos_w)
-    return (
-        sx + ex * cos_w + (ky * ez - kz * ey) * sin_w + kx * along,
-        sy + ey * cos_w + (kz * ex - kx * ez) * sin_w + ky * along,
-        sz + ez * cos_w + (kx * ey - ky * ex) * sin_w + kz * along,
+        (sx, sy, sz),
+        (ex, ey, ez),
+        (wx, wy, wz),
+        (hx, hy, hz),
+        (hx + lengths.ahead * tx, hy + lengths.ahead * ty, hz + lengths.ahead * tz),
+        (hx - lengths.behind * tx, hy - lengths.behind * ty, hz - lengths.behind * tz),
+        (nx, ny, nz),
+        m.atan2(-ax, ay),
+        gamma,
+        beta,
+        -m.atan2(back_f, ahead_f),
+        -m.atan2(left_f, sqrt(ahead_f * ahead_f + back_f * back_f)),
+        stick - hand,
+        missing,
     )

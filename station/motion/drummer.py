@@ -1,36 +1,52 @@
 """The drummer: a score, a kit, a figure and a style in, the pose at any time out.
 
-What a style cannot change is made once: limbs, contacts, ways between them, pedals, instruments. What it can, the
-keyframes of strokes and body, is made anew by `with_style`. A pose evaluates the splines at its time and runs forward
-kinematics; the arm is solved from where the shoulder is at that instant, so that the body may move as it likes.
+What a style cannot change is made once (`plan`). What it can, the keyframes of strokes and body, is made anew by
+`with_style`. A pose evaluates the splines at its time and runs forward kinematics; the arm is solved from where the
+shoulder is at that instant, so that the body may move as it likes and every tip is still on its drum at the strike.
 """
 
+import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Limb, Piece, Zone
-from station.motion import body, pedals
-from station.motion.arm import Arm, Offsets, solve
+from station.core.pieces import Piece
+from station.motion import body
 from station.motion.figure import Figure, figure_of
-from station.motion.hand import HandPart, arm_lengths
-from station.motion.instruments import Instrument, instruments
+from station.motion.frame import BodyNow, HandNow, Rig
+from station.motion.hand import HandPart
 from station.motion.kit import Kit, load_kit
-from station.motion.leg import Footing, leg
-from station.motion.limbs import Assignment, assign_limbs
-from station.motion.maths import ONE, Point
+from station.motion.leg import HEEL_RAD, Footing
+from station.motion.life import BREATH_RATE, Blinks, breath
+from station.motion.limbs import Assignment
+from station.motion.maths import MANY, ONE, Number
+from station.motion.plan import Plan, bar_places, holds
 from station.motion.pose import Pose
+from station.motion.reach import leans
 from station.motion.splines import Curves
-from station.motion.style import Style
-from station.motion.trunk import TrunkAngles, trunk
+from station.motion.stroke import Sliders, Strokes
+from station.motion.style import NATURAL, Style, bent
+from station.motion.travel import Way
 from station.music.score import Score
 
 Array = NDArray[np.float64]
 
-HIP_ABOVE_SEAT = 0.05
-"""Height of the hip joints over the seat, as a share of the stature (our choice)."""
+
+class Channels(Protocol):
+    """Anything that moves: it can be asked for one instant or for many."""
+
+    def at(self, time_s: float, /) -> Number:
+        """One instant."""
+
+    def many(self, time_s: Array, /) -> Number:
+        """Many."""
+
+
+Sample = Callable[[Channels, Number], Number]
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,131 +60,151 @@ class Drummer:
     kit: Kit = field(default_factory=load_kit)
     figure: Figure = field(default_factory=figure_of)
     style: Style = field(default_factory=Style)
-    plan: "_Plan | None" = None
+    plan: Plan | None = None
+    parts: tuple[HandPart, HandPart] | None = None
 
     def __post_init__(self) -> None:
-        if self.plan is None:
-            object.__setattr__(self, "plan", _Plan(self.score, self.kit, self.figure))
+        plan = self.plan or Plan.of(self.score, self.kit, self.figure)
+        object.__setattr__(self, "plan", plan)
+        object.__setattr__(self, "parts", self.parts or plan.hands(self.style))
 
     def with_style(self, style: Style) -> "Drummer":
-        """The same drummer in another style; what no style changes is shared."""
-        return Drummer(self.score, self.kit, self.figure, style, self.plan)
+        """The same drummer in another style; what it does not change is shared."""
+        same_hold = holds(style) == holds(self.style)
+        return Drummer(self.score, self.kit, self.figure, style, self._plan, self.parts if same_hold else None)
 
     @property
     def assignment(self) -> Assignment:
         """Who plays what, and why."""
-        return self._fixed.assignment
+        return self._plan.assignment
 
     @property
-    def _fixed(self) -> "_Plan":
+    def _plan(self) -> Plan:
         assert self.plan is not None
         return self.plan
 
-    # --- what the style decides --------------------------------------------------------------------------------------
+    @property
+    def _hands(self) -> tuple[HandPart, HandPart]:
+        assert self.parts is not None
+        return self.parts
+
+    # --- keyframes: what the style decides ----------------------------------------------------------------------------
 
     @cached_property
-    def _strokes(self) -> tuple[list[Curves], list[Curves]]:
-        right, left = self._fixed.hands
-        return right.offsets(self.style.sliders), left.offsets(self.style.sliders)
+    def _keys(self) -> "_Keys":
+        return _Keys.of(self._plan, self._hands, self.style)
 
-    @cached_property
-    def _body(self) -> Curves:
-        plan, style = self._fixed, self.style
-        return body.body_curves(plan.beats_s, plan.bearing, style.body_factors, np.radians(style.posture_deg))
-
-    # --- one instant --------------------------------------------------------------------------------------------------
+    # --- poses --------------------------------------------------------------------------------------------------------
 
     def pose(self, time_s: float) -> Pose:
         """Everything at `time_s` seconds from the score's tick 0, before and after the score too."""
-        fixed, figure = self._fixed, self.figure
-        twist, lean, side, nod, turn, tilt = self._body.at(time_s)
-        frame = trunk(ONE, figure, fixed.pelvis, TrunkAngles(twist, lean, side, nod, turn, tilt, 0.0))
-        wing = np.radians(self.style.wing_deg)
-        right = self._arm(0, time_s, frame.right_shoulder, wing)
-        left = self._arm(1, time_s, frame.left_shoulder, -wing)
-        kick, hat = fixed.kick.at(time_s)[0], fixed.hat.at(time_s)[0]
-        boards = kick * fixed.raised[0], hat * fixed.raised[1]
-        legs = [leg(ONE, f, hip, b, 0.0) for f, hip, b in zip(fixed.footings, fixed.hips, boards, strict=True)]
-        played = [i.at(time_s) for i in fixed.instruments]
-        points: list[Point] = [
-            *(fixed.pelvis, frame.spine, frame.neck, frame.head, frame.crown),
-            *(frame.right_shoulder, right.elbow, right.wrist, right.hand),
-            *(frame.left_shoulder, left.elbow, left.wrist, left.hand),
-            *(fixed.hips[0], legs[0].knee, legs[0].ankle, legs[0].toe),
-            *(fixed.hips[1], legs[1].knee, legs[1].ankle, legs[1].toe),
-            *(right.butt, left.butt, right.tip, left.tip, right.back, left.back, frame.facing, frame.head_up),
-        ]
-        angles = [twist, lean, side, nod, turn, tilt]
-        for arm in (right, left):
-            angles += [arm.heading_rad, *arm.angles]
-        for one in legs:
-            angles += one.angles
-        table: Array = np.array(points)
-        response = np.array(played)
-        return Pose(
-            time_s=time_s,
-            joints_m=table[:21],
-            angles_rad=np.array(angles),
-            butt_m=table[21:23],
-            tip_m=table[23:25],
-            palm=table[25:27],
-            facing=table[27],
-            head_up=table[28],
-            footboard_rad=boards,
-            beater_rad=kick * pedals.BEATER_SWING_RAD,
-            hat_gap_m=hat * pedals.OPEN_GAP_M,
-            swing_rad=response[:, :2],
-            flash=response[:, 2],
-            ripple_m=response[:, 3],
-            eyes=1.0,
+        keys = self._keys
+        now = keys.body_now(time_s, math.sin(time_s * BREATH_RATE), at)
+        hands = [HandNow(way.at(time_s), strokes.at(time_s)) for way, strokes in keys.hands]
+        row = keys.rig.row(ONE, now, hands, keys.boards(time_s, at))
+        for instrument in self._plan.instruments:
+            row += instrument.at(time_s)
+        return Pose.of(time_s, np.array(row))
+
+    def rows(self, time_s: Array) -> Array:
+        """The poses at each time (n,) as rows (n, fields) in the layout of `frame`; the instruments are left out."""
+        keys = self._keys
+        now = keys.body_now(time_s, np.sin(time_s * BREATH_RATE), many)
+        hands = [HandNow(way.many(time_s), strokes.many(time_s)) for way, strokes in keys.hands]
+        row = keys.rig.row(MANY, now, hands, keys.boards(time_s, many))
+        return np.stack([np.broadcast_to(value, time_s.shape) for value in row], axis=1)
+
+
+def at(channels: Channels, time_s: Number) -> Number:
+    """The channels at one instant."""
+    return channels.at(time_s)
+
+
+def many(channels: Channels, time_s: Number) -> Number:
+    """The channels at many."""
+    return channels.many(time_s)
+
+
+@dataclass(frozen=True, eq=False)
+class _Keys:
+    """All keyframes under one style."""
+
+    hands: tuple[tuple[Way, Strokes], tuple[Way, Strokes]]
+    body: Curves
+    bob: Curves
+    gaze: Curves
+    blinks: Blinks
+    feet: tuple[Curves, Curves]
+    breathing: float
+    rig: Rig
+
+    @classmethod
+    def of(cls, plan: Plan, hands: tuple[HandPart, HandPart], style: Style) -> "_Keys":
+        ground = plan.ground
+        values = body.keys(ground, style)
+        first = body.curves(ground, style, values)
+        needed = leans(first, hands, plan.figure, plan.pelvis)
+        if needed.any():
+            values[1] += needed
+            first = body.curves(ground, style, values)
+        right, left = ((hand.way, Strokes.of(hand.strokes, sliders(plan.score, hand, style))) for hand in hands)
+        left_kick = plan.kit.left_handed
+        return cls(
+            hands=(right, left),
+            body=first,
+            bob=body.bob_curve(ground, style),
+            gaze=plan.gaze(float(style.value("look_around", 1.0)) / 100, style.seed),
+            blinks=plan.blinks(style.seed),
+            feet=(plan.hat, plan.kick) if left_kick else (plan.kick, plan.hat),
+            breathing=float(style.factor("breathing", 1.0)),
+            rig=rig_of(plan, style),
         )
 
-    def _arm(self, side: int, time_s: float, shoulder: Point, wing_rad: float) -> Arm:
-        fixed = self._fixed
-        offsets = Offsets(*(c.at(time_s)[0] for c in self._strokes[side]))
-        return solve(ONE, fixed.lengths, shoulder, fixed.hands[side].way.at(time_s), offsets, wing_rad)
+    def body_now(self, time_s: Number, sine: Number, sample: Sample) -> BodyNow:
+        twist, lean, side, shrug, wing, stand = sample(self.body, time_s)
+        bearing, pitch = sample(self.gaze, time_s)
+        lift = shrug + breath(sine, self.breathing)
+        bob = sample(self.bob, time_s)[0]
+        return BodyNow(twist, lean, side, lift, wing, stand, bearing, pitch, bob, sample(self.blinks, time_s))
+
+    def boards(self, time_s: Number, sample: Sample) -> tuple[Number, Number]:
+        right, left = self.feet
+        return sample(right, time_s)[0], sample(left, time_s)[0]
 
 
-class _Plan:
-    """What no style changes: limbs, hands' ways, pedals, instruments, beats."""
-
-    def __init__(self, score: Score, kit: Kit, figure: Figure) -> None:
-        self.assignment = assign_limbs(score, kit)
-        self.lengths = arm_lengths(figure)
-        seat = kit.seat_m
-        self.pelvis: Point = (seat[0], seat[1], seat[2] + HIP_ABOVE_SEAT * figure.stature_m)
-        half = figure.hip_breadth_m / 2
-        x, y, z = self.pelvis
-        self.hips: tuple[Point, Point] = ((x + half, y, z), (x - half, y, z))
-        onset_s, limbs = score.onset_s, self.assignment.limbs
-        self.strikes_m = _strike_points(score, kit, limbs)
-        self.beats_s = body.beat_times(score)
-        hand_rows = np.flatnonzero((limbs == Limb.RIGHT_HAND) | (limbs == Limb.LEFT_HAND))
-        bearing = np.arctan2(-self.strikes_m[hand_rows, 0], np.maximum(self.strikes_m[hand_rows, 1] - y, 0.05))
-        halves = np.sort(np.concatenate((self.beats_s, 0.5 * (self.beats_s[1:] + self.beats_s[:-1]))))
-        order = np.argsort(onset_s[hand_rows], kind="stable")
-        self.bearing = body.facing(halves, onset_s[hand_rows][order], bearing[order])
-        still = trunk(ONE, figure, self.pelvis, TrunkAngles(0.0, np.radians(6.0), 0.0, 0.0, 0.0, 0.0, 0.0))
-        shoulders = (still.right_shoulder, still.left_shoulder)
-        self.hands = tuple(
-            HandPart.of(score, kit, figure, limb, np.flatnonzero(limbs == limb), shoulder)
-            for limb, shoulder in zip((Limb.RIGHT_HAND, Limb.LEFT_HAND), shoulders, strict=True)
-        )
-        kicks = np.flatnonzero(score.notes["piece"] == Piece.KICK)
-        kicks = kicks[np.argsort(onset_s[kicks], kind="stable")]
-        self.kick = pedals.kick_board(onset_s[kicks], score.notes["velocity"][kicks].astype(np.float64))
-        self.hat = pedals.hat_board(score, onset_s)
-        boards = kit.pedals[Piece.KICK], kit.pedals[Piece.HIHAT_PEDAL]
-        if kit.left_handed:
-            boards = boards[::-1]
-        self.footings = tuple(Footing.of(p, figure, right) for p, right in zip(boards, (True, False), strict=True))
-        self.raised = tuple(p.raised_rad for p in boards)
-        self.instruments: list[Instrument] = instruments(score, kit, onset_s, self.strikes_m)
+def sliders(score: Score, hand: HandPart, style: Style) -> Sliders:
+    """What `style` does to the strokes of `hand`, each in its bar."""
+    bars = bar_places(score, score.notes["tick"][hand.rows]) if style.automation and len(hand.rows) else np.ones(1)
+    gains = [style.joint_factor("amplitude", j, bars) for j in ("shoulder", "elbow", "wrist")]
+    fingers = gains[2] * style.factor("amplitude_fingers", bars)
+    paces = [style.joint_factor("frequency", j, bars) for j in ("shoulder", "elbow", "wrist", "wrist")]
+    gain = np.array([*gains, fingers])
+    if style.pieces and len(hand.rows):
+        own = np.full(len(Piece), 1.0)
+        for piece, amplitude in style.pieces.items():
+            own[piece] = bent(amplitude / NATURAL)
+        gain = gain * own[score.notes["piece"][hand.rows]]
+    return Sliders(gain, np.maximum(np.array(paces), SLOWEST), style.factor("whip", bars)[None])
 
 
-def _strike_points(score: Score, kit: Kit, limbs: NDArray[np.int8]) -> Array:
-    """The point that each stroke touches, (n, 3)."""
-    notes = score.notes
-    kinds, which = np.unique(np.stack([notes["piece"], notes["zone"], limbs], 1), axis=0, return_inverse=True)
-    points = [kit.target(Piece(p), Zone(z), Limb(limb)).point_m for p, z, limb in kinds.tolist()]
-    return np.array(points).reshape(-1, 3)[which]
+SLOWEST = 0.3
+"""A stroke never takes longer than its natural time over this (our choice)."""
+
+
+def rig_of(plan: Plan, style: Style) -> Rig:
+    """The parts that do not move, for `style`."""
+    kick, hat = plan.kit.pedals[Piece.KICK], plan.kit.pedals[Piece.HIHAT_PEDAL]
+    pedals = (hat, kick) if plan.kit.left_handed else (kick, hat)
+    right, left = (Footing.of(p, plan.figure, r) for p, r in zip(pedals, (True, False), strict=True))
+    hold_right, hold_left = holds(style)
+    return Rig(
+        figure=plan.figure,
+        pelvis=plan.pelvis,
+        arms=(hold_right.lengths(plan.figure), hold_left.lengths(plan.figure)),
+        rolls=(hold_right.grip.roll, hold_left.grip.roll),
+        footings=(right, left),
+        raised=(pedals[0].raised_rad, pedals[1].raised_rad),
+        heel=HEEL_RAD[style.heel],
+        kick_side=1 if plan.kit.left_handed else 0,
+        gaze=0.9 * float(style.factor("amplitude_gaze", 1.0)),
+    )

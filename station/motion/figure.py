@@ -4,8 +4,14 @@ Segment lengths and joint heights after Winter and Drillis & Contini (HUMANS, Bo
 fulcrum of the grip is measured: 0.163 m in the 1.9 m player of Pearl 2023 (doi 10.1101/2023.10.09.561270).
 """
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
 from enum import IntEnum
+from math import radians
+from pathlib import Path
+
+from station.motion.limits import Limits
+from station.motion.toml_table import Table, find_shipped, read_toml
 
 
 class Joint(IntEnum):
@@ -62,7 +68,7 @@ PARENT: dict[Joint, Joint | None] = {
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """Lengths in metres, angles in radians."""
+    """Lengths in metres, and the joints' limits."""
 
     stature_m: float
     trunk_m: float  # hip to shoulder height
@@ -77,39 +83,54 @@ class Figure:
     shank_m: float
     foot_m: float
     ankle_height_m: float
-    stick_m: float = 0.406  # 5A
-    pivot: float = 1 / 3  # the fulcrum's place on the stick from the butt
-
-    @property
-    def stick_ahead_m(self) -> float:
-        """From the fulcrum to the tip."""
-        return self.stick_m * (1 - self.pivot)
-
-    @property
-    def stick_behind_m(self) -> float:
-        """From the fulcrum to the butt."""
-        return self.stick_m * self.pivot
+    stick_m: float = 0.406  # 5A (HUMANS, Kit)
+    limits: Limits = field(default_factory=Limits)
 
 
 MEDIAN_STATURE_M = 1.759
 """A median man (HUMANS, Body)."""
+_SHARES: Mapping[str, float] = {
+    "trunk_m": 0.288,
+    "shoulder_breadth_m": 0.259,
+    "hip_breadth_m": 0.115,  # the breadth of the hips is .191; their joints lie at .6 of it (our choice)
+    "neck_m": 0.060,
+    "head_m": 0.122,
+    "upper_arm_m": 0.186,
+    "forearm_m": 0.146,
+    "hand_m": 0.086,
+    "thigh_m": 0.245,
+    "shank_m": 0.246,
+    "foot_m": 0.152,
+    "ankle_height_m": 0.039,
+}
+"""Segments as shares of the stature."""
 
 
 def figure_of(stature_m: float = MEDIAN_STATURE_M) -> Figure:
     """A figure of that stature with the published proportions."""
-    h = stature_m
-    return Figure(
-        stature_m=h,
-        trunk_m=0.288 * h,
-        shoulder_breadth_m=0.259 * h,
-        hip_breadth_m=0.115 * h,  # the breadth of the hips is .191; their joints lie at .6 of it (our choice)
-        neck_m=0.060 * h,
-        head_m=0.122 * h,
-        upper_arm_m=0.186 * h,
-        forearm_m=0.146 * h,
-        hand_m=0.086 * h,
-        thigh_m=0.245 * h,
-        shank_m=0.246 * h,
-        foot_m=0.152 * h,
-        ankle_height_m=0.039 * h,
-    )
+    lengths = {name: share * stature_m for name, share in _SHARES.items()}
+    return Figure(stature_m=stature_m, **lengths)  # type: ignore[arg-type] # lengths alone
+
+
+# --- files ------------------------------------------------------------------------------------------------------------
+
+FIGURES = Path(__file__).parent / "data" / "figures"
+_LEAST_M, _GREATEST_M = 0.8, 2.4
+
+
+def load_figure(name_or_path: str | Path) -> Figure:
+    """A shipped figure by its name, or a figure file; raises `BadInput` with the place of the first fault.
+
+    A file holds `stature_m`, and where they differ from the published proportions a table `segments` of lengths in
+    metres and a table `limits` of angles in degrees, both by the names of the fields here.
+    """
+    path = find_shipped(name_or_path, FIGURES, "figure")
+    table = Table(read_toml(path), path, "")
+    table.only({"title", "stature_m", "segments", "limits"})
+    figure = figure_of(table.number("stature_m", _LEAST_M, _GREATEST_M))
+    segments, limits = table.table("segments", {}), table.table("limits", {})
+    segments.only(set(_SHARES))
+    limits.only({f.name for f in fields(Limits)})
+    angles = {name: radians(limits.number(name, 0.0, 200.0)) for name in limits.raw}
+    lengths = {name: segments.number(name, 0.01, 1.5) for name in segments.raw}
+    return replace(figure, limits=replace(Limits(), **angles), **lengths)

@@ -5,89 +5,121 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Limb, Piece, Zone
-from station.motion import stroke
-from station.motion.arm import ArmLengths, Contact, Offsets, solve
+from station.core.errors import BadInput
+from station.core.pieces import Articulation, Limb, Piece, Zone, word
+from station.motion.arm import Contact, Offsets, solve
+from station.motion.contacts import PROTRACTION_M, Strike, contact
 from station.motion.dynamics import stroke_height_m
 from station.motion.figure import Figure
+from station.motion.grip import Hold
 from station.motion.kit import Kit
-from station.motion.maths import MANY, Point
-from station.motion.piece import Target
-from station.motion.splines import Curves
+from station.motion.maths import ONE, Point
+from station.motion.stroke import StrokePlan, amplitudes
 from station.motion.travel import Way, lifts
 from station.music.score import Score
 
 Array = NDArray[np.float64]
 
-YAW_RAD = np.radians(10.0)
-"""How far hand and stick are turned in from the line between shoulder and struck point (American grip, our choice)."""
-PALM_RAD = np.radians(14.0)
-"""The stick's angle μ in the palm at the contact (28.8° in the measured stroke, whose wrist was flat; our choice)."""
-SHOULDER_OF_STICK_M = 0.10
-"""From the tip back to the part that meets a cymbal's edge or a rim (our choice)."""
-_SAME_STROKE_S = 0.004
+SAME_STROKE_S = 0.004
 """Strikes of one hand nearer than this are one movement."""
-
-
-def arm_lengths(figure: Figure) -> ArmLengths:
-    """The measures that `arm` needs."""
-    return ArmLengths(figure.upper_arm_m, figure.forearm_m, figure.hand_m, figure.stick_ahead_m, figure.stick_behind_m)
-
-
-def contact_of(target: Target, limb: Limb, figure: Figure) -> tuple[float, ...]:
-    """The contact's seven numbers (`arm.Contact`) for `target`."""
-    ahead = figure.stick_ahead_m - (SHOULDER_OF_STICK_M if target.shoulder else 0.0)
-    yaw = YAW_RAD if limb == Limb.RIGHT_HAND else -YAW_RAD
-    x, y, z = target.point_m.tolist()
-    return x, y, z, target.rise_rad, float(yaw), ahead, float(PALM_RAD)
+GRACE_HEIGHT_M, LAID_HEIGHT_M = 0.045, 0.06
+"""Grace strokes fall from no higher than this, a cross-stick's stick is lifted no higher (our choice)."""
+_LONG_AGO_S = -60.0
+_IDLE_HEIGHT_M = 0.05
 
 
 @dataclass(frozen=True, eq=False)
 class HandPart:
-    """The strikes of one hand, in order: `rows` of the score, times, contacts (n, 7), heights, amplitudes (4, n)."""
+    """The strikes of one hand, in order of time.
+
+    `rows` (n,) of the score, `contacts` (n, fields), `wrist_m` (n, 3) where the wrist is at each, naturally; the plan
+    of its strokes and its way between them. A hand without strikes waits over the snare: `rows` is empty, n is 1.
+    """
 
     rows: NDArray[np.int64]
-    times_s: Array
     contacts: Array
-    height_m: Array
-    amplitude: Array
-    lever_m: Array
+    wrist_m: Array
+    strokes: StrokePlan
     way: Way
 
     @classmethod
-    def of(
-        cls, score: Score, kit: Kit, figure: Figure, limb: Limb, rows: NDArray[np.int64], shoulder: Point
-    ) -> "HandPart":
-        """The part of `limb`, whose strikes are `rows` of `score`; amplitudes are solved from `shoulder`, still."""
+    def of(cls, score: Score, kit: Kit, figure: Figure, hold: Hold, limb: Limb, rows: NDArray[np.int64]) -> "HandPart":
+        """The part of `limb`, whose strikes are `rows` of `score`.
+
+        Raises `BadInput` for a piece out of reach: it names the piece, the note and the missing distance.
+        """
         rows = rows[np.argsort(score.onset_ns[rows], kind="stable")]
         times = score.onset_s[rows]
-        if len(rows):
-            keep = np.concatenate(([True], np.diff(times) > _SAME_STROKE_S))
-            rows, times = rows[keep], times[keep]
+        keep = np.diff(times, prepend=-np.inf) > SAME_STROKE_S
+        rows, times = rows[keep], times[keep]
         notes = score.notes[rows]
-        kinds, which = np.unique(np.stack([notes["piece"], notes["zone"]], 1), axis=0, return_inverse=True)
         if len(rows):
-            table = [contact_of(kit.target(Piece(p), Zone(z), limb), limb, figure) for p, z in kinds.tolist()]
-            contacts = np.array(table)[which]
-            played = np.array([kit.stand_in(Piece(p)) for p, _ in kinds.tolist()])[which]
-            height = stroke_height_m(notes["velocity"])
-        else:  # an idle hand waits over the snare
-            contacts = np.array([contact_of(kit.target(Piece.SNARE, Zone.HEAD, limb), limb, figure)])
-            played, times, height = np.array([int(Piece.SNARE)]), np.array([-60.0]), np.array([0.05])
-        arm = solve(MANY, arm_lengths(figure), shoulder, Contact(*contacts.T), Offsets(0.0, 0.0, 0.0, 0.0), 0.0)
-        gamma, beta, alpha, mu = arm.angles
-        angles = np.stack(np.broadcast_arrays(gamma, gamma + beta, gamma + beta + alpha, gamma + beta + alpha + mu))
-        lever = np.full(len(times), figure.hand_m + figure.stick_ahead_m)
-        return cls(
-            rows,
-            times,
-            contacts,
-            height,
-            stroke.amplitudes(height, angles, arm_lengths(figure)),
-            lever,
-            Way.of(times, contacts, lifts(kit, contacts, played)),
+            key = np.stack([notes["piece"], notes["zone"], notes["articulation"]], 1)
+            height = _heights(notes) * hold.held.height
+        else:
+            key = np.array([[Piece.SNARE, Zone.HEAD, Articulation.NORMAL]])
+            times, height = np.array([_LONG_AGO_S]), np.array([_IDLE_HEIGHT_M])
+        kinds, which = np.unique(key, axis=0, return_inverse=True)
+        which = which.reshape(-1)
+        ways = [_lie_of(kit, figure, hold, Strike(Piece(p), Zone(z), Articulation(a), limb)) for p, z, a in kinds]
+        for k, lie in enumerate(ways):
+            if lie.missing_m > PROTRACTION_M:
+                _out_of_reach(score, kit, limb, int(rows[np.argmax(which == k)]), lie.missing_m - PROTRACTION_M)
+        contacts = np.array([lie.contact for lie in ways])[which]
+        lengths = hold.lengths(figure)
+        plan = StrokePlan(
+            strike_s=times,
+            height_m=height,
+            amplitude=amplitudes(height, np.array([lie.angles for lie in ways])[which].T, lengths, _parts(hold)),
+            ceiling=np.array([lie.ceiling for lie in ways])[which].T,
+            lever_m=lengths.hand + lengths.ahead,
         )
+        edge = np.array([kit.target(Piece(p), Zone(z), limb).shoulder for p, z, _ in kinds])[which]
+        played = np.array([kit.stand_in(Piece(p)) for p, _, _ in kinds])[which]
+        way = Way.of(times, contacts, lifts(kit, contacts, played), edge[:-1])
+        return cls(rows, contacts, np.array([lie.wrist for lie in ways])[which], plan, way)
 
-    def offsets(self, sliders: stroke.Sliders) -> list[Curves]:
-        """The strokes' keyframes under `sliders`."""
-        return stroke.curves(self.times_s, self.height_m, self.amplitude, self.lever_m, sliders)
+
+def _heights(notes: NDArray[np.void]) -> Array:
+    height = stroke_height_m(notes["velocity"])
+    height = np.where(notes["lead_ms"] > 0, np.minimum(height, GRACE_HEIGHT_M), height)
+    laid = notes["articulation"] == Articulation.CROSS_STICK
+    return np.where(laid, np.minimum(height, LAID_HEIGHT_M), height)
+
+
+def _parts(hold: Hold) -> Array:
+    return np.array([[1.0], [1.0], [hold.grip.wrist], [hold.grip.fingers]])
+
+
+@dataclass(frozen=True, slots=True)
+class _Lie:
+    """One kind of strike solved at the natural posture."""
+
+    contact: Contact
+    missing_m: float
+    wrist: Point
+    angles: tuple[float, float, float, float]
+    ceiling: tuple[float, float, float, float]
+
+
+def _lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike) -> _Lie:
+    touch, missing, shoulder = contact(kit, figure, strike, hold)
+    arm = solve(ONE, hold.lengths(figure), shoulder, touch, Offsets(0.0, 0.0, 0.0, 0.0))
+    upright = np.pi / 2
+    angles = arm.shoulder, arm.shoulder + arm.elbow_bend, upright - touch.hand_rise, upright - touch.stick_rise
+    limits = figure.limits
+    ceiling = (
+        limits.shoulder_flexion - arm.shoulder,
+        limits.elbow_flexion - arm.elbow_bend,
+        max(limits.wrist_extension - arm.extension, 0.1),
+        max(limits.fingers - arm.palm, 0.1),
+    )
+    return _Lie(touch, missing, arm.wrist, angles, ceiling)
+
+
+def _out_of_reach(score: Score, kit: Kit, limb: Limb, row: int, missing_m: float) -> None:
+    note = score[row]
+    where = score.tempo_map.position_at(note.tick)
+    place = f"note {row + 1}, bar {where.bar + 1}, beat {where.beat + 1}"
+    hand, piece = word(limb).replace("_", " "), word(kit.stand_in(note.piece))
+    raise BadInput(kit.name, place, f"the {hand} cannot reach {piece}: {missing_m * 100:.0f} cm are missing")

@@ -16,7 +16,7 @@ from types import MappingProxyType
 from station.core.errors import BadInput
 from station.core.pieces import Limb, Piece, Zone, word
 from station.motion.piece import SPOTS, KitPiece, Spot, Target
-from station.motion.toml_table import Table, read_toml
+from station.motion.toml_table import Table, find_shipped, read_toml, shipped
 
 KITS = Path(__file__).parent / "data" / "kits"
 DEFAULT_KIT = "four_piece"
@@ -99,17 +99,12 @@ _MAX_TILT_DEG = 80.0
 
 def kit_names() -> list[str]:
     """The kits that ship with the station."""
-    return sorted(p.stem for p in KITS.glob("*.toml"))
+    return shipped(KITS)
 
 
 def load_kit(name_or_path: str | Path = DEFAULT_KIT) -> Kit:
     """A shipped kit by its name, or a kit file; raises `BadInput` with the place of the first fault."""
-    path = Path(name_or_path)
-    if path.suffix != ".toml":
-        path = KITS / f"{name_or_path}.toml"
-        if not path.exists():
-            near = difflib.get_close_matches(str(name_or_path), kit_names(), n=2) or kit_names()
-            raise BadInput(str(name_or_path), "", f"no such kit; there is {' and '.join(near)}")
+    path = find_shipped(name_or_path, KITS, "kit")
     return _kit(read_toml(path), path)
 
 

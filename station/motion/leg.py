@@ -4,7 +4,10 @@ The foot stands heel down, its sole on the board, or heel up, its ball on the bo
 § 3.3.2). The knee's plane contains the hip, the ankle and the direction in which the knee points.
 """
 
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -17,6 +20,9 @@ ANKLE_ALONG = 0.25
 """The ankle's place along the sole, from the heel (our choice)."""
 BALL_ALONG = 0.75
 """The ball's (our choice)."""
+
+HEEL_RAD: Mapping[str, float] = MappingProxyType({"down": 0.0, "up": math.radians(24.0)})
+"""How far the sole is tipped over the board, heel up (our choice)."""
 
 
 class Leg(NamedTuple):

@@ -11,12 +11,13 @@ Where strikes are near, the preparation is squeezed first; then rebound and prep
 nearer still the amplitude shrinks in proportion to the gap (thesis figure 4.10).
 """
 
+from bisect import bisect_right
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from station.motion.arm import ArmLengths
+from station.motion.arm import ArmLengths, Offsets
 from station.motion.splines import Curves, cubics, slopes
 
 Array = NDArray[np.float64]
@@ -24,6 +25,7 @@ Array = NDArray[np.float64]
 WRIST = 2
 KEYS = 8
 """Keys of a joint for each strike: start, middle, top, two on the way down, strike, rebound, rest."""
+_STRIKE = 5
 
 # --- the measured stroke ----------------------------------------------------------------------------------------------
 
@@ -48,6 +50,7 @@ _SHARE_BEFORE = np.array(
     ]
 )
 """The same keys' values in shares of the joint's peak (the rest's height comes on top, for the wrist)."""
+_LONGEST_S = 0.600
 _REBOUND_S = np.array([[0.050], [0.040], [0.046], [0.027]])
 _SHARE_REBOUND = np.array([[0.0], [-0.06], [0.36], [0.82]])
 _REST_S = np.array([[0.100], [0.100], [0.110], [0.085]])
@@ -94,22 +97,29 @@ _CONTINUITY = np.array([0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0])
 
 @dataclass(frozen=True, slots=True)
 class Sliders:
-    """What a style does to the strokes: `gain` (4, n) on the amplitudes, `speed` (4, 1) on the pace, 1 as measured."""
+    """What a style does to the strokes, joint by stroke, (4, n) or (4, 1); 1 is as measured.
+
+    `gain` multiplies the amplitudes, `speed` the pace, and `whip` the time between the joints' peaks.
+    """
 
     gain: Array
     speed: Array
+    whip: Array
 
 
-def amplitudes(height_m: Array, contact_angles: Array, lengths: ArmLengths) -> Array:
+def amplitudes(height_m: Array, contact_angles: Array, lengths: ArmLengths, parts: Array) -> Array:
     """How far each joint goes (4, n) so that the tip rises `height_m` (n,) over the contact.
 
-    `contact_angles` (4, n) are those of upper arm, forearm, hand and stick from hanging straight down, at the contact.
+    `contact_angles` (4, n) are those of upper arm, forearm, hand and stick from hanging straight down, at the contact;
+    `parts` (4, 1) what the hold makes of each joint's part, 1 as measured.
     """
     full = np.maximum(FULL_HEIGHT_M - _STILL_BELOW_M, 1e-9)
-    part = np.clip((height_m - _STILL_BELOW_M) / full, 0.0, 1.5) ** _GROWTH * PEAK_RAD
+    part = np.clip((height_m - _STILL_BELOW_M) / full, 0.0, 1.5) ** _GROWTH * PEAK_RAD * parts
     segments = np.array([[lengths.upper], [lengths.fore], [lengths.hand], [lengths.ahead]])
     rest = np.cos(contact_angles)
-    turn = np.cumsum(part * _SHARE_AT_TOP, axis=0)
+    at_top = part * _SHARE_AT_TOP
+    turn = np.cumsum(at_top, axis=0)
+    turn[2] -= (1 - lengths.turns_hand) * at_top[WRIST]
     scale = np.ones_like(height_m)
     for _ in range(3):  # Newton: the rise is nearly linear in the scale
         angles = contact_angles + scale * turn
@@ -120,27 +130,63 @@ def amplitudes(height_m: Array, contact_angles: Array, lengths: ArmLengths) -> A
     return result
 
 
-def curves(times_s: Array, height_m: Array, amplitude: Array, lever_m: Array, sliders: Sliders) -> list[Curves]:
-    """The offsets of the four joints over time, for one hand.
+@dataclass(frozen=True, eq=False)
+class StrokePlan:
+    """What the strokes of one hand need: `strike_s` (n,), rising, each from `height_m` (n,).
 
-    `times_s` (n,) of the strikes, rising; `height_m` (n,); `amplitude` (4, n) as `amplitudes` gives it; `lever_m` (n,)
-    the distance from wrist to tip.
+    `amplitude` (4, n) is what `amplitudes` gives, `ceiling` (4, n) what the joints' limits leave, `lever_m` the
+    distance from wrist to tip.
     """
-    gaps = np.concatenate(([_LONG_S], np.diff(times_s), [_LONG_S]))
-    room = gaps[:-1] / (_FULL_GAP_S * np.sqrt(np.maximum(height_m, 0.01) / _FULL_GAP_HEIGHT_M))
-    peak = amplitude * sliders.gain * np.minimum(room, 1.0)
-    n = len(times_s)
-    times, merged = _times(times_s, gaps, height_m, sliders.speed)
-    values = _values(times, merged, peak, np.minimum(_REST_HEIGHT_M, 0.6 * height_m) / lever_m)
-    tension = np.tile(_TENSION[:, None, :], (1, n, 1))
-    tension[..., 0] = _START_TENSION * (1 - merged)
-    tension[..., 7] = _REST_TENSION * (1 - _next(merged))
-    flat = (4, n * KEYS)
-    into, out = slopes(
-        times.reshape(flat), values.reshape(flat), tension.reshape(flat), np.tile(_CONTINUITY, n), np.tile(_BIAS, n)
-    )
-    rows = cubics(times.reshape(flat), values.reshape(flat), into, out)
-    return [Curves(times[j].reshape(-1), rows[j, :, None, :]) for j in range(4)]
+
+    strike_s: Array
+    height_m: Array
+    amplitude: Array
+    ceiling: Array
+    lever_m: float
+
+
+@dataclass(frozen=True, eq=False)
+class Strokes:
+    """The keyed offsets of one hand: `strike_s` (n,), `knots_s` (4, n · KEYS) and their `cubics` (4, n · KEYS, 4)."""
+
+    strike_s: Array
+    knots_s: Array
+    cubics: Array
+
+    @classmethod
+    def of(cls, plan: StrokePlan, sliders: Sliders) -> "Strokes":
+        """The keyframes of `plan` under `sliders`."""
+        strike_s, height_m = plan.strike_s, plan.height_m
+        gaps = np.concatenate(([_LONG_S], np.diff(strike_s), [_LONG_S]))
+        room = gaps[:-1] / (_FULL_GAP_S * np.sqrt(np.maximum(height_m, 0.01) / _FULL_GAP_HEIGHT_M))
+        peak = np.minimum(plan.amplitude * sliders.gain * np.minimum(room, 1.0), plan.ceiling)
+        n = len(strike_s)
+        times, merged = _times(strike_s, gaps, height_m, sliders)
+        values = _values(times, merged, peak, np.minimum(_REST_HEIGHT_M, 0.6 * height_m) / plan.lever_m)
+        tension = np.tile(_TENSION[:, None, :], (1, n, 1))
+        tension[..., 0] = _START_TENSION * (1 - merged)
+        tension[..., 7] = _REST_TENSION * (1 - _next(merged))
+        flat = (4, n * KEYS)
+        times, values = times.reshape(flat), values.reshape(flat)
+        into, out = slopes(times, values, tension.reshape(flat), np.tile(_CONTINUITY, n), np.tile(_BIAS, n))
+        return cls(strike_s, times, cubics(times, values, into, out))
+
+    def at(self, time_s: float) -> Offsets:
+        """The offsets at one instant."""
+        first = max((bisect_right(self.strike_s, time_s) - 1) * KEYS + _STRIKE, 0)
+        result = []
+        for j, knots in enumerate(self.knots_s[:, first : first + KEYS].tolist()):
+            k = max(bisect_right(knots, time_s) - 1, 0)
+            a, b, c, d = self.cubics[j, first + k].tolist()
+            u = time_s - knots[k]
+            result.append(((d * u + c) * u + b) * u + a if u > 0 else a)
+        return Offsets(*result)
+
+    def many(self, time_s: Array) -> Offsets:
+        """The offsets at each time."""
+        return Offsets(
+            *(Curves(k, c[:, None, :]).many(time_s)[0] for k, c in zip(self.knots_s, self.cubics, strict=True))
+        )
 
 
 def _next(per_stroke: Array) -> Array:
@@ -148,25 +194,26 @@ def _next(per_stroke: Array) -> Array:
     return np.concatenate((per_stroke[:, 1:], per_stroke[:, -1:]), 1)
 
 
-def _times(times_s: Array, gaps: Array, height_m: Array, speed: Array) -> tuple[Array, Array]:
+def _times(strike_s: Array, gaps: Array, height_m: Array, sliders: Sliders) -> tuple[Array, Array]:
     """Times (4, n, KEYS) of all keys, and how far each preparation (4, n) is merged with the rebound before it, 0 … 1.
 
     `gaps` (n + 1,) before and after each strike.
     """
     before, after = gaps[:-1], gaps[1:]
-    pace = (height_m / FULL_HEIGHT_M) ** _TIME_GROWTH / speed
+    pace = (height_m / FULL_HEIGHT_M) ** _TIME_GROWTH / sliders.speed
     rest = np.minimum(_REST_S * pace, 0.3 * after)
     down = np.minimum(pace, 0.5 * before / _DOWN_S)
     left = (1 - _LEAST_PAUSE) * before - _DOWN_S * down
     left[:, 1:] -= rest[:, :-1]
-    up = np.clip(left / (_BEFORE_S[:, :1] - _DOWN_S), 0.0, pace)
-    times = np.empty((4, len(times_s), KEYS))
-    ahead = _BEFORE_S[:, None, :]
-    whip, preparation = np.minimum(ahead, _DOWN_S), np.maximum(ahead - _DOWN_S, 0.0)
-    times[..., :5] = times_s[:, None] - whip * down[..., None] - preparation * up[..., None]
-    times[..., 5] = times_s
-    times[..., 6] = times_s + _REBOUND_S / _REST_S * rest
-    times[..., 7] = times_s + rest
+    up = np.clip(left / (_LONGEST_S - _DOWN_S), 0.0, pace)
+    times = np.empty((4, len(strike_s), KEYS))
+    together = _BEFORE_S.mean(0)
+    ahead = together + np.atleast_2d(sliders.whip)[..., None] * (_BEFORE_S[:, None, :] - together)
+    falling, rising = np.minimum(ahead, _DOWN_S), np.maximum(ahead - _DOWN_S, 0.0)
+    times[..., :5] = strike_s[:, None] - falling * down[..., None] - rising * up[..., None]
+    times[..., 5] = strike_s
+    times[..., 6] = strike_s + _REBOUND_S / _REST_S * rest
+    times[..., 7] = strike_s + rest
     return times, 1.0 - up / pace
 
 

@@ -1,67 +1,163 @@
-"""How the drummer moves: the controls of expression, and styles as files.
+"""How the drummer moves: the controls of expression, and how they change over the bars.
 
 Amplitudes and frequencies are 0–100 as in the thesis (§ 4.1.1, figure 4.3), but the natural drummer stands in the
-middle of each and the whole range is of use, which the thesis asks for: a gain times a joint's share is compared with
-the natural product, and the factor is bent so that it never passes `MOST`.
+middle of each and the whole range is of use, which the thesis asks for: what is set is compared with the natural
+setting, and the factor is bent so that it never passes `MOST`. The arm has a gain for each of amplitude and frequency,
+and each joint a share of it in per cent; `with_share` moves one share and keeps the ratio of the other two.
+
+Every control may be automated: a list of (bar, value) from which it is read by straight lines, so that phrases are
+played differently (thesis § 4.4.1, local control).
 """
 
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
+from types import MappingProxyType
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
-from station.motion.stroke import Sliders
+from station.core.errors import BadInput
+from station.core.pieces import Piece
+
+Array = NDArray[np.float64]
 
 NATURAL = 50.0
-
-
 MOST = 2.5
 """No control more than this multiplies what a natural drummer does (our choice)."""
-_SHARES = {"wrist": 40.0, "elbow": 30.0, "shoulder": 30.0}
-_PACES = {"wrist": 34.0, "elbow": 33.0, "shoulder": 33.0}
+
+JOINTS = ("wrist", "elbow", "shoulder")
+_NATURAL_SHARES = MappingProxyType(
+    {
+        "amplitude_wrist": 40.0,
+        "amplitude_elbow": 30.0,
+        "amplitude_shoulder": 30.0,
+        "frequency_wrist": 34.0,
+        "frequency_elbow": 33.0,
+        "frequency_shoulder": 33.0,
+    }
+)
+
+Automation = tuple[tuple[float, float], ...]
+"""(bar from 1, value) in rising order; a fraction is a place within the bar."""
 
 
-def factor(gain: float, share: float, natural_share: float) -> float:
-    """What multiplies the natural movement: proportional up to the natural setting, bent towards `MOST` beyond it."""
-    x = gain * share / (NATURAL * natural_share)
-    return x if x <= 1.0 else 1.0 + (MOST - 1.0) * (1.0 - float(np.exp(-(x - 1.0) / (MOST - 1.0))))
-
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Style:
-    """All controls; see the module's head for their scale. Shares are per cent of their gain."""
+    """All controls; the module's head tells the scale of amplitudes and frequencies.
+
+    Angles in degrees; `stand` 0 sits … 1 stands; `half_time_bpm` from which on the back sways in half time;
+    `bobs_per_beat` 1 or 2; `grip_right`, `grip_left`, `held` name entries of `grip`; `heel` "down", "up"; `beater`
+    "rebound" or "buried"; `pieces` an amplitude for single pieces, 50 natural; `seed` of all that chance decides.
+    """
 
     name: str = "natural"
     amplitude_gain: float = NATURAL
-    amplitude_wrist: float = _SHARES["wrist"]
-    amplitude_elbow: float = _SHARES["elbow"]
-    amplitude_shoulder: float = _SHARES["shoulder"]
+    amplitude_wrist: float = _NATURAL_SHARES["amplitude_wrist"]
+    amplitude_elbow: float = _NATURAL_SHARES["amplitude_elbow"]
+    amplitude_shoulder: float = _NATURAL_SHARES["amplitude_shoulder"]
+    amplitude_fingers: float = NATURAL
     frequency_gain: float = NATURAL
-    frequency_wrist: float = _PACES["wrist"]
-    frequency_elbow: float = _PACES["elbow"]
-    frequency_shoulder: float = _PACES["shoulder"]
+    frequency_wrist: float = _NATURAL_SHARES["frequency_wrist"]
+    frequency_elbow: float = _NATURAL_SHARES["frequency_elbow"]
+    frequency_shoulder: float = _NATURAL_SHARES["frequency_shoulder"]
+    whip: float = NATURAL
     amplitude_neck: float = NATURAL
+    frequency_neck: float = NATURAL
     amplitude_back: float = NATURAL
+    frequency_back: float = NATURAL
+    amplitude_side: float = 20.0
     amplitude_twist: float = NATURAL
-    wing_deg: float = 12.0
+    amplitude_gaze: float = NATURAL
+    shrug: float = 20.0
+    breathing: float = NATURAL
+    wing_deg: float = 0.0
     posture_deg: float = 6.0
+    stand: float = 0.0
+    flourish: float = 0.0
+    look_around: float = 20.0
+    bobs_per_beat: float = 1.0
+    half_time_bpm: float = 130.0
+    grip_right: str = "american"
+    grip_left: str = "american"
+    held: str = "stick"
+    heel: str = "down"
+    beater: str = "rebound"
+    seed: int = 1
+    pieces: Mapping[Piece, float] = field(default_factory=dict)
+    automation: Mapping[str, Automation] = field(default_factory=dict)
 
-    @cached_property
-    def sliders(self) -> Sliders:
-        """The strokes' factors: shoulder, elbow, wrist and the stick, which goes with the wrist."""
-        gains = [factor(self.amplitude_gain, getattr(self, f"amplitude_{j}"), _SHARES[j]) for j in _JOINTS]
-        paces = [factor(self.frequency_gain, getattr(self, f"frequency_{j}"), _PACES[j]) for j in _JOINTS]
-        return Sliders(np.array(gains)[:, None], np.maximum(np.array(paces)[:, None], _SLOWEST))
+    def value(self, control: str, bars: ArrayLike) -> Array:
+        """What `control` is at each place in bars from 1."""
+        points = self.automation.get(control)
+        if points is None:
+            return np.broadcast_to(np.float64(getattr(self, control)), np.shape(bars))
+        at, values = np.array(points, np.float64).T
+        return np.asarray(np.interp(np.asarray(bars, np.float64), at, values))
 
-    @property
-    def body_factors(self) -> tuple[float, float, float]:
-        """Factors of back, neck and twist."""
-        back, neck, twist = (
-            factor(a, 1.0, 1.0) for a in (self.amplitude_back, self.amplitude_neck, self.amplitude_twist)
-        )
-        return back, neck, twist
+    def factor(self, control: str, bars: ArrayLike) -> Array:
+        """What multiplies the natural movement, from a control that is natural at 50."""
+        return bent(self.value(control, bars) / NATURAL)
+
+    def joint_factor(self, kind: str, joint: str, bars: ArrayLike) -> Array:
+        """What multiplies a joint's natural amplitude or frequency: its gain times its share, against the natural."""
+        share = f"{kind}_{joint}"
+        set_to = self.value(f"{kind}_gain", bars) * self.value(share, bars)
+        return bent(set_to / (NATURAL * _NATURAL_SHARES[share]))
+
+    def with_share(self, kind: str, joint: str, per_cent: float) -> "Style":
+        """One joint's share of `kind` ("amplitude", "frequency") set; the others keep their ratio (thesis § 4.1.1)."""
+        others = [j for j in JOINTS if j != joint]
+        had = [float(getattr(self, f"{kind}_{j}")) for j in others]
+        left = 100.0 - min(max(per_cent, 0.0), 100.0)
+        total = sum(had)
+        parts = [left * (h / total if total else 0.5) for h in had]
+        values = {f"{kind}_{j}": p for j, p in zip(others, parts, strict=True)}
+        return replace(self, **{f"{kind}_{joint}": 100.0 - left}, **values)  # type: ignore[arg-type] # floats only
 
 
-_JOINTS = ("shoulder", "elbow", "wrist", "wrist")
-_SLOWEST = 0.3
-"""A stroke never takes longer than its natural time over this (our choice)."""
+def bent(x: ArrayLike) -> Array:
+    """`x` up to 1, and beyond it a curve with the same slope that never passes `MOST`."""
+    over = np.maximum(np.asarray(x, np.float64) - 1.0, 0.0) / (MOST - 1.0)
+    result: Array = np.minimum(x, 1.0) + (MOST - 1.0) * (1.0 - np.exp(-over))
+    return result
+
+
+NUMBERS = tuple(f.name for f in fields(Style) if f.type == "float" or f.type is float)
+"""The controls that are numbers and can be automated."""
+_RANGES: Mapping[str, tuple[float, float]] = MappingProxyType(
+    {
+        "wing_deg": (-20.0, 60.0),
+        "posture_deg": (-10.0, 30.0),
+        "stand": (0.0, 1.0),
+        "bobs_per_beat": (1.0, 2.0),
+        "half_time_bpm": (30.0, 1000.0),
+    }
+)
+WORDS: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        "grip_right": ("american", "german", "french"),
+        "grip_left": ("american", "german", "french", "traditional"),
+        "held": ("stick", "brush", "mallet", "hand"),
+        "heel": ("down", "up"),
+        "beater": ("rebound", "buried"),
+    }
+)
+
+
+def range_of(control: str) -> tuple[float, float]:
+    """The least and greatest value of a control that is a number."""
+    return _RANGES.get(control, (0.0, 100.0))
+
+
+def checked(style: Style) -> Style:
+    """`style` itself; raises `BadInput` that names the control whose value is out of its range."""
+    for control in NUMBERS:
+        low, high = range_of(control)
+        points = [v for _, v in style.automation.get(control, ())]
+        for value in (getattr(style, control), *points):
+            if not low <= value <= high:
+                raise BadInput(style.name, control, f"expected {low:g} to {high:g}, found {value:g}")
+    for control, words in WORDS.items():
+        if getattr(style, control) not in words:
+            raise BadInput(style.name, control, f"expected {', '.join(words)}, found {getattr(style, control)!r}")
+    return style

@@ -1,5 +1,6 @@
 """TOML tables that check what is taken from them and name the place of a fault: kits, figures and styles share them."""
 
+import difflib
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
@@ -15,6 +16,27 @@ def read_toml(path: Path) -> dict[str, object]:
         return tomllib.loads(path.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as fault:
         raise BadInput(path, "", str(fault)) from fault
+
+
+def find_shipped(name_or_path: str | Path, folder: Path, what: str) -> Path:
+    """The file that is meant: a path that ends in .toml, or the name of one in `folder`.
+
+    Raises `BadInput` that names the nearest there are.
+    """
+    path = Path(name_or_path)
+    if path.suffix == ".toml":
+        return path
+    path = folder / f"{name_or_path}.toml"
+    if not path.exists():
+        names = shipped(folder)
+        near = difflib.get_close_matches(str(name_or_path), names, n=2) or names
+        raise BadInput(str(name_or_path), "", f"no such {what}; there is {' and '.join(near)}")
+    return path
+
+
+def shipped(folder: Path) -> list[str]:
+    """The names of the files in `folder`."""
+    return sorted(p.stem for p in folder.glob("*.toml"))
 
 
 class Table:

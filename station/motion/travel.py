@@ -2,7 +2,7 @@
 
 From one strike to the next the contact stays, travels and stays again. The travel is a minimum-jerk movement (Flash and
 Hogan 1985), as hands travel (HUMANS), late in the gap, so that the preparation happens while travelling, and it is
-lifted over what stands between. A contact's seven numbers are those of `arm.Contact`.
+lifted over what stands between. A crash is left at once: its stroke is never parked on the edge.
 """
 
 from bisect import bisect_right
@@ -24,52 +24,55 @@ _TRAVEL_S = 0.45
 """Long gaps leave this long for the travel; HUMANS has 0.25 s for 40 cm at full speed."""
 
 
+FIELDS = len(Contact._fields)
+
+
 @dataclass(frozen=True, eq=False)
 class Way:
-    """Contacts of one hand over time: `knots_s` (n,) strikes, `rows` (n, 17) start, 1/duration, lift, from, step."""
+    """Contacts of one hand: `strike_s` (n,), `rows` (n, 3 + 2 · FIELDS) start, 1/duration, lift, from, step."""
 
-    knots_s: Array
+    strike_s: Array
     rows: Array
 
     @classmethod
-    def of(cls, times_s: Array, contacts: Array, lift_m: Array) -> "Way":
-        """The way through `contacts` (n, 7) at `times_s` (n,), lifted by `lift_m` (n − 1,) on each stretch."""
-        gaps = np.diff(times_s)
-        end = times_s[1:] - np.minimum(_ARRIVE_SHARE * gaps, _ARRIVE_S)
-        start = np.maximum(times_s[:-1] + np.minimum(_LEAVE_SHARE * gaps, _LEAVE_S), end - _TRAVEL_S)
-        rows = np.zeros((len(times_s), 17))
+    def of(cls, strike_s: Array, contacts: Array, lift_m: Array, early: NDArray[np.bool_]) -> "Way":
+        """The way through `contacts` (n, FIELDS) at `strike_s` (n,).
+
+        Each stretch (n − 1,) is lifted by `lift_m`; an `early` one is travelled at once, the others late in their gap.
+        """
+        gaps = np.diff(strike_s)
+        start = strike_s[:-1] + np.minimum(_LEAVE_SHARE * gaps, _LEAVE_S)
+        end = strike_s[1:] - np.minimum(_ARRIVE_SHARE * gaps, _ARRIVE_S)
+        start, end = (
+            np.where(early, start, np.maximum(start, end - _TRAVEL_S)),
+            np.where(early, np.minimum(end, start + _TRAVEL_S), end),
+        )
+        rows = np.zeros((len(strike_s), 3 + 2 * FIELDS))
         rows[:-1, 0], rows[:-1, 1], rows[:-1, 2] = start, 1 / np.maximum(end - start, 1e-6), lift_m
-        rows[:, 3:10] = contacts
-        rows[:-1, 10:] = np.diff(contacts, axis=0)
-        return cls(times_s, rows)
+        rows[:, 3 : 3 + FIELDS] = contacts
+        rows[:-1, 3 + FIELDS :] = np.diff(contacts, axis=0)
+        return cls(strike_s, rows)
 
     def at(self, time_s: float) -> Contact:
         """The contact at one instant."""
-        i = max(bisect_right(self.knots_s, time_s) - 1, 0)
-        t0, rate, lift, *way = self.rows[i].tolist()
-        u = min(max((time_s - t0) * rate, 0.0), 1.0)
+        i = max(bisect_right(self.strike_s, time_s) - 1, 0)
+        row: list[float] = self.rows[i].tolist()
+        u = (time_s - row[0]) * row[1]
+        if u <= 0.0:
+            return Contact(*row[3 : 3 + FIELDS])
+        u = min(u, 1.0)
         s = u * u * u * (10 + u * (6 * u - 15))
-        hump = lift * (4 * u * (1 - u)) ** 2
-        x, y, z, rise, yaw, ahead, palm, dx, dy, dz, d_rise, d_yaw, d_ahead, d_palm = way
-        return Contact(
-            x + s * dx,
-            y + s * dy,
-            z + s * dz + hump,
-            rise + s * d_rise,
-            yaw + s * d_yaw,
-            ahead + s * d_ahead,
-            palm + s * d_palm,
-        )
+        x, y, z, *rest = [a + s * d for a, d in zip(row[3 : 3 + FIELDS], row[3 + FIELDS :], strict=True)]
+        return Contact(x, y, z + row[2] * (4 * u * (1 - u)) ** 2, *rest)
 
     def many(self, time_s: Array) -> Contact:
         """The contact at each time."""
-        i = np.maximum(np.searchsorted(self.knots_s, time_s, side="right") - 1, 0)
+        i = np.maximum(np.searchsorted(self.strike_s, time_s, side="right") - 1, 0)
         t0, rate, lift, *way = self.rows[i].T
         u = np.clip((time_s - t0) * rate, 0.0, 1.0)
         s = u * u * u * (10 + u * (6 * u - 15))
-        values = [a + s * d for a, d in zip(way[:7], way[7:], strict=True)]
-        values[2] = values[2] + lift * (4 * u * (1 - u)) ** 2
-        return Contact(*values)
+        x, y, z, *rest = (a + s * d for a, d in zip(way[:FIELDS], way[FIELDS:], strict=True))
+        return Contact(x, y, z + lift * (4 * u * (1 - u)) ** 2, *rest)
 
 
 CLEAR_M = 0.10
@@ -77,7 +80,7 @@ CLEAR_M = 0.10
 
 
 def lifts(kit: Kit, contacts: Array, played: NDArray[np.int64]) -> Array:
-    """How far each stretch between `contacts` (n, 7) must be lifted in its middle to clear what stands between.
+    """How far each stretch between `contacts` (n, FIELDS) must be lifted in its middle to clear what stands between.
 
     `played` (n,) are the pieces there; a stretch on one piece needs no lift. Returns (n − 1,) metres.
     """

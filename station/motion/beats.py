@@ -1,0 +1,104 @@
+"""What the body reads off a score: its beats, how hard and how dense it is around each, and where the drums are struck.
+
+Times in seconds from tick 0. The head's bob is scaled by two cofactors (thesis § 4.2.1, figure 4.13).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.pieces import Piece
+from station.music.score import Score
+
+Array = NDArray[np.float64]
+
+LEAD_IN_BEATS = 8
+"""Beats before the score's start at which the body already moves: the count-in."""
+LEAD_OUT_BEATS = 4
+
+STRIKE_RANGE_S = 0.025
+"""Onsets this near to the beat are on it (thesis)."""
+EACH_NOTE = 0.10
+"""What every onset on the beat adds to the velocity cofactor (thesis)."""
+NEARNESS = 1.5
+"""The constant c of the density cofactor: rests near the beat weigh more (thesis: 0.5–3)."""
+SILENT_BOB = 0.3
+"""The velocity cofactor of a beat on which nothing is struck: the head still keeps time (our choice)."""
+_LOUD = tuple(set(Piece) - {Piece.HIHAT, Piece.HIHAT_PEDAL, Piece.RIDE, Piece.RIDE_2})
+
+
+@dataclass(frozen=True, eq=False)
+class Beats:
+    """`time_s` (n,) of the beats, from before the score to after it; `count` (n,) of each from the score's start."""
+
+    time_s: Array
+    count: NDArray[np.int64]
+
+    @classmethod
+    def of(cls, score: Score) -> "Beats":
+        """The beats of `score`, its tempo and meter changes followed."""
+        ticks = [tick for tick, _ in score.tempo_map.beats_between(0, max(score.end_tick, 1))]
+        inside = score.tempo_map.seconds_at(np.array([*ticks, max(score.end_tick, 1)], np.int64))
+        first, last = float(inside[1] - inside[0]), float(inside[-1] - inside[-2])
+        before = inside[0] - first * np.arange(LEAD_IN_BEATS, 0, -1)
+        after = inside[-1] + last * np.arange(1, LEAD_OUT_BEATS + 1)
+        times = np.concatenate((before, inside, after))
+        return cls(times, np.arange(len(times)) - LEAD_IN_BEATS)
+
+    @property
+    def with_middles(self) -> Array:
+        """The beats and the middles between them, (2n − 1,)."""
+        times = np.empty(2 * len(self.time_s) - 1)
+        times[::2] = self.time_s
+        times[1::2] = 0.5 * (self.time_s[1:] + self.time_s[:-1])
+        return times
+
+
+def bob_cofactors(beats_s: Array, onset_s: Array, velocity: Array, piece: NDArray[np.uint8]) -> Array:
+    """Velocity times density cofactor of each beat, (n,); onsets (m,) in order of time, velocities 1–127."""
+    return _velocity(beats_s, onset_s, velocity, piece) * _density(beats_s, onset_s)
+
+
+def _velocity(beats_s: Array, onset_s: Array, velocity: Array, piece: NDArray[np.uint8]) -> Array:
+    near = _nearest(beats_s, onset_s)
+    counts = np.isin(piece, _LOUD) & (np.abs(onset_s - beats_s[near]) <= STRIKE_RANGE_S)
+    number = np.bincount(near[counts], minlength=len(beats_s))
+    total = np.bincount(near[counts], velocity[counts] / 127, len(beats_s))
+    loud = total / np.maximum(number, 1) * (1 + EACH_NOTE * number)
+    return np.where(number > 0, np.maximum(loud, SILENT_BOB), SILENT_BOB)
+
+
+def _density(beats_s: Array, onset_s: Array) -> Array:
+    middles = 0.5 * (beats_s[1:] + beats_s[:-1])
+    after = _rest(beats_s[:-1] + STRIKE_RANGE_S, middles, onset_s)
+    before = _rest(-beats_s[1:] + STRIKE_RANGE_S, -middles, -onset_s[::-1], backwards=True)
+    one = np.ones(1)
+    return np.maximum(np.concatenate((one, before)), np.concatenate((after, one)))
+
+
+def _rest(start: Array, end: Array, onset: Array, backwards: bool = False) -> Array:
+    """How much rest each stretch from `start` out to `end` has, 0 … 1, the nearer to `start` the weightier.
+
+    The onsets within divide a stretch of w seconds into parts wᵢ, i = 0, 1, … outward: Σ wᵢ/(1 + ic)/w.
+    """
+    if backwards:  # stretches rise with the index only forwards
+        return _rest(start[::-1], end[::-1], onset)[::-1]
+    width = np.maximum(end - start, 1e-9)
+    stretch = np.searchsorted(start, onset, side="left") - 1
+    inside = (stretch >= 0) & (onset > start[np.maximum(stretch, 0)]) & (onset < end[np.maximum(stretch, 0)])
+    stretch, onset = stretch[inside], onset[inside]
+    fresh = np.diff(stretch, prepend=-1) != 0
+    order = np.arange(len(onset)) - np.maximum.accumulate(np.where(fresh, np.arange(len(onset)), 0))
+    previous = np.where(fresh, start[stretch], np.concatenate(([0.0], onset[:-1])))
+    total = np.bincount(stretch, (onset - previous) / (1 + order * NEARNESS), len(start))
+    number = np.bincount(stretch, minlength=len(start))
+    last = start.copy()
+    last[stretch] = onset  # the last onset of a stretch is written last
+    total += (end - last) / (1 + number * NEARNESS)
+    return np.asarray(total / width)
+
+
+def _nearest(beats_s: Array, onset_s: Array) -> NDArray[np.int64]:
+    after = np.clip(np.searchsorted(beats_s, onset_s), 1, len(beats_s) - 1)
+    return np.where(onset_s - beats_s[after - 1] < beats_s[after] - onset_s, after - 1, after)

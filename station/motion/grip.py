@@ -1,0 +1,107 @@
+"""What a hand holds, and how: grips of the stick, and brushes, mallets and bare hands in its place.
+
+Grips after HUMANS: German palms flat, sticks near 90° to each other; American palms at 45°; French palms facing, the
+fingers do the work; traditional left palm 45–90° up, the stick across it, and the forearm's roll strikes.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+import numpy as np
+
+from station.motion.arm import ArmLengths
+from station.motion.figure import Figure
+
+
+@dataclass(frozen=True, slots=True)
+class Grip:
+    """How the stick lies in a hand; angles in radians, mirrored for the left hand.
+
+    `yaw` by which the stick is turned in from the line between shoulder and struck point; `palm` the stick's angle μ in
+    the hand at the contact; `crossing` by which the hand points outward of the stick; `roll` of the hand's back from
+    facing up, thumb upward; `turns_hand` as in `ArmLengths`; `wrist` and `fingers` their parts of a stroke, 1 as in the
+    measured stroke.
+    """
+
+    name: str
+    yaw: float
+    palm: float
+    crossing: float
+    roll: float
+    turns_hand: float
+    wrist: float
+    fingers: float
+
+
+def _grip(name: str, degrees: tuple[float, float, float, float], turns: float, wrist: float, fingers: float) -> Grip:
+    yaw, palm, crossing, roll = np.radians(degrees).tolist()
+    return Grip(name, yaw, palm, crossing, roll, turns, wrist, fingers)
+
+
+GRIPS: Mapping[str, Grip] = MappingProxyType(
+    {
+        g.name: g
+        for g in (
+            _grip("german", (16.0, 14.0, 22.0, 0.0), 1.0, 1.0, 0.8),
+            _grip("american", (10.0, 14.0, 16.0, 45.0), 1.0, 1.0, 1.0),
+            _grip("french", (2.0, 10.0, 4.0, 85.0), 1.0, 0.6, 1.8),
+            _grip("traditional", (38.0, 0.0, 70.0, 120.0), 0.0, 1.0, 0.5),
+        )
+    }
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Held:
+    """What is held: its length in shares of a stick's, the fulcrum's place on it from the butt, and how it strikes.
+
+    `height` multiplies the stroke's height. A bare hand has no length of its own: the fingers are its stick.
+    """
+
+    name: str
+    length: float
+    pivot: float
+    height: float
+
+
+HELD: Mapping[str, Held] = MappingProxyType(
+    {
+        h.name: h
+        for h in (
+            Held("stick", 1.0, 1 / 3, 1.0),
+            Held("brush", 0.84, 0.30, 0.7),
+            Held("mallet", 0.96, 0.30, 0.9),
+            Held("hand", 0.0, 0.0, 0.55),
+        )
+    }
+)
+"""A stick's pivot is a third from the butt (HUMANS); the rest are our choices."""
+
+_KNUCKLES = 0.055
+_FINGERTIPS = 0.108
+"""Shares of the stature from the wrist to the knuckles (our choice) and the fingertips (HUMANS)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Hold:
+    """A grip on something held."""
+
+    grip: Grip
+    held: Held
+
+    def lengths(self, figure: Figure) -> ArmLengths:
+        """The measures of an arm of `figure` that holds this."""
+        length, pivot = self.length_m(figure), self.held.pivot
+        hand, ahead = figure.hand_m, length * (1 - pivot)
+        if not length:
+            hand, ahead = _KNUCKLES * figure.stature_m, (_FINGERTIPS - _KNUCKLES) * figure.stature_m
+        return ArmLengths(figure.upper_arm_m, figure.forearm_m, hand, ahead, length * pivot, self.grip.turns_hand)
+
+    def length_m(self, figure: Figure) -> float:
+        """The length of what is held."""
+        return self.held.length * figure.stick_m
+
+
+MATCHED = Hold(GRIPS["american"], HELD["stick"])
+"""The hold of a drummer of whom nothing else is said."""

@@ -1,0 +1,135 @@
+"""What no slider changes of a performance: limbs, both hands' parts, the body's ground, pedals, instruments."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.pieces import Limb, Piece, Zone
+from station.motion.beats import Beats, bob_cofactors
+from station.motion.body import Ground, mean_bearing
+from station.motion.figure import Figure
+from station.motion.gaze import gaze_curve
+from station.motion.grip import GRIPS, HELD, Hold
+from station.motion.hand import HandPart
+from station.motion.instruments import Instrument, instruments
+from station.motion.kit import Kit
+from station.motion.life import Blinks
+from station.motion.limbs import Assignment, assign_limbs
+from station.motion.maths import Point
+from station.motion.pedals import hat_board, kick_board
+from station.motion.posture import pelvis_of
+from station.motion.splines import Curves
+from station.motion.style import Style
+from station.music.score import Score
+
+Array = NDArray[np.float64]
+
+HANDS = (Limb.RIGHT_HAND, Limb.LEFT_HAND)
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """Everything fixed; `strike_m` (n, 3) is the point that each stroke of the score touches."""
+
+    score: Score
+    kit: Kit
+    figure: Figure
+    assignment: Assignment
+    strike_m: Array
+    ground: Ground
+    pelvis: Point
+    kick: Curves
+    hat: Curves
+    instruments: tuple[Instrument, ...]
+
+    @classmethod
+    def of(cls, score: Score, kit: Kit, figure: Figure, assignment: Assignment | None = None) -> "Plan":
+        """The plan of `score`; `assignment` is `assign_limbs`' own where none is given."""
+        who = assignment or assign_limbs(score, kit)
+        points = strike_points(score, kit, who.limbs)
+        kicks = np.flatnonzero(score.notes["piece"] == Piece.KICK)
+        kicks = kicks[np.argsort(score.onset_ns[kicks], kind="stable")]
+        return cls(
+            score=score,
+            kit=kit,
+            figure=figure,
+            assignment=who,
+            strike_m=points,
+            ground=_ground(score, kit, who.limbs, points),
+            pelvis=pelvis_of(kit, figure),
+            kick=kick_board(score.onset_s[kicks], score.notes["velocity"][kicks].astype(np.float64)),
+            hat=hat_board(score, score.onset_s),
+            instruments=tuple(instruments(score, kit, score.onset_s, points)),
+        )
+
+    def hands(self, style: Style) -> tuple[HandPart, HandPart]:
+        """Both hands' parts with what `style` makes them hold."""
+        right, left = (
+            HandPart.of(self.score, self.kit, self.figure, hold, limb, np.flatnonzero(self.assignment.limbs == limb))
+            for limb, hold in zip(HANDS, holds(style), strict=True)
+        )
+        return right, left
+
+    def gaze(self, around: float, seed: int) -> Curves:
+        """Where the drummer looks; `around` 0 … 1 how often a rest is used to look around."""
+        order = np.argsort(self.score.onset_ns, kind="stable")
+        order = order[np.isin(self.assignment.limbs[order], HANDS)]
+        points = self.strike_m[order]
+        x, y, z = self.pelvis
+        eyes = np.array([x, y + 0.05, z + self.figure.trunk_m + self.figure.neck_m + 0.5 * self.figure.head_m])
+        away = points - eyes
+        bearing = np.arctan2(-away[:, 0], np.maximum(away[:, 1], 0.05))
+        pitch = np.arctan2(-away[:, 2], np.hypot(away[:, 0], away[:, 1]))
+        place = np.array([self.kit.stand_in_table[p] for p in self.score.notes["piece"][order].tolist()], np.int64)
+        return gaze_curve(self.score.onset_s[order], place, np.stack([bearing, pitch], 1), around, seed)
+
+    def blinks(self, seed: int) -> Blinks:
+        """When the drummer blinks, from before the score's start to after its end."""
+        return Blinks.of(float(self.ground.time_s[0]) - 2.0, float(self.ground.time_s[-1]) + 60.0, seed)
+
+
+def holds(style: Style) -> tuple[Hold, Hold]:
+    """What the right and the left hand hold, and how."""
+    return Hold(GRIPS[style.grip_right], HELD[style.held]), Hold(GRIPS[style.grip_left], HELD[style.held])
+
+
+def strike_points(score: Score, kit: Kit, limbs: NDArray[np.int8]) -> Array:
+    """The point that each stroke touches, (n, 3)."""
+    notes = score.notes
+    kinds, which = np.unique(np.stack([notes["piece"], notes["zone"], limbs], 1), axis=0, return_inverse=True)
+    points = [kit.target(Piece(p), Zone(z), Limb(limb)).point_m for p, z, limb in kinds.tolist()]
+    return np.array(points).reshape(-1, 3)[which.reshape(-1)]
+
+
+def _ground(score: Score, kit: Kit, limbs: NDArray[np.int8], points: Array) -> Ground:
+    order = np.argsort(score.onset_ns, kind="stable")
+    onset, notes = score.onset_s[order], score.notes[order]
+    hands = np.isin(limbs[order], HANDS)
+    x, y, _ = kit.seat_m
+    at = points[order][hands]
+    bearing = np.arctan2(x - at[:, 0], np.maximum(at[:, 1] - y, 0.05))
+    beats = Beats.of(score)
+    times = beats.with_middles
+    ticks = score.tempo_map.ticks_at(np.maximum(times, 0.0))
+    bpm = np.array([t.us_per_quarter for t in score.tempo_map.tempos], np.float64)
+    rate = 60e6 / bpm[np.maximum(np.searchsorted([t.tick for t in score.tempo_map.tempos], ticks, "right") - 1, 0)]
+    velocity = notes["velocity"].astype(np.float64)
+    bob = np.empty(len(times))
+    bob[::2] = bob_cofactors(times[::2], onset, velocity, notes["piece"])
+    bob[1::2] = bob_cofactors(times[1::2], onset, velocity, notes["piece"])
+    return Ground(
+        beats=beats,
+        time_s=times,
+        bars=bar_places(score, ticks),
+        bearing=mean_bearing(times, onset[hands], bearing),
+        tempo_bpm=rate,
+        bob=bob,
+    )
+
+
+def bar_places(score: Score, ticks: NDArray[np.int64]) -> Array:
+    """Each tick as a place in bars from 1, fractions within the bar."""
+    bars = score.tempo_map.bars_at(ticks)
+    starts = np.array([score.tempo_map.bar_start(b) for b in range(int(bars.max(initial=0)) + 2)], np.float64)
+    return np.asarray(1 + bars + (ticks - starts[bars]) / (starts[bars + 1] - starts[bars]))

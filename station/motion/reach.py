@@ -1,0 +1,38 @@
+"""Leaning to what is out of the arm's reach: how much more the trunk must lean at each of the body's keys."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.motion.arm import STRAIGHT
+from station.motion.figure import Figure
+from station.motion.hand import HandPart
+from station.motion.maths import MANY, Point
+from station.motion.splines import Curves
+from station.motion.trunk import TrunkAngles, trunk
+
+Array = NDArray[np.float64]
+
+EASY_SHARE = 0.97
+"""The trunk helps from this share of the arm's length on (our choice)."""
+MOST_RAD = np.radians(30.0)
+_ARM_OF_LEAN = 0.85
+"""Of the trunk's length times the lean, this much brings the shoulder nearer to the target (our choice)."""
+
+
+def leans(curves: Curves, hands: tuple[HandPart, HandPart], figure: Figure, pelvis: Point) -> Array:
+    """The lean to add at each key of the body's `curves`, (m,) radians."""
+    needed = np.zeros(len(curves.knots_s))
+    length = EASY_SHARE * STRAIGHT * (figure.upper_arm_m + figure.forearm_m)
+    for side, hand in enumerate(hands):
+        if not len(hand.rows):
+            continue
+        times = hand.strokes.strike_s
+        twist, lean, tilt, shrug, _, _ = curves.many(times)
+        body = trunk(MANY, figure, pelvis, TrunkAngles(twist, lean, tilt, 0.0, 0.0, 0.0, shrug))
+        shoulder = body.left_shoulder if side else body.right_shoulder
+        far = np.sqrt(sum((s - w) ** 2 for s, w in zip(shoulder, hand.wrist_m.T, strict=True)))
+        lack = np.clip((far - length) / (_ARM_OF_LEAN * figure.trunk_m), 0.0, MOST_RAD)
+        key = np.clip(np.searchsorted(curves.knots_s, times), 1, len(needed) - 1)
+        np.maximum.at(needed, key, lack)
+        np.maximum.at(needed, key - 1, lack)
+    return needed
