@@ -115,7 +115,7 @@ class Follower:
         notes = [n for n in lane.notes[around] if (own := self._own_of_note[n]) == _NOBODY or own in among]
         pairs = least_cost([self._onset_ns[n] for n in notes], hit_ns, reach)
         now = dict.fromkeys(hits, _NOBODY) | {hits[j]: notes[i] for i, j in pairs}
-        changed = [h for h in hits if h == index or now[h] != self._note_of_hit[h]]
+        changed = [h for h in hits if h == index or now[h] != self._own_note(h)]
         return self._apply(changed, now)
 
     def _apply(self, changed: list[int], now: dict[int, int]) -> tuple[Judgement, ...]:
@@ -162,6 +162,10 @@ class Follower:
         end = bisect_right(self._ordered_ns, at_ns + _WRONG_REACH_NS)
         waiting = [n for n in self._order[start:end] if self._note_class[n] != but_class and self._is_waiting(n)]
         return min(waiting, key=lambda n: abs(self._onset_ns[n] - at_ns), default=_NOBODY)
+
+    def _own_note(self, hit: int) -> int:
+        note = self._note_of_hit[hit]
+        return note if note != _NOBODY and self._own_of_note[note] == hit else _NOBODY
 
     def _is_missed(self, note: int) -> bool:
         too_late = self._passed and self._onset_ns[note] <= self._ordered_ns[self._passed - 1]

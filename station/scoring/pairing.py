@@ -1,8 +1,9 @@
 """Hits to notes one to one by least cost: the exact solution of the small problem that alignment reduces to.
 
 Both sides are times on one axis. A pair at distance d costs (d/w)² − 1, a note or hit left alone costs nothing, so
-that a pair is worth making within the reach w and the closer the better; the matching of least total cost is found.
-Because the cost is convex in d, some best matching never crosses, and three facts make it fast:
+that a pair is worth making within the reach and the closer the better (w is the reach and one ns, for the edge itself
+is inside); the matching of least total cost is found. Because the cost is convex in d, some best matching never
+crosses, and three facts make it fast:
 
 * a note and a hit that are each other's nearest, at distance d, belong to a best matching if their second nearest lie
   at a and b with a² + b² ≥ w² + d² (breaking any other arrangement up to make this pair never costs more);
@@ -76,8 +77,8 @@ def _safe_pairs(notes: Times, hits: Times, reach: int) -> tuple[Indices, Indices
     note_of, _, second_note = _two_nearest(hits, notes)
     i = np.flatnonzero((d <= reach) & (note_of[np.clip(hit_of, 0, len(hits) - 1)] == np.arange(len(notes))))
     j = hit_of[i]
-    a, b, w = second_hit[i] / reach, second_note[j] / reach, d[i] / reach
-    safe = a * a + b * b >= 1.0 + w * w
+    a, b, near = second_hit[i] / (reach + 1), second_note[j] / (reach + 1), d[i] / (reach + 1)
+    safe = a * a + b * b >= 1.0 + near * near
     return i[safe], j[safe]
 
 
@@ -114,6 +115,7 @@ def least_cost(notes: list[int], hits: list[int], reach: int) -> list[tuple[int,
     best = [0.0] * (len(hits) + 1)
     steps: list[tuple[int, bytearray]] = []  # for each note: its first hit in reach, and whether each was taken
     low = high = 0
+    narrow = 1 / (reach + 1)
     for note in notes:
         while low < len(hits) and hits[low] < note - reach:
             low += 1
@@ -123,7 +125,7 @@ def least_cost(notes: list[int], hits: list[int], reach: int) -> list[tuple[int,
         taken = bytearray(high - low)
         before = best[low]
         for j in range(low, high):
-            with_hit = before + ((hits[j] - note) / reach) ** 2 - 1.0
+            with_hit = before + ((hits[j] - note) * narrow) ** 2 - 1.0
             before = best[j + 1]
             if with_hit < best[j] and with_hit < before:
                 best[j + 1] = with_hit
