@@ -26,15 +26,35 @@ class Recording:
 
     sound: NDArray[np.float32]
     at_ns: NDArray[np.int64]
+    rate_hz: int
     lost_frames: int
 
-    def onsets(self, threshold: float, quiet_ns: int) -> list[int]:
-        """The frames at which sound exceeds `threshold` after at least `quiet_ns` below it."""
-        loud = np.flatnonzero(np.abs(self.sound).max(axis=1) > threshold)
-        if not len(loud):
-            return []
-        first = np.concatenate([[True], np.diff(self.at_ns[loud]) > quiet_ns])
-        return [int(frame) for frame in loud[first]]
+    def onsets(self, threshold: float = 0.002, rise: float = 3.0, dead_ms: float = 40.0) -> list[int]:
+        """The frames at which sound sets in, also over what still rings.
+
+        An onset is where the peak of a millisecond exceeds `threshold` and `rise` times the peak of the ten
+        milliseconds before; the next one follows `dead_ms` later at the earliest. The frame is the first within the
+        millisecond above both. Peaks are those of the sound's steps from frame to frame, in which a stick's attack
+        stands out of a ringing drum.
+        """
+        level = np.abs(np.diff(self.sound, axis=0, prepend=0.0)).max(axis=1)
+        width = self.rate_hz // 1000
+        peaks = level[: len(level) // width * width].reshape(-1, width).max(axis=1)
+        found: list[int] = []
+        next_window = 0
+        for window in range(1, len(peaks)):
+            before = max(threshold, rise * peaks[max(0, window - 10) : window].max())
+            if window >= next_window and peaks[window] > before:
+                at = window * width
+                found.append(at + int(np.argmax(level[at : at + width] > before)))
+                next_window = window + round(dead_ms)
+        return found
+
+    def centroid_hz(self, frame: int, for_ms: float = 60.0) -> float:
+        """The centre of gravity of the power spectrum of the sound that follows `frame`."""
+        part = self.sound[frame : frame + round(for_ms * self.rate_hz / 1000)].mean(axis=1)
+        power = np.abs(np.fft.rfft(part * np.hanning(2 * len(part))[len(part) :])) ** 2
+        return float(np.fft.rfftfreq(len(part), 1 / self.rate_hz) @ power / power.sum())
 
 
 class JackRecorder:
@@ -77,7 +97,7 @@ def _timed(
     begin_ns = first_frame * 1e9 / rate_hz + earliest
     at_ns = (begin_ns[:, None] + np.arange(frames_in_block) * 1e9 / rate_hz).ravel()
     lost = int((np.diff(first_frame) - frames_in_block).sum())
-    return Recording(sound, np.round(at_ns).astype(np.int64), lost)
+    return Recording(sound, np.round(at_ns).astype(np.int64), rate_hz, lost)
 
 
 class _Listener:

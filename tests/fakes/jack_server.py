@@ -2,10 +2,13 @@
 
 `JackServer` starts `jackd` with its dummy driver as a child, under a name that no other server has, and waits until a
 client can really join. `JACK_DEFAULT_SERVER` in `env` leads children to it; `joined` leads this process to it.
+
+JACK keeps a table of eight servers for the whole machine, and frees the place of one that was killed only for a server
+of the same name. So the names come from a small pool, each guarded by a file lock that ends with its holder.
 """
 
 import contextlib
-import itertools
+import fcntl
 import os
 import shutil
 import subprocess
@@ -14,14 +17,17 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 from types import TracebackType
-from typing import Self
+from typing import IO, Self
 
 import jack
 import pytest
 
 START_WITHIN_S = 10.0
+NAME_WITHIN_S = 60.0
+POOL = 4
+STOP_WITHIN_S = 2.0
 ATTEMPTS = 3
-_NUMBERS = itertools.count()
+_SHARED_MEMORY = Path("/dev/shm")  # where JACK keeps what its clients share
 _CLIENT_PATIENCE_MS = 2_000  # a client that stalls on a shared machine is not thrown out
 
 
@@ -36,6 +42,7 @@ class JackServer:
         self.rate_hz = rate_hz
         self.period_frames = period_frames
         self.name = ""
+        self._lock: IO[bytes] | None = None
         self._process: subprocess.Popen[bytes] | None = None
         self._log: Path | None = None
 
@@ -46,31 +53,55 @@ class JackServer:
 
     def start(self) -> None:
         """Start; tries again where a server dies young, and without real-time priority where that is not granted."""
+        self._take_name()
         faults = []
         for attempt in range(ATTEMPTS):
             self._launch(realtime=attempt == 0)
             if self._answers():
                 return
             faults.append(self._read_log())
-            self.stop()
+            self._end()
+        self.stop()
         raise RuntimeError("jackd did not start:\n" + "\n".join(faults))
 
     def stop(self) -> None:
         """End the server, by force if it hangs."""
+        self._end()
+        if self._lock is not None:
+            self._lock.close()
+            self._lock = None
+
+    def _take_name(self) -> None:
+        give_up_s = time.monotonic() + NAME_WITHIN_S
+        while time.monotonic() < give_up_s:
+            for number in range(POOL):
+                lock = (Path(tempfile.gettempdir()) / f"drum-test-jack-{number}.lock").open("wb")
+                try:
+                    fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                except BlockingIOError:
+                    lock.close()
+                    continue
+                self._lock, self.name = lock, f"drum-test-{number}"
+                return
+            time.sleep(0.2)
+        raise RuntimeError(f"all {POOL} names for JACK servers have been taken for {NAME_WITHIN_S} s")
+
+    def _end(self) -> None:
         if self._process is not None:
             self._process.terminate()
             try:
-                self._process.wait(5)
+                self._process.wait(STOP_WITHIN_S)
             except subprocess.TimeoutExpired:
                 self._process.kill()
                 self._process.wait()
             self._process = None
+            for left_over in _SHARED_MEMORY.glob(f"jack*_{self.name}_*"):  # a server that is killed leaves its own
+                left_over.unlink(missing_ok=True)
         if self._log is not None:
             self._log.unlink(missing_ok=True)
             self._log = None
 
     def _launch(self, realtime: bool) -> None:
-        self.name = f"drum-test-{os.getpid()}-{next(_NUMBERS)}"
         handle, path = tempfile.mkstemp(prefix="jackd-", suffix=".log")
         self._log = Path(path)
         options = [f"-n{self.name}", f"-t{_CLIENT_PATIENCE_MS}", "-R" if realtime else "-r"]

@@ -1,0 +1,1 @@
+"""Benchmarks that go well and badly, for the runner's tests."""

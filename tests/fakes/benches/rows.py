@@ -1,0 +1,61 @@
+"""One benchmark for each way to end."""
+
+import ctypes
+import os
+import subprocess
+import sys
+import time
+
+from station.bench.benchmark import Benchmark, Measured
+from station.core.errors import DeviceError
+
+
+def noisy() -> Measured:
+    sys.stdout.write("chatter on standard output\n")
+    sys.stdout.flush()
+    os.write(1, b"and from below Python\n")
+    return Measured(12.5, 50.0, "all well")
+
+
+def no_device() -> Measured:
+    raise DeviceError("no sound card")
+
+
+def fails() -> Measured:
+    raise ValueError("two\nlines")
+
+
+def crashes() -> Measured:
+    sys.stderr.write("the driver gives up\n")
+    sys.stderr.flush()
+    ctypes.string_at(0)
+    return Measured(1.0)
+
+
+def leaves() -> Measured:
+    sys.stderr.write("I quit\n")
+    sys.stderr.flush()
+    os._exit(3)
+
+
+def hangs() -> Measured:
+    """With a child that holds on to our pipes."""
+    subprocess.Popen([sys.executable, "-c", "import time; time.sleep(60)"])
+    time.sleep(60)
+    return Measured(1.0)
+
+
+def not_a_number() -> Measured:
+    return Measured(float("nan"))
+
+
+BENCHMARKS = (
+    Benchmark("noisy", "ms", 20, "lower", "rival", noisy),
+    Benchmark("no_device", "ms", 20, "lower", None, no_device),
+    Benchmark("fails", "fps", 60, "higher", None, fails),
+    Benchmark("crashes", "fps", None, "higher", None, crashes),
+    Benchmark("leaves", "s", None, "lower", None, leaves),
+    Benchmark("hangs", "s", None, "lower", None, hangs, limit_s=1.5),
+    Benchmark("not_a_number", "s", None, "lower", None, not_a_number),
+    Benchmark("long", "s", None, "lower", None, noisy, is_soak=True),
+)
