@@ -87,9 +87,10 @@ def parse_line(text: str, frame: Frame, report: Report) -> list[Bar]:
 
 
 def _bar_spans(text: str) -> list[tuple[int, int]]:
-    """Start and end of each bar's characters; a bar line at either end of the text is only decoration."""
+    """Start and end of each bar's characters; a bar line at either end of a row of text is only decoration."""
     edges = [-1, *(i for i, c in enumerate(text) if c == "|"), len(text)]
     spans = [(a + 1, b) for a, b in pairwise(edges)]
+    spans = [s for s in spans if text[slice(*s)].strip() or "\n" not in text[slice(*s)]]  # | at both ends of a row
     if len(spans) > 1 and not text[slice(*spans[0])].strip():
         spans = spans[1:]
     if len(spans) > 1 and not text[slice(*spans[-1])].strip():
@@ -173,9 +174,8 @@ def _plain_cell_ticks(text: str, start: int, groups: list[_Group], frame: Frame)
         )
     if not _fits(count, free // unit, whole_bar=not beats) or free % count:
         place = _odd_one_out(text, groups) if not beats else groups[0].chars[0][0]
-        what = (
-            f"{count} cells do not fill a {name} bar" if not beats else f"{count} cells beside (…) do not fill {name}"
-        )
+        beside = " beside (…)" if beats else ""
+        what = f"{count} cells{beside} do not fill a {name} bar"
         raise _BadBarError(place, f"{what}; expected {_expected(free // unit, not beats)}")
     return free // count
 

@@ -21,6 +21,8 @@ PLAIN_CELLS = (1, 2, 3, 4, 6, 8)
 _PLAIN_BESIDE_TUPLETS = (1, 2, 4, 8, 16)
 TUPLET_CELLS = (3, 6, 5, 7, 2, 4, 9, 10, 12, 8, 14, 15, 16, 20, 21, 24, 28, 30, 32, 35, 40, 42, 48, 56, 60, 64)
 _RARE_CELLS = (12, 16, 5, 7, 10, 24, 32)
+MOST_SHARED_CELLS = 12
+"""Beyond so many cells a beat each line is cut for itself: finer bars are hard to read. Our choice."""
 _COUNTS = {1: "", 2: "&", 3: "ta", 4: "e&a", 6: "·t·a·", 8: "·e·&·a·"}
 """How drummers count the cells after the beat's number."""
 REST = "-"
@@ -67,10 +69,10 @@ def write_lines(lines: list[LineText], bar_count: int, setting: Setting) -> list
     shared: list[str] = []
     for bar in range(bar_count):
         needed = [_needs(line, bar, setting) for line in lines]
-        common = _skeleton([mark for marks in needed for mark in marks], setting)
+        common = _skeleton([mark for marks in needed for mark in marks], setting, MOST_SHARED_CELLS)
         shared.append(common or "")
         for line, marks in zip(lines, needed, strict=True):
-            skeleton = common or _skeleton(marks, setting)
+            skeleton = common or _skeleton(marks, setting, max(TUPLET_CELLS))
             if not skeleton:
                 raise BadInput(line.name, f"bar {bar + 1}", "strokes lie between the cells that the grid can write")
             line.bars.append(_filled(skeleton, marks, setting))
@@ -98,6 +100,9 @@ def counted(skeleton: str, setting: Setting) -> str:
             out[cell.char] = name
     return "".join(out)
 
+
+_Point = tuple[int, int | None]
+"""A tick of the bar at which a cell must start, and the tick that must be that cell's middle (None: any)."""
 
 # --- marks ------------------------------------------------------------------------------------------------------------
 
@@ -148,13 +153,13 @@ def _cells(skeleton: str, frame: Frame) -> Bar:
     return bar
 
 
-def _points(marks: Iterable[Mark], bar_ticks: int) -> list[tuple[int, int | None]]:
-    """Ticks at which a cell must start, each with the tick that must be that cell's middle (None: any)."""
+def _points(marks: Iterable[Mark], bar_ticks: int) -> list[_Point]:
+    """What a skeleton must have to hold these marks."""
     ends = [m.until for m in marks if m.holds and m.until is not None and m.until < bar_ticks]
     return [*((m.at, m.second) for m in marks), *((end, None) for end in ends)]
 
 
-def _holds_all(skeleton: str, points: Iterable[tuple[int, int | None]], setting: Setting) -> bool:
+def _holds_all(skeleton: str, points: Iterable[_Point], setting: Setting) -> bool:
     """Whether the skeleton has the cell that each point asks for."""
     middles = {slot.at: slot.middle for slot in _slots(skeleton, setting)}
     return all(at in middles and second in (None, middles[at]) for at, second in points)
@@ -175,13 +180,13 @@ def _filled(skeleton: str, marks: Sequence[Mark], setting: Setting) -> str:
 # --- skeletons --------------------------------------------------------------------------------------------------------
 
 
-def _skeleton(marks: Sequence[Mark], setting: Setting) -> str | None:
-    """The simplest skeleton whose cells hold all marks of a bar."""
+def _skeleton(marks: Sequence[Mark], setting: Setting, most: int) -> str | None:
+    """The simplest skeleton whose cells, at most `most` a beat, hold all marks of a bar."""
     points = _points(marks, setting.frame.meter.bar_ticks)
     candidates = (
         *(_plain(setting.frame, cells) for cells in PLAIN_CELLS),
-        _with_tuplets(points, setting),
-        *(_plain(setting.frame, cells) for cells in _RARE_CELLS),
+        _with_tuplets(points, setting, most),
+        *(_plain(setting.frame, cells) for cells in _RARE_CELLS if cells <= most),
     )
     return next((s for s in candidates if s and _holds_all(s, points, setting)), None)
 
@@ -210,17 +215,17 @@ def _group_ticks(frame: Frame) -> int:
     return frame.beat_ticks if frame.beat_ticks % unit == 0 else unit
 
 
-def _with_tuplets(points: Sequence[tuple[int, int | None]], setting: Setting) -> str | None:
+def _with_tuplets(points: Sequence[_Point], setting: Setting, most: int) -> str | None:
     """Plain cells with `(…)` in those beats that they do not suit; as few of these as can be."""
     frame = setting.frame
     if frame.meter.bar_ticks % frame.beat_ticks:
         return None
-    options = [_tupled(points, setting, cells) for cells in _PLAIN_BESIDE_TUPLETS]
+    options = [_tupled(points, setting, cells, most) for cells in _PLAIN_BESIDE_TUPLETS]
     found = [s for s in options if s]
     return min(found, key=lambda s: s.count("(")) if found else None
 
 
-def _tupled(points: Sequence[tuple[int, int | None]], setting: Setting, cells: int) -> str | None:
+def _tupled(points: Sequence[_Point], setting: Setting, cells: int, most: int) -> str | None:
     """A bar of `cells` plain cells a beat of the meter, and tuplets where these do not fit; None if neither does."""
     frame = setting.frame
     plain = _plain(frame, cells)
@@ -231,7 +236,7 @@ def _tupled(points: Sequence[tuple[int, int | None]], setting: Setting, cells: i
     words: list[str] = []
     for beat in range(beats):
         here = [p for p in points if beat * frame.beat_ticks <= p[0] < (beat + 1) * frame.beat_ticks]
-        tuplets = (f"({REST * n})" for n in TUPLET_CELLS if frame.beat_ticks % n == 0)
+        tuplets = (f"({REST * n})" for n in TUPLET_CELLS if n <= most and frame.beat_ticks % n == 0)
         rest = f"({REST})"
         word = REST * (frame.beat_ticks // length)
         if not _holds_all(plain, here, setting):

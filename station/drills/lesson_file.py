@@ -36,6 +36,11 @@ from station.drills.toml_syntax import load
 from station.music.score import Score
 from station.music.tempo import MAX_BPM, MIN_BPM, MeterChange, TempoChange, TempoMap
 
+KEYS = (
+    *("title", "author", "level", "tags", "about", "kit", "tempo_bpm", "meter", "beat", "swing_ratio", "swing_unit"),
+    *("loop", "passes", "count_in_bars", "demonstrations", "dynamics", "goals", "grid"),
+)
+"""Every key of the top table, in the order in which a message lists them."""
 MAX_FILE_BYTES = 1_000_000
 MAX_PASSES = 1000
 MAX_COUNT_IN_BARS = 8
@@ -96,6 +101,7 @@ class _Reader:
         self.name = name
         self.faults = faults
         self.top = Table(raw, (), faults)
+        self.top.allow(KEYS)
 
     def lesson(self) -> Lesson:
         top = self.top
@@ -137,6 +143,8 @@ class _Reader:
         if grids is None:
             return []
         several = isinstance(grids, list)
+        if not grids and several:
+            self.top.fault("grid", "no grid to play; expected a table [grid] with lines in it")
         sections: list[GridSection] = []
         for i, raw in enumerate(grids if isinstance(grids, list) else [grids]):
             path: KeyPath = ("grid", i) if several else ("grid",)
@@ -149,7 +157,6 @@ class _Reader:
         usual = Velocities().usual
         if not self.top.has("dynamics"):
             return Velocities()
-        self.top.allow(["dynamics"])
         table = Table(self.top.raw["dynamics"], ("dynamics",), self.faults)
         usual = _three(table, usual)
         of_piece: dict[Piece, tuple[int, int, int]] = {}
@@ -166,7 +173,6 @@ class _Reader:
         """First and last bar from 0; the whole lesson where the file does not say."""
         whole_lesson = (0, bar_count - 1)
         if not self.top.has("loop"):
-            self.top.allow(["loop"])
             return whole_lesson
 
         def read(value: object) -> tuple[int, int]:
@@ -182,9 +188,7 @@ class _Reader:
 
     def _goals(self, beat_ticks: int) -> Goals:
         if not self.top.has("goals"):
-            self.top.allow(["goals"])
             return Goals()
-        self.top.allow(["goals"])
         table = Table(self.top.raw["goals"], ("goals",), self.faults)
 
         def maybe(key: str, low: float, high: float) -> float | None:

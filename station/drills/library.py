@@ -26,7 +26,7 @@ _NAMES_SHOWN = 5
 
 @dataclass(frozen=True, slots=True)
 class LessonRow:
-    """One row of the list of lessons; the tempo counts the lesson's own beat; `folder` is the kind: grooves, fills …."""
+    """One row of the list of lessons; the tempo counts its own beat; `folder` is the kind: grooves, fills …."""
 
     name: str
     title: str

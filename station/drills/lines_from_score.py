@@ -129,7 +129,7 @@ def _sticking_letter(hands: Sequence[Stroke]) -> str:
 def _line_name(note: Note, *, said_below: bool) -> str:
     """`snare`, or `left_hand.snare` where neither custom nor the sticking line says the limb."""
     name = _SHORT_NAME.get(note.piece, word(note.piece))
-    if said_below or note.limb is FOOT_OF.get(note.piece, Limb.UNKNOWN):
+    if said_below or note.limb in (Limb.UNKNOWN, FOOT_OF.get(note.piece)):
         return name
     return f"{word(note.limb)}.{name}"
 

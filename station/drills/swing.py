@@ -38,18 +38,6 @@ class Swing:
             return start + round(inside * 2 * long_share)
         return start + round(pair * long_share + (inside - self.unit_ticks) * 2 * (1 - long_share))
 
-    def straightened(self, tick: int, bar_ticks: int) -> int:
-        """The straight tick that is played at `tick`, to the nearest tick; the inverse of `swung`."""
-        pair = 2 * self.unit_ticks
-        start = tick // pair * pair
-        inside = tick - start
-        if self.ratio == STRAIGHT or not inside or start + pair > bar_ticks:
-            return tick
-        offbeat = pair * self._long_share
-        if inside <= offbeat:
-            return start + round(inside * self.unit_ticks / offbeat)
-        return start + self.unit_ticks + round((inside - offbeat) * self.unit_ticks / (pair - offbeat))
-
     @property
     def _long_share(self) -> Fraction:
         """The long cell's share of the pair, exactly."""

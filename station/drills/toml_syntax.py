@@ -27,6 +27,11 @@ _PLAIN_WORDS = (
     ("Unescaped '\\' in a string", 'a \\ in quotes starts an escape such as \\n or \\"; write \\\\ for itself'),
 )
 
+_AT_LINE_START = ("Cannot overwrite a value", "Cannot declare")
+"""Complaints that `tomllib` places after the statement that they are about."""
+_AFTER_ESCAPE = "Unescaped '\\' in a string"
+"""Placed after the backslash and its letter."""
+
 SyntaxFault = tuple[int, int, str]
 """Line and column from 1, and what was expected."""
 
@@ -55,6 +60,10 @@ def _told(message: str, lines: list[str]) -> SyntaxFault:
     complaint = message[: place.start()] if place else message
     words = next((plain for start, plain in _PLAIN_WORDS if complaint.startswith(start)), complaint)
     if place and place.group(1):
-        return int(place.group(1)), int(place.group(2)), words
-    last = max((i for i, line in enumerate(lines) if line.strip()), default=0)
-    return last + 1, len(lines[last]) + 1, words
+        line, column = int(place.group(1)), int(place.group(2))
+    else:  # at the end of the document
+        line = max((i for i, line in enumerate(lines, 1) if line.strip()), default=1)
+        column = len(lines[line - 1]) + 1
+    if complaint.startswith(_AT_LINE_START):
+        column = len(lines[line - 1]) - len(lines[line - 1].lstrip()) + 1
+    return line, column - 2 * complaint.startswith(_AFTER_ESCAPE), words

@@ -1,0 +1,133 @@
+"""Lines and columns counted by eye."""
+
+import pytest
+
+from station.drills.toml_places import Places
+from station.drills.toml_syntax import load
+
+TEXT = """\
+# a comment with "quotes" and [brackets]
+title = "Été"
+tags = [
+  "one",  # first
+  'two',
+]
+point = { x = 1, "y z" = 2.5 }
+date = 2020-01-01
+a.b.c = "deep"
+note = '''
+first
+second'''
+
+[goals]
+min = 0.5
+
+[[grid]]
+snare = "o-\\to"
+right_hand.hihat = "x-"
+
+[[grid]]
+[grid.left_hand]
+snare = \"\"\"
+o-
+--\"\"\"
+"""
+
+
+@pytest.mark.parametrize(
+    ("path", "place"),
+    [
+        (("title",), (2, 9)),
+        (("tags",), (3, 8)),
+        (("tags", 0), (4, 3)),
+        (("tags", 1), (5, 3)),
+        (("point",), (7, 9)),
+        (("point", "x"), (7, 15)),
+        (("point", "y z"), (7, 26)),
+        (("date",), (8, 8)),
+        (("a", "b", "c"), (9, 9)),
+        (("goals",), (14, 1)),
+        (("goals", "min"), (15, 7)),
+        (("grid", 0), (17, 1)),
+        (("grid", 0, "snare"), (18, 9)),
+        (("grid", 0, "right_hand", "hihat"), (19, 20)),
+        (("grid", 1), (21, 1)),
+        (("grid", 1, "left_hand", "snare"), (23, 9)),
+    ],
+)
+def test_values(path: tuple[str | int, ...], place: tuple[int, int]) -> None:
+    assert Places.of(TEXT).find(path) == place
+
+
+@pytest.mark.parametrize(
+    ("path", "place"),
+    [
+        (("title",), (2, 1)),
+        (("point", "y z"), (7, 18)),
+        (("a", "b"), (9, 1)),
+        (("grid", 0, "right_hand"), (19, 1)),
+        (("grid", 1, "left_hand"), (22, 1)),
+    ],
+)
+def test_keys(path: tuple[str | int, ...], place: tuple[int, int]) -> None:
+    assert Places.of(TEXT).find(path, at_key=True) == place
+
+
+@pytest.mark.parametrize(
+    ("path", "char", "place"),
+    [
+        (("title",), 0, (2, 10)),
+        (("title",), 2, (2, 12)),
+        (("note",), 0, (11, 1)),
+        (("note",), 6, (12, 1)),
+        (("grid", 0, "snare"), 2, (18, 12)),  # the escape is one character
+        (("grid", 0, "snare"), 3, (18, 14)),
+        (("grid", 0, "snare"), 99, (18, 14)),  # past the end: the last one
+        (("grid", 1, "left_hand", "snare"), 0, (24, 1)),
+        (("grid", 1, "left_hand", "snare"), 3, (25, 1)),
+    ],
+)
+def test_characters(path: tuple[str | int, ...], char: int, place: tuple[int, int]) -> None:
+    assert Places.of(TEXT).find(path, char) == place
+
+
+def test_what_is_not_there_stands_where_its_parent_does() -> None:
+    assert Places.of(TEXT).find(("goals", "max")) == (14, 1)
+    assert Places.of(TEXT).find(("nothing",)) == (1, 1)
+
+
+def test_line_ends_of_windows() -> None:
+    assert Places.of(TEXT.replace("\n", "\r\n")).find(("grid", 1)) == (21, 1)
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "column", "words"),
+    [
+        ('title "x"', 1, 7, "expected = after the key"),
+        ("a = 1\nb = rock\n", 2, 5, "expected a value"),
+        ('a = 1 2\nb = "x"', 1, 7, "expected the end of the line"),
+        ('a = "x\nb = 1', 1, 7, "not closed"),
+        ("a = [1, 2\n", 1, 10, "a list is not closed"),
+        ('a = """x\n\n', 1, 9, "not closed"),
+        ("a = 1\n  a = 2", 2, 3, "given before"),
+        ("[a]\nb = 1\n[a]\n", 3, 1, "given before"),
+        ("[a\nb = 1", 1, 3, "expected ]"),
+        ('a = "\\q"', 1, 6, "escape"),
+        ("= 3", 1, 1, "expected a key"),
+    ],
+)
+def test_syntax_faults_have_their_place_and_plain_words(text: str, line: int, column: int, words: str) -> None:
+    _, found, _ = load(text)
+    assert found[0][:2] == (line, column), found
+    assert words in found[0][2]
+
+
+def test_every_faulty_line_is_named() -> None:
+    raw, found, _ = load('a = 1\nb = \nc = "x\nd 4\ne = 5\n')
+    assert [f[0] for f in found] == [2, 3, 4]
+    assert raw == {"a": 1, "e": 5}
+
+
+def test_deep_nesting_is_a_fault() -> None:
+    _, found, _ = load("a = " + "[" * 100_000)
+    assert "too deeply" in found[0][2]
