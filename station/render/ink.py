@@ -159,8 +159,8 @@ class Ink:
             text = text[:-1]
         return text.rstrip() + "…" if text else ""
 
-    def paragraph(self, text: str, origin: tuple[float, float], style: Type, width: float) -> float:
-        """Text broken at blanks into lines of at most `width` units; returns the height that it took."""
+    def broken(self, text: str, style: Type, width: float) -> list[str]:
+        """Text broken at blanks into lines of at most `width` units; a word that is longer ends in an ellipsis."""
         lines: list[str] = [""]
         for word in text.split():
             longer = f"{lines[-1]} {word}".strip()
@@ -168,8 +168,13 @@ class Ink:
                 lines.append(word)
             else:
                 lines[-1] = longer
+        return [self.fitted(line, style, width) for line in lines]
+
+    def paragraph(self, text: str, origin: tuple[float, float], style: Type, width: float) -> float:
+        """Broken text from its first baseline down; returns the height that it took."""
+        lines = self.broken(text, style, width)
         for i, line in enumerate(lines):
-            self.text(self.fitted(line, style, width), (origin[0], origin[1] + i * LINE_HEIGHT * style.size), style)
+            self.text(line, (origin[0], origin[1] + i * LINE_HEIGHT * style.size), style)
         return len(lines) * LINE_HEIGHT * style.size
 
     def _glyph(

@@ -1,0 +1,118 @@
+"""What came out of a session, as the results page and its picture show it.
+
+Asynchrony is played − written in ms, negative is early. Numbers without data are None and are not drawn.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.pieces import Piece, word
+from station.music.judgement import Label
+from station.music.score import Score
+
+ON_THE_BEAT_MS = 10.0
+"""Full marks within 10 ms (HUMANS, Velocity and ears)."""
+STEADY_MS, FAIRLY_STEADY_MS = 20.0, 35.0
+"""Spread that is called steady, and fairly steady: the bounds of a good pass (TEACHING, Defaults)."""
+
+
+@dataclass(frozen=True, eq=False)
+class ResultFacts:
+    """A session's result.
+
+    Rows of the arrays are the notes that were judged: `time_s`, `piece`, `label` of `Label`, `asynchrony_ms` NaN where
+    nothing was played. `extra_s` when unwritten hits fell, `bar_s` where bars begin, `points` 0–100, `advice` sentences.
+    """
+
+    title: str
+    subtitle: str
+    points: float | None
+    time_s: NDArray[np.float64]
+    piece: NDArray[np.uint8]
+    label: NDArray[np.uint8]
+    asynchrony_ms: NDArray[np.float64]
+    extra_s: NDArray[np.float64]
+    bar_s: NDArray[np.float64]
+    advice: tuple[str, ...] = ()
+
+    def count(self, label: Label) -> int:
+        """How many notes bear `label`; extras are counted apart."""
+        return len(self.extra_s) if label is Label.EXTRA else int(np.count_nonzero(self.label == label))
+
+
+@dataclass(frozen=True, slots=True)
+class Words:
+    """What is written on a result beside its numbers."""
+
+    title: str
+    subtitle: str
+    points: float | None
+    advice: tuple[str, ...] = ()
+
+
+def result_facts(
+    score: Score, label: NDArray[np.uint8], asynchrony_ns: NDArray[np.int64], extra_s: NDArray[np.float64], words: Words
+) -> ResultFacts:
+    """The facts of one alignment: `label` and `asynchrony_ns` (n,) belong to the rows of `score`."""
+    paired = (label == Label.MATCH) | (label == Label.WRONG_PIECE)
+    bars = [score.tempo_map.bar_start(bar) for bar in range(score.bar_count + 1)]
+    return ResultFacts(
+        words.title,
+        words.subtitle,
+        words.points,
+        score.onset_s,
+        score.notes["piece"],
+        label,
+        np.where(paired, asynchrony_ns / 1e6, np.nan),
+        extra_s,
+        score.tempo_map.seconds_at(bars),
+        words.advice,
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Lean:
+    """How one piece lies: its name, notes and hits, and of these the mean and spread in ms."""
+
+    name: str
+    notes: int
+    hits: int
+    mean_ms: float | None
+    sd_ms: float | None
+
+
+def leans(facts: ResultFacts) -> Iterator[Lean]:
+    """One lean a piece, in the order of `Piece`."""
+    for piece in np.unique(facts.piece):
+        mine = facts.piece == piece
+        yield _lean(word(Piece(int(piece))).replace("_", " "), facts, mine)
+
+
+def whole_lean(facts: ResultFacts) -> Lean:
+    """The lean of all notes together."""
+    return _lean("all", facts, np.ones(len(facts.piece), np.bool_))
+
+
+def _lean(name: str, facts: ResultFacts, rows: NDArray[np.bool_]) -> Lean:
+    played = facts.asynchrony_ms[rows & (facts.label == Label.MATCH)]
+    mean = float(played.mean()) if len(played) else None
+    spread = float(played.std(ddof=1)) if len(played) > 1 else None
+    return Lean(name, int(rows.sum()), len(played), mean, spread)
+
+
+def in_words(lean: Lean) -> str:
+    """Bias and spread apart, as a teacher would say it: "steady but 14 ms late"."""
+    if lean.mean_ms is None:
+        return "nothing to judge"
+    on = abs(lean.mean_ms) <= ON_THE_BEAT_MS
+    where = "on the beat" if on else f"{abs(lean.mean_ms):.0f} ms {'late' if lean.mean_ms > 0 else 'early'}"
+    if lean.sd_ms is None:
+        return where
+    if lean.sd_ms <= STEADY_MS:
+        return f"steady {'and' if on else 'but'} {where}"
+    if lean.sd_ms <= FAIRLY_STEADY_MS:
+        return f"fairly steady, {where}"
+    return f"uneven, {where}"
