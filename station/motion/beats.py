@@ -91,12 +91,11 @@ def _rest(start: Array, end: Array, onset: Array, backwards: bool = False) -> Ar
     fresh = np.diff(stretch, prepend=-1) != 0
     order = np.arange(len(onset)) - np.maximum.accumulate(np.where(fresh, np.arange(len(onset)), 0))
     previous = np.where(fresh, start[stretch], np.concatenate(([0.0], onset[:-1])))
-    total = np.bincount(stretch, (onset - previous) / (1 + order * NEARNESS), len(start))
+    rested = np.bincount(stretch, (onset - previous) / (1 + order * NEARNESS), len(start))
     number = np.bincount(stretch, minlength=len(start))
     last = start.copy()
     last[stretch] = onset  # the last onset of a stretch is written last
-    total += (end - last) / (1 + number * NEARNESS)
-    return np.asarray(total / width)
+    return np.asarray((rested + (end - last) / (1 + number * NEARNESS)) / width)
 
 
 def _nearest(beats_s: Array, onset_s: Array) -> NDArray[np.int64]:

@@ -33,7 +33,10 @@ class EngineLink(Protocol):
 
 
 def practise_live(engine: EngineLink, session: Session, clock: Clock, capture: Path, tell: Tell) -> SessionResult:
-    """Run `session` to its end, or until Ctrl-C or the engine's death; `tell` hears every round of judgements."""
+    """Run `session` to its end, or until Ctrl-C or the engine's death; `tell` hears every round of judgements.
+
+    Raises `DeviceError` if the engine dies before the transport runs: then there is nothing to report.
+    """
     try:
         engine.send(Record(capture))
         for command in session.start():
@@ -49,6 +52,8 @@ def practise_live(engine: EngineLink, session: Session, clock: Clock, capture: P
         engine.send(Stop())
         engine.send(Record(None))
     except DeviceError as fault:
+        if not session.started:
+            raise
         session.notices.append(str(fault))
         tell(session, ())
     return session.result()

@@ -142,6 +142,11 @@ class Session:
     # --- output -----------------------------------------------------------------------------------------------------
 
     @property
+    def started(self) -> bool:
+        """Whether the transport runs or ran."""
+        return self._zero_ns is not None
+
+    @property
     def over(self) -> bool:
         """Whether the last bar and the tail after it have passed."""
         at_ns = self._transport_ns(self._now_ns)

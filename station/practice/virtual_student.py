@@ -10,6 +10,7 @@ its habits, `student_slips` what it gets wrong, `student_strokes` how it strikes
 One seed is one playing. Each cause draws from a stream of its own, so that a spec with more misses has the same timing.
 """
 
+import copy
 from dataclasses import dataclass
 
 import numpy as np
@@ -98,6 +99,12 @@ class VirtualStudent:
         self._onsets = OnsetPlayer(spec.drift_pct, Streams(*rng[:5]))
         self._slipper = Slipper(rng[5], rng[6])
         self._strokes = Strokes(rng[7], rng[8])
+
+    def twin(self) -> "VirtualStudent":
+        """A student who would play the same from now on."""
+        twin = copy.copy(self)
+        twin._onsets, twin._slipper, twin._strokes = copy.deepcopy((self._onsets, self._slipper, self._strokes))
+        return twin
 
     def play(self, score: Score, form: Form | None = None) -> VirtualPerformance:
         """`score` played after what was played before, in the form that the specification says unless another is given.

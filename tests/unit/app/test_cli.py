@@ -1,0 +1,170 @@
+"""The command line: documents on standard output, bad input as one line on standard error and exit status 2."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from station.cli import main
+
+
+@pytest.fixture(autouse=True)
+def own_settings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nobody's own settings or sessions are touched."""
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "config"))
+    monkeypatch.setenv("HOME", str(tmp_path))
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+
+
+def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
+    """Run a command that must be refused; the one line that it says."""
+    assert main(words) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.startswith("station: ")
+    assert err.count("\n") == 1
+    assert "Traceback" not in err
+    return err
+
+
+def practise(capsys: pytest.CaptureFixture[str], *words: str) -> dict[str, object]:
+    student = "seed=1,sd_ms=12,bias_ms=-8,miss_pct=3,extra_pct=2"
+    assert main(["practice", "rock-1", "--headless", "--virtual-student", student, "--json", *words]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert isinstance(document, dict)
+    return document
+
+
+def test_practice_prints_one_document_and_leaves_a_session(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    document = practise(capsys, "--loops", "2", "--report", str(tmp_path / "session"))
+    assert document["schema"] == "drum-station/assessment/1"
+    counts = document["counts"]
+    assert isinstance(counts, dict)
+    assert counts["notes"] == 2 * 24  # rock 1: 8 hi-hats, 2 kicks, 2 snares a bar, 2 bars, 2 loops
+    assert counts["notes"] == counts["matched"] + counts["misses"] + counts["wrong_piece"]
+    assert counts["hits"] == counts["matched"] + counts["extras"] + counts["wrong_piece"] + counts["ignored"]
+    names = {path.name for path in (tmp_path / "session").iterdir()}
+    assert {"session.capture", "report.json", "report.txt", "pairs.csv"} <= names
+    assert json.loads((tmp_path / "session" / "report.json").read_text()) == document
+
+
+def test_the_same_seed_is_the_same_session(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    first = practise(capsys, "--report", str(tmp_path / "a"))
+    second = practise(capsys, "--report", str(tmp_path / "b"))
+    assert first == second
+
+
+def test_a_session_has_a_folder_of_the_students_own(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    practise(capsys, "--loops", "1", "--student", "Gene K. / 2")
+    folders = list(tmp_path.rglob("report.json"))
+    assert len(folders) == 1
+    assert folders[0].parent.parent.name == "Gene-K.-2"
+    assert folders[0].parent.name.endswith("_rock-1")
+
+
+def test_a_capture_can_be_assessed_again(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    document = practise(capsys, "--loops", "1", "--report", str(tmp_path / "session"))
+    assert main(["assess", "rock-1", str(tmp_path / "session" / "session.capture"), "--json"]) == 0
+    again = json.loads(capsys.readouterr().out)
+    assert again["counts"] == document["counts"]
+
+
+def test_limbs_say_who_plays_every_note(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["limbs", "rock-1", "--json"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert document["schema"] == "drum-station/limbs/1"
+    assert len(document["notes"]) == 24
+    assert {(n["piece"], n["limb"]) for n in document["notes"]} == {
+        ("kick", "right_foot"),
+        ("snare", "left_hand"),
+        ("hihat", "right_hand"),
+    }
+
+
+def test_a_lesson_goes_to_midi_and_back(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    midi, toml = tmp_path / "rock.mid", tmp_path / "rock.toml"
+    assert main(["lesson", "export", "rock-1", "--out", str(midi)]) == 0
+    assert main(["lesson", "import", str(midi), "--out", str(toml)]) == 0
+    assert main(["lesson", "check", str(toml)]) == 0
+    capsys.readouterr()
+    assert main(["assess", str(toml), str(midi), "--json"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert (document["counts"]["matched"], document["score"]) == (24, 100.0)
+
+
+def test_a_new_lesson_is_a_lesson(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    assert main(["lesson", "new"]) == 0
+    file = tmp_path / "mine.toml"
+    file.write_text(capsys.readouterr().out)
+    assert main(["lesson", "check", str(file)]) == 0
+
+
+def test_check_names_every_fault_and_exits_with_2(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    file = tmp_path / "mine.toml"
+    file.write_text('title = "x"\ntempo_bmp = 90\n[grid]\nsnare = "| -?-- |"\n')
+    assert main(["lesson", "check", str(file)]) == 2
+    out, err = capsys.readouterr()
+    assert [line.split(": ")[1] for line in out.splitlines()] == ["line 2, column 1", "line 4, column 13"]
+    assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [
+        (("practice", "rokc-1", "--headless"), "rokc-1: no such lesson; the nearest"),
+        (("practice", "rock-1", "--tempo", "0"), "--tempo: 0"),
+        (("practice", "rock-1", "--tempo", "fast"), "--tempo"),
+        (("practice", "rock-1", "--loops", "-1"), "--loops: -1"),
+        (("practice", "rock-1", "--bars", "3-9"), "--bars: 3-9"),
+        (("practice", "rock-1", "--bars", "one"), "--bars"),
+        (("practice", "rock-1", "--virtual-student", "sd_ms=much"), "sd_ms"),
+        (("assess", "rock-1", "nowhere.mid"), "nowhere.mid: no such file"),
+        (("assess", "nowhere.mid", "nowhere.mid"), "nowhere.mid: no such file"),
+        (("limbs", "."), "."),
+        (("lesson", "show", "rokc-1"), "rokc-1"),
+        (("lesson", "import", "x.pdf", "--out", "x.toml"), "x.pdf"),
+        (("devices", "replay", "nowhere.capture"), "nowhere.capture: no such file"),
+        (("juggle",), "juggle"),
+        (("practice", "--juggle"), "--juggle"),
+    ],
+)
+def test_bad_input_is_one_line(capsys: pytest.CaptureFixture[str], words: tuple[str, ...], named: str) -> None:
+    assert named in refused(capsys, *words)
+
+
+@pytest.mark.parametrize("command", ["assess", "limbs"])
+def test_garbage_is_refused(capsys: pytest.CaptureFixture[str], tmp_path: Path, command: str) -> None:
+    garbage = tmp_path / "garbage.mid"
+    garbage.write_bytes(bytes(range(256)) * 8)
+    words = [command, str(garbage)] + ([str(garbage)] if command == "assess" else [])
+    assert "garbage.mid" in refused(capsys, *words)
+
+
+def test_a_broken_lesson_names_the_line(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    broken = tmp_path / "broken.toml"
+    broken.write_text('title = "x\n')
+    assert "broken.toml: line 1" in refused(capsys, "practice", str(broken), "--headless")
+
+
+def test_a_folder_that_cannot_be_made_is_told_before_anybody_plays(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    taken = tmp_path / "taken"
+    taken.write_text("a file")
+    words = ("practice", "rock-1", "--virtual-student", "pro", "--report", str(taken / "session"))
+    assert "no folder can be made" in refused(capsys, *words)
+
+
+def test_bad_settings_name_the_key(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    settings = tmp_path / "config" / "drum-station" / "settings.toml"
+    settings.parent.mkdir(parents=True)
+    settings.write_text('kitt = "TD-17"\n')
+    assert "kitt: no such setting" in refused(capsys, "practice", "rock-1", "--virtual-student", "pro")
+
+
+def test_help_needs_no_command(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as leaving:
+        main(["--help"])
+    assert leaving.value.code == 0
+    assert "practice" in capsys.readouterr().out
