@@ -54,9 +54,9 @@ class Offsets(NamedTuple):
 class Arm(NamedTuple):
     """The solved arm.
 
-    Points, from the shoulder `root` on; `back`, the normal of the hand's back before any roll; the arm plane's heading
-    κ (to the left positive), γ, β; the wrist's extension and its deviation to the left; μ, the stick's angle in the
-    hand; and how far the shoulder had to come forward because the contact was out of the arm's reach (else 0).
+    Points, from the shoulder `root` on; `back`, the normal of the hand's back; the arm plane's heading κ (to the left
+    positive), γ, β; the wrist's extension and its deviation to the left, as of a palm that faces down; μ, the stick's
+    angle in the hand; and how far the shoulder had to come forward because the contact was out of the arm's reach.
     """
 
     root: Point
@@ -80,7 +80,7 @@ class ArmLengths:
     """Upper arm, forearm, hand to the fulcrum, fulcrum to the tip and to the butt, in metres.
 
     `turns_hand`: 1 where the wrist's part of a stroke bends the hand, 0 where the forearm's roll swings the stick alone
-    (a traditional left hand).
+    (a traditional left hand). `roll_sine` and `roll_cosine` of the hand's roll from palm down, to the drummer's right.
     """
 
     upper: float
@@ -89,10 +89,14 @@ class ArmLengths:
     ahead: float
     behind: float
     turns_hand: float = 1.0
+    roll_sine: float = 0.0
+    roll_cosine: float = 1.0
 
 
-def solve(m: Maths, lengths: ArmLengths, shoulder: Point, contact: Contact, offsets: Offsets) -> Arm:
-    """The arm at `shoulder` whose stick would touch `contact`, moved by `offsets`.
+def solve(
+    m: Maths, lengths: ArmLengths, shoulder: Point, contact: Contact, offsets: Offsets, wing_more: Number = 0.0
+) -> Arm:
+    """The arm at `shoulder` whose stick would touch `contact`, moved by `offsets`, its elbow out by `wing_more`.
 
     Where the contact is out of reach, the shoulder itself comes forward by what is missing, as shoulders do a little.
     """
@@ -130,6 +134,7 @@ def solve(m: Maths, lengths: ArmLengths, shoulder: Point, contact: Contact, offs
     wx, wy, wz = sx + reach * ax, sy + reach * ay, sz - drop
     # the elbow, swung about the line to the wrist: Rodrigues on upper·dir(γ), whose cross product is level
     length = sqrt(reach * reach + drop * drop)
+    wing = wing + wing_more
     cos_w, sin_w = cos(wing), sin(wing)
     k, kz = reach / length, -drop / length
     e, ez = upper * sin_u, -upper * cos_u
@@ -149,6 +154,7 @@ def solve(m: Maths, lengths: ArmLengths, shoulder: Point, contact: Contact, offs
     fx, fy, fz = (wx - ex) / fore, (wy - ey) / fore, (wz - ez) / fore
     nx, ny, nz = -cos_h * vx, -cos_h * vy, sin_h
     ahead_f, back_f, left_f = fx * px + fy * py + fz * pz, fx * nx + fy * ny + fz * nz, fx * vy - fy * vx
+    across, upward = lengths.roll_sine, lengths.roll_cosine
     return Arm(
         (sx, sy, sz),
         (ex, ey, ez),
@@ -156,7 +162,7 @@ def solve(m: Maths, lengths: ArmLengths, shoulder: Point, contact: Contact, offs
         (hx, hy, hz),
         (hx + lengths.ahead * tx, hy + lengths.ahead * ty, hz + lengths.ahead * tz),
         (hx - lengths.behind * tx, hy - lengths.behind * ty, hz - lengths.behind * tz),
-        (nx, ny, nz),
+        (nx * upward - vy * across, ny * upward + vx * across, nz * upward),
         m.atan2(-ax, ay),
         gamma,
         beta,

@@ -17,8 +17,9 @@ from numpy.typing import NDArray
 from station.core.pieces import Piece
 from station.motion import body
 from station.motion.figure import Figure, figure_of
-from station.motion.frame import BodyNow, HandNow, Rig
+from station.motion.frame import BodyNow, Rig
 from station.motion.hand import HandPart
+from station.motion.instruments import Instrument
 from station.motion.kit import Kit, load_kit
 from station.motion.leg import HEEL_RAD, Footing
 from station.motion.life import BREATH_RATE, Blinks, breath
@@ -100,18 +101,20 @@ class Drummer:
         """Everything at `time_s` seconds from the score's tick 0, before and after the score too."""
         keys = self._keys
         now = keys.body_now(time_s, math.sin(time_s * BREATH_RATE), at)
-        hands = [HandNow(way.at(time_s), strokes.at(time_s)) for way, strokes in keys.hands]
-        row = keys.rig.row(ONE, now, hands, keys.boards(time_s, at))
-        for instrument in self._plan.instruments:
+        (right_way, right), (left_way, left) = keys.hands
+        hands = (right_way.at(time_s), right.at(time_s)), (left_way.at(time_s), left.at(time_s))
+        row = keys.rig.row(ONE, now, *hands, keys.boards(time_s, at))
+        for instrument in keys.instruments:
             row += instrument.at(time_s)
-        return Pose.of(time_s, np.array(row))
+        return Pose(time_s, np.array(row))
 
     def rows(self, time_s: Array) -> Array:
         """The poses at each time (n,) as rows (n, fields) in the layout of `frame`; the instruments are left out."""
         keys = self._keys
         now = keys.body_now(time_s, np.sin(time_s * BREATH_RATE), many)
-        hands = [HandNow(way.many(time_s), strokes.many(time_s)) for way, strokes in keys.hands]
-        row = keys.rig.row(MANY, now, hands, keys.boards(time_s, many))
+        (right_way, right), (left_way, left) = keys.hands
+        hands = (right_way.many(time_s), right.many(time_s)), (left_way.many(time_s), left.many(time_s))
+        row = keys.rig.row(MANY, now, *hands, keys.boards(time_s, many))
         return np.stack([np.broadcast_to(value, time_s.shape) for value in row], axis=1)
 
 
@@ -137,6 +140,7 @@ class _Keys:
     feet: tuple[Curves, Curves]
     breathing: float
     rig: Rig
+    instruments: tuple[Instrument, ...]
 
     @classmethod
     def of(cls, plan: Plan, hands: tuple[HandPart, HandPart], style: Style) -> "_Keys":
@@ -158,6 +162,7 @@ class _Keys:
             feet=(plan.hat, plan.kick) if left_kick else (plan.kick, plan.hat),
             breathing=float(style.factor("breathing", 1.0)),
             rig=rig_of(plan, style),
+            instruments=plan.instruments,
         )
 
     def body_now(self, time_s: Number, sine: Number, sample: Sample) -> BodyNow:
@@ -200,11 +205,13 @@ def rig_of(plan: Plan, style: Style) -> Rig:
     return Rig(
         figure=plan.figure,
         pelvis=plan.pelvis,
-        arms=(hold_right.lengths(plan.figure), hold_left.lengths(plan.figure)),
+        arms=(hold_right.lengths(plan.figure), hold_left.lengths(plan.figure, right=False)),
         rolls=(hold_right.grip.roll, hold_left.grip.roll),
         footings=(right, left),
         raised=(pedals[0].raised_rad, pedals[1].raised_rad),
         heel=HEEL_RAD[style.heel],
-        kick_side=1 if plan.kit.left_handed else 0,
+        right_kicks=not plan.kit.left_handed,
         gaze=0.9 * float(style.factor("amplitude_gaze", 1.0)),
+        neck_rad=plan.figure.limits.neck_rotation,
+        hip_m=plan.figure.hip_breadth_m / 2,
     )

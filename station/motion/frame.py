@@ -4,10 +4,10 @@ Everything that moves is evaluated at its time and carried forward from the pelv
 floats, for a live pose, and on arrays, for a whole performance (`maths`).
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
-from station.motion.arm import Arm, ArmLengths, Contact, Offsets, solve
+from station.motion.arm import ArmLengths, Contact, Offsets, solve
 from station.motion.figure import Figure
 from station.motion.leg import Footing, leg
 from station.motion.maths import Maths, Number, Point
@@ -26,16 +26,7 @@ STAND_M = (0.10, 0.30)
 """How far forward and up the pelvis goes to stand (our choice)."""
 
 
-@dataclass(frozen=True, slots=True)
-class HandNow:
-    """What one hand's channels say: its contact without the style's wing, and its stroke."""
-
-    contact: Contact
-    offsets: Offsets
-
-
-@dataclass(frozen=True, slots=True)
-class BodyNow:
+class BodyNow(NamedTuple):
     """What the body's channels say: `body.CHANNELS`, the look's bearing and pitch in space, the bob and the eyes."""
 
     twist: Number
@@ -50,6 +41,10 @@ class BodyNow:
     eyes: Number
 
 
+HandNow = tuple[Contact, Offsets]
+"""What one hand's channels say: its contact without the style's wing, and its stroke."""
+
+
 @dataclass(frozen=True, slots=True)
 class Rig:
     """The parts that do not move: measures, the rolled hands, the feet's places, how far the head follows the look."""
@@ -61,74 +56,44 @@ class Rig:
     footings: tuple[Footing, Footing]
     raised: tuple[float, float]
     heel: float
-    kick_side: int
+    right_kicks: bool
     gaze: float
+    neck_rad: float
+    hip_m: float
 
-    def row(self, m: Maths, now: BodyNow, hands: Sequence[HandNow], boards: tuple[Number, Number]) -> list[Number]:
+    def row(self, m: Maths, now: BodyNow, right: HandNow, left: HandNow, boards: tuple[Number, Number]) -> list[Number]:
         """All numbers but the instruments'; `boards` of the right and the left foot, 0 down … 1 raised."""
-        figure = self.figure
+        twist, lean, side, shrug, wing, stand, bearing, pitch, bob, eyes = now
+        figure, gaze = self.figure, self.gaze
         x, y, z = self.pelvis
-        y, z = y + STAND_M[0] * now.stand, z + STAND_M[1] * now.stand
-        pelvis = (x, y, z)
-        nod, turn, tilt = self._head(m, now)
-        body = trunk(m, figure, pelvis, TrunkAngles(now.twist, now.lean, now.side, nod, turn, tilt, now.shrug_m))
-        arms = [
-            solve(m, self.arms[k], shoulder, _winged(hand.contact, wing), hand.offsets)
-            for k, (hand, shoulder, wing) in enumerate(
-                zip(hands, (body.right_shoulder, body.left_shoulder), (now.wing, -now.wing), strict=True)
-            )
+        y, z = y + STAND_M[0] * stand, z + STAND_M[1] * stand
+        # the look is held in space, within what a neck can do
+        most = self.neck_rad
+        turn = m.most(m.least(gaze * bearing - twist, most), -most)
+        nod, tilt = bob + gaze * LOOK_DOWN * pitch, -TILT_OF_TURN * turn
+        spine, neck, head, crown, right_shoulder, left_shoulder, facing, up = trunk(
+            m, figure, (x, y, z), TrunkAngles(twist, lean, side, nod, turn, tilt, shrug)
+        )
+        a = solve(m, self.arms[0], right_shoulder, *right, wing)
+        b = solve(m, self.arms[1], left_shoulder, *left, -wing)
+        hip, board_a, board_b = self.hip_m, boards[0] * self.raised[0], boards[1] * self.raised[1]
+        c = leg(m, self.footings[0], (x + hip, y, z), board_a, self.heel * (0.6 + 0.4 * boards[0]))
+        d = leg(m, self.footings[1], (x - hip, y, z), board_b, self.heel * (0.6 + 0.4 * boards[1]))
+        kick, hat = boards if self.right_kicks else (boards[1], boards[0])
+        return [
+            *(x, y, z, *spine, *neck, *head, *crown),
+            *(*a.root, *a.elbow, *a.wrist, *a.hand, *b.root, *b.elbow, *b.wrist, *b.hand),
+            *(x + hip, y, z, *c.knee, *c.ankle, *c.toe, x - hip, y, z, *d.knee, *d.ankle, *d.toe),
+            *(*a.butt, *b.butt, *a.tip, *b.tip, *a.back, *b.back, *facing, *up),
+            *(twist, lean, side, nod, turn, tilt),
+            *(a.heading, a.shoulder, right[0].wing + wing, a.elbow_bend, a.extension, a.deviation),
+            *(self.rolls[0], a.palm, b.heading, b.shoulder, wing - left[0].wing, b.elbow_bend, b.extension),
+            *(-b.deviation, self.rolls[1], b.palm, *c.angles, *d.angles),
+            *(board_a, board_b, kick * BEATER_SWING_RAD, hat * OPEN_GAP_M, eyes),
         ]
-        half = figure.hip_breadth_m / 2
-        hips = ((x + half, y, z), (x - half, y, z))
-        angled = boards[0] * self.raised[0], boards[1] * self.raised[1]
-        lifted = [self.heel * (0.6 + 0.4 * b) for b in boards]
-        legs = [leg(m, f, h, b, e) for f, h, b, e in zip(self.footings, hips, angled, lifted, strict=True)]
-        right, left = arms
-        row: list[Number] = [*pelvis, *body.spine, *body.neck, *body.head, *body.crown]
-        for arm in arms:
-            row += [*arm.root, *arm.elbow, *arm.wrist, *arm.hand]
-        for hip, one in zip(hips, legs, strict=True):
-            row += [*hip, *one.knee, *one.ankle, *one.toe]
-        row += [*right.butt, *left.butt, *right.tip, *left.tip]
-        for k, arm in enumerate(arms):
-            row += _rolled(m, arm, self.arms[k].hand, self.rolls[k], k)
-        row += [*body.facing, *body.head_up, now.twist, now.lean, now.side, nod, turn, tilt]
-        for k, (arm, hand) in enumerate(zip(arms, hands, strict=True)):
-            side = -1.0 if k else 1.0
-            wing = side * hand.contact.wing + now.wing
-            row += [arm.heading, arm.shoulder, wing, arm.elbow_bend]
-            row += [arm.extension, side * arm.deviation, self.rolls[k], arm.palm]
-        for one in legs:
-            row += one.angles
-        kick = boards[self.kick_side]
-        row += [*angled, kick * BEATER_SWING_RAD, boards[1 - self.kick_side] * OPEN_GAP_M, now.eyes]
-        return row
-
-    def _head(self, m: Maths, now: BodyNow) -> tuple[Number, Number, Number]:
-        """Nod, turn and tilt against the trunk: the look is held in space, within what a neck can do."""
-        most = self.figure.limits.neck_rotation
-        turn = m.most(m.least(self.gaze * now.bearing - now.twist, most), -most)
-        return now.bob + self.gaze * LOOK_DOWN * now.pitch, turn, -TILT_OF_TURN * turn
 
 
 LOOK_DOWN = 0.5
 """How much of the way down to a drum the head nods; the eyes do the rest (our choice)."""
 TILT_OF_TURN = 0.12
 """A head that turns tilts a little with it (our choice)."""
-
-
-def _winged(contact: Contact, wing: Number) -> Contact:
-    return contact._replace(wing=contact.wing + wing)
-
-
-def _rolled(m: Maths, arm: Arm, hand_m: float, roll: float, side: int) -> Point:
-    """The normal of the hand's back, rolled about the hand with the thumb upward."""
-    nx, ny, nz = arm.back
-    px, py, pz = ((h - w) / hand_m for h, w in zip(arm.hand, arm.wrist, strict=True))
-    outward = (-1.0 if side else 1.0) * m.sin(roll)
-    upward = m.cos(roll)
-    return (
-        nx * upward + (py * nz - pz * ny) * outward,
-        ny * upward + (pz * nx - px * nz) * outward,
-        nz * upward + (px * ny - py * nx) * outward,
-    )

@@ -4,6 +4,7 @@ Grips after HUMANS: German palms flat, sticks near 90° to each other; American 
 fingers do the work; traditional left palm 45–90° up, the stick across it, and the forearm's roll strikes.
 """
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -90,13 +91,22 @@ class Hold:
     grip: Grip
     held: Held
 
-    def lengths(self, figure: Figure) -> ArmLengths:
-        """The measures of an arm of `figure` that holds this."""
+    def lengths(self, figure: Figure, right: bool = True) -> ArmLengths:
+        """The measures of the right or left arm of `figure` that holds this."""
         length, pivot = self.length_m(figure), self.held.pivot
         hand, ahead = figure.hand_m, length * (1 - pivot)
         if not length:
             hand, ahead = _KNUCKLES * figure.stature_m, (_FINGERTIPS - _KNUCKLES) * figure.stature_m
-        return ArmLengths(figure.upper_arm_m, figure.forearm_m, hand, ahead, length * pivot, self.grip.turns_hand)
+        return ArmLengths(
+            upper=figure.upper_arm_m,
+            fore=figure.forearm_m,
+            hand=hand,
+            ahead=ahead,
+            behind=length * pivot,
+            turns_hand=self.grip.turns_hand,
+            roll_sine=math.sin(self.grip.roll) * (1 if right else -1),
+            roll_cosine=math.cos(self.grip.roll),
+        )
 
     def length_m(self, figure: Figure) -> float:
         """The length of what is held."""

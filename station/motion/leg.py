@@ -34,6 +34,10 @@ class Leg(NamedTuple):
     angles: tuple[Number, Number, Number]
 
 
+_STRAIGHT = 0.9999
+"""A leg is never straighter than this share of its length (our choice)."""
+
+
 @dataclass(frozen=True, slots=True)
 class Footing:
     """A foot's place: its board's hinge, heading in plan (unit) and the sole's length beyond the ball and ankle."""
@@ -64,37 +68,36 @@ class Footing:
 
 def leg(m: Maths, footing: Footing, hip: Point, board_rad: Number, heel_rad: Number) -> Leg:
     """The leg from `hip` with the board raised by `board_rad` and the sole tipped by `heel_rad` over it, heel up."""
+    sqrt, acos = m.sqrt, m.acos
     hx, hy = footing.heading
     x0, y0, z0 = footing.heel
-    sin_b, cos_b = m.sin(board_rad), m.cos(board_rad)
-    ball = BALL_ALONG * footing.foot_m
-    bx, bz = ball * cos_b, z0 + ball * sin_b  # the ball, along the heading and up
     sole = board_rad - heel_rad
-    sin_s, cos_s = m.sin(sole), m.cos(sole)
-    back = (BALL_ALONG - ANKLE_ALONG) * footing.foot_m
-    ahead = (1 - BALL_ALONG) * footing.foot_m
-    along, up = bx - back * cos_s - footing.ankle_m * sin_s, bz - back * sin_s + footing.ankle_m * cos_s
-    ankle = (x0 + along * hx, y0 + along * hy, up)
-    reach = bx + ahead * cos_b
-    toe = (x0 + reach * hx, y0 + reach * hy, bz + ahead * sin_b)
-    knee, flexion, bend = _knee(m, footing, hip, ankle)
-    shank_lean = m.atan2(knee[2] - ankle[2], (knee[0] - ankle[0]) * hx + (knee[1] - ankle[1]) * hy)
-    return Leg(knee, ankle, toe, (flexion, bend, np.pi / 2 - shank_lean + sole))
-
-
-def _knee(m: Maths, footing: Footing, hip: Point, ankle: Point) -> tuple[Point, Number, Number]:
-    """The knee by the cosine law, the thigh's flexion from hanging and the knee's."""
+    sin_b, cos_b, sin_s, cos_s = m.sin(board_rad), m.cos(board_rad), m.sin(sole), m.cos(sole)
+    # along the heading and up: the ball on the board, behind it the ankle over the sole, before it the toe
+    foot, height = footing.foot_m, footing.ankle_m
+    ball, back = BALL_ALONG * foot, (BALL_ALONG - ANKLE_ALONG) * foot
+    along, up = ball * cos_b - back * cos_s - height * sin_s, z0 + ball * sin_b - back * sin_s + height * cos_s
+    ax, ay = x0 + along * hx, y0 + along * hy
+    reach = foot * cos_b
+    # the knee by the cosine law, in the plane of hip, ankle and the way that it points
     thigh, shank = footing.thigh_m, footing.shank_m
-    dx, dy, dz = ankle[0] - hip[0], ankle[1] - hip[1], ankle[2] - hip[2]
-    d = m.least(m.sqrt(dx * dx + dy * dy + dz * dz), 0.9999 * (thigh + shank))
-    inside = (thigh * thigh + d * d - shank * shank) / (2 * thigh * d)
-    bend = m.acos((thigh * thigh + shank * shank - d * d) / (2 * thigh * shank))
-    kx, ky, kz = footing.knee_out
-    along = (kx * dx + ky * dy + kz * dz) / (d * d)
-    kx, ky, kz = kx - along * dx, ky - along * dy, kz - along * dz
-    norm = m.sqrt(kx * kx + ky * ky + kz * kz)
-    side = thigh * m.sqrt(1 - inside * inside) / norm
+    px, py, pz = hip
+    dx, dy, dz = ax - px, ay - py, up - pz
+    d = m.least(sqrt(dx * dx + dy * dy + dz * dz), _STRAIGHT * (thigh + shank))
+    dd = d * d
+    inside = (thigh * thigh + dd - shank * shank) / (2 * thigh * d)
+    bend = acos((thigh * thigh + shank * shank - dd) / (2 * thigh * shank))
+    ox, oy, oz = footing.knee_out
+    share = (ox * dx + oy * dy + oz * dz) / dd
+    ox, oy, oz = ox - share * dx, oy - share * dy, oz - share * dz
+    side = thigh * sqrt(1 - inside * inside) / sqrt(ox * ox + oy * oy + oz * oz)
     on = thigh * inside / d
-    knee = (hip[0] + on * dx + side * kx, hip[1] + on * dy + side * ky, hip[2] + on * dz + side * kz)
-    flexion = m.acos(m.most(m.least((hip[2] - knee[2]) / thigh, 1.0), -1.0))
-    return knee, flexion, np.pi - bend
+    kx, ky, kz = px + on * dx + side * ox, py + on * dy + side * oy, pz + on * dz + side * oz
+    flexion = acos(m.most(m.least((pz - kz) / thigh, 1.0), -1.0))
+    shin = m.atan2(kz - up, (kx - ax) * hx + (ky - ay) * hy)
+    return Leg(
+        (kx, ky, kz),
+        (ax, ay, up),
+        (x0 + reach * hx, y0 + reach * hy, z0 + foot * sin_b),
+        (flexion, math.pi - bend, 0.5 * math.pi - shin + sole),
+    )

@@ -5,6 +5,8 @@ and touches the head at 0. Like the hands' strokes the keys are Kochanek–Barte
 The hi-hat opens 60–100 ms before its open note and closes exactly on the chick (HUMANS: gap open 2–4 cm).
 """
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -14,7 +16,7 @@ from station.music.score import Score
 
 Array = NDArray[np.float64]
 
-BEATER_SWING_RAD = np.radians(60.0)
+BEATER_SWING_RAD = math.radians(60.0)
 """How far a raised board holds the beater back (HUMANS: 60° in 45 ms)."""
 OPEN_GAP_M = 0.035
 """Between the cymbals of a hi-hat that is wide open (2–4 cm)."""

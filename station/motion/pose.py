@@ -46,54 +46,80 @@ ANGLE_NAMES: tuple[str, ...] = (
 )
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Pose:
-    """Everything that moves at `time_s`.
-
-    `joints_m` (21, 3) by `figure.Joint`; `angles_rad` (28,) by `ANGLE_NAMES`; `butt_m`, `tip_m` (2, 3) the ends of the
-    right and the left stick; `palm` (2, 3) the unit normals of the backs of the hands; `facing`, `head_up` (3,) the
-    head's directions. `footboard_rad` the kick's and the hi-hat's footboard over flat; `beater_rad` the beater's angle
-    back from the head that it touches at 0; `hat_gap_m` between the cymbals.
-    `swing_rad` (pieces, 2) how far a piece has tipped about its own right and away axes; `flash` (pieces,) 0 … 1, how
-    brightly its last stroke still shows; `ripple_m` (pieces,) how deep its head is pressed at the centre.
-    `eyes` 0 closed … 1 open.
-    """
+    """Everything that moves at `time_s`: one `row` of numbers in the layout of `frame`, and views into it."""
 
     time_s: float
-    joints_m: NDArray[np.float64]
-    angles_rad: NDArray[np.float64]
-    butt_m: NDArray[np.float64]
-    tip_m: NDArray[np.float64]
-    palm: NDArray[np.float64]
-    facing: NDArray[np.float64]
-    head_up: NDArray[np.float64]
-    footboard_rad: tuple[float, float]
-    beater_rad: float
-    hat_gap_m: float
-    swing_rad: NDArray[np.float64]
-    flash: NDArray[np.float64]
-    ripple_m: NDArray[np.float64]
-    eyes: float
+    row: NDArray[np.float64]
 
-    @classmethod
-    def of(cls, time_s: float, row: NDArray[np.float64]) -> "Pose":
-        """The pose that `row` holds in the layout of `frame`."""
-        played = row[frame.PLAYED :].reshape(-1, 4)
-        boards_right, boards_left, beater, gap, eyes = row[frame.BOARDS.start : frame.PLAYED].tolist()
-        return cls(
-            time_s,
-            row[frame.JOINTS].reshape(21, 3),
-            row[frame.ANGLES],
-            row[frame.BUTT].reshape(2, 3),
-            row[frame.TIP].reshape(2, 3),
-            row[frame.PALM].reshape(2, 3),
-            row[frame.FACING],
-            row[frame.HEAD_UP],
-            (boards_right, boards_left),
-            beater,
-            gap,
-            played[:, :2],
-            played[:, 2],
-            played[:, 3],
-            eyes,
-        )
+    @property
+    def joints_m(self) -> NDArray[np.float64]:
+        """Positions, (21, 3) by `figure.Joint`."""
+        return self.row[frame.JOINTS].reshape(21, 3)
+
+    @property
+    def angles_rad(self) -> NDArray[np.float64]:
+        """Joint angles, (28,) by `ANGLE_NAMES`."""
+        return self.row[frame.ANGLES]
+
+    @property
+    def butt_m(self) -> NDArray[np.float64]:
+        """The butts of the right and the left stick, (2, 3)."""
+        return self.row[frame.BUTT].reshape(2, 3)
+
+    @property
+    def tip_m(self) -> NDArray[np.float64]:
+        """The tips of the right and the left stick, (2, 3)."""
+        return self.row[frame.TIP].reshape(2, 3)
+
+    @property
+    def palm(self) -> NDArray[np.float64]:
+        """The unit normals of the backs of the hands, (2, 3)."""
+        return self.row[frame.PALM].reshape(2, 3)
+
+    @property
+    def facing(self) -> NDArray[np.float64]:
+        """Where the face looks, a unit vector."""
+        return self.row[frame.FACING]
+
+    @property
+    def head_up(self) -> NDArray[np.float64]:
+        """From the neck to the crown, a unit vector."""
+        return self.row[frame.HEAD_UP]
+
+    @property
+    def footboard_rad(self) -> tuple[float, float]:
+        """How far the boards under the right and the left foot are raised over flat."""
+        right, left = self.row[frame.BOARDS].tolist()
+        return right, left
+
+    @property
+    def beater_rad(self) -> float:
+        """The kick beater's angle back from the head, which it touches at 0."""
+        return self.row.item(frame.BEATER)
+
+    @property
+    def hat_gap_m(self) -> float:
+        """Between the cymbals of the hi-hat."""
+        return self.row.item(frame.GAP)
+
+    @property
+    def eyes(self) -> float:
+        """0 closed … 1 open."""
+        return self.row.item(frame.EYES)
+
+    @property
+    def swing_rad(self) -> NDArray[np.float64]:
+        """How far each piece, in `Kit.pieces`' order, has tipped about its own right and away axes, (pieces, 2)."""
+        return self.row[frame.PLAYED :].reshape(-1, 4)[:, :2]
+
+    @property
+    def flash(self) -> NDArray[np.float64]:
+        """How brightly each piece's last stroke still shows, (pieces,) 0 … 1."""
+        return self.row[frame.PLAYED + 2 :: 4]
+
+    @property
+    def ripple_m(self) -> NDArray[np.float64]:
+        """How deep each piece's head is pressed at the centre, (pieces,)."""
+        return self.row[frame.PLAYED + 3 :: 4]

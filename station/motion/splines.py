@@ -31,7 +31,7 @@ class Curves:
         if i < 0:
             first: list[float] = self.cubics[0, :, 0].tolist()
             return first
-        u = time_s - self.knots_s[i]
+        u = time_s - self.knots_s.item(i)  # a plain float: numpy's are slow one by one
         rows: list[list[float]] = self.cubics[i].tolist()
         return [((d * u + c) * u + b) * u + a for a, b, c, d in rows]
 

@@ -152,6 +152,7 @@ class Strokes:
     strike_s: Array
     knots_s: Array
     cubics: Array
+    strikes: list[float]
 
     @classmethod
     def of(cls, plan: StrokePlan, sliders: Sliders) -> "Strokes":
@@ -169,17 +170,20 @@ class Strokes:
         flat = (4, n * KEYS)
         times, values = times.reshape(flat), values.reshape(flat)
         into, out = slopes(times, values, tension.reshape(flat), np.tile(_CONTINUITY, n), np.tile(_BIAS, n))
-        return cls(strike_s, times, cubics(times, values, into, out))
+        return cls(strike_s, times, cubics(times, values, into, out), strike_s.tolist())
 
     def at(self, time_s: float) -> Offsets:
         """The offsets at one instant."""
-        first = max((bisect_right(self.strike_s, time_s) - 1) * KEYS + _STRIKE, 0)
+        first = max((bisect_right(self.strikes, time_s) - 1) * KEYS + _STRIKE, 0)
         result = []
-        for j, knots in enumerate(self.knots_s[:, first : first + KEYS].tolist()):
-            k = max(bisect_right(knots, time_s) - 1, 0)
-            a, b, c, d = self.cubics[j, first + k].tolist()
+        for knots, rows in zip(self.knots_s[:, first : first + KEYS].tolist(), self.cubics, strict=True):
+            k = bisect_right(knots, time_s) - 1
+            if k < 0:
+                result.append(rows.item(first, 0))
+                continue
+            a, b, c, d = rows[first + k].tolist()
             u = time_s - knots[k]
-            result.append(((d * u + c) * u + b) * u + a if u > 0 else a)
+            result.append(((d * u + c) * u + b) * u + a)
         return Offsets(*result)
 
     def many(self, time_s: Array) -> Offsets:

@@ -33,6 +33,7 @@ class Way:
 
     strike_s: Array
     rows: Array
+    strikes: list[float]
 
     @classmethod
     def of(cls, strike_s: Array, contacts: Array, lift_m: Array, early: NDArray[np.bool_]) -> "Way":
@@ -51,19 +52,23 @@ class Way:
         rows[:-1, 0], rows[:-1, 1], rows[:-1, 2] = start, 1 / np.maximum(end - start, 1e-6), lift_m
         rows[:, 3 : 3 + FIELDS] = contacts
         rows[:-1, 3 + FIELDS :] = np.diff(contacts, axis=0)
-        return cls(strike_s, rows)
+        return cls(strike_s, rows, strike_s.tolist())
 
     def at(self, time_s: float) -> Contact:
         """The contact at one instant."""
-        i = max(bisect_right(self.strike_s, time_s) - 1, 0)
+        i = max(bisect_right(self.strikes, time_s) - 1, 0)
         row: list[float] = self.rows[i].tolist()
         u = (time_s - row[0]) * row[1]
         if u <= 0.0:
             return Contact(*row[3 : 3 + FIELDS])
         u = min(u, 1.0)
         s = u * u * u * (10 + u * (6 * u - 15))
-        x, y, z, *rest = [a + s * d for a, d in zip(row[3 : 3 + FIELDS], row[3 + FIELDS :], strict=True)]
-        return Contact(x, y, z + row[2] * (4 * u * (1 - u)) ** 2, *rest)
+        _, _, lift, x, y, z, sr, hr, sy, hy, ahead, wing, dx, dy, dz, dsr, dhr, dsy, dhy, d_ahead, d_wing = row
+        lift *= (4 * u * (1 - u)) ** 2
+        return Contact(
+            *(x + s * dx, y + s * dy, z + s * dz + lift, sr + s * dsr, hr + s * dhr),
+            *(sy + s * dsy, hy + s * dhy, ahead + s * d_ahead, wing + s * d_wing),
+        )
 
     def many(self, time_s: Array) -> Contact:
         """The contact at each time."""

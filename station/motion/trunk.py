@@ -13,6 +13,9 @@ from station.motion.maths import Maths, Number, Point
 LOWER_SHARE = 0.42
 """The lumbar part of the trunk (our choice)."""
 
+LEAN_TO_HEAD = 0.35
+"""How much of the trunk's lean the head shares: eyes stay on the drums (our choice)."""
+
 
 class TrunkAngles(NamedTuple):
     """All angles of trunk and head, radians; `shrug_m` lifts both shoulders; head angles are against the trunk."""
@@ -41,56 +44,36 @@ class Trunk(NamedTuple):
 
 def trunk(m: Maths, figure: Figure, pelvis: Point, angles: TrunkAngles) -> Trunk:
     """Every point of trunk and head over `pelvis`."""
-    px, py, pz = pelvis
-    sin_t, cos_t = m.sin(angles.twist), m.cos(angles.twist)
+    sin, cos = m.sin, m.cos
+    twist, lean, side, nod, turn, tilt, shrug = angles
+    sin_t, cos_t = sin(twist), cos(twist)
+    sin_s, cos_s = sin(side), cos(side)
     lower, upper = LOWER_SHARE * figure.trunk_m, (1 - LOWER_SHARE) * figure.trunk_m
-    spine = _above((px, py, pz), lower, _tip(m, angles.lean / 2, angles.side / 2), (sin_t, cos_t))
-    neck = _above(spine, upper, _tip(m, angles.lean, angles.side), (sin_t, cos_t))
-    half = figure.shoulder_breadth_m / 2
-    cos_r, sin_r = half * m.cos(angles.side), half * m.sin(angles.side)
-    nx, ny, nz = neck
-    across = (cos_r * cos_t, cos_r * sin_t)
-    lift = angles.shrug_m
+    px, py, pz = pelvis
+    forward, right, up = lower * sin(0.5 * lean), lower * 0.5 * sin_s, lower * cos(0.5 * lean)
+    ax, ay, az = px + right * cos_t - forward * sin_t, py + right * sin_t + forward * cos_t, pz + up
+    forward, right, up = upper * sin(lean) * cos_s, upper * sin_s, upper * cos(lean) * cos_s
+    nx, ny, nz = ax + right * cos_t - forward * sin_t, ay + right * sin_t + forward * cos_t, az + up
+    half = 0.5 * figure.shoulder_breadth_m
+    bx, by, bz = half * cos_s * cos_t, half * cos_s * sin_t, half * sin_s
+    lift = nz + shrug
     # the head keeps level against the lean but for its own nod
-    turned = (m.sin(angles.twist + angles.turn), m.cos(angles.twist + angles.turn))
-    pitch = LEAN_TO_HEAD * angles.lean + angles.nod
-    roll = LEAN_TO_HEAD * angles.side + angles.tilt
-    head = _above(neck, figure.neck_m, _tip(m, 0.5 * (angles.lean + pitch), 0.5 * (angles.side + roll)), turned)
-    top = _tip(m, pitch, roll)
-    crown = _above(head, figure.head_m, top, turned)
-    cos_p, sin_p = m.cos(pitch), m.sin(pitch)
-    up = (
-        (crown[0] - head[0]) / figure.head_m,
-        (crown[1] - head[1]) / figure.head_m,
-        (crown[2] - head[2]) / figure.head_m,
-    )
+    sin_h, cos_h = sin(twist + turn), cos(twist + turn)
+    pitch, roll = LEAN_TO_HEAD * lean + nod, LEAN_TO_HEAD * side + tilt
+    neck, bent = figure.neck_m, 0.5 * (lean + pitch)
+    forward, right, up = neck * sin(bent), neck * sin(0.5 * (side + roll)), neck * cos(bent)
+    hx, hy, hz = nx + right * cos_h - forward * sin_h, ny + right * sin_h + forward * cos_h, nz + up
+    sin_p, cos_p, sin_r, cos_r = sin(pitch), cos(pitch), sin(roll), cos(roll)
+    forward = sin_p * cos_r
+    ux, uy, uz = sin_r * cos_h - forward * sin_h, sin_r * sin_h + forward * cos_h, cos_p * cos_r
+    skull = figure.head_m
     return Trunk(
-        spine=spine,
-        neck=neck,
-        head=head,
-        crown=crown,
-        right_shoulder=(nx + across[0], ny + across[1], nz - sin_r + lift),
-        left_shoulder=(nx - across[0], ny - across[1], nz + sin_r + lift),
-        facing=(-turned[0] * cos_p, turned[1] * cos_p, -sin_p),
-        head_up=up,
-    )
-
-
-LEAN_TO_HEAD = 0.35
-"""How much of the trunk's lean the head shares: eyes stay on the drums (our choice)."""
-
-
-def _tip(m: Maths, forward: Number, right: Number) -> Point:
-    """A unit vector tipped from upright, as (forward, right, up)."""
-    cos_r = m.cos(right)
-    return m.sin(forward) * cos_r, m.sin(right), m.cos(forward) * cos_r
-
-
-def _above(base: Point, length: float, tip: Point, turned: tuple[Number, Number]) -> Point:
-    forward, right, up = tip
-    sin_t, cos_t = turned
-    return (
-        base[0] + length * (right * cos_t - forward * sin_t),
-        base[1] + length * (right * sin_t + forward * cos_t),
-        base[2] + length * up,
+        (ax, ay, az),
+        (nx, ny, nz),
+        (hx, hy, hz),
+        (hx + skull * ux, hy + skull * uy, hz + skull * uz),
+        (nx + bx, ny + by, lift - bz),
+        (nx - bx, ny - by, lift + bz),
+        (-sin_h * cos_p, cos_h * cos_p, -sin_p),
+        (ux, uy, uz),
     )
