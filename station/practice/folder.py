@@ -17,6 +17,7 @@ DOCUMENT_NAME = "report.json"
 TEXT_NAME = "report.txt"
 PAIRS_NAME = "pairs.csv"
 PICTURE_NAME = "report.png"
+DRUMMER_NAME = "drummer.png"
 
 _UNSAFE = re.compile(r"[^\w.-]+")
 

@@ -45,3 +45,11 @@ def draw_png(
         write_png(maker.draw(snapshot, camera), path)
     finally:
         maker.release()
+
+
+def renderer_name() -> str:
+    """What draws on this computer, in the driver's words; raises `DeviceError` without OpenGL."""
+    ctx = standalone_context()
+    name = f"{ctx.info['GL_RENDERER']}, OpenGL {ctx.version_code / 100:.1f}"
+    ctx.release()
+    return name

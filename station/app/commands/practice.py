@@ -1,26 +1,16 @@
 """`station practice [LESSON]`: a practice session in the window, in the terminal, or with a virtual student."""
 
 import argparse
-import tempfile
 from dataclasses import replace
-from datetime import datetime
 from pathlib import Path
 
 from station.app.commands.output import print_json, say
 from station.app.health import has_screen
-from station.core.errors import BadInput, DeviceError, StationError
-from station.core.files import write_whole
+from station.app.session_folder import SessionFolder, rescued
+from station.core.errors import DeviceError, StationError
 from station.core.settings import Settings, load_settings
 from station.drills.lesson import Lesson
-from station.practice.folder import (
-    CAPTURE_NAME,
-    DOCUMENT_NAME,
-    PAIRS_NAME,
-    PICTURE_NAME,
-    TEXT_NAME,
-    session_folder,
-    write_document,
-)
+from station.practice.folder import CAPTURE_NAME, TEXT_NAME
 from station.practice.plan import Plan, Wishes, plan_practice
 from station.practice.report import Circumstances, practice_document, report_text, with_truth
 from station.practice.session import SessionResult
@@ -73,19 +63,19 @@ def _virtual(plan: Plan, spec: str, arguments: argparse.Namespace, settings: Set
     from station.practice.student_spec import parse_spec
 
     student = parse_spec(spec)
-    with _Folder(arguments.report, settings, plan) as folder:
+    with SessionFolder(arguments.report, settings, plan) as folder:
         virtual = practise_virtually(plan, student, folder.path / CAPTURE_NAME)
         document = practice_document(virtual.result, Circumstances(settings.student, DEVICE))
-        folder.leave(virtual.result, with_truth(document, virtual), arguments.json)
+        _leave(folder, virtual.result, with_truth(document, virtual), arguments.json)
     return 0
 
 
 def _live(plan: Plan, arguments: argparse.Namespace, settings: Settings) -> int:
     from station.app.commands.terminal import practise_in_terminal
 
-    with _Folder(arguments.report, settings, plan) as folder:
+    with SessionFolder(arguments.report, settings, plan) as folder:
         result, device = practise_in_terminal(plan, settings, folder.path / CAPTURE_NAME)
-        folder.leave(result, practice_document(result, Circumstances(settings.student, device)), arguments.json)
+        _leave(folder, result, practice_document(result, Circumstances(settings.student, device)), arguments.json)
     return 0
 
 
@@ -99,81 +89,24 @@ def _is_kit_there(wanted: str) -> bool:
         return False
 
 
-# --- what is left ----------------------------------------------------------------------------------------------------
-
-
-class _Folder:
-    """The session's folder: found empty at the start, so that a full disk shows before anybody plays."""
-
-    def __init__(self, wanted: Path | None, settings: Settings, plan: Plan) -> None:
-        self.path = wanted or session_folder(settings.sessions_dir, settings.student, plan.lesson.name, datetime.now())
-        self._made = wanted is None or not wanted.exists()
-        if wanted is not None:
-            make_folder(wanted)
-
-    def __enter__(self) -> "_Folder":
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        """Take an empty folder away again."""
-        if self._made and self.path.is_dir() and not any(self.path.iterdir()):
-            self.path.rmdir()
-
-    def leave(self, result: SessionResult, document: dict[str, Json], as_json: bool) -> None:
-        """Write everything, then print the report; what the disk refused is said after the report was printed."""
-        fault = None
-        try:
-            self._write(result, document)
-        except StationError as error:
-            fault = _rescued(error, result, document)
-        if as_json:
-            print_json(document)
-        else:
-            print(report_text(document), end="")
-        if fault is not None:
-            raise fault
-        say(f"\nreport   {self.path / TEXT_NAME}")
-        if (picture := self.path / PICTURE_NAME).exists():
-            say(f"picture  {picture}")
-
-    def _write(self, result: SessionResult, document: dict[str, Json]) -> None:
-        from station.scoring.pairs import write_pairs
-
-        write_document(self.path / DOCUMENT_NAME, document)
-        write_whole(self.path / TEXT_NAME, report_text(document).encode())
-        write_pairs(self.path / PAIRS_NAME, result.score, result.performance, result.alignment)
-        self._draw(result)
-
-    def _draw(self, result: SessionResult) -> None:
-        from station.app.pictures import draw_session
-
-        try:
-            draw_session(result, self.path / PICTURE_NAME)
-        except StationError as fault:
-            say(f"no picture: {fault}")
-
-
-def _rescued(fault: StationError, result: SessionResult, document: dict[str, Json]) -> StationError:
-    """The fault, with word of where the hits are safe: another disk, or else the report that is printed."""
-    from station.music.formats.smf import write_performance
-    from station.scoring.pairs import pairs_csv
-
-    spare = Path(tempfile.gettempdir()) / f"drum-station-{datetime.now():%Y-%m-%dT%H-%M-%S-%f}.mid"
+def _leave(folder: SessionFolder, result: SessionResult, document: dict[str, Json], as_json: bool) -> None:
+    """Write everything, then print the report; what the disk refused is said after the report was printed."""
+    fault = None
     try:
-        write_performance(result.performance, spare)
-    except StationError:
-        document["pairs_csv"] = pairs_csv(result.score, result.performance, result.alignment)
-        say("the disks are full: what was played is printed with --json, under pairs_csv")
-        return fault
-    return StationError(f"{fault}; every hit is safe in {spare}")
-
-
-def make_folder(path: Path) -> None:
-    """Make the folder `path` where it is missing; raises `BadInput`."""
+        folder.write(result, document)
+    except StationError as error:
+        fault = rescued(error, result, document)
+    if as_json:
+        print_json(document)
+    else:
+        print(report_text(document), end="")
+    if fault is not None:
+        raise fault
+    say(f"\nreport   {folder.path / TEXT_NAME}")
     try:
-        path.mkdir(parents=True, exist_ok=True)
-    except OSError as fault:
-        raise BadInput(path, "", f"no folder can be made: {fault.strerror or fault}") from fault
+        say(f"picture  {folder.draw(result, document)}")
+    except StationError as error:
+        say(f"no picture: {error}")
 
 
 # --- what was asked --------------------------------------------------------------------------------------------------

@@ -36,7 +36,7 @@ class _Part:
     start_ns: int
 
 
-class Stage:
+class SessionView:
     """One session's pictures. `kit` is the drummer's, by name or file; empty for the default."""
 
     def __init__(self, plan: Plan, kit: str = "", figure: Figure | None = None) -> None:

@@ -1,0 +1,185 @@
+"""What practises behind the window: the engine's process, the session, its folder, its pictures. No thread, no picture.
+
+`snapshot` is called once a frame and does everything: it reads what the engine has heard, moves the session on, keeps
+it when it is over. The hits carry their own times, so that the frame rate decides nothing.
+"""
+
+from collections.abc import Sequence
+
+from station.app.model import LessonCard, Report, RoomState, Stage, Start
+from station.app.results import session_facts
+from station.app.session_folder import SessionFolder, rescued
+from station.app.session_view import SessionView
+from station.core.errors import DeviceError, StationError
+from station.core.events import DeviceFound, DeviceLost
+from station.core.settings import Settings
+from station.core.units import ns_from_ms
+from station.drills.lesson import LEVELS, Lesson
+from station.drills.library import find_lesson, lesson_rows
+from station.engine.engine import KEYBOARD
+from station.engine.messages import EngineEvent, KeyHit, Notice, Ready, Record, Stop
+from station.practice.live import EngineLink
+from station.practice.plan import Plan, Wishes, plan_practice
+from station.practice.report import Circumstances, practice_document
+from station.practice.session import Latency, Session
+from station.render.snapshot import Snapshot
+
+NOTICES_KEPT = 5
+"""How many notices the window may show at once; our choice."""
+
+
+class PracticeRoom:
+    """The `PracticeModel` of the real window; `first` is shown, and not yet played, when it opens."""
+
+    def __init__(self, engine: EngineLink, settings: Settings, first: Plan) -> None:
+        self._engine = engine
+        self._settings = settings
+        self._lessons = _all_lessons(first.lesson)
+        self._plan = first
+        self._view = SessionView(first, first.lesson.kit)
+        self._session = self._new_session(first)
+        self._folder: SessionFolder | None = None
+        self._report: Report | None = None
+        self._stage = Stage.IDLE
+        self._kit = ""
+        self._sound = "the engine is waking"
+        self._notices: list[str] = []
+        self._alive = True
+
+    # --- what the window shows ---------------------------------------------------------------------------------------
+
+    def snapshot(self, now_ns: int) -> Snapshot:
+        """Take in what has happened, then the picture at `now_ns`."""
+        for event in self._heard():
+            self._take(event, now_ns)
+        if self._stage is Stage.PLAYING:
+            self._view.judged(self._session.advance(now_ns), now_ns, self._session.windows)
+            if self._session.over:
+                self._finish()
+        return self._view.snapshot(self._session, now_ns)
+
+    def room(self) -> RoomState:
+        """What surrounds the picture."""
+        state = self._session.state()
+        progress = None
+        if self._stage is Stage.PLAYING and state.transport_ns is not None:
+            progress = min(max(state.transport_ns / self._plan.end_ns, 0.0), 1.0)
+        return RoomState(self._stage, self._kit, self._sound, tuple(self._notices[-NOTICES_KEPT:]), progress)
+
+    def lessons(self) -> Sequence[LessonCard]:
+        """Every shipped lesson, and the one that was named when the window was opened."""
+        return [_card(lesson) for lesson in self._lessons.values()]
+
+    def report(self) -> Report | None:
+        """The result of the session that ended last."""
+        return self._report
+
+    # --- what the user does ------------------------------------------------------------------------------------------
+
+    def start(self, wish: Start) -> None:
+        """Begin a session, ending the one that runs; raises `StationError`."""
+        lesson = self._lessons.get(wish.lesson) or find_lesson(wish.lesson)
+        plan = plan_practice(lesson, Wishes(wish.tempo_bpm, wish.loops, wish.bars, wish.demonstrations))
+        view = SessionView(plan, lesson.kit)
+        if self._stage is Stage.PLAYING:
+            self.stop()
+        folder = SessionFolder(None, self._settings, plan)
+        self._plan, self._view, self._session, self._folder = plan, view, self._new_session(plan), folder
+        self._engine.send(Record(folder.capture))
+        for command in self._session.start():
+            self._engine.send(command)
+        self._stage = Stage.PLAYING
+
+    def stop(self) -> None:
+        """End the session early; what was played is judged and kept."""
+        if self._stage is Stage.PLAYING:
+            self._engine.send(Stop())
+            self._finish()
+
+    def key(self, hit: KeyHit) -> None:
+        """A stroke on the computer's keyboard."""
+        self._engine.send(hit)
+
+    def dismiss(self) -> None:
+        """Back to the lessons."""
+        if self._stage is Stage.RESULT:
+            self._stage = Stage.IDLE
+            self._session = self._new_session(self._plan)
+            self._view = SessionView(self._plan, self._plan.lesson.kit)
+
+    # --- inside ------------------------------------------------------------------------------------------------------
+
+    def _new_session(self, plan: Plan) -> Session:
+        settings = self._settings
+        return Session(plan, Latency(ns_from_ms(settings.input_latency_ms), ns_from_ms(settings.output_latency_ms)))
+
+    def _heard(self) -> list[EngineEvent]:
+        if not self._alive:
+            return []
+        try:
+            return self._engine.events()
+        except DeviceError as fault:
+            self._alive = False
+            self._notices.append(str(fault))
+            self._sound = "the engine has ended"
+            if self._stage is Stage.PLAYING:
+                self._finish()
+            return []
+
+    def _take(self, event: EngineEvent, now_ns: int) -> None:
+        told = len(self._session.notices)
+        verdicts = self._session.handle(event)
+        self._view.judged(verdicts, now_ns, self._session.windows)
+        self._notices += self._session.notices[told:]
+        match event:
+            case DeviceFound(_, device):
+                self._kit = device
+            case DeviceLost():
+                self._kit = ""
+            case Ready(output):
+                self._sound = output or "silent"
+            case Notice(text) if text.startswith("sound is back"):
+                self._sound = text.removeprefix("sound is back on ")
+            case _:
+                pass
+
+    def _finish(self) -> None:
+        """Judge what was played and keep it."""
+        result = self._session.result()
+        # keys have no velocity, so where only they were played nothing is said of dynamics
+        keys_alone = bool(self._session.hits) and all(hit.device == KEYBOARD for hit in self._session.hits)
+        device = KEYBOARD if keys_alone else self._kit or None
+        document = practice_document(result, Circumstances(self._settings.student, device, not keys_alone))
+        path = ""
+        if self._folder is not None:
+            path = str(self._folder.path)
+            try:
+                if self._alive:
+                    self._engine.send(Record(None))
+                self._folder.write(result, document)
+            except StationError as fault:
+                self._notices.append(str(rescued(fault, result, document)))
+        self._report = Report(session_facts(result, document), document, path)
+        self._stage = Stage.RESULT
+
+
+def _all_lessons(first: Lesson) -> dict[str, Lesson]:
+    shipped = {row.name: find_lesson(row.name) for row in lesson_rows()}
+    return {**shipped, first.name: first}
+
+
+def _card(lesson: Lesson) -> LessonCard:
+    meter = lesson.score.tempo_map.meters[0]
+    return LessonCard(
+        name=lesson.name,
+        title=lesson.title,
+        level=lesson.level,
+        level_words=LEVELS[lesson.level],
+        about=lesson.about,
+        author=lesson.author,
+        tempo_bpm=lesson.tempo_bpm,
+        bars=lesson.loop[1] - lesson.loop[0] + 1,
+        passes=lesson.passes,
+        meter=f"{meter.beats}/{meter.unit}",
+        tags=lesson.tags,
+    )

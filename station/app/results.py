@@ -1,0 +1,32 @@
+"""A session's result as the results page shows it."""
+
+import numpy as np
+
+from station.core.units import NS_PER_S
+from station.music.judgement import Label
+from station.practice.session import SessionResult
+from station.render.results import ResultFacts, Words, result_facts
+from station.scoring.document import Json
+
+
+def session_facts(result: SessionResult, document: dict[str, Json]) -> ResultFacts:
+    """The facts of `result`; `document` is its report."""
+    plan = result.plan
+    extra = result.alignment.hit_label == Label.EXTRA
+    points, advice = document["score"], document["advice"]
+    assert isinstance(advice, list), "the report is ours"
+    bars = f"bars {plan.first_bar + 1}–{plan.first_bar + plan.section.bar_count}"
+    stopped = "" if result.complete else ", stopped early"
+    words = Words(
+        title=plan.lesson.title,
+        subtitle=f"{plan.passes} passes of {bars} at {plan.tempo_bpm:g} bpm{stopped}",
+        points=float(points) if isinstance(points, float | int) else None,
+        advice=tuple(str(item["text"]) for item in advice if isinstance(item, dict)),
+    )
+    return result_facts(
+        result.score,
+        result.alignment.note_label,
+        result.alignment.asynchrony_ns,
+        np.asarray(result.performance.hits["at_ns"][extra] / NS_PER_S),
+        words,
+    )

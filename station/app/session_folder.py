@@ -1,0 +1,88 @@
+"""Keeps a session: the folder with its capture, report and pictures, and a way out when the disk is full."""
+
+import tempfile
+from datetime import datetime
+from pathlib import Path
+
+from station.core.errors import BadInput, StationError
+from station.core.files import write_whole
+from station.core.settings import Settings
+from station.practice.folder import (
+    CAPTURE_NAME,
+    DOCUMENT_NAME,
+    DRUMMER_NAME,
+    PAIRS_NAME,
+    PICTURE_NAME,
+    TEXT_NAME,
+    session_folder,
+    write_document,
+)
+from station.practice.plan import Plan
+from station.practice.report import report_text
+from station.practice.session import SessionResult
+from station.scoring.document import Json
+from station.scoring.pairs import pairs_csv, write_pairs
+
+
+class SessionFolder:
+    """One session's folder, made at the start, so that a disk that refuses shows before anybody plays.
+
+    `wanted` is a folder that the user named, None for a new one of the student's. Raises `BadInput` or `DeviceError`
+    where it cannot be made. As a context manager it takes a folder away again in which nothing was left.
+    """
+
+    def __init__(self, wanted: Path | None, settings: Settings, plan: Plan) -> None:
+        self._made = wanted is None or not wanted.exists()
+        if wanted is None:
+            self.path = session_folder(settings.sessions_dir, settings.student, plan.lesson.name, datetime.now())
+        else:
+            self.path = _made(wanted)
+
+    @property
+    def capture(self) -> Path:
+        """Where the capture is kept."""
+        return self.path / CAPTURE_NAME
+
+    def __enter__(self) -> "SessionFolder":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._made and self.path.is_dir() and not any(self.path.iterdir()):
+            self.path.rmdir()
+
+    def write(self, result: SessionResult, document: dict[str, Json]) -> None:
+        """Write the report as document, text and table; raises `DeviceError`."""
+        write_document(self.path / DOCUMENT_NAME, document)
+        write_whole(self.path / TEXT_NAME, report_text(document).encode())
+        write_pairs(self.path / PAIRS_NAME, result.score, result.performance, result.alignment)
+
+    def draw(self, result: SessionResult, document: dict[str, Json]) -> Path:
+        """Draw the report and the drummer; returns the report's picture. Raises `DeviceError`."""
+        from station.app.pictures import draw_session
+        from station.app.results import session_facts
+        from station.render.report_picture import draw_report_png
+
+        draw_report_png(session_facts(result, document), self.path / PICTURE_NAME)
+        draw_session(result, self.path / DRUMMER_NAME)
+        return self.path / PICTURE_NAME
+
+
+def rescued(fault: StationError, result: SessionResult, document: dict[str, Json]) -> StationError:
+    """The fault, with word of where the hits are safe: on another disk, or else in the document itself."""
+    from station.music.formats.smf import write_performance
+
+    spare = Path(tempfile.gettempdir()) / f"drum-station-{datetime.now():%Y-%m-%dT%H-%M-%S-%f}.mid"
+    try:
+        write_performance(result.performance, spare)
+    except StationError:
+        document["pairs_csv"] = pairs_csv(result.score, result.performance, result.alignment)
+        return StationError(f"{fault}; no disk takes the hits: --json prints them under pairs_csv")
+    return StationError(f"{fault}; every hit is safe in {spare}")
+
+
+def _made(path: Path) -> Path:
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as fault:
+        raise BadInput(path, "", f"no folder can be made: {fault.strerror or fault}") from fault
+    return path
