@@ -21,6 +21,8 @@ from station.scoring.windows import Windows
 
 STRIKE_SHOWN_NS = 600 * NS_PER_MS
 """How long a stroke may show on the kit; our choice."""
+WAITING_S = -2.0
+"""A time before the score at which the drummer does nothing yet; our choice."""
 CUE_SHOWN_NS = 1200 * NS_PER_MS
 """How long the coarse cue stays after what caused it; our choice."""
 
@@ -71,9 +73,10 @@ class SessionView:
     def snapshot(self, session: Session, now_ns: int, message: str = "") -> Snapshot:
         """The picture at session time `now_ns`."""
         state = session.state()
-        transport_ns = state.transport_ns if state.transport_ns is not None else -NS_PER_S
-        part = self._passes if transport_ns >= self._lead_of_passes_ns() else self._demonstration
-        position_s = (transport_ns - part.start_ns) / NS_PER_S
+        if state.transport_ns is None:
+            return self._ready(message)
+        part = self._passes if state.transport_ns >= self._lead_of_passes_ns() else self._demonstration
+        position_s = (state.transport_ns - part.start_ns) / NS_PER_S
         return Snapshot(
             score=part.score,
             position_s=position_s,
@@ -86,6 +89,14 @@ class SessionView:
             strikes=self._strikes(session, now_ns),
             hud=self._hud(session, now_ns, message),
         )
+
+    def _ready(self, message: str) -> Snapshot:
+        """The picture before anything runs: the drummer waits, the score stands at its first bar."""
+        part, plan = self._demonstration, self.plan
+        drummer = part.drummer
+        hud = Hud(plan.lesson.title, "Ready", tempo_bpm=plan.tempo_bpm, message=message)
+        pose, limbs = drummer.pose(WAITING_S), drummer.assignment.limbs
+        return Snapshot(part.score, 0.0, self._kit, self._figure, pose, limbs, hud=hud)
 
     def _lead_of_passes_ns(self) -> int:
         """When the count-in to the first pass begins."""

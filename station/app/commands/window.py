@@ -1,0 +1,36 @@
+"""`station` without a command: opens the practice room."""
+
+import argparse
+
+from station.app.health import has_screen
+from station.core.errors import DeviceError
+from station.core.settings import Settings, load_settings
+from station.practice.plan import Plan, Wishes, plan_practice
+
+
+def add_options(_: argparse.ArgumentParser) -> None:
+    """Nothing but --help: what a window needs is chosen in it."""
+
+
+def run(_: argparse.Namespace) -> int:
+    """Open the window on the first lesson."""
+    from station.drills.library import FIRST_LESSON, find_lesson
+
+    return open_window(load_settings(), plan_practice(find_lesson(FIRST_LESSON), Wishes()))
+
+
+def open_window(settings: Settings, first: Plan) -> int:
+    """Show the practice room until it is closed; what was played until then is kept."""
+    if not has_screen():
+        raise DeviceError("no screen: `station practice --headless` practises in the terminal")
+    from station.app.practice_room import PracticeRoom
+    from station.app.window import run_window
+    from station.engine.process import EngineConfig, EngineProcess
+
+    with EngineProcess(EngineConfig.from_settings(settings)) as engine:
+        room = PracticeRoom(engine, settings, first)
+        try:
+            run_window(room)
+        finally:
+            room.stop()
+    return 0
