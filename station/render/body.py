@@ -89,7 +89,10 @@ def build_body(figure: Figure, fineness: float) -> Skin:
     for upper in (Bone.RIGHT_UPPER_ARM, Bone.LEFT_UPPER_ARM):
         skins += [_rigid_skin(mesh) for mesh in _bands(skeleton, scale, upper, segments)]
     head = skeleton.frames[Bone.HEAD]
-    skins += [_rigid_skin(mesh.moved(head)) for mesh in face_meshes(scale * figure.head_m / (0.122 * figure.stature_m), fineness)]
+    skins += [
+        _rigid_skin(mesh.moved(head))
+        for mesh in face_meshes(scale * figure.head_m / (0.122 * figure.stature_m), fineness)
+    ]
     return _joined(skins)
 
 
@@ -116,7 +119,15 @@ def _shirt(skeleton: Skeleton, k: float) -> Part:
         (Bone.WAIST, egg(pelvis + np.array([0, 0.004, 0.045]) * k, np.array([0.166, 0.128, 0.105]) * k)),
         (Bone.WAIST, egg(spine + np.array([0, 0.006, -0.06]) * k, np.array([0.146, 0.112, 0.14]) * k)),
         (Bone.CHEST, egg(chest + np.array([0, 0.004, 0.0]) * k, np.array([0.172, 0.120, 0.165]) * k)),
-        (Bone.CHEST, cone(neck + np.array([0.02, -0.022, 0.0]) * k, neck + np.array([-0.02, -0.022, 0.0]) * k, 0.070 * k, 0.070 * k)),
+        (
+            Bone.CHEST,
+            cone(
+                neck + np.array([0.02, -0.022, 0.0]) * k,
+                neck + np.array([-0.02, -0.022, 0.0]) * k,
+                0.070 * k,
+                0.070 * k,
+            ),
+        ),
     ]
     hems = []
     for upper in (Bone.RIGHT_UPPER_ARM, Bone.LEFT_UPPER_ARM):
@@ -294,7 +305,9 @@ def _hand_skin(skeleton: Skeleton, scale: float, fineness: float, bone: Bone) ->
     bones[:, 0], weights[:, 0] = bone, 1.0
     ao = np.clip(0.75 + 6 * position[:, 1] / scale, 0.35, 1)
     turn = m[:3, :3].T
-    return Skin(position @ turn + m[:3, 3], normal @ turn, bones, weights, np.full(n, Material.SKIN, np.uint8), ao, faces)
+    return Skin(
+        position @ turn + m[:3, 3], normal @ turn, bones, weights, np.full(n, Material.SKIN, np.uint8), ao, faces
+    )
 
 
 def _rigid_skin(mesh: Mesh) -> Skin:
@@ -315,5 +328,3 @@ def _joined(skins: Sequence[Skin]) -> Skin:
         np.concatenate([s.ao for s in skins]),
         np.concatenate([s.faces + np.uint32(a) for s, a in zip(skins, starts, strict=False)]),
     )
-
-

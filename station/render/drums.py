@@ -85,7 +85,13 @@ def _lug_column(radius: float, depth: float, angle: float) -> Mesh:
 def kick(radius: float, depth: float, detail: Detail) -> Mesh:
     """A bass drum whose batter head faces z; the front head, at −depth, bears the ring of the house."""
     n = detail.segments
-    hoop = [(radius, -0.03), (radius + 0.018, -0.03), (radius + 0.018, 0.012), (radius * 0.99, 0.012), (radius * 0.985, 0)]
+    hoop = [
+        (radius, -0.03),
+        (radius + 0.018, -0.03),
+        (radius + 0.018, 0.012),
+        (radius * 0.99, 0.012),
+        (radius * 0.985, 0),
+    ]
     front_hoop = [(r, -depth - z) for r, z in reversed(hoop)]
     parts = [
         lathe([(radius * 0.99, 0), (radius * 0.5, 0), (0, 0)], n, Material.HEAD),
@@ -113,7 +119,10 @@ def _front_head(radius: float, z: float, segments: int) -> list[Mesh]:
 def _claw(radius: float, depth: float, angle: float) -> Mesh:
     out = radius + 0.022
     parts = [rod([out, 0, -depth], [out, 0, 0], 0.004, Material.CHROME, 6)]
-    parts += [box((0.014, 0.024, 0.05), Material.CHROME, 0.004).moved(translation([out, 0, z])) for z in (-0.01, -depth + 0.01)]
+    parts += [
+        box((0.014, 0.024, 0.05), Material.CHROME, 0.004).moved(translation([out, 0, z]))
+        for z in (-0.01, -depth + 0.01)
+    ]
     parts += [box((0.03, 0.02, 0.06), Material.CHROME, 0.006).moved(translation([radius + 0.014, 0, -depth / 2]))]
     return joined(parts).moved(rotation([0, 0, 1], angle))
 
@@ -121,7 +130,9 @@ def _claw(radius: float, depth: float, angle: float) -> Mesh:
 def cymbal(radius: float, detail: Detail, bell: float = 0.19) -> Mesh:
     """A cymbal whose bow lies in the plane z = 0 at 0.6 of its radius; the bell rises above, the edge falls below."""
     rise = 0.055 * radius
-    r = np.array([1.0, 0.985, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, bell * 1.15, bell, bell * 0.9, bell * 0.6, bell * 0.25])
+    r = np.array(
+        [1.0, 0.985, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, bell * 1.15, bell, bell * 0.9, bell * 0.6, bell * 0.25]
+    )
     if detail.hardware:
         r = np.sort(np.concatenate([r, np.linspace(bell * 1.3, 0.97, 22)]))[::-1]
     bow = rise * (1 - (r / 0.98) ** 2) - rise * (1 - (0.6 / 0.98) ** 2)

@@ -27,12 +27,17 @@ def face_meshes(scale: float, fineness: float) -> list[Mesh]:
         *_mouth(),
         *_headphones(fineness),
     ]
-    meshes = [_scaled(joined(parts).on_bone(Bone.HEAD), scale), _scaled(joined(_eyes(fineness)).on_bone(Bone.EYES), scale)]
+    meshes = [
+        _scaled(joined(parts).on_bone(Bone.HEAD), scale),
+        _scaled(joined(_eyes(fineness)).on_bone(Bone.EYES), scale),
+    ]
     return meshes
 
 
 def _scaled(mesh: Mesh, scale: float) -> Mesh:
-    return Mesh(mesh.position * scale, mesh.normal, mesh.tangent, mesh.uv, mesh.material, mesh.bone, mesh.ao, mesh.faces)
+    return Mesh(
+        mesh.position * scale, mesh.normal, mesh.tangent, mesh.uv, mesh.material, mesh.bone, mesh.ao, mesh.faces
+    )
 
 
 def _mesh(skin: Surface, material: Material) -> Mesh:
@@ -50,7 +55,10 @@ def _skull_field() -> Field:
     head = united(solids, 0.035)
     sockets = united([egg((s * 0.034, 0.104, EYE_HEIGHT), (0.026, 0.024, 0.020)) for s in (-1.0, 1.0)], 0.004)
     face = without(head, sockets, 0.022)
-    nose = united([cone((0, 0.088, 0.096), (0, 0.1045, 0.067), 0.008, 0.0120), egg((0, 0.099, 0.063), (0.0165, 0.011, 0.0095))], 0.010)
+    nose = united(
+        [cone((0, 0.088, 0.096), (0, 0.1045, 0.067), 0.008, 0.0120), egg((0, 0.099, 0.063), (0.0165, 0.011, 0.0095))],
+        0.010,
+    )
     ears = united([egg((s * 0.083, -0.006, 0.088), (0.012, 0.022, 0.030)) for s in (-1.0, 1.0)], 0.002)
     return united([united([face, nose], 0.014), ears], 0.008)
 
@@ -91,10 +99,10 @@ def _eyes(fineness: float) -> list[Mesh]:
         centre = _EYE * [side, 1, 1]
         white = ball((0, 0, 0), 0.0185, Material.EYE_WHITE, max(10, round(20 / fineness)))
         parts.append(_stretched(white, (0.98, 0.62, 1.06)).moved(translation(centre)))
-        look = frame(centre + [0, 0.0088, 0], [side * 0.06, 1, -0.04], [1, 0, 0])
+        look = frame(centre + np.array([0, 0.0088, 0]), [side * 0.06, 1, -0.04], [1, 0, 0])
         iris = lathe([(0.0118, 0.0), (0.0108, 0.0022), (0.0068, 0.0038), (0.0, 0.0044)], 16, Material.EYE)
         parts.append(iris.moved(look))
-        parts.append(ball(centre + [0.0042, 0.0126, 0.0040], 0.0023, Material.EYE_WHITE, 6))
+        parts.append(ball(centre + np.array([0.0042, 0.0126, 0.0040]), 0.0023, Material.EYE_WHITE, 6))
     return parts
 
 
@@ -131,7 +139,11 @@ def _mouth() -> list[Mesh]:
     x = 0.021 * t + 0.002
     z = 0.031 + 0.0055 * t**2 + 0.0015 * t
     path = np.stack([x, _front(x, z) - 0.0004, z], axis=1)
-    return [tube(path, 0.0026, Material.LIP, 6), ball(path[0], 0.0026, Material.LIP, 6), ball(path[-1], 0.0026, Material.LIP, 6)]
+    return [
+        tube(path, 0.0026, Material.LIP, 6),
+        ball(path[0], 0.0026, Material.LIP, 6),
+        ball(path[-1], 0.0026, Material.LIP, 6),
+    ]
 
 
 def _front(x: Array, z: Array) -> Array:
@@ -148,7 +160,7 @@ def _front(x: Array, z: Array) -> Array:
 def _headphones(fineness: float) -> list[Mesh]:
     angle = np.linspace(0.10, np.pi - 0.10, max(9, round(30 / fineness)))
     band = np.stack([0.098 * np.cos(angle), np.full_like(angle, -0.006), 0.100 + 0.132 * np.sin(angle)], axis=1)
-    parts = [tube(band + [0, dy, 0], 0.0065, Material.HEADPHONES, 6) for dy in (-0.009, 0.0, 0.009)]
+    parts = [tube(band + np.array([0, dy, 0]), 0.0065, Material.HEADPHONES, 6) for dy in (-0.009, 0.0, 0.009)]
     segments = max(10, round(28 / fineness))
     cup = [(0.0, 0.0), (0.030, 0.0), (0.041, 0.006), (0.042, 0.018), (0.036, 0.027), (0.020, 0.031), (0.0, 0.031)]
     ring = [(0.0265, 0.0300), (0.0265, 0.0312), (0.0215, 0.0322)]

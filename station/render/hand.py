@@ -31,7 +31,13 @@ def hand_surface(fineness: float) -> Surface:
     for *joints, radius in _FINGERS:
         taper = np.linspace(1.12, 0.86, 4) * radius
         fingers.append(united([cone(joints[i], joints[i + 1], taper[i], taper[i + 1]) for i in range(3)], 0.006))
-    thumb = united([cone(_THUMB[i], _THUMB[i + 1], r, s) for i, (r, s) in enumerate(((0.017, 0.0145), (0.0145, 0.0115), (0.0115, 0.010)))], 0.008)
+    thumb = united(
+        [
+            cone(_THUMB[i], _THUMB[i + 1], r, s)
+            for i, (r, s) in enumerate(((0.017, 0.0145), (0.0145, 0.0115), (0.0115, 0.010)))
+        ],
+        0.008,
+    )
     flesh = united(palm, 0.022)
     whole = united([flesh, *fingers, thumb], 0.0045)
     return surface(whole, (-0.06, -0.065, -0.04), (0.065, 0.035, 0.18), 0.0042 * fineness)

@@ -101,7 +101,9 @@ def _tripod(x: float, y: float, spread: float, height: float, segments: int, tur
         a = turn + 2 * np.pi * k / 3
         foot = np.array([x + spread * np.cos(a), y + spread * np.sin(a), 0.012])
         parts.append(rod([x, y, height + 0.02], foot, 0.0085, Material.CHROME, segments))
-        parts.append(rod([x, y, height - 0.14], (foot * 2 + [x, y, height + 0.02]) / 3, 0.006, Material.CHROME, segments))
+        parts.append(
+            rod([x, y, height - 0.14], (foot * 2 + [x, y, height + 0.02]) / 3, 0.006, Material.CHROME, segments)
+        )
         parts.append(ball(foot, 0.017, Material.RUBBER, 8))
     return parts
 
@@ -118,7 +120,9 @@ def _stand_of(top: NDArray[np.float64], normal: NDArray[np.float64], segments: i
         rod([x, y, middle - 0.02], [x, y, middle + 0.02], _POLE_M * 1.6, Material.BLACK, segments),
         ball(joint, 0.017, Material.BLACK, 10),
         rod(joint, top, 0.005, Material.STEEL, segments),
-        lathe([(0, 0), (0.018, 0), (0.018, 0.010), (0, 0.010)], 10, Material.FELT).moved(frame(top - 0.006 * normal, normal, [1, 0, 0])),
+        lathe([(0, 0), (0.018, 0), (0.018, 0.010), (0, 0.010)], 10, Material.FELT).moved(
+            frame(top - 0.006 * normal, normal, [1, 0, 0])
+        ),
     ]
     return joined(parts)
 
@@ -131,7 +135,9 @@ def _hat_stand(kit: Kit, piece: KitPiece, detail: Detail, segments: int) -> Mesh
         drums.hat_bottom(piece.radius_m, detail).moved(frame(low, normal, piece.axes[0])),
         *_tripod(x, y, 0.26, 0.26, segments, turn=2.2),
         rod([x, y, 0.03], [x, y, low[2] - 0.05], _POLE_M, Material.CHROME, segments),
-        lathe([(0, 0), (0.03, 0.0), (0.03, 0.014), (0, 0.014)], 14, Material.FELT).moved(translation([x, y, low[2] - 0.052])),
+        lathe([(0, 0), (0.03, 0.0), (0.03, 0.014), (0, 0.014)], 14, Material.FELT).moved(
+            translation([x, y, low[2] - 0.052])
+        ),
         rod([x, y, low[2] - 0.05], top + normal * 0.20, 0.0042, Material.STEEL, segments),
     ]
     return joined(parts)
@@ -140,7 +146,7 @@ def _hat_stand(kit: Kit, piece: KitPiece, detail: Detail, segments: int) -> Mesh
 def _spurs(piece: KitPiece, segments: int) -> Mesh:
     parts = []
     for side in (-1.0, 1.0):
-        hold = piece.centre + [side * piece.radius_m * 0.93, piece.depth_m * 0.72, -piece.radius_m * 0.36]
+        hold = piece.centre + np.array([side * piece.radius_m * 0.93, piece.depth_m * 0.72, -piece.radius_m * 0.36])
         foot = np.array([hold[0] + side * 0.13, hold[1] + 0.12, 0.01])
         parts += [rod(hold, foot, 0.009, Material.CHROME, segments), ball(foot, 0.015, Material.RUBBER, 8)]
     return joined(parts)
@@ -176,7 +182,14 @@ def _snare_stand(piece: KitPiece, segments: int) -> Mesh:
         a = np.pi / 2 + 2 * np.pi * k / 3
         out = np.cos(a) * right + np.sin(a) * away
         reach = under + out * (piece.radius_m + 0.016)
-        parts.append(tube([hub, under + out * piece.radius_m * 0.75 - normal * 0.012, reach, reach + normal * 0.03], 0.006, Material.CHROME, segments))
+        parts.append(
+            tube(
+                [hub, under + out * piece.radius_m * 0.75 - normal * 0.012, reach, reach + normal * 0.03],
+                0.006,
+                Material.CHROME,
+                segments,
+            )
+        )
         parts.append(ball(reach + normal * 0.03, 0.012, Material.RUBBER, 8))
     return joined(parts)
 
@@ -186,21 +199,23 @@ def _tom_holder(kit: Kit, piece: KitPiece, segments: int) -> Mesh:
     base = kit.pieces[Piece.KICK]
     post = np.array([base.centre[0], base.centre[1] + 0.5 * base.depth_m, base.centre[2] + base.radius_m])
     side = 1.0 if piece.centre[0] > post[0] else -1.0
-    post = post + [side * 0.05, 0.0, 0.0]
+    post = post + np.array([side * 0.05, 0.0, 0.0])
     shell = piece.centre - piece.normal * piece.depth_m * 0.5
     way = unit((post - shell) * [1, 1, 0])
     way = unit(way - piece.normal * np.dot(way, piece.normal))
     hold = shell + way * (piece.radius_m + 0.01)
     if np.linalg.norm((hold - post)[:2]) > _ARM_M:
-        return _stand_of(hold - [0, 0, 0.02], np.array([0.0, 0.0, 1.0]), segments)
+        return _stand_of(hold - np.array([0, 0, 0.02]), np.array([0.0, 0.0, 1.0]), segments)
     elbow = np.array([post[0], post[1], max(hold[2], post[2] + 0.08)])
     return joined(
         [
-            rod(post - [0, 0, 0.05], elbow, 0.0125, Material.CHROME, segments),
+            rod(post - np.array([0, 0, 0.05]), elbow, 0.0125, Material.CHROME, segments),
             ball(elbow, 0.022, Material.BLACK, 10),
             rod(elbow, hold, 0.0095, Material.CHROME, segments),
             box((0.03, 0.05, 0.07), Material.CHROME, 0.008).moved(frame(hold, piece.normal, way)),
-            lathe([(0, 0), (0.035, 0), (0.03, 0.02), (0, 0.02)], 14, Material.CHROME).moved(translation(post - [0, 0, 0.02])),
+            lathe([(0, 0), (0.035, 0), (0.03, 0.02), (0, 0.02)], 14, Material.CHROME).moved(
+                translation(post - np.array([0, 0, 0.02]))
+            ),
         ]
     )
 
@@ -211,10 +226,21 @@ _ARM_M = 0.45
 
 def _throne(seat_m: tuple[float, float, float], detail: Detail) -> Mesh:
     x, y, z = seat_m
-    cushion = [(0, z - 0.085), (0.15, z - 0.085), (0.172, z - 0.075), (0.176, z - 0.05), (0.172, z - 0.02), (0.15, z - 0.004), (0.10, z), (0, z - 0.006)]
+    cushion = [
+        (0, z - 0.085),
+        (0.15, z - 0.085),
+        (0.172, z - 0.075),
+        (0.176, z - 0.05),
+        (0.172, z - 0.02),
+        (0.15, z - 0.004),
+        (0.10, z),
+        (0, z - 0.006),
+    ]
     parts = [
         lathe(cushion, detail.segments, Material.CUSHION).moved(translation([x, y, 0])),
-        lathe([(0.1765, z - 0.056), (0.1775, z - 0.05), (0.1765, z - 0.044)], detail.segments, Material.SHELL_RING).moved(translation([x, y, 0])),
+        lathe(
+            [(0.1765, z - 0.056), (0.1775, z - 0.05), (0.1765, z - 0.044)], detail.segments, Material.SHELL_RING
+        ).moved(translation([x, y, 0])),
         rod([x, y, 0.10], [x, y, z - 0.08], 0.016, Material.CHROME, 10),
         *_tripod(x, y, 0.25, 0.24, 8, turn=np.pi / 2),
     ]
@@ -238,9 +264,14 @@ def _pedals(kit: Kit, boards: tuple[int, int], beater: int, axle: NDArray[np.flo
     for side in (-0.055, 0.055):
         parts.append(rod([x + side, y, 0.01], [x + side, y, z], 0.011, Material.BLACK, 8))
     parts.append(rod([x - 0.07, y, z], [x + 0.07, y, z], 0.007, Material.STEEL, 8))
-    tip = axle + [0, 0.018, _BEATER_LENGTH_M]
-    felt = lathe([(0, -0.016), (0.02, -0.016), (0.025, -0.008), (0.025, 0.008), (0.02, 0.016), (0, 0.016)], 14, Material.FELT)
-    shaft = [rod(axle, tip - [0, 0.018, 0], 0.0045, Material.STEEL, 6), felt.moved(frame(tip - [0, 0.016, 0.0], [0, 1, 0], [1, 0, 0]))]
+    tip = axle + np.array([0, 0.018, _BEATER_LENGTH_M])
+    felt = lathe(
+        [(0, -0.016), (0.02, -0.016), (0.025, -0.008), (0.025, 0.008), (0.02, 0.016), (0, 0.016)], 14, Material.FELT
+    )
+    shaft = [
+        rod(axle, tip - np.array([0, 0.018, 0]), 0.0045, Material.STEEL, 6),
+        felt.moved(frame(tip - np.array([0, 0.016, 0.0]), [0, 1, 0], [1, 0, 0])),
+    ]
     parts += [p.on_bone(beater) for p in shaft]
     return parts
 
@@ -251,8 +282,12 @@ def _board(pedal: Pedal) -> Mesh:
     along = unit(toe - heel)
     length = float(np.linalg.norm(toe - heel))
     side = unit(np.cross(along, [0.0, 0.0, 1.0]))
-    plate = box((0.085, 0.012, length), Material.STEEL, 0.004).moved(frame((heel + toe) / 2 - [0, 0, 0.008], along, side))
-    grip = box((0.06, 0.004, length * 0.55), Material.RUBBER, 0.001).moved(frame(heel + along * length * 0.62 + [0, 0, 0.0], along, side))
+    plate = box((0.085, 0.012, length), Material.STEEL, 0.004).moved(
+        frame((heel + toe) / 2 - np.array([0, 0, 0.008]), along, side)
+    )
+    grip = box((0.06, 0.004, length * 0.55), Material.RUBBER, 0.001).moved(
+        frame(heel + along * length * 0.62, along, side)
+    )
     return joined([plate, grip])
 
 
@@ -262,8 +297,12 @@ def _base(pedal: Pedal) -> Mesh:
     side = unit(np.cross(along, [0.0, 0.0, 1.0]))
     middle = (heel + toe) / 2
     length = float(np.linalg.norm(toe - heel))
-    plate = box((0.10, 0.008, length + 0.06), Material.BLACK, 0.002).moved(frame([middle[0], middle[1], 0.006], along, side))
-    block = box((0.09, 0.02, 0.05), Material.STEEL, 0.004).moved(frame(heel - along * 0.035 - [0, 0, 0.012], along, side))
+    plate = box((0.10, 0.008, length + 0.06), Material.BLACK, 0.002).moved(
+        frame([middle[0], middle[1], 0.006], along, side)
+    )
+    block = box((0.09, 0.02, 0.05), Material.STEEL, 0.004).moved(
+        frame(heel - along * 0.035 - np.array([0, 0, 0.012]), along, side)
+    )
     return joined([plate, block])
 
 

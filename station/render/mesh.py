@@ -118,7 +118,9 @@ def lathe(profile: ArrayLike, segments: int, material: int, smooth: bool = True)
     return replace(mesh, uv=uv)
 
 
-def rod(start: ArrayLike, end: ArrayLike, radius: float | tuple[float, float], material: int, segments: int = 8) -> Mesh:
+def rod(
+    start: ArrayLike, end: ArrayLike, radius: float | tuple[float, float], material: int, segments: int = 8
+) -> Mesh:
     """A round rod with flat ends; two radii make it taper."""
     a, b = np.asarray(start, np.float64), np.asarray(end, np.float64)
     length = float(np.linalg.norm(b - a))

@@ -95,4 +95,7 @@ def _demonstrated(kit: Kit, pose: Pose | None) -> Iterable[tuple[Piece, float]]:
 def _struck(kit: Kit, strikes: Iterable[Strike]) -> Iterable[tuple[Piece, float]]:
     for strike in strikes:
         if strike.student and strike.age_s >= 0:
-            yield kit.stand_in(strike.piece), float(np.exp(-strike.age_s / _GLOW_FADE_S)) * (0.35 + strike.velocity / 195)
+            yield (
+                kit.stand_in(strike.piece),
+                float(np.exp(-strike.age_s / _GLOW_FADE_S)) * (0.35 + strike.velocity / 195),
+            )

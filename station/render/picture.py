@@ -36,9 +36,7 @@ class PictureMaker:
         self._target.release()
 
 
-def draw_png(
-    snapshot: Snapshot, path: Path, size: tuple[int, int] = (1280, 720), camera: Camera | None = None
-) -> None:
+def draw_png(snapshot: Snapshot, path: Path, size: tuple[int, int] = (1280, 720), camera: Camera | None = None) -> None:
     """Write the picture of `snapshot` to `path`; raises `DeviceError` without OpenGL or if the disk refuses."""
     maker = PictureMaker(size)
     try:

@@ -225,7 +225,11 @@ class _Page:
 
     def _rows(self) -> None:
         self._card(_ROWS)
-        self._ink.text("Piece by piece: where it leans, and how far it spreads", (_ROWS.left + 22, _ROWS.top + 30), Type(16, INK, Face.BOLD))
+        self._ink.text(
+            "Piece by piece: where it leans, and how far it spreads",
+            (_ROWS.left + 22, _ROWS.top + 30),
+            Type(16, INK, Face.BOLD),
+        )
         rows = sorted(leans(self._facts), key=lambda lean: -lean.notes)[:_MAX_ROWS]
         step = min(34.0, (_ROWS.height - 66) / max(len(rows), 1))
         centre = _ROWS.left + 430
@@ -248,5 +252,3 @@ class _Page:
             self._ink.box((at - half, y - 6), (2 * half, 12), with_opacity(colour, 0.30), None, (6.0, 0.0, 0.0))
         self._ink.ellipse((at, y), (6.5, 6.5), colour)
         self._ink.text(in_words(lean), (centre + 218, y + 6), Type(16, INK_SOFT))
-
-

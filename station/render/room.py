@@ -25,6 +25,7 @@ _CENTRE_Y = 0.45
 """The middle of rug and wall: between the throne and the bass drum."""
 _RUG_HALF = (1.45, 1.25)
 _BOARD_M = 0.14
+_FRINGE_M = 0.07
 
 Disc = tuple[float, float, float, float]
 """x, y, height and radius of something that shades the floor."""
@@ -64,7 +65,11 @@ def floor_picture(discs: Iterable[Disc], light: Light) -> NDArray[np.uint8]:
     axis = (np.arange(FLOOR_TEXELS, dtype=np.float32) + 0.5) / FLOOR_TEXELS * 2 * FLOOR_HALF_M - FLOOR_HALF_M
     x, y = axis[None, :], axis[:, None] + np.float32(_CENTRE_Y)
     colour = _boards(x, y)
-    _lay_rug(colour, x, y - np.float32(_CENTRE_Y))
+    across, along = (np.flatnonzero(np.abs(axis) < half + _FRINGE_M) for half in _RUG_HALF)
+    rug = np.ix_(along, across)
+    patch = colour[rug]
+    _lay_rug(patch, x[:, across], y[along] - np.float32(_CENTRE_Y))
+    colour[rug] = patch
     key = light.on_floor(x, y)[:, :, None] * np.array(light.colour, np.float32)
     sky = _open_sky(x, y, discs)[:, :, None] * np.array(light.sky, np.float32)
     whole, dark = film(colour**2 * (key + sky)), film(colour**2 * sky)
@@ -86,7 +91,9 @@ def _boards(x: NDArray[np.float32], y: NDArray[np.float32]) -> NDArray[np.float3
     shift = _random(row, 3) * length
     board = np.floor((y + shift) / length).astype(np.int64)
     tone = 0.82 + 0.30 * _random(row * 131 + board, 7)
-    grain = 0.035 * np.sin(70 * x / _BOARD_M * 0.35 + 9 * _random(row * 131 + board, 11) + 1.5 * np.sin(2.1 * y + 5 * tone))
+    grain = 0.035 * np.sin(
+        70 * x / _BOARD_M * 0.35 + 9 * _random(row * 131 + board, 11) + 1.5 * np.sin(2.1 * y + 5 * tone)
+    )
     gap_x = np.abs(x / _BOARD_M - np.round(x / _BOARD_M)) * _BOARD_M
     gap_y = np.abs((y + shift) / length - np.round((y + shift) / length)) * length
     joint = np.where((gap_x < 0.0035) | (gap_y < 0.0035), 0.62, 1.0)
@@ -127,7 +134,7 @@ def _lay_rug(colour: NDArray[np.float32], x: NDArray[np.float32], y: NDArray[np.
     weave = 0.93 + 0.07 * np.sin(x * 500) * np.sin(y * 500)
     for where, paint in layers:
         np.copyto(colour, paint * weave[:, :, None], where=np.broadcast_to(where[:, :, None], colour.shape))
-    fringe = (np.abs(y) < hy) & (np.abs(x) >= hx) & (np.abs(x) < hx + 0.07) & (np.mod(y / 0.028, 1) < 0.55)
+    fringe = (np.abs(y) < hy) & (np.abs(x) >= hx) & (np.abs(x) < hx + _FRINGE_M) & (np.mod(y / 0.028, 1) < 0.55)
     np.copyto(colour, cream * 0.8, where=np.broadcast_to(fringe[:, :, None], colour.shape))
 
 

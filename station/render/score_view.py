@@ -18,7 +18,19 @@ from station.render.atlas import Atlas
 from station.render.engraving import Engraver
 from station.render.ink import SHAPE_DTYPE, Colour, Ink
 from station.render.ink_printer import InkPrinter, Sheet
-from station.render.palette import BRAND, EARLY, EXTRA, GOOD, LATE, MISSED, PANEL, PANEL_EDGE, PANEL_LOW, WRONG, with_opacity
+from station.render.palette import (
+    BRAND,
+    EARLY,
+    EXTRA,
+    GOOD,
+    LATE,
+    MISSED,
+    PANEL,
+    PANEL_EDGE,
+    PANEL_LOW,
+    WRONG,
+    with_opacity,
+)
 from station.render.snapshot import PENDING, Snapshot
 from station.render.staff import PLACES, height
 

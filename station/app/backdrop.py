@@ -1,0 +1,142 @@
+"""The picture behind the panels: the practice room or the results page, its viewpoint, and its quality.
+
+The quality is measured: the first frames are drawn at the lowest, and where they take far less than a frame's time the
+next level is tried. While somebody plays nothing is rebuilt.
+"""
+
+from statistics import median
+from time import perf_counter
+
+import moderngl
+import numpy as np
+from imgui_bundle import imgui
+from numpy.typing import NDArray
+
+from station.app.model import Report
+from station.core.errors import DeviceError
+from station.render.camera import Camera, View, named
+from station.render.gl import GL_VERSION, Target
+from station.render.painter import Area, Painter
+from station.render.palette import NIGHT
+from station.render.report_picture import report_shapes, report_sheet
+from station.render.scene import QUALITIES
+from station.render.snapshot import Snapshot
+
+_MEASURED_FRAMES = 12
+_FAST_MS, _VERY_FAST_MS = 6.0, 2.0
+"""Drawn in so little at the lowest level, the middle and the highest still leave a 60 Hz frame half empty (our choice)."""
+_ORBIT_PER_PIXEL, _PAN_PER_PIXEL, _ZOOM_PER_STEP = 0.006, 0.0022, 1.12
+
+
+class Backdrop:
+    """Draws with the window's own OpenGL context, which it takes over at the first frame."""
+
+    def __init__(self, quality: int | None) -> None:
+        self._wanted = quality
+        self._painter: Painter | None = None
+        self._ctx: moderngl.Context | None = None
+        self._target: Target | None = None
+        self._times_ms: list[float] = []
+        self._page: tuple[int, NDArray[np.void]] | None = None
+        self.view = View.SHOULDER
+        self._camera: Camera = named(self.view)
+
+    def look_from(self, view: View) -> None:
+        """Go to a named viewpoint."""
+        self.view, self._camera = view, named(view)
+
+    def steer(self, io: imgui.IO) -> None:
+        """Turn, shift or approach with the mouse; a double click goes back to the named view."""
+        dx, dy = io.mouse_delta
+        if imgui.is_mouse_dragging(imgui.MouseButton_.left):
+            self._camera = self._camera.orbited(dx * _ORBIT_PER_PIXEL, dy * _ORBIT_PER_PIXEL)
+        elif imgui.is_mouse_dragging(imgui.MouseButton_.right):
+            self._camera = self._camera.panned(-dx * _PAN_PER_PIXEL, dy * _PAN_PER_PIXEL)
+        if io.mouse_wheel:
+            self._camera = self._camera.zoomed(_ZOOM_PER_STEP**io.mouse_wheel)
+        if imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
+            self.look_from(self.view)
+
+    def draw(self, snapshot: Snapshot, report: Report | None, area: Area) -> None:
+        """Fill the window's framebuffer; `area` is what the panels leave free."""
+        ctx, painter = self._ready()
+        screen = ctx.detect_framebuffer(0)
+        screen.use()
+        size = imgui.get_io().display_size
+        scale = imgui.get_io().display_framebuffer_scale
+        whole = (round(size.x * scale.x), round(size.y * scale.y))
+        ctx.viewport = (0, 0, *whole)
+        ctx.scissor = None
+        screen.clear(*NIGHT, depth=1.0)
+        if min(area[2:]) < 16:
+            return
+        if report is not None:
+            self._draw_report(report, painter, ctx, area)
+        else:
+            self._draw_room(snapshot, painter, screen, whole, area)
+        ctx.viewport = (0, 0, *whole)
+
+    def release(self) -> None:
+        """Give the driver its memory back before the window goes."""
+        if self._target is not None:
+            self._target.release()
+            self._target = None
+
+    def _ready(self) -> tuple[moderngl.Context, Painter]:
+        if self._ctx is None or self._painter is None:
+            try:
+                self._ctx = moderngl.create_context(require=GL_VERSION)
+            except Exception as fault:
+                raise DeviceError(f"the window has no OpenGL 3.3: {fault}") from fault
+            self._painter = Painter(self._ctx, QUALITIES[self._wanted or 0])
+        return self._ctx, self._painter
+
+    def _draw_room(
+        self,
+        snapshot: Snapshot,
+        painter: Painter,
+        screen: moderngl.Framebuffer,
+        whole: tuple[int, int],
+        area: Area,
+    ) -> None:
+        began = perf_counter()
+        target = self._smooth_target(painter, whole)
+        into = screen if target is None else target.framebuffer
+        if target is not None:
+            into.clear(*NIGHT, depth=1.0)
+        painter.draw(snapshot, into, area, self._camera)
+        if target is not None and self._ctx is not None:
+            self._ctx.copy_framebuffer(screen, into)
+        self._measure(began)
+
+    def _smooth_target(self, painter: Painter, whole: tuple[int, int]) -> Target | None:
+        """An off-screen picture with several samples a pixel, where the quality asks for it."""
+        if painter.quality.samples < 2 or self._ctx is None:
+            return None
+        if self._target is None or self._target.size != whole:
+            self.release()
+            self._target = Target(self._ctx, whole, painter.quality.samples)
+        return self._target
+
+    def _measure(self, began: float) -> None:
+        if self._wanted is not None or self._ctx is None or len(self._times_ms) >= _MEASURED_FRAMES:
+            return
+        self._ctx.finish()
+        self._times_ms.append((perf_counter() - began) * 1000)
+        if len(self._times_ms) == _MEASURED_FRAMES:
+            level = quality_for(median(self._times_ms[2:]))
+            if level:
+                self._painter = Painter(self._ctx, QUALITIES[level])
+
+    def _draw_report(self, report: Report, painter: Painter, ctx: moderngl.Context, area: Area) -> None:
+        if self._page is None or self._page[0] != id(report):
+            self._page = id(report), report_shapes(report.facts, painter.atlas)
+        ctx.viewport = area
+        painter.printer.draw(self._page[1], report_sheet(area[2:]))
+
+
+def quality_for(lowest_ms: float) -> int:
+    """The quality for a machine that draws a frame of the lowest in `lowest_ms`."""
+    if lowest_ms <= _VERY_FAST_MS:
+        return 2
+    return 1 if lowest_ms <= _FAST_MS else 0

@@ -1,0 +1,62 @@
+"""The computer's keyboard as a kit, for when there is none.
+
+The window system hands keys over once a frame, so a key's time is known to a frame at best: each stroke is stamped when it
+was polled, and the window shows how far apart the polls are. Keys have no velocity.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+from imgui_bundle import imgui
+
+from station.core.pieces import Articulation, Piece, Zone
+from station.engine.messages import KeyHit
+
+VELOCITY = 90
+"""A plain stroke (HUMANS: normal 60–95); keys cannot tell more."""
+
+
+@dataclass(frozen=True, slots=True)
+class KeyStroke:
+    """What a key plays; `cap` is what is written on it."""
+
+    cap: str
+    piece: Piece
+    zone: Zone = Zone.HEAD
+    articulation: Articulation = Articulation.NORMAL
+    openness: float | None = None
+
+
+KEYS: Mapping[imgui.Key, KeyStroke] = MappingProxyType(
+    {
+        imgui.Key.space: KeyStroke("Space", Piece.KICK),
+        imgui.Key.b: KeyStroke("B", Piece.KICK),
+        imgui.Key.f: KeyStroke("F", Piece.SNARE),
+        imgui.Key.j: KeyStroke("J", Piece.SNARE),
+        imgui.Key.d: KeyStroke("D", Piece.HIHAT, Zone.BOW, openness=0.0),
+        imgui.Key.k: KeyStroke("K", Piece.HIHAT, Zone.BOW, openness=0.0),
+        imgui.Key.s: KeyStroke("S", Piece.HIHAT, Zone.BOW, openness=1.0),
+        imgui.Key.v: KeyStroke("V", Piece.HIHAT_PEDAL, Zone.PEDAL, Articulation.CHICK, 0.0),
+        imgui.Key.l: KeyStroke("L", Piece.RIDE, Zone.BOW),
+        imgui.Key.semicolon: KeyStroke(";", Piece.RIDE, Zone.BELL),
+        imgui.Key.a: KeyStroke("A", Piece.CRASH_1, Zone.EDGE),
+        imgui.Key.t: KeyStroke("T", Piece.TOM_1),
+        imgui.Key.y: KeyStroke("Y", Piece.TOM_2),
+        imgui.Key.h: KeyStroke("H", Piece.FLOOR_TOM_1),
+        imgui.Key.g: KeyStroke("G", Piece.SNARE, Zone.RIM, Articulation.CROSS_STICK),
+    }
+)
+"""Hands rest on F and J; the feet are the thumbs."""
+
+
+def pressed(now_ns: int) -> list[KeyHit]:
+    """The strokes of the keys that went down since the last frame, stamped `now_ns`; none while text is typed."""
+    io = imgui.get_io()
+    if io.want_text_input or io.key_ctrl or io.key_alt or io.key_super:
+        return []
+    return [_hit(stroke, now_ns) for key, stroke in KEYS.items() if imgui.is_key_pressed(key, repeat=False)]
+
+
+def _hit(stroke: KeyStroke, now_ns: int) -> KeyHit:
+    return KeyHit(now_ns, stroke.piece, stroke.zone, VELOCITY, stroke.articulation, stroke.openness)

@@ -1,0 +1,109 @@
+"""What the window shows and asks for: a pure view over whoever practises behind it.
+
+The window calls `PracticeModel` once a frame and whenever the user does something; it keeps no state of the practice and
+starts no thread. Faults of the user's or the world's come as `StationError` and are shown in one line.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import IntEnum
+from typing import Protocol
+
+from station.engine.messages import KeyHit
+from station.render.results import ResultFacts
+from station.render.snapshot import Snapshot
+
+
+@dataclass(frozen=True, slots=True)
+class LessonCard:
+    """A lesson as the list shows it; `level` 1–5, `bars` in its loop, `passes` as its author wants them."""
+
+    name: str
+    title: str
+    level: int
+    level_words: str
+    about: str
+    author: str
+    tempo_bpm: float
+    bars: int
+    passes: int
+    meter: str = "4/4"
+    tags: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Start:
+    """What the user chose to practise: a lesson by name, quarter notes a minute, passes, bars (from 1) or the lesson's."""
+
+    lesson: str
+    tempo_bpm: float
+    loops: int
+    bars: tuple[int, int] | None = None
+    demonstrations: int | None = None
+
+
+class Stage(IntEnum):
+    """What the practice is doing."""
+
+    IDLE = 0
+    PLAYING = 1
+    RESULT = 2
+
+
+@dataclass(frozen=True, slots=True)
+class RoomState:
+    """What surrounds the picture: `stage`, the kit and the sound in words, `notices` newest last, `progress` 0–1.
+
+    `progress` None while nothing plays.
+    """
+
+    stage: Stage = Stage.IDLE
+    kit: str = ""
+    sound: str = ""
+    notices: tuple[str, ...] = ()
+    progress: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Report:
+    """The last session's result: the page's `facts`, the JSON `document`, and the `folder` where both were kept."""
+
+    facts: ResultFacts
+    document: Mapping[str, object] = field(default_factory=dict)
+    folder: str = ""
+
+
+class PracticeModel(Protocol):
+    """What practises behind the window."""
+
+    def snapshot(self, now_ns: int) -> Snapshot:
+        """What is to be seen at monotonic time `now_ns`."""
+        ...
+
+    def room(self) -> RoomState:
+        """What is going on."""
+        ...
+
+    def lessons(self) -> Sequence[LessonCard]:
+        """Every lesson that can be chosen, in the order in which they are shown."""
+        ...
+
+    def start(self, wish: Start) -> None:
+        """Begin a session; raises `StationError`."""
+        ...
+
+    def stop(self) -> None:
+        """End the session early; its result is kept."""
+        ...
+
+    def key(self, hit: KeyHit) -> None:
+        """A stroke on the computer's keyboard."""
+        ...
+
+    def report(self) -> Report | None:
+        """The result of the session that ended last, None before the first."""
+        ...
+
+    def dismiss(self) -> None:
+        """The result was read: back to the lessons."""
+        ...

@@ -1,0 +1,131 @@
+"""The panels of the window: lessons on the left, the transport below the picture, the keys' help.
+
+Every control has a tooltip, and every one is reached by the keyboard (Tab, arrows, Enter).
+"""
+
+from collections.abc import Callable
+from itertools import groupby
+
+from imgui_bundle import imgui
+
+from station.app import theme
+from station.app.choice import MAX_LOOPS, MAX_TEMPO_BPM, MIN_TEMPO_BPM, Choice
+from station.app.keyboard import KEYS
+from station.app.model import LessonCard, RoomState, Stage
+from station.core.pieces import word
+from station.render.camera import VIEW_NAMES, View
+
+START_LABEL = "Start##start"
+STOP_LABEL = "Stop##stop"
+AGAIN_LABEL = "Once more##again"
+BACK_LABEL = "Back to the lessons##back"
+
+
+def tooltip(text: str) -> None:
+    """Explain the control that was drawn last."""
+    if imgui.is_item_hovered(imgui.HoveredFlags_.delay_normal):
+        imgui.set_tooltip(text)
+
+
+def lessons_panel(choice: Choice, start: Callable[[], None]) -> None:
+    """The list, the chosen lesson's words, its tempo and passes, and the button that starts it."""
+    theme.heading("Lessons")
+    imgui.set_next_item_width(-1)
+    _, choice.search = imgui.input_text_with_hint("##search", "Search: a word of title, level or tag", choice.search)
+    tooltip("Shows the lessons that contain every word")
+    below = theme.points(262)
+    imgui.begin_child("##list", imgui.ImVec2(0, max(imgui.get_content_region_avail().y - below, theme.points(120))))
+    visible = choice.visible()
+    for level, cards in groupby(visible, key=lambda card: card.level_words):
+        imgui.separator_text(level)
+        for card in cards:
+            _lesson_row(card, choice)
+    if not visible:
+        theme.soft("No lesson has these words.")
+    imgui.end_child()
+    imgui.separator()
+    if choice.card is not None:
+        _chosen(choice.card, choice, start)
+
+
+def _lesson_row(card: LessonCard, choice: Choice) -> None:
+    chosen = choice.card is not None and choice.card.name == card.name
+    pressed, _ = imgui.selectable(f"{card.title}##{card.name}", chosen)
+    if pressed:
+        choice.choose(card)
+    tooltip(f"{card.about}\n{card.bars} bars, {card.meter}, {card.tempo_bpm:g} bpm")
+
+
+def _chosen(card: LessonCard, choice: Choice, start: Callable[[], None]) -> None:
+    imgui.begin_child("##about", imgui.ImVec2(0, theme.points(104)))
+    theme.heading(card.title, 20)
+    author = f" · {card.author}" if card.author else ""
+    theme.soft(f"{card.bars} bars · {card.meter} · {card.tempo_bpm:g} bpm{author}")
+    if card.about:
+        theme.soft(card.about)
+    imgui.end_child()
+    low = min(MIN_TEMPO_BPM, int(card.tempo_bpm))
+    high = max(MAX_TEMPO_BPM, int(card.tempo_bpm) + 1)
+    imgui.set_next_item_width(-theme.points(84))
+    _, choice.tempo_bpm = imgui.slider_float("tempo", choice.tempo_bpm, low, high, "%.0f bpm")
+    tooltip("How fast to practise; the lesson's own tempo is set when you choose it. Ctrl+click to type")
+    imgui.set_next_item_width(-theme.points(84))
+    _, choice.loops = imgui.slider_int("passes", choice.loops, 1, MAX_LOOPS)
+    tooltip("How often the loop is played")
+    if theme.main_button(START_LABEL, (-1, theme.points(46))):
+        start()
+    tooltip("Count-in, demonstration, then you (Enter)")
+
+
+def transport_bar(room: RoomState, view: View, actions: "dict[str, Callable[[], None]]") -> View:
+    """Stop or go on, progress, the viewpoint; returns the view that was chosen."""
+    height = theme.points(38)
+    if room.stage is Stage.PLAYING:
+        if imgui.button(STOP_LABEL, imgui.ImVec2(theme.points(96), height)):
+            actions["stop"]()
+        tooltip("End the session here; what was played is kept (Esc)")
+    elif room.stage is Stage.RESULT:
+        if theme.main_button(AGAIN_LABEL, (theme.points(150), height)):
+            actions["again"]()
+        tooltip("The same lesson, the same tempo (Enter)")
+        imgui.same_line()
+        if imgui.button(BACK_LABEL, imgui.ImVec2(theme.points(190), height)):
+            actions["back"]()
+        tooltip("Choose another lesson (Esc)")
+    if room.stage is not Stage.IDLE:
+        imgui.same_line()
+    if room.progress is not None:
+        right = theme.points(236)
+        imgui.progress_bar(room.progress, imgui.ImVec2(imgui.get_content_region_avail().x - right, height), "")
+        tooltip("How much of the session is over")
+        imgui.same_line()
+    elif room.stage is Stage.IDLE:
+        imgui.align_text_to_frame_padding()
+        imgui.text_disabled(" · ".join(part for part in (room.kit, room.sound) if part) or "no kit, no sound card")
+        tooltip("The kit and the sound card that were found")
+        imgui.same_line()
+    imgui.set_cursor_pos_x(imgui.get_window_width() - theme.points(236))
+    imgui.set_next_item_width(theme.points(220))
+    changed, index = imgui.combo("##view", int(view), list(VIEW_NAMES.values()))
+    tooltip("Where you look from; drag in the picture to turn, right drag to shift, wheel to come nearer")
+    return View(index) if changed else view
+
+
+def keys_help(frame_ms: float) -> None:
+    """What the keys play, and how exactly."""
+    theme.heading("Keys", 22)
+    theme.soft(f"Without a kit, play on these keys. They are looked at once a frame, now every {frame_ms:.0f} ms, so")
+    theme.soft("their timing is that coarse: a kit is measured far better.")
+    if imgui.begin_table("##keys", 2):
+        for stroke in KEYS.values():
+            imgui.table_next_row()
+            imgui.table_next_column()
+            imgui.text(stroke.cap)
+            imgui.table_next_column()
+            name = word(stroke.piece).replace("_", " ")
+            how = "" if stroke.articulation == 0 else f", {word(stroke.articulation).replace('_', ' ')}"
+            opened = ", open" if stroke.openness == 1.0 else ""
+            imgui.text_disabled(f"{name}{how}{opened}")
+        imgui.end_table()
+    imgui.separator()
+    theme.soft("Enter starts, Esc stops, F1 shows and hides this page.")

@@ -1,0 +1,228 @@
+"""The window: hello_imgui owns it and its loop, the picture is its background, panels dock round the picture.
+
+A view and nothing else: it asks its `PracticeModel` for a snapshot a frame, draws it, and passes on what the user does. No
+thread is started, and nothing that happens here can change a judgement.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from imgui_bundle import hello_imgui, imgui
+
+from station.app import panels, theme
+from station.app.backdrop import Backdrop
+from station.app.choice import Choice
+from station.app.keyboard import pressed
+from station.app.model import PracticeModel, Stage
+from station.core.clock import Clock, MonotonicClock
+from station.core.errors import DeviceError, StationError
+from station.render.camera import View
+
+TITLE = "Drum station"
+_DOCK = "MainDockSpace"
+LESSONS, TRANSPORT, KEYS = "Lessons", "Transport", "Keys"
+_ERROR_SHOWN_S = 8.0
+"""How long a fault stays on the screen (our choice: twice the time to read it)."""
+
+
+@dataclass(frozen=True, slots=True)
+class WindowOptions:
+    """How the window opens: `size` in pixels, `quality` 0–2 or None to measure, whether the layout is remembered.
+
+    `tests` registers tests with imgui's test engine and makes it run.
+    """
+
+    size: tuple[int, int] = (1280, 720)
+    quality: int | None = None
+    remember_layout: bool = True
+    tests: Callable[[], None] | None = None
+
+
+class Window:
+    """One window over one model."""
+
+    def __init__(self, model: PracticeModel, options: WindowOptions, clock: Clock | None = None) -> None:
+        self._model = model
+        self._options = options
+        self._clock = clock or MonotonicClock()
+        self._choice = Choice(model.lessons())
+        self._backdrop = Backdrop(options.quality)
+        self._error, self._error_left_s = "", 0.0
+        self._show_keys = False
+        self._frame_ms = 0.0
+        self.frames = 0
+        self.params = self._runner()
+
+    def run(self) -> None:
+        """Show the window until it is closed; raises `DeviceError` where no window can be had."""
+        try:
+            hello_imgui.run(self.params)
+        except RuntimeError as fault:
+            raise DeviceError(f"no window can be opened: {fault}") from fault
+        if self.frames == 0:
+            raise DeviceError("no window can be opened: is there a screen? `--headless` needs none")
+
+    # --- how hello_imgui is told ----------------------------------------------------------------------------------
+
+    def _runner(self) -> hello_imgui.RunnerParams:
+        params = hello_imgui.RunnerParams()
+        params.app_window_params.window_title = TITLE
+        params.app_window_params.window_geometry.size = self._options.size
+        params.app_window_params.restore_previous_geometry = self._options.remember_layout
+        imgui_window = params.imgui_window_params
+        imgui_window.default_imgui_window_type = hello_imgui.DefaultImGuiWindowType.provide_full_screen_dock_space
+        imgui_window.enable_viewports = False
+        imgui_window.show_menu_bar = imgui_window.show_status_bar = False
+        params.ini_disable = not self._options.remember_layout
+        params.ini_folder_type = hello_imgui.IniFolderType.app_user_config_folder
+        params.fps_idling.fps_idle = 20.0
+        self._use_opengl_3_3(params)
+        callbacks = params.callbacks
+        callbacks.load_additional_fonts = theme.load_fonts
+        callbacks.setup_imgui_style = theme.apply
+        callbacks.custom_background = self._background
+        callbacks.pre_new_frame = self._before_frame
+        callbacks.show_gui = self._over_all
+        callbacks.before_exit = self._backdrop.release
+        self._dock(params)
+        if self._options.tests is not None:
+            params.use_imgui_test_engine = True
+            callbacks.register_tests = self._options.tests
+        return params
+
+    @staticmethod
+    def _use_opengl_3_3(params: hello_imgui.RunnerParams) -> None:
+        gl = hello_imgui.OpenGlOptions()
+        gl.glsl_version, gl.major_version, gl.minor_version = "330", 3, 3
+        gl.use_core_profile = gl.use_forward_compat = True
+        gl.anti_aliasing_samples = 0  # the picture smooths itself, off screen
+        params.renderer_backend_options.open_gl_options = gl
+
+    def _dock(self, params: hello_imgui.RunnerParams) -> None:
+        docking = params.docking_params
+        docking.layout_condition = hello_imgui.DockingLayoutCondition.application_start
+        docking.docking_splits = [
+            hello_imgui.DockingSplit(_DOCK, "Below", imgui.Dir.down, 0.085),
+            hello_imgui.DockingSplit(_DOCK, "Beside", imgui.Dir.left, 0.26),
+        ]
+        for split in docking.docking_splits:
+            split.node_flags = imgui.DockNodeFlags_.auto_hide_tab_bar
+        self._lessons = hello_imgui.DockableWindow(LESSONS, "Beside", self._lessons_gui)
+        self._transport = hello_imgui.DockableWindow(TRANSPORT, "Below", self._transport_gui)
+        for window in (self._lessons, self._transport):
+            window.remember_is_visible = False
+            window.can_be_closed = False
+        self._transport.imgui_window_flags = imgui.WindowFlags_.no_scrollbar
+        docking.dockable_windows = [self._lessons, self._transport]
+
+    # --- frame by frame -----------------------------------------------------------------------------------------------
+
+    def _before_frame(self) -> None:
+        stage = self._model.room().stage
+        window = self.params.docking_params.dockable_window_of_name(LESSONS)
+        window.is_visible = stage is Stage.IDLE
+        self.params.fps_idling.enable_idling = stage is not Stage.PLAYING
+        io = imgui.get_io()
+        nav = imgui.ConfigFlags_.nav_enable_keyboard
+        io.config_flags = io.config_flags & ~nav if stage is Stage.PLAYING else io.config_flags | nav
+
+    def _background(self) -> None:
+        """Draw the picture behind the panels."""
+        now_ns = self._clock.now_ns()
+        report = self._model.report() if self._model.room().stage is Stage.RESULT else None
+        self._backdrop.draw(self._model.snapshot(now_ns), report, self._central_area())
+        self.frames += 1
+
+    def _central_area(self) -> tuple[int, int, int, int]:
+        """The free middle of the window in pixels from the lower left corner."""
+        io = imgui.get_io()
+        sx, sy = io.display_framebuffer_scale
+        width, height = io.display_size
+        dock = self.params.docking_params.dock_space_id_from_name(_DOCK)
+        node = imgui.internal.dock_builder_get_central_node(dock) if dock is not None else None
+        if node is None:
+            return (0, 0, round(width * sx), round(height * sy))
+        low = height - node.pos.y - node.size.y
+        return (round(node.pos.x * sx), round(low * sy), round(node.size.x * sx), round(node.size.y * sy))
+
+    def _over_all(self) -> None:
+        """Keys, mouse and what floats over the picture."""
+        io = imgui.get_io()
+        self._frame_ms += 0.1 * (io.delta_time * 1000 - self._frame_ms)
+        self._error_left_s -= io.delta_time
+        self._keys()
+        if not io.want_capture_mouse:
+            self._backdrop.steer(io)
+        if self._show_keys:
+            self._keys_window()
+        if self._error_left_s > 0:
+            self._error_line()
+
+    def _keys(self) -> None:
+        room = self._model.room()
+        if imgui.is_key_pressed(imgui.Key.f1, repeat=False):
+            self._show_keys = not self._show_keys
+        if room.stage is Stage.PLAYING or not imgui.get_io().nav_visible:
+            for hit in pressed(self._clock.now_ns()):
+                self._model.key(hit)
+        if imgui.get_io().want_text_input:
+            return
+        if imgui.is_key_pressed(imgui.Key.escape, repeat=False):
+            self._leave(room.stage)
+        elif imgui.is_key_pressed(imgui.Key.enter, repeat=False) and room.stage is not Stage.PLAYING:
+            if not imgui.is_any_item_focused() or room.stage is Stage.RESULT:
+                self._start()
+
+    def _leave(self, stage: Stage) -> None:
+        if stage is Stage.PLAYING:
+            self._tried(self._model.stop)
+        elif stage is Stage.RESULT:
+            self._model.dismiss()
+
+    def _start(self) -> None:
+        wish = self._choice.wish()
+        if wish is not None:
+            self._tried(lambda: self._model.start(wish))
+
+    def _tried(self, action: Callable[[], None]) -> None:
+        """Do it, or say in one line why it could not be done."""
+        try:
+            action()
+        except StationError as fault:
+            self._error, self._error_left_s = str(fault), _ERROR_SHOWN_S
+
+    # --- panels -------------------------------------------------------------------------------------------------------
+
+    def _lessons_gui(self) -> None:
+        panels.lessons_panel(self._choice, self._start)
+
+    def _transport_gui(self) -> None:
+        actions: dict[str, Callable[[], None]] = {
+            "stop": lambda: self._tried(self._model.stop),
+            "again": self._start,
+            "back": self._model.dismiss,
+        }
+        view = panels.transport_bar(self._model.room(), self._backdrop.view, actions)
+        if view is not self._backdrop.view:
+            self._backdrop.look_from(View(view))
+
+    def _keys_window(self) -> None:
+        imgui.set_next_window_size(imgui.ImVec2(theme.points(380), 0), imgui.Cond_.appearing)
+        imgui.set_next_window_pos(imgui.get_main_viewport().get_center(), imgui.Cond_.appearing, imgui.ImVec2(0.5, 0.5))
+        _, stays = imgui.begin(KEYS, True, imgui.WindowFlags_.no_collapse | imgui.WindowFlags_.no_docking)
+        panels.keys_help(self._frame_ms)
+        imgui.end()
+        self._show_keys = bool(stays)
+
+    def _error_line(self) -> None:
+        centre = imgui.get_main_viewport().get_center()
+        imgui.set_next_window_pos(imgui.ImVec2(centre.x, theme.points(150)), imgui.Cond_.always, imgui.ImVec2(0.5, 0))
+        flags = imgui.WindowFlags_.no_decoration | imgui.WindowFlags_.always_auto_resize | imgui.WindowFlags_.no_inputs
+        imgui.begin("##fault", None, flags | imgui.WindowFlags_.no_docking)
+        imgui.text(self._error)
+        imgui.end()
+
+
+def run_window(model: PracticeModel, options: WindowOptions | None = None) -> None:
+    """Open the window over `model` and return when it is closed; raises `DeviceError` where there is no screen."""
+    Window(model, options or WindowOptions()).run()
