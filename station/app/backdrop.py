@@ -24,7 +24,7 @@ from station.render.snapshot import Snapshot
 
 _MEASURED_FRAMES = 12
 _FAST_MS, _VERY_FAST_MS = 6.0, 2.0
-"""Drawn in so little at the lowest level, the middle and the highest still leave a 60 Hz frame half empty (our choice)."""
+"""A machine that draws the lowest level so fast can afford the middle and the highest at 60 Hz (our choice)."""
 _ORBIT_PER_PIXEL, _PAN_PER_PIXEL, _ZOOM_PER_STEP = 0.006, 0.0022, 1.12
 
 

@@ -1,7 +1,7 @@
 """The computer's keyboard as a kit, for when there is none.
 
-The window system hands keys over once a frame, so a key's time is known to a frame at best: each stroke is stamped when it
-was polled, and the window shows how far apart the polls are. Keys have no velocity.
+The window system hands keys over once a frame, so a key's time is known to a frame at best: each stroke is stamped when
+it was polled, and the window shows how far apart the polls are. Keys have no velocity.
 """
 
 from collections.abc import Mapping

@@ -1,7 +1,7 @@
 """What the window shows and asks for: a pure view over whoever practises behind it.
 
-The window calls `PracticeModel` once a frame and whenever the user does something; it keeps no state of the practice and
-starts no thread. Faults of the user's or the world's come as `StationError` and are shown in one line.
+The window calls `PracticeModel` once a frame and whenever the user does something; it keeps no state of the practice
+and starts no thread. Faults of the user's or the world's come as `StationError` and are shown in one line.
 """
 
 from collections.abc import Mapping, Sequence
@@ -33,7 +33,7 @@ class LessonCard:
 
 @dataclass(frozen=True, slots=True)
 class Start:
-    """What the user chose to practise: a lesson by name, quarter notes a minute, passes, bars (from 1) or the lesson's."""
+    """What the user chose: a lesson by name, quarter notes a minute, passes, bars from 1 (None: the lesson's)."""
 
     lesson: str
     tempo_bpm: float

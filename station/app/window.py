@@ -1,7 +1,7 @@
 """The window: hello_imgui owns it and its loop, the picture is its background, panels dock round the picture.
 
-A view and nothing else: it asks its `PracticeModel` for a snapshot a frame, draws it, and passes on what the user does. No
-thread is started, and nothing that happens here can change a judgement.
+A view and nothing else: it asks its `PracticeModel` for a snapshot a frame, draws it, and passes on what the user does.
+No thread is started, and nothing that happens here can change a judgement.
 """
 
 from collections.abc import Callable
@@ -169,9 +169,13 @@ class Window:
             return
         if imgui.is_key_pressed(imgui.Key.escape, repeat=False):
             self._leave(room.stage)
-        elif imgui.is_key_pressed(imgui.Key.enter, repeat=False) and room.stage is not Stage.PLAYING:
-            if not imgui.is_any_item_focused() or room.stage is Stage.RESULT:
-                self._start()
+        elif imgui.is_key_pressed(imgui.Key.enter, repeat=False) and self._enter_starts(room.stage):
+            self._start()
+
+    @staticmethod
+    def _enter_starts(stage: Stage) -> bool:
+        """Enter belongs to the control that has the keyboard's focus, if there is one."""
+        return stage is Stage.RESULT or (stage is Stage.IDLE and not imgui.is_any_item_focused())
 
     def _leave(self, stage: Stage) -> None:
         if stage is Stage.PLAYING:

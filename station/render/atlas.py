@@ -112,7 +112,7 @@ def distance_field(contours: list[NDArray[np.float64]], width: int, height: int)
     along = np.clip((to_x * edge[:, 0] + to_y * edge[:, 1]) / length, 0, 1)
     nearest = ((to_x - along * edge[:, 0]) ** 2 + (to_y - along * edge[:, 1]) ** 2).min(axis=2)
     inside = _winding(to_x, y[:, :, 0], a, b) != 0
-    return np.where(inside, np.sqrt(nearest), -np.sqrt(nearest)).astype(np.float32)
+    return np.asarray(np.where(inside, np.sqrt(nearest), -np.sqrt(nearest)), np.float32)
 
 
 def _winding(

@@ -29,7 +29,7 @@ _INFLUENCES = 4
 
 @dataclass(frozen=True, eq=False)
 class Skin:
-    """The figure's surface: `position`, `normal` (n, 3), `bones` (n, 4) uint8, `weights` (n, 4), `material`, `ao` (n,)."""
+    """The figure's surface: `position`, `normal` (n, 3), `bones`, `weights` (n, 4), `material`, `ao` (n,)."""
 
     position: Array
     normal: Array
@@ -157,7 +157,7 @@ def _only_near(wall: Field, centre: Array, reach: float) -> Field:
     def field(p: Array) -> Array:
         beside = (np.abs(centre[0]) * 0.86 - side * p[:, 0]) * 3
         far = np.linalg.norm(p - centre, axis=1) - reach
-        return np.minimum(wall(p), -np.maximum(beside, far))
+        return np.asarray(np.minimum(wall(p), -np.maximum(beside, far)), np.float64)
 
     return field
 
@@ -239,12 +239,15 @@ def _ring(at: float, radius: float, half: float, thickness: float) -> Array:
 
 
 def _shoe(skeleton: Skeleton, k: float, foot: Bone) -> list[Part]:
-    """A trainer and its sole: the foot points along y in this stance, its sole lies an ankle's height below the ankle."""
+    """A trainer and its sole: in this stance the foot points along y, the sole an ankle's height below the ankle."""
     hip = _HIP_OF[Bone(foot - 2)]
     ankle, toe = skeleton.bind.joints_m[hip + 2], skeleton.bind.joints_m[hip + 3]
     ground = float(toe[2])
-    at = lambda x, y, z: np.array([ankle[0] + x * k, ankle[1] + y * k, ground + z * k])  # noqa: E731 - a ruler for the shoe
     side = float(np.sign(ankle[0]))
+
+    def at(x: float, y: float, z: float) -> Array:
+        return np.array([ankle[0] + x * k, ankle[1] + y * k, ground + z * k])
+
     upper: list[tuple[Bone, Solid]] = [
         (foot, cone(at(0, -0.022, 0.042), at(0.004 * side, 0.12, 0.036), 0.040 * k, 0.042 * k)),
         (foot, cone(at(0.004 * side, 0.12, 0.036), at(0, 0.192, 0.028), 0.042 * k, 0.030 * k)),
@@ -284,7 +287,7 @@ _AO_STEPS_M = (0.02, 0.05, 0.10, 0.16)
 
 
 def _open_sky(mesh: Surface, whole: Sequence[Field]) -> Array:
-    """How little the body itself stands in the way: distance to it along the normal, against the way gone (Evans 2006)."""
+    """How little the body stands in its own way: distance to it along the normal, against the way gone (Evans 2006)."""
     closed = np.zeros(len(mesh.position))
     for i, step in enumerate(_AO_STEPS_M):
         p = mesh.position + step * mesh.normal

@@ -1,7 +1,7 @@
 """The head: skull and face, hair, eyes, brows, mouth and headphones, in the head's own axes.
 
-Origin at the joint of head and neck, x to the right, y where the face looks, z up; designed for a head 0.2146 m high. The
-features are few and round, so that they read from across a room.
+Origin at the joint of head and neck, x to the right, y where the face looks, z up; designed for a head 0.2146 m high.
+The features are few and round, so that they read from across a room.
 """
 
 from functools import cache
@@ -84,7 +84,7 @@ def _hair(fineness: float) -> Surface:
 
     def combed(p: Array) -> Array:
         wave = np.sin(95 * (p[:, 1] + 0.35 * p[:, 0]) + 3 * np.sin(40 * p[:, 2]))
-        return hair(p) + 0.0012 * wave
+        return np.asarray(hair(p) + 0.0012 * wave, np.float64)
 
     return surface(combed, (-0.12, -0.14, 0.0), (0.12, 0.13, 0.265), 0.0075 * fineness)
 

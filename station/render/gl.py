@@ -4,6 +4,7 @@ Everything is drawn with OpenGL 3.3 core, which every computer of the last twelv
 """
 
 import sys
+from typing import Any
 
 import moderngl
 import numpy as np
@@ -14,7 +15,7 @@ from station.core.errors import DeviceError
 GL_VERSION = 330
 
 _HELP = {
-    "linux": "install libegl1, libgl1 and libgl1-mesa-dri (Debian, Ubuntu) or mesa-libEGL and mesa-dri-drivers (Fedora)",
+    "linux": "install libegl1, libgl1 and libgl1-mesa-dri (Debian, Ubuntu), or mesa-dri-drivers (Fedora)",
     "darwin": "OpenGL 3.3 comes with macOS; without a screen it needs a logged-in user",
     "win32": "install the graphics card's driver, or put Mesa's opengl32.dll beside python.exe",
 }
@@ -22,7 +23,7 @@ _HELP = {
 
 def standalone_context() -> moderngl.Context:
     """A context that draws without any window; raises `DeviceError` that says what to install."""
-    backends = ({"backend": "egl"}, {}) if sys.platform == "linux" else ({},)
+    backends: tuple[dict[str, Any], ...] = ({"backend": "egl"}, {}) if sys.platform == "linux" else ({},)
     faults: list[str] = []
     for options in backends:
         try:

@@ -1,12 +1,14 @@
-"""A right hand that holds a stick, in the hand's own axes: wrist at the origin, z to the fulcrum, y the back of the hand,
-x towards the thumb. The stick passes the fulcrum at (0, 0, 0.151) and slants away below the palm.
+"""A right hand that holds a stick.
+
+Axes are the hand's own: wrist at the origin, z to the fulcrum, y the back of the hand, x towards the thumb. The stick
+passes the fulcrum at (0, 0, 0.151) and slants away below the palm.
 """
 
 from functools import cache
 
 import numpy as np
 
-from station.render.implicit import Surface, cone, egg, surface, united
+from station.render.implicit import Field, Surface, cone, egg, surface, united
 
 _FINGERS = (
     # knuckle, middle joint, curl, tip; each with its radius
@@ -21,13 +23,13 @@ _THUMB = ((0.024, -0.008, 0.030), (0.038, -0.016, 0.070), (0.026, -0.018, 0.112)
 @cache
 def hand_surface(fineness: float) -> Surface:
     """The hand's surface in cells of 4.2 mm times `fineness`."""
-    palm = [
+    palm: list[Field] = [
         cone((0, 0, -0.004), (0, 0, 0.02), 0.0235, 0.024),
         egg((-0.003, -0.004, 0.056), (0.041, 0.020, 0.050)),
         cone((0.022, 0.0, 0.088), (-0.030, -0.002, 0.080), 0.0145, 0.0125),
         cone((0.018, -0.014, 0.022), (0.030, -0.020, 0.062), 0.019, 0.015),
     ]
-    fingers = []
+    fingers: list[Field] = []
     for *joints, radius in _FINGERS:
         taper = np.linspace(1.12, 0.86, 4) * radius
         fingers.append(united([cone(joints[i], joints[i + 1], taper[i], taper[i + 1]) for i in range(3)], 0.006))

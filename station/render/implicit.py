@@ -1,8 +1,8 @@
 """Solid shapes as distance fields, blended smoothly, and the surface that they bound as triangles.
 
-A field maps points (n, 3) to their signed distance (n,), negative inside. Blends are Quilez's polynomial smooth minimum.
-The surface is cut by naive surface nets (Gibson 1998): one corner in each cell that the surface crosses, at the middle of
-its crossings, then drawn onto the surface by a Newton step.
+A field maps points (n, 3) to their signed distance (n,), negative inside. Blends are Quilez's polynomial smooth
+minimum. The surface is cut by naive surface nets (Gibson 1998): one corner in each cell that the surface crosses, at
+the middle of its crossings, then drawn onto the surface by a Newton step.
 """
 
 from collections.abc import Callable, Sequence

@@ -59,11 +59,12 @@ def _bytes(colour: Colour) -> tuple[int, int, int, int]:
 
 
 _LEVEL = (1.0, 0.0)
+_PLAIN = (0.0, 0.0, 0.0)
 _NO_UV = (0.0, 0.0, 0.0, 0.0)
 
 
 class Ink:
-    """Collects shapes in drawing order; `time_s` is the anchor of all that follows, `span_s` stretches them to the right."""
+    """Collects shapes in drawing order, each with the present anchor: `time_s`, and `span_s` that stretches it."""
 
     def __init__(self, atlas: Atlas) -> None:
         self.atlas = atlas
@@ -85,7 +86,7 @@ class Ink:
         size: tuple[float, float],
         colour: Colour,
         colour_2: Colour | None = None,
-        style: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        style: tuple[float, float, float] = _PLAIN,
     ) -> None:
         """An upright box from its top left `corner`, shaded to `colour_2` at the bottom; see `style` in the dtype."""
         half = (size[0] / 2, size[1] / 2)
@@ -99,7 +100,7 @@ class Ink:
         dx, dy = end[0] - start[0], end[1] - start[1]
         length = float(np.hypot(dx, dy)) or 1.0
         centre = ((start[0] + end[0]) / 2, (start[1] + end[1]) / 2)
-        self._add(Kind.BOX, centre, (length / 2, width / 2), colour, axis=(dx / length, dy / length))
+        self._add(Kind.BOX, (centre, (length / 2, width / 2)), colour, axis=(dx / length, dy / length))
 
     def ellipse(
         self,
@@ -107,22 +108,22 @@ class Ink:
         half: tuple[float, float],
         colour: Colour,
         turn_rad: float = 0.0,
-        style: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        style: tuple[float, float, float] = _PLAIN,
     ) -> None:
         """An ellipse, turned clockwise by `turn_rad`."""
         axis = (float(np.cos(turn_rad)), float(np.sin(turn_rad)))
-        self._add(Kind.ELLIPSE, centre, half, colour, axis, style)
+        self._add(Kind.ELLIPSE, (centre, half), colour, axis, style)
 
     def triangle(
         self, centre: tuple[float, float], half: tuple[float, float], colour: Colour, turn_rad: float = 0.0
     ) -> None:
         """A triangle whose tip points right, turned clockwise by `turn_rad`."""
         axis = (float(np.cos(turn_rad)), float(np.sin(turn_rad)))
-        self._add(Kind.TRIANGLE, centre, half, colour, axis)
+        self._add(Kind.TRIANGLE, (centre, half), colour, axis)
 
     def cross(self, centre: tuple[float, float], half: tuple[float, float], width: float, colour: Colour) -> None:
         """The two diagonals of a box, `width` thick."""
-        self._add(Kind.CROSS, centre, half, colour, style=(0.0, width, 0.0))
+        self._add(Kind.CROSS, (centre, half), colour, style=(0.0, width, 0.0))
 
     def sign(
         self,
@@ -186,20 +187,20 @@ class Ink:
         way = -1.0 if mirrored else 1.0
         centre = (origin[0] + glyph.centre[0] * scale, origin[1] - glyph.centre[1] * scale * way)
         uv = (left, bottom, right, top) if mirrored else (left, top, right, bottom)
-        self._add(Kind.GLYPH, centre, (glyph.half[0] * scale, glyph.half[1] * scale), colour, uv=uv)
+        self._add(Kind.GLYPH, (centre, (glyph.half[0] * scale, glyph.half[1] * scale)), colour, uv=uv)
 
     def _add(
         self,
         kind: Kind,
-        centre: tuple[float, float],
-        half: tuple[float, float],
+        place: tuple[tuple[float, float], tuple[float, float]],
         colour: Colour,
         axis: tuple[float, float] = _LEVEL,
-        style: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        style: tuple[float, float, float] = _PLAIN,
         uv: tuple[float, float, float, float] = _NO_UV,
     ) -> None:
+        """A shape at `place` (centre, half extents)."""
         shade = _bytes(colour)
-        self._rows.append((centre, half, axis, uv, style, (self.time_s, self.span_s), kind, shade, shade))
+        self._rows.append((*place, axis, uv, style, (self.time_s, self.span_s), kind, shade, shade))
 
 
 LINE_HEIGHT = 1.3

@@ -136,8 +136,8 @@ _EVERYWHERE = (-2.0, -1.0, 1e6, 1e6 + 1)
 class Sheet:
     """Where shapes go: `size` of the picture, `origin` of the units (pixels, y down), `unit` pixels a unit.
 
-    `position_s` stands at the origin and a second takes `pixels_per_s`. `fade` (x0, x1, x2, x3): shapes appear between x0
-    and x1 and vanish between x2 and x3.
+    `position_s` stands at the origin and a second takes `pixels_per_s`. `fade` (x0, x1, x2, x3): shapes appear between
+    x0 and x1 and vanish between x2 and x3.
     """
 
     size: tuple[int, int]
@@ -167,7 +167,7 @@ class InkPrinter:
         self._vertices = self._ctx.vertex_array(self._program, [(self._buffer, _LAYOUT, *_NAMES)])
 
     def fill(self, box: tuple[float, float, float, float], colours: tuple[Colour, Colour], sheet: Sheet) -> None:
-        """Fill `box` (left, top, width, height; pixels, y down) from the first colour to the second: a large plain panel.
+        """Fill `box` (left, top, width, height; pixels, y down) from the first colour above to the second below.
 
         Large areas deserve a shader that does nothing else, for without a graphics card every pixel counts.
         """

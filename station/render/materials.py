@@ -1,8 +1,8 @@
 """What things are made of, as numbers that the shader reads.
 
 Colours are sRGB 0–1 as one would pick them on a screen; the shader works with their squares, which is linear light
-closely enough. `roughness` 0 mirror … 1 chalk, `metal` 0 or 1, `coat` a clear varnish, `grain` how far highlights stretch
-across the tangent (lathe grooves), `sheen` the soft rim of cloth and skin, `emission` light of its own.
+closely enough. `roughness` 0 mirror … 1 chalk, `metal` 0 or 1, `coat` a clear varnish, `grain` how far highlights
+stretch across the tangent (lathe grooves), `sheen` the soft rim of cloth and skin, `emission` light of its own.
 """
 
 from dataclasses import dataclass

@@ -1,8 +1,8 @@
 """Triangle meshes and the solids that the kit is made of: lathes, rods, boxes.
 
-Metres. A mesh carries for each corner: where it is, which way the surface looks, the direction of its grain (`tangent`),
-a place on the surface (`uv`, what it means is the material's affair), its material, its share of open sky (`ao`, 0–1) and
-the bone that moves it. Faces wind counter-clockwise seen from outside.
+Metres. A mesh carries for each corner: where it is, which way the surface looks, the direction of its grain
+(`tangent`), a place on the surface (`uv`, what it means is the material's affair), its material, its share of open sky
+(`ao`, 0–1) and the bone that moves it. Faces wind counter-clockwise seen from outside.
 """
 
 from collections.abc import Iterable, Sequence

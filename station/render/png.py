@@ -1,7 +1,7 @@
 """A small PNG writer: 8 bits a channel, RGB, one zlib stream.
 
-Source: Portable Network Graphics (Second Edition), W3C 2003, sections 5, 9 and 11. Each row takes the "up" filter, which
-suits pictures with smooth gradients and needs one numpy subtraction.
+Source: Portable Network Graphics (Second Edition), W3C 2003, sections 5, 9 and 11. Each row takes the "up" filter,
+which suits pictures with smooth gradients and needs one numpy subtraction.
 """
 
 import struct

@@ -24,7 +24,8 @@ class ResultFacts:
     """A session's result.
 
     Rows of the arrays are the notes that were judged: `time_s`, `piece`, `label` of `Label`, `asynchrony_ms` NaN where
-    nothing was played. `extra_s` when unwritten hits fell, `bar_s` where bars begin, `points` 0–100, `advice` sentences.
+    nothing was played. `extra_s` when unwritten hits fell, `bar_s` where bars begin, `points` 0–100, `advice`
+    sentences.
     """
 
     title: str

@@ -35,7 +35,7 @@ class Value:
 
 @dataclass(frozen=True, slots=True)
 class Timed:
-    """A stroke or a rest at `tick` (from the bar's start) of `value`; strokes keep the tick that they were played at."""
+    """A stroke or a rest of `value` at `tick` from the bar's start; strokes keep the tick that they were played at."""
 
     tick: int
     value: Value
@@ -55,10 +55,7 @@ class Group:
 def beat_groups(meter: MeterChange, length: int) -> list[tuple[int, int]]:
     """Start and end of the beat groups of a bar `length` ticks long (the last bar before a change may be short)."""
     eighth = PPQ // 2
-    if meter.unit == 8 and meter.beats % 3 == 0:
-        step = 3 * eighth
-    else:
-        step = PPQ
+    step = 3 * eighth if meter.unit == 8 and meter.beats % 3 == 0 else PPQ
     groups = [(start, min(start + step, length)) for start in range(0, length, step)]
     if meter.unit == 8 and len(groups) > 1 and groups[-1][1] - groups[-1][0] == eighth:
         groups[-2:] = [(groups[-2][0], length)]  # 7/8 reads 2 + 2 + 3

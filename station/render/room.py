@@ -11,8 +11,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from station.render.materials import Material
 from station.render.light import Light
+from station.render.materials import Material
 from station.render.mesh import Mesh, joined, lathe, new_mesh
 
 FLOOR_HALF_M = 5.0
@@ -51,7 +51,7 @@ def wall_mesh(segments: int = 64) -> Mesh:
     wall_uv = np.stack([wall.uv[:, 1], wall.position[:, 2] / WALL_HEIGHT_M], axis=1)
     ceiling_uv = np.stack([ceiling.uv[:, 1], np.full(len(ceiling.uv), 0.999)], axis=1)
     both = joined([replace(wall, uv=wall_uv), replace(ceiling, uv=ceiling_uv)])
-    return replace(both, position=both.position + [0, _CENTRE_Y, 0])
+    return replace(both, position=both.position + np.array([0, _CENTRE_Y, 0]))
 
 
 # --- the floor's picture ----------------------------------------------------------------------------------------------
@@ -60,22 +60,23 @@ def wall_mesh(segments: int = 64) -> Mesh:
 def floor_picture(discs: Iterable[Disc], light: Light) -> NDArray[np.uint8]:
     """The lit floor, shape (FLOOR_TEXELS, FLOOR_TEXELS, 4), row 0 at the smallest y.
 
-    Red, green and blue as they look where the key light falls; the fourth channel is the share that goes where it does not.
+    Red, green and blue as they look where the key light falls; the fourth channel is the share that goes where it does
+    not.
     """
-    axis = (np.arange(FLOOR_TEXELS, dtype=np.float32) + 0.5) / FLOOR_TEXELS * 2 * FLOOR_HALF_M - FLOOR_HALF_M
-    x, y = axis[None, :], axis[:, None] + np.float32(_CENTRE_Y)
+    axis = np.asarray((np.arange(FLOOR_TEXELS) + 0.5) / FLOOR_TEXELS * 2 * FLOOR_HALF_M - FLOOR_HALF_M, np.float32)
+    x, y = axis[None, :], np.asarray(axis[:, None] + _CENTRE_Y, np.float32)
     colour = _boards(x, y)
     across, along = (np.flatnonzero(np.abs(axis) < half + _FRINGE_M) for half in _RUG_HALF)
     rug = np.ix_(along, across)
     patch = colour[rug]
-    _lay_rug(patch, x[:, across], y[along] - np.float32(_CENTRE_Y))
+    _lay_rug(patch, x[:, across], np.asarray(y[along] - _CENTRE_Y, np.float32))
     colour[rug] = patch
     key = light.on_floor(x, y)[:, :, None] * np.array(light.colour, np.float32)
     sky = _open_sky(x, y, discs)[:, :, None] * np.array(light.sky, np.float32)
     whole, dark = film(colour**2 * (key + sky)), film(colour**2 * sky)
     lost = 1 - (dark.sum(axis=2) + 1e-4) / (whole.sum(axis=2) + 1e-4)
     picture = np.concatenate([whole, lost[:, :, None]], axis=2)
-    return np.clip(np.rint(picture * 255), 0, 255).astype(np.uint8)
+    return np.asarray(np.clip(np.rint(picture * 255), 0, 255), np.uint8)
 
 
 def film(c: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -157,8 +158,8 @@ _LAMP_AZIMUTHS_DEG = (248, 262, 278, 292, 68, 112)
 def wall_picture() -> NDArray[np.uint8]:
     """Slatted panels, light tubes and their glow, shape (height, width, 3), row 0 at the floor."""
     width, height = WALL_TEXELS
-    azimuth = (np.arange(width, dtype=np.float32) + 0.5)[None, :] / width * 360
-    z = (np.arange(height, dtype=np.float32) + 0.5)[:, None] / height * WALL_HEIGHT_M
+    azimuth = np.asarray((np.arange(width) + 0.5)[None, :] / width * 360, np.float32)
+    z = np.asarray((np.arange(height) + 0.5)[:, None] / height * WALL_HEIGHT_M, np.float32)
     night = np.array([0.060, 0.068, 0.098], np.float32)
     base = night * (1.05 - 0.18 * z / WALL_HEIGHT_M)[:, :, None] * np.ones((1, width, 1), np.float32)
     slat = np.mod(azimuth / 1.6, 1)
@@ -169,7 +170,7 @@ def wall_picture() -> NDArray[np.uint8]:
         tone = np.array([1.0, 0.55, 0.22] if k % 2 == 0 else [0.20, 0.55, 0.85], np.float32)
         glow += _lamp(azimuth, z, lamp)[:, :, None] * tone
     picture = base + glow * (0.75 + 0.5 * (~panel))[:, :, None].astype(np.float32)
-    return np.clip(np.rint(picture * 255), 0, 255).astype(np.uint8)
+    return np.asarray(np.clip(np.rint(picture * 255), 0, 255), np.uint8)
 
 
 def _lamp(azimuth: NDArray[np.float32], z: NDArray[np.float32], at_deg: float) -> NDArray[np.float32]:

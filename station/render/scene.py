@@ -1,7 +1,7 @@
 """Draws the room, the kit and the drummer with OpenGL: a shadow pass and a picture pass.
 
-Two kinds of geometry share one palette of bone matrices: rigid (kit, room) and skinned (the figure). All of it is uploaded
-once; a frame uploads the palette alone.
+Two kinds of geometry share one palette of bone matrices: rigid (kit, room) and skinned (the figure). All of it is
+uploaded once; a frame uploads the palette alone.
 """
 
 from dataclasses import dataclass
@@ -19,9 +19,9 @@ from station.render.body import Skin, build_body
 from station.render.camera import Camera
 from station.render.drums import Detail
 from station.render.kit_rig import KitRig, build_kit, floor_discs
+from station.render.light import Light
 from station.render.materials import shader_table
 from station.render.mesh import Mesh
-from station.render.light import Light
 from station.render.skeleton import Bone, Skeleton
 from station.render.space import gl_bytes, unit
 
@@ -174,7 +174,7 @@ class Scene:
         }
         for name, value in values.items():
             if name in program:
-                program[name].write(np.ascontiguousarray(value, np.float32).tobytes())
+                _write(program, name, np.ascontiguousarray(value, np.float32).tobytes())
         for unit_index, name in enumerate(("floor_map", "wall_map", "shadow_map")):
             if name in program:
                 program[name] = unit_index
@@ -216,7 +216,7 @@ class Scene:
         self._shadow.use(2)
         projection = gl_bytes(camera.matrix(viewport[2] / viewport[3]))
         for program in (self._skin_program, self._rigid_program, self._floor_program, self._wall_program):
-            program["view_projection"].write(projection)
+            _write(program, "view_projection", projection)
             if "eye" in program:
                 program["eye"] = camera.eye
         if pose is not None:
@@ -229,10 +229,17 @@ class Scene:
         self._shadow_buffer.use()
         self._shadow_buffer.clear(depth=1.0)
         for program in (self._rigid_shadow, self._skin_shadow):
-            program["light_projection"].write(gl_bytes(_KEY.matrix()))
+            _write(program, "light_projection", gl_bytes(_KEY.matrix()))
         self._rigid_depth.render()
         if with_figure:
             self._skin_depth.render()
+
+
+def _write(program: moderngl.Program, name: str, data: bytes) -> None:
+    """Set a uniform from its bytes."""
+    uniform = program[name]
+    assert isinstance(uniform, moderngl.Uniform), f"{name} is no uniform"
+    uniform.write(data)
 
 
 def _shares(weights: NDArray[np.float64]) -> NDArray[np.uint8]:

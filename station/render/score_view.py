@@ -1,8 +1,8 @@
 """The scrolling score: engraved bars pass a fixed play line, and judgements appear on the notes.
 
-A judged note bears a shape as well as a colour: a ring on time, an arrow that points left when early and right when late,
-a hollow cross when missed, a question mark's square when the wrong piece was struck. The tick or
-arrow stands where the hit fell, stretched by `TICK_ZOOM` so that a few milliseconds can be seen across a room.
+A judged note bears a shape as well as a colour: a ring on time, an arrow that points left when early and right when
+late, a hollow cross when missed, a question mark's square when the wrong piece was struck. The tick or arrow stands
+where the hit fell, stretched by `TICK_ZOOM` so that a few milliseconds can be seen across a room.
 """
 
 from dataclasses import dataclass

@@ -1,8 +1,8 @@
 """The shaders of the scene, GLSL 3.30.
 
 One fragment shader lights everything: a key spotlight with a shadow map, a cool rim light from behind, a sky that is
-brighter above than below, and for varnish and metal a made-up studio of soft boxes to mirror. Highlights follow
-Blinn and Phong, stretched along the tangent for lathe-cut metal (Kajiya and Kay); Fresnel after Schlick; the film curve is
+brighter above than below, and for varnish and metal a made-up studio of soft boxes to mirror. Highlights follow Blinn
+and Phong, stretched along the tangent for lathe-cut metal (Kajiya and Kay); Fresnel after Schlick; the film curve is
 Hejl and Burgess-Dawson's, which includes the screen's gamma. `QUALITY` 0 takes one shadow sample, 1 four, 2 nine.
 """
 
@@ -107,7 +107,8 @@ float lit() {
 #else
     float step = 1.3 / float(textureSize(shadow_map, 0).x), total = 0.0;
 #if QUALITY == 1
-    for (int i = 0; i < 4; i++) total += texture(shadow_map, at + vec3(i & 1, i >> 1, 0) * 2.0 * step - vec3(step, step, 0));
+    for (int i = 0; i < 4; i++)
+        total += texture(shadow_map, at + vec3(i & 1, i >> 1, 0) * 2.0 * step - vec3(step, step, 0));
     return total * 0.25;
 #else
     for (int x = -2; x <= 2; x++) for (int y = -2; y <= 2; y++)

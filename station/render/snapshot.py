@@ -1,7 +1,7 @@
 """Everything that one picture shows, as an immutable value.
 
-The practice session fills snapshots; the window and the off-screen picture draw the same one. Score time is seconds from
-the score's tick 0; asynchronies are played − written, negative is early.
+The practice session fills snapshots; the window and the off-screen picture draw the same one. Score time is seconds
+from the score's tick 0; asynchronies are played − written, negative is early.
 """
 
 from dataclasses import dataclass, field
@@ -57,9 +57,9 @@ class Extra:
 class Hud:
     """What is written over the picture.
 
-    `phase` in words such as "Demonstration" or "Pass 2 of 4"; `bar` and `beat` from 1, None while nothing runs; `beats` a
-    bar; `count_in` the number to show large, None outside a count-in; `right`, `judged` this pass's counts; `message` a
-    sentence for the user; `cue` with `cue_age_s` since it came.
+    `phase` in words such as "Demonstration" or "Pass 2 of 4"; `bar` and `beat` from 1, None while nothing runs; `beats`
+    a bar; `count_in` the number to show large, None outside a count-in; `right`, `judged` this pass's counts; `message`
+    a sentence for the user; `cue` with `cue_age_s` since it came.
     """
 
     title: str = ""

@@ -55,7 +55,7 @@ def look_at(eye: ArrayLike, target: ArrayLike, up: ArrayLike = (0.0, 0.0, 1.0)) 
     """World to view: the camera at `eye` looks along −z."""
     e = np.asarray(eye, np.float64)
     back = unit(e - np.asarray(target, np.float64))
-    right = unit(np.cross(up, back))
+    right = unit(np.cross(np.asarray(up, np.float64), back))
     m = np.eye(4)
     m[0, :3], m[1, :3], m[2, :3] = right, np.cross(back, right), back
     m[:3, 3] = -m[:3, :3] @ e

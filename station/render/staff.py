@@ -1,8 +1,9 @@
 """Where each piece stands on the staff, and with which head.
 
-Steps count half spaces up from the bottom line (E4 on a treble staff, which percussion parts are read against): kick F4,
-snare C5, toms E5 D5 A4, hi-hat G5, ride F5, crash A5, foot hi-hat D4. Source: Weinberg, "Guidelines for Drumset
-Notation" (Percussive Arts Society, 1994), and our choice for pieces that it leaves open. Hands' stems point up, feet's down.
+Steps count half spaces up from the bottom line (E4 on a treble staff, which percussion parts are read against): kick
+F4, snare C5, toms E5 D5 A4, hi-hat G5, ride F5, crash A5, foot hi-hat D4. Source: Weinberg, "Guidelines for Drumset
+Notation" (Percussive Arts Society, 1994), and our choice for pieces that it leaves open. Hands' stems point up, feet's
+down.
 """
 
 from dataclasses import dataclass
