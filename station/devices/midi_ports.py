@@ -16,12 +16,12 @@ import os
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 
 import rtmidi
 
 from station.core.errors import BadInput, DeviceError
-from station.core.units import NS_PER_S
+from station.core.units import NS_PER_MS
 from station.devices.presets import stable_name
 from station.devices.stamps import DriverClock
 from station.devices.transport import Packet
@@ -42,8 +42,9 @@ _REMEDIES = {
     "jack": "no JACK server runs: start one (jackd, QjackCtl)",
 }
 
-REJOIN_NS = NS_PER_S
-"""How often a new JACK server is looked for after ours has ended (our choice)."""
+SILENT_SERVER_NS = 1_500 * NS_PER_MS
+"""A server that has passed no message on for so long has ended (our choice: far above any stall seen)."""
+_ACTIVE_SENSING = (0xFE,)
 
 MonotonicNs = Callable[[], int]
 Undisturbed = Callable[[], AbstractContextManager[None]]
@@ -71,7 +72,6 @@ class MidiDirectory:
         self._now_ns = now_ns
         self._undisturbed = undisturbed
         self._client = _first_client(compiled if driver == "auto" else (driver,))
-        self._next_try_ns = 0
 
     @property
     def driver(self) -> str:
@@ -80,18 +80,7 @@ class MidiDirectory:
 
     def names(self) -> list[str]:
         """The inputs that are there now; none where the driver's server has gone."""
-        if not self._client.is_alive():
-            self._rejoin()
-        return self._client.ports()
-
-    def _rejoin(self) -> None:
-        """Look for a new server in place of the one that has ended; a client does not outlive its server."""
-        if self._now_ns() >= self._next_try_ns:
-            self._next_try_ns = self._now_ns() + REJOIN_NS
-            with self._undisturbed(), suppress(DeviceError):
-                fresh = _first_client((self.driver,))
-                self._client.close()
-                self._client = fresh
+        return self._client.ports() if self._client.is_alive(self._now_ns()) else []
 
     def open(self, port: str) -> "MidiPort":
         """Open the input called `port`; raises `DeviceError` where it has gone or is taken."""
@@ -113,20 +102,35 @@ class MidiDirectory:
 
 
 class _Client:
-    """What lists the ports of one driver; with JACK it also shows a port of its own, by which it knows its server."""
+    """What lists the ports of one driver.
+
+    A JACK client goes on seeing its old ports when its server has ended. So it sends itself a message through the
+    server, one at a time: while they come back, the server lives. A process that has lost its server cannot safely join
+    another (the library keeps one server's memory a process), so a lost server stays lost for this process.
+    """
 
     def __init__(self, driver: str) -> None:
         self.driver = driver
         self._scanner = _new_input(driver, "scan")
-        self._presence: rtmidi.MidiOut | None = None
+        self._heart: rtmidi.MidiOut | None = None
+        self._beat_ns: int | None = None
         if driver == "jack":
             with _quiet_drivers():
-                self._presence = rtmidi.MidiOut(_APIS[driver], f"{CLIENT_NAME} presence")
-                self._presence.open_virtual_port("out")
+                self._heart = rtmidi.MidiOut(_APIS[driver], f"{CLIENT_NAME} presence")
+                self._heart.open_virtual_port("out")
+                own = next(index for index, port in enumerate(self._scanner.get_ports()) if CLIENT_NAME in port)
+                self._scanner.open_port(own, "presence")
 
-    def is_alive(self) -> bool:
+    def is_alive(self, now_ns: int) -> bool:
         """Whether the server that was joined still runs; drivers without one always live."""
-        return self._presence is None or any(CLIENT_NAME in port for port in self._all_ports())
+        if self._heart is None:
+            return True
+        while self._scanner.get_message() is not None:
+            self._beat_ns = None
+        if self._beat_ns is None:
+            self._heart.send_message(_ACTIVE_SENSING)
+            self._beat_ns = now_ns
+        return now_ns - self._beat_ns < SILENT_SERVER_NS
 
     def ports(self) -> list[str]:
         """The inputs, our own left out."""
@@ -141,10 +145,11 @@ class _Client:
 
     def close(self) -> None:
         """Leave the driver."""
+        self._scanner.close_port()
         self._scanner.delete()
-        if self._presence is not None:
-            self._presence.close_port()
-            self._presence.delete()
+        if self._heart is not None:
+            self._heart.close_port()
+            self._heart.delete()
 
 
 def _first_client(drivers: tuple[str, ...]) -> _Client:
@@ -152,7 +157,7 @@ def _first_client(drivers: tuple[str, ...]) -> _Client:
     for driver in drivers:
         try:
             return _Client(driver)
-        except (rtmidi.RtMidiError, OSError, RuntimeError) as fault:
+        except (rtmidi.RtMidiError, OSError, RuntimeError, StopIteration) as fault:
             faults.append(f"{_TITLES[driver]}: {_REMEDIES.get(driver, fault)}")
     raise DeviceError("no MIDI driver works. " + ". ".join(faults or ["rtmidi was built without any"]))
 

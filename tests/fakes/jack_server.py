@@ -27,6 +27,7 @@ NAME_WITHIN_S = 60.0
 POOL = 4
 STOP_WITHIN_S = 2.0
 ATTEMPTS = 3
+_DIES_WITH_US = ["setpriv", "--pdeathsig", "KILL"] if shutil.which("setpriv") else []
 _SHARED_MEMORY = Path("/dev/shm")  # where JACK keeps what its clients share
 _CLIENT_PATIENCE_MS = 2_000  # a client that stalls on a shared machine is not thrown out
 
@@ -107,7 +108,10 @@ class JackServer:
         options = [f"-n{self.name}", f"-t{_CLIENT_PATIENCE_MS}", "-R" if realtime else "-r"]
         driver = ["-d", "dummy", "-r", str(self.rate_hz), "-p", str(self.period_frames)]
         self._process = subprocess.Popen(
-            ["jackd", *options, *driver], stdin=subprocess.DEVNULL, stdout=handle, stderr=subprocess.STDOUT
+            [*_DIES_WITH_US, "jackd", *options, *driver],
+            stdin=subprocess.DEVNULL,
+            stdout=handle,
+            stderr=subprocess.STDOUT,
         )
         os.close(handle)
 

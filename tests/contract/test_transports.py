@@ -1,0 +1,212 @@
+"""One suite for every transport, fake and real: what the engine counts on, whatever the bytes travel through.
+
+A rig plays known messages and can pull the plug. Expected values are what was played.
+"""
+
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Protocol
+
+import pytest
+
+from station.core.clock import MonotonicClock
+from station.core.errors import DeviceError
+from station.core.units import NS_PER_MS, NS_PER_S
+from station.devices.capture import Kind, Record, device_record, parse_capture
+from station.devices.midi_ports import MidiDirectory
+from station.devices.replay import CapturePlayer
+from station.devices.transport import Packet, Transport
+from tests.fakes.captures import capture_bytes
+from tests.fakes.jack_server import JackServer, jackd_is_installed, joined
+from tests.fakes.kit_player import KitPlayer, Stroke
+from tests.fakes.ports import FakeDriver
+
+MESSAGES = [bytes.fromhex(text) for text in ("99 24 50", "b9 04 7f", "99 2a 01", "89 24 40", "a9 31 7f", "99 24 7f")]
+EVERY_NS = 5 * NS_PER_MS
+
+
+class Rig(Protocol):
+    """A way for bytes to come in."""
+
+    def open(self) -> Transport: ...
+
+    def play(self) -> list[Packet]:
+        """Play MESSAGES; what was sent and when."""
+        ...
+
+    def unplug(self) -> None: ...
+
+
+class FakeRig:
+    """The fake driver, with the monotonic clock for its times."""
+
+    def __init__(self) -> None:
+        self._driver = FakeDriver("kit 20:0")
+
+    def open(self) -> Transport:
+        return self._driver.open("kit 20:0")
+
+    def play(self) -> list[Packet]:
+        sent = []
+        for message in MESSAGES:
+            sent.append(Packet(message, time.monotonic_ns()))
+            self._driver.play("kit 20:0", *sent[-1])
+        return sent
+
+    def unplug(self) -> None:
+        self._driver.unplug("kit 20:0")
+
+
+class CaptureRig:
+    """A capture that is played again."""
+
+    def open(self) -> Transport:
+        records = [device_record(1, 0, "kit", "general-midi"), device_record(2, 0, "other", "general-midi")]
+        for index, message in enumerate(MESSAGES):
+            records.append(Record(Kind.BYTES, 2, index * EVERY_NS, b"\xfe"))
+            records.append(Record(Kind.BYTES, 1, index * EVERY_NS, message))
+        self._start_ns = time.monotonic_ns() + 10 * NS_PER_MS
+        return CapturePlayer(parse_capture(capture_bytes(records)), "kit", MonotonicClock(), self._start_ns)
+
+    def play(self) -> list[Packet]:
+        return [Packet(message, self._start_ns + index * EVERY_NS) for index, message in enumerate(MESSAGES)]
+
+    def unplug(self) -> None: ...
+
+
+class JackRig:
+    """rtmidi on a real JACK server, with a kit in another process."""
+
+    def __init__(self, server: JackServer, folder: Path) -> None:
+        strokes = [Stroke(index * EVERY_NS, message) for index, message in enumerate(MESSAGES)]
+        self._kit = KitPlayer(server, "kit", strokes, folder)
+        self._directory = MidiDirectory("jack")
+
+    def open(self) -> Transport:
+        return self._directory.open("kit:out")
+
+    def play(self) -> list[Packet]:
+        self._kit.play(time.monotonic_ns() + 20 * NS_PER_MS)
+        return [Packet(stroke.data, stroke.at_ns) for stroke in self._kit.truth()]
+
+    def unplug(self) -> None:
+        self._kit.unplug()
+
+    def close(self) -> None:
+        self._kit.unplug()
+        self._directory.close()
+
+
+@pytest.fixture(params=["fake", "capture", pytest.param("jack", marks=pytest.mark.jack)])
+def rig(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Rig]:
+    if request.param == "jack":
+        jack_rig = JackRig(request.getfixturevalue("jack_server"), tmp_path)
+        yield jack_rig
+        jack_rig.close()
+    else:
+        yield FakeRig() if request.param == "fake" else CaptureRig()
+
+
+def until(enough: Callable[[], bool], within_s: float = 10.0) -> bool:
+    give_up_s = time.monotonic() + within_s
+    while not enough():
+        if time.monotonic() > give_up_s:
+            return False
+        time.sleep(0.0005)
+    return True
+
+
+def read_all(transport: Transport) -> list[Packet]:
+    packets: list[Packet] = []
+
+    def enough() -> bool:
+        packets.extend(transport.read())
+        return len(packets) >= len(MESSAGES)
+
+    until(enough)
+    return packets
+
+
+def test_every_byte_comes_once_and_in_order(rig: Rig) -> None:
+    transport = rig.open()
+    sent = rig.play()
+    assert [packet.data for packet in read_all(transport)] == [packet.data for packet in sent] == MESSAGES
+    assert transport.read() == []
+    transport.close()
+
+
+def test_times_are_session_time_and_never_go_back(rig: Rig) -> None:
+    transport = rig.open()
+    sent = rig.play()
+    times_ns = [packet.at_ns for packet in read_all(transport)]
+    assert times_ns == sorted(times_ns)
+    late_ns = [at - packet.at_ns for at, packet in zip(times_ns, sent, strict=True)]
+    assert min(late_ns) > -NS_PER_MS
+    assert sorted(late_ns)[len(late_ns) // 2] < 20 * NS_PER_MS
+    assert max(times_ns) <= time.monotonic_ns()
+    transport.close()
+
+
+def test_reading_never_waits(rig: Rig) -> None:
+    transport = rig.open()
+    begun_ns = time.monotonic_ns()
+    for _ in range(100):
+        assert transport.read() == []
+    assert time.monotonic_ns() - begun_ns < NS_PER_S // 2
+    transport.close()
+
+
+def test_a_closed_transport_reads_as_empty_and_closes_twice(rig: Rig) -> None:
+    transport = rig.open()
+    transport.close()
+    rig.play()
+    assert transport.read() == []
+    transport.close()
+
+
+def test_the_name_is_the_devices_own(rig: Rig) -> None:
+    transport = rig.open()
+    assert transport.name.startswith("kit")
+    assert not transport.name.endswith(":0")
+    transport.close()
+
+
+def test_a_device_that_is_pulled_out_is_no_error_of_reading(rig: Rig) -> None:
+    transport = rig.open()
+    rig.unplug()
+    assert transport.read() == [] or transport.read() == []
+    transport.close()
+
+
+@pytest.fixture
+def jack_server() -> Iterator[JackServer]:
+    if not jackd_is_installed():
+        pytest.skip("jackd is not installed: apt install jackd2")
+    with JackServer() as server, joined(server):
+        yield server
+
+
+@pytest.mark.jack
+def test_jack_lists_and_forgets_a_port(jack_server: JackServer, tmp_path: Path) -> None:
+    directory = MidiDirectory("jack")
+    with KitPlayer(jack_server, "kit", [], tmp_path) as kit:
+        assert directory.names() == ["kit:out"]
+        with pytest.raises(DeviceError, match="no such port"):
+            directory.open("no such port")
+        kit.unplug()
+        assert until(lambda: directory.names() == [])
+    directory.close()
+
+
+@pytest.mark.jack
+def test_a_jack_server_that_ends_takes_its_ports_along(jack_server: JackServer, tmp_path: Path) -> None:
+    directory = MidiDirectory("jack")
+    with KitPlayer(jack_server, "kit", [], tmp_path):
+        port = directory.open("kit:out")
+        assert directory.names() == ["kit:out"]
+        jack_server.stop()
+        assert until(lambda: directory.names() == [])
+        assert port.read() == []
+    port.close()
+    directory.close()
