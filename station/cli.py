@@ -1,5 +1,4 @@
-"""The command line: one table of commands, each a module of `station.app.commands` that is imported only when it
-runs.
+"""The command line: a table of commands, each a module of `station.app.commands` that is imported only when it runs.
 
 Bad input ends with one line on standard error and exit status 2; Ctrl-C with 130. `--json` prints one document on
 standard output and nothing else.
