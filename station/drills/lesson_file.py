@@ -112,6 +112,7 @@ class _Reader:
         )
         velocities = self._velocities()
         sections = self._sections(timing)
+        self._check_swing(swing, timing, sections)
         score, origins = _score(sections, velocities, swing)
         lesson = Lesson(
             name=self.name,
@@ -152,6 +153,13 @@ class _Reader:
         if sections and not any(s.strokes for s in sections) and not self.faults:
             self.faults.add(("grid",), "nothing to play: every cell is a rest", at_key=True)
         return sections
+
+    def _check_swing(self, swing: Swing, timing: Timing, sections: Sequence[GridSection]) -> None:
+        """Pairs of swung cells must fill every beat that is counted, else parentheses and swing would cross."""
+        beats = {timing.beat_ticks, *(s.timing.beat_ticks for s in sections)}
+        if swing.ratio != STRAIGHT and any(beat % (2 * swing.unit_ticks) for beat in beats):
+            key = "swing_unit" if self.top.has("swing_unit") else "swing_ratio"
+            self.top.fault(key, "the beat is no whole number of pairs to swing; expected a shorter swing_unit")
 
     def _velocities(self) -> Velocities:
         usual = Velocities().usual

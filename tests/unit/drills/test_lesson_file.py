@@ -99,6 +99,13 @@ GRID = '\n[grid]\nsnare = "oooo"\n'
         ('title = "T"\nmeter = 44' + GRID, 2, 9, "expected two numbers"),
         ('title = "T"\nbeat = "5/8"' + GRID, 2, 8, "expected a note length"),
         ('title = "T"\nswing_ratio = 4.0' + GRID, 2, 15, "expected a number from 1 to 3.5"),
+        (
+            'title = "T"\nswing_ratio = 2\nmeter = "6/8"\nbeat = "3/8"' + GRID[:-2] + 'oo"',
+            2,
+            15,
+            "no whole number of pairs",
+        ),
+        ('title = "T"\nswing_ratio = 2\nswing_unit = "1/4"' + GRID, 3, 14, "expected a shorter swing_unit"),
         ('title = "T"\ntags = "rock"' + GRID, 2, 8, "expected a list of words"),
         ('title = "T"\nloop = [0, 1]' + GRID, 2, 8, "loop: expected a whole number from 1 to 1"),
         ('title = "T"\nloop = [1]' + GRID, 2, 8, "expected two bar numbers"),

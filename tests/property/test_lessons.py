@@ -1,0 +1,223 @@
+"""Lessons: any grid survives being written and read, any text is read without a traceback."""
+
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from station.core.errors import BadInput
+from station.core.pieces import Piece, word
+from station.core.units import PPQ
+from station.drills.fit import fit_score, lesson_of
+from station.drills.grid import Frame, parse_line
+from station.drills.lesson import Goals, Lesson
+from station.drills.lesson_file import KEYS, parse_lesson
+from station.drills.lesson_write import first_difference, write_lesson
+from station.drills.letters import LETTERS, LINE_PIECES, family_of
+from station.drills.swing import MAX_RATIO, Swing
+from station.drills.toml_places import Places
+from station.music.score import Note, Score
+from station.music.tempo import MeterChange, TempoMap
+
+METERS = ("4/4", "3/4", "2/4", "5/4", "6/8", "12/8", "7/8", "2/2")
+PIECES = (Piece.SNARE, Piece.HIHAT, Piece.RIDE, Piece.CRASH_1, Piece.TOM_1, Piece.KICK, Piece.HIHAT_PEDAL)
+
+
+@st.composite
+def bars(draw: st.DrawFn, piece: Piece, beats: int, beat_is_unit: bool) -> str:
+    """One bar of a line: plain cells, some beats in parentheses where a beat is one of the meter's."""
+    letters = "--" + "".join(LETTERS[family_of(piece)]) + ("#" if piece is Piece.CRASH_1 else "")
+    letters += "~" if piece is Piece.SNARE else ""
+    cells = draw(st.sampled_from((1, 2, 3, 4)))
+    out = ""
+    for _ in range(beats):
+        tuplet = beat_is_unit and draw(st.integers(0, 5)) == 0
+        count = draw(st.sampled_from((3, 5, 6))) if tuplet else cells
+        beat = draw(st.text(letters, min_size=count, max_size=count))
+        out += f"({beat})" if tuplet else f"{beat} "
+    return out
+
+
+@st.composite
+def lessons(draw: st.DrawFn) -> Lesson:
+    """Any lesson that the grid can say and that two hands and two feet can play."""
+    meter = draw(st.sampled_from(METERS))
+    beats = int(meter.split("/")[0])
+    head = [
+        'title = "T"',
+        f"tempo_bpm = {draw(st.sampled_from((40, 61.5, 90)))}",
+        f'meter = "{meter}"',
+        f'beat = "1/{meter.split("/")[1]}"',
+        f"swing_ratio = {draw(st.sampled_from((1.0, 1.5, 2.0, 3.0)))}",
+        f'swing_unit = "1/{16 if meter.endswith("8") else draw(st.sampled_from((8, 16)))}"',
+    ]
+    grids = []
+    for _ in range(draw(st.integers(1, 2))):
+        chosen = draw(st.sets(st.sampled_from(PIECES), min_size=1, max_size=4))
+        count = draw(st.integers(1, 3))
+        lines = [f'{word(p)} = "{"|".join(draw(bars(p, beats, True)) for _ in range(count))}"' for p in sorted(chosen)]
+        grids.append("\n".join(["[[grid]]", *lines]))
+    reading = parse_lesson("\n".join([*head, *grids]), "t", "t")
+    assume(reading.lesson is not None)
+    assert reading.lesson
+    return reading.lesson
+
+
+@given(lessons())
+@settings(deadline=None, max_examples=60)
+def test_written_and_read_again_a_lesson_is_the_same(lesson: Lesson) -> None:
+    again = parse_lesson(write_lesson(lesson), "t", "t").lesson
+    assert again
+    assert first_difference(lesson.score, again.score) == ""
+    assert again.sections == lesson.sections
+    assert again.beats_a_minute == lesson.beats_a_minute
+
+
+words = st.text(max_size=40)
+goals = st.builds(
+    Goals,
+    min_accuracy=st.floats(0, 1),
+    max_sd_ms=st.none() | st.floats(1, 1000),
+    max_lean_ms=st.none() | st.floats(0, 1000),
+    max_swing_error=st.none() | st.floats(0, 3),
+    min_score=st.none() | st.floats(0, 100),
+)
+
+
+@given(title=words, about=words, author=words, tags=st.lists(words, max_size=3), goals=goals)
+@settings(deadline=None)
+def test_words_and_goals_survive(title: str, about: str, author: str, tags: list[str], goals: Goals) -> None:
+    base = parse_lesson('title = "T"\n[grid]\nsnare = "o"', "t", "t").lesson
+    assert base
+    told = tuple(t.strip() for t in tags if t.strip())
+    lesson = replace(
+        base,
+        title=" ".join(title.split()).strip() or "T",
+        about=about.strip(),
+        author=author.strip(),
+        tags=told,
+        goals=goals,
+    )
+    again = parse_lesson(write_lesson(lesson), "t", "t").lesson
+    assert again
+    assert (again.title, again.about, again.author) == (lesson.title, lesson.about, lesson.author)
+    assert again.tags == told
+    assert again.goals == goals
+
+
+hand_notes = st.builds(
+    Note,
+    tick=st.integers(0, 8 * PPQ - 1),
+    piece=st.sampled_from((Piece.SNARE, Piece.HIHAT, Piece.RIDE, Piece.KICK, Piece.PERCUSSION)),
+    velocity=st.integers(1, 127),
+)
+
+
+@given(st.lists(hand_notes, min_size=1, max_size=25))
+@settings(deadline=None, max_examples=60)
+def test_whatever_is_played_slowly_fits_the_grid(played: list[Note]) -> None:
+    score = Score.from_notes(played, TempoMap.constant(20))
+    fitted = fit_score(score)
+    text = write_lesson(lesson_of(fitted.score, "x", "x", fitted.velocities))
+    again = parse_lesson(text, "x", "x").lesson
+    assert again
+    assert first_difference(again.score, fitted.score) == ""
+    assert len(fitted.score) + fitted.left_out == len(score)
+
+
+@given(st.integers(1, 40), st.sampled_from((2, 3, 4, 5, 6, 7, 12)), st.sampled_from((4, 8)))
+def test_cells_share_the_bar_equally(count: int, beats: int, unit: int) -> None:
+    """Against exact fractions: a bar that is accepted is covered by cells of one length without a gap."""
+    told: list[str] = []
+    frame = Frame(MeterChange(0, beats, unit), PPQ)
+    (bar,) = parse_line("o" * count, frame, lambda _, text: told.append(text))
+    fits = count % beats == 0 or beats % count == 0
+    exact = Fraction(beats * 4 * PPQ, unit * count).denominator == 1
+    assert bool(bar.cells) is (fits and exact)
+    assert bool(told) is not bool(bar.cells)
+    for i, cell in enumerate(bar.cells):
+        assert cell.tick == Fraction(i * beats * 4 * PPQ, unit * count)
+
+
+@given(st.floats(1, MAX_RATIO), st.lists(st.integers(0, 4 * PPQ), min_size=2, max_size=20), st.sampled_from((2, 4, 8)))
+def test_swing_keeps_order_and_the_beats(ratio: float, ticks: list[int], cut: int) -> None:
+    swing = Swing(ratio, PPQ // cut)
+    ordered = sorted(ticks)
+    played = [swing.swung(t, 4 * PPQ) for t in ordered]
+    assert played == sorted(played)
+    assert all(swing.swung(b * PPQ, 4 * PPQ) == b * PPQ for b in range(5))
+    assert all(p >= t for p, t in zip(played, ordered, strict=True))
+
+
+pieces_of_files = st.sampled_from(
+    [
+        *('"', "'", '"""', "[", "]", "[[grid]]", "[grid]", "=", "\n", "\n", "#", "{", "}", ",", "\\", " ", "é", "\x00"),
+        *("snare", "sticking", "right_hand.", "o-o-", "(", ")", "|", "%", "%3", "~", "RLB", "1.5", "-7", "true", "1/4"),
+        *KEYS,
+        *list(LINE_PIECES)[:6],
+    ]
+)
+
+
+@given(st.lists(pieces_of_files, max_size=40))
+@settings(deadline=None, max_examples=300)
+def test_no_text_is_too_strange(parts: list[str]) -> None:
+    text = "".join(parts)
+    reading = parse_lesson(text, "t", "t")
+    assert (reading.lesson is None) is bool(reading.faults)
+    lines = text.replace("\r\n", "\n").split("\n")
+    for fault in reading.faults:
+        assert 1 <= fault.line <= len(lines)
+        assert 1 <= fault.column <= len(lines[fault.line - 1]) + 1
+
+
+LESSON = """title = "T"
+loop = [1, 2]
+[dynamics]
+ghost = 30
+[[grid]]
+hihat    = "| xxxx (xxx) xxxx xxxx | % |"
+snare    = "| ---- f---  ---- b~~~ | - |"
+sticking = "| R--- L-- - R--- ---- | - |"
+[[grid]]
+left_hand.tom_1 = "oo"
+"""
+
+
+@given(st.integers(0, len(LESSON) - 1), pieces_of_files | st.just(""))
+@settings(deadline=None, max_examples=200)
+def test_a_slip_of_the_finger_is_a_fault_with_a_place_or_harmless(at: int, slip: str) -> None:
+    reading = parse_lesson(LESSON[:at] + slip + LESSON[at + 1 :], "t", "t")
+    for fault in reading.faults:
+        assert fault.line >= 1
+        assert fault.column >= 1
+        assert fault.text
+
+
+@given(st.lists(st.tuples(st.sampled_from(("a", "b-c", '"d e"', "'f'")), words), max_size=5, unique_by=lambda p: p[0]))
+def test_places_point_at_the_values(pairs: list[tuple[str, str]]) -> None:
+    lines = [f"{key} = {_literal(value)} # note" for key, value in pairs]
+    places = Places.of("\n".join(lines))
+    for number, (key, _) in enumerate(pairs, 1):
+        line, column = places.find((key.strip("'\""),))
+        assert line == number
+        assert column == len(key) + 4
+
+
+def _literal(text: str) -> str:
+    return '"' + "".join(c if c.isalnum() and ord(c) > 31 else f"\\U{ord(c):08X}" for c in text if not _lone(c)) + '"'
+
+
+def _lone(char: str) -> bool:
+    return 0xD800 <= ord(char) <= 0xDFFF
+
+
+def test_bad_input_is_what_writers_raise() -> None:
+    lesson = parse_lesson('title = "T"\n[grid]\nsnare = "o"', "t", "t").lesson
+    assert lesson
+    rows = lesson.score.notes.copy()
+    rows["velocity"] = 3
+    with pytest.raises(BadInput, match="velocity 3 became 80"):
+        write_lesson(replace(lesson, score=Score.from_array(rows, lesson.score.tempo_map)))

@@ -1,0 +1,230 @@
+"""What ships reads as its title says: expected places are those that any drum teacher would name.
+
+Places are eighths or sixteenths of the bar, counted from 0; swung offbeats count as the eighth that they are.
+"""
+
+import pytest
+
+from station.core.pieces import TOMS, Articulation, Dynamic, Limb, Ornament, Piece
+from station.core.units import PPQ
+from station.drills.lesson import Lesson
+from station.drills.library import find_lesson, lesson_names
+from station.drills.playable import impossible
+from station.music.score import Note
+
+BACKBEATS = {2, 6}
+FILLS = {
+    "rock": ("rock-1", "rock-fill-1"),
+    "shuffle": ("shuffle-1", "shuffle-fill-1"),
+    "funk": ("funk-1", "funk-fill-1"),
+    "jazz": ("jazz-ride-1", "jazz-fill-1"),
+    "bossa": ("bossa-1", "bossa-fill-1"),
+    "half-time": ("half-time-1", "half-time-fill-1"),
+    "six-eight": ("six-eight-1", "six-eight-fill-1"),
+    "disco": ("disco-1", "disco-fill-1"),
+    "reggae": ("reggae-one-drop", "reggae-fill-1"),
+    "country": ("train-1", "train-fill-1"),
+    "linear": ("linear-funk-1", "linear-fill-1"),
+}
+
+
+def of(lesson: Lesson, piece: Piece, dynamic: Dynamic | None = None) -> list[Note]:
+    """Main strokes of a piece, of one dynamic or all."""
+    return [n for n in lesson.score if n.piece is piece and not n.lead_ms and dynamic in (None, n.dynamic)]
+
+
+def places(lesson: Lesson, piece: Piece, bar: int, cells: int = 8, dynamic: Dynamic | None = None) -> set[int]:
+    """Cells of a bar at which the piece is struck; a swung cell counts as the one that it was written in."""
+    start = lesson.score.tempo_map.bar_start(bar)
+    meter = lesson.score.tempo_map.meter_at(start)
+    length = meter.bar_ticks // cells
+    straight = {lesson.swing.swung(i * length, meter.bar_ticks): i for i in range(cells)}
+    bars = lesson.score.tempo_map.bars_at([n.tick for n in of(lesson, piece, dynamic)]).tolist()
+    struck = [n.tick - start for n, b in zip(of(lesson, piece, dynamic), bars, strict=True) if b == bar]
+    return {straight[t] for t in struck}
+
+
+@pytest.mark.parametrize("name", lesson_names())
+def test_every_lesson_is_playable_and_says_what_to_do(name: str) -> None:
+    lesson = find_lesson(name)
+    assert impossible(lesson.loop_score.repeated(2)) == []
+    assert lesson.target_tempo_bpm >= lesson.tempo_bpm
+    assert impossible(lesson.loop_score.repeated(2).at_speed(lesson.target_tempo_bpm / lesson.tempo_bpm)) == []
+    assert len(lesson.about) > 60
+    assert lesson.author
+    assert lesson.tags
+    assert 1 <= lesson.score.bar_count <= 8
+    assert len(lesson.score) >= 4
+    assert lesson.passes * lesson.score.bar_count >= 8
+
+
+@pytest.mark.parametrize("name", [n for n in lesson_names() if find_lesson(n).title.startswith("Rudiment")])
+def test_rudiments_state_every_hand(name: str) -> None:
+    assert all(n.limb in (Limb.RIGHT_HAND, Limb.LEFT_HAND) for n in find_lesson(name).score)
+
+
+@pytest.mark.parametrize("name", [n for n in lesson_names() if find_lesson(n).sections[-1].name == "fill"])
+def test_a_fill_lesson_is_three_bars_and_a_fill_that_lands(name: str) -> None:
+    lesson = find_lesson(name)
+    assert [(s.first_bar, s.last_bar) for s in lesson.sections] == [(0, 2), (3, 3)]
+    fill = lesson.score.bars(3, 3)
+    in_fill = [n for n in fill if n.piece in (*TOMS, Piece.SNARE)]
+    assert len(in_fill) >= 4
+    landing = {n.piece for n in lesson.score if n.tick == 0}
+    assert Piece.KICK in landing
+    assert Piece.CRASH_1 in landing or {"country", "funk", "latin"} & set(lesson.tags)
+
+
+@pytest.mark.parametrize("style", list(FILLS))
+def test_each_main_groove_has_its_fill(style: str) -> None:
+    groove, fill = (find_lesson(name) for name in FILLS[style])
+    assert style in groove.tags
+    assert groove.meter == fill.meter
+    assert groove.swing_ratio == fill.swing_ratio
+    assert abs(groove.tempo_bpm - fill.tempo_bpm) <= 6
+
+
+@pytest.mark.parametrize("name", ["rock-1", "rock-2", "rock-4", "shuffle-1", "disco-1", "rock-ride-1", "funk-1"])
+def test_backbeat_on_two_and_four(name: str) -> None:
+    lesson = find_lesson(name)
+    for bar in range(lesson.score.bar_count):
+        loud = places(lesson, Piece.SNARE, bar, 16, Dynamic.ACCENT) or places(lesson, Piece.SNARE, bar, 16)
+        assert loud == {4, 12}
+
+
+def test_rock_1_is_the_first_groove() -> None:
+    lesson = find_lesson("rock-1")
+    assert places(lesson, Piece.HIHAT, 0) == set(range(8))
+    assert places(lesson, Piece.KICK, 0) == {0, 4}
+    assert {n.openness for n in of(lesson, Piece.HIHAT)} == {0.0}
+
+
+def test_half_time_has_its_backbeat_on_three() -> None:
+    for name in ("half-time-1", "half-time-shuffle-1"):
+        lesson = find_lesson(name)
+        for bar in range(2):
+            assert places(lesson, Piece.SNARE, bar, 4 if name == "half-time-1" else 12, Dynamic.ACCENT) in ({2}, {6})
+
+
+def test_disco_is_four_on_the_floor_with_open_offbeats() -> None:
+    lesson = find_lesson("disco-1")
+    assert places(lesson, Piece.KICK, 0, 4) == {0, 1, 2, 3}
+    for note in of(lesson, Piece.HIHAT):
+        assert note.openness == (1.0 if note.tick % PPQ else 0.0)
+
+
+def test_one_drop_leaves_one_empty() -> None:
+    lesson = find_lesson("reggae-one-drop")
+    for bar in range(2):
+        assert places(lesson, Piece.KICK, bar) == {4} == places(lesson, Piece.SNARE, bar)
+    assert {n.articulation for n in of(lesson, Piece.SNARE)} == {Articulation.CROSS_STICK}
+
+
+def test_steppers_kick_every_quarter() -> None:
+    assert places(find_lesson("reggae-steppers"), Piece.KICK, 1, 4) == {0, 1, 2, 3}
+
+
+def test_shuffles_swing_as_triplets() -> None:
+    for name in ("shuffle-1", "shuffle-2", "jazz-ride-1"):
+        lesson = find_lesson(name)
+        keeper = Piece.HIHAT if name == "shuffle-1" else Piece.RIDE
+        assert {n.tick % PPQ for n in of(lesson, keeper)} == {0, PPQ * 2 // 3}
+
+
+def test_jazz_rides_and_chicks_on_two_and_four() -> None:
+    lesson = find_lesson("jazz-ride-1")
+    for bar in range(2):
+        assert places(lesson, Piece.RIDE, bar) == {0, 2, 3, 4, 6, 7}
+        assert places(lesson, Piece.HIHAT_PEDAL, bar) == BACKBEATS
+    assert {n.dynamic for n in of(lesson, Piece.KICK)} == {Dynamic.GHOST}  # feathered
+
+
+def test_the_waltz_is_in_three() -> None:
+    lesson = find_lesson("jazz-waltz-1")
+    assert lesson.meter == "3/4"
+    assert places(lesson, Piece.KICK, 0, 6) == {0}
+
+
+def test_bossa_clave_and_bass() -> None:
+    lesson = find_lesson("bossa-1")
+    assert [places(lesson, Piece.SNARE, bar) for bar in range(2)] == [{0, 3, 6}, {2, 5}]
+    assert [places(lesson, Piece.KICK, bar) for bar in range(2)] == [{0, 3, 4, 7}] * 2
+    assert {n.articulation for n in of(lesson, Piece.SNARE)} == {Articulation.CROSS_STICK}
+    assert lesson.swing_ratio == 1
+
+
+def test_samba_kick_is_dotted_and_the_foot_is_off_the_beat() -> None:
+    lesson = find_lesson("samba-1")
+    assert lesson.meter == "2/4"
+    assert places(lesson, Piece.KICK, 0, 8) == {0, 3, 4, 7}
+    assert places(lesson, Piece.HIHAT_PEDAL, 0, 8) == {2, 6}
+
+
+def test_six_eight_and_twelve_eight() -> None:
+    assert places(find_lesson("six-eight-1"), Piece.SNARE, 0, 6) == {3}
+    assert places(find_lesson("twelve-eight-1"), Piece.SNARE, 0, 12) == {3, 9}
+    assert find_lesson("six-eight-1").tempo_bpm == 75  # 50 dotted quarters
+
+
+def test_funk_has_ghosts_between_backbeats() -> None:
+    for name in ("funk-1", "funk-2"):
+        assert len(of(find_lesson(name), Piece.SNARE, Dynamic.GHOST)) >= 3
+    assert places(find_lesson("funk-2"), Piece.SNARE, 1, 16, Dynamic.ACCENT) == {4, 14}  # the 4 comes late
+
+
+def test_linear_funk_never_strikes_two_together() -> None:
+    ticks = [n.tick for n in find_lesson("linear-funk-1").score]
+    assert len(ticks) == len(set(ticks)) == 32  # every sixteenth of two bars
+
+
+def test_the_paradiddle_groove_is_a_paradiddle() -> None:
+    lesson = find_lesson("paradiddle-groove-1")
+    hands = [n for n in lesson.score if n.piece is not Piece.KICK][:16]
+    assert "".join("RL"[n.limb] for n in hands) == "RLRRLRLL" * 2
+    assert all((n.piece is Piece.HIHAT) == (n.limb is Limb.RIGHT_HAND) for n in hands)
+    assert places(lesson, Piece.SNARE, 0, 16, Dynamic.ACCENT) == {4, 12}
+
+
+def test_the_train_runs_on_sixteenths_with_accents_on_the_and() -> None:
+    lesson = find_lesson("train-1")
+    assert places(lesson, Piece.SNARE, 0, 16) == set(range(16))
+    assert places(lesson, Piece.SNARE, 0, 16, Dynamic.ACCENT) == {2, 6, 10, 14}
+    assert "".join("RL"[n.limb] for n in of(lesson, Piece.SNARE)) == "RL" * 16
+
+
+def test_double_time_alternates_kick_and_snare() -> None:
+    lesson = find_lesson("punk-1")
+    assert places(lesson, Piece.KICK, 0) == {0, 2, 4, 6}
+    assert places(lesson, Piece.SNARE, 0) == {1, 3, 5, 7}
+
+
+def test_soul_has_rim_shots_on_all_four() -> None:
+    lesson = find_lesson("motown-1")
+    assert places(lesson, Piece.SNARE, 0, 4) == {0, 1, 2, 3}
+    assert {n.articulation for n in of(lesson, Piece.SNARE)} == {Articulation.RIM_SHOT}
+
+
+def test_both_feet_share_the_double_kick() -> None:
+    kicks = of(find_lesson("double-kick-1"), Piece.KICK)
+    assert [n.limb for n in kicks[:4]] == [Limb.RIGHT_FOOT, Limb.LEFT_FOOT] * 2
+    assert len(kicks) == 32
+
+
+def test_stops_are_grabbed_an_eighth_later() -> None:
+    crashes = of(find_lesson("stops-1"), Piece.CRASH_1)
+    assert [n.choke_ticks for n in crashes] == [PPQ // 2] * 4
+
+
+def test_the_street_ends_on_a_buzz() -> None:
+    (buzz,) = [n for n in find_lesson("second-line-1").score if n.articulation is Articulation.BUZZ]
+    assert buzz.ornament is Ornament.ROLL
+    assert buzz.duration_ticks == PPQ // 2
+
+
+def test_what_there_is_to_learn_from() -> None:
+    """Between them the lessons use every way of striking that the station knows."""
+    notes = [n for name in lesson_names() for n in find_lesson(name).score]
+    assert {n.articulation for n in notes} == set(Articulation)
+    assert {n.ornament for n in notes} == set(Ornament)
+    assert {n.openness for n in notes if n.piece is Piece.HIHAT} == {0.0, 0.5, 1.0}
+    assert {n.limb for n in notes} == set(Limb)
