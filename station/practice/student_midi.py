@@ -75,15 +75,17 @@ def midi_stream(sent: Performance, preset: KitPreset) -> list[TimedBytes]:
     """Every message with its time in ns, in order of time; `sent` comes from `as_sent` with the same preset."""
     messages: list[TimedBytes] = []
     note_on_ns: dict[int, int] = {}
-    for hit in reversed(list(sent)):  # from the last, so that each note-off knows the stroke that it must not cut off
-        until_next = note_on_ns.get(hit.midi_note, hit.at_ns + 2 * NOTE_OFF_AFTER_NS) - hit.at_ns
-        off_ns = hit.at_ns + min(NOTE_OFF_AFTER_NS, until_next // 2)
-        note_on_ns[hit.midi_note] = hit.at_ns
-        messages.append((off_ns, bytes((_NOTE_OFF, hit.midi_note, _RELEASE_VELOCITY))))
-        messages.append((hit.at_ns, bytes((_NOTE_ON, hit.midi_note, hit.velocity))))
-        if hit.piece is Piece.HIHAT and preset.pedal is not None:
-            value = _pedal_value(hit.openness or 0.0, preset.pedal)
-            messages.append((hit.at_ns, bytes((_CONTROL, PEDAL_CONTROLLER, value))))
+    columns = (sent.hits[name].tolist() for name in ("at_ns", "midi_note", "velocity", "piece", "openness"))
+    rows = list(zip(*columns, strict=True))
+    for at_ns, note, velocity, piece, openness in reversed(rows):  # so that a note-off knows the stroke that follows it
+        until_next = note_on_ns.get(note, at_ns + 2 * NOTE_OFF_AFTER_NS) - at_ns
+        off_ns = at_ns + min(NOTE_OFF_AFTER_NS, until_next // 2)
+        note_on_ns[note] = at_ns
+        messages.append((off_ns, bytes((_NOTE_OFF, note, _RELEASE_VELOCITY))))
+        messages.append((at_ns, bytes((_NOTE_ON, note, velocity))))
+        if piece == Piece.HIHAT and preset.pedal is not None:
+            value = _pedal_value(openness, preset.pedal)  # `as_sent` leaves none untold
+            messages.append((at_ns, bytes((_CONTROL, PEDAL_CONTROLLER, value))))
     messages.reverse()
     for choke in sent.chokes:
         note = note_number(Hit(0, Piece(choke["piece"]), Zone.EDGE, 1), preset)

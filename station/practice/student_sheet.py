@@ -47,6 +47,8 @@ def main_of_rows(score: Score) -> Indices:
     That is a main stroke of its tick, of its own piece if there is one; a grace stroke that leads to none is its own.
     """
     notes, mains = score.notes, np.arange(len(score))
+    if not score.is_grace.any():
+        return mains
     by_tick: dict[int, list[int]] = {}
     for row in np.flatnonzero(~score.is_grace).tolist():
         by_tick.setdefault(int(notes["tick"][row]), []).append(row)

@@ -12,6 +12,7 @@ One seed is one playing. Each cause draws from a stream of its own, so that a sp
 
 import copy
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,16 +42,20 @@ class VirtualPerformance:
     """What a virtual student played, and the truth about it.
 
     `performance` the hits as the kit reports them, each with the limb that played it; `truth` which hit answers which
-    note; `midi` the same hits as bytes with their times in ns, in order; `habit_strokes` how many strokes each planted
-    fault concerns.
+    note; `preset` the kit; `habit_strokes` how many strokes each planted fault concerns.
     """
 
     score: Score
     spec: StudentSpec
     performance: Performance
     truth: Matching
-    midi: list[TimedBytes]
+    preset: KitPreset
     habit_strokes: dict[str, int]
+
+    @cached_property
+    def midi(self) -> list[TimedBytes]:
+        """The same hits as the kit's MIDI bytes, with their times in ns, in order."""
+        return midi_stream(self.performance, self.preset)
 
     def asynchrony_ms(self) -> NDArray[np.float64]:
         """Asynchronies of the main strokes that were rightly played, in the score's order; no grace strokes."""
@@ -132,7 +137,7 @@ class VirtualStudent:
             spec=self.spec,
             performance=sent,
             truth=_truth(slips, played, order),
-            midi=midi_stream(sent, self.preset),
+            preset=self.preset,
             habit_strokes=habits.strokes,
         )
 
