@@ -13,10 +13,11 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Articulation, Limb, Piece, Zone
 from station.motion.arm import ArmLengths, Contact, Offsets, solve
+from station.motion.events import GRAB
 from station.motion.figure import Figure
 from station.motion.grip import Hold
 from station.motion.kit import Kit
-from station.motion.maths import MANY, Point
+from station.motion.maths import MANY, ONE, Point
 from station.motion.piece import RIM_ABOVE_HEAD_M, Target
 from station.motion.posture import natural_shoulder
 
@@ -32,6 +33,7 @@ before each costs as much as the others (our choice, within the limits of HUMANS
 
 SHOULDER_OF_STICK = 0.25
 """From the tip back to the part that meets a cymbal's edge or a rim, as a share of the stick (our choice)."""
+_LAID_AHEAD, _RIM_NEAR = 0.55, 0.9
 _LAID_RISE = math.radians(-4.0)
 _LAID_AZIMUTH = {Limb.LEFT_HAND: math.radians(-62.0), Limb.RIGHT_HAND: math.radians(62.0)}
 """A cross-stick lies across the head under the hand, its far end over the opposite rim (our choice)."""
@@ -43,7 +45,7 @@ class Strike:
 
     piece: Piece
     zone: Zone
-    articulation: Articulation
+    articulation: int  # `Articulation`, or `events.GRAB`
     limb: Limb
 
 
@@ -53,32 +55,71 @@ PROTRACTION_M = 0.08
 """A shoulder comes forward by so much for what is still out of reach; the rest is missing (our choice)."""
 
 
-def contact(kit: Kit, figure: Figure, strike: Strike, hold: Hold) -> tuple[Contact, float, Point]:
-    """The most comfortable contact for `strike` with `hold`, how many metres are missing to reach it, and from where.
+@dataclass(frozen=True, slots=True)
+class Lie:
+    """One kind of strike, solved at the natural posture.
 
-    The shoulder is where it is with the torso facing the target and leaning to it as little as is needed.
+    `root` is the shoulder with the torso facing the target and leaning to it as little as is needed, `missing_m` how
+    far it is still from reaching; `angles` those of upper arm, forearm, hand and stick from hanging straight down, and
+    `ceiling` how far shoulder, elbow, wrist and stick may rise from there within their limits.
     """
+
+    contact: Contact
+    root: Point
+    wrist: Point
+    angles: tuple[float, float, float, float]
+    ceiling: tuple[float, float, float, float]
+    missing_m: float
+    shoulder_of_stick: bool
+
+
+def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike) -> Lie:
+    """The most comfortable way for `strike` with `hold`."""
     target = kit.target(strike.piece, strike.zone, strike.limb)
-    lengths = hold.lengths(figure)
-    side = 1.0 if strike.limb == Limb.RIGHT_HAND else -1.0
-    lie = _lie(lengths, target, hold, strike, hold.length_m(figure))
+    right = strike.limb == Limb.RIGHT_HAND
+    lengths = hold.lengths(figure, right)
+    slopes = _slopes(lengths, target, hold, strike, hold.length_m(figure))
     for lean in LEANS_RAD.tolist():
-        shoulder = natural_shoulder(kit, figure, strike.limb, target.point_m, lean)
-        found, missing = _easiest(lengths, shoulder, target, lie, hold, side)
-        if missing <= 0:
+        root = natural_shoulder(kit, figure, strike.limb, target.point_m, lean)
+        touch, stretched = _easiest(lengths, root, target, slopes, hold, 1.0 if right else -1.0)
+        if not stretched:
             break
-    return found, missing, shoulder
+    arm = solve(ONE, lengths, root, touch, Offsets(0.0, 0.0, 0.0, 0.0))
+    limits = figure.limits
+    return Lie(
+        contact=touch,
+        root=root,
+        wrist=arm.wrist,
+        angles=(arm.shoulder, arm.shoulder + arm.elbow_bend, _UPRIGHT - touch.hand_rise, _UPRIGHT - touch.stick_rise),
+        ceiling=(
+            limits.shoulder_flexion - arm.shoulder,
+            limits.elbow_flexion - arm.elbow_bend,
+            max(limits.wrist_extension - arm.extension, _LEAST_ROOM),
+            max(limits.fingers - arm.palm, _LEAST_ROOM),
+        ),
+        missing_m=arm.missing_m,
+        shoulder_of_stick=target.shoulder,
+    )
+
+
+_UPRIGHT = math.pi / 2
+_LEAST_ROOM = 0.1
+"""Even a bent wrist has this much left (our choice)."""
+_EASY = 0.97
+"""The trunk leans before an arm is straighter than this share of its length (our choice)."""
 
 
 def _easiest(
-    lengths: ArmLengths, shoulder: Point, target: Target, lie: "_Lie", hold: Hold, side: float
-) -> tuple[Contact, float]:
-    """Among all wings and ways to point the hand the easiest one."""
+    lengths: ArmLengths, root: Point, target: Target, slopes: "_Slopes", hold: Hold, side: float
+) -> tuple[Contact, bool]:
+    """Among all wings and ways to point the hand the easiest one, and whether the arm is stretched for it."""
     wing, yaw = (g.ravel() for g in np.meshgrid(side * _WINGS, _HAND_YAWS, indexing="ij"))
     x, y, z = target.point_m.tolist()
-    stick_yaw = side * hold.grip.yaw if lie.azimuth is None else _turn(shoulder, target, lie.azimuth)
-    trial = Contact(x, y, z, lie.stick_rise, lie.hand_rise, stick_yaw, stick_yaw + yaw, lie.ahead_m, wing)
-    arm = solve(MANY, lengths, shoulder, trial, Offsets(0.0, 0.0, 0.0, 0.0))
+    stick_yaw = side * hold.grip.yaw if slopes.azimuth is None else _turn(root, target, slopes.azimuth)
+    stick_rise = _over_the_piece(target, root, stick_yaw, slopes)
+    hand_rise = stick_rise + slopes.palm
+    trial = Contact(x, y, z, stick_rise, hand_rise, stick_yaw, stick_yaw + yaw, slopes.ahead_m, wing)
+    arm = solve(MANY, lengths, root, trial, Offsets(0.0, 0.0, 0.0, 0.0))
     price = (
         (arm.extension / _EXTENSION_EASE) ** 2
         + (arm.deviation / _DEVIATION_EASE) ** 2
@@ -87,35 +128,63 @@ def _easiest(
         + 100.0 * arm.missing_m
     )
     best = int(np.argmin(price))
-    missing = np.broadcast_to(arm.missing_m, price.shape)
-    return trial._replace(hand_yaw=stick_yaw + float(yaw[best]), wing=float(wing[best])), float(missing[best])
+    wx, wy, wz = (float(np.broadcast_to(w, price.shape)[best]) for w in arm.wrist)
+    stretched = math.dist((wx, wy, wz), root) > _EASY * (lengths.upper + lengths.fore)
+    return trial._replace(hand_yaw=stick_yaw + float(yaw[best]), wing=float(wing[best])), stretched
 
 
 @dataclass(frozen=True, slots=True)
-class _Lie:
-    """How the stick lies: what touches, the slopes of stick and hand, and the stick's way in plan where it is fixed."""
+class _Slopes:
+    """How the stick wants to lie.
+
+    What touches and how much stick is beyond it, its slope, its angle in the hand, its way in plan where that is fixed.
+    """
 
     ahead_m: float
-    stick_rise: float
-    hand_rise: float
+    beyond_m: float
+    rise: float
+    palm: float
     azimuth: float | None = None
 
 
-def _lie(lengths: ArmLengths, target: Target, hold: Hold, strike: Strike, length_m: float) -> _Lie:
-    h, palm = lengths.hand, hold.grip.palm
-    ahead = lengths.ahead
+def _slopes(lengths: ArmLengths, target: Target, hold: Hold, strike: Strike, length_m: float) -> _Slopes:
+    h, palm, ahead = lengths.hand, hold.grip.palm, lengths.ahead
+    if strike.articulation == GRAB:
+        return _Slopes(0.0, lengths.ahead, target.rise_rad, palm)
+    if strike.articulation == Articulation.CROSS_STICK:
+        laid = _LAID_AHEAD * length_m
+        return _Slopes(laid, ahead - laid, _LAID_RISE, 0.0, _LAID_AZIMUTH[strike.limb])
     if target.shoulder:
         ahead -= SHOULDER_OF_STICK * length_m
-    if strike.articulation == Articulation.CROSS_STICK:
-        return _Lie(0.55 * length_m, _LAID_RISE, _LAID_RISE, _LAID_AZIMUTH[strike.limb])
-    lean = float(np.arctan2(h * np.sin(palm), ahead + h * np.cos(palm)))  # between the stick and the line to the wrist
+    lean = math.atan2(h * math.sin(palm), ahead + h * math.cos(palm))  # between the stick and the line to the wrist
     rise = target.rise_rad - lean
     if strike.articulation == Articulation.RIM_SHOT:
-        rise = float(np.arctan2(RIM_ABOVE_HEAD_M, 0.9 * target.radius_m))
-    return _Lie(ahead, rise, rise + palm)
+        rise = math.atan2(RIM_ABOVE_HEAD_M, _RIM_NEAR * target.radius_m)
+    return _Slopes(ahead, lengths.ahead - ahead, rise, palm)
 
 
-def _turn(shoulder: Point, target: Target, azimuth: float) -> float:
+def _over_the_piece(target: Target, root: Point, stick_yaw: float, slopes: _Slopes) -> float:
+    """The stick's slope, bent as little as is needed for its shaft and its end to stay over the struck surface.
+
+    With the plan direction u towards the player the shaft leaves the plane by cos e · (u·n) + sin e · n_z, which is
+    R sin(e + ψ): for the shaft it must be positive, for the end beyond the touch negative by what the zone is raised.
+    """
+    nx, ny, nz = target.normal.tolist()
+    towards = math.atan2(root[1] - float(target.point_m[1]), root[0] - float(target.point_m[0])) + stick_yaw
+    lean = math.cos(towards) * nx + math.sin(towards) * ny
+    size, turn = math.hypot(lean, nz), math.atan2(lean, nz)
+    if slopes.beyond_m <= 0 or not target.shoulder:
+        return max(slopes.rise, math.asin(_SHAFT_CLEAR / size) - turn) if slopes.azimuth is None else slopes.rise
+    over = (_END_CLEAR_M - target.raised_m) / slopes.beyond_m
+    return min(slopes.rise, math.asin(max(min(-over / size, 1.0), -1.0)) - turn)
+
+
+_SHAFT_CLEAR = math.sin(math.radians(2.5))
+_END_CLEAR_M = 0.006
+"""How far shaft and end stay off the surface that is not struck by them (our choice)."""
+
+
+def _turn(root: Point, target: Target, azimuth: float) -> float:
     """The yaw that makes the stick point to `azimuth` (from straight ahead, to the left positive)."""
-    towards = math.atan2(float(target.point_m[0]) - shoulder[0], shoulder[1] - float(target.point_m[1]))
-    return math.remainder(azimuth - (towards + math.pi), 2 * math.pi)
+    towards = math.atan2(root[1] - float(target.point_m[1]), root[0] - float(target.point_m[0]))
+    return math.remainder(azimuth - math.pi / 2 - towards, 2 * math.pi)

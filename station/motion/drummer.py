@@ -179,16 +179,20 @@ class _Keys:
 
 def sliders(score: Score, hand: HandPart, style: Style) -> Sliders:
     """What `style` does to the strokes of `hand`, each in its bar."""
-    bars = bar_places(score, score.notes["tick"][hand.rows]) if style.automation and len(hand.rows) else np.ones(1)
+    bars = (
+        bar_places(score, score.notes["tick"][hand.events.row])
+        if style.automation and len(hand.events.row)
+        else np.ones(1)
+    )
     gains = [style.joint_factor("amplitude", j, bars) for j in ("shoulder", "elbow", "wrist")]
     fingers = gains[2] * style.factor("amplitude_fingers", bars)
     paces = [style.joint_factor("frequency", j, bars) for j in ("shoulder", "elbow", "wrist", "wrist")]
     gain = np.array([*gains, fingers])
-    if style.pieces and len(hand.rows):
+    if style.pieces and len(hand.events.row):
         own = np.full(len(Piece), 1.0)
         for piece, amplitude in style.pieces.items():
             own[piece] = bent(amplitude / NATURAL)
-        gain = gain * own[score.notes["piece"][hand.rows]]
+        gain = gain * own[score.notes["piece"][hand.events.row]]
     return Sliders(gain, np.maximum(np.array(paces), SLOWEST), style.factor("whip", bars)[None])
 
 

@@ -87,7 +87,7 @@ class Target:
 
     `point_m` (3,) the point itself, `normal` (3,) of the surface there, `centre_m` (3,) and `radius_m` of that
     surface, `rise_rad` the slope of the line from the point up to the wrist, `shoulder` whether the stick's shoulder
-    meets it.
+    meets it, `raised_m` how far the zone stands over the piece's plane.
     """
 
     point_m: Vector
@@ -96,6 +96,7 @@ class Target:
     radius_m: float
     rise_rad: float
     shoulder: bool
+    raised_m: float
 
 
 @dataclass(frozen=True)
@@ -146,7 +147,7 @@ class KitPiece:
         radius = spot.wrist_radius_m if spot.wrist_radius_m is not None else self.wrist_radius_m
         height = spot.wrist_height_m if spot.wrist_height_m is not None else self.wrist_height_m
         rise = float(np.arctan2(height, radius))
-        return Target(point, normal, centre, self.radius_m, rise, spot.shoulder)
+        return Target(point, normal, centre, self.radius_m, rise, spot.shoulder, spot.raised_m)
 
     def _spot(self, zone: Zone) -> Spot:
         for candidate in (zone, *_FALLBACK[zone]):

@@ -8,6 +8,8 @@ from numpy.typing import NDArray
 from station.core.pieces import Limb, Piece, Zone
 from station.motion.beats import Beats, bob_cofactors
 from station.motion.body import Ground, mean_bearing
+from station.motion.clearance import cleared
+from station.motion.events import HandEvents, hand_events
 from station.motion.figure import Figure
 from station.motion.gaze import gaze_curve
 from station.motion.grip import GRIPS, HELD, Hold
@@ -37,6 +39,7 @@ class Plan:
     figure: Figure
     assignment: Assignment
     strike_m: Array
+    events: tuple[HandEvents, HandEvents]
     ground: Ground
     pelvis: Point
     kick: Curves
@@ -56,6 +59,7 @@ class Plan:
             figure=figure,
             assignment=who,
             strike_m=points,
+            events=hand_events(score, who.limbs),
             ground=_ground(score, kit, who.limbs, points),
             pelvis=pelvis_of(kit, figure),
             kick=kick_board(score.onset_s[kicks], score.notes["velocity"][kicks].astype(np.float64)),
@@ -66,10 +70,10 @@ class Plan:
     def hands(self, style: Style) -> tuple[HandPart, HandPart]:
         """Both hands' parts with what `style` makes them hold."""
         right, left = (
-            HandPart.of(self.score, self.kit, self.figure, hold, limb, np.flatnonzero(self.assignment.limbs == limb))
-            for limb, hold in zip(HANDS, holds(style), strict=True)
+            HandPart.of(self.score, self.kit, self.figure, hold, limb, events)
+            for limb, hold, events in zip(HANDS, holds(style), self.events, strict=True)
         )
-        return right, left
+        return cleared((right, left), self.figure)
 
     def gaze(self, around: float, seed: int) -> Curves:
         """Where the drummer looks; `around` 0 … 1 how often a rest is used to look around."""

@@ -24,7 +24,7 @@ def leans(curves: Curves, hands: tuple[HandPart, HandPart], figure: Figure, pelv
     needed = np.zeros(len(curves.knots_s))
     length = EASY_SHARE * STRAIGHT * (figure.upper_arm_m + figure.forearm_m)
     for side, hand in enumerate(hands):
-        if not len(hand.rows):
+        if not len(hand.events.row):
             continue
         times = hand.strokes.strike_s
         twist, lean, tilt, shrug, _, _ = curves.many(times)

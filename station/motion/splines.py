@@ -58,8 +58,8 @@ def slopes(
     edge = np.zeros((*chords.shape[:-1], 1))
     before, after = np.concatenate((edge, chords), -1), np.concatenate((chords, edge), -1)
     span = np.concatenate((steps[..., :1], steps[..., :-1] + steps[..., 1:], steps[..., -1:]), -1)
-    one = np.ones((*steps.shape[:-1], 1))
-    earlier, later = np.concatenate((one, steps), -1) / span, np.concatenate((steps, one), -1) / span
+    earlier = np.concatenate((steps[..., :1], steps), -1) / span
+    later = np.concatenate((steps, steps[..., -1:]), -1) / span
     back, forth = (1 - t) * (1 + b) * before, (1 - t) * (1 - b) * after
     into = (1 - c) * later * back + (1 + c) * earlier * forth
     out = (1 + c) * later * back + (1 - c) * earlier * forth

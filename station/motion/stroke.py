@@ -87,7 +87,7 @@ _STRIKE_INTO = np.array([[1.0], [1.0], [0.8], [1.0]])
 _STRIKE_OUT = np.array([[1.0], [1.0], [0.3], [1.35]])
 """Slopes at the strike in shares of the chords before and after it: the wrist already slows down, the stick does not,
 and it leaves the head at half the speed (rebound ratio 0.51)."""
-_START_TENSION, _REST_TENSION = 0.6, 0.7
+_START_TENSION, _REST_TENSION = 1.0, 1.0
 _TENSION = np.zeros((4, KEYS))
 _TENSION[:, 5:6] = 1 - (_STRIKE_INTO + _STRIKE_OUT) / 2
 _BIAS = np.zeros((4, KEYS))
@@ -130,18 +130,25 @@ def amplitudes(height_m: Array, contact_angles: Array, lengths: ArmLengths, part
     return result
 
 
+def top(amplitude: Array) -> Array:
+    """The offsets (4, n) where the tip is highest, of strokes with `amplitude` (4, n)."""
+    result: Array = amplitude * _SHARE_AT_TOP
+    return result
+
+
 @dataclass(frozen=True, eq=False)
 class StrokePlan:
     """What the strokes of one hand need: `strike_s` (n,), rising, each from `height_m` (n,).
 
-    `amplitude` (4, n) is what `amplitudes` gives, `ceiling` (4, n) what the joints' limits leave, `lever_m` the
-    distance from wrist to tip.
+    `amplitude` (4, n) is what `amplitudes` gives, `ceiling` (4, n) what the joints' limits leave, `most` (n,) how often
+    the height is the highest that has room, `lever_m` the distance from wrist to tip.
     """
 
     strike_s: Array
     height_m: Array
     amplitude: Array
     ceiling: Array
+    most: Array
     lever_m: float
 
 
@@ -160,13 +167,14 @@ class Strokes:
         strike_s, height_m = plan.strike_s, plan.height_m
         gaps = np.concatenate(([_LONG_S], np.diff(strike_s), [_LONG_S]))
         room = gaps[:-1] / (_FULL_GAP_S * np.sqrt(np.maximum(height_m, 0.01) / _FULL_GAP_HEIGHT_M))
-        peak = np.minimum(plan.amplitude * sliders.gain * np.minimum(room, 1.0), plan.ceiling)
+        gain = np.minimum(sliders.gain * np.minimum(room, 1.0), plan.most)
+        peak = np.minimum(plan.amplitude * gain, plan.ceiling)
         n = len(strike_s)
         times, merged = _times(strike_s, gaps, height_m, sliders)
         values = _values(times, merged, peak, np.minimum(_REST_HEIGHT_M, 0.6 * height_m) / plan.lever_m)
         tension = np.tile(_TENSION[:, None, :], (1, n, 1))
         tension[..., 0] = _START_TENSION * (1 - merged)
-        tension[..., 7] = _REST_TENSION * (1 - _next(merged))
+        tension[..., 7] = _REST_TENSION * (1 - _merged_after(merged))
         flat = (4, n * KEYS)
         times, values = times.reshape(flat), values.reshape(flat)
         into, out = slopes(times, values, tension.reshape(flat), np.tile(_CONTINUITY, n), np.tile(_BIAS, n))
@@ -198,6 +206,11 @@ def _next(per_stroke: Array) -> Array:
     return np.concatenate((per_stroke[:, 1:], per_stroke[:, -1:]), 1)
 
 
+def _merged_after(merged: Array) -> Array:
+    """How far the rebound of each stroke is merged with what follows; nothing follows the last."""
+    return np.concatenate((merged[:, 1:], np.zeros((4, 1))), 1)
+
+
 def _times(strike_s: Array, gaps: Array, height_m: Array, sliders: Sliders) -> tuple[Array, Array]:
     """Times (4, n, KEYS) of all keys, and how far each preparation (4, n) is merged with the rebound before it, 0 … 1.
 
@@ -224,14 +237,18 @@ def _times(strike_s: Array, gaps: Array, height_m: Array, sliders: Sliders) -> t
 def _values(times: Array, merged: Array, peak: Array, hold: Array) -> Array:
     """Values (4, n, KEYS) of all keys; `hold` (n,) the wrist's angle of rest before each strike."""
     values = np.zeros_like(times)
-    m, m_after, peak_after = merged[..., None], _next(merged), _next(peak)
+    m, m_after, peak_after = merged[..., None], _merged_after(merged), _next(peak)
     held = np.zeros_like(peak)
     held[WRIST] = hold
-    values[..., :5] = peak[..., None] * (_SHARE_BEFORE[:, None, :] * (1 - m) + _SHARE_MERGED * m)
+    # merged, the joints' tops come together: each goes less far for the same height of the tip
+    values[..., :5] = peak[..., None] * (
+        _SHARE_BEFORE[:, None, :] * (1 - m) + _SHARE_AT_TOP[..., None] * _SHARE_MERGED * m
+    )
     values[..., 1] += 0.5 * held * (1 - merged)
+    together = _SHARE_AT_TOP * peak_after
     low = np.minimum(1.0, 0.35 + 0.65 * peak_after / np.maximum(peak, 1e-6))  # a down stroke keeps the stick low
-    values[..., 6] = _SHARE_REBOUND * peak * low * (1 - m_after) + _MERGED_REBOUND * peak_after * m_after
-    values[..., 7] = _next(held) + _MERGED_REST * peak_after * m_after
+    values[..., 6] = _SHARE_REBOUND * peak * low * (1 - m_after) + _MERGED_REBOUND * together * m_after
+    values[..., 7] = _next(held) + _MERGED_REST * together * m_after
     # merged, the start is no key of its own but a point between the rest before it and the middle
     rest_t, rest_v = times[:, :-1, 7], values[:, :-1, 7]
     start_t, middle_t, middle_v = times[:, 1:, 0], times[:, 1:, 1], values[:, 1:, 1]

@@ -1,0 +1,116 @@
+"""What one hand does, in order of time: its strikes, the presses of its buzz rolls, and the cymbals that it grabs.
+
+A score has a buzz roll as one note with a duration and a choke as a delay after the stroke; here both become events of
+hands. Times in seconds from tick 0.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.pieces import Articulation, Limb, Piece, Zone
+from station.motion.dynamics import stroke_height_m
+from station.music.score import Score
+
+Array = NDArray[np.float64]
+
+GRAB = len(Articulation)
+"""Stands where an articulation stands: the hand grabs the cymbal's edge."""
+SAME_STROKE_S = 0.004
+"""Events of one hand nearer than this are one movement."""
+GRACE_HEIGHT_M, LAID_HEIGHT_M, PRESS_HEIGHT_M, GRAB_HEIGHT_M = 0.045, 0.06, 0.02, 0.03
+"""Grace strokes fall from no higher than this, a cross-stick's stick is lifted no higher, a press of a buzz roll is a
+small stroke, and a hand that grabs comes from near (our choice)."""
+PRESS_S = 0.10
+"""Each press of a buzz roll sounds this long before the other hand takes over (our choice)."""
+BUSY_S = 0.12
+"""A hand with an event this near cannot grab a cymbal (our choice)."""
+
+LONG_AGO_S = -60.0
+_IDLE_HEIGHT_M = 0.05
+
+
+@dataclass(frozen=True, eq=False)
+class HandEvents:
+    """One hand's events.
+
+    `time_s` (n,) rising; `row` (n,) of the score that each comes from; `key` (n, 3) piece, zone and articulation or
+    `GRAB`; `height_m` (n,). An idle hand has one event long ago, over the snare, and `row` is empty.
+    """
+
+    time_s: Array
+    row: NDArray[np.int64]
+    key: NDArray[np.int64]
+    height_m: Array
+
+
+def hand_events(score: Score, limbs: NDArray[np.int8]) -> tuple[HandEvents, HandEvents]:
+    """What the right and the left hand do in `score` when `limbs` (n,) play it."""
+    onset, notes = score.onset_s, score.notes
+    struck = [np.flatnonzero(limbs == limb) for limb in (Limb.RIGHT_HAND, Limb.LEFT_HAND)]
+    found: list[list[tuple[float, int, int, float]]] = [[], []]  # time, row, articulation, height
+    height = heights(notes)
+    for side, rows in enumerate(struck):
+        found[side] = [
+            (t, row, int(a), h)
+            for t, row, a, h in zip(
+                onset[rows].tolist(), rows.tolist(), notes["articulation"][rows], height[rows].tolist(), strict=True
+            )
+        ]
+    for row in np.flatnonzero((notes["articulation"] == Articulation.BUZZ) & (notes["duration_ticks"] > 0)).tolist():
+        _press(score, row, limbs, onset, found)
+    for row in np.flatnonzero(notes["choke_ticks"] > 0).tolist():
+        _grab(score, row, limbs, found)
+    right, left = (_events(notes, sorted(events)) for events in found)
+    return right, left
+
+
+def heights(notes: NDArray[np.void]) -> Array:
+    """How high the stick rises before each note."""
+    height = stroke_height_m(notes["velocity"])
+    height = np.where(notes["lead_ms"] > 0, np.minimum(height, GRACE_HEIGHT_M), height)
+    laid = notes["articulation"] == Articulation.CROSS_STICK
+    return np.where(laid, np.minimum(height, LAID_HEIGHT_M), height)
+
+
+def _press(
+    score: Score, row: int, limbs: NDArray[np.int8], onset: Array, found: list[list[tuple[float, int, int, float]]]
+) -> None:
+    """The presses that carry a buzz roll on: by both hands in turn where the other is free, else by one."""
+    if limbs[row] not in (Limb.RIGHT_HAND, Limb.LEFT_HAND):
+        return
+    start = float(onset[row])
+    tick = int(score.notes["tick"][row])
+    end = float(score.tempo_map.seconds_at(tick + int(score.notes["duration_ticks"][row])))
+    other = Limb.LEFT_HAND if limbs[row] == Limb.RIGHT_HAND else Limb.RIGHT_HAND
+    others = onset[limbs == other]
+    free = not np.any((others > start - BUSY_S) & (others < end + BUSY_S))
+    count = int((end - start) / PRESS_S)
+    for k in range(1, count):
+        side = int(limbs[row]) if k % 2 == 0 else int(other)
+        if k % 2 == 0 or free:
+            found[side].append((start + k * (end - start) / count, row, int(Articulation.BUZZ), PRESS_HEIGHT_M))
+
+
+def _grab(score: Score, row: int, limbs: NDArray[np.int8], found: list[list[tuple[float, int, int, float]]]) -> None:
+    """The hand that is freer grabs the cymbal; where both are busy nobody does."""
+    tick = int(score.notes["tick"][row]) + int(score.notes["choke_ticks"][row])
+    at = float(score.tempo_map.seconds_at(tick))
+    room = [min((abs(t - at) for t, *_ in events), default=np.inf) for events in found]
+    struck_by = int(limbs[row])
+    side = struck_by if struck_by in (0, 1) and room[struck_by] > BUSY_S else int(np.argmax(room))
+    if room[side] > BUSY_S:
+        found[side].append((at, row, GRAB, GRAB_HEIGHT_M))
+
+
+def _events(notes: NDArray[np.void], found: list[tuple[float, int, int, float]]) -> HandEvents:
+    if not found:
+        key = np.array([[Piece.SNARE, Zone.HEAD, Articulation.NORMAL]], np.int64)
+        return HandEvents(np.array([LONG_AGO_S]), np.zeros(0, np.int64), key, np.array([_IDLE_HEIGHT_M]))
+    time, row, articulation, height = (np.array(column) for column in zip(*found, strict=True))
+    keep = np.diff(time, prepend=-np.inf) > SAME_STROKE_S
+    time, row, articulation, height = time[keep], row[keep], articulation[keep], height[keep]
+    zone = np.where(articulation == GRAB, int(Zone.EDGE), notes["zone"][row])
+    key = np.stack([notes["piece"][row], zone, articulation], 1).astype(np.int64)
+    return HandEvents(time, row, key, height)
