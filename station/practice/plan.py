@@ -15,6 +15,8 @@ from station.core.errors import BadInput
 from station.core.units import NS_PER_S
 from station.drills.lesson import Lesson
 from station.engine.messages import CUE_DTYPE, Bus, ClickVoice
+from station.motion.kit import DEFAULT_KIT, load_kit
+from station.motion.limbs import assign_limbs
 from station.music.score import Score
 from station.music.tempo import TempoMap
 
@@ -87,7 +89,7 @@ def plan_practice(lesson: Lesson, wishes: Wishes) -> Plan:
     tempo_bpm = _checked_tempo(wishes.tempo_bpm, lesson)
     passes = _checked_loops(wishes.loops, lesson)
     first, last = _checked_bars(wishes.bars, lesson)
-    section = lesson.score.bars(first, last).at_speed(tempo_bpm / lesson.tempo_bpm)
+    section = _with_sticking(lesson.score.bars(first, last).at_speed(tempo_bpm / lesson.tempo_bpm), lesson)
     demonstrations = lesson.demonstrations if wishes.demonstrations is None else wishes.demonstrations
 
     segments: list[Segment] = []
@@ -153,6 +155,15 @@ def demonstration_cues(score: Score) -> NDArray[np.void]:
     chokes["at_ns"] = score.tempo_map.ns_at(score.notes["tick"][grabbed] + score.notes["choke_ticks"][grabbed])
     chokes["velocity"] = 0
     return np.concatenate([strokes, chokes])
+
+
+def _with_sticking(section: Score, lesson: Lesson) -> Score:
+    """The section with a limb for every stroke: the written one, else the one that the drummer takes.
+
+    So the demonstration, the per-limb figures and the advice all speak of the same hands.
+    """
+    kit = load_kit(lesson.kit or DEFAULT_KIT)
+    return section.with_limbs(assign_limbs(section, kit).limbs)
 
 
 def _count_in(section: Score, bars: int) -> Score:
