@@ -1,9 +1,11 @@
 """Checking files and starting a new one."""
 
+import re
 from pathlib import Path
 
 from station.drills.authoring import NEW_LESSON, check_lessons
-from station.drills.lesson_file import parse_lesson
+from station.drills.lesson_file import KEYS, parse_lesson
+from station.drills.letters import LETTERS, Family
 from station.drills.library import lessons_dir
 
 
@@ -39,3 +41,23 @@ def test_a_folder_without_lessons(tmp_path: Path) -> None:
     faults, count = check_lessons([str(tmp_path)])
     assert count == 0
     assert "no lesson in this folder" in faults[0].text
+
+
+DOCS = Path(__file__).parents[3] / "docs" / "lessons.md"
+
+
+def test_the_examples_of_the_manual_are_lessons() -> None:
+    examples = re.findall(r"```toml\n(.*?)```", DOCS.read_text(encoding="utf-8"), re.DOTALL)
+    assert len(examples) == 3
+    for example in examples:
+        assert parse_lesson(example, "docs/lessons.md", "example").faults == []
+
+
+def test_the_manual_has_every_letter_and_every_key() -> None:
+    text = DOCS.read_text(encoding="utf-8")
+    for key in KEYS:
+        assert f"`{key}`" in text or f"`[{key}]`" in text, key
+    rows = {row.split("|")[1].strip(): row for row in text.splitlines() if row.startswith("| `")}
+    for line, family in (("snare", Family.SNARE), ("hihat", Family.HIHAT), ("kick", Family.KICK)):
+        for letter in LETTERS[family]:
+            assert f"`{letter.lower()}`" in rows[f"`{line}`"], (line, letter)
