@@ -99,19 +99,17 @@ def _chokes(drums: Drums, meaning: _Meaning) -> NDArray[np.void]:
 
     A new stroke on the cymbal lets it go, for some modules never send the release.
     """
-    piece_of_note = meaning.piece[drums.notes["number"]]
-    struck_at = {int(piece): drums.notes["tick"][piece_of_note == piece] for piece in _CHOKEABLE}
-    held: dict[int, set[int]] = {piece: set() for piece in struck_at}
-    strokes_seen = dict.fromkeys(struck_at, 0)
+    presses = drums.aftertouch[np.isin(meaning.piece[drums.aftertouch["number"]], sorted(_CHOKEABLE))]
+    pieces = meaning.piece[presses["number"]]
+    strokes = _strokes_before(presses["tick"], pieces, drums.notes["tick"], meaning.piece[drums.notes["number"]])
+    held: dict[int, set[int]] = {int(piece): set() for piece in _CHOKEABLE}
+    strokes_seen = dict.fromkeys(held, 0)
     chokes: list[tuple[int, int]] = []
-    for tick, number, value in drums.aftertouch[["tick", "number", "value"]].tolist():
-        piece = int(meaning.piece[number])
-        if piece not in held:
-            continue
-        strokes = int(np.searchsorted(struck_at[piece], tick, side="right"))
-        if strokes != strokes_seen[piece]:
+    columns = (presses["tick"], pieces, presses["number"], presses["value"], strokes)
+    for tick, piece, number, value, stroke_count in zip(*(c.tolist() for c in columns), strict=True):
+        if stroke_count != strokes_seen[piece]:
             held[piece].clear()
-            strokes_seen[piece] = strokes
+            strokes_seen[piece] = stroke_count
         if not value:
             held[piece].discard(number)
             continue
@@ -119,6 +117,17 @@ def _chokes(drums: Drums, meaning: _Meaning) -> NDArray[np.void]:
             chokes.append((tick, piece))
         held[piece].add(number)
     return np.array(chokes, _GRAB_DTYPE)
+
+
+def _strokes_before(
+    ticks: NDArray[np.int64], pieces: NDArray[np.uint8], note_ticks: NDArray[np.int64], note_pieces: NDArray[np.uint8]
+) -> NDArray[np.int64]:
+    """How many strokes each piece had up to each of its ticks, that tick included."""
+    counts = np.zeros(len(ticks), np.int64)
+    for piece in np.unique(pieces):
+        of_piece = pieces == piece
+        counts[of_piece] = np.searchsorted(note_ticks[note_pieces == piece], ticks[of_piece], side="right")
+    return counts
 
 
 # --- a performance ----------------------------------------------------------------------------------------------------

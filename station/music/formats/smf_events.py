@@ -2,8 +2,9 @@
 
 A drum file is nearly all notes and controllers, three-byte messages whose status may be left out (running status). In a
 stretch of those every event has exactly three bytes below 0x80: the last of its delta time and its two data bytes. So
-one regular expression finds where a stretch ends and numpy takes it apart without a loop; whatever lies between is read
-event by event. A stretch's structure is unambiguous because a delta time ends with its only byte below 0x80.
+numpy takes a window of the track apart without a loop, three such bytes an event, and keeps the events before the first
+that does not have this shape; whatever lies between stretches is read event by event. Windows grow while they are good
+throughout, so that no byte is looked at more than a few times.
 
 Lenient where nothing can be misunderstood (an oddity is noted), strict elsewhere (`BadInput` with the byte's offset in
 the file). Running status outlives meta and system exclusive events, as many files expect, though RP-001 ends it there.
@@ -22,11 +23,13 @@ from station.core.errors import BadInput
 from station.music.formats.smf_file import SysEx, Text
 from station.music.tempo import MeterChange, TempoChange
 
-_STRETCH = re.compile(rb"(?:[\x80-\xff]{0,3}[\x00-\x7f][\x80-\xbf\xe0-\xef]?[\x00-\x7f]{2})*+", re.DOTALL)
-_BLOCK_BYTES = 1 << 18
-"""Stretches are cut into blocks of this size, which bounds the memory of the temporary arrays (our choice)."""
-_LEAST_STRETCH_BYTES = 64
-"""Below this the loop is as fast as numpy (measured; the place of the break-even is not critical)."""
+_STRETCH = re.compile(rb"(?:[\x80-\xff]{0,3}[\x00-\x7f][\x80-\xbf\xe0-\xef]?[\x00-\x7f]{2}){16}", re.DOTALL)
+"""The beginning of a stretch that is worth numpy's overhead (measured; the number is not critical)."""
+_FIRST_WINDOW, _LAST_WINDOW = 1 << 10, 1 << 18
+"""Bytes: from little waste where stretches are short to the cache's size, which also bounds the temporary arrays."""
+
+_MAY_FOLLOW_DELTA = np.array([not (0xC0 <= byte < 0xE0 or byte >= 0xF0) for byte in range(256)])
+"""After the delta time comes a status of two data bytes, or under running status the first data byte."""
 
 _MAX_DELTA_BYTES = 4
 _LAST_TEXT_KIND = 0x0F
@@ -75,6 +78,16 @@ def parse_events(data: bytes, start: int, stop: int, source: str) -> TrackEvents
     return _TrackReader(data, start, stop, source).read()
 
 
+@dataclass(frozen=True, slots=True)
+class _Places:
+    """Where in a window each event's bytes are: the last before it, its delta time's last, its two data bytes."""
+
+    before: NDArray[np.int64]
+    last: NDArray[np.int64]
+    first: NDArray[np.int64]
+    second: NDArray[np.int64]
+
+
 class _TrackReader:
     """Where we are in a track: byte, tick, running status (0 for none), and what was found."""
 
@@ -90,15 +103,11 @@ class _TrackReader:
 
     def read(self) -> TrackEvents:
         """Read all events up to the end of track."""
-        slow_until = self.at
         while self.at < self.stop and not self.ended:
-            if self.at >= slow_until and _has_two_data_bytes(self.running):
-                match = _STRETCH.match(self.data, self.at, min(self.stop, self.at + _BLOCK_BYTES))
-                slow_until = match.end() if match else self.at
-                if slow_until - self.at >= _LEAST_STRETCH_BYTES:
-                    self._take_stretch(slow_until)
-                    continue
-            self._take_event()
+            if _has_two_data_bytes(self.running) and _STRETCH.match(self.data, self.at, self.stop):
+                self._take_stretch()
+            else:
+                self._take_event()
         self._flush()
         self._note_ending()
         self.found.columns = _joined(self.blocks)
@@ -115,18 +124,37 @@ class _TrackReader:
 
     # --- many at once -------------------------------------------------------------------------------------------------
 
-    def _take_stretch(self, end: int) -> None:
+    def _take_stretch(self) -> None:
+        """Read windows of growing size until one holds something else."""
         self._flush()
-        raw = np.frombuffer(self.data, np.uint8, end - self.at, self.at)
-        low = np.flatnonzero(raw < 0x80).reshape(-1, 3)
-        status = self._statuses(raw, low)
-        ticks = self.tick + np.cumsum(_deltas(raw, low))
-        self.blocks.append((ticks, status, raw[low[:, 1]], raw[low[:, 2]]))
-        self.tick, self.running, self.at = int(ticks[-1]), int(status[-1]), end
+        window = _FIRST_WINDOW
+        while self._take_window(min(window, self.stop - self.at)):
+            window = min(2 * window, _LAST_WINDOW)
 
-    def _statuses(self, raw: NDArray[np.uint8], low: NDArray[np.int64]) -> NDArray[np.uint8]:
+    def _take_window(self, size: int) -> bool:
+        """Read the events at the start of the next `size` bytes that have the shape; whether all of them have it."""
+        raw = np.frombuffer(self.data, np.uint8, size, self.at)
+        low = np.flatnonzero(raw < 0x80)
+        bytes_low = (low[0 : len(low) // 3 * 3 : 3], low[1::3], low[2::3])
+        last, first, second = (column[: len(low) // 3] for column in bytes_low)
+        before = np.concatenate(([-1], second[:-1]))
+        shaped = (last - before <= _MAX_DELTA_BYTES) & (first - last <= 2) & (second - first == 1)
+        shaped &= _MAY_FOLLOW_DELTA[raw[last + 1]]
+        count = len(shaped) if shaped.all() else int(shaped.argmin())
+        if count:
+            self._keep(raw, _Places(before[:count], last[:count], first[:count], second[:count]))
+        return bool(count) and count == len(shaped)
+
+    def _keep(self, raw: NDArray[np.uint8], places: "_Places") -> None:
+        status = self._statuses(raw, places)
+        ticks = self.tick + np.cumsum(_deltas(raw, places))
+        self.blocks.append((ticks, status, raw[places.first], raw[places.second]))
+        self.tick, self.running = int(ticks[-1]), int(status[-1])
+        self.at += int(places.second[-1]) + 1
+
+    def _statuses(self, raw: NDArray[np.uint8], places: "_Places") -> NDArray[np.uint8]:
         """The status of each event: its own byte between delta time and data, or the one before it."""
-        own = np.where(low[:, 1] - low[:, 0] == 2, low[:, 0] + 1, -1)
+        own = np.where(places.first - places.last == 2, places.last + 1, -1)
         latest = np.maximum.accumulate(own)
         return np.where(latest < 0, np.uint8(self.running), raw[latest])
 
@@ -245,14 +273,12 @@ def _has_two_data_bytes(status: int) -> bool:
     return 0x80 <= status < 0xC0 or 0xE0 <= status < 0xF0
 
 
-def _deltas(raw: NDArray[np.uint8], low: NDArray[np.int64]) -> NDArray[np.int64]:
-    """The delta time of each event, whose last byte is at `low[:, 0]` and whose others are the bytes before it."""
-    last = low[:, 0]
-    event_starts = np.concatenate(([0], low[:-1, 2] + 1))
-    deltas = raw[last].astype(np.int64)
+def _deltas(raw: NDArray[np.uint8], places: _Places) -> NDArray[np.int64]:
+    """The delta time of each event: seven bits a byte, from the one after the event before to its last."""
+    deltas = raw[places.last].astype(np.int64)
     for place in range(1, _MAX_DELTA_BYTES):
-        has = np.flatnonzero(last - event_starts >= place)
-        deltas[has] |= (raw[last[has] - place] & 0x7F).astype(np.int64) << (7 * place)
+        has = np.flatnonzero(places.last - places.before > place)
+        deltas[has] |= (raw[places.last[has] - place] & 0x7F).astype(np.int64) << (7 * place)
     return deltas
 
 

@@ -141,14 +141,10 @@ def _notes(columns: Columns, kind: NDArray[np.uint8]) -> NDArray[np.void]:
     """Note ons (velocity above 0), each with its length: to the next note on or off of its channel and number."""
     played = np.flatnonzero((kind == _NOTE_ON) | (kind == _NOTE_OFF))
     tick, number, velocity = columns.tick[played], columns.first[played], columns.second[played]
-    channel = columns.status[played] & 0x0F
-    is_on = (kind[played] == _NOTE_ON) & (velocity > 0)
-    voice = channel.astype(np.uint16) << 7 | number
-    by_voice = np.argsort(voice, kind="stable")
-    this, following = by_voice[:-1], by_voice[1:]
-    length = np.full(len(played), NOT_ENDED, np.int64)
-    length[this] = np.where(voice[this] == voice[following], tick[following] - tick[this], NOT_ENDED)
-    rows = np.empty(int(is_on.sum()), TRACK_NOTE_DTYPE)
+    channel = columns.status[played] & np.uint8(0x0F)
+    length = _lengths(tick, channel.astype(np.uint16) << np.uint16(7) | number)
+    sounds = np.flatnonzero((kind[played] == _NOTE_ON) & (velocity > 0))
+    rows = np.empty(len(sounds), TRACK_NOTE_DTYPE)
     for name, column in (
         ("tick", tick),
         ("duration_ticks", length),
@@ -157,9 +153,20 @@ def _notes(columns: Columns, kind: NDArray[np.uint8]) -> NDArray[np.void]:
         ("velocity", velocity),
         ("place", played),
     ):
-        rows[name] = column[is_on]
+        rows[name] = column[sounds]
     rows.setflags(write=False)
     return rows
+
+
+def _lengths(tick: NDArray[np.int64], voice: NDArray[np.uint16]) -> NDArray[np.int64]:
+    """From each note event to the next of its voice (channel and number); `NOT_ENDED` where there is none."""
+    by_voice = np.argsort(voice, kind="stable")
+    to_next = np.diff(tick[by_voice])
+    is_last = np.diff(voice[by_voice]) != 0
+    to_next[is_last] = NOT_ENDED
+    length = np.full(len(tick), NOT_ENDED, np.int64)
+    length[by_voice[:-1]] = to_next
+    return length
 
 
 def _controls(columns: Columns, which: NDArray[np.bool_]) -> NDArray[np.void]:
