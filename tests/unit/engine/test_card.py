@@ -1,0 +1,160 @@
+"""The sound card's comings and goings, with a fake device that is asked by hand."""
+
+from dataclasses import dataclass, field
+
+import pytest
+
+from station.core.errors import DeviceError
+from station.core.units import NS_PER_MS, NS_PER_S
+from station.engine.card import RETRY_NS, STALLED_NS, Card
+from station.engine.engine import Engine
+from station.engine.messages import Notice, Play, Started, Status
+from station.sound.mixer import Mixer
+from tests.fakes.cues import clicks
+from tests.fakes.impulse_kit import impulse_mixer
+from tests.fakes.output import FakeOutput
+
+
+@dataclass
+class Shop:
+    """Hands out the outputs in turn; one that is None cannot be opened."""
+
+    outputs: list[FakeOutput | None]
+    built_hz: list[int] = field(default_factory=list)
+
+    def open(self) -> FakeOutput:
+        output = self.outputs.pop(0) if self.outputs else None
+        if output is None:
+            raise DeviceError("no sound device is there")
+        return output
+
+    def build(self, rate_hz: int) -> Mixer:
+        self.built_hz.append(rate_hz)
+        return impulse_mixer(rate_hz)
+
+
+def card_of(engine: Engine, *outputs: FakeOutput | None) -> tuple[Card, Shop]:
+    shop = Shop(list(outputs))
+    return Card(engine, shop.open, shop.build), shop
+
+
+def notices(engine: Engine, now_ns: int = 0) -> list[str]:
+    return [event.text for event in engine.advance(now_ns) if isinstance(event, Notice)]
+
+
+def test_a_card_sounds() -> None:
+    engine, output = Engine(), FakeOutput()
+    card, _ = card_of(engine, output)
+    card.start(0)
+    engine.handle(Play(clicks([0]), 0))
+    assert output.ask(64, 0).any()
+    assert card.name == "fake card"
+    assert notices(engine) == []
+
+
+def test_the_drum_kit_is_made_for_the_cards_rate() -> None:
+    card, shop = card_of(Engine(), FakeOutput("card", 44_100))
+    card.start(0)
+    assert shop.built_hz == [44_100]
+
+
+@pytest.mark.parametrize("output", [None, FakeOutput("card", 48_000, "start")])
+def test_without_a_card_the_engine_says_so_once_and_runs_silent(output: FakeOutput | None) -> None:
+    engine = Engine()
+    card, _ = card_of(engine, output)
+    card.start(0)
+    engine.handle(Play(clicks([0]), 0))
+    for now_ns in range(0, 60 * NS_PER_S, NS_PER_S):
+        card.supervise(now_ns)
+    events = engine.advance(60 * NS_PER_S)
+    assert len([event for event in events if isinstance(event, Notice)]) == 1
+    assert [event for event in events if isinstance(event, Started)] == [Started(0)]
+    assert card.name is None
+
+
+def test_a_card_that_does_not_start_is_given_back() -> None:
+    output = FakeOutput("card", 48_000, "start")
+    card, _ = card_of(Engine(), output)
+    card.start(0)
+    assert output.calls == ["start", "close"]
+
+
+def test_a_card_that_stops_is_told_and_found_again() -> None:
+    engine = Engine()
+    first, second = FakeOutput("first"), FakeOutput("second")
+    card, shop = card_of(engine, first, None, second)
+    card.start(0)
+    first.fault = DeviceError("it was unplugged")
+    first.underflows = 4
+    card.supervise(NS_PER_S)
+    assert first.calls[-1] == "close"
+    assert "it was unplugged" in notices(engine)[0]
+    for now_ns in range(NS_PER_S, NS_PER_S + 2 * RETRY_NS + 1, 100 * NS_PER_MS):
+        card.supervise(now_ns)
+    assert notices(engine) == ["sound is back on second"]
+    assert second.calls == ["start"]
+    assert shop.built_hz == [48_000]  # the kit is kept
+    card.supervise(20 * NS_PER_S)
+    assert engine.output.underflows == 4
+
+
+def test_a_card_that_asks_for_nothing_has_stopped() -> None:
+    engine, output = Engine(), FakeOutput()
+    card, _ = card_of(engine, output)
+    card.start(0)
+    for second in range(1, 4):
+        output.ask(64, second * NS_PER_S)
+        card.supervise(second * NS_PER_S)
+    assert output.calls == ["start"]
+    card.supervise(3 * NS_PER_S + STALLED_NS + 1)
+    assert output.calls[-1] == "close"
+    assert "asks for no more sound" in notices(engine)[0]
+
+
+def test_the_cards_figures_reach_the_status() -> None:
+    engine, output = Engine(), FakeOutput()
+    card, _ = card_of(engine, output)
+    card.start(0)
+    output.underflows = 7
+    card.supervise(1)
+    engine.advance(0)
+    (status,) = [event for event in engine.advance(NS_PER_S) if isinstance(event, Status)]
+    assert (status.underflows, status.output_latency_ms, status.load) == (7, 3.0, 0.25)
+
+
+def test_the_sound_is_kept_still_and_goes_on() -> None:
+    output = FakeOutput()
+    card, _ = card_of(Engine(), output)
+    card.start(0)
+    with card.paused():
+        assert output.calls == ["start", "pause"]
+    assert output.calls == ["start", "pause", "resume"]
+
+
+@pytest.mark.parametrize("fault", ["pause", "resume"])
+def test_a_card_that_fails_to_pause_or_resume_is_lost(fault: str) -> None:
+    engine, output = Engine(), FakeOutput("card", 48_000, fault)
+    card, _ = card_of(engine, output)
+    card.start(0)
+    with card.paused():
+        pass
+    assert output.calls[-1] == "close"
+    assert card.name is None
+    assert f"{fault} failed" in notices(engine)[0]
+
+
+def test_there_is_nothing_to_keep_still_without_a_card() -> None:
+    card, _ = card_of(Engine(), None)
+    with card.paused():
+        pass
+
+
+def test_closing_gives_the_card_back_and_leaves_the_engine_silent() -> None:
+    engine, output = Engine(), FakeOutput()
+    card, _ = card_of(engine, output)
+    card.start(0)
+    card.close()
+    card.close()
+    assert output.calls == ["start", "close"]
+    engine.handle(Play(clicks([0]), 0))
+    assert engine.advance(0) == [Started(0)]
