@@ -220,15 +220,15 @@ class _Reader:
             return
         score = lesson.score.at_speed(max(1.0, lesson.target_tempo_bpm / lesson.tempo_bpm))
         first, last = lesson.loop
-        in_loop = np.flatnonzero((score.bar >= first) & (score.bar <= last))
-        found = [(origins[i.note], i.text) for i in impossible(score)]
-        if not found and len(in_loop):
-            again = impossible(score.bars(first, last).repeated(2))
-            found = [
-                (origins[int(in_loop[i.note % len(in_loop)])], f"{i.text} (as the loop starts again)") for i in again
-            ]
-        for origin, words in found:
-            self.faults.add(origin.path, words, origin.char)
+        in_loop = np.flatnonzero((score.bar >= first) & (score.bar <= last)).tolist()
+        twice = impossible(score.bars(first, last).repeated(2)) if in_loop else []
+        found = {(in_loop[i.note], i.text) for i in twice if i.note < len(in_loop)}
+        if len(in_loop) < len(score):
+            found |= {(i.note, i.text) for i in impossible(score)}
+        again = {(in_loop[i.note - len(in_loop)], i.text) for i in twice if i.note >= len(in_loop)} - found
+        again_told = {(note, f"{words} (as the loop starts again)") for note, words in again}
+        for note, words in found | again_told:
+            self.faults.add(origins[note].path, words, origins[note].char)
 
 
 def _nothing(value: object) -> None:

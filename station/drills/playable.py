@@ -24,6 +24,7 @@ FOOT_SPANS_S: Mapping[int, float] = {2: 0.07, 9: 0.72}
 down to 75 ms, and what is closer there looks like a bouncing beater. Our choice."""
 
 MAX_HANDS = 2
+_HANDS_STRIKE = np.array(sorted(HAND_PIECES), np.uint8)
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,30 +44,30 @@ def impossible(score: Score) -> list[Impossible]:
 
 
 def _is_hand(notes: NDArray[np.void]) -> NDArray[np.bool_]:
-    by_foot = np.isin(notes["limb"], (Limb.RIGHT_FOOT, Limb.LEFT_FOOT))
-    return np.isin(notes["piece"], [int(p) for p in HAND_PIECES]) & ~by_foot
+    by_foot = notes["limb"] >= Limb.RIGHT_FOOT
+    return np.isin(notes["piece"], _HANDS_STRIKE) & ~by_foot
 
 
 def _crowded_moments(score: Score) -> list[Impossible]:
     """Moments that ask for three hands, or for one limb in two places."""
     found: list[Impossible] = []
     notes = score.notes
-    mains = np.flatnonzero(~score.is_grace)
-    is_hand = _is_hand(notes)
-    for _, group in groupby(mains.tolist(), key=lambda i: int(notes["tick"][i])):
+    ticks, limbs = notes["tick"].tolist(), notes["limb"].tolist()
+    is_hand = _is_hand(notes).tolist()
+    graced = np.isin(notes["ornament"], (Ornament.FLAM, Ornament.DRAG)).tolist()
+    for _, group in groupby(np.flatnonzero(~score.is_grace).tolist(), key=ticks.__getitem__):
         rows = list(group)
         hands = [i for i in rows if is_hand[i]]
-        with_grace = [i for i in hands if notes["ornament"][i] in (Ornament.FLAM, Ornament.DRAG)]
-        needed = len(hands) + len(with_grace)
+        needed = len(hands) + sum(graced[i] for i in hands)
         if needed > MAX_HANDS:
-            ornament = " with its grace strokes" if with_grace else ""
+            ornament = " with its grace strokes" if needed > len(hands) else ""
             what = f"{needed} hands needed at once: {_pieces(score, hands)}{ornament}"
             found.append(Impossible(hands[-1], what))
-        for i, limb in enumerate(int(notes["limb"][r]) for r in rows):
-            earlier = [r for r in rows[:i] if int(notes["limb"][r]) == limb]
-            if limb != Limb.UNKNOWN and earlier:
-                both = _pieces(score, [*earlier, rows[i]])
-                found.append(Impossible(rows[i], f"one {word(Limb(limb)).replace('_', ' ')}, two places: {both}"))
+        for i, row in enumerate(rows):
+            earlier = [r for r in rows[:i] if limbs[r] == limbs[row] != Limb.UNKNOWN]
+            if earlier:
+                who = word(Limb(limbs[row])).replace("_", " ")
+                found.append(Impossible(row, f"one {who}, two places: {_pieces(score, [*earlier, row])}"))
     return found
 
 
