@@ -16,7 +16,11 @@ Mono = NDArray[np.float32]
 
 LN_1000 = float(np.log(1000.0))
 """A decay of 60 dB in amplitude is a factor of 1000."""
-_BLOCK = 512
+_BLOCK = 256
+_PRODUCT = 200_000
+"""Multiplications in one matrix product. OpenBLAS splits larger ones (262,144) among threads, which wait by spinning:
+on a busy computer they lose more time than they save.
+"""
 _LOOP_S = 1.3
 """Noise repeats after so long: longer than the ear follows a pattern in noise (about half a second)."""
 _SKIRT_OCTAVES = 0.8
@@ -103,12 +107,13 @@ def _ring(
 ) -> Mono:
     """Re Σ amplitude·exp((−ln 1000/t60 + 2πi·freq)·t), float32 (length,)."""
     exponent = (-LN_1000 / t60_s + 2j * np.pi * freq_hz) / rate_hz
-    blocks = -(-length // _BLOCK)
-    coarse = amplitude * np.exp(np.arange(blocks)[:, None] * _BLOCK * exponent)
+    rows = max(1, _PRODUCT // (2 * len(freq_hz) * _BLOCK))
+    batches = -(-length // (rows * _BLOCK))
+    coarse = amplitude * np.exp(np.arange(batches * rows)[:, None] * _BLOCK * exponent)
     fine = np.exp(exponent[:, None] * np.arange(_BLOCK))
     left = np.concatenate([coarse.real, -coarse.imag], axis=1).astype(np.float32)
     right = np.concatenate([fine.real, fine.imag], axis=0).astype(np.float32)
-    whole: Mono = left.dot(right).reshape(-1)
+    whole: Mono = np.matmul(left.reshape(batches, rows, -1), right).reshape(-1)
     return whole[:length]
 
 
