@@ -1,0 +1,84 @@
+"""Benchmarks of the sound: a block with every voice ringing, what a stroke adds, how soon the kit is there."""
+
+import time
+
+import numpy as np
+
+from station.bench.benchmark import Benchmark, Measured, median_s
+from station.core.kitmap import Strike
+from station.core.pieces import Piece, Zone
+from station.sound.buses import Bus
+from station.sound.click import click_sounds
+from station.sound.kit_synth import synth_kit
+from station.sound.mixer import MAX_VOICES, Mixer
+
+RATE_HZ = 48_000
+BLOCK_FRAMES = 64
+_BLOCKS = 600
+"""0.8 s: every stroke of `_LONG` still rings at the end."""
+_LONG = (
+    *(Strike(piece, Zone.EDGE) for piece in (Piece.RIDE, Piece.CRASH_1, Piece.CRASH_2, Piece.CHINA) for _ in range(6)),
+    *(Strike(piece) for piece in (Piece.FLOOR_TOM_1, Piece.FLOOR_TOM_2) for _ in range(4)),
+)
+
+
+def _ringing() -> Mixer:
+    """A mixer with all its voices ringing."""
+    mixer = Mixer(synth_kit(RATE_HZ), click_sounds(RATE_HZ))
+    for strike in _LONG:
+        mixer.trigger(Bus.STUDENT, strike, 100)
+    mixer.render(BLOCK_FRAMES)
+    assert mixer.ringing == MAX_VOICES, "every voice rings"
+    return mixer
+
+
+def _block() -> Measured:
+    mixer = _ringing()
+    ours_s = median_s(lambda: mixer.render(BLOCK_FRAMES), _BLOCKS)
+    assert mixer.ringing == MAX_VOICES, "every voice still rings"
+    return Measured(1e6 * ours_s, 1e6 * _voice_by_voice_s())
+
+
+def _voice_by_voice_s() -> float:
+    """The same block as most would write it: each voice scaled and added in turn, no bus, no fade, no limiter."""
+    kit = synth_kit(RATE_HZ)
+    voices = [kit.choose(strike)[1].take(100, 0).reshape(-1) for strike in _LONG]
+    size = 2 * BLOCK_FRAMES
+    out, scaled = np.empty(size, np.float32), np.empty(size, np.float32)
+    at = 0
+
+    def block() -> None:
+        nonlocal at
+        out[:] = 0.0
+        for voice in voices:
+            np.multiply(voice[at : at + size], 0.62, out=scaled)
+            np.add(out, scaled, out=out)
+        np.clip(out, -1.0, 1.0, out=out)
+        at += size
+
+    return median_s(block, _BLOCKS)
+
+
+def _stroke() -> Measured:
+    """A stroke where every voice rings: it is chosen, another voice is stolen, and the block is mixed in one piece."""
+    mixer = _ringing()
+
+    def stroke() -> None:
+        mixer.trigger(Bus.STUDENT, Strike(Piece.SNARE), 100)
+        mixer.render(BLOCK_FRAMES)
+
+    return Measured(1e6 * median_s(stroke, _BLOCKS))
+
+
+def _kit() -> Measured:
+    start = time.perf_counter()
+    kit = synth_kit(RATE_HZ)
+    taken_s = time.perf_counter() - start
+    return Measured(taken_s, note=f"{len(kit.sounds)} sounds in {kit.bytes_held / 1e6:.0f} MB")
+
+
+BENCHMARKS = (
+    Benchmark("mixer_block_64_frames_32_voices", "µs", 50, "lower", "numpy, voice by voice", _block),
+    Benchmark("mixer_block_with_a_stroke_all_voices_taken", "µs", 200, "lower", None, _stroke),
+    Benchmark("drum_kit_ready", "s", 1.5, "lower", None, _kit),
+)
