@@ -7,6 +7,7 @@ not an extra. `Unwritten` answers for whole arrays (the report) and for one hit 
 
 from bisect import bisect_right
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,32 +39,62 @@ class Masks:
 
 
 class Unwritten:
-    """The rules over one score."""
+    """The rules over one score; what a rule needs is worked out when a hit first asks for it."""
 
     def __init__(self, score: Score) -> None:
-        notes = score.notes
-        bars = range(score.bar_count)
-        self._bar_ns = score.tempo_map.ns_at([score.tempo_map.bar_start(bar) for bar in bars])
-        self._foot_bar = _bars_with(score, notes["piece"] == Piece.HIHAT_PEDAL)
-        self._backbeat_bar = _bars_with(score, (notes["piece"] == Piece.SNARE) & (notes["dynamic"] != Dynamic.GHOST))
-        hats = np.flatnonzero(notes["piece"] == Piece.HIHAT)
-        hats = hats[np.argsort(score.onset_ns[hats], kind="stable")]
-        self._hat_ns = score.onset_ns[hats]
-        self._hat_open = np.asarray(notes["openness"][hats] >= OPEN_FROM)  # NaN, not said, is never open
-        beats = [tick for tick, _ in score.tempo_map.beats_between(0, score.end_tick + 1)]
-        self._beat_ns = score.tempo_map.ns_at(beats)
-        self._lists = [
-            a.tolist() for a in (self._bar_ns, self._foot_bar, self._backbeat_bar, self._hat_ns, self._hat_open)
-        ]
-        self._beat_list: list[int] = self._beat_ns.tolist()
+        self._score = score
+
+    @cached_property
+    def _bar_ns(self) -> NDArray[np.int64]:
+        return self._score.tempo_map.ns_at(_grid(self._score, whole_bars=True))
+
+    @cached_property
+    def _beat_ns(self) -> NDArray[np.int64]:
+        return self._score.tempo_map.ns_at(_grid(self._score, whole_bars=False))
+
+    @cached_property
+    def _foot_bar(self) -> NDArray[np.bool_]:
+        """Which bars hold a written stroke of the hi-hat foot."""
+        return self._bars_with(self._score.notes["piece"] == Piece.HIHAT_PEDAL)
+
+    @cached_property
+    def _backbeat_bar(self) -> NDArray[np.bool_]:
+        """Which bars hold a snare that is no ghost."""
+        notes = self._score.notes
+        return self._bars_with((notes["piece"] == Piece.SNARE) & (notes["dynamic"] != Dynamic.GHOST))
+
+    @cached_property
+    def _hats(self) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+        """Times of the hi-hat's strokes, rising, and which of them are open."""
+        hats = np.flatnonzero(self._score.notes["piece"] == Piece.HIHAT)
+        hats = hats[np.argsort(self._score.onset_ns[hats], kind="stable")]
+        opened = self._score.notes["openness"][hats] >= OPEN_FROM  # NaN, not said, is never open
+        return self._score.onset_ns[hats], np.asarray(opened)
+
+    @cached_property
+    def _lists(self) -> tuple[list[int], list[bool], list[bool], list[int], list[bool]]:
+        """Bars, their flags and hats as lists, which single hits are looked up in faster."""
+        hat_ns, opened = self._hats
+        bars = (self._bar_ns.tolist(), self._foot_bar.tolist(), self._backbeat_bar.tolist())
+        return (*bars, hat_ns.tolist(), opened.tolist())
+
+    @cached_property
+    def _beat_list(self) -> list[int]:
+        beats: list[int] = self._beat_ns.tolist()
+        return beats
 
     def masks(self, performance: Performance, hit_ns: NDArray[np.int64]) -> Masks:
         """The rules for every hit, `hit_ns` (m,) being its score time."""
         piece, velocity = performance.hits["piece"], performance.hits["velocity"]
-        bar = np.maximum(np.searchsorted(self._bar_ns, hit_ns, side="right") - 1, 0)
-        feet = (piece == Piece.HIHAT_PEDAL) & (~self._foot_bar[bar] | self._after_open_hat(hit_ns))
-        ghosts = (piece == Piece.SNARE) & (velocity <= GHOST_VELOCITY) & self._backbeat_bar[bar]
-        feathers = (piece == Piece.KICK) & (velocity <= FEATHER_VELOCITY) & self._on_beat(hit_ns)
+        feet = piece == Piece.HIHAT_PEDAL
+        ghosts = (piece == Piece.SNARE) & (velocity <= GHOST_VELOCITY)
+        feathers = (piece == Piece.KICK) & (velocity <= FEATHER_VELOCITY)
+        if feet.any():
+            feet[feet] = ~self._foot_bar[self._bars(hit_ns[feet])] | self._after_open_hat(hit_ns[feet])
+        if ghosts.any():
+            ghosts[ghosts] = self._backbeat_bar[self._bars(hit_ns[ghosts])]
+        if feathers.any():
+            feathers[feathers] = self._on_beat(hit_ns[feathers])
         return Masks(feet, feet | ghosts | feathers)
 
     def is_foot(self, piece: Piece, hit_ns: int) -> bool:
@@ -85,12 +116,21 @@ class Unwritten:
             return any(abs(beat - hit_ns) <= _BEAT_REACH_NS for beat in beats[max(i - 1, 0) : i + 1])
         return self.is_foot(piece, hit_ns)
 
+    def _bars(self, hit_ns: NDArray[np.int64]) -> NDArray[np.int64]:
+        return np.maximum(np.searchsorted(self._bar_ns, hit_ns, side="right") - 1, 0)
+
+    def _bars_with(self, which: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """Which bars hold one of the notes marked in `which` (n,); shape (bars,)."""
+        bars = len(self._bar_ns)
+        return np.asarray(np.bincount(self._score.bar[which], minlength=bars)[:bars] > 0)
+
     def _after_open_hat(self, hit_ns: NDArray[np.int64]) -> NDArray[np.bool_]:
         """Which hits come after a written open stroke of the hi-hat and before its next stroke."""
-        if not len(self._hat_ns):
+        hat_ns, opened = self._hats
+        if not len(hat_ns):
             return np.zeros(len(hit_ns), np.bool_)
-        before = np.searchsorted(self._hat_ns, hit_ns, side="right") - 1
-        return (before >= 0) & self._hat_open[np.maximum(before, 0)]
+        before = np.searchsorted(hat_ns, hit_ns, side="right") - 1
+        return np.asarray((before >= 0) & opened[np.maximum(before, 0)])
 
     def _on_beat(self, hit_ns: NDArray[np.int64]) -> NDArray[np.bool_]:
         right = np.minimum(np.searchsorted(self._beat_ns, hit_ns, side="right"), len(self._beat_ns) - 1)
@@ -99,6 +139,10 @@ class Unwritten:
         return np.asarray(distance <= _BEAT_REACH_NS)
 
 
-def _bars_with(score: Score, which: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Which bars hold one of the notes marked in `which` (n,); shape (bars,)."""
-    return np.asarray(np.bincount(score.bar[which], minlength=score.bar_count)[: score.bar_count] > 0)
+def _grid(score: Score, whole_bars: bool) -> NDArray[np.int64]:
+    """Ticks of the bars' or beats' beginnings up to the score's end, that of the bar after it included."""
+    meters = score.tempo_map.meters
+    ends = [meter.tick for meter in meters[1:]] + [max(score.end_tick, meters[-1].tick) + 1]
+    steps = [meter.bar_ticks if whole_bars else meter.beat_ticks for meter in meters]
+    parts = [np.arange(m.tick, end, step) for m, end, step in zip(meters, ends, steps, strict=True)]
+    return np.concatenate(parts).astype(np.int64)

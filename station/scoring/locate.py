@@ -28,6 +28,9 @@ _APART_S = 0.06
 _MISS_COST = 2.0
 """Nats against a note that nobody hit, about log(0.97/0.1): a seventh of the notes may be missing (our choice)."""
 
+_FIT_GATES_S = (0.08, GATE_S)
+"""Hits farther off are left out of the first and the second fit of a spot."""
+
 _VOTES_AT_ONCE = 4_000_000
 """Bounds the memory of a vote to about 64 MB."""
 
@@ -70,8 +73,23 @@ class Candidate:
 
 def candidates(notes: Notes, among: slice, hits: Hits, rates_tried: Floats) -> list[Candidate]:
     """The likeliest places of the window `hits` at the tempi `rates_tried`, notes being taken from `among` only."""
-    spots = _best_spots(notes, among, hits, rates_tried)
+    spots = [_fitted(notes, hits, place) for place in _best_spots(notes, among, hits, rates_tried)]
     return [Candidate(place, nats_for(notes, hits, place)) for place in spots]
+
+
+def _fitted(notes: Notes, hits: Hits, place: Place) -> Place:
+    """The place and rate that the window's hits near their notes support, by least squares from `place` on."""
+    since, classes = hits.at_s - hits.at_s[0], hits.classes.tolist()
+    score_s, rate = place.score_s, place.rate
+    for gate_s in _FIT_GATES_S:
+        off = np.array(notes.tracker.distances((score_s + rate * since).tolist(), classes))
+        near = np.abs(off) < gate_s
+        t, d = since[near], off[near]
+        spread = float(np.sum((t - t.mean()) ** 2)) if len(t) else 0.0
+        if spread > 0.0:
+            slope = float(np.sum((t - t.mean()) * d)) / spread
+            score_s, rate = score_s + float(d.mean()) - slope * float(t.mean()), rate + slope
+    return Place(place.at_s, score_s, rate)
 
 
 def nats_for(notes: Notes, hits: Hits, place: Place) -> float:

@@ -1,12 +1,12 @@
 """Alignment without a click: the player's own clock is found, and what was due is told by it or by the file.
 
-A passage that was played more than once is paired with its last attempt; the hits of the others are extras.
+A passage that was played more than once is paired with one attempt (`stretches`); the hits of the others are extras.
 """
 
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.units import NS_PER_MS, NS_PER_S
+from station.core.units import NS_PER_MS, NS_PER_S, PPQ
 from station.music.performance import Performance
 from station.music.score import Score
 from station.scoring.alignment import Alignment, Reference, Timed, labelled
@@ -14,16 +14,13 @@ from station.scoring.drift import local_trend, robust_sd
 from station.scoring.ignored import Unwritten
 from station.scoring.pairing import Indices, Times
 from station.scoring.settle import Settled, Side, Start, settle
-from station.scoring.warp import Warp, find_warp
+from station.scoring.stretches import owners
+from station.scoring.warp import Warp, Written, find_warp
 
 Floats = NDArray[np.float64]
 
 _START = Start(reach_ms=90.0, rounds=2)
 """The way through the score is known to about 20 ms, so that the first reach is narrower than with a click."""
-
-_EDGE_S = 0.03
-_FRINGE_S = 0.15
-"""A stretch owns the notes between its first and last hit and this much around; and, where nobody does, so much."""
 
 SAME_BASE_MS, SAME_BASE_WANDER_MS = 100.0, 60.0
 """A performance that starts within the first and wanders less than the second about it was recorded on the score's own
@@ -36,28 +33,15 @@ _CURVE_HALF_WIDTH = 16
 def align_unclocked(score: Score, performance: Performance, note_class: Indices, hit_class: Indices) -> Alignment:
     """The alignment of hits of unknown tempo and offset; some hit has a class that some note has."""
     at_ns: Times = np.asarray(performance.hits["at_ns"])
-    warp = find_warp(score.onset_s, note_class, at_ns / NS_PER_S, hit_class)
+    beats = np.arange(0, max(score.end_tick, PPQ) + 1, PPQ)
+    written = Written(score.onset_s, note_class, score.tempo_map.seconds_at(beats))
+    warp = find_warp(written, at_ns / NS_PER_S, hit_class)
     hit_ns = np.rint(warp.score_s * NS_PER_S).astype(np.int64)
     unwritten = Unwritten(score).masks(performance, hit_ns)
-    notes = Side(score.onset_ns, note_class, owners(score.onset_s, warp))
+    notes = Side(score.onset_ns, note_class, owners(score.onset_s, note_class, warp, hit_class))
     hits = Side(hit_ns, hit_class, warp.stretch)
     settled = settle(notes, hits, ~score.is_grace, unwritten.feet, _START)
     return labelled(settled, _timed(score, at_ns, warp, settled), unwritten.quiet)
-
-
-def owners(note_s: Floats, warp: Warp) -> Indices:
-    """Which stretch's hits may answer each note, shape (n,): the last that passes over it; −1 where none does."""
-    first = np.full(int(warp.stretch[-1]) + 1, np.inf)
-    last = np.full(len(first), -np.inf)
-    np.minimum.at(first, warp.stretch, warp.score_s)
-    np.maximum.at(last, warp.stretch, warp.score_s)
-    owner = np.full(len(note_s), -1, np.int64)
-    for around in (_EDGE_S, _FRINGE_S):
-        free = owner < 0
-        for stretch in range(len(first)):
-            passed = (note_s >= first[stretch] - around) & (note_s <= last[stretch] + around)
-            owner[free & passed] = stretch
-    return owner
 
 
 def _timed(score: Score, at_ns: Times, warp: Warp, settled: Settled) -> Timed:

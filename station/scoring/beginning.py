@@ -1,0 +1,59 @@
+"""Where in the score and how fast a performance begins.
+
+A recording may start anywhere, its first stroke may be a count-in, and the student may play at another tempo. What the
+first hits match is found by voting; the likeliest beginnings are then followed for a while, for bars that are alike
+part ways sooner or later. Times are seconds.
+"""
+
+import numpy as np
+
+from station.scoring.evidence import best_evidence
+from station.scoring.locate import Candidate, Hits, Notes, candidates, nats_for
+from station.scoring.tracker import Place
+
+RATES = np.exp(np.arange(-35, 36) * 0.02)
+"""Tempi that are tried, a half to twice as fast, in steps of 2 %."""
+
+_TEMPO_PRIOR = 0.3
+"""SD of log tempo: a student practises at 70 % more readily than at half the tempo (TEACHING)."""
+
+_EARLY_S = 15.0
+"""Most performances begin within so much of the score's beginning: there is looked first."""
+
+_COST_PER_S, _MOST_COST, _COST_PER_S_MORE = 2.0, 15.0, 0.02
+"""Nats a second against a first hit that is not the first note, up to a jump's cost, for it is one; a little beyond."""
+
+_ENOUGH = 0.5
+"""Share of all possible evidence with which a beginning is believed without looking elsewhere."""
+
+_SURELY = 0.6
+"""As `_ENOUGH`, of the long look, for a performance on the score's own time base: a player of SD 20 ms, with one stroke
+in ten astray, brings so much."""
+
+_LOOKED_AT, _LONG_LOOK = 12, 256
+"""So many of the likeliest beginnings are followed over so many hits."""
+
+
+def find_beginning(notes: Notes, hits: Hits) -> Place:
+    """Where and how fast the performance begins."""
+    longer = hits.part(0, _LONG_LOOK)
+    same = Place(float(hits.at_s[0]), float(hits.at_s[0]), 1.0)  # recorded on the score's own time base
+    if nats_for(notes, longer, same) > _SURELY * _possible(notes, longer):
+        return same
+    window = hits.window(0)
+    early = slice(0, int(np.searchsorted(notes.at_s, notes.at_s[0] + _EARLY_S)))
+    tried = [Candidate(same, nats_for(notes, window, same)), *candidates(notes, early, window, RATES)]
+    if max(candidate.nats for candidate in tried) < _ENOUGH * _possible(notes, window):
+        tried += candidates(notes, slice(None), window, RATES)
+    tried.sort(key=lambda candidate: -candidate.nats - _prior(candidate.place, notes))
+    return max((c.place for c in tried[:_LOOKED_AT]), key=lambda p: nats_for(notes, longer, p) + _prior(p, notes))
+
+
+def _possible(notes: Notes, hits: Hits) -> float:
+    return float(best_evidence(notes.rates[hits.classes]).sum())
+
+
+def _prior(place: Place, notes: Notes) -> float:
+    from_start_s = abs(place.score_s - float(notes.at_s[0]))
+    elsewhere = min(_COST_PER_S * from_start_s, _MOST_COST) + _COST_PER_S_MORE * from_start_s
+    return -0.5 * float(np.log(place.rate) / _TEMPO_PRIOR) ** 2 - elsewhere

@@ -1,0 +1,158 @@
+"""Whole beats that a player skipped or went back: what the tempo follower cannot see where bars are nearly alike.
+
+Whoever leaves a bar out plays on in time, so that the follower stays locked to the beat, in the wrong bar. Here every
+hit is held against the score moved by each of a set of shifts, and the row of shifts is found that all hits together
+support best, each change of shift costing a jump (Viterbi 1967). Shifts are in beats, so that they hold across changes
+of the written tempo.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.scoring.evidence import evidence
+from station.scoring.locate import Hits, Notes
+from station.scoring.pursuit import JUMP_COST, JUMP_COST_PER_S, MOST_JUMP_COST_MORE
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+_FAR_BEATS, _NEAR_BEATS = 64, 2
+"""Whole beats are tried as far as the first, 16 bars of 4/4; thirds and quarters of a beat as far as the second."""
+
+SHIFTS_BEATS = np.unique(
+    np.concatenate(
+        [np.arange(-_FAR_BEATS, _FAR_BEATS + 1.0)]
+        + [np.arange(-_NEAR_BEATS * parts, _NEAR_BEATS * parts + 1) / parts for parts in (3, 4)]
+    )
+)
+"""The shifts that are always tried, rising; 0 is among them. Jumps that were found by voting come with their own."""
+
+_MOST_JUMPS = 64
+"""Jumps that are reconsidered (our choice: more than anyone makes who is worth an alignment)."""
+
+LEAST_JUMP_S = 0.25
+"""A smaller jump is a stumble and no change of place (our choice: an eighth at 120 bpm)."""
+
+_SLACK = 0.1
+"""Share of a rest by which the place may move without a jump: the tempo may have changed meanwhile."""
+
+_SAME_BEAT = 0.12
+"""Jumps as the follower sees them are as exact as its place when it was losing it: its gate, 60 ms at 120 bpm."""
+
+_AT_ONCE = 4096
+"""Hits whose evidence is computed in one go: bounds the memory to some 5 MB."""
+
+
+@dataclass(frozen=True, eq=False)
+class Beats:
+    """`at_s` (b,) when each quarter of the score begins, rising; before and after go on at the tempo there."""
+
+    at_s: Floats
+
+    def moved(self, score_s: Floats, by_beats: Floats) -> Floats:
+        """Score times moved by so many beats; the shapes broadcast."""
+        return self._time(self.beat(score_s) + by_beats)
+
+    def beat(self, score_s: Floats) -> Floats:
+        """Beats from the score's beginning."""
+        i = np.clip(np.searchsorted(self.at_s, score_s, side="right") - 1, 0, len(self.at_s) - 2)
+        return np.asarray(i + (score_s - self.at_s[i]) / (self.at_s[i + 1] - self.at_s[i]))
+
+    def _time(self, beat: Floats) -> Floats:
+        i = np.clip(beat.astype(np.int64), 0, len(self.at_s) - 2)
+        return np.asarray(self.at_s[i] + (beat - i) * (self.at_s[i + 1] - self.at_s[i]))
+
+
+def best_shifts(notes: Notes, hits: Hits, places: Floats, beats: Beats) -> Floats:
+    """By how many beats each hit (m,) at `places` (m,) must be moved, shape (m,).
+
+    Jumps that `places` already make are reconsidered too: there, going on at the old place is free and the jump costs.
+    """
+    made = _made(hits.at_s, places, beats)
+    tried = _with(SHIFTS_BEATS, list(made.values()))
+    distance_s = float(np.median(np.diff(beats.at_s))) * np.abs(tried)
+    more = np.minimum(JUMP_COST_PER_S * distance_s, MOST_JUMP_COST_MORE)
+    total = np.where(tried == 0.0, 0.0, -JUMP_COST - more)
+    came_from = np.empty((len(places), len(tried)), np.int16)
+    straight = np.arange(len(tried), dtype=np.int16)
+    for i, said in enumerate(_evidence(notes, hits, places, beats, tried)):
+        best = int(total.argmax())
+        jumped = total[best] - JUMP_COST
+        came_from[i] = straight
+        if i in made:
+            came_from[i] = _index_of(tried + made[i], tried)
+            total = np.where(came_from[i] < 0, -np.inf, total[came_from[i]])
+        here = total < jumped
+        came_from[i, here] = best
+        total = np.where(here, jumped, total) + said
+    row: Floats = tried[_walk_back(came_from, int(total.argmax()))]
+    return row
+
+
+def fits_elsewhere(notes: Notes, hits: Hits, places: Floats, beats: Beats, part: slice) -> bool:
+    """Whether the hits of `part`, moved together by some shift, fit better by more than a jump costs."""
+    some = hits.part(part.start, part.stop)
+    said = sum(_evidence(notes, some, places[part], beats, SHIFTS_BEATS), np.zeros(len(SHIFTS_BEATS)))
+    return bool(said.max() - said[SHIFTS_BEATS == 0.0][0] > JUMP_COST)
+
+
+def jumps(at_s: Floats, places: Floats) -> Indices:
+    """The first hits after the jumps of `places` (m,)."""
+    steps = np.diff(at_s)
+    return np.flatnonzero(np.abs(np.diff(places) - steps) > LEAST_JUMP_S + _SLACK * steps) + 1
+
+
+def _made(at_s: Floats, places: Floats, beats: Beats) -> dict[int, float]:
+    """The jumps that `places` makes: their first hits, and by how many beats."""
+    jumped = jumps(at_s, places)[:_MOST_JUMPS]
+    expected = places[jumped - 1] + (at_s[jumped] - at_s[jumped - 1])
+    by_beats = beats.beat(places[jumped]) - beats.beat(expected)
+    return dict(zip(jumped.tolist(), by_beats.tolist(), strict=True))
+
+
+def _with(shifts: Floats, more: list[float]) -> Floats:
+    """`shifts` and those of `more` that are none of them, rising."""
+    for shift in more:
+        if _index_of(np.array([shift]), shifts)[0] < 0:
+            shifts = np.sort(np.append(shifts, shift))
+    return shifts
+
+
+def _index_of(beats: Floats, shifts: Floats) -> NDArray[np.int16]:
+    """Index in `shifts` of the one that each value (k,) is, −1 for none."""
+    right = np.clip(np.searchsorted(shifts, beats), 1, len(shifts) - 1)
+    nearest = right - (beats - shifts[right - 1] < shifts[right] - beats)
+    return np.where(np.abs(shifts[nearest] - beats) < _SAME_BEAT, nearest, -1).astype(np.int16)
+
+
+def _walk_back(came_from: NDArray[np.int16], state: int) -> Indices:
+    """The states of the best row, shape (m,)."""
+    row = np.empty(len(came_from), np.int64)
+    for i in range(len(came_from) - 1, -1, -1):
+        row[i] = state
+        state = int(came_from[i, state])
+    return row
+
+
+def _evidence(notes: Notes, hits: Hits, places: Floats, beats: Beats, shifts: Floats) -> Iterator[Floats]:
+    """What each hit says for each shift, hit by hit, shape (shifts,)."""
+    by_class = {c: notes.at_s[notes.classes == c] for c in np.unique(hits.classes).tolist()}
+    for start in range(0, len(places), _AT_ONCE):
+        part = hits.part(start, start + _AT_ONCE)
+        moved = beats.moved(places[start : start + _AT_ONCE, None], shifts[None, :])
+        distance = np.empty_like(moved)
+        for c, own in by_class.items():
+            here = part.classes == c
+            distance[here] = _to_nearest(own, moved[here])
+        yield from evidence(distance, notes.rates[part.classes][:, None])
+
+
+def _to_nearest(note_s: Floats, at_s: Floats) -> Floats:
+    """Distance to the nearest note, any shape."""
+    right = np.minimum(np.searchsorted(note_s, at_s), len(note_s) - 1)
+    left = np.maximum(right - 1, 0)
+    distance: Floats = np.minimum(np.abs(note_s[right] - at_s), np.abs(at_s - note_s[left]))
+    return distance
