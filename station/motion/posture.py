@@ -13,7 +13,7 @@ HIP_ABOVE_SEAT = 0.05
 """Height of the hip joints over the seat, as a share of the stature (our choice)."""
 POSTURE_RAD = math.radians(6.0)
 """How far the trunk leans forward at rest (our choice)."""
-TWIST_SHARE = 0.55
+TWIST_SHARE = 0.45
 """How much of the way to the struck piece the torso turns; eyes and head do the rest (our choice)."""
 
 

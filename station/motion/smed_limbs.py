@@ -1,8 +1,8 @@
 """SMED's assignment of hands: the five passes of figure 4.19 of the thesis, in order, each O(n).
 
-The thesis leaves its threshold open; ours is `THRESHOLD_S`. Like the figure, the passes know no kit: a drum is left or
-right of another by its place on the standard kit (snare, hi-hat, crash, high tom, mid tom, ride, floor tom clockwise),
-which here is the place in x of the kit at hand. The feet are assigned before, as its first pass does.
+The thesis leaves its threshold open; ours is `THRESHOLD_S`. Like the thesis, the passes know no kit: a drum is left or
+right of another by its place on the standard kit, clockwise from the snare (§ 4.2.2). The feet are assigned before, as
+its first pass does, and a written limb is kept, as its score format lets the user do.
 """
 
 import numpy as np
@@ -14,6 +14,25 @@ from station.motion.sticking_costs import LEFT, RIGHT, HandNotes
 THRESHOLD_S = 0.16
 """The least time between two strokes of one hand (our choice: sixteenths alternate from 94 bpm up)."""
 
+_CLOCKWISE = (
+    Piece.SNARE,
+    Piece.HIHAT,
+    Piece.COWBELL,
+    Piece.SPLASH,
+    Piece.CRASH_1,
+    Piece.TOM_1,
+    Piece.TOM_2,
+    Piece.TOM_3,
+    Piece.TOM_4,
+    Piece.CRASH_2,
+    Piece.RIDE,
+    Piece.RIDE_2,
+    Piece.CHINA,
+    Piece.FLOOR_TOM_1,
+    Piece.FLOOR_TOM_2,
+)
+"""Snare, hi-hat, crash, high tom, mid tom, ride, floor tom; the pieces that the thesis lacks at their neighbours."""
+_PLACE = {piece: place for place, piece in enumerate(_CLOCKWISE)}
 _NOBODY = -1
 _RIDES = (Piece.RIDE, Piece.RIDE_2)
 _LEADING = (Piece.HIHAT, Piece.CRASH_1, Piece.CRASH_2, Piece.SPLASH, Piece.CHINA, Piece.FLOOR_TOM_1, Piece.FLOOR_TOM_2)
@@ -59,7 +78,7 @@ def _quick(notes: HandNotes, hands: list[int], why: list[str], indices: range, s
         if hands[i] != _NOBODY:
             hands[j], why[j] = 1 - hands[i], reason
         elif notes.piece[i] != notes.piece[j]:
-            first_is_left = notes.spot[RIGHT][i][0] < notes.spot[RIGHT][j][0]
+            first_is_left = _PLACE.get(Piece(notes.piece[i]), 0) < _PLACE.get(Piece(notes.piece[j]), 0)
             hands[i], hands[j] = (LEFT, RIGHT) if first_is_left else (RIGHT, LEFT)
             why[i] = why[j] = _SIDES
         elif step < 0:  # the leading hand has the stroke nearer to an even division

@@ -80,7 +80,7 @@ _REASONS = (
     "the hands stay uncrossed",
     "the ostinato stays in its hand",
     "natural sticking",
-    "its own side of the kit",
+    "its own side of the kit, or the leading hand begins",
 )
 _DOUBLE, _AHEAD, _FREE = "a double stroke", "so that the strokes after it fall well", "either hand"
 _SLIGHT = 0.02
@@ -99,6 +99,8 @@ def _terms(notes: HandNotes, i: int, hand: int, state: _State) -> list[float]:
         gap = now - notes.time_s[own]
         if notes.piece[own] == piece:
             _repeat(terms, gap, state.bounced[hand], notes.paired[i] == 1)
+            if gap < price.BOUNCE_S and not notes.odd[i]:
+                terms[_REPEAT] += price.LATE_BOUNCE
         else:
             ox, oy, oz = notes.spot[hand][own]
             _travel(terms, gap, math.sqrt((x - ox) ** 2 + (y - oy) ** 2 + (z - oz) ** 2))
@@ -112,7 +114,9 @@ def _terms(notes: HandNotes, i: int, hand: int, state: _State) -> list[float]:
         terms[_OSTINATO] += price.OSTINATO
     elif hand != notes.natural[i]:
         terms[_NATURAL] = price.NATURAL
-    terms[_HOME] = price.HOME * max(0.0, x if hand == LEFT else -x)
+    terms[_HOME] = price.HOME * max(0.0, (x if hand == LEFT else -x) - price.MIDDLE_M)
+    if hand != notes.lead and (i == 0 or now - notes.time_s[i - 1] > price.PHRASE_S):
+        terms[_HOME] += price.BEGIN
     return terms
 
 
@@ -124,7 +128,7 @@ def _fresh(ago_s: float) -> float:
 def _repeat(terms: list[float], gap_s: float, bounced: int, double: bool) -> None:
     """The price of one hand's next stroke on the same piece."""
     if gap_s < price.TOGETHER_S:
-        terms[_TOGETHER] = price.IMPOSSIBLE
+        terms[_TOGETHER] = price.CRUSHED
     elif gap_s < price.BOUNCE_S:
         terms[_REPEAT] = 0.0 if double else price.BOUNCE
         if bounced:  # a third stroke has no rebound left to live on

@@ -36,18 +36,20 @@ BOUNCE_S = 0.105
 """Up to here one hand plays two notes as a rebound, not as two strokes (second bounce after 50–90 ms)."""
 EASY_REPEAT_S = 0.155
 """One hand repeats at 5–7 Hz in general."""
-TRAVEL_S_PER_M = 0.625
-"""Minimum jerk: 0.25 s for 40 cm at 3 m/s."""
+TRAVEL_S_PER_M = 0.40
+"""Minimum jerk takes 0.25 s for 40 cm of the hand at 3 m/s; the tip goes half as far again as the hand."""
 STRIKE_S = 0.06
 """A stroke needs this besides the travel (our choice)."""
 
 # --- prices: our choices, tuned on the patterns that the tests name ---------------------------------------------------
 
 IMPOSSIBLE = 1000.0
+CRUSHED = 200.0
 UNEVEN = 12.0
 LATE = 2.5
-SLOW = 3.0
+SLOW = 4.0
 BOUNCE = 1.3
+LATE_BOUNCE = 0.25
 METRE = 0.8
 CROSSING = 2.5
 NATURAL = 0.45
@@ -55,8 +57,12 @@ OSTINATO = 0.9
 SWITCH = 0.6
 GRACE = 8.0
 HOME = 0.15
+MIDDLE_M = 0.10
 WRITTEN = 1e6
 
+BEGIN = 0.1
+PHRASE_S = 1.0
+"""After so long a rest the leading hand begins (our choice)."""
 CROSSING_MARGIN_M = 0.08
 """Hands this near in x are beside each other, not crossed."""
 CROSSING_FADES_S = 0.6
@@ -73,6 +79,7 @@ class HandNotes:
     spot: list[list[list[float]]]  # of each hand and note: x, y, z
     written: list[int]
     natural: list[int]  # the hand of natural sticking
+    odd: list[bool]  # whether it falls between the strokes that the leading hand has
     paired: list[int]  # +1: with the same hand as the note before (the second of a double), −1 another, 0 free
     lead: int
     ostinato_lead: int
@@ -90,13 +97,15 @@ class HandNotes:
         for limb in (Limb.RIGHT_HAND, Limb.LEFT_HAND):
             points = np.array([kit.target(Piece(p), Zone(z), limb).point_m for p, z in kinds.tolist()])
             spots.append(points[which].tolist())
+        odd = _odd(score, rows)
         played = np.array([kit.stand_in(Piece(p)) for p, _ in kinds.tolist()])
         return cls(
             time_s=score.onset_s[rows].tolist(),
             piece=played[which].tolist(),
             spot=spots,
             written=notes["limb"].tolist(),
-            natural=_natural(score, rows, lead).tolist(),
+            natural=np.where(odd, 1 - lead, lead).tolist(),
+            odd=odd.tolist(),
             paired=_paired(notes).tolist(),
             lead=lead,
             ostinato_lead=LEFT if hands is Hands.OPEN else lead,
@@ -128,8 +137,8 @@ _GRID_FLOOR_TICKS = PPQ / 50
 """Deviations below this say nothing of the grid."""
 
 
-def _natural(score: Score, rows: NDArray[np.int64], lead: int) -> NDArray[np.int8]:
-    """The hand of natural sticking for each row: by its place in the beat, on the grid that fits the quarter best."""
+def _odd(score: Score, rows: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Whether each row falls on an odd place of the grid that fits its quarter best: "e" and "a" on sixteenths."""
     ticks = score.tempo_map.ticks_at_ns(score.onset_ns[rows])
     ticks = np.where(score.notes["lead_ms"][rows] > 0, score.notes["tick"][rows], ticks)
     bars = score.bar[rows]
@@ -144,6 +153,4 @@ def _natural(score: Score, rows: NDArray[np.int64], lead: int) -> NDArray[np.int
         errors[k] = np.bincount(quarter, square, errors.shape[1]) * _SIMPLER[k]
     best = np.array(_GRIDS)[np.argmin(errors, axis=0)][quarter]
     index = np.rint(place / (PPQ / best)).astype(np.int64)
-    odd = index % 2 == 1
-    hand: NDArray[np.int8] = np.where(odd, 1 - lead, lead).astype(np.int8)
-    return hand
+    return np.asarray(index % 2 == 1)
