@@ -37,23 +37,23 @@ class Backdrop:
         self._ctx: moderngl.Context | None = None
         self._target: Target | None = None
         self._times_ms: list[float] = []
-        self._page: tuple[int, NDArray[np.void]] | None = None
+        self._page: tuple[Report, NDArray[np.void]] | None = None
         self.view = View.SHOULDER
-        self._camera: Camera = named(self.view)
+        self.camera: Camera = named(self.view)
 
     def look_from(self, view: View) -> None:
         """Go to a named viewpoint."""
-        self.view, self._camera = view, named(view)
+        self.view, self.camera = view, named(view)
 
     def steer(self, io: imgui.IO) -> None:
         """Turn, shift or approach with the mouse; a double click goes back to the named view."""
         dx, dy = io.mouse_delta
         if imgui.is_mouse_dragging(imgui.MouseButton_.left):
-            self._camera = self._camera.orbited(dx * _ORBIT_PER_PIXEL, dy * _ORBIT_PER_PIXEL)
+            self.camera = self.camera.orbited(dx * _ORBIT_PER_PIXEL, dy * _ORBIT_PER_PIXEL)
         elif imgui.is_mouse_dragging(imgui.MouseButton_.right):
-            self._camera = self._camera.panned(-dx * _PAN_PER_PIXEL, dy * _PAN_PER_PIXEL)
+            self.camera = self.camera.panned(-dx * _PAN_PER_PIXEL, dy * _PAN_PER_PIXEL)
         if io.mouse_wheel:
-            self._camera = self._camera.zoomed(_ZOOM_PER_STEP**io.mouse_wheel)
+            self.camera = self.camera.zoomed(_ZOOM_PER_STEP**io.mouse_wheel)
         if imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
             self.look_from(self.view)
 
@@ -104,7 +104,7 @@ class Backdrop:
         into = screen if target is None else target.framebuffer
         if target is not None:
             into.clear(*NIGHT, depth=1.0)
-        painter.draw(snapshot, into, area, self._camera)
+        painter.draw(snapshot, into, area, self.camera)
         if target is not None and self._ctx is not None:
             self._ctx.copy_framebuffer(screen, into)
         self._measure(began)
@@ -129,8 +129,8 @@ class Backdrop:
                 self._painter = Painter(self._ctx, QUALITIES[level])
 
     def _draw_report(self, report: Report, painter: Painter, ctx: moderngl.Context, area: Area) -> None:
-        if self._page is None or self._page[0] != id(report):
-            self._page = id(report), report_shapes(report.facts, painter.atlas)
+        if self._page is None or self._page[0] is not report:
+            self._page = report, report_shapes(report.facts, painter.atlas)
         ctx.viewport = area
         painter.printer.draw(self._page[1], report_sheet(area[2:]))
 

@@ -12,6 +12,7 @@ from imgui_bundle import imgui
 
 from station.core.pieces import Articulation, Piece, Zone
 from station.engine.messages import KeyHit
+from station.render.names import piece_name
 
 VELOCITY = 90
 """A plain stroke (HUMANS: normal 60–95); keys cannot tell more."""
@@ -26,6 +27,15 @@ class KeyStroke:
     zone: Zone = Zone.HEAD
     articulation: Articulation = Articulation.NORMAL
     openness: float | None = None
+
+    @property
+    def words(self) -> str:
+        """What it plays, in words."""
+        if self.articulation is Articulation.CROSS_STICK:
+            return f"{piece_name(self.piece)}, cross stick"
+        if self.zone is Zone.BELL:
+            return f"{piece_name(self.piece)}, bell"
+        return f"{piece_name(self.piece)}, open" if self.openness == 1.0 else piece_name(self.piece)
 
 
 KEYS: Mapping[imgui.Key, KeyStroke] = MappingProxyType(

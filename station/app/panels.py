@@ -12,7 +12,6 @@ from station.app import theme
 from station.app.choice import MAX_LOOPS, MAX_TEMPO_BPM, MIN_TEMPO_BPM, Choice
 from station.app.keyboard import KEYS
 from station.app.model import LessonCard, RoomState, Stage
-from station.core.pieces import word
 from station.render.camera import VIEW_NAMES, View
 
 START_LABEL = "Start##start"
@@ -27,54 +26,67 @@ def tooltip(text: str) -> None:
         imgui.set_tooltip(text)
 
 
-def lessons_panel(choice: Choice, start: Callable[[], None]) -> None:
+class LessonsPanel:
     """The list, the chosen lesson's words, its tempo and passes, and the button that starts it."""
-    theme.heading("Lessons")
-    imgui.set_next_item_width(-1)
-    _, choice.search = imgui.input_text_with_hint("##search", "Search: a word of title, level or tag", choice.search)
-    tooltip("Shows the lessons that contain every word")
-    below = theme.points(262)
-    imgui.begin_child("##list", imgui.ImVec2(0, max(imgui.get_content_region_avail().y - below, theme.points(120))))
-    visible = choice.visible()
-    for level, cards in groupby(visible, key=lambda card: card.level_words):
-        imgui.separator_text(level)
-        for card in cards:
-            _lesson_row(card, choice)
-    if not visible:
-        theme.soft("No lesson has these words.")
-    imgui.end_child()
-    imgui.separator()
-    if choice.card is not None:
-        _chosen(choice.card, choice, start)
 
+    def __init__(self, choice: Choice, start: Callable[[], None]) -> None:
+        self._choice = choice
+        self._start = start
+        self._below = 0.0  # pixels that the part under the list took in the last frame
 
-def _lesson_row(card: LessonCard, choice: Choice) -> None:
-    chosen = choice.card is not None and choice.card.name == card.name
-    pressed, _ = imgui.selectable(f"{card.title}##{card.name}", chosen)
-    if pressed:
-        choice.choose(card)
-    tooltip(f"{card.about}\n{card.bars} bars, {card.meter}, {card.tempo_bpm:g} bpm")
+    def gui(self) -> None:
+        """Draw the panel and do what the user does in it."""
+        choice = self._choice
+        theme.heading("Lessons")
+        imgui.set_next_item_width(-1)
+        _, choice.search = imgui.input_text_with_hint(
+            "##search", "Search: a word of title, level or tag", choice.search
+        )
+        tooltip("Shows the lessons that contain every word")
+        room = imgui.get_content_region_avail().y - (self._below or theme.points(280))
+        imgui.begin_child("##list", imgui.ImVec2(0, max(room, theme.points(110))))
+        self._list()
+        imgui.end_child()
+        top = imgui.get_cursor_pos_y()
+        imgui.separator()
+        if choice.card is not None:
+            self._chosen(choice.card)
+        self._below = imgui.get_cursor_pos_y() - top + imgui.get_style().item_spacing.y
 
+    def _list(self) -> None:
+        visible = self._choice.visible()
+        for level, cards in groupby(visible, key=lambda card: card.level_words):
+            imgui.separator_text(level)
+            for card in cards:
+                self._row(card)
+        if not visible:
+            theme.soft("No lesson has these words.")
 
-def _chosen(card: LessonCard, choice: Choice, start: Callable[[], None]) -> None:
-    imgui.begin_child("##about", imgui.ImVec2(0, theme.points(104)))
-    theme.heading(card.title, 20)
-    author = f" · {card.author}" if card.author else ""
-    theme.soft(f"{card.bars} bars · {card.meter} · {card.tempo_bpm:g} bpm{author}")
-    if card.about:
-        theme.soft(card.about)
-    imgui.end_child()
-    low = min(MIN_TEMPO_BPM, int(card.tempo_bpm))
-    high = max(MAX_TEMPO_BPM, int(card.tempo_bpm) + 1)
-    imgui.set_next_item_width(-theme.points(84))
-    _, choice.tempo_bpm = imgui.slider_float("tempo", choice.tempo_bpm, low, high, "%.0f bpm")
-    tooltip("How fast to practise; the lesson's own tempo is set when you choose it. Ctrl+click to type")
-    imgui.set_next_item_width(-theme.points(84))
-    _, choice.loops = imgui.slider_int("passes", choice.loops, 1, MAX_LOOPS)
-    tooltip("How often the loop is played")
-    if theme.main_button(START_LABEL, (-1, theme.points(46))):
-        start()
-    tooltip("Count-in, demonstration, then you (Enter)")
+    def _row(self, card: LessonCard) -> None:
+        chosen = self._choice.card is not None and self._choice.card.name == card.name
+        pressed, _ = imgui.selectable(f"{card.title}##{card.name}", chosen)
+        if pressed:
+            self._choice.choose(card)
+        tooltip(f"{card.about}\n{card.bars} bars, {card.meter}, {card.tempo_bpm:g} bpm")
+
+    def _chosen(self, card: LessonCard) -> None:
+        choice = self._choice
+        theme.heading(card.title, 20)
+        author = f" · {card.author}" if card.author else ""
+        theme.soft(f"{card.bars} bars · {card.meter} · {card.tempo_bpm:g} bpm{author}")
+        if card.about:
+            theme.soft(card.about)
+        low = min(MIN_TEMPO_BPM, int(card.tempo_bpm))
+        high = max(MAX_TEMPO_BPM, int(card.tempo_bpm) + 1)
+        imgui.set_next_item_width(-theme.points(84))
+        _, choice.tempo_bpm = imgui.slider_float("tempo", choice.tempo_bpm, low, high, "%.0f bpm")
+        tooltip("How fast to practise; the lesson's own tempo is set when you choose it. Ctrl+click to type")
+        imgui.set_next_item_width(-theme.points(84))
+        _, choice.loops = imgui.slider_int("passes", choice.loops, 1, MAX_LOOPS)
+        tooltip("How often the loop is played")
+        if theme.main_button(START_LABEL, (-1, theme.points(46))):
+            self._start()
+        tooltip("Count-in, demonstration, then you (Enter)")
 
 
 def transport_bar(room: RoomState, view: View, actions: "dict[str, Callable[[], None]]") -> View:
@@ -114,18 +126,17 @@ def transport_bar(room: RoomState, view: View, actions: "dict[str, Callable[[], 
 def keys_help(frame_ms: float) -> None:
     """What the keys play, and how exactly."""
     theme.heading("Keys", 22)
-    theme.soft(f"Without a kit, play on these keys. They are looked at once a frame, now every {frame_ms:.0f} ms, so")
-    theme.soft("their timing is that coarse: a kit is measured far better.")
+    theme.soft(
+        f"Without a kit, play on these keys. They are looked at once a frame, now every {frame_ms:.0f} ms,"
+        " so their timing is that coarse: a kit is measured far better."
+    )
     if imgui.begin_table("##keys", 2):
         for stroke in KEYS.values():
             imgui.table_next_row()
             imgui.table_next_column()
             imgui.text(stroke.cap)
             imgui.table_next_column()
-            name = word(stroke.piece).replace("_", " ")
-            how = "" if stroke.articulation == 0 else f", {word(stroke.articulation).replace('_', ' ')}"
-            opened = ", open" if stroke.openness == 1.0 else ""
-            imgui.text_disabled(f"{name}{how}{opened}")
+            imgui.text_disabled(stroke.words)
         imgui.end_table()
     imgui.separator()
     theme.soft("Enter starts, Esc stops, F1 shows and hides this page.")

@@ -17,9 +17,10 @@ def session_facts(result: SessionResult, document: dict[str, Json]) -> ResultFac
     assert isinstance(advice, list), "the report is ours"
     bars = f"bars {plan.first_bar + 1}–{plan.first_bar + plan.section.bar_count}"
     stopped = "" if result.complete else ", stopped early"
+    passes = "1 pass" if plan.passes == 1 else f"{plan.passes} passes"
     words = Words(
         title=plan.lesson.title,
-        subtitle=f"{plan.passes} passes of {bars} at {plan.tempo_bpm:g} bpm{stopped}",
+        subtitle=f"{passes} of {bars} at {plan.tempo_bpm:g} bpm{stopped}",
         points=float(points) if isinstance(points, float | int) else None,
         advice=tuple(str(item["text"]) for item in advice if isinstance(item, dict)),
     )

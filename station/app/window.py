@@ -21,8 +21,8 @@ from station.render.camera import View
 TITLE = "Drum station"
 _DOCK = "MainDockSpace"
 LESSONS, TRANSPORT, KEYS = "Lessons", "Transport", "Keys"
-_ERROR_SHOWN_S = 8.0
-"""How long a fault stays on the screen (our choice: twice the time to read it)."""
+_NEWS_SHOWN_S = 8.0
+"""How long a fault or a notice stays on the screen (our choice: twice the time to read it)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,9 +45,11 @@ class Window:
         self._model = model
         self._options = options
         self._clock = clock or MonotonicClock()
-        self._choice = Choice(model.lessons())
-        self._backdrop = Backdrop(options.quality)
-        self._error, self._error_left_s = "", 0.0
+        self.choice = Choice(model.lessons())
+        self._panel = panels.LessonsPanel(self.choice, self._start)
+        self.backdrop = Backdrop(options.quality)
+        self.news, self._news_left_s = "", 0.0
+        self._told: tuple[str, ...] = ()
         self._show_keys = False
         self._frame_ms = 0.0
         self.frames = 0
@@ -83,7 +85,7 @@ class Window:
         callbacks.custom_background = self._background
         callbacks.pre_new_frame = self._before_frame
         callbacks.show_gui = self._over_all
-        callbacks.before_exit = self._backdrop.release
+        callbacks.before_exit = self.backdrop.release
         self._dock(params)
         if self._options.tests is not None:
             params.use_imgui_test_engine = True
@@ -130,7 +132,7 @@ class Window:
         """Draw the picture behind the panels."""
         now_ns = self._clock.now_ns()
         report = self._model.report() if self._model.room().stage is Stage.RESULT else None
-        self._backdrop.draw(self._model.snapshot(now_ns), report, self._central_area())
+        self.backdrop.draw(self._model.snapshot(now_ns), report, self._central_area())
         self.frames += 1
 
     def _central_area(self) -> tuple[int, int, int, int]:
@@ -149,14 +151,19 @@ class Window:
         """Keys, mouse and what floats over the picture."""
         io = imgui.get_io()
         self._frame_ms += 0.1 * (io.delta_time * 1000 - self._frame_ms)
-        self._error_left_s -= io.delta_time
+        self._news_left_s -= io.delta_time
+        notices = self._model.room().notices
+        if notices != self._told:
+            self._told = notices
+            if notices:
+                self._tell(notices[-1])
         self._keys()
         if not io.want_capture_mouse:
-            self._backdrop.steer(io)
+            self.backdrop.steer(io)
         if self._show_keys:
             self._keys_window()
-        if self._error_left_s > 0:
-            self._error_line()
+        if self._news_left_s > 0:
+            self._news_line()
 
     def _keys(self) -> None:
         room = self._model.room()
@@ -184,21 +191,24 @@ class Window:
             self._model.dismiss()
 
     def _start(self) -> None:
-        wish = self._choice.wish()
+        wish = self.choice.wish()
         if wish is not None:
             self._tried(lambda: self._model.start(wish))
+
+    def _tell(self, text: str) -> None:
+        self.news, self._news_left_s = text, _NEWS_SHOWN_S
 
     def _tried(self, action: Callable[[], None]) -> None:
         """Do it, or say in one line why it could not be done."""
         try:
             action()
         except StationError as fault:
-            self._error, self._error_left_s = str(fault), _ERROR_SHOWN_S
+            self._tell(str(fault))
 
     # --- panels -------------------------------------------------------------------------------------------------------
 
     def _lessons_gui(self) -> None:
-        panels.lessons_panel(self._choice, self._start)
+        self._panel.gui()
 
     def _transport_gui(self) -> None:
         actions: dict[str, Callable[[], None]] = {
@@ -206,9 +216,9 @@ class Window:
             "again": self._start,
             "back": self._model.dismiss,
         }
-        view = panels.transport_bar(self._model.room(), self._backdrop.view, actions)
-        if view is not self._backdrop.view:
-            self._backdrop.look_from(View(view))
+        view = panels.transport_bar(self._model.room(), self.backdrop.view, actions)
+        if view is not self.backdrop.view:
+            self.backdrop.look_from(View(view))
 
     def _keys_window(self) -> None:
         imgui.set_next_window_size(imgui.ImVec2(theme.points(380), 0), imgui.Cond_.appearing)
@@ -218,12 +228,12 @@ class Window:
         imgui.end()
         self._show_keys = bool(stays)
 
-    def _error_line(self) -> None:
+    def _news_line(self) -> None:
         centre = imgui.get_main_viewport().get_center()
         imgui.set_next_window_pos(imgui.ImVec2(centre.x, theme.points(150)), imgui.Cond_.always, imgui.ImVec2(0.5, 0))
         flags = imgui.WindowFlags_.no_decoration | imgui.WindowFlags_.always_auto_resize | imgui.WindowFlags_.no_inputs
-        imgui.begin("##fault", None, flags | imgui.WindowFlags_.no_docking)
-        imgui.text(self._error)
+        imgui.begin("##news", None, flags | imgui.WindowFlags_.no_docking)
+        imgui.text(self.news)
         imgui.end()
 
 

@@ -223,7 +223,7 @@ def _bands(skeleton: Skeleton, k: float, upper: Bone, segments: int) -> list[Mes
     """The sleeve's hem and a sweatband, which also hides where hand and forearm meet."""
     length = float(np.linalg.norm(np.subtract(*(skeleton.bind.joints_m[_SHOULDER_OF[upper] + i] for i in (1, 0)))))
     reach = float(np.linalg.norm(np.subtract(*(skeleton.bind.joints_m[_SHOULDER_OF[upper] + i] for i in (2, 1)))))
-    hem = _ring(length * _SLEEVE, 0.0600 * k, 0.008 * k, 0.0032 * k)
+    hem = _ring(length * _SLEEVE - 0.008 * k, 0.0565 * k, 0.012 * k, 0.0055 * k)
     band = _ring(reach - 0.030 * k, 0.0315 * k, 0.027 * k, 0.006 * k)
     return [
         lathe(hem, segments, Material.SHIRT).moved(skeleton.frames[upper]).on_bone(upper),

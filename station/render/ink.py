@@ -45,12 +45,16 @@ class Kind(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Type:
-    """How a line of text looks: `size` of the em in units, `align` 0 left, 0.5 centred, 1 right."""
+    """How a line of text looks: `size` of the em in units, `align` 0 left, 0.5 centred, 1 right.
+
+    `halo` is the colour of a soft edge round the letters, for text over pictures.
+    """
 
     size: float
     colour: Colour
     face: Face = Face.REGULAR
     align: float = 0.0
+    halo: Colour | None = None
 
 
 def _bytes(colour: Colour) -> tuple[int, int, int, int]:
@@ -60,6 +64,8 @@ def _bytes(colour: Colour) -> tuple[int, int, int, int]:
 
 _LEVEL = (1.0, 0.0)
 _PLAIN = (0.0, 0.0, 0.0)
+_HALO = (0.0, 0.07, 0.045)
+"""Width and softness of a halo in em; with the letters' own edge it stays within what the atlas knows."""
 _NO_UV = (0.0, 0.0, 0.0, 0.0)
 
 
@@ -134,19 +140,27 @@ class Ink:
         mirrored: bool = False,
     ) -> None:
         """A musical sign of `outlines.SIGNS`, `scale` units a staff space; `mirrored` stands on its head."""
-        self._glyph(self.atlas.sign(name), origin, scale, colour, mirrored)
+        self._glyph(self.atlas.sign(name), origin, scale, colour, _PLAIN, mirrored)
 
     # --- text ---------------------------------------------------------------------------------------------------------
 
     def text(self, text: str, origin: tuple[float, float], style: Type) -> float:
         """A line of text whose baseline passes `origin`; returns its width in units."""
         width = self.width(text, style)
-        x = origin[0] - style.align * width
+        left = origin[0] - style.align * width
+        if style.halo is not None:
+            self._letters(text, (left, origin[1]), style, style.halo, _HALO)
+        self._letters(text, (left, origin[1]), style, style.colour, _PLAIN)
+        return width
+
+    def _letters(
+        self, text: str, origin: tuple[float, float], style: Type, colour: Colour, edge: tuple[float, float, float]
+    ) -> None:
+        x = origin[0]
         for character in text:
             glyph = self.atlas.letter(character, style.face)
-            self._glyph(glyph, (x, origin[1]), style.size, style.colour)
+            self._glyph(glyph, (x, origin[1]), style.size, colour, edge)
             x += glyph.advance * style.size
-        return width
 
     def width(self, text: str, style: Type) -> float:
         """How long a line of text will be, in units."""
@@ -179,7 +193,13 @@ class Ink:
         return len(lines) * LINE_HEIGHT * style.size
 
     def _glyph(
-        self, glyph: Glyph, origin: tuple[float, float], scale: float, colour: Colour, mirrored: bool = False
+        self,
+        glyph: Glyph,
+        origin: tuple[float, float],
+        scale: float,
+        colour: Colour,
+        edge: tuple[float, float, float],
+        mirrored: bool = False,
     ) -> None:
         if not glyph.half[0]:
             return
@@ -187,7 +207,9 @@ class Ink:
         way = -1.0 if mirrored else 1.0
         centre = (origin[0] + glyph.centre[0] * scale, origin[1] - glyph.centre[1] * scale * way)
         uv = (left, bottom, right, top) if mirrored else (left, top, right, bottom)
-        self._add(Kind.GLYPH, (centre, (glyph.half[0] * scale, glyph.half[1] * scale)), colour, uv=uv)
+        half = (glyph.half[0] * scale, glyph.half[1] * scale)
+        style = (0.0, edge[1] * scale, edge[2] * scale)
+        self._add(Kind.GLYPH, (centre, half), colour, style=style, uv=uv)
 
     def _add(
         self,

@@ -6,6 +6,7 @@ import moderngl
 import numpy as np
 
 from station.core.pieces import Piece
+from station.motion.figure import Figure
 from station.motion.kit import Kit
 from station.motion.pose import Pose
 from station.render import hud
@@ -37,7 +38,7 @@ class Painter:
         self.printer = InkPrinter(ctx, self.atlas)
         self._score = ScoreView(self.printer, self.atlas)
         self._scene: Scene | None = None
-        self._scene_key: tuple[int, int] = (0, 0)
+        self._played: tuple[Kit, Figure] | None = None
 
     def draw(
         self,
@@ -64,16 +65,22 @@ class Painter:
         self.printer.draw(words, Sheet((width, height)))
 
     def _scene_of(self, snapshot: Snapshot) -> Scene:
-        key = (id(snapshot.kit), id(snapshot.figure))
-        if self._scene is None or key != self._scene_key:
-            self._scene = Scene(self._ctx, snapshot.kit, snapshot.figure, self.quality)
-            self._scene_key = key
+        """The scene of the snapshot's kit and figure; the same ones, even if read anew, are not built anew."""
+        wanted = (snapshot.kit, snapshot.figure)
+        if self._scene is None or self._played is None or not _same(wanted, self._played):
+            self._scene = Scene(self._ctx, *wanted, self.quality)
+        self._played = wanted
         return self._scene
 
     @property
     def background(self) -> tuple[float, float, float, float]:
         """The colour of what no picture covers."""
         return NIGHT
+
+
+def _same(one: tuple[Kit, Figure], other: tuple[Kit, Figure]) -> bool:
+    """Whether both are the very same, or alike in all that is drawn."""
+    return (one[0] is other[0] and one[1] is other[1]) or one == other
 
 
 def _glow(snapshot: Snapshot) -> Glow:

@@ -13,7 +13,7 @@ def _hex(code: str, opacity: float = 1.0) -> Colour:
 
 
 INK = _hex("F2EDE4")
-INK_SOFT = _hex("F2EDE4", 0.62)
+INK_SOFT = _hex("F2EDE4", 0.66)
 INK_FAINT = _hex("F2EDE4", 0.30)
 STAFF_LINE = _hex("F2EDE4", 0.36)
 NIGHT = _hex("0B0D12")

@@ -9,9 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Piece, word
+from station.core.pieces import Piece
 from station.music.judgement import Label
 from station.music.score import Score
+from station.render.names import piece_name
 
 ON_THE_BEAT_MS = 10.0
 """Full marks within 10 ms (HUMANS, Velocity and ears)."""
@@ -89,7 +90,7 @@ def leans(facts: ResultFacts) -> Iterator[Lean]:
     """One lean a piece, in the order of `Piece`."""
     for piece in np.unique(facts.piece):
         mine = facts.piece == piece
-        yield _lean(word(Piece(int(piece))).replace("_", " "), facts, mine)
+        yield _lean(piece_name(Piece(int(piece))), facts, mine)
 
 
 def whole_lean(facts: ResultFacts) -> Lean:

@@ -73,7 +73,7 @@ class ScoreView:
         self._atlas = atlas
         self._engraver: Engraver | None = None
         self._bars: dict[int, NDArray[np.void]] = {}
-        self._key: tuple[int, int] = (0, 0)
+        self._limbs: NDArray[np.int8] | None = None
 
     def draw(self, snapshot: Snapshot, place: Place, size: tuple[int, int]) -> None:
         """Draw the score of `snapshot` at `place` in a picture of `size`."""
@@ -97,12 +97,12 @@ class ScoreView:
         self._printer.draw(self._judgements(snapshot, (first_s, last_s), per_s / space), rolling)
 
     def _engraved(self, snapshot: Snapshot) -> Engraver:
-        key = (id(snapshot.score), id(snapshot.limbs))
-        if self._engraver is None or key != self._key:
-            self._engraver = Engraver(snapshot.score, self._atlas, snapshot.limbs)
+        engraver = self._engraver
+        if engraver is None or engraver.score is not snapshot.score or self._limbs is not snapshot.limbs:
+            engraver = self._engraver = Engraver(snapshot.score, self._atlas, snapshot.limbs)
+            self._limbs = snapshot.limbs
             self._bars.clear()
-            self._key = key
-        return self._engraver
+        return engraver
 
     def _visible_bars(self, engraver: Engraver, first_s: float, last_s: float) -> NDArray[np.void]:
         bars = visible_bars(engraver.score, first_s, last_s)

@@ -1,0 +1,27 @@
+"""What people call the pieces."""
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from station.core.pieces import Piece, word
+
+_NAMES: Mapping[Piece, str] = MappingProxyType(
+    {
+        Piece.HIHAT: "hi-hat",
+        Piece.HIHAT_PEDAL: "hi-hat foot",
+        Piece.CRASH_1: "crash",
+        Piece.CRASH_2: "second crash",
+        Piece.RIDE_2: "second ride",
+        Piece.TOM_1: "high tom",
+        Piece.TOM_2: "middle tom",
+        Piece.TOM_3: "low tom",
+        Piece.TOM_4: "fourth tom",
+        Piece.FLOOR_TOM_1: "floor tom",
+        Piece.FLOOR_TOM_2: "second floor tom",
+    }
+)
+
+
+def piece_name(piece: Piece) -> str:
+    """The piece as a drummer says it."""
+    return _NAMES.get(piece, word(piece))

@@ -1,0 +1,178 @@
+"""Runs one scenario in a window of its own and writes what was seen to a JSON file: `drive.py SCENARIO SESSIONS OUT`.
+
+A process of its own, because imgui and OpenGL keep state for as long as a process lives. imgui's test engine moves the
+mouse and presses the keys; nothing here reaches past the window but to look.
+"""
+
+import json
+import sys
+import traceback
+from collections.abc import Callable
+from pathlib import Path
+
+from imgui_bundle import hello_imgui, imgui
+
+from station.app.model import Stage
+from station.app.practice_room import PracticeRoom
+from station.app.window import Window, WindowOptions
+from station.core.errors import BadInput
+from station.core.units import ns_from_ms
+from station.drills.library import find_lesson
+from station.practice.plan import Wishes, plan_practice
+from station.practice.student_spec import parse_spec
+from station.render.camera import VIEW_NAMES, View
+from tests.gui.room import DirectEngine, practice_room
+
+STEP_NS = ns_from_ms(100)
+SIZE = (760, 480)
+LESSON = "rock-2"
+MOST_FRAMES = 1000
+PATIENCE_S = 600.0  # the parent's own limit is what ends a run that hangs
+
+
+class Drive:
+    """What a scenario works with: the test context, the window, what is behind it, and `seen` for the parent."""
+
+    def __init__(self, sessions: Path, student: str | None) -> None:
+        spec = None if student is None else parse_spec(student)
+        self.room, self.engine, self.clock = practice_room("rock-1", Wishes(), sessions, spec, STEP_NS)
+        options = WindowOptions(SIZE, quality=0, remember_layout=False, tests=self._register)
+        self.window = Window(self.room, options, self.clock)
+        self.seen: dict[str, object] = {}
+        self._scenario: Callable[[Drive, imgui.test_engine.TestContext], None] | None = None
+
+    def run(self, scenario: "Callable[[Drive, imgui.test_engine.TestContext], None]") -> None:
+        self._scenario = scenario
+        self.window.run()
+
+    def _register(self) -> None:
+        engine = hello_imgui.get_imgui_test_engine()
+        test = imgui.test_engine.register_test(engine, "window", "scenario")
+        test.test_func = self._test
+        io = imgui.test_engine.get_io(engine)
+        io.config_run_speed = imgui.test_engine.TestRunSpeed.fast
+        io.config_log_to_tty = True
+        io.config_watchdog_warning = io.config_watchdog_kill_test = io.config_watchdog_kill_app = PATIENCE_S
+        imgui.test_engine.queue_test(engine, test)
+
+    def _test(self, ctx: imgui.test_engine.TestContext) -> None:
+        assert self._scenario is not None
+        try:
+            self._scenario(self, ctx)
+        except Exception:
+            self.seen["fault"] = traceback.format_exc()
+        hello_imgui.get_runner_params().app_shall_exit = True
+
+    def wait_for(self, ctx: imgui.test_engine.TestContext, stage: Stage) -> int:
+        """Let frames pass until the room is at `stage`; returns how many went by."""
+        for frame in range(MOST_FRAMES):
+            if self.room.room().stage is stage:
+                return frame
+            ctx.yield_()
+        raise AssertionError(f"{stage!r} did not come in {MOST_FRAMES} frames")
+
+    def choose(self, ctx: imgui.test_engine.TestContext, passes: int) -> None:
+        """Take `LESSON` from the list and set its passes."""
+        lesson = find_lesson(LESSON)
+        ctx.set_ref("//Lessons")
+        ctx.item_input_value("##search", lesson.title.split(":")[0])
+        ctx.item_click(f"**/{lesson.title}##{LESSON}".replace("/4", "\\/4"))
+        ctx.item_input_value("passes", passes)
+        self.engine.plan = plan_practice(lesson, Wishes(lesson.tempo_bpm, passes))
+
+
+def practise(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """A whole session, from the list to the results and back."""
+    drive.choose(ctx, passes=1)
+    ctx.item_click("Start##start")
+    drive.seen["started"] = drive.room.room().stage.name
+    drive.seen["frames"] = drive.wait_for(ctx, Stage.RESULT)
+    report = drive.room.report()
+    assert report is not None
+    drive.seen["points"] = report.facts.points
+    drive.seen["notes"] = len(report.facts.label)
+    drive.seen["title"] = report.facts.title
+    ctx.yield_(3)
+    ctx.set_ref("//Transport")
+    ctx.item_click("Back to the lessons##back")
+    ctx.yield_(2)
+    drive.seen["after"] = drive.room.room().stage.name
+
+
+def keys(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """Strokes on the computer's keyboard, and Escape."""
+    drive.choose(ctx, passes=2)
+    ctx.item_click("Start##start")
+    ctx.yield_(5)
+    for key in (imgui.Key.f, imgui.Key.space, imgui.Key.d, imgui.Key.a):
+        ctx.key_press(key)
+        ctx.yield_(2)
+    drive.seen["pieces"] = [hit.piece.name for hit in drive.engine.keys]
+    drive.seen["rising"] = sorted({hit.at_ns for hit in drive.engine.keys}) == [hit.at_ns for hit in drive.engine.keys]
+    ctx.key_press(imgui.Key.escape)
+    ctx.yield_(3)
+    drive.seen["after"] = drive.room.room().stage.name
+
+
+def search(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """Letters typed into the search field play nothing, and narrow the list."""
+    ctx.set_ref("//Lessons")
+    ctx.item_click("##search")
+    ctx.key_chars("paradiddle")
+    ctx.yield_(2)
+    drive.seen["keys"] = len(drive.engine.keys)
+    drive.seen["shown"] = [card.title for card in drive.window.choice.visible()]
+
+
+def look(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """Every viewpoint can be chosen, and the mouse turns it."""
+    ctx.set_ref("//Transport")
+    for view in View:
+        ctx.combo_click(f"##view/{VIEW_NAMES[view]}")
+        ctx.yield_(2)
+        drive.seen[view.name] = drive.window.backdrop.view.name
+    before = drive.window.backdrop.camera.azimuth_rad
+    ctx.mouse_move_to_pos(imgui.ImVec2(600, 200))
+    ctx.mouse_drag_with_delta(imgui.ImVec2(60, 0))
+    drive.seen["turned"] = drive.window.backdrop.camera.azimuth_rad - before
+
+
+def closes(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """The window is closed in mid-session."""
+    drive.choose(ctx, passes=4)
+    ctx.item_click("Start##start")
+    ctx.yield_(100)
+    drive.seen["at_the_end"] = drive.room.room().stage.name
+
+
+def fault(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """A session that cannot begin is said in one line, and nothing else happens."""
+    room = drive.room
+
+    def refuse(wish: object) -> None:
+        raise BadInput("lesson", "bar 3", "no such thing")
+
+    room.start = refuse  # type: ignore[method-assign] # stands for any of the model's faults
+    ctx.set_ref("//Lessons")
+    ctx.item_click("Start##start")
+    ctx.yield_(2)
+    drive.seen["news"] = drive.window.news
+    drive.seen["after"] = drive.room.room().stage.name
+
+
+SCENARIOS = {"practise": practise, "keys": keys, "search": search, "look": look, "closes": closes, "fault": fault}
+
+
+def main(name: str, sessions: str, out: str) -> None:
+    drive = Drive(Path(sessions), "pro,seed=4" if name == "practise" else None)
+    drive.run(SCENARIOS[name])
+    room: PracticeRoom = drive.room
+    engine: DirectEngine = drive.engine
+    room.stop()
+    drive.seen["drawn"] = drive.window.frames
+    drive.seen["commands"] = [type(command).__name__ for command in engine.sent]
+    Path(out).write_text(json.dumps(drive.seen))
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,78 @@
+"""A practice room whose engine runs in this process, on a clock that moves by one step a frame.
+
+Everything is the station's own: engine, session, practice room, window. Only time is played: a session takes as many
+frames as it has steps, however slowly they are drawn, and a virtual student's MIDI bytes arrive at their times.
+"""
+
+from pathlib import Path
+
+from station.app.practice_room import PracticeRoom
+from station.core.settings import Settings
+from station.devices.presets import GENERAL_MIDI_PRESET
+from station.drills.library import find_lesson
+from station.engine.engine import Engine
+from station.engine.messages import Command, EngineEvent, KeyHit, Play
+from station.practice.plan import Plan, Wishes, plan_practice
+from station.practice.student_spec import StudentSpec
+from station.practice.virtual_student import play
+
+KIT = "virtual student"
+
+
+class FrameClock:
+    """Moves on by `step_ns` whenever it is asked through `tick`."""
+
+    def __init__(self, step_ns: int) -> None:
+        self._now_ns = 0
+        self._step_ns = step_ns
+
+    def now_ns(self) -> int:
+        return self._now_ns
+
+    def tick(self) -> None:
+        self._now_ns += self._step_ns
+
+
+class DirectEngine:
+    """The engine without its process; a student may be set to play the passes of a plan."""
+
+    def __init__(self, clock: FrameClock, student: StudentSpec | None) -> None:
+        self._engine = Engine()
+        self._clock = clock
+        self._student = student
+        self._waiting: list[tuple[int, bytes]] = []
+        self.sent: list[Command] = []
+        self.plan: Plan | None = None
+        self._engine.use_preset(KIT, GENERAL_MIDI_PRESET)
+        self._engine.device_found(KIT, clock.now_ns())
+
+    def send(self, command: Command) -> None:
+        self.sent.append(command)
+        self._engine.handle(command)
+        if isinstance(command, Play) and self._student is not None and self.plan is not None:
+            zero_ns = self._clock.now_ns() + command.start_in_ns + self.plan.passes_start_ns
+            self._waiting = [(zero_ns + at, data) for at, data in play(self.plan.score, self._student).midi]
+
+    def events(self, wait_s: float = 0.0) -> list[EngineEvent]:
+        del wait_s
+        self._clock.tick()
+        due = [(at, data) for at, data in self._waiting if at <= self._clock.now_ns()]
+        self._waiting = self._waiting[len(due) :]
+        for at_ns, data in due:
+            self._engine.feed(KIT, data, at_ns)
+        return self._engine.advance(self._clock.now_ns())
+
+    @property
+    def keys(self) -> list[KeyHit]:
+        return [command for command in self.sent if isinstance(command, KeyHit)]
+
+
+def practice_room(
+    lesson: str, wishes: Wishes, sessions: Path, student: StudentSpec | None, step_ns: int
+) -> tuple[PracticeRoom, DirectEngine, FrameClock]:
+    """A room that opens on `lesson`, its engine, and the clock that both go by."""
+    clock = FrameClock(step_ns)
+    engine = DirectEngine(clock, student)
+    plan = plan_practice(find_lesson(lesson), wishes)
+    engine.plan = plan
+    return PracticeRoom(engine, Settings(sessions=str(sessions)), plan), engine, clock

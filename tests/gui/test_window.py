@@ -1,0 +1,84 @@
+"""The window as a user has it: imgui's test engine clicks, types and drags on a screen of the test's own.
+
+Each scenario of `drive.py` runs in a process of its own; what it saw is compared here with what a user would expect.
+"""
+
+import json
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.gui.x_server import screen
+
+pytestmark = [pytest.mark.gui, pytest.mark.timeout(400)]
+
+ROOT = Path(__file__).parents[2]
+DRIVE = Path(__file__).with_name("drive.py")
+PATIENCE_S = 360.0  # everything is drawn without a graphics card, on a machine that may be busy
+
+
+@pytest.fixture(scope="module")
+def environment() -> Iterator[dict[str, str]]:
+    for found in screen():
+        yield {**found, "PYTHONPATH": str(ROOT)}
+
+
+def run(scenario: str, environment: dict[str, str], folder: Path) -> dict[str, Any]:
+    out = folder / "seen.json"
+    command = [sys.executable, str(DRIVE), scenario, str(folder / "sessions"), str(out)]
+    done = subprocess.run(
+        command, env=environment, cwd=folder, capture_output=True, text=True, timeout=PATIENCE_S, check=False
+    )
+    assert done.returncode == 0, done.stderr[-3000:]
+    seen: dict[str, Any] = json.loads(out.read_text())
+    assert "fault" not in seen, seen["fault"]
+    assert "Error" not in done.stdout, done.stdout[-3000:]
+    return seen
+
+
+def test_a_lesson_is_chosen_played_and_judged(environment: dict[str, str], tmp_path: Path) -> None:
+    seen = run("practise", environment, tmp_path)
+    assert seen["started"] == "PLAYING"
+    assert seen["title"] == "Rock 2: the kick moves"
+    assert seen["notes"] == 26  # two bars: 16 on the hi-hat, 4 on the snare, 6 on the kick
+    assert seen["points"] > 80, "a professional plays this well"
+    assert seen["after"] == "IDLE"
+    assert list((tmp_path / "sessions").rglob("*.json")), "the session is kept"
+
+
+def test_keys_play_the_kit_and_escape_stops(environment: dict[str, str], tmp_path: Path) -> None:
+    seen = run("keys", environment, tmp_path)
+    assert seen["pieces"] == ["SNARE", "KICK", "HIHAT", "CRASH_1"]
+    assert seen["rising"], "each key has the time of its own frame"
+    assert "Stop" in seen["commands"]
+    assert seen["after"] == "RESULT"
+
+
+def test_typing_into_the_search_plays_nothing(environment: dict[str, str], tmp_path: Path) -> None:
+    seen = run("search", environment, tmp_path)
+    assert seen["keys"] == 0
+    assert seen["shown"]
+    assert all("paradiddle" in title.casefold() for title in seen["shown"])
+
+
+def test_every_viewpoint_can_be_chosen_and_turned(environment: dict[str, str], tmp_path: Path) -> None:
+    seen = run("look", environment, tmp_path)
+    for view in ("FRONT", "SHOULDER", "EYES", "TOP", "HANDS", "FEET"):
+        assert seen[view] == view
+    assert abs(seen["turned"]) > 0.1
+
+
+def test_a_session_is_kept_when_the_window_is_closed_in_its_middle(environment: dict[str, str], tmp_path: Path) -> None:
+    seen = run("closes", environment, tmp_path)
+    assert seen["at_the_end"] == "PLAYING"
+    assert list((tmp_path / "sessions").rglob("*.json")), "the session is kept"
+
+
+def test_a_fault_is_said_in_one_line(environment: dict[str, str], tmp_path: Path) -> None:
+    seen = run("fault", environment, tmp_path)
+    assert seen["news"] == "lesson: bar 3: no such thing"
+    assert seen["after"] == "IDLE"
