@@ -1,0 +1,174 @@
+"""Benchmarks of scoring: how exact and how fast alignment and live judgement are.
+
+Exactness is told against an oracle, the same pairing given the true tempo: what noise makes impossible is nobody's
+fault. The peer is mir_eval's `match_events`, piece by piece with a window of 70 ms, where it is installed.
+"""
+
+import importlib
+import time
+import tracemalloc
+from collections.abc import Callable
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.bench.benchmark import Benchmark, Measured, median_s
+from station.bench.scoring_work import Played, Player, f1, grooves, play
+from station.core.units import NS_PER_S
+from station.music.judgement import Label
+from station.music.performance import Performance
+from station.music.score import Score
+from station.scoring.align import align
+from station.scoring.alignment import Alignment
+from station.scoring.follower import Follower
+
+SIZES = (1_000, 3_000, 10_000, 100_000)
+_PLAYER, _HARD_PLAYER, _LIVE_PLAYER = Player(), Player(drift=0.12), Player(drift=0.0)
+_SEED = 20
+_WINDOW_S = 0.07
+_LIVE_HITS = 3_000
+_TIMES = 15
+_NO_PEER = "mir_eval is not installed"
+
+
+@cache
+def _work(notes: int, player: Player) -> tuple[Score, Played]:
+    score = grooves(notes, _SEED)
+    return score, play(score, player, _SEED)
+
+
+def _fresh(score: Score) -> Score:
+    """The same score with nothing worked out yet."""
+    return Score(score.notes, score.tempo_map, score.end_tick, score.title)
+
+
+def _matched(alignment: Alignment) -> NDArray[np.int64]:
+    return np.where(alignment.hit_label == Label.MATCH, alignment.note_of_hit, -1)
+
+
+def _align_f1(notes: int, player: Player) -> float:
+    score, played = _work(notes, player)
+    return f1(_matched(align(score, played.performance, clocked=False)), played)
+
+
+def _oracle_f1(notes: int, player: Player) -> float:
+    """The F1 of pairing hits that are brought to score time by the true tempo."""
+    score, played = _work(notes, player)
+    hits = played.performance.hits.copy()
+    hits["at_ns"] = played.hit_score_ns
+    order = np.argsort(hits["at_ns"], kind="stable")
+    said = np.empty(len(hits), np.int64)
+    said[order] = _matched(align(score, Performance.from_array(hits), clocked=True))
+    return f1(said, played)
+
+
+def _below_oracle(notes: int) -> Callable[[], Measured]:
+    def measure() -> Measured:
+        oracle, ours = _oracle_f1(notes, _PLAYER), _align_f1(notes, _PLAYER)
+        peer, note = _peer_f1(notes)
+        below = None if peer is None else oracle - peer
+        return Measured(oracle - ours, below, f"F1 {ours:.4f}, oracle {oracle:.4f}{note}")
+
+    return measure
+
+
+def _hard_f1() -> Measured:
+    return Measured(_align_f1(10_000, _HARD_PLAYER), None, "tempo drifts by 12 %")
+
+
+def _seconds(notes: int) -> float:
+    score, played = _work(notes, _PLAYER)
+    return median_s(lambda: align(_fresh(score), played.performance, clocked=False), _TIMES if notes < 50_000 else 3)
+
+
+def _align_3k() -> Measured:
+    return Measured(_seconds(3_000) * 1e3, _peer_seconds(3_000, 1e3))
+
+
+def _align_100k() -> Measured:
+    return Measured(_seconds(100_000), _peer_seconds(100_000, 1.0))
+
+
+def _growth() -> Measured:
+    """The exponent of time ~ notes^k by least squares in logarithms."""
+    seconds = [_seconds(notes) for notes in SIZES]
+    slope = np.polyfit(np.log(SIZES), np.log(seconds), 1)[0]
+    return Measured(
+        float(slope), None, ", ".join(f"{n}: {s * 1e3:.1f} ms" for n, s in zip(SIZES, seconds, strict=True))
+    )
+
+
+def _peak_mb() -> Measured:
+    score, played = _work(100_000, _PLAYER)
+    tracemalloc.start()
+    align(_fresh(score), played.performance, clocked=False)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    return Measured(peak / 1e6)
+
+
+def _hit_us(notes: int, percentile: float) -> Callable[[], Measured]:
+    def measure() -> Measured:
+        score, played = _work(notes, _LIVE_PLAYER)
+        follower, hits = Follower(score), played.performance
+        start = max(0, len(hits) - _LIVE_HITS)
+        taken = []
+        for hit in (hits[i] for i in range(start, len(hits))):
+            begun = time.perf_counter_ns()
+            follower.hit(hit, hit.at_ns)
+            taken.append(time.perf_counter_ns() - begun)
+        return Measured(float(np.percentile(taken, percentile)) / 1e3, None, f"{len(score)} notes")
+
+    return measure
+
+
+# --- the peer ---------------------------------------------------------------------------------------------------------
+
+
+def _match_events() -> Callable[..., list[tuple[int, int]]] | None:
+    try:
+        return importlib.import_module("mir_eval").util.match_events  # type: ignore[no-any-return]
+    except ImportError:
+        return None
+
+
+def _peer_pairs(notes: int) -> NDArray[np.int64] | None:
+    """The note of each hit by mir_eval, −1 for none; None where it is not installed."""
+    match_events = _match_events()
+    if match_events is None:
+        return None
+    score, played = _work(notes, _PLAYER)
+    hits = played.performance.hits
+    said = np.full(len(hits), -1, np.int64)
+    for piece in np.intersect1d(score.notes["piece"], hits["piece"]):
+        own, struck = (np.flatnonzero(side["piece"] == piece) for side in (score.notes, hits))
+        for note, hit in match_events(score.onset_s[own], hits["at_ns"][struck] / NS_PER_S, _WINDOW_S):
+            said[struck[hit]] = own[note]
+    return said
+
+
+def _peer_f1(notes: int) -> tuple[float | None, str]:
+    said = _peer_pairs(notes)
+    return (None, f"; {_NO_PEER}") if said is None else (f1(said, _work(notes, _PLAYER)[1]), "")
+
+
+def _peer_seconds(notes: int, scale: float) -> float | None:
+    if _match_events() is None:
+        return None
+    return median_s(lambda: _peer_pairs(notes), 3 if notes < 50_000 else 1) * scale
+
+
+_PEER = "mir_eval"
+BENCHMARKS = (
+    *(Benchmark(f"align_f1_below_oracle_{n // 1000}k", "F1", 0.001, "lower", _PEER, _below_oracle(n)) for n in SIZES),
+    Benchmark("align_f1_at_12_pct_drift", "F1", 0.99, "higher", None, _hard_f1),
+    Benchmark("align_3k_notes", "ms", 15, "lower", _PEER, _align_3k),
+    Benchmark("align_100k_notes", "s", 0.5, "lower", _PEER, _align_100k),
+    Benchmark("align_growth_exponent", "1", 1.1, "lower", None, _growth),
+    Benchmark("align_100k_peak_memory", "MB", 100, "lower", None, _peak_mb),
+    Benchmark("live_hit_median", "µs", 20, "lower", None, _hit_us(3_000, 50)),
+    Benchmark("live_hit_p99", "µs", 100, "lower", None, _hit_us(3_000, 99)),
+    Benchmark("live_hit_median_100k_notes", "µs", 20, "lower", None, _hit_us(100_000, 50)),
+    Benchmark("live_hit_p99_100k_notes", "µs", 100, "lower", None, _hit_us(100_000, 99)),
+)
