@@ -12,11 +12,11 @@ import pytest
 from numpy.typing import NDArray
 
 from station.core.events import Choke, DeviceFound, DeviceLost, Hit
-from station.core.pieces import Piece
+from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.devices.capture import read_capture
-from station.devices.replay import replay
-from station.engine.messages import Notice, Play, Ready, Record, Started
+from station.devices.replay import replay, transport_zeros_ns
+from station.engine.messages import KeyHit, Notice, Play, Ready, Record, Started
 from station.engine.process import EngineConfig, EngineProcess
 from tests.fakes.cues import clicks
 from tests.fakes.engine_listener import EngineListener
@@ -116,6 +116,27 @@ def test_a_kit_that_is_unplugged_and_plugged_in_again_plays_on(jack_server: Jack
             lost = listener.until(lambda event: isinstance(event, DeviceLost))
             assert isinstance(lost, DeviceLost)
             assert lost.device == f"{KIT}:out"
+
+
+def test_a_sound_server_that_ends_leaves_a_silent_engine(jack_server: JackServer, tmp_path: Path) -> None:
+    """JACK takes card and kit along; the transport runs on, keys still play, and the capture is whole."""
+    with KitPlayer(jack_server, KIT, [], tmp_path), EngineProcess(CONFIG) as engine:
+        listener = EngineListener(engine)
+        listener.until(lambda event: isinstance(event, Ready))
+        listener.until(lambda event: isinstance(event, DeviceFound))
+        engine.send(Record(tmp_path / "take.cap"))
+        jack_server.stop()
+        listener.until(lambda event: isinstance(event, DeviceLost))
+        listener.until(lambda event: isinstance(event, Notice) and "silent" in event.text)
+        engine.send(Play(clicks([0]), LEAD_NS))
+        started = listener.until(lambda event: isinstance(event, Started))
+        engine.send(KeyHit(5, Piece.KICK, Zone.HEAD, 90))
+        listener.until(lambda event: isinstance(event, Hit))
+    assert isinstance(started, Started)
+    capture = read_capture(tmp_path / "take.cap")
+    assert capture.complete
+    assert transport_zeros_ns(capture) == [started.zero_ns]
+    assert [type(event) for event in replay(capture)] == [DeviceLost, Hit]
 
 
 def check_hits(hits: list[Hit], sent: list[Stroke], period_ns: float) -> None:
