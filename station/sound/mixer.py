@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from station.core.kitmap import Strike
 from station.core.pieces import Articulation, Piece
 from station.sound.buses import Bus, ClickVoice
-from station.sound.drum_kit import DrumKit, Frames, level_of
+from station.sound.drum_kit import MAX_VELOCITY, DrumKit, Frames, level_of
 from station.sound.limiter import soft_clip
 from station.sound.sounds import SoundName
 from station.sound.voice import Voice
@@ -76,10 +76,12 @@ class Mixer:
         `strike.openness` (None counts as closed) chooses the hi-hat's sound and damps one that rings more open; the
         foot's chick stops it.
         """
+        assert 1 <= velocity <= MAX_VELOCITY, "a stroke has a MIDI velocity"
         self._at(at_frame, partial(self._strike, bus, strike, velocity))
 
-    def click(self, voice: ClickVoice, velocity: int = 127, at_frame: int = 0) -> None:
-        """Sound a click of `velocity` 1–127 on the click bus, `at_frame` frames after the start of the next block."""
+    def click(self, voice: ClickVoice, velocity: int = MAX_VELOCITY, at_frame: int = 0) -> None:
+        """Sound a click of `velocity` 0 (silent) … 127 on its bus, `at_frame` frames after the start of the next block."""
+        assert 0 <= velocity <= MAX_VELOCITY, "a click has a MIDI velocity"
         self._at(at_frame, partial(self._click, voice, velocity))
 
     def choke(self, bus: Bus, piece: Piece, at_frame: int = 0) -> None:
