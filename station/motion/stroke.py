@@ -30,7 +30,7 @@ _STRIKE = 5
 # --- the measured stroke ----------------------------------------------------------------------------------------------
 
 FULL_HEIGHT_M = 0.56
-PEAK_RAD = np.radians([[19.2], [23.0], [33.2], [22.3]])
+PEAK_RAD = np.radians([[19.2], [23.0], [33.2], [15.5]])
 """How far each joint goes in a stroke from full height."""
 _BEFORE_S = np.array(
     [
@@ -52,11 +52,9 @@ _SHARE_BEFORE = np.array(
 """The same keys' values in shares of the joint's peak (the rest's height comes on top, for the wrist)."""
 _LONGEST_S = 0.600
 _REBOUND_S = np.array([[0.050], [0.040], [0.046], [0.027]])
-_SHARE_REBOUND = np.array([[0.0], [-0.06], [0.36], [0.82]])
+_SHARE_REBOUND = np.array([[0.0], [-0.06], [0.25], [0.68]])
 _REST_S = np.array([[0.100], [0.100], [0.110], [0.085]])
 """When each joint rests again after the strike."""
-_SHARE_AT_TOP = np.array([[0.65], [0.87], [0.86], [0.38]])
-"""Shares of the peaks at 207 ms before the strike, where the tip is highest."""
 _DOWN_S = 0.150
 """The whip proper: this part of the template keeps its length while the preparation is squeezed."""
 
@@ -73,6 +71,9 @@ _REST_HEIGHT_M = 0.045
 _FULL_GAP_S = 0.16
 _FULL_GAP_HEIGHT_M = 0.15
 """A repetition in `_FULL_GAP_S` leaves room for a stroke of `_FULL_GAP_HEIGHT_M`; the time goes with its root."""
+_REBOUND_IN_REST = 0.6
+_SHORT_REST = 0.5
+"""Where strokes are near, the rest after a stroke is shortened to this share before the preparation is."""
 _LEAST_PAUSE = 0.03
 """Share of the gap that lies at least between the rest after a strike and the start of the next."""
 _LONG_S = 10.0
@@ -84,7 +85,7 @@ _MERGED_REBOUND, _MERGED_REST = 0.3, 0.5
 # --- how the splines pass each key: start, middle, top, down, down, strike, rebound, rest -----------------------------
 
 _STRIKE_INTO = np.array([[1.0], [1.0], [0.8], [1.0]])
-_STRIKE_OUT = np.array([[1.0], [1.0], [0.3], [1.35]])
+_STRIKE_OUT = np.array([[1.0], [1.0], [0.4], [1.8]])
 """Slopes at the strike in shares of the chords before and after it: the wrist already slows down, the stick does not,
 and it leaves the head at half the speed (rebound ratio 0.51)."""
 _START_TENSION, _REST_TENSION = 1.0, 1.0
@@ -93,6 +94,23 @@ _TENSION[:, 5:6] = 1 - (_STRIKE_INTO + _STRIKE_OUT) / 2
 _BIAS = np.zeros((4, KEYS))
 _BIAS[:, 5:6] = (_STRIKE_INTO - _STRIKE_OUT) / (_STRIKE_INTO + _STRIKE_OUT)
 _CONTINUITY = np.array([0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0])
+
+
+def _shares_near_top() -> Array:
+    """The measured stroke alone about its highest, (moments, 4): every joint in shares of its peak."""
+    times = np.concatenate((-_BEFORE_S, np.zeros((4, 1)), _REBOUND_S, _REST_S), 1)
+    values = np.concatenate((_SHARE_BEFORE, np.zeros((4, 1)), _SHARE_REBOUND, np.zeros((4, 1))), 1)
+    tension = _TENSION.copy()
+    tension[:, 0], tension[:, -1] = _START_TENSION, _REST_TENSION
+    into, out = slopes(times, values, tension, np.tile(_CONTINUITY, (4, 1)), _BIAS)
+    rows = cubics(times, values, into, out)
+    moments = np.array([-0.24, -0.21, -0.18, -0.15, -0.12, -0.10, -0.08])
+    return np.stack([Curves(times[j], rows[j, :, None]).many(moments)[0] for j in range(4)], 1)
+
+
+_SHARES_NEAR_TOP = _shares_near_top()
+"""Shares of the peaks (moments, 4) about the time when the tip is highest: the higher the stroke, the earlier."""
+_SHARE_AT_TOP = _SHARES_NEAR_TOP[2][:, None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,23 +133,29 @@ def amplitudes(height_m: Array, contact_angles: Array, lengths: ArmLengths, part
     """
     full = np.maximum(FULL_HEIGHT_M - _STILL_BELOW_M, 1e-9)
     part = np.clip((height_m - _STILL_BELOW_M) / full, 0.0, 1.5) ** _GROWTH * PEAK_RAD * parts
-    segments = np.array([[lengths.upper], [lengths.fore], [lengths.hand], [lengths.ahead]])
-    rest = np.cos(contact_angles)
-    at_top = part * _SHARE_AT_TOP
-    turn = np.cumsum(at_top, axis=0)
-    turn[2] -= (1 - lengths.turns_hand) * at_top[WRIST]
     scale = np.ones_like(height_m)
-    for _ in range(3):  # Newton: the rise is nearly linear in the scale
-        angles = contact_angles + scale * turn
-        rise = (segments * (rest - np.cos(angles))).sum(0)
-        slope = (segments * turn * np.sin(angles)).sum(0)
-        scale = np.clip(scale - (rise - height_m) / np.maximum(slope, 1e-3), 0.3, 3.0)
+    for _ in range(4):  # Newton: the rise is nearly linear in the scale
+        rise, slope = _rise(scale * part, contact_angles, lengths)
+        scale = np.clip(scale * (1 - (rise - height_m) / np.maximum(slope, 1e-3)), 0.2, 4.0)
     result: Array = scale * part
     return result
 
 
+def _rise(amplitude: Array, contact_angles: Array, lengths: ArmLengths) -> tuple[Array, Array]:
+    """How high the tip goes, (n,), and how that grows with a common factor on `amplitude` (4, n)."""
+    segments = np.array([[lengths.upper], [lengths.fore], [lengths.hand], [lengths.ahead]])
+    offsets = _SHARES_NEAR_TOP[..., None] * amplitude  # (moments, 4, n)
+    turn = np.cumsum(offsets, axis=1)
+    turn[:, 2] -= (1 - lengths.turns_hand) * offsets[:, WRIST]
+    angles = contact_angles + turn
+    rise = (segments * (np.cos(contact_angles) - np.cos(angles))).sum(1)
+    slope = (segments * turn * np.sin(angles)).sum(1)
+    highest = np.argmax(rise, axis=0)[None]
+    return np.take_along_axis(rise, highest, 0)[0], np.take_along_axis(slope, highest, 0)[0]
+
+
 def top(amplitude: Array) -> Array:
-    """The offsets (4, n) where the tip is highest, of strokes with `amplitude` (4, n)."""
+    """The offsets (4, n) of strokes with `amplitude` (4, n) about where the tip is highest."""
     result: Array = amplitude * _SHARE_AT_TOP
     return result
 
@@ -170,7 +194,7 @@ class Strokes:
         gain = np.minimum(sliders.gain * np.minimum(room, 1.0), plan.most)
         peak = np.minimum(plan.amplitude * gain, plan.ceiling)
         n = len(strike_s)
-        times, merged = _times(strike_s, gaps, height_m, sliders)
+        times, merged = _times(strike_s, gaps, height_m * gain.mean(0), sliders)
         values = _values(times, merged, peak, np.minimum(_REST_HEIGHT_M, 0.6 * height_m) / plan.lever_m)
         tension = np.tile(_TENSION[:, None, :], (1, n, 1))
         tension[..., 0] = _START_TENSION * (1 - merged)
@@ -216,20 +240,23 @@ def _times(strike_s: Array, gaps: Array, height_m: Array, sliders: Sliders) -> t
 
     `gaps` (n + 1,) before and after each strike.
     """
-    before, after = gaps[:-1], gaps[1:]
+    before = gaps[:-1]
     pace = (height_m / FULL_HEIGHT_M) ** _TIME_GROWTH / sliders.speed
-    rest = np.minimum(_REST_S * pace, 0.3 * after)
     down = np.minimum(pace, 0.5 * before / _DOWN_S)
+    # what the whip leaves of the gap is shared by the rest after the last stroke and the preparation
     left = (1 - _LEAST_PAUSE) * before - _DOWN_S * down
-    left[:, 1:] -= rest[:, :-1]
-    up = np.clip(left / (_LONGEST_S - _DOWN_S), 0.0, pace)
+    whole_rest = np.concatenate((np.zeros((4, 1)), (_REST_S * pace)[:, :-1]), 1)
+    lacking = np.maximum(whole_rest + (_LONGEST_S - _DOWN_S) * pace - left, 0.0)
+    rest_before = np.maximum(whole_rest - lacking, np.minimum(_SHORT_REST * whole_rest, 0.3 * before))
+    up = np.clip((left - rest_before) / (_LONGEST_S - _DOWN_S), 0.0, pace)
+    rest = np.concatenate((rest_before[:, 1:], (_REST_S * pace)[:, -1:]), 1)
     times = np.empty((4, len(strike_s), KEYS))
     together = _BEFORE_S.mean(0)
     ahead = together + np.atleast_2d(sliders.whip)[..., None] * (_BEFORE_S[:, None, :] - together)
     falling, rising = np.minimum(ahead, _DOWN_S), np.maximum(ahead - _DOWN_S, 0.0)
     times[..., :5] = strike_s[:, None] - falling * down[..., None] - rising * up[..., None]
     times[..., 5] = strike_s
-    times[..., 6] = strike_s + _REBOUND_S / _REST_S * rest
+    times[..., 6] = strike_s + np.minimum(_REBOUND_S * pace, _REBOUND_IN_REST * rest)
     times[..., 7] = strike_s + rest
     return times, 1.0 - up / pace
 
