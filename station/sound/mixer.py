@@ -80,7 +80,7 @@ class Mixer:
         self._at(at_frame, partial(self._strike, bus, strike, velocity))
 
     def click(self, voice: ClickVoice, velocity: int = MAX_VELOCITY, at_frame: int = 0) -> None:
-        """Sound a click of `velocity` 0 (silent) … 127 on its bus, `at_frame` frames after the start of the next block."""
+        """Sound a click of `velocity` 0 (silent) … 127, `at_frame` frames after the start of the next block."""
         assert 0 <= velocity <= MAX_VELOCITY, "a click has a MIDI velocity"
         self._at(at_frame, partial(self._click, voice, velocity))
 
