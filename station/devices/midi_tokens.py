@@ -16,6 +16,8 @@ _UNDEFINED_REAL_TIME = frozenset({0xF9, 0xFD})
 _SYSEX = 0xF0
 _END_OF_SYSEX = 0xF7
 _FIRST_STATUS = 0x80
+_FIRST_SHORTER = 0xC0  # from here on statuses have other lengths; all below it are followed by two bytes
+_NOTE_LENGTH = 3
 _FIRST_SYSTEM = 0xF0
 _FIRST_REAL_TIME = 0xF8
 
@@ -44,6 +46,14 @@ class MidiTokenizer:
 
     def feed(self, data: bytes) -> list[bytes]:
         """The messages that `data` completes, in order; the same for any division of the stream into pieces."""
+        if (
+            len(data) == _NOTE_LENGTH
+            and _FIRST_STATUS <= data[0] < _FIRST_SHORTER
+            and data[1] < _FIRST_STATUS > data[2]
+        ):
+            self._status, self._needed = data[0], 2  # one whole message, as ports give them: the common case, fast
+            self._data.clear()
+            return [bytes(data)]
         messages: list[bytes] = []
         for byte in data:
             if byte < _FIRST_STATUS:
