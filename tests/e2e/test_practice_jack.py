@@ -79,7 +79,8 @@ def low_onsets_ns(heard: Recording, rate_hz: int) -> NDArray[np.int64]:
     level = np.abs(low)
     loud = np.flatnonzero(level > 0.15 * level.max())
     first = np.concatenate([[True], np.diff(loud) > rate_hz // 10])
-    return heard.at_ns[loud[first]]
+    onsets: NDArray[np.int64] = heard.at_ns[loud[first]]
+    return onsets
 
 
 def test_a_fake_kit_is_heard_judged_and_sounded(tmp_path: Path) -> None:

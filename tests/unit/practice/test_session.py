@@ -122,8 +122,9 @@ def test_the_frame_rate_changes_nothing(rate_hz: int) -> None:
 
 def test_a_kit_that_goes_and_comes_is_told() -> None:
     practice = session()
-    practice.handle(DeviceFound(0, "TD-17"))
-    assert practice.device == "TD-17"
-    practice.handle(DeviceLost(1, "TD-17"))
-    assert practice.device is None
+    there = []
+    for event in (DeviceFound(0, "TD-17"), DeviceLost(1, "TD-17")):
+        practice.handle(event)
+        there.append(practice.device)
+    assert there == ["TD-17", None]
     assert [("gone" in text, "here" in text) for text in practice.notices] == [(False, True), (True, False)]
