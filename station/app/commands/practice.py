@@ -99,7 +99,7 @@ def _leave(folder: SessionFolder, result: SessionResult, document: dict[str, Jso
     if as_json:
         print_json(document)
     else:
-        print(report_text(document), end="")
+        print(report_text(document), end="", flush=True)
     if fault is not None:
         raise fault
     say(f"\nreport   {folder.path / TEXT_NAME}")
