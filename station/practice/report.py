@@ -69,7 +69,7 @@ def assessment_text(document: dict[str, Json]) -> str:
     lines = [
         f"Score {_figure(document['score'], '.0f')} of 100",
         f"Notes {counts['notes']}: {counts['matched']} hit, {counts['misses']} missed,"
-        f" {counts['wrong_piece']} on a wrong piece; {counts['extras']} extra {'hit' if counts['extras'] == 1 else 'hits'}",
+        f" {counts['wrong_piece']} on a wrong piece; extra hits: {counts['extras']}",
         _timing_words(timing),
     ]
     rows = [(piece, group) for piece, group in _table(document, "per_piece").items() if isinstance(group, dict)]
