@@ -6,14 +6,14 @@ the natural posture of the body for that target: drummers lift the elbow for a h
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Articulation, Limb, Piece, Zone
 from station.motion.arm import ArmLengths, Contact, Offsets, solve
-from station.motion.events import GRAB
+from station.motion.events import GRAB, WAIT
 from station.motion.figure import Figure
 from station.motion.grip import Hold
 from station.motion.kit import Kit
@@ -55,6 +55,21 @@ PROTRACTION_M = 0.08
 """A shoulder comes forward by so much for what is still out of reach; the rest is missing (our choice)."""
 
 
+WAIT_M = (0.10, -0.04, 0.07)
+"""Where a waiting stick's tip is: to the hand's own side of its spot on the snare, nearer, higher (our choice)."""
+
+
+def target_of(kit: Kit, strike: Strike) -> Target:
+    """What the stick aims at: a rim shot's tip is on the head while its shaft meets the rim."""
+    zone = Zone.HEAD if strike.articulation == Articulation.RIM_SHOT else strike.zone
+    target = kit.target(strike.piece, zone, strike.limb)
+    if strike.articulation != WAIT:
+        return target
+    x, y, z = WAIT_M
+    side = 1.0 if strike.limb == Limb.RIGHT_HAND else -1.0
+    return replace(target, point_m=target.point_m + np.array([side * x, y, z]))
+
+
 @dataclass(frozen=True, slots=True)
 class Lie:
     """One kind of strike, solved at the natural posture.
@@ -75,7 +90,7 @@ class Lie:
 
 def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike) -> Lie:
     """The most comfortable way for `strike` with `hold`."""
-    target = kit.target(strike.piece, strike.zone, strike.limb)
+    target = target_of(kit, strike)
     right = strike.limb == Limb.RIGHT_HAND
     lengths = hold.lengths(figure, right)
     slopes = _slopes(lengths, target, hold, strike, hold.length_m(figure))

@@ -5,6 +5,7 @@ hands. Times in seconds from tick 0.
 """
 
 from dataclasses import dataclass
+from itertools import zip_longest
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,8 +16,8 @@ from station.music.score import Score
 
 Array = NDArray[np.float64]
 
-GRAB = len(Articulation)
-"""Stands where an articulation stands: the hand grabs the cymbal's edge."""
+GRAB, WAIT = len(Articulation), len(Articulation) + 1
+"""Stand where an articulation stands: the hand grabs the cymbal's edge, or waits on its own side over the snare."""
 SAME_STROKE_S = 0.004
 """Events of one hand nearer than this are one movement."""
 GRACE_HEIGHT_M, LAID_HEIGHT_M, PRESS_HEIGHT_M, GRAB_HEIGHT_M = 0.045, 0.06, 0.02, 0.03
@@ -27,8 +28,14 @@ PRESS_S = 0.10
 BUSY_S = 0.12
 """A hand with an event this near cannot grab a cymbal (our choice)."""
 
+REST_S, LEAVE_S = 1.1, 0.5
+"""A hand with so long a rest that is not at home goes there, so long after its last stroke (our choice)."""
+
 LONG_AGO_S = -60.0
 _IDLE_HEIGHT_M = 0.05
+
+Event = tuple[float, int, int, float]
+"""Time, row of the score, articulation and height."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,7 +56,7 @@ def hand_events(score: Score, limbs: NDArray[np.int8]) -> tuple[HandEvents, Hand
     """What the right and the left hand do in `score` when `limbs` (n,) play it."""
     onset, notes = score.onset_s, score.notes
     struck = [np.flatnonzero(limbs == limb) for limb in (Limb.RIGHT_HAND, Limb.LEFT_HAND)]
-    found: list[list[tuple[float, int, int, float]]] = [[], []]  # time, row, articulation, height
+    found: list[list[Event]] = [[], []]  # time, row, articulation, height
     height = heights(notes)
     for side, rows in enumerate(struck):
         found[side] = [
@@ -62,8 +69,27 @@ def hand_events(score: Score, limbs: NDArray[np.int8]) -> tuple[HandEvents, Hand
         _press(score, row, limbs, onset, found)
     for row in np.flatnonzero(notes["choke_ticks"] > 0).tolist():
         _grab(score, row, limbs, found)
-    right, left = (_events(notes, sorted(events)) for events in found)
+    right, left = (_events(notes, _with_waits(notes, sorted(events))) for events in found)
     return right, left
+
+
+_HOME = (Piece.SNARE,)
+_STATIONS = (Piece.HIHAT, Piece.RIDE, Piece.RIDE_2)
+
+
+def _with_waits(notes: NDArray[np.void], events: list[Event]) -> list[Event]:
+    """The same with a wait in every long rest, but where the hand is at home or stationed at its cymbal."""
+    result = []
+    for event, after in zip_longest(events, events[1:]):
+        result.append(event)
+        at, row, _, _ = event
+        piece = notes["piece"][row]
+        if piece in _HOME or (after is not None and after[0] - at < REST_S):
+            continue
+        if after is not None and piece in _STATIONS and notes["piece"][after[1]] == piece:
+            continue
+        result.append((at + LEAVE_S, row, WAIT, PRESS_HEIGHT_M))
+    return result
 
 
 def heights(notes: NDArray[np.void]) -> Array:
@@ -74,9 +100,7 @@ def heights(notes: NDArray[np.void]) -> Array:
     return np.where(laid, np.minimum(height, LAID_HEIGHT_M), height)
 
 
-def _press(
-    score: Score, row: int, limbs: NDArray[np.int8], onset: Array, found: list[list[tuple[float, int, int, float]]]
-) -> None:
+def _press(score: Score, row: int, limbs: NDArray[np.int8], onset: Array, found: list[list[Event]]) -> None:
     """The presses that carry a buzz roll on: by both hands in turn where the other is free, else by one."""
     if limbs[row] not in (Limb.RIGHT_HAND, Limb.LEFT_HAND):
         return
@@ -93,7 +117,7 @@ def _press(
             found[side].append((start + k * (end - start) / count, row, int(Articulation.BUZZ), PRESS_HEIGHT_M))
 
 
-def _grab(score: Score, row: int, limbs: NDArray[np.int8], found: list[list[tuple[float, int, int, float]]]) -> None:
+def _grab(score: Score, row: int, limbs: NDArray[np.int8], found: list[list[Event]]) -> None:
     """The hand that is freer grabs the cymbal; where both are busy nobody does."""
     tick = int(score.notes["tick"][row]) + int(score.notes["choke_ticks"][row])
     at = float(score.tempo_map.seconds_at(tick))
@@ -104,7 +128,7 @@ def _grab(score: Score, row: int, limbs: NDArray[np.int8], found: list[list[tupl
         found[side].append((at, row, GRAB, GRAB_HEIGHT_M))
 
 
-def _events(notes: NDArray[np.void], found: list[tuple[float, int, int, float]]) -> HandEvents:
+def _events(notes: NDArray[np.void], found: list[Event]) -> HandEvents:
     if not found:
         key = np.array([[Piece.SNARE, Zone.HEAD, Articulation.NORMAL]], np.int64)
         return HandEvents(np.array([LONG_AGO_S]), np.zeros(0, np.int64), key, np.array([_IDLE_HEIGHT_M]))
@@ -112,5 +136,7 @@ def _events(notes: NDArray[np.void], found: list[tuple[float, int, int, float]])
     keep = np.diff(time, prepend=-np.inf) > SAME_STROKE_S
     time, row, articulation, height = time[keep], row[keep], articulation[keep], height[keep]
     zone = np.where(articulation == GRAB, int(Zone.EDGE), notes["zone"][row])
-    key = np.stack([notes["piece"][row], zone, articulation], 1).astype(np.int64)
+    zone = np.where(articulation == WAIT, int(Zone.HEAD), zone)
+    piece = np.where(articulation == WAIT, int(Piece.SNARE), notes["piece"][row])
+    key = np.stack([piece, zone, articulation], 1).astype(np.int64)
     return HandEvents(time, row, key, height)

@@ -65,10 +65,10 @@ class HandPart:
         way = Way.of(events.time_s, contacts, lifts(kit, contacts, played), left_at_once[:-1])
         return cls(limb, hold, events, lies, which, np.array([lie.wrist for lie in lies])[which], plan, way)
 
-    def capped(self, height_m: Array) -> "HandPart":
-        """The same with no stroke higher than `height_m` (n,), whatever the sliders say."""
+    def cleared(self, height_m: Array, lift_m: Array) -> "HandPart":
+        """The same, no stroke higher than `height_m` (n,), whatever the sliders say, the ways lifted by `lift_m`."""
         most = height_m / np.maximum(self.strokes.height_m, 1e-6)
-        return replace(self, strokes=replace(self.strokes, most=most))
+        return replace(self, strokes=replace(self.strokes, most=most), way=self.way.lifted(lift_m))
 
 
 def parts(hold: Hold) -> Array:

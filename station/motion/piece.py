@@ -50,7 +50,7 @@ BELL_ABOVE_BOW_M = 0.02
 
 _DRUM_SPOTS = {
     Zone.HEAD: Spot(0.0, 0.0, HAND_SPREAD_M),
-    Zone.RIM: Spot(0.0, -1.0, HAND_SPREAD_M, RIM_ABOVE_HEAD_M, shoulder=True),
+    Zone.RIM: Spot(0.0, -1.0, 0.16, RIM_ABOVE_HEAD_M, shoulder=True),
 }
 _CYMBAL_SPOTS = {
     Zone.BOW: Spot(0.0, -0.6, 0.03),

@@ -9,6 +9,7 @@ from station.core.pieces import Limb, Piece, Zone
 from station.motion.beats import Beats, bob_cofactors
 from station.motion.body import Ground, mean_bearing
 from station.motion.clearance import cleared
+from station.motion.contacts import Strike, target_of
 from station.motion.events import HandEvents, hand_events
 from station.motion.figure import Figure
 from station.motion.gaze import gaze_curve
@@ -101,8 +102,9 @@ def holds(style: Style) -> tuple[Hold, Hold]:
 def strike_points(score: Score, kit: Kit, limbs: NDArray[np.int8]) -> Array:
     """The point that each stroke touches, (n, 3)."""
     notes = score.notes
-    kinds, which = np.unique(np.stack([notes["piece"], notes["zone"], limbs], 1), axis=0, return_inverse=True)
-    points = [kit.target(Piece(p), Zone(z), Limb(limb)).point_m for p, z, limb in kinds.tolist()]
+    key = np.stack([notes["piece"], notes["zone"], notes["articulation"], limbs], 1)
+    kinds, which = np.unique(key, axis=0, return_inverse=True)
+    points = [target_of(kit, Strike(Piece(p), Zone(z), a, Limb(limb))).point_m for p, z, a, limb in kinds.tolist()]
     return np.array(points).reshape(-1, 3)[which.reshape(-1)]
 
 

@@ -54,6 +54,12 @@ class Way:
         rows[:-1, 3 + FIELDS :] = np.diff(contacts, axis=0)
         return cls(strike_s, rows, strike_s.tolist())
 
+    def lifted(self, lift_m: Array) -> "Way":
+        """The same with every stretch (n − 1,) lifted by at least `lift_m`."""
+        rows = self.rows.copy()
+        rows[:-1, 2] = np.minimum(np.maximum(rows[:-1, 2], lift_m), HIGHEST_M)
+        return Way(self.strike_s, rows, self.strikes)
+
     def at(self, time_s: float) -> Contact:
         """The contact at one instant."""
         i = max(bisect_right(self.strikes, time_s) - 1, 0)
@@ -103,9 +109,9 @@ def lifts(kit: Kit, contacts: Array, played: NDArray[np.int64]) -> Array:
         short = np.where(flat < piece.radius_m + 0.03, (top + CLEAR_M - way[..., 2]) / hump, 0.0)
         need = np.maximum(need, short.max(axis=0, initial=0.0))
     moved = played[1:] != played[:-1]
-    lift: Array = np.where(moved, np.minimum(need, _HIGHEST_M), 0.0)
+    lift: Array = np.where(moved, np.minimum(need, HIGHEST_M), 0.0)
     return lift
 
 
-_HIGHEST_M = 0.35
+HIGHEST_M = 0.35
 """No hand goes higher than this over the straight way (our choice)."""
