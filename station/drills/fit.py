@@ -6,29 +6,25 @@ that the grid can write already stays as it is.
 """
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from itertools import groupby, pairwise
+from itertools import groupby
 from statistics import median_low
 from types import MappingProxyType
 
 from station.core.errors import BadInput
 from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece
 from station.core.units import NS_PER_MS, NS_PER_S, PPQ, ns_from_s
+from station.drills.fit_time import at_bar_starts, on_cells
 from station.drills.lesson import Lesson, Section
 from station.drills.lesson_write import write_lesson
 from station.drills.letters import FOOT_OF, HALF_OPEN, LETTERS, Family, Letter, family_of
 from station.drills.playable import FOOT_SPANS_S
 from station.drills.strokes import GRACE_LEADS_MS, GRACE_SHARE, OTHER_HAND, Velocities
 from station.music.score import Note, Score
-from station.music.tempo import MeterChange, TempoChange, TempoMap
+from station.music.tempo import TempoMap
 
-_EXACT_CELLS = (1, 2, 3, 4, 6, 8, 5, 7, 12, 16, 10)
-_COST = MappingProxyType({1: 0.0, 2: 0.005, 4: 0.01, 3: 0.03, 6: 0.05, 8: 0.05})
-"""Cells a beat for played music, and what each costs, in beats of mean error: our choice. Human spread is 0.03–0.05
-beats (26–28 ms, HUMANS, Timing), so finer cells must earn their place by more than noise."""
-_EXACT_BEATS = 1e-4
 GHOST_BELOW, ACCENT_FROM = 50, 100
 """Velocities between HUMANS' ranges: ghost 20–45, normal 60–95, accent 105–127."""
 BARS_A_SECTION = 4
@@ -57,9 +53,9 @@ def fit_score(score: Score) -> Fitted:
     with suppress(BadInput):
         write_lesson(lesson_of(score, "score", "score", already))
         return Fitted(score, already, 0, 0.0, 0)
-    tempo_map = _at_bar_starts(score)
+    tempo_map = at_bar_starts(score)
     mains = [n for n in score if not n.lead_ms]
-    moved = _on_cells(mains, tempo_map, score.end_tick)
+    moved = on_cells(mains, tempo_map, score.end_tick)
     graces = Counter((n.tick, n.piece) for n in score if n.lead_ms)
     settled = [_settled(n, graces[old.tick, old.piece]) for old, n in zip(mains, moved, strict=True)]
     kept = _trimmed(_unhurried(_playable(_single(settled)), tempo_map), score.end_tick)
@@ -93,90 +89,6 @@ def _shift_ns(before: int, after: int, score: Score) -> int:
     """How far a stroke moved; from the end to the start of the music is no way."""
     by = abs(int(score.tempo_map.ns_at(before)) - int(score.tempo_map.ns_at(after)))
     return min(by, abs(score.length_ns - by))
-
-
-# --- time -------------------------------------------------------------------------------------------------------------
-
-
-def _at_bar_starts(score: Score) -> TempoMap:
-    """The tempo map with whole bars alone, and tempo changes moved to the start of the nearest bar.
-
-    A bar that a change of meter cuts short gets a meter of its own; of tempo changes that meet the last counts.
-    """
-    old = score.tempo_map
-    meters = list(old.meters)
-    for before, after in pairwise(old.meters):
-        if cut := (after.tick - before.tick) % before.bar_ticks:
-            meters.append(_short_bar(after.tick - cut, cut, score))
-    whole = TempoMap.build(old.tempos, [m for m in meters if m.tick < score.end_tick])
-    tempos: list[TempoChange] = []
-    for change in old.tempos:
-        bar = int(whole.bars_at(change.tick))
-        start, end = whole.bar_start(bar), whole.bar_start(bar + 1)
-        tempos.append(replace(change, tick=start if change.tick - start < end - change.tick else end))
-    return TempoMap.build(_changing(t for t in tempos if t.tick < score.end_tick), whole.meters)
-
-
-def _short_bar(tick: int, length_ticks: int, score: Score) -> MeterChange:
-    """A meter for one bar of `length_ticks`."""
-    for unit in (4, 8, 16, 32):
-        if length_ticks * unit % (4 * PPQ) == 0:
-            return MeterChange(tick, length_ticks * unit // (4 * PPQ), unit)
-    bar = int(score.tempo_map.bars_at(tick)) + 1
-    raise BadInput(score.title or "score", f"bar {bar}", "a change of meter cuts it between the notes of the grid")
-
-
-def _changing(tempos: Iterable[TempoChange]) -> list[TempoChange]:
-    last_of = {t.tick: t for t in tempos}
-    found: list[TempoChange] = []
-    for change in last_of.values():
-        if not found or found[-1].us_per_quarter != change.us_per_quarter:
-            found.append(change)
-    return found
-
-
-def _on_cells(notes: Sequence[Note], tempo_map: TempoMap, end_tick: int) -> list[Note]:
-    """The notes with their ticks on cells, beat by beat of the meter."""
-    moved: list[Note] = []
-    for (bar_start, beat), group in groupby(notes, key=lambda n: _beat_of(n.tick, tempo_map)):
-        meter = tempo_map.meter_at(bar_start)
-        start = bar_start + beat * meter.beat_ticks
-        together = list(group)
-        length = meter.beat_ticks // _cells([(n.tick - start) / meter.beat_ticks for n in together])
-        moved += [_moved(n, start + round((n.tick - start) / length) * length, meter, end_tick) for n in together]
-    return moved
-
-
-def _beat_of(tick: int, tempo_map: TempoMap) -> tuple[int, int]:
-    place = tempo_map.position_at(tick)
-    return tempo_map.bar_start(place.bar), place.beat
-
-
-def _cells(places: Sequence[float]) -> int:
-    """Cells that a beat is cut into for strokes at `places` (in beats from its start)."""
-    for cells in _EXACT_CELLS:
-        if all(_error(p, cells) < _EXACT_BEATS for p in places):
-            return cells
-    return min(_COST, key=lambda n: sum(_error(p, n) for p in places) / len(places) + _COST[n])
-
-
-def _error(place: float, cells: int) -> float:
-    return abs(place - round(place * cells) / cells)
-
-
-def _moved(note: Note, tick: int, meter: MeterChange, end_tick: int) -> Note:
-    """The note at `tick` (the music's first beat again if that is its end), its length in whole quarters of a beat."""
-    quarter = meter.beat_ticks // 4
-
-    def whole(ticks: int) -> int:
-        return max(quarter, round(ticks / quarter) * quarter) if ticks else 0
-
-    return replace(
-        note,
-        tick=tick if tick < end_tick else 0,
-        duration_ticks=whole(note.duration_ticks),
-        choke_ticks=whole(note.choke_ticks),
-    )
 
 
 # --- strokes ----------------------------------------------------------------------------------------------------------
