@@ -15,7 +15,7 @@ from station.core.events import DeviceFound, DeviceLost
 from station.core.settings import Settings
 from station.core.units import ns_from_ms
 from station.drills.lesson import LEVELS, Lesson
-from station.drills.library import find_lesson, lesson_rows
+from station.drills.library import find_lesson, shipped_lessons
 from station.engine.engine import KEYBOARD
 from station.engine.messages import EngineEvent, KeyHit, Notice, Ready, Record, Stop
 from station.practice.live import EngineLink
@@ -164,8 +164,7 @@ class PracticeRoom:
 
 
 def _all_lessons(first: Lesson) -> dict[str, Lesson]:
-    shipped = {row.name: find_lesson(row.name) for row in lesson_rows()}
-    return {**shipped, first.name: first}
+    return {lesson.name: lesson for lesson in shipped_lessons()} | {first.name: first}
 
 
 def _card(lesson: Lesson) -> LessonCard:

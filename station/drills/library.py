@@ -18,7 +18,16 @@ from station.drills.lesson_file import read_lesson
 FIRST_LESSON = "rock-1"
 """What a newcomer meets first."""
 
-__all__ = ["FIRST_LESSON", "LessonRow", "find_lesson", "lesson_names", "lesson_rows", "lessons_dir", "read_lesson"]
+__all__ = [
+    "FIRST_LESSON",
+    "LessonRow",
+    "find_lesson",
+    "lesson_names",
+    "lesson_rows",
+    "lessons_dir",
+    "read_lesson",
+    "shipped_lessons",
+]
 
 _ENDING = ".toml"
 _NAMES_SHOWN = 5
@@ -79,25 +88,32 @@ def _like(word: str, names: list[str]) -> str:
     return f"; the nearest {'are' if len(near) > 1 else 'is'} {', '.join(near)}"
 
 
+def shipped_lessons() -> list[Lesson]:
+    """All shipped lessons in the order of the list: grooves, fills, rudiments, each by level and name."""
+    return [lesson for _, lesson in _in_order()]
+
+
 def lesson_rows() -> list[LessonRow]:
-    """The list of shipped lessons: grooves, fills, rudiments, each by level and name."""
-    folder = lessons_dir()
-    rows = []
-    for path in _files(folder).values():
-        lesson = read_lesson(path)
-        kind = path.parent.name if path.parent != folder else ""
-        rows.append(
-            LessonRow(
-                lesson.name,
-                lesson.title,
-                lesson.level,
-                lesson.beats_a_minute,
-                lesson.meter,
-                lesson.score.bar_count,
-                kind,
-            )
+    """The list of shipped lessons, in the same order."""
+    return [
+        LessonRow(
+            lesson.name,
+            lesson.title,
+            lesson.level,
+            lesson.beats_a_minute,
+            lesson.meter,
+            lesson.score.bar_count,
+            folder,
         )
-    return sorted(rows, key=lambda r: (_rank(r.folder), r.level, r.name))
+        for folder, lesson in _in_order()
+    ]
+
+
+def _in_order() -> list[tuple[str, Lesson]]:
+    """Every shipped lesson with the folder that it is in."""
+    top = lessons_dir()
+    found = [("" if path.parent == top else path.parent.name, read_lesson(path)) for path in _files(top).values()]
+    return sorted(found, key=lambda one: (_rank(one[0]), one[1].level, one[1].name))
 
 
 _FOLDERS = ("grooves", "fills", "rudiments")
