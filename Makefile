@@ -4,6 +4,7 @@
 VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
+EXTRAS := $(wildcard benchmarks examples)
 
 .PHONY: practice test check format lint types imports unit setup setup-test bench clean help
 
@@ -27,10 +28,10 @@ test: setup-test check  ## the same set-up, then every check and every test
 check: format lint types imports unit  ## what must be green before a commit
 
 format: $(READY)
-	@$(BIN)/ruff format --check --quiet station tests benchmarks examples
+	@$(BIN)/ruff format --check --quiet station tests $(EXTRAS)
 
 lint: $(READY)
-	@$(BIN)/ruff check --quiet --output-format concise station tests benchmarks examples
+	@$(BIN)/ruff check --quiet --output-format concise station tests $(EXTRAS)
 
 types: $(READY)
 	@$(BIN)/mypy

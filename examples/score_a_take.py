@@ -1,0 +1,24 @@
+"""Score a take without the command line: a lesson, a simulated student, the alignment and what it says.
+
+Run it with `python examples/score_a_take.py`; everything here is the station's core, so it needs no kit, sound or window.
+"""
+
+from station.drills.library import find_lesson
+from station.practice.report import assessment_text
+from station.practice.student_spec import parse_spec
+from station.practice.virtual_student import play
+from station.scoring.align import align
+from station.scoring.document import assessment
+from station.scoring.summary import summarise
+
+
+def main() -> None:
+    """Let a beginner play the first lesson once, and print what the station hears."""
+    score = find_lesson("rock-1").score
+    take = play(score, parse_spec("beginner,seed=7")).performance
+    alignment = align(score, take, clocked=True)
+    print(assessment_text(assessment(summarise(score, take, alignment))))
+
+
+if __name__ == "__main__":
+    main()
