@@ -215,7 +215,7 @@ class _BarEngraver:
         """Where the stems of a group end: level, clear of every head."""
         heights = [height(self._step(i)) for c in chords for i in c.mains]
         if voice is _HANDS:
-            return min(_UP_BEAM_Y, min(heights) - 2.75)
+            return min(_UP_BEAM_Y, min(heights) - 1.8)
         return max(_DOWN_BEAM_Y, max(heights) + 2.0)
 
     def _step(self, index: int) -> int:

@@ -27,6 +27,8 @@ _FLOOR_TOMS = frozenset({Piece.FLOOR_TOM_1, Piece.FLOOR_TOM_2})
 _POLE_M = 0.0125
 _BEATER_LENGTH_M = 0.20
 """From the pedal's axle to the middle of the beater; common pedals set it to 19–22 cm."""
+_BEATER_HALF_M = 0.016
+"""Half the felt's thickness, from the shaft to the face that strikes (our choice)."""
 
 
 @dataclass(frozen=True)
@@ -253,27 +255,31 @@ def _throne(seat_m: tuple[float, float, float], detail: Detail) -> Mesh:
 def axle_of(kit: Kit) -> NDArray[np.float64]:
     """The middle of the bass pedal's axle: right below the beater's rest on the head, a beater's length under it."""
     head = kit.pieces[Piece.KICK].centre
-    return np.array([head[0], head[1] - 0.035, head[2] - _BEATER_LENGTH_M + 0.02])
+    return np.array([head[0], head[1] - _BEATER_HALF_M, head[2] - _BEATER_LENGTH_M])
 
 
 def _pedals(kit: Kit, boards: tuple[int, int], beater: int, axle: NDArray[np.float64]) -> list[Mesh]:
     kick, hat = kit.pedals[Piece.KICK], kit.pedals[Piece.HIHAT_PEDAL]
-    parts = [_board(kick).on_bone(boards[RIGHT]), _board(hat).on_bone(boards[LEFT])]
+    parts = [_board(pedal).on_bone(bone) for pedal, bone in zip(_pedals_by_foot(kit), boards, strict=True)]
     parts += [_base(kick), _base(hat)]
     x, y, z = axle
     for side in (-0.055, 0.055):
         parts.append(rod([x + side, y, 0.01], [x + side, y, z], 0.011, Material.BLACK, 8))
     parts.append(rod([x - 0.07, y, z], [x + 0.07, y, z], 0.007, Material.STEEL, 8))
-    tip = axle + np.array([0, 0.018, _BEATER_LENGTH_M])
-    felt = lathe(
-        [(0, -0.016), (0.02, -0.016), (0.025, -0.008), (0.025, 0.008), (0.02, 0.016), (0, 0.016)], 14, Material.FELT
-    )
+    top, half = axle + np.array([0, 0, _BEATER_LENGTH_M]), _BEATER_HALF_M
+    felt = [(0, -half), (0.02, -half), (0.025, -half / 2), (0.025, half / 2), (0.02, half), (0, half)]
     shaft = [
-        rod(axle, tip - np.array([0, 0.018, 0]), 0.0045, Material.STEEL, 6),
-        felt.moved(frame(tip - np.array([0, 0.016, 0.0]), [0, 1, 0], [1, 0, 0])),
+        rod(axle, top, 0.0045, Material.STEEL, 6),
+        lathe(felt, 14, Material.FELT).moved(frame(top, [0, 1, 0], [1, 0, 0])),
     ]
     parts += [p.on_bone(beater) for p in shaft]
     return parts
+
+
+def _pedals_by_foot(kit: Kit) -> tuple[Pedal, Pedal]:
+    """The pedals under the right and the left foot."""
+    kick, hat = kit.pedals[Piece.KICK], kit.pedals[Piece.HIHAT_PEDAL]
+    return (hat, kick) if kit.left_handed else (kick, hat)
 
 
 def _board(pedal: Pedal) -> Mesh:
@@ -322,8 +328,8 @@ def bone_matrices(rig: KitRig, pose: Pose | None) -> Matrix:
             m[bone] = rotation_at(part.centre, right, swing[0]) @ rotation_at(part.centre, away, swing[1])
         if part.kind == "hihat":
             m[bone] = translation(part.normal * pose.hat_gap_m) @ m[bone]
-    for bone, pedal, angle in zip(rig.boards, (Piece.KICK, Piece.HIHAT_PEDAL), pose.footboard_rad, strict=True):
-        m[bone] = _raised(rig.kit.pedals[pedal], angle)
+    for bone, pedal, angle in zip(rig.boards, _pedals_by_foot(rig.kit), pose.footboard_rad, strict=True):
+        m[bone] = _raised(pedal, angle)
     m[rig.beater] = rotation_at(rig.axle_m, [1, 0, 0], pose.beater_rad)
     for side in (RIGHT, LEFT):
         along = pose.tip_m[side] - pose.butt_m[side]

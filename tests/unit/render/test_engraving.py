@@ -1,0 +1,221 @@
+"""Engraved bars, counted and measured: places by the published staff table, beams and signs by hand."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone
+from station.core.units import PPQ
+from station.music.score import Note
+from station.render.atlas import Atlas
+from station.render.engraving import BOTTOM_Y, TOP_Y, Engraver
+from station.render.ink import Kind
+from station.render.staff import PLACES, Head, head_of, height, ledger_steps
+from tests.unit.render.scores import BAR, rock, score_of
+
+ATLAS = Atlas()
+Shapes = NDArray[np.void]
+
+
+def bar_of(*notes: Note, bar: int = 0) -> Shapes:
+    return Engraver(score_of(*notes), ATLAS).bar(bar)
+
+
+def of_kind(shapes: Shapes, kind: Kind) -> Shapes:
+    return np.asarray(shapes[shapes["kind"] == kind])
+
+
+def signs(shapes: Shapes, name: str) -> int:
+    uv = np.array(ATLAS.sign(name).uv, np.float32)
+    return int((np.sort(shapes["uv"], axis=1) == np.sort(uv)).all(axis=1).sum())
+
+
+def letters(shapes: Shapes, character: str) -> int:
+    from station.render.fonts import Face
+
+    uv = np.array(ATLAS.letter(character, Face.BOLD).uv, np.float32)
+    return int((shapes["uv"] == uv).all(axis=1).sum())
+
+
+def beams(shapes: Shapes) -> list[float]:
+    """Seconds that each beam spans."""
+    thick = (shapes["kind"] == Kind.BOX) & np.isclose(shapes["half"][:, 1], 0.25) & (shapes["time_s"][:, 1] > 0)
+    return sorted(shapes["time_s"][thick, 1].tolist())
+
+
+@pytest.mark.parametrize(
+    ("piece", "step"),
+    # bottom line E4 = 0: kick F4, snare C5, toms E5 D5 A4, hat G5, ride F5, crash A5, foot hat D4
+    [
+        (Piece.KICK, 1),
+        (Piece.SNARE, 5),
+        (Piece.TOM_1, 7),
+        (Piece.TOM_2, 6),
+        (Piece.FLOOR_TOM_1, 3),
+        (Piece.HIHAT, 9),
+        (Piece.RIDE, 8),
+        (Piece.CRASH_1, 10),
+        (Piece.HIHAT_PEDAL, -1),
+    ],
+)
+def test_places_on_the_staff(piece: Piece, step: int) -> None:
+    assert PLACES[piece].step == step
+
+
+def test_no_two_pieces_are_written_alike() -> None:
+    assert len({(p.step, p.head) for p in PLACES.values()}) == len(PLACES) == len(Piece)
+
+
+def test_heads() -> None:
+    assert head_of(Piece.SNARE, Zone.HEAD, Articulation.NORMAL) is Head.ROUND
+    assert head_of(Piece.SNARE, Zone.RIM, Articulation.CROSS_STICK) is Head.CROSS
+    assert head_of(Piece.RIDE, Zone.BELL, Articulation.NORMAL) is Head.DIAMOND
+    assert head_of(Piece.HIHAT, Zone.BOW, Articulation.NORMAL) is Head.CROSS
+
+
+def test_heights_and_ledger_lines() -> None:
+    assert height(4) == 0
+    assert height(8) == -2, "the top line is two spaces up"
+    assert list(ledger_steps(10)) == [10]
+    assert list(ledger_steps(9)) == []
+    assert list(ledger_steps(12)) == [10, 12]
+    assert list(ledger_steps(-1)) == []
+    assert list(ledger_steps(-2)) == [-2]
+
+
+def test_a_rock_bar() -> None:
+    shapes = Engraver(rock(), ATLAS).bar(0)
+    assert len(of_kind(shapes, Kind.CROSS)) == 8
+    assert len(of_kind(shapes, Kind.ELLIPSE)) == 4, "two snares and two kicks, no dots"
+    assert beams(shapes) == pytest.approx([0.25] * 4), "each beat's two eighths, a quarter of a second apart"
+    assert letters(shapes, "R") == 8
+    assert letters(shapes, "L") == 2
+
+
+def test_everything_of_a_note_is_anchored_at_its_time() -> None:
+    shapes = bar_of(Note(PPQ, Piece.SNARE))
+    heads = of_kind(shapes, Kind.ELLIPSE)
+    assert heads["time_s"].tolist() == [[0.5, 0.0]]
+    assert heads["centre"].tolist() == [[0.0, height(5)]]
+
+
+def test_stems_of_hands_go_up_and_of_feet_down() -> None:
+    shapes = bar_of(Note(0, Piece.SNARE), Note(0, Piece.KICK))
+    stems = shapes[(shapes["kind"] == Kind.BOX) & np.isclose(shapes["half"][:, 1], 0.065)]
+    ends = {round(float(s["centre"][0]), 2): s for s in stems}
+    assert set(ends) == {0.56, -0.56}, "right of the head when up, left when down"
+    assert ends[0.56]["centre"][1] < height(5) < height(1) < ends[-0.56]["centre"][1]
+
+
+@pytest.mark.parametrize(
+    ("note", "sign", "count"),
+    [
+        (Note(0, Piece.SNARE, dynamic=Dynamic.ACCENT), "accent", 1),
+        (Note(0, Piece.SNARE), "accent", 0),
+        (Note(0, Piece.SNARE, dynamic=Dynamic.GHOST), "bracket_left", 1),
+        (Note(0, Piece.SNARE, dynamic=Dynamic.GHOST), "bracket_right", 1),
+        (Note(0, Piece.SNARE, articulation=Articulation.BUZZ), "buzz", 1),
+        (Note(0, Piece.SNARE, Zone.RIM, articulation=Articulation.RIM_SHOT), "slash", 1),
+        (Note(0, Piece.RIDE, Zone.BELL), "head_diamond", 1),
+        (Note(0, Piece.CRASH_1, Zone.EDGE, choke_ticks=PPQ), "choke", 1),
+    ],
+)
+def test_signs_of_a_note(note: Note, sign: str, count: int) -> None:
+    assert signs(bar_of(note), sign) == count
+
+
+def test_open_half_open_and_closed_hats() -> None:
+    def rings(*openness: float | None) -> int:
+        notes = [Note(k * PPQ, Piece.HIHAT, Zone.BOW, openness=o) for k, o in enumerate(openness)]
+        return len(of_kind(bar_of(*notes), Kind.ELLIPSE))
+
+    assert rings(None, 0.0) == 0
+    assert rings(1.0) == 1
+    assert rings(0.5) == 1
+    closing = bar_of(
+        Note(0, Piece.HIHAT, Zone.BOW, openness=1.0),
+        Note(PPQ, Piece.HIHAT, Zone.BOW, openness=0.0),
+        Note(2 * PPQ, Piece.HIHAT, Zone.BOW, openness=0.0),
+    )
+    strokes = closing[(closing["kind"] == Kind.BOX) & np.isclose(closing["half"][:, 1], 0.08)]
+    crossing = strokes[np.isclose(strokes["half"][:, 0], 0.45)]
+    assert len(crossing) == 2, "one +, on the first closed stroke after the open one"
+    assert set(crossing["time_s"][:, 0].tolist()) == {0.5}
+
+
+def test_flams_and_drags() -> None:
+    main = Note(PPQ, Piece.SNARE, limb=Limb.RIGHT_HAND)
+    flam = dataclasses.replace(main, limb=Limb.LEFT_HAND, lead_ms=30.0, ornament=Ornament.FLAM)
+    heads = of_kind(bar_of(main, flam), Kind.ELLIPSE)
+    assert len(heads) == 2
+    small = heads[np.argmin(heads["half"][:, 0])]
+    assert small["centre"][0] < -1, "before the main note"
+    assert small["time_s"][0] == 0.5, "on its tick: its spacing belongs to the hand"
+    assert signs(bar_of(main, flam), "slur") == 1
+    shapes = bar_of(main, flam)
+    assert (letters(shapes, "l"), letters(shapes, "R")) == (1, 1), "lR, as drummers write a flam"
+    drag = [dataclasses.replace(flam, lead_ms=ms, ornament=Ornament.DRAG) for ms in (80.0, 40.0)]
+    places = of_kind(bar_of(main, *drag), Kind.ELLIPSE)["centre"][:, 0]
+    assert len(set(places.tolist())) == 3
+
+
+def test_a_tuplet_has_its_number() -> None:
+    triplet = [Note(round(k * PPQ / 3), Piece.SNARE) for k in range(3)]
+    assert letters(bar_of(*triplet), "3") == 1
+    eighths = [Note(k * PPQ // 2, Piece.SNARE) for k in range(2)]
+    assert letters(bar_of(*eighths), "3") == 0
+
+
+def test_a_single_eighth_has_a_flag_and_two_have_a_beam() -> None:
+    single = bar_of(Note(PPQ // 2, Piece.SNARE))
+    assert (signs(single, "flag"), beams(single)) == (1, [])
+    both = bar_of(Note(0, Piece.SNARE), Note(PPQ // 2, Piece.SNARE))
+    assert (signs(both, "flag"), len(beams(both))) == (0, 1)
+
+
+def test_secondary_beams_and_stubs() -> None:
+    shapes = bar_of(Note(0, Piece.SNARE), Note(3 * PPQ // 4, Piece.SNARE))
+    assert beams(shapes) == pytest.approx([0.375])
+    stubs = (shapes["kind"] == Kind.BOX) & np.isclose(shapes["half"], [0.55, 0.25]).all(axis=1)
+    assert stubs.sum() == 1
+
+
+def test_a_silent_bar_has_a_whole_rest() -> None:
+    shapes = bar_of(Note(BAR, Piece.SNARE), bar=0)
+    blocks = shapes[(shapes["kind"] == Kind.BOX) & np.isclose(shapes["half"], [0.6, 0.25]).all(axis=1)]
+    assert len(blocks) == 1
+    assert blocks["time_s"][0, 0] == 1.0, "in the middle of the bar"
+
+
+def test_rests_of_the_hands() -> None:
+    shapes = bar_of(Note(0, Piece.SNARE), Note(2 * PPQ, Piece.SNARE))
+    assert signs(shapes, "rest_4") == 2
+
+
+def test_sticking_may_come_from_elsewhere() -> None:
+    score = rock()
+    limbs = np.where(score.notes["piece"] == Piece.HIHAT, Limb.LEFT_HAND, Limb.UNKNOWN).astype(np.int8)
+    shapes = Engraver(score, ATLAS, limbs).bar(0)
+    assert (letters(shapes, "L"), letters(shapes, "R")) == (8, 0)
+
+
+def test_nothing_leaves_the_staff_s_room() -> None:
+    everything = [
+        Note(k * PPQ // 2, piece, zone, dynamic=Dynamic.ACCENT, openness=1.0)
+        for k, (piece, zone) in enumerate(
+            [
+                (Piece.SPLASH, Zone.EDGE),
+                (Piece.HIHAT, Zone.BOW),
+                (Piece.KICK, Zone.HEAD),
+                (Piece.HIHAT_PEDAL, Zone.PEDAL),
+                (Piece.CHINA, Zone.EDGE),
+                (Piece.FLOOR_TOM_2, Zone.HEAD),
+            ]
+        )
+    ]
+    shapes = bar_of(*everything)
+    low = shapes["centre"][:, 1] + np.abs(shapes["axis"][:, 1]) * shapes["half"][:, 0]
+    assert low.max() < BOTTOM_Y + 0.3
+    assert shapes["centre"][:, 1].min() > TOP_Y

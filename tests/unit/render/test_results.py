@@ -1,0 +1,82 @@
+"""Leans by hand, and what they are called."""
+
+import numpy as np
+import pytest
+
+from station.core.pieces import Piece
+from station.music.judgement import Label
+from station.render.atlas import Atlas
+from station.render.ink import Kind
+from station.render.report_picture import report_shapes, report_sheet
+from station.render.results import Lean, ResultFacts, Words, in_words, leans, result_facts, whole_lean
+from tests.unit.render.scores import rock
+
+MS = 1_000_000
+
+
+def facts(advice: tuple[str, ...] = ()) -> ResultFacts:
+    score = rock()
+    label = np.full(len(score), Label.MATCH, np.uint8)
+    played = np.zeros(len(score), np.int64)
+    kicks = np.flatnonzero(score.notes["piece"] == Piece.KICK)
+    played[kicks] = [20 * MS, 40 * MS]
+    label[0] = Label.MISS if score.notes["piece"][0] != Piece.KICK else label[0]
+    hats = np.flatnonzero(score.notes["piece"] == Piece.HIHAT)
+    label[hats[0]], label[hats[1]] = Label.MISS, Label.WRONG_PIECE
+    return result_facts(score, label, played, np.array([0.3]), Words("Rock", "120 bpm", 87.0, advice))
+
+
+def test_leans_of_pieces() -> None:
+    by_name = {lean.name: lean for lean in leans(facts())}
+    kick = by_name["kick"]
+    assert (kick.notes, kick.hits, kick.mean_ms) == (2, 2, 30.0)
+    assert kick.sd_ms == pytest.approx(np.sqrt(200))  # of 20 and 40 about 30, with n − 1
+    hat = by_name["hi-hat"]
+    assert (hat.notes, hat.hits, hat.mean_ms) == (8, 6, 0.0)
+
+
+def test_what_was_not_played_has_no_asynchrony() -> None:
+    made = facts()
+    assert np.isnan(made.asynchrony_ms[made.label == Label.MISS]).all()
+    assert not np.isnan(made.asynchrony_ms[made.label == Label.WRONG_PIECE]).any()
+    assert made.count(Label.EXTRA) == 1
+    assert made.bar_s.tolist() == [0.0, 2.0]
+
+
+@pytest.mark.parametrize(
+    ("mean_ms", "sd_ms", "said"),
+    [
+        (None, None, "nothing to judge"),
+        (14.0, 12.0, "steady but 14 ms late"),
+        (-14.4, 12.0, "steady but 14 ms early"),
+        (3.0, 20.0, "steady and on the beat"),
+        (10.0, 30.0, "fairly steady, on the beat"),
+        (-40.0, 36.0, "uneven, 40 ms early"),
+        (12.0, None, "12 ms late"),
+    ],
+)
+def test_words(mean_ms: float | None, sd_ms: float | None, said: str) -> None:
+    assert in_words(Lean("snare", 10, 0 if mean_ms is None else 9, mean_ms, sd_ms)) == said
+
+
+def test_no_hits_at_all() -> None:
+    score = rock()
+    label = np.full(len(score), Label.MISS, np.uint8)
+    made = result_facts(score, label, np.zeros(len(score), np.int64), np.empty(0), Words("Rock", "", None))
+    assert whole_lean(made).mean_ms is None
+    assert len(report_shapes(made, Atlas())) > 100, "the page is drawn all the same"
+
+
+def test_the_page_keeps_within_its_own_bounds() -> None:
+    sentence = "You leave out 14 % of the ghost notes, most in bars 2 and 4: play that slowly until all are there. "
+    shapes = report_shapes(facts((sentence * 2,) * 3), Atlas())
+    reach = np.where(shapes["kind"] == Kind.GLYPH, 0.0, shapes["half"].max(axis=1))
+    assert (shapes["centre"][:, 0] - 0 * reach).min() > 0
+    assert shapes["centre"][:, 0].max() < 1280
+    assert shapes["centre"][:, 1].max() < 790
+
+
+def test_the_page_fits_any_window() -> None:
+    sheet = report_sheet((640, 800))
+    assert sheet.unit == pytest.approx(0.5)
+    assert sheet.origin == pytest.approx((0.0, 200.0))

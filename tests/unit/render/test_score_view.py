@@ -1,0 +1,79 @@
+"""The scrolling score without OpenGL: which bars are seen, and what a judgement looks like."""
+
+import numpy as np
+import pytest
+
+from station.core.pieces import Piece
+from station.music.judgement import Judgement, Label
+from station.render.atlas import Atlas
+from station.render.ink import Ink, Kind
+from station.render.palette import EARLY, GOOD, LATE
+from station.render.score_view import Place, draw_mark, timing_colour, visible_bars
+from station.render.snapshot import MARK_DTYPE, PENDING, mark, no_marks
+from tests.unit.render.scores import rock
+
+
+@pytest.mark.parametrize(
+    ("first_s", "last_s", "bars"),
+    # at 120 bpm a bar lasts two seconds; four bars
+    [(-5.5, 3.9, [0, 1]), (2.1, 3.9, [1]), (1.9, 4.1, [0, 1, 2]), (6.5, 16.0, [3, 4]), (-9.0, -1.0, [])],
+)
+def test_visible_bars(first_s: float, last_s: float, bars: list[int]) -> None:
+    assert list(visible_bars(rock(4), first_s, last_s)) == bars
+
+
+def test_timing_colours() -> None:
+    assert timing_colour(0) == timing_colour(25) == timing_colour(-25) == GOOD
+    assert timing_colour(-25.1) == EARLY
+    assert timing_colour(25.1) == LATE
+
+
+def test_the_staff_fills_its_place() -> None:
+    place = Place(0, 100, 800, 306)
+    assert place.space == pytest.approx(20.0)  # 15.3 spaces from above the bar numbers to below the sticking
+    assert place.middle_line == pytest.approx(100 + 8.3 * 20)
+
+
+def marked(label: Label, asynchrony_ms: float = np.nan) -> set[Kind]:
+    row = np.zeros(1, MARK_DTYPE)
+    row["label"], row["asynchrony_ms"] = label, asynchrony_ms
+    ink = Ink(Atlas())
+    draw_mark(ink, row[0], 0.0, 12.0)
+    return {Kind(int(k)) for k in ink.shapes()["kind"]}
+
+
+def test_each_judgement_has_a_shape_of_its_own() -> None:
+    on_time, early, missed = marked(Label.MATCH, 5), marked(Label.MATCH, -40), marked(Label.MISS)
+    assert Kind.TRIANGLE in early
+    assert Kind.TRIANGLE not in on_time | missed
+    assert marked(Label.WRONG_PIECE, 5) == {Kind.BOX}
+
+
+@pytest.mark.parametrize(("asynchrony_ms", "side"), [(-40.0, -1), (40.0, 1)])
+def test_arrows_point_where_the_hit_fell(asynchrony_ms: float, side: int) -> None:
+    row = np.zeros(1, MARK_DTYPE)
+    row["label"], row["asynchrony_ms"] = Label.MATCH, asynchrony_ms
+    ink = Ink(Atlas())
+    draw_mark(ink, row[0], 0.0, 12.0)
+    arrow = ink.shapes()[ink.shapes()["kind"] == Kind.TRIANGLE][0]
+    assert np.sign(arrow["centre"][0]) == side
+    assert np.sign(arrow["axis"][0]) == side
+
+
+def test_marks_take_judgements_of_notes_alone() -> None:
+    marks = no_marks(rock())
+    assert (marks["label"] == PENDING).all()
+    mark(marks, Judgement(Label.MATCH, 2, 0, -7_500_000, -3))
+    mark(marks, Judgement(Label.EXTRA, None, 5))
+    mark(marks, Judgement(Label.MISS, 4, None))
+    assert marks["label"].tolist() == [-1, -1, 0, -1, 1] + [-1] * 7
+    assert marks["asynchrony_ms"][2] == -7.5
+    assert marks["velocity_error"][2] == -3
+    assert np.isnan(marks["asynchrony_ms"][4])
+
+
+def test_every_piece_has_a_name_of_its_own() -> None:
+    from station.render.names import piece_name
+
+    assert len({piece_name(piece) for piece in Piece}) == len(Piece)
+    assert piece_name(Piece.HIHAT) == "hi-hat"
