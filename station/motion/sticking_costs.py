@@ -153,4 +153,5 @@ def _odd(score: Score, rows: NDArray[np.int64]) -> NDArray[np.bool_]:
         errors[k] = np.bincount(quarter, square, errors.shape[1]) * _SIMPLER[k]
     best = np.array(_GRIDS)[np.argmin(errors, axis=0)][quarter]
     index = np.rint(place / (PPQ / best)).astype(np.int64)
-    return np.asarray(index % 2 == 1)
+    grace = score.notes["lead_ms"][rows] > 0  # stands on its main stroke's tick and falls to the other hand
+    return np.asarray((index % 2 == 1) ^ grace)

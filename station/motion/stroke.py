@@ -266,12 +266,12 @@ def _values(times: Array, merged: Array, peak: Array, hold: Array) -> Array:
     values = np.zeros_like(times)
     m, m_after, peak_after = merged[..., None], _merged_after(merged), _next(peak)
     held = np.zeros_like(peak)
-    held[WRIST] = hold
+    held[WRIST] = hold * (1 - merged[WRIST])
     # merged, the joints' tops come together: each goes less far for the same height of the tip
     values[..., :5] = peak[..., None] * (
         _SHARE_BEFORE[:, None, :] * (1 - m) + _SHARE_AT_TOP[..., None] * _SHARE_MERGED * m
     )
-    values[..., 1] += 0.5 * held * (1 - merged)
+    values[..., 1] += 0.5 * held
     together = _SHARE_AT_TOP * peak_after
     low = np.minimum(1.0, 0.35 + 0.65 * peak_after / np.maximum(peak, 1e-6))  # a down stroke keeps the stick low
     values[..., 6] = _SHARE_REBOUND * peak * low * (1 - m_after) + _MERGED_REBOUND * together * m_after

@@ -1,0 +1,106 @@
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from station.core.errors import BadInput
+from station.core.pieces import Limb, Piece, Zone
+from station.motion.kit import kit_names, load_kit
+
+SHIPPED = Path("station/motion/data/kits/four_piece.toml")
+
+
+def rotated(epsilon: float, phi: float) -> list[float]:
+    """R_y(φ) R_x(ε) ẑ by matrices (DESIGN § 5)."""
+    rx = np.array([[1, 0, 0], [0, math.cos(epsilon), -math.sin(epsilon)], [0, math.sin(epsilon), math.cos(epsilon)]])
+    ry = np.array([[math.cos(phi), 0, math.sin(phi)], [0, 1, 0], [-math.sin(phi), 0, math.cos(phi)]])
+    return list((ry @ rx @ np.array([0.0, 0.0, 1.0])).tolist())
+
+
+def edited(tmp_path: Path, old: str, new: str) -> Path:
+    text = SHIPPED.read_text()
+    assert old in text
+    path = tmp_path / "mine.toml"
+    path.write_text(text.replace(old, new))
+    return path
+
+
+@pytest.mark.parametrize("name", kit_names())
+def test_every_shipped_kit_loads_and_has_kick_snare_hats_and_pedals(name: str) -> None:
+    kit = load_kit(name)
+    assert {Piece.KICK, Piece.SNARE, Piece.HIHAT} <= set(kit.pieces)
+    assert set(kit.pedals) == {Piece.KICK, Piece.HIHAT_PEDAL}
+
+
+@pytest.mark.parametrize("name", kit_names())
+def test_normals_are_the_rotated_up_vector_and_face_the_player(name: str) -> None:
+    for piece in load_kit(name).pieces.values():
+        if piece.kind == "kick":
+            continue
+        assert piece.normal.tolist() == pytest.approx(rotated(piece.tilt_x_rad, piece.tilt_y_rad))
+        towards_player = -piece.centre[:2]
+        assert piece.normal[:2] @ towards_player >= -1e-9, piece.piece
+
+
+@pytest.mark.parametrize("name", kit_names())
+def test_every_zone_has_its_own_point_on_its_surface(name: str) -> None:
+    for piece in load_kit(name).pieces.values():
+        for zone in piece.spots:
+            for limb in (Limb.RIGHT_HAND, Limb.LEFT_HAND):
+                target = piece.target(zone, limb)
+                away = target.point_m - target.centre_m
+                assert away @ target.normal == pytest.approx(0.0, abs=1e-12)
+                assert np.linalg.norm(away) <= target.radius_m + 1e-12
+
+
+def test_two_snare_spots_are_five_centimetres_apart() -> None:
+    snare = load_kit().pieces[Piece.SNARE]
+    right, left = (snare.target(Zone.HEAD, limb).point_m for limb in (Limb.RIGHT_HAND, Limb.LEFT_HAND))
+    assert np.linalg.norm(right - left) == pytest.approx(0.05)
+
+
+def test_the_ride_is_struck_at_six_tenths_of_its_radius_on_the_near_side() -> None:
+    ride = load_kit().pieces[Piece.RIDE]
+    point = ride.target(Zone.BOW, Limb.RIGHT_HAND).point_m
+    assert np.linalg.norm(point - ride.centre) == pytest.approx(0.6 * ride.radius_m, rel=0.02)
+    assert point[1] < ride.centre[1]
+
+
+@pytest.mark.parametrize(
+    ("piece", "played"),
+    [
+        (Piece.CRASH_2, Piece.CRASH_1),
+        (Piece.TOM_3, Piece.TOM_1),
+        (Piece.FLOOR_TOM_2, Piece.FLOOR_TOM_1),
+        (Piece.HIHAT_PEDAL, Piece.HIHAT),
+        (Piece.PERCUSSION, Piece.RIDE),
+        (Piece.SNARE, Piece.SNARE),
+    ],
+)
+def test_a_missing_piece_has_a_stand_in(piece: Piece, played: Piece) -> None:
+    assert load_kit("four_piece").stand_in(piece) is played
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "place", "fault"),
+    [
+        ("radius_m = 0.178\ndepth_m = 0.14", "radius_m = -1\ndepth_m = 0.14", "snare.radius_m", "expected a number"),
+        ("[snare]", "[snair]", "snair", "meant snare?"),
+        ('kind = "hihat"', 'kind = "hat"', "hihat.kind", "expected drum or"),
+        ("centre_m = [-0.07, 0.45, 0.66]", "centre_m = [-0.07, 0.45]", "snare.centre_m", "[right, forward, up]"),
+        ("depth_m = 0.14", "deep_m = 0.14", "snare.deep_m", "no such key"),
+        ("[pedals.kick]", "[pedals.drum]", "pedals.kick", "is missing"),
+        ("[ride]", "[ride.zones.top]\nright = 0\n\n[ride]", "ride.zones.top", "no such zone"),
+    ],
+)
+def test_a_faulty_kit_names_the_place(tmp_path: Path, old: str, new: str, place: str, fault: str) -> None:
+    with pytest.raises(BadInput) as caught:
+        load_kit(edited(tmp_path, old, new))
+    assert caught.value.place == place
+    assert fault in caught.value.fault
+
+
+def test_an_unknown_kit_names_those_there_are() -> None:
+    with pytest.raises(BadInput, match="four_piece"):
+        load_kit("four_pieces")
