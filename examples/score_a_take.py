@@ -1,6 +1,6 @@
 """Score a take without the command line: a lesson, a simulated student, the alignment and what it says.
 
-Run it with `python examples/score_a_take.py`; everything here is the station's core, so it needs no kit, sound or window.
+Run it with `python examples/score_a_take.py`. Everything here is the core: it needs no kit, sound or window.
 """
 
 from station.drills.library import find_lesson
