@@ -13,13 +13,13 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Articulation, Dynamic, Limb, Piece, Zone
 from station.music.score import Score
-from station.music.tempo import MeterChange
 from station.render.atlas import Atlas
 from station.render.fonts import Face
 from station.render.ink import Ink, Type
-from station.render.palette import BRAND, INK, INK_FAINT, INK_SOFT
+from station.render.note_shapes import STAFF_LINE, draw_hat_sign, draw_head
+from station.render.palette import BRAND, INK, INK_SOFT
 from station.render.rhythm import Group, Timed, beat_groups, spell
-from station.render.staff import FOOT_PIECES, PLACES, Head, head_of, height, ledger_steps
+from station.render.staff import FOOT_PIECES, PLACES, head_of, height, ledger_steps
 
 STAFF_TOP, STAFF_BOTTOM = -2.0, 2.0
 STICKING_Y = 6.5
@@ -29,15 +29,12 @@ TOP_Y, BOTTOM_Y = -8.3, 7.0
 """What a staff takes with everything above and below it."""
 
 _STEM = 0.13
-_LINE = 0.10
 _BEAM = 0.50
 _BEAM_STEP = 0.78
 _STEM_X = 0.56
 _STEM_LENGTH = 3.5
 _UP_BEAM_Y, _DOWN_BEAM_Y = -5.4, 4.35
 """Stems of a voice reach at least here, so that beams stand level along the line."""
-_HEAD_HALF = (0.66, 0.46)
-_HEAD_TURN = -0.38
 _GRACE = 0.62
 _GRACE_STEP = 1.0
 _GRACE_GAP = 1.5
@@ -241,7 +238,7 @@ class _BarEngraver:
         step = PLACES[piece].step
         y = height(step)
         for line in ledger_steps(step):
-            self._ink.line((x - 1.05 * scale, height(line)), (x + 1.05 * scale, height(line)), _LINE, INK_SOFT)
+            self._ink.line((x - 1.05 * scale, height(line)), (x + 1.05 * scale, height(line)), STAFF_LINE, INK_SOFT)
         draw_head(self._ink, head_of(piece, zone, how), (x, y), scale)
         if row["dynamic"] == Dynamic.GHOST:
             self._ink.sign("bracket_left", (x - 1.0 * scale, y), INK, scale)
@@ -258,7 +255,7 @@ class _BarEngraver:
             self._ink.sign("buzz", (voice.stem_x, beam_y - way * 1.4), INK)
         y = beam_y + way * (0.85 if voice is _HANDS else 0.65)
         for kind in self._hat_signs(chord):
-            _hat_sign(self._ink, kind, (voice.stem_x, y))
+            draw_hat_sign(self._ink, kind, (voice.stem_x, y))
             y += way * 1.15
         if any(notes["dynamic"][i] == Dynamic.ACCENT for i in chord.mains):
             self._ink.sign("accent", (voice.stem_x * 0.4, y), INK, 0.95)
@@ -356,48 +353,6 @@ class _BarEngraver:
                 self._ink.box((stems[0], top + 0.5 * level), (stems[-1] - stems[0], 0.3), INK)
         low = max(height(self._step(i)) for i in chord.graces)
         self._ink.sign("slur", (-_GRACE_GAP / 2 - 0.1, low + 0.7), INK_SOFT, 0.95)
-
-
-def draw_head(ink: Ink, head: Head, at: tuple[float, float], scale: float) -> None:
-    """One note head in the score's ink."""
-    if head is Head.ROUND:
-        ink.ellipse(at, (_HEAD_HALF[0] * scale, _HEAD_HALF[1] * scale), INK, _HEAD_TURN)
-    elif head in (Head.CROSS, Head.RINGED_CROSS):
-        ink.cross(at, (0.48 * scale, 0.44 * scale), 0.22 * scale, INK)
-        if head is Head.RINGED_CROSS:
-            ink.ellipse(at, (0.78 * scale, 0.78 * scale), INK, 0.0, (0.0, 0.13, 0.0))
-    else:
-        ink.sign("head_diamond" if head is Head.DIAMOND else "head_triangle", at, INK, scale)
-
-
-def _hat_sign(ink: Ink, kind: str, at: tuple[float, float]) -> None:
-    x, y = at
-    if kind == "closed":
-        ink.line((x - 0.45, y), (x + 0.45, y), 0.16, INK)
-        ink.line((x, y - 0.45), (x, y + 0.45), 0.16, INK)
-        return
-    ink.ellipse(at, (0.40, 0.40), INK, 0.0, (0.0, 0.15, 0.0))
-    if kind == "half":
-        ink.line((x - 0.45, y + 0.6), (x + 0.45, y - 0.6), 0.13, INK)
-
-
-def time_signature(ink: Ink, meter: MeterChange, x: float) -> None:
-    """The two numbers, right-aligned at `x`."""
-    style = Type(2.75, INK, Face.BOLD, 0.5)
-    ink.text(str(meter.beats), (x, -0.06), style)
-    ink.text(str(meter.unit), (x, 1.94), style)
-
-
-def clef(ink: Ink, x: float) -> None:
-    """The percussion clef: two thick strokes across the middle of the staff."""
-    for left in (x, x + 0.85):
-        ink.box((left, -1.0), (0.5, 2.0), INK)
-
-
-def staff_lines(ink: Ink, width: float) -> None:
-    """The five lines from x = 0 to `width`."""
-    for k in range(-2, 3):
-        ink.box((0.0, k - _LINE / 2), (width, _LINE), INK_FAINT)
 
 
 def _runs(flags: Sequence[bool]) -> Iterator[tuple[int, int]]:

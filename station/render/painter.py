@@ -25,7 +25,7 @@ SCORE_SHARE = 0.30
 """The score's share of the picture's height."""
 _GLOW_FADE_S = 0.16
 """How fast a struck piece stops glowing (our choice)."""
-_DEMONSTRATOR_GLOW, _STUDENT_GLOW = 0.35, 0.9
+_DEMONSTRATOR_GLOW, _STUDENT_GLOW = 0.35, 1.1
 
 
 class Painter:

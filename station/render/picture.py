@@ -22,18 +22,22 @@ class PictureMaker:
     ) -> None:
         self.size = size
         self._ctx = ctx or standalone_context()
-        self._target = Target(self._ctx, size, quality.samples)
-        self._painter = Painter(self._ctx, quality)
+        with self._ctx:  # other makers may have contexts of their own
+            self._target = Target(self._ctx, size, quality.samples)
+            self._painter = Painter(self._ctx, quality)
 
     def draw(self, snapshot: Snapshot, camera: Camera | None = None, with_score: bool = True) -> NDArray[np.uint8]:
         """The picture, shape (height, width, 3), top row first."""
-        self._target.framebuffer.use()
-        self._painter.draw(snapshot, self._target.framebuffer, (0, 0, *self.size), camera, with_score)
-        return self._target.read()
+        with self._ctx:
+            self._target.framebuffer.use()
+            self._painter.draw(snapshot, self._target.framebuffer, (0, 0, *self.size), camera, with_score)
+            return self._target.read()
 
     def release(self) -> None:
         """Give the driver its memory back."""
-        self._target.release()
+        with self._ctx:
+            self._target.release()
+        self._ctx.release()
 
 
 def draw_png(snapshot: Snapshot, path: Path, size: tuple[int, int] = (1280, 720), camera: Camera | None = None) -> None:

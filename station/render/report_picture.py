@@ -71,13 +71,16 @@ def report_sheet(size: tuple[int, int]) -> Sheet:
 def draw_report_png(facts: ResultFacts, path: Path, size: tuple[int, int] = (1280, 800)) -> None:
     """Write the page to `path`; raises `DeviceError` without OpenGL or if the disk refuses."""
     ctx = standalone_context()
-    target, atlas = Target(ctx, size), Atlas()
-    printer = InkPrinter(ctx, atlas)
-    target.framebuffer.use()
-    target.framebuffer.clear(*NIGHT)
-    printer.draw(report_shapes(facts, atlas), report_sheet(size))
-    write_png(target.read(), path)
-    target.release()
+    with ctx:
+        target, atlas = Target(ctx, size), Atlas()
+        printer = InkPrinter(ctx, atlas)
+        target.framebuffer.use()
+        target.framebuffer.clear(*NIGHT)
+        printer.draw(report_shapes(facts, atlas), report_sheet(size))
+        picture = target.read()
+        target.release()
+    ctx.release()
+    write_png(picture, path)
 
 
 class _Page:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from station.core.pieces import Piece
 from station.music.judgement import Label
 from station.music.score import Score
-from station.render import engraving
+from station.render import engraving, note_shapes
 from station.render.atlas import Atlas
 from station.render.engraving import Engraver
 from station.render.ink import SHAPE_DTYPE, Colour, Ink
@@ -25,9 +25,9 @@ from station.render.palette import (
     GOOD,
     LATE,
     MISSED,
-    PANEL,
     PANEL_EDGE,
-    PANEL_LOW,
+    PAPER,
+    PAPER_LOW,
     WRONG,
     with_opacity,
 )
@@ -86,7 +86,7 @@ class ScoreView:
         plain = Sheet(size, (place.left, place.middle_line), space)
         fade = (place.left + clef_width - 1.2 * space, place.left + clef_width + space, right - 3 * space, right)
         rolling = Sheet(size, (line_x, place.middle_line), space, snapshot.position_s, per_s, fade)
-        self._printer.fill((place.left, place.top, place.width, place.height), (PANEL, PANEL_LOW), plain)
+        self._printer.fill((place.left, place.top, place.width, place.height), (PAPER, PAPER_LOW), plain)
         self._printer.fill((place.left, place.top, place.width, 1.2), (PANEL_EDGE, PANEL_EDGE), plain)
         glow = with_opacity(BRAND, 0.07)
         self._printer.fill((line_x - 1.6 * space, place.top, 3.2 * space, place.height), (glow, glow), plain)
@@ -114,11 +114,11 @@ class ScoreView:
     def _paper(self, snapshot: Snapshot, place: Place, line_x: float) -> NDArray[np.void]:
         ink, space = Ink(self._atlas), place.space
         width, line = place.width / space, (line_x - place.left) / space
-        engraving.staff_lines(ink, width)
+        note_shapes.staff_lines(ink, width)
         ink.box((line - 0.14, engraving.TOP_Y), (0.28, place.height / space), with_opacity(BRAND, 0.95))
-        engraving.clef(ink, 1.4)
+        note_shapes.clef(ink, 1.4)
         tick = max(int(snapshot.score.tempo_map.ticks_at(snapshot.position_s)), 0)
-        engraving.time_signature(ink, snapshot.score.tempo_map.meter_at(tick), 4.6)
+        note_shapes.time_signature(ink, snapshot.score.tempo_map.meter_at(tick), 4.6)
         return ink.shapes()
 
     # --- judgements ---------------------------------------------------------------------------------------------------

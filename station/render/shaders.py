@@ -240,7 +240,9 @@ void main() {{
     vec3 glints = key * (direct * highlight.x) + rim_colour * (from_rim * highlight.y);
     vec3 mirrored = studio(reflect(-to_eye, n), a.w) * (0.35 + 0.65 * v_ao) * gloss;
     vec3 total = diffuse + mirror * (glints * max(gloss, 0.35 * smooth_2) + mirrored);
-    total += (b.y > 1.5 ? colour * 2.5 : vec3(0.0)) + v_glow * (0.25 + 0.75 * view) * (colour + 0.15);
+    total += b.y > 1.5 ? colour * 2.5 : vec3(0.0);
+    float glow = max(v_glow.r, max(v_glow.g, v_glow.b));
+    total = total * (1.0 - 0.8 * min(glow, 1.0)) + v_glow * (0.35 + 0.65 * view) * (0.6 * colour + 0.25);
     total = mix(total, tint * (0.25 + 0.9 * graze), 1.0 - opacity);
     shade = vec4((film(total) + noise()) * opacity, opacity);
 }}

@@ -1,0 +1,249 @@
+"""What the pixels of a picture mean, drawn off screen at the lowest quality."""
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from station.core.pieces import Limb, Piece
+from station.motion.drummer import Drummer
+from station.motion.figure import Joint, figure_of
+from station.motion.kit import load_kit
+from station.motion.pose import RIGHT
+from station.music.judgement import Label
+from station.music.score import Note
+from station.render.camera import Camera, View, named
+from station.render.painter import SCORE_SHARE
+from station.render.palette import BRAND, MISSED
+from station.render.picture import PictureMaker, draw_png
+from station.render.report_picture import draw_report_png
+from station.render.results import Words, result_facts
+from station.render.scene import QUALITIES
+from station.render.score_view import AFTER_S, BEFORE_S, Place
+from station.render.snapshot import Cue, Hud, Snapshot, Strike, no_marks
+from station.render.staff import PLACES, height
+from tests.unit.render.scores import rock, score_of
+from tests.unit.render.test_png import decode
+
+pytestmark = pytest.mark.gl
+
+SIZE = (640, 360)
+SCORE_TOP = SIZE[1] - round(SIZE[1] * SCORE_SHARE)
+Picture = NDArray[np.uint8]
+Draw = Callable[..., Picture]
+
+KIT, FIGURE = load_kit(), figure_of()
+SCORE = rock(2)
+DRUMMER = Drummer(SCORE, KIT, FIGURE)
+
+
+@pytest.fixture(scope="module")
+def draw() -> Draw:
+    return PictureMaker(SIZE, QUALITIES[0]).draw
+
+
+def at(position_s: float, **changes: object) -> Snapshot:
+    snapshot = Snapshot(SCORE, position_s, KIT, FIGURE, DRUMMER.pose(position_s))
+    return replace(snapshot, **changes)  # type: ignore[arg-type] # the tests name fields of Snapshot
+
+
+def pixel_of(point: NDArray[np.float64], camera: Camera) -> tuple[int, int]:
+    """Row and column of a point of the world in the scene's part of the picture."""
+    clip = camera.matrix(SIZE[0] / SCORE_TOP) @ np.append(point, 1.0)
+    x, y = clip[:2] / clip[3]
+    return round((0.5 - y / 2) * SCORE_TOP - 0.5), round((x / 2 + 0.5) * SIZE[0] - 0.5)
+
+
+def differs(one: Picture, other: Picture, where: tuple[int, int], reach: int) -> bool:
+    row, column = where
+    box = np.s_[row - reach : row + reach + 1, column - reach : column + reach + 1]
+    return int(np.abs(one[box].astype(int) - other[box]).max()) > 24
+
+
+def test_the_same_snapshot_gives_the_same_picture_whatever_was_drawn_before(draw: Draw) -> None:
+    first = draw(at(1.0))
+    draw(at(0.2, hud=Hud(title="another")), named(View.TOP))
+    assert np.array_equal(draw(at(1.0)), first)
+
+
+def test_the_stick_s_tip_is_seen_on_the_snare_when_it_strikes(draw: Draw) -> None:
+    """A snare stroke of the right hand alone: its tip's pixel is the stick's, and lies on the head."""
+    score = score_of(Note(0, Piece.SNARE, limb=Limb.RIGHT_HAND), Note(4 * 107520, Piece.SNARE, limb=Limb.RIGHT_HAND))
+    drummer = Drummer(score, KIT, FIGURE)
+    strike_s = float(score.onset_s[1])
+    pose = drummer.pose(strike_s)
+    camera = named(View.EYES)
+    snapshot = Snapshot(score, strike_s, KIT, FIGURE, pose)
+    tip = pose.tip_m[RIGHT]
+    snare = KIT.pieces[Piece.SNARE]
+    assert abs((tip - snare.centre) @ snare.normal) < 0.003
+    assert np.linalg.norm(tip - snare.centre) < snare.radius_m
+    with_stick, without = draw(snapshot, camera), draw(replace(snapshot, pose=None), camera)
+    assert differs(with_stick, without, pixel_of(tip, camera), 2)
+
+
+@pytest.mark.parametrize("joint", [Joint.RIGHT_ELBOW, Joint.LEFT_WRIST, Joint.RIGHT_SHOULDER, Joint.HEAD])
+def test_the_body_is_where_its_joints_are(draw: Draw, joint: Joint) -> None:
+    camera = named(View.SHOULDER)
+    snapshot = at(0.6)
+    assert snapshot.pose is not None
+    place = pixel_of(snapshot.pose.joints_m[joint], camera)
+    empty = draw(replace(snapshot, pose=None), camera)
+    assert differs(draw(snapshot, camera), empty, place, 1)
+
+
+def test_a_struck_piece_glows_and_no_other(draw: Draw) -> None:
+    camera = named(View.EYES)
+    still = replace(at(-2.0), pose=None)
+    lit = replace(still, strikes=(Strike(Piece.TOM_1, 110, 0.0),))
+    before, after = draw(still, camera), draw(lit, camera)
+    tom, floor_tom = (pixel_of(KIT.pieces[p].centre, camera) for p in (Piece.TOM_1, Piece.FLOOR_TOM_1))
+    assert differs(before, after, tom, 1)
+    assert not differs(before, after, floor_tom, 1)
+    faded = draw(replace(still, strikes=(Strike(Piece.TOM_1, 110, 2.0),)), camera)
+    assert not differs(before, faded, tom, 1)
+
+
+def test_a_missing_piece_s_stroke_glows_on_its_stand_in(draw: Draw) -> None:
+    assert Piece.SPLASH not in KIT.pieces
+    still = replace(at(-2.0), pose=None)
+    lit = replace(still, strikes=(Strike(Piece.SPLASH, 110, 0.0),))
+    assert not np.array_equal(draw(still), draw(lit))
+
+
+# --- the score --------------------------------------------------------------------------------------------------------
+
+PLACE = Place(0, SCORE_TOP, SIZE[0], SIZE[1] - SCORE_TOP)
+CLEF = 7.0 * PLACE.space
+PER_S = (SIZE[0] - CLEF) / (BEFORE_S + AFTER_S)
+LINE_X = CLEF + BEFORE_S * PER_S
+
+
+def near(colour: tuple[float, float, float, float], picture: Picture, tolerance: int = 60) -> NDArray[np.bool_]:
+    wanted = np.array(colour[:3]) * 255
+    return np.asarray(np.abs(picture.astype(float) - wanted).max(axis=2) < tolerance)
+
+
+def test_the_play_line_stands_in_the_middle_of_the_music(draw: Draw) -> None:
+    score = draw(at(-3.0))[SCORE_TOP + 4 :]
+    columns = np.flatnonzero(near(BRAND, score).mean(axis=0) > 0.8)
+    assert len(columns)
+    assert np.abs(columns - LINE_X).max() < 3
+
+
+@pytest.mark.parametrize("position_s", [0.0, 0.5, 1.0])
+def test_a_note_is_at_the_play_line_when_it_is_due(draw: Draw, position_s: float) -> None:
+    """The kick of beat one, the snare of two: a bright head at the line, and none a little earlier."""
+    score = score_of(Note(0, Piece.SNARE), Note(107520, Piece.SNARE), Note(2 * 107520, Piece.SNARE))
+    row = round(PLACE.middle_line + height(PLACES[Piece.SNARE].step) * PLACE.space)
+    snapshot = Snapshot(score, position_s, KIT, FIGURE)
+    beside = round(LINE_X + 0.5 * PLACE.space)  # the head's right half, clear of the line itself
+    assert draw(snapshot)[row, beside].min() > 170
+    assert draw(replace(snapshot, position_s=position_s - 0.2))[row, beside].min() < 170
+
+
+def test_a_missed_note_is_marked_where_it_stands(draw: Draw) -> None:
+    marks = no_marks(SCORE)
+    snares = np.flatnonzero(SCORE.notes["piece"] == Piece.SNARE)
+    marks["label"][snares[0]] = Label.MISS
+    picture = draw(at(1.5, marks=marks))
+    rows, columns = np.nonzero(near(MISSED, picture[SCORE_TOP:], 40))
+    due_x = LINE_X + (0.5 - 1.5) * PER_S
+    assert abs(columns.mean() - due_x) < 3
+    assert abs(rows.mean() + SCORE_TOP - (PLACE.middle_line + height(5) * PLACE.space)) < 3
+    assert not near(MISSED, draw(at(1.5))[SCORE_TOP:], 40).any()
+
+
+def test_early_and_late_differ_in_shape_too(draw: Draw) -> None:
+    """Without colour, an early and a late stroke still look different."""
+    pictures = []
+    for asynchrony_ms in (-45.0, 45.0):
+        marks = no_marks(SCORE)
+        marks["label"][:], marks["asynchrony_ms"][:] = Label.MATCH, asynchrony_ms
+        pictures.append(draw(at(1.5, marks=marks))[SCORE_TOP:].mean(axis=2))
+    assert np.abs(pictures[0] - pictures[1]).max() > 60
+
+
+# --- words ------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("hud", "box"),
+    [
+        (Hud(title="Rock"), np.s_[5:45, 5:120]),
+        (Hud(tempo_bpm=120.0), np.s_[5:45, 520:635]),
+        (Hud(count_in=4), np.s_[80:190, 270:370]),
+        (Hud(cue=Cue.EARLY), np.s_[200:252, 260:380]),
+        (Hud(message="Play when you are ready"), np.s_[50:90, 200:440]),
+    ],
+)
+def test_words_stand_in_their_places(draw: Draw, hud: Hud, box: tuple[slice, slice]) -> None:
+    plain, said = draw(at(-1.0)), draw(at(-1.0, hud=hud))
+    changed = np.abs(plain[:SCORE_TOP].astype(int) - said[:SCORE_TOP]).max(axis=2) > 24
+    assert changed[box].any()
+    changed[box] = False
+    assert not changed.any(), "and nowhere else"
+
+
+# --- files and faults -------------------------------------------------------------------------------------------------
+
+
+def test_a_picture_is_written_as_png(tmp_path: Path) -> None:
+    draw_png(at(0.5), tmp_path / "drummer.png", (320, 180))
+    picture = decode((tmp_path / "drummer.png").read_bytes())
+    assert picture.shape == (180, 320, 3)
+    assert picture.std() > 20
+
+
+def test_a_result_is_written_as_png(tmp_path: Path) -> None:
+    label = np.full(len(SCORE), Label.MATCH, np.uint8)
+    facts = result_facts(SCORE, label, np.zeros(len(SCORE), np.int64), np.empty(0), Words("Rock", "120 bpm", 100.0))
+    draw_report_png(facts, tmp_path / "report.png", (640, 400))
+    picture = decode((tmp_path / "report.png").read_bytes())
+    dial = picture[54:166, 40:160]
+    lit = near(BRAND, dial)
+    assert lit[:56].any()
+    assert lit[56:].any()
+    assert lit[:, :60].any(), "all of the dial is lit at 100 points"
+
+
+def test_no_opengl_is_said_with_what_to_install() -> None:
+    program = (
+        "from station.render.gl import standalone_context\n"
+        "from station.core.errors import DeviceError\n"
+        "try:\n    standalone_context()\nexcept DeviceError as fault:\n    print(fault)\n"
+    )
+    nothing = {**os.environ, "__EGL_VENDOR_LIBRARY_FILENAMES": "/none", "__EGL_VENDOR_LIBRARY_DIRS": "/none"}
+    nothing.pop("DISPLAY", None)
+    root = Path(__file__).parents[2]
+    done = subprocess.run(
+        [sys.executable, "-c", program],
+        env={**nothing, "PYTHONPATH": str(root)},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=True,
+    )
+    assert "OpenGL 3.3 cannot be had" in done.stdout
+    if sys.platform == "linux":
+        assert "libegl1" in done.stdout
+
+
+@pytest.mark.parametrize("level", [1, 2])
+def test_higher_qualities_draw_the_same_scene_more_finely(level: int) -> None:
+    small = (160, 90)
+    low, high = (PictureMaker(small, QUALITIES[q]).draw(at(0.5)).astype(int) for q in (0, level))
+    assert np.abs(low - high).mean() < 12
+
+
+def test_views_show_different_pictures(draw: Draw) -> None:
+    pictures = [draw(at(0.5), named(view)) for view in View]
+    for i, one in enumerate(pictures):
+        for other in pictures[i + 1 :]:
+            assert np.abs(one[:SCORE_TOP].astype(int) - other[:SCORE_TOP]).mean() > 5
