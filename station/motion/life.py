@@ -44,9 +44,4 @@ class Blinks:
         return np.array([self.at(t) for t in time_s.tolist()])
 
 
-def breath(sine: float | Array, factor: float) -> float | Array:
-    """How far the shoulders are lifted at a breath's phase of which this is the sine."""
-    return factor * BREATH_M * sine
-
-
 BREATH_RATE = 2 * math.pi / BREATH_S

@@ -24,6 +24,8 @@ OPEN_GAP_M = 0.035
 _KICK_KEYS_S = np.array([-0.16, -0.055, 0.0, 0.06, 0.14])
 """Rest, top, strike, rebound, rest again: 45 ms down and a spring's way back (our choice)."""
 _KICK_SHARES = np.array([0.85, 1.0, 0.0, 0.5, 0.85])
+_BURIED_KEYS_S = np.array([-0.16, -0.055, 0.0, 0.11, 0.24])
+_BURIED_SHARES = np.array([0.85, 1.0, 0.0, 0.0, 0.85])
 _SOFTEST_SWING = 0.45
 """The share of the full swing that the softest kick takes (our choice)."""
 _OPENING_S = 0.080
@@ -32,18 +34,22 @@ _CHICK_LIFT = 0.5
 _CHICK_LIFT_S = 0.14
 
 
-def kick_board(times_s: Array, velocity: Array) -> Curves:
-    """The kick's board over time from its strikes (n,), in order, and their velocities 1–127."""
+def kick_board(times_s: Array, velocity: Array, buried: bool) -> Curves:
+    """The kick's board over time from its strikes (n,), in order, and their velocities 1–127.
+
+    A `buried` beater stays on the head for a moment instead of rebounding.
+    """
     if not len(times_s):
-        return _still(float(_KICK_SHARES[0]))
+        return still(float(_KICK_SHARES[0]))
     gaps = np.concatenate(([10.0], np.diff(times_s), [10.0]))
-    squeeze_before = np.minimum(1.0, 0.5 * gaps[:-1] / -_KICK_KEYS_S[0])
-    squeeze_after = np.minimum(1.0, 0.45 * gaps[1:] / _KICK_KEYS_S[-1])
+    keys, shares = (_BURIED_KEYS_S, _BURIED_SHARES) if buried else (_KICK_KEYS_S, _KICK_SHARES)
+    squeeze_before = np.minimum(1.0, 0.5 * gaps[:-1] / -keys[0])
+    squeeze_after = np.minimum(1.0, 0.45 * gaps[1:] / keys[-1])
     swing = (_SOFTEST_SWING + (1 - _SOFTEST_SWING) * velocity / 127) * np.minimum(1.0, gaps[:-1] / 0.12)
-    squeeze = np.where(_KICK_KEYS_S < 0, squeeze_before[:, None], squeeze_after[:, None])
-    times = times_s[:, None] + _KICK_KEYS_S * squeeze
-    values = _KICK_SHARES * swing[:, None]
-    at_rest = _KICK_SHARES[0]
+    squeeze = np.where(keys < 0, squeeze_before[:, None], squeeze_after[:, None])
+    times = times_s[:, None] + keys * squeeze
+    values = shares * swing[:, None]
+    at_rest = shares[0]
     values[:, 0] = at_rest * squeeze_before + values[:, 0] * (1 - squeeze_before)
     values[:, -1] = at_rest * squeeze_after + values[:, -1] * (1 - squeeze_after)
     continuity = np.tile([0.0, 0.0, -1.0, 0.0, 0.0], len(times_s))
@@ -76,12 +82,13 @@ def hat_board(score: Score, onset_s: Array) -> Curves:
                 level = wanted
         last = at
     if not keys:
-        return _still(0.0)
+        return still(0.0)
     table = np.array(keys)
     return _curve(np.maximum.accumulate(table[:, 0]), table[:, 1], table[:, 2])
 
 
-def _still(value: float) -> Curves:
+def still(value: float) -> Curves:
+    """A board that does not move."""
     return Curves(np.zeros(1), np.array([[[value, 0.0, 0.0, 0.0]]]))
 
 

@@ -43,7 +43,6 @@ class Plan:
     events: tuple[HandEvents, HandEvents]
     ground: Ground
     pelvis: Point
-    kick: Curves
     hat: Curves
     instruments: tuple[Instrument, ...]
 
@@ -52,8 +51,6 @@ class Plan:
         """The plan of `score`; `assignment` is `assign_limbs`' own where none is given."""
         who = assignment or assign_limbs(score, kit)
         points = strike_points(score, kit, who.limbs)
-        kicks = np.flatnonzero(score.notes["piece"] == Piece.KICK)
-        kicks = kicks[np.argsort(score.onset_ns[kicks], kind="stable")]
         return cls(
             score=score,
             kit=kit,
@@ -63,10 +60,17 @@ class Plan:
             events=hand_events(score, who.limbs),
             ground=_ground(score, kit, who.limbs, points),
             pelvis=pelvis_of(kit, figure),
-            kick=kick_board(score.onset_s[kicks], score.notes["velocity"][kicks].astype(np.float64)),
             hat=hat_board(score, score.onset_s),
             instruments=tuple(instruments(score, kit, score.onset_s, points)),
         )
+
+    def kick(self, style: Style) -> Curves:
+        """The kick's board over time."""
+        score = self.score
+        kicks = np.flatnonzero(score.notes["piece"] == Piece.KICK)
+        kicks = kicks[np.argsort(score.onset_ns[kicks], kind="stable")]
+        velocity = score.notes["velocity"][kicks].astype(np.float64)
+        return kick_board(score.onset_s[kicks], velocity, style.beater == "buried")
 
     def hands(self, style: Style) -> tuple[HandPart, HandPart]:
         """Both hands' parts with what `style` makes them hold."""
