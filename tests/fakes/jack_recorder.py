@@ -11,6 +11,7 @@ from pathlib import Path
 
 import jack
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from tests.fakes.child import Child, say
@@ -88,16 +89,26 @@ class JackRecorder:
 def _timed(
     sound: NDArray[np.float32], first_frame: NDArray[np.int64], called_ns: NDArray[np.int64], rate_hz: int
 ) -> Recording:
-    """Give every frame its time: a callback comes soon after its period begins or late, but never before."""
+    """Give every frame its time: a callback comes soon after its period begins or late, but never before.
+
+    A server that stalls goes on with the next frame later (the offset between frames and time jumps up), or with a
+    later frame (it jumps down, where the frame numbers do).
+    """
     frames_in_block = len(sound) // len(first_frame)
-    offset_ns = called_ns - first_frame * 1e9 / rate_hz
-    earliest = np.array(
-        [offset_ns[max(0, i - _WINDOW_BLOCKS) : i + _WINDOW_BLOCKS + 1].min() for i in range(len(offset_ns))]
-    )
-    begin_ns = first_frame * 1e9 / rate_hz + earliest
+    begin_ns = first_frame * 1e9 / rate_hz
+    skipped = np.diff(first_frame) - frames_in_block
+    stretches = np.split(called_ns - begin_ns, np.flatnonzero(skipped) + 1)
+    begin_ns += np.concatenate([_base(offsets_ns) for offsets_ns in stretches])
     at_ns = (begin_ns[:, None] + np.arange(frames_in_block) * 1e9 / rate_hz).ravel()
-    lost = int((np.diff(first_frame) - frames_in_block).sum())
-    return Recording(sound, np.round(at_ns).astype(np.int64), rate_hz, lost)
+    return Recording(sound, np.round(at_ns).astype(np.int64), rate_hz, int(skipped.sum()))
+
+
+def _base(offset_ns: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The offset below which no callback came, which may rise: the higher of the least before and the least after."""
+    padded = np.pad(offset_ns, _WINDOW_BLOCKS - 1, constant_values=np.inf)
+    least: NDArray[np.float64] = sliding_window_view(padded, _WINDOW_BLOCKS).min(axis=1)
+    base: NDArray[np.float64] = np.maximum(least[: len(offset_ns)], least[_WINDOW_BLOCKS - 1 :])
+    return base
 
 
 class _Listener:
