@@ -105,6 +105,8 @@ class Scene:
         self._upload_room()
         for program in (self._rigid_program, self._skin_program, self._floor_program, self._wall_program):
             self._constants(program)
+        for program in (self._rigid_shadow, self._skin_shadow):
+            _write(program, "light_projection", gl_bytes(_KEY.matrix()))
 
     def _textures(self, kit: Kit) -> None:
         ctx = self._ctx
@@ -204,13 +206,15 @@ class Scene:
             light[self.rig.piece_bones[piece], :3] = colour
         self._palette.write(gl_bytes(matrices) + light.tobytes())
         self._palette.bind_to_uniform_block(0)
-        ctx.disable(moderngl.BLEND | moderngl.CULL_FACE)
-        ctx.enable(moderngl.DEPTH_TEST)
-        self._draw_shadows(pose is not None)
+        ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
+        ctx.front_face = "ccw"
+        self.draw_shadows(pose is not None)
         target.use()
         ctx.viewport = viewport
         ctx.scissor = viewport
         target.clear(depth=1.0, viewport=viewport)
+        if camera.mirrored:
+            ctx.front_face = "cw"
         self._floor.use(0)
         self._wall.use(1)
         self._shadow.use(2)
@@ -219,20 +223,27 @@ class Scene:
             _write(program, "view_projection", projection)
             if "eye" in program:
                 program["eye"] = camera.eye
-        if pose is not None:
-            self._skin.render()
-        for part in (self._rigid, *self._room):  # nearest first, so that what is hidden is not shaded
+        for part in self.picture_parts[0 if pose is not None else 1 :]:
             part.render()
         ctx.scissor = None
+        ctx.front_face = "ccw"
 
-    def _draw_shadows(self, with_figure: bool) -> None:
+    @property
+    def picture_parts(self) -> tuple[moderngl.VertexArray, ...]:
+        """What the picture pass draws: the figure first, then nearest first, so that what is hidden is not shaded."""
+        return (self._skin, self._rigid, *self._room)
+
+    @property
+    def shadow_parts(self) -> tuple[moderngl.VertexArray, ...]:
+        """What the shadow pass draws: the figure first."""
+        return (self._skin_depth, self._rigid_depth)
+
+    def draw_shadows(self, with_figure: bool) -> None:
+        """Draw the shadow map with the bones that were set last."""
         self._shadow_buffer.use()
         self._shadow_buffer.clear(depth=1.0)
-        for program in (self._rigid_shadow, self._skin_shadow):
-            _write(program, "light_projection", gl_bytes(_KEY.matrix()))
-        self._rigid_depth.render()
-        if with_figure:
-            self._skin_depth.render()
+        for part in self.shadow_parts[0 if with_figure else 1 :]:
+            part.render()
 
 
 def _write(program: moderngl.Program, name: str, data: bytes) -> None:

@@ -1,0 +1,48 @@
+"""The scene's triangles with nothing round them, for comparison: the same buffers and shaders, drawn by bare moderngl.
+
+One palette of bones is uploaded once; each call clears, draws the shadow pass and the picture pass, and reads the picture
+back. What `painter` costs beyond this is what the station adds: posing, score, words.
+"""
+
+import moderngl
+import numpy as np
+
+from station.motion.figure import Figure
+from station.motion.kit import Kit
+from station.render.camera import View, named
+from station.render.gl import Target, standalone_context
+from station.render.scene import Quality, Scene
+from station.render.snapshot import Snapshot
+
+
+class BareScene:
+    """Draws the same frame again and again; raises `DeviceError` where there is no OpenGL."""
+
+    def __init__(self, size: tuple[int, int], kit: Kit, figure: Figure, quality: Quality) -> None:
+        self._ctx = standalone_context()
+        with self._ctx:
+            self._target = Target(self._ctx, size, quality.samples)
+            self._scene = Scene(self._ctx, kit, figure, quality)
+        self._size = size
+
+    @property
+    def triangles(self) -> int:
+        """How many a frame draws, shadows apart."""
+        return self._scene.triangles
+
+    def pose(self, snapshot: Snapshot) -> None:
+        """Draw once as the station does, which sets every uniform and bone."""
+        with self._ctx:
+            area = (0, 0, *self._size)
+            self._scene.draw(self._target.framebuffer, named(View.SHOULDER), snapshot.pose, area)
+
+    def draw(self) -> int:
+        """One frame; returns the sum of a few of its bytes, so that it is really there."""
+        with self._ctx:
+            self._ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
+            self._scene.draw_shadows(with_figure=True)
+            self._target.framebuffer.use()
+            self._target.framebuffer.clear(depth=1.0)
+            for part in self._scene.picture_parts:
+                part.render()
+            return int(np.sum(self._target.read()[::64, ::64]))
