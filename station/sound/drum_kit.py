@@ -39,10 +39,14 @@ class Layer:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sound:
-    """One sound: layers from soft to hard (the last reaches 127) and the level of each velocity 0–127."""
+    """One sound: layers from soft to hard (the last reaches 127) and the level of each velocity 0–127.
+
+    A stroke stops what else rings of its `mute_group`, as an electronic kit's closed hi-hat stops the open one.
+    """
 
     layers: tuple[Layer, ...]
     levels: tuple[float, ...] = LEVEL_LAW
+    mute_group: int | None = None
 
     def __post_init__(self) -> None:
         reaches = [layer.to_velocity for layer in self.layers]

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from station.core.kitmap import Strike
 from station.core.pieces import Articulation, Piece
 from station.sound.buses import Bus, ClickVoice
-from station.sound.drum_kit import MAX_VELOCITY, DrumKit, Frames, level_of
+from station.sound.drum_kit import MAX_VELOCITY, DrumKit, Frames, Sound, level_of
 from station.sound.limiter import soft_clip
 from station.sound.sounds import SoundName
 from station.sound.voice import Voice
@@ -39,6 +39,8 @@ CHOKE_S = 0.05
 """A hand stops a cymbal within some 50 ms (our choice)."""
 CLOSE_S = 0.04
 """So long a ringing hi-hat takes to fall silent as the pedal closes it (our choice)."""
+MUTE_S = 0.03
+"""So long a sound takes to fall silent that another of its mute group stops (our choice: a hand's choke is slower)."""
 HALF_OPEN_RING_S = 0.9
 """So long a hi-hat rings on that the pedal has brought from open to openness ½ (our choice: as its half-open sound)."""
 LEVEL_SLEW_S = 0.01
@@ -206,7 +208,11 @@ class Mixer:
             self._damp_hihat(bus, openness)
             piece, openness = Piece.HIHAT, 1.0 if splashes else openness
         gain = sound.levels[velocity]
-        self._begin(Voice(sound.take(max(1.0, velocity * timbre), turn), bus, gain, piece, openness))
+        voice = Voice(sound.take(max(1.0, velocity * timbre), turn), bus, gain, piece, openness)
+        if sound.mute_group is not None:
+            self._mute_group(bus, sound)
+            voice.sound = sound
+        self._begin(voice)
 
     def _click(self, voice: ClickVoice, velocity: int) -> None:
         self._begin(Voice(self._clicks[voice], Bus.CLICK, level_of(velocity), None))
@@ -249,6 +255,15 @@ class Mixer:
     def _damp_hihat(self, bus: Bus, openness: float) -> None:
         ring_s = CLOSE_S + (HALF_OPEN_RING_S - CLOSE_S) * min(1.0, 2.0 * openness) ** 2
         self._fade(lambda v: v.bus is bus and v.piece is Piece.HIHAT and v.openness > openness, ring_s)
+
+    def _mute_group(self, bus: Bus, sound: Sound) -> None:
+        """Stop what rings of the group of `sound`, other than itself."""
+
+        def is_rival(voice: Voice) -> bool:
+            rival = voice.sound
+            return rival is not None and rival is not sound and rival.mute_group == sound.mute_group
+
+        self._fade(lambda voice: voice.bus is bus and is_rival(voice), MUTE_S)
 
     def _fade(self, chosen: Callable[[Voice], bool], within_s: float) -> None:
         for voice in self._voices:

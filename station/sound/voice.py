@@ -5,17 +5,17 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Piece
 from station.sound.buses import Bus
-from station.sound.drum_kit import Frames
+from station.sound.drum_kit import Frames, Sound
 
 
 class Voice:
     """A sound that plays on a bus from its first frame to its last, or until it has faded.
 
     `gain` is its amplitude factor now and `slope` the gain's change a frame; `piece` (None for a click) and `openness`
-    say what may choke or damp it; `row` is its place in the mixer.
+    say what may choke or damp it, `sound` what of its mute group stops it; `row` is its place in the mixer.
     """
 
-    __slots__ = ("_at", "_data", "_stop", "bus", "fading", "gain", "openness", "piece", "row", "slope")
+    __slots__ = ("_at", "_data", "_stop", "bus", "fading", "gain", "openness", "piece", "row", "slope", "sound")
 
     def __init__(self, frames: Frames, bus: Bus, gain: float, piece: Piece | None, openness: float = 0.0) -> None:
         self._data = frames.reshape(-1)
@@ -28,6 +28,7 @@ class Voice:
         self.piece = piece
         self.openness = openness
         self.row = -1
+        self.sound: Sound | None = None
 
     @property
     def position(self) -> int:

@@ -1,0 +1,61 @@
+"""The one door to every drum kit: a synthesised one by its name, a user's by its name in the kits' folder or its path.
+
+A path may be a folder of sound files, a folder with a `kit.toml` or a `drumkit.xml`, one of these two files, or a
+`.h2drumkit`. A name is sought among the synthesised kits first, then in the user's folder of kits.
+"""
+
+from difflib import get_close_matches
+from pathlib import Path
+
+from platformdirs import user_data_path
+
+from station.core.errors import BadInput
+from station.core.settings import APP_NAME
+from station.sound.drum_kit import DrumKit
+from station.sound.kit_synth import KIT_NAME, synth_kit
+from station.sound.kits.folder import TABLE_NAME, folder_kit
+from station.sound.kits.hydrogen import ARCHIVE_ENDING, KIT_FILE, hydrogen_archive, hydrogen_folder
+
+DEFAULT_KIT = KIT_NAME
+MIN_RATE_HZ, MAX_RATE_HZ = 8_000, 192_000
+
+
+def kits_folder() -> Path:
+    """Where a user's own kits lie on this system."""
+    return user_data_path(APP_NAME, appauthor=False) / "kits"
+
+
+def kit_names(folder: Path | None = None) -> list[str]:
+    """Every kit that has a name: the synthesised ones, then those in `folder` (the user's by default)."""
+    home = folder or kits_folder()
+    own = sorted(p.stem if p.is_file() else p.name for p in home.iterdir() if _is_kit(p)) if home.is_dir() else []
+    return [DEFAULT_KIT, *(name for name in own if name != DEFAULT_KIT)]
+
+
+def load_kit(name_or_path: str = DEFAULT_KIT, rate_hz: int = 48_000, folder: Path | None = None) -> DrumKit:
+    """The kit at `rate_hz`; raises `BadInput` that names the file and the fault, or the nearest names there are."""
+    assert MIN_RATE_HZ <= rate_hz <= MAX_RATE_HZ, "a sound card's rate"
+    if name_or_path == DEFAULT_KIT:
+        return synth_kit(rate_hz)
+    home = folder or kits_folder()
+    for path in (home / name_or_path, home / f"{name_or_path}{ARCHIVE_ENDING}", Path(name_or_path)):
+        if path.exists():
+            return read_kit(path, rate_hz)
+    names = kit_names(folder)
+    near = get_close_matches(name_or_path, names) or names
+    raise BadInput(name_or_path, "", f"no such drum kit; there are {', '.join(near)}")
+
+
+def read_kit(path: Path, rate_hz: int) -> DrumKit:
+    """The kit at `path`; raises `BadInput`."""
+    if path.name in (TABLE_NAME, KIT_FILE):
+        path = path.parent
+    if path.is_dir():
+        return hydrogen_folder(path, rate_hz) if (path / KIT_FILE).exists() else folder_kit(path, rate_hz)
+    if path.suffix.lower() == ARCHIVE_ENDING:
+        return hydrogen_archive(path, rate_hz)
+    raise BadInput(path, "", f"is no drum kit: expected a folder of sound files or a {ARCHIVE_ENDING}")
+
+
+def _is_kit(path: Path) -> bool:
+    return path.is_dir() or path.suffix.lower() == ARCHIVE_ENDING
