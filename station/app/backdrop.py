@@ -39,11 +39,12 @@ class Backdrop:
         self._times_ms: list[float] = []
         self._page: tuple[Report, NDArray[np.void]] | None = None
         self.view = View.SHOULDER
+        self._left_handed = False
         self.camera: Camera = named(self.view)
 
     def look_from(self, view: View) -> None:
         """Go to a named viewpoint."""
-        self.view, self.camera = view, named(view)
+        self.view, self.camera = view, named(view, self._left_handed)
 
     def steer(self, io: imgui.IO) -> None:
         """Turn, shift or approach with the mouse; a double click goes back to the named view."""
@@ -99,6 +100,9 @@ class Backdrop:
         whole: tuple[int, int],
         area: Area,
     ) -> None:
+        if snapshot.kit.left_handed != self._left_handed:
+            self._left_handed = snapshot.kit.left_handed
+            self.look_from(self.view)
         began = perf_counter()
         target = self._smooth_target(painter, whole)
         into = screen if target is None else target.framebuffer

@@ -1,7 +1,8 @@
 """The scene's triangles with nothing round them, for comparison: the same buffers and shaders, drawn by bare moderngl.
 
-One palette of bones is uploaded once; each call clears, draws the shadow pass and the picture pass, and reads the picture
-back. What `painter` costs beyond this is what the station adds: posing, score, words.
+One palette of bones is uploaded once; each call clears, draws the shadow pass and the picture pass where the painter
+has its scene, and reads the picture back. What `painter` costs beyond this is what the station adds: posing, score,
+words.
 """
 
 import moderngl
@@ -11,6 +12,7 @@ from station.motion.figure import Figure
 from station.motion.kit import Kit
 from station.render.camera import View, named
 from station.render.gl import Target, standalone_context
+from station.render.painter import SCORE_SHARE
 from station.render.scene import Quality, Scene
 from station.render.snapshot import Snapshot
 
@@ -23,7 +25,8 @@ class BareScene:
         with self._ctx:
             self._target = Target(self._ctx, size, quality.samples)
             self._scene = Scene(self._ctx, kit, figure, quality)
-        self._size = size
+        score = round(size[1] * SCORE_SHARE)
+        self._area = (0, score, size[0], size[1] - score)
 
     @property
     def triangles(self) -> int:
@@ -33,8 +36,7 @@ class BareScene:
     def pose(self, snapshot: Snapshot) -> None:
         """Draw once as the station does, which sets every uniform and bone."""
         with self._ctx:
-            area = (0, 0, *self._size)
-            self._scene.draw(self._target.framebuffer, named(View.SHOULDER), snapshot.pose, area)
+            self._scene.draw(self._target.framebuffer, named(View.SHOULDER), snapshot.pose, self._area)
 
     def draw(self) -> int:
         """One frame; returns the sum of a few of its bytes, so that it is really there."""
@@ -42,6 +44,7 @@ class BareScene:
             self._ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
             self._scene.draw_shadows(with_figure=True)
             self._target.framebuffer.use()
+            self._ctx.viewport = self._area
             self._target.framebuffer.clear(depth=1.0)
             for part in self._scene.picture_parts:
                 part.render()

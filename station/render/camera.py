@@ -85,9 +85,13 @@ class Camera:
 _DEG = np.pi / 180
 
 
-def named(view: View) -> Camera:
-    """The camera of a named view."""
-    return _CAMERAS[view]
+def named(view: View, left_handed: bool = False) -> Camera:
+    """The camera of a named view, on the other side for a kit that leads with the left hand."""
+    camera = _CAMERAS[view]
+    if not left_handed:
+        return camera
+    x, y, z = camera.target
+    return replace(camera, target=(-x, y, z), azimuth_rad=np.pi - camera.azimuth_rad)
 
 
 _CAMERAS = {

@@ -53,7 +53,7 @@ class Painter:
         score_height = round(height * SCORE_SHARE) if with_score else 0
         scene_area = (left, low + score_height, width, height - score_height)
         self._scene_of(snapshot).draw(
-            target, camera or named(View.SHOULDER), snapshot.pose, scene_area, _glow(snapshot)
+            target, camera or named(View.SHOULDER, snapshot.kit.left_handed), snapshot.pose, scene_area, _glow(snapshot)
         )
         self._ctx.viewport = area
         if with_score:

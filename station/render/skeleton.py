@@ -10,7 +10,7 @@ import numpy as np
 
 from station.motion.figure import Figure, Joint
 from station.motion.pose import Pose
-from station.render.space import Matrix, Vector, frame, unit
+from station.render.space import Matrix, Vector, frames, unit
 
 
 class Bone(IntEnum):
@@ -45,6 +45,14 @@ _LEGS = (
     (Bone.RIGHT_THIGH, Joint.RIGHT_HIP, Joint.RIGHT_KNEE, Joint.RIGHT_ANKLE, Joint.RIGHT_TOE),
     (Bone.LEFT_THIGH, Joint.LEFT_HIP, Joint.LEFT_KNEE, Joint.LEFT_ANKLE, Joint.LEFT_TOE),
 )
+_LIMB_JOINTS = np.array([joints for _, *joints in (*_ARMS, *_LEGS)])
+_FIRST = np.array([Bone.RIGHT_UPPER_ARM, Bone.LEFT_UPPER_ARM, Bone.RIGHT_THIGH, Bone.LEFT_THIGH])
+_SECOND = _FIRST + 1
+_TWIST = _FIRST[:2] + 2
+_THIRD = _FIRST + np.array([3, 3, 2, 2])
+_TRUNK = slice(Bone.WAIST, Bone.HEAD + 1)
+_TRUNK_FROM = np.array([Joint.PELVIS, Joint.SPINE, Joint.NECK, Joint.HEAD])
+_TRUNK_TO = np.array([Joint.SPINE, Joint.NECK, Joint.HEAD, Joint.CROWN])
 EYE_HEIGHT = 0.098
 """Where the eyes are above the joint of head and neck, in metres for `HEAD_M`."""
 HEAD_M = 0.2146
@@ -93,28 +101,24 @@ def bind_stance(figure: Figure) -> Stance:
 def bone_frames(stance: Stance) -> Matrix:
     """The frame of every bone but `EYES`, (18, 4, 4): z along the bone."""
     j = stance.joints_m
-    frames = np.empty((len(Bone) - 1, 4, 4))
+    origin, along, side = np.empty((3, len(Bone) - 1, 3))
     shoulders = j[Joint.RIGHT_SHOULDER] - j[Joint.LEFT_SHOULDER]
     hips = j[Joint.RIGHT_HIP] - j[Joint.LEFT_HIP]
-    frames[Bone.WAIST] = frame(j[Joint.PELVIS], j[Joint.SPINE] - j[Joint.PELVIS], unit(hips) + 0.5 * unit(shoulders))
-    frames[Bone.CHEST] = frame(j[Joint.SPINE], j[Joint.NECK] - j[Joint.SPINE], shoulders)
     right = np.cross(stance.facing, stance.head_up)
-    frames[Bone.NECK] = frame(j[Joint.NECK], j[Joint.HEAD] - j[Joint.NECK], unit(shoulders) + right)
-    frames[Bone.HEAD] = frame(j[Joint.HEAD], stance.head_up, right)
-    for (bone, *joints), palm in zip(_ARMS, stance.palm, strict=True):
-        a, b, c, d = (j[k] for k in joints)
-        hinge = np.cross(b - a, c - b)
-        frames[bone] = frame(a, b - a, hinge)
-        frames[bone + 1] = frame(b, c - b, hinge)
-        frames[bone + 2] = frame(b, c - b, np.cross(palm, c - b))
-        frames[bone + 3] = frame(c, d - c, np.cross(palm, d - c))
-    for bone, *joints in _LEGS:
-        a, b, c, d = (j[k] for k in joints)
-        hinge = np.cross(b - a, c - b)
-        frames[bone] = frame(a, b - a, hinge)
-        frames[bone + 1] = frame(b, c - b, hinge)
-        frames[bone + 2] = frame(c, d - c, hinge)
-    return frames
+    origin[_TRUNK] = j[_TRUNK_FROM]
+    along[_TRUNK] = j[_TRUNK_TO] - j[_TRUNK_FROM]
+    along[Bone.HEAD] = stance.head_up
+    side[_TRUNK] = (unit(hips) + 0.5 * unit(shoulders), shoulders, unit(shoulders) + right, right)
+    a, b, c, d = (j[column] for column in _LIMB_JOINTS.T)  # each (4, 3): arms, then legs
+    first, second, third = b - a, c - b, d - c
+    hinge = np.cross(first, second)
+    palm = np.cross(stance.palm, second[:2]), np.cross(stance.palm, third[:2])
+    origin[_FIRST], along[_FIRST], side[_FIRST] = a, first, hinge
+    origin[_SECOND], along[_SECOND], side[_SECOND] = b, second, hinge
+    origin[_TWIST], along[_TWIST], side[_TWIST] = b[:2], second[:2], palm[0]
+    origin[_THIRD], along[_THIRD] = c, third
+    side[_THIRD[:2]], side[_THIRD[2:]] = palm[1], hinge[2:]
+    return frames(origin, along, side)
 
 
 class Skeleton:
@@ -129,10 +133,10 @@ class Skeleton:
     def matrices(self, pose: Pose) -> Matrix:
         """One matrix a bone, (19, 4, 4)."""
         out = np.empty((len(Bone), 4, 4))
-        frames = bone_frames(Stance.of(pose))
-        out[:-1] = frames @ self._back
+        now = bone_frames(Stance.of(pose))
+        out[:-1] = now @ self._back
         lids = np.eye(4)
         lids[2, 2] = 0.12 + 0.88 * pose.eyes
         lids[2, 3] = self._eye_height * (1 - lids[2, 2])
-        out[Bone.EYES] = frames[Bone.HEAD] @ lids @ self._back[Bone.HEAD]
+        out[Bone.EYES] = now[Bone.HEAD] @ lids @ self._back[Bone.HEAD]
         return out

@@ -19,14 +19,27 @@ def unit(v: ArrayLike) -> Vector:
 
 def frame(origin: ArrayLike, along: ArrayLike, side: ArrayLike) -> Matrix:
     """A rigid frame: its z axis points `along`, its x axis as nearly to `side` as can be; y = z × x."""
+    rows = [np.asarray(v, np.float64)[None] for v in (origin, along, side)]
+    return np.asarray(frames(*rows)[0])
+
+
+def frames(origin: Vector, along: Vector, side: Vector) -> Matrix:
+    """Many frames at once, (n, 4, 4) from three (n, 3); any side will do where the wanted one lies along the axis."""
     z = unit(along)
-    x = np.asarray(side, np.float64) - z * np.dot(side, z)
-    if np.linalg.norm(x) < 1e-6:  # any side will do where the wanted one lies along the axis
-        x = np.cross(z, [0.0, 0.0, 1.0]) if abs(z[2]) < 0.9 else np.cross(z, [0.0, 1.0, 0.0])
+    x = side - z * np.sum(z * side, axis=1, keepdims=True)
+    lost = np.sum(x * x, axis=1) < _PARALLEL_2
+    if lost.any():
+        other = np.where(np.abs(z[:, 2:]) < 0.9, [0.0, 0.0, 1.0], [0.0, 1.0, 0.0])
+        x = np.where(lost[:, None], np.cross(z, other), x)
     x = unit(x)
-    m = np.eye(4)
-    m[:3, 0], m[:3, 1], m[:3, 2], m[:3, 3] = x, np.cross(z, x), z, origin
+    m = np.zeros((len(z), 4, 4))
+    m[:, :3, 0], m[:, :3, 1], m[:, :3, 2], m[:, :3, 3] = x, np.cross(z, x), z, origin
+    m[:, 3, 3] = 1.0
     return m
+
+
+_PARALLEL_2 = 1e-12
+"""Square of a side's part across the axis below which it is lost in rounding."""
 
 
 def translation(offset: ArrayLike) -> Matrix:

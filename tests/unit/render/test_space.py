@@ -86,3 +86,9 @@ def test_narrow_pictures_see_as_far_to_the_sides() -> None:
     ride = (0.65, 0.75, 0.95)
     wide, square = project(camera, ride, 1.5), project(camera, ride, 1.0)
     assert square[0] == pytest.approx(wide[0])
+
+
+def test_a_left_handed_kit_is_seen_from_the_other_side() -> None:
+    right, left = named(View.SHOULDER), named(View.SHOULDER, left_handed=True)
+    assert np.allclose(np.array(left.eye), np.array(right.eye) * [-1, 1, 1])
+    assert project(left, (-0.42, 0.62, 0.86))[0] == pytest.approx(-project(right, (0.42, 0.62, 0.86))[0])

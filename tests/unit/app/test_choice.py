@@ -1,0 +1,73 @@
+"""The lessons page's state, the keyboard's table, the quality's choice."""
+
+from dataclasses import replace
+
+import pytest
+
+from station.app.backdrop import quality_for
+from station.app.choice import MAX_LOOPS, Choice
+from station.app.keyboard import KEYS
+from station.app.model import LessonCard, Start
+from station.core.pieces import HAND_PIECES, Piece, Zone
+
+ROCK = LessonCard(
+    "rock-1", "Rock 1: eighths", 1, "first steps", "The first groove", "Ada", 80.0, 2, 8, "4/4", ("rock",)
+)
+PARADIDDLE = LessonCard("paradiddle", "Single paradiddle", 2, "beginner", "RLRR LRLL", "Ben", 100.0, 1, 12)
+
+
+def test_the_first_lesson_is_chosen_at_its_own_tempo() -> None:
+    assert Choice([ROCK, PARADIDDLE]).wish() == Start("rock-1", 80.0, 8)
+
+
+def test_without_lessons_there_is_nothing_to_start() -> None:
+    assert Choice([]).wish() is None
+
+
+def test_choosing_takes_the_author_s_tempo_and_passes() -> None:
+    choice = Choice([ROCK, PARADIDDLE])
+    choice.tempo_bpm = 140.0
+    choice.choose(replace(PARADIDDLE, passes=500))
+    assert choice.wish() == Start("paradiddle", 100.0, MAX_LOOPS)
+
+
+@pytest.mark.parametrize(
+    ("search", "found"),
+    [
+        ("", ["rock-1", "paradiddle"]),
+        ("ROCK", ["rock-1"]),
+        ("ada eighths", ["rock-1"]),
+        ("beginner", ["paradiddle"]),
+        ("rock paradiddle", []),
+    ],
+)
+def test_search_wants_every_word(search: str, found: list[str]) -> None:
+    choice = Choice([ROCK, PARADIDDLE])
+    choice.search = search
+    assert [card.name for card in choice.visible()] == found
+
+
+def test_the_keyboard_has_a_kit() -> None:
+    pieces = {stroke.piece for stroke in KEYS.values()}
+    assert {Piece.KICK, Piece.SNARE, Piece.HIHAT, Piece.HIHAT_PEDAL, Piece.RIDE, Piece.CRASH_1} <= pieces
+    assert len({stroke.cap for stroke in KEYS.values()}) == len(KEYS)
+
+
+def test_every_key_says_what_it_plays() -> None:
+    words = {stroke.cap: stroke.words for stroke in KEYS.values()}
+    assert words["S"] == "hi-hat, open"
+    assert words["G"] == "snare, cross stick"
+    assert words[";"] == "ride, bell"
+    assert words["Space"] == "kick"
+
+
+def test_keys_strike_zones_that_their_pieces_have() -> None:
+    drums = HAND_PIECES - {Piece.HIHAT, Piece.RIDE, Piece.CRASH_1}
+    for stroke in KEYS.values():
+        if stroke.piece in drums | {Piece.KICK}:
+            assert stroke.zone in {Zone.HEAD, Zone.RIM}
+
+
+@pytest.mark.parametrize(("lowest_ms", "level"), [(1.0, 2), (2.0, 2), (4.0, 1), (6.0, 1), (6.1, 0), (40.0, 0)])
+def test_faster_machines_draw_more(lowest_ms: float, level: int) -> None:
+    assert quality_for(lowest_ms) == level
