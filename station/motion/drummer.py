@@ -12,6 +12,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.pieces import Limb
 from station.motion.figure import Figure, figure_of
 from station.motion.hand import HandPart
 from station.motion.keys import Keys, at, many
@@ -64,6 +65,17 @@ class Drummer:
     def _hands(self) -> tuple[HandPart, HandPart]:
         assert self.parts is not None
         return self.parts
+
+    def swings(self, index: int, time_s: Array) -> Array:
+        """How piece `index` of the kit has tipped about its right and away axes at each time, (n, 2) radians."""
+        instrument = self._plan.instruments[index]
+        return np.array([instrument.at(t)[:2] for t in time_s.tolist()]).reshape(-1, 2)
+
+    def touching_m(self, row: int) -> float:
+        """From the fulcrum to the part of the stick that touches at the stroke of `row` of the score."""
+        hand = self._hands[0 if self.assignment.limbs[row] == Limb.RIGHT_HAND else 1]
+        event = int(np.argmin(np.abs(hand.events.time_s - self.score.onset_s[row])))
+        return float(hand.lies[int(hand.which[event])].contact.ahead_m)
 
     @cached_property
     def _keys(self) -> Keys:

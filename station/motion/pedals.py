@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Articulation, Piece
+from station.motion.kit import Kit
 from station.motion.splines import Curves, cubics, slopes
 from station.music.score import Score
 
@@ -85,6 +86,20 @@ def hat_board(score: Score, onset_s: Array) -> Curves:
         return still(0.0)
     table = np.array(keys)
     return _curve(np.maximum.accumulate(table[:, 0]), table[:, 1], table[:, 2])
+
+
+BEATER_LENGTH_M, _BEATER_HALF_M = 0.20, 0.016
+"""From the axle to the middle of the beater, and half its thickness; common pedals set the first to 19–22 cm."""
+
+
+def beater_m(kit: Kit, angle_rad: float) -> Array:
+    """The middle of the beater's striking face, which is on the kick's head at angle 0."""
+    head = kit.pieces[Piece.KICK].centre
+    sine, cosine = math.sin(angle_rad), math.cos(angle_rad)
+    forward = _BEATER_HALF_M * cosine - BEATER_LENGTH_M * sine
+    up = _BEATER_HALF_M * sine + BEATER_LENGTH_M * cosine
+    moved: Array = head + np.array([0.0, forward - _BEATER_HALF_M, up - BEATER_LENGTH_M])
+    return moved
 
 
 def still(value: float) -> Curves:

@@ -50,18 +50,18 @@ BELL_ABOVE_BOW_M = 0.02
 
 _DRUM_SPOTS = {
     Zone.HEAD: Spot(0.0, 0.0, HAND_SPREAD_M),
-    Zone.RIM: Spot(0.0, -1.0, 0.16, RIM_ABOVE_HEAD_M, shoulder=True),
+    Zone.RIM: Spot(0.0, -0.99, 0.16, RIM_ABOVE_HEAD_M, shoulder=True),
 }
 _CYMBAL_SPOTS = {
     Zone.BOW: Spot(0.0, -0.6, 0.03),
     Zone.BELL: Spot(0.0, -0.12, 0.02, BELL_ABOVE_BOW_M, shoulder=True),
-    Zone.EDGE: Spot(0.0, -1.0, 0.04, shoulder=True),
+    Zone.EDGE: Spot(0.0, -0.98, 0.04, shoulder=True),
 }
 SPOTS: Mapping[str, Mapping[Zone, Spot]] = MappingProxyType(
     {
         "drum": _DRUM_SPOTS,
         "cymbal": _CYMBAL_SPOTS,
-        "hihat": {Zone.BOW: Spot(0.0, -0.55, 0.03), Zone.EDGE: Spot(0.0, -1.0, 0.04, shoulder=True)},
+        "hihat": {Zone.BOW: Spot(0.0, -0.55, 0.03), Zone.EDGE: Spot(0.0, -0.98, 0.04, shoulder=True)},
         "kick": {Zone.HEAD: Spot(0.0, 0.0)},
         "block": {Zone.HEAD: Spot(0.0, 0.0, 0.02)},
     }
