@@ -1,6 +1,8 @@
 """Benchmarks of the sound: a block with every voice ringing, what a stroke adds, how soon the kit is there."""
 
 import time
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 
@@ -9,13 +11,16 @@ from station.core.kitmap import Strike
 from station.core.pieces import Piece, Zone
 from station.sound.buses import Bus
 from station.sound.click import click_sounds
-from station.sound.kit_synth import synth_kit
+from station.sound.drum_kit import DrumKit
+from station.sound.kit_cache import cached_kit
+from station.sound.kit_synth import KIT_NAME, synth_kit
 from station.sound.mixer import MAX_VOICES, Mixer
 
 RATE_HZ = 48_000
 BLOCK_FRAMES = 64
 _BLOCKS = 600
 """0.8 s: every stroke of `_LONG` still rings at the end."""
+_READS = 3
 _LONG = (
     *(Strike(piece, Zone.EDGE) for piece in (Piece.RIDE, Piece.CRASH_1, Piece.CRASH_2, Piece.CHINA) for _ in range(6)),
     *(Strike(piece) for piece in (Piece.FLOOR_TOM_1, Piece.FLOOR_TOM_2) for _ in range(4)),
@@ -71,14 +76,21 @@ def _stroke() -> Measured:
 
 
 def _kit() -> Measured:
+    """The kit as every start but the first finds it: on disk."""
+    with TemporaryDirectory() as folder:
+        made_s, kit = _ready(Path(folder))
+        held = f"{len(kit.sounds)} sounds in {kit.bytes_held / 1e6:.0f} MB; {made_s:.1f} s to make it the first time"
+        return Measured(min(_ready(Path(folder))[0] for _ in range(_READS)), note=held)
+
+
+def _ready(folder: Path) -> tuple[float, DrumKit]:
     start = time.perf_counter()
-    kit = synth_kit(RATE_HZ)
-    taken_s = time.perf_counter() - start
-    return Measured(taken_s, note=f"{len(kit.sounds)} sounds in {kit.bytes_held / 1e6:.0f} MB")
+    kit = cached_kit(KIT_NAME, RATE_HZ, folder)
+    return time.perf_counter() - start, kit
 
 
 BENCHMARKS = (
     Benchmark("mixer_block_64_frames_32_voices", "µs", 50, "lower", "numpy, voice by voice", _block),
     Benchmark("mixer_block_with_a_stroke_all_voices_taken", "µs", 200, "lower", None, _stroke),
-    Benchmark("drum_kit_ready", "s", 1.5, "lower", None, _kit),
+    Benchmark("drum_kit_ready", "s", 0.5, "lower", None, _kit),
 )

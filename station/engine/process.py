@@ -22,7 +22,7 @@ from queue import SimpleQueue
 from types import TracebackType
 from typing import Self
 
-from station.core.errors import DeviceError
+from station.core.errors import DeviceError, StationError
 from station.core.settings import Settings
 from station.devices.midi_ports import MidiDirectory
 from station.devices.watch import KitWatch
@@ -31,7 +31,8 @@ from station.engine.engine import Engine
 from station.engine.messages import Command, EngineEvent, Notice, Quit, Ready
 from station.engine.runner import Runner
 from station.sound.click import click_sounds
-from station.sound.kit_synth import synth_kit
+from station.sound.drum_kit import DrumKit
+from station.sound.kits.load import DEFAULT_KIT, load_kit
 from station.sound.mixer import Mixer
 from station.sound.output import open_output
 
@@ -50,8 +51,8 @@ class EngineConfig:
     """What the engine process opens.
 
     `kits` holds for each kit part of its port's name, empty for the first kit found; `midi_driver` is "auto" or one of
-    `station.devices.midi_ports.compiled_drivers()`; `output`, `block_frames` and `rate_hz` stand as in `Settings`;
-    without `sound` no card is opened.
+    `station.devices.midi_ports.compiled_drivers()`; `output`, `block_frames`, `rate_hz` and `drums` stand as in
+    `Settings`; without `sound` no card is opened.
     """
 
     kits: tuple[str, ...] = ("",)
@@ -60,11 +61,18 @@ class EngineConfig:
     output: str = ""
     block_frames: int = 0
     rate_hz: int = 48_000
+    drums: str = DEFAULT_KIT
 
     @classmethod
     def from_settings(cls, settings: Settings) -> Self:
         """What a user has chosen."""
-        return cls((settings.kit,), "auto", True, settings.output, settings.block_frames, settings.rate_hz)
+        return cls(
+            kits=(settings.kit,),
+            output=settings.output,
+            block_frames=settings.block_frames,
+            rate_hz=settings.rate_hz,
+            drums=settings.drums,
+        )
 
 
 class EngineProcess:
@@ -209,8 +217,17 @@ def _card(engine: Engine, config: EngineConfig) -> Card:
     return Card(
         engine,
         lambda: open_output(config.output, config.block_frames, config.rate_hz),
-        lambda rate_hz: Mixer(synth_kit(rate_hz), click_sounds(rate_hz)),
+        lambda rate_hz: Mixer(_drums(engine, config.drums, rate_hz), click_sounds(rate_hz)),
     )
+
+
+def _drums(engine: Engine, name: str, rate_hz: int) -> DrumKit:
+    """The kit called `name`; where it cannot be had the user is told, and the default one plays."""
+    try:
+        return load_kit(name, rate_hz)
+    except StationError as fault:
+        engine.notify(f"{fault}; the {DEFAULT_KIT} kit plays instead")
+        return load_kit(DEFAULT_KIT, rate_hz)
 
 
 class _Outbox:

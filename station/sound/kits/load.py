@@ -12,7 +12,8 @@ from platformdirs import user_data_path
 from station.core.errors import BadInput
 from station.core.settings import APP_NAME
 from station.sound.drum_kit import DrumKit
-from station.sound.kit_synth import KIT_NAME, synth_kit
+from station.sound.kit_cache import cached_kit
+from station.sound.kit_synth import KIT_NAME, MODELS
 from station.sound.kits.folder import TABLE_NAME, folder_kit
 from station.sound.kits.hydrogen import ARCHIVE_ENDING, KIT_FILE, hydrogen_archive, hydrogen_folder
 
@@ -29,14 +30,14 @@ def kit_names(folder: Path | None = None) -> list[str]:
     """Every kit that has a name: the synthesised ones, then those in `folder` (the user's by default)."""
     home = folder or kits_folder()
     own = sorted(p.stem if p.is_file() else p.name for p in home.iterdir() if _is_kit(p)) if home.is_dir() else []
-    return [DEFAULT_KIT, *(name for name in own if name != DEFAULT_KIT)]
+    return [*MODELS, *(name for name in own if name not in MODELS)]
 
 
 def load_kit(name_or_path: str = DEFAULT_KIT, rate_hz: int = 48_000, folder: Path | None = None) -> DrumKit:
     """The kit at `rate_hz`; raises `BadInput` that names the file and the fault, or the nearest names there are."""
     assert MIN_RATE_HZ <= rate_hz <= MAX_RATE_HZ, "a sound card's rate"
-    if name_or_path == DEFAULT_KIT:
-        return synth_kit(rate_hz)
+    if name_or_path in MODELS:
+        return cached_kit(name_or_path, rate_hz)
     home = folder or kits_folder()
     for path in (home / name_or_path, home / f"{name_or_path}{ARCHIVE_ENDING}", Path(name_or_path)):
         if path.exists():

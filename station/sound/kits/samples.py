@@ -9,7 +9,7 @@ import numpy as np
 from station.core.errors import BadInput
 from station.sound.audio_file import read_audio
 from station.sound.drum_kit import DrumKit, Frames, Sound
-from station.sound.kit_synth import synth_kit
+from station.sound.kit_synth import synth_sound
 from station.sound.sounds import SoundName
 from station.sound.synth.make import loudness
 
@@ -75,8 +75,7 @@ def struck_at_zero(frames: Frames, rate_hz: int) -> Frames:
 def kit_of(name: str, rate_hz: int, sounds: Mapping[SoundName, Sound]) -> DrumKit:
     """A kit of recorded sounds at the station's own level, its missing essentials lent by the synthesised kit."""
     balance(sounds, rate_hz)
-    missing = [essential for essential in ESSENTIAL if essential not in sounds]
-    lent = {essential: synth_kit(rate_hz).sounds[essential] for essential in missing} if missing else {}
+    lent = {missing: synth_sound(missing, rate_hz) for missing in ESSENTIAL if missing not in sounds}
     return DrumKit(name, rate_hz, MappingProxyType({**lent, **sounds}))
 
 

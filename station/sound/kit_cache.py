@@ -1,0 +1,100 @@
+"""Synthesised kits kept on disk: made once on a computer, and read in a fraction of a second from then on.
+
+A file holds one kit at one rate: all takes in one array and their lengths, in numpy's own container, whose checksums
+tell a damaged file. Its name bears a digest of the recipes and of the code that makes sounds of them, so that a file
+never outlives what made it. Nothing depends on the cache: a file that cannot be read or written costs time alone.
+"""
+
+import hashlib
+import secrets
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from functools import lru_cache
+from importlib.resources import files
+from pathlib import Path
+from types import MappingProxyType
+from zipfile import BadZipFile
+
+import numpy as np
+from platformdirs import user_cache_path
+
+from station.core.settings import APP_NAME
+from station.sound.drum_kit import DrumKit, Frames, Layer, Sound
+from station.sound.kit_synth import KIT_NAME, MODELS, synth_kit
+from station.sound.sounds import SoundName
+from station.sound.synth.make import TAKES
+from station.sound.synth.recipe import Recipe
+
+KEPT_FILES = 4
+"""Kits on disk, the oldest go first (our choice: two kits at two rates, some 400 MB)."""
+_ENDING = ".kit.npz"
+
+
+def cache_folder() -> Path:
+    """Where made kits lie on this system; may be deleted at any time."""
+    return user_cache_path(APP_NAME, appauthor=False) / "kits"
+
+
+def cached_kit(model: str = KIT_NAME, rate_hz: int = 48_000, folder: Path | None = None) -> DrumKit:
+    """The synthesised kit `model` at `rate_hz`, from disk where it was made before, else made and kept there."""
+    path = (folder or cache_folder()) / f"{model}-{rate_hz}-{_digest(model)}{_ENDING}"
+    kit = _read(path, model, rate_hz)
+    if kit is None:
+        kit = synth_kit.__wrapped__(rate_hz, model)
+        with suppress(OSError):
+            _write(path, kit)
+            _forget_oldest(path.parent)
+    return kit
+
+
+@lru_cache
+def _digest(model: str) -> str:
+    code = hashlib.sha256(repr(sorted(MODELS[model].items())).encode())
+    package = files("station.sound")
+    for source in sorted((package / "synth").iterdir(), key=lambda entry: entry.name):
+        if source.name.endswith(".py"):
+            code.update(source.read_bytes())
+    code.update((package / "limiter.py").read_bytes())
+    return code.hexdigest()[:16]
+
+
+def _slots(recipes: Mapping[SoundName, Recipe]) -> Iterator[tuple[SoundName, int]]:
+    """Each layer of the kit, as its sound and its greatest velocity, in the order of the file."""
+    return ((name, reach) for name, recipe in recipes.items() for reach in recipe.layers)
+
+
+def _read(path: Path, model: str, rate_hz: int) -> DrumKit | None:
+    """The kit at `path`; None where there is none, or no whole one."""
+    try:
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
+            frames, lengths = archive["frames"], archive["lengths"]
+    except (OSError, ValueError, KeyError, EOFError, BadZipFile):
+        return None
+    slots = list(_slots(MODELS[model]))
+    if frames.dtype != np.float32 or frames.shape != (lengths.sum(), 2) or len(lengths) != TAKES * len(slots):
+        return None
+    with suppress(OSError):
+        path.touch()
+    takes = iter(np.split(frames, np.cumsum(lengths)[:-1]))
+    layers: dict[SoundName, list[Layer]] = {}
+    for name, reach in slots:
+        layers.setdefault(name, []).append(Layer(reach, tuple(next(takes) for _ in range(TAKES))))
+    return DrumKit(model, rate_hz, MappingProxyType({name: Sound(tuple(its)) for name, its in layers.items()}))
+
+
+def _write(path: Path, kit: DrumKit) -> None:
+    takes: list[Frames] = [take for sound in kit.sounds.values() for layer in sound.layers for take in layer.takes]
+    path.parent.mkdir(parents=True, exist_ok=True)
+    part = path.with_name(f".{secrets.token_hex(8)}.part")
+    try:
+        with part.open("xb") as file:  # no fsync: a file torn by a power cut is found out when it is read
+            np.savez(file, frames=np.concatenate(takes), lengths=np.array([len(take) for take in takes]))
+        part.replace(path)
+    finally:
+        part.unlink(missing_ok=True)
+
+
+def _forget_oldest(folder: Path) -> None:
+    kept = sorted(folder.glob(f"*{_ENDING}"), key=lambda path: path.stat().st_mtime, reverse=True)
+    for old in kept[KEPT_FILES:]:
+        old.unlink(missing_ok=True)
