@@ -40,7 +40,7 @@ imports: $(READY)
 	@$(BIN)/lint-imports --no-cache | tail -n 12
 
 unit: $(READY)
-	@$(BIN)/python -m pytest -q -n 2 --dist worksteal
+	@$(BIN)/python -m pytest -q -n 2 --dist loadgroup
 
 bench: $(READY)  ## the benchmarks, at most five minutes
 	@$(BIN)/station bench

@@ -1,7 +1,15 @@
 """Settings for all tests."""
 
+import pytest
 from hypothesis import settings
 
 # On a shared machine a stall of any length may fall into any example: time belongs in benchmarks, not in properties.
 settings.register_profile("station", deadline=None)
 settings.load_profile("station")
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Tests with a JACK server go to one worker: libjack keeps one state a process and one registry a user."""
+    for item in items:
+        if item.get_closest_marker("jack"):
+            item.add_marker(pytest.mark.xdist_group("jack"))
