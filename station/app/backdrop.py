@@ -4,6 +4,7 @@ The quality is measured: the first frames are drawn at the lowest, and where the
 next level is tried. While somebody plays nothing is rebuilt.
 """
 
+from dataclasses import dataclass, replace
 from statistics import median
 from time import perf_counter
 
@@ -28,6 +29,14 @@ _FAST_MS, _VERY_FAST_MS = 6.0, 2.0
 _ORBIT_PER_PIXEL, _PAN_PER_PIXEL, _ZOOM_PER_STEP = 0.006, 0.0022, 1.12
 
 
+@dataclass(frozen=True, slots=True)
+class Look:
+    """Where the user looks from, and whether left and right are swapped."""
+
+    view: View = View.SHOULDER
+    mirrored: bool = False
+
+
 class Backdrop:
     """Draws with the window's own OpenGL context, which it takes over at the first frame."""
 
@@ -38,25 +47,32 @@ class Backdrop:
         self._target: Target | None = None
         self._times_ms: list[float] = []
         self._page: tuple[Report, NDArray[np.void]] | None = None
-        self.view = View.SHOULDER
+        self.look = Look()
         self._left_handed = False
-        self.camera: Camera = named(self.view)
+        self.camera: Camera = named(self.look.view)
 
-    def look_from(self, view: View) -> None:
-        """Go to a named viewpoint."""
-        self.view, self.camera = view, named(view, self._left_handed)
+    def look_from(self, look: Look) -> None:
+        """Go to a named viewpoint, and swap the sides or not; what is so already stays as it was turned."""
+        if look.view is not self.look.view:
+            self.camera = named(look.view, self._left_handed)
+        self.look = look
+        self.camera = replace(self.camera, mirrored=look.mirrored)
+
+    def _back_to_the_view(self) -> None:
+        self.camera = replace(named(self.look.view, self._left_handed), mirrored=self.look.mirrored)
 
     def steer(self, io: imgui.IO) -> None:
         """Turn, shift or approach with the mouse; a double click goes back to the named view."""
         dx, dy = io.mouse_delta
+        way = -1 if self.camera.mirrored else 1
         if imgui.is_mouse_dragging(imgui.MouseButton_.left):
-            self.camera = self.camera.orbited(dx * _ORBIT_PER_PIXEL, dy * _ORBIT_PER_PIXEL)
+            self.camera = self.camera.orbited(dx * way * _ORBIT_PER_PIXEL, dy * _ORBIT_PER_PIXEL)
         elif imgui.is_mouse_dragging(imgui.MouseButton_.right):
-            self.camera = self.camera.panned(-dx * _PAN_PER_PIXEL, dy * _PAN_PER_PIXEL)
+            self.camera = self.camera.panned(-dx * way * _PAN_PER_PIXEL, dy * _PAN_PER_PIXEL)
         if io.mouse_wheel:
             self.camera = self.camera.zoomed(_ZOOM_PER_STEP**io.mouse_wheel)
         if imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
-            self.look_from(self.view)
+            self._back_to_the_view()
 
     def draw(self, snapshot: Snapshot, report: Report | None, area: Area) -> None:
         """Fill the window's framebuffer; `area` is what the panels leave free."""
@@ -102,7 +118,7 @@ class Backdrop:
     ) -> None:
         if snapshot.kit.left_handed != self._left_handed:
             self._left_handed = snapshot.kit.left_handed
-            self.look_from(self.view)
+            self._back_to_the_view()
         began = perf_counter()
         target = self._smooth_target(painter, whole)
         into = screen if target is None else target.framebuffer

@@ -9,6 +9,7 @@ from itertools import groupby
 from imgui_bundle import imgui
 
 from station.app import theme
+from station.app.backdrop import Look
 from station.app.choice import MAX_LOOPS, MAX_TEMPO_BPM, MIN_TEMPO_BPM, Choice
 from station.app.keyboard import KEYS
 from station.app.model import LessonCard, RoomState, Stage
@@ -89,8 +90,12 @@ class LessonsPanel:
         tooltip("Count-in, demonstration, then you (Enter)")
 
 
-def transport_bar(room: RoomState, view: View, actions: "dict[str, Callable[[], None]]") -> View:
-    """Stop or go on, progress, the viewpoint; returns the view that was chosen."""
+_RIGHT_PART = 330
+"""Design pixels that the viewpoint's controls take."""
+
+
+def transport_bar(room: RoomState, look: Look, actions: "dict[str, Callable[[], None]]") -> Look:
+    """Stop or go on, progress, the viewpoint; returns the look that was chosen."""
     height = theme.points(38)
     if room.stage is Stage.PLAYING:
         if imgui.button(STOP_LABEL, imgui.ImVec2(theme.points(96), height)):
@@ -107,8 +112,8 @@ def transport_bar(room: RoomState, view: View, actions: "dict[str, Callable[[], 
     if room.stage is not Stage.IDLE:
         imgui.same_line()
     if room.progress is not None:
-        right = theme.points(236)
-        imgui.progress_bar(room.progress, imgui.ImVec2(imgui.get_content_region_avail().x - right, height), "")
+        room_left = imgui.get_content_region_avail().x - theme.points(_RIGHT_PART)
+        imgui.progress_bar(room.progress, imgui.ImVec2(max(room_left, 1.0), height), "")
         tooltip("How much of the session is over")
         imgui.same_line()
     elif room.stage is Stage.IDLE:
@@ -116,11 +121,14 @@ def transport_bar(room: RoomState, view: View, actions: "dict[str, Callable[[], 
         imgui.text_disabled(" · ".join(part for part in (room.kit, room.sound) if part) or "no kit, no sound card")
         tooltip("The kit and the sound card that were found")
         imgui.same_line()
-    imgui.set_cursor_pos_x(imgui.get_window_width() - theme.points(236))
-    imgui.set_next_item_width(theme.points(220))
-    changed, index = imgui.combo("##view", int(view), list(VIEW_NAMES.values()))
+    imgui.set_cursor_pos_x(imgui.get_window_width() - theme.points(_RIGHT_PART))
+    _, mirrored = imgui.checkbox("mirror", look.mirrored)
+    tooltip("Left and right swapped, to learn face to face as from a mirror")
+    imgui.same_line()
+    imgui.set_next_item_width(-1)
+    changed, index = imgui.combo("##view", int(look.view), list(VIEW_NAMES.values()))
     tooltip("Where you look from; drag in the picture to turn, right drag to shift, wheel to come nearer")
-    return View(index) if changed else view
+    return Look(View(index) if changed else look.view, bool(mirrored))
 
 
 def keys_help(frame_ms: float) -> None:

@@ -16,7 +16,6 @@ from station.app.keyboard import pressed
 from station.app.model import PracticeModel, Stage
 from station.core.clock import Clock, MonotonicClock
 from station.core.errors import DeviceError, StationError
-from station.render.camera import View
 
 TITLE = "Drum station"
 _DOCK = "MainDockSpace"
@@ -216,9 +215,7 @@ class Window:
             "again": self._start,
             "back": self._model.dismiss,
         }
-        view = panels.transport_bar(self._model.room(), self.backdrop.view, actions)
-        if view is not self.backdrop.view:
-            self.backdrop.look_from(View(view))
+        self.backdrop.look_from(panels.transport_bar(self._model.room(), self.backdrop.look, actions))
 
     def _keys_window(self) -> None:
         imgui.set_next_window_size(imgui.ImVec2(theme.points(380), 0), imgui.Cond_.appearing)

@@ -95,7 +95,7 @@ def named(view: View, left_handed: bool = False) -> Camera:
 
 
 _CAMERAS = {
-    View.FRONT: Camera((0.06, 0.40, 0.70), 72 * _DEG, 13 * _DEG, 3.3, 0.66),
+    View.FRONT: Camera((0.06, 0.40, 0.70), 70 * _DEG, 13 * _DEG, 2.95, 0.66),
     View.SHOULDER: Camera((0.02, 0.60, 0.70), -54 * _DEG, 50 * _DEG, 1.85, 0.78),
     View.EYES: Camera((0.05, 0.74, 0.62), -90 * _DEG, 54 * _DEG, 0.86, 1.15),
     View.TOP: Camera((0.08, 0.48, 0.6), -90 * _DEG, 88 * _DEG, 2.1, 0.80),

@@ -16,8 +16,7 @@ from station.render.materials import Material
 from station.render.mesh import Mesh, joined, lathe, new_mesh
 
 FLOOR_HALF_M = 5.0
-"""The floor's picture covers x and y from −5 m to +5 m, so that the rug's weave is about a centimetre a texel."""
-FLOOR_TEXELS = 1024
+"""The floor's picture covers x and y from −5 m to +5 m, so that a texel is about a centimetre."""
 WALL_RADIUS_M = 5.0
 WALL_HEIGHT_M = 3.6
 WALL_TEXELS = (1024, 256)
@@ -57,13 +56,13 @@ def wall_mesh(segments: int = 64) -> Mesh:
 # --- the floor's picture ----------------------------------------------------------------------------------------------
 
 
-def floor_picture(discs: Iterable[Disc], light: Light) -> NDArray[np.uint8]:
-    """The lit floor, shape (FLOOR_TEXELS, FLOOR_TEXELS, 4), row 0 at the smallest y.
+def floor_picture(discs: Iterable[Disc], light: Light, texels: int) -> NDArray[np.uint8]:
+    """The lit floor, shape (texels, texels, 4), row 0 at the smallest y.
 
     Red, green and blue as they look where the key light falls; the fourth channel is the share that goes where it does
     not.
     """
-    axis = np.asarray((np.arange(FLOOR_TEXELS) + 0.5) / FLOOR_TEXELS * 2 * FLOOR_HALF_M - FLOOR_HALF_M, np.float32)
+    axis = np.asarray((np.arange(texels) + 0.5) / texels * 2 * FLOOR_HALF_M - FLOOR_HALF_M, np.float32)
     x, y = axis[None, :], np.asarray(axis[:, None] + _CENTRE_Y, np.float32)
     colour = _boards(x, y)
     across, along = (np.flatnonzero(np.abs(axis) < half + _FRINGE_M) for half in _RUG_HALF)

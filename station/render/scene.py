@@ -55,19 +55,20 @@ _RIGID_NAMES = ("position", "normal", "tangent", "bone", "material", "ao")
 
 @dataclass(frozen=True, slots=True)
 class Quality:
-    """How much work a picture is worth: shader level 0–2, shadow map size, roundness, small hardware."""
+    """How much work a picture is worth: shader level 0–2, sizes of shadow map and floor, roundness, small hardware."""
 
     level: int
     shadow_texels: int
+    floor_texels: int
     detail: Detail
     figure_cell: float
     samples: int
 
 
 QUALITIES = (
-    Quality(0, 768, Detail(28, hardware=False), 2.5, 0),
-    Quality(1, 1024, Detail(48, hardware=True), 1.5, 4),
-    Quality(2, 2048, Detail(80, hardware=True), 1.0, 4),
+    Quality(0, 768, 768, Detail(28, hardware=False), 2.5, 0),
+    Quality(1, 1024, 1024, Detail(48, hardware=True), 1.5, 4),
+    Quality(2, 2048, 1536, Detail(80, hardware=True), 1.0, 4),
 )
 """Lowest to highest; `figure_cell` multiplies the cell size that the figure's surface is cut with."""
 
@@ -110,7 +111,7 @@ class Scene:
 
     def _textures(self, kit: Kit) -> None:
         ctx = self._ctx
-        floor, wall = room.floor_picture(floor_discs(kit), _KEY), room.wall_picture()
+        floor, wall = room.floor_picture(floor_discs(kit), _KEY, self.quality.floor_texels), room.wall_picture()
         self._floor = ctx.texture(floor.shape[1::-1], 4, floor.tobytes())
         self._floor.build_mipmaps()
         self._floor.filter = moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR

@@ -130,7 +130,10 @@ def look(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     for view in View:
         ctx.combo_click(f"##view/{VIEW_NAMES[view]}")
         ctx.yield_(2)
-        drive.seen[view.name] = drive.window.backdrop.view.name
+        drive.seen[view.name] = drive.window.backdrop.look.view.name
+    ctx.item_click("mirror")
+    ctx.yield_(2)
+    drive.seen["mirrored"] = drive.window.backdrop.camera.mirrored
     before = drive.window.backdrop.camera.azimuth_rad
     ctx.mouse_move_to_pos(imgui.ImVec2(600, 200))
     ctx.mouse_drag_with_delta(imgui.ImVec2(60, 0))

@@ -69,6 +69,7 @@ def test_every_viewpoint_can_be_chosen_and_turned(environment: dict[str, str], t
     seen = run("look", environment, tmp_path)
     for view in ("FRONT", "SHOULDER", "EYES", "TOP", "HANDS", "FEET"):
         assert seen[view] == view
+    assert seen["mirrored"]
     assert abs(seen["turned"]) > 0.1
 
 
