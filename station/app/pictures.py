@@ -8,7 +8,6 @@ from station.motion.drummer import Drummer
 from station.motion.figure import figure_of
 from station.motion.kit import DEFAULT_KIT, load_kit
 from station.music.judgement import Label
-from station.music.score import Score
 from station.practice.session import SessionResult
 from station.render.picture import draw_png
 from station.render.snapshot import Extra, Hud, Snapshot, mark, no_marks
@@ -17,9 +16,9 @@ from station.scoring.alignment import judgements
 SIZE = (1280, 720)
 
 
-def draw_score(score: Score, at_s: float, path: Path, size: tuple[int, int] = SIZE, kit: str = "") -> None:
-    """The drummer playing `score` at `at_s` seconds, as a PNG; raises `DeviceError` without OpenGL or disk."""
-    draw_png(_picture_of(score, at_s, kit), path, size)
+def draw_drummer(drummer: Drummer, at_s: float, path: Path, size: tuple[int, int] = SIZE) -> None:
+    """The drummer at `at_s` seconds of the score, as a PNG; raises `DeviceError` without OpenGL or disk."""
+    draw_png(_picture_of(drummer, at_s), path, size)
 
 
 def draw_session(result: SessionResult, path: Path) -> None:
@@ -27,7 +26,8 @@ def draw_session(result: SessionResult, path: Path) -> None:
     plan = result.plan
     last_pass_s = (result.score.length_ns - plan.section.length_ns) / NS_PER_S
     bar_s = plan.section.length_ns / NS_PER_S / plan.section.bar_count
-    snapshot = _picture_of(result.score, last_pass_s + bar_s / 2, plan.lesson.kit)
+    drummer = Drummer(result.score, load_kit(plan.lesson.kit or DEFAULT_KIT), figure_of())
+    snapshot = _picture_of(drummer, last_pass_s + bar_s / 2)
     marks = no_marks(result.score)
     extras = []
     for judgement in judgements(result.score, result.performance, result.alignment):
@@ -46,9 +46,9 @@ def draw_session(result: SessionResult, path: Path) -> None:
     draw_png(replace(snapshot, marks=marks, extras=tuple(extras), hud=hud), path, SIZE)
 
 
-def _picture_of(score: Score, at_s: float, kit_name: str) -> Snapshot:
-    kit, figure = load_kit(kit_name or DEFAULT_KIT), figure_of()
-    drummer = Drummer(score, kit, figure)
+def _picture_of(drummer: Drummer, at_s: float) -> Snapshot:
+    score = drummer.score
     place = score.tempo_map.position_at(int(score.tempo_map.ticks_at(at_s)))
     hud = Hud(title=score.title, bar=place.bar + 1, beat=place.beat + 1, bar_count=score.bar_count)
-    return Snapshot(score, at_s, kit, figure, drummer.pose(at_s), drummer.assignment.limbs, hud=hud)
+    pose, limbs = drummer.pose(at_s), drummer.assignment.limbs
+    return Snapshot(score, at_s, drummer.kit, drummer.figure, pose, limbs, hud=hud)
