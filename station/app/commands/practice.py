@@ -35,6 +35,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--no-demonstration", action="store_true", help="count in and play at once")
     parser.add_argument("--report", type=Path, metavar="DIR", help="where to leave the session (a new folder of yours)")
+    parser.add_argument("--no-pictures", action="store_true", help="leave a report, but no pictures")
     parser.add_argument("--student", metavar="NAME", help="whose session it is")
     parser.add_argument("--json", action="store_true", help="print the report as one JSON document")
 
@@ -66,7 +67,7 @@ def _virtual(plan: Plan, spec: str, arguments: argparse.Namespace, settings: Set
     with SessionFolder(arguments.report, settings, plan) as folder:
         virtual = practise_virtually(plan, student, folder.path / CAPTURE_NAME)
         document = practice_document(virtual.result, Circumstances(settings.student, DEVICE))
-        _leave(folder, virtual.result, with_truth(document, virtual), arguments.json)
+        _leave(folder, virtual.result, with_truth(document, virtual), arguments)
     return 0
 
 
@@ -75,7 +76,7 @@ def _live(plan: Plan, arguments: argparse.Namespace, settings: Settings) -> int:
 
     with SessionFolder(arguments.report, settings, plan) as folder:
         result, device = practise_in_terminal(plan, settings, folder.path / CAPTURE_NAME)
-        _leave(folder, result, practice_document(result, Circumstances(settings.student, device)), arguments.json)
+        _leave(folder, result, practice_document(result, Circumstances(settings.student, device)), arguments)
     return 0
 
 
@@ -89,20 +90,24 @@ def _is_kit_there(wanted: str) -> bool:
         return False
 
 
-def _leave(folder: SessionFolder, result: SessionResult, document: dict[str, Json], as_json: bool) -> None:
+def _leave(
+    folder: SessionFolder, result: SessionResult, document: dict[str, Json], arguments: argparse.Namespace
+) -> None:
     """Write everything, then print the report; what the disk refused is said after the report was printed."""
     fault = None
     try:
         folder.write(result, document)
     except StationError as error:
         fault = rescued(error, result, document)
-    if as_json:
+    if arguments.json:
         print_json(document)
     else:
         print(report_text(document), end="", flush=True)
     if fault is not None:
         raise fault
     say(f"\nreport   {folder.path / TEXT_NAME}")
+    if arguments.no_pictures:
+        return
     try:
         say(f"picture  {folder.draw(result, document)}")
     except StationError as error:

@@ -30,7 +30,9 @@ def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
 
 def practise(capsys: pytest.CaptureFixture[str], *words: str) -> dict[str, object]:
     student = "seed=1,sd_ms=12,bias_ms=-8,miss_pct=3,extra_pct=2"
-    assert main(["practice", "rock-1", "--headless", "--virtual-student", student, "--json", *words]) == 0
+    assert (
+        main(["practice", "rock-1", "--headless", "--virtual-student", student, "--json", "--no-pictures", *words]) == 0
+    )
     document = json.loads(capsys.readouterr().out)
     assert isinstance(document, dict)
     return document
