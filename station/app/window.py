@@ -19,6 +19,7 @@ from station.core.errors import DeviceError, StationError
 
 TITLE = "Drum station"
 _DOCK = "MainDockSpace"
+_NO_WINDOW = "no window can be opened: is there a screen, and OpenGL? `station practice --headless` needs neither"
 LESSONS, TRANSPORT, KEYS = "Lessons", "Transport", "Keys"
 _NEWS_SHOWN_S = 8.0
 """How long a fault or a notice stays on the screen (our choice: twice the time to read it)."""
@@ -59,9 +60,11 @@ class Window:
         try:
             hello_imgui.run(self.params)
         except RuntimeError as fault:
-            raise DeviceError(f"no window can be opened: {fault}") from fault
+            if self.frames:
+                raise
+            raise DeviceError(_NO_WINDOW) from fault
         if self.frames == 0:
-            raise DeviceError("no window can be opened: is there a screen? `--headless` needs none")
+            raise DeviceError(_NO_WINDOW)
 
     # --- how hello_imgui is told ----------------------------------------------------------------------------------
 

@@ -33,6 +33,7 @@ class Painter:
 
     def __init__(self, ctx: moderngl.Context, quality: Quality = QUALITIES[1]) -> None:
         self._ctx = ctx
+        ctx.gc_mode = "context_gc"  # what is dropped is given back by `gc`, while this context is the current one
         self.quality = quality
         self.atlas = Atlas()
         self.printer = InkPrinter(ctx, self.atlas)
@@ -68,6 +69,8 @@ class Painter:
         """The scene of the snapshot's kit and figure; the same ones, even if read anew, are not built anew."""
         wanted = (snapshot.kit, snapshot.figure)
         if self._scene is None or self._played is None or not _same(wanted, self._played):
+            self._scene = None
+            self._ctx.gc()
             self._scene = Scene(self._ctx, *wanted, self.quality)
         self._played = wanted
         return self._scene

@@ -4,6 +4,7 @@ Each scenario of `drive.py` runs in a process of its own; what it saw is compare
 """
 
 import json
+import os
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -83,3 +84,12 @@ def test_a_fault_is_said_in_one_line(environment: dict[str, str], tmp_path: Path
     seen = run("fault", environment, tmp_path)
     assert seen["news"] == "lesson: bar 3: no such thing"
     assert seen["after"] == "IDLE"
+
+
+def test_without_a_screen_one_line_says_so(tmp_path: Path) -> None:
+    bare = {name: value for name, value in os.environ.items() if name not in {"DISPLAY", "WAYLAND_DISPLAY"}}
+    command = [sys.executable, str(DRIVE), "look", str(tmp_path / "sessions"), str(tmp_path / "seen.json")]
+    done = subprocess.run(
+        command, env={**bare, "PYTHONPATH": str(ROOT)}, capture_output=True, text=True, timeout=PATIENCE_S, check=False
+    )
+    assert "DeviceError: no window can be opened: is there a screen" in done.stderr
