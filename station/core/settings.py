@@ -32,8 +32,8 @@ class Settings:
 
     `kit` part of the MIDI port's name, empty for the first kit found; `output` part of the sound device's name, empty
     for the system's default; `block_frames` the size of one audio block, 0 for the driver's own choice; `rate_hz` its
-    sample rate; `drums` the name or the path of the drum kit that sounds; latencies in milliseconds, subtracted from
-    every hit (input) and added to every written time (output).
+    sample rate; `drums` the name or the path of the drum kit that sounds, `click` the name of the click; latencies in
+    milliseconds, subtracted from every hit (input) and added to every written time (output).
     """
 
     student: str = "student"
@@ -45,6 +45,7 @@ class Settings:
     output_latency_ms: float = 0.0
     own_sound: bool = True
     drums: str = "acoustic"
+    click: str = "bar"
     sessions: str = ""
 
     @property

@@ -30,8 +30,9 @@ from station.engine.card import Card
 from station.engine.engine import Engine
 from station.engine.messages import Command, EngineEvent, Notice, Quit, Ready
 from station.engine.runner import Runner
-from station.sound.click import click_sounds
-from station.sound.drum_kit import DrumKit
+from station.sound.buses import ClickVoice
+from station.sound.click import DEFAULT_TIMBRE, click_sounds
+from station.sound.drum_kit import DrumKit, Frames
 from station.sound.kits.load import DEFAULT_KIT, load_kit
 from station.sound.mixer import Mixer
 from station.sound.output import open_output
@@ -51,8 +52,8 @@ class EngineConfig:
     """What the engine process opens.
 
     `kits` holds for each kit part of its port's name, empty for the first kit found; `midi_driver` is "auto" or one of
-    `station.devices.midi_ports.compiled_drivers()`; `output`, `block_frames`, `rate_hz` and `drums` stand as in
-    `Settings`; without `sound` no card is opened.
+    `station.devices.midi_ports.compiled_drivers()`; `output`, `block_frames`, `rate_hz`, `drums` and `click`
+    stand as in `Settings`; without `sound` no card is opened.
     """
 
     kits: tuple[str, ...] = ("",)
@@ -62,6 +63,7 @@ class EngineConfig:
     block_frames: int = 0
     rate_hz: int = 48_000
     drums: str = DEFAULT_KIT
+    click: str = DEFAULT_TIMBRE
 
     @classmethod
     def from_settings(cls, settings: Settings) -> Self:
@@ -72,6 +74,7 @@ class EngineConfig:
             block_frames=settings.block_frames,
             rate_hz=settings.rate_hz,
             drums=settings.drums,
+            click=settings.click,
         )
 
 
@@ -217,7 +220,7 @@ def _card(engine: Engine, config: EngineConfig) -> Card:
     return Card(
         engine,
         lambda: open_output(config.output, config.block_frames, config.rate_hz),
-        lambda rate_hz: Mixer(_drums(engine, config.drums, rate_hz), click_sounds(rate_hz)),
+        lambda rate_hz: Mixer(_drums(engine, config.drums, rate_hz), _clicks(engine, config.click, rate_hz)),
     )
 
 
@@ -228,6 +231,15 @@ def _drums(engine: Engine, name: str, rate_hz: int) -> DrumKit:
     except StationError as fault:
         engine.notify(f"{fault}; the {DEFAULT_KIT} kit plays instead")
         return load_kit(DEFAULT_KIT, rate_hz)
+
+
+def _clicks(engine: Engine, timbre: str, rate_hz: int) -> dict[ClickVoice, Frames]:
+    """The clicks of `timbre`, likewise."""
+    try:
+        return click_sounds(rate_hz, timbre)
+    except StationError as fault:
+        engine.notify(f"{fault}; the click called {DEFAULT_TIMBRE} plays instead")
+        return click_sounds(rate_hz)
 
 
 class _Outbox:

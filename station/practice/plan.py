@@ -5,7 +5,7 @@ segments of the timeline out. Times are nanoseconds from the transport's zero un
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import IntEnum
 
 import numpy as np
@@ -14,17 +14,16 @@ from numpy.typing import NDArray
 from station.core.errors import BadInput
 from station.core.units import NS_PER_S
 from station.drills.lesson import Lesson
-from station.engine.messages import CUE_DTYPE, Bus, ClickVoice
+from station.engine.messages import CUE_DTYPE, Bus
 from station.motion.kit import DEFAULT_KIT, load_kit
 from station.motion.limbs import assign_limbs
 from station.music.score import Score
-from station.music.tempo import TempoMap
+from station.practice.click import PLAIN, ClickPattern, click_cues, count_in, counting, pickup_of
 
 MIN_TEMPO_BPM, MAX_TEMPO_BPM = 20.0, 400.0
 """The range of GrooveScribe (PEERS); beyond it neither a click nor a drummer makes sense."""
 MAX_LOOPS = 1000
 """Our choice: eight hours of a two-bar loop."""
-_ACCENT_VELOCITY, _BEAT_VELOCITY = 110, 90
 
 
 class Phase(IntEnum):
@@ -48,12 +47,16 @@ class Segment:
 
 @dataclass(frozen=True, slots=True)
 class Wishes:
-    """What a student asks of a lesson; None leaves the choice to the lesson. `bars` (first, last) counts from 1."""
+    """What a student asks of a lesson; None leaves the choice to the lesson. `bars` (first, last) counts from 1.
+
+    `click` is for the demonstrations and passes; the count-in clicks, or counts, every beat.
+    """
 
     tempo_bpm: float | None = None
     loops: int | None = None
     bars: tuple[int, int] | None = None
     demonstrations: int | None = None
+    click: ClickPattern = PLAIN
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,13 +98,15 @@ def plan_practice(lesson: Lesson, wishes: Wishes) -> Plan:
     segments: list[Segment] = []
     cues: list[NDArray[np.void]] = []
     now_ns = 0
+    click = wishes.click
     count_in = _count_in(section, max(lesson.count_in_bars, 1))
-    section_cues = np.concatenate([click_cues(section.tempo_map, section.end_tick), demonstration_cues(section)])
+    count_in_cues = click_cues(count_in.tempo_map, count_in.end_tick, counting(click))
+    section_cues = np.concatenate([click_cues(section.tempo_map, section.end_tick, click), demonstration_cues(section)])
     for phase, times in ((Phase.DEMONSTRATION, demonstrations), (Phase.PASS, passes)):
         if times == 0:
             continue
         segments.append(Segment(Phase.COUNT_IN, 0, now_ns, now_ns + count_in.length_ns))
-        cues.append(_moved(click_cues(count_in.tempo_map, count_in.end_tick), now_ns))
+        cues.append(_moved(count_in_cues, now_ns))
         now_ns += count_in.length_ns
         whole = section.repeated(times)
         ends = whole.tempo_map.ns_at(np.arange(1, times + 1) * section.end_tick)
@@ -110,7 +115,7 @@ def plan_practice(lesson: Lesson, wishes: Wishes) -> Plan:
                 cues.append(_moved(section_cues, now_ns + start))
         else:
             passes_start_ns = now_ns
-            cues.append(_moved(click_cues(whole.tempo_map, whole.end_tick), now_ns))
+            cues.append(_moved(click_cues(whole.tempo_map, whole.end_tick, click), now_ns))
         segments += [
             Segment(phase, i, now_ns + start, now_ns + end)
             for i, (start, end) in enumerate(zip((0, *ends[:-1].tolist()), ends.tolist(), strict=True))
@@ -128,19 +133,6 @@ def plan_practice(lesson: Lesson, wishes: Wishes) -> Plan:
         end_ns=now_ns,
         cues=_in_order(cues),
     )
-
-
-def click_cues(tempo_map: TempoMap, end_tick: int) -> NDArray[np.void]:
-    """A click on every beat of [0, `end_tick`), accented on each bar's first."""
-    beats = tempo_map.beats_between(0, end_tick)
-    cues = np.zeros(len(beats), CUE_DTYPE)
-    cues["at_ns"] = tempo_map.ns_at([tick for tick, _ in beats])
-    cues["bus"] = Bus.CLICK
-    first = np.array([index == 0 for _, index in beats], bool)
-    cues["piece"] = np.where(first, ClickVoice.ACCENT, ClickVoice.BEAT)
-    cues["velocity"] = np.where(first, _ACCENT_VELOCITY, _BEAT_VELOCITY)
-    cues["openness"] = np.nan
-    return cues
 
 
 def demonstration_cues(score: Score) -> NDArray[np.void]:
@@ -167,10 +159,9 @@ def _with_sticking(section: Score, lesson: Lesson) -> Score:
 
 
 def _count_in(section: Score, bars: int) -> Score:
-    """Empty bars at the section's first tempo and meter."""
-    meter, tempo = section.tempo_map.meters[0], section.tempo_map.tempos[0]
-    tempo_map = TempoMap.build([replace(tempo, tick=0)], [replace(meter, tick=0)])
-    return Score.from_notes([], tempo_map, bars * meter.bar_ticks)
+    """Empty bars at the section's first tempo and meter, up to its pickup if it has one."""
+    tempo_map, end_tick = count_in(section.tempo_map, bars, pickup_of(section.tempo_map, section.end_tick))
+    return Score.from_notes([], tempo_map, end_tick)
 
 
 def _moved(cues: NDArray[np.void], by_ns: int) -> NDArray[np.void]:

@@ -4,7 +4,7 @@ import pytest
 
 from station.engine.engine import Engine
 from station.engine.messages import Notice
-from station.engine.process import _drums
+from station.engine.process import _clicks, _drums
 from tests.fakes.sound_files import stroke
 
 
@@ -24,3 +24,10 @@ def test_a_kit_that_cannot_be_had_is_told_and_replaced(name: str, tmp_path: Path
     assert kit.name == "acoustic"
     (told,) = [event for event in engine.advance(0) if isinstance(event, Notice)]
     assert "the acoustic kit plays instead" in told.text
+
+
+def test_a_click_that_there_is_not_is_told_and_replaced() -> None:
+    engine = Engine()
+    assert len(_clicks(engine, "honk", 48_000)) > 3
+    (told,) = [event for event in engine.advance(0) if isinstance(event, Notice)]
+    assert "honk: no such click" in told.text

@@ -11,7 +11,8 @@ from station.core.units import NS_PER_S, PPQ
 from station.drills.lesson import Lesson
 from station.engine.messages import Bus, ClickVoice
 from station.music.score import Note, Score
-from station.music.tempo import TempoMap
+from station.music.tempo import MeterChange, TempoChange, TempoMap
+from station.practice.click import ClickBeats, ClickPattern, Gap
 from station.practice.plan import Phase, Wishes, plan_practice
 from tests.fakes.scores import rock_beat
 
@@ -52,6 +53,22 @@ def test_clicks_sound_on_every_beat_and_accent_the_first() -> None:
     assert clicks["at_ns"].tolist() == [i * NS_PER_S // 2 for i in range(3 * 4)]
     accents = np.flatnonzero(clicks["piece"] == ClickVoice.ACCENT)
     assert accents.tolist() == [0, 4, 8]
+
+
+def test_the_students_click_is_for_the_passes_and_the_count_in_stays_plain() -> None:
+    click = ClickPattern(beats=ClickBeats.BACKBEAT, gap=Gap(1, 1))
+    plan = plan_practice(lesson(), Wishes(demonstrations=0, loops=2, click=click))
+    clicks = plan.cues[plan.cues["bus"] == Bus.CLICK]
+    # a bar of four counted in, then bars of which every second is quiet and the others click on 2 and 4
+    beats = [0, 1, 2, 3, 5, 7, 13, 15]
+    assert clicks["at_ns"].tolist() == [beat * NS_PER_S // 2 for beat in beats]
+
+
+def test_the_count_in_leaves_room_for_a_pickup() -> None:
+    tempo_map = TempoMap.build([TempoChange.from_bpm(0, 120.0)], [MeterChange(0, 1, 4), MeterChange(PPQ, 4, 4)])
+    score = Score.from_notes([Note(0, Piece.SNARE, Zone.HEAD), Note(PPQ, Piece.KICK, Zone.HEAD)], tempo_map, 5 * PPQ)
+    plan = plan_practice(lesson(score), Wishes(demonstrations=0, loops=1, bars=(1, 2)))
+    assert plan.passes_start_ns == 3 * NS_PER_S // 2  # one two three; the pickup falls on four
 
 
 def test_only_demonstrations_sound_strokes() -> None:
