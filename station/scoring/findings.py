@@ -1,8 +1,9 @@
 """What a performance shows, each finding an effect with the interval that the data can bear.
 
-A detector looks at a `Summary` for one kind of fault and returns findings whose interval excludes "nothing": a mean
-with Student's interval over slots (`timing`), a share with Wilson's. `free` is what feel allows; a finding's strength
-is how far, in standard errors, its effect lies beyond that. Sentences are written by `advice`.
+Habits come from two regressions (`habits`), losses from shares with Wilson's interval, a common lean and unsteadiness
+from the asynchronies themselves. Nothing is found that chance or feel explains: an effect counts if it lies `CHANCE`
+standard errors from nothing and beyond what is free. How much it matters, its severity, is its size in units of a
+clear fault of its kind. Sentences are written by `advice`.
 """
 
 from collections.abc import Sequence
@@ -12,29 +13,84 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Piece, word
+from station.music import passages
 from station.music.judgement import Label
 from station.scoring.alignment import Reference
+from station.scoring.habits import CHANCE
 from station.scoring.points import FREE_LEAN_MS
+from station.scoring.regression import CONSTANT, Effect
 from station.scoring.summary import Summary
-from station.scoring.timing import StandardError, asynchrony_ms, standard_error, t_quantile_95, timed_notes
+from station.scoring.timing import asynchrony_ms, t_quantile_95, timed_notes
 
-FREE_BIAS_MS = 10.0
-"""Full marks within 10 ms (HUMANS); less than that of a common lean is nobody's fault."""
+Floats = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 
-MIN_NOTES = 8
-"""Fewer notes bear no sentence (our choice: a bar of eighths)."""
-
-FREE_LOSS = 0.02
-"""Two strokes in a hundred go wrong with anyone (our choice; TEACHING's pass allows one wrong pad in 50)."""
+MIN_SLOTS = 6
+"""Fewer moments bear no sentence (our choice)."""
 
 _Z_95 = 1.959964
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """A fault that one effect shows: `sign` of the effect, what is `free`, what is `clear`, both in `unit`."""
+
+    fault: str
+    effect: str
+    sign: int
+    free: float
+    clear: float
+    unit: str
+
+
+_FREE_MS, _CLEAR_MS = 3.0, 25.0
+"""HUMANS: 6 ms are just heard in fast strokes, 25 ms by anyone; half of what is just heard is worth no sentence."""
+
+_FREE_DB, _CLEAR_DB = 1.5, 4.0
+"""HUMANS: 1 dB is just noticeable to the skilled, 2–3 to others."""
+
+KINDS = (
+    Kind("late_kick", "kick", 1, FREE_LEAN_MS, _CLEAR_MS, "ms"),
+    Kind("early_kick", "kick", -1, FREE_LEAN_MS, _CLEAR_MS, "ms"),
+    Kind("slow_hihat_foot", "hihat_pedal", 1, FREE_LEAN_MS, _CLEAR_MS, "ms"),
+    Kind("early_hihat_foot", "hihat_pedal", -1, FREE_LEAN_MS, _CLEAR_MS, "ms"),
+    Kind("rush_fills", "fills", -1, _FREE_MS, _CLEAR_MS, "ms"),
+    Kind("drag_fills", "fills", 1, _FREE_MS, _CLEAR_MS, "ms"),
+    Kind("drag_slow", "long_waits", 1, _FREE_MS, _CLEAR_MS, "ms"),
+    Kind("rush_slow", "long_waits", -1, _FREE_MS, _CLEAR_MS, "ms"),
+    Kind("uneven_doubles", "doubles", -1, _FREE_MS, _CLEAR_MS, "ms"),
+    Kind("lazy_doubles", "doubles", 1, _FREE_MS, _CLEAR_MS, "ms"),
+    Kind("wide_flams", "flams", 1, 1.2, 20.0, "ms"),
+    Kind("tight_flams", "flams", -1, 1.2, 20.0, "ms"),
+    Kind("weak_left", "left_level", -1, _FREE_DB, _CLEAR_DB, "dB"),
+    Kind("weak_right", "left_level", 1, _FREE_DB, _CLEAR_DB, "dB"),
+    Kind("loud_ghosts", "ghost_level", 1, _FREE_DB, _CLEAR_DB, "dB"),
+    Kind("flat_accents", "accent_level", -1, _FREE_DB, _CLEAR_DB, "dB"),
+)
+"""Every fault that a habit's effect can show. Ghosts that are softer and accents that are louder are nobody's fault."""
+
+SWING_FREE = (1.3, 3.5)
+"""Long:short ratios that are feel."""
+_CLEAR_SWING = 0.5
+
+FREE_BIAS_MS, _CLEAR_BIAS_MS = 20.0, 40.0
+"""Professionals play 10–16 ms ahead of the click (HUMANS); 40 ms are a clear fault."""
+
+FREE_LOSS, _CLEAR_LOSS = 0.05, 0.2
+"""One stroke in twenty goes wrong with anyone; one in five is what to work at (our choice; TEACHING's pass is 90 %)."""
+
+_LEAST_SD_MS, _MOST_SD_MS, _SD_SHARE = 20.0, 35.0, 0.15
+"""TEACHING: a pass's SD is at most min(35, max(20, 15 % of the interval)) ms."""
+
+_UNSTEADY_SEVERITY = 0.1
+"""Slower is the answer to every spread: said when nothing more telling is found."""
 
 
 @dataclass(frozen=True, slots=True)
 class Finding:
     """One fault: its size with sign and 95 % interval in `unit`, the lesson's bars (from 0) where it is worst.
 
-    `subject` names the piece, limb … that it is about, in words; `strength` in standard errors beyond what is free.
+    `subject` names the piece … that it is about, in words; `severity` is 1 for a clear fault of its kind.
     """
 
     fault: str
@@ -42,59 +98,146 @@ class Finding:
     effect: float
     ci: tuple[float, float]
     unit: str
-    strength: float
+    severity: float
     bars: tuple[int, ...]
 
 
 def find_all(summary: Summary) -> list[Finding]:
-    """Every finding, the strongest first."""
-    found = [*_common_lean(summary), *_leans(summary), *_losses(summary), *_wrong_pieces(summary)]
-    return sorted(found, key=lambda finding: -finding.strength)
+    """Every finding, the severest first."""
+    found = [
+        *_habits(summary),
+        *_swing(summary),
+        *_leans(summary),
+        *_common_lean(summary),
+        *_unsteady(summary),
+        *_losses(summary),
+        *_wrong_pieces(summary),
+    ]
+    return sorted(found, key=lambda finding: -finding.severity)
 
 
-def _of_mean(
-    fault: str, subject: str, effect: float, error: StandardError, free: float, bars: Sequence[int]
-) -> list[Finding]:
-    """A finding in ms if the interval of `effect` lies beyond ±`free`, else nothing."""
-    half = t_quantile_95(error.freedom) * error.value
-    if abs(effect) - half <= free:
+# --- habits -----------------------------------------------------------------------------------------------------------
+
+
+def _habits(summary: Summary) -> list[Finding]:
+    found = []
+    for kind in KINDS:
+        effect = summary.habits.effects.get(kind.effect)
+        if effect is not None and effect.value * kind.sign > kind.free and _is_sure(effect):
+            bars = _bars_of_habit(summary, kind)
+            severity = abs(effect.value) / kind.clear
+            found.append(Finding(kind.fault, "", effect.value, _interval(effect), kind.unit, severity, bars))
+    return found
+
+
+def _is_sure(effect: Effect) -> bool:
+    return effect.slots >= MIN_SLOTS and abs(effect.value) > CHANCE * effect.error
+
+
+def _interval(effect: Effect) -> tuple[float, float]:
+    half = t_quantile_95(effect.slots - 1.0) * effect.error
+    return effect.value - half, effect.value + half
+
+
+def _bars_of_habit(summary: Summary, kind: Kind) -> tuple[int, ...]:
+    """Where the strokes concerned are farthest to the fault's side; every bar that has them where time says nothing."""
+    strokes = summary.habits.strokes[kind.effect] & timed_notes(summary.score, summary.alignment)
+    if kind.unit == "ms" and strokes.any():
+        off = asynchrony_ms(summary.alignment)[strokes] * kind.sign
+        return tuple(worst_bars(summary, off - off.min(), strokes))
+    concerned = summary.habits.strokes[kind.effect]
+    return tuple(worst_bars(summary, np.ones(int(concerned.sum())), concerned))
+
+
+def _swing(summary: Summary) -> list[Finding]:
+    """Swing that is held straighter or harder than feel allows; the effect is in ratios against what is written."""
+    effect = summary.habits.effects.get("swing")
+    flags, _, places = passages.swung(summary.score)
+    if effect is None or not flags.any() or not _is_sure(effect):
         return []
-    strength = (abs(effect) - free) / max(error.value, 1e-6)
-    return [Finding(fault, subject, effect, (effect - half, effect + half), "ms", strength, tuple(bars))]
+    written = float(np.median(places[flags]))
+    held, low, high = (_ratio(written + effect.value + k * effect.error) for k in (0.0, -_Z_95, _Z_95))
+    if SWING_FREE[0] <= held <= SWING_FREE[1]:
+        return []
+    fault = "straight_swing" if held < SWING_FREE[0] else "hard_swing"
+    bars = tuple(worst_bars(summary, np.ones(int(flags.sum())), flags))
+    asked = _ratio(written)
+    severity = abs(held - asked) / _CLEAR_SWING
+    return [
+        Finding(
+            fault, f"{held:.1f}:1 for {asked:.1f}:1", held - asked, (low - asked, high - asked), "ratio", severity, bars
+        )
+    ]
+
+
+def _ratio(place: float) -> float:
+    inside = min(max(place, 0.05), 0.95)
+    return inside / (1 - inside)
+
+
+def _leans(summary: Summary) -> list[Finding]:
+    """A hand's piece that stands apart from the other pieces by more than feel; of two the one with fewer strokes."""
+    found = []
+    for name, effect in summary.habits.effects.items():
+        if name.startswith("lean_") and abs(effect.value) > FREE_LEAN_MS and _is_sure(effect):
+            strokes = summary.habits.strokes[name] & timed_notes(summary.score, summary.alignment)
+            piece = name.removeprefix("lean_")
+            off = asynchrony_ms(summary.alignment)[strokes] * np.sign(effect.value)
+            bars = tuple(worst_bars(summary, off - off.min(), strokes))
+            fault = f"{'late' if effect.value > 0 else 'early'}_{piece}"
+            finding = Finding(
+                fault,
+                piece.replace("_", " "),
+                effect.value,
+                _interval(effect),
+                "ms",
+                abs(effect.value) / _CLEAR_MS,
+                bars,
+            )
+            found.append((int(strokes.sum()), finding))
+    return [finding for _, finding in sorted(found, key=lambda pair: pair[0])[:1]]
+
+
+# --- the whole --------------------------------------------------------------------------------------------------------
 
 
 def _common_lean(summary: Summary) -> list[Finding]:
     """Everything early or late against the click."""
     if summary.alignment.reference is Reference.PLAYER:
         return []
+    effect = summary.habits.effects.get(CONSTANT)
+    if effect is None or abs(effect.value) <= FREE_BIAS_MS or not _is_sure(effect):
+        return []
     timed = timed_notes(summary.score, summary.alignment)
     off = asynchrony_ms(summary.alignment)[timed]
-    error = standard_error(off, summary.score.notes["tick"][timed])
-    if error is None or len(off) < MIN_NOTES:
+    side = np.sign(effect.value)
+    bars = tuple(worst_bars(summary, off * side - (off * side).min(), timed))
+    fault = "late" if effect.value > 0 else "early"
+    return [Finding(fault, "", effect.value, _interval(effect), "ms", abs(effect.value) / _CLEAR_BIAS_MS, bars)]
+
+
+def _unsteady(summary: Summary) -> list[Finding]:
+    """A spread, leans and habits apart, beyond what a pass allows; its interval by the normal law of SDs."""
+    sd, count = summary.habits.timing_sd_ms, summary.timing.count
+    if sd is None or count < 4 * MIN_SLOTS:
         return []
-    effect = float(off.mean())
-    fault = "late" if effect > 0 else "early"
-    return _of_mean(fault, "everything", effect, error, FREE_BIAS_MS, worst_bars(summary, off * np.sign(effect), timed))
+    limit = min(_MOST_SD_MS, max(_LEAST_SD_MS, _SD_SHARE * _usual_interval_ms(summary)))
+    half = _Z_95 * sd / (2 * count) ** 0.5
+    if sd - half <= limit:
+        return []
+    timed = timed_notes(summary.score, summary.alignment)
+    off = asynchrony_ms(summary.alignment)[timed]
+    bars = tuple(worst_bars(summary, np.abs(off - np.median(off)), timed))
+    return [Finding("unsteady", f"{limit:.0f}", sd, (sd - half, sd + half), "ms", _UNSTEADY_SEVERITY, bars)]
 
 
-def _leans(summary: Summary) -> list[Finding]:
-    """A piece that stands apart from the rest by more than feel."""
-    score, timed = summary.score, timed_notes(summary.score, summary.alignment)
-    off = asynchrony_ms(summary.alignment)
-    found = []
-    for piece in np.unique(score.notes["piece"][timed]).tolist():
-        own, rest = timed & (score.notes["piece"] == piece), timed & (score.notes["piece"] != piece)
-        errors = [standard_error(off[here], score.notes["tick"][here]) for here in (own, rest)]
-        if min(own.sum(), rest.sum()) < MIN_NOTES or errors[0] is None or errors[1] is None:
-            continue
-        effect = float(off[own].mean() - off[rest].mean())
-        error = StandardError(
-            (errors[0].value ** 2 + errors[1].value ** 2) ** 0.5, min(errors[0].freedom, errors[1].freedom)
-        )
-        side = "late" if effect > 0 else "early"
-        bars = worst_bars(summary, off[own] * np.sign(effect), own)
-        found += _of_mean(f"{side}_{word(Piece(piece))}", _name(piece), effect, error, FREE_LEAN_MS, bars)
-    return found
+def _usual_interval_ms(summary: Summary) -> float:
+    ticks, _ = passages.slots(summary.score)
+    waits = np.diff(summary.score.tempo_map.seconds_at(ticks))
+    return float(np.median(waits)) * 1e3 if len(waits) else 0.0
+
+
+# --- losses -----------------------------------------------------------------------------------------------------------
 
 
 def _losses(summary: Summary) -> list[Finding]:
@@ -104,10 +247,9 @@ def _losses(summary: Summary) -> list[Finding]:
     for piece, group in summary.by_piece.items():
         here = summary.score.notes["piece"] == piece
         missed = (label == Label.MISS).astype(np.float64)
-        bars = worst_bars(summary, missed[here], here)
-        found += _of_share("missed", _name(piece), group.misses, group.notes, bars)
-        extras, struck = group.extras or 0, group.matched + (group.extras or 0)
-        found += _of_share("extra", _name(piece), extras, struck, ())
+        found += _of_share("missed", _name(piece), (group.misses, group.notes), worst_bars(summary, missed[here], here))
+        extras = group.extras or 0
+        found += _of_share("extra", _name(piece), (extras, group.matched + extras), ())
     return found
 
 
@@ -118,40 +260,37 @@ def _wrong_pieces(summary: Summary) -> list[Finding]:
         missed = (summary.alignment.note_label == Label.WRONG_PIECE).astype(np.float64)
         bars = worst_bars(summary, missed[here], here)
         subject = f"{_name(wrong.played)} for {_name(wrong.written)}"
-        found += _of_share("wrong_piece", subject, wrong.count, int(here.sum()), bars)
+        found += _of_share("wrong_piece", subject, (wrong.count, int(here.sum())), bars)
     return found
 
 
-def _of_share(fault: str, subject: str, hit: int, of: int, bars: Sequence[int]) -> list[Finding]:
-    """A finding in percent if the interval of the share lies beyond `FREE_LOSS`, else nothing."""
-    if of < MIN_NOTES or hit < 2:
+def _of_share(fault: str, subject: str, share: tuple[int, int], bars: Sequence[int]) -> list[Finding]:
+    """A finding in percent if the interval of `share` (so many of so many) lies beyond `FREE_LOSS`, else nothing."""
+    bad, of = share
+    if bad < 2 or of < MIN_SLOTS:
         return []
-    low, high = wilson(hit, of)
-    if low <= FREE_LOSS:
+    if wilson(bad, of, CHANCE)[0] <= FREE_LOSS:
         return []
-    share = hit / of
-    strength = (share - FREE_LOSS) / max((share - low) / _Z_95, 1e-6)
-    return [Finding(fault, subject, 100 * share, (100 * low, 100 * high), "%", strength, tuple(bars))]
+    low, high = wilson(bad, of)
+    percent = 100 * bad / of
+    return [Finding(fault, subject, percent, (100 * low, 100 * high), "%", bad / of / _CLEAR_LOSS, tuple(bars))]
 
 
-def wilson(hit: int, of: int) -> tuple[float, float]:
-    """95 % interval of a share (Wilson 1927)."""
-    z2, share = _Z_95**2, hit / of
+def wilson(hit: int, of: int, z: float = _Z_95) -> tuple[float, float]:
+    """Interval of a share, `z` standard errors to both sides (Wilson 1927)."""
+    z2, share = z * z, hit / of
     centre = (share + z2 / (2 * of)) / (1 + z2 / of)
-    half = _Z_95 / (1 + z2 / of) * (share * (1 - share) / of + z2 / (4 * of * of)) ** 0.5
+    half = z / (1 + z2 / of) * (share * (1 - share) / of + z2 / (4 * of * of)) ** 0.5
     return max(centre - half, 0.0), min(centre + half, 1.0)
 
 
-def worst_bars(summary: Summary, badness: NDArray[np.float64], notes: NDArray[np.bool_], most: int = 3) -> list[int]:
-    """Up to `most` bars, in order, whose notes (mask (n,), `badness` one value each) are worse than the mean."""
+def worst_bars(summary: Summary, badness: Floats, notes: Flags, most: int = 3) -> list[int]:
+    """Up to `most` bars, in order, whose notes (mask (n,), `badness` ≥ 0, one value each) are worse than the mean."""
     bars = summary.view.bars(summary.score)[notes]
     if not len(bars):
         return []
-    total, number = np.bincount(bars, weights=badness), np.maximum(np.bincount(bars), 1)
-    mean = total / number
-    worse = [
-        int(b) for b in np.argsort(-mean, kind="stable") if b in bars and mean[b] >= badness.mean() and mean[b] > 0
-    ]
+    mean = np.bincount(bars, weights=badness) / np.maximum(np.bincount(bars), 1)
+    worse = [int(b) for b in np.argsort(-mean, kind="stable") if mean[b] > 0 and mean[b] >= badness.mean()]
     return sorted(worse[:most])
 
 

@@ -13,7 +13,7 @@ from station.scoring.alignment import Alignment, Reference, Timed, labelled
 from station.scoring.drift import local_trend, robust_sd
 from station.scoring.ignored import Unwritten
 from station.scoring.pairing import Indices, Times
-from station.scoring.settle import Settled, Side, Start, settle
+from station.scoring.settle import Settled, Side, Start, note_kinds, settle
 from station.scoring.stretches import owners
 from station.scoring.warp import Warp, Written, find_warp
 
@@ -40,7 +40,7 @@ def align_unclocked(score: Score, performance: Performance, note_class: Indices,
     unwritten = Unwritten(score).masks(performance, hit_ns)
     notes = Side(score.onset_ns, note_class, owners(score.onset_s, note_class, warp, hit_class))
     hits = Side(hit_ns, hit_class, warp.stretch)
-    settled = settle(notes, hits, ~score.is_grace, unwritten.feet, _START)
+    settled = settle(notes, hits, note_kinds(score), unwritten.feet, _START)
     return labelled(settled, _timed(score, at_ns, warp, settled), unwritten.quiet)
 
 

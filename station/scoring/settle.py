@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.units import NS_PER_MS
+from station.core.units import NS_PER_MS, PPQ
+from station.music.score import Score
 from station.scoring.drift import local_trend, robust_sd
 from station.scoring.pairing import Indices, Times, lanes, pair_nearest
 
@@ -60,6 +61,26 @@ MOST_CLASSES = 256
 """A piece's number is one byte."""
 
 
+PLAIN, GRACE, SWUNG = 0, 1, 2
+_KINDS = 3
+_SWUNG_FROM, _SWUNG_TO = 0.54, 0.74
+"""Where in its quarter or eighth a swung offbeat may be written (as `music.passages`)."""
+
+
+def note_kinds(score: Score) -> Indices:
+    """Which notes share a lean besides their piece, shape (n,): a player's flams and his swing are his own.
+
+    `GRACE` strokes may all come closer to or farther from their main strokes than written, notes in the place of a
+    swung offbeat (`SWUNG`) all earlier or later.
+    """
+    tick = score.notes["tick"]
+    swung = np.zeros(len(score), np.bool_)
+    for unit in (PPQ, PPQ // 2):
+        place = tick % unit / unit
+        swung |= (place > _SWUNG_FROM) & (place < _SWUNG_TO)
+    return np.where(score.is_grace, GRACE, np.where(swung, SWUNG, PLAIN))
+
+
 @dataclass(frozen=True, eq=False)
 class Settled:
     """The matching, and the player as it shows him.
@@ -83,11 +104,11 @@ class Start:
     rounds: int = 3
 
 
-def settle(notes: Side, hits: Side, steady: NDArray[np.bool_], unpaired: NDArray[np.bool_], start: Start) -> Settled:
+def settle(notes: Side, hits: Side, kinds: Indices, unpaired: NDArray[np.bool_], start: Start) -> Settled:
     """The matching of `hits` (m,) to `notes` (n,).
 
-    `steady` (n,) marks notes whose time counts as timing (no grace strokes), `unpaired` (m,) hits that are never
-    paired with another piece's note.
+    `kinds` (n,) says which notes share a lean (`note_kinds`), `unpaired` (m,) marks hits that are never paired with
+    another piece's note.
     """
     span = _span(notes, hits)
     hit_lane = lanes(hits.at_ns, hits.lane, span)
@@ -97,7 +118,7 @@ def settle(notes: Side, hits: Side, steady: NDArray[np.bool_], unpaired: NDArray
     for _ in range(start.rounds):
         note_lane = lanes(notes.at_ns + player.expected_ns, notes.lane, span)
         partner = pair_nearest(note_lane, hit_lane, round(reach_ms * NS_PER_MS))
-        player = _player(notes, hits, partner, steady, player)
+        player = _player(notes, hits, partner, kinds, player)
         reach_ms = min(max(REACH_SDS * player.spread_ms, MIN_REACH_MS), MAX_REACH_MS)
     wrong = _other_pieces(notes, hits, partner, player, unpaired)
     return Settled(partner, wrong, player.trend_ns, player.sd_ms)
@@ -127,21 +148,22 @@ def _span(notes: Side, hits: Side) -> int:
     return int(max(ends) - min(ends)) + round(4 * MAX_REACH_MS * NS_PER_MS) if ends else 1
 
 
-def _player(notes: Side, hits: Side, partner: Indices, steady: NDArray[np.bool_], before: _Player) -> _Player:
+def _player(notes: Side, hits: Side, partner: Indices, kinds: Indices, before: _Player) -> _Player:
     """The player as the pairs show him; as `before` where they are too few."""
-    known = np.flatnonzero((partner >= 0) & steady)
+    known = np.flatnonzero(partner >= 0)
+    known = known[np.argsort(notes.at_ns[known], kind="stable")]
     deviation = (hits.at_ns[partner[known]] - notes.at_ns[known]).astype(np.float64)
-    spread = robust_sd(deviation)
+    main = kinds[known] != GRACE
+    spread = robust_sd(deviation[main])
     if spread is None:
         return before
-    order = np.argsort(notes.at_ns[known], kind="stable")
-    known, deviation = known[order], deviation[order]
-    lean = _leans(notes.classes[known], deviation - np.median(deviation), MOST_CLASSES)
-    at_s = notes.at_ns[known] / 1e9
-    trend = local_trend(at_s, deviation - lean[notes.classes[known]], _TREND_HALF_WIDTH, max(spread, NS_PER_MS))
-    rest = robust_sd(deviation - trend - lean[notes.classes[known]]) or 0.0
+    groups = notes.classes + MOST_CLASSES * kinds
+    lean = _leans(groups[known], deviation - np.median(deviation[main]), MOST_CLASSES * _KINDS)[groups]
+    off, at_s = (deviation - lean[known])[main], notes.at_ns[known[main]] / 1e9
+    trend = local_trend(at_s, off, _TREND_HALF_WIDTH, max(spread, NS_PER_MS))
+    rest = robust_sd(off - trend) or 0.0
     everywhere = np.interp(notes.at_ns / 1e9, at_s, trend)
-    return _Player(_whole(everywhere), _whole(lean[notes.classes]), rest / NS_PER_MS)
+    return _Player(_whole(everywhere), _whole(lean), rest / NS_PER_MS)
 
 
 def _whole(values: NDArray[np.float64]) -> Times:
@@ -149,7 +171,7 @@ def _whole(values: NDArray[np.float64]) -> Times:
 
 
 def _leans(classes: Indices, deviation: NDArray[np.float64], count: int) -> NDArray[np.float64]:
-    """Median deviation of each class, drawn towards 0 where few are known, shape (count,)."""
+    """Median deviation of each group, drawn towards 0 where few are known, shape (count,)."""
     leans = np.zeros(count)
     for c in np.unique(classes):
         own = deviation[classes == c]

@@ -20,6 +20,7 @@ from station.music.performance import Performance
 from station.music.score import Score
 from station.scoring.alignment import Alignment
 from station.scoring.dynamics import Dynamics, dynamics
+from station.scoring.habits import Habits, habits
 from station.scoring.points import points
 from station.scoring.timing import Spread, asynchrony_ms, spread, timed_notes
 from station.scoring.windows import DEFAULT_LEVEL, Windows
@@ -114,6 +115,7 @@ class Summary:
     by_subdivision: Mapping[str, Group]
     by_dynamic: Mapping[Dynamic, Group]
     wrong_pieces: tuple[WrongPiece, ...]
+    habits: Habits
 
 
 def summarise(score: Score, performance: Performance, alignment: Alignment, view: View | None = None) -> Summary:
@@ -145,6 +147,7 @@ def summarise(score: Score, performance: Performance, alignment: Alignment, view
             (Dynamic(k), group(notes["dynamic"] == k, None)) for k in np.unique(notes["dynamic"]).tolist()
         ),
         wrong_pieces=_wrong_pieces(score, performance, alignment),
+        habits=habits(score, performance, alignment, view.hears_velocity),
     )
 
 

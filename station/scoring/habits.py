@@ -1,0 +1,248 @@
+"""Habits: what a player does in one kind of place and not in others, each told apart from all the rest.
+
+Two models, one for time and one for loudness (`regression`), have a column for every kind of place that the score
+holds: fills, long waits, swung offbeats, second strokes of doubles, the feet, the left hand, ghosts, accents. What is
+left are differences that every player has: pieces and hands that lean apart by some ms or dB. `music.passages` says
+which strokes a habit concerns. Timing effects are in ms, negative is early; loudness in dB, negative is softer.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.pieces import Dynamic, Limb, Piece, word
+from station.core.units import NS_PER_MS, PPQ
+from station.music import passages
+from station.music.judgement import Label
+from station.music.performance import Performance
+from station.music.score import Score
+from station.scoring.alignment import Alignment
+from station.scoring.drift import robust_sd
+from station.scoring.dynamics import level_db
+from station.scoring.regression import CONSTANT, Column, Effect, fit
+from station.scoring.timing import asynchrony_ms, timed_notes
+
+Floats = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+LEAN_SHARE = 0.4
+"""Pieces lean apart by this share of the player's SD in any take (HUMANS: 11 of 27 ms)."""
+
+LEAST_LEAN_MS = 3.0
+
+CHANCE = 3.2
+"""Standard errors: one fault-free effect in seven hundred goes beyond, and a score has some five to ten effects."""
+
+PIECE_LEVEL_DB = 0.4
+"""The levels of different pads are comparable to so much: what the module sends is also what is heard (our choice)."""
+
+FEET = {Piece.KICK: "kick", Piece.HIHAT_PEDAL: "hihat_pedal"}
+
+
+@dataclass(frozen=True, eq=False)
+class Habits:
+    """All effects by name, and the strokes (n,) that each concerns; empty where too little was played.
+
+    Names: `all` the common lean with habits apart, `kick`, `hihat_pedal`, `fills`, `long_waits`, `doubles` in ms,
+    `swing` in fractions of the unit that swings, `lean_PIECE` of a hand's piece against the other hand pieces in ms,
+    `flams` in ms (positive: wider than written), `left_level`, `ghost_level`, `accent_level` in dB. `timing_sd_ms` is
+    the spread of the main strokes with all that taken out; None where too little was played.
+    """
+
+    effects: dict[str, Effect]
+    strokes: dict[str, Flags]
+    timing_sd_ms: float | None
+
+
+def habits(score: Score, performance: Performance, alignment: Alignment, hears_velocity: bool) -> Habits:
+    """What `performance` shows of each habit that `score` has places for."""
+    strokes = _places(score)
+    timing, sd_ms = _timing(score, alignment, strokes)
+    effects = {
+        **timing,
+        **_flams(score, alignment),
+        **(_levels(score, performance, alignment, strokes) if hears_velocity else {}),
+    }
+    return Habits(effects, {name: strokes[name] for name in effects}, sd_ms)
+
+
+def _places(score: Score) -> dict[str, Flags]:
+    """Which strokes (n,) each effect concerns."""
+    notes, main = score.notes, ~score.is_grace
+    places = {CONSTANT: main} | {name: main & (notes["piece"] == piece) for piece, name in FEET.items()}
+    places |= {
+        "fills": passages.fills(score),
+        "long_waits": passages.long_waits(score),
+        "doubles": passages.second_of_doubles(score),
+        "swing": passages.swung(score)[0],
+        "flams": score.is_grace,
+        "left_level": main & (notes["limb"] == Limb.LEFT_HAND),
+        "ghost_level": main & (notes["dynamic"] == Dynamic.GHOST),
+        "accent_level": main & (notes["dynamic"] == Dynamic.ACCENT),
+    }
+    for piece in np.unique(notes["piece"]).tolist():
+        if Piece(piece) not in FEET:
+            places[f"lean_{word(Piece(piece))}"] = main & (notes["piece"] == piece)
+    return places
+
+
+# --- time -------------------------------------------------------------------------------------------------------------
+
+
+def _timing(score: Score, alignment: Alignment, places: dict[str, Flags]) -> tuple[dict[str, Effect], float | None]:
+    """Effects in time, and the spread that they leave, in ms."""
+    timed = np.flatnonzero(timed_notes(score, alignment))
+    off = asynchrony_ms(alignment)[timed]
+    sd = robust_sd(off)
+    if sd is None:
+        return {}, None
+    tau = max(LEAN_SHARE * sd, LEAST_LEAN_MS)
+    columns = [Column(name, places[name][timed].astype(np.float64)) for name in (*FEET.values(), *_IN_TIME)]
+    columns.append(Column("fills", fill_ramp(score)[timed]))
+    columns.append(Column("swing", _swing_spans_ms(score)[timed]))
+    common = _hands_and_pieces(score, timed, tau)
+    whole = fit(off, columns + common, score.notes["tick"][timed])
+    if whole is None:
+        return {}, sd
+    found = {name: whole.effects[name] for name in (CONSTANT, *(c.name for c in columns)) if name in whole.effects}
+    return found | _leans(score, timed, off, columns, common), whole.sd
+
+
+_IN_TIME = ("long_waits", "doubles")
+
+
+def _hands_and_pieces(score: Score, rows: NDArray[np.int64], tau: float) -> list[Column]:
+    """A drawn-in column for every hand piece and for the left hand."""
+    notes = score.notes[rows]
+    pieces = [Piece(p) for p in np.unique(notes["piece"]).tolist() if Piece(p) not in FEET]
+    columns = [Column(f"lean_{word(p)}", (notes["piece"] == p).astype(np.float64), tau) for p in pieces]
+    return [*columns, Column("left", (notes["limb"] == Limb.LEFT_HAND).astype(np.float64), tau)]
+
+
+def fill_ramp(score: Score) -> Floats:
+    """How far into its fill each stroke stands, in slots, over the fill's mean; 0 outside; shape (n,).
+
+    Who rushes a fill rushes more and more: the effect is the mean over the fill's strokes.
+    """
+    ramp = np.zeros(len(score))
+    rows = np.flatnonzero(passages.fills(score))
+    beat = score.notes["tick"][rows] // PPQ
+    for fill in np.split(rows, np.flatnonzero(np.diff(beat) > 1) + 1) if len(rows) else ():
+        place = np.unique(score.notes["tick"][fill], return_inverse=True)[1] + 1.0
+        ramp[fill] = place / place.mean()
+    return ramp
+
+
+def _swing_spans_ms(score: Score) -> Floats:
+    """Length of the unit that swings at each swung offbeat, 0 elsewhere: the effect is a fraction of it; shape (n,)."""
+    flags, spans, places = passages.swung(score)
+    start = score.notes["tick"] - np.rint(places * spans).astype(np.int64)
+    lengths = (score.tempo_map.ns_at(start + spans) - score.tempo_map.ns_at(start)) / NS_PER_MS
+    return np.where(flags, lengths, 0.0)
+
+
+def _leans(
+    score: Score, rows: NDArray[np.int64], off: Floats, columns: list[Column], common: list[Column]
+) -> dict[str, Effect]:
+    """Each hand piece against the other hand pieces: its column set free in turn."""
+    pieces = [c for c in common if c.tau is not None and c.name.startswith("lean_")]
+    found = {}
+    for piece in pieces if len(pieces) > 1 else []:
+        freed = [Column(c.name, c.values, None if c is piece else c.tau) for c in common]
+        one = fit(off, columns + freed, score.notes["tick"][rows])
+        if one is not None and piece.name in one.effects:
+            found[piece.name] = one.effects[piece.name]
+    return found
+
+
+def _flams(score: Score, alignment: Alignment) -> dict[str, Effect]:
+    """How much wider than written grace strokes come before their main stroke, in ms."""
+    main = main_of_grace(score)
+    graces = np.flatnonzero(main >= 0)
+    matched = alignment.note_label == Label.MATCH
+    graces = graces[matched[graces] & matched[main[graces]]]
+    wider = asynchrony_ms(alignment)[main[graces]] - asynchrony_ms(alignment)[graces]
+    fitted = _mean(wider, score.notes["tick"][graces])
+    return {} if fitted is None else {"flams": fitted}
+
+
+def _mean(values: Floats, slots: NDArray[np.int64]) -> Effect | None:
+    """The mean of values that come in slots, which are independent of each other, as an effect."""
+    _, slot = np.unique(slots, return_inverse=True)
+    if len(slot) == 0 or slot.max() < 3:
+        return None
+    means = np.bincount(slot, weights=values) / np.bincount(slot)
+    return Effect(float(means.mean()), float(means.std(ddof=1)) / len(means) ** 0.5, len(means))
+
+
+def main_of_grace(score: Score) -> NDArray[np.int64]:
+    """Index of the main stroke that each grace stroke (n,) leads to; −1 for main strokes and graces without one.
+
+    It stands on the same tick, on the grace's own piece where there is one.
+    """
+    main = np.full(len(score), -1, np.int64)
+    ticks, pieces = score.notes["tick"], score.notes["piece"]
+    mains = np.flatnonzero(~score.is_grace)
+    for grace in np.flatnonzero(score.is_grace).tolist():
+        low, high = (
+            np.searchsorted(ticks[mains], ticks[grace]),
+            np.searchsorted(ticks[mains], ticks[grace], side="right"),
+        )
+        there = mains[low:high]
+        own = there[pieces[there] == pieces[grace]]
+        if len(there):
+            main[grace] = own[0] if len(own) else there[0]
+    return main
+
+
+# --- loudness ---------------------------------------------------------------------------------------------------------
+
+
+def _levels(
+    score: Score, performance: Performance, alignment: Alignment, places: dict[str, Flags]
+) -> dict[str, Effect]:
+    rows = np.flatnonzero((alignment.note_label == Label.MATCH) & ~score.is_grace)
+    played = performance.hits["velocity"][alignment.hit_of_note[rows]]
+    off = level_db(played) - level_db(score.notes["velocity"][rows])
+    pieces = score.notes["piece"][rows]
+    pads = [Column(f"pad_{p}", (pieces == p).astype(np.float64), PIECE_LEVEL_DB) for p in np.unique(pieces).tolist()]
+    suspects = [Column(name, places[name][rows].astype(np.float64)) for name in _IN_LEVEL]
+    return _one_by_one(off, suspects, pads, score.notes["tick"][rows])
+
+
+_IN_LEVEL = ("accent_level", "ghost_level", "left_level")
+"""In the order in which they are suspected where they cannot be told apart: what was written is asked for first."""
+
+
+def _one_by_one(y: Floats, suspects: list[Column], common: list[Column], slots: NDArray[np.int64]) -> dict[str, Effect]:
+    """Effects of the suspects, taken in one after the other, the surest first, while they are beyond chance.
+
+    A hand may play one pad alone, and that pad ghosts and accents alone: then several causes explain one thing, and one
+    of them is enough. The effects of those that were not taken in are what they would be beside those that were.
+    """
+    found: dict[str, Effect] = {}
+    taken: list[Column] = []
+    left = list(suspects)
+    while left:
+        tried: dict[str, Effect] = {}
+        for suspect in left:
+            fitted = fit(y, [*taken, suspect, *common], slots)
+            if fitted is not None and suspect.name in fitted.effects:
+                tried[suspect.name] = fitted.effects[suspect.name]
+        found |= tried
+        best = max(tried, key=lambda name: abs(tried[name].value) / max(tried[name].error, 1e-9), default=None)
+        if best is None or abs(tried[best].value) <= CHANCE * tried[best].error:
+            break
+        taken += [suspect for suspect in left if suspect.name == best]
+        left = [suspect for suspect in left if suspect.name != best and not _is_explained(suspect, taken)]
+    whole = fit(y, [*taken, *common], slots)
+    known = {c.name: found[c.name] for c in (*taken, *left) if c.name in found}
+    return known if whole is None else known | {c.name: whole.effects[c.name] for c in taken}
+
+
+def _is_explained(suspect: Column, taken: list[Column]) -> bool:
+    """Whether a column says nothing that those taken in do not say."""
+    x = np.column_stack([np.ones(len(suspect.values)), *(column.values for column in taken)])
+    rest = suspect.values - x @ np.linalg.lstsq(x, suspect.values, rcond=None)[0]
+    return float(np.abs(rest).max()) < 1e-6
