@@ -9,7 +9,6 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-import jack
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
@@ -19,6 +18,9 @@ from tests.fakes.jack_server import JackServer
 
 _CONNECT_WITHIN_S = 10.0
 _WINDOW_BLOCKS = 200
+_GAP_FRAMES = 16
+_AUDIBLE = 0.001
+"""A sound that ends by itself has faded below this."""
 
 
 @dataclass(frozen=True)
@@ -36,7 +38,7 @@ class Recording:
         An onset is where the peak of a millisecond exceeds `threshold` and `rise` times the peak of the ten
         milliseconds before; the next one follows `dead_ms` later at the earliest. The frame is the first within the
         millisecond above both. Peaks are those of the sound's steps from frame to frame, in which a stick's attack
-        stands out of a ringing drum.
+        stands out of a ringing drum. Where a missed block cuts a hole into the sound there is no onset.
         """
         level = np.abs(np.diff(self.sound, axis=0, prepend=0.0)).max(axis=1)
         width = self.rate_hz // 1000
@@ -46,10 +48,19 @@ class Recording:
         for window in range(1, len(peaks)):
             before = max(threshold, rise * peaks[max(0, window - 10) : window].max())
             if window >= next_window and peaks[window] > before:
-                at = window * width
-                found.append(at + int(np.argmax(level[at : at + width] > before)))
-                next_window = window + round(dead_ms)
+                frame = window * width + int(np.argmax(level[window * width : (window + 1) * width] > before))
+                if not self._is_edge_of_gap(frame):
+                    found.append(frame)
+                    next_window = window + round(dead_ms)
         return found
+
+    def _is_edge_of_gap(self, frame: int) -> bool:
+        """Whether sound breaks off at `frame`, or goes on there after it broke off: the driver missed a block."""
+        if not self.sound[frame : frame + _GAP_FRAMES].any():
+            return True
+        before = np.flatnonzero(self.sound[:frame].any(axis=1))
+        broke_off = int(before[-1]) if len(before) else 0
+        return frame - broke_off > _GAP_FRAMES and bool(np.abs(self.sound[broke_off]).max() > _AUDIBLE)
 
     def centroid_hz(self, frame: int, for_ms: float = 60.0) -> float:
         """The centre of gravity of the power spectrum of the sound that follows `frame`."""
@@ -77,7 +88,7 @@ class JackRecorder:
         self._child.tell("stop")
         self._child.expect("done")
         with np.load(self._file) as heard:
-            return _timed(heard["sound"], heard["first_frame"], heard["called_ns"], self._rate_hz)
+            return timed(heard["sound"], heard["first_frame"], heard["called_ns"], self._rate_hz)
 
     def __enter__(self) -> "JackRecorder":
         return self
@@ -86,7 +97,7 @@ class JackRecorder:
         self._child.stop()
 
 
-def _timed(
+def timed(
     sound: NDArray[np.float32], first_frame: NDArray[np.int64], called_ns: NDArray[np.int64], rate_hz: int
 ) -> Recording:
     """Give every frame its time: a callback comes soon after its period begins or late, but never before.
@@ -105,9 +116,13 @@ def _timed(
 
 def _base(offset_ns: NDArray[np.float64]) -> NDArray[np.float64]:
     """The offset below which no callback came, which may rise: the higher of the least before and the least after."""
-    padded = np.pad(offset_ns, _WINDOW_BLOCKS - 1, constant_values=np.inf)
-    least: NDArray[np.float64] = sliding_window_view(padded, _WINDOW_BLOCKS).min(axis=1)
-    base: NDArray[np.float64] = np.maximum(least[: len(offset_ns)], least[_WINDOW_BLOCKS - 1 :])
+    width = min(_WINDOW_BLOCKS, len(offset_ns))
+    least: NDArray[np.float64] = sliding_window_view(offset_ns, width).min(axis=1)  # of each window of full width
+    last_window = len(least) - 1
+    block = np.arange(len(offset_ns))
+    base: NDArray[np.float64] = np.maximum(
+        least[np.clip(block - width + 1, 0, last_window)], least[np.clip(block, 0, last_window)]
+    )
     return base
 
 
@@ -115,6 +130,8 @@ class _Listener:
     """A JACK client that keeps every block of its two inputs."""
 
     def __init__(self) -> None:
+        import jack  # needs JACK's library, which a machine may lack
+
         self.client = jack.Client("recorder", no_start_server=True)
         self._inputs = [self.client.inports.register(name) for name in ("left", "right")]
         self._blocks: list[NDArray[np.float32]] = []

@@ -19,7 +19,6 @@ from pathlib import Path
 from types import TracebackType
 from typing import IO, Self
 
-import jack
 import pytest
 
 START_WITHIN_S = 10.0
@@ -116,6 +115,8 @@ class JackServer:
         os.close(handle)
 
     def _answers(self) -> bool:
+        import jack  # needs JACK's library, which a machine may lack
+
         assert self._process is not None
         jack.set_error_function(_say_nothing)  # it is not yet there, that is the point
         give_up_s = time.monotonic() + START_WITHIN_S
