@@ -2,8 +2,8 @@
 
 A contact says where the stick touches and how stick and hand lie there. From it and the shoulder follow the wrist, by
 the cosine law the elbow and shoulder, and with a stroke's offsets on top of those angles everything up to the tip: at
-the strike the offsets are zero and the tip is on the point. Angles in the arm's vertical plane count from hanging
-straight down, forward positive; dir(θ) = (sin θ · heading, −cos θ).
+the strike the offsets are zero and the tip is on the point. Angles of hand and stick in their vertical planes count
+from hanging straight down, forward positive; dir(θ) = (sin θ · heading, −cos θ).
 
 DESIGN's b, δ and Σ are the matched grip, in which hand and stick share a vertical plane. Here each has its own heading,
 so that a traditional left hand, whose stick crosses the palm, is solved by the same lines.
@@ -18,6 +18,9 @@ from station.motion.maths import Maths, Number, Point
 HALF_TURN = math.pi
 QUARTER_TURN = math.pi / 2
 
+BACK_SINE, BACK_COSINE = math.sin(math.radians(25)), math.cos(math.radians(25))
+"""Elbows hang down and a little back: with the wrist in front the arm's plane is vertical, as DESIGN has it, and with
+the wrist under the shoulder the elbow is behind (our choice)."""
 STRAIGHT = 0.9995
 """An arm is never straighter than this share of its length: at 1 the elbow's angle has no slope (our choice)."""
 
@@ -54,9 +57,9 @@ class Offsets(NamedTuple):
 class Arm(NamedTuple):
     """The solved arm.
 
-    Points, from the shoulder `root` on; `back`, the normal of the hand's back; the arm plane's heading κ (to the left
-    positive), γ, β; the wrist's extension and its deviation to the left, as of a palm that faces down; μ, the stick's
-    angle in the hand; and how far the shoulder had to come forward because the contact was out of the arm's reach.
+    Points, from the shoulder `root` on; `back`, the normal of the hand's back; the heading κ towards the struck point
+    (to the left positive), γ, β; the wrist's extension and its deviation to the left, as of a palm that faces down; μ,
+    the stick's angle in the hand; and how far the shoulder had to come forward because the contact was out of reach.
     """
 
     root: Point
@@ -93,7 +96,7 @@ class ArmLengths:
     roll_cosine: float = 1.0
 
 
-def solve(
+def solve(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a tenth of a pose
     m: Maths, lengths: ArmLengths, shoulder: Point, contact: Contact, offsets: Offsets, wing_more: Number = 0.0
 ) -> Arm:
     """The arm at `shoulder` whose stick would touch `contact`, moved by `offsets`, its elbow out by `wing_more`.
@@ -117,33 +120,37 @@ def solve(
     rx, ry = cx + a * ux + b * vx - sx, cy + a * uy + b * vy - sy
     rz = cz + touching * sin(stick_rise) + h * sin(hand_rise) - sz
     # the cosine law on upper arm, forearm and the distance from shoulder to wrist
-    flat2 = rx * rx + ry * ry
-    flat = sqrt(flat2)
-    distance = sqrt(flat2 + rz * rz)
+    distance = sqrt(rx * rx + ry * ry + rz * rz)
     missing = most(distance - STRAIGHT * (upper + fore), 0.0)
     given = missing / distance  # the shoulder comes along with what is missing
     sx, sy, sz = sx + given * rx, sy + given * ry, sz + given * rz
     d = most(distance - missing, 1.0001 * abs(upper - fore))
     uu, ff, dd = upper * upper, fore * fore, d * d
-    gamma = m.atan2(flat, -rz) - m.acos((uu + dd - ff) / (2 * upper * d)) + raised_shoulder
-    beta = HALF_TURN - m.acos((uu + ff - dd) / (2 * upper * fore)) + raised_elbow
-    # forward again, with the stroke on top
-    ax, ay = rx / flat, ry / flat
-    sin_u, cos_u, fore_angle = sin(gamma), cos(gamma), gamma + beta
-    reach, drop = upper * sin_u + fore * sin(fore_angle), upper * cos_u + fore * cos(fore_angle)
-    wx, wy, wz = sx + reach * ax, sy + reach * ay, sz - drop
-    # the elbow, swung about the line to the wrist: Rodrigues on upper·dir(γ), whose cross product is level
-    length = sqrt(reach * reach + drop * drop)
-    wing = wing + wing_more
-    cos_w, sin_w = cos(wing), sin(wing)
-    k, kz = reach / length, -drop / length
-    e, ez = upper * sin_u, -upper * cos_u
-    along = (k * e + kz * ez) * (1 - cos_w)
-    level = (kz * e - k * ez) * sin_w
-    out, up = e * cos_w + k * along, ez * cos_w + kz * along
-    ex, ey, ez = sx + out * ax + level * ay, sy + out * ay - level * ax, sz + up
-    # hand and stick
+    inside = m.acos((uu + dd - ff) / (2 * upper * d))
+    bend = HALF_TURN - m.acos((uu + ff - dd) / (2 * upper * fore))
+    # the arm's plane: along the line to the wrist, and down and back from it, where elbows hang
+    kx, ky, kz = rx / distance, ry / distance, rz / distance
+    fx, fy = -dx / plan, -dy / plan
+    qx, qy = -BACK_SINE * fx, -BACK_SINE * fy
+    along = qx * kx + qy * ky - BACK_COSINE * kz
+    ex, ey, ez = qx - along * kx, qy - along * ky, -BACK_COSINE - along * kz
+    norm = sqrt(ex * ex + ey * ey + ez * ez)
+    ex, ey, ez = ex / norm, ey / norm, ez / norm
+    # forward again, with the stroke on top: angles from the line towards the elbow's side
     lifted = raised_shoulder + raised_elbow
+    at_shoulder, at_elbow = inside - raised_shoulder, inside - bend - lifted
+    cos_u, sin_u = upper * cos(at_shoulder), upper * sin(at_shoulder)
+    on, off = cos_u + fore * cos(at_elbow), sin_u + fore * sin(at_elbow)
+    wx, wy, wz = sx + on * kx + off * ex, sy + on * ky + off * ey, sz + on * kz + off * ez
+    # the elbow, swung about the line to the wrist (Rodrigues)
+    wing = wing + wing_more
+    reach2 = on * on + off * off
+    cos_w, sin_w = cos(wing), sin(wing) / sqrt(reach2)
+    stays = (cos_u * on + sin_u * off) * (1 - cos_w) / reach2
+    a_k, a_e, a_n = cos_u * cos_w + stays * on, sin_u * cos_w + stays * off, -(on * sin_u - off * cos_u) * sin_w
+    jx, jy, jz = sx + a_k * kx + a_e * ex, sy + a_k * ky + a_e * ey, sz + a_k * kz + a_e * ez
+    jx, jy, jz = jx + a_n * (ky * ez - kz * ey), jy + a_n * (kz * ex - kx * ez), jz + a_n * (kx * ey - ky * ex)
+    # hand and stick
     hand = QUARTER_TURN - hand_rise + lifted + lengths.turns_hand * raised_wrist
     stick = QUARTER_TURN - stick_rise + lifted + raised_wrist + raised_stick
     sin_h, cos_h, sin_s, cos_s = sin(hand), cos(hand), sin(stick), cos(stick)
@@ -151,21 +158,21 @@ def solve(
     tx, ty, tz = -sin_s * ux, -sin_s * uy, -cos_s
     hx, hy, hz = wx + h * px, wy + h * py, wz + h * pz
     # the wrist's angles: the forearm seen from the hand's own axes (along, back, left)
-    fx, fy, fz = (wx - ex) / fore, (wy - ey) / fore, (wz - ez) / fore
+    bx, by, bz = (wx - jx) / fore, (wy - jy) / fore, (wz - jz) / fore
     nx, ny, nz = -cos_h * vx, -cos_h * vy, sin_h
-    ahead_f, back_f, left_f = fx * px + fy * py + fz * pz, fx * nx + fy * ny + fz * nz, fx * vy - fy * vx
+    ahead_f, back_f, left_f = bx * px + by * py + bz * pz, bx * nx + by * ny + bz * nz, bx * vy - by * vx
     across, upward = lengths.roll_sine, lengths.roll_cosine
     return Arm(
         (sx, sy, sz),
-        (ex, ey, ez),
+        (jx, jy, jz),
         (wx, wy, wz),
         (hx, hy, hz),
         (hx + lengths.ahead * tx, hy + lengths.ahead * ty, hz + lengths.ahead * tz),
         (hx - lengths.behind * tx, hy - lengths.behind * ty, hz - lengths.behind * tz),
         (nx * upward - vy * across, ny * upward + vx * across, nz * upward),
-        m.atan2(-ax, ay),
-        gamma,
-        beta,
+        m.atan2(-fx, fy),
+        m.atan2((cos_u * kx + sin_u * ex) * fx + (cos_u * ky + sin_u * ey) * fy, -(cos_u * kz + sin_u * ez)),
+        bend + raised_elbow,
         -m.atan2(back_f, ahead_f),
         -m.atan2(left_f, sqrt(ahead_f * ahead_f + back_f * back_f)),
         stick - hand,

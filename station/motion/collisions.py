@@ -21,6 +21,8 @@ Array = NDArray[np.float64]
 
 ALONG = np.linspace(0.0, 1.0, 33)
 """Places on the stick at which it is looked at, from butt to tip: 13 mm apart."""
+TOUCH_M = 0.001
+"""A point this near to a surface touches it (the tip's own exactness)."""
 STICK_RADIUS_M = 0.007
 ARM_RADIUS_M = 0.035
 """A 5A stick is 14 mm thick (ASTM has no standard; makers agree); a forearm near the wrist 7 cm (our choice)."""
@@ -43,7 +45,11 @@ def collisions(rows: Array, kit: Kit) -> Collisions:
     butt, tip = rows[:, frame.BUTT].reshape(-1, 2, 3), rows[:, frame.TIP].reshape(-1, 2, 3)
     joints = rows[:, frame.JOINTS].reshape(-1, 21, 3)
     points = butt[:, :, None] + ALONG[:, None] * (tip - butt)[:, :, None]
-    through = {p: _depth(kit.pieces[p], points) for p in kit.pieces if kit.pieces[p].kind != "kick"}
+    through = {
+        p.piece: np.stack([depth(p, points[:, side]) for side in (0, 1)], 1)
+        for p in kit.pieces.values()
+        if p.kind != "kick"
+    }
     gap = segments_apart(butt[:, 0], tip[:, 0], butt[:, 1], tip[:, 1])
     elbows, wrists = joints[:, (Joint.LEFT_ELBOW, Joint.RIGHT_ELBOW)], joints[:, (Joint.LEFT_WRIST, Joint.RIGHT_WRIST)]
     arms = [
@@ -53,22 +59,30 @@ def collisions(rows: Array, kit: Kit) -> Collisions:
     return Collisions(through, np.maximum(2 * STICK_RADIUS_M - gap, 0.0), np.stack(arms, 1))
 
 
-def _depth(piece: KitPiece, points: Array) -> Array:
-    """How deep the stick's points (n, 2, k, 3) are in `piece`, (n, 2)."""
+def depth(piece: KitPiece, points: Array) -> Array:
+    """How deep the sticks' points (n, k, 3), of n moments in order, are in `piece`, (n,).
+
+    A cymbal is thin enough to be jumped through between two moments: where a point of the stick changes its side within
+    the edge, it has gone through by its distance from the edge.
+    """
     away = points - piece.centre
     height = away @ piece.normal
     radial = np.sqrt(np.maximum((away**2).sum(-1) - height**2, 0.0))
     if piece.kind in ("drum", "block"):
         inside = np.minimum(np.minimum(-height, piece.radius_m - radial), height + piece.depth_m)
         return np.asarray(np.maximum(inside.max(-1), 0.0))
-    above, below = height[..., :-1], height[..., 1:]
+    above, below = height[:, :-1], height[:, 1:]
     crosses = above * below < 0
     share = above / np.where(crosses, above - below, 1.0)
-    at = radial[..., :-1] + share * (radial[..., 1:] - radial[..., :-1])
+    at = radial[:, :-1] + share * (radial[:, 1:] - radial[:, :-1])
     inside = np.where(crosses, piece.radius_m - at, 0.0).max(-1)
     near = radial < piece.radius_m
     up, down = np.where(near, height, 0.0).max(-1), np.where(near, -height, 0.0).max(-1)
-    return np.asarray(np.maximum(np.minimum(inside, np.minimum(up, down)), 0.0))
+    through = np.minimum(inside, np.minimum(up, down))
+    before, after = height[:-1], height[1:]
+    jumped = (before * after < 0) & (np.minimum(np.abs(before), np.abs(after)) > TOUCH_M)
+    swept = np.where(jumped, piece.radius_m - np.maximum(radial[:-1], radial[1:]), 0.0).max(-1)
+    return np.asarray(np.maximum(np.maximum(through, np.concatenate((np.zeros(1), swept))), 0.0))
 
 
 def segments_apart(a: Array, b: Array, c: Array, d: Array) -> Array:

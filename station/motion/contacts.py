@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Articulation, Limb, Piece, Zone
 from station.motion.arm import ArmLengths, Contact, Offsets, solve
+from station.motion.collisions import ALONG, depth
 from station.motion.events import GRAB, WAIT
 from station.motion.figure import Figure
-from station.motion.grip import Hold
+from station.motion.grip import Grip, Hold
 from station.motion.kit import Kit
 from station.motion.maths import MANY, ONE, Point
 from station.motion.piece import RIM_ABOVE_HEAD_M, Target
@@ -55,7 +56,7 @@ PROTRACTION_M = 0.08
 """A shoulder comes forward by so much for what is still out of reach; the rest is missing (our choice)."""
 
 
-WAIT_M = (0.10, -0.04, 0.07)
+WAIT_M = (0.10, 0.02, 0.07)
 """Where a waiting stick's tip is: to the hand's own side of its spot on the snare, nearer, higher (our choice)."""
 
 
@@ -94,12 +95,19 @@ def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike) -> Lie:
     right = strike.limb == Limb.RIGHT_HAND
     lengths = hold.lengths(figure, right)
     slopes = _slopes(lengths, target, hold, strike, hold.length_m(figure))
+    faced = np.array([0.0, 1.0, 0.0]) if strike.articulation == WAIT else target.point_m  # one waits for anything
     for lean in LEANS_RAD.tolist():
-        root = natural_shoulder(kit, figure, strike.limb, target.point_m, lean)
-        touch, stretched = _easiest(lengths, root, target, slopes, hold, 1.0 if right else -1.0)
+        root = natural_shoulder(kit, figure, strike.limb, faced, lean)
+        touch, stretched = _easiest(lengths, root, target, slopes, hold.grip, 1.0 if right else -1.0)
         if not stretched:
             break
     arm = solve(ONE, lengths, root, touch, Offsets(0.0, 0.0, 0.0, 0.0))
+    for share in _STRAIGHTER:  # the butt may be in the way of a neighbour: the stick is turned until it is not
+        if not _caught(kit, lengths, root, touch):
+            break
+        grip = replace(hold.grip, yaw=share * hold.grip.yaw, crossing=share * hold.grip.crossing)
+        touch, _ = _easiest(lengths, root, target, slopes, grip, 1.0 if right else -1.0)
+        arm = solve(ONE, lengths, root, touch, Offsets(0.0, 0.0, 0.0, 0.0))
     limits = figure.limits
     return Lie(
         contact=touch,
@@ -117,6 +125,21 @@ def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike) -> Lie:
     )
 
 
+def _caught(kit: Kit, lengths: ArmLengths, root: Point, touch: Contact) -> bool:
+    """Whether the stick meets any piece of the kit while it is raised from `touch`: its butt goes down meanwhile."""
+    raised = Offsets(*(_RAISING * part for part in _RAISED))
+    arm = solve(MANY, lengths, root, Contact(*(np.full(len(_RAISING), c) for c in touch)), raised)
+    butt, tip = np.stack(arm.butt, 1), np.stack(arm.tip, 1)
+    stick = butt[:, None] + ALONG[:, None] * (tip - butt)[:, None]
+    pieces = (piece for piece in kit.pieces.values() if piece.kind != "kick")
+    return any(float(depth(piece, stick).max()) > _TOUCHING_M for piece in pieces)
+
+
+_STRAIGHTER = (0.7, 0.4, 0.1, -0.2, -0.5)
+_TOUCHING_M = 0.002
+_RAISED = Offsets(0.0, 0.05, 0.35, 0.15)
+"""A middling stroke at its top."""
+_RAISING = np.linspace(0.0, 1.0, 12)
 _UPRIGHT = math.pi / 2
 _LEAST_ROOM = 0.1
 """Even a bent wrist has this much left (our choice)."""
@@ -125,12 +148,12 @@ _EASY = 0.97
 
 
 def _easiest(
-    lengths: ArmLengths, root: Point, target: Target, slopes: "_Slopes", hold: Hold, side: float
+    lengths: ArmLengths, root: Point, target: Target, slopes: "_Slopes", grip: Grip, side: float
 ) -> tuple[Contact, bool]:
     """Among all wings and ways to point the hand the easiest one, and whether the arm is stretched for it."""
     wing, yaw = (g.ravel() for g in np.meshgrid(side * _WINGS, _HAND_YAWS, indexing="ij"))
     x, y, z = target.point_m.tolist()
-    stick_yaw = side * hold.grip.yaw if slopes.azimuth is None else _turn(root, target, slopes.azimuth)
+    stick_yaw = side * grip.yaw if slopes.azimuth is None else _turn(root, target, slopes.azimuth)
     stick_rise = _over_the_piece(target, root, stick_yaw, slopes)
     hand_rise = stick_rise + slopes.palm
     trial = Contact(x, y, z, stick_rise, hand_rise, stick_yaw, stick_yaw + yaw, slopes.ahead_m, wing)
@@ -139,7 +162,7 @@ def _easiest(
         (arm.extension / _EXTENSION_EASE) ** 2
         + (arm.deviation / _DEVIATION_EASE) ** 2
         + ((side * wing - _NATURAL_WING) / _WING_EASE) ** 2
-        + ((yaw + side * hold.grip.crossing) / _CROSSING_EASE) ** 2
+        + ((yaw + side * grip.crossing) / _CROSSING_EASE) ** 2
         + 100.0 * arm.missing_m
     )
     best = int(np.argmin(price))

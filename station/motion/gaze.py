@@ -19,8 +19,9 @@ MOVE_S = 0.22
 """A turn of the head takes so long (our choice)."""
 STAY_S = 0.7
 """It stays with the piece after the stroke, then comes back (our choice)."""
-REST_S = 2.5
-"""In rests of this length the drummer may look around (our choice)."""
+REST_S = 3.2
+LOOK_AFTER_S = 1.8
+"""In rests of this length the drummer may look around, so long after the last stroke (our choice)."""
 
 
 def gaze_curve(strike_s: Array, place: NDArray[np.int64], direction: Array, around: float, seed: int) -> Curves:
@@ -55,7 +56,7 @@ def _looks(
     before = float(strike_s[0])
     for at, where, look in zip(strike_s.tolist(), place.tolist(), direction.tolist(), strict=True):
         if at - before > REST_S and random.random() < around:
-            looks.append((before + 1.0, (float(random.uniform(-0.9, 0.9)), float(random.uniform(-0.1, 0.3)))))
+            looks.append((before + LOOK_AFTER_S, (float(random.uniform(-0.9, 0.9)), float(random.uniform(-0.1, 0.3)))))
         if at - last[where] > NEWS_S:
             looks.append((at, (look[0], look[1])))
         last[where] = before = at

@@ -88,6 +88,8 @@ class Way:
 
 CLEAR_M = 0.10
 """The tip passes at least 10 cm above rims while it travels (what drummers look for)."""
+PREPARED_M = 0.05
+"""Over the pieces that it leaves and comes to, rebound and preparation give this much of it (our choice)."""
 
 
 def lifts(kit: Kit, contacts: Array, played: NDArray[np.int64]) -> Array:
@@ -96,8 +98,9 @@ def lifts(kit: Kit, contacts: Array, played: NDArray[np.int64]) -> Array:
     `played` (n,) are the pieces there; a stretch on one piece needs no lift. Returns (n − 1,) metres.
     """
     start, end = contacts[:-1, :3], contacts[1:, :3]
-    along = np.linspace(0.15, 0.85, 8)[:, None, None]
-    way = start + along * (end - start)
+    along = np.linspace(0.2, 0.8, 7)[:, None, None]
+    share = along**3 * (10 + along * (6 * along - 15))
+    way = start + share * (end - start)
     hump = (4 * along[..., 0] * (1 - along[..., 0])) ** 2
     need = np.zeros(len(start))
     for piece in kit.pieces.values():
@@ -106,12 +109,14 @@ def lifts(kit: Kit, contacts: Array, played: NDArray[np.int64]) -> Array:
         flat = np.hypot(way[..., 0] - piece.centre[0], way[..., 1] - piece.centre[1])
         nx, ny, nz = piece.normal
         top = piece.centre[2] - (nx * (way[..., 0] - piece.centre[0]) + ny * (way[..., 1] - piece.centre[1])) / nz
-        short = np.where(flat < piece.radius_m + 0.03, (top + CLEAR_M - way[..., 2]) / hump, 0.0)
+        own = (played[:-1] == piece.piece) | (played[1:] == piece.piece)
+        clear = np.where(own, CLEAR_M - PREPARED_M, CLEAR_M)
+        short = np.where(flat < piece.radius_m + 0.03, (top + clear - way[..., 2]) / hump, 0.0)
         need = np.maximum(need, short.max(axis=0, initial=0.0))
     moved = played[1:] != played[:-1]
     lift: Array = np.where(moved, np.minimum(need, HIGHEST_M), 0.0)
     return lift
 
 
-HIGHEST_M = 0.35
+HIGHEST_M = 0.25
 """No hand goes higher than this over the straight way (our choice)."""
