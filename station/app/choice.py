@@ -1,6 +1,7 @@
 """What the user has chosen but not begun: the lesson, its tempo and passes, what the list shows of it."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from station.app.model import LessonCard, Start
 
@@ -12,14 +13,19 @@ MAX_LOOPS = 32
 class Choice:
     """The state of the lessons page."""
 
-    def __init__(self, lessons: Sequence[LessonCard]) -> None:
+    def __init__(self, lessons: Sequence[LessonCard], first: Start | None = None) -> None:
+        """Begin with `first` where it is there, else with the first lesson."""
         self._lessons = tuple(lessons)
+        self._first = first
         self.search = ""
         self.card: LessonCard | None = None
         self.tempo_bpm = 100.0
         self.loops = 4
         if self._lessons:
-            self.choose(self._lessons[0])
+            named = [card for card in self._lessons if first is not None and card.name == first.lesson]
+            self.choose(named[0] if named else self._lessons[0])
+            if first is not None and named:
+                self.tempo_bpm, self.loops = first.tempo_bpm, first.loops
 
     def choose(self, card: LessonCard) -> None:
         """Take a lesson at the tempo and with the passes that its author wants."""
@@ -32,7 +38,12 @@ class Choice:
 
     def wish(self) -> Start | None:
         """What to start; None where there is no lesson."""
-        return None if self.card is None else Start(self.card.name, float(self.tempo_bpm), self.loops)
+        if self.card is None:
+            return None
+        wish = Start(self.card.name, float(self.tempo_bpm), self.loops)
+        if self._first is not None and self._first.lesson == self.card.name:
+            return replace(wish, bars=self._first.bars, demonstrations=self._first.demonstrations)
+        return wish
 
 
 def _text(card: LessonCard) -> str:

@@ -88,6 +88,14 @@ class PracticeModel(Protocol):
         """Every lesson that can be chosen, in the order in which they are shown."""
         ...
 
+    def first(self) -> Start | None:
+        """What is chosen when the window opens; None leaves it to the list."""
+        ...
+
+    def preview(self, wish: Start) -> None:
+        """Show what is chosen, before it begins; raises `StationError`."""
+        ...
+
     def start(self, wish: Start) -> None:
         """Begin a session; raises `StationError`."""
         ...

@@ -19,7 +19,7 @@ from station.drills.library import find_lesson, shipped_lessons
 from station.engine.engine import KEYBOARD
 from station.engine.messages import EngineEvent, KeyHit, Notice, Ready, Record, Stop
 from station.practice.live import EngineLink
-from station.practice.plan import Plan, Wishes, plan_practice
+from station.practice.plan import Phase, Plan, Wishes, plan_practice
 from station.practice.report import Circumstances, practice_document
 from station.practice.session import Latency, Session
 from station.render.snapshot import Snapshot
@@ -35,6 +35,7 @@ class PracticeRoom:
         self._engine = engine
         self._settings = settings
         self._lessons = _all_lessons(first.lesson)
+        self._first = _wish_of(first)
         self._plan = first
         self._view = SessionView(first, first.lesson.kit)
         self._session = self._new_session(first)
@@ -74,13 +75,21 @@ class PracticeRoom:
         """The result of the session that ended last."""
         return self._report
 
+    def first(self) -> Start:
+        """The lesson that the window was opened on, as it was asked for."""
+        return self._first
+
     # --- what the user does ------------------------------------------------------------------------------------------
+
+    def preview(self, wish: Start) -> None:
+        """Show the chosen lesson, ready to begin; raises `StationError`."""
+        if self._stage is Stage.IDLE:
+            self._plan, self._view = self._laid_out(wish)
+            self._session = self._new_session(self._plan)
 
     def start(self, wish: Start) -> None:
         """Begin a session, ending the one that runs; raises `StationError`."""
-        lesson = self._lessons.get(wish.lesson) or find_lesson(wish.lesson)
-        plan = plan_practice(lesson, Wishes(wish.tempo_bpm, wish.loops, wish.bars, wish.demonstrations))
-        view = SessionView(plan, lesson.kit)
+        plan, view = self._laid_out(wish)
         if self._stage is Stage.PLAYING:
             self.stop()
         folder = SessionFolder(None, self._settings, plan)
@@ -108,6 +117,11 @@ class PracticeRoom:
             self._view = SessionView(self._plan, self._plan.lesson.kit)
 
     # --- inside ------------------------------------------------------------------------------------------------------
+
+    def _laid_out(self, wish: Start) -> tuple[Plan, SessionView]:
+        lesson = self._lessons.get(wish.lesson) or find_lesson(wish.lesson)
+        plan = plan_practice(lesson, Wishes(wish.tempo_bpm, wish.loops, wish.bars, wish.demonstrations))
+        return plan, SessionView(plan, lesson.kit)
 
     def _new_session(self, plan: Plan) -> Session:
         settings = self._settings
@@ -161,6 +175,12 @@ class PracticeRoom:
                 self._notices.append(str(rescued(fault, result, document)))
         self._report = Report(session_facts(result, document), document, path)
         self._stage = Stage.RESULT
+
+
+def _wish_of(plan: Plan) -> Start:
+    last_bar = plan.first_bar + plan.section.bar_count
+    demonstrations = sum(segment.phase is Phase.DEMONSTRATION for segment in plan.segments)
+    return Start(plan.lesson.name, plan.tempo_bpm, plan.passes, (plan.first_bar + 1, last_bar), demonstrations)
 
 
 def _all_lessons(first: Lesson) -> dict[str, Lesson]:

@@ -45,7 +45,8 @@ class Window:
         self._model = model
         self._options = options
         self._clock = clock or MonotonicClock()
-        self.choice = Choice(model.lessons())
+        self.choice = Choice(model.lessons(), model.first())
+        self._previewed = self.choice.card.name if self.choice.card is not None else ""
         self._panel = panels.LessonsPanel(self.choice, self._start)
         self.backdrop = Backdrop(options.quality)
         self.news, self._news_left_s = "", 0.0
@@ -133,9 +134,17 @@ class Window:
     def _background(self) -> None:
         """Draw the picture behind the panels."""
         now_ns = self._clock.now_ns()
+        self._preview()
         report = self._model.report() if self._model.room().stage is Stage.RESULT else None
         self.backdrop.draw(self._model.snapshot(now_ns), report, self._central_area())
         self.frames += 1
+
+    def _preview(self) -> None:
+        """Show the lesson that was chosen in the list."""
+        wish = self.choice.wish()
+        if wish is not None and wish.lesson != self._previewed and self._model.room().stage is Stage.IDLE:
+            self._previewed = wish.lesson
+            self._tried(lambda: self._model.preview(wish))
 
     def _central_area(self) -> tuple[int, int, int, int]:
         """The free middle of the window in pixels from the lower left corner."""
