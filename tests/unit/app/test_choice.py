@@ -71,3 +71,13 @@ def test_keys_strike_zones_that_their_pieces_have() -> None:
 @pytest.mark.parametrize(("lowest_ms", "level"), [(1.0, 2), (2.0, 2), (4.0, 1), (6.0, 1), (6.1, 0), (40.0, 0)])
 def test_faster_machines_draw_more(lowest_ms: float, level: int) -> None:
     assert quality_for(lowest_ms) == level
+
+
+def test_the_window_opens_on_what_was_asked_for() -> None:
+    asked = Start("paradiddle", 84.0, 3, bars=(1, 1), demonstrations=0)
+    choice = Choice([ROCK, PARADIDDLE], asked)
+    assert choice.wish() == asked
+    choice.choose(ROCK)
+    wish = choice.wish()
+    assert wish is not None
+    assert (wish.lesson, wish.bars) == ("rock-1", None)
