@@ -17,7 +17,7 @@ from station.music import passages
 from station.music.judgement import Label
 from station.scoring.alignment import Reference
 from station.scoring.habits import CHANCE
-from station.scoring.points import FREE_LEAN_MS
+from station.scoring.points import FREE_LEAN_MS, FREE_SWING
 from station.scoring.regression import CONSTANT, Effect
 from station.scoring.summary import Summary
 from station.scoring.timing import asynchrony_ms, t_quantile_95, timed_notes
@@ -69,8 +69,6 @@ KINDS = (
 )
 """Every fault that a habit's effect can show. Ghosts that are softer and accents that are louder are nobody's fault."""
 
-SWING_FREE = (1.3, 3.5)
-"""Long:short ratios that are feel."""
 _CLEAR_SWING = 0.5
 
 FREE_BIAS_MS, _CLEAR_BIAS_MS = 20.0, 40.0
@@ -157,9 +155,9 @@ def _swing(summary: Summary) -> list[Finding]:
         return []
     written = float(np.median(places[flags]))
     held, low, high = (_ratio(written + effect.value + k * effect.error) for k in (0.0, -_Z_95, _Z_95))
-    if SWING_FREE[0] <= held <= SWING_FREE[1]:
+    if FREE_SWING[0] <= held <= FREE_SWING[1]:
         return []
-    fault = "straight_swing" if held < SWING_FREE[0] else "hard_swing"
+    fault = "straight_swing" if held < FREE_SWING[0] else "hard_swing"
     bars = tuple(worst_bars(summary, np.ones(int(flags.sum())), flags))
     asked = _ratio(written)
     severity = abs(held - asked) / _CLEAR_SWING

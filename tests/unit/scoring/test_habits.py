@@ -1,0 +1,207 @@
+"""Habits told apart: shifts and levels of known size put into a noisy performance, found again with their intervals.
+
+The noise is made here, independent of the regression: normal, with a part that all strokes of a slot share and that
+fades from slot to slot. What goes in is what must come out.
+"""
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from station.core.pieces import Dynamic, Limb, Piece
+from station.core.units import NS_PER_MS
+from station.music import passages
+from station.music.performance import HIT_DTYPE, Performance
+from station.music.score import Score
+from station.scoring.advice import Advice, advise
+from station.scoring.align import align
+from station.scoring.findings import wilson
+from station.scoring.habits import Habits, fill_ramp, habits
+from station.scoring.regression import Column, fit
+from station.scoring.summary import Summary, summarise
+from tests.fakes.scores import beat_and_fill, double_strokes, flams, rock_beat, swing_ride
+
+Floats = NDArray[np.float64]
+
+
+def noise_ms(score: Score, seed: int, sd_ms: float = 10.0) -> Floats:
+    """Noise of every stroke: two thirds of its variance shared within a slot, fading by a half from slot to slot."""
+    rng = np.random.default_rng(seed)
+    ticks, slot = np.unique(score.notes["tick"], return_inverse=True)
+    shared = np.zeros(len(ticks))
+    for k in range(len(ticks)):
+        shared[k] = 0.5 * shared[k - 1] + 0.75**0.5 * rng.normal() if k else rng.normal()
+    mixed: Floats = sd_ms * ((2 / 3) ** 0.5 * shared[slot] + (1 / 3) ** 0.5 * rng.normal(size=len(score)))
+    return mixed
+
+
+def performed(score: Score, seed: int = 1, shift_ms: Floats | float = 0.0, level_db: Floats | float = 0.0) -> Summary:
+    rng = np.random.default_rng(1000 + seed)
+    hits = np.zeros(len(score), HIT_DTYPE)
+    hits["at_ns"] = score.onset_ns + np.rint((noise_ms(score, seed) + shift_ms) * NS_PER_MS).astype(np.int64)
+    hits["piece"] = score.notes["piece"]
+    loud = score.notes["velocity"] * 10 ** (np.asarray(level_db) / 40) * (1 + 0.06 * rng.normal(size=len(score)))
+    hits["velocity"] = np.clip(np.rint(loud), 1, 127)
+    performance = Performance.from_array(hits)
+    return summarise(score, performance, align(score, performance, clocked=True))
+
+
+def first(advice: tuple[Advice, ...]) -> str | None:
+    return advice[0].fault if advice else None
+
+
+ROCK, FILL, DOUBLES, FLAMS = rock_beat(16), beat_and_fill(8), double_strokes(16), flams(16)
+SWING, HANDS = swing_ride(16), double_strokes(16)
+PLANTED = [
+    ("late_kick", ROCK, "kick", 40.0 * (ROCK.notes["piece"] == Piece.KICK), 40.0),
+    ("slow_hihat_foot", SWING, "hihat_pedal", 45.0 * (SWING.notes["piece"] == Piece.HIHAT_PEDAL), 45.0),
+    ("rush_fills", FILL, "fills", -20.0 * fill_ramp(FILL), -20.0),
+    ("uneven_doubles", DOUBLES, "doubles", -15.0 * passages.second_of_doubles(DOUBLES), -15.0),
+    ("wide_flams", FLAMS, "flams", -20.0 * FLAMS.is_grace, 20.0),
+    ("straight_swing", SWING, "swing", -0.13 * 500 * passages.swung(SWING)[0], -0.13),
+]
+LEVELS = [
+    ("flat_accents", ROCK, "accent_level", -4.0 * (ROCK.notes["dynamic"] == Dynamic.ACCENT), -4.0),
+    ("loud_ghosts", ROCK, "ghost_level", 6.0 * (ROCK.notes["dynamic"] == Dynamic.GHOST), 6.0),
+    ("weak_left", HANDS, "left_level", -4.0 * (HANDS.notes["limb"] == Limb.LEFT_HAND), -4.0),
+]
+
+
+@pytest.mark.parametrize(("fault", "score", "effect", "shift_ms", "size"), PLANTED, ids=[row[0] for row in PLANTED])
+def test_a_planted_shift_is_named_first_and_measured(
+    fault: str, score: Score, effect: str, shift_ms: Floats, size: float
+) -> None:
+    found = []
+    for seed in range(8):
+        summary = performed(score, seed, shift_ms=shift_ms)
+        found.append(summary.habits.effects[effect])
+        assert first(advise(summary)) == fault
+    mean, error = (float(np.mean(values)) for values in ([e.value for e in found], [e.error for e in found]))
+    assert mean == pytest.approx(size, abs=4 * error / 8**0.5)
+
+
+@pytest.mark.parametrize(("fault", "score", "effect", "level_db", "size"), LEVELS, ids=[row[0] for row in LEVELS])
+def test_a_planted_level_is_named_first_and_measured(
+    fault: str, score: Score, effect: str, level_db: Floats, size: float
+) -> None:
+    found = []
+    for seed in range(8):
+        summary = performed(score, seed, level_db=level_db)
+        found.append(summary.habits.effects[effect].value)
+        assert first(advise(summary)) == fault
+    assert np.mean(found) == pytest.approx(size, abs=0.6)
+
+
+@pytest.mark.parametrize("score", [ROCK, FILL, DOUBLES, FLAMS, SWING])
+def test_without_a_fault_nothing_is_said(score: Score) -> None:
+    said = [first(advise(performed(score, seed))) for seed in range(20)]
+    assert said.count(None) >= 19
+
+
+def test_two_faults_are_both_named() -> None:
+    kick = 45.0 * (FILL.notes["piece"] == Piece.KICK)
+    for seed in range(8):
+        faults = {a.fault for a in advise(performed(FILL, seed, shift_ms=kick - 25.0 * fill_ramp(FILL)))}
+        assert {"late_kick", "rush_fills"} <= faults
+
+
+def test_a_lean_within_feel_is_not_scolded() -> None:
+    laid_back = 18.0 * (ROCK.notes["piece"] == Piece.SNARE)
+    assert first(advise(performed(ROCK, 3, shift_ms=laid_back))) is None
+
+
+def test_a_swing_within_feel_is_not_scolded_and_costs_nothing() -> None:
+    """Written 2:1, held 1.6:1: offbeats 0.051 of a beat of 500 ms early."""
+    softer: Floats = (1.6 / 2.6 - 2 / 3) * 500.0 * passages.swung(SWING)[0].astype(np.float64)
+    assert first(advise(performed(SWING, 3, shift_ms=softer))) is None
+    exact = performed(SWING, 3)
+    held = performed(SWING, 3, shift_ms=softer)
+    assert exact.points is not None
+    assert held.points == pytest.approx(exact.points, abs=1.0)
+
+
+def test_few_strokes_bear_no_sentence() -> None:
+    """One bar of rock with its kicks 60 ms late: two strokes prove nothing."""
+    score = rock_beat(1)
+    assert advise(performed(score, 2, shift_ms=60.0 * (score.notes["piece"] == Piece.KICK))) == ()
+
+
+def test_advice_carries_bars_numbers_and_what_to_do() -> None:
+    """Fills stand in every fourth bar."""
+    said = advise(performed(FILL, 1, shift_ms=-25.0 * fill_ramp(FILL)))[0]
+    assert set(said.bars) <= set(range(4, 33, 4))
+    assert said.ci[0] <= said.effect <= said.ci[1] < 0
+    assert f"rush by {-said.effect:.0f} ms in the fills" in said.text
+    assert "85 bpm" in said.text  # 85 % of 100
+
+
+def test_missing_strokes_are_told_when_they_are_many() -> None:
+    score = rock_beat(8)
+    rng = np.random.default_rng(1)
+    kept = (score.notes["piece"] != Piece.SNARE) | (rng.random(len(score)) < 0.5)
+    hits = np.zeros(int(kept.sum()), HIT_DTYPE)
+    hits["at_ns"], hits["piece"], hits["velocity"] = score.onset_ns[kept], score.notes["piece"][kept], 80
+    performance = Performance.from_array(hits)
+    said = advise(summarise(score, performance, align(score, performance, clocked=True)))
+    assert any(a.fault == "missed" and "snare" in a.text for a in said)
+
+
+def test_wilson_by_hand() -> None:
+    """10 of 100: (0.1 + 1.92/100 ± 1.96·√(0.0009 + 0.0000960))/(1.0384) = 5.52 % … 17.44 % (Wilson 1927)."""
+    low, high = wilson(10, 100)
+    assert low == pytest.approx(0.0552, abs=1e-4)
+    assert high == pytest.approx(0.1744, abs=1e-4)
+
+
+# --- the regression itself --------------------------------------------------------------------------------------------
+
+
+def test_without_noise_effects_are_exact() -> None:
+    x1, x2 = np.tile([0.0, 1.0], 20), np.repeat([0.0, 1.0], 20)
+    fitted = fit(3.0 + 5.0 * x1 - 2.0 * x2, [Column("a", x1), Column("b", x2)], np.arange(40))
+    assert fitted is not None
+    assert fitted.effects["a"].value == pytest.approx(5.0)
+    assert fitted.effects["b"].value == pytest.approx(-2.0)
+    assert fitted.effects["all"].value == pytest.approx(3.0)
+
+
+def test_independent_noise_gives_the_textbook_error() -> None:
+    """Two groups of 200, SD 4: the difference of means has a standard error of 4·√(2/200) = 0.4."""
+    rng = np.random.default_rng(4)
+    flag = np.tile([0.0, 1.0], 200)
+    fitted = fit(rng.normal(0, 4, 400), [Column("a", flag)], np.arange(400))
+    assert fitted is not None
+    assert fitted.effects["a"].error == pytest.approx(0.4, rel=0.12)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_errors_are_as_large_as_the_estimates_scatter(seed: int) -> None:
+    """Over 150 fault-free performances z has SD 1 (its own error is 6 %) where slots share and carry on their noise."""
+    z = []
+    flag = fill_ramp(FILL)
+    for k in range(150):
+        y = noise_ms(FILL, 10_000 * seed + k)
+        fitted = fit(y, [Column("fills", flag)], FILL.notes["tick"])
+        assert fitted is not None
+        z.append(fitted.effects["fills"].value / fitted.effects["fills"].error)
+    assert 0.8 < np.std(z) < 1.3
+
+
+def test_a_prior_widens_what_it_could_explain() -> None:
+    """A flag that is one piece alone, pieces leaning apart by 5: its error is that of two pieces' leans, 7."""
+    rng = np.random.default_rng(5)
+    piece = np.tile([0.0, 1.0], 500)
+    columns = [Column("fault", piece), Column("p0", 1 - piece, 5.0), Column("p1", piece, 5.0)]
+    fitted = fit(rng.normal(0, 1, 1000), columns, np.arange(1000))
+    assert fitted is not None
+    assert fitted.effects["fault"].error == pytest.approx(50**0.5, rel=0.02)
+
+
+def test_too_little_is_nothing() -> None:
+    assert fit(np.zeros(0), [], np.zeros(0, np.int64)) is None
+    assert fit(np.ones(5), [Column("a", np.arange(5.0))], np.arange(5)) is None
+    nothing = Habits({}, {}, None)
+    empty = Score.from_notes([], ROCK.tempo_map)
+    silence = Performance.from_hits([])
+    found = habits(empty, silence, align(empty, silence, clocked=True), hears_velocity=True)
+    assert (found.effects, found.timing_sd_ms) == (nothing.effects, nothing.timing_sd_ms)
