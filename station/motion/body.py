@@ -21,6 +21,8 @@ TWIST_RAD_S = np.radians(90.0)
 """Ceiling of the torso's angular speed (our choice: it turns through the kit in about a second)."""
 TWIST_WINDOW_S = 0.35
 """The torso follows the middle of what is struck within this time to each side (our choice)."""
+REST_S, TURN_BACK_S = 3.5, 1.5
+"""In rests of this length the torso turns back to straight ahead, within so long after the stroke (our choice)."""
 SWAY_RAD, SIDE_RAD, BOB_RAD = np.radians((3.0, 2.5, 9.0))
 """Sway of the back forward and sideways and bob of the head at the natural setting (our choice)."""
 SHRUG_M = 0.012
@@ -51,8 +53,7 @@ def mean_bearing(at_s: Array, strike_s: Array, bearing: Array) -> Array:
     chord = np.cumsum(np.diff(strike_s, prepend=strike_s[0]) > 0.001)
     count = np.bincount(chord)
     times, means = np.bincount(chord, strike_s) / count, np.bincount(chord, bearing) / count
-    knots = np.concatenate(([times[0] - 60.0], times, [times[-1] + 60.0]))
-    values = np.concatenate((means[:1], means, means[-1:]))
+    knots, values = _with_rests(times, means)
     area = np.concatenate(([0.0], np.cumsum(0.5 * (values[1:] + values[:-1]) * np.diff(knots))))
 
     def integral(t: Array) -> Array:
@@ -63,6 +64,17 @@ def mean_bearing(at_s: Array, strike_s: Array, bearing: Array) -> Array:
 
     window = TWIST_WINDOW_S
     return (integral(at_s + window) - integral(at_s - window)) / (2 * window)
+
+
+def _with_rests(times: Array, bearings: Array) -> tuple[Array, Array]:
+    """The bearings with the torso straight ahead in long rests, and before the first and after the last stroke."""
+    long = np.flatnonzero(np.diff(times) > REST_S)
+    rests = np.concatenate((times[long] + TURN_BACK_S, times[long + 1] - TURN_BACK_S))
+    ends = np.array([times[0] - 60.0, times[0] - TURN_BACK_S, times[-1] + TURN_BACK_S, times[-1] + 60.0])
+    knots = np.concatenate((times, rests, ends))
+    values = np.concatenate((bearings, np.zeros(len(rests) + len(ends))))
+    order = np.argsort(knots, kind="stable")
+    return knots[order], values[order]
 
 
 @dataclass(frozen=True, eq=False)

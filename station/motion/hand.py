@@ -1,22 +1,30 @@
 """One hand's part: where its stick touches at each event, how high it rises before, and its way between them."""
 
 from dataclasses import dataclass, replace
+from functools import cached_property
+from math import radians
 
 import numpy as np
 from numpy.typing import NDArray
 
 from station.core.errors import BadInput
 from station.core.pieces import Limb, Piece, Zone, word
+from station.motion.arm import Contact, Offsets, solve
 from station.motion.contacts import PROTRACTION_M, Lie, Strike, lie_of
 from station.motion.events import HandEvents
 from station.motion.figure import Figure
 from station.motion.grip import Hold
 from station.motion.kit import Kit
+from station.motion.maths import MANY, Point
 from station.motion.stroke import StrokePlan, amplitudes
-from station.motion.travel import Way, lifts
+from station.motion.travel import HIGHEST_M, Way, lifts
 from station.music.score import Score
 
 Array = NDArray[np.float64]
+
+EASE_RAD = radians(12)
+"""How far a wrist is bent sideways at most at a strike (our choice; its limits are 20° and 30°)."""
+_HAND_YAW = Contact._fields.index("hand_yaw")
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,7 +32,8 @@ class HandPart:
     """The events of one hand and how it makes them.
 
     `lies` are the kinds of contact that occur, `which` (n,) the kind of each event, `wrist_m` (n, 3) where the wrist is
-    at each, naturally; the plan of its strokes and its way between them.
+    at each, naturally, and `contacts` (n, fields) what its arm is solved from; the plan of its strokes; how far each
+    stretch between two events (n − 1,) is lifted, and whether it is travelled early.
     """
 
     limb: Limb
@@ -34,7 +43,9 @@ class HandPart:
     which: NDArray[np.int64]
     wrist_m: Array
     strokes: StrokePlan
-    way: Way
+    contacts: Array
+    lift_m: Array
+    early: NDArray[np.bool_]
 
     @classmethod
     def of(cls, score: Score, kit: Kit, figure: Figure, hold: Hold, limb: Limb, events: HandEvents) -> "HandPart":
@@ -62,13 +73,32 @@ class HandPart:
         )
         left_at_once = np.array([lie.shoulder_of_stick for lie in lies])[which]
         played = np.array([kit.stand_in(s.piece) for s in strikes])[which]
-        way = Way.of(events.time_s, contacts, lifts(kit, contacts, played), left_at_once[:-1])
-        return cls(limb, hold, events, lies, which, np.array([lie.wrist for lie in lies])[which], plan, way)
+        wrists = np.array([lie.wrist for lie in lies])[which]
+        lift_m = lifts(kit, contacts, played)
+        return cls(limb, hold, events, lies, which, wrists, plan, contacts, lift_m, left_at_once[:-1])
+
+    @cached_property
+    def way(self) -> Way:
+        """The way between the contacts."""
+        return Way.of(self.events.time_s, self.contacts, np.minimum(self.lift_m, HIGHEST_M), self.early)
+
+    def eased(self, figure: Figure, roots: Point) -> "HandPart":
+        """The same with every hand pointed so that its wrist is not bent sideways beyond ease.
+
+        `roots` are the shoulder's x, y, z (n,) as the body naturally is at each event.
+        """
+        contacts = self.contacts.copy()
+        lengths = self.hold.lengths(figure, self.limb == Limb.RIGHT_HAND)
+        for _ in range(2):
+            arm = solve(MANY, lengths, roots, Contact(*contacts.T), Offsets(0.0, 0.0, 0.0, 0.0))
+            contacts[:, _HAND_YAW] -= arm.deviation - np.clip(arm.deviation, -EASE_RAD, EASE_RAD)
+        return replace(self, contacts=contacts)
 
     def cleared(self, height_m: Array, lift_m: Array) -> "HandPart":
         """The same, no stroke higher than `height_m` (n,), whatever the sliders say, the ways lifted by `lift_m`."""
         most = height_m / np.maximum(self.strokes.height_m, 1e-6)
-        return replace(self, strokes=replace(self.strokes, most=most), way=self.way.lifted(lift_m))
+        strokes = replace(self.strokes, most=most)
+        return replace(self, strokes=strokes, lift_m=np.maximum(self.lift_m, lift_m))
 
 
 def parts(hold: Hold) -> Array:

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Limb, Piece, Zone
+from station.motion import body
 from station.motion.beats import Beats, bob_cofactors
 from station.motion.body import Ground, mean_bearing
 from station.motion.clearance import cleared
@@ -19,11 +20,12 @@ from station.motion.instruments import Instrument, instruments
 from station.motion.kit import Kit
 from station.motion.life import Blinks
 from station.motion.limbs import Assignment, assign_limbs
-from station.motion.maths import Point
+from station.motion.maths import MANY, Point
 from station.motion.pedals import hat_board, kick_board
 from station.motion.posture import pelvis_of
 from station.motion.splines import Curves
 from station.motion.style import Style
+from station.motion.trunk import TrunkAngles, trunk
 from station.music.score import Score
 
 Array = NDArray[np.float64]
@@ -78,7 +80,16 @@ class Plan:
             HandPart.of(self.score, self.kit, self.figure, hold, limb, events)
             for limb, hold, events in zip(HANDS, holds(style), self.events, strict=True)
         )
-        return cleared((right, left), self.figure)
+        right, left = cleared((right, left), self.figure)
+        return right.eased(self.figure, self._roots(right)), left.eased(self.figure, self._roots(left))
+
+    def _roots(self, hand: HandPart) -> Point:
+        """Where the shoulder of `hand` naturally is at each of its events."""
+        natural = Style()
+        curves = body.curves(self.ground, natural, body.keys(self.ground, natural))
+        twist, lean, side, shrug, _, _ = curves.many(hand.events.time_s)
+        frame = trunk(MANY, self.figure, self.pelvis, TrunkAngles(twist, lean, side, 0.0, 0.0, 0.0, shrug))
+        return frame.right_shoulder if hand.limb == Limb.RIGHT_HAND else frame.left_shoulder
 
     def gaze(self, around: float, seed: int) -> Curves:
         """Where the drummer looks; `around` 0 … 1 how often a rest is used to look around."""

@@ -54,12 +54,6 @@ class Way:
         rows[:-1, 3 + FIELDS :] = np.diff(contacts, axis=0)
         return cls(strike_s, rows, strike_s.tolist())
 
-    def lifted(self, lift_m: Array) -> "Way":
-        """The same with every stretch (n − 1,) lifted by at least `lift_m`."""
-        rows = self.rows.copy()
-        rows[:-1, 2] = np.minimum(np.maximum(rows[:-1, 2], lift_m), HIGHEST_M)
-        return Way(self.strike_s, rows, self.strikes)
-
     def at(self, time_s: float) -> Contact:
         """The contact at one instant."""
         i = max(bisect_right(self.strikes, time_s) - 1, 0)

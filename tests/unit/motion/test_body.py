@@ -32,8 +32,15 @@ def test_the_ceiling_looks_ahead() -> None:
 
 
 def test_both_hands_at_once_face_between_them() -> None:
-    at = np.array([1.0])
-    assert mean_bearing(at, np.array([1.0, 1.0]), np.array([0.4, -0.2]))[0] == pytest.approx(0.1)
+    strikes = np.repeat(np.arange(0, 6, 0.5), 2)
+    facing = mean_bearing(np.array([2.0, 3.25]), strikes, np.tile([0.4, -0.2], 12))
+    assert facing == pytest.approx([0.1, 0.1])
+
+
+def test_in_a_long_rest_the_torso_turns_back() -> None:
+    facing = mean_bearing(np.array([0.0, 5.0, 10.0]), np.array([0.0, 10.0]), np.array([0.5, 0.5]))
+    assert facing[1] == pytest.approx(0.0)
+    assert min(facing[0], facing[2]) > 0.3
 
 
 def test_alternating_pieces_are_faced_in_the_middle() -> None:

@@ -104,7 +104,7 @@ def test_joints_stay_within_their_limits() -> None:
         assert angles[f"{side}_elbow"].min() >= -1e-6
         assert angles[f"{side}_wrist"].max() <= limits.wrist_extension
         assert angles[f"{side}_wrist"].min() >= -limits.wrist_flexion
-        assert angles[f"{side}_wrist_side"].max() <= limits.wrist_radial + np.radians(10)
+        assert angles[f"{side}_wrist_side"].max() <= limits.wrist_radial
         assert angles[f"{side}_wrist_side"].min() >= -limits.wrist_ulnar
         assert angles[f"{side}_shoulder"].max() <= limits.shoulder_flexion
         assert angles[f"{side}_shoulder"].min() >= -limits.shoulder_extension
