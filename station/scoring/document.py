@@ -10,7 +10,9 @@ from collections.abc import Mapping
 from station.core.pieces import Dynamic, Limb, word
 from station.scoring.advice import advise
 from station.scoring.dynamics import Dynamics
+from station.scoring.habits import Habits
 from station.scoring.summary import Group, Summary
+from station.scoring.tempo import TempoCurve
 from station.scoring.timing import Spread
 
 SCHEMA = "drum-station/assessment/1"
@@ -38,6 +40,8 @@ def assessment(summary: Summary) -> dict[str, Json]:
             "ignored": counts.ignored,
         },
         "timing": _timing(summary.timing),
+        "tempo": _tempo(summary.tempo),
+        "habits": _habits(summary.habits),
         "dynamics": None if summary.dynamics is None else _dynamics(summary.dynamics),
         "per_piece": {word(piece): _group(group) for piece, group in summary.by_piece.items()},
         "per_limb": _keyed(summary.by_limb),
@@ -76,6 +80,24 @@ def _timing(spread: Spread) -> dict[str, Json]:
         "sd_asynchrony_ms": _number(spread.sd_ms),
         "mean_ci_ms": None if spread.ci_ms is None else [_number(end) for end in spread.ci_ms],
         "strokes": spread.count,
+    }
+
+
+def _tempo(tempo: TempoCurve) -> dict[str, Json]:
+    return {
+        "median_bpm": _number(tempo.median_bpm),
+        "drift_pct_per_minute": _number(tempo.drift_pct_per_minute),
+        "bars": [
+            {"bar": bar.bar + 1, "at_s": _number(bar.at_s), "tempo_bpm": _number(bar.tempo_bpm)} for bar in tempo.bars
+        ],
+    }
+
+
+def _habits(habits: Habits) -> dict[str, Json]:
+    """Every effect with its standard error, named and measured as `station.scoring.habits` says."""
+    return {
+        name: {"effect": _number(effect.value), "standard_error": _number(effect.error), "moments": effect.slots}
+        for name, effect in habits.effects.items()
     }
 
 

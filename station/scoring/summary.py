@@ -22,6 +22,7 @@ from station.scoring.alignment import Alignment
 from station.scoring.dynamics import Dynamics, dynamics
 from station.scoring.habits import Habits, habits
 from station.scoring.points import points
+from station.scoring.tempo import TempoCurve, tempo_curve
 from station.scoring.timing import Spread, asynchrony_ms, spread, timed_notes
 from station.scoring.windows import DEFAULT_LEVEL, Windows
 
@@ -116,6 +117,7 @@ class Summary:
     by_dynamic: Mapping[Dynamic, Group]
     wrong_pieces: tuple[WrongPiece, ...]
     habits: Habits
+    tempo: TempoCurve
 
 
 def summarise(score: Score, performance: Performance, alignment: Alignment, view: View | None = None) -> Summary:
@@ -148,6 +150,7 @@ def summarise(score: Score, performance: Performance, alignment: Alignment, view
         ),
         wrong_pieces=_wrong_pieces(score, performance, alignment),
         habits=habits(score, performance, alignment, view.hears_velocity),
+        tempo=tempo_curve(score, performance, alignment),
     )
 
 

@@ -28,6 +28,10 @@ class Windows:
         distance = abs(asynchrony_ms)
         return sum(distance > edge for edge in self.edges_ms)
 
+    def lean(self, asynchrony_ms: float) -> int:
+        """−1 early, 0 inside the innermost window, 1 late."""
+        return 0 if self.grade(asynchrony_ms) == 0 else (-1 if asynchrony_ms < 0 else 1)
+
     def credit(self, asynchrony_ms: ArrayLike) -> NDArray[np.float64]:
         """Share of full marks, 1 … 0, the shape of `asynchrony_ms`.
 

@@ -1,0 +1,36 @@
+"""The player's tempo, against performances that were made at a known one."""
+
+import numpy as np
+import pytest
+
+from station.music.performance import Performance
+from station.scoring.align import align
+from station.scoring.tempo import TempoCurve, tempo_curve
+from tests.fakes.played import played, varied_groove
+
+
+def curve_of(at_s: np.ndarray[tuple[int], np.dtype[np.float64]]) -> TempoCurve:
+    score = varied_groove(20)
+    performance = played(score, at_s, np.arange(len(score)))
+    return tempo_curve(score, performance, align(score, performance, clocked=False))
+
+
+@pytest.mark.parametrize("tempo", [0.8, 1.0, 1.25])
+def test_a_steady_tempo(tempo: float) -> None:
+    """Written at 120 bpm."""
+    curve = curve_of(2 + varied_groove(20).onset_s / tempo)
+    assert curve.median_bpm == pytest.approx(120 * tempo, rel=1e-6)
+    assert [bar.tempo_bpm for bar in curve.bars] == pytest.approx([120 * tempo] * 20, rel=1e-6)
+    assert curve.drift_pct_per_minute == pytest.approx(0.0, abs=1e-4)
+
+
+def test_a_tempo_that_rises_by_ten_percent_a_minute() -> None:
+    """At second t of playing the pace is 1 + 0.1·t/60, so that s(t) = t + t²/1200; turned round by the root."""
+    s = varied_groove(20).onset_s
+    curve = curve_of(600 * (np.sqrt(1 + s / 300) - 1))
+    assert curve.drift_pct_per_minute == pytest.approx(10.0, abs=0.2)
+
+
+def test_silence_has_no_tempo() -> None:
+    score, silence = varied_groove(2), Performance.from_hits([])
+    assert tempo_curve(score, silence, align(score, silence, clocked=False)) == TempoCurve((), None, None)
