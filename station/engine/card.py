@@ -42,6 +42,11 @@ class Card:
         """The card that sounds, None while there is none."""
         return self._output.name if self._output is not None else None
 
+    @property
+    def rate_hz(self) -> int | None:
+        """The rate of the card that sounds, None while there is none."""
+        return self._output.rate_hz if self._output is not None else None
+
     def start(self, now_ns: int) -> None:
         """Open the card; where that fails the user is told, and the engine runs silent."""
         try:

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.errors import StationError
+from station.core.errors import DeviceError, StationError
 from station.core.events import Choke, DeviceEvent, Hit, PedalMoved
 from station.core.kitmap import Strike
 from station.core.units import NS_PER_S
@@ -31,6 +31,7 @@ from station.engine.messages import (
     Queue,
     Quit,
     Record,
+    SetBacking,
     SetLevel,
     Started,
     Status,
@@ -40,6 +41,7 @@ from station.engine.playback import CueRun
 from station.engine.player import Player
 from station.engine.recorder import Recorder
 from station.sound.mixer import Mixer
+from station.sound.track import load
 
 STATUS_EVERY_NS = NS_PER_S
 KEYBOARD = "keyboard"
@@ -136,12 +138,26 @@ class Engine:
                 self._player.stop()
             case SetLevel():
                 self._player.set_level(command.bus, command.level, command.pan)
+            case SetBacking():
+                self._set_backing(command)
             case KeyHit():
                 self._take_key(command)
             case Record():
                 self._record(command.path)
             case Quit():
                 self.quitting = True
+
+    def _set_backing(self, wish: SetBacking) -> None:
+        track = wish.loaded
+        if wish.track is not None and track is None:
+            try:
+                track = load(wish.track)
+            except DeviceError as fault:
+                self.notify(str(fault))
+        rate_hz = self._player.rate_hz
+        if track is not None and rate_hz not in (None, track.rate_hz):
+            self.notify(f"the track was prepared for {track.rate_hz} Hz and the card plays {rate_hz}: choose it again")
+        self._player.set_track(track, wish.at_ns)
 
     def _take_key(self, key: KeyHit) -> None:
         hit = Hit(

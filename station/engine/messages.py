@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from station.core.events import DeviceEvent
 from station.core.pieces import Articulation, Piece, Zone
 from station.sound.buses import Bus, ClickVoice
+from station.sound.track import PreparedTrack, Track
 
 __all__ = [
     "CUE_DTYPE",
@@ -28,6 +29,7 @@ __all__ = [
     "Quit",
     "Ready",
     "Record",
+    "SetBacking",
     "SetLevel",
     "Started",
     "Status",
@@ -80,6 +82,18 @@ class SetLevel:
 
 
 @dataclass(frozen=True, slots=True)
+class SetBacking:
+    """Play along to `track` whenever the transport runs, from `at_ns` after its zero on; None for no track.
+
+    `loaded` is filled in on the way, by whoever has time to read the file.
+    """
+
+    track: PreparedTrack | None
+    at_ns: int = 0
+    loaded: Track | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class KeyHit:
     """A stroke played on the computer's keyboard, stamped `at_ns` when it was polled."""
 
@@ -103,7 +117,7 @@ class Quit:
     """End the engine process."""
 
 
-Command = Play | Queue | Stop | SetLevel | KeyHit | Record | Quit
+Command = Play | Queue | Stop | SetLevel | SetBacking | KeyHit | Record | Quit
 
 
 # --- from the engine -------------------------------------------------------------------------------------------------
@@ -111,9 +125,13 @@ Command = Play | Queue | Stop | SetLevel | KeyHit | Record | Quit
 
 @dataclass(frozen=True, slots=True)
 class Ready:
-    """The engine process is up: hits are heard and sounded by the card named `output`, None when it runs silent."""
+    """The engine process is up: hits are heard and sounded by the card named `output`, None when it runs silent.
+
+    `rate_hz` is the card's, for which a track to play along to is prepared; None when silent.
+    """
 
     output: str | None
+    rate_hz: int | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,6 +22,7 @@ from station.core.units import NS_PER_S
 from station.engine.playback import Cue, CueRun, Playback
 from station.sound.buses import Bus, ClickVoice
 from station.sound.mixer import Mixer
+from station.sound.track import Track
 
 Level = tuple[float, float]
 _FULL: Level = (1.0, 0.0)
@@ -36,6 +37,9 @@ class Player:
         self._playback = Playback()
         self._levels = dict.fromkeys(Bus, _FULL)
         self._passed_ns = 0
+        self._track: Track | None = None
+        self._track_at_ns = 0
+        self._track_plays = False
         self._mixer: Mixer | None = None
         self.attach(mixer)
 
@@ -44,6 +48,7 @@ class Player:
     def attach(self, mixer: Mixer | None) -> None:
         """Sound through `mixer` from now on, None for not at all; only while nobody calls `render`."""
         self._mixer = mixer
+        self._track_plays = False
         if mixer is not None:
             for bus, (level, pan) in self._levels.items():
                 mixer.set_level(bus, level, pan)
@@ -52,6 +57,11 @@ class Player:
     def is_silent(self) -> bool:
         """Whether nothing sounds."""
         return self._mixer is None
+
+    @property
+    def rate_hz(self) -> int | None:
+        """The rate of what sounds; None where nothing does."""
+        return self._mixer.kit.rate_hz if self._mixer is not None else None
 
     @property
     def late_cues(self) -> int:
@@ -68,7 +78,11 @@ class Player:
 
     def stop(self) -> None:
         """Stop the transport; what rings, rings out."""
-        self._inbox.append(lambda _: self._playback.stop())
+        self._inbox.append(lambda _: self._stop())
+
+    def set_track(self, track: Track | None, at_ns: int) -> None:
+        """Play `track` from `at_ns` of transport time on, whenever the transport runs; one of another rate is mute."""
+        self._inbox.append(lambda _: self._change_track(track, at_ns))
 
     def set_level(self, bus: Bus, level: float, pan: float) -> None:
         """Set a bus's level and pan."""
@@ -101,6 +115,7 @@ class Player:
         assert self._mixer is not None, "whoever renders has attached a mixer"
         rate_hz = self._mixer.kit.rate_hz
         self._empty_inbox(dac_ns)
+        self._place_track(self._mixer, dac_ns, frames)
         for cue in self._playback.take(dac_ns, dac_ns + frames * NS_PER_S // rate_hz):
             at_frame = round((cue.at_ns - dac_ns) * rate_hz / NS_PER_S)
             _sound(self._mixer, cue, max(0, at_frame))
@@ -120,6 +135,32 @@ class Player:
         zero_ns = max(wish_ns, block_ns)
         self._playback.start(run, zero_ns)
         self._zeros.append(zero_ns)
+        self._track_plays = False
+
+    def _stop(self) -> None:
+        self._playback.stop()
+        self._silence_track()
+
+    def _change_track(self, track: Track | None, at_ns: int) -> None:
+        self._silence_track()
+        self._track, self._track_at_ns = track, at_ns
+
+    def _silence_track(self) -> None:
+        self._track_plays = False
+        if self._mixer is not None:
+            self._mixer.stop_track()
+
+    def _place_track(self, mixer: Mixer, dac_ns: int, frames: int) -> None:
+        """Start the track on its frame, and from then on keep it where the transport is."""
+        zero_ns, rate_hz = self._playback.zero_ns, mixer.kit.rate_hz
+        if self._track is None or zero_ns is None or self._track.rate_hz != rate_hz:
+            return
+        ahead = round((zero_ns + self._track_at_ns - dac_ns) * rate_hz / NS_PER_S)
+        if self._track_plays:
+            mixer.keep_track_at(-ahead)
+        elif ahead < frames:
+            mixer.play_track(self._track, max(0, ahead))
+            self._track_plays = True
 
     def _to_mixer(self, action: Callable[[Mixer], None]) -> None:
         def act(_: int) -> None:

@@ -15,7 +15,7 @@ import time
 import traceback
 from collections import deque
 from contextlib import nullcontext, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
 from queue import SimpleQueue
@@ -28,7 +28,7 @@ from station.devices.midi_ports import MidiDirectory
 from station.devices.watch import KitWatch
 from station.engine.card import Card
 from station.engine.engine import Engine
-from station.engine.messages import Command, EngineEvent, Notice, Quit, Ready
+from station.engine.messages import Command, EngineEvent, Notice, Quit, Ready, SetBacking
 from station.engine.runner import Runner
 from station.sound.buses import ClickVoice
 from station.sound.click import DEFAULT_TIMBRE, click_sounds
@@ -36,6 +36,7 @@ from station.sound.drum_kit import DrumKit, Frames
 from station.sound.kits.load import DEFAULT_KIT, load_kit
 from station.sound.mixer import Mixer
 from station.sound.output import open_output
+from station.sound.track import load
 
 POLL_S = 0.0004
 """Pause between two looks at the kits; with the work itself and the system's timer slack about half a millisecond."""
@@ -193,7 +194,7 @@ def _live(config: EngineConfig, inbox: "_Inbox", outbox: "_Outbox") -> None:
         gc.collect()
         gc.freeze()
         gc.disable()  # a collection in the audio thread is a late block; what runs from here on makes no cycles
-        outbox.put([Ready(card.name if card is not None else None)])
+        outbox.put([Ready(card.name, card.rate_hz) if card is not None else Ready(None)])
         while not (engine.quitting or inbox.is_closed):
             happened = runner.step(time.monotonic_ns())
             if happened:
@@ -285,6 +286,14 @@ class _Inbox:
     def _run(self) -> None:
         try:
             while True:
-                self._received.append(self._commands.recv())
+                self._received.append(_loaded(self._commands.recv()))
         except (EOFError, OSError):
             self.is_closed = True
+
+
+def _loaded(command: Command) -> Command:
+    """The command, with a track's file read here, where nobody waits; a fault is left for the engine to find."""
+    if isinstance(command, SetBacking) and command.track is not None:
+        with suppress(DeviceError):
+            return replace(command, loaded=load(command.track))
+    return command

@@ -11,6 +11,7 @@ class Bus(IntEnum):
     CLICK = 0
     DEMONSTRATION = 1
     STUDENT = 2
+    BACKING = 3
 
 
 class ClickVoice(IntEnum):

@@ -22,6 +22,7 @@ from station.sound.buses import Bus, ClickVoice
 from station.sound.drum_kit import MAX_VELOCITY, DrumKit, Frames, Sound, level_of
 from station.sound.limiter import soft_clip
 from station.sound.sounds import SoundName
+from station.sound.track import Track, TrackVoice
 from station.sound.voice import Voice
 
 PIECE_FRAMES = 250
@@ -43,12 +44,16 @@ MUTE_S = 0.03
 """So long a sound takes to fall silent that another of its mute group stops (our choice: a hand's choke is slower)."""
 HALF_OPEN_RING_S = 0.9
 """So long a hi-hat rings on that the pedal has brought from open to openness ½ (our choice: as its half-open sound)."""
+TRACK_SLACK = 2
+"""Frames by which a track may be off its place: the clock's own noise (our choice)."""
+TRACK_JUMP_S = 0.03
+"""Further away than this a track is moved at once, for the stream has jumped (our choice: a flam's width)."""
 LEVEL_SLEW_S = 0.01
 """A bus takes so long to a new level: no zipper noise."""
 
 
 class Mixer:
-    """Plays one drum kit and the click on three buses."""
+    """Plays one drum kit, the click and a track to play along to, each on its bus."""
 
     def __init__(self, kit: DrumKit, clicks: Mapping[ClickVoice, Frames], max_voices: int = MAX_VOICES) -> None:
         self.kit = kit
@@ -69,6 +74,7 @@ class Mixer:
         self._level_steps = np.zeros((len(Bus), 2), np.float32)
         self._level_targets = self._levels.copy()
         self._slew_left = 0
+        self._tracks: list[TrackVoice] = []  # the last plays, those before it fade out
 
     # --- what to play --------------------------------------------------------------------------------------------
 
@@ -93,6 +99,30 @@ class Mixer:
     def pedal(self, bus: Bus, openness: float, at_frame: int = 0) -> None:
         """Move the hi-hat's pedal: what rings more open than `openness` 0 closed … 1 open is damped accordingly."""
         self._at(at_frame, partial(self._damp_hihat, bus, openness))
+
+    def play_track(self, track: Track, at_frame: int = 0) -> None:
+        """Play `track` on the backing bus, in place of one that plays, from `at_frame` of the next block on."""
+        assert track.rate_hz == self.kit.rate_hz, "a track is prepared for the card's rate"
+        self._at(at_frame, partial(self._begin_track, track))
+
+    def stop_track(self) -> None:
+        """Fade the track out."""
+        for track in self._tracks:
+            track.stop()
+
+    def keep_track_at(self, position: int) -> None:
+        """Bring the playing track to `position`, the frames since its start that the next block should begin with.
+
+        A frame at a time where it has drifted a little, at once where it is `TRACK_JUMP_S` away.
+        """
+        if not self._tracks:
+            return
+        track = self._tracks[-1]
+        off = position - track.position
+        if abs(off) > self._frames(TRACK_JUMP_S):
+            track.move(off)
+        elif abs(off) > TRACK_SLACK:
+            track.move(1 if off > 0 else -1)
 
     def set_level(self, bus: Bus, level: float, pan: float = 0.0) -> None:
         """Set the level (0 silent, 1 full) and balance (−1 left … 1 right) of `bus`, from the next block on."""
@@ -139,6 +169,8 @@ class Mixer:
         buses = self._sum_voices(size)
         if self._tail_left:
             self._add_tail(buses, size)
+        if self._tracks:
+            self._add_tracks(buses, count)
         stereo = buses.reshape(len(Bus), count, 2)
         if self._slew_left:
             ramp = np.arange(count, dtype=np.float32)[None, :, None]
@@ -148,7 +180,7 @@ class Mixer:
             np.einsum("bnc,bc->nc", stereo, self._levels, out=out)
 
     def _sum_voices(self, size: int) -> NDArray[np.float32]:
-        """The three buses, (3, size) interleaved, of the next `size`/2 frames; voices that end are let go."""
+        """The buses, (buses, size) interleaved, of the next `size`/2 frames; voices that end are let go."""
         if not self._voices:
             return np.zeros((len(Bus), size), np.float32)
         rows = self._rows[:, :size]
@@ -179,6 +211,11 @@ class Mixer:
         tail[:, : tail.shape[1] - width] = tail[:, width:].copy()
         tail[:, tail.shape[1] - width :] = 0.0
         self._tail_left = max(0, self._tail_left - width)
+
+    def _add_tracks(self, buses: NDArray[np.float32], count: int) -> None:
+        for track in self._tracks:
+            buses[Bus.BACKING] += track.read(count).reshape(-1)
+        self._tracks = [track for track in self._tracks if not track.has_ended]
 
     def _slew(self, count: int) -> None:
         self._levels += count * self._level_steps
@@ -216,6 +253,10 @@ class Mixer:
 
     def _click(self, voice: ClickVoice, velocity: int) -> None:
         self._begin(Voice(self._clicks[voice], Bus.CLICK, level_of(velocity), None))
+
+    def _begin_track(self, track: Track) -> None:
+        self.stop_track()
+        self._tracks.append(TrackVoice(track))
 
     def _begin(self, voice: Voice) -> None:
         self._retire_oldest(voice)

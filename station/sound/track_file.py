@@ -1,0 +1,151 @@
+"""A play-along file made ready: read, brought to the card's rate, slowed or sped up without a change of pitch, kept.
+
+That takes seconds and holds the interpreter lock (the stretcher is C++), so it never happens in the engine:
+`prepare_in_background` does it in a process of its own and leaves the result on disk as plain int16 frames, which
+the engine reads whole before it plays. The same wish finds its file again. Signalsmith Stretch (python-stretch) does
+the stretching: it is the only one of its quality whose licence and wheels fit.
+
+Level: music is mastered up to full scale, a drum kit is not; a track is set to `TRACK_DB`, and the kit lies above it.
+"""
+
+import hashlib
+import secrets
+from concurrent.futures import Future, ProcessPoolExecutor
+from contextlib import suppress
+from dataclasses import dataclass
+from multiprocessing import get_context
+from pathlib import Path
+
+import numpy as np
+from platformdirs import user_cache_path
+
+from station.core.errors import BadInput, DeviceError
+from station.core.settings import APP_NAME
+from station.sound.audio_file import opened, read_audio
+from station.sound.drum_kit import Frames
+from station.sound.track import Pcm, PreparedTrack
+
+MIN_SPEED, MAX_SPEED = 0.5, 1.5
+MAX_TRACK_S = 600.0
+"""Our choice: ten minutes of a song, at half speed 230 MB in memory."""
+MIN_LOOP_S = 0.25
+TRACK_DB = -20.0
+"""RMS of a track as a whole (our choice: a groove on the synthesised kit lies some 4 dB above)."""
+KEPT_FILES = 8
+_ENDING = ".track"
+_LOUDEST = 0.98
+
+
+@dataclass(frozen=True, slots=True)
+class TrackWish:
+    """What to play along to: a sound file, how fast (0.5 … 1.5), from where, and which part again and again.
+
+    Times are seconds of the file at its own speed.
+    """
+
+    path: Path
+    rate_hz: int
+    speed: float = 1.0
+    start_s: float = 0.0
+    loop_s: tuple[float, float] | None = None
+
+
+def tracks_folder() -> Path:
+    """Where prepared tracks lie on this system; may be deleted at any time."""
+    return user_cache_path(APP_NAME, appauthor=False) / "tracks"
+
+
+def prepare_in_background(wish: TrackWish, folder: Path | None = None) -> "Future[PreparedTrack]":
+    """`prepare` in a process of its own; the future ends with its result, or raises what it raises."""
+    pool = ProcessPoolExecutor(1, mp_context=get_context("spawn"))
+    future = pool.submit(prepare, wish, folder)
+    pool.shutdown(wait=False)
+    return future
+
+
+def prepare(wish: TrackWish, folder: Path | None = None) -> PreparedTrack:
+    """Make the track ready; raises `BadInput` for the wish's or the file's fault, `DeviceError` for the disk's."""
+    length_s = _checked_length_s(wish)
+    home = folder or tracks_folder()
+    file = home / f"{_digest(wish)}{_ENDING}"
+    if not file.exists():
+        _write(file, pcm_of(stretched(_read(wish), wish.rate_hz, wish.speed)))
+        _forget_oldest(home)
+    scale = wish.rate_hz / wish.speed
+    frames = file.stat().st_size // 4
+    loop = None
+    if wish.loop_s is not None:
+        first, end = (min(frames, round(second * scale)) for second in wish.loop_s)
+        loop = first, (frames if wish.loop_s[1] >= length_s else end)
+    return PreparedTrack(file, wish.rate_hz, min(frames - 1, round(wish.start_s * scale)), loop)
+
+
+def stretched(frames: Frames, rate_hz: int, speed: float) -> Frames:
+    """`frames` (n, 2) played `speed` times as fast at the same pitch: (about n/speed, 2)."""
+    if speed == 1.0:
+        return frames
+    import python_stretch  # noqa: PLC0415 - only here, and the engine never comes here
+
+    stretcher = python_stretch.Signalsmith.Stretch()
+    stretcher.preset(2, rate_hz)
+    stretcher.setTimeFactor(speed)
+    return np.ascontiguousarray(np.asarray(stretcher.process(np.ascontiguousarray(frames.T)), np.float32).T)
+
+
+def pcm_of(frames: Frames) -> Pcm:
+    """`frames` at `TRACK_DB`, less where that would exceed full scale, as int16."""
+    rms = float(np.sqrt(np.mean(np.square(frames, dtype=np.float64))))
+    peak = float(np.abs(frames).max())
+    gain = min(10.0 ** (TRACK_DB / 20.0) / rms, _LOUDEST / peak) if rms > 0.0 else 1.0
+    pcm: Pcm = np.rint(frames * np.float32(32767.0 * gain)).astype(np.int16)
+    return pcm
+
+
+def _checked_length_s(wish: TrackWish) -> float:
+    name = str(wish.path)
+    if not MIN_SPEED <= wish.speed <= MAX_SPEED:
+        raise BadInput(name, "speed", f"expected {MIN_SPEED:g} to {MAX_SPEED:g}, found {wish.speed:g}")
+    with opened(wish.path, name) as file:
+        length_s: float = min(MAX_TRACK_S, file.frames / file.samplerate)
+    if not 0.0 <= wish.start_s < length_s:
+        raise BadInput(name, "start", f"expected 0 to {length_s:.1f} s, found {wish.start_s:g}")
+    if wish.loop_s is not None:
+        first, end = wish.loop_s
+        if not (0.0 <= first <= end - MIN_LOOP_S and max(end - 0.01, 0.0) <= length_s and wish.start_s < end):
+            within = f"a loop lies within {length_s:.1f} s, lasts {MIN_LOOP_S:g} s, and ends after the start"
+            raise BadInput(name, f"loop {first:g}-{end:g}", within)
+    return length_s
+
+
+def _read(wish: TrackWish) -> Frames:
+    return read_audio(wish.path, str(wish.path), wish.rate_hz, MAX_TRACK_S)
+
+
+def _digest(wish: TrackWish) -> str:
+    """Names what the frames depend on: the file as it is now, the rate and the speed."""
+    stat = wish.path.stat()
+    facts = (str(wish.path.resolve()), stat.st_size, stat.st_mtime_ns, wish.rate_hz, wish.speed, TRACK_DB)
+    return hashlib.sha256(repr(facts).encode()).hexdigest()[:24]
+
+
+def _write(file: Path, pcm: Pcm) -> None:
+    part = file.with_name(f".{secrets.token_hex(8)}.part")
+    try:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        pcm.tofile(part)
+        part.replace(file)
+    except OSError as fault:
+        raise DeviceError(f"{file}: the play-along track cannot be kept: {fault.strerror or fault}") from fault
+    finally:
+        with suppress(OSError):
+            part.unlink(missing_ok=True)
+
+
+def _forget_oldest(folder: Path) -> None:
+    kept = sorted(folder.glob(f"*{_ENDING}"), key=_age, reverse=True)
+    for old in kept[KEPT_FILES:]:
+        old.unlink(missing_ok=True)
+
+
+def _age(path: Path) -> int:
+    return path.stat().st_mtime_ns
