@@ -5,6 +5,7 @@ pelvis, shoulders, hips and sticks have positions too, for they move against the
 sticks pivot in the hand.
 """
 
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -72,11 +73,23 @@ def _end(bones: Skeleton, name: str) -> Array:
 
 
 def _euler_zxy(turn: Array) -> Array:
-    """Degrees (n, 3) about z, x, y with R = Rz Rx Ry, without jumps of whole turns."""
+    """Degrees (n, 3) about z, x, y with R = Rz Rx Ry, each as near to the one before as there is.
+
+    Every rotation has two such triples, (z, x, y) and (z + 180°, 180° − x, y + 180°), and those that differ by turns.
+    """
     x = np.arcsin(np.clip(turn[:, 2, 1], -1.0, 1.0))
     z = np.arctan2(-turn[:, 0, 1], turn[:, 1, 1])
     y = np.arctan2(-turn[:, 2, 0], turn[:, 2, 2])
-    return np.degrees(np.unwrap(np.stack([z, x, y], 1), axis=0))
+    angles: Array = np.degrees(np.stack([z, x, y], 1))
+    for before, now in pairwise(angles):
+        here = now + 360 * np.round((before - now) / 360)
+        other = _FLIPPED + _FLIP * now
+        other += 360 * np.round((before - other) / 360)
+        now[:] = here if np.abs(here - before).sum() <= np.abs(other - before).sum() else other
+    return angles
+
+
+_FLIPPED, _FLIP = np.array([180.0, 180.0, 180.0]), np.array([1.0, -1.0, 1.0])
 
 
 def _numbers(values: Array) -> str:

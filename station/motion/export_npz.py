@@ -6,6 +6,7 @@ right, y forward, z up; origin on the floor under the throne), times seconds fro
 
 import io
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +26,7 @@ SCHEMA = "drum-station-motion/1"
 _HANDS = {Limb.RIGHT_HAND: Joint.RIGHT_HAND, Limb.LEFT_HAND: Joint.LEFT_HAND}
 
 
-def motion_arrays(drummer: Drummer, time_s: Array) -> dict[str, NDArray[np.generic]]:
+def motion_arrays(drummer: Drummer, time_s: Array) -> dict[str, NDArray[Any]]:
     """Every array of the file, the poses at `time_s` (n,)."""
     rows = drummer.rows(time_s)
     joints = sorted(Joint)
@@ -53,7 +54,7 @@ def write_npz(drummer: Drummer, path: Path, time_s: Array) -> None:
     write_whole(path, buffer.getvalue())
 
 
-def _strikes(drummer: Drummer) -> dict[str, NDArray[np.generic]]:
+def _strikes(drummer: Drummer) -> dict[str, NDArray[Any]]:
     """When, on what, by whom, and where the stick or beater touches, in order of time (m,)."""
     score, kit = drummer.score, drummer.kit
     order = np.argsort(score.onset_ns, kind="stable")

@@ -40,10 +40,10 @@ BONES = (
     Bone("chest", "pelvis", Joint.SPINE, Joint.NECK, _UP, _LEFT),
     Bone("neck", "chest", Joint.NECK, Joint.HEAD, _UP, _FORWARD),
     Bone("head", "neck", Joint.HEAD, Joint.CROWN, _UP, _FORWARD),
-    Bone("right_upper_arm", "chest", Joint.RIGHT_SHOULDER, Joint.RIGHT_ELBOW, _RIGHT, _UP),
+    Bone("right_upper_arm", "chest", Joint.RIGHT_SHOULDER, Joint.RIGHT_ELBOW, _RIGHT, _FORWARD),
     Bone("right_forearm", "right_upper_arm", Joint.RIGHT_ELBOW, Joint.RIGHT_WRIST, _RIGHT, _UP),
     Bone("right_hand", "right_forearm", Joint.RIGHT_WRIST, Joint.RIGHT_HAND, _RIGHT, _UP),
-    Bone("left_upper_arm", "chest", Joint.LEFT_SHOULDER, Joint.LEFT_ELBOW, _LEFT, _UP),
+    Bone("left_upper_arm", "chest", Joint.LEFT_SHOULDER, Joint.LEFT_ELBOW, _LEFT, _FORWARD),
     Bone("left_forearm", "left_upper_arm", Joint.LEFT_ELBOW, Joint.LEFT_WRIST, _LEFT, _UP),
     Bone("left_hand", "left_forearm", Joint.LEFT_WRIST, Joint.LEFT_HAND, _LEFT, _UP),
     Bone("right_thigh", "pelvis", Joint.RIGHT_HIP, Joint.RIGHT_KNEE, _DOWN, _FORWARD),
@@ -94,7 +94,7 @@ def _rolls(joints: Array, rows: Array) -> dict[str, Array]:
     rolls = {"pelvis": across_hips, "chest": across, "neck": facing, "head": facing}
     for side, name in enumerate(("right", "left")):
         shoulder, wrist = joints[:, Joint[f"{name.upper()}_SHOULDER"]], joints[:, Joint[f"{name.upper()}_WRIST"]]
-        rolls[f"{name}_upper_arm"] = wrist - shoulder  # the elbow bends upward and forward
+        rolls[f"{name}_upper_arm"] = wrist - shoulder  # where the elbow bends to
         rolls[f"{name}_forearm"] = backs[:, side]
         rolls[f"{name}_hand"] = backs[:, side]
         hip, knee, ankle = (joints[:, Joint[f"{name.upper()}_{part}"]] for part in ("HIP", "KNEE", "ANKLE"))
