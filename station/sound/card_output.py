@@ -6,7 +6,6 @@ with the monotonic one so that a callback which came late does not count, then s
 reports no time, the present plus the stream's latency stands in.
 """
 
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from threading import Thread
@@ -16,6 +15,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.clock import monotonic_ns
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_S, ns_from_s
 from station.sound.dac_clock import DacClock
@@ -59,15 +59,16 @@ class CardOutput:
         self._render: Renderer | None = None
         self._is_asking = False
         self._is_open = True
-        settings = {"device": device.index, "channels": min(2, device.channels), "dtype": "float32"}
-        self.rate_hz = rate_hz
+        channels, self.rate_hz = accepted_settings(sd, device, rate_hz)
         try:
-            try:
-                sd.check_output_settings(samplerate=rate_hz, **settings)
-            except sd.PortAudioError:
-                self.rate_hz = device.rate_hz
             self._stream = sd.OutputStream(
-                samplerate=self.rate_hz, blocksize=block_frames, latency="low", callback=self._callback, **settings
+                device=device.index,
+                channels=channels,
+                dtype="float32",
+                samplerate=self.rate_hz,
+                blocksize=block_frames,
+                latency="low",
+                callback=self._callback,
             )
         except sd.PortAudioError as fault:
             raise DeviceError(f"sound output {device.name!r} cannot be opened: {fault}; choose another") from fault
@@ -123,7 +124,7 @@ class CardOutput:
         PORTAUDIO.release()
 
     def _callback(self, out: NDArray[np.float32], frames: int, times: "DriverTimes", status: "DriverStatus") -> None:
-        begun_ns = time.monotonic_ns()
+        begun_ns = monotonic_ns()
         if status.output_underflow:
             self.underflows += 1
             self._clock.resync()
@@ -135,8 +136,25 @@ class CardOutput:
             out.fill(0.0)
             self._fault = DeviceError(f"the sound stopped: {fault!r}")
             raise self._abort from fault
-        used = (time.monotonic_ns() - begun_ns) * self.rate_hz / (NS_PER_S * frames)
+        used = (monotonic_ns() - begun_ns) * self.rate_hz / (NS_PER_S * frames)
         self.load += LOAD_SMOOTHING * (used - self.load)
+
+
+def accepted_settings(sd: ModuleType, device: OutputDevice, rate_hz: int) -> tuple[int, int]:
+    """Channels and rate to open `device` with: those wished for, else the nearest that it takes.
+
+    Two channels are enough; a device that insists on all of its own gets them. The device's own rate stands in for one
+    that it refuses. Where it takes nothing the wish is returned, and opening it tells why.
+    """
+    stereo = min(2, device.channels)
+    choices = [(channels, rate) for channels in (stereo, device.channels) for rate in (rate_hz, device.rate_hz)]
+    for channels, rate in choices:
+        try:
+            sd.check_output_settings(device=device.index, channels=channels, dtype="float32", samplerate=rate)
+        except sd.PortAudioError:
+            continue
+        return channels, rate
+    return stereo, device.rate_hz
 
 
 class DriverTimes(Protocol):
@@ -166,8 +184,9 @@ def reported_dac_ns(now_ns: int, stream_s: float, times: DriverTimes, latency_s:
 
 
 def fit_channels(stereo: Frames, out: NDArray[np.float32]) -> None:
-    """Write `stereo` (n, 2) to `out` (n, 1 or 2): one channel gets the mean of both."""
+    """Write `stereo` (n, 2) to `out` (n, channels): one gets the mean of both, of many the first two get them."""
     if out.shape[1] == 1:
         np.mean(stereo, axis=1, keepdims=True, out=out)
     else:
-        out[:] = stereo
+        out[:, :2] = stereo
+        out[:, 2:] = 0.0

@@ -8,6 +8,8 @@ from station.sound.card_output import CardOutput, OutputDevice, Renderer
 from station.sound.portaudio import PORTAUDIO
 
 SILENT_RATE_HZ = 48_000
+BLOCK_FRAMES = range(16, 8_192 + 1)
+"""The sizes of a block that may be asked for: less is beyond any driver here, more is 170 ms late (our choice)."""
 
 
 class Output(Protocol):
@@ -122,6 +124,11 @@ def open_output(part: str = "", block_frames: int = 0, rate_hz: int = SILENT_RAT
     `block_frames` 0 leaves the block's size to the driver. A device that refuses `rate_hz` is opened at the rate it
     prefers: read `rate_hz` of the result before making sounds for it. Raises `DeviceError` that says what to do.
     """
+    if block_frames and block_frames not in BLOCK_FRAMES:
+        sizes = f"{BLOCK_FRAMES[0]} to {BLOCK_FRAMES[-1]}"
+        raise DeviceError(
+            f"no sound in blocks of {block_frames} frames: ask for {sizes}, or for 0, the driver's choice"
+        )
     sd = PORTAUDIO.acquire()
     try:
         return CardOutput(sd, choose_output(list_outputs(), part), block_frames, rate_hz)

@@ -21,6 +21,10 @@ NO_PORTAUDIO = (
 SERVER_GONE = "no sound: the sound server has ended; start it, then start the station again"
 
 
+class SoundServerGone(DeviceError):
+    """The process that raises it will never sound again; a new one will, as soon as there is a server."""
+
+
 class PortAudio:
     """Counts who uses the library; one for the whole process, as the library is."""
 
@@ -29,11 +33,19 @@ class PortAudio:
         self._users = 0
         self._abandoned = False
 
+    @property
+    def is_abandoned(self) -> bool:
+        """Whether the library was lost with its server: whoever wants sound starts a new process."""
+        return self._abandoned
+
     def acquire(self) -> ModuleType:
-        """The running library (the module sounddevice), until `release`; raises `DeviceError`."""
+        """The running library (the module sounddevice), until `release`.
+
+        Raises `DeviceError`, and of these `SoundServerGone` where only a new process helps.
+        """
         with self._lock:
             if self._abandoned:
-                raise DeviceError(SERVER_GONE)
+                raise SoundServerGone(SERVER_GONE)
             sd = _sounddevice()
             if not sd._initialized:
                 try:

@@ -32,6 +32,10 @@ MIN_LOOP_S = 0.25
 TRACK_DB = -20.0
 """RMS of a track as a whole (our choice: a groove on the synthesised kit lies some 4 dB above)."""
 KEPT_FILES = 8
+NO_STRETCHER = (
+    "a track can only play at its own speed: the package python-stretch is missing; where there is no wheel of it "
+    "for this processor, `pip install python-stretch` builds it with a C++ compiler"
+)
 _ENDING = ".track"
 _LOUDEST = 0.98
 
@@ -81,11 +85,13 @@ def prepare(wish: TrackWish, folder: Path | None = None) -> PreparedTrack:
 
 
 def stretched(frames: Frames, rate_hz: int, speed: float) -> Frames:
-    """`frames` (n, 2) played `speed` times as fast at the same pitch: (about n/speed, 2)."""
+    """`frames` (n, 2) played `speed` times as fast at the same pitch: (about n/speed, 2); raises `DeviceError`."""
     if speed == 1.0:
         return frames
-    import python_stretch  # noqa: PLC0415 - only here, and the engine never comes here
-
+    try:
+        import python_stretch  # noqa: PLC0415 - only here; not every processor has a wheel of it
+    except ImportError as fault:
+        raise DeviceError(NO_STRETCHER) from fault
     stretcher = python_stretch.Signalsmith.Stretch()
     stretcher.preset(2, rate_hz)
     stretcher.setTimeFactor(speed)

@@ -8,7 +8,7 @@ import pytest
 
 from station.core.errors import DeviceError
 from station.sound.card_output import OutputDevice, fit_channels, reported_dac_ns
-from station.sound.output import SilentOutput, choose_output
+from station.sound.output import SilentOutput, choose_output, open_output
 
 
 def device(index: int, name: str, host: str = "ALSA") -> OutputDevice:
@@ -39,6 +39,12 @@ def test_an_unknown_output_is_refused_with_the_known_ones() -> None:
 def test_no_output_at_all_says_what_to_do() -> None:
     with pytest.raises(DeviceError, match="connect one"):
         choose_output([], "")
+
+
+@pytest.mark.parametrize("block_frames", [-5, 1, 15, 8_193, 10**9])
+def test_a_block_that_no_card_plays_is_refused(block_frames: int) -> None:
+    with pytest.raises(DeviceError, match=rf"blocks of {block_frames} frames: ask for 16 to 8192"):
+        open_output(block_frames=block_frames)
 
 
 @dataclass

@@ -1,0 +1,52 @@
+"""The output devices as they are at this moment, however long a stream has been playing.
+
+PortAudio looks for devices only when it starts, and while a stream plays it cannot be started anew: in the process that
+sounds, a device plugged in since, or another default, stays unknown. So a short-lived process of its own looks. Who
+plays on the system's default compares it with what it plays on, and moves.
+"""
+
+import json
+import subprocess
+import sys
+from dataclasses import asdict
+
+from station.core.errors import DeviceError
+from station.sound.card_output import OutputDevice
+from station.sound.output import list_outputs
+
+PATIENCE_S = 10.0
+"""A driver that lists its devices for longer hangs (our choice: a cold start on a busy computer takes two)."""
+
+
+def outputs_now(patience_s: float = PATIENCE_S) -> list[OutputDevice]:
+    """Every device that can play, the system's default first; takes some tenths of a second, never in real time.
+
+    Raises `DeviceError` where the devices cannot be listed.
+    """
+    command = [sys.executable, "-m", "station.sound.outputs_now"]
+    try:
+        told = subprocess.run(command, capture_output=True, text=True, timeout=patience_s, check=False)
+        found = json.loads(told.stdout)
+    except (OSError, subprocess.TimeoutExpired, json.JSONDecodeError) as fault:
+        raise DeviceError(f"the sound devices cannot be listed: {fault}") from fault
+    if isinstance(found, str):
+        raise DeviceError(found)
+    return [OutputDevice(**device) for device in found]
+
+
+def default_has_changed(playing: str, devices: list[OutputDevice]) -> bool:
+    """Whether the system's default is now another device than the one called `playing`."""
+    default = next((device for device in devices if device.is_default), None)
+    return default is not None and default.name != playing
+
+
+def _tell() -> None:
+    try:
+        told: object = [asdict(device) for device in list_outputs()]
+    except DeviceError as fault:
+        told = str(fault)
+    sys.stdout.write(json.dumps(told))
+
+
+if __name__ == "__main__":
+    _tell()
