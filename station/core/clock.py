@@ -1,7 +1,16 @@
 """The two clocks: the computer's monotonic one, and one that is moved by hand for tests and headless runs."""
 
+import sys
 import time
+from collections.abc import Callable
 from typing import Protocol
+
+monotonic_ns: Callable[[], int] = time.perf_counter_ns if sys.platform == "win32" else time.monotonic_ns
+"""Session time: the finest clock of this computer that every process shares and nobody sets.
+
+On Windows `time.monotonic_ns` moves in steps of 15.6 ms before Python 3.13; `time.perf_counter_ns`, which is finer than
+a microsecond there, is system-wide since 3.10 (Python's documentation of `time`).
+"""
 
 
 class Clock(Protocol):
@@ -16,8 +25,8 @@ class MonotonicClock:
     """The operating system's monotonic clock, the same in every process of one computer."""
 
     def now_ns(self) -> int:
-        """`time.monotonic_ns()`."""
-        return time.monotonic_ns()
+        """`monotonic_ns()`."""
+        return monotonic_ns()
 
 
 class ManualClock:

@@ -22,6 +22,7 @@ from queue import SimpleQueue
 from types import TracebackType
 from typing import Self
 
+from station.core.clock import monotonic_ns
 from station.core.errors import DeviceError, StationError
 from station.core.settings import Settings
 from station.devices.midi_ports import MidiDirectory
@@ -189,14 +190,14 @@ def _live(config: EngineConfig, inbox: "_Inbox", outbox: "_Outbox") -> None:
     card = _card(engine, config) if config.sound else None
     runner = Runner(engine, _kits(engine, config, card), card)
     try:
-        runner.start(time.monotonic_ns())
+        runner.start(monotonic_ns())
         sys.setswitchinterval(SWITCH_INTERVAL_S)  # not before: making the drum kit takes long turns
         gc.collect()
         gc.freeze()
         gc.disable()  # a collection in the audio thread is a late block; what runs from here on makes no cycles
         outbox.put([Ready(card.name, card.rate_hz) if card is not None else Ready(None)])
         while not (engine.quitting or inbox.is_closed):
-            happened = runner.step(time.monotonic_ns())
+            happened = runner.step(monotonic_ns())
             if happened:
                 outbox.put(happened)
             for command in inbox.take():
@@ -204,13 +205,13 @@ def _live(config: EngineConfig, inbox: "_Inbox", outbox: "_Outbox") -> None:
             time.sleep(POLL_S)
     finally:
         runner.close()
-        outbox.put(engine.advance(time.monotonic_ns()))
+        outbox.put(engine.advance(monotonic_ns()))
 
 
 def _kits(engine: Engine, config: EngineConfig, card: Card | None) -> list[KitWatch]:
     undisturbed = card.paused if card is not None else nullcontext
     try:
-        directory = MidiDirectory(config.midi_driver, time.monotonic_ns, undisturbed)
+        directory = MidiDirectory(config.midi_driver, monotonic_ns, undisturbed)
     except DeviceError as fault:
         engine.notify(f"no kit can be heard: {fault}")
         return []

@@ -1,13 +1,19 @@
 """The small words: clocks, units, events, pieces."""
 
+import itertools
+import runpy
+import sys
+import time
 from dataclasses import FrozenInstanceError
+from pathlib import Path
 
 import pytest
 
-from station.core.clock import Clock, ManualClock, MonotonicClock
+from station.core import clock as clock_module
+from station.core.clock import Clock, ManualClock, MonotonicClock, monotonic_ns
 from station.core.events import Hit
 from station.core.pieces import CYMBALS, HAND_PIECES, TOMS, Articulation, Limb, Piece, Zone, word
-from station.core.units import PPQ, ms_from_ns, ns_from_ms, ns_from_s, s_from_ns
+from station.core.units import NS_PER_MS, PPQ, ms_from_ns, ns_from_ms, ns_from_s, s_from_ns
 
 
 def test_the_manual_clock_stands_still_until_it_is_moved() -> None:
@@ -27,6 +33,23 @@ def test_the_manual_clock_never_goes_back() -> None:
 def test_no_clock_goes_back(clock: Clock) -> None:
     times = [clock.now_ns() for _ in range(100)]
     assert times == sorted(times)
+
+
+def test_session_time_moves_in_fine_steps() -> None:
+    """A hit is judged by the millisecond; Windows' tick of 15.6 ms would hide it."""
+    times = [monotonic_ns() for _ in range(200_000)]
+    steps = [after - before for before, after in itertools.pairwise(times) if after > before]
+    assert min(steps) < NS_PER_MS / 10
+
+
+def test_windows_gets_its_fine_clock(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "platform", "win32")
+    assert runpy.run_path(clock_module.__file__)["monotonic_ns"] is time.perf_counter_ns
+
+
+def test_nobody_has_a_session_clock_of_their_own() -> None:
+    sources = Path(clock_module.__file__).parents[1].rglob("*.py")
+    assert [path.name for path in sources if "time.monotonic_ns" in path.read_text("utf-8")] == ["clock.py"]
 
 
 def test_a_tick_divides_what_drummers_play() -> None:
