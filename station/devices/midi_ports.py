@@ -14,12 +14,13 @@ rtmidi has it. Drivers write to standard error of their own accord; it is closed
 
 import os
 import sys
-import time
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
+from itertools import count
 
 import rtmidi
 
+from station.core.clock import monotonic_ns
 from station.core.errors import BadInput, DeviceError
 from station.core.units import NS_PER_MS
 from station.devices.presets import stable_name
@@ -45,6 +46,8 @@ _REMEDIES = {
 SILENT_SERVER_NS = 1_500 * NS_PER_MS
 """A server that has passed no message on for so long has ended (our choice: far above any stall seen)."""
 _ACTIVE_SENSING = (0xFE,)
+_HEARTS = count(1)
+"""Numbers the hearts of this process; with the process's own number each has a name of its own on the server."""
 
 MonotonicNs = Callable[[], int]
 Undisturbed = Callable[[], AbstractContextManager[None]]
@@ -64,7 +67,7 @@ class MidiDirectory:
     """
 
     def __init__(
-        self, driver: str = "auto", now_ns: MonotonicNs = time.monotonic_ns, undisturbed: Undisturbed = nullcontext
+        self, driver: str = "auto", now_ns: MonotonicNs = monotonic_ns, undisturbed: Undisturbed = nullcontext
     ) -> None:
         compiled = compiled_drivers()
         if driver not in ("auto", *compiled):
@@ -105,7 +108,8 @@ class _Client:
     """What lists the ports of one driver.
 
     A JACK client goes on seeing its old ports when its server has ended. So it sends itself a message through the
-    server, one at a time: while they come back, the server lives. A process that has lost its server cannot safely join
+    server, one at a time: while they come back, the server lives. It listens to no heart but its own: another station's
+    stops when that station leaves. A process that has lost its server cannot safely join
     another (the library keeps one server's memory a process), so a lost server stays lost for this process.
     """
 
@@ -116,10 +120,10 @@ class _Client:
         self._beat_ns: int | None = None
         if driver == "jack":
             with _quiet_drivers():
-                self._heart = rtmidi.MidiOut(_APIS[driver], f"{CLIENT_NAME} presence")
+                name = f"{CLIENT_NAME} {os.getpid()}.{next(_HEARTS)}"
+                self._heart = rtmidi.MidiOut(_APIS[driver], name)
                 self._heart.open_virtual_port("out")
-                own = next(index for index, port in enumerate(self._scanner.get_ports()) if CLIENT_NAME in port)
-                self._scanner.open_port(own, "presence")
+                self._scanner.open_port(self._scanner.get_ports().index(f"{name}:out"), "presence")
 
     def is_alive(self, now_ns: int) -> bool:
         """Whether the server that was joined still runs; drivers without one always live."""
@@ -157,7 +161,7 @@ def _first_client(drivers: tuple[str, ...]) -> _Client:
     for driver in drivers:
         try:
             return _Client(driver)
-        except (rtmidi.RtMidiError, OSError, RuntimeError, StopIteration) as fault:
+        except (rtmidi.RtMidiError, OSError, RuntimeError, ValueError) as fault:
             faults.append(f"{_TITLES[driver]}: {_REMEDIES.get(driver, fault)}")
     raise DeviceError("no MIDI driver works. " + ". ".join(faults or ["rtmidi was built without any"]))
 
@@ -173,6 +177,7 @@ class MidiPort:
         self._now_ns = now_ns
         self._disturbing = disturbing
         self._clock = DriverClock()
+        self._polled_ns = now_ns()
 
     @property
     def name(self) -> str:
@@ -182,12 +187,13 @@ class MidiPort:
     def read(self) -> list[Packet]:
         """The messages since the last call, each with the driver's own time moved to session time."""
         packets: list[Packet] = []
+        emptied_ns, self._polled_ns = self._polled_ns, self._now_ns()
         while self._connection is not None:
             item = self._connection.get_message()
             if item is None:
                 break
             message, delta_s = item
-            packets.append(Packet(bytes(message), self._clock.stamp(delta_s, self._now_ns())))
+            packets.append(Packet(bytes(message), self._clock.stamp(delta_s, self._now_ns(), emptied_ns)))
         return packets
 
     def close(self) -> None:

@@ -14,8 +14,8 @@ CREEP_NS_PER_S = 100_000
 """How fast the offset may grow: 100 parts in a million, twice what an ordinary crystal strays (our choice)."""
 
 _RESTART_AFTER_NS = 2 * NS_PER_S
-"""A message that seems to have waited this long did not: the driver dropped messages, and their differences with them
-(our choice: the engine polls every half millisecond, and the longest stall seen on a shared machine was 70 ms)."""
+"""A message that seems to have come this long before we last looked did not, for we would have found it then: the
+driver dropped messages, and their differences with them (our choice: no driver holds a message back nearly so long)."""
 
 
 class DriverClock:
@@ -26,15 +26,17 @@ class DriverClock:
         self._offset_ns: int | None = None
         self._last_ns = 0
 
-    def stamp(self, delta_s: float, polled_ns: int) -> int:
+    def stamp(self, delta_s: float, polled_ns: int, emptied_ns: int) -> int:
         """Session time of a message `delta_s` after the one before it, read at `polled_ns`; never goes back.
 
+        `emptied_ns` is when the poll before began, which left no message behind: what came since may have waited.
         Never later than `polled_ns` unless an earlier message was already stamped later.
         """
         delta_ns = round(max(delta_s, 0.0) * NS_PER_S)
         self._driver_ns += delta_ns
         seen_ns = polled_ns - self._driver_ns
-        if self._offset_ns is None or seen_ns - self._offset_ns > _RESTART_AFTER_NS:
+        may_have_waited_ns = polled_ns - emptied_ns
+        if self._offset_ns is None or seen_ns - self._offset_ns > may_have_waited_ns + _RESTART_AFTER_NS:
             self._offset_ns = seen_ns
         else:
             crept_ns = self._offset_ns + delta_ns * CREEP_NS_PER_S // NS_PER_S

@@ -14,7 +14,7 @@ from station.core.clock import MonotonicClock
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.devices.capture import Kind, Record, device_record, parse_capture
-from station.devices.midi_ports import MidiDirectory
+from station.devices.midi_ports import SILENT_SERVER_NS, MidiDirectory
 from station.devices.replay import CapturePlayer
 from station.devices.transport import Packet, Transport
 from tests.fakes.captures import capture_bytes
@@ -210,3 +210,13 @@ def test_a_jack_server_that_ends_takes_its_ports_along(jack_server: JackServer, 
         assert port.read() == []
     port.close()
     directory.close()
+
+
+@pytest.mark.jack
+def test_a_station_that_leaves_takes_no_kit_from_another(jack_server: JackServer, tmp_path: Path) -> None:
+    leaving, staying = MidiDirectory("jack"), MidiDirectory("jack")
+    with KitPlayer(jack_server, "kit", [], tmp_path):
+        assert staying.names() == leaving.names() == ["kit:out"]
+        leaving.close()
+        assert not until(lambda: staying.names() == [], 2 * SILENT_SERVER_NS / NS_PER_S)
+    staying.close()

@@ -14,7 +14,8 @@ def errors_ns(true_ns: Times, delay_ns: Times, driver_rate: float = 1.0) -> Time
     clock = DriverClock()
     deltas_s = np.diff(true_ns, prepend=true_ns[0]) * driver_rate / NS_PER_S
     stamps = [
-        clock.stamp(float(delta), int(at + delay)) for delta, at, delay in zip(deltas_s, true_ns, delay_ns, strict=True)
+        clock.stamp(float(delta), int(at + delay), int(at))
+        for delta, at, delay in zip(deltas_s, true_ns, delay_ns, strict=True)
     ]
     errors: Times = np.array(stamps) - true_ns
     return errors
@@ -45,27 +46,38 @@ def test_a_fast_drivers_clock_is_followed() -> None:
 
 def test_the_hits_of_a_stall_keep_their_spacing() -> None:
     clock = DriverClock()
-    clock.stamp(0.0, 1 * NS_PER_S)
+    clock.stamp(0.0, 1 * NS_PER_S, 0)
     polled_ns = 1 * NS_PER_S + 300 * NS_PER_MS
-    late = [clock.stamp(0.1, polled_ns), clock.stamp(0.1, polled_ns)]
+    late = [clock.stamp(0.1, polled_ns, NS_PER_S), clock.stamp(0.1, polled_ns, NS_PER_S)]
     creep_ns = CREEP_NS_PER_S // 5
     assert abs(late[0] - (1 * NS_PER_S + 100 * NS_PER_MS)) <= creep_ns
     assert abs(late[1] - (1 * NS_PER_S + 200 * NS_PER_MS)) <= creep_ns
 
 
+def test_a_long_stall_of_ours_makes_no_hit_late() -> None:
+    """The sound card took 2.5 s to open; strokes came 0, 0.5, … 2 s into it."""
+    clock = DriverClock()
+    clock.stamp(0.0, NS_PER_S, NS_PER_S)
+    begun_ns, polled_ns = 2 * NS_PER_S, 4_500 * NS_PER_MS
+    stamps = [clock.stamp(delta_s, polled_ns, begun_ns) for delta_s in (1.0, 0.5, 0.5, 0.5, 0.5)]
+    true_ns = [begun_ns + stroke * 500 * NS_PER_MS for stroke in range(5)]
+    creep_ns = 3 * CREEP_NS_PER_S
+    assert all(0 <= stamp - at <= creep_ns for stamp, at in zip(stamps, true_ns, strict=True))
+
+
 def test_a_stamp_is_never_later_than_the_poll() -> None:
     clock = DriverClock()
-    clock.stamp(0.0, 0)
-    assert clock.stamp(1.0, NS_PER_MS) == NS_PER_MS
+    clock.stamp(0.0, 0, 0)
+    assert clock.stamp(1.0, NS_PER_MS, 0) == NS_PER_MS
 
 
 def test_dropped_messages_do_not_leave_the_stamps_in_the_past() -> None:
     clock = DriverClock()
-    clock.stamp(0.0, 0)
-    assert clock.stamp(0.001, 10 * NS_PER_S) == 10 * NS_PER_S
+    clock.stamp(0.0, 0, 0)
+    assert clock.stamp(0.001, 10 * NS_PER_S, 10 * NS_PER_S - NS_PER_MS) == 10 * NS_PER_S
 
 
 def test_time_never_goes_back() -> None:
     clock = DriverClock()
-    first = clock.stamp(0.0, NS_PER_S)
-    assert clock.stamp(-3.0, NS_PER_S - NS_PER_MS) == first
+    first = clock.stamp(0.0, NS_PER_S, 0)
+    assert clock.stamp(-3.0, NS_PER_S - NS_PER_MS, 0) == first
