@@ -6,6 +6,7 @@ the cheapest survives, and of all states the cheapest dozen. What a note costs a
 """
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -26,9 +27,12 @@ class _State(NamedTuple):
     hand: int
 
 
+_START = _State(0.0, (-1, -1), (0, 0), None, -1)
+
+
 def choose_hands(notes: HandNotes) -> tuple[NDArray[np.int8], list[str]]:
     """The hand of every note, and why, in the order of the rows that `notes` were made from."""
-    states = [_State(0.0, (-1, -1), (0, 0), None, -1)]
+    states = [_START]
     for i in range(len(notes.time_s)):
         reached: dict[tuple[int, int, int, int], _State] = {}
         for state in states:
@@ -46,6 +50,14 @@ def choose_hands(notes: HandNotes) -> tuple[NDArray[np.int8], list[str]]:
         limbs[row] = Limb.RIGHT_HAND if state.hand == RIGHT else Limb.LEFT_HAND
         reasons[row] = _reason(notes, i, state)
     return limbs, reasons
+
+
+def cost_of(notes: HandNotes, hands: Sequence[int]) -> float:
+    """What it costs that `hands` (one a note, in order of time) play `notes`."""
+    state = _START
+    for i, hand in enumerate(hands):
+        state = _step(notes, i, hand, state)
+    return state.cost
 
 
 def _cost(state: _State) -> float:
