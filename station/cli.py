@@ -6,6 +6,7 @@ standard output and nothing else.
 
 import argparse
 import importlib
+import io
 import os
 import sys
 from collections.abc import Callable, Sequence
@@ -46,6 +47,9 @@ def parser() -> Parser:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line and return the exit status."""
     words = list(sys.argv[1:] if argv is None else argv)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):  # whatever the console's own encoding: reports are UTF-8
+            stream.reconfigure(encoding="utf-8", errors="backslashreplace")
     try:
         return _run(words)
     except StationError as fault:

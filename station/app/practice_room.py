@@ -4,7 +4,8 @@
 it when it is over. The hits carry their own times, so that the frame rate decides nothing.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from contextlib import suppress
 
 from station.app.model import LessonCard, Report, RoomState, Stage, Start
 from station.app.results import session_facts
@@ -16,11 +17,10 @@ from station.core.settings import Settings
 from station.core.units import ns_from_ms
 from station.drills.lesson import LEVELS, Lesson
 from station.drills.library import find_lesson, shipped_lessons
-from station.engine.engine import KEYBOARD
-from station.engine.messages import EngineEvent, KeyHit, Notice, Ready, Record, Stop
-from station.practice.live import EngineLink
+from station.engine.messages import EngineEvent, KeyHit, Notice, Ready
+from station.practice.live import EngineLink, begin, end
 from station.practice.plan import Phase, Plan, Wishes, plan_practice
-from station.practice.report import Circumstances, practice_document
+from station.practice.report import practice_document
 from station.practice.session import Latency, Session
 from station.render.snapshot import Snapshot
 
@@ -28,11 +28,18 @@ NOTICES_KEPT = 5
 """How many notices the window may show at once; our choice."""
 
 
-class PracticeRoom:
-    """The `PracticeModel` of the real window; `first` is shown, and not yet played, when it opens."""
+WakeEngine = Callable[[], EngineLink]
 
-    def __init__(self, engine: EngineLink, settings: Settings, first: Plan) -> None:
-        self._engine = engine
+
+class PracticeRoom:
+    """The `PracticeModel` of the real window; `first` is shown, and not yet played, when it opens.
+
+    `wake` starts an engine: once now, and again when a session is begun after one has died.
+    """
+
+    def __init__(self, wake: WakeEngine, settings: Settings, first: Plan) -> None:
+        self._wake = wake
+        self._engine = wake()
         self._settings = settings
         self._lessons = _all_lessons(first.lesson)
         self._first = _wish_of(first)
@@ -46,6 +53,7 @@ class PracticeRoom:
         self._sound = "the engine is waking"
         self._notices: list[str] = []
         self._alive = True
+        self._fault: StationError | None = None
 
     # --- what the window shows ---------------------------------------------------------------------------------------
 
@@ -88,26 +96,37 @@ class PracticeRoom:
             self._session = self._new_session(self._plan)
 
     def start(self, wish: Start) -> None:
-        """Begin a session, ending the one that runs; raises `StationError`."""
+        """Begin a session, ending the one that runs; wakes a new engine if the old has ended. Raises `StationError`."""
         plan, view = self._laid_out(wish)
         if self._stage is Stage.PLAYING:
             self.stop()
-        folder = SessionFolder(None, self._settings, plan)
-        self._plan, self._view, self._session, self._folder = plan, view, self._new_session(plan), folder
-        self._engine.send(Record(folder.capture))
-        for command in self._session.start():
-            self._engine.send(command)
+        if not self._alive:
+            self._engine, self._alive = self._wake(), True
+        folder, session = SessionFolder(None, self._settings, plan), self._new_session(plan)
+        try:
+            begin(self._engine, session, folder.capture)
+        except StationError:
+            folder.discard()
+            raise
+        self._plan, self._view, self._session, self._folder = plan, view, session, folder
         self._stage = Stage.PLAYING
 
     def stop(self) -> None:
         """End the session early; what was played is judged and kept."""
         if self._stage is Stage.PLAYING:
-            self._engine.send(Stop())
             self._finish()
 
+    def close(self) -> StationError | None:
+        """Keep a session that still runs; returns what the window can no longer tell of it."""
+        if self._stage is not Stage.PLAYING:
+            return None
+        self._finish()
+        return self._fault
+
     def key(self, hit: KeyHit) -> None:
-        """A stroke on the computer's keyboard."""
-        self._engine.send(hit)
+        """A stroke on the computer's keyboard; a dead engine hears none, and has said so."""
+        with suppress(DeviceError):
+            self._engine.send(hit)
 
     def dismiss(self) -> None:
         """Back to the lessons."""
@@ -158,21 +177,24 @@ class PracticeRoom:
                 pass
 
     def _finish(self) -> None:
-        """Judge what was played and keep it."""
+        """End the session, judge what was played and keep it."""
+        self._fault = None
+        if self._alive:
+            try:
+                self._fault = end(self._engine, self._session)
+            except DeviceError as fault:
+                self._alive, self._fault = False, fault
         result = self._session.result()
-        # keys have no velocity, so where only they were played nothing is said of dynamics
-        keys_alone = bool(self._session.hits) and all(hit.device == KEYBOARD for hit in self._session.hits)
-        device = KEYBOARD if keys_alone else self._kit or None
-        document = practice_document(result, Circumstances(self._settings.student, device, not keys_alone))
+        document = practice_document(result, self._settings.student)
         path = ""
         if self._folder is not None:
             path = str(self._folder.path)
             try:
-                if self._alive:
-                    self._engine.send(Record(None))
                 self._folder.write(result, document)
             except StationError as fault:
-                self._notices.append(str(rescued(fault, result, document)))
+                self._fault = rescued(fault, result, document)
+        if self._fault is not None:
+            self._notices.append(str(self._fault))
         self._report = Report(session_facts(result, document), document, path)
         self._stage = Stage.RESULT
 

@@ -47,6 +47,10 @@ class SessionFolder:
         return self
 
     def __exit__(self, *_: object) -> None:
+        self.discard()
+
+    def discard(self) -> None:
+        """Take the folder away again if nothing is in it."""
         if self._made and self.path.is_dir() and not any(self.path.iterdir()):
             self.path.rmdir()
 
@@ -76,11 +80,13 @@ def rescued(fault: StationError, result: SessionResult, document: dict[str, Json
         write_performance(result.performance, spare)
     except StationError:
         document["pairs_csv"] = pairs_csv(result.score, result.performance, result.alignment)
-        return StationError(f"{fault}; no disk takes the hits: --json prints them under pairs_csv")
+        return StationError(f"{fault}; no disk takes the hits: they are printed with the report")
     return StationError(f"{fault}; every hit is safe in {spare}")
 
 
 def _made(path: Path) -> Path:
+    if (path / CAPTURE_NAME).exists() or (path / DOCUMENT_NAME).exists():
+        raise BadInput(path, "", "there is a session in this folder already")
     try:
         path.mkdir(parents=True, exist_ok=True)
     except OSError as fault:

@@ -26,6 +26,7 @@ WAITING_S = -2.0
 CUE_SHOWN_NS = 1200 * NS_PER_MS
 """How long the coarse cue stays after what caused it; our choice."""
 
+_CUE_OF_LEAN = {-1: Cue.EARLY, 0: Cue.ON_TIME, 1: Cue.LATE}
 _CUE_OF = {Label.MISS: Cue.MISSED, Label.WRONG_PIECE: Cue.WRONG_PIECE}
 
 
@@ -75,7 +76,7 @@ class SessionView:
         state = session.state()
         if state.transport_ns is None:
             return self._ready(message)
-        part = self._passes if state.transport_ns >= self._lead_of_passes_ns() else self._demonstration
+        part = self._passes if state.transport_ns >= self.plan.demonstrations_end_ns else self._demonstration
         position_s = (state.transport_ns - part.start_ns) / NS_PER_S
         return Snapshot(
             score=part.score,
@@ -98,14 +99,9 @@ class SessionView:
         pose, limbs = drummer.pose(WAITING_S), drummer.assignment.limbs
         return Snapshot(part.score, 0.0, self._kit, self._figure, pose, limbs, hud=hud)
 
-    def _lead_of_passes_ns(self) -> int:
-        """When the count-in to the first pass begins."""
-        count_ins = [s.start_ns for s in self.plan.segments if s.phase is Phase.COUNT_IN]
-        return count_ins[-1]
-
     def _extras(self, session: Session) -> tuple[Extra, ...]:
         hits = [session.hits[index] for index in session.extras()]
-        return tuple(Extra((session.score_ns(hit) or 0) / NS_PER_S, hit.piece) for hit in hits)
+        return tuple(Extra(hit.at_ns / NS_PER_S, hit.piece) for hit in hits)
 
     @staticmethod
     def _strikes(session: Session, now_ns: int) -> tuple[Strike, ...]:
@@ -127,7 +123,7 @@ class SessionView:
         age_ns = now_ns - self._cue_ns
         return Hud(
             title=plan.lesson.title,
-            phase=phase_words(plan, segment.phase, segment.index),
+            phase=plan.words(segment),
             bar=None if place is None or counting else plan.first_bar + place.bar + 1,
             beat=None if place is None else place.beat + 1,
             beats=tempo_map.meters[0].beats,
@@ -151,20 +147,5 @@ class SessionView:
 def cue_of(verdict: Judgement, windows: Windows) -> Cue:
     """The coarse cue that a judgement gives; extras and ignored hits give none."""
     if verdict.label is Label.MATCH and verdict.asynchrony_ns is not None:
-        if windows.grade(verdict.asynchrony_ns / NS_PER_MS) == 0:
-            return Cue.ON_TIME
-        return Cue.EARLY if verdict.asynchrony_ns < 0 else Cue.LATE
+        return _CUE_OF_LEAN[windows.lean(verdict.asynchrony_ns / NS_PER_MS)]
     return _CUE_OF.get(verdict.label, Cue.NONE)
-
-
-def phase_words(plan: Plan, phase: Phase, index: int) -> str:
-    """What is going on, as the window writes it."""
-    match phase:
-        case Phase.PASS:
-            return f"Pass {index + 1} of {plan.passes}"
-        case Phase.DEMONSTRATION:
-            return "Demonstration"
-        case Phase.COUNT_IN:
-            return "Count-in"
-        case _:
-            return "Over"

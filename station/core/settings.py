@@ -6,7 +6,8 @@ defaults. Writing goes through a temporary file beside it, so that a full disk n
 
 import json
 import tomllib
-from dataclasses import asdict, dataclass, fields
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 
 from platformdirs import user_config_path, user_documents_path
@@ -51,7 +52,7 @@ class Settings:
     @property
     def sessions_dir(self) -> Path:
         """Where sessions are kept: `sessions`, or a folder of ours in the user's documents."""
-        return Path(self.sessions) if self.sessions else user_documents_path() / "Drum station"
+        return Path(self.sessions).expanduser() if self.sessions else user_documents_path() / "Drum station"
 
 
 def settings_path() -> Path:
@@ -88,7 +89,14 @@ def _checked(raw: dict[str, object], source: Path) -> Settings:
     return Settings(**values)  # type: ignore[arg-type] # each value's type was compared with its field's default
 
 
-def _check_range(key: str, value: object, source: Path) -> None:
+def with_said(settings: Settings, said: Mapping[str, object], source: str) -> Settings:
+    """The settings with what `said` has instead; raises `BadInput` that names `source` for a value out of range."""
+    for key, value in said.items():
+        _check_range(key, value, source)
+    return replace(settings, **said)  # type: ignore[arg-type] # whoever says it has parsed it
+
+
+def _check_range(key: str, value: object, source: str | Path) -> None:
     if key in _RANGES and isinstance(value, int | float):
         least, most = _RANGES[key]
         if not least <= value <= most:

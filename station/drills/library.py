@@ -72,9 +72,16 @@ def find_lesson(name_or_path: str) -> Lesson:
     if name_or_path in files:
         return read_lesson(files[name_or_path])
     path = Path(name_or_path)
-    if path.is_file() or path.suffix == _ENDING:
+    if _is_file(path) or path.suffix == _ENDING:
         return read_lesson(path)
     raise BadInput(name_or_path, "", f"no such lesson{_like(name_or_path, list(files))}")
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except OSError:  # a name longer than the file system takes
+        return False
 
 
 def _like(word: str, names: list[str]) -> str:

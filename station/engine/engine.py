@@ -31,6 +31,7 @@ from station.engine.messages import (
     Queue,
     Quit,
     Record,
+    Recorded,
     SetBacking,
     SetLevel,
     Started,
@@ -175,25 +176,29 @@ class Engine:
         self._events.append(hit)
 
     def _record(self, path: Path | None) -> None:
-        self._end_capture()
+        lacking = self._end_capture()
         if path is None:
+            self._events.append(Recorded(None, lacking))
             return
         try:
             sink = self._open_capture(path, self._now_ns)
         except StationError as fault:
-            self.notify(f"nothing is being recorded: {fault}")
+            self._events.append(Recorded(path, str(fault)))
             return
+        self._events.append(Recorded(path))
         self._recorder = Recorder(sink, self._decoders)
         for device in self._devices:
             self._recorder.add_device(device, self._now_ns)
         if self._zero_ns is not None:
             self._recorder.zero(self._zero_ns)
 
-    def _end_capture(self) -> None:
-        if self._recorder is not None:
-            self._recorder.close(self._now_ns)
-            self._tell_capture_fault()
-            self._recorder = None
+    def _end_capture(self) -> str | None:
+        """Close the capture; returns what it lacks."""
+        if self._recorder is None:
+            return None
+        self._recorder.close(self._now_ns)
+        fault, self._recorder, self._capture_fault = self._recorder.fault, None, None
+        return fault
 
     # --- time --------------------------------------------------------------------------------------------------------
 
@@ -237,7 +242,9 @@ class Engine:
 
     def close(self) -> None:
         """End the capture, so that its last hits are on the disk."""
-        self._end_capture()
+        lacking = self._end_capture()
+        if lacking is not None:
+            self.notify(lacking)
 
     # --- sound -------------------------------------------------------------------------------------------------------
 

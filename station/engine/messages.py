@@ -29,6 +29,7 @@ __all__ = [
     "Quit",
     "Ready",
     "Record",
+    "Recorded",
     "SetBacking",
     "SetLevel",
     "Started",
@@ -135,6 +136,17 @@ class Ready:
 
 
 @dataclass(frozen=True, slots=True)
+class Recorded:
+    """A `Record` command was obeyed: what was played before it has been told, and is on the disk where one was open.
+
+    `path` is that of the command; `fault` says why nothing is recorded, or what the capture that ended lacks.
+    """
+
+    path: Path | None
+    fault: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Started:
     """The transport runs; its zero is heard at session time `zero_ns`."""
 
@@ -163,4 +175,4 @@ class Status:
     load: float
 
 
-EngineEvent = DeviceEvent | Ready | Started | Notice | Status
+EngineEvent = DeviceEvent | Ready | Recorded | Started | Notice | Status

@@ -19,12 +19,17 @@ PAIRS_NAME = "pairs.csv"
 PICTURE_NAME = "report.png"
 DRUMMER_NAME = "drummer.png"
 
+_LONGEST = 80
+"""Our choice: two such names and a date stay far below every file system's 255 bytes, even of four-byte letters."""
+_RESERVED = {"CON", "PRN", "AUX", "NUL", *(f"{port}{n}" for port in ("COM", "LPT") for n in range(10))}
+"""Names that Windows keeps for itself."""
 _UNSAFE = re.compile(r"[^\w.-]+")
 
 
 def folder_name(text: str) -> str:
     """`text` as a name that every file system takes."""
-    return _UNSAFE.sub("-", text).strip("-.") or "unnamed"
+    name = _UNSAFE.sub("-", text).strip("-.")[:_LONGEST] or "unnamed"
+    return f"{name}_" if name.split(".")[0].upper() in _RESERVED else name
 
 
 def session_folder(sessions: Path, student: str, lesson: str, started: datetime) -> Path:
@@ -45,4 +50,9 @@ def session_folder(sessions: Path, student: str, lesson: str, started: datetime)
 
 def write_document(path: Path, document: object) -> None:
     """Write a JSON document whole; raises `DeviceError`."""
-    write_whole(path, (json.dumps(document, ensure_ascii=False, allow_nan=False, indent=2) + "\n").encode())
+    write_whole(
+        path,
+        (json.dumps(document, ensure_ascii=False, allow_nan=False, indent=2) + "\n").encode(
+            "utf-8", "backslashreplace"
+        ),
+    )

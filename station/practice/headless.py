@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from station.core.clock import ManualClock
+from station.core.errors import DeviceError, StationError
 from station.devices.presets import GENERAL_MIDI_PRESET
 from station.engine.engine import Engine
 from station.engine.messages import Command, Record
@@ -17,10 +18,11 @@ DEVICE = "virtual student"
 
 @dataclass(frozen=True, eq=False)
 class VirtualSession:
-    """What the session made of it, and what the student knows it did."""
+    """What the session made of it, what the student knows it did, and why the capture lacks some of it, if it does."""
 
     result: SessionResult
     student: VirtualPerformance
+    fault: StationError | None
 
 
 def practise_virtually(plan: Plan, spec: StudentSpec, capture: Path | None = None) -> VirtualSession:
@@ -47,11 +49,15 @@ def practise_virtually(plan: Plan, spec: StudentSpec, capture: Path | None = Non
     for command in commands:
         engine.handle(command)
     step(LEAD_IN_NS)
+    if session.capture_fault is not None:
+        raise DeviceError(session.capture_fault)
     zero_ns = LEAD_IN_NS
     for at_ns, data in student.midi:
         now_ns = zero_ns + plan.passes_start_ns + at_ns
         engine.feed(DEVICE, data, now_ns)
         step(now_ns)
     step(zero_ns + plan.end_ns + TAIL_NS)
-    engine.close()
-    return VirtualSession(session.result(), student)
+    engine.handle(Record(None))
+    step(clock.now_ns())
+    fault = None if session.capture_fault is None else DeviceError(session.capture_fault)
+    return VirtualSession(session.result(), student, fault)

@@ -3,19 +3,26 @@
 The capture is written by the engine as the bytes come, so that nothing that follows can lose a hit.
 """
 
-from collections.abc import Callable
+import signal
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
 from station.core.clock import Clock
-from station.core.errors import DeviceError
+from station.core.errors import DeviceError, StationError
 from station.core.units import ns_from_s
-from station.engine.messages import Command, EngineEvent, Ready, Record, Stop
+from station.engine.messages import Command, EngineEvent, Ready, Record, Recorded, Stop
 from station.music.judgement import Judgement
 from station.practice.session import Session, SessionResult
 
 POLL_S = 0.02
 """How long to wait for an event before telling the session the time; our choice, no verdict depends on it."""
+
+LAST_WORDS_S = 2.0
+"""How long to wait for the engine to say that the capture is closed; our choice."""
 
 Tell = Callable[[Session, tuple[Judgement, ...]], None]
 
@@ -32,31 +39,73 @@ class EngineLink(Protocol):
         ...
 
 
-def practise_live(engine: EngineLink, session: Session, clock: Clock, capture: Path, tell: Tell) -> SessionResult:
+@dataclass(frozen=True, eq=False)
+class LiveOutcome:
+    """A live session's result and, where something went wrong that the user must know, the `fault`."""
+
+    result: SessionResult
+    fault: StationError | None
+
+
+def practise_live(engine: EngineLink, session: Session, clock: Clock, capture: Path, tell: Tell) -> LiveOutcome:
     """Run `session` to its end, or until Ctrl-C or the engine's death; `tell` hears every round of judgements.
 
     Raises `DeviceError` if the engine dies before the transport runs: then there is nothing to report.
     """
+    fault: StationError | None = None
     try:
-        engine.send(Record(capture))
-        for command in session.start():
-            engine.send(command)
-        while not session.over:
-            judged: tuple[Judgement, ...] = ()
-            for event in engine.events(POLL_S):
-                judged += session.handle(event)
-            judged += session.advance(clock.now_ns())
-            tell(session, judged)
-        engine.send(Record(None))
-    except KeyboardInterrupt:
-        engine.send(Stop())
-        engine.send(Record(None))
-    except DeviceError as fault:
+        begin(engine, session, capture)
+        with _ctrl_c() as pressed:
+            while not session.over and not pressed.is_set():
+                judged = take_in(engine, session, POLL_S) + session.advance(clock.now_ns())
+                tell(session, judged)
+            fault = end(engine, session)
+    except DeviceError as error:
         if not session.started:
             raise
-        session.notices.append(str(fault))
-        tell(session, ())
-    return session.result()
+        fault = error
+    if fault is None and session.device is None:
+        fault = DeviceError("the kit was unplugged and did not come back; what was played until then is kept")
+    return LiveOutcome(session.result(), fault)
+
+
+def begin(engine: EngineLink, session: Session, capture: Path) -> None:
+    """Have everything recorded, and start the transport."""
+    engine.send(Record(capture))
+    for command in session.start():
+        engine.send(command)
+
+
+def take_in(engine: EngineLink, session: Session, wait_s: float = 0.0) -> tuple[Judgement, ...]:
+    """Hand the session what the engine has heard; returns what was judged because of it."""
+    return tuple(judgement for event in engine.events(wait_s) for judgement in session.handle(event))
+
+
+def end(engine: EngineLink, session: Session) -> StationError | None:
+    """Stop, close the capture and take in every hit that was still on its way; returns why the capture lacks some."""
+    engine.send(Stop())
+    engine.send(Record(None))
+    for _ in range(round(LAST_WORDS_S / POLL_S)):
+        events = engine.events(POLL_S)
+        for event in events:
+            session.handle(event)
+        if any(isinstance(event, Recorded) and event.path is None for event in events):
+            break
+    return None if session.capture_fault is None else DeviceError(session.capture_fault)
+
+
+@contextmanager
+def _ctrl_c() -> Iterator[threading.Event]:
+    """Ctrl-C sets the event meanwhile, so that it never strikes in the middle of a message."""
+    pressed = threading.Event()
+    if threading.current_thread() is not threading.main_thread():
+        yield pressed
+        return
+    before = signal.signal(signal.SIGINT, lambda *_: pressed.set())
+    try:
+        yield pressed
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def wait_for_kit(engine: EngineLink, session: Session, clock: Clock, wait_s: float, tell: Tell) -> None:

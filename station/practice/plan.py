@@ -86,6 +86,23 @@ class Plan:
                 return segment
         return Segment(Phase.OVER, 0, self.end_ns, self.end_ns)
 
+    @property
+    def demonstrations_end_ns(self) -> int:
+        """Where the last demonstration ends and the passes' count-in begins; 0 without a demonstration."""
+        return max((s.end_ns for s in self.segments if s.phase is Phase.DEMONSTRATION), default=0)
+
+    def words(self, segment: Segment) -> str:
+        """What is going on, for people."""
+        match segment.phase:
+            case Phase.PASS:
+                return f"Pass {segment.index + 1} of {self.passes}"
+            case Phase.DEMONSTRATION:
+                return "Demonstration"
+            case Phase.COUNT_IN:
+                return "Count-in"
+            case _:
+                return "Over"
+
 
 def plan_practice(lesson: Lesson, wishes: Wishes) -> Plan:
     """Lay out a session; raises `BadInput` for a tempo, a number of loops or bars that cannot be."""
@@ -99,13 +116,14 @@ def plan_practice(lesson: Lesson, wishes: Wishes) -> Plan:
     cues: list[NDArray[np.void]] = []
     now_ns = 0
     click = wishes.click
-    count_in = _count_in(section, max(lesson.count_in_bars, 1))
+    count_in = _count_in(section, lesson.count_in_bars)
     count_in_cues = click_cues(count_in.tempo_map, count_in.end_tick, counting(click))
     section_cues = np.concatenate([click_cues(section.tempo_map, section.end_tick, click), demonstration_cues(section)])
     for phase, times in ((Phase.DEMONSTRATION, demonstrations), (Phase.PASS, passes)):
         if times == 0:
             continue
-        segments.append(Segment(Phase.COUNT_IN, 0, now_ns, now_ns + count_in.length_ns))
+        if count_in.length_ns:
+            segments.append(Segment(Phase.COUNT_IN, 0, now_ns, now_ns + count_in.length_ns))
         cues.append(_moved(count_in_cues, now_ns))
         now_ns += count_in.length_ns
         whole = section.repeated(times)

@@ -4,34 +4,30 @@ The document is the assessment of `station.scoring.document` with the session's 
 virtual student its own account under `truth`. docs/report.md describes it.
 """
 
-from dataclasses import dataclass
+import numpy as np
+from numpy.typing import NDArray
 
 from station.core.units import NS_PER_MS
+from station.engine.engine import KEYBOARD
 from station.practice.headless import VirtualSession
 from station.practice.session import SessionResult
+from station.practice.virtual_student import VirtualPerformance
+from station.scoring.alignment import Alignment, Reference
 from station.scoring.document import Json, assessment
 from station.scoring.summary import View, summarise
 
 
-@dataclass(frozen=True, slots=True)
-class Circumstances:
-    """Who practised on what: the student's name, the kit (None: the computer's keyboard), whether keys were polled."""
-
-    student: str
-    device: str | None = None
-    hears_velocity: bool = True
-
-
-def practice_document(result: SessionResult, circumstances: Circumstances) -> dict[str, Json]:
-    """The report of a session."""
+def practice_document(result: SessionResult, student: str) -> dict[str, Json]:
+    """The report of a session of `student`; keys have no velocity, so of them nothing is said of dynamics."""
     plan = result.plan
-    view = View(pass_bars=plan.section.bar_count, first_bar=plan.first_bar, hears_velocity=circumstances.hears_velocity)
+    hears_velocity = result.device != KEYBOARD
+    view = View(pass_bars=plan.section.bar_count, first_bar=plan.first_bar, hears_velocity=hears_velocity)
     document = assessment(summarise(result.score, result.performance, result.alignment, view))
     document["session"] = {
         "lesson": plan.lesson.name,
         "title": plan.lesson.title,
-        "student": circumstances.student,
-        "device": circumstances.device,
+        "student": student,
+        "device": result.device,
         "tempo_bpm": round(plan.tempo_bpm, 3),
         "bars": [plan.first_bar + 1, plan.first_bar + plan.section.bar_count],
         "passes": plan.passes,
@@ -44,7 +40,28 @@ def practice_document(result: SessionResult, circumstances: Circumstances) -> di
 
 def with_truth(document: dict[str, Json], virtual: VirtualSession) -> dict[str, Json]:
     """The document beside what the virtual student knows that it did."""
-    return {**document, "truth": virtual.student.truth_document()}
+    student, matching = virtual.student, virtual.student.truth
+    hit_ns = student.performance.hits["at_ns"]
+    known = Alignment(
+        hit_of_note=matching.hit_of_note,
+        note_of_hit=matching.note_of_hit,
+        note_label=matching.note_label,
+        hit_label=matching.hit_label,
+        asynchrony_ns=_true_asynchrony_ns(student),
+        hit_score_ns=hit_ns,
+        stretch=np.zeros(len(hit_ns), np.int64),
+        reference=Reference.CLICK,
+        sd_ms=None,
+    )
+    truth = assessment(summarise(student.score, student.performance, known))
+    return {**document, "truth": {**truth, **student.truth_document()}}
+
+
+def _true_asynchrony_ns(student: VirtualPerformance) -> NDArray[np.int64]:
+    """Played − written of every note that was answered, 0 elsewhere, shape (n,)."""
+    hit = student.truth.hit_of_note
+    played_ns = student.performance.hits["at_ns"][np.maximum(hit, 0)]
+    return np.where(hit >= 0, played_ns - student.score.onset_ns, 0)
 
 
 # --- text ------------------------------------------------------------------------------------------------------------

@@ -9,13 +9,14 @@ A hit's score time = its stamp − input latency − (the transport's zero + out
 student heard and played, compared where both are known.
 """
 
-from collections import deque
+from collections import Counter, deque
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from station.core.events import Choke, DeviceFound, DeviceLost, Hit
 from station.core.units import NS_PER_MS
-from station.engine.messages import Command, EngineEvent, Notice, Play, Started
+from station.engine.engine import KEYBOARD
+from station.engine.messages import Command, EngineEvent, Notice, Play, Recorded, Started
 from station.music.judgement import Judgement, Label
 from station.music.performance import Performance
 from station.music.score import Score
@@ -48,7 +49,6 @@ class SessionState:
     segment: Segment
     transport_ns: int | None
     score_ns: int | None
-    counts: dict[Label, int]
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +56,7 @@ class SessionResult:
     """A session when it is over: the plan, what was played in score time, and the final alignment.
 
     `score` is what is judged: the plan's, or, when the session was stopped early (`complete` False), its strokes up to
-    there.
+    there. `device` is what most hits were played on, None where there was none.
     """
 
     plan: Plan
@@ -65,6 +65,7 @@ class SessionResult:
     alignment: Alignment
     latency: Latency
     complete: bool
+    device: str | None
 
 
 @dataclass(eq=False)
@@ -86,6 +87,8 @@ class Session:
         self._verdict_of_hit: dict[int, Judgement] = {}
         self.device: str | None = None
         """The kit that is connected, as far as the engine has said."""
+        self.capture_fault: str | None = None
+        """Why the capture lacks what came after, if it does."""
         self.notices: list[str] = []
         """What a user should read once, in order."""
 
@@ -101,7 +104,8 @@ class Session:
             case Hit():
                 return self._take_hit(event)
             case Choke():
-                self._chokes.append(event)
+                if (score_ns := self._score_ns(event.at_ns - self.latency.input_ns)) is not None:
+                    self._chokes.append(replace(event, at_ns=score_ns))
             case Started(zero_ns):
                 self._zero_ns = zero_ns
             case DeviceLost(_, device):
@@ -110,6 +114,9 @@ class Session:
             case DeviceFound(_, device):
                 self.device = device
                 self.notices.append(f"{device} is here")
+            case Recorded(_, fault) if fault is not None:
+                self.capture_fault = fault
+                self.notices.append(f"nothing more is recorded: {fault}")
             case Notice(text):
                 self.notices.append(text)
             case _:
@@ -124,10 +131,11 @@ class Session:
 
     def _take_hit(self, hit: Hit) -> tuple[Judgement, ...]:
         self._recent.append(hit)
-        score_ns = self._score_ns(hit.at_ns)
+        # keys are not the kit: what was measured of the kit says nothing of them
+        score_ns = self._score_ns(hit.at_ns - (0 if hit.device == KEYBOARD else self.latency.input_ns))
         if score_ns is None or not self._is_judged(score_ns):
             return ()
-        self._hits.append(hit)
+        self._hits.append(replace(hit, at_ns=score_ns))
         return self._keep(self._follower.hit(hit, score_ns))
 
     def _keep(self, verdicts: Iterable[Judgement]) -> tuple[Judgement, ...]:
@@ -155,16 +163,10 @@ class Session:
     def state(self) -> SessionState:
         """What is going on, as of the last `advance`."""
         transport_ns = self._transport_ns(self._now_ns)
-        counts = dict.fromkeys(Label, 0)
-        for verdict in self._verdict_of_note.values():
-            counts[verdict.label] += 1
-        for verdict in self._verdict_of_hit.values():
-            counts[verdict.label] += verdict.note_index is None
         return SessionState(
             segment=self.plan.segment_at(transport_ns if transport_ns is not None else -1),
             transport_ns=transport_ns,
             score_ns=self._score_ns(self._now_ns),
-            counts=counts,
         )
 
     @property
@@ -174,7 +176,7 @@ class Session:
 
     @property
     def hits(self) -> Sequence[Hit]:
-        """The hits that are judged, in the order in which they came: a judgement's `hit_index` counts them."""
+        """The hits that are judged, in score time, in the order in which they came: `hit_index` counts them."""
         return self._hits
 
     @property
@@ -186,18 +188,17 @@ class Session:
         """Indices of the hits that answer no note, as far as is known."""
         return [hit for hit, verdict in self._verdict_of_hit.items() if verdict.label is Label.EXTRA]
 
-    def score_ns(self, hit: Hit) -> int | None:
-        """The score time of a hit; None before the transport runs."""
-        return self._score_ns(hit.at_ns)
-
     def result(self) -> SessionResult:
         """The final alignment of all that was heard so far."""
-        performance = Performance.from_hits(self._hits, self._chokes).shifted(-self._origin_ns())
+        performance = Performance.from_hits(self._hits, self._chokes)
         heard_until_ns = self._score_ns(self._now_ns)
         complete = heard_until_ns is not None and heard_until_ns >= self.plan.score.length_ns
         score = self.plan.score if complete else self.plan.score.until_ns(heard_until_ns or 0)
         alignment = align(score, performance, clocked=True)
-        return SessionResult(self.plan, score, performance, alignment, self.latency, complete)
+        return SessionResult(self.plan, score, performance, alignment, self.latency, complete, self._played_on())
+
+    def _played_on(self) -> str | None:
+        return Counter(hit.device for hit in self._hits).most_common(1)[0][0] if self._hits else None
 
     # --- time -------------------------------------------------------------------------------------------------------
 
@@ -205,12 +206,8 @@ class Session:
         return None if self._zero_ns is None else at_ns - self._zero_ns - self.latency.output_ns
 
     def _score_ns(self, at_ns: int) -> int | None:
-        return None if self._zero_ns is None else at_ns - self._origin_ns()
-
-    def _origin_ns(self) -> int:
-        """The stamp of a hit that is exactly on tick 0 of the score."""
-        latency_ns = self.latency.input_ns + self.latency.output_ns
-        return (self._zero_ns or 0) + self.plan.passes_start_ns + latency_ns
+        transport_ns = self._transport_ns(at_ns)
+        return None if transport_ns is None else transport_ns - self.plan.passes_start_ns
 
     def _is_judged(self, score_ns: int) -> bool:
         return -EARLIEST_NS <= score_ns <= self.plan.score.length_ns + TAIL_NS

@@ -75,4 +75,4 @@ def practice_room(
     engine = DirectEngine(clock, student)
     plan = plan_practice(find_lesson(lesson), wishes)
     engine.plan = plan
-    return PracticeRoom(engine, Settings(sessions=str(sessions)), plan), engine, clock
+    return PracticeRoom(lambda: engine, Settings(sessions=str(sessions)), plan), engine, clock

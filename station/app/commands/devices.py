@@ -1,19 +1,27 @@
 """`station devices`: list kits and sound outputs, watch a kit live, record it, replay a capture."""
 
 import argparse
+import math
 import time
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import asdict
 from enum import IntEnum
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from station.app.commands.output import print_json, say
+from station.core.clock import monotonic_ns
 from station.core.errors import DeviceError
 from station.core.events import Choke, DeviceEvent, DeviceFound, DeviceLost, Hit, PedalMoved
 from station.core.pieces import word
 from station.core.settings import load_settings
 from station.core.units import NS_PER_S, ns_from_s, s_from_ns
 from station.devices.watch import Findings, KitWatch
+
+if TYPE_CHECKING:
+    from station.devices.decoders import DecoderBank
+    from station.engine.engine import Engine
 
 SCHEMA = "drum-station/devices/1"
 POLL_S = 0.0005
@@ -30,10 +38,17 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     record.add_argument("file", metavar="FILE", type=Path, help="the capture to write")
     for verb in (monitor, record):
         verb.add_argument("--kit", metavar="PORT", help="part of the MIDI port's name (the first kit found)")
-        verb.add_argument("--seconds", type=float, metavar="S", help="end by itself after so long")
+        verb.add_argument("--seconds", type=_seconds, metavar="S", help="end by itself after so long")
     replay = verbs.add_parser("replay", help="the hits of a capture, as they were")
     replay.add_argument("file", metavar="FILE", type=Path, help="a capture")
     replay.add_argument("--json", action="store_true", help="print one JSON document")
+
+
+def _seconds(text: str) -> float:
+    seconds = float(text)
+    if not (math.isfinite(seconds) and seconds > 0.0):
+        raise argparse.ArgumentTypeError(f"{text} is no length of time; give seconds above 0")
+    return seconds
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -71,43 +86,53 @@ def _list(arguments: argparse.Namespace) -> int:
 # --- live ------------------------------------------------------------------------------------------------------------
 
 
-def _polls(arguments: argparse.Namespace) -> Iterator[Findings]:
-    """What the chosen kit brings, poll by poll, until the time is up or Ctrl-C."""
+@contextmanager
+def _listening(arguments: argparse.Namespace) -> Iterator[KitWatch]:
+    """The chosen kit; raises `DeviceError` where there is no MIDI driver. Ctrl-C, wherever it falls, ends the block."""
     from station.devices.midi_ports import MidiDirectory
 
     wanted = load_settings().kit if arguments.kit is None else arguments.kit
     watch = KitWatch(MidiDirectory(), wanted)
-    end_ns = None if arguments.seconds is None else time.monotonic_ns() + ns_from_s(arguments.seconds)
-    say(f"waiting for {f'a kit called {wanted!r}' if wanted else 'a kit'}; Ctrl-C ends")
     try:
-        while end_ns is None or time.monotonic_ns() < end_ns:
-            yield watch.poll(time.monotonic_ns())
-            time.sleep(POLL_S)
+        yield watch
     except KeyboardInterrupt:
-        return
+        pass
     finally:
         watch.close()
+
+
+def _polls(watch: KitWatch, seconds: float | None) -> Iterator[Findings]:
+    """What the kit brings, poll by poll, until the time is up."""
+    end_ns = None if seconds is None else monotonic_ns() + ns_from_s(seconds)
+    say(f"waiting for {f'a kit called {watch.wanted!r}' if watch.wanted else 'a kit'}; Ctrl-C ends")
+    while end_ns is None or monotonic_ns() < end_ns:
+        yield watch.poll(monotonic_ns())
+        time.sleep(POLL_S)
 
 
 def _monitor(arguments: argparse.Namespace) -> int:
     from station.devices.decoders import DecoderBank
 
-    decoders = DecoderBank()
-    start_ns = time.monotonic_ns()
-    for findings in _polls(arguments):
-        now_ns = time.monotonic_ns()
-        if findings.found:
-            print(_line(decoders.found(findings.device, now_ns), start_ns), flush=True)
-        for packet in findings.packets:
-            events = list(decoders.feed(findings.device, packet.data, packet.at_ns))
-            raw = packet.data.hex(" ")
-            for event in events:
-                print(f"{_line(event, start_ns):72}  {raw}", flush=True)
-            if not events and packet.data[:1] not in _CHATTER:
-                print(f"{s_from_ns(packet.at_ns - start_ns):10.4f}  {'':60}  {raw}", flush=True)
-        if findings.lost:
-            print(_line(decoders.lost(findings.device, now_ns), start_ns), flush=True)
+    decoders, start_ns = DecoderBank(), monotonic_ns()
+    with _listening(arguments) as watch:
+        for findings in _polls(watch, arguments.seconds):
+            _show(findings, decoders, start_ns)
     return 0
+
+
+def _show(findings: Findings, decoders: "DecoderBank", start_ns: int) -> None:
+    now_ns = monotonic_ns()
+    if findings.found:
+        print(_line(decoders.found(findings.device, now_ns), start_ns), flush=True)
+    for packet in findings.packets:
+        events = list(decoders.feed(findings.device, packet.data, packet.at_ns))
+        raw = packet.data.hex(" ")
+        for event in events:
+            print(f"{_line(event, start_ns):72}  {raw}", flush=True)
+        if not events and packet.data[:1] not in _CHATTER:
+            print(f"{s_from_ns(packet.at_ns - start_ns):10.4f}  {'':60}  {raw}", flush=True)
+    if findings.lost:
+        print(_line(decoders.lost(findings.device, now_ns), start_ns), flush=True)
 
 
 _CHATTER = (b"\xf8", b"\xfe")
@@ -116,31 +141,51 @@ _CHATTER = (b"\xf8", b"\xfe")
 
 def _record(arguments: argparse.Namespace) -> int:
     from station.engine.engine import Engine
-    from station.engine.messages import Notice
-    from station.engine.messages import Record as RecordTo
+    from station.engine.messages import Record
 
     engine, hits = Engine(), 0
-    engine.advance(time.monotonic_ns())
-    engine.handle(RecordTo(arguments.file))
-    faults = [event.text for event in engine.advance(time.monotonic_ns()) if isinstance(event, Notice)]
-    if faults:
-        raise DeviceError(faults[0])
-    for findings in _polls(arguments):
-        if findings.found:
-            engine.device_found(findings.device, time.monotonic_ns())
-        for packet in findings.packets:
-            engine.feed(findings.device, packet.data, packet.at_ns)
-        if findings.lost:
-            engine.device_lost(findings.device, time.monotonic_ns())
-        for event in engine.advance(time.monotonic_ns()):
-            hits += isinstance(event, Hit)
-            if isinstance(event, DeviceFound | DeviceLost):
-                say(f"{event.device} {'is here' if isinstance(event, DeviceFound) else 'is gone'}")
-            if isinstance(event, Notice):
-                say(event.text)
-    engine.close()
+    with _listening(arguments) as watch:  # before the file: where nothing can be heard, none is left behind
+        engine.advance(monotonic_ns())
+        engine.handle(Record(arguments.file))
+        try:
+            hits += _tell(engine)
+            for findings in _polls(watch, arguments.seconds):
+                _feed(engine, findings)
+                hits += _tell(engine)
+        finally:
+            engine.handle(Record(None))
+    hits += _tell(engine)
     say(f"{hits} hits in {arguments.file}")
     return 0
+
+
+def _feed(engine: "Engine", findings: Findings) -> None:
+    if findings.found:
+        engine.device_found(findings.device, monotonic_ns())
+    for packet in findings.packets:
+        engine.feed(findings.device, packet.data, packet.at_ns)
+    if findings.lost:
+        engine.device_lost(findings.device, monotonic_ns())
+
+
+def _tell(engine: "Engine") -> int:
+    """Say what happened and count the hits; raises `DeviceError` where the capture did not begin or end well."""
+    from station.engine.messages import Notice, Recorded
+
+    hits = 0
+    for event in engine.advance(monotonic_ns()):
+        match event:
+            case Hit():
+                hits += 1
+            case DeviceFound() | DeviceLost():
+                say(f"{event.device} {'is here' if isinstance(event, DeviceFound) else 'is gone'}")
+            case Recorded(fault=str(fault)):
+                raise DeviceError(fault)
+            case Notice(text):
+                say(text)
+            case _:
+                pass
+    return hits
 
 
 # --- replay ----------------------------------------------------------------------------------------------------------

@@ -1,18 +1,17 @@
 """`station practice [LESSON]`: a practice session in the window, in the terminal, or with a virtual student."""
 
 import argparse
-from dataclasses import replace
 from pathlib import Path
 
 from station.app.commands.output import print_json, say
 from station.app.health import has_screen
 from station.app.session_folder import SessionFolder, rescued
 from station.core.errors import DeviceError, StationError
-from station.core.settings import Settings, load_settings
+from station.core.settings import Settings, load_settings, with_said
 from station.drills.lesson import Lesson
-from station.practice.folder import CAPTURE_NAME, TEXT_NAME
+from station.practice.folder import TEXT_NAME
 from station.practice.plan import Plan, Wishes, plan_practice
-from station.practice.report import Circumstances, practice_document, report_text, with_truth
+from station.practice.report import practice_document, report_text, with_truth
 from station.practice.session import SessionResult
 from station.scoring.document import Json
 
@@ -34,10 +33,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--headless", action="store_true", help="no window; a virtual student plays faster than real time"
     )
     parser.add_argument("--no-demonstration", action="store_true", help="count in and play at once")
-    parser.add_argument("--report", type=Path, metavar="DIR", help="where to leave the session (a new folder of yours)")
+    parser.add_argument(
+        "--report", type=Path, metavar="DIR", help="where to leave the session; practises in the terminal"
+    )
     parser.add_argument("--no-pictures", action="store_true", help="leave a report, but no pictures")
     parser.add_argument("--student", metavar="NAME", help="whose session it is")
-    parser.add_argument("--json", action="store_true", help="print the report as one JSON document")
+    parser.add_argument("--json", action="store_true", help="print the report as one JSON document; in the terminal")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -46,11 +47,12 @@ def run(arguments: argparse.Namespace) -> int:
     plan = plan_practice(_lesson(arguments.lesson), _wishes(arguments))
     if arguments.virtual_student is not None:
         return _virtual(plan, arguments.virtual_student, arguments, settings)
-    if not arguments.headless and has_screen():
+    in_terminal = arguments.headless or arguments.json or arguments.report is not None
+    if not in_terminal and has_screen():
         from station.app.commands.window import open_window
 
         return open_window(settings, plan)
-    if not arguments.headless and not _is_kit_there(settings.kit):
+    if not in_terminal and not _is_kit_there(settings.kit):
         say("no screen and no kit here: a virtual student practises instead")
         return _virtual(plan, STAND_IN, arguments, settings)
     return _live(plan, arguments, settings)
@@ -60,14 +62,16 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _virtual(plan: Plan, spec: str, arguments: argparse.Namespace, settings: Settings) -> int:
-    from station.practice.headless import DEVICE, practise_virtually
+    from station.practice.headless import practise_virtually
     from station.practice.student_spec import parse_spec
 
     student = parse_spec(spec)
     with SessionFolder(arguments.report, settings, plan) as folder:
-        virtual = practise_virtually(plan, student, folder.path / CAPTURE_NAME)
-        document = practice_document(virtual.result, Circumstances(settings.student, DEVICE))
-        _leave(folder, virtual.result, with_truth(document, virtual), arguments)
+        virtual = practise_virtually(plan, student, folder.capture)
+        document = with_truth(practice_document(virtual.result, settings.student), virtual)
+        _leave(folder, virtual.result, document, arguments)
+    if virtual.fault is not None:
+        raise virtual.fault
     return 0
 
 
@@ -75,8 +79,10 @@ def _live(plan: Plan, arguments: argparse.Namespace, settings: Settings) -> int:
     from station.app.commands.terminal import practise_in_terminal
 
     with SessionFolder(arguments.report, settings, plan) as folder:
-        result, device = practise_in_terminal(plan, settings, folder.path / CAPTURE_NAME)
-        _leave(folder, result, practice_document(result, Circumstances(settings.student, device)), arguments)
+        outcome = practise_in_terminal(plan, settings, folder.capture)
+        _leave(folder, outcome.result, practice_document(outcome.result, settings.student), arguments)
+    if outcome.fault is not None:
+        raise outcome.fault
     return 0
 
 
@@ -103,6 +109,8 @@ def _leave(
         print_json(document)
     else:
         print(report_text(document), end="", flush=True)
+        if "pairs_csv" in document:
+            print(f"\n{document['pairs_csv']}", end="", flush=True)
     if fault is not None:
         raise fault
     say(f"\nreport   {folder.path / TEXT_NAME}")
@@ -131,7 +139,7 @@ def _wishes(arguments: argparse.Namespace) -> Wishes:
 def _wanted(arguments: argparse.Namespace, settings: Settings) -> Settings:
     """The settings with what the command line says instead."""
     said = {name: getattr(arguments, name) for name in ("kit", "output", "block_frames", "student")}
-    return replace(settings, **{name: value for name, value in said.items() if value is not None})
+    return with_said(settings, {name: value for name, value in said.items() if value is not None}, "practice")
 
 
 def _bars(text: str) -> tuple[int, int]:

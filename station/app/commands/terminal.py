@@ -9,9 +9,9 @@ from station.core.settings import Settings
 from station.core.units import NS_PER_MS, ns_from_ms
 from station.engine.process import EngineConfig, EngineProcess
 from station.music.judgement import Judgement, Label
-from station.practice.live import practise_live, wait_for_kit
-from station.practice.plan import Phase, Plan, Segment
-from station.practice.session import Latency, Session, SessionResult
+from station.practice.live import LiveOutcome, practise_live, wait_for_kit
+from station.practice.plan import Plan, Segment
+from station.practice.session import Latency, Session
 from station.scoring.windows import Windows
 
 KIT_WAIT_S = 5.0
@@ -19,9 +19,8 @@ KIT_WAIT_S = 5.0
 
 _MARKS = {Label.MISS: "o", Label.EXTRA: "+", Label.WRONG_PIECE: "x", Label.IGNORED: ""}
 _GOOD, _EARLY, _LATE = "|", "<", ">"
+_LEANS = {-1: _EARLY, 0: _GOOD, 1: _LATE}
 LEGEND = f"{_GOOD} on time  {_EARLY} early  {_LATE} late  o missed  x wrong piece  + extra"
-
-_PHASES = {Phase.COUNT_IN: "count-in", Phase.DEMONSTRATION: "demonstration", Phase.PASS: "pass", Phase.OVER: ""}
 
 
 class _Display:
@@ -41,21 +40,15 @@ class _Display:
         state = session.state()
         if state.transport_ns is not None and state.segment != self._segment:
             self._segment = state.segment
-            self._line(f"\n{self._title(state.segment)}")
+            self._line(f"\n{self._plan.words(state.segment):14}")
         marks = "".join(self._mark(verdict) for verdict in judged)
         if marks:
             self._line(marks)
 
-    def _title(self, segment: Segment) -> str:
-        count = {Phase.PASS: f" {segment.index + 1} of {self._plan.passes}  "}.get(segment.phase, "")
-        return f"{_PHASES[segment.phase]}{count}"
-
     def _mark(self, verdict: Judgement) -> str:
         if verdict.label is not Label.MATCH or verdict.asynchrony_ns is None:
             return _MARKS[verdict.label]
-        if self._windows.grade(verdict.asynchrony_ns / NS_PER_MS) == 0:
-            return _GOOD
-        return _EARLY if verdict.asynchrony_ns < 0 else _LATE
+        return _LEANS[self._windows.lean(verdict.asynchrony_ns / NS_PER_MS)]
 
     @staticmethod
     def _line(text: str) -> None:
@@ -63,22 +56,22 @@ class _Display:
         sys.stderr.flush()
 
 
-def practise_in_terminal(plan: Plan, settings: Settings, capture: Path) -> tuple[SessionResult, str]:
-    """Practise `plan`; returns the result and the kit's name. Raises `DeviceError` where there is no kit."""
+def practise_in_terminal(plan: Plan, settings: Settings, capture: Path) -> LiveOutcome:
+    """Practise `plan`. Raises `DeviceError` where there is no kit, or where the engine dies before it began."""
     latency = Latency(ns_from_ms(settings.input_latency_ms), ns_from_ms(settings.output_latency_ms))
     session = Session(plan, latency)
     display = _Display(plan, session.windows)
-    with EngineProcess(EngineConfig.from_settings(settings)) as engine:
-        clock = MonotonicClock()
-        wait_for_kit(engine, session, clock, KIT_WAIT_S, display.tell)
-        device = session.device
-        if device is None:
-            raise DeviceError(_no_kit(settings.kit))
-        sys.stderr.write(f"\n{LEGEND}\n")
-        result = practise_live(engine, session, clock, capture, display.tell)
+    clock = MonotonicClock()
+    try:
+        with EngineProcess(EngineConfig.from_settings(settings)) as engine:
+            wait_for_kit(engine, session, clock, KIT_WAIT_S, display.tell)
+            if session.device is None:
+                raise DeviceError(_no_kit(settings.kit))
+            sys.stderr.write(f"\n{LEGEND}\n")
+            return practise_live(engine, session, clock, capture, display.tell)
+    finally:
         display.tell(session, ())
         sys.stderr.write("\n")
-        return result, device
 
 
 def _no_kit(wanted: str) -> str:

@@ -1,6 +1,7 @@
 """`station` without a command: opens the practice room."""
 
 import argparse
+from contextlib import ExitStack
 
 from station.app.health import has_screen
 from station.core.errors import DeviceError
@@ -27,10 +28,13 @@ def open_window(settings: Settings, first: Plan) -> int:
     from station.app.window import run_window
     from station.engine.process import EngineConfig, EngineProcess
 
-    with EngineProcess(EngineConfig.from_settings(settings)) as engine:
-        room = PracticeRoom(engine, settings, first)
+    with ExitStack() as engines:
+        wake = lambda: engines.enter_context(EngineProcess(EngineConfig.from_settings(settings)))  # noqa: E731
+        room = PracticeRoom(wake, settings, first)
         try:
             run_window(room)
         finally:
-            room.stop()
+            fault = room.close()
+        if fault is not None:
+            raise fault
     return 0

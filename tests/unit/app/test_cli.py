@@ -170,3 +170,50 @@ def test_help_needs_no_command(capsys: pytest.CaptureFixture[str]) -> None:
         main(["--help"])
     assert leaving.value.code == 0
     assert "practice" in capsys.readouterr().out
+
+
+def test_a_folder_holds_one_session(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    practise(capsys, "--loops", "1", "--report", str(tmp_path / "session"))
+    before = (tmp_path / "session" / "session.capture").read_bytes()
+    words = ("practice", "rock-1", "--virtual-student", "pro", "--report", str(tmp_path / "session"))
+    assert "there is a session in this folder already" in refused(capsys, *words)
+    assert (tmp_path / "session" / "session.capture").read_bytes() == before
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no /dev/full")
+def test_a_full_disk_costs_no_hit(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The report leads to a device that is always full, and there is no spare disk."""
+    folder = tmp_path / "session"
+    folder.mkdir()
+    (folder / "report.txt").symlink_to("/dev/full")
+    (tmp_path / "no folder").touch()
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "no folder"))
+    words = ["practice", "rock-1", "--virtual-student", "pro", "--loops", "1", "--report", str(folder)]
+    assert main(words) == 2
+    out, err = capsys.readouterr()
+    assert "No space left" in err
+    assert out.count("\nmatch,") == 24  # every note of two bars of rock 1, played by a flawless pro
+
+
+def test_words_that_no_encoding_knows_are_written(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    document = practise(capsys, "--loops", "1", "--student", "\udcff", "--report", str(tmp_path / "session"))
+    assert document == json.loads((tmp_path / "session" / "report.json").read_text())
+
+
+def test_a_name_longer_than_file_systems_take_is_no_lesson(capsys: pytest.CaptureFixture[str]) -> None:
+    assert "no such lesson" in refused(capsys, "lesson", "show", "x" * 5000)
+
+
+def test_block_sizes_have_limits(capsys: pytest.CaptureFixture[str]) -> None:
+    words = ("practice", "rock-1", "--virtual-student", "pro", "--block-frames", "-5")
+    assert "block_frames" in refused(capsys, *words)
+
+
+def test_truth_speaks_of_what_the_report_speaks_of(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    document = practise(capsys, "--loops", "4", "--report", str(tmp_path / "session"))
+    truth = document["truth"]
+    assert isinstance(truth, dict)
+    assert {"score", "counts", "timing", "advice", "spec"} <= truth.keys()
+    assert isinstance(truth["score"], float)

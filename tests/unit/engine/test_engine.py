@@ -24,6 +24,7 @@ from station.engine.messages import (
     Queue,
     Quit,
     Record,
+    Recorded,
     SetLevel,
     Started,
     Status,
@@ -227,6 +228,14 @@ def test_a_silent_engine_keeps_time_by_the_clock_it_is_told() -> None:
     assert engine.advance(NS_PER_S + 1) == [Started(1_300 * NS_PER_MS)]
 
 
+def test_a_card_lost_before_its_first_block_starts_no_transport_in_the_past() -> None:
+    rig = Rig()
+    rig.engine.handle(Play(clicks([0]), 300 * NS_PER_MS))
+    rig.engine.attach(None)
+    now_ns = rig.clock.now_ns() + 3 * NS_PER_S
+    assert only(rig.engine.advance(now_ns), Started).zero_ns == now_ns
+
+
 def test_a_silent_engine_tells_strokes() -> None:
     engine = Engine()
     engine.feed(KIT, SNARE, 5)
@@ -237,6 +246,7 @@ def test_a_silent_engine_counts_late_cues() -> None:
     engine = Engine()
     engine.advance(0)
     engine.handle(Play(clicks([0]), 0))
+    engine.advance(0)
     engine.advance(500 * NS_PER_MS)
     engine.handle(Queue(clicks([100 * NS_PER_MS, 900 * NS_PER_MS])))
     assert only(engine.advance(NS_PER_S), Status).late_cues == 1
@@ -295,7 +305,7 @@ def test_a_capture_replays_what_the_engine_told(tmp_path: Path) -> None:
     engine.handle(Record(None))
     capture = read_capture(path)
     assert capture.complete
-    events = [event for event in told if not isinstance(event, Started)]
+    events = [event for event in told if not isinstance(event, Started | Recorded)]
     assert list(replay(capture)) == [PedalMoved(NS_PER_S, 63 / 127, KIT), *events]
     assert transport_zeros_ns(capture) == [NS_PER_S]
 
@@ -315,7 +325,10 @@ def test_a_capture_that_cannot_begin_is_told_and_playing_goes_on(tmp_path: Path)
     engine.handle(Record(tmp_path / "file" / "take.cap"))
     engine.feed(KIT, SNARE, 5)
     events = engine.advance(10)
-    assert "nothing is being recorded" in only(events, Notice).text
+    recorded = only(events, Recorded)
+    assert recorded.path == tmp_path / "file" / "take.cap"
+    assert recorded.fault is not None
+    assert "take.cap" in recorded.fault
     assert only(events, Hit).at_ns == 5
 
 
@@ -328,6 +341,48 @@ def test_a_full_disk_is_told_once_and_playing_goes_on() -> None:
     events = engine.advance(10)
     assert "No space left" in only(events, Notice).text
     assert only(events, Hit).at_ns == 5
+
+
+def test_the_end_of_a_capture_comes_after_all_that_is_in_it(tmp_path: Path) -> None:
+    engine = Engine()
+    engine.handle(Record(tmp_path / "take.cap"))
+    engine.feed(KIT, SNARE, 5)
+    engine.handle(Record(None))
+    events = engine.advance(10)
+    assert [type(event) for event in events] == [Recorded, Hit, Recorded]
+    assert events[-1] == Recorded(None, None)
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no /dev/full")
+def test_a_capture_that_lacks_hits_says_so_at_its_end() -> None:
+    engine = Engine()
+    engine.handle(Record(Path("/dev/full")))
+    engine.feed(KIT, SNARE, 5)
+    engine.handle(Record(None))
+    fault = engine.advance(10)[-1]
+    assert isinstance(fault, Recorded)
+    assert fault.fault is not None
+    assert "No space left" in fault.fault
+
+
+def test_a_transport_that_has_played_out_is_none_of_the_next_captures(tmp_path: Path) -> None:
+    engine = Engine()
+    engine.advance(0)
+    engine.handle(Play(clicks([0, 500]), 100))
+    engine.advance(0)
+    engine.advance(NS_PER_S)
+    engine.handle(Record(tmp_path / "take.cap"))
+    engine.close()
+    assert transport_zeros_ns(read_capture(tmp_path / "take.cap")) == []
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no /dev/full")
+def test_what_a_capture_lacks_is_told_when_the_next_one_begins(tmp_path: Path) -> None:
+    engine = Engine()
+    engine.handle(Record(Path("/dev/full")))
+    engine.handle(Record(tmp_path / "take.cap"))
+    assert "No space left" in only(engine.advance(0), Notice).text
+    engine.close()
 
 
 def test_quit_is_remembered() -> None:

@@ -1,0 +1,103 @@
+"""The room behind the window when the engine fails: nothing that was played is lost, and a new engine is woken."""
+
+from pathlib import Path
+
+import pytest
+
+from station.app.model import Stage, Start
+from station.app.practice_room import PracticeRoom
+from station.core.errors import DeviceError
+from station.core.events import Hit
+from station.core.pieces import Piece, Zone
+from station.core.settings import Settings
+from station.core.units import NS_PER_S
+from station.drills.library import find_lesson
+from station.engine.messages import Command, EngineEvent, Record, Recorded, Started
+from station.practice.plan import Wishes, plan_practice
+
+PLAN = plan_practice(find_lesson("rock-1"), Wishes(loops=1, demonstrations=0))
+WISH = Start("rock-1", 80.0, 1, demonstrations=0)
+
+
+class Line:
+    """The other end of an engine: says what it was given to say; dead, it refuses as the process does."""
+
+    def __init__(self) -> None:
+        self.says: list[EngineEvent] = []
+        self.heard: list[Command] = []
+        self.dead = False
+
+    def send(self, command: Command) -> None:
+        self._live()
+        self.heard.append(command)
+        if isinstance(command, Record):
+            self.says.append(Recorded(command.path))
+
+    def events(self, wait_s: float = 0.0) -> list[EngineEvent]:
+        del wait_s
+        self._live()
+        said, self.says = self.says, []
+        return said
+
+    def _live(self) -> None:
+        if self.dead:
+            raise DeviceError("the engine has ended")
+
+
+def room_on(lines: list[Line], sessions: Path) -> PracticeRoom:
+    waiting = iter(lines)
+    return PracticeRoom(lambda: next(waiting), Settings(sessions=str(sessions)), PLAN)
+
+
+def downbeat(offset_ns: int = 0) -> Hit:
+    return Hit(NS_PER_S + PLAN.passes_start_ns + offset_ns, Piece.KICK, Zone.HEAD, 90)
+
+
+def test_hits_on_their_way_when_the_session_is_stopped_are_judged(tmp_path: Path) -> None:
+    line = Line()
+    room = room_on([line], tmp_path)
+    room.start(WISH)
+    line.says.append(Started(NS_PER_S))
+    room.snapshot(NS_PER_S + PLAN.passes_start_ns + 10)
+    line.says.append(downbeat())
+    room.stop()
+    report = room.report()
+    assert report is not None
+    counts = report.document["counts"]
+    assert isinstance(counts, dict)
+    assert counts["hits"] == 1
+
+
+def test_an_engine_that_dies_costs_no_hit_and_the_next_start_wakes_another(tmp_path: Path) -> None:
+    first, second = Line(), Line()
+    room = room_on([first, second], tmp_path)
+    room.start(WISH)
+    first.says += [Started(NS_PER_S), downbeat()]
+    room.snapshot(NS_PER_S + PLAN.passes_start_ns + 10)
+    first.dead = True
+    room.snapshot(NS_PER_S + PLAN.passes_start_ns + 20)
+    assert room.room().stage is Stage.RESULT
+    assert any("ended" in notice for notice in room.room().notices)
+    assert len(list(tmp_path.rglob("report.json"))) == 1
+    room.dismiss()
+    room.start(WISH)
+    assert any(isinstance(command, Record) for command in second.heard)
+
+
+def test_a_session_that_cannot_begin_leaves_no_folder(tmp_path: Path) -> None:
+    line = Line()
+    room = room_on([line], tmp_path)
+    line.dead = True
+    with pytest.raises(DeviceError):
+        room.start(WISH)
+    assert not list(tmp_path.rglob("*_rock-1"))
+
+
+def test_keys_to_a_dead_engine_are_harmless(tmp_path: Path) -> None:
+    from station.engine.messages import KeyHit
+
+    line = Line()
+    room = room_on([line], tmp_path)
+    line.dead = True
+    room.key(KeyHit(0, Piece.SNARE, Zone.HEAD, 90))
+    assert line.heard == []
