@@ -6,6 +6,8 @@ slot, and else the hand's that did not play the slot before. That is how a right
 knows better writes the limbs into the score first (`Score.with_limbs`).
 """
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,8 +20,13 @@ _OTHER_HAND = {Limb.RIGHT_HAND: Limb.LEFT_HAND, Limb.LEFT_HAND: Limb.RIGHT_HAND}
 _FOOT = {Piece.KICK: Limb.RIGHT_FOOT, Piece.HIHAT_PEDAL: Limb.LEFT_FOOT}
 
 
+_KEPT_SCORES = 256
+"""A learner practises the same few scores again and again; their limbs are worked out once."""
+
+
+@lru_cache(maxsize=_KEPT_SCORES)
 def limbs_of(score: Score) -> NDArray[np.int8]:
-    """The limb of every row, shape (n,); none is `Limb.UNKNOWN`. A grace stroke goes by the rule of its tick."""
+    """The limb of every row, shape (n,), read-only; none is `Limb.UNKNOWN`. A grace stroke goes by its tick's rule."""
     limbs = score.notes["limb"].copy()
     pieces, ticks = score.notes["piece"].tolist(), score.notes["tick"].tolist()
     last, busy, busy_tick = Limb.LEFT_HAND, Limb.UNKNOWN, -1
@@ -34,6 +41,7 @@ def limbs_of(score: Score) -> NDArray[np.int8]:
         if limb.is_hand:
             last = busy = limb
         limbs[row] = limb
+    limbs.setflags(write=False)
     return limbs
 
 

@@ -1,0 +1,1 @@
+"""Mastery: what to practise next, and why, from how the last pass went."""
