@@ -1,0 +1,91 @@
+"""MIDI ports that we play to: the score and the demonstration on the student's own module, or any synthesiser.
+
+The second module beside `midi_ports` that knows rtmidi. Opening and closing are kept from a sound callback as there;
+sending is not, for it neither waits nor changes a driver's graph.
+"""
+
+from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
+
+import rtmidi
+
+from station.core.errors import BadInput, DeviceError
+from station.devices.midi_ports import _APIS, CLIENT_NAME, _quiet_drivers, compiled_drivers
+
+Undisturbed = Callable[[], AbstractContextManager[None]]
+
+
+class MidiOutPort:
+    """One open MIDI output."""
+
+    def __init__(self, name: str, connection: rtmidi.MidiOut, undisturbed: Undisturbed) -> None:
+        self.name = name
+        self._connection: rtmidi.MidiOut | None = connection
+        self._undisturbed = undisturbed
+
+    def send(self, message: bytes) -> None:
+        """Send one whole MIDI message now; raises `DeviceError` where the port has gone or was closed."""
+        if self._connection is None:
+            raise DeviceError(f"{self.name}: this MIDI output is closed")
+        try:
+            self._connection.send_message(message)
+        except (rtmidi.RtMidiError, OSError, RuntimeError, ValueError) as fault:
+            raise DeviceError(f"{self.name}: MIDI cannot be sent: {fault}") from fault
+
+    def close(self) -> None:
+        """End the connection; harmless when closed already."""
+        if self._connection is not None:
+            with self._undisturbed():
+                self._connection.close_port()
+                self._connection.delete()
+            self._connection = None
+
+
+def output_names(driver: str) -> list[str]:
+    """The ports of `driver` that can be played to, our own left out; raises `BadInput`, `DeviceError`."""
+    connection = _new_output(driver)
+    try:
+        return [port for port in connection.get_ports() if CLIENT_NAME not in port]
+    except (rtmidi.RtMidiError, UnicodeDecodeError) as fault:
+        raise DeviceError(f"the MIDI outputs cannot be listed: {fault}") from fault
+    finally:
+        connection.delete()
+
+
+def open_midi_output(driver: str, part: str, undisturbed: Undisturbed = nullcontext) -> MidiOutPort:
+    """Open the output whose name contains `part`, letter case aside; an exact name comes first.
+
+    Raises `BadInput` for a driver that there is not, `DeviceError` that names the outputs there are.
+    """
+    with undisturbed():
+        connection = _new_output(driver)
+        try:
+            port = _choose(connection.get_ports(), part)
+            connection.open_port(connection.get_ports().index(port), "out")
+        except (rtmidi.RtMidiError, OSError, RuntimeError, ValueError, UnicodeDecodeError) as fault:
+            connection.delete()
+            raise DeviceError(f"{part}: this MIDI output cannot be opened: {fault}") from fault
+        except DeviceError:
+            connection.delete()
+            raise
+    return MidiOutPort(port, connection, undisturbed)
+
+
+def _choose(ports: list[str], part: str) -> str:
+    foreign = [port for port in ports if CLIENT_NAME not in port]
+    exact = [port for port in foreign if port.casefold() == part.casefold()]
+    near = [port for port in foreign if part.casefold() in port.casefold()]
+    if not (exact or near):
+        names = ", ".join(repr(port) for port in foreign) or "none"
+        raise DeviceError(f"no MIDI output is called {part!r}; there are {names}")
+    return (exact or near)[0]
+
+
+def _new_output(driver: str) -> rtmidi.MidiOut:
+    if driver not in compiled_drivers():
+        raise BadInput(driver, "", f"no such MIDI driver here; there are {', '.join(compiled_drivers())}")
+    try:
+        with _quiet_drivers():
+            return rtmidi.MidiOut(_APIS[driver], f"{CLIENT_NAME} out")
+    except (rtmidi.RtMidiError, OSError, RuntimeError, ValueError, SystemError) as fault:
+        raise DeviceError(f"MIDI cannot be sent: {fault}") from fault

@@ -1,0 +1,79 @@
+"""Plays cues to a MIDI output: the demonstration on the student's own module, in time with the transport.
+
+The engine's other half beside `Player`: that one sounds cues by the card's blocks, this one sends them when the engine
+is advanced past their time. Cues are made into bytes only when they are due, so that a long session costs nothing at
+its start. One that lies further back than `station.engine.playback.LATE_NS` is left out, as a sound would be. Where the
+output fails once it is left alone, and its fault is there to be told.
+"""
+
+import heapq
+from math import isnan
+from typing import Protocol
+
+from station.core.errors import DeviceError
+from station.core.pieces import Articulation, Piece, Zone
+from station.devices.midi_encode import GATE_NS, all_off, choke, note_off, note_on
+from station.engine.messages import Bus
+from station.engine.playback import Cue, CueRun, Playback
+
+
+class MidiSink(Protocol):
+    """What MIDI is sent to."""
+
+    def send(self, message: bytes) -> None:
+        """Send one whole message now; raises `DeviceError`."""
+        ...
+
+
+class MidiPlayer:
+    """Sends the cues of one bus to a sink while the transport runs."""
+
+    def __init__(self, sink: MidiSink, bus: Bus = Bus.DEMONSTRATION) -> None:
+        self._sink = sink
+        self._bus = bus
+        self._playback = Playback()
+        self._ends: list[tuple[int, bytes]] = []  # when notes end (session time), and how: a heap
+        self.fault: DeviceError | None = None
+        """Why nothing is sent any more; None while all is well."""
+
+    def start(self, run: CueRun, zero_ns: int) -> None:
+        """Play `run`, of this player's own, and nothing else; its time 0 is `zero_ns` of session time."""
+        self.stop()
+        self._playback.start(run, zero_ns)
+
+    def add(self, run: CueRun) -> None:
+        """Play `run` too; while the transport stands it is forgotten."""
+        self._playback.add(run)
+
+    def stop(self) -> None:
+        """Forget what was to be played, and end every note that sounds."""
+        if self._playback.zero_ns is not None:
+            self._send(all_off())
+        self._playback.stop()
+        self._ends.clear()
+
+    def advance(self, now_ns: int) -> None:
+        """Send what is due up to `now_ns`."""
+        while self._ends and self._ends[0][0] <= now_ns:
+            self._send(heapq.heappop(self._ends)[1])
+        for cue in self._playback.take(now_ns, now_ns + 1):
+            if cue.bus == self._bus:
+                self._play(cue)
+
+    def _play(self, cue: Cue) -> None:
+        piece, zone, articulation = Piece(cue.piece), Zone(cue.zone), Articulation(cue.articulation)
+        openness = None if isnan(cue.openness) else cue.openness
+        if cue.velocity == 0:
+            messages = choke(piece, zone)
+        else:
+            messages = note_on(piece, zone, articulation, cue.velocity, openness)
+            heapq.heappush(self._ends, (cue.at_ns + GATE_NS, note_off(piece, zone, articulation, openness)))
+        for message in messages:
+            self._send(message)
+
+    def _send(self, message: bytes) -> None:
+        if self.fault is None:
+            try:
+                self._sink.send(message)
+            except DeviceError as fault:
+                self.fault = fault

@@ -1,0 +1,65 @@
+"""Through a real JACK server: what is sent to a port arrives there, byte for byte."""
+
+import subprocess
+import sys
+import textwrap
+
+import pytest
+
+from station.core.errors import BadInput
+from station.devices.midi_out import output_names
+from tests.fakes.jack_server import JackServer, jackd_is_installed
+
+
+def test_an_unknown_driver_is_refused() -> None:
+    with pytest.raises(BadInput, match="no such MIDI driver"):
+        output_names("carrier pigeon")
+
+
+@pytest.mark.jack
+@pytest.mark.skipif(not jackd_is_installed(), reason="jackd is not installed")
+def test_what_is_sent_arrives() -> None:
+    program = """
+        import time, rtmidi
+        from station.core.errors import DeviceError
+        from station.devices.midi_out import open_midi_output, output_names
+        module = rtmidi.MidiIn(rtmidi.API_UNIX_JACK, "module")
+        module.open_virtual_port("in")
+        names = output_names("jack")
+        assert any("module" in name for name in names), names
+        try:
+            open_midi_output("jack", "nobody")
+        except DeviceError as fault:
+            assert "module" in str(fault), fault
+        else:
+            raise AssertionError("opened nobody")
+        port = open_midi_output("jack", "MODULE")
+        time.sleep(0.1)
+        for velocity in (1, 64, 127):
+            port.send(bytes((0x99, 38, velocity)))
+        heard, patience = [], time.monotonic() + 5.0
+        while len(heard) < 3 and time.monotonic() < patience:
+            item = module.get_message()
+            if item is not None:
+                heard.append(bytes(item[0]).hex(" "))
+            time.sleep(0.001)
+        port.close()
+        port.close()
+        try:
+            port.send(b"\\x99\\x26\\x40")
+        except DeviceError as fault:
+            assert "closed" in str(fault)
+        else:
+            raise AssertionError("sent to a closed port")
+        print("|".join(heard), flush=True)
+    """
+    with JackServer(48_000, 64) as server:
+        told = subprocess.run(
+            [sys.executable, "-c", textwrap.dedent(program)],
+            env=server.env,
+            capture_output=True,
+            text=True,
+            timeout=60,
+            check=False,
+        )
+    assert told.stdout.strip() == "99 26 01|99 26 40|99 26 7f", told.stderr
