@@ -180,6 +180,8 @@ class Engine:
         if path is None:
             self._events.append(Recorded(None, lacking))
             return
+        if lacking is not None:
+            self.notify(lacking)
         try:
             sink = self._open_capture(path, self._now_ns)
         except StationError as fault:
@@ -189,7 +191,7 @@ class Engine:
         self._recorder = Recorder(sink, self._decoders)
         for device in self._devices:
             self._recorder.add_device(device, self._now_ns)
-        if self._zero_ns is not None:
+        if self._zero_ns is not None and self._player.has_cues:  # one that has played out belongs to what was before
             self._recorder.zero(self._zero_ns)
 
     def _end_capture(self) -> str | None:

@@ -80,6 +80,11 @@ class Playback:
         """Cues dropped because their time had passed, since the start."""
         self._runs: list[CueRun] = []
 
+    @property
+    def has_cues(self) -> bool:
+        """Whether something is still to sound."""
+        return any(not run.is_empty for run in self._runs)
+
     def start(self, run: CueRun, zero_ns: int) -> None:
         """Run from now on, with nothing but `run` to sound."""
         self.zero_ns = zero_ns

@@ -64,6 +64,11 @@ class Player:
         return self._mixer.kit.rate_hz if self._mixer is not None else None
 
     @property
+    def has_cues(self) -> bool:
+        """Whether the transport runs and something is still to sound."""
+        return self._playback.has_cues
+
+    @property
     def late_cues(self) -> int:
         """Cues dropped because their time had passed, since the start."""
         return self._playback.late
@@ -122,8 +127,11 @@ class Player:
         return self._mixer.render(frames)
 
     def pass_by(self, now_ns: int) -> None:
-        """Stand in for the card where nothing sounds: what is due between the last call and `now_ns` is over."""
-        self._empty_inbox(self._passed_ns)
+        """Stand in for the card where nothing sounds: what is due between the last call and `now_ns` is over.
+
+        What was handed in takes effect now: while a card played, the last call may have been long ago.
+        """
+        self._empty_inbox(now_ns)
         self._playback.take(self._passed_ns, now_ns)
         self._passed_ns = now_ns
 

@@ -14,7 +14,8 @@ import threading
 import time
 import traceback
 from collections import deque
-from contextlib import nullcontext, suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import dataclass, replace
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
@@ -90,7 +91,8 @@ class EngineProcess:
         self._process = context.Process(
             target=run_engine, args=(config or EngineConfig(), commands_in, events_out), name="engine", daemon=True
         )
-        self._process.start()
+        with _ctrl_c_ignored():
+            self._process.start()
         commands_in.close()  # the child has its own; ours would hide its end from us
         events_out.close()
         self._closed = False
@@ -130,14 +132,15 @@ class EngineProcess:
         self._process.join(QUIT_WITHIN_S)
         return DeviceError(f"the sound and MIDI engine has ended (exit code {self._process.exitcode}); start it again")
 
-    def close(self) -> None:
-        """End the engine; it writes its capture first."""
+    def close(self) -> list[EngineEvent]:
+        """End the engine; it writes its capture first. Returns what it still had to say, nothing the second time."""
         if self._closed:
-            return
+            return []
         self._closed = True
         with suppress(OSError):
             self._commands.send(Quit())
-        drain = threading.Thread(target=self._drain, daemon=True)
+        last_words: list[EngineEvent] = []
+        drain = threading.Thread(target=self._drain, args=(last_words,), daemon=True)
         drain.start()  # a child that still has much to say must not wait for us while we wait for it
         self._process.join(QUIT_WITHIN_S)
         if self._process.is_alive():
@@ -147,11 +150,12 @@ class EngineProcess:
         self._commands.close()
         self._events.close()
         self._process.close()
+        return last_words
 
-    def _drain(self) -> None:
+    def _drain(self, last_words: list[EngineEvent]) -> None:
         with suppress(EOFError, OSError):
             while True:
-                self._events.recv()
+                last_words += self._events.recv()
 
     def __enter__(self) -> Self:
         return self
@@ -160,6 +164,23 @@ class EngineProcess:
         self, kind: type[BaseException] | None, fault: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
+
+
+@contextmanager
+def _ctrl_c_ignored() -> Iterator[None]:
+    """What is started meanwhile ignores Ctrl-C from its first instruction on; ours is as before afterwards.
+
+    Only the main thread may change that (Python's documentation of `signal`); another one starts the child as it is.
+    """
+    before = signal.getsignal(signal.SIGINT)
+    if threading.current_thread() is not threading.main_thread() or before is None:  # None: not Python's to restore
+        yield
+        return
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 # --- in the child ----------------------------------------------------------------------------------------------------
@@ -197,10 +218,11 @@ def _live(config: EngineConfig, inbox: "_Inbox", outbox: "_Outbox") -> None:
         gc.disable()  # a collection in the audio thread is a late block; what runs from here on makes no cycles
         outbox.put([Ready(card.name, card.rate_hz) if card is not None else Ready(None)])
         while not (engine.quitting or inbox.is_closed):
-            happened = runner.step(monotonic_ns())
+            commands = inbox.take()
+            happened = runner.step(monotonic_ns())  # after taking them: what was played before a command counts before
             if happened:
                 outbox.put(happened)
-            for command in inbox.take():
+            for command in commands:
                 engine.handle(command)
             time.sleep(POLL_S)
     finally:

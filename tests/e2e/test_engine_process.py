@@ -15,7 +15,7 @@ from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_MS
 from station.devices.capture import read_capture
 from station.devices.replay import replay
-from station.engine.messages import KeyHit, Notice, Play, Ready, Record, Started
+from station.engine.messages import KeyHit, Notice, Play, Ready, Record, Recorded, Started
 from station.engine.process import EngineConfig, EngineProcess
 from tests.fakes.cues import clicks
 from tests.fakes.engine_listener import EngineListener
@@ -33,6 +33,23 @@ if __name__ == "__main__":
         pass
     print(engine.pid, flush=True)
     time.sleep(60)
+"""
+
+
+CTRL_C_PARENT = """
+import time
+from station.engine.messages import Ready
+from station.engine.process import EngineConfig, EngineProcess
+if __name__ == "__main__":
+    with EngineProcess(EngineConfig(kits=(), sound=False)) as engine:
+        try:
+            print("the child imports", flush=True)
+            time.sleep(60)
+        except KeyboardInterrupt:
+            print("Ctrl-C", flush=True)
+        while not any(isinstance(event, Ready) for event in engine.events(1.0)):
+            pass
+        print("the child is up", flush=True)
 """
 
 
@@ -88,6 +105,35 @@ def test_leaving_ends_the_process_and_leaving_twice_is_harmless() -> None:
         assert pid is not None
     engine.close()
     assert wait_for_end(pid)
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no /dev/full")
+def test_what_is_said_at_the_very_end_is_not_lost() -> None:
+    engine = EngineProcess(EngineConfig(kits=(), sound=False))
+    ready(engine)
+    engine.send(Record(Path("/dev/full")))
+    engine.send(KEY)
+    said = engine.close()
+    kinds = [type(event) for event in said if isinstance(event, Recorded | Hit | Notice)]
+    assert kinds == [Recorded, Hit, Notice]
+    assert "No space left" in next(event.text for event in said if isinstance(event, Notice))
+    assert engine.close() == []
+
+
+@pytest.mark.skipif(not hasattr(os, "killpg"), reason="this system has no process groups")
+def test_ctrl_c_while_the_engine_starts_is_the_parents_alone() -> None:
+    with subprocess.Popen(
+        [sys.executable, "-c", CTRL_C_PARENT],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    ) as parent:
+        assert parent.stdout is not None
+        parent.stdout.readline()
+        os.killpg(parent.pid, signal.SIGINT)
+        out, err = parent.communicate(timeout=30)
+    assert (out, err, parent.returncode) == ("Ctrl-C\nthe child is up\n", "", 0)
 
 
 def test_leaving_at_once_is_no_trouble() -> None:

@@ -64,9 +64,10 @@ def test_without_a_card_the_engine_says_so_once_and_runs_silent(output: FakeOutp
     card, _ = card_of(engine, output)
     card.start(0)
     engine.handle(Play(clicks([0]), 0))
+    events = engine.advance(0)
     for now_ns in range(0, 60 * NS_PER_S, NS_PER_S):
         card.supervise(now_ns)
-    events = engine.advance(60 * NS_PER_S)
+    events += engine.advance(60 * NS_PER_S)
     assert len([event for event in events if isinstance(event, Notice)]) == 1
     assert [event for event in events if isinstance(event, Started)] == [Started(0)]
     assert card.name is None
