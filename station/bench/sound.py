@@ -1,4 +1,4 @@
-"""Benchmarks of the sound: a block with every voice ringing, what a stroke adds, how soon the kit is there."""
+"""Benchmarks of the sound: a block with every voice ringing, what a stroke or a track adds, how soon a kit is there."""
 
 import time
 from pathlib import Path
@@ -14,7 +14,9 @@ from station.sound.click import click_sounds
 from station.sound.drum_kit import DrumKit
 from station.sound.kit_cache import cached_kit
 from station.sound.kit_synth import KIT_NAME, synth_kit
-from station.sound.mixer import MAX_VOICES, Mixer
+from station.sound.mixer import MAX_VOICES, TRACK_SLACK, Mixer
+from station.sound.track import Track
+from station.sound.track_file import stretched
 
 RATE_HZ = 48_000
 BLOCK_FRAMES = 64
@@ -75,6 +77,31 @@ def _stroke() -> Measured:
     return Measured(1e6 * median_s(stroke, _BLOCKS))
 
 
+def _track() -> Measured:
+    """The block of `_block` with a looped track that is moved by a frame each time, as under the worst drift."""
+    mixer = _ringing()
+    pcm = np.random.default_rng(1).integers(-8000, 8000, (RATE_HZ, 2), np.int16)
+    mixer.play_track(Track(pcm, RATE_HZ, loop=(0, RATE_HZ)))
+    blocks = 0
+
+    def block() -> None:
+        nonlocal blocks
+        mixer.keep_track_at(blocks * (BLOCK_FRAMES + 1) + TRACK_SLACK)
+        mixer.render(BLOCK_FRAMES)
+        blocks += 1
+
+    return Measured(1e6 * median_s(block, _BLOCKS))
+
+
+def _stretching() -> Measured:
+    """Ten seconds of noise to three quarters of its speed, in seconds a second of it."""
+    seconds = 10
+    noise = np.random.default_rng(1).normal(0.0, 0.1, (seconds * RATE_HZ, 2)).astype(np.float32)
+    start = time.perf_counter()
+    stretched(noise, RATE_HZ, 0.75)
+    return Measured((time.perf_counter() - start) / seconds)
+
+
 def _kit() -> Measured:
     """The kit as every start but the first finds it: on disk."""
     with TemporaryDirectory() as folder:
@@ -92,5 +119,7 @@ def _ready(folder: Path) -> tuple[float, DrumKit]:
 BENCHMARKS = (
     Benchmark("mixer_block_64_frames_32_voices", "µs", 50, "lower", "numpy, voice by voice", _block),
     Benchmark("mixer_block_with_a_stroke_all_voices_taken", "µs", 200, "lower", None, _stroke),
+    Benchmark("mixer_block_32_voices_and_a_track", "µs", 100, "lower", None, _track),
+    Benchmark("track_stretched_a_second_of_it", "s", 0.1, "lower", None, _stretching),
     Benchmark("drum_kit_ready", "s", 0.5, "lower", None, _kit),
 )

@@ -18,7 +18,7 @@ SEAM_S = 0.01
 """The end of a loop fades into its beginning within so long (our choice)."""
 EDGE_S = 0.005
 """A track that starts or stops in mid-music fades in or out within so long."""
-_FULL_SCALE = 32768.0
+_SCALE = np.float32(1.0 / 32768.0)
 
 Pcm = NDArray[np.int16]
 """Stereo sound as stored: int16 (n, 2)."""
@@ -71,6 +71,8 @@ class TrackVoice:
         self._at = 0  # frames since the start, moves included
         self._move = 0
         self._seam = min(round(SEAM_S * track.rate_hz), track.loop[1] - track.loop[0]) if track.loop else 0
+        self._plain_until = track.loop[1] - self._seam if track.loop else len(track.pcm)
+        """Up to here frames are simply those of the array."""
         self._edge = max(1, round(EDGE_S * track.rate_hz))
         self._fade_in_left = self._edge if track.start else 0
         self._fade_out_left: int | None = None
@@ -121,7 +123,10 @@ class TrackVoice:
 
     def _frames(self, at: int, count: int) -> Frames:
         """`count` frames from `at` frames after the start."""
-        places = np.arange(self._track.start + at, self._track.start + at + count)
+        begin = self._track.start + at
+        if begin + count <= self._plain_until:
+            return np.multiply(self._track.pcm[begin : begin + count], _SCALE, dtype=np.float32)
+        places = np.arange(begin, begin + count)
         if self._track.loop is None:
             return self._sound(places)
         first, end = self._track.loop
@@ -140,8 +145,7 @@ class TrackVoice:
         """The frames at `places`; silence before the first and after the last."""
         pcm = self._track.pcm
         inside = (places >= 0) & (places < len(pcm))
-        frames = pcm[np.where(inside, places, 0)].astype(np.float32)
-        frames *= np.float32(1.0 / _FULL_SCALE)
+        frames: Frames = np.multiply(pcm[np.where(inside, places, 0)], _SCALE, dtype=np.float32)
         if not inside.all():
             frames[~inside] = 0.0
         return frames
