@@ -1,7 +1,6 @@
 """`station devices`: list kits and sound outputs, watch a kit live, record it, replay a capture."""
 
 import argparse
-import math
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -27,6 +26,9 @@ SCHEMA = "drum-station/devices/1"
 POLL_S = 0.0005
 """Pause between two looks at the kit: the engine's own pace."""
 
+LONGEST_S = 7 * 24 * 3_600.0
+"""The longest recording that ends by itself: a week (our choice)."""
+
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add this command's words."""
@@ -46,8 +48,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def _seconds(text: str) -> float:
     seconds = float(text)
-    if not (math.isfinite(seconds) and seconds > 0.0):
-        raise argparse.ArgumentTypeError(f"{text} is no length of time; give seconds above 0")
+    if not 0.0 < seconds <= LONGEST_S:
+        raise argparse.ArgumentTypeError(f"{text} is no length of time; give seconds above 0, {LONGEST_S:.0f} at most")
     return seconds
 
 
