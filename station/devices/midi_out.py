@@ -41,8 +41,45 @@ class MidiOutPort:
             self._connection = None
 
 
-def output_names(driver: str) -> list[str]:
-    """The ports of `driver` that can be played to, our own left out; raises `BadInput`, `DeviceError`."""
+def output_names(driver: str = "auto") -> list[str]:
+    """The ports that can be played to, our own left out; raises `BadInput`, and `DeviceError` where no driver works.
+
+    `driver` is "auto" for all of them in turn, or one of `compiled_drivers()`.
+    """
+    names: list[str] = []
+    faults: list[str] = []
+    for one in _drivers(driver):
+        try:
+            names += _names(one)
+        except DeviceError as fault:
+            faults.append(str(fault))
+    if len(faults) == len(_drivers(driver)):
+        raise DeviceError(". ".join(faults) or "MIDI cannot be sent: rtmidi was built without any driver")
+    return names
+
+
+def open_midi_output(driver: str, part: str, undisturbed: Undisturbed = nullcontext) -> MidiOutPort:
+    """Open the output whose name contains `part`, letter case aside; an exact name comes first.
+
+    Raises `BadInput` for a driver that there is not, `DeviceError` that names the outputs there are.
+    """
+    faults: list[str] = []
+    for one in _drivers(driver):
+        try:
+            return _open(one, part, undisturbed if one == "jack" else nullcontext)
+        except DeviceError as fault:
+            faults.append(str(fault))
+    raise DeviceError(". ".join(faults) or "MIDI cannot be sent: rtmidi was built without any driver")
+
+
+def _drivers(driver: str) -> tuple[str, ...]:
+    compiled = compiled_drivers()
+    if driver not in ("auto", *compiled):
+        raise BadInput(driver, "", f"no such MIDI driver here; there are auto, {', '.join(compiled)}")
+    return compiled if driver == "auto" else (driver,)
+
+
+def _names(driver: str) -> list[str]:
     connection = _new_output(driver)
     try:
         return [port for port in connection.get_ports() if CLIENT_NAME not in port]
@@ -52,17 +89,14 @@ def output_names(driver: str) -> list[str]:
         connection.delete()
 
 
-def open_midi_output(driver: str, part: str, undisturbed: Undisturbed = nullcontext) -> MidiOutPort:
-    """Open the output whose name contains `part`, letter case aside; an exact name comes first.
-
-    Raises `BadInput` for a driver that there is not, `DeviceError` that names the outputs there are.
-    """
+def _open(driver: str, part: str, undisturbed: Undisturbed) -> MidiOutPort:
     with undisturbed():
         connection = _new_output(driver)
         try:
-            port = _choose(connection.get_ports(), part)
-            connection.open_port(connection.get_ports().index(port), "out")
-        except (rtmidi.RtMidiError, OSError, RuntimeError, ValueError, UnicodeDecodeError) as fault:
+            ports = connection.get_ports()
+            port = _choose(ports, part)
+            connection.open_port(ports.index(port), "out")
+        except (rtmidi.RtMidiError, OSError, RuntimeError, ValueError) as fault:
             connection.delete()
             raise DeviceError(f"{part}: this MIDI output cannot be opened: {fault}") from fault
         except DeviceError:
@@ -82,8 +116,6 @@ def _choose(ports: list[str], part: str) -> str:
 
 
 def _new_output(driver: str) -> rtmidi.MidiOut:
-    if driver not in compiled_drivers():
-        raise BadInput(driver, "", f"no such MIDI driver here; there are {', '.join(compiled_drivers())}")
     try:
         with _quiet_drivers():
             return rtmidi.MidiOut(_APIS[driver], f"{CLIENT_NAME} out")

@@ -34,10 +34,12 @@ from station.engine.messages import (
     Recorded,
     SetBacking,
     SetLevel,
+    SetMidiOut,
     Started,
     Status,
     Stop,
 )
+from station.engine.midi_player import MidiPlayer, MidiSink
 from station.engine.playback import CueRun
 from station.engine.player import Player
 from station.engine.recorder import Recorder
@@ -49,6 +51,12 @@ KEYBOARD = "keyboard"
 """The device that a stroke on the computer's keys names."""
 
 OpenCapture = Callable[[Path, int], CaptureSink]
+OpenMidiOut = Callable[[str], MidiSink]
+
+
+def no_midi_out(port: str) -> MidiSink:
+    """For an engine without ports."""
+    raise DeviceError(f"{port}: there is no MIDI output here")
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,13 +71,21 @@ class OutputState:
 class Engine:
     """Devices and commands in, sound and events out."""
 
-    def __init__(self, mixer: Mixer | None = None, open_capture: OpenCapture = CaptureFile) -> None:
+    def __init__(
+        self,
+        mixer: Mixer | None = None,
+        open_capture: OpenCapture = CaptureFile,
+        open_midi_out: OpenMidiOut = no_midi_out,
+    ) -> None:
         self.output = OutputState()
         """What the next `Status` tells of the sound card; set by whoever owns it."""
         self.quitting = False
         """Whether `Quit` was handled."""
         self._player = Player(mixer)
         self._open_capture = open_capture
+        self._open_midi_out = open_midi_out
+        self._midi: MidiPlayer | None = None
+        self._midi_fault: DeviceError | None = None
         self._decoders = DecoderBank()
         self._devices: list[str] = []
         self._recorder: Recorder | None = None
@@ -132,21 +148,49 @@ class Engine:
         match command:
             case Play():
                 self._player.play(CueRun(command.cues), self._now_ns + command.start_in_ns)
+                if self._midi is not None:
+                    self._midi.play(CueRun(command.cues))
             case Queue():
                 self._player.queue(CueRun(command.cues))
+                if self._midi is not None:
+                    self._midi.queue(CueRun(command.cues))
             case Stop():
                 self._zero_ns = None
                 self._player.stop()
+                if self._midi is not None:
+                    self._midi.stop()
             case SetLevel():
                 self._player.set_level(command.bus, command.level, command.pan)
             case SetBacking():
                 self._set_backing(command)
+            case SetMidiOut():
+                self._set_midi_out(command.port)
             case KeyHit():
                 self._take_key(command)
             case Record():
                 self._record(command.path)
             case Quit():
                 self.quitting = True
+
+    def _set_midi_out(self, port: str | None) -> None:
+        if self._midi is not None:
+            self._midi.close()
+        self._midi = self._midi_fault = None
+        if port is None:
+            return
+        try:
+            self._midi = MidiPlayer(self._open_midi_out(port))
+        except StationError as fault:
+            self.notify(f"the demonstration is not sent: {fault}")
+
+    def _send_midi(self, now_ns: int) -> None:
+        """Send what is due; a fault is told once."""
+        if self._midi is None:
+            return
+        self._midi.advance(now_ns)
+        if self._midi.fault is not self._midi_fault:
+            self._midi_fault = self._midi.fault
+            self.notify(f"the demonstration is no longer sent: {self._midi_fault}")
 
     def _set_backing(self, wish: SetBacking) -> None:
         track = wish.loaded
@@ -215,9 +259,12 @@ class Engine:
             self._player.pass_by(now_ns)
         for zero_ns in self._player.take_zeros_ns():
             self._zero_ns = zero_ns
+            if self._midi is not None:
+                self._midi.started(zero_ns)
             self._events.append(Started(zero_ns))
             if self._recorder is not None:
                 self._recorder.zero(zero_ns)
+        self._send_midi(now_ns)
         if self._next_status_ns is None:
             self._next_status_ns = now_ns + STATUS_EVERY_NS
         elif now_ns >= self._next_status_ns:
@@ -243,7 +290,8 @@ class Engine:
         self._capture_fault = fault
 
     def close(self) -> None:
-        """End the capture, so that its last hits are on the disk."""
+        """Leave the MIDI output, and end the capture, so that its last hits are on the disk."""
+        self._set_midi_out(None)
         lacking = self._end_capture()
         if lacking is not None:
             self.notify(lacking)

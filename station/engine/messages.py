@@ -32,6 +32,7 @@ __all__ = [
     "Recorded",
     "SetBacking",
     "SetLevel",
+    "SetMidiOut",
     "Started",
     "Status",
     "Stop",
@@ -95,6 +96,13 @@ class SetBacking:
 
 
 @dataclass(frozen=True, slots=True)
+class SetMidiOut:
+    """Send the demonstration to the MIDI output whose name contains `port`, from the next start on; None to none."""
+
+    port: str | None
+
+
+@dataclass(frozen=True, slots=True)
 class KeyHit:
     """A stroke played on the computer's keyboard, stamped `at_ns` when it was polled."""
 
@@ -118,7 +126,7 @@ class Quit:
     """End the engine process."""
 
 
-Command = Play | Queue | Stop | SetLevel | SetBacking | KeyHit | Record | Quit
+Command = Play | Queue | Stop | SetLevel | SetBacking | SetMidiOut | KeyHit | Record | Quit
 
 
 # --- from the engine -------------------------------------------------------------------------------------------------

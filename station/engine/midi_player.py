@@ -7,6 +7,7 @@ output fails once it is left alone, and its fault is there to be told.
 """
 
 import heapq
+from collections import deque
 from math import isnan
 from typing import Protocol
 
@@ -24,6 +25,10 @@ class MidiSink(Protocol):
         """Send one whole message now; raises `DeviceError`."""
         ...
 
+    def close(self) -> None:
+        """Give the output back; harmless when closed already."""
+        ...
+
 
 class MidiPlayer:
     """Sends the cues of one bus to a sink while the transport runs."""
@@ -33,20 +38,37 @@ class MidiPlayer:
         self._bus = bus
         self._playback = Playback()
         self._ends: list[tuple[int, bytes]] = []  # when notes end (session time), and how: a heap
+        self._waiting: deque[list[CueRun]] = deque()  # what each start yet to take effect will play
         self.fault: DeviceError | None = None
         """Why nothing is sent any more; None while all is well."""
 
-    def start(self, run: CueRun, zero_ns: int) -> None:
-        """Play `run`, of this player's own, and nothing else; its time 0 is `zero_ns` of session time."""
-        self.stop()
-        self._playback.start(run, zero_ns)
+    def play(self, run: CueRun) -> None:
+        """Play `run`, of this player's own, and nothing else, as soon as `started` says where its time 0 lies."""
+        self._waiting.append([run])
 
-    def add(self, run: CueRun) -> None:
+    def queue(self, run: CueRun) -> None:
         """Play `run` too; while the transport stands it is forgotten."""
-        self._playback.add(run)
+        if self._waiting:
+            self._waiting[-1].append(run)
+        else:
+            self._playback.add(run)
+
+    def started(self, zero_ns: int) -> None:
+        """The transport's next start has taken effect: time 0 is `zero_ns` of session time."""
+        if not self._waiting:  # stopped in the meantime
+            return
+        first, *others = self._waiting.popleft()
+        self._silence()
+        self._playback.start(first, zero_ns)
+        for run in others:
+            self._playback.add(run)
 
     def stop(self) -> None:
         """Forget what was to be played, and end every note that sounds."""
+        self._waiting.clear()
+        self._silence()
+
+    def _silence(self) -> None:
         if self._playback.zero_ns is not None:
             self._send(all_off())
         self._playback.stop()
@@ -59,6 +81,11 @@ class MidiPlayer:
         for cue in self._playback.take(now_ns, now_ns + 1):
             if cue.bus == self._bus:
                 self._play(cue)
+
+    def close(self) -> None:
+        """End what sounds and give the output back."""
+        self.stop()
+        self._sink.close()
 
     def _play(self, cue: Cue) -> None:
         piece, zone, articulation = Piece(cue.piece), Zone(cue.zone), Articulation(cue.articulation)

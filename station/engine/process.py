@@ -26,6 +26,7 @@ from typing import Self
 from station.core.clock import monotonic_ns
 from station.core.errors import DeviceError, StationError
 from station.core.settings import Settings
+from station.devices.midi_out import open_midi_output
 from station.devices.midi_ports import MidiDirectory
 from station.devices.watch import KitWatch
 from station.engine.card import Card
@@ -207,8 +208,9 @@ def run_engine(
 
 
 def _live(config: EngineConfig, inbox: "_Inbox", outbox: "_Outbox") -> None:
-    engine = Engine()
+    engine = Engine(open_midi_out=lambda port: open_midi_output(config.midi_driver, port, undisturbed))
     card = _card(engine, config) if config.sound else None
+    undisturbed = card.paused if card is not None else nullcontext
     runner = Runner(engine, _kits(engine, config, card), card)
     try:
         runner.start(monotonic_ns())

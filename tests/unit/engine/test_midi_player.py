@@ -6,7 +6,8 @@ from station.core.errors import DeviceError
 from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_MS
 from station.devices.midi_encode import GATE_NS
-from station.engine.messages import CUE_DTYPE, Bus, ClickVoice
+from station.engine.engine import Engine
+from station.engine.messages import CUE_DTYPE, Bus, ClickVoice, Notice, Play, Queue, SetMidiOut, Stop
 from station.engine.midi_player import MidiPlayer
 from station.engine.playback import CueRun
 
@@ -20,11 +21,15 @@ class Wire:
     def __init__(self) -> None:
         self.heard: list[str] = []
         self.is_cut = False
+        self.is_closed = False
 
     def send(self, message: bytes) -> None:
         if self.is_cut:
             raise DeviceError("module: MIDI cannot be sent: it is unplugged")
         self.heard.append(message.hex(" "))
+
+    def close(self) -> None:
+        self.is_closed = True
 
 
 def cues(*rows: tuple[int, Bus, int, int]) -> NDArray[np.void]:
@@ -43,7 +48,8 @@ def sent(*rows: tuple[int, Bus, int, int]) -> list[str]:
     """What goes out in 300 ms."""
     wire = Wire()
     player = MidiPlayer(wire)
-    player.start(run(*rows), ZERO_NS)
+    player.play(run(*rows))
+    player.started(ZERO_NS)
     for now_ms in range(300):
         player.advance(at(now_ms))
     return wire.heard
@@ -60,7 +66,8 @@ def at(at_ms: float) -> int:
 def test_a_cue_is_sent_at_its_time_and_ended_after_its_gate() -> None:
     wire = Wire()
     player = MidiPlayer(wire)
-    player.start(run(kick(100)), ZERO_NS)
+    player.play(run(kick(100)))
+    player.started(ZERO_NS)
     player.advance(at(99.9))
     assert wire.heard == []
     player.advance(at(100.3))
@@ -87,7 +94,8 @@ def test_a_cue_of_velocity_zero_chokes() -> None:
 def test_a_stroke_that_is_late_is_left_out() -> None:
     wire = Wire()
     player = MidiPlayer(wire)
-    player.start(run(kick(0), kick(100)), ZERO_NS)
+    player.play(run(kick(0), kick(100)))
+    player.started(ZERO_NS)
     player.advance(at(102))
     assert wire.heard == [KICK_ON]
 
@@ -95,7 +103,8 @@ def test_a_stroke_that_is_late_is_left_out() -> None:
 def test_a_note_still_ends_when_that_is_late() -> None:
     wire = Wire()
     player = MidiPlayer(wire)
-    player.start(run(kick(0)), ZERO_NS)
+    player.play(run(kick(0)))
+    player.started(ZERO_NS)
     player.advance(at(0))
     player.advance(at(900))
     assert wire.heard == [KICK_ON, KICK_OFF]
@@ -104,8 +113,9 @@ def test_a_note_still_ends_when_that_is_late() -> None:
 def test_added_cues_fall_in_among_the_others() -> None:
     wire = Wire()
     player = MidiPlayer(wire)
-    player.start(run(kick(0), kick(200)), ZERO_NS)
-    player.add(run((100, Bus.DEMONSTRATION, Piece.SNARE, 9)))
+    player.play(run(kick(0), kick(200)))
+    player.started(ZERO_NS)
+    player.queue(run((100, Bus.DEMONSTRATION, Piece.SNARE, 9)))
     for now_ms in range(0, 300):
         player.advance(at(now_ms))
     assert [message for message in wire.heard if message.startswith("99")] == [KICK_ON, "99 26 09", KICK_ON]
@@ -114,9 +124,10 @@ def test_added_cues_fall_in_among_the_others() -> None:
 def test_while_the_transport_stands_nothing_is_sent() -> None:
     wire = Wire()
     player = MidiPlayer(wire)
-    player.add(run(kick(0)))
+    player.queue(run(kick(0)))
     player.advance(at(0))
-    player.start(run(kick(0)), ZERO_NS)
+    player.play(run(kick(0)))
+    player.started(ZERO_NS)
     player.stop()
     player.advance(at(0))
     player.stop()
@@ -126,7 +137,8 @@ def test_while_the_transport_stands_nothing_is_sent() -> None:
 def test_a_cut_cable_is_told_once_and_left_alone() -> None:
     wire = Wire()
     player = MidiPlayer(wire)
-    player.start(run(kick(0), kick(10)), ZERO_NS)
+    player.play(run(kick(0), kick(10)))
+    player.started(ZERO_NS)
     wire.is_cut = True
     player.advance(at(0))
     wire.is_cut = False
@@ -139,7 +151,77 @@ def test_a_cut_cable_is_told_once_and_left_alone() -> None:
 def test_however_often_it_is_advanced_every_stroke_is_sent(step_ms: float) -> None:
     wire = Wire()
     player = MidiPlayer(wire)
-    player.start(run(*(kick(20 * index) for index in range(50))), ZERO_NS)
+    player.play(run(*(kick(20 * index) for index in range(50))))
+    player.started(ZERO_NS)
     for index in range(round(1200 / step_ms)):
         player.advance(at(index * step_ms))
     assert wire.heard.count(KICK_ON) == wire.heard.count(KICK_OFF) == 50
+
+
+def test_what_is_queued_before_the_start_takes_effect_is_played_with_it() -> None:
+    wire = Wire()
+    player = MidiPlayer(wire)
+    player.play(run(kick(0)))
+    player.queue(run(kick(100)))
+    player.started(ZERO_NS)
+    for now_ms in range(200):
+        player.advance(at(now_ms))
+    assert wire.heard.count(KICK_ON) == 2
+
+
+def test_a_start_that_was_stopped_before_it_took_effect_plays_nothing() -> None:
+    wire = Wire()
+    player = MidiPlayer(wire)
+    player.play(run(kick(0)))
+    player.stop()
+    player.started(ZERO_NS)
+    player.advance(at(0))
+    assert wire.heard == []
+
+
+# --- in the engine -----------------------------------------------------------------------------------------------
+
+
+def test_the_engine_plays_the_demonstration_on_the_module() -> None:
+    wire = Wire()
+    engine = Engine(open_midi_out=lambda port: {"module": wire}[port])
+    engine.handle(SetMidiOut("module"))
+    engine.advance(0)
+    engine.handle(Play(cues(kick(100), kick(200)), start_in_ns=50 * NS_PER_MS))
+    engine.handle(Queue(cues((150, Bus.DEMONSTRATION, Piece.SNARE, 9))))
+    times_ms = []
+    for now_ms in range(400):
+        before = len(wire.heard)
+        engine.advance(now_ms * NS_PER_MS)
+        times_ms += [now_ms for message in wire.heard[before:] if message.startswith("99")]
+    assert times_ms == [150, 200, 250]
+    engine.handle(SetMidiOut(None))
+    assert wire.is_closed
+
+
+def test_an_output_that_is_missing_or_cut_is_told() -> None:
+    def refuse(port: str) -> Wire:
+        raise DeviceError(f"no MIDI output is called {port!r}; there are none")
+
+    engine = Engine(open_midi_out=refuse)
+    engine.handle(SetMidiOut("module"))
+    assert any(isinstance(event, Notice) and "'module'" in event.text for event in engine.advance(0))
+
+    wire = Wire()
+    engine = Engine(open_midi_out=lambda _: wire)
+    engine.handle(SetMidiOut("module"))
+    engine.handle(Play(cues(kick(0), kick(100)), start_in_ns=0))
+    wire.is_cut = True
+    told = [event for now_ms in range(200) for event in engine.advance(now_ms * NS_PER_MS)]
+    assert sum(isinstance(event, Notice) and "unplugged" in event.text for event in told) == 1
+
+
+def test_stopping_the_transport_ends_what_sounds() -> None:
+    wire = Wire()
+    engine = Engine(open_midi_out=lambda _: wire)
+    engine.handle(SetMidiOut("module"))
+    engine.handle(Play(cues(kick(0), kick(100)), start_in_ns=0))
+    engine.advance(1)
+    engine.handle(Stop())
+    engine.advance(200 * NS_PER_MS)
+    assert wire.heard == [KICK_ON, ALL_OFF]
