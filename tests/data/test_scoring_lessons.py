@@ -1,0 +1,27 @@
+"""Practice with the click on every shipped lesson: the report against what the virtual student knows that it did."""
+
+import pytest
+
+from station.drills.library import find_lesson, lesson_names
+from station.music.judgement import Label
+from station.practice.plan import Wishes, plan_practice
+from station.practice.student_spec import parse_spec
+from station.practice.virtual_student import play
+from station.scoring.align import align
+from station.scoring.summary import summarise
+
+SPEC = "seed={seed},sd_ms=12,bias_ms=-8,miss_pct=3,extra_pct=2"
+
+
+@pytest.mark.parametrize("lesson", lesson_names())
+def test_counts_and_timing_are_the_truth(lesson: str) -> None:
+    score = plan_practice(find_lesson(lesson), Wishes()).score
+    allowed = max(1.0, 0.01 * len(score))
+    for seed in (1, 2):
+        student = play(score, parse_spec(SPEC.format(seed=seed)))
+        alignment = align(score, student.performance, clocked=True)
+        for label in (Label.MISS, Label.EXTRA):
+            assert abs(alignment.count(label) - student.truth.count(label)) <= allowed
+        told, true_ms = summarise(score, student.performance, alignment).timing, student.asynchrony_ms()
+        assert told.mean_ms == pytest.approx(float(true_ms.mean()), abs=1.0)
+        assert told.sd_ms == pytest.approx(float(true_ms.std(ddof=1)), abs=1.0)
