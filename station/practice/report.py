@@ -20,9 +20,7 @@ from station.scoring.summary import View, summarise
 def practice_document(result: SessionResult, student: str) -> dict[str, Json]:
     """The report of a session of `student`; keys have no velocity, so of them nothing is said of dynamics."""
     plan = result.plan
-    hears_velocity = result.device != KEYBOARD
-    view = View(pass_bars=plan.section.bar_count, first_bar=plan.first_bar, hears_velocity=hears_velocity)
-    document = assessment(summarise(result.score, result.performance, result.alignment, view))
+    document = assessment(summarise(result.score, result.performance, result.alignment, _view(result)))
     document["session"] = {
         "lesson": plan.lesson.name,
         "title": plan.lesson.title,
@@ -53,8 +51,15 @@ def with_truth(document: dict[str, Json], virtual: VirtualSession) -> dict[str, 
         reference=Reference.CLICK,
         sd_ms=None,
     )
-    truth = assessment(summarise(student.score, student.performance, known))
+    truth = assessment(summarise(student.score, student.performance, known, _view(virtual.result)))
     return {**document, "truth": {**truth, **student.truth_document()}}
+
+
+def _view(result: SessionResult) -> View:
+    """Bars are counted as in the lesson, however often they were played."""
+    plan = result.plan
+    hears_velocity = result.device != KEYBOARD
+    return View(pass_bars=plan.section.bar_count, first_bar=plan.first_bar, hears_velocity=hears_velocity)
 
 
 def _true_asynchrony_ns(student: VirtualPerformance) -> NDArray[np.int64]:

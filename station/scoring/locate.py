@@ -127,14 +127,17 @@ def _vote(notes: Notes, among: slice, hits: Hits, rates_tried: Floats) -> list[t
     if not len(note_s):
         return []
     since = hits.at_s - hits.at_s[0]
+    # what comes later than the notes last cannot speak for the first hit's place, and would cost memory by the hour
+    near = since <= (float(note_s[-1]) - float(note_s[0])) / float(rates_tried.min()) + _BIN_S
+    since, classes = since[near], hits.classes[near]
     first_s = float(note_s[0]) - float(since[-1]) * float(rates_tried.max()) - 2 * _BIN_S
     bins = int((float(note_s[-1]) - first_s) / _BIN_S) + 3
     votes = np.zeros(len(rates_tried) * bins)
     rows = (np.arange(len(rates_tried)) * bins)[:, None, None]
-    for c in np.unique(hits.classes):
+    for c in np.unique(classes):
         spots = (
             note_s[note_class == c][None, None, :]
-            - rates_tried[:, None, None] * since[hits.classes == c][None, :, None]
+            - rates_tried[:, None, None] * since[classes == c][None, :, None]
         )
         cells = (rows + np.rint((spots - first_s) / _BIN_S).astype(np.int64)).ravel()
         weight = float(best_evidence(notes.rates[c : c + 1])[0])

@@ -1,10 +1,14 @@
-"""`station assess SCORE PERFORMANCE`: aligns and scores a recorded performance."""
+"""`station assess SCORE PERFORMANCE`: aligns and scores a recorded performance.
+
+A lesson is a loop: it is taken to have been played as often as the number of hits suggests.
+"""
 
 import argparse
+from dataclasses import replace
 from pathlib import Path
 
 from station.app.commands.output import print_json, say
-from station.app.commands.scores import load_score_and_performance
+from station.app.commands.scores import is_lesson, load_score_and_performance
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -28,8 +32,12 @@ def run(arguments: argparse.Namespace) -> int:
     from station.scoring.windows import find_windows
 
     score, performance = load_score_and_performance(arguments.score, arguments.performance)
+    view = View(find_windows(arguments.level))
+    if is_lesson(arguments.score):
+        view = replace(view, pass_bars=score.bar_count)
+        score = score.repeated(max(1, round(len(performance) / max(len(score), 1))))
     alignment = align(score, performance, clocked=False)
-    document = assessment(summarise(score, performance, alignment, View(find_windows(arguments.level))))
+    document = assessment(summarise(score, performance, alignment, view))
     if arguments.pairs is not None:
         write_pairs(arguments.pairs, score, performance, alignment)
         say(f"pairs    {arguments.pairs}")

@@ -1,10 +1,16 @@
 """`station limbs SCORE`: who plays what."""
 
 import argparse
+from pathlib import Path
 
-from station.app.commands.output import print_json
-from station.app.commands.scores import load_score
+import numpy as np
+from numpy.typing import NDArray
+
+from station.app.commands.output import print_json, say
+from station.app.commands.scores import TEXT_ENDING, load_score
+from station.core.errors import BadInput
 from station.core.pieces import Limb, Piece, word
+from station.music.score import Score
 
 SCHEMA = "drum-station/limbs/1"
 
@@ -13,9 +19,10 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Add this command's words."""
     from station.motion.limbs import METHODS
 
-    parser.add_argument("score", metavar="SCORE", help="a lesson or a MIDI file")
+    parser.add_argument("score", metavar="SCORE", help="a lesson, a MIDI file or a text score")
     parser.add_argument("--method", choices=METHODS, default=METHODS[0], help="how limbs are assigned (%(default)s)")
     parser.add_argument("--kit", default="", metavar="NAME", help="the drummer's kit: a shipped name or a file")
+    parser.add_argument("--text", type=Path, metavar="FILE.txt", help="write a text score whose limbs can be edited")
     parser.add_argument("--json", action="store_true", help="print one JSON document")
 
 
@@ -26,6 +33,8 @@ def run(arguments: argparse.Namespace) -> int:
 
     score = load_score(arguments.score)
     assigned = assign_limbs(score, load_kit(arguments.kit or DEFAULT_KIT), method=arguments.method)
+    if arguments.text is not None:
+        _write_text(score, assigned.limbs, arguments.text)
     rows = [
         {
             "index": i,
@@ -42,3 +51,12 @@ def run(arguments: argparse.Namespace) -> int:
         for row in rows:
             print(f"{row['index']:6d} {row['time_s']:10.3f} s  {row['piece']:14} {row['limb']:11} {row['why']}")
     return 0
+
+
+def _write_text(score: Score, limbs: NDArray[np.int8], path: Path) -> None:
+    from station.motion.text_score import write_text_score
+
+    if path.suffix.lower() != TEXT_ENDING:
+        raise BadInput(path, "", f"expected a name that ends in {TEXT_ENDING}")
+    write_text_score(score, limbs, path)
+    say(f"score    {path}")

@@ -6,12 +6,19 @@ from station.core.errors import BadInput
 from station.music.performance import Performance
 from station.music.score import Score
 
+TEXT_ENDING = ".txt"
+"""Of a text score: see `station.motion.text_score`."""
 MIDI_ENDINGS = (".mid", ".midi", ".smf", ".kar")
 
 
 def is_midi(name: str) -> bool:
     """Whether `name` ends as MIDI files do."""
     return Path(name).suffix.lower() in MIDI_ENDINGS
+
+
+def is_lesson(name: str) -> bool:
+    """Whether `name` means a lesson, and not a music file."""
+    return not is_midi(name) and Path(name).suffix.lower() != TEXT_ENDING
 
 
 def existing(name: str) -> Path:
@@ -23,11 +30,15 @@ def existing(name: str) -> Path:
 
 
 def load_score(name: str) -> Score:
-    """The score that `name` means: a MIDI file by its ending, else a lesson by name or path."""
+    """The score that `name` means: a MIDI file or a text score by its ending, else a lesson by name or path."""
     if is_midi(name):
         from station.music.formats.smf import read_midi, score_from_midi
 
         return score_from_midi(read_midi(existing(name)))
+    if Path(name).suffix.lower() == TEXT_ENDING:
+        from station.motion.text_score import read_text_score
+
+        return read_text_score(existing(name))
     from station.drills.library import find_lesson
 
     return find_lesson(name).score

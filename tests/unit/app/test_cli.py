@@ -217,3 +217,21 @@ def test_truth_speaks_of_what_the_report_speaks_of(capsys: pytest.CaptureFixture
     assert isinstance(truth, dict)
     assert {"score", "counts", "timing", "advice", "spec"} <= truth.keys()
     assert isinstance(truth["score"], float)
+
+
+def test_a_loop_that_was_played_four_times_is_assessed_as_such(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    document = practise(capsys, "--loops", "4", "--report", str(tmp_path / "session"))
+    assert main(["assess", "rock-1", str(tmp_path / "session" / "session.capture"), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["counts"] == document["counts"]
+
+
+def test_limbs_can_be_edited_as_text(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    text = tmp_path / "rock.txt"
+    assert main(["limbs", "rock-1", "--text", str(text)]) == 0
+    text.write_text(text.read_text().replace("left_hand", "right_hand", 1))
+    capsys.readouterr()
+    assert main(["limbs", str(text), "--json"]) == 0
+    limbs = [note["limb"] for note in json.loads(capsys.readouterr().out)["notes"] if note["piece"] == "snare"]
+    assert limbs == ["right_hand", "left_hand", "left_hand", "left_hand"]
