@@ -9,7 +9,7 @@ import types
 from datetime import date
 from enum import Enum
 from functools import cache
-from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
+from typing import Any, TypeAlias, TypeVar, Union, get_args, get_origin, get_type_hints
 
 from station.core.errors import BadInput
 from station.drills.mastery.state import ItemState
@@ -17,6 +17,10 @@ from station.drills.mastery.state import ItemState
 SCHEMA = "drum-station/mastery/1"
 
 Value = TypeVar("Value")
+Hint: TypeAlias = Any
+"""The type of a field, as `typing` tells it."""
+Plain: TypeAlias = Any
+"""What a field holds."""
 
 
 def document_of(state: ItemState) -> dict[str, Any]:
@@ -31,7 +35,7 @@ def state_from(document: object, source: str) -> ItemState:
     return from_json(ItemState, document.get("item"), source, "item")
 
 
-def to_json(value: object) -> Any:
+def to_json(value: object) -> Plain:
     """Any value of the policy (state, result, rules, agenda) as JSON values."""
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
         return {field.name: to_json(getattr(value, field.name)) for field in dataclasses.fields(value)}
@@ -64,18 +68,19 @@ class _Place:
         return BadInput(self.source, self.path, text)
 
 
-def _read(kind: Any, raw: object, place: _Place) -> Any:
-    if get_origin(kind) in (Union, types.UnionType):
+def _read(kind: Hint, raw: object, place: _Place) -> Plain:
+    origin: object = get_origin(kind)
+    if origin in (Union, types.UnionType):
         some = [one for one in get_args(kind) if one is not type(None)]
         return None if raw is None and len(some) < len(get_args(kind)) else _read(some[0], raw, place)
-    if get_origin(kind) is tuple:
+    if origin is tuple:
         return _read_tuple(get_args(kind), raw, place)
     if dataclasses.is_dataclass(kind):
         return _read_fields(kind, raw, place)
     return _read_plain(kind, raw, place)
 
 
-def _read_fields(kind: Any, raw: object, place: _Place) -> Any:
+def _read_fields(kind: Hint, raw: object, place: _Place) -> Plain:
     if not isinstance(raw, dict):
         raise place.fault("is no table")
     hints = _hints(kind)
@@ -88,7 +93,7 @@ def _read_fields(kind: Any, raw: object, place: _Place) -> Any:
     return kind(**{name: _read(hints[name], value, place.at(name)) for name, value in raw.items()})
 
 
-def _read_tuple(kinds: tuple[Any, ...], raw: object, place: _Place) -> tuple[Any, ...]:
+def _read_tuple(kinds: tuple[Hint, ...], raw: object, place: _Place) -> tuple[Plain, ...]:
     if not isinstance(raw, list):
         raise place.fault("is no list")
     if kinds[-1] is Ellipsis:
@@ -98,7 +103,7 @@ def _read_tuple(kinds: tuple[Any, ...], raw: object, place: _Place) -> tuple[Any
     return tuple(_read(kind, one, place.at(str(i))) for i, (kind, one) in enumerate(zip(kinds, raw, strict=True)))
 
 
-def _read_plain(kind: Any, raw: object, place: _Place) -> Any:
+def _read_plain(kind: Hint, raw: object, place: _Place) -> Plain:
     """A number, a word, a truth value, a date or a member of an enumeration."""
     if kind is float and isinstance(raw, int | float) and not isinstance(raw, bool):
         return float(raw)
@@ -117,5 +122,5 @@ def _is_required(field: "dataclasses.Field[Any]") -> bool:
 
 
 @cache
-def _hints(kind: Any) -> dict[str, Any]:
+def _hints(kind: Hint) -> dict[str, Hint]:
     return get_type_hints(kind)

@@ -1,0 +1,224 @@
+"""A trial of teaching policies on simulated learners, at equal time.
+
+Three days of 20 minutes in blocks of five with a minute's breath between; every minute of playing the learner is
+examined, blind, at the target tempo, without learning from it, and the criterion is reached with two clean exams in a
+row. A day and a week after the last day it plays the whole eight times, blind; a day after, also 15 % faster than the
+target, a tempo that no policy trains. Repetitions count the bars that were played, in whole loops. Who does not reach
+the criterion counts with all the time, and all repetitions that it holds at the target tempo.
+
+Exams know the learner's truth (which hit answers which note, and swapped cables); the policies hear only the hits. A
+bar that a learner plays once is one repetition to learn from, also where a pass repeats it.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from station.bench.mastery_tutors import TUTORS, Ask, Tutor
+from station.core.units import s_from_ns
+from station.drills.library import find_lesson
+from station.drills.mastery.ladder import TOP_PCT
+from station.drills.mastery.passes import PassResult, measure_pass
+from station.drills.mastery.rules import DEFAULT_RULES
+from station.drills.mastery.steps import Item, item_of
+from station.drills.mastery.verdict import judge
+from station.music.judgement import Label
+from station.music.performance import Performance
+from station.music.score import Score
+from station.practice.learner import Exercise, Learner
+from station.practice.learner_kinds import LEARNERS
+from station.practice.student_limbs import limbs_of
+from station.practice.virtual_student import VirtualPerformance
+from station.scoring.alignment import Alignment, Reference
+
+LESSONS = ("bossa-fill-1", "half-time-fill-1", "linear-fill-1", "rock-fill-1", "shuffle-fill-1")
+"""The shipped lessons of four bars that need both toms, so that weak bars and swapped cables can show; in turn."""
+DAYS, SESSION_S, BLOCK_S, BREATH_S = 3, 1200.0, 300.0, 60.0
+EXAM_EVERY_S = 60.0
+EXAMS_TO_PASS = 2
+DAY_S = 86_400.0
+RETENTION_PASSES = 8
+TRANSFER_PCT = 115.0
+WRONG_SHARE = 0.1
+"""A bar with more of its strokes missed or misplaced is a wrong repetition: what a clean pass allows."""
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What became of one learner; shares in percent, None where there is none.
+
+    `minutes` and `repetitions` to the criterion, `wrong_pct` of the bars played, `day_pct`, `week_pct` and
+    `transfer_pct` of the notes right in the blind exams, `found_pct` of the weak bars practised alone, `turns` changes
+    of the tempo's direction in 100 passes, `unused_min` left for the day early.
+    """
+
+    reached: bool
+    minutes: float
+    repetitions: float
+    wrong_pct: float
+    day_pct: float
+    week_pct: float
+    transfer_pct: float
+    found_pct: float | None
+    turns: float
+    unused_min: float
+    gone: bool
+
+
+def trial(tutor: str, kind: str, seed: int) -> Outcome:
+    """Teach one learner."""
+    return Trial(tutor, kind, seed).run()
+
+
+class Trial:
+    """One learner, one tutor, one lesson."""
+
+    def __init__(self, tutor: str, kind: str, seed: int) -> None:
+        self._lesson = LESSONS[seed % len(LESSONS)]
+        self._item: Item = item_of(find_lesson(self._lesson))
+        self._bars = len(self._item.bar_notes)
+        self._learner = Learner(LEARNERS[kind], seed, self._bars)
+        self._tutor: Tutor = TUTORS[tutor](self._item, seed)
+        self._played_s, self._bars_played, self._bars_wrong = 0.0, 0, 0
+        self._exams_s, self._exams_clean = EXAM_EVERY_S, 0
+        self._criterion: tuple[float, float] | None = None
+        self._pct: list[float] = []
+        self._unused_s = 0.0
+
+    def run(self) -> Outcome:
+        """All days, then the exams."""
+        for day in range(DAYS):
+            if day:
+                self._learner.rest(DAY_S - SESSION_S)
+                self._tutor.new_day(day)
+            self._session()
+        self._learner.rest(DAY_S)
+        after_day = self._exam(TOP_PCT, RETENTION_PASSES)
+        transfer = self._exam(TRANSFER_PCT, RETENTION_PASSES)
+        self._learner.rest(6 * DAY_S)
+        after_week = self._exam(TOP_PCT, RETENTION_PASSES)
+        all_s = DAYS * SESSION_S
+        minutes, repetitions = self._criterion or (all_s / 60, all_s / sum(self._item.bar_s))
+        return Outcome(
+            reached=self._criterion is not None,
+            minutes=minutes,
+            repetitions=repetitions,
+            wrong_pct=100.0 * self._bars_wrong / max(self._bars_played, 1),
+            day_pct=_right_pct(after_day),
+            week_pct=_right_pct(after_week),
+            transfer_pct=_right_pct(transfer),
+            found_pct=self._found_pct(),
+            turns=_turns(self._pct),
+            unused_min=self._unused_s / 60,
+            gone=self._learner.gone,
+        )
+
+    def _session(self) -> None:
+        now_s, block_s = 0.0, 0.0
+        while now_s < SESSION_S:
+            ask = None if self._learner.gone else self._tutor.ask()
+            if ask is None:
+                self._unused_s += SESSION_S - now_s
+                return
+            length_s = self._pass(ask)
+            now_s, block_s = now_s + length_s, block_s + length_s
+            if block_s >= BLOCK_S:
+                self._learner.rest(BREATH_S)
+                block_s = 0.0
+            self._examine()
+
+    def _pass(self, ask: Ask) -> float:
+        """Play what is asked for; returns its length in seconds."""
+        if ask.on_ladder:
+            self._pct.append(ask.pct)
+        once = _score(self._lesson, ask.bars, 1, ask.pct)
+        bars = tuple(range(ask.bars[0], ask.bars[1] + 1))
+        parts = []
+        for turn in range(ask.repeats):
+            if self._learner.gone:
+                break
+            played = self._learner.practise(Exercise(once, bars, ask.pct / 100.0, ask.feedback))
+            self._bars_wrong += _wrong_bars(played)
+            self._bars_played += len(bars)
+            parts.append(played.performance.shifted(turn * once.length_ns))
+        whole = _score(self._lesson, ask.bars, ask.repeats, ask.pct)
+        self._tutor.hear(whole, _joined(parts), bars * ask.repeats)
+        length_s = s_from_ns(whole.length_ns)
+        self._played_s += length_s
+        return length_s
+
+    def _examine(self) -> None:
+        if self._criterion is not None or self._played_s < self._exams_s:
+            return
+        self._exams_s += EXAM_EVERY_S
+        is_clean = judge(self._exam(TOP_PCT, 1), DEFAULT_RULES).is_clean
+        self._exams_clean = self._exams_clean + 1 if is_clean else 0
+        if self._exams_clean >= EXAMS_TO_PASS:
+            self._criterion = self._played_s / 60, self._bars_played / self._bars
+
+    def _exam(self, pct: float, times: int) -> PassResult:
+        score = _score(self._lesson, self._item.bars, times, pct)
+        bars = tuple(range(self._bars)) * times
+        played = self._learner.examined(Exercise(score, bars, pct / 100.0))
+        return measure_pass(score, played.performance, _truth(played), bars)
+
+    def _found_pct(self) -> float | None:
+        weak = set(self._learner.weak_bars)
+        return 100.0 * len(weak & self._tutor.chunks) / len(weak) if weak else None
+
+
+# --- helpers ----------------------------------------------------------------------------------------------------------
+
+
+@lru_cache(maxsize=2048)
+def _score(lesson: str, bars: tuple[int, int], times: int, pct: float) -> Score:
+    """Bars of a lesson at a share of the target tempo, with limbs; kept, for learners play the same ones often."""
+    found = find_lesson(lesson)
+    speed = pct / 100.0 * found.target_tempo_bpm / found.tempo_bpm
+    score = found.score.bars(*bars).at_speed(speed).repeated(times)
+    return score.with_limbs(limbs_of(score))
+
+
+def _truth(played: VirtualPerformance) -> Alignment:
+    """What the learner meant, as an alignment."""
+    score, truth, hits = played.score, played.truth, played.performance.hits
+    paired = truth.hit_of_note >= 0
+    asynchrony = np.zeros(len(score), np.int64)
+    asynchrony[paired] = hits["at_ns"][truth.hit_of_note[paired]] - score.onset_ns[paired]
+    return Alignment(
+        hit_of_note=truth.hit_of_note,
+        note_of_hit=truth.note_of_hit,
+        note_label=truth.note_label,
+        hit_label=truth.hit_label,
+        asynchrony_ns=asynchrony,
+        hit_score_ns=hits["at_ns"],
+        stretch=np.zeros(len(hits), np.int64),
+        reference=Reference.CLICK,
+        sd_ms=None,
+    )
+
+
+def _joined(parts: list[Performance]) -> Performance:
+    if len(parts) == 1:
+        return parts[0]
+    return Performance.from_array(
+        np.concatenate([part.hits for part in parts]), np.concatenate([part.chokes for part in parts])
+    )
+
+
+def _wrong_bars(played: VirtualPerformance) -> int:
+    wrong = np.isin(played.truth.note_label, (Label.MISS, Label.WRONG_PIECE))
+    notes = np.bincount(played.score.bar)
+    return int((np.bincount(played.score.bar, weights=wrong) > WRONG_SHARE * notes).sum())
+
+
+def _right_pct(result: PassResult) -> float:
+    return 100.0 * result.right / result.notes
+
+
+def _turns(pct: list[float]) -> float:
+    """How often the tempo turned back, in 100 passes."""
+    way = np.sign(np.diff(np.array(pct)))
+    way = way[way != 0]
+    return 100.0 * float((way[1:] != way[:-1]).sum()) / max(len(pct), 1)
