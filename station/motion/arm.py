@@ -21,8 +21,9 @@ QUARTER_TURN = math.pi / 2
 BACK_SINE, BACK_COSINE = math.sin(math.radians(25)), math.cos(math.radians(25))
 """Elbows hang down and a little back: with the wrist in front the arm's plane is vertical, as DESIGN has it, and with
 the wrist under the shoulder the elbow is behind (our choice)."""
-STRAIGHT = 0.9995
-"""An arm is never straighter than this share of its length: at 1 the elbow's angle has no slope (our choice)."""
+SOFT_FROM, SOFT_OVER = 0.93, 0.10
+"""From this share of the arm's length on the shoulder comes along, softly over the next tenth: an arm is never quite
+straight, for there the elbow's angle has no slope (our choice)."""
 
 
 class Contact(NamedTuple):
@@ -121,7 +122,9 @@ def solve(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a 
     rz = cz + touching * sin(stick_rise) + h * sin(hand_rise) - sz
     # the cosine law on upper arm, forearm and the distance from shoulder to wrist
     distance = sqrt(rx * rx + ry * ry + rz * rz)
-    missing = most(distance - STRAIGHT * (upper + fore), 0.0)
+    over = most(distance - SOFT_FROM * (upper + fore), 0.0)
+    soft = m.least(over, SOFT_OVER * (upper + fore))
+    missing = soft * soft / (2 * SOFT_OVER * (upper + fore)) + over - soft
     given = missing / distance  # the shoulder comes along with what is missing
     sx, sy, sz = sx + given * rx, sy + given * ry, sz + given * rz
     d = most(distance - missing, 1.0001 * abs(upper - fore))

@@ -143,7 +143,7 @@ _RAISING = np.linspace(0.0, 1.0, 12)
 _UPRIGHT = math.pi / 2
 _LEAST_ROOM = 0.1
 """Even a bent wrist has this much left (our choice)."""
-_EASY = 0.97
+_EASY = 0.95
 """The trunk leans before an arm is straighter than this share of its length (our choice)."""
 
 

@@ -3,7 +3,6 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from station.motion.arm import STRAIGHT
 from station.motion.figure import Figure
 from station.motion.hand import HandPart
 from station.motion.maths import MANY, Point
@@ -12,7 +11,7 @@ from station.motion.trunk import TrunkAngles, trunk
 
 Array = NDArray[np.float64]
 
-EASY_SHARE = 0.97
+EASY_SHARE = 0.95
 """The trunk helps from this share of the arm's length on (our choice)."""
 MOST_RAD = np.radians(30.0)
 _ARM_OF_LEAN = 0.85
@@ -22,7 +21,7 @@ _ARM_OF_LEAN = 0.85
 def leans(curves: Curves, hands: tuple[HandPart, HandPart], figure: Figure, pelvis: Point) -> Array:
     """The lean to add at each key of the body's `curves`, (m,) radians."""
     needed = np.zeros(len(curves.knots_s))
-    length = EASY_SHARE * STRAIGHT * (figure.upper_arm_m + figure.forearm_m)
+    length = EASY_SHARE * (figure.upper_arm_m + figure.forearm_m)
     for side, hand in enumerate(hands):
         if not len(hand.events.row):
             continue

@@ -20,6 +20,10 @@ _LEAVE_SHARE, _LEAVE_S = 0.15, 0.05
 _ARRIVE_SHARE, _ARRIVE_S = 0.28, 0.10
 """A hand stays at least this share of the gap, or these seconds, after a strike and before the next: rebound and whip
 are played on the spot (our choice)."""
+MINIMUM_JERK_PEAK, HAND_M_S = 1.875, 3.0
+"""The peak of a minimum-jerk movement over its mean speed, and the hand's speed that it should not pass (HUMANS)."""
+_LEAST_STAY = 0.4
+"""Where the way is far for its time, the stays are shortened down to this share (our choice)."""
 _TRAVEL_S = 0.45
 """Long gaps leave this long for the travel; HUMANS has 0.25 s for 40 cm at full speed."""
 
@@ -42,8 +46,11 @@ class Way:
         Each stretch (n − 1,) is lifted by `lift_m`; an `early` one is travelled at once, the others late in their gap.
         """
         gaps = np.diff(strike_s)
-        start = strike_s[:-1] + np.minimum(_LEAVE_SHARE * gaps, _LEAVE_S)
-        end = strike_s[1:] - np.minimum(_ARRIVE_SHARE * gaps, _ARRIVE_S)
+        leave, arrive = np.minimum(_LEAVE_SHARE * gaps, _LEAVE_S), np.minimum(_ARRIVE_SHARE * gaps, _ARRIVE_S)
+        way_m = np.linalg.norm(np.diff(contacts[:, :3], axis=0), axis=1)
+        lacking = MINIMUM_JERK_PEAK * way_m / HAND_M_S - (gaps - leave - arrive)
+        hurry = np.clip(1 - lacking / np.maximum(leave + arrive, 1e-9), _LEAST_STAY, 1.0)
+        start, end = strike_s[:-1] + hurry * leave, strike_s[1:] - hurry * arrive
         start, end = (
             np.where(early, start, np.maximum(start, end - _TRAVEL_S)),
             np.where(early, np.minimum(end, start + _TRAVEL_S), end),

@@ -77,7 +77,7 @@ def test_hands_are_the_cheapest_there_are_on_small_scores(score: Score, hands: H
     assert cost_of(notes, chosen.tolist()) == pytest.approx(best)
 
 
-@given(scores(steps=(PPQ // 2, PPQ, 3 * PPQ), tempos=(60, 100)))
+@given(scores(steps=(PPQ, 3 * PPQ), tempos=(60, 100)))
 @settings(max_examples=12)
 def test_nothing_jumps_where_a_human_has_the_time(score: Score) -> None:
     """No joint moves faster than the hand of the measured full stroke does twice over (HUMANS: 3.2 m/s)."""
