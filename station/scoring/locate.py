@@ -135,10 +135,7 @@ def _vote(notes: Notes, among: slice, hits: Hits, rates_tried: Floats) -> list[t
     votes = np.zeros(len(rates_tried) * bins)
     rows = (np.arange(len(rates_tried)) * bins)[:, None, None]
     for c in np.unique(classes):
-        spots = (
-            note_s[note_class == c][None, None, :]
-            - rates_tried[:, None, None] * since[classes == c][None, :, None]
-        )
+        spots = note_s[note_class == c][None, None, :] - rates_tried[:, None, None] * since[classes == c][None, :, None]
         cells = (rows + np.rint((spots - first_s) / _BIN_S).astype(np.int64)).ravel()
         weight = float(best_evidence(notes.rates[c : c + 1])[0])
         votes += weight * np.bincount(cells, minlength=len(votes))
