@@ -47,7 +47,8 @@ def _whole(state: ItemState, result: PassResult, verdict: Verdict, rules: Rules)
     if weak is not None:
         return _apart(state, weak, rules)
     if state.fixed_pct is not None:
-        return state, f"{_capital(verdict.words)}; the tempo stays at {state.item.beats(state.pct)}"
+        counted = replace(state, ladder=replace(ladder, pct=state.ladder.pct))
+        return counted, f"{_capital(verdict.words)}; the tempo stays at {state.item.beats(state.pct)}"
     moved = replace(state, ladder=ladder, probes=state.probes.at_rung(ladder.pct))
     return moved, _ladder_words(state, ladder, move, verdict, rules)
 
@@ -103,11 +104,11 @@ def _chunk(state: ItemState, result: PassResult, verdict: Verdict, rules: Rules)
 
 
 def _returned(state: ItemState, chunk: Chunk, is_there: bool, rules: Rules) -> After:
-    back = Ladder(chunk.ladder.pct)
+    back = Ladder(chunk.ladder.pct) if state.fixed_pct is None else state.ladder.resting()
     said = "is clean" if is_there else f"has had {chunk.passes + 1} passes"
     tally = without(state.tally, chunk.bar)
     state = replace(state, ladder=back, probes=state.probes.at_rung(back.pct), chunk=None, tally=tally)
-    return state, f"Bar {chunk.bar + 1} {said}: back to the whole at {state.item.beats(back.pct)}"
+    return state, f"Bar {chunk.bar + 1} {said}: back to the whole at {state.item.beats(state.pct)}"
 
 
 def _chunk_words(state: ItemState, chunk: Chunk, move: Move, verdict: Verdict) -> str:
@@ -144,7 +145,8 @@ def _review(state: ItemState, result: PassResult, verdict: Verdict, rules: Rules
 
 def _variation(state: ItemState, result: PassResult, verdict: Verdict, rules: Rules) -> After:
     """Off the target tempo nothing is won or lost."""
-    state = replace(state, probes=state.probes.passed_by(), varied=state.varied + 1)
+    fading = state.fading.after(verdict.is_clean, rules)
+    state = replace(state, probes=state.probes.passed_by(), fading=fading, varied=state.varied + 1)
     return state, f"{_capital(verdict.words)} at {state.item.beats(state.step.pct)}"
 
 

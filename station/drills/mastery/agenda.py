@@ -128,10 +128,13 @@ def _in_rotation(agenda: Agenda, group: list[int], rules: Rules) -> bool:
 
 
 def _rotated(agenda: Agenda, group: list[int], rules: Rules) -> int:
-    """The item that is played now while its turn lasts, else the one with the fewest turns."""
-    if agenda.current in group and agenda.turn_s < rules.turn_s:
+    """The item that is played now while its turn lasts, else the one with the fewest turns.
+
+    An item that has become stable just now (no turn begun) was practised long enough: another one comes first.
+    """
+    if agenda.current in group and 0.0 < agenda.turn_s < rules.turn_s:
         return agenda.current
-    return min(group, key=lambda i: (_turns(agenda, i, rules), i))
+    return min(group, key=lambda i: (_turns(agenda, i, rules), i == agenda.current, i))
 
 
 def _turns(agenda: Agenda, item: int, rules: Rules) -> int:

@@ -32,7 +32,7 @@ def new_item(item: Item, today: date, rules: Rules = DEFAULT_RULES) -> ItemState
 
 def begin(state: ItemState, today: date, rules: Rules = DEFAULT_RULES) -> ItemState:
     """The state as a day opens: a review that is due comes first, the rest goes on a step below where it ended."""
-    if state.review.is_due(today):
+    if state.review.is_due(today) and state.fixed_pct is None:
         opened = _opened(state, state.ladder.resting(), today)
         why = "Some days have passed: does it still stick? This one is blind"
         return _with(opened, Kind.REVIEW, TOP_PCT, why, rules)
@@ -108,7 +108,7 @@ def _asked(state: ItemState, why: str, rules: Rules) -> ItemState:
     is_free = state.fixed_pct is None
     if state.plateau.is_reached(rules):
         runs = f"{rules.runs_to_leave} runs brought no step forward: leave it for today, sleep helps"
-        return _with(state, Kind.LEAVE, state.pct, runs, rules)
+        return _with(replace(state, chunk=None), Kind.LEAVE, state.pct, runs, rules)
     if state.chunk is not None:
         return _with(state, Kind.CHUNK, state.chunk.ladder.pct, why, rules)
     if is_free and state.probes.is_target_due(state.ladder.pct, rules):
