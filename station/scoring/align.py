@@ -19,7 +19,7 @@ from station.scoring.classes import match_classes
 from station.scoring.ignored import Unwritten
 from station.scoring.own_clock import align_unclocked
 from station.scoring.pairing import Indices
-from station.scoring.settle import Side, Start, note_kinds, settle
+from station.scoring.settle import Side, Start, note_kinds, settle, spots
 
 
 def align(score: Score, performance: Performance, clocked: bool, kit: Collection[Piece] | None = None) -> Alignment:
@@ -41,6 +41,7 @@ def align_clocked(score: Score, performance: Performance, note_class: Indices, h
     bias_ns = common_bias_ns(score.onset_ns, note_class, at_ns, hit_class)
     unwritten = Unwritten(score).masks(performance, at_ns - bias_ns)
     one = np.zeros(len(at_ns), np.int64)
-    notes = Side(score.onset_ns, note_class, np.zeros(len(score), np.int64))
-    settled = settle(notes, Side(at_ns, hit_class, one), note_kinds(score), unwritten.feet, Start(bias_ns))
+    notes = Side(score.onset_ns, note_class, np.zeros(len(score), np.int64), spots(score.notes))
+    hits = Side(at_ns, hit_class, one, spots(performance.hits))
+    settled = settle(notes, hits, note_kinds(score), unwritten.feet, Start(bias_ns))
     return labelled(settled, Timed(at_ns, score.onset_ns, at_ns, one, Reference.CLICK), unwritten.quiet)

@@ -13,7 +13,7 @@ from station.scoring.alignment import Alignment, Reference, Timed, labelled
 from station.scoring.drift import local_trend, robust_sd
 from station.scoring.ignored import Unwritten
 from station.scoring.pairing import Indices, Times
-from station.scoring.settle import Settled, Side, Start, note_kinds, settle
+from station.scoring.settle import Settled, Side, Start, note_kinds, settle, spots
 from station.scoring.stretches import owners
 from station.scoring.warp import Warp, Written, find_warp
 
@@ -38,8 +38,8 @@ def align_unclocked(score: Score, performance: Performance, note_class: Indices,
     warp = find_warp(written, at_ns / NS_PER_S, hit_class)
     hit_ns = np.rint(warp.score_s * NS_PER_S).astype(np.int64)
     unwritten = Unwritten(score).masks(performance, hit_ns)
-    notes = Side(score.onset_ns, note_class, owners(score.onset_s, note_class, warp, hit_class))
-    hits = Side(hit_ns, hit_class, warp.stretch)
+    notes = Side(score.onset_ns, note_class, owners(score.onset_s, note_class, warp, hit_class), spots(score.notes))
+    hits = Side(hit_ns, hit_class, warp.stretch, spots(performance.hits))
     settled = settle(notes, hits, note_kinds(score), unwritten.feet, _START)
     return labelled(settled, _timed(score, at_ns, warp, settled), unwritten.quiet)
 

@@ -39,17 +39,23 @@ _UNKNOWN_SD_MS = 25.0
 """Spread of a player of whom too few hits are known: the Groove MIDI Dataset's 26 ms (HUMANS)."""
 
 
+TOGETHER_NS = 40 * NS_PER_MS
+"""A piece's strokes written so close are one slot's: flams reach 40 ms (HUMANS, Timing)."""
+
+
 @dataclass(frozen=True, eq=False)
 class Side:
     """One side of the problem: `at_ns` (n,) times, `classes` (n,) match classes below `MOST_CLASSES`.
 
     `strand` (n,) keeps apart what must not be paired though it lies on the same score time: the attempts at a passage
-    that was played more than once.
+    that was played more than once. `spot` (n,) tells zones and ways of striking apart: where a piece has several
+    strokes at one time, each goes to its like first.
     """
 
     at_ns: Times
     classes: Indices
     strand: Indices
+    spot: Indices
 
     @property
     def lane(self) -> Indices:
@@ -104,6 +110,15 @@ class Start:
     rounds: int = 3
 
 
+def spots(rows: NDArray[np.void]) -> Indices:
+    """Zone and way of striking of each note or hit in one number, shape (n,)."""
+    spot: Indices = rows["zone"].astype(np.int64) * _MOST_ARTICULATIONS + rows["articulation"]
+    return spot
+
+
+_MOST_ARTICULATIONS = 64
+
+
 def settle(notes: Side, hits: Side, kinds: Indices, unpaired: NDArray[np.bool_], start: Start) -> Settled:
     """The matching of `hits` (m,) to `notes` (n,).
 
@@ -120,8 +135,44 @@ def settle(notes: Side, hits: Side, kinds: Indices, unpaired: NDArray[np.bool_],
         partner = pair_nearest(note_lane, hit_lane, round(reach_ms * NS_PER_MS))
         player = _player(notes, hits, partner, kinds, player)
         reach_ms = min(max(REACH_SDS * player.spread_ms, MIN_REACH_MS), MAX_REACH_MS)
+    if len(np.unique(notes.spot)) > 1:
+        partner = _like_first(notes, hits, player.expected_ns, partner, round(reach_ms * NS_PER_MS))
     wrong = _other_pieces(notes, hits, partner, player, unpaired)
     return Settled(partner, wrong, player.trend_ns, player.sd_ms)
+
+
+def _like_first(notes: Side, hits: Side, expected_ns: Times, partner: Indices, reach_ns: int) -> Indices:
+    """The matching again where a piece's strokes are written together: those on one spot first, then what is left."""
+    again = _together(notes)
+    if not len(np.unique(notes.spot[again])) > 1:
+        return partner
+    due_ns, span = notes.at_ns + expected_ns, _span(notes, hits)
+    own = np.concatenate([notes.lane, hits.lane]), np.concatenate([notes.spot, hits.spot])
+    kinds = np.unique(np.stack(own, 1), axis=0, return_inverse=True)[1].reshape(-1)
+    free = np.ones(len(hits.at_ns), np.bool_)
+    free[partner[~again & (partner >= 0)]] = False
+    result = np.where(again, -1, partner)
+    note_kind, hit_kind = kinds[: len(due_ns)], kinds[len(due_ns) :]
+    for note_lane, hit_lane in ((note_kind, hit_kind), (notes.lane, hits.lane)):
+        some_notes, some_hits = np.flatnonzero(again & (result < 0)), np.flatnonzero(free)
+        due, played = due_ns[some_notes], hits.at_ns[some_hits]
+        found = pair_nearest(
+            lanes(due, note_lane[some_notes], span), lanes(played, hit_lane[some_hits], span), reach_ns
+        )
+        taken = found >= 0
+        result[some_notes[taken]] = some_hits[found[taken]]
+        free[some_hits[found[taken]]] = False
+    return result
+
+
+def _together(notes: Side) -> NDArray[np.bool_]:
+    """Which notes have another of their lane in the same slot."""
+    order = np.lexsort((notes.at_ns, notes.lane))
+    close = (np.diff(notes.lane[order]) == 0) & (np.diff(notes.at_ns[order]) <= TOGETHER_NS)
+    together = np.zeros(len(order), np.bool_)
+    together[order[1:][close]] = True
+    together[order[:-1][close]] = True
+    return together
 
 
 @dataclass(frozen=True, eq=False)
