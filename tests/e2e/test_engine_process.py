@@ -37,10 +37,12 @@ if __name__ == "__main__":
 
 
 CTRL_C_PARENT = """
+import signal
 import time
 from station.engine.messages import Ready
 from station.engine.process import EngineConfig, EngineProcess
 if __name__ == "__main__":
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # who runs tests in the background has them ignore Ctrl-C
     with EngineProcess(EngineConfig(kits=(), sound=False)) as engine:
         try:
             print("the child imports", flush=True)
