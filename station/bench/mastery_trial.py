@@ -34,14 +34,26 @@ from station.scoring.alignment import Alignment, Reference
 
 LESSONS = ("bossa-fill-1", "half-time-fill-1", "linear-fill-1", "rock-fill-1", "shuffle-fill-1")
 """The shipped lessons of four bars that need both toms, so that weak bars and swapped cables can show; in turn."""
-DAYS, SESSION_S, BLOCK_S, BREATH_S = 3, 1200.0, 300.0, 60.0
-EXAM_EVERY_S = 60.0
 EXAMS_TO_PASS = 2
 DAY_S = 86_400.0
 RETENTION_PASSES = 8
 TRANSFER_PCT = 115.0
 WRONG_SHARE = 0.1
 """A bar with more of its strokes missed or misplaced is a wrong repetition: what a clean pass allows."""
+
+
+@dataclass(frozen=True, slots=True)
+class Schedule:
+    """The time that all have: sessions on so many days in a row, a breath after each block, exams while playing."""
+
+    days: int = 3
+    session_s: float = 1200.0
+    block_s: float = 300.0
+    breath_s: float = 60.0
+    exam_every_s: float = 60.0
+
+
+USUAL_SCHEDULE = Schedule()
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,40 +78,41 @@ class Outcome:
     gone: bool
 
 
-def trial(tutor: str, kind: str, seed: int) -> Outcome:
-    """Teach one learner."""
-    return Trial(tutor, kind, seed).run()
+def trial(tutor: str, kind: str, seed: int, schedule: Schedule = USUAL_SCHEDULE) -> Outcome:
+    """Teach one learner for the whole time, and examine it afterwards."""
+    return Trial(tutor, kind, seed, schedule).run()
+
+
+def repetitions(tutor: str, kind: str, seed: int) -> float:
+    """Teach one learner until it reaches the criterion, and no longer."""
+    return Trial(tutor, kind, seed, USUAL_SCHEDULE).to_criterion()
 
 
 class Trial:
     """One learner, one tutor, one lesson."""
 
-    def __init__(self, tutor: str, kind: str, seed: int) -> None:
+    def __init__(self, tutor: str, kind: str, seed: int, schedule: Schedule) -> None:
+        self._schedule = schedule
         self._lesson = LESSONS[seed % len(LESSONS)]
         self._item: Item = item_of(find_lesson(self._lesson))
         self._bars = len(self._item.bar_notes)
         self._learner = Learner(LEARNERS[kind], seed, self._bars)
         self._tutor: Tutor = TUTORS[tutor](self._item, seed)
         self._played_s, self._bars_played, self._bars_wrong = 0.0, 0, 0
-        self._exams_s, self._exams_clean = EXAM_EVERY_S, 0
+        self._exams_s, self._exams_clean = schedule.exam_every_s, 0
         self._criterion: tuple[float, float] | None = None
         self._pct: list[float] = []
         self._unused_s = 0.0
 
     def run(self) -> Outcome:
         """All days, then the exams."""
-        for day in range(DAYS):
-            if day:
-                self._learner.rest(DAY_S - SESSION_S)
-                self._tutor.new_day(day)
-            self._session()
+        self._teach(all_the_time=True)
         self._learner.rest(DAY_S)
         after_day = self._exam(TOP_PCT, RETENTION_PASSES)
         transfer = self._exam(TRANSFER_PCT, RETENTION_PASSES)
         self._learner.rest(6 * DAY_S)
         after_week = self._exam(TOP_PCT, RETENTION_PASSES)
-        all_s = DAYS * SESSION_S
-        minutes, repetitions = self._criterion or (all_s / 60, all_s / sum(self._item.bar_s))
+        minutes, repetitions = self._effort()
         return Outcome(
             reached=self._criterion is not None,
             minutes=minutes,
@@ -114,17 +127,34 @@ class Trial:
             gone=self._learner.gone,
         )
 
-    def _session(self) -> None:
+    def to_criterion(self) -> float:
+        """The repetitions until the criterion."""
+        self._teach(all_the_time=False)
+        return self._effort()[1]
+
+    def _effort(self) -> tuple[float, float]:
+        """Minutes and repetitions to the criterion."""
+        all_s = self._schedule.days * self._schedule.session_s
+        return self._criterion or (all_s / 60, all_s / sum(self._item.bar_s))
+
+    def _teach(self, all_the_time: bool) -> None:
+        for day in range(self._schedule.days):
+            if day:
+                self._learner.rest(DAY_S - self._schedule.session_s)
+                self._tutor.new_day(day)
+            self._session(all_the_time)
+
+    def _session(self, all_the_time: bool) -> None:
         now_s, block_s = 0.0, 0.0
-        while now_s < SESSION_S:
+        while now_s < self._schedule.session_s and (all_the_time or self._criterion is None):
             ask = None if self._learner.gone else self._tutor.ask()
             if ask is None:
-                self._unused_s += SESSION_S - now_s
+                self._unused_s += self._schedule.session_s - now_s
                 return
             length_s = self._pass(ask)
             now_s, block_s = now_s + length_s, block_s + length_s
-            if block_s >= BLOCK_S:
-                self._learner.rest(BREATH_S)
+            if block_s >= self._schedule.block_s:
+                self._learner.rest(self._schedule.breath_s)
                 block_s = 0.0
             self._examine()
 
@@ -139,7 +169,7 @@ class Trial:
             if self._learner.gone:
                 break
             played = self._learner.practise(Exercise(once, bars, ask.pct / 100.0, ask.feedback))
-            self._bars_wrong += _wrong_bars(played)
+            self._bars_wrong += _wrong_bars(once, self._truth(played))
             self._bars_played += len(bars)
             parts.append(played.performance.shifted(turn * once.length_ns))
         whole = _score(self._lesson, ask.bars, ask.repeats, ask.pct)
@@ -151,7 +181,7 @@ class Trial:
     def _examine(self) -> None:
         if self._criterion is not None or self._played_s < self._exams_s:
             return
-        self._exams_s += EXAM_EVERY_S
+        self._exams_s += self._schedule.exam_every_s
         is_clean = judge(self._exam(TOP_PCT, 1), DEFAULT_RULES).is_clean
         self._exams_clean = self._exams_clean + 1 if is_clean else 0
         if self._exams_clean >= EXAMS_TO_PASS:
@@ -161,7 +191,28 @@ class Trial:
         score = _score(self._lesson, self._item.bars, times, pct)
         bars = tuple(range(self._bars)) * times
         played = self._learner.examined(Exercise(score, bars, pct / 100.0))
-        return measure_pass(score, played.performance, _truth(played), bars)
+        return measure_pass(score, played.performance, self._truth(played), bars)
+
+    def _truth(self, played: VirtualPerformance) -> Alignment:
+        """What the learner meant, as an alignment; swapped cables are put right."""
+        score, truth, hits = played.score, played.truth, played.performance.hits
+        paired = truth.hit_of_note >= 0
+        asynchrony, label = np.zeros(len(score), np.int64), truth.note_label.copy()
+        asynchrony[paired] = hits["at_ns"][truth.hit_of_note[paired]] - score.onset_ns[paired]
+        for meant, reported in self._learner.kind.wires.items():
+            crossed = paired & (hits["piece"][truth.hit_of_note] == reported)
+            label[crossed] = np.where(score.notes["piece"][crossed] == meant, Label.MATCH, Label.WRONG_PIECE)
+        return Alignment(
+            hit_of_note=truth.hit_of_note,
+            note_of_hit=truth.note_of_hit,
+            note_label=label,
+            hit_label=truth.hit_label,
+            asynchrony_ns=asynchrony,
+            hit_score_ns=hits["at_ns"],
+            stretch=np.zeros(len(hits), np.int64),
+            reference=Reference.CLICK,
+            sd_ms=None,
+        )
 
     def _found_pct(self) -> float | None:
         weak = set(self._learner.weak_bars)
@@ -180,25 +231,6 @@ def _score(lesson: str, bars: tuple[int, int], times: int, pct: float) -> Score:
     return score.with_limbs(limbs_of(score))
 
 
-def _truth(played: VirtualPerformance) -> Alignment:
-    """What the learner meant, as an alignment."""
-    score, truth, hits = played.score, played.truth, played.performance.hits
-    paired = truth.hit_of_note >= 0
-    asynchrony = np.zeros(len(score), np.int64)
-    asynchrony[paired] = hits["at_ns"][truth.hit_of_note[paired]] - score.onset_ns[paired]
-    return Alignment(
-        hit_of_note=truth.hit_of_note,
-        note_of_hit=truth.note_of_hit,
-        note_label=truth.note_label,
-        hit_label=truth.hit_label,
-        asynchrony_ns=asynchrony,
-        hit_score_ns=hits["at_ns"],
-        stretch=np.zeros(len(hits), np.int64),
-        reference=Reference.CLICK,
-        sd_ms=None,
-    )
-
-
 def _joined(parts: list[Performance]) -> Performance:
     if len(parts) == 1:
         return parts[0]
@@ -207,10 +239,11 @@ def _joined(parts: list[Performance]) -> Performance:
     )
 
 
-def _wrong_bars(played: VirtualPerformance) -> int:
-    wrong = np.isin(played.truth.note_label, (Label.MISS, Label.WRONG_PIECE))
-    notes = np.bincount(played.score.bar)
-    return int((np.bincount(played.score.bar, weights=wrong) > WRONG_SHARE * notes).sum())
+def _wrong_bars(score: Score, truth: Alignment) -> int:
+    """How many bars went wrong."""
+    wrong = np.isin(truth.note_label, (Label.MISS, Label.WRONG_PIECE))
+    notes = np.bincount(score.bar)
+    return int((np.bincount(score.bar, weights=wrong) > WRONG_SHARE * notes).sum())
 
 
 def _right_pct(result: PassResult) -> float:
