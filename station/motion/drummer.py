@@ -8,6 +8,7 @@ strike.
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from struct import pack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -88,7 +89,7 @@ class Drummer:
         row = keys.row(ONE, time_s, at)
         for instrument in keys.instruments:
             row += instrument.at(time_s)
-        return Pose(time_s, np.array(row))
+        return Pose(time_s, np.frombuffer(pack(f"{len(row)}d", *row)))
 
     def rows(self, time_s: Array) -> Array:
         """The poses at each time (n,) as rows (n, fields) in the layout of `frame`; the instruments are left out."""

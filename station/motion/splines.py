@@ -8,6 +8,7 @@ key, as a stick's is at the impact (thesis § 4.3.3). Before the first and after
 
 from bisect import bisect_right
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -25,13 +26,19 @@ class Curves:
     knots_s: Array
     cubics: Array
 
+    @cached_property
+    def _knots(self) -> memoryview:
+        """The knots as a buffer of plain floats: numpy's are slow one by one."""
+        return self.knots_s.data
+
     def at(self, time_s: float) -> list[float]:
         """Every channel at one instant."""
-        i = bisect_right(self.knots_s, time_s) - 1
+        knots = self._knots
+        i = bisect_right(knots, time_s) - 1
         if i < 0:
             first: list[float] = self.cubics[0, :, 0].tolist()
             return first
-        u = time_s - self.knots_s.item(i)  # a plain float: numpy's are slow one by one
+        u = time_s - knots[i]
         rows: list[list[float]] = self.cubics[i].tolist()
         return [((d * u + c) * u + b) * u + a for a, b, c, d in rows]
 

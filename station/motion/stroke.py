@@ -13,6 +13,8 @@ nearer still the amplitude shrinks in proportion to the gap (thesis figure 4.10)
 
 from bisect import bisect_right
 from dataclasses import dataclass
+from functools import cached_property
+from struct import Struct
 
 import numpy as np
 from numpy.typing import NDArray
@@ -176,6 +178,9 @@ class StrokePlan:
     lever_m: float
 
 
+_CUBIC = Struct("4d")
+
+
 @dataclass(frozen=True, eq=False)
 class Strokes:
     """The keyed offsets of one hand: `strike_s` (n,), `knots_s` (4, n · KEYS) and their `cubics` (4, n · KEYS, 4)."""
@@ -183,7 +188,6 @@ class Strokes:
     strike_s: Array
     knots_s: Array
     cubics: Array
-    strikes: list[float]
 
     @classmethod
     def of(cls, plan: StrokePlan, sliders: Sliders) -> "Strokes":
@@ -202,18 +206,26 @@ class Strokes:
         flat = (4, n * KEYS)
         times, values = times.reshape(flat), values.reshape(flat)
         into, out = slopes(times, values, tension.reshape(flat), np.tile(_CONTINUITY, n), np.tile(_BIAS, n))
-        return cls(strike_s, times, cubics(times, values, into, out), strike_s.tolist())
+        return cls(strike_s, times, cubics(times, values, into, out))
+
+    @cached_property
+    def _fast(self) -> tuple[memoryview, list[tuple[memoryview, memoryview]]]:
+        """The strikes, and of each joint the knots and cubics, as buffers: read one by one they beat arrays."""
+        joints = [(k.data, c.data.cast("B")) for k, c in zip(self.knots_s, self.cubics, strict=True)]
+        return self.strike_s.data, joints
 
     def at(self, time_s: float) -> Offsets:
         """The offsets at one instant."""
-        first = max((bisect_right(self.strikes, time_s) - 1) * KEYS + _STRIKE, 0)
+        strikes, joints = self._fast
+        first = max((bisect_right(strikes, time_s) - 1) * KEYS + _STRIKE, 0)
+        last = min(first + KEYS, len(strikes) * KEYS)
         result = []
-        for knots, rows in zip(self.knots_s[:, first : first + KEYS].tolist(), self.cubics, strict=True):
-            k = bisect_right(knots, time_s) - 1
-            if k < 0:
-                result.append(rows.item(first, 0))
+        for knots, rows in joints:
+            k = bisect_right(knots, time_s, first, last) - 1
+            if k < first:
+                result.append(_CUBIC.unpack_from(rows, first * _CUBIC.size)[0])
                 continue
-            a, b, c, d = rows[first + k].tolist()
+            a, b, c, d = _CUBIC.unpack_from(rows, k * _CUBIC.size)
             u = time_s - knots[k]
             result.append(((d * u + c) * u + b) * u + a)
         return Offsets(*result)

@@ -7,6 +7,8 @@ lifted over what stands between. A crash is left at once: its stroke is never pa
 
 from bisect import bisect_right
 from dataclasses import dataclass
+from functools import cached_property
+from struct import Struct
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +31,7 @@ _TRAVEL_S = 0.45
 
 
 FIELDS = len(Contact._fields)
+_ROW = Struct(f"{3 + 2 * FIELDS}d")
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +40,6 @@ class Way:
 
     strike_s: Array
     rows: Array
-    strikes: list[float]
 
     @classmethod
     def of(cls, strike_s: Array, contacts: Array, lift_m: Array, early: NDArray[np.bool_]) -> "Way":
@@ -59,18 +61,24 @@ class Way:
         rows[:-1, 0], rows[:-1, 1], rows[:-1, 2] = start, 1 / np.maximum(end - start, 1e-6), lift_m
         rows[:, 3 : 3 + FIELDS] = contacts
         rows[:-1, 3 + FIELDS :] = np.diff(contacts, axis=0)
-        return cls(strike_s, rows, strike_s.tolist())
+        return cls(strike_s, rows)
+
+    @cached_property
+    def _fast(self) -> tuple[memoryview, memoryview]:
+        """Strikes and rows as buffers: read one by one they beat arrays."""
+        return self.strike_s.data, self.rows.data.cast("B")
 
     def at(self, time_s: float) -> Contact:
         """The contact at one instant."""
-        i = max(bisect_right(self.strikes, time_s) - 1, 0)
-        row: list[float] = self.rows[i].tolist()
-        u = (time_s - row[0]) * row[1]
+        strikes, rows = self._fast
+        i = max(bisect_right(strikes, time_s) - 1, 0)
+        row = _ROW.unpack_from(rows, i * _ROW.size)
+        t0, rate, lift, x, y, z, sr, hr, sy, hy, ahead, wing, dx, dy, dz, dsr, dhr, dsy, dhy, d_ahead, d_wing = row
+        u = (time_s - t0) * rate
         if u <= 0.0:
-            return Contact(*row[3 : 3 + FIELDS])
+            return Contact(x, y, z, sr, hr, sy, hy, ahead, wing)
         u = min(u, 1.0)
         s = u * u * u * (10 + u * (6 * u - 15))
-        _, _, lift, x, y, z, sr, hr, sy, hy, ahead, wing, dx, dy, dz, dsr, dhr, dsy, dhy, d_ahead, d_wing = row
         lift *= (4 * u * (1 - u)) ** 2
         return Contact(
             *(x + s * dx, y + s * dy, z + s * dz + lift, sr + s * dsr, hr + s * dhr),
