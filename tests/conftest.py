@@ -13,3 +13,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if item.get_closest_marker("jack"):
             item.add_marker(pytest.mark.xdist_group("jack"))
+
+
+def pytest_make_parametrize_id(val: object) -> str | None:
+    """Bytes have no name: a packed file holds the second it was made in, and two workers would name it differently."""
+    return "bytes" if isinstance(val, bytes) else None
