@@ -34,7 +34,7 @@ before each costs as much as the others (our choice, within the limits of HUMANS
 
 SHOULDER_OF_STICK = 0.25
 """From the tip back to the part that meets a cymbal's edge or a rim, as a share of the stick (our choice)."""
-_LAID_AHEAD, _RIM_NEAR = 0.55, 0.9
+_LAID_AHEAD = 0.55
 _LAID_RISE = math.radians(-4.0)
 _LAID_AZIMUTH = {Limb.LEFT_HAND: math.radians(-62.0), Limb.RIGHT_HAND: math.radians(62.0)}
 """A cross-stick lies across the head under the hand, its far end over the opposite rim (our choice)."""
@@ -115,8 +115,8 @@ def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike) -> Lie:
         wrist=arm.wrist,
         angles=(arm.shoulder, arm.shoulder + arm.elbow_bend, _UPRIGHT - touch.hand_rise, _UPRIGHT - touch.stick_rise),
         ceiling=(
-            limits.shoulder_flexion - arm.shoulder,
-            limits.elbow_flexion - arm.elbow_bend,
+            max(limits.shoulder_flexion - arm.shoulder, 0.0),
+            max(limits.elbow_flexion - arm.elbow_bend, 0.0),
             max(limits.wrist_extension - arm.extension, _LEAST_ROOM),
             max(limits.fingers - arm.palm, _LEAST_ROOM),
         ),
@@ -175,7 +175,8 @@ def _easiest(
 class _Slopes:
     """How the stick wants to lie.
 
-    What touches and how much stick is beyond it, its slope, its angle in the hand, its way in plan where that is fixed.
+    What touches and how much stick is beyond it, its slope, its angle in the hand, its way in plan where that is fixed,
+    and whether its shaft lies on the rim.
     """
 
     ahead_m: float
@@ -183,6 +184,7 @@ class _Slopes:
     rise: float
     palm: float
     azimuth: float | None = None
+    on_rim: bool = False
 
 
 def _slopes(lengths: ArmLengths, target: Target, hold: Hold, strike: Strike, length_m: float) -> _Slopes:
@@ -196,9 +198,8 @@ def _slopes(lengths: ArmLengths, target: Target, hold: Hold, strike: Strike, len
         ahead -= SHOULDER_OF_STICK * length_m
     lean = math.atan2(h * math.sin(palm), ahead + h * math.cos(palm))  # between the stick and the line to the wrist
     rise = target.rise_rad - lean
-    if strike.articulation == Articulation.RIM_SHOT:
-        rise = math.atan2(RIM_ABOVE_HEAD_M, _RIM_NEAR * target.radius_m)
-    return _Slopes(ahead, lengths.ahead - ahead, rise, palm)
+    on_rim = strike.articulation == Articulation.RIM_SHOT
+    return _Slopes(ahead, lengths.ahead - ahead, rise, palm, on_rim=on_rim)
 
 
 def _over_the_piece(target: Target, root: Point, stick_yaw: float, slopes: _Slopes) -> float:
@@ -211,10 +212,20 @@ def _over_the_piece(target: Target, root: Point, stick_yaw: float, slopes: _Slop
     towards = math.atan2(root[1] - float(target.point_m[1]), root[0] - float(target.point_m[0])) + stick_yaw
     lean = math.cos(towards) * nx + math.sin(towards) * ny
     size, turn = math.hypot(lean, nz), math.atan2(lean, nz)
+    if slopes.on_rim:
+        to_rim_m = _way_to_the_rim(target, math.cos(towards), math.sin(towards))
+        return math.asin(math.sin(math.atan2(RIM_ABOVE_HEAD_M, to_rim_m)) / size) - turn
     if slopes.beyond_m <= 0 or not target.shoulder:
         return max(slopes.rise, math.asin(_SHAFT_CLEAR / size) - turn) if slopes.azimuth is None else slopes.rise
     over = (_END_CLEAR_M - target.raised_m) / slopes.beyond_m
     return min(slopes.rise, math.asin(max(min(-over / size, 1.0), -1.0)) - turn)
+
+
+def _way_to_the_rim(target: Target, ux: float, uy: float) -> float:
+    """How far it is in plan from the struck point to the rim, along the unit direction (`ux`, `uy`)."""
+    x, y = (float(d) for d in (target.point_m - target.centre_m)[:2])
+    along = x * ux + y * uy
+    return math.sqrt(max(along * along - x * x - y * y + target.radius_m**2, 0.0)) - along
 
 
 _SHAFT_CLEAR = math.sin(math.radians(2.5))

@@ -1,7 +1,10 @@
 """The drummer's body: its joints, how they hang together, and its measures as fractions of the stature.
 
-Segment lengths and joint heights after Winter and Drillis & Contini (HUMANS, Body). The distance from the wrist to the
-fulcrum of the grip is measured: 0.163 m in the 1.9 m player of Pearl 2023 (doi 10.1101/2023.10.09.561270).
+Segment lengths and joint heights after Winter and Drillis & Contini (HUMANS, Body); their shoulder breadth of .259 is
+drawn about the deltoids, and from acromion to acromion a median man has .23 (Pheasant, Bodyspace: 400 of 1740 mm). The
+joints lie farther in: .34 m apart in the 1.70 m man of Rajagopal 2016 (doi 10.1109/TBME.2016.2586891). The distance
+from the wrist to the fulcrum of the grip is measured: 0.163 m in the 1.9 m player of Pearl 2023 (doi
+10.1101/2023.10.09.561270).
 """
 
 from collections.abc import Mapping
@@ -11,7 +14,7 @@ from math import radians
 from pathlib import Path
 
 from station.motion.limits import Limits
-from station.motion.toml_table import Table, find_shipped, read_toml
+from station.motion.toml_table import Table, find_shipped, read_toml, shipped
 
 
 class Joint(IntEnum):
@@ -72,7 +75,7 @@ class Figure:
 
     stature_m: float
     trunk_m: float  # hip to shoulder height
-    shoulder_breadth_m: float
+    shoulder_breadth_m: float  # between the shoulder joints
     hip_breadth_m: float  # between the hip joints
     neck_m: float
     head_m: float  # from the joint on the neck to the crown
@@ -91,7 +94,7 @@ MEDIAN_STATURE_M = 1.759
 """A median man (HUMANS, Body)."""
 _SHARES: Mapping[str, float] = {
     "trunk_m": 0.288,
-    "shoulder_breadth_m": 0.259,
+    "shoulder_breadth_m": 0.200,  # between the joints
     "hip_breadth_m": 0.115,  # the breadth of the hips is .191; their joints lie at .6 of it (our choice)
     "neck_m": 0.060,
     "head_m": 0.122,
@@ -115,7 +118,12 @@ def figure_of(stature_m: float = MEDIAN_STATURE_M) -> Figure:
 # --- files ------------------------------------------------------------------------------------------------------------
 
 FIGURES = Path(__file__).parent / "data" / "figures"
-_LEAST_M, _GREATEST_M = 0.8, 2.4
+LEAST_STATURE_M, GREATEST_STATURE_M = 0.8, 2.4
+
+
+def figure_names() -> list[str]:
+    """The figures that ship with the station."""
+    return shipped(FIGURES)
 
 
 def load_figure(name_or_path: str | Path) -> Figure:
@@ -127,7 +135,7 @@ def load_figure(name_or_path: str | Path) -> Figure:
     path = find_shipped(name_or_path, FIGURES, "figure")
     table = Table(read_toml(path), path, "")
     table.only({"title", "stature_m", "segments", "limits"})
-    figure = figure_of(table.number("stature_m", _LEAST_M, _GREATEST_M))
+    figure = figure_of(table.number("stature_m", LEAST_STATURE_M, GREATEST_STATURE_M))
     segments, limits = table.table("segments", {}), table.table("limits", {})
     segments.only(set(_SHARES))
     limits.only({f.name for f in fields(Limits)})

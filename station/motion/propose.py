@@ -13,6 +13,9 @@ from station.core.pieces import Piece
 from station.motion.style import NATURAL, Style
 from station.music.score import Score
 
+PROPOSED = "proposed"
+"""The name of every proposed style, and what commands call for one."""
+
 
 @dataclass(frozen=True, slots=True)
 class Character:
@@ -55,7 +58,7 @@ def propose_style(score: Score) -> Style:
     slow = _clip(_ORDINARY.tempo_bpm / is_like.tempo_bpm)
     calm = is_like.ride > _MUCH_RIDE and is_like.velocity < _CALM_VELOCITY
     style = replace(
-        Style(name="proposed"),
+        Style(name=PROPOSED),
         amplitude_gain=NATURAL * _clip(room * force),
         amplitude_back=NATURAL * _clip(slow * force),
         amplitude_neck=NATURAL * _clip(force * force * slow),

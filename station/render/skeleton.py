@@ -85,7 +85,7 @@ def bind_stance(figure: Figure) -> Stance:
     for side, (_, shoulder, elbow, wrist, hand) in zip((1.0, -1.0), _ARMS, strict=True):
         out = np.array([side, 1.0, 1.0])
         j[shoulder] = j[Joint.NECK] + [side * figure.shoulder_breadth_m / 2, 0.0, 0.0]
-        j[elbow] = j[shoulder] + figure.upper_arm_m * unit([0.22, 0.25, -0.94]) * out
+        j[elbow] = j[shoulder] + figure.upper_arm_m * unit([0.58, 0.25, -0.78]) * out
         j[wrist] = j[elbow] + figure.forearm_m * unit([-0.35, 0.92, 0.05]) * out
         j[hand] = j[wrist] + figure.hand_m * unit([-0.30, 0.92, -0.12]) * out
     for side, (_, hip, knee, ankle, toe) in zip((1.0, -1.0), _LEGS, strict=True):

@@ -11,7 +11,16 @@ from station.app.commands.output import say
 from station.app.commands.scores import load_score
 from station.core.errors import BadInput
 from station.motion.drummer import Drummer
+from station.motion.figure import (
+    GREATEST_STATURE_M,
+    LEAST_STATURE_M,
+    Figure,
+    figure_names,
+    figure_of,
+    load_figure,
+)
 from station.motion.kit import DEFAULT_KIT, load_kit
+from station.motion.propose import PROPOSED, propose_style
 from station.motion.style_file import load_style, style_names
 from station.music.score import Score
 
@@ -28,8 +37,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Add this command's words."""
     parser.add_argument("score", metavar="SCORE", help="a lesson, a MIDI file or a text score")
     parser.add_argument("--out", metavar="FILE", type=Path, required=True, help=f"the file to write: {_ENDINGS}")
-    parser.add_argument("--style", metavar="NAME", default="natural", help=f"{', '.join(style_names())}, or a file")
+    styles = f"{', '.join(style_names())}, {PROPOSED} (what the score itself suggests), or a file"
+    parser.add_argument("--style", metavar="NAME", default="natural", help=styles)
     parser.add_argument("--kit", metavar="NAME", default="", help="the drummer's kit: a shipped name or a file")
+    body = parser.add_mutually_exclusive_group()
+    body.add_argument("--figure", metavar="NAME", default="", help=f"{', '.join(figure_names())}, or a file")
+    body.add_argument("--stature", type=float, metavar="M", help="the drummer's height in metres, usual proportions")
     parser.add_argument("--fps", type=float, metavar="N", default=60.0, help="poses a second of motion (%(default)g)")
     parser.add_argument("--size", metavar="WxH", type=_size, default=(1280, 720), help="of a picture (1280x720)")
     parser.add_argument("--start-bar", type=int, metavar="A", default=1, help="the first bar, from 1 (%(default)s)")
@@ -43,8 +56,9 @@ def run(arguments: argparse.Namespace) -> int:
     ending = out.suffix.lower()
     if ending not in (".png", *_WRITERS):
         raise BadInput(out, "", f"expected a name that ends in {_ENDINGS}")
-    kit, style = load_kit(arguments.kit or DEFAULT_KIT), load_style(arguments.style)
-    drummer = Drummer(load_score(arguments.score), kit, style=style)
+    score, kit = load_score(arguments.score), load_kit(arguments.kit or DEFAULT_KIT)
+    style = propose_style(score) if arguments.style == PROPOSED else load_style(arguments.style)
+    drummer = Drummer(score, kit, _figure(arguments), style)
     if ending == ".png":
         from station.app.pictures import draw_drummer
 
@@ -53,6 +67,16 @@ def run(arguments: argparse.Namespace) -> int:
         _WRITERS[ending]()(drummer, out, _times(drummer.score, arguments))
     say(f"{'picture' if ending == '.png' else 'motion '}  {out}")
     return 0
+
+
+def _figure(arguments: argparse.Namespace) -> Figure:
+    """The body that plays."""
+    if arguments.stature is None:
+        return load_figure(arguments.figure or "median")
+    if not LEAST_STATURE_M <= arguments.stature <= GREATEST_STATURE_M:
+        expected = f"expected {LEAST_STATURE_M:g} to {GREATEST_STATURE_M:g} metres"
+        raise BadInput("--stature", f"{arguments.stature:g}", expected)
+    return figure_of(arguments.stature)
 
 
 def _moment_s(score: Score, arguments: argparse.Namespace) -> float:

@@ -3,6 +3,7 @@
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from station.cli import main
@@ -235,3 +236,25 @@ def test_limbs_can_be_edited_as_text(capsys: pytest.CaptureFixture[str], tmp_pat
     assert main(["limbs", str(text), "--json"]) == 0
     limbs = [note["limb"] for note in json.loads(capsys.readouterr().out)["notes"] if note["piece"] == "snare"]
     assert limbs == ["right_hand", "left_hand", "left_hand", "left_hand"]
+
+
+def test_animate_draws_the_figure_that_is_asked_for(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = tmp_path / "x.npz"
+    assert main(["animate", "rock-1", "--end-bar", "1", "--fps", "10", "--stature", "1.5", "--out", str(out)]) == 0
+    with np.load(out) as read:
+        names = read["point_names"].tolist()
+        arm = read["points_m"][:, names.index("right_elbow")] - read["points_m"][:, names.index("right_shoulder")]
+    assert np.linalg.norm(arm, axis=1) == pytest.approx(0.186 * 1.5)  # Winter's share of the stature
+    capsys.readouterr()
+    assert "expected 0.8 to 2.4 metres" in refused(capsys, "animate", "rock-1", "--stature", "17", "--out", str(out))
+    assert "no such figure; there is small" in refused(
+        capsys, "animate", "rock-1", "--figure", "smal", "--out", str(out)
+    )
+
+
+def test_animate_takes_the_style_that_the_score_suggests(tmp_path: Path) -> None:
+    first, second = tmp_path / "a.npz", tmp_path / "b.npz"
+    for out, words in ((first, ["--style", "proposed"]), (second, [])):
+        assert main(["animate", "jazz-ride-1", "--end-bar", "1", "--fps", "10", "--out", str(out), *words]) == 0
+    with np.load(first) as proposed, np.load(second) as natural:
+        assert np.abs(proposed["points_m"] - natural["points_m"]).max() > 0.005

@@ -14,7 +14,7 @@ def test_segments_are_the_published_shares_of_the_stature() -> None:
     assert figure.thigh_m == pytest.approx(0.490)
     assert figure.shank_m == pytest.approx(0.492)
     assert figure.trunk_m == pytest.approx(0.576)
-    assert figure.shoulder_breadth_m == pytest.approx(0.518)
+    assert figure_of(1.70).shoulder_breadth_m == pytest.approx(0.34)  # Rajagopal 2016, a man of 1.70 m
 
 
 def test_limits_are_the_published_ones() -> None:
