@@ -30,53 +30,7 @@ _WITHIN_S = 0.9
 def cleared(hands: tuple[HandPart, HandPart], figure: Figure) -> tuple[HandPart, HandPart]:
     """Both parts, each capped by the other."""
     right, left = hands
-    return (
-        right.cleared(_caps(right, left, figure), _lifts(right, left, figure)),
-        left.cleared(_caps(left, right, figure), _lifts(left, right, figure)),
-    )
-
-
-OVER_M, UNDER_M, BESIDE_M = 0.05, 0.05, 0.07
-"""A travelling stick that comes nearer to the other arm in plan goes so far over it, or so far under (our choice)."""
-_MOMENTS = np.linspace(0.2, 0.8, 7)
-_ALONG = np.linspace(0.0, 1.0, 9)
-
-
-def _lifts(own: HandPart, other: HandPart, figure: Figure) -> Array:
-    """How far each stretch of `own` must be lifted to travel over what the other arm does meanwhile, (n − 1,)."""
-    n = len(own.which)
-    if n < 2 or not len(other.events.row):
-        return np.zeros(max(n - 1, 0))
-    times, others = own.events.time_s, other.events.time_s
-    during = np.clip(np.searchsorted(others, 0.5 * (times[1:] + times[:-1])) - 1, 0, len(others) - 1)
-    stretches = np.stack([own.which[:-1], own.which[1:], other.which[during]], 1)
-    kinds, which = np.unique(stretches, axis=0, return_inverse=True)
-    table = np.array([_lift(own, a, b, other, c, figure) if a != b else 0.0 for a, b, c in kinds.tolist()])
-    return np.asarray(table[which.reshape(-1)])
-
-
-def _lift(own: HandPart, start: int, end: int, other: HandPart, others: int, figure: Figure) -> float:
-    """The lift of one stretch: the stick's points over the sampled other arm, by the hump of the way there."""
-    ends = [_stick(own, own.lies[k], figure) for k in (start, end)]
-    s = _MOMENTS**3 * (10 + _MOMENTS * (6 * _MOMENTS - 15))
-    way = ends[0] + s[:, None, None] * (ends[1] - ends[0])  # (moments, places, 3)
-    still = _still(other, other.lies[others], figure)
-    limbs = [(still.elbow, still.wrist), (still.wrist, still.hand), (still.butt, still.tip)]
-    arm = np.concatenate([_line(np.array(a), np.array(b)) for a, b in limbs])
-    apart = np.linalg.norm(way[:, :, None, :2] - arm[None, None, :, :2], axis=-1)
-    over = way[:, :, None, 2] - arm[:, 2]
-    lack = np.where((apart < BESIDE_M) & (over > -UNDER_M), OVER_M - over, 0.0).max(axis=(1, 2))
-    hump = (4 * _MOMENTS * (1 - _MOMENTS)) ** 2
-    return float(np.maximum(lack / hump, 0.0).max())
-
-
-def _line(a: Array, b: Array) -> Array:
-    return np.asarray(a + _ALONG[:, None] * (b - a))
-
-
-def _stick(part: HandPart, lie: Lie, figure: Figure) -> Array:
-    arm = _still(part, lie, figure)
-    return _line(np.array(arm.hand), np.array(arm.tip))
+    return right.held_under(_caps(right, left, figure)), left.held_under(_caps(left, right, figure))
 
 
 def _still(part: HandPart, lie: Lie, figure: Figure) -> Arm:

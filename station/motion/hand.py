@@ -9,21 +9,22 @@ from numpy.typing import NDArray
 
 from station.core.errors import BadInput
 from station.core.pieces import Limb, Piece, Zone, word
-from station.motion.arm import Contact, Offsets, solve
+from station.motion.arm import Contact, solve
 from station.motion.contacts import PROTRACTION_M, Lie, Strike, lie_of
 from station.motion.events import HandEvents
 from station.motion.figure import Figure
 from station.motion.grip import Hold
 from station.motion.kit import Kit
 from station.motion.maths import MANY, Point
-from station.motion.stroke import StrokePlan, amplitudes
-from station.motion.travel import HIGHEST_M, Way, lifts
+from station.motion.stroke import NATURALLY, StrokePlan, Strokes, amplitudes
+from station.motion.travel import Way, lifts
 from station.music.score import Score
 
 Array = NDArray[np.float64]
 
-EASE_RAD = radians(12)
-"""How far a wrist is bent sideways at most at a strike (our choice; its limits are 20° and 30°)."""
+_SPARE_RAD = radians(5)
+"""What is left of a wrist's limits sideways in the natural style, for others to use (our choice)."""
+_EASINGS = 3
 _HAND_YAW = Contact._fields.index("hand_yaw")
 
 
@@ -32,8 +33,8 @@ class HandPart:
     """The events of one hand and how it makes them.
 
     `lies` are the kinds of contact that occur, `which` (n,) the kind of each event, `wrist_m` (n, 3) where the wrist is
-    at each, naturally, and `contacts` (n, fields) what its arm is solved from; the plan of its strokes; how far each
-    stretch between two events (n − 1,) is lifted, and whether it is travelled early.
+    at each, naturally, and `contacts` (n, fields) what its arm is solved from; the plan of its strokes; `bump_m`
+    (n − 1, 3) how each stretch between two events goes round, and whether it is travelled `early` (n − 1,).
     """
 
     limb: Limb
@@ -44,7 +45,7 @@ class HandPart:
     wrist_m: Array
     strokes: StrokePlan
     contacts: Array
-    lift_m: Array
+    bump_m: Array
     early: NDArray[np.bool_]
 
     @classmethod
@@ -74,31 +75,53 @@ class HandPart:
         left_at_once = np.array([lie.shoulder_of_stick for lie in lies])[which]
         played = np.array([kit.stand_in(s.piece) for s in strikes])[which]
         wrists = np.array([lie.wrist for lie in lies])[which]
-        lift_m = lifts(kit, contacts, played)
-        return cls(limb, hold, events, lies, which, wrists, plan, contacts, lift_m, left_at_once[:-1])
+        bump_m = np.zeros((len(contacts) - 1, 3))
+        bump_m[:, 2] = lifts(kit, contacts, played)
+        return cls(limb, hold, events, lies, which, wrists, plan, contacts, bump_m, left_at_once[:-1])
 
     @cached_property
     def way(self) -> Way:
         """The way between the contacts."""
-        return Way.of(self.events.time_s, self.contacts, np.minimum(self.lift_m, HIGHEST_M), self.early)
+        return Way.of(self.events.time_s, self.contacts, self.bump_m, self.early)
 
-    def eased(self, figure: Figure, roots: Point) -> "HandPart":
-        """The same with every hand pointed so that its wrist is not bent sideways beyond ease.
+    def eased(self, figure: Figure, time_s: Array, root: Point) -> "HandPart":
+        """The same with the hand so pointed at each contact that its wrist stays within its limits sideways.
 
-        `roots` are the shoulder's x, y, z (n,) as the body naturally is at each event.
+        `root` is the shoulder's x, y, z as the body naturally is at `time_s` (k,).
         """
-        contacts = self.contacts.copy()
-        lengths = self.hold.lengths(figure, self.limb == Limb.RIGHT_HAND)
-        for _ in range(2):
-            arm = solve(MANY, lengths, roots, Contact(*contacts.T), Offsets(0.0, 0.0, 0.0, 0.0))
-            contacts[:, _HAND_YAW] -= arm.deviation - np.clip(arm.deviation, -EASE_RAD, EASE_RAD)
-        return replace(self, contacts=contacts)
+        right = self.limb == Limb.RIGHT_HAND
+        limits, side = figure.limits, 1.0 if right else -1.0
+        strokes = Strokes.of(self.strokes, NATURALLY).many(time_s)
+        most, least = limits.wrist_radial - _SPARE_RAD, _SPARE_RAD - limits.wrist_ulnar
+        part = self
+        for _ in range(_EASINGS):
+            contacts = part.contacts.copy()
+            arm = solve(MANY, self.hold.lengths(figure, right), root, part.way.many(time_s), strokes)
+            bent = side * np.broadcast_to(arm.deviation, time_s.shape)
+            nearest, stays = part.way.nearest(time_s)
+            low, high = np.full(len(contacts), np.inf), np.full(len(contacts), -np.inf)
+            np.maximum.at(high, nearest[stays], bent[stays])
+            np.minimum.at(low, nearest[stays], bent[stays])
+            turn = np.zeros(len(contacts))  # what the ways want, within what the stays allow
+            np.maximum.at(turn, nearest, bent - most)
+            under = np.zeros(len(contacts))
+            np.minimum.at(under, nearest, bent - least)
+            turn += under
+            least_turn, most_turn = high - most, low - least
+            middle = 0.5 * (least_turn + most_turn)
+            turn = np.clip(turn, np.minimum(least_turn, middle), np.maximum(most_turn, middle))
+            contacts[:, _HAND_YAW] -= side * np.where(np.isfinite(middle), turn, 0.0)
+            part = replace(part, contacts=contacts)
+        return part
 
-    def cleared(self, height_m: Array, lift_m: Array) -> "HandPart":
-        """The same, no stroke higher than `height_m` (n,), whatever the sliders say, the ways lifted by `lift_m`."""
+    def held_under(self, height_m: Array) -> "HandPart":
+        """The same, no stroke higher than `height_m` (n,), whatever the sliders say."""
         most = height_m / np.maximum(self.strokes.height_m, 1e-6)
-        strokes = replace(self.strokes, most=most)
-        return replace(self, strokes=strokes, lift_m=np.maximum(self.lift_m, lift_m))
+        return replace(self, strokes=replace(self.strokes, most=most))
+
+    def led(self, bump_m: Array, most: Array) -> "HandPart":
+        """The same on the ways of `bump_m` (n − 1, 3), no stroke more than `most` (n,) times its height."""
+        return replace(self, bump_m=bump_m, strokes=replace(self.strokes, most=most))
 
 
 def parts(hold: Hold) -> Array:

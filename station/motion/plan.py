@@ -11,6 +11,7 @@ from station.motion.beats import Beats, bob_cofactors
 from station.motion.body import Ground, mean_bearing
 from station.motion.clearance import cleared
 from station.motion.contacts import Strike, target_of
+from station.motion.detours import detoured, looks
 from station.motion.events import HandEvents, hand_events
 from station.motion.figure import Figure
 from station.motion.gaze import gaze_curve
@@ -81,15 +82,22 @@ class Plan:
             for limb, hold, events in zip(HANDS, holds(style), self.events, strict=True)
         )
         right, left = cleared((right, left), self.figure)
-        return right.eased(self.figure, self._roots(right)), left.eased(self.figure, self._roots(left))
+        if not (len(right.events.row) or len(left.events.row)):
+            return right, left
+        grid = looks(right.events.time_s, left.events.time_s)
+        roots = self._roots(grid)
+        right, left = (hand.eased(self.figure, grid, root) for hand, root in zip((right, left), roots, strict=True))
+        right, left = detoured((right, left), self.figure, self.kit, grid, roots)
+        right, left = (hand.eased(self.figure, grid, root) for hand, root in zip((right, left), roots, strict=True))
+        return right, left
 
-    def _roots(self, hand: HandPart) -> Point:
-        """Where the shoulder of `hand` naturally is at each of its events."""
+    def _roots(self, time_s: Array) -> tuple[Point, Point]:
+        """Where the right and the left shoulder naturally are at each time."""
         natural = Style()
         curves = body.curves(self.ground, natural, body.keys(self.ground, natural))
-        twist, lean, side, shrug, _, _ = curves.many(hand.events.time_s)
+        twist, lean, side, shrug, _, _ = curves.many(time_s)
         frame = trunk(MANY, self.figure, self.pelvis, TrunkAngles(twist, lean, side, 0.0, 0.0, 0.0, shrug))
-        return frame.right_shoulder if hand.limb == Limb.RIGHT_HAND else frame.left_shoulder
+        return frame.right_shoulder, frame.left_shoulder
 
     def gaze(self, around: float, seed: int) -> Curves:
         """Where the drummer looks; `around` 0 … 1 how often a rest is used to look around."""

@@ -127,6 +127,10 @@ class Sliders:
     whip: Array
 
 
+NATURALLY = Sliders(np.ones((4, 1)), np.ones((4, 1)), np.ones((1, 1)))
+"""The sliders of a natural drummer."""
+
+
 def amplitudes(height_m: Array, contact_angles: Array, lengths: ArmLengths, parts: Array) -> Array:
     """How far each joint goes (4, n) so that the tip rises `height_m` (n,) over the contact.
 

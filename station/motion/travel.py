@@ -31,21 +31,23 @@ _TRAVEL_S = 0.45
 
 
 FIELDS = len(Contact._fields)
-_ROW = Struct(f"{3 + 2 * FIELDS}d")
+_HEAD = 5
+_ROW = Struct(f"{_HEAD + 2 * FIELDS}d")
 
 
 @dataclass(frozen=True, eq=False)
 class Way:
-    """Contacts of one hand: `strike_s` (n,), `rows` (n, 3 + 2 · FIELDS) start, 1/duration, lift, from, step."""
+    """Contacts of one hand: `strike_s` (n,), `rows` (n, 5 + 2 · FIELDS) start, 1/duration, detour, from, step."""
 
     strike_s: Array
     rows: Array
 
     @classmethod
-    def of(cls, strike_s: Array, contacts: Array, lift_m: Array, early: NDArray[np.bool_]) -> "Way":
+    def of(cls, strike_s: Array, contacts: Array, bump_m: Array, early: NDArray[np.bool_]) -> "Way":
         """The way through `contacts` (n, FIELDS) at `strike_s` (n,).
 
-        Each stretch (n − 1,) is lifted by `lift_m`; an `early` one is travelled at once, the others late in their gap.
+        Each stretch goes round by `bump_m` (n − 1, 3) in its middle, right, forward and up; an `early` one (n − 1,) is
+        travelled at once, the others late in their gap.
         """
         gaps = np.diff(strike_s)
         leave, arrive = np.minimum(_LEAVE_SHARE * gaps, _LEAVE_S), np.minimum(_ARRIVE_SHARE * gaps, _ARRIVE_S)
@@ -57,10 +59,10 @@ class Way:
             np.where(early, start, np.maximum(start, end - _TRAVEL_S)),
             np.where(early, np.minimum(end, start + _TRAVEL_S), end),
         )
-        rows = np.zeros((len(strike_s), 3 + 2 * FIELDS))
-        rows[:-1, 0], rows[:-1, 1], rows[:-1, 2] = start, 1 / np.maximum(end - start, 1e-6), lift_m
-        rows[:, 3 : 3 + FIELDS] = contacts
-        rows[:-1, 3 + FIELDS :] = np.diff(contacts, axis=0)
+        rows = np.zeros((len(strike_s), _HEAD + 2 * FIELDS))
+        rows[:-1, 0], rows[:-1, 1], rows[:-1, 2:_HEAD] = start, 1 / np.maximum(end - start, 1e-6), bump_m
+        rows[:, _HEAD : _HEAD + FIELDS] = contacts
+        rows[:-1, _HEAD + FIELDS :] = np.diff(contacts, axis=0)
         return cls(strike_s, rows)
 
     @cached_property
@@ -73,26 +75,45 @@ class Way:
         strikes, rows = self._fast
         i = max(bisect_right(strikes, time_s) - 1, 0)
         row = _ROW.unpack_from(rows, i * _ROW.size)
-        t0, rate, lift, x, y, z, sr, hr, sy, hy, ahead, wing, dx, dy, dz, dsr, dhr, dsy, dhy, d_ahead, d_wing = row
+        t0, rate, bx, by, bz, x, y, z, sr, hr, sy, hy, ahead, wing, *steps = row
         u = (time_s - t0) * rate
         if u <= 0.0:
             return Contact(x, y, z, sr, hr, sy, hy, ahead, wing)
         u = min(u, 1.0)
         s = u * u * u * (10 + u * (6 * u - 15))
-        lift *= (4 * u * (1 - u)) ** 2
+        dx, dy, dz, dsr, dhr, dsy, dhy, d_ahead, d_wing = steps
+        h = (4 * u * (1 - u)) ** 2
         return Contact(
-            *(x + s * dx, y + s * dy, z + s * dz + lift, sr + s * dsr, hr + s * dhr),
+            *(x + s * dx + h * bx, y + s * dy + h * by, z + s * dz + h * bz, sr + s * dsr, hr + s * dhr),
             *(sy + s * dsy, hy + s * dhy, ahead + s * d_ahead, wing + s * d_wing),
         )
 
     def many(self, time_s: Array) -> Contact:
         """The contact at each time."""
         i = np.maximum(np.searchsorted(self.strike_s, time_s, side="right") - 1, 0)
-        t0, rate, lift, *way = self.rows[i].T
+        t0, rate, bx, by, bz, *way = self.rows[i].T
         u = np.clip((time_s - t0) * rate, 0.0, 1.0)
         s = u * u * u * (10 + u * (6 * u - 15))
         x, y, z, *rest = (a + s * d for a, d in zip(way[:FIELDS], way[FIELDS:], strict=True))
-        return Contact(x, y, z + lift * (4 * u * (1 - u)) ** 2, *rest)
+        h = (4 * u * (1 - u)) ** 2
+        return Contact(x + h * bx, y + h * by, z + h * bz, *rest)
+
+    def nearest(self, time_s: Array) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+        """The contact that the hand is at, or nearer to on its way, at each time; and whether it stays there."""
+        i = np.maximum(np.searchsorted(self.strike_s, time_s, side="right") - 1, 0)
+        u = (time_s - self.rows[i, 0]) * self.rows[i, 1]
+        return np.where(u > 0.5, np.minimum(i + 1, len(self.strike_s) - 1), i), (u <= 0.0) | (u >= 1.0)
+
+    def humps(self, time_s: Array) -> tuple[NDArray[np.int64], Array]:
+        """The stretch that each time is on, by the strike before it, and how much of its detour is made there, 0 … 1.
+
+        Where the hand comes back to where it was there is no way to go round on.
+        """
+        i = np.maximum(np.searchsorted(self.strike_s, time_s, side="right") - 1, 0)
+        t0, rate = self.rows[i, 0], self.rows[i, 1]
+        u = np.clip((time_s - t0) * rate, 0.0, 1.0)
+        moves = self.rows[i, _HEAD + FIELDS : _HEAD + FIELDS + 3].any(1)
+        return i, np.where(moves, (4 * u * (1 - u)) ** 2, 0.0)
 
 
 CLEAR_M = 0.10

@@ -1,0 +1,220 @@
+"""Ways round: where a hand on its way would bring its stick into the other's stick or arm, it is led around them.
+
+Both hands play the whole score at the body's natural posture, looked at `RATE_HZ` times a second. Every stretch on
+which the sticks come too near to each other or to the other forearm is tried with detours, over, back towards the
+player, aside and under, of either hand; the one that stays farthest clear for the least way is taken. Where neither
+hand travels, the lower one's stroke is held lower. What is found once for a figure of the score is kept for its
+repetitions.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.pieces import Limb
+from station.motion.arm import Arm, Contact, solve
+from station.motion.clearance import ARM_M, STICKS_M
+from station.motion.collisions import ALONG, ARM_RADIUS_M, STICK_RADIUS_M, depth, segments_apart
+from station.motion.events import LONG_AGO_S
+from station.motion.figure import Figure
+from station.motion.hand import HandPart
+from station.motion.kit import Kit
+from station.motion.maths import MANY, Point
+from station.motion.stroke import NATURALLY, Strokes
+
+Array = NDArray[np.float64]
+
+RATE_HZ = 120.0
+ROUNDS = 8
+"""A detour may need another: so often the whole is looked at (our choice)."""
+_SPARE_M = 0.012
+"""Nearer than this to touching is too near: styles move the body and the strokes a little (our choice)."""
+_LEAST_HUMP = 0.08
+"""Moments at which less than this of a detour is left cannot be helped by it (our choice)."""
+_LOWER = 0.6
+"""Where neither hand travels, a stroke in the way is lowered by this factor a round (our choice)."""
+
+_WAYS = np.array(
+    [
+        (aside, -back, up)
+        for aside in (0.0, -0.08, 0.08, 0.16)
+        for back in (0.0, 0.08, 0.16, 0.24)
+        for up in (-0.14, -0.07, 0.0, 0.06, 0.12, 0.18, 0.26)
+    ]
+)
+"""The detours that are tried in the middle of a stretch: aside to the hand's own side, forward, up, (k, 3) metres."""
+_WAY_COST = 0.08
+"""A metre of detour is taken for this many metres of clearance (our choice)."""
+_DEPTH_COST = 10.0
+_ANGLE_COST_M = 0.3
+"""A metre deep in a drum or a radian beyond a joint's limit weighs as this many metres too near (our choice)."""
+
+
+def looks(*event_s: Array) -> Array:
+    """The times at which hands with events at `event_s` are looked at; an event long ago is no event."""
+    times = np.concatenate(event_s)
+    times = times[times > LONG_AGO_S]
+    return np.union1d(np.arange(times.min() - 1.0, times.max() + 1.0, 1 / RATE_HZ), times)
+
+
+def detoured(
+    hands: tuple[HandPart, HandPart], figure: Figure, kit: Kit, grid: Array, shoulders: tuple[Point, Point]
+) -> tuple[HandPart, HandPart]:
+    """Both parts with ways around each other, looked at `grid` (n,), when the shoulders are at `shoulders`."""
+    known: dict[tuple[object, ...], tuple[int, Array] | None] = {}
+    for _ in range(ROUNDS):
+        scene = _Scene.of(hands, figure, kit, grid, shoulders)
+        pairs, which = scene.tangled()
+        if not len(pairs):
+            break
+        bumps = [hand.bump_m.copy() for hand in hands]
+        most = [hand.strokes.most.copy() for hand in hands]
+        changed: set[tuple[int, int]] = set()
+        for k, pair in enumerate(pairs.tolist()):
+            if changed & set(enumerate(pair)):
+                continue  # what helped its neighbour may have helped it too
+            changed |= set(enumerate(pair))
+            moments = np.flatnonzero(which == k)
+            key = scene.figure_of(pair)
+            if key not in known:
+                known[key] = scene.way_round(pair, moments)
+            found = known[key]
+            if found is not None:
+                bumps[found[0]][pair[found[0]]] += found[1]
+            else:
+                side = scene.lower(moments)
+                most[side][pair[side] : pair[side] + 2] = _LOWER * np.minimum(
+                    most[side][pair[side] : pair[side] + 2], 1.0
+                )
+        hands = (hands[0].led(bumps[0], most[0]), hands[1].led(bumps[1], most[1]))
+    return hands
+
+
+@dataclass(frozen=True, eq=False)
+class _Scene:
+    """Both hands at the times of a grid: their arms, and the stretch that each is on."""
+
+    hands: tuple[HandPart, HandPart]
+    figure: Figure
+    kit: Kit
+    grid: Array
+    roots: tuple[Point, Point]
+    arms: tuple[Arm, Arm]
+    stretch: tuple[NDArray[np.int64], NDArray[np.int64]]
+    hump: tuple[Array, Array]
+
+    @classmethod
+    def of(
+        cls, hands: tuple[HandPart, HandPart], figure: Figure, kit: Kit, grid: Array, roots: tuple[Point, Point]
+    ) -> "_Scene":
+        right, left = (
+            solve(
+                MANY,
+                hand.hold.lengths(figure, hand.limb == Limb.RIGHT_HAND),
+                root,
+                hand.way.many(grid),
+                Strokes.of(hand.strokes, NATURALLY).many(grid),
+            )
+            for hand, root in zip(hands, roots, strict=True)
+        )
+        (k, hump), (other_k, other_hump) = (hand.way.humps(grid) for hand in hands)
+        return cls(hands, figure, kit, grid, roots, (right, left), (k, other_k), (hump, other_hump))
+
+    def tangled(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """The pairs (p, 2) of stretches on which the hands come too near, and of each moment which, −1 none."""
+        a, b = (_limbs(arm) for arm in self.arms)
+        near = _lack(a, b, 2 * STICK_RADIUS_M + _SPARE_M, ARM_RADIUS_M + _SPARE_M) > 0
+        which = np.full(len(self.grid), -1)
+        pairs, of = np.unique(np.stack(self.stretch, 1)[near], axis=0, return_inverse=True)
+        which[near] = of.reshape(-1)
+        return pairs, which
+
+    def figure_of(self, pair: list[int]) -> tuple[object, ...]:
+        """What a tangle is like: the kinds and relative times of both hands' events about it, and the ways there."""
+        start = self.hands[0].events.time_s[pair[0]]
+        words: list[object] = []
+        for hand, k in zip(self.hands, pair, strict=True):
+            part = slice(max(k - 1, 0), k + 3)
+            words += [tuple(hand.which[part].tolist())]
+            words += [tuple(np.round(hand.events.time_s[part] - start, 3).tolist())]
+            words += [tuple(np.round(hand.bump_m[k : k + 1].ravel(), 3).tolist())]
+        return tuple(words)
+
+    def lower(self, moments: NDArray[np.int64]) -> int:
+        """Whose stick's middle is lower."""
+        heights = [0.5 * (arm.butt[2] + arm.tip[2])[moments].mean() for arm in self.arms]
+        return int(heights[1] < heights[0])
+
+    def way_round(self, pair: list[int], moments: NDArray[np.int64]) -> tuple[int, Array] | None:
+        """The hand (0 right, 1 left) and its detour (3,) on its stretch of `pair`; None where nothing is better."""
+        best: tuple[float, int, Array] | None = None
+        for side in (0, 1):
+            if self.hump[side][moments].max() < _LEAST_HUMP:
+                continue
+            on = np.flatnonzero((self.stretch[side] == pair[side]) & (self.hump[side] > 0.0))
+            ways = _WAYS * (1.0 if side == 0 else -1.0, 1.0, 1.0)
+            price, way = self._best(side, on, ways)
+            if way.any() and (best is None or price < best[0]):
+                best = price, side, way
+        return None if best is None else (best[1], best[2])
+
+    def _best(self, side: int, on: NDArray[np.int64], ways: Array) -> tuple[float, Array]:
+        """The cheapest of `ways` (k, 3) of one hand over the moments `on`, and its price in metres."""
+        hand = self.hands[side]
+        times, hump = self.grid[on], self.hump[side][on]
+        contact = hand.way.many(times)
+        x, y, z = (c + hump * w[:, None] for c, w in zip(contact[:3], ways.T, strict=True))
+        every = Contact(x, y, z, *(np.broadcast_to(c, x.shape) for c in contact[3:]))
+        strokes = Strokes.of(hand.strokes, NATURALLY).many(times)
+        lengths = hand.hold.lengths(self.figure, hand.limb == Limb.RIGHT_HAND)
+        rx, ry, rz = (np.broadcast_to(r, self.grid.shape)[on] for r in self.roots[side])
+        arm = solve(MANY, lengths, (rx, ry, rz), every, strokes)
+        own = [np.broadcast_to(p, (*x.shape, 3)) for p in _limbs(arm)]
+        other = [np.broadcast_to(p[on], (*x.shape, 3)).reshape(-1, 3) for p in _limbs(self.arms[1 - side])]
+        lack = _lack([p.reshape(-1, 3) for p in own], other, STICKS_M, ARM_M).reshape(x.shape)
+        prices = (
+            np.where(hump > _LEAST_HUMP, np.maximum(lack, 0.0), 0.0).max(1)
+            + _WAY_COST * np.linalg.norm(ways, axis=1)
+            + _ANGLE_COST_M * np.broadcast_to(self._beyond(side, arm), x.shape).max(1)
+            + np.broadcast_to(arm.missing_m, x.shape).max(1)
+        )
+        best, found = np.inf, 0
+        for k in np.argsort(prices, kind="stable").tolist():
+            if prices[k] >= best:
+                break
+            price = float(prices[k]) + _DEPTH_COST * self._deepest(own[0][k], own[1][k])
+            if price < best:
+                best, found = price, k
+        return best, ways[found]
+
+    def _deepest(self, butt: Array, tip: Array) -> float:
+        """How deep the stick is in the kit at its worst, m; `butt` and `tip` (n, 3)."""
+        stick = butt[:, None] + ALONG[:, None] * (tip - butt)[:, None]
+        return max(float(depth(p, stick).max()) for p in self.kit.pieces.values() if p.kind != "kick")
+
+    def _beyond(self, side: int, arm: Arm) -> Array:
+        """By how much elbow and wrist are beyond their limits, radians."""
+        limits = self.figure.limits
+        sideways = arm.deviation if side == 0 else -arm.deviation
+        over = [
+            arm.elbow_bend - limits.elbow_flexion,
+            arm.extension - limits.wrist_extension,
+            -arm.extension - limits.wrist_flexion,
+            sideways - limits.wrist_radial,
+            -sideways - limits.wrist_ulnar,
+        ]
+        return np.asarray(sum(np.maximum(o, 0.0) for o in over))
+
+
+def _limbs(arm: Arm) -> list[Array]:
+    """Butt, tip, elbow and wrist, each (…, 3)."""
+    return [np.stack(np.broadcast_arrays(*p), -1) for p in (arm.butt, arm.tip, arm.elbow, arm.wrist)]
+
+
+def _lack(a: list[Array], b: list[Array], sticks_m: float, arm_m: float) -> Array:
+    """How much nearer the hands are than they should be at each moment, (n,): over 0 is too near."""
+    sticks = sticks_m - segments_apart(a[0], a[1], b[0], b[1])
+    first = arm_m - segments_apart(a[0], a[1], b[2], b[3])
+    second = arm_m - segments_apart(b[0], b[1], a[2], a[3])
+    return np.maximum(sticks, np.maximum(first, second))
