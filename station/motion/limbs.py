@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from station.core.errors import BadInput
 from station.core.pieces import Limb, Piece
+from station.motion.hand_notes import HandNotes, Hands
 from station.motion.kit import Kit
 from station.motion.smed_limbs import smed_hands
 from station.motion.sticking import choose_hands
-from station.motion.sticking_costs import HandNotes, Hands
 from station.music.score import Score
 
 METHODS = ("station", "smed")

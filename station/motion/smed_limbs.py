@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Limb, Piece
-from station.motion.sticking_costs import LEFT, RIGHT, HandNotes
+from station.motion.hand_notes import LEFT, RIGHT, HandNotes
 
 THRESHOLD_S = 0.16
 """The least time between two strokes of one hand (our choice: sixteenths alternate from 94 bpm up)."""

@@ -1,49 +1,45 @@
-"""The hands that are cheapest together over a whole score: a beam over the hands' last notes, linear in the notes.
+"""The hands that are cheapest together over a whole score, in time linear in its length.
 
-After each note the state is which note each hand played last and how often it has just bounced; of all ways into it
-the cheapest survives, and of all states the cheapest dozen. What a note costs a hand depends on that state alone
-(`sticking_costs`), so with a beam wide enough the result is optimal; a dozen is, on every score tried.
+What a note costs a hand depends on what each hand played last and whether that doubled the note before it
+(`sticking_costs`). One hand played the note before; so a state is that hand, the other hand's last note, and two doubles.
+Of all ways into a state the cheapest survives. When the other hand played no longer matters once it is long enough ago,
+only where: then states on one spot are one, and there are never more of them than a second's notes and a kit's spots.
+The result is optimal.
 """
 
-import math
+import heapq
 from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Limb, Piece
+from station.core.pieces import Limb
 from station.motion import sticking_costs as price
-from station.motion.sticking_costs import LEFT, RIGHT, HandNotes
+from station.motion.hand_notes import EASY_REPEAT_S, LEFT, RIGHT, HandNotes
 
-BEAM = 12
+MOST_STATES = 96
+"""Of each hand. Only a score of more than some eighty strokes a second has more: then the cheapest survive."""
 
 
 class _State(NamedTuple):
     cost: float
-    last: tuple[int, int]  # of each hand: its last note, −1 for none
-    bounced: tuple[int, int]
+    hand: int  # that played the note before
+    other: int  # the other hand's last note, −1 for none
+    bounced: tuple[bool, bool]  # whether the last stroke of `hand`, of the other hand doubled the one before
     before: "_State | None"
-    hand: int
 
 
-_START = _State(0.0, (-1, -1), (0, 0), None, -1)
+_START = _State(0.0, RIGHT, -1, (False, False), None)
 
 
 def choose_hands(notes: HandNotes) -> tuple[NDArray[np.int8], list[str]]:
     """The hand of every note, and why, in the order of the rows that `notes` were made from."""
+    settled_s = price.settled_s(notes)
     states = [_START]
     for i in range(len(notes.time_s)):
-        reached: dict[tuple[int, int, int, int], _State] = {}
-        for state in states:
-            for hand in (RIGHT, LEFT):
-                after = _step(notes, i, hand, state)
-                key = (*after.last, *after.bounced)
-                best = reached.get(key)
-                if best is None or after.cost < best.cost:
-                    reached[key] = after
-        states = sorted(reached.values(), key=_cost)[:BEAM]
-    path = _path(states[0])
+        states = [s for hand in (RIGHT, LEFT) for s in _best_into(notes, i, hand, states, settled_s)]
+    path = _path(min(states, key=_cost))
     limbs, reasons = np.empty(len(path), np.int8), [""] * len(path)
     for i, state in enumerate(path):
         row = int(notes.order[i])
@@ -56,7 +52,7 @@ def cost_of(notes: HandNotes, hands: Sequence[int]) -> float:
     """What it costs that `hands` (one a note, in order of time) play `notes`."""
     state = _START
     for i, hand in enumerate(hands):
-        state = _step(notes, i, hand, state)
+        state = _after(notes, i, hand, state, state.cost + sum(_terms(notes, i, hand, state)))
     return state.cost
 
 
@@ -72,113 +68,77 @@ def _path(state: _State) -> list[_State]:
     return path[::-1]
 
 
-def _step(notes: HandNotes, i: int, hand: int, state: _State) -> _State:
-    cost = sum(_terms(notes, i, hand, state))
-    last, bounced = list(state.last), list(state.bounced)
-    before = last[hand]
-    quick = before >= 0 and notes.time_s[i] - notes.time_s[before] < price.BOUNCE_S
-    bounced[hand] = bounced[hand] + 1 if quick else 0
-    last[hand] = i
-    return _State(state.cost + cost, (last[0], last[1]), (bounced[0], bounced[1]), state, hand)
+def _best_into(notes: HandNotes, i: int, hand: int, states: list[_State], settled_s: float) -> list[_State]:
+    """The cheapest way into each state in which `hand` plays note `i`."""
+    by_itself = sum(price.alone(notes, i, hand))
+    by_own: dict[tuple[int, bool], float] = {}
+    by_other: dict[int, float] = {}
+    best: dict[tuple[int, bool, bool], _State] = {}
+    for state in states:
+        own, other, bounced = _lasts(i, hand, state)
+        if (own, bounced) not in by_own:
+            by_own[own, bounced] = sum(price.after_own(notes, i, hand, own, bounced))
+        if other not in by_other:
+            by_other[other] = sum(price.beside(notes, i, hand, other))
+        cost = state.cost + by_itself + by_own[own, bounced] + by_other[other]
+        after = _after(notes, i, hand, state, cost)
+        where = other if other < 0 or notes.time_s[i] - notes.time_s[other] < settled_s else -2 - notes.kind[other]
+        known = best.get((where, *after.bounced))
+        if known is None or cost < known.cost:
+            best[(where, *after.bounced)] = after
+    if len(best) > MOST_STATES:
+        return heapq.nsmallest(MOST_STATES, best.values(), key=_cost)
+    return list(best.values())
 
 
-_WRITTEN, _TOGETHER, _PAIRED, _TRAVEL, _REPEAT, _CROSSING, _OSTINATO, _NATURAL, _HOME = range(9)
-_REASONS = (
-    "written",
-    "one hand cannot be in two places",
-    "its partner in the ornament",
-    "the nearer hand in the time there is",
-    "too quick for the other hand",
-    "the hands stay uncrossed",
-    "the ostinato stays in its hand",
-    "natural sticking",
-    "its own side of the kit, or the leading hand begins",
-)
-_DOUBLE, _AHEAD, _FREE = "a double stroke", "so that the strokes after it fall well", "either hand"
+def _lasts(i: int, hand: int, state: _State) -> tuple[int, int, bool]:
+    """The last notes of `hand` and of the other hand before note `i`, and whether `hand` doubled."""
+    if hand == state.hand or i == 0:
+        return i - 1, state.other, state.bounced[0]
+    return state.other, i - 1, state.bounced[1]
+
+
+def _after(notes: HandNotes, i: int, hand: int, state: _State, cost: float) -> _State:
+    """The state after `hand` played note `i` at a total of `cost`; an old double is forgotten."""
+    own, other, _ = _lasts(i, hand, state)
+    others = state.bounced[1] if hand == state.hand else state.bounced[0]
+    if others and notes.time_s[i] - notes.time_s[other] >= EASY_REPEAT_S:
+        others = False
+    return _State(cost, hand, other, (price.is_double(notes, i, own), others), state)
+
+
+# --- the reason -------------------------------------------------------------------------------------------------------
+
+_NAMES = (*price.ALONE, *price.AFTER_OWN, *price.BESIDE)
+_DOUBLE = "a double stroke: the second is the rebound"
+_MORE = "one more stroke of the same hand: every other way is harder"
+_AHEAD = "so that the strokes after it fall well"
+_FREE = "either hand"
+_NOBODY = "impossible: both hands are busy elsewhere"
 _SLIGHT = 0.02
 """A difference of cost below this decides nothing."""
 
 
-def _terms(notes: HandNotes, i: int, hand: int, state: _State) -> list[float]:
-    """What note `i` costs `hand`, by the names in `_REASONS`."""
-    terms = [0.0] * len(_REASONS)
-    now, piece, other = notes.time_s[i], notes.piece[i], 1 - hand
-    x, y, z = notes.spot[hand][i]
-    own, others = state.last[hand], state.last[other]
-    if notes.written[i] not in (Limb.UNKNOWN, hand):
-        terms[_WRITTEN] = price.WRITTEN
-    if own >= 0:
-        gap = now - notes.time_s[own]
-        if notes.piece[own] == piece:
-            _repeat(terms, gap, state.bounced[hand], notes.paired[i] == 1)
-            if gap < price.BOUNCE_S and not notes.odd[i]:
-                terms[_REPEAT] += price.LATE_BOUNCE
-        else:
-            ox, oy, oz = notes.spot[hand][own]
-            _travel(terms, gap, math.sqrt((x - ox) ** 2 + (y - oy) ** 2 + (z - oz) ** 2))
-    if notes.paired[i] and i and (own == i - 1) != (notes.paired[i] == 1):
-        terms[_PAIRED] = price.GRACE
-    if others >= 0:
-        terms[_CROSSING] = _crossing(notes, i, hand, others)
-        if piece in price.OSTINATO_PIECES and notes.piece[others] == piece:
-            terms[_OSTINATO] = price.SWITCH * _fresh(now - notes.time_s[others])
-    if piece in price.OSTINATO_PIECES and hand != notes.ostinato_lead:
-        terms[_OSTINATO] += price.OSTINATO
-    elif hand != notes.natural[i]:
-        terms[_NATURAL] = price.NATURAL
-    terms[_HOME] = price.HOME * max(0.0, (x if hand == LEFT else -x) - price.MIDDLE_M)
-    if hand != notes.lead and (i == 0 or now - notes.time_s[i - 1] > price.PHRASE_S):
-        terms[_HOME] += price.BEGIN
-    return terms
-
-
-def _fresh(ago_s: float) -> float:
-    """1 for what has just happened … 0 for what happened long ago."""
-    return max(0.0, 1.0 - ago_s / price.CROSSING_FADES_S)
-
-
-def _repeat(terms: list[float], gap_s: float, bounced: int, double: bool) -> None:
-    """The price of one hand's next stroke on the same piece."""
-    if gap_s < price.TOGETHER_S:
-        terms[_TOGETHER] = price.CRUSHED
-    elif gap_s < price.BOUNCE_S:
-        terms[_REPEAT] = 0.0 if double else price.BOUNCE
-        if bounced:  # a third stroke has no rebound left to live on
-            terms[_REPEAT] += price.UNEVEN
-    elif gap_s < price.EASY_REPEAT_S:
-        terms[_REPEAT] = price.SLOW * (price.EASY_REPEAT_S - gap_s) / (price.EASY_REPEAT_S - price.BOUNCE_S)
-
-
-def _travel(terms: list[float], gap_s: float, way_m: float) -> None:
-    """The price of moving to another piece in the time there is."""
-    if gap_s < price.TOGETHER_S:
-        terms[_TOGETHER] = price.IMPOSSIBLE
-        return
-    need = price.STRIKE_S + price.TRAVEL_S_PER_M * way_m
-    terms[_TRAVEL] = price.METRE * way_m + price.LATE * max(0.0, need / gap_s - 0.7) ** 2
-
-
-def _crossing(notes: HandNotes, i: int, hand: int, others: int) -> float:
-    """The price of reaching over the other hand; the leading hand on the hat over the other on the snare is home."""
-    over = notes.spot[1 - hand][others][0] - notes.spot[hand][i][0]
-    over = (over if hand == RIGHT else -over) - price.CROSSING_MARGIN_M
-    if over <= 0:
-        return 0.0
-    own, other = notes.piece[i], notes.piece[others]
-    lead_on, other_on = (own, other) if hand == notes.lead else (other, own)
-    if lead_on == Piece.HIHAT and other_on == Piece.SNARE and notes.ostinato_lead == notes.lead:
-        return 0.0
-    return price.CROSSING * _fresh(notes.time_s[i] - notes.time_s[others]) * min(1.0, over / 0.2)
+def _terms(notes: HandNotes, i: int, hand: int, state: _State) -> tuple[float, ...]:
+    """What note `i` costs `hand` in `state`: a price for each of `_NAMES`."""
+    own, other, bounced = _lasts(i, hand, state)
+    beside = price.beside(notes, i, hand, other)
+    return (*price.alone(notes, i, hand), *price.after_own(notes, i, hand, own, bounced), *beside)
 
 
 def _reason(notes: HandNotes, i: int, state: _State) -> str:
     """The term that speaks most for the hand that was chosen."""
     assert state.before is not None
     chosen = _terms(notes, i, state.hand, state.before)
-    if state.bounced[state.hand]:
-        return _DOUBLE
+    if notes.written[i] == state.hand:
+        return price.ALONE[0]
+    if max(chosen) >= price.IMPOSSIBLE:
+        return _NOBODY
+    own, _, bounced = _lasts(i, state.hand, state.before)
+    if price.is_rebound(notes, i, own):
+        return _MORE if bounced else _DOUBLE
     spared = [b - a for a, b in zip(chosen, _terms(notes, i, 1 - state.hand, state.before), strict=True)]
     if sum(spared) < -_SLIGHT:
         return _AHEAD
     most = max(range(len(spared)), key=spared.__getitem__)
-    return _REASONS[most] if spared[most] > _SLIGHT else _FREE
+    return _NAMES[most] if spared[most] > _SLIGHT else _FREE

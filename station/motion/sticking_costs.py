@@ -1,157 +1,162 @@
 """What it costs a hand to play a note: the terms that the choice of hands weighs.
 
-A cost of 1 is what a drummer would go out of the way for a little. Each term has a name, because the term that decided
-becomes the reason that is shown. Times in seconds, lengths in metres; the sources are HUMANS and the drummers' rules of
-natural sticking: the leading hand has the beat and the "and", the other "e" and "a", triplets alternate, and a rest
-does not shift the hands.
+A cost of 1 is what a drummer would go out of the way for a little. A note's cost is the sum of what it costs alone
+(`alone`), after what the hand played last (`after_own`) and beside what the other hand played last (`beside`). Each
+term has a name, because the term that decided becomes the reason that is shown. Times in seconds, lengths in metres.
 """
 
-from dataclasses import dataclass
-from enum import Enum
+import math
 
-import numpy as np
-from numpy.typing import NDArray
-
-from station.core.pieces import Limb, Ornament, Piece, Zone
-from station.core.units import PPQ
-from station.motion.kit import Kit
-from station.music.score import Score
-
-RIGHT, LEFT = 0, 1
-
-
-class Hands(Enum):
-    """Who leads: `OPEN` is a right-handed kit whose hi-hat the left hand plays, uncrossed."""
-
-    RIGHT = "right"
-    LEFT = "left"
-    OPEN = "open"
-
+from station.core.pieces import Limb, Piece
+from station.motion.hand_notes import AT_ONCE_S, EASY_REPEAT_S, LEFT, RIGHT, HandNotes
 
 # --- speeds -----------------------------------------------------------------------------------------------------------
 
-TOGETHER_S = 0.025
-"""Two notes this near are struck at once, or are a flam: never by one hand (flams are 15–40 ms)."""
+CRUSHED_S = 0.045
+"""Two strokes of one hand on one piece this near are a buzz, no rebound (second bounce after 50–90 ms)."""
 BOUNCE_S = 0.105
 """Up to here one hand plays two notes as a rebound, not as two strokes (second bounce after 50–90 ms)."""
-EASY_REPEAT_S = 0.155
-"""One hand repeats at 5–7 Hz in general."""
-TRAVEL_S_PER_M = 0.40
-"""Minimum jerk takes 0.25 s for 40 cm of the hand at 3 m/s; the tip goes half as far again as the hand."""
-STRIKE_S = 0.06
+RELAXED_S = 0.25
+"""From here on a stroke after another of the same hand costs nothing (our choice)."""
+TRAVEL_S_PER_M = 0.25
+"""Drummers take single strokes around the toms, half a metre a hand, up to about 200 bpm: 150 ms (our choice)."""
+STRIKE_S = 0.05
 """A stroke needs this besides the travel (our choice)."""
+HURRIED = 0.7
+"""The share of the time that a travel may need before it becomes a hurry (our choice)."""
+CROSSING_FADES_S = 0.6
+"""A hand that has not played for so long is out of the way."""
+PHRASE_S = 1.0
+"""After so long a rest the leading hand begins (our choice)."""
 
 # --- prices: our choices, tuned on the patterns that the tests name ---------------------------------------------------
 
+WRITTEN = 1e6
 IMPOSSIBLE = 1000.0
 CRUSHED = 200.0
 UNEVEN = 12.0
-LATE = 2.5
+GRACE = 8.0
+LATE = 7.0
 SLOW = 4.0
-BOUNCE = 1.3
+TIRING = 0.6
+BOUNCE = 2.0
 LATE_BOUNCE = 0.25
 METRE = 0.8
-CROSSING = 2.5
-NATURAL = 0.45
+CROSSING = 1.8
+NATURAL = 0.6
+FIRM = 1.8
 OSTINATO = 0.9
 SWITCH = 0.6
-GRACE = 8.0
 HOME = 0.15
-MIDDLE_M = 0.10
-WRITTEN = 1e6
-
 BEGIN = 0.1
-PHRASE_S = 1.0
-"""After so long a rest the leading hand begins (our choice)."""
-CROSSING_MARGIN_M = 0.08
-"""Hands this near in x are beside each other, not crossed."""
-CROSSING_FADES_S = 0.6
-"""A hand that has not played for so long is out of the way."""
-OSTINATO_PIECES = (Piece.HIHAT, Piece.RIDE, Piece.RIDE_2)
+
+MIDDLE_M = 0.10
+"""So near the middle neither side of the kit is a hand's own."""
+CROSSING_MARGIN_M = 0.02
+"""Hands this near in x are beside each other, not crossed (half of what parts the two snare spots)."""
+FULL_CROSSING_M = 0.2
+"""Hands so far past each other are fully crossed."""
 
 
-@dataclass(frozen=True, eq=False)
-class HandNotes:
-    """The notes that hands play, in order of time, and what their costs depend on; lists, to be read one by one."""
+# --- a note alone -----------------------------------------------------------------------------------------------------
 
-    time_s: list[float]
-    piece: list[int]
-    spot: list[list[list[float]]]  # of each hand and note: x, y, z
-    written: list[int]
-    natural: list[int]  # the hand of natural sticking
-    odd: list[bool]  # whether it falls between the strokes that the leading hand has
-    paired: list[int]  # +1: with the same hand as the note before (the second of a double), −1 another, 0 free
-    lead: int
-    ostinato_lead: int
-    order: NDArray[np.int64]
-
-    @classmethod
-    def of(cls, score: Score, kit: Kit, rows: NDArray[np.int64], hands: Hands) -> "HandNotes":
-        """The hand notes `rows` of `score` on `kit`."""
-        order = np.argsort(score.onset_ns[rows], kind="stable")
-        rows = rows[order]
-        notes = score.notes[rows]
-        lead = LEFT if hands is Hands.LEFT else RIGHT
-        kinds, which = np.unique(np.stack([notes["piece"], notes["zone"]], 1), axis=0, return_inverse=True)
-        spots = []
-        for limb in (Limb.RIGHT_HAND, Limb.LEFT_HAND):
-            points = np.array([kit.target(Piece(p), Zone(z), limb).point_m for p, z in kinds.tolist()])
-            spots.append(points[which].tolist())
-        odd = _odd(score, rows)
-        played = np.array([kit.stand_in(Piece(p)) for p, _ in kinds.tolist()])
-        return cls(
-            time_s=score.onset_s[rows].tolist(),
-            piece=played[which].tolist(),
-            spot=spots,
-            written=notes["limb"].tolist(),
-            natural=np.where(odd, 1 - lead, lead).tolist(),
-            odd=odd.tolist(),
-            paired=_paired(notes).tolist(),
-            lead=lead,
-            ostinato_lead=LEFT if hands is Hands.OPEN else lead,
-            order=order,
-        )
+ALONE = ("written", "the ostinato's hand", "natural sticking", "its own side of the kit", "the leading hand begins")
 
 
-def _paired(notes: NDArray[np.void]) -> NDArray[np.int8]:
-    """Whether each note shares the hand of the note before it: 1 it does, −1 it takes the other, 0 either."""
-    pairs = np.zeros(len(notes), np.int8)
-    if len(notes) < 2:
-        return pairs
-    grace = notes["lead_ms"] > 0
-    pairs[1:][grace[:-1] & ~grace[1:]] = -1  # the stroke that grace notes lead to
-    pairs[1:][grace[:-1] & grace[1:]] = 1  # both strokes of a drag
-    diddle = notes["ornament"] == Ornament.DIDDLE
-    starts = diddle & ~np.concatenate(([False], diddle[:-1]))
-    index = np.arange(len(notes)) - np.maximum.accumulate(np.where(starts, np.arange(len(notes)), 0))
-    pairs[diddle & (index % 2 == 1)] = 1
-    pairs[diddle & (index % 2 == 0) & (index > 0)] = -1
-    return pairs
+def alone(notes: HandNotes, i: int, hand: int) -> tuple[float, ...]:
+    """What note `i` costs `hand` whatever came before: a price for each name in `ALONE`."""
+    x = notes.spot[hand][i][0]
+    written = WRITTEN if notes.written[i] not in (Limb.UNKNOWN, hand) else 0.0
+    ostinato = natural = 0.0
+    if notes.ostinato[i]:
+        ostinato = OSTINATO if hand != notes.ostinato_lead else 0.0
+    elif hand != notes.natural[i]:
+        natural = FIRM if notes.firm[i] else NATURAL
+    home = HOME * max(0.0, (x if hand == LEFT else -x) - MIDDLE_M)
+    begins = i == 0 or notes.time_s[i] - notes.time_s[i - 1] > PHRASE_S
+    return written, ostinato, natural, home, BEGIN if begins and hand != notes.lead else 0.0
 
 
-_GRIDS = (4, 3, 6, 8)
-"""Strokes a quarter note that natural sticking knows: sixteenths, triplets, sextuplets, thirty-seconds."""
-_SIMPLER = (1.0, 1.6, 4.0, 4.0)
-"""A finer grid always fits better: its error must be smaller by this factor to be believed (our choice)."""
-_GRID_FLOOR_TICKS = PPQ / 50
-"""Deviations below this say nothing of the grid."""
+# --- after the same hand's last note ----------------------------------------------------------------------------------
+
+AFTER_OWN = ("the other hand is elsewhere", "its partner in the ornament", "the nearer hand", "too quick for one hand")
 
 
-def _odd(score: Score, rows: NDArray[np.int64]) -> NDArray[np.bool_]:
-    """Whether each row falls on an odd place of the grid that fits its quarter best: "e" and "a" on sixteenths."""
-    ticks = score.tempo_map.ticks_at_ns(score.onset_ns[rows])
-    ticks = np.where(score.notes["lead_ms"][rows] > 0, score.notes["tick"][rows], ticks)
-    bars = score.bar[rows]
-    starts = np.array([score.tempo_map.bar_start(b) for b in range(int(bars.max(initial=0)) + 1)], np.int64)
-    place = ticks - starts[bars]
-    quarter = np.cumsum(np.diff(ticks // PPQ, prepend=-1) != 0) - 1
-    errors = np.empty((len(_GRIDS), int(quarter.max(initial=0)) + 1))
-    for k, grid in enumerate(_GRIDS):
-        step = PPQ / grid
-        off = np.abs(place - np.rint(place / step) * step)
-        square = np.maximum(off, _GRID_FLOOR_TICKS) ** 2
-        errors[k] = np.bincount(quarter, square, errors.shape[1]) * _SIMPLER[k]
-    best = np.array(_GRIDS)[np.argmin(errors, axis=0)][quarter]
-    index = np.rint(place / (PPQ / best)).astype(np.int64)
-    grace = score.notes["lead_ms"][rows] > 0  # stands on its main stroke's tick and falls to the other hand
-    return np.asarray((index % 2 == 1) ^ grace)
+def after_own(notes: HandNotes, i: int, hand: int, own: int, bounced: bool) -> tuple[float, ...]:
+    """What note `i` costs `hand` after its last, `own` (−1: none), itself `bounced` or not; as `AFTER_OWN` names."""
+    paired = notes.paired[i]
+    partner = GRACE if paired and (own == i - 1) != (paired == 1) else 0.0
+    if own < 0:
+        return 0.0, partner, 0.0, 0.0
+    gap = notes.time_s[i] - notes.time_s[own]
+    if notes.piece[own] == notes.piece[i]:
+        crushed = CRUSHED * max(0.0, 1.0 - gap / CRUSHED_S)
+        return crushed, partner, 0.0, _repeat(notes, i, gap, bounced)
+    if gap < AT_ONCE_S:  # the nearer, the worse, so that what must be impossible is so where it is so most
+        return IMPOSSIBLE * (3.0 - 2.0 * gap / AT_ONCE_S), partner, 0.0, 0.0
+    return 0.0, partner, _travel(gap, math.dist(notes.spot[hand][i], notes.spot[hand][own])), 0.0
+
+
+def _repeat(notes: HandNotes, i: int, gap_s: float, bounced: bool) -> float:
+    """The price of one hand's next stroke on the same piece."""
+    if gap_s < BOUNCE_S:
+        price = 0.0 if notes.paired[i] == 1 else BOUNCE
+        if bounced:  # a third stroke has no rebound left to live on
+            price += UNEVEN
+        return price if notes.odd[i] else price + LATE_BOUNCE
+    price = SLOW * max(0.0, EASY_REPEAT_S - gap_s) / (EASY_REPEAT_S - BOUNCE_S)
+    if not bounced:  # two are easy, it is the third that tires
+        price = min(price, BOUNCE)
+    return price if notes.ostinato[i] else price + TIRING * max(0.0, RELAXED_S / gap_s - 1.0)
+
+
+def _travel(gap_s: float, way_m: float) -> float:
+    """The price of moving to another piece in the time there is."""
+    need = STRIKE_S + TRAVEL_S_PER_M * way_m
+    return METRE * way_m + LATE * max(0.0, need / gap_s - HURRIED) ** 2
+
+
+def is_double(notes: HandNotes, i: int, own: int) -> bool:
+    """Whether a hand that last played `own` plays note `i` as the second of a double."""
+    return own >= 0 and notes.time_s[i] - notes.time_s[own] < EASY_REPEAT_S and notes.piece[own] == notes.piece[i]
+
+
+def is_rebound(notes: HandNotes, i: int, own: int) -> bool:
+    """Whether that double is so quick that its second stroke lives on the first one's rebound."""
+    return is_double(notes, i, own) and notes.time_s[i] - notes.time_s[own] < BOUNCE_S
+
+
+# --- beside the other hand's last note --------------------------------------------------------------------------------
+
+BESIDE = ("the hands stay uncrossed", "the ostinato stays in its hand")
+
+
+def beside(notes: HandNotes, i: int, hand: int, other: int) -> tuple[float, ...]:
+    """What note `i` costs `hand` when the other hand played `other` last (−1: nothing); as `BESIDE` names."""
+    if other < 0:
+        return 0.0, 0.0
+    fresh = 1.0 - (notes.time_s[i] - notes.time_s[other]) / CROSSING_FADES_S
+    if fresh <= 0.0:
+        return 0.0, 0.0
+    shared = notes.ostinato[i] and notes.piece[other] == notes.piece[i]
+    return CROSSING * fresh * _crossed(notes, i, hand, other), SWITCH * fresh if shared else 0.0
+
+
+def _crossed(notes: HandNotes, i: int, hand: int, other: int) -> float:
+    """How far the hands are crossed, 0–1; the leading hand on the hat over the other on the snare is home posture."""
+    over = notes.spot[1 - hand][other][0] - notes.spot[hand][i][0]
+    over = (over if hand == RIGHT else -over) - CROSSING_MARGIN_M
+    if over <= 0.0:
+        return 0.0
+    own_piece, other_piece = notes.piece[i], notes.piece[other]
+    lead_on, other_on = (own_piece, other_piece) if hand == notes.lead else (other_piece, own_piece)
+    if lead_on == Piece.HIHAT and other_on == Piece.SNARE and notes.ostinato_lead == notes.lead:
+        return 0.0
+    return min(1.0, over / FULL_CROSSING_M)
+
+
+def settled_s(notes: HandNotes) -> float:
+    """After so long it no longer matters when a hand played its last note, only where."""
+    spots = [point for hand in notes.spot for point in dict.fromkeys(map(tuple, hand))]
+    farthest = max((math.dist(a, b) for a in spots for b in spots), default=0.0)
+    return max(CROSSING_FADES_S, RELAXED_S, (STRIKE_S + TRAVEL_S_PER_M * farthest) / HURRIED)

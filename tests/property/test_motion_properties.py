@@ -13,10 +13,10 @@ from station.motion import frame
 from station.motion.collisions import collisions
 from station.motion.contacts import Strike, target_of
 from station.motion.drummer import Drummer
+from station.motion.hand_notes import HandNotes, Hands
 from station.motion.kit import load_kit
 from station.motion.limbs import assign_limbs
 from station.motion.sticking import cost_of
-from station.motion.sticking_costs import HandNotes, Hands
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 

@@ -6,9 +6,9 @@ import pytest
 from station.core.errors import BadInput
 from station.core.pieces import Articulation, Limb, Ornament, Piece, Zone
 from station.core.units import PPQ
+from station.motion.hand_notes import Hands
 from station.motion.kit import load_kit
 from station.motion.limbs import METHODS, assign_limbs
-from station.motion.sticking_costs import Hands
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from tests.unit.motion.patterns import BACKBEAT, EIGHTH_HATS, ROCK, hand_letters, score_of
@@ -73,7 +73,7 @@ def test_a_roll_too_fast_for_singles_comes_out_as_doubles() -> None:
     score = score_of(sixteenths(SNARE, 0, 32), 120, division=8)
     assignment = assign_limbs(score, KIT)
     assert hand_letters(score, assignment.limbs, SNARE) == "RRLL" * 8
-    assert assignment.why[1] == "a double stroke"
+    assert assignment.why[1] == "a double stroke: the second is the rebound"
 
 
 @pytest.mark.parametrize(("ornament", "leads"), [(Ornament.FLAM, (25.0,)), (Ornament.DRAG, (110.0, 55.0))])
