@@ -1,10 +1,10 @@
 """The hands that are cheapest together over a whole score, in time linear in its length.
 
 What a note costs a hand depends on what each hand played last and whether that doubled the note before it
-(`sticking_costs`). One hand played the note before; so a state is that hand, the other hand's last note, and two doubles.
-Of all ways into a state the cheapest survives. When the other hand played no longer matters once it is long enough ago,
-only where: then states on one spot are one, and there are never more of them than a second's notes and a kit's spots.
-The result is optimal.
+(`sticking_costs`). One hand played the note before; so a state is that hand, the other hand's last note, and two
+doubles. Of all ways into a state the cheapest survives. When the other hand played no longer matters once it is long
+enough ago, only where: then states on one spot are one, and there are never more of them than a second's notes and a
+kit's spots. The result is optimal.
 """
 
 import heapq
