@@ -15,9 +15,6 @@ from typing import NamedTuple
 
 from station.motion.maths import Maths, Number, Point
 
-HALF_TURN = math.pi
-QUARTER_TURN = math.pi / 2
-
 BACK_SINE, BACK_COSINE = math.sin(math.radians(25)), math.cos(math.radians(25))
 """Elbows hang down and a little back: with the wrist in front the arm's plane is vertical, as DESIGN has it, and with
 the wrist under the shoulder the elbow is behind (our choice)."""
@@ -97,87 +94,99 @@ class ArmLengths:
     roll_cosine: float = 1.0
 
 
-def solve(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a tenth of a pose
+def solve(
     m: Maths, lengths: ArmLengths, shoulder: Point, contact: Contact, offsets: Offsets, wing_more: Number = 0.0
 ) -> Arm:
     """The arm at `shoulder` whose stick would touch `contact`, moved by `offsets`, its elbow out by `wing_more`.
 
     Where the contact is out of reach, the shoulder itself comes forward by what is missing, as shoulders do a little.
     """
-    sin, cos, sqrt, most = m.sin, m.cos, m.sqrt, m.most
+    joints, butt, tip, back, angles, missing = chain(m, lengths, shoulder, contact, offsets, wing_more)
+    return Arm(joints[:3], joints[3:6], joints[6:9], joints[9:], tip, butt, back, *angles, missing)
+
+
+ArmChain = tuple[tuple[Number, ...], Point, Point, Point, tuple[Number, ...], Number]
+"""`Arm` without names: x, y, z of root, elbow, wrist and hand in one, butt, tip, back, the six angles, the missing."""
+
+
+def chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a tenth of a pose
+    m: Maths, lengths: ArmLengths, shoulder: Point, contact: Contact, offsets: Offsets, wing_more: Number
+) -> ArmChain:
+    """`solve` in plain tuples, as a row takes it."""
+    sin, cos, sqrt, atan2, acos, most = m.sin, m.cos, m.sqrt, m.atan2, m.acos, m.most
     sx, sy, sz = shoulder
     cx, cy, cz, stick_rise, hand_rise, stick_yaw, hand_yaw, touching, wing = contact
     raised_shoulder, raised_elbow, raised_wrist, raised_stick = offsets
     upper, fore, h = lengths.upper, lengths.fore, lengths.hand
-    # plan directions towards the player of the stick (ux, uy) and the hand (vx, vy)
+    whole = upper + fore
+    # plan directions: towards the player (gx, gy), and turned from it those of the stick (ux, uy) and hand (vx, vy)
     dx, dy = sx - cx, sy - cy
     plan = sqrt(dx * dx + dy * dy)
-    c, s = cos(stick_yaw) / plan, sin(stick_yaw) / plan
-    ux, uy = dx * c - dy * s, dx * s + dy * c
-    c, s = cos(hand_yaw) / plan, sin(hand_yaw) / plan
-    vx, vy = dx * c - dy * s, dx * s + dy * c
-    # the wrist at the contact: up the stick, up the hand
+    gx, gy = dx / plan, dy / plan
+    c, s = cos(stick_yaw), sin(stick_yaw)
+    ux, uy = gx * c - gy * s, gx * s + gy * c
+    c, s = cos(hand_yaw), sin(hand_yaw)
+    vx, vy = gx * c - gy * s, gx * s + gy * c
+    # from the shoulder to the wrist at the contact: up the stick, up the hand
     a, b = touching * cos(stick_rise), h * cos(hand_rise)
-    rx, ry = cx + a * ux + b * vx - sx, cy + a * uy + b * vy - sy
+    rx, ry = a * ux + b * vx - dx, a * uy + b * vy - dy
     rz = cz + touching * sin(stick_rise) + h * sin(hand_rise) - sz
     # the cosine law on upper arm, forearm and the distance from shoulder to wrist
     distance = sqrt(rx * rx + ry * ry + rz * rz)
-    over = most(distance - SOFT_FROM * (upper + fore), 0.0)
-    soft = m.least(over, SOFT_OVER * (upper + fore))
-    missing = soft * soft / (2 * SOFT_OVER * (upper + fore)) + over - soft
-    given = missing / distance  # the shoulder comes along with what is missing
-    sx, sy, sz = sx + given * rx, sy + given * ry, sz + given * rz
-    d = most(distance - missing, 1.0001 * abs(upper - fore))
-    uu, ff, dd = upper * upper, fore * fore, d * d
-    inside = m.acos((uu + dd - ff) / (2 * upper * d))
-    bend = HALF_TURN - m.acos((uu + ff - dd) / (2 * upper * fore))
-    # the arm's plane: along the line to the wrist, and down and back from it, where elbows hang
+    over = most(distance - SOFT_FROM * whole, 0.0)
+    soft = m.least(over, SOFT_OVER * whole)
+    missing = soft * soft / (2 * SOFT_OVER * whole) + over - soft
     kx, ky, kz = rx / distance, ry / distance, rz / distance
-    fx, fy = -dx / plan, -dy / plan
-    qx, qy = -BACK_SINE * fx, -BACK_SINE * fy
-    along = qx * kx + qy * ky - BACK_COSINE * kz
-    ex, ey, ez = qx - along * kx, qy - along * ky, -BACK_COSINE - along * kz
-    norm = sqrt(ex * ex + ey * ey + ez * ez)
-    ex, ey, ez = ex / norm, ey / norm, ez / norm
+    sx, sy, sz = sx + missing * kx, sy + missing * ky, sz + missing * kz  # the shoulder comes along
+    d = most(distance - missing, 1.0001 * abs(upper - fore))
+    dd, uu_ff = d * d, whole * (upper - fore)
+    inside = acos((dd + uu_ff) / (2 * upper * d))
+    forearm = acos((dd - uu_ff) / (2 * fore * d))
+    # the arm's plane: along the line to the wrist, and down and back from it, where elbows hang
+    along = BACK_SINE * (gx * kx + gy * ky) - BACK_COSINE * kz
+    norm = sqrt(1 - along * along)
+    ex, ey = (BACK_SINE * gx - along * kx) / norm, (BACK_SINE * gy - along * ky) / norm
+    ez = (-BACK_COSINE - along * kz) / norm
     # forward again, with the stroke on top: angles from the line towards the elbow's side
     lifted = raised_shoulder + raised_elbow
-    at_shoulder, at_elbow = inside - raised_shoulder, inside - bend - lifted
+    at_shoulder, at_elbow = inside - raised_shoulder, forearm + lifted
     cos_u, sin_u = upper * cos(at_shoulder), upper * sin(at_shoulder)
-    on, off = cos_u + fore * cos(at_elbow), sin_u + fore * sin(at_elbow)
+    on, off = cos_u + fore * cos(at_elbow), sin_u - fore * sin(at_elbow)
     wx, wy, wz = sx + on * kx + off * ex, sy + on * ky + off * ey, sz + on * kz + off * ez
-    # the elbow, swung about the line to the wrist (Rodrigues)
+    # the elbow: its foot on the line to the wrist, and from there out, swung about the line
     wing = wing + wing_more
     reach2 = on * on + off * off
-    cos_w, sin_w = cos(wing), sin(wing) / sqrt(reach2)
-    stays = (cos_u * on + sin_u * off) * (1 - cos_w) / reach2
-    a_k, a_e, a_n = cos_u * cos_w + stays * on, sin_u * cos_w + stays * off, -(on * sin_u - off * cos_u) * sin_w
-    jx, jy, jz = sx + a_k * kx + a_e * ex, sy + a_k * ky + a_e * ey, sz + a_k * kz + a_e * ez
-    jx, jy, jz = jx + a_n * (ky * ez - kz * ey), jy + a_n * (kz * ex - kx * ez), jz + a_n * (kx * ey - ky * ex)
-    # hand and stick
-    hand = QUARTER_TURN - hand_rise + lifted + lengths.turns_hand * raised_wrist
-    stick = QUARTER_TURN - stick_rise + lifted + raised_wrist + raised_stick
-    sin_h, cos_h, sin_s, cos_s = sin(hand), cos(hand), sin(stick), cos(stick)
-    px, py, pz = -sin_h * vx, -sin_h * vy, -cos_h
-    tx, ty, tz = -sin_s * ux, -sin_s * uy, -cos_s
-    hx, hy, hz = wx + h * px, wy + h * py, wz + h * pz
-    # the wrist's angles: the forearm seen from the hand's own axes (along, back, left)
-    bx, by, bz = (wx - jx) / fore, (wy - jy) / fore, (wz - jz) / fore
-    nx, ny, nz = -cos_h * vx, -cos_h * vy, sin_h
-    ahead_f, back_f, left_f = bx * px + by * py + bz * pz, bx * nx + by * ny + bz * nz, bx * vy - by * vx
+    foot, out = (cos_u * on + sin_u * off) / reach2, (sin_u * on - cos_u * off) / reach2
+    down = out * cos(wing)
+    a_k, a_e, a_n = foot * on - down * off, foot * off + down * on, -out * sqrt(reach2) * sin(wing)
+    jx = sx + a_k * kx + a_e * ex + a_n * (ky * ez - kz * ey)
+    jy = sy + a_k * ky + a_e * ey + a_n * (kz * ex - kx * ez)
+    jz = sz + a_k * kz + a_e * ez + a_n * (kx * ey - ky * ex)
+    # hand and stick, by their slopes up towards the player
+    hand = hand_rise - lifted - lengths.turns_hand * raised_wrist
+    stick = stick_rise - lifted - raised_wrist - raised_stick
+    cos_h, sin_h, cos_s, sin_s = cos(hand), sin(hand), cos(stick), sin(stick)
+    a = h * cos_h
+    hx, hy, hz = wx - a * vx, wy - a * vy, wz - h * sin_h
+    tx, ty = cos_s * ux, cos_s * uy
+    ahead, behind = lengths.ahead, lengths.behind
+    # the wrist's angles: the forearm seen from the hand's own axes, and the hand's rolled back
+    bx, by, bz = wx - jx, wy - jy, wz - jz
+    b = bx * vx + by * vy
     across, upward = lengths.roll_sine, lengths.roll_cosine
-    return Arm(
-        (sx, sy, sz),
-        (jx, jy, jz),
-        (wx, wy, wz),
-        (hx, hy, hz),
-        (hx + lengths.ahead * tx, hy + lengths.ahead * ty, hz + lengths.ahead * tz),
-        (hx - lengths.behind * tx, hy - lengths.behind * ty, hz - lengths.behind * tz),
-        (nx * upward - vy * across, ny * upward + vx * across, nz * upward),
-        m.atan2(-fx, fy),
-        m.atan2((cos_u * kx + sin_u * ex) * fx + (cos_u * ky + sin_u * ey) * fy, -(cos_u * kz + sin_u * ez)),
-        bend + raised_elbow,
-        -m.atan2(back_f, ahead_f),
-        -m.atan2(left_f, sqrt(ahead_f * ahead_f + back_f * back_f)),
-        stick - hand,
+    tilted = sin_h * upward
+    return (
+        (sx, sy, sz, jx, jy, jz, wx, wy, wz, hx, hy, hz),
+        (hx + behind * tx, hy + behind * ty, hz + behind * sin_s),
+        (hx - ahead * tx, hy - ahead * ty, hz - ahead * sin_s),
+        (-tilted * vx - across * vy, across * vx - tilted * vy, cos_h * upward),
+        (
+            atan2(gx, -gy),
+            atan2(-(cos_u * kx + sin_u * ex) * gx - (cos_u * ky + sin_u * ey) * gy, -(cos_u * kz + sin_u * ez)),
+            inside + forearm + raised_elbow,
+            atan2(sin_h * b - cos_h * bz, -(cos_h * b + sin_h * bz)),
+            atan2(by * vx - bx * vy, sqrt(b * b + bz * bz)),
+            hand - stick,
+        ),
         missing,
     )

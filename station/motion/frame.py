@@ -7,12 +7,14 @@ floats, for a live pose, and on arrays, for a whole performance (`maths`).
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from station.motion.arm import ArmLengths, Contact, Offsets, solve
+from station.motion.arm import ArmLengths, Contact, Offsets
+from station.motion.arm import chain as arm_chain
 from station.motion.figure import Figure
-from station.motion.leg import Footing, leg
+from station.motion.leg import Footing
+from station.motion.leg import chain as leg_chain
 from station.motion.maths import Maths, Number, Point
 from station.motion.pedals import BEATER_SWING_RAD, OPEN_GAP_M
-from station.motion.trunk import TrunkAngles, trunk
+from station.motion.trunk import chain as trunk_chain
 
 JOINTS = slice(0, 63)
 BUTT, TIP, PALM = slice(63, 69), slice(69, 75), slice(75, 81)
@@ -64,35 +66,36 @@ class Rig:
     def row(self, m: Maths, now: BodyNow, right: HandNow, left: HandNow, boards: tuple[Number, Number]) -> list[Number]:
         """All numbers but the instruments'; `boards` of the right and the left foot, 0 down … 1 raised."""
         twist, lean, side, shrug, wing, stand, bearing, pitch, bob, eyes = now
-        figure, gaze = self.figure, self.gaze
+        figure, gaze, hip, heel = self.figure, self.gaze, self.hip_m, self.heel
         x, y, z = self.pelvis
         y, z = y + STAND_M[0] * stand, z + STAND_M[1] * stand
         # the look is held in space, within what a neck can do
         most = self.neck_rad
         turn = m.most(m.least(gaze * bearing - twist, most), -most)
         nod, tilt = bob + gaze * LOOK_DOWN * pitch, -TILT_OF_TURN * turn
-        spine, neck, head, crown, right_shoulder, left_shoulder, facing, up = trunk(
-            m, figure, (x, y, z), TrunkAngles(twist, lean, side, nod, turn, tilt, shrug)
+        spine, right_shoulder, left_shoulder, face = trunk_chain(
+            m, figure, (x, y, z), (twist, lean, side, nod, turn, tilt, shrug)
         )
-        a = solve(m, self.arms[0], right_shoulder, *right, wing)
-        b = solve(m, self.arms[1], left_shoulder, *left, -wing)
-        hip, board_a, board_b = self.hip_m, boards[0] * self.raised[0], boards[1] * self.raised[1]
-        c = leg(m, self.footings[0], (x + hip, y, z), board_a, self.heel * (0.6 + 0.4 * boards[0]))
-        d = leg(m, self.footings[1], (x - hip, y, z), board_b, self.heel * (0.6 + 0.4 * boards[1]))
-        kick, hat = boards if self.right_kicks else (boards[1], boards[0])
+        arm_a, butt_a, tip_a, back_a, angles, _ = arm_chain(m, self.arms[0], right_shoulder, *right, wing)
+        heading_a, shoulder_a, elbow_a, wrist_a, aside_a, palm_a = angles
+        arm_b, butt_b, tip_b, back_b, angles, _ = arm_chain(m, self.arms[1], left_shoulder, *left, -wing)
+        heading_b, shoulder_b, elbow_b, wrist_b, aside_b, palm_b = angles
+        foot_a, foot_b = boards
+        board_a, board_b = foot_a * self.raised[0], foot_b * self.raised[1]
+        leg_a, bent_a = leg_chain(m, self.footings[0], (x + hip, y, z), board_a, heel * (0.6 + 0.4 * foot_a))
+        leg_b, bent_b = leg_chain(m, self.footings[1], (x - hip, y, z), board_b, heel * (0.6 + 0.4 * foot_b))
+        kick, hat = boards if self.right_kicks else (foot_b, foot_a)
         return [
-            *(x, y, z, *spine, *neck, *head, *crown),
-            *(*a.root, *a.elbow, *a.wrist, *a.hand, *b.root, *b.elbow, *b.wrist, *b.hand),
-            *(x + hip, y, z, *c.knee, *c.ankle, *c.toe, x - hip, y, z, *d.knee, *d.ankle, *d.toe),
-            *(*a.butt, *b.butt, *a.tip, *b.tip, *a.back, *b.back, *facing, *up),
+            *(x, y, z, *spine, *arm_a, *arm_b, x + hip, y, z, *leg_a, x - hip, y, z, *leg_b),
+            *(*butt_a, *butt_b, *tip_a, *tip_b, *back_a, *back_b, *face),
             *(twist, lean, side, nod, turn, tilt),
-            *(a.heading, a.shoulder, right[0].wing + wing, a.elbow_bend, a.extension, a.deviation),
-            *(self.rolls[0], a.palm, b.heading, b.shoulder, wing - left[0].wing, b.elbow_bend, b.extension),
-            *(-b.deviation, self.rolls[1], b.palm, *c.angles, *d.angles),
-            *(board_a, board_b, kick * BEATER_SWING_RAD, hat * OPEN_GAP_M, eyes),
+            *(heading_a, shoulder_a, right[0][WING] + wing, elbow_a, wrist_a, aside_a, self.rolls[0], palm_a),
+            *(heading_b, shoulder_b, wing - left[0][WING], elbow_b, wrist_b, -aside_b, self.rolls[1], palm_b),
+            *(*bent_a, *bent_b, board_a, board_b, kick * BEATER_SWING_RAD, hat * OPEN_GAP_M, eyes),
         ]
 
 
+WING = Contact._fields.index("wing")
 LOOK_DOWN = 0.5
 """How much of the way down to a drum the head nods; the eyes do the rest (our choice)."""
 TILT_OF_TURN = 0.12

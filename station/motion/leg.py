@@ -68,11 +68,21 @@ class Footing:
 
 def leg(m: Maths, footing: Footing, hip: Point, board_rad: Number, heel_rad: Number) -> Leg:
     """The leg from `hip` with the board raised by `board_rad` and the sole tipped by `heel_rad` over it, heel up."""
-    sqrt, acos = m.sqrt, m.acos
+    points, angles = chain(m, footing, hip, board_rad, heel_rad)
+    return Leg(points[:3], points[3:6], points[6:], angles)
+
+
+LegChain = tuple[tuple[Number, ...], tuple[Number, Number, Number]]
+"""`Leg` without names: x, y, z of knee, ankle and toe in one, and the angles."""
+
+
+def chain(m: Maths, footing: Footing, hip: Point, board_rad: Number, heel_rad: Number) -> LegChain:
+    """`leg` in plain tuples, as a row takes it."""
+    sin, cos, sqrt, acos, atan2 = m.sin, m.cos, m.sqrt, m.acos, m.atan2
     hx, hy = footing.heading
     x0, y0, z0 = footing.heel
     sole = board_rad - heel_rad
-    sin_b, cos_b, sin_s, cos_s = m.sin(board_rad), m.cos(board_rad), m.sin(sole), m.cos(sole)
+    sin_b, cos_b, sin_s, cos_s = sin(board_rad), cos(board_rad), sin(sole), cos(sole)
     # along the heading and up: the ball on the board, behind it the ankle over the sole, before it the toe
     foot, height = footing.foot_m, footing.ankle_m
     ball, back = BALL_ALONG * foot, (BALL_ALONG - ANKLE_ALONG) * foot
@@ -81,23 +91,21 @@ def leg(m: Maths, footing: Footing, hip: Point, board_rad: Number, heel_rad: Num
     reach = foot * cos_b
     # the knee by the cosine law, in the plane of hip, ankle and the way that it points
     thigh, shank = footing.thigh_m, footing.shank_m
+    whole = thigh + shank
     px, py, pz = hip
     dx, dy, dz = ax - px, ay - py, up - pz
-    d = m.least(sqrt(dx * dx + dy * dy + dz * dz), _STRAIGHT * (thigh + shank))
-    dd = d * d
-    inside = (thigh * thigh + dd - shank * shank) / (2 * thigh * d)
-    bend = acos((thigh * thigh + shank * shank - dd) / (2 * thigh * shank))
+    d = m.least(sqrt(dx * dx + dy * dy + dz * dz), _STRAIGHT * whole)
+    dd, tt_ss = d * d, whole * (thigh - shank)
+    inside, below = (dd + tt_ss) / (2 * thigh * d), (dd - tt_ss) / (2 * shank * d)
     ox, oy, oz = footing.knee_out
     share = (ox * dx + oy * dy + oz * dz) / dd
     ox, oy, oz = ox - share * dx, oy - share * dy, oz - share * dz
-    side = thigh * sqrt(1 - inside * inside) / sqrt(ox * ox + oy * oy + oz * oz)
+    side = thigh * sqrt((1 - inside * inside) / (ox * ox + oy * oy + oz * oz))
     on = thigh * inside / d
-    kx, ky, kz = px + on * dx + side * ox, py + on * dy + side * oy, pz + on * dz + side * oz
-    flexion = acos(m.most(m.least((pz - kz) / thigh, 1.0), -1.0))
-    shin = m.atan2(kz - up, (kx - ax) * hx + (ky - ay) * hy)
-    return Leg(
-        (kx, ky, kz),
-        (ax, ay, up),
-        (x0 + reach * hx, y0 + reach * hy, z0 + foot * sin_b),
-        (flexion, math.pi - bend, 0.5 * math.pi - shin + sole),
+    tx, ty, tz = on * dx + side * ox, on * dy + side * oy, on * dz + side * oz
+    kx, ky, kz = px + tx, py + ty, pz + tz
+    shin = atan2(kz - up, (kx - ax) * hx + (ky - ay) * hy)
+    return (
+        (kx, ky, kz, ax, ay, up, x0 + reach * hx, y0 + reach * hy, z0 + foot * sin_b),
+        (atan2(sqrt(tx * tx + ty * ty), -tz), acos(inside) + acos(below), 0.5 * math.pi - shin + sole),
     )

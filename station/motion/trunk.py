@@ -44,36 +44,41 @@ class Trunk(NamedTuple):
 
 def trunk(m: Maths, figure: Figure, pelvis: Point, angles: TrunkAngles) -> Trunk:
     """Every point of trunk and head over `pelvis`."""
+    points, right, left, ways = chain(m, figure, pelvis, angles)
+    return Trunk(points[:3], points[3:6], points[6:9], points[9:], right, left, ways[:3], ways[3:])
+
+
+TrunkChain = tuple[tuple[Number, ...], Point, Point, tuple[Number, ...]]
+"""`Trunk` without names: x, y, z of spine, neck, head and crown in one, the shoulders, facing and head up in one."""
+
+
+def chain(m: Maths, figure: Figure, pelvis: Point, angles: tuple[Number, ...]) -> TrunkChain:
+    """`trunk` in plain tuples, as a row takes it; `angles` in the order of `TrunkAngles`."""
     sin, cos = m.sin, m.cos
     twist, lean, side, nod, turn, tilt, shrug = angles
-    sin_t, cos_t = sin(twist), cos(twist)
-    sin_s, cos_s = sin(side), cos(side)
-    lower, upper = LOWER_SHARE * figure.trunk_m, (1 - LOWER_SHARE) * figure.trunk_m
+    sin_t, cos_t, sin_s, cos_s = sin(twist), cos(twist), sin(side), cos(side)
+    length = figure.trunk_m
+    lower, upper = LOWER_SHARE * length, (1 - LOWER_SHARE) * length
     px, py, pz = pelvis
-    forward, right, up = lower * sin(0.5 * lean), lower * 0.5 * sin_s, lower * cos(0.5 * lean)
-    ax, ay, az = px + right * cos_t - forward * sin_t, py + right * sin_t + forward * cos_t, pz + up
-    forward, right, up = upper * sin(lean) * cos_s, upper * sin_s, upper * cos(lean) * cos_s
+    # the trunk in its own plane, which is turned by the twist: to the right and forward
+    right, forward, bend = 0.5 * lower * sin_s, lower * sin(0.5 * lean), 0.5 * lean
+    ax, ay, az = px + right * cos_t - forward * sin_t, py + right * sin_t + forward * cos_t, pz + lower * cos(bend)
+    right, forward, up = upper * sin_s, upper * sin(lean) * cos_s, upper * cos(lean) * cos_s
     nx, ny, nz = ax + right * cos_t - forward * sin_t, ay + right * sin_t + forward * cos_t, az + up
     half = 0.5 * figure.shoulder_breadth_m
-    bx, by, bz = half * cos_s * cos_t, half * cos_s * sin_t, half * sin_s
-    lift = nz + shrug
+    across = half * cos_s
+    bx, by, bz, lift = across * cos_t, across * sin_t, half * sin_s, nz + shrug
     # the head keeps level against the lean but for its own nod
-    sin_h, cos_h = sin(twist + turn), cos(twist + turn)
-    pitch, roll = LEAN_TO_HEAD * lean + nod, LEAN_TO_HEAD * side + tilt
-    neck, bent = figure.neck_m, 0.5 * (lean + pitch)
-    forward, right, up = neck * sin(bent), neck * sin(0.5 * (side + roll)), neck * cos(bent)
-    hx, hy, hz = nx + right * cos_h - forward * sin_h, ny + right * sin_h + forward * cos_h, nz + up
-    sin_p, cos_p, sin_r, cos_r = sin(pitch), cos(pitch), sin(roll), cos(roll)
+    heading, pitch, roll = twist + turn, LEAN_TO_HEAD * lean + nod, LEAN_TO_HEAD * side + tilt
+    sin_h, cos_h, sin_p, cos_p, sin_r, cos_r = sin(heading), cos(heading), sin(pitch), cos(pitch), sin(roll), cos(roll)
+    neck, skull, bend = figure.neck_m, figure.head_m, 0.5 * (lean + pitch)
+    right, forward = neck * sin(0.5 * (side + roll)), neck * sin(bend)
+    hx, hy, hz = nx + right * cos_h - forward * sin_h, ny + right * sin_h + forward * cos_h, nz + neck * cos(bend)
     forward = sin_p * cos_r
     ux, uy, uz = sin_r * cos_h - forward * sin_h, sin_r * sin_h + forward * cos_h, cos_p * cos_r
-    skull = figure.head_m
-    return Trunk(
-        (ax, ay, az),
-        (nx, ny, nz),
-        (hx, hy, hz),
-        (hx + skull * ux, hy + skull * uy, hz + skull * uz),
+    return (
+        (ax, ay, az, nx, ny, nz, hx, hy, hz, hx + skull * ux, hy + skull * uy, hz + skull * uz),
         (nx + bx, ny + by, lift - bz),
         (nx - bx, ny - by, lift + bz),
-        (-sin_h * cos_p, cos_h * cos_p, -sin_p),
-        (ux, uy, uz),
+        (-sin_h * cos_p, cos_h * cos_p, -sin_p, ux, uy, uz),
     )
