@@ -102,7 +102,8 @@ def solve(
     Where the contact is out of reach, the shoulder itself comes forward by what is missing, as shoulders do a little.
     """
     joints, butt, tip, back, angles, missing = chain(m, lengths, shoulder, contact, offsets, wing_more)
-    return Arm(joints[:3], joints[3:6], joints[6:9], joints[9:], tip, butt, back, *angles, missing)
+    named = (joints[:3], joints[3:6], joints[6:9], joints[9:], tip, butt, back, *angles, missing)
+    return Arm._make(named)
 
 
 ArmChain = tuple[tuple[Number, ...], Point, Point, Point, tuple[Number, ...], Number]
