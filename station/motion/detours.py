@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Limb
-from station.motion.arm import Arm, Contact, solve
+from station.motion.arm import Arm, Contact, Offsets, solve
 from station.motion.clearance import ARM_M, STICKS_M
 from station.motion.collisions import ALONG, ARM_RADIUS_M, STICK_RADIUS_M, depth, segments_apart
 from station.motion.events import LONG_AGO_S
@@ -30,10 +30,13 @@ ROUNDS = 8
 """A detour may need another: so often the whole is looked at (our choice)."""
 _SPARE_M = 0.012
 """Nearer than this to touching is too near: styles move the body and the strokes a little (our choice)."""
+_LOW = 0.4
+"""A style may make strokes this much lower, and the way must be free then too (our choice)."""
 _LEAST_HUMP = 0.08
 """Moments at which less than this of a detour is left cannot be helped by it (our choice)."""
 _LOWER = 0.6
-"""Where neither hand travels, a stroke in the way is lowered by this factor a round (our choice)."""
+_LEAST_HEIGHT_M = 0.04
+"""Where neither hand travels, a stroke in the way is lowered by this factor a round, and not under this (our choice)."""
 
 _WAYS = np.array(
     [
@@ -84,8 +87,10 @@ def detoured(
                 bumps[found[0]][pair[found[0]]] += found[1]
             else:
                 side = scene.lower(moments)
-                most[side][pair[side] : pair[side] + 2] = _LOWER * np.minimum(
-                    most[side][pair[side] : pair[side] + 2], 1.0
+                near = slice(pair[side], pair[side] + 2)
+                least = np.minimum(_LEAST_HEIGHT_M / np.maximum(hands[side].strokes.height_m[near], 1e-6), 1.0)
+                most[side][near] = np.minimum(
+                    most[side][near], np.maximum(_LOWER * np.minimum(most[side][near], 1.0), least)
                 )
         hands = (hands[0].led(bumps[0], most[0]), hands[1].led(bumps[1], most[1]))
     return hands
@@ -179,11 +184,14 @@ class _Scene:
             + _ANGLE_COST_M * np.broadcast_to(self._beyond(side, arm), x.shape).max(1)
             + np.broadcast_to(arm.missing_m, x.shape).max(1)
         )
+        lower = Offsets(*(_LOW * o for o in strokes))
+        flat = [np.broadcast_to(p, (*x.shape, 3)) for p in _limbs(solve(MANY, lengths, (rx, ry, rz), every, lower))]
         best, found = np.inf, 0
         for k in np.argsort(prices, kind="stable").tolist():
             if prices[k] >= best:
                 break
-            price = float(prices[k]) + _DEPTH_COST * self._deepest(own[0][k], own[1][k])
+            deep = max(self._deepest(own[0][k], own[1][k]), self._deepest(flat[0][k], flat[1][k]))
+            price = float(prices[k]) + _DEPTH_COST * deep
             if price < best:
                 best, found = price, k
         return best, ways[found]

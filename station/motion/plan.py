@@ -93,8 +93,8 @@ class Plan:
 
     def _roots(self, time_s: Array) -> tuple[Point, Point]:
         """Where the right and the left shoulder naturally are at each time."""
-        natural = Style()
-        curves = body.curves(self.ground, natural, body.keys(self.ground, natural))
+        style = Style()
+        curves = body.curves(self.ground, style, body.keys(self.ground, style))
         twist, lean, side, shrug, _, _ = curves.many(time_s)
         frame = trunk(MANY, self.figure, self.pelvis, TrunkAngles(twist, lean, side, 0.0, 0.0, 0.0, shrug))
         return frame.right_shoulder, frame.left_shoulder
