@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Piece
 from station.music.score import Score
+from station.music.tempo import MeterChange
 
 Array = NDArray[np.float64]
 
@@ -25,26 +26,48 @@ NEARNESS = 1.5
 """The constant c of the density cofactor: rests near the beat weigh more (thesis: 0.5–3)."""
 SILENT_BOB = 0.3
 """The velocity cofactor of a beat on which nothing is struck: the head still keeps time (our choice)."""
+SILENT_BEATS = 2
+"""After so many beats without a stroke the music starts again (our choice)."""
 _LOUD = tuple(set(Piece) - {Piece.HIHAT, Piece.HIHAT_PEDAL, Piece.RIDE, Piece.RIDE_2})
 
 
 @dataclass(frozen=True, eq=False)
 class Beats:
-    """`time_s` (n,) of the beats, from before the score to after it; `count` (n,) of each from the score's start."""
+    """The felt beats, from before the score to after it: three eighths are one beat of a 6/8, 9/8 or 12/8.
+
+    `time_s` (n,); `in_bar` (n,) which beat of its bar each is, from 0, and `of_bar` (n,) how many the bar has.
+    """
 
     time_s: Array
-    count: NDArray[np.int64]
+    in_bar: NDArray[np.int64]
+    of_bar: NDArray[np.int64]
 
     @classmethod
     def of(cls, score: Score) -> "Beats":
         """The beats of `score`, its tempo and meter changes followed."""
-        ticks = [tick for tick, _ in score.tempo_map.beats_between(0, max(score.end_tick, 1))]
-        inside = score.tempo_map.seconds_at(np.array([*ticks, max(score.end_tick, 1)], np.int64))
-        first, last = float(inside[1] - inside[0]), float(inside[-1] - inside[-2])
-        before = inside[0] - first * np.arange(LEAD_IN_BEATS, 0, -1)
-        after = inside[-1] + last * np.arange(1, LEAD_OUT_BEATS + 1)
-        times = np.concatenate((before, inside, after))
-        return cls(times, np.arange(len(times)) - LEAD_IN_BEATS)
+        tempo_map, end = score.tempo_map, max(score.end_tick, 1)
+        felt = []
+        for tick, index in tempo_map.beats_between(0, end):
+            meter = tempo_map.meter_at(tick)
+            units = _units_of_a_beat(meter)
+            if index % units == 0:
+                felt.append((tick, index // units, meter.beats // units))
+        inside = tempo_map.seconds_at(np.array([*(f[0] for f in felt), end], np.int64))
+        first = float(inside[1] - inside[0])
+        last = float(inside[-2] - inside[-3]) if len(inside) > 2 else first  # the last beat may be cut short
+        lead_in, lead_out = np.arange(-LEAD_IN_BEATS, 0), np.arange(1, LEAD_OUT_BEATS + 1)
+        opening, closing = felt[0][2], felt[-1]
+        return cls(
+            np.concatenate((inside[0] + first * lead_in, inside[:-1], inside[-2] + last * lead_out)),
+            np.concatenate((lead_in % opening, [f[1] for f in felt], (closing[1] + lead_out) % closing[2])),
+            np.array([opening] * LEAD_IN_BEATS + [f[2] for f in felt] + [closing[2]] * LEAD_OUT_BEATS),
+        )
+
+    @property
+    def rate_bpm(self) -> Array:
+        """Felt beats a minute from each beat on, (n,)."""
+        steps = np.diff(self.time_s)
+        return 60.0 / np.concatenate((steps, steps[-1:]))
 
     @property
     def with_middles(self) -> Array:
@@ -53,6 +76,19 @@ class Beats:
         times[::2] = self.time_s
         times[1::2] = 0.5 * (self.time_s[1:] + self.time_s[:-1])
         return times
+
+
+def _units_of_a_beat(meter: MeterChange) -> int:
+    return 3 if meter.unit >= 8 and meter.beats > 3 and meter.beats % 3 == 0 else 1
+
+
+def restarts(beats_s: Array, onset_s: Array) -> NDArray[np.bool_]:
+    """The beats (n,) with or just before a stroke that follows a silence of `SILENT_BEATS`; onsets in order."""
+    found = np.zeros(len(beats_s), np.bool_)
+    if len(onset_s):
+        beat = np.clip(np.searchsorted(beats_s, onset_s + STRIKE_RANGE_S) - 1, 0, len(beats_s) - 1)
+        found[beat[np.diff(beat, prepend=-SILENT_BEATS) > SILENT_BEATS]] = True
+    return found
 
 
 def bob_cofactors(beats_s: Array, onset_s: Array, velocity: Array, piece: NDArray[np.uint8]) -> Array:

@@ -1,8 +1,10 @@
 """The body's keyframes under a style: twist, sway, bob, posture (thesis § 4.2.1, figures 4.11–4.15).
 
-Two keys a beat: forward on the beat, upright between, or in half time where the tempo is fast. The twist faces what is
-struck, between them where both hands strike, under a ceiling of its speed that looks ahead, so that the body turns
-before the stroke. Where a stroke is out of the arm's reach the trunk leans to it.
+Two keys a beat: forward on the beat, upright between; in half time, where the beat is fast, forward on every other beat
+from the bar's first. The twist faces what is struck, between them where both hands strike, under a ceiling of its speed
+that looks ahead, so that the body turns before the stroke. Where a stroke is out of the arm's reach the trunk leans to
+it. The head bobs to the beat, to every other beat or to the half beats, tilts from side to side with it, and lifts
+before the music starts again after a silence.
 """
 
 from dataclasses import dataclass
@@ -17,23 +19,27 @@ from station.motion.style import Style
 
 Array = NDArray[np.float64]
 
-TWIST_RAD_S = np.radians(90.0)
-"""Ceiling of the torso's angular speed (our choice: it turns through the kit in about a second)."""
+SPLINE_RUSH = 1.5
+"""Between keys that lie evenly a spline is at most so much faster than the straight line."""
 TWIST_WINDOW_S = 0.35
 """The torso follows the middle of what is struck within this time to each side (our choice)."""
 REST_S, TURN_BACK_S = 3.5, 1.5
 """In rests of this length the torso turns back to straight ahead, within so long after the stroke (our choice)."""
-SWAY_RAD, SIDE_RAD, BOB_RAD = np.radians((3.0, 2.5, 9.0))
-"""Sway of the back forward and sideways and bob of the head at the natural setting (our choice)."""
+SWAY_RAD, SIDE_RAD, BOB_RAD, TILT_RAD = np.radians((3.0, 2.5, 9.0, 6.0))
+"""Sway of the back forward and sideways, bob and tilt of the head at the natural setting (our choice)."""
+LIFT = 0.5
+"""Before the music starts again the head goes back by this share of a full bob (a wish of SMED's users; our choice)."""
+SLOW_BOB, FAST_BOB = 0.75, 1.5
+"""Under and from so many bobs a beat the head bobs on every other beat and on the half beats."""
 SHRUG_M = 0.012
 """How far the shoulders rise on the beat at the natural setting (our choice)."""
 
-CHANNELS = ("twist", "lean", "side", "shrug", "wing", "stand")
+CHANNELS = ("twist", "lean", "side", "shrug", "wing", "stand", "gaze", "breath")
 
 
-def limited(times_s: Array, angles: Array, speed: float) -> Array:
-    """`angles` (n,) bent as little as is needed for no two of them to be farther apart than `speed` allows."""
-    ramp = speed * times_s
+def limited(times_s: Array, angles: Array, speed: Array) -> Array:
+    """`angles` (n,) bent as little as is needed for no two to be farther apart than the `speed` (n,) there allows."""
+    ramp = np.concatenate(([0.0], np.cumsum(speed[:-1] * np.diff(times_s))))
     under = np.minimum(
         np.minimum.accumulate(angles - ramp) + ramp, np.minimum.accumulate((angles + ramp)[::-1])[::-1] - ramp
     )
@@ -81,53 +87,85 @@ def _with_rests(times: Array, bearings: Array) -> tuple[Array, Array]:
 class Ground:
     """What the body's keys stand on and no style changes: beats and middles, their bars from 1, bearings, bobs.
 
-    `time_s`, `bars`, `bearing`, `tempo_bpm` and `bob`, the cofactors, at the beats and the middles, each (2n − 1,).
+    `time_s`, `bars`, `bearing` and `bob`, the cofactors, at the beats and the middles, each (2n − 1,); `restart` (n,)
+    the beats on which the music starts again.
     """
 
     beats: Beats
     time_s: Array
     bars: Array
     bearing: Array
-    tempo_bpm: Array
     bob: Array
+    restart: NDArray[np.bool_]
 
 
 def keys(ground: Ground, style: Style) -> Array:
-    """Values of all `CHANNELS` at the ground's keys, before any reaching, (6, 2n − 1)."""
+    """Values of all `CHANNELS` at the ground's keys, before any reaching, (8, 2n − 1)."""
     bars = ground.bars
     values = np.zeros((len(CHANNELS), len(bars)))
-    phase = np.pi * (np.arange(len(bars)) - 2 * np.argmax(ground.beats.count == 0))  # a turn of 2π each beat
-    phase = np.where(ground.tempo_bpm > style.value("half_time_bpm", bars), phase / 2, phase)
-    forward = 0.5 * (1 + np.cos(phase))
+    forward, side = _sway(ground, style)
     twist = style.factor("amplitude_twist", bars) * TWIST_SHARE * ground.bearing
-    values[0] = limited(ground.time_s, np.clip(twist, -1.0, 1.0), TWIST_RAD_S)
+    ceiling = np.radians(style.value("twist_deg_s", bars)) / SPLINE_RUSH
+    values[0] = limited(ground.time_s, np.clip(twist, -1.0, 1.0), ceiling)
     back = style.factor("amplitude_back", bars)
     values[1] = np.radians(style.value("posture_deg", bars)) + back * SWAY_RAD * forward
-    values[2] = style.factor("amplitude_side", bars) * SIDE_RAD * np.cos(phase / 2)
+    values[2] = style.factor("amplitude_side", bars) * SIDE_RAD * side
     values[3] = style.factor("shrug", bars) * SHRUG_M * forward
     values[4] = np.radians(style.value("wing_deg", bars))
     values[5] = style.value("stand", bars)
+    values[6] = style.factor("amplitude_gaze", bars)
+    values[7] = style.factor("breathing", bars)
     return values
 
 
+def _sway(ground: Ground, style: Style) -> tuple[Array, Array]:
+    """How far forward, 0 … 1, and to which side, −1 … 1, the body is at each key, (2n − 1,) each."""
+    half_time = ground.beats.rate_bpm > style.value("half_time_bpm", ground.bars[::2])
+    down = ~half_time | _odd_beats(ground.beats)
+    count = np.arange(len(down))
+    to = down * (1.0 - 2.0 * (np.where(half_time, count // 2, count) % 2))
+    between = 0.5 * (half_time[:-1] & half_time[1:])
+    forward, side = np.zeros(len(ground.bars)), np.zeros(len(ground.bars))
+    forward[::2], side[::2] = down, to
+    forward[1::2], side[1::2] = between * (down[:-1] * 1.0 + down[1:]), between * (to[:-1] + to[1:])
+    return forward, side
+
+
+def _odd_beats(beats: Beats) -> NDArray[np.bool_]:
+    """The first, third … beats of each bar, but not the last before another bar's first."""
+    return np.asarray((beats.in_bar % 2 == 0) & ((beats.in_bar + 1 < beats.of_bar) | (beats.of_bar == 1)))
+
+
 def curves(ground: Ground, style: Style, values: Array) -> Curves:
-    """The splines through `values` (6, 2n − 1); the back's frequency makes its turn on the beat rounder or sharper."""
+    """The splines through `values` (8, 2n − 1); the back's frequency makes its turn on the beat rounder or sharper."""
     continuity = np.zeros(values.shape)
     continuity[1, ::2] = sharpness(style.factor("frequency_back", ground.bars[::2]))
     return _spline(ground.time_s, values, continuity)
 
 
-def bob_curve(ground: Ground, style: Style) -> Curves:
-    """The head's bob: down on every beat, or every half beat, by the music's cofactors."""
-    depth = style.factor("amplitude_neck", ground.bars) * BOB_RAD * ground.bob
-    sharp = sharpness(style.factor("frequency_neck", ground.bars))
-    times = ground.time_s
-    if style.bobs_per_beat >= 2:  # the keys between are the quarters
-        between = 0.5 * (times[1:] + times[:-1])
-        times = np.insert(times, np.arange(1, len(times)), between)
-        depth, sharp = (np.insert(x, np.arange(1, len(x)), 0.0) for x in (depth, sharp))
-    down = (np.arange(len(times)) % 2 == 0) * depth
-    return _spline(times, down[None], np.where(np.arange(len(times)) % 2 == 0, sharp, 0.0)[None])
+def head_curve(ground: Ground, style: Style) -> Curves:
+    """The head's nod, down on the beat by the music's cofactors, and its tilt, to the right and the left in turn."""
+    times, bars = _with_quarters(ground.time_s), _with_quarters(ground.bars)
+    place = np.arange(len(times)) % 4  # beat, quarter, middle, quarter
+    rate = style.value("bobs_per_beat", bars)
+    slow, fast = rate < SLOW_BOB, rate >= FAST_BOB
+    odd = np.repeat(_odd_beats(ground.beats), 4)[: len(times)]
+    down = (place == 0) & (odd | ~slow) | (place == 2) & fast
+    amount = style.factor("amplitude_neck", bars) * BOB_RAD
+    lift = np.zeros(len(times))
+    lift[2::4] = -LIFT * ground.restart[1:]
+    nod = amount * np.where(down, _with_quarters(ground.bob), lift)
+    halves = np.arange(len(times)) // 2
+    side = down * (1.0 - 2.0 * ((halves // np.where(slow, 4, np.where(fast, 1, 2))) % 2))
+    tilt = style.factor("amplitude_head_side", bars) * TILT_RAD * side
+    sharp = np.where(down, sharpness(style.factor("frequency_neck", bars)), 0.0)
+    kept = (place == 0) | (place == 2) & (fast | ~slow | (lift < 0)) | fast
+    return _spline(times[kept], np.stack([nod, tilt])[:, kept], np.stack([sharp, np.zeros(len(sharp))])[:, kept])
+
+
+def _with_quarters(values: Array) -> Array:
+    """Values at the beats and middles (n,) with the means between them, (2n − 1,)."""
+    return np.insert(values, np.arange(1, len(values)), 0.5 * (values[1:] + values[:-1]))
 
 
 def sharpness(frequency: Array) -> Array:

@@ -49,13 +49,14 @@ class Flourishes:
     tossed: list[bool]
 
     @classmethod
-    def of(cls, event_s: Array, likely: float, seed: int) -> "Flourishes":
-        """Flourishes in the rests between events (n,) in order; `likely` 0 … 1 is the chance that a rest has one."""
+    def of(cls, event_s: Array, likely: Array, seed: int) -> "Flourishes":
+        """Flourishes in the rests between events (n,) in order; `likely` (n,) or (1,), 0 … 1, is each rest's chance."""
         random = np.random.default_rng([seed, 2])
         chances, kinds = random.random(len(event_s)), random.random(len(event_s))
+        chance = np.broadcast_to(likely, event_s.shape)
         found: list[tuple[float, float, int, bool]] = []
         for k in np.flatnonzero(np.diff(event_s) > SPIN_REST_S).tolist():
-            if chances[k] >= likely:
+            if chances[k] >= chance[k]:
                 continue
             start, room = float(event_s[k]) + AWAY_S, float(event_s[k + 1] - event_s[k]) - 2 * AWAY_S
             toss = room > TOSS_REST_S - 2 * AWAY_S and kinds[k] > 0.5

@@ -29,7 +29,7 @@ STAND_M = (0.10, 0.30)
 
 
 class BodyNow(NamedTuple):
-    """What the body's channels say: `body.CHANNELS`, the look's bearing and pitch in space, the bob and the eyes."""
+    """What the body's channels say: `body.CHANNELS`, the look's bearing and pitch in space, head and eyes."""
 
     twist: Number
     lean: Number
@@ -40,6 +40,7 @@ class BodyNow(NamedTuple):
     bearing: Number
     pitch: Number
     bob: Number
+    tilt: Number
     eyes: Number
 
 
@@ -49,7 +50,7 @@ HandNow = tuple[Contact, Offsets]
 
 @dataclass(frozen=True, slots=True)
 class Rig:
-    """The parts that do not move: measures, the rolled hands, the feet's places, how far the head follows the look."""
+    """The parts that do not move: measures, the rolled hands, the feet's places."""
 
     figure: Figure
     pelvis: Point
@@ -59,20 +60,19 @@ class Rig:
     raised: tuple[float, float]
     heel: float
     right_kicks: bool
-    gaze: float
     neck_rad: float
     hip_m: float
 
     def row(self, m: Maths, now: BodyNow, right: HandNow, left: HandNow, boards: tuple[Number, Number]) -> list[Number]:
         """All numbers but the instruments'; `boards` of the right and the left foot, 0 down … 1 raised."""
-        twist, lean, side, shrug, wing, stand, bearing, pitch, bob, eyes = now
-        figure, gaze, hip, heel = self.figure, self.gaze, self.hip_m, self.heel
+        twist, lean, side, shrug, wing, stand, bearing, pitch, bob, tilt, eyes = now
+        figure, hip, heel = self.figure, self.hip_m, self.heel
         x, y, z = self.pelvis
         y, z = y + STAND_M[0] * stand, z + STAND_M[1] * stand
         # the look is held in space, within what a neck can do
         most = self.neck_rad
-        turn = m.most(m.least(gaze * bearing - twist, most), -most)
-        nod, tilt = bob + gaze * LOOK_DOWN * pitch, -TILT_OF_TURN * turn
+        turn = m.most(m.least(FOLLOWS * bearing - twist, most), -most)
+        nod, tilt = bob + LOOK_DOWN * pitch, tilt - TILT_OF_TURN * turn
         spine, right_shoulder, left_shoulder, face = trunk_chain(
             m, figure, (x, y, z), (twist, lean, side, nod, turn, tilt, shrug)
         )
@@ -96,7 +96,9 @@ class Rig:
 
 
 WING = Contact._fields.index("wing")
-LOOK_DOWN = 0.5
+FOLLOWS = 0.9
+"""How far the head turns to what is looked at; the eyes do the rest (our choice)."""
+LOOK_DOWN = 0.45
 """How much of the way down to a drum the head nods; the eyes do the rest (our choice)."""
 TILT_OF_TURN = 0.12
 """A head that turns tilts a little with it (our choice)."""

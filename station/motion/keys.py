@@ -23,7 +23,7 @@ from station.motion.plan import Plan, bar_places, holds
 from station.motion.reach import leans
 from station.motion.splines import Curves
 from station.motion.stroke import Sliders, Strokes
-from station.motion.style import NATURAL, Style, bent
+from station.motion.style import Style
 from station.motion.travel import Way
 from station.music.score import Score
 
@@ -64,11 +64,14 @@ class HandKeys:
     @classmethod
     def of(cls, score: Score, hand: HandPart, style: Style) -> "HandKeys":
         """The keys of `hand` under `style`."""
-        likely = float(style.value("flourish", 1.0)) / 100
-        flourishes = Flourishes.of(hand.events.time_s, likely, style.seed + int(hand.limb)) if likely else None
+        bars = _bars(score, hand, style)
+        likely = style.value("flourish", bars) / 100
+        flourishes = None
+        if likely.any():
+            flourishes = Flourishes.of(hand.events.time_s, likely, style.seed + int(hand.limb))
         if flourishes is not None and not flourishes.start_s:
             flourishes = None
-        return cls(hand.way, Strokes.of(hand.strokes, sliders(score, hand, style)), flourishes)
+        return cls(hand.way, Strokes.of(hand.strokes, sliders(score, hand, style, bars)), flourishes)
 
     def now(self, time_s: Number, sample: Sample) -> tuple[HandNow, Number | None]:
         """The contact and the stroke, and how high a tossed stick is over the hand, None where nothing is tossed."""
@@ -89,11 +92,10 @@ class Keys:
 
     hands: tuple[HandKeys, HandKeys]
     body: Curves
-    bob: Curves
+    head: Curves
     gaze: Curves
     blinks: Blinks
     feet: tuple[Curves, Curves]
-    breathing: float
     rig: Rig
     instruments: tuple[Instrument, ...]
 
@@ -112,23 +114,23 @@ class Keys:
         return cls(
             hands=(right, left),
             body=first,
-            bob=body.bob_curve(ground, style),
-            gaze=plan.gaze(float(style.value("look_around", 1.0)) / 100, style.seed),
+            head=body.head_curve(ground, style),
+            gaze=plan.gaze(style),
             blinks=plan.blinks(style.seed),
             feet=(plan.hat, kick) if left_kick else (kick, plan.hat),
-            breathing=float(style.factor("breathing", 1.0)),
             rig=rig_of(plan, style),
             instruments=plan.instruments,
         )
 
     def row(self, m: Maths, time_s: Number, sample: Sample) -> list[Number]:
         """The whole drummer as a row of `frame`, the instruments left out."""
-        twist, lean, side, shrug, wing, stand = sample(self.body, time_s)
+        twist, lean, side, shrug, wing, stand, gaze, breath = sample(self.body, time_s)
         bearing, pitch = sample(self.gaze, time_s)
-        shrug = shrug + self.breathing * BREATH_M * m.sin(BREATH_RATE * time_s)
+        nod, tilt = sample(self.head, time_s)
+        shrug = shrug + breath * BREATH_M * m.sin(BREATH_RATE * time_s)
         now = BodyNow(
-            *(twist, lean, side, shrug, wing, stand, bearing, pitch),
-            *(sample(self.bob, time_s)[0], sample(self.blinks, time_s)),
+            *(twist, lean, side, shrug, wing, stand, gaze * bearing, gaze * pitch),
+            *(nod, tilt, sample(self.blinks, time_s)),
         )
         feet = sample(self.feet[0], time_s)[0], sample(self.feet[1], time_s)[0]
         (right, right_toss), (left, left_toss) = (hand.now(time_s, sample) for hand in self.hands)
@@ -142,27 +144,33 @@ class Keys:
         return row
 
 
-def sliders(score: Score, hand: HandPart, style: Style) -> Sliders:
+def _bars(score: Score, hand: HandPart, style: Style) -> Array:
+    """The place in bars of each event of `hand`; one for all where nothing changes over the bars or it is idle."""
+    if not style.automation or not len(hand.events.row):
+        return np.ones(1)
+    return bar_places(score, score.notes["tick"][hand.events.row])
+
+
+def sliders(score: Score, hand: HandPart, style: Style, bars: Array) -> Sliders:
     """What `style` does to the strokes of `hand`, each in its bar."""
-    bars = (
-        bar_places(score, score.notes["tick"][hand.events.row])
-        if style.automation and len(hand.events.row)
-        else np.ones(1)
-    )
     gains = [style.joint_factor("amplitude", j, bars) for j in ("shoulder", "elbow", "wrist")]
     fingers = gains[2] * style.factor("amplitude_fingers", bars)
     paces = [style.joint_factor("frequency", j, bars) for j in ("shoulder", "elbow", "wrist", "wrist")]
     gain = np.array([*gains, fingers])
-    if style.pieces and len(hand.events.row):
-        own = np.full(len(Piece), 1.0)
-        for piece, amplitude in style.pieces.items():
-            own[piece] = bent(amplitude / NATURAL)
-        gain = gain * own[score.notes["piece"][hand.events.row]]
-    return Sliders(gain, np.maximum(np.array(paces), SLOWEST), style.factor("whip", bars)[None])
+    if len(hand.events.row):
+        struck = score.notes["piece"][hand.events.row]
+        for piece in style.own_pieces:
+            gain = gain * np.where(struck == piece, style.piece_factor(piece, bars), 1.0)
+    return Sliders(gain, _pace(np.array(paces)), style.factor("whip", bars)[None])
 
 
 SLOWEST = 0.3
 """A stroke never takes longer than its natural time over this (our choice)."""
+
+
+def _pace(frequency: Array) -> Array:
+    """How much faster strokes are than natural, from `SLOWEST` at no frequency on, so that every setting counts."""
+    return np.where(frequency < 1, SLOWEST + (1 - SLOWEST) * frequency, frequency)
 
 
 def rig_of(plan: Plan, style: Style) -> Rig:
@@ -180,7 +188,6 @@ def rig_of(plan: Plan, style: Style) -> Rig:
         raised=(pedals[0].raised_rad, pedals[1].raised_rad),
         heel=HEEL_RAD[style.heel],
         right_kicks=not plan.kit.left_handed,
-        gaze=0.9 * float(style.factor("amplitude_gaze", 1.0)),
         neck_rad=plan.figure.limits.neck_rotation,
         hip_m=plan.figure.hip_breadth_m / 2,
     )

@@ -1,20 +1,21 @@
 """What no slider changes of a performance: limbs, both hands' parts, the body's ground, pedals, instruments."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Limb, Piece, Zone
 from station.motion import body
-from station.motion.beats import Beats, bob_cofactors
+from station.motion.beats import Beats, bob_cofactors, restarts
 from station.motion.body import Ground, mean_bearing
 from station.motion.clearance import cleared
 from station.motion.contacts import Strike, target_of
 from station.motion.detours import detoured, looks
 from station.motion.events import HandEvents, hand_events
 from station.motion.figure import Figure
-from station.motion.gaze import gaze_curve
+from station.motion.gaze import Sights, gaze_curve
 from station.motion.grip import GRIPS, HELD, Hold
 from station.motion.hand import HandPart
 from station.motion.instruments import Instrument, instruments
@@ -95,22 +96,33 @@ class Plan:
         """Where the right and the left shoulder naturally are at each time."""
         style = Style()
         curves = body.curves(self.ground, style, body.keys(self.ground, style))
-        twist, lean, side, shrug, _, _ = curves.many(time_s)
+        twist, lean, side, shrug, *_ = curves.many(time_s)
         frame = trunk(MANY, self.figure, self.pelvis, TrunkAngles(twist, lean, side, 0.0, 0.0, 0.0, shrug))
         return frame.right_shoulder, frame.left_shoulder
 
-    def gaze(self, around: float, seed: int) -> Curves:
-        """Where the drummer looks; `around` 0 … 1 how often a rest is used to look around."""
-        order = np.argsort(self.score.onset_ns, kind="stable")
+    def gaze(self, style: Style) -> Curves:
+        """Where the drummer looks."""
+        sights, ticks = self._sights
+        bars = bar_places(self.score, ticks) if style.automation else np.ones(1)
+        return gaze_curve(sights, style.value("look_around", bars) / 100, style.seed)
+
+    @cached_property
+    def _sights(self) -> tuple[Sights, NDArray[np.int64]]:
+        """The hands' strikes as the eyes find them, and their ticks."""
+        score = self.score
+        order = np.argsort(score.onset_ns, kind="stable")
         order = order[np.isin(self.assignment.limbs[order], HANDS)]
-        points = self.strike_m[order]
         x, y, z = self.pelvis
         eyes = np.array([x, y + 0.05, z + self.figure.trunk_m + self.figure.neck_m + 0.5 * self.figure.head_m])
-        away = points - eyes
+        away = self.strike_m[order] - eyes
         bearing = np.arctan2(-away[:, 0], np.maximum(away[:, 1], 0.05))
         pitch = np.arctan2(-away[:, 2], np.hypot(away[:, 0], away[:, 1]))
-        place = np.array([self.kit.stand_in_table[p] for p in self.score.notes["piece"][order].tolist()], np.int64)
-        return gaze_curve(self.score.onset_s[order], place, np.stack([bearing, pitch], 1), around, seed)
+        place = np.array([self.kit.stand_in_table[p] for p in score.notes["piece"][order].tolist()], np.int64)
+        ticks = score.notes["tick"][order]
+        bars = score.tempo_map.bars_at(ticks)
+        starts = [score.tempo_map.bar_start(b) for b in range(int(bars.max(initial=0)) + 2)]
+        bar_s = np.diff(score.tempo_map.seconds_at(np.array(starts, np.int64)))[bars]
+        return Sights(score.onset_s[order], place, np.stack([bearing, pitch], 1), bar_s), ticks
 
     def blinks(self, seed: int) -> Blinks:
         """When the drummer blinks, from before the score's start to after its end."""
@@ -141,8 +153,6 @@ def _ground(score: Score, kit: Kit, limbs: NDArray[np.int8], points: Array) -> G
     beats = Beats.of(score)
     times = beats.with_middles
     ticks = score.tempo_map.ticks_at(np.maximum(times, 0.0))
-    bpm = np.array([t.us_per_quarter for t in score.tempo_map.tempos], np.float64)
-    rate = 60e6 / bpm[np.maximum(np.searchsorted([t.tick for t in score.tempo_map.tempos], ticks, "right") - 1, 0)]
     velocity = notes["velocity"].astype(np.float64)
     bob = np.empty(len(times))
     bob[::2] = bob_cofactors(times[::2], onset, velocity, notes["piece"])
@@ -152,8 +162,8 @@ def _ground(score: Score, kit: Kit, limbs: NDArray[np.int8], points: Array) -> G
         time_s=times,
         bars=bar_places(score, ticks),
         bearing=mean_bearing(times, onset[hands], bearing),
-        tempo_bpm=rate,
         bob=bob,
+        restart=restarts(beats.time_s, onset),
     )
 
 

@@ -26,7 +26,7 @@ def leans(curves: Curves, hands: tuple[HandPart, HandPart], figure: Figure, pelv
         if not len(hand.events.row):
             continue
         times = hand.strokes.strike_s
-        twist, lean, tilt, shrug, _, _ = curves.many(times)
+        twist, lean, tilt, shrug, *_ = curves.many(times)
         body = trunk(MANY, figure, pelvis, TrunkAngles(twist, lean, tilt, 0.0, 0.0, 0.0, shrug))
         shoulder = body.left_shoulder if side else body.right_shoulder
         far = np.sqrt(sum((s - w) ** 2 for s, w in zip(shoulder, hand.wrist_m.T, strict=True)))

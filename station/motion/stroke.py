@@ -78,6 +78,8 @@ _SHORT_REST = 0.5
 """Where strokes are near, the rest after a stroke is shortened to this share before the preparation is."""
 _LEAST_PAUSE = 0.03
 """Share of the gap that lies at least between the rest after a strike and the start of the next."""
+_LEAST_HEIGHT_M = 0.001
+"""A stroke of no amplitude takes its time from this height."""
 _LONG_S = 10.0
 """The gap before the first and after the last strike."""
 _SHARE_MERGED = np.array([0.0, 0.85, 1.0, 0.7, 0.25])
@@ -202,7 +204,7 @@ class Strokes:
         gain = np.minimum(sliders.gain * np.minimum(room, 1.0), plan.most)
         peak = np.minimum(plan.amplitude * gain, plan.ceiling)
         n = len(strike_s)
-        times, merged = _times(strike_s, gaps, height_m * gain.mean(0), sliders)
+        times, merged = _times(strike_s, gaps, np.maximum(height_m * gain.mean(0), _LEAST_HEIGHT_M), sliders)
         values = _values(times, merged, peak, np.minimum(_REST_HEIGHT_M, 0.6 * height_m) / plan.lever_m)
         tension = np.tile(_TENSION[:, None, :], (1, n, 1))
         tension[..., 0] = _START_TENSION * (1 - merged)

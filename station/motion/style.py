@@ -5,8 +5,8 @@ middle of each and the whole range is of use, which the thesis asks for: what is
 setting, and the factor is bent so that it never passes `MOST`. The arm has a gain for each of amplitude and frequency,
 and each joint a share of it in per cent; `with_share` moves one share and keeps the ratio of the other two.
 
-Every control may be automated: a list of (bar, value) from which it is read by straight lines, so that phrases are
-played differently (thesis § 4.4.1, local control).
+Every number, a piece's amplitude too, may be automated: a list of (bar, value) from which it is read by straight lines,
+so that phrases are played differently (thesis § 4.4.1, local control).
 """
 
 from collections.abc import Mapping
@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from station.core.errors import BadInput
-from station.core.pieces import Piece
+from station.core.pieces import Piece, word
 
 Array = NDArray[np.float64]
 
@@ -45,9 +45,10 @@ Automation = tuple[tuple[float, float], ...]
 class Style:
     """All controls; the module's head tells the scale of amplitudes and frequencies.
 
-    Angles in degrees; `stand` 0 sits … 1 stands; `half_time_bpm` from which on the back sways in half time;
-    `bobs_per_beat` 1 or 2; `grip_right`, `grip_left`, `held` name entries of `grip`; `heel` "down", "up"; `beater`
-    "rebound" or "buried"; `pieces` an amplitude for single pieces, 50 natural; `seed` of all that chance decides.
+    Angles in degrees; `twist_deg_s` the ceiling of the torso's speed; `stand` 0 sits … 1 stands; `half_time_bpm` from
+    which on the back sways in half time; `bobs_per_beat` of the head, a half, 1 or 2; `grip_right`, `grip_left`, `held`
+    name entries of `grip`; `heel` "down", "up"; `beater` "rebound" or "buried"; `pieces` an amplitude for single
+    pieces, 50 natural; `seed` of all that chance decides.
     """
 
     name: str = "natural"
@@ -63,10 +64,12 @@ class Style:
     whip: float = NATURAL
     amplitude_neck: float = NATURAL
     frequency_neck: float = NATURAL
+    amplitude_head_side: float = 15.0
     amplitude_back: float = NATURAL
     frequency_back: float = NATURAL
     amplitude_side: float = 20.0
     amplitude_twist: float = NATURAL
+    twist_deg_s: float = 120.0
     amplitude_gaze: float = NATURAL
     shrug: float = 20.0
     breathing: float = NATURAL
@@ -88,9 +91,22 @@ class Style:
 
     def value(self, control: str, bars: ArrayLike) -> Array:
         """What `control` is at each place in bars from 1."""
-        points = self.automation.get(control)
+        return self._read(control, float(getattr(self, control)), bars)
+
+    def piece_factor(self, piece: Piece, bars: ArrayLike) -> Array:
+        """What multiplies the strokes on `piece` at each place in bars."""
+        return bent(self._read(word(piece), self.pieces.get(piece, NATURAL), bars) / NATURAL)
+
+    @property
+    def own_pieces(self) -> frozenset[Piece]:
+        """The pieces that have an amplitude of their own somewhere."""
+        return frozenset(self.pieces) | {p for p in Piece if word(p) in self.automation}
+
+    def _read(self, name: str, unchanged: float, bars: ArrayLike) -> Array:
+        """What the automation of `name` says, or `unchanged` where it says nothing."""
+        points = self.automation.get(name)
         if points is None:
-            return np.broadcast_to(np.float64(getattr(self, control)), np.shape(bars))
+            return np.broadcast_to(np.float64(unchanged), np.shape(bars))
         at, values = np.array(points, np.float64).T
         return np.asarray(np.interp(np.asarray(bars, np.float64), at, values))
 
@@ -129,7 +145,8 @@ _RANGES: Mapping[str, tuple[float, float]] = MappingProxyType(
         "wing_deg": (-20.0, 60.0),
         "posture_deg": (-10.0, 30.0),
         "stand": (0.0, 1.0),
-        "bobs_per_beat": (1.0, 2.0),
+        "twist_deg_s": (20.0, 240.0),
+        "bobs_per_beat": (0.5, 2.0),
         "half_time_bpm": (30.0, 1000.0),
     }
 )

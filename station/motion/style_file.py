@@ -82,7 +82,7 @@ def _amplitudes(table: Table) -> Mapping[Piece, float]:
 
 
 def _automation(table: Table) -> Mapping[str, Automation]:
-    table.only(set(NUMBERS))
+    table.only({*NUMBERS, *_PIECES})
     return MappingProxyType({key: _points(table, key) for key in table.raw})
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from station.core.pieces import Piece
 from station.core.units import PPQ
-from station.motion.beats import LEAD_IN_BEATS, SILENT_BOB, Beats, bob_cofactors
+from station.motion.beats import LEAD_IN_BEATS, SILENT_BOB, Beats, bob_cofactors, restarts
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 
@@ -64,4 +64,23 @@ def test_beats_follow_tempo_and_meter() -> None:
     inside = beats.time_s[LEAD_IN_BEATS:]
     assert inside[:9].tolist() == pytest.approx([0, 0.5, 1, 1.5, 2, 2.5, 3, 4, 5])
     assert np.diff(beats.time_s[: LEAD_IN_BEATS + 1]) == pytest.approx(0.5)  # the count-in at the first tempo
-    assert beats.count[LEAD_IN_BEATS] == 0
+    assert beats.in_bar[: LEAD_IN_BEATS + 7].tolist() == [1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0]
+    assert set(beats.of_bar.tolist()) == {3}
+    assert beats.rate_bpm[[LEAD_IN_BEATS, LEAD_IN_BEATS + 6]] == pytest.approx([120, 60])
+
+
+@pytest.mark.parametrize(
+    ("beats", "unit", "felt_s", "felt"), [(6, 8, 0.75, 2), (12, 8, 0.75, 4), (3, 8, 0.25, 3), (7, 8, 0.25, 7)]
+)
+def test_compound_meters_are_felt_in_groups_of_three(beats: int, unit: int, felt_s: float, felt: int) -> None:
+    """At 120 quarters a minute an eighth lasts 0.25 s."""
+    tempo_map = TempoMap.build([TempoChange(0, 500_000)], [MeterChange(0, beats, unit)])
+    found = Beats.of(Score.from_notes([Note(0, Piece.KICK), Note(7 * PPQ, Piece.KICK)], tempo_map))
+    assert np.diff(found.time_s)[: LEAD_IN_BEATS + 2] == pytest.approx(felt_s)
+    assert set(found.of_bar.tolist()) == {felt}
+
+
+def test_music_starts_again_after_two_silent_beats() -> None:
+    beats = np.arange(10.0)
+    assert np.flatnonzero(restarts(beats, np.array([1.0, 1.5, 2.0, 4.0, 7.5]))).tolist() == [1, 7]
+    assert not restarts(beats, np.zeros(0)).any()

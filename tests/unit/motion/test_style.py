@@ -173,3 +173,39 @@ def test_a_proposed_style_follows_the_music() -> None:
     assert dense.amplitude_gain < wild.amplitude_gain
     for style in (calm, wild, dense):
         checked(style)
+
+
+RESTS = [(i, Piece.SNARE) for i in (*range(0, 16, 4), 64, 128, *range(192, 208, 4))]
+"""A bar of quarters, rests of three bars and more, and a bar again: at 100 bpm bars 1 to 13."""
+RESTING = Drummer(score_of([*RESTS, *((i + 2, Piece.RIDE) for i, _ in RESTS)], tempo_bpm=100, velocity=90))
+ENDS = {"stand": (0.0, 1.0), "bobs_per_beat": (0.5, 2.0), "half_time_bpm": (30.0, 1000.0)}
+
+
+@pytest.mark.parametrize("control", NUMBERS)
+def test_every_control_can_change_over_the_bars(control: str) -> None:
+    """From its least to its greatest value: the first bars are as under the one, the last as under the other."""
+    low, high = ENDS.get(control, range_of(control))
+    styles = (
+        replace(Style(), **{control: low}),  # type: ignore[arg-type] # numbers only
+        replace(Style(), **{control: high}),  # type: ignore[arg-type]
+        replace(Style(), automation={control: ((7.5, low), (8.0, high))}),
+    )
+    at = np.arange(0.0, 31.0, 0.04)
+    first, last, changing = (RESTING.with_style(style).rows(at)[:, :115] for style in styles)
+    early, late = at < 9.0, at > 27.0
+    assert np.abs(changing[early] - first[early]).max() < 1e-6
+    assert np.abs(changing[late] - last[late]).max() < 1e-6
+    assert np.abs(first - last).max() > 1e-3
+
+
+def test_a_piece_can_change_over_the_bars() -> None:
+    score = score_of([(4 * i, Piece.SNARE) for i in range(16)], tempo_bpm=60, velocity=100)
+    drummer = Drummer(score, style=Style(automation={"snare": ((2.0, 15.0), (3.0, 85.0))}))
+    assert heights(drummer, 14.0) > 2 * heights(drummer, 2.0)
+
+
+def test_shares_may_also_be_set_without_constraint() -> None:
+    """Wish of SMED's users (thesis § 5.3.5): a joint alone is changed, the others stay as they are."""
+    style = replace(Style(), amplitude_wrist=80.0)
+    assert style.joint_factor("amplitude", "elbow", 1.0) == pytest.approx(1.0)
+    assert style.joint_factor("amplitude", "wrist", 1.0) > 1.5
