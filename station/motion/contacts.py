@@ -21,6 +21,7 @@ from station.motion.kit import Kit
 from station.motion.maths import MANY, ONE, Point
 from station.motion.piece import RIM_ABOVE_HEAD_M, Target
 from station.motion.posture import natural_shoulder
+from station.music.score import Score
 
 Array = NDArray[np.float64]
 
@@ -69,6 +70,15 @@ def target_of(kit: Kit, strike: Strike) -> Target:
     x, y, z = WAIT_M
     side = 1.0 if strike.limb == Limb.RIGHT_HAND else -1.0
     return replace(target, point_m=target.point_m + np.array([side * x, y, z]))
+
+
+def strike_points(score: Score, kit: Kit, limbs: NDArray[np.int8]) -> Array:
+    """The point that each stroke touches, (n, 3)."""
+    notes = score.notes
+    key = np.stack([notes["piece"], notes["zone"], notes["articulation"], limbs], 1)
+    kinds, which = np.unique(key, axis=0, return_inverse=True)
+    points = [target_of(kit, Strike(Piece(p), Zone(z), a, Limb(limb))).point_m for p, z, a, limb in kinds.tolist()]
+    return np.array(points).reshape(-1, 3)[which.reshape(-1)]
 
 
 @dataclass(frozen=True, slots=True)

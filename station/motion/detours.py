@@ -36,7 +36,7 @@ _LEAST_HUMP = 0.08
 """Moments at which less than this of a detour is left cannot be helped by it (our choice)."""
 _LOWER = 0.6
 _LEAST_HEIGHT_M = 0.04
-"""Where neither hand travels, a stroke in the way is lowered by this factor a round, and not under this (our choice)."""
+"""Where neither hand travels, a stroke in the way is lowered by this factor a round, not under this (our choice)."""
 
 _WAYS = np.array(
     [

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from station.core.errors import BadInput
 from station.core.pieces import Limb, Piece
+from station.motion.beyond import Beyond, beyond_human
 from station.motion.hand_notes import HandNotes, Hands
 from station.motion.kit import Kit
 from station.motion.smed_limbs import smed_hands
@@ -24,13 +25,18 @@ METHODS = ("station", "smed")
 class Assignment:
     """`limbs` (n,) of `Limb` in the order of the score's notes, `why` each was chosen, and by which `method`.
 
-    `warnings` name what is beyond a human, such as "bar 12 needs 14 strokes a second of one hand".
+    `beyond` is what is beyond a human; `warnings` say it, such as "bar 12 needs 14 strokes a second of one hand".
     """
 
     limbs: NDArray[np.int8]
     why: tuple[str, ...]
     method: str
-    warnings: tuple[str, ...]
+    beyond: tuple[Beyond, ...]
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """A sentence for each demand that is beyond a human, in order of bars."""
+        return tuple(b.text for b in self.beyond)
 
 
 def assign_limbs(score: Score, kit: Kit, method: str = "station", hands: Hands | None = None) -> Assignment:
@@ -50,7 +56,7 @@ def assign_limbs(score: Score, kit: Kit, method: str = "station", hands: Hands |
         limbs[rows] = chosen
         for row, reason in zip(rows, reasons, strict=True):
             why[row] = "written" if written[row] else reason
-    return Assignment(limbs, tuple(why), method, _beyond_human(score, limbs))
+    return Assignment(limbs, tuple(why), method, beyond_human(score, kit, limbs))
 
 
 def _feet(score: Score, lead: Hands) -> tuple[NDArray[np.int8], list[str]]:
@@ -67,27 +73,16 @@ def _feet(score: Score, lead: Hands) -> tuple[NDArray[np.int8], list[str]]:
     return limbs, why
 
 
-FASTEST_HZ = {True: 10.0, False: 11.0}
-"""Strokes a second of one hand (Fujii 2009) and one foot (HUMANS) that champions reach."""
-_BOUNCE_S = 0.04
-"""The second stroke of a double may come this soon: it is a rebound (HUMANS has 50–90 ms)."""
+def as_led(score: Score, kit: Kit) -> Score:
+    """`score` with its written sticking read for the player of `kit`.
+
+    Lessons write R and L for a right-handed drummer: R means the hand that leads. On a left-handed kit every written
+    limb changes sides; what is read so says what is played, and is not to be read so again.
+    """
+    if not kit.left_handed:
+        return score
+    return score.with_limbs(_OTHER_SIDE[score.notes["limb"].astype(np.int64)])
 
 
-def _beyond_human(score: Score, limbs: NDArray[np.int8]) -> tuple[str, ...]:
-    """One sentence for each bar and limb in which three strokes come faster than any human's."""
-    found: dict[tuple[int, Limb], float] = {}
-    for limb in (Limb.RIGHT_HAND, Limb.LEFT_HAND, Limb.RIGHT_FOOT, Limb.LEFT_FOOT):
-        rows = np.flatnonzero(limbs == limb)
-        rows = rows[np.argsort(score.onset_ns[rows], kind="stable")]
-        times = score.onset_s[rows]
-        if len(times) < 3:
-            continue
-        rate = 2.0 / np.maximum(times[2:] - times[:-2], 1e-3)
-        together = np.diff(times)[1:] < _BOUNCE_S / 2
-        for i in np.flatnonzero((rate > FASTEST_HZ[limb.is_hand] * 1.25) | together):
-            bar = int(score.bar[rows[i + 1]])
-            found[bar, limb] = max(found.get((bar, limb), 0.0), float(min(rate[i], 1.0 / _BOUNCE_S)))
-    return tuple(
-        f"bar {bar + 1} needs {rate:.0f} strokes a second of one {'hand' if limb.is_hand else 'foot'}"
-        for (bar, limb), rate in sorted(found.items())
-    )
+_OTHER_SIDE = np.array([Limb.LEFT_HAND, Limb.RIGHT_HAND, Limb.LEFT_FOOT, Limb.RIGHT_FOOT, Limb.UNKNOWN], np.int8)
+"""By `Limb`, whose unknown −1 finds the last."""

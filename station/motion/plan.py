@@ -6,12 +6,12 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Limb, Piece, Zone
+from station.core.pieces import Limb, Piece
 from station.motion import body
 from station.motion.beats import Beats, bob_cofactors, restarts
 from station.motion.body import Ground, mean_bearing
 from station.motion.clearance import cleared
-from station.motion.contacts import Strike, target_of
+from station.motion.contacts import strike_points
 from station.motion.detours import detoured, looks
 from station.motion.events import HandEvents, hand_events
 from station.motion.figure import Figure
@@ -132,15 +132,6 @@ class Plan:
 def holds(style: Style) -> tuple[Hold, Hold]:
     """What the right and the left hand hold, and how."""
     return Hold(GRIPS[style.grip_right], HELD[style.held]), Hold(GRIPS[style.grip_left], HELD[style.held])
-
-
-def strike_points(score: Score, kit: Kit, limbs: NDArray[np.int8]) -> Array:
-    """The point that each stroke touches, (n, 3)."""
-    notes = score.notes
-    key = np.stack([notes["piece"], notes["zone"], notes["articulation"], limbs], 1)
-    kinds, which = np.unique(key, axis=0, return_inverse=True)
-    points = [target_of(kit, Strike(Piece(p), Zone(z), a, Limb(limb))).point_m for p, z, a, limb in kinds.tolist()]
-    return np.array(points).reshape(-1, 3)[which.reshape(-1)]
 
 
 def _ground(score: Score, kit: Kit, limbs: NDArray[np.int8], points: Array) -> Ground:

@@ -16,7 +16,7 @@ from station.core.units import NS_PER_S
 from station.drills.lesson import Lesson
 from station.engine.messages import CUE_DTYPE, Bus
 from station.motion.kit import DEFAULT_KIT, load_kit
-from station.motion.limbs import assign_limbs
+from station.motion.limbs import as_led, assign_limbs
 from station.music.score import Score
 from station.practice.click import PLAIN, ClickPattern, click_cues, count_in, counting, pickup_of
 
@@ -173,7 +173,8 @@ def _with_sticking(section: Score, lesson: Lesson) -> Score:
     So the demonstration, the per-limb figures and the advice all speak of the same hands.
     """
     kit = load_kit(lesson.kit or DEFAULT_KIT)
-    return section.with_limbs(assign_limbs(section, kit).limbs)
+    led = as_led(section, kit)
+    return led.with_limbs(assign_limbs(led, kit).limbs)
 
 
 def _count_in(section: Score, bars: int) -> Score:

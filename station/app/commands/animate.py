@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from station.app.commands.output import say
-from station.app.commands.scores import load_score
+from station.app.commands.output import say, say_beyond
+from station.app.commands.scores import load_led_score
 from station.core.errors import BadInput
 from station.motion.drummer import Drummer
 from station.motion.figure import (
@@ -40,6 +40,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     styles = f"{', '.join(style_names())}, {PROPOSED} (what the score itself suggests), or a file"
     parser.add_argument("--style", metavar="NAME", default="natural", help=styles)
     parser.add_argument("--kit", metavar="NAME", default="", help="the drummer's kit: a shipped name or a file")
+    parser.add_argument(
+        "--as-written", action="store_true", help="on a left-handed kit, do not change the sides of a lesson's sticking"
+    )
     body = parser.add_mutually_exclusive_group()
     body.add_argument("--figure", metavar="NAME", default="", help=f"{', '.join(figure_names())}, or a file")
     body.add_argument("--stature", type=float, metavar="M", help="the drummer's height in metres, usual proportions")
@@ -56,7 +59,8 @@ def run(arguments: argparse.Namespace) -> int:
     ending = out.suffix.lower()
     if ending not in (".png", *_WRITERS):
         raise BadInput(out, "", f"expected a name that ends in {_ENDINGS}")
-    score, kit = load_score(arguments.score), load_kit(arguments.kit or DEFAULT_KIT)
+    kit = load_kit(arguments.kit or DEFAULT_KIT)
+    score = load_led_score(arguments.score, kit, arguments.as_written)
     style = propose_style(score) if arguments.style == PROPOSED else load_style(arguments.style)
     drummer = Drummer(score, kit, _figure(arguments), style)
     if ending == ".png":
@@ -65,6 +69,7 @@ def run(arguments: argparse.Namespace) -> int:
         draw_drummer(drummer, _moment_s(drummer.score, arguments), out, arguments.size)
     else:
         _WRITERS[ending]()(drummer, out, _times(drummer.score, arguments))
+    say_beyond(drummer.assignment.warnings)
     say(f"{'picture' if ending == '.png' else 'motion '}  {out}")
     return 0
 

@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from station.app.commands.output import print_json, say
-from station.app.commands.scores import TEXT_ENDING, load_score
+from station.app.commands.output import print_json, say, say_beyond
+from station.app.commands.scores import TEXT_ENDING, load_led_score
 from station.core.errors import BadInput
 from station.core.pieces import Limb, Piece, word
 from station.music.score import Score
@@ -22,6 +22,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("score", metavar="SCORE", help="a lesson, a MIDI file or a text score")
     parser.add_argument("--method", choices=METHODS, default=METHODS[0], help="how limbs are assigned (%(default)s)")
     parser.add_argument("--kit", default="", metavar="NAME", help="the drummer's kit: a shipped name or a file")
+    parser.add_argument(
+        "--as-written", action="store_true", help="on a left-handed kit, do not change the sides of a lesson's sticking"
+    )
     parser.add_argument("--text", type=Path, metavar="FILE.txt", help="write a text score whose limbs can be edited")
     parser.add_argument("--json", action="store_true", help="print one JSON document")
 
@@ -31,8 +34,9 @@ def run(arguments: argparse.Namespace) -> int:
     from station.motion.kit import DEFAULT_KIT, load_kit
     from station.motion.limbs import assign_limbs
 
-    score = load_score(arguments.score)
-    assigned = assign_limbs(score, load_kit(arguments.kit or DEFAULT_KIT), method=arguments.method)
+    kit = load_kit(arguments.kit or DEFAULT_KIT)
+    score = load_led_score(arguments.score, kit, arguments.as_written)
+    assigned = assign_limbs(score, kit, method=arguments.method)
     if arguments.text is not None:
         _write_text(score, assigned.limbs, arguments.text)
     rows = [
@@ -46,10 +50,13 @@ def run(arguments: argparse.Namespace) -> int:
         for i in range(len(score))
     ]
     if arguments.json:
-        print_json({"schema": SCHEMA, "method": assigned.method, "notes": rows})
+        print_json(
+            {"schema": SCHEMA, "method": assigned.method, "notes": rows, "beyond_human": list(assigned.warnings)}
+        )
     else:
         for row in rows:
             print(f"{row['index']:6d} {row['time_s']:10.3f} s  {row['piece']:14} {row['limb']:11} {row['why']}")
+    say_beyond(assigned.warnings)
     return 0
 
 

@@ -1,10 +1,16 @@
 """Reading what the user names: a SCORE (lesson or music file), a PERFORMANCE (MIDI file or capture)."""
 
+from __future__ import annotations
+
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from station.core.errors import BadInput
 from station.music.performance import Performance
 from station.music.score import Score
+
+if TYPE_CHECKING:
+    from station.motion.kit import Kit
 
 TEXT_ENDING = ".txt"
 """Of a text score: see `station.motion.text_score`."""
@@ -42,6 +48,16 @@ def load_score(name: str) -> Score:
     from station.drills.library import find_lesson
 
     return find_lesson(name).score
+
+
+def load_led_score(name: str, kit: Kit, as_written: bool = False) -> Score:
+    """The score that `name` means, a lesson's sticking read for the player of `kit` unless `as_written`."""
+    score = load_score(name)
+    if as_written or not is_lesson(name):
+        return score
+    from station.motion.limbs import as_led
+
+    return as_led(score, kit)
 
 
 def load_score_and_performance(score_name: str, performance_name: str) -> tuple[Score, Performance]:
