@@ -13,16 +13,21 @@ def session_facts(result: SessionResult, document: dict[str, Json]) -> ResultFac
     """The facts of `result`; `document` is its report."""
     plan = result.plan
     extra = result.alignment.hit_label == Label.EXTRA
-    points, advice = document["score"], document["advice"]
-    assert isinstance(advice, list), "the report is ours"
-    bars = f"bars {plan.first_bar + 1}–{plan.first_bar + plan.section.bar_count}"
+    points, session = document["score"], document["session"]
+    assert isinstance(session, dict), "the report is ours"
+    steps = session["next"]
+    assert isinstance(steps, list), "the report is ours"
+    first, last = plan.first_bar + 1, plan.first_bar + plan.section.bar_count
+    bars = f"bars {first}–{last}" if first != last else f"bar {first}"
     stopped = "" if result.complete else ", stopped early"
     passes = "1 pass" if plan.passes == 1 else f"{plan.passes} passes"
     words = Words(
         title=plan.lesson.title,
         subtitle=f"{passes} of {bars} at {plan.tempo_bpm:g} bpm{stopped}",
         points=float(points) if isinstance(points, float | int) else None,
-        advice=tuple(str(item["text"]) for item in advice if isinstance(item, dict)),
+        advice=tuple(map(str, steps)),
+        pass_bars=plan.section.bar_count,
+        first_bar=plan.first_bar,
     )
     return result_facts(
         result.score,

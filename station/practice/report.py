@@ -4,6 +4,8 @@ The document is the assessment of `station.scoring.document` with the session's 
 virtual student its own account under `truth`. docs/report.md describes it.
 """
 
+from collections.abc import Iterable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,6 +14,7 @@ from station.engine.engine import KEYBOARD
 from station.practice.headless import VirtualSession
 from station.practice.session import SessionResult
 from station.practice.virtual_student import VirtualPerformance
+from station.practice.what_next import advice_of, what_next
 from station.scoring.alignment import Alignment, Reference
 from station.scoring.document import Json, assessment
 from station.scoring.summary import View, summarise
@@ -32,6 +35,7 @@ def practice_document(result: SessionResult, student: str) -> dict[str, Json]:
         "complete": result.complete,
         "input_latency_ms": result.latency.input_ns / NS_PER_MS,
         "output_latency_ms": result.latency.output_ns / NS_PER_MS,
+        "next": [*what_next(document, plan.lesson, plan.tempo_bpm)],
     }
     return document
 
@@ -65,8 +69,10 @@ def _view(result: SessionResult) -> View:
 def _true_asynchrony_ns(student: VirtualPerformance) -> NDArray[np.int64]:
     """Played − written of every note that was answered, 0 elsewhere, shape (n,)."""
     hit = student.truth.hit_of_note
-    played_ns = student.performance.hits["at_ns"][np.maximum(hit, 0)]
-    return np.where(hit >= 0, played_ns - student.score.onset_ns, 0)
+    answered = hit >= 0
+    asynchrony_ns = np.zeros(len(hit), np.int64)
+    asynchrony_ns[answered] = student.performance.hits["at_ns"][hit[answered]] - student.score.onset_ns[answered]
+    return asynchrony_ns
 
 
 # --- text ------------------------------------------------------------------------------------------------------------
@@ -75,18 +81,30 @@ def _true_asynchrony_ns(student: VirtualPerformance) -> NDArray[np.int64]:
 def report_text(document: dict[str, Json]) -> str:
     """The report of a session in words."""
     session = _table(document, "session")
-    bars = session["bars"]
+    bars, steps = session["bars"], session["next"]
     assert isinstance(bars, list), "the report is ours"
-    head = f"{session['title']} at {session['tempo_bpm']:g} bpm, bars {bars[0]}-{bars[1]}, {session['passes']} passes"
+    assert isinstance(steps, list), "the report is ours"
+    which = f"bars {bars[0]}-{bars[1]}" if bars[0] != bars[1] else f"bar {bars[0]}"
+    passes = "1 pass" if session["passes"] == 1 else f"{session['passes']} passes"
+    head = f"{session['title']} at {session['tempo_bpm']:g} bpm, {which}, {passes}"
     latency = f"{session['input_latency_ms']:g} ms input, {session['output_latency_ms']:g} ms output"
     return (
         f"{head}{'' if session['complete'] else ' (stopped early)'}\n\n"
-        f"{assessment_text(document)}\nLatency taken out: {latency}.\n"
+        f"{_figures_text(document)}{_steps_text(map(str, steps))}\nLatency taken out: {latency}.\n"
     )
 
 
 def assessment_text(document: dict[str, Json]) -> str:
     """An assessment in words: the figures, each piece's lean and spread, and the advice."""
+    return _figures_text(document) + _steps_text(advice_of(document))
+
+
+def _steps_text(steps: Iterable[str]) -> str:
+    lines = [f"* {step}" for step in steps]
+    return "\n".join(["", "What to practise next", *lines, ""]) if lines else ""
+
+
+def _figures_text(document: dict[str, Json]) -> str:
     counts, timing = _table(document, "counts"), _table(document, "timing")
     lines = [
         f"Score {_figure(document['score'], '.0f')} of 100",
@@ -94,14 +112,14 @@ def assessment_text(document: dict[str, Json]) -> str:
         f" {counts['wrong_piece']} on a wrong piece; extra hits: {counts['extras']}",
         _timing_words(timing),
     ]
-    rows = [(piece, group) for piece, group in _table(document, "per_piece").items() if isinstance(group, dict)]
+    rows = [
+        (piece, group)
+        for piece, group in _table(document, "per_piece").items()
+        if isinstance(group, dict) and (group["notes"] or group["extras"])  # else only wrong hits landed there
+    ]
     if rows:
         lines += ["", f"{'piece':14}" + "".join(f"{name:>9}" for name in _COLUMNS)]
     lines += [f"{piece:14}" + "".join(f"{cell:>9}" for cell in _cells(group)) for piece, group in rows]
-    advice = document["advice"]
-    if isinstance(advice, list) and advice:
-        lines += ["", "What to practise next"]
-        lines += [f"* {item['text']}" for item in advice if isinstance(item, dict)]
     return "\n".join(lines) + "\n"
 
 
@@ -119,11 +137,11 @@ def _timing_words(timing: dict[str, Json]) -> str:
     mean, sd = timing["mean_signed_asynchrony_ms"], timing["sd_asynchrony_ms"]
     if not isinstance(mean, float | int):
         return "Timing: nothing to measure"
-    where = "on the click" if abs(mean) < _ON_THE_CLICK_MS else f"{abs(mean):.1f} ms {'early' if mean < 0 else 'late'}"
+    where = "on time" if abs(mean) < _ON_TIME_MS else f"{abs(mean):.1f} ms {'early' if mean < 0 else 'late'}"
     return f"Timing: {where} on average, spread (SD) {_figure(sd, '.1f')} ms"
 
 
-_ON_THE_CLICK_MS = 1.0
+_ON_TIME_MS = 1.0
 """Nobody hears a millisecond (HUMANS: 6 ms is just noticeable at best)."""
 
 

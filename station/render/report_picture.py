@@ -30,7 +30,7 @@ from station.render.palette import (
     with_opacity,
 )
 from station.render.png import write_png
-from station.render.results import Lean, ResultFacts, in_words, leans, whole_lean
+from station.render.results import Lean, ResultFacts, headline, in_words, leans, ticks
 from station.render.score_view import ON_TIME_MS, timing_colour
 
 _WIDTH, _HEIGHT = 1280.0, 800.0
@@ -41,7 +41,6 @@ _LEAN_REACH_MS = 60.0
 _TICKS = 56
 _MAX_ROWS = 8
 _ADVICE_SIZES = (15.5, 14.0, 12.5, 11.0)
-_NO_FAULT = "Nothing stands out: raise the tempo, or take the next lesson."
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +85,6 @@ def draw_report_png(facts: ResultFacts, path: Path, size: tuple[int, int] = (128
 class _Page:
     def __init__(self, facts: ResultFacts, ink: Ink) -> None:
         self._facts, self._ink = facts, ink
-        self._all = whole_lean(facts)
 
     def shapes(self) -> NDArray[np.void]:
         self._head()
@@ -100,29 +98,29 @@ class _Page:
 
     def _head(self) -> None:
         title = Type(34, INK, Face.BOLD)
-        self._ink.text(self._ink.fitted(self._facts.title, title, 1200), (40, 58), title)
+        self._ink.text(self._ink.fitted(self._facts.words.title, title, 1200), (40, 58), title)
         line = Type(18, INK_SOFT)
-        self._ink.text(self._ink.fitted(self._facts.subtitle, line, 1200), (40, 86), line)
+        self._ink.text(self._ink.fitted(self._facts.words.subtitle, line, 1200), (40, 86), line)
 
     def _points(self) -> None:
         """A dial of ticks, as many lit as there are points."""
         x, y = _SIDE.left + _SIDE.width / 2, _SIDE.top + 122
         self._card(_SIDE)
-        share = 0.0 if self._facts.points is None else self._facts.points / 100
+        share = 0.0 if self._facts.words.points is None else self._facts.words.points / 100
         for k in range(_TICKS):
             a = 2 * np.pi * (k + 0.5) / _TICKS
             way = np.array([np.sin(a), -np.cos(a)])
             colour = BRAND if (k + 0.5) / _TICKS <= share else INK_FAINT
             inner, outer = (x + 78 * way[0], y + 78 * way[1]), (x + 94 * way[0], y + 94 * way[1])
             self._ink.line(inner, outer, 4.0, colour)
-        number = "–" if self._facts.points is None else f"{self._facts.points:.0f}"
+        number = "–" if self._facts.words.points is None else f"{self._facts.words.points:.0f}"
         self._ink.text(number, (x, y + 20), Type(66, INK, Face.BOLD, 0.5))
         self._ink.text("of 100", (x, y + 46), Type(16, INK_SOFT, Face.REGULAR, 0.5))
 
     def _counts(self) -> None:
         facts, y = self._facts, _SIDE.top + 262
         x = _SIDE.left + 26
-        self._ink.paragraph(in_words(self._all).capitalize() + ".", (x, y), Type(20, INK, Face.BOLD), _SIDE.width - 52)
+        self._ink.paragraph(headline(facts).capitalize() + ".", (x, y), Type(20, INK, Face.BOLD), _SIDE.width - 52)
         y += 62
         rows = (
             (GOOD, f"{facts.count(Label.MATCH)} of {len(facts.label)} notes right"),
@@ -137,7 +135,7 @@ class _Page:
         y += 12
         self._ink.text("WHAT TO DO NEXT", (x, y), Type(13, BRAND, Face.BOLD))
         y += 26
-        self._advice(facts.advice or (_NO_FAULT,), (x, y))
+        self._advice(facts.words.advice, (x, y))
 
     def _advice(self, sentences: tuple[str, ...], at: tuple[float, float]) -> None:
         """The sentences, in the largest type in which they fit on the card."""
@@ -157,12 +155,17 @@ class _Page:
         if kind == 0:
             self._ink.ellipse(at, (7, 7), colour, 0.0, (0.0, 2.4, 0.0))
         elif kind == 1:
-            self._ink.ellipse(at, (7, 7), colour, 0.0, (0.0, 2.0, 0.0))
-            self._ink.line((at[0] - 5, at[1] + 5), (at[0] + 5, at[1] - 5), 2.0, colour)
+            self._barred_ring(at, 7.0, colour)
         elif kind == 2:
             self._ink.box((at[0] - 7, at[1] - 7), (14, 14), colour, None, (2.0, 2.2, 0.0))
         else:
             self._ink.cross(at, (5, 5), 2.6, colour)
+
+    def _barred_ring(self, at: tuple[float, float], radius: float, colour: tuple[float, float, float, float]) -> None:
+        """The sign of a miss."""
+        thick, reach = 0.29 * radius, 0.71 * radius
+        self._ink.ellipse(at, (radius, radius), colour, 0.0, (0.0, thick, 0.0))
+        self._ink.line((at[0] - reach, at[1] + reach), (at[0] + reach, at[1] - reach), thick, colour)
 
     def _card(self, box: _Box) -> None:
         self._ink.box((box.left, box.top), (box.width, box.height), PANEL, None, (14.0, 0.0, 0.0))
@@ -196,13 +199,12 @@ class _Page:
 
     def _bars(self) -> None:
         low = _PLOT.top + _PLOT.height + 4
-        bars = len(self._facts.bar_s) - 1
-        every = max(1, round(bars / 16))
-        for bar in range(0, bars, every):
+        counted, marks = ticks(self._facts)
+        for bar, number in marks:
             x = self._place_of(float(self._facts.bar_s[bar]))
             self._ink.box((x - 0.5, _PLOT.top + 24), (1.0, _PLOT.height - 44), with_opacity(INK_FAINT, 0.6))
-            self._ink.text(str(bar + 1), (x, low + 14), Type(12.5, INK_SOFT, Face.REGULAR, 0.5))
-        self._ink.text("bar", (_PLOT.left + 64, low + 14), Type(12.5, INK_SOFT, Face.REGULAR, 1.0))
+            self._ink.text(number, (x, low + 14), Type(12.5, INK_SOFT, Face.REGULAR, 0.5))
+        self._ink.text(counted, (_PLOT.left + 64, low + 14), Type(12.5, INK_SOFT, Face.REGULAR, 1.0))
 
     def _strokes(self) -> None:
         facts = self._facts
@@ -211,7 +213,7 @@ class _Page:
         for time_s, label, late_ms in zip(facts.time_s, facts.label, facts.asynchrony_ms, strict=True):
             x = self._place_of(float(time_s))
             if label == Label.MISS:
-                self._ink.cross((x, floor), (size * 0.8, size * 0.8), 1.8, MISSED)
+                self._barred_ring((x, floor), max(size, 4.0), MISSED)
                 continue
             at = (x, self._height_of(float(late_ms)))
             if label == Label.WRONG_PIECE:

@@ -19,26 +19,27 @@ ON_THE_BEAT_MS = 10.0
 STEADY_MS, FAIRLY_STEADY_MS = 20.0, 35.0
 """Spread that is called steady, and fairly steady: the bounds of a good pass (TEACHING, Defaults)."""
 
+NEARLY_ALL = 0.9
+"""Share of the notes from which only their timing is spoken of (TEACHING, Defaults: a pass is at least 90 % right)."""
+MOST_TICKS = 16
+"""Numbers that have room on the time axis; our choice."""
+
 
 @dataclass(frozen=True, eq=False)
 class ResultFacts:
     """A session's result.
 
     Rows of the arrays are the notes that were judged: `time_s`, `piece`, `label` of `Label`, `asynchrony_ms` NaN where
-    nothing was played. `extra_s` when unwritten hits fell, `bar_s` where bars begin, `points` 0–100, `advice`
-    sentences.
+    nothing was played. `extra_s` when unwritten hits fell, `bar_s` where bars begin and the last ends, `points` 0–100.
     """
 
-    title: str
-    subtitle: str
-    points: float | None
+    words: "Words"
     time_s: NDArray[np.float64]
     piece: NDArray[np.uint8]
     label: NDArray[np.uint8]
     asynchrony_ms: NDArray[np.float64]
     extra_s: NDArray[np.float64]
     bar_s: NDArray[np.float64]
-    advice: tuple[str, ...] = ()
 
     def count(self, label: Label) -> int:
         """How many notes bear `label`; extras are counted apart."""
@@ -47,12 +48,18 @@ class ResultFacts:
 
 @dataclass(frozen=True, slots=True)
 class Words:
-    """What is written on a result beside its numbers."""
+    """What is written on a result beside its numbers.
+
+    `points` 0–100, `advice` sentences on what to do next; a pass has `pass_bars` bars (0: all are one pass), the first
+    is the lesson's `first_bar`, from 0.
+    """
 
     title: str
     subtitle: str
     points: float | None
     advice: tuple[str, ...] = ()
+    pass_bars: int = 0
+    first_bar: int = 0
 
 
 def result_facts(
@@ -62,16 +69,13 @@ def result_facts(
     paired = (label == Label.MATCH) | (label == Label.WRONG_PIECE)
     bars = [score.tempo_map.bar_start(bar) for bar in range(score.bar_count + 1)]
     return ResultFacts(
-        words.title,
-        words.subtitle,
-        words.points,
+        words,
         score.onset_s,
         score.notes["piece"],
         label,
         np.where(paired, asynchrony_ns / 1e6, np.nan),
         extra_s,
         score.tempo_map.seconds_at(bars),
-        words.advice,
     )
 
 
@@ -96,6 +100,23 @@ def leans(facts: ResultFacts) -> Iterator[Lean]:
 def whole_lean(facts: ResultFacts) -> Lean:
     """The lean of all notes together."""
     return _lean("all", facts, np.ones(len(facts.piece), np.bool_))
+
+
+def headline(facts: ResultFacts) -> str:
+    """The whole in a few words: how much was right where that is less than nearly all, then bias and spread."""
+    if not facts.count(Label.MATCH):
+        return "nothing to judge"
+    share = facts.count(Label.MATCH) / len(facts.label)
+    return f"{'' if share >= NEARLY_ALL else f'{100 * share:.0f} % right; '}{in_words(whole_lean(facts))}"
+
+
+def ticks(facts: ResultFacts) -> tuple[str, list[tuple[int, str]]]:
+    """What the time axis counts, and its marks: row of `bar_s` and number. Passes if several, else bars."""
+    bars, pass_bars = len(facts.bar_s) - 1, facts.words.pass_bars
+    several = 0 < pass_bars < bars
+    step, first = (pass_bars, 0) if several else (1, facts.words.first_bar)
+    every = step * max(1, round(bars / step / MOST_TICKS))
+    return "pass" if several else "bar", [(bar, str(first + bar // step + 1)) for bar in range(0, bars, every)]
 
 
 def _lean(name: str, facts: ResultFacts, rows: NDArray[np.bool_]) -> Lean:

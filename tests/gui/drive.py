@@ -89,9 +89,9 @@ def practise(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.seen["frames"] = drive.wait_for(ctx, Stage.RESULT)
     report = drive.room.report()
     assert report is not None
-    drive.seen["points"] = report.facts.points
+    drive.seen["points"] = report.facts.words.points
     drive.seen["notes"] = len(report.facts.label)
-    drive.seen["title"] = report.facts.title
+    drive.seen["title"] = report.facts.words.title
     ctx.yield_(3)
     ctx.set_ref("//Transport")
     ctx.item_click("Back to the lessons##back")

@@ -8,7 +8,7 @@ from station.music.judgement import Label
 from station.render.atlas import Atlas
 from station.render.ink import Kind
 from station.render.report_picture import report_shapes, report_sheet
-from station.render.results import Lean, ResultFacts, Words, in_words, leans, result_facts, whole_lean
+from station.render.results import Lean, ResultFacts, Words, headline, in_words, leans, result_facts, ticks, whole_lean
 from tests.unit.render.scores import rock
 
 MS = 1_000_000
@@ -80,3 +80,27 @@ def test_the_page_fits_any_window() -> None:
     sheet = report_sheet((640, 800))
     assert sheet.unit == pytest.approx(0.5)
     assert sheet.origin == pytest.approx((0.0, 200.0))
+
+
+def played(missed: int, passes: int = 1, pass_bars: int = 0, first_bar: int = 0) -> ResultFacts:
+    score = rock().repeated(passes)
+    label = np.full(len(score), Label.MATCH, np.uint8)
+    label[:missed] = Label.MISS
+    return result_facts(
+        score, label, np.zeros(len(score), np.int64), np.empty(0), Words("", "", None, (), pass_bars, first_bar)
+    )
+
+
+def test_the_headline_does_not_praise_what_was_not_played() -> None:
+    assert len(rock()) == 12
+    assert headline(played(1)) == "steady and on the beat"  # 11 of 12 are 92 %
+    assert headline(played(6)) == "50 % right; steady and on the beat"
+    assert headline(played(12)) == "nothing to judge"
+
+
+def test_the_time_axis_counts_passes_or_the_lesson_s_bars() -> None:
+    assert ticks(played(0, 3)) == ("bar", [(0, "1"), (1, "2"), (2, "3")])
+    assert ticks(played(0, 3, pass_bars=3, first_bar=4)) == ("bar", [(0, "5"), (1, "6"), (2, "7")])
+    assert ticks(played(0, 4, pass_bars=2, first_bar=4)) == ("pass", [(0, "1"), (2, "2")])
+    counted, marks = ticks(played(0, 64, pass_bars=2))
+    assert (counted, marks[:2], len(marks)) == ("pass", [(0, "1"), (4, "3")], 16)

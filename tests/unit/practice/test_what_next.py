@@ -1,0 +1,74 @@
+"""What a student is told next: sentences for documents made by hand."""
+
+from dataclasses import replace
+
+import pytest
+
+from station.drills.lesson import Goals, Lesson
+from station.drills.library import find_lesson
+from station.practice.headless import practise_virtually
+from station.practice.plan import Wishes, plan_practice
+from station.practice.report import practice_document, report_text, with_truth
+from station.practice.student_spec import parse_spec
+from station.practice.what_next import what_next
+from station.scoring.document import Json
+
+ADVICE: Json = [{"fault": "late_kick", "text": "Your kick is late.", "bars": [1]}]
+
+
+def lesson(**goals: float | None) -> Lesson:
+    return replace(find_lesson("rock-1"), goals=replace(Goals(target_tempo_bpm=110.0), **goals))  # type: ignore[arg-type]
+
+
+def document(
+    matched: int = 100, sd_ms: float | None = 10.0, mean_ms: float | None = 0.0, **other: Json
+) -> dict[str, Json]:
+    counts: dict[str, Json] = {"notes": 100, "hits": matched, "matched": matched}
+    timing: dict[str, Json] = {"mean_signed_asynchrony_ms": mean_ms, "sd_asynchrony_ms": sd_ms}
+    return {"score": 90.0, "counts": counts, "timing": timing, "advice": [], **other}
+
+
+@pytest.mark.parametrize(
+    ("made", "goals", "said"),
+    [
+        (document(), {}, "raise the tempo."),
+        (document(89), {}, "89 % of the notes were right, 90 % are the goal"),
+        (document(94), {"min_accuracy": 0.95}, "94 % of the notes were right, 95 % are the goal"),
+        (document(94), {"min_accuracy": 0.94}, "raise the tempo."),
+        (document(sd_ms=25.5), {}, "spread by 26 ms and 25 are the goal"),
+        (document(sd_ms=25.5), {"max_sd_ms": 30.0}, "raise the tempo."),
+        (document(sd_ms=None, mean_ms=None), {}, "raise the tempo."),
+        (document(mean_ms=-12.5), {}, "raise the tempo."),
+        (document(mean_ms=-12.5), {"max_lean_ms": 10.0}, "13 ms early on average and the lesson allows 10"),
+        (document(), {"min_score": 95.0}, "The score is 90 and 95 is the goal"),
+        (document(advice=ADVICE), {"min_score": 95.0}, "Your kick is late."),
+        (document(0, None, None, advice=ADVICE), {}, "Not one hit was heard"),
+        (document(counts={"notes": 0, "hits": 0, "matched": 0}), {}, "nothing to judge"),
+    ],
+)
+def test_what_is_said(made: dict[str, Json], goals: dict[str, float | None], said: str) -> None:
+    (sentence,) = what_next(made, lesson(**goals), 80.0)
+    assert said in sentence
+
+
+def test_at_the_goal_the_next_lesson_comes_first() -> None:
+    assert what_next(document(), lesson(), 110.0) == ("Nothing stands out: take the next lesson, or raise the tempo.",)
+
+
+def test_a_session_without_a_hit_is_reported() -> None:
+    plan = plan_practice(find_lesson("rock-1"), Wishes(loops=1, bars=(2, 2)))
+    virtual = practise_virtually(plan, parse_spec("miss_pct=100"))
+    made = with_truth(practice_document(virtual.result, "Ida"), virtual)
+    text = report_text(made)
+    assert "Notes 12: 0 hit, 12 missed" in text
+    assert "bar 2, 1 pass\n" in text
+    assert "Not one hit was heard" in text
+    assert "leave out" not in text  # nobody who is not heard needs to hear that the kick is missing
+
+
+def test_pieces_that_were_neither_written_nor_struck_extra_have_no_line() -> None:
+    plan = plan_practice(find_lesson("rock-1"), Wishes())
+    virtual = practise_virtually(plan, parse_spec("intermediate,seed=1"))
+    made = practice_document(virtual.result, "Ida")
+    assert made["per_piece"]["crash_1"]["wrong_piece"] == 0  # type: ignore[index,call-overload] # its one hit was a hat's
+    assert "crash_1" not in report_text(made)
