@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from station.core.errors import BadInput
-from station.drills.toml_places import KeyPath, Places
+from station.core.toml_places import KeyPath, Places
 
 
 @dataclass(frozen=True, slots=True, order=True)

@@ -14,6 +14,7 @@ import numpy as np
 
 from station.core.errors import BadInput
 from station.core.pieces import Piece
+from station.core.toml_places import KeyPath
 from station.core.units import PPQ
 from station.drills.faults import Fault, Faults, raise_first
 from station.drills.grid_table import GridSection, Timing, note_length, read_grid, read_timing
@@ -31,7 +32,6 @@ from station.drills.playable import impossible
 from station.drills.strokes import Origin, Velocities, Written, expand
 from station.drills.swing import MAX_RATIO, MIN_RATIO, STRAIGHT, Swing
 from station.drills.table import Table, number, text, texts, title, whole
-from station.drills.toml_places import KeyPath
 from station.drills.toml_syntax import load
 from station.music.score import Score
 from station.music.tempo import MAX_BPM, MIN_BPM, MeterChange, TempoChange, TempoMap

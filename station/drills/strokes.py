@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import CYMBALS, Articulation, Dynamic, Limb, Ornament, Piece
+from station.core.toml_places import KeyPath
 from station.drills.grid import Bar
 from station.drills.letters import CHOKE, HOLD, LETTERS, RESTS, Letter, family_of, not_a_letter
 from station.drills.swing import Swing
-from station.drills.toml_places import KeyPath
 from station.music.score import NOTE_DTYPE
 
 FLAM_LEAD_MS = 30.0

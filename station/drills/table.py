@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterable
 from difflib import get_close_matches
 from typing import TypeVar
 
+from station.core.toml_places import KeyPath
 from station.drills.faults import Faults
-from station.drills.toml_places import KeyPath
 
 T = TypeVar("T")
 Reader = Callable[[object], T]

@@ -14,7 +14,7 @@ from math import radians
 from pathlib import Path
 
 from station.motion.limits import Limits
-from station.motion.toml_table import Table, find_shipped, read_toml, shipped
+from station.motion.toml_table import Table, find_shipped, located, read_toml, shipped
 
 
 class Joint(IntEnum):
@@ -133,7 +133,11 @@ def load_figure(name_or_path: str | Path) -> Figure:
     metres and a table `limits` of angles in degrees, both by the names of the fields here.
     """
     path = find_shipped(name_or_path, FIGURES, "figure")
-    table = Table(read_toml(path), path, "")
+    with located(path):
+        return _figure(Table(read_toml(path), path, ""))
+
+
+def _figure(table: Table) -> Figure:
     table.only({"title", "stature_m", "segments", "limits"})
     figure = figure_of(table.number("stature_m", LEAST_STATURE_M, GREATEST_STATURE_M))
     segments, limits = table.table("segments", {}), table.table("limits", {})

@@ -16,7 +16,7 @@ from types import MappingProxyType
 from station.core.errors import BadInput
 from station.core.pieces import Limb, Piece, Zone, word
 from station.motion.piece import SPOTS, KitPiece, Spot, Target
-from station.motion.toml_table import Table, find_shipped, read_toml, shipped
+from station.motion.toml_table import Table, find_shipped, located, read_toml, shipped
 
 KITS = Path(__file__).parent / "data" / "kits"
 DEFAULT_KIT = "four_piece"
@@ -105,7 +105,8 @@ def kit_names() -> list[str]:
 def load_kit(name_or_path: str | Path = DEFAULT_KIT) -> Kit:
     """A shipped kit by its name, or a kit file; raises `BadInput` with the place of the first fault."""
     path = find_shipped(name_or_path, KITS, "kit")
-    return _kit(read_toml(path), path)
+    with located(path):
+        return _kit(read_toml(path), path)
 
 
 def _kit(raw: Mapping[str, object], source: Path) -> Kit:

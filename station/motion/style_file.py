@@ -15,7 +15,7 @@ from station.core.errors import BadInput
 from station.core.files import write_whole
 from station.core.pieces import Piece, word
 from station.motion.style import NUMBERS, WORDS, Automation, Style, checked, range_of
-from station.motion.toml_table import Table, find_shipped, read_toml, shipped
+from station.motion.toml_table import Table, find_shipped, located, read_toml, shipped
 
 STYLES = Path(__file__).parent / "data" / "styles"
 SLOTS = 8
@@ -33,7 +33,8 @@ def style_names() -> list[str]:
 def load_style(name_or_path: str | Path) -> Style:
     """A shipped style by its name, or a style file; raises `BadInput` with the place of the first fault."""
     path = find_shipped(name_or_path, STYLES, "style")
-    return _style(Table(read_toml(path), path, ""), path.stem)
+    with located(path):
+        return _style(Table(read_toml(path), path, ""), path.stem)
 
 
 def save_style(style: Style, path: Path) -> None:
@@ -70,7 +71,7 @@ def _style(table: Table, name: str) -> Style:
             values[key] = table.number(key, *range_of(key))
         elif key in WORDS:
             values[key] = table.word(key, WORDS[key], "")
-    values["seed"] = int(table.number("seed", 0, 2**31, style.seed))
+    values["seed"] = table.whole("seed", 0, 2**31, style.seed)
     values["pieces"] = _amplitudes(table.table("pieces", {}))
     values["automation"] = _automation(table.table("automation", {}))
     return checked(replace(style, **values))  # type: ignore[arg-type] # each was read as its field's type
@@ -119,10 +120,11 @@ class Slots:
         """The slots in a file; all empty where there is none. Raises `BadInput` with the place of the first fault."""
         if not path.exists():
             return cls()
-        table = Table(read_toml(path), path, "")
-        table.only({f"slot_{i + 1}" for i in range(SLOTS)})
-        filled = (f"slot_{i + 1}" for i in range(SLOTS))
-        return cls(tuple(_named(table.table(key), key) if key in table.raw else None for key in filled))
+        filled = [f"slot_{i + 1}" for i in range(SLOTS)]
+        with located(path):
+            table = Table(read_toml(path), path, "")
+            table.only(set(filled))
+            return cls(tuple(_named(table.table(key), key) if key in table.raw else None for key in filled))
 
     def save(self, path: Path) -> None:
         """Write all slots whole to `path`; raises `DeviceError` if the disk refuses."""

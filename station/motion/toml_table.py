@@ -1,21 +1,43 @@
 """TOML tables that check what is taken from them and name the place of a fault: kits, figures and styles share them."""
 
 import difflib
+import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 
 from station.core.errors import BadInput
+from station.core.toml_places import Places
 
 _MAX_LENGTH_M = 3.0
+
+
+_AT = re.compile(r" \(at (line \d+, column \d+)\)$")
+"""How `tomllib` ends its complaints."""
 
 
 def read_toml(path: Path) -> dict[str, object]:
     """The whole file; raises `BadInput` if it cannot be read or is not TOML."""
     try:
         return tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as fault:
+    except tomllib.TOMLDecodeError as fault:
+        at = _AT.search(str(fault))
+        raise BadInput(path, at[1] if at else "", _AT.sub("", str(fault))) from fault
+    except (OSError, UnicodeDecodeError) as fault:
         raise BadInput(path, "", str(fault)) from fault
+
+
+@contextmanager
+def located(path: Path) -> Iterator[None]:
+    """Give the faults that are found in the file at `path` by their key the line and column of its value."""
+    try:
+        yield
+    except BadInput as fault:
+        if fault.source != str(path) or not fault.place or fault.place.startswith("line "):
+            raise
+        line, column = Places.of(path.read_text(encoding="utf-8")).find(tuple(fault.place.split(".")))
+        raise BadInput(path, f"line {line}, column {column}, {fault.place}", fault.fault) from fault
 
 
 def find_shipped(name_or_path: str | Path, folder: Path, what: str) -> Path:
@@ -72,6 +94,13 @@ class Table:
         if isinstance(value, bool) or not isinstance(value, int | float) or not low <= value <= high:
             raise BadInput(self.source, self._at(key), f"expected a number from {low:g} to {high:g}, found {value!r}")
         return float(value)
+
+    def whole(self, key: str, low: int, high: int, default: int) -> int:
+        """The whole number at `key`, from `low` to `high`."""
+        value = self.number(key, low, high, default)
+        if not value.is_integer():
+            raise BadInput(self.source, self._at(key), f"expected a whole number, found {value:g}")
+        return int(value)
 
     def word(self, key: str, words: tuple[str, ...], default: str) -> str:
         """One of `words` at `key`."""

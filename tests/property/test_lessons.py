@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from station.core.errors import BadInput
 from station.core.pieces import Piece, word
+from station.core.toml_places import Places
 from station.core.units import PPQ
 from station.drills.fit import fit_score, lesson_of
 from station.drills.grid import Frame, parse_line
@@ -17,7 +18,6 @@ from station.drills.lesson_file import KEYS, parse_lesson
 from station.drills.lesson_write import first_difference, write_lesson
 from station.drills.letters import LETTERS, LINE_PIECES, family_of
 from station.drills.swing import MAX_RATIO, Swing
-from station.drills.toml_places import Places
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoMap
 

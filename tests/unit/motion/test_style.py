@@ -127,14 +127,16 @@ def test_a_style_written_reads_back(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "place"),
     [
-        ("amplitude_gain = 101", "amplitude_gain"),
-        ("amplitude_gain = 'big'", "amplitude_gain"),
-        ("amplitude = 5", "amplitude"),
-        ("held = 'hammer'", "held"),
-        ("[pieces]\nsnair = 5", "pieces.snair"),
-        ("[automation]\nstand = [[1, 0], [1, 1]]", "automation.stand"),
-        ("[automation]\nstand = [[2, 5]]", "automation.stand"),
-        ("[automation]\nheld = [[2, 5]]", "automation.held"),
+        ("amplitude_gain = 101", "line 1, column 18, amplitude_gain"),
+        ("title = 'x'\namplitude_gain = 'big'", "line 2, column 18, amplitude_gain"),
+        ("# a\n\n  amplitude = 5", "line 3, column 15, amplitude"),
+        ("held = 'hammer'", "line 1, column 8, held"),
+        ("seed = 1.5", "line 1, column 8, seed"),
+        ("[pieces]\nsnair = 5", "line 2, column 9, pieces.snair"),
+        ("[automation]\nstand = [[1, 0], [1, 1]]", "line 2, column 9, automation.stand"),
+        ("[automation]\nstand = [[2, 5]]", "line 2, column 9, automation.stand"),
+        ("[automation]\nheld = [[2, 5]]", "line 2, column 8, automation.held"),
+        ("stand = 1\nshrug = = 5", "line 2, column 9"),
     ],
 )
 def test_a_faulty_style_names_the_place(tmp_path: Path, text: str, place: str) -> None:

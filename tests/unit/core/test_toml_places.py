@@ -2,7 +2,7 @@
 
 import pytest
 
-from station.drills.toml_places import Places
+from station.core.toml_places import Places
 from station.drills.toml_syntax import load
 
 TEXT = """\
