@@ -37,7 +37,7 @@ PEAK_RAD = np.radians([[19.2], [23.0], [33.2], [15.5]])
 _BEFORE_S = np.array(
     [
         [0.600, 0.465, 0.340, 0.190, 0.090],
-        [0.540, 0.390, 0.140, 0.070, 0.036],
+        [0.540, 0.390, 0.145, 0.075, 0.040],
         [0.590, 0.440, 0.103, 0.036, 0.014],
         [0.540, 0.160, 0.034, 0.020, 0.010],
     ]
@@ -48,13 +48,13 @@ _SHARE_BEFORE = np.array(
         [0.00, 0.66, 1.00, 0.53, -0.04],
         [0.00, 0.07, 1.00, 0.62, 0.28],
         [0.00, 0.55, 1.00, 0.70, 0.25],
-        [0.00, 0.47, 1.00, 0.88, 0.56],
+        [0.00, 0.47, 1.00, 0.88, 0.70],
     ]
 )
 """The same keys' values in shares of the joint's peak (the rest's height comes on top, for the wrist)."""
 _LONGEST_S = 0.600
 _REBOUND_S = np.array([[0.050], [0.040], [0.046], [0.027]])
-_SHARE_REBOUND = np.array([[0.0], [-0.06], [0.25], [0.68]])
+_SHARE_REBOUND = np.array([[0.0], [-0.06], [0.28], [0.72]])
 _REST_S = np.array([[0.100], [0.100], [0.110], [0.085]])
 """When each joint rests again after the strike."""
 _DOWN_S = 0.150
@@ -62,12 +62,12 @@ _DOWN_S = 0.150
 
 # --- what changes with height and tempo: our choices, each to look as HUMANS describes --------------------------------
 
-_STILL_BELOW_M = np.array([[0.14], [0.06], [0.0], [0.0]])
+_STILL_BELOW_M = np.array([[0.10], [0.06], [0.0], [0.0]])
 """Taps and ghost strokes are wrist and fingers: below these heights shoulder and elbow are still."""
-_GROWTH = np.array([[1.0], [0.9], [0.7], [0.5]])
+_GROWTH = np.array([[0.8], [0.75], [0.8], [0.65]])
 """How each joint's part grows with the height over that: distal joints are used first (Altenmüller 2020)."""
-_TIME_GROWTH = 1 / 3
-"""The time of a stroke grows with its height to this power, so that its speed grows with the other two thirds."""
+_TIME_GROWTH = 1 / 4
+"""The time of a stroke grows with its height to this power, so that its speed grows with the other three quarters."""
 _REST_HEIGHT_M = 0.045
 """Where the tip rests between strokes that are far apart (3.4–4.5 cm in the measured stroke)."""
 _FULL_GAP_S = 0.16
@@ -89,7 +89,7 @@ _MERGED_REBOUND, _MERGED_REST = 0.3, 0.5
 # --- how the splines pass each key: start, middle, top, down, down, strike, rebound, rest -----------------------------
 
 _STRIKE_INTO = np.array([[1.0], [1.0], [0.8], [1.0]])
-_STRIKE_OUT = np.array([[1.0], [1.0], [0.4], [1.8]])
+_STRIKE_OUT = np.array([[1.0], [1.0], [0.6], [2.1]])
 """Slopes at the strike in shares of the chords before and after it: the wrist already slows down, the stick does not,
 and it leaves the head at half the speed (rebound ratio 0.51)."""
 _START_TENSION, _REST_TENSION = 1.0, 1.0
