@@ -82,6 +82,7 @@ class ArmLengths:
 
     `turns_hand`: 1 where the wrist's part of a stroke bends the hand, 0 where the forearm's roll swings the stick alone
     (a traditional left hand). `roll_sine` and `roll_cosine` of the hand's roll from palm down, to the drummer's right.
+    `most_bend` is the elbow's limit: a hand that travels close past the shoulder keeps farther off instead.
     """
 
     upper: float
@@ -92,6 +93,7 @@ class ArmLengths:
     turns_hand: float = 1.0
     roll_sine: float = 0.0
     roll_cosine: float = 1.0
+    most_bend: float = HALF_TURN
 
 
 def solve(
@@ -142,7 +144,7 @@ def chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a 
     d = most(distance - missing, 1.0001 * abs(upper - fore))
     dd, uu_ff = d * d, whole * (upper - fore)
     inside = acos((dd + uu_ff) / (2 * upper * d))
-    forearm = acos((dd - uu_ff) / (2 * fore * d))
+    forearm = m.least(acos((dd - uu_ff) / (2 * fore * d)), lengths.most_bend - inside - raised_elbow)
     # the arm's plane: along the line to the wrist, and down and back from it, where elbows hang
     along = BACK_SINE * (gx * kx + gy * ky) - BACK_COSINE * kz
     norm = sqrt(1 - along * along)

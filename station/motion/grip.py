@@ -106,6 +106,7 @@ class Hold:
             turns_hand=self.grip.turns_hand,
             roll_sine=math.sin(self.grip.roll) * (1 if right else -1),
             roll_cosine=math.cos(self.grip.roll),
+            most_bend=figure.limits.elbow_flexion,
         )
 
     def length_m(self, figure: Figure) -> float:
