@@ -36,10 +36,10 @@ PEAK_RAD = np.radians([[19.2], [23.0], [33.2], [15.5]])
 """How far each joint goes in a stroke from full height."""
 _BEFORE_S = np.array(
     [
-        [0.600, 0.465, 0.340, 0.190, 0.090],
-        [0.540, 0.390, 0.145, 0.075, 0.040],
-        [0.590, 0.440, 0.103, 0.036, 0.014],
-        [0.540, 0.160, 0.034, 0.020, 0.010],
+        [0.540, 0.465, 0.340, 0.190, 0.090],
+        [0.520, 0.390, 0.145, 0.075, 0.040],
+        [0.540, 0.440, 0.103, 0.036, 0.014],
+        [0.520, 0.160, 0.034, 0.020, 0.010],
     ]
 )
 """Start, middle, top and two on the way down: seconds before the strike."""
@@ -52,9 +52,9 @@ _SHARE_BEFORE = np.array(
     ]
 )
 """The same keys' values in shares of the joint's peak (the rest's height comes on top, for the wrist)."""
-_LONGEST_S = 0.600
+_LONGEST_S = 0.540
 _REBOUND_S = np.array([[0.050], [0.040], [0.046], [0.027]])
-_SHARE_REBOUND = np.array([[0.0], [-0.06], [0.28], [0.72]])
+_SHARE_REBOUND = np.array([[0.0], [-0.06], [0.28], [0.76]])
 _REST_S = np.array([[0.100], [0.100], [0.110], [0.085]])
 """When each joint rests again after the strike."""
 _DOWN_S = 0.150
@@ -66,8 +66,9 @@ _STILL_BELOW_M = np.array([[0.10], [0.06], [0.0], [0.0]])
 """Taps and ghost strokes are wrist and fingers: below these heights shoulder and elbow are still."""
 _GROWTH = np.array([[0.8], [0.75], [0.8], [0.65]])
 """How each joint's part grows with the height over that: distal joints are used first (Altenmüller 2020)."""
-_TIME_GROWTH = 1 / 4
-"""The time of a stroke grows with its height to this power, so that its speed grows with the other three quarters."""
+_TIME_GROWTH, _RISE_GROWTH = 0.25, 0.18
+"""The times of a stroke and of its preparation grow with its height to these powers: a stroke that is twice as high is
+much faster, and takes hardly longer to raise."""
 _REST_HEIGHT_M = 0.045
 """Where the tip rests between strokes that are far apart (3.4–4.5 cm in the measured stroke)."""
 _FULL_GAP_S = 0.16
@@ -89,7 +90,7 @@ _MERGED_REBOUND, _MERGED_REST = 0.3, 0.5
 # --- how the splines pass each key: start, middle, top, down, down, strike, rebound, rest -----------------------------
 
 _STRIKE_INTO = np.array([[1.0], [1.0], [0.8], [1.0]])
-_STRIKE_OUT = np.array([[1.0], [1.0], [0.6], [2.1]])
+_STRIKE_OUT = np.array([[1.0], [1.0], [0.65], [2.35]])
 """Slopes at the strike in shares of the chords before and after it: the wrist already slows down, the stick does not,
 and it leaves the head at half the speed (rebound ratio 0.51)."""
 _START_TENSION, _REST_TENSION = 1.0, 1.0
@@ -260,13 +261,14 @@ def _times(strike_s: Array, gaps: Array, height_m: Array, sliders: Sliders) -> t
     """
     before = gaps[:-1]
     pace = (height_m / FULL_HEIGHT_M) ** _TIME_GROWTH / sliders.speed
+    rise = (height_m / FULL_HEIGHT_M) ** _RISE_GROWTH / sliders.speed
     down = np.minimum(pace, 0.5 * before / _DOWN_S)
     # what the whip leaves of the gap is shared by the rest after the last stroke and the preparation
     left = (1 - _LEAST_PAUSE) * before - _DOWN_S * down
     whole_rest = np.concatenate((np.zeros((4, 1)), (_REST_S * pace)[:, :-1]), 1)
-    lacking = np.maximum(whole_rest + (_LONGEST_S - _DOWN_S) * pace - left, 0.0)
+    lacking = np.maximum(whole_rest + (_LONGEST_S - _DOWN_S) * rise - left, 0.0)
     rest_before = np.maximum(whole_rest - lacking, np.minimum(_SHORT_REST * whole_rest, 0.3 * before))
-    up = np.clip((left - rest_before) / (_LONGEST_S - _DOWN_S), 0.0, pace)
+    up = np.clip((left - rest_before) / (_LONGEST_S - _DOWN_S), 0.0, rise)
     rest = np.concatenate((rest_before[:, 1:], (_REST_S * pace)[:, -1:]), 1)
     times = np.empty((4, len(strike_s), KEYS))
     together = _BEFORE_S.mean(0)
@@ -276,7 +278,7 @@ def _times(strike_s: Array, gaps: Array, height_m: Array, sliders: Sliders) -> t
     times[..., 5] = strike_s
     times[..., 6] = strike_s + np.minimum(_REBOUND_S * pace, _REBOUND_IN_REST * rest)
     times[..., 7] = strike_s + rest
-    return times, 1.0 - up / pace
+    return times, 1.0 - up / rise
 
 
 def _values(times: Array, merged: Array, peak: Array, hold: Array) -> Array:
