@@ -93,7 +93,7 @@ class ArmLengths:
     turns_hand: float = 1.0
     roll_sine: float = 0.0
     roll_cosine: float = 1.0
-    most_bend: float = HALF_TURN
+    most_bend: float = math.pi
 
 
 def solve(

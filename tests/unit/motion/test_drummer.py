@@ -100,7 +100,7 @@ def test_joints_stay_within_their_limits() -> None:
     angles = dict(zip(ANGLE_NAMES, drummer.rows(grid(SCORE))[:, frame.ANGLES].T, strict=True))
     limits = drummer.figure.limits
     for side in ("right", "left"):
-        assert angles[f"{side}_elbow"].max() <= limits.elbow_flexion
+        assert angles[f"{side}_elbow"].max() <= limits.elbow_flexion + 1e-9
         assert angles[f"{side}_elbow"].min() >= -1e-6
         assert angles[f"{side}_wrist"].max() <= limits.wrist_extension
         assert angles[f"{side}_wrist"].min() >= -limits.wrist_flexion
