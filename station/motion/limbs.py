@@ -47,7 +47,7 @@ def assign_limbs(score: Score, kit: Kit, method: str = "station", hands: Hands |
     if method not in METHODS:
         raise BadInput("method", method, f"no such method of limb assignment; there are {' and '.join(METHODS)}")
     lead = hands or (Hands.LEFT if kit.left_handed else Hands.RIGHT)
-    limbs, why = _feet(score, lead)
+    limbs, why = _feet(score, kit.left_handed)
     rows = np.flatnonzero(limbs == Limb.UNKNOWN)
     written = score.notes["limb"] != Limb.UNKNOWN
     if len(rows):
@@ -59,12 +59,12 @@ def assign_limbs(score: Score, kit: Kit, method: str = "station", hands: Hands |
     return Assignment(limbs, tuple(why), method, beyond_human(score, kit, limbs))
 
 
-def _feet(score: Score, lead: Hands) -> tuple[NDArray[np.int8], list[str]]:
+def _feet(score: Score, left_handed: bool) -> tuple[NDArray[np.int8], list[str]]:
     """The notes that a foot plays; `Limb.UNKNOWN` and no reason at the others."""
     pieces, written = score.notes["piece"], score.notes["limb"]
     limbs = np.full(len(score), Limb.UNKNOWN, np.int8)
     why = [""] * len(score)
-    kick, hat = (Limb.LEFT_FOOT, Limb.RIGHT_FOOT) if lead is Hands.LEFT else (Limb.RIGHT_FOOT, Limb.LEFT_FOOT)
+    kick, hat = (Limb.LEFT_FOOT, Limb.RIGHT_FOOT) if left_handed else (Limb.RIGHT_FOOT, Limb.LEFT_FOOT)
     for piece, foot, reason in ((Piece.KICK, kick, "the kick's foot"), (Piece.HIHAT_PEDAL, hat, "the hi-hat's foot")):
         for row in np.flatnonzero(pieces == piece):
             said = written[row] in (Limb.LEFT_FOOT, Limb.RIGHT_FOOT)

@@ -115,6 +115,8 @@ _MORE = "one more stroke of the same hand: every other way is harder"
 _AHEAD = "so that the strokes after it fall well"
 _FREE = "either hand"
 _NOBODY = "impossible: both hands are busy elsewhere"
+WORDS = (_DOUBLE, _MORE, _AHEAD, _FREE, _NOBODY)
+"""Reasons beside the names of the terms."""
 _SLIGHT = 0.02
 """A difference of cost below this decides nothing."""
 

@@ -40,6 +40,7 @@ LATE = 7.0
 SLOW = 4.0
 TIRING = 0.6
 BOUNCE = 2.0
+SKIP = 0.6
 LATE_BOUNCE = 0.25
 METRE = 0.8
 CROSSING = 1.8
@@ -100,7 +101,7 @@ def after_own(notes: HandNotes, i: int, hand: int, own: int, bounced: bool) -> t
 def _repeat(notes: HandNotes, i: int, gap_s: float, bounced: bool) -> float:
     """The price of one hand's next stroke on the same piece."""
     if gap_s < BOUNCE_S:
-        price = 0.0 if notes.paired[i] == 1 else BOUNCE
+        price = 0.0 if notes.paired[i] == 1 else SKIP if notes.ostinato[i] else BOUNCE
         if bounced:  # a third stroke has no rebound left to live on
             price += UNEVEN
         return price if notes.odd[i] else price + LATE_BOUNCE

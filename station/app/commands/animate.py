@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from station.app.commands.drums import add_drums_options, led_score, planned
 from station.app.commands.output import say, say_beyond
-from station.app.commands.scores import load_led_score
 from station.core.errors import BadInput
 from station.motion.drummer import Drummer
 from station.motion.figure import (
@@ -19,7 +19,6 @@ from station.motion.figure import (
     figure_of,
     load_figure,
 )
-from station.motion.kit import DEFAULT_KIT, load_kit
 from station.motion.propose import PROPOSED, propose_style
 from station.motion.style_file import load_style, style_names
 from station.music.score import Score
@@ -39,10 +38,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--out", metavar="FILE", type=Path, required=True, help=f"the file to write: {_ENDINGS}")
     styles = f"{', '.join(style_names())}, {PROPOSED} (what the score itself suggests), or a file"
     parser.add_argument("--style", metavar="NAME", default="natural", help=styles)
-    parser.add_argument("--kit", metavar="NAME", default="", help="the drummer's kit: a shipped name or a file")
-    parser.add_argument(
-        "--as-written", action="store_true", help="on a left-handed kit, do not change the sides of a lesson's sticking"
-    )
+    add_drums_options(parser)
     body = parser.add_mutually_exclusive_group()
     body.add_argument("--figure", metavar="NAME", default="", help=f"{', '.join(figure_names())}, or a file")
     body.add_argument("--stature", type=float, metavar="M", help="the drummer's height in metres, usual proportions")
@@ -59,10 +55,10 @@ def run(arguments: argparse.Namespace) -> int:
     ending = out.suffix.lower()
     if ending not in (".png", *_WRITERS):
         raise BadInput(out, "", f"expected a name that ends in {_ENDINGS}")
-    kit = load_kit(arguments.kit or DEFAULT_KIT)
-    score = load_led_score(arguments.score, kit, arguments.as_written)
+    score = led_score(arguments)
     style = propose_style(score) if arguments.style == PROPOSED else load_style(arguments.style)
-    drummer = Drummer(score, kit, _figure(arguments), style)
+    plan = planned(score, _figure(arguments), arguments)
+    drummer = Drummer(score, plan.kit, plan.figure, style, plan)
     if ending == ".png":
         from station.app.pictures import draw_drummer
 

@@ -3,13 +3,13 @@
 import argparse
 from pathlib import Path
 
-import numpy as np
-from numpy.typing import NDArray
-
+from station.app.commands.drums import add_drums_options, assigned, drums_of, led_score
 from station.app.commands.output import print_json, say, say_beyond
-from station.app.commands.scores import TEXT_ENDING, load_led_score
+from station.app.commands.scores import TEXT_ENDING
 from station.core.errors import BadInput
 from station.core.pieces import Limb, Piece, word
+from station.motion.limbs import Assignment
+from station.motion.text_score import write_text_score
 from station.music.score import Score
 
 SCHEMA = "drum-station/limbs/1"
@@ -17,53 +17,56 @@ SCHEMA = "drum-station/limbs/1"
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add this command's words."""
-    from station.motion.limbs import METHODS
-
     parser.add_argument("score", metavar="SCORE", help="a lesson, a MIDI file or a text score")
-    parser.add_argument("--method", choices=METHODS, default=METHODS[0], help="how limbs are assigned (%(default)s)")
-    parser.add_argument("--kit", default="", metavar="NAME", help="the drummer's kit: a shipped name or a file")
-    parser.add_argument(
-        "--as-written", action="store_true", help="on a left-handed kit, do not change the sides of a lesson's sticking"
-    )
-    parser.add_argument("--text", type=Path, metavar="FILE.txt", help="write a text score whose limbs can be edited")
+    add_drums_options(parser)
+    text = "write a text score whose limbs can be edited and that every command reads again"
+    parser.add_argument("--text", type=Path, metavar=f"FILE{TEXT_ENDING}", help=text)
     parser.add_argument("--json", action="store_true", help="print one JSON document")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Assign limbs and print them."""
-    from station.motion.kit import DEFAULT_KIT, load_kit
-    from station.motion.limbs import assign_limbs
-
-    kit = load_kit(arguments.kit or DEFAULT_KIT)
-    score = load_led_score(arguments.score, kit, arguments.as_written)
-    assigned = assign_limbs(score, kit, method=arguments.method)
-    if arguments.text is not None:
-        _write_text(score, assigned.limbs, arguments.text)
-    rows = [
-        {
-            "index": i,
-            "time_s": round(float(score.onset_s[i]), 6),
-            "piece": word(Piece(score.notes["piece"][i])),
-            "limb": word(Limb(assigned.limbs[i])),
-            "why": assigned.why[i],
-        }
-        for i in range(len(score))
-    ]
+    """Assign limbs and print them, or write them as a text score."""
+    text: Path | None = arguments.text
+    if text is not None and text.suffix.lower() != TEXT_ENDING:
+        raise BadInput(text, "", f"expected a name that ends in {TEXT_ENDING}")
+    score = led_score(arguments)
+    who = assigned(score, drums_of(arguments), arguments)
+    if text is not None:
+        write_text_score(score, who.limbs, text)
+        say(f"score    {text}")
     if arguments.json:
-        print_json(
-            {"schema": SCHEMA, "method": assigned.method, "notes": rows, "beyond_human": list(assigned.warnings)}
-        )
-    else:
-        for row in rows:
-            print(f"{row['index']:6d} {row['time_s']:10.3f} s  {row['piece']:14} {row['limb']:11} {row['why']}")
-    say_beyond(assigned.warnings)
+        print_json(_document(score, who))
+    elif text is None:
+        _print(score, who)
+    say_beyond(who.warnings)
     return 0
 
 
-def _write_text(score: Score, limbs: NDArray[np.int8], path: Path) -> None:
-    from station.motion.text_score import write_text_score
+def _document(score: Score, who: Assignment) -> dict[str, object]:
+    notes = [
+        {
+            "index": i,
+            "time_s": round(float(score.onset_s[i]), 6),
+            "bar": int(score.bar[i]) + 1,
+            "beat": round(_beat(score, i), 4),
+            "piece": word(Piece(score.notes["piece"][i])),
+            "limb": word(Limb(who.limbs[i])),
+            "why": who.why[i],
+        }
+        for i in range(len(score))
+    ]
+    return {"schema": SCHEMA, "method": who.method, "notes": notes, "beyond_human": list(who.warnings)}
 
-    if path.suffix.lower() != TEXT_ENDING:
-        raise BadInput(path, "", f"expected a name that ends in {TEXT_ENDING}")
-    write_text_score(score, limbs, path)
-    say(f"score    {path}")
+
+def _print(score: Score, who: Assignment) -> None:
+    """A line a note: bar:beat, time, piece, limb and reason."""
+    for i, why in enumerate(who.why):
+        place = f"{score.bar[i] + 1}:{_beat(score, i):.2f}"
+        piece, limb = word(Piece(score.notes["piece"][i])), word(Limb(who.limbs[i]))
+        print(f"{place:>9} {score.onset_s[i]:9.3f} s  {piece:13} {limb:11} {why}")
+
+
+def _beat(score: Score, row: int) -> float:
+    """The beat of its bar, from 1, that a note is written on."""
+    place = score.tempo_map.position_at(int(score.notes["tick"][row]))
+    return 1 + place.beat + place.tick / score.tempo_map.meter_at(int(score.notes["tick"][row])).beat_ticks

@@ -60,6 +60,15 @@ def load_led_score(name: str, kit: Kit, as_written: bool = False) -> Score:
     return as_led(score, kit)
 
 
+def kit_of_lesson(name: str) -> str:
+    """The drummer's kit that the lesson `name` asks for; empty where it asks for none or `name` is a music file."""
+    if not is_lesson(name):
+        return ""
+    from station.drills.library import find_lesson
+
+    return find_lesson(name).kit
+
+
 def load_score_and_performance(score_name: str, performance_name: str) -> tuple[Score, Performance]:
     """Both; of two MIDI files each helps to tell which maker's note numbers the other uses."""
     if not is_midi(performance_name):

@@ -1,20 +1,20 @@
 """Limb assignment on the patterns that drummers' rules and the captions of the thesis' figures 4.20–4.22 describe."""
 
-import numpy as np
 import pytest
 
 from station.core.errors import BadInput
-from station.core.pieces import Articulation, Limb, Ornament, Piece, Zone
+from station.core.pieces import Articulation, Limb, Ornament, Piece
 from station.core.units import PPQ
 from station.motion.hand_notes import Hands
 from station.motion.kit import load_kit
 from station.motion.limbs import METHODS, assign_limbs
+from station.motion.sticking import WORDS
+from station.motion.sticking_costs import AFTER_OWN, ALONE, BESIDE
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from tests.unit.motion.patterns import BACKBEAT, EIGHTH_HATS, ROCK, hand_letters, score_of
 
 KIT = load_kit("four_piece")
-SEVEN = load_kit("seven_piece")
 HAT, SNARE, RIDE, TOM, FLOOR = Piece.HIHAT, Piece.SNARE, Piece.RIDE, Piece.TOM_1, Piece.FLOOR_TOM_1
 
 
@@ -119,6 +119,99 @@ def test_a_left_handed_kit_leads_with_the_left_and_kicks_with_the_left() -> None
     assert {Limb(m) for n, m in zip(score, limbs, strict=True) if n.piece is Piece.KICK} == {Limb.LEFT_FOOT}
 
 
+def all_letters(items: list[tuple[int, Piece]], tempo_bpm: float, division: int = 4) -> str:
+    """The hands of every stroke in order; strokes at once in the order of `Piece`: the snare before the hat."""
+    score = score_of(items, tempo_bpm, division)
+    return "".join("RLrl"[m] for m in assign_limbs(score, KIT).limbs)
+
+
+MID = Piece.TOM_2
+TOMS_16 = [*sixteenths(SNARE, 0, 4), *sixteenths(TOM, 4, 8), *sixteenths(MID, 8, 12), *sixteenths(FLOOR, 12, 16)]
+TOMS_3 = [*sixteenths(SNARE, 0, 3), *sixteenths(TOM, 3, 6), *sixteenths(MID, 6, 9), *sixteenths(FLOOR, 9, 12)]
+HATS_16 = sixteenths(HAT, 0, 16)
+HATS_BETWEEN = [(i, HAT) for i in range(16) if i not in (4, 12)]
+
+
+@pytest.mark.parametrize("tempo_bpm", [80, 100])
+def test_sixteenth_hats_to_100_bpm_are_one_hands_also_under_the_backbeat(tempo_bpm: float) -> None:
+    assert all_letters([*HATS_16, *BACKBEAT], tempo_bpm) == "RRRRLRRRRRRRRLRRRR"
+    assert all_letters([*HATS_BETWEEN, *BACKBEAT], tempo_bpm) == "RRRRLRRRRRRRLRRR"
+
+
+@pytest.mark.parametrize("tempo_bpm", [110, 120, 140, 160])
+def test_quicker_hats_alternate_around_a_backbeat_of_the_leading_hand(tempo_bpm: float) -> None:
+    assert all_letters([*HATS_BETWEEN, *BACKBEAT], tempo_bpm) == "RL" * 8
+    assert letters([*HATS_16, *BACKBEAT], SNARE, tempo_bpm) == "RR"
+
+
+def test_eighth_hats_too_quick_for_one_hand_alternate_too() -> None:
+    """At 240 bpm eighths are as quick as sixteenths at 120."""
+    assert letters([(i, HAT) for i in range(0, 16, 2)], HAT, 200) == "R" * 8
+    assert letters([(i, HAT) for i in range(0, 16, 2)], HAT, 240) == "RL" * 4
+
+
+def test_a_swung_rides_skip_note_stays_in_the_leading_hand() -> None:
+    """Triplets at 200 bpm: the skip note comes 100 ms before the beat."""
+    ride = [(i, RIDE) for beat in range(0, 12, 6) for i in (beat, beat + 3, beat + 5)]
+    assert letters(ride, RIDE, 200, division=3) == "R" * 6
+
+
+@pytest.mark.parametrize("tempo_bpm", [80, 120, 160, 180])
+def test_sixteenths_around_the_toms_alternate(tempo_bpm: float) -> None:
+    assert all_letters(TOMS_16, tempo_bpm) == "RL" * 8
+
+
+@pytest.mark.parametrize("tempo_bpm", [100, 120, 140])
+def test_triplets_around_the_toms_alternate(tempo_bpm: float) -> None:
+    assert all_letters(TOMS_3, tempo_bpm, division=3) == "RL" * 6
+
+
+def test_rests_in_a_fill_over_two_drums_do_not_shift_the_hands() -> None:
+    fill = [(p, SNARE) for p in (0, 2, 3, 4, 6, 7)] + [(p, TOM) for p in (8, 9, 11, 12, 14, 15)]
+    assert all_letters(fill, 110) == "RRLRRLRLLRRL"
+
+
+@pytest.mark.parametrize(
+    ("tempo_bpm", "hands"), [(60, "RL" * 16), (100, "RL" * 16), (120, "RRLL" * 8), (140, "RRLL" * 8)]
+)
+def test_thirty_seconds_are_singles_to_100_bpm_and_doubles_beyond(tempo_bpm: float, hands: str) -> None:
+    """100 bpm: 6.7 strokes a second of each hand; 120 bpm: 8."""
+    assert all_letters(sixteenths(SNARE, 0, 32), tempo_bpm, division=8) == hands
+
+
+@pytest.mark.parametrize("sticking", ["RLRRLRLL", "RLLRRL", "RRLRLLRLR"])
+def test_a_written_rudiment_is_played_as_written(sticking: str) -> None:
+    notes = [Note(i * PPQ // 8, SNARE, limb=Limb("RL".index(hand))) for i, hand in enumerate(sticking)]
+    limbs = assign_limbs(Score.from_notes(notes, TempoMap.constant(90)), KIT).limbs
+    assert "".join("RL"[m] for m in limbs) == sticking
+
+
+def test_a_third_note_at_once_says_that_it_is_impossible() -> None:
+    score = score_of([(0, HAT), (0, RIDE), (0, Piece.CRASH_1), (4, SNARE)])
+    assignment = assign_limbs(score, KIT)
+    assert [why.startswith("impossible") for why in assignment.why].count(True) == 1
+    assert len(assignment.warnings) == 1
+    assert assignment.warnings[0].startswith("bar 1 needs one hand to be in two places at once")
+
+
+def test_the_hat_under_the_foot_is_no_hands() -> None:
+    score = score_of([(0, HAT), (2, Piece.HIHAT_PEDAL), (4, SNARE), (4, HAT), (6, Piece.HIHAT_PEDAL)])
+    assert "".join("RLrl"[m] for m in assign_limbs(score, KIT).limbs) == "RlLRl"
+
+
+def test_an_open_handed_player_keeps_the_feet_where_the_pedals_are() -> None:
+    limbs = assign_limbs(score_of(ROCK), KIT, hands=Hands.LEFT).limbs
+    assert Limb.RIGHT_FOOT in limbs
+    assert Limb.LEFT_FOOT not in limbs
+
+
+def test_a_fills_reasons_speak_of_what_decided() -> None:
+    why = assign_limbs(score_of([*HATS_16, *BACKBEAT], 120), KIT).why
+    assert set(why) <= {*ALONE, *AFTER_OWN, *BESIDE, *WORDS}
+    hats = assign_limbs(score_of(HATS_16, 100), KIT).why
+    assert set(hats) == {"the ostinato's hand"}
+
+
 def test_ghost_notes_between_the_hats_go_to_the_snares_hand() -> None:
     groove = [*EIGHTH_HATS, *BACKBEAT, (1, SNARE), (7, SNARE), (9, SNARE), (10, SNARE), (15, SNARE)]
     assert letters(groove, SNARE, tempo_bpm=95) == "L" * 7
@@ -136,18 +229,6 @@ def test_two_hands_never_share_an_instant() -> None:
     assert (limbs[:, 0] != limbs[:, 1]).all()
 
 
-def test_what_no_human_can_is_told_with_its_bar() -> None:
-    """Forty-eighths at 140 bpm on the crash and the floor tom at once: 28 strokes a second of each hand."""
-    notes = [Note(4 * PPQ + i * PPQ // 12, p, Zone.HEAD) for i in range(24) for p in (SNARE, FLOOR)]
-    warnings = assign_limbs(Score.from_notes(notes, TempoMap.constant(140)), KIT).warnings
-    assert warnings
-    assert all(w.startswith("bar 2 needs ") and "strokes a second of one hand" in w for w in warnings)
-
-
-def test_a_playable_score_has_no_warnings() -> None:
-    assert assign_limbs(score_of(ROCK), KIT).warnings == ()
-
-
 def test_every_choice_has_its_reason() -> None:
     for method in METHODS:
         assert all(assign_limbs(score_of(ROCK), KIT, method).why)
@@ -160,47 +241,6 @@ def test_an_unknown_method_is_refused() -> None:
 
 def test_an_empty_score_has_no_limbs() -> None:
     assert len(assign_limbs(Score.from_notes([], TempoMap.constant(100)), KIT).limbs) == 0
-
-
-# --- the thesis' own algorithm ----------------------------------------------------------------------------------------
-
-
-def test_figure_4_20_quick_notes_on_different_drums_part_and_hats_lead() -> None:
-    score = score_of(ROCK)
-    why = assign_limbs(score, KIT, "smed").why
-    assert "left and right drum at once" in why  # second pass
-    assert "the leading hand's piece (fourth pass)" in why
-    assert "the kick's foot" in why  # first pass
-
-
-def test_figure_4_21_sixteenths_before_a_snare_are_assigned_backward() -> None:
-    """Hats in sixteenths up to a snare: the forward pass skips them, the third pass alternates back from it."""
-    score = score_of([*sixteenths(HAT, 0, 4), (4, SNARE), *sixteenths(HAT, 5, 8)], tempo_bpm=120)
-    assignment = assign_limbs(score, KIT, "smed")
-    assert any("third pass" in reason for reason in assignment.why[:4])
-    assert len({*zip(assignment.limbs[:-1].tolist(), assignment.limbs[1:].tolist(), strict=True)}) == 2  # alternates
-
-
-def test_figure_4_22_a_fill_that_ends_on_the_snare_crosses_over_in_smed_alone() -> None:
-    """High tom, mid tom, then snare in sixteenths: SMED's forward pass carries the alternation into a crossover."""
-    fill = [*sixteenths(TOM, 0, 4), *sixteenths(Piece.TOM_2, 4, 8), *sixteenths(SNARE, 8, 12)]
-    score = score_of(fill, tempo_bpm=120)
-    smed, ours = (assign_limbs(score, SEVEN, method).limbs for method in ("smed", "station"))
-    assert "".join("RL"[m] for m in smed) in ("RL" * 6, "LR" * 6)
-    assert crossings(score, smed) >= crossings(score, ours)
-
-
-def crossings(score: Score, limbs: np.ndarray) -> int:
-    """Strokes that fall on the wrong side of the other hand's last one by more than 8 cm."""
-    last: list[float | None] = [None, None]
-    count = 0
-    for note, limb in zip(score, limbs.tolist(), strict=True):
-        x = float(SEVEN.target(note.piece, note.zone, Limb(limb)).point_m[0])
-        other = last[1 - limb]
-        if other is not None and (other - x if limb == Limb.RIGHT_HAND else x - other) > 0.08:
-            count += 1
-        last[limb] = x
-    return count
 
 
 def test_buzz_and_cross_stick_are_hands_work() -> None:
