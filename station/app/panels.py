@@ -94,6 +94,11 @@ _RIGHT_PART = 330
 """Design pixels that the viewpoint's controls take."""
 
 
+def found(room: RoomState) -> str:
+    """The kit and the sound card in words; without a kit, what plays instead."""
+    return " · ".join(part for part in (room.kit or "no kit: the computer's keys play (F1)", room.sound) if part)
+
+
 def transport_bar(room: RoomState, look: Look, actions: "dict[str, Callable[[], None]]") -> Look:
     """Stop or go on, progress, the viewpoint; returns the look that was chosen."""
     height = theme.points(38)
@@ -118,7 +123,7 @@ def transport_bar(room: RoomState, look: Look, actions: "dict[str, Callable[[], 
         imgui.same_line()
     elif room.stage is Stage.IDLE:
         imgui.align_text_to_frame_padding()
-        imgui.text_disabled(" · ".join(part for part in (room.kit, room.sound) if part) or "no kit, no sound card")
+        imgui.text_disabled(found(room))
         tooltip("The kit and the sound card that were found")
         imgui.same_line()
     imgui.set_cursor_pos_x(imgui.get_window_width() - theme.points(_RIGHT_PART))

@@ -3,6 +3,7 @@
 from dataclasses import replace
 from pathlib import Path
 
+from station.app.session_view import bar_numbers
 from station.core.units import NS_PER_S
 from station.motion.drummer import Drummer
 from station.motion.figure import figure_of
@@ -38,12 +39,13 @@ def draw_session(result: SessionResult, path: Path) -> None:
     right = int((result.alignment.note_label == Label.MATCH).sum())
     hud = Hud(
         title=plan.lesson.title,
-        phase=f"{plan.passes} passes played",
+        phase="1 pass played" if plan.passes == 1 else f"{plan.passes} passes played",
         tempo_bpm=plan.tempo_bpm,
         right=right,
         judged=len(result.score),
     )
-    draw_png(replace(snapshot, marks=marks, extras=tuple(extras), hud=hud), path, SIZE)
+    shown = replace(snapshot, marks=marks, extras=tuple(extras), hud=hud, bar_numbers=bar_numbers(plan))
+    draw_png(shown, path, SIZE)
 
 
 def _picture_of(drummer: Drummer, at_s: float) -> Snapshot:

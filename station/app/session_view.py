@@ -16,7 +16,7 @@ from station.music.judgement import Judgement, Label
 from station.music.score import Score
 from station.practice.plan import Phase, Plan
 from station.practice.session import Session
-from station.render.snapshot import Cue, Extra, Hud, Snapshot, Strike, mark, no_marks
+from station.render.snapshot import BarNumbers, Cue, Extra, Hud, Snapshot, Strike, mark, no_marks
 from station.scoring.windows import Windows
 
 STRIKE_SHOWN_NS = 600 * NS_PER_MS
@@ -53,6 +53,7 @@ class SessionView:
             if demonstrations
             else self._passes
         )
+        self.bar_numbers = bar_numbers(plan)
         self._marks = no_marks(plan.score)
         self._cue: Cue = Cue.NONE
         self._cue_ns = 0
@@ -89,6 +90,7 @@ class SessionView:
             extras=self._extras(session) if part is self._passes else (),
             strikes=self._strikes(session, now_ns),
             hud=self._hud(session, now_ns, message),
+            bar_numbers=self.bar_numbers,
         )
 
     def _ready(self, message: str) -> Snapshot:
@@ -97,7 +99,7 @@ class SessionView:
         drummer = part.drummer
         hud = Hud(plan.lesson.title, "Ready", tempo_bpm=plan.tempo_bpm, message=message)
         pose, limbs = drummer.pose(WAITING_S), drummer.assignment.limbs
-        return Snapshot(part.score, 0.0, self._kit, self._figure, pose, limbs, hud=hud)
+        return Snapshot(part.score, 0.0, self._kit, self._figure, pose, limbs, hud=hud, bar_numbers=self.bar_numbers)
 
     def _extras(self, session: Session) -> tuple[Extra, ...]:
         hits = [session.hits[index] for index in session.extras()]
@@ -142,6 +144,11 @@ class SessionView:
         per_pass = len(self.plan.section)
         labels: NDArray[np.int8] = self._marks["label"][pass_index * per_pass : (pass_index + 1) * per_pass]
         return int((labels == Label.MATCH).sum()), int((labels >= 0).sum())
+
+
+def bar_numbers(plan: Plan) -> BarNumbers:
+    """The lesson's own numbers in every pass."""
+    return BarNumbers(plan.first_bar, plan.section.bar_count)
 
 
 def cue_of(verdict: Judgement, windows: Windows) -> Cue:

@@ -19,6 +19,7 @@ from station.render.ink import Ink, Type
 from station.render.note_shapes import STAFF_LINE, draw_hat_sign, draw_head
 from station.render.palette import BRAND, INK, INK_SOFT
 from station.render.rhythm import Group, Timed, beat_groups, spell
+from station.render.snapshot import BarNumbers
 from station.render.staff import FOOT_PIECES, PLACES, head_of, height, ledger_steps
 
 STAFF_TOP, STAFF_BOTTOM = -2.0, 2.0
@@ -67,8 +68,11 @@ class _Chord:
 class Engraver:
     """Engraves the bars of one score; `limbs` (n,) of `Limb` writes the sticking, None that of the score itself."""
 
-    def __init__(self, score: Score, atlas: Atlas, limbs: NDArray[np.int8] | None = None) -> None:
+    def __init__(
+        self, score: Score, atlas: Atlas, limbs: NDArray[np.int8] | None = None, numbers: BarNumbers | None = None
+    ) -> None:
         self.score = score
+        self.numbers = numbers or BarNumbers()
         self._atlas = atlas
         self._limbs = score.notes["limb"] if limbs is None else limbs
         self._closing = _closing_hats(score)
@@ -161,7 +165,10 @@ class _BarEngraver:
         self._ink.line((x, STAFF_TOP), (x, STAFF_BOTTOM), 0.16, INK_SOFT)
         if self._start >= self._e.score.end_tick:
             return
-        x += self._ink.text(str(self._bar + 1), (x, BAR_NUMBER_Y + 0.6), Type(1.25, INK_SOFT, Face.BOLD)) + 0.8
+        x += (
+            self._ink.text(str(self._e.numbers.of(self._bar)), (x, BAR_NUMBER_Y + 0.6), Type(1.25, INK_SOFT, Face.BOLD))
+            + 0.8
+        )
         meter = self._tempo.meter_at(self._start)
         if self._bar > 0 and meter.tick == self._start:  # above the staff: time leaves no room for it between notes
             self._ink.text(f"{meter.beats}/{meter.unit}", (x, BAR_NUMBER_Y + 0.6), Type(1.5, BRAND, Face.BOLD))

@@ -95,6 +95,18 @@ def mark(marks: NDArray[np.void], judgement: Judgement) -> None:
     row["velocity_error"] = np.nan if judgement.velocity_error is None else judgement.velocity_error
 
 
+@dataclass(frozen=True, slots=True)
+class BarNumbers:
+    """How a score's bars are numbered: from `first` (from 0), anew after every `per_pass` bars; 0: never."""
+
+    first: int = 0
+    per_pass: int = 0
+
+    def of(self, bar: int) -> int:
+        """The number, from 1, of the score's `bar`, from 0."""
+        return self.first + (bar % self.per_pass if self.per_pass else bar) + 1
+
+
 @dataclass(frozen=True, eq=False)
 class Snapshot:
     """One instant of the practice room.
@@ -114,3 +126,4 @@ class Snapshot:
     extras: tuple[Extra, ...] = ()
     strikes: tuple[Strike, ...] = ()
     hud: Hud = field(default_factory=Hud)
+    bar_numbers: BarNumbers = BarNumbers()

@@ -12,6 +12,7 @@ from station.music.score import Note
 from station.render.atlas import Atlas
 from station.render.engraving import BOTTOM_Y, TOP_Y, Engraver
 from station.render.ink import Kind
+from station.render.snapshot import BarNumbers
 from station.render.staff import PLACES, Head, head_of, height, ledger_steps
 from tests.unit.render.scores import BAR, rock, score_of
 
@@ -92,6 +93,17 @@ def test_a_rock_bar() -> None:
     assert beams(shapes) == pytest.approx([0.25] * 4), "each beat's two eighths, a quarter of a second apart"
     assert letters(shapes, "R") == 8
     assert letters(shapes, "L") == 2
+
+
+def test_bars_are_numbered_as_in_the_lesson_in_every_pass() -> None:
+    twice = rock().repeated(4)
+    numbers = BarNumbers(first=4, per_pass=2)  # bars 5 and 6 of a lesson, practised in two passes
+    said = [numbers.of(bar) for bar in range(4)]
+    assert said == [5, 6, 5, 6]
+    shapes = Engraver(twice, ATLAS, numbers=numbers).bar(2)
+    assert letters(shapes, "5") == 1
+    assert letters(shapes, "3") == 0
+    assert letters(Engraver(twice, ATLAS).bar(2), "3") == 1
 
 
 def test_everything_of_a_note_is_anchored_at_its_time() -> None:
