@@ -26,11 +26,22 @@ _COMMANDS: tuple[tuple[str, str], ...] = (
 )
 
 
+_PLAIN = {
+    "invalid float value:": "expected a number, found",
+    "invalid int value:": "expected a whole number, found",
+    "invalid choice:": "no such choice:",
+    "unrecognized arguments:": "not understood:",
+    "the following arguments are required:": "there must be",
+}
+
+
 class Parser(argparse.ArgumentParser):
     """A parser that raises `BadInput` in one line where argparse prints its usage and exits."""
 
     def error(self, message: str) -> NoReturn:
-        """Raise what argparse complains of."""
+        """Raise what argparse complains of, in words that are not Python's."""
+        for pythons, ours in _PLAIN.items():
+            message = message.replace(pythons, ours)
         raise BadInput(self.prog.removeprefix("station").strip(), "", f"{message} (see {self.prog} --help)")
 
 

@@ -74,6 +74,9 @@ def load_settings(path: Path | None = None) -> Settings:
     return _checked(raw, source)
 
 
+_WORDS: dict[type, str] = {str: "a text in quotes", int: "a whole number", float: "a number", bool: "true or false"}
+
+
 def _checked(raw: dict[str, object], source: Path) -> Settings:
     types = {f.name: type(getattr(Settings(), f.name)) for f in fields(Settings)}
     values: dict[str, object] = {}
@@ -83,7 +86,7 @@ def _checked(raw: dict[str, object], source: Path) -> Settings:
         if types[key] is float and type(value) is int:
             value = float(value)  # noqa: PLW2901 - TOML writes 5.0 and 5 alike for a person
         if type(value) is not types[key]:
-            raise BadInput(source, key, f"expected {types[key].__name__}, found {value!r}")
+            raise BadInput(source, key, f"expected {_WORDS[types[key]]}, found {value!r}")
         _check_range(key, value, source)
         values[key] = value
     return Settings(**values)  # type: ignore[arg-type] # each value's type was compared with its field's default

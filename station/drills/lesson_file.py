@@ -78,7 +78,7 @@ def lesson_text(path: Path) -> str:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as fault:
         line = data[: fault.start].count(b"\n") + 1
-        raise BadInput(path, f"line {line}", "not UTF-8 text") from fault
+        raise BadInput(path, f"line {line}", "not UTF-8 text; expected a lesson, saved as UTF-8") from fault
 
 
 def parse_lesson(text: str, source: str, name: str) -> Reading:

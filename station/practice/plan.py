@@ -214,6 +214,8 @@ def _checked_bars(wish: tuple[int, int] | None, lesson: Lesson) -> tuple[int, in
     if wish is None:
         return lesson.loop
     first, last = wish
+    if first > last:
+        raise BadInput("--bars", f"{first}-{last}", "expected the first bar first")
     if not 1 <= first <= last <= lesson.score.bar_count:
         raise BadInput("--bars", f"{first}-{last}", f"the lesson has bars 1 to {lesson.score.bar_count}")
     return first - 1, last - 1

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.units import NS_PER_MS
+from station.core.units import NS_PER_MS, PPQ
 from station.engine.engine import KEYBOARD
 from station.practice.headless import VirtualSession
 from station.practice.session import SessionResult
@@ -30,6 +30,7 @@ def practice_document(result: SessionResult, student: str) -> dict[str, Json]:
         "student": student,
         "device": result.device,
         "tempo_bpm": round(plan.tempo_bpm, 3),
+        "beats_a_minute": round(plan.tempo_bpm * PPQ / plan.lesson.beat_ticks, 3),
         "bars": [plan.first_bar + 1, plan.first_bar + plan.section.bar_count],
         "passes": plan.passes,
         "complete": result.complete,
@@ -86,7 +87,10 @@ def report_text(document: dict[str, Json]) -> str:
     assert isinstance(steps, list), "the report is ours"
     which = f"bars {bars[0]}-{bars[1]}" if bars[0] != bars[1] else f"bar {bars[0]}"
     passes = "1 pass" if session["passes"] == 1 else f"{session['passes']} passes"
-    head = f"{session['title']} at {session['tempo_bpm']:g} bpm, {which}, {passes}"
+    tempo = f"{session['beats_a_minute']:g} bpm"
+    if session["beats_a_minute"] != session["tempo_bpm"]:
+        tempo += f" ({session['tempo_bpm']:g} quarter notes a minute)"
+    head = f"{session['title']} at {tempo}, {which}, {passes}"
     latency = f"{session['input_latency_ms']:g} ms input, {session['output_latency_ms']:g} ms output"
     return (
         f"{head}{'' if session['complete'] else ' (stopped early)'}\n\n"

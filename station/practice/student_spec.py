@@ -224,7 +224,7 @@ def _fault(at: int, text: str) -> Fault:
 
 def _number(at: int, text: str, kind: Key, part: str) -> float:
     what = f"a {kind.unit}" if kind.whole else f"{kind.unit},"
-    limits = f"expected {what} from {kind.low:g} to {kind.high:g}"
+    limits = f"expected {what} from {_plain(kind.low)} to {_plain(kind.high)}"
     try:
         number = int(text) if kind.whole else float(text)
     except ValueError:

@@ -61,7 +61,8 @@ def _list(arguments: argparse.Namespace) -> int:
         if row.folder != folder:
             print(f"{'' if folder is None else chr(10)}{row.folder}")
             folder = row.folder
-        facts = f"{row.meter}  {row.beats_a_minute:5g} bpm  {row.bars:2} bars  {LEVELS[row.level]:12}"
+        bars = f"{row.bars:2} bar{' ' if row.bars == 1 else 's'}"
+        facts = f"{row.meter}  {row.beats_a_minute:5g} bpm  {bars}  {LEVELS[row.level]:12}"
         print(f"  {row.name:26}{facts}  {row.title}")
     return 0
 

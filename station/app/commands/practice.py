@@ -22,7 +22,9 @@ STAND_IN = "intermediate,seed=1"
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add this command's words."""
     parser.add_argument("lesson", metavar="LESSON", nargs="?", help="a lesson's name or file (the first lesson)")
-    parser.add_argument("--tempo", type=float, metavar="BPM", help="quarter notes a minute (the lesson's)")
+    parser.add_argument(
+        "--tempo", type=float, metavar="BPM", help="quarter notes a minute, in any meter (the lesson's)"
+    )
     parser.add_argument("--loops", type=int, metavar="N", help="how often the loop is played (the lesson's)")
     parser.add_argument("--bars", type=_bars, metavar="A-B", help="bars to practise, from 1 (the lesson's loop)")
     parser.add_argument("--kit", metavar="PORT", help="part of the MIDI port's name (the first kit found)")
@@ -52,7 +54,7 @@ def run(arguments: argparse.Namespace) -> int:
         from station.app.commands.window import open_window
 
         return open_window(settings, plan)
-    if not in_terminal and not _is_kit_there(settings.kit):
+    if not in_terminal and arguments.kit is None and not _is_kit_there(settings.kit):
         say("no screen and no kit here: a virtual student practises instead")
         return _virtual(plan, STAND_IN, arguments, settings)
     return _live(plan, arguments, settings)

@@ -85,9 +85,12 @@ def load_score_and_performance(score_name: str, performance_name: str) -> tuple[
 
 def _performance_of_capture(path: Path) -> Performance:
     from station.core.events import Choke, Hit
-    from station.devices.capture import read_capture
+    from station.devices.capture import MAGIC, read_capture
     from station.devices.replay import replay
 
+    with path.open("rb") as file:
+        if file.read(len(MAGIC)) != MAGIC:
+            raise BadInput(path, "", f"neither a MIDI file ({', '.join(MIDI_ENDINGS)}) nor a capture")
     events = list(replay(read_capture(path)))
     hits = [event for event in events if isinstance(event, Hit)]
     start_ns = hits[0].at_ns if hits else 0

@@ -33,8 +33,11 @@ def test_a_whole_number_does_where_a_fraction_is_expected(tmp_path: Path) -> Non
     ("text", "fault"),
     [
         ("kti = 1", "kti: no such setting; there are student, kit"),
-        ("rate_hz = true", "rate_hz: expected int, found True"),
-        ('block_frames = "64"', "block_frames: expected int, found '64'"),
+        ("rate_hz = true", "rate_hz: expected a whole number, found True"),
+        ('block_frames = "64"', "block_frames: expected a whole number, found '64'"),
+        ("student = 3", "student: expected a text in quotes, found 3"),
+        ('output_latency_ms = "8"', "output_latency_ms: expected a number, found '8'"),
+        ("own_sound = 1", "own_sound: expected true or false, found 1"),
         ("block_frames = -1", "block_frames: expected 0 to 8192, found -1"),
         ("rate_hz = 0", "rate_hz: expected 8000 to 384000, found 0"),
         ("input_latency_ms = nan", "input_latency_ms: expected -1000 to 1000, found nan"),

@@ -111,7 +111,7 @@ def test_segment_at_any_time() -> None:
         (Wishes(tempo_bpm=1e9), "--tempo: 1e"),
         (Wishes(loops=0), "--loops: 0"),
         (Wishes(bars=(0, 1)), "--bars: 0-1"),
-        (Wishes(bars=(2, 1)), "--bars: 2-1"),
+        (Wishes(bars=(2, 1)), "--bars: 2-1: expected the first bar first"),
         (Wishes(bars=(1, 3)), "--bars: 1-3"),
     ],
 )

@@ -72,3 +72,9 @@ def test_pieces_that_were_neither_written_nor_struck_extra_have_no_line() -> Non
     made = practice_document(virtual.result, "Ida")
     assert made["per_piece"]["crash_1"]["wrong_piece"] == 0  # type: ignore[index,call-overload] # its one hit was a hat's
     assert "crash_1" not in report_text(made)
+
+
+def test_the_tempo_is_said_in_the_beat_of_the_lesson_and_of_the_command_line() -> None:
+    plan = plan_practice(find_lesson("six-eight-1"), Wishes(loops=1))  # written at 50 dotted quarters: 75 quarters
+    made = practice_document(practise_virtually(plan, parse_spec("seed=1")).result, "Ida")
+    assert "at 50 bpm (75 quarter notes a minute), bars 1-2, 1 pass\n" in report_text(made)
