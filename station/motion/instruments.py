@@ -22,8 +22,9 @@ Array = NDArray[np.float64]
 
 INCH_M = 0.0254
 _CYMBAL_HZ = 0.80
-_CYMBAL_REFERENCE_M = 7 * INCH_M
-"""A 14″ cymbal rocks 0.8 times a second; the rate falls as the root of the size (HUMANS: calculated)."""
+_CYMBAL_REFERENCE_M, _CYMBAL_SLOWS = 7 * INCH_M, 0.95
+"""A 14″ cymbal rocks 0.8 times a second, and the rate falls with this power of the size: the middles of HUMANS' ranges
+from 14″ to 20″ (calculated)."""
 _CYMBAL_DECAY_S = 1.3
 _CYMBAL_PUSH_RAD = math.radians(11.0)
 """How far the hardest stroke tips a 14″ cymbal (our choice); a larger one less, by its weight."""
@@ -78,7 +79,7 @@ def _instrument(piece: KitPiece, times_s: Array, velocity: Array, strike_m: Arra
     size = piece.radius_m / _CYMBAL_REFERENCE_M
     if cymbal:
         push, decay = _CYMBAL_PUSH_RAD / size**2, _CYMBAL_DECAY_S
-        turns = 2 * math.pi * _CYMBAL_HZ / math.sqrt(size)
+        turns = 2 * math.pi * _CYMBAL_HZ / size**_CYMBAL_SLOWS
     else:
         push, decay, turns = _DRUM_PUSH_RAD, _DRUM_DECAY_S, 2 * math.pi * _DRUM_HZ
     if piece.kind == "hihat":

@@ -22,13 +22,16 @@ BEATER_SWING_RAD = math.radians(60.0)
 OPEN_GAP_M = 0.035
 """Between the cymbals of a hi-hat that is wide open (2–4 cm)."""
 
-_KICK_KEYS_S = np.array([-0.16, -0.055, 0.0, 0.06, 0.14])
+_KICK_KEYS_S = np.array([-0.16, -0.045, 0.0, 0.06, 0.14])
 """Rest, top, strike, rebound, rest again: 45 ms down and a spring's way back (our choice)."""
 _KICK_SHARES = np.array([0.85, 1.0, 0.0, 0.5, 0.85])
-_BURIED_KEYS_S = np.array([-0.16, -0.055, 0.0, 0.11, 0.24])
+_BURIED_KEYS_S = np.array([-0.16, -0.045, 0.0, 0.11, 0.24])
 _BURIED_SHARES = np.array([0.85, 1.0, 0.0, 0.0, 0.85])
 _SOFTEST_SWING = 0.45
 """The share of the full swing that the softest kick takes (our choice)."""
+_KICK_TENSION, _HAT_TENSION = -0.7, -0.5
+"""Of the splines at the impact: the beater arrives with 1.7 times its mean speed (HUMANS: 2267°/s after 60° in 45 ms),
+the hi-hat's foot with 1.5 times (our choice)."""
 _OPENING_S = 0.080
 _CLOSING_S = 0.060
 _CHICK_LIFT = 0.5
@@ -54,7 +57,7 @@ def kick_board(times_s: Array, velocity: Array, buried: bool) -> Curves:
     values[:, 0] = at_rest * squeeze_before + values[:, 0] * (1 - squeeze_before)
     values[:, -1] = at_rest * squeeze_after + values[:, -1] * (1 - squeeze_after)
     continuity = np.tile([0.0, 0.0, -1.0, 0.0, 0.0], len(times_s))
-    return _curve(times.reshape(-1), values.reshape(-1), continuity)
+    return _curve(times.reshape(-1), values.reshape(-1), continuity, _KICK_TENSION)
 
 
 def hat_board(score: Score, onset_s: Array) -> Curves:
@@ -85,7 +88,7 @@ def hat_board(score: Score, onset_s: Array) -> Curves:
     if not keys:
         return still(0.0)
     table = np.array(keys)
-    return _curve(np.maximum.accumulate(table[:, 0]), table[:, 1], table[:, 2])
+    return _curve(np.maximum.accumulate(table[:, 0]), table[:, 1], table[:, 2], _HAT_TENSION)
 
 
 BEATER_LENGTH_M, _BEATER_HALF_M = 0.20, 0.016
@@ -107,6 +110,8 @@ def still(value: float) -> Curves:
     return Curves(np.zeros(1), np.array([[[value, 0.0, 0.0, 0.0]]]))
 
 
-def _curve(times: Array, values: Array, continuity: Array) -> Curves:
-    into, out = slopes(times, values, 0.2, continuity)
+def _curve(times: Array, values: Array, continuity: Array, impact: float) -> Curves:
+    """A curve that stops at every key, but comes to the head, or the other cymbal, with the speed of `impact`."""
+    struck = (continuity == -1.0) & (values == 0.0)
+    into, out = slopes(times, values, np.where(struck, impact, 1.0), continuity)
     return Curves(times, cubics(times, values, into, out)[:, None, :])

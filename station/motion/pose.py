@@ -5,6 +5,7 @@ needs nothing else of motion but the `Kit` and `Figure` that it was made for. Ar
 joints by `Joint`, the sides by `RIGHT` and `LEFT`, the pieces in the order of `Kit.pieces`.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -44,6 +45,11 @@ ANGLE_NAMES: tuple[str, ...] = (
     "left_knee",
     "left_ankle",
 )
+
+
+_STICKS = [ANGLE_NAMES.index("right_stick"), ANGLE_NAMES.index("left_stick")]
+OPEN_FINGERS_RAD = math.radians(60)
+"""The stick's angle in a hand whose fingers are quite open: the limit of `limits.Limits.fingers`."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -87,6 +93,14 @@ class Pose:
     def head_up(self) -> NDArray[np.float64]:
         """From the neck to the crown, a unit vector."""
         return self.row[frame.HEAD_UP]
+
+    @property
+    def fingers(self) -> NDArray[np.float64]:
+        """How far the fingers of the right and the left hand are closed about the stick, (2,) 0 open … 1 closed.
+
+        They open as the stick rises in the hand and close at the fulcrum for the stroke.
+        """
+        return np.clip(1.0 - self.angles_rad[_STICKS] / OPEN_FINGERS_RAD, 0.0, 1.0)
 
     @property
     def footboard_rad(self) -> tuple[float, float]:
