@@ -7,7 +7,6 @@ strike.
 """
 
 from dataclasses import dataclass, field
-from functools import cached_property
 from struct import pack
 
 import numpy as np
@@ -16,10 +15,9 @@ from numpy.typing import NDArray
 from station.core.pieces import Limb
 from station.motion.figure import Figure, figure_of
 from station.motion.hand import HandPart
-from station.motion.keys import Keys, at, many
+from station.motion.keys import Keys
 from station.motion.kit import Kit, load_kit
 from station.motion.limbs import Assignment
-from station.motion.maths import MANY, ONE
 from station.motion.plan import Plan, holds
 from station.motion.pose import Pose
 from station.motion.style import Style
@@ -41,16 +39,21 @@ class Drummer:
     style: Style = field(default_factory=Style)
     plan: Plan | None = None
     parts: tuple[HandPart, HandPart] | None = None
+    keys: Keys | None = None
 
     def __post_init__(self) -> None:
         plan = self.plan or Plan.of(self.score, self.kit, self.figure)
         object.__setattr__(self, "plan", plan)
-        object.__setattr__(self, "parts", self.parts or plan.hands(self.style))
+        parts = self.parts or plan.hands(self.style)
+        object.__setattr__(self, "parts", parts)
+        object.__setattr__(self, "keys", self.keys or Keys.of(plan, parts, self.style))
 
     def with_style(self, style: Style) -> "Drummer":
         """The same drummer in another style; what it does not change is shared."""
-        same_hold = holds(style) == holds(self.style)
-        return Drummer(self.score, self.kit, self.figure, style, self._plan, self.parts if same_hold else None)
+        plan = self._plan
+        parts = self._hands if holds(style) == holds(self.style) else plan.hands(style)
+        keys = Keys.of(plan, parts, style, self._keys)
+        return Drummer(self.score, self.kit, self.figure, style, plan, parts, keys)
 
     @property
     def assignment(self) -> Assignment:
@@ -78,20 +81,20 @@ class Drummer:
         event = int(np.argmin(np.abs(hand.events.time_s - self.score.onset_s[row])))
         return float(hand.lies[int(hand.which[event])].contact.ahead_m)
 
-    @cached_property
+    @property
     def _keys(self) -> Keys:
-        """The keyframes: what the style decides."""
-        return Keys.of(self._plan, self._hands, self.style)
+        assert self.keys is not None
+        return self.keys
 
     def pose(self, time_s: float) -> Pose:
         """Everything at `time_s` seconds from the score's tick 0, before and after the score too."""
         keys = self._keys
-        row = keys.row(ONE, time_s, at)
+        row = keys.at(time_s)
         for instrument in keys.instruments:
             row += instrument.at(time_s)
         return Pose(time_s, np.frombuffer(pack(f"{len(row)}d", *row)))
 
     def rows(self, time_s: Array) -> Array:
         """The poses at each time (n,) as rows (n, fields) in the layout of `frame`; the instruments are left out."""
-        row = self._keys.row(MANY, time_s, many)
+        row = self._keys.many(time_s)
         return np.stack([np.broadcast_to(value, time_s.shape) for value in row], axis=1)

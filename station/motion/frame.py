@@ -5,7 +5,6 @@ floats, for a live pose, and on arrays, for a whole performance (`maths`).
 """
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
 from station.motion.arm import ArmLengths, Contact, Offsets
 from station.motion.arm import chain as arm_chain
@@ -28,21 +27,8 @@ STAND_M = (0.10, 0.30)
 """How far forward and up the pelvis goes to stand (our choice)."""
 
 
-class BodyNow(NamedTuple):
-    """What the body's channels say: `body.CHANNELS`, the look's bearing and pitch in space, head and eyes."""
-
-    twist: Number
-    lean: Number
-    side: Number
-    shrug_m: Number
-    wing: Number
-    stand: Number
-    bearing: Number
-    pitch: Number
-    bob: Number
-    tilt: Number
-    eyes: Number
-
+BodyNow = tuple[Number, ...]
+"""What the body's channels say: `body.CHANNELS`, the look's bearing and pitch in space, head and eyes."""
 
 HandNow = tuple[Contact, Offsets]
 """What one hand's channels say: its contact without the style's wing, and its stroke."""

@@ -1,24 +1,25 @@
 """All keyframes under one style, and what they say at an instant or at many.
 
-`at` and `many` sample anything that moves: the same lines then run on floats and on arrays.
+`at` and `many` ask each part for itself, so that Python can make short work of a float; `frame` then has the formulas.
 """
 
-from collections.abc import Callable
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Protocol
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Piece
+from station.core.pieces import Piece, word
 from station.motion import body, frame
 from station.motion.flourish import Flourishes
-from station.motion.frame import BodyNow, HandNow, Rig
+from station.motion.frame import HandNow, Rig
 from station.motion.hand import HandPart
 from station.motion.instruments import Instrument
 from station.motion.leg import HEEL_RAD, Footing
 from station.motion.life import BREATH_M, BREATH_RATE, Blinks
-from station.motion.maths import Maths, Number
+from station.motion.maths import MANY, ONE, Number
 from station.motion.plan import Plan, bar_places, holds
 from station.motion.reach import leans
 from station.motion.splines import Curves
@@ -30,29 +31,6 @@ from station.music.score import Score
 Array = NDArray[np.float64]
 
 
-class Channels(Protocol):
-    """Anything that moves: it can be asked for one instant or for many."""
-
-    def at(self, time_s: float, /) -> Number:
-        """One instant."""
-
-    def many(self, time_s: Array, /) -> Number:
-        """Many."""
-
-
-Sample = Callable[[Channels, Number], Number]
-
-
-def at(channels: Channels, time_s: Number) -> Number:
-    """The channels at one instant."""
-    return channels.at(time_s)
-
-
-def many(channels: Channels, time_s: Number) -> Number:
-    """The channels at many."""
-    return channels.many(time_s)
-
-
 @dataclass(frozen=True, eq=False)
 class HandKeys:
     """One hand's way, strokes and flourishes."""
@@ -61,26 +39,21 @@ class HandKeys:
     strokes: Strokes
     flourishes: Flourishes | None
 
-    @classmethod
-    def of(cls, score: Score, hand: HandPart, style: Style) -> "HandKeys":
-        """The keys of `hand` under `style`."""
-        bars = _bars(score, hand, style)
-        likely = style.value("flourish", bars) / 100
-        flourishes = None
-        if likely.any():
-            flourishes = Flourishes.of(hand.events.time_s, likely, style.seed + int(hand.limb))
-        if flourishes is not None and not flourishes.start_s:
-            flourishes = None
-        return cls(hand.way, Strokes.of(hand.strokes, sliders(score, hand, style, bars)), flourishes)
-
-    def now(self, time_s: Number, sample: Sample) -> tuple[HandNow, Number | None]:
+    def at(self, time_s: float) -> tuple[HandNow, float | None]:
         """The contact and the stroke, and how high a tossed stick is over the hand, None where nothing is tossed."""
-        contact, offsets = sample(self.way, time_s), sample(self.strokes, time_s)
-        if self.flourishes is None:
-            return (contact, offsets), None
-        lift, turn, toss = sample(self.flourishes, time_s)
-        raised = contact._replace(z=contact.z + lift), offsets._replace(stick=offsets.stick + turn)
-        return raised, toss
+        now = self.way.at(time_s), self.strokes.at(time_s)
+        return (now, None) if self.flourishes is None else _flourished(now, self.flourishes.at(time_s))
+
+    def many(self, time_s: Array) -> tuple[HandNow, Array | None]:
+        """The same at each time."""
+        now = self.way.many(time_s), self.strokes.many(time_s)
+        return (now, None) if self.flourishes is None else _flourished(now, self.flourishes.many(time_s))
+
+
+def _flourished(now: HandNow, flourish: tuple[Number, Number, Number]) -> tuple[HandNow, Number]:
+    contact, offsets = now
+    lift, turn, toss = flourish
+    return (contact._replace(z=contact.z + lift), offsets._replace(stick=offsets.stick + turn)), toss
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,6 +63,8 @@ class Keys:
     `hands` of the right and the left, `feet` the boards under them; the rest is the body's.
     """
 
+    style: Style
+    parts: tuple[HandPart, HandPart]
     hands: tuple[HandKeys, HandKeys]
     body: Curves
     head: Curves
@@ -100,48 +75,113 @@ class Keys:
     instruments: tuple[Instrument, ...]
 
     @classmethod
-    def of(cls, plan: Plan, hands: tuple[HandPart, HandPart], style: Style) -> "Keys":
-        """The keys of `plan`, whose hands are `hands`, under `style`."""
-        ground = plan.ground
-        values = body.keys(ground, style)
-        first = body.curves(ground, style, values)
-        needed = leans(first, hands, plan.figure, plan.pelvis)
-        if needed.any():
-            values[1] += needed
-            first = body.curves(ground, style, values)
-        right, left = (HandKeys.of(plan.score, hand, style) for hand in hands)
-        left_kick, kick = plan.kit.left_handed, plan.kick(style)
+    def of(cls, plan: Plan, parts: tuple[HandPart, HandPart], style: Style, before: "Keys | None" = None) -> "Keys":
+        """The keys of `plan`, whose hands are `parts`, under `style`; those `before` of the same plan that hold too."""
+        old = before if before is not None and before.parts is parts else None
+        same = {stage for stage in READS if old is not None and _alike(old.style, style, READS[stage])}
+        (right, left), ground = parts, plan.ground
+        hands = old.hands if old is not None else (None, None)
+        left_kick = plan.kit.left_handed
+        kick = old.feet[left_kick] if old is not None and "kick" in same else plan.kick(style)
         return cls(
-            hands=(right, left),
-            body=first,
-            head=body.head_curve(ground, style),
-            gaze=plan.gaze(style),
-            blinks=plan.blinks(style.seed),
+            style=style,
+            parts=parts,
+            hands=(_hand(plan.score, right, style, hands[0], same), _hand(plan.score, left, style, hands[1], same)),
+            body=old.body if old is not None and "body" in same else _body(plan, parts, style),
+            head=old.head if old is not None and "head" in same else body.head_curve(ground, style),
+            gaze=old.gaze if old is not None and "gaze" in same else plan.gaze(style),
+            blinks=old.blinks if old is not None and "blinks" in same else plan.blinks(style.seed),
             feet=(plan.hat, kick) if left_kick else (kick, plan.hat),
             rig=rig_of(plan, style),
             instruments=plan.instruments,
         )
 
-    def row(self, m: Maths, time_s: Number, sample: Sample) -> list[Number]:
-        """The whole drummer as a row of `frame`, the instruments left out."""
-        twist, lean, side, shrug, wing, stand, gaze, breath = sample(self.body, time_s)
-        bearing, pitch = sample(self.gaze, time_s)
-        nod, tilt = sample(self.head, time_s)
-        shrug = shrug + breath * BREATH_M * m.sin(BREATH_RATE * time_s)
-        now = BodyNow(
-            *(twist, lean, side, shrug, wing, stand, gaze * bearing, gaze * pitch),
-            *(nod, tilt, sample(self.blinks, time_s)),
-        )
-        feet = sample(self.feet[0], time_s)[0], sample(self.feet[1], time_s)[0]
-        (right, right_toss), (left, left_toss) = (hand.now(time_s, sample) for hand in self.hands)
-        row = self.rig.row(m, now, right, left, feet)
-        if right_toss is not None:
-            row[frame.BUTT.start + 2] = row[frame.BUTT.start + 2] + right_toss
-            row[frame.TIP.start + 2] = row[frame.TIP.start + 2] + right_toss
-        if left_toss is not None:
-            row[frame.BUTT.start + 5] = row[frame.BUTT.start + 5] + left_toss
-            row[frame.TIP.start + 5] = row[frame.TIP.start + 5] + left_toss
-        return row
+    def at(self, time_s: float) -> list[float]:
+        """The whole drummer at one instant as a row of `frame`, the instruments left out."""
+        twist, lean, side, shrug, wing, stand, gaze, breath = self.body.at(time_s)
+        bearing, pitch = self.gaze.at(time_s)
+        shrug += breath * BREATH_M * math.sin(BREATH_RATE * time_s)
+        nod, tilt = self.head.at(time_s)
+        (right, right_toss), (left, left_toss) = self.hands[0].at(time_s), self.hands[1].at(time_s)
+        boards = self.feet[0].first(time_s), self.feet[1].first(time_s)
+        look = gaze * bearing, gaze * pitch
+        now = (twist, lean, side, shrug, wing, stand, *look, nod, tilt, self.blinks.at(time_s))
+        return _tossed(self.rig.row(ONE, now, right, left, boards), right_toss, left_toss)
+
+    def many(self, time_s: Array) -> list[Number]:
+        """The same at each time (n,): numbers and arrays (n,)."""
+        twist, lean, side, shrug, wing, stand, gaze, breath = self.body.many(time_s)
+        bearing, pitch = self.gaze.many(time_s)
+        shrug = shrug + breath * BREATH_M * np.sin(BREATH_RATE * time_s)
+        nod, tilt = self.head.many(time_s)
+        (right, right_toss), (left, left_toss) = self.hands[0].many(time_s), self.hands[1].many(time_s)
+        boards = self.feet[0].many(time_s)[0], self.feet[1].many(time_s)[0]
+        look = gaze * bearing, gaze * pitch
+        now = (twist, lean, side, shrug, wing, stand, *look, nod, tilt, self.blinks.many(time_s))
+        return _tossed(self.rig.row(MANY, now, right, left, boards), right_toss, left_toss)
+
+
+def _tossed(row: list[Number], *toss_m: Number | None) -> list[Number]:
+    """`row` with the right and the left stick so high over their hands; None where nothing is tossed."""
+    for side, high in enumerate(toss_m):
+        if high is not None:
+            for part in (frame.BUTT, frame.TIP):
+                row[part.start + 3 * side + 2] = row[part.start + 3 * side + 2] + high
+    return row
+
+
+READS: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        "strokes": (
+            *("amplitude_gain", "amplitude_wrist", "amplitude_elbow", "amplitude_shoulder", "amplitude_fingers"),
+            *("frequency_gain", "frequency_wrist", "frequency_elbow", "frequency_shoulder", "whip", "pieces"),
+            *(word(piece) for piece in Piece),
+        ),
+        "flourishes": ("flourish", "seed"),
+        "body": (
+            *("amplitude_twist", "amplitude_back", "frequency_back", "amplitude_side", "half_time_bpm"),
+            *("twist_deg_s", "shrug", "wing_deg", "posture_deg", "stand", "amplitude_gaze", "breathing"),
+        ),
+        "head": ("amplitude_neck", "frequency_neck", "bobs_per_beat", "amplitude_head_side"),
+        "gaze": ("look_around", "seed"),
+        "blinks": ("seed",),
+        "kick": ("beater",),
+    }
+)
+"""Which controls each stage of keyframes reads: under all others it stays as it is. What is not here is made anew."""
+
+
+def _alike(one: Style, other: Style, controls: tuple[str, ...]) -> bool:
+    return all(  # a piece's word is no field but may be automated
+        getattr(one, c, None) == getattr(other, c, None) and one.automation.get(c) == other.automation.get(c)
+        for c in controls
+    )
+
+
+def _body(plan: Plan, parts: tuple[HandPart, HandPart], style: Style) -> Curves:
+    """The body's curves, leaning to what is out of the arms' reach."""
+    values = body.keys(plan.ground, style)
+    curves = body.curves(plan.ground, style, values)
+    needed = leans(curves, parts, plan.figure, plan.pelvis)
+    if not needed.any():
+        return curves
+    values[1] += needed
+    return body.curves(plan.ground, style, values)
+
+
+def _hand(score: Score, part: HandPart, style: Style, old: HandKeys | None, same: set[str]) -> HandKeys:
+    """The keys of one hand; of the `old` those whose stages stay the `same`."""
+    bars = _bars(score, part, style)
+    strokes = old.strokes if old and "strokes" in same else Strokes.of(part.strokes, sliders(score, part, style, bars))
+    return HandKeys(
+        part.way, strokes, old.flourishes if old and "flourishes" in same else _flourishes(part, style, bars)
+    )
+
+
+def _flourishes(part: HandPart, style: Style, bars: Array) -> Flourishes | None:
+    likely = style.value("flourish", bars) / 100
+    flourishes = Flourishes.of(part.events.time_s, likely, style.seed + int(part.limb)) if likely.any() else None
+    return flourishes if flourishes is not None and flourishes.start_s else None
 
 
 def _bars(score: Score, hand: HandPart, style: Style) -> Array:

@@ -27,20 +27,26 @@ class Curves:
     cubics: Array
 
     @cached_property
-    def _knots(self) -> memoryview:
-        """The knots as a buffer of plain floats: numpy's are slow one by one."""
-        return self.knots_s.data
+    def _lists(self) -> tuple[list[float], list[list[list[float]]]]:
+        """The knots and cubics as lists: read one by one they beat arrays."""
+        return self.knots_s.tolist(), self.cubics.tolist()
 
     def at(self, time_s: float) -> list[float]:
         """Every channel at one instant."""
-        knots = self._knots
+        knots, rows = self._lists
+        i = bisect_right(knots, time_s) - 1
+        u = time_s - knots[i] if i >= 0 else 0.0
+        return [((d * u + c) * u + b) * u + a for a, b, c, d in rows[max(i, 0)]]
+
+    def first(self, time_s: float) -> float:
+        """The first channel at one instant."""
+        knots, rows = self._lists
         i = bisect_right(knots, time_s) - 1
         if i < 0:
-            first: list[float] = self.cubics[0, :, 0].tolist()
-            return first
+            return rows[0][0][0]
+        a, b, c, d = rows[i][0]
         u = time_s - knots[i]
-        rows: list[list[float]] = self.cubics[i].tolist()
-        return [((d * u + c) * u + b) * u + a for a, b, c, d in rows]
+        return ((d * u + c) * u + b) * u + a
 
     def many(self, time_s: ArrayLike) -> Array:
         """Every channel at each time, (channels, n)."""
@@ -62,16 +68,25 @@ def slopes(
     t, c, b = (np.asarray(x, np.float64) for x in (tension, continuity, bias))
     steps = np.maximum(np.diff(times_s, axis=-1), _SHORTEST_S)
     chords = np.diff(values, axis=-1) / steps
-    edge = np.zeros((*chords.shape[:-1], 1))
-    before, after = np.concatenate((edge, chords), -1), np.concatenate((chords, edge), -1)
-    span = np.concatenate((steps[..., :1], steps[..., :-1] + steps[..., 1:], steps[..., -1:]), -1)
-    earlier = np.concatenate((steps[..., :1], steps), -1) / span
-    later = np.concatenate((steps, steps[..., -1:]), -1) / span
-    back, forth = (1 - t) * (1 + b) * before, (1 - t) * (1 - b) * after
-    into = (1 - c) * later * back + (1 + c) * earlier * forth
-    out = (1 + c) * later * back + (1 - c) * earlier * forth
+    earlier, later = np.ones(values.shape), np.ones(values.shape)
+    np.divide(steps[..., :-1], steps[..., :-1] + steps[..., 1:], out=earlier[..., 1:-1])
+    np.subtract(1, earlier[..., 1:-1], out=later[..., 1:-1])
+    back, forth = np.zeros(values.shape), np.zeros(values.shape)
+    back[..., 1:] = forth[..., :-1] = chords
+    back *= (1 - t) * (1 + b)
+    forth *= (1 - t) * (1 - b)
+    later *= back
+    earlier *= forth
+    into = later + earlier
+    if not c.any():
+        return into, into
+    turn = c * (earlier - later)
+    out = into - turn
+    into += turn
     broken = np.broadcast_to(c <= -1, into.shape)
-    return np.where(broken, back, into), np.where(broken, forth, out)
+    np.copyto(into, back, where=broken)
+    np.copyto(out, forth, where=broken)
+    return into, out
 
 
 def cubics(times_s: Array, values: Array, into: Array, out: Array) -> Array:

@@ -69,6 +69,8 @@ _GROWTH = np.array([[0.8], [0.75], [0.8], [0.65]])
 _TIME_GROWTH, _RISE_GROWTH = 0.25, 0.18
 """The times of a stroke and of its preparation grow with its height to these powers: a stroke that is twice as high is
 much faster, and takes hardly longer to raise."""
+_LEAST_HEIGHT_M = 1e-3
+"""Even a stroke of no height takes its time, that of one of this height (our choice)."""
 _REST_HEIGHT_M = 0.045
 """Where the tip rests between strokes that are far apart (3.4–4.5 cm in the measured stroke)."""
 _FULL_GAP_S = 0.16
@@ -260,7 +262,7 @@ def _times(strike_s: Array, gaps: Array, height_m: Array, sliders: Sliders) -> t
     `gaps` (n + 1,) before and after each strike.
     """
     before = gaps[:-1]
-    pace = (height_m / FULL_HEIGHT_M) ** _TIME_GROWTH / sliders.speed
+    pace = (np.maximum(height_m, _LEAST_HEIGHT_M) / FULL_HEIGHT_M) ** _TIME_GROWTH / sliders.speed
     rise = (height_m / FULL_HEIGHT_M) ** _RISE_GROWTH / sliders.speed
     down = np.minimum(pace, 0.5 * before / _DOWN_S)
     # what the whip leaves of the gap is shared by the rest after the last stroke and the preparation
@@ -272,7 +274,9 @@ def _times(strike_s: Array, gaps: Array, height_m: Array, sliders: Sliders) -> t
     rest = np.concatenate((rest_before[:, 1:], (_REST_S * pace)[:, -1:]), 1)
     times = np.empty((4, len(strike_s), KEYS))
     together = _BEFORE_S.mean(0)
-    ahead = together + np.atleast_2d(sliders.whip)[..., None] * (_BEFORE_S[:, None, :] - together)
+    whip, share = np.atleast_2d(sliders.whip)[..., None], _BEFORE_S[:, None, :] / together
+    # what comes late is put off by shares of the time that is left, so that it never comes after the strike
+    ahead = together * np.where((share < 1) & (whip > 1), share**whip, 1 + whip * (share - 1))
     falling, rising = np.minimum(ahead, _DOWN_S), np.maximum(ahead - _DOWN_S, 0.0)
     times[..., :5] = strike_s[:, None] - falling * down[..., None] - rising * up[..., None]
     times[..., 5] = strike_s
