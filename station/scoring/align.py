@@ -16,6 +16,7 @@ from station.music.score import Score
 from station.scoring.alignment import Alignment, Reference, Timed, labelled
 from station.scoring.bias import common_bias_ns
 from station.scoring.classes import match_classes
+from station.scoring.graces import with_far_graces
 from station.scoring.ignored import Unwritten
 from station.scoring.own_clock import align_unclocked
 from station.scoring.pairing import Indices
@@ -43,5 +44,6 @@ def align_clocked(score: Score, performance: Performance, note_class: Indices, h
     one = np.zeros(len(at_ns), np.int64)
     notes = Side(score.onset_ns, note_class, np.zeros(len(score), np.int64), spots(score.notes))
     hits = Side(at_ns, hit_class, one, spots(performance.hits))
-    settled = settle(notes, hits, note_kinds(score), unwritten.feet, Start(bias_ns))
+    settled = settle(notes, hits, note_kinds(score), unwritten.own_only, Start(bias_ns))
+    settled = with_far_graces(score, settled, hits)
     return labelled(settled, Timed(at_ns, score.onset_ns, at_ns, one, Reference.CLICK), unwritten.quiet)

@@ -149,7 +149,7 @@ class Follower:
     def _left_alone(self, hit: int) -> Judgement:
         """The verdict on a hit that no note of its own piece wants: another piece's note, or nobody's."""
         played, at_ns = self._hits[hit], self._hit_ns[hit]
-        if not self._unwritten.is_foot(played.piece, at_ns):
+        if not self._unwritten.is_own_only(played.piece, at_ns):
             note = self._waiting_note_near(at_ns, self._class_of[played.piece])
             if note != _NOBODY:
                 self._other_of_note[note], self._note_of_hit[hit] = hit, note

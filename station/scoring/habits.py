@@ -20,6 +20,7 @@ from station.music.score import Score
 from station.scoring.alignment import Alignment
 from station.scoring.drift import robust_sd
 from station.scoring.dynamics import level_db
+from station.scoring.graces import main_of_grace
 from station.scoring.regression import CONSTANT, Column, Effect, fit
 from station.scoring.timing import asynchrony_ms, timed_notes
 
@@ -174,26 +175,6 @@ def _mean(values: Floats, slots: NDArray[np.int64]) -> Effect | None:
         return None
     means = np.bincount(slot, weights=values) / np.bincount(slot)
     return Effect(float(means.mean()), float(means.std(ddof=1)) / len(means) ** 0.5, len(means))
-
-
-def main_of_grace(score: Score) -> NDArray[np.int64]:
-    """Index of the main stroke that each grace stroke (n,) leads to; −1 for main strokes and graces without one.
-
-    It stands on the same tick, on the grace's own piece where there is one.
-    """
-    main = np.full(len(score), -1, np.int64)
-    ticks, pieces = score.notes["tick"], score.notes["piece"]
-    mains = np.flatnonzero(~score.is_grace)
-    for grace in np.flatnonzero(score.is_grace).tolist():
-        low, high = (
-            np.searchsorted(ticks[mains], ticks[grace]),
-            np.searchsorted(ticks[mains], ticks[grace], side="right"),
-        )
-        there = mains[low:high]
-        own = there[pieces[there] == pieces[grace]]
-        if len(there):
-            main[grace] = own[0] if len(own) else there[0]
-    return main
 
 
 # --- loudness ---------------------------------------------------------------------------------------------------------

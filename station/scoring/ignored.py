@@ -1,8 +1,9 @@
 """Hits that nobody counts, however much they are unwritten: what good drummers' feet and left hands do on their own.
 
-The list is the teacher's: the hi-hat foot keeping time, the chick that closes an open hat, a feathered kick, and notes
-at ghost level beside a backbeat. Such a hit still answers a written note of its piece; only if none claims it, it is
-not an extra. `Unwritten` answers for whole arrays (the report) and for one hit at a time (live) by the same rules.
+The list is the teacher's: the hi-hat foot keeping time, the chick that closes an open hat, a feathered kick, notes at
+ghost level beside a backbeat, and the bounces of a buzz roll, which is one note however often the stick bounces. Such a
+hit still answers a written note of its piece; only if none claims it, it is not an extra. `Unwritten` answers for whole
+arrays (the report) and for one hit at a time (live) by the same rules; live, a hit within a buzz is taken for a bounce.
 """
 
 from bisect import bisect_right
@@ -12,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Dynamic, Piece
+from station.core.pieces import Articulation, Dynamic, Piece
 from station.core.units import NS_PER_MS
 from station.music.performance import Performance
 from station.music.score import Score
@@ -30,11 +31,27 @@ _BEAT_REACH_NS = 60 * NS_PER_MS
 """How far from a beat a feathered kick may lie (our choice: half a 16th at 125 bpm)."""
 
 
+BUZZ_REACH_NS = 60 * NS_PER_MS
+"""How far before and after its written length a buzz roll may bounce (our choice: two bounces, and a late start)."""
+
+BOUNCE_NS = 80 * NS_PER_MS
+"""Slower than that a stick is led and does not bounce (our choice: a double's second bounce comes after 50–90 ms)."""
+
+LEAST_COMPANY = 3
+"""So many hits are a buzz that bounces, whatever its gaps (our choice: a press and two bounces)."""
+
+PRESS_LOUDER = 1.25
+"""A stroke this much louder than the last is a new press (our choice: 4 dB, twice what nobody hears)."""
+
+
 @dataclass(frozen=True, eq=False)
 class Masks:
-    """Over the hits (m,): `feet` never answer another piece's note, `quiet` (feet among them) are never extras."""
+    """Over the hits (m,): `own_only`, feet and bounces, never answer another piece's note; `quiet` are never extras.
 
-    feet: NDArray[np.bool_]
+    All that are `own_only` are `quiet` too.
+    """
+
+    own_only: NDArray[np.bool_]
     quiet: NDArray[np.bool_]
 
 
@@ -72,6 +89,21 @@ class Unwritten:
         return self._score.onset_ns[hats], np.asarray(opened)
 
     @cached_property
+    def _buzzes(self) -> dict[int, tuple[NDArray[np.int64], NDArray[np.int64]]]:
+        """Of each piece that buzzes: where bounces may begin, rising, and until when the latest of them may go on."""
+        score, spans = self._score, {}
+        rows = np.flatnonzero((score.notes["articulation"] == Articulation.BUZZ) & ~score.is_grace)
+        for piece in np.unique(score.notes["piece"][rows]).tolist():
+            own = rows[score.notes["piece"][rows] == piece]
+            ends = score.tempo_map.ns_at(score.notes["tick"][own] + score.notes["duration_ticks"][own])
+            spans[piece] = (score.onset_ns[own] - BUZZ_REACH_NS, np.maximum.accumulate(ends) + BUZZ_REACH_NS)
+        return spans
+
+    @cached_property
+    def _buzz_lists(self) -> dict[int, tuple[list[int], list[int]]]:
+        return {piece: (starts.tolist(), ends.tolist()) for piece, (starts, ends) in self._buzzes.items()}
+
+    @cached_property
     def _lists(self) -> tuple[list[int], list[bool], list[bool], list[int], list[bool]]:
         """Bars, their flags and hats as lists, which single hits are looked up in faster."""
         hat_ns, opened = self._hats
@@ -95,10 +127,15 @@ class Unwritten:
             ghosts[ghosts] = self._backbeat_bar[self._bars(hit_ns[ghosts])]
         if feathers.any():
             feathers[feathers] = self._on_beat(hit_ns[feathers])
-        return Masks(feet, feet | ghosts | feathers)
+        own_only = feet | self._bounces(piece, hit_ns)
+        return Masks(own_only, own_only | ghosts | feathers)
 
-    def is_foot(self, piece: Piece, hit_ns: int) -> bool:
-        """One hit of `Masks.feet`."""
+    def is_own_only(self, piece: Piece, hit_ns: int) -> bool:
+        """One hit of `Masks.own_only`."""
+        if piece in self._buzzes:
+            starts, ends = self._buzz_lists[piece]
+            buzz = bisect_right(starts, hit_ns) - 1
+            return buzz >= 0 and hit_ns <= ends[buzz]
         if piece is not Piece.HIHAT_PEDAL:
             return False
         bar_ns, foot_bar, _, hat_ns, hat_open = self._lists
@@ -109,12 +146,40 @@ class Unwritten:
         """One hit of `Masks.quiet`."""
         if piece is Piece.SNARE and velocity <= GHOST_VELOCITY:
             bar_ns, _, backbeat_bar, _, _ = self._lists
-            return bool(backbeat_bar[max(bisect_right(bar_ns, hit_ns) - 1, 0)])
+            if backbeat_bar[max(bisect_right(bar_ns, hit_ns) - 1, 0)]:
+                return True
         if piece is Piece.KICK and velocity <= FEATHER_VELOCITY:
             beats = self._beat_list
             i = bisect_right(beats, hit_ns)
             return any(abs(beat - hit_ns) <= _BEAT_REACH_NS for beat in beats[max(i - 1, 0) : i + 1])
-        return self.is_foot(piece, hit_ns)
+        return self.is_own_only(piece, hit_ns)
+
+    def surely_bounces(self, performance: Performance) -> NDArray[np.bool_]:
+        """Which hits (m,), wherever in the score they belong, are no more than bounces: they tell nothing of the place.
+
+        On a piece that buzzes somewhere, close after another hit and no new, louder press.
+        """
+        hits, bounces = performance.hits, np.zeros(len(performance), np.bool_)
+        for piece in self._buzzes:
+            own = np.flatnonzero(hits["piece"] == piece)
+            close = np.diff(hits["at_ns"][own]) < BOUNCE_NS
+            louder = hits["velocity"][own][1:] > PRESS_LOUDER * hits["velocity"][own][:-1]
+            bounces[own[1:]] = close & ~louder
+        return bounces
+
+    def _bounces(self, piece: NDArray[np.uint8], hit_ns: NDArray[np.int64]) -> NDArray[np.bool_]:
+        """Which hits fall where their piece buzzes, in company: a lone stroke beside the press is no bounce."""
+        bounces = np.zeros(len(hit_ns), np.bool_)
+        for own, (starts, ends) in self._buzzes.items():
+            here = np.flatnonzero(piece == own)
+            buzz = np.searchsorted(starts, hit_ns[here], side="right") - 1
+            until_end = ends[np.maximum(buzz, 0)] - hit_ns[here]
+            inside = (buzz >= 0) & (until_end >= 0)
+            surely = inside & (until_end > 2 * BUZZ_REACH_NS)  # what is later may be the next written stroke
+            many = np.bincount(buzz[surely], minlength=len(starts)) >= LEAST_COMPANY
+            after_another = np.diff(hit_ns[here], prepend=-(2**62)) < BOUNCE_NS
+            bounces[here] = inside & (many[np.maximum(buzz, 0)] | after_another)
+        return bounces
 
     def _bars(self, hit_ns: NDArray[np.int64]) -> NDArray[np.int64]:
         return np.maximum(np.searchsorted(self._bar_ns, hit_ns, side="right") - 1, 0)

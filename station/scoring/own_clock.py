@@ -11,6 +11,7 @@ from station.music.performance import Performance
 from station.music.score import Score
 from station.scoring.alignment import Alignment, Reference, Timed, labelled
 from station.scoring.drift import local_trend, robust_sd
+from station.scoring.graces import with_far_graces
 from station.scoring.ignored import Unwritten
 from station.scoring.pairing import Indices, Times
 from station.scoring.settle import Settled, Side, Start, note_kinds, settle, spots
@@ -21,6 +22,9 @@ Floats = NDArray[np.float64]
 
 _START = Start(reach_ms=90.0, rounds=2)
 """The way through the score is known to about 20 ms, so that the first reach is narrower than with a click."""
+
+_NO_CLASS = -1
+"""Of hits that no note has the class of: they lie between their neighbours."""
 
 SAME_BASE_MS, SAME_BASE_WANDER_MS = 100.0, 60.0
 """A performance that starts within the first and wanders less than the second about it was recorded on the score's own
@@ -35,12 +39,15 @@ def align_unclocked(score: Score, performance: Performance, note_class: Indices,
     at_ns: Times = np.asarray(performance.hits["at_ns"])
     beats = np.arange(0, max(score.end_tick, PPQ) + 1, PPQ)
     written = Written(score.onset_s, note_class, score.tempo_map.seconds_at(beats))
-    warp = find_warp(written, at_ns / NS_PER_S, hit_class)
+    rules = Unwritten(score)
+    led_class = np.where(rules.surely_bounces(performance), _NO_CLASS, hit_class)
+    warp = find_warp(written, at_ns / NS_PER_S, led_class)
     hit_ns = np.rint(warp.score_s * NS_PER_S).astype(np.int64)
-    unwritten = Unwritten(score).masks(performance, hit_ns)
+    unwritten = rules.masks(performance, hit_ns)
     notes = Side(score.onset_ns, note_class, owners(score.onset_s, note_class, warp, hit_class), spots(score.notes))
     hits = Side(hit_ns, hit_class, warp.stretch, spots(performance.hits))
-    settled = settle(notes, hits, note_kinds(score), unwritten.feet, _START)
+    settled = settle(notes, hits, note_kinds(score), unwritten.own_only, _START)
+    settled = with_far_graces(score, settled, hits)
     return labelled(settled, _timed(score, at_ns, warp, settled), unwritten.quiet)
 
 
