@@ -137,10 +137,11 @@ def _odd_beats(beats: Beats) -> NDArray[np.bool_]:
 
 
 def curves(ground: Ground, style: Style, values: Array) -> Curves:
-    """The splines through `values` (8, 2n − 1); the back's frequency makes its turn on the beat rounder or sharper."""
-    continuity = np.zeros(values.shape)
-    continuity[1, ::2] = sharpness(style.factor("frequency_back", ground.bars[::2]))
-    return _spline(ground.time_s, values, continuity)
+    """The splines through `values` (8, 2n − 1); the back's frequency makes it fall later or earlier."""
+    on_beat, between = sharpness(style.factor("frequency_back", ground.bars))
+    steep = np.zeros(values.shape)
+    steep[1, ::2], steep[1, 1::2] = on_beat[::2], between[1::2]
+    return _spline(ground.time_s, values, steep)
 
 
 def head_curve(ground: Ground, style: Style) -> Curves:
@@ -158,9 +159,9 @@ def head_curve(ground: Ground, style: Style) -> Curves:
     halves = np.arange(len(times)) // 2
     side = down * (1.0 - 2.0 * ((halves // np.where(slow, 4, np.where(fast, 1, 2))) % 2))
     tilt = style.factor("amplitude_head_side", bars) * TILT_RAD * side
-    sharp = np.where(down, sharpness(style.factor("frequency_neck", bars)), 0.0)
+    steep = np.where(down, *sharpness(style.factor("frequency_neck", bars)))
     kept = (place == 0) | (place == 2) & (fast | ~slow | (lift < 0)) | fast
-    return _spline(times[kept], np.stack([nod, tilt])[:, kept], np.stack([sharp, np.zeros(len(sharp))])[:, kept])
+    return _spline(times[kept], np.stack([nod, tilt])[:, kept], np.stack([steep, np.zeros(len(steep))])[:, kept])
 
 
 def _with_quarters(values: Array) -> Array:
@@ -168,12 +169,21 @@ def _with_quarters(values: Array) -> Array:
     return np.insert(values, np.arange(1, len(values)), 0.5 * (values[1:] + values[:-1]))
 
 
-def sharpness(frequency: Array) -> Array:
-    """The continuity at the turning point: 0 natural, −1 a sharp turn at the greatest frequency, rounder below it."""
-    return np.where(frequency > 1, np.maximum(1 - frequency, -0.99), 0.6 * (1 - frequency))
+def sharpness(frequency: Array) -> tuple[Array, Array]:
+    """How steeply a movement to the beat turns on the beat and between, in shares of the chords; 0 is a round turn.
+
+    A higher frequency than the natural falls late onto the beat and bounces, a lower one falls early and settles.
+    """
+    return LATE_FALL * np.maximum(frequency - 1, 0.0), EARLY_FALL * np.maximum(1 - frequency, 0.0)
 
 
-def _spline(times: Array, values: Array, continuity: Array) -> Curves:
-    into, out = slopes(np.broadcast_to(times, values.shape), values, 0.0, continuity)
+LATE_FALL, EARLY_FALL = 4.0, 2.0
+"""Three times the chord, which the greatest frequency nears, is the steepest that does not overshoot (our choice)."""
+
+
+def _spline(times: Array, values: Array, steep: Array) -> Curves:
+    """Through `values` (channels, n); where `steep` is over 0 the slopes at a key are that share of its chords."""
+    tension, continuity = np.where(steep > 0, 1 - steep, 0.0), np.where(steep > 0, -1.0, 0.0)
+    into, out = slopes(np.broadcast_to(times, values.shape), values, tension, continuity)
     rows = cubics(times[None], values, into, out)
     return Curves(times, np.ascontiguousarray(np.moveaxis(rows, 0, 1)))

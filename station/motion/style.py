@@ -69,7 +69,7 @@ class Style:
     frequency_back: float = NATURAL
     amplitude_side: float = 20.0
     amplitude_twist: float = NATURAL
-    twist_deg_s: float = 120.0
+    twist_deg_s: float = 80.0
     amplitude_gaze: float = NATURAL
     shrug: float = 20.0
     breathing: float = NATURAL
@@ -145,7 +145,7 @@ _RANGES: Mapping[str, tuple[float, float]] = MappingProxyType(
         "wing_deg": (-20.0, 60.0),
         "posture_deg": (-10.0, 30.0),
         "stand": (0.0, 1.0),
-        "twist_deg_s": (20.0, 240.0),
+        "twist_deg_s": (5.0, 100.0),
         "bobs_per_beat": (0.5, 2.0),
         "half_time_bpm": (30.0, 1000.0),
     }

@@ -3,7 +3,7 @@ import pytest
 
 from station.core.pieces import Piece
 from station.core.units import PPQ
-from station.motion.body import limited, mean_bearing, sharpness
+from station.motion.body import limited, mean_bearing
 from station.motion.drummer import Drummer
 from station.motion.figure import Joint
 from station.motion.frame import ANGLES, JOINTS
@@ -54,10 +54,17 @@ def test_alternating_pieces_are_faced_in_the_middle() -> None:
     assert np.abs(mean_bearing(np.arange(2.0, 8.0, 0.5), strikes, bearing)).max() < 0.12
 
 
-def test_a_higher_frequency_turns_sharper_on_the_beat() -> None:
-    assert sharpness(np.array([1.0]))[0] == 0.0
-    assert -1.0 < sharpness(np.array([2.0]))[0] < sharpness(np.array([1.5]))[0] < 0.0
-    assert sharpness(np.array([0.5]))[0] > 0.0
+def test_a_higher_frequency_falls_later_onto_the_beat() -> None:
+    """Of the fall between two keys the share in its last quarter: .156 of a round one (3u² − 2u³ by hand)."""
+    score = score_of([(4 * i, Piece.SNARE) for i in range(16)])
+    last = []
+    for frequency in (0.0, 25.0, 50.0, 75.0, 100.0):
+        drummer = Drummer(score, style=Style(frequency_back=frequency))
+        up, near, down = angle(drummer, "torso_lean", 4.8 - np.array([0.3, 0.075, 0.0]))
+        last.append((down - near) / (down - up))
+    assert last[2] == pytest.approx(0.156, abs=0.005)
+    assert (np.diff(last) > 0.02).all()
+    assert last[-1] > 0.4
 
 
 def test_the_back_sways_forward_on_the_beat_and_up_between() -> None:
@@ -74,7 +81,7 @@ def test_above_130_bpm_it_sways_in_half_time() -> None:
     assert lean[2] > lean[1] + np.radians(1.5)
 
 
-@pytest.mark.parametrize("ceiling", [30.0, 120.0])
+@pytest.mark.parametrize("ceiling", [20.0, 60.0])
 def test_the_torso_turns_no_faster_than_its_ceiling(ceiling: float) -> None:
     """Measured on the angles, through a tempo change, between the crash on the left and the floor tom on the right."""
     notes = [Note(4 * i * PPQ, p) for i in range(24) for p in ((Piece.FLOOR_TOM_1,) if i % 2 else (Piece.CRASH_1,))]
