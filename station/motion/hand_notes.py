@@ -55,8 +55,12 @@ class HandNotes:
     odd: list[bool]  # whether it falls between the strokes that the leading hand has
     paired: list[int]  # +1: with the same hand as the note before (the second of a double), −1 another, 0 free
     lead: int
-    ostinato_lead: int
+    open_handed: bool
     order: NDArray[np.int64]
+
+    def ostinato_hand(self, i: int) -> int:
+        """The hand that has an ostinato on note `i`'s piece: an open-handed player's hi-hat is the other one's."""
+        return 1 - self.lead if self.open_handed and self.piece[i] == Piece.HIHAT else self.lead
 
     @classmethod
     def of(cls, score: Score, kit: Kit, rows: NDArray[np.int64], hands: Hands) -> "HandNotes":
@@ -89,7 +93,7 @@ class HandNotes:
             odd=odd.tolist(),
             paired=_paired(notes).tolist(),
             lead=lead,
-            ostinato_lead=LEFT if hands is Hands.OPEN else lead,
+            open_handed=hands is Hands.OPEN,
             order=order,
         )
 

@@ -49,7 +49,7 @@ def assign_limbs(score: Score, kit: Kit, method: str = "station", hands: Hands |
     lead = hands or (Hands.LEFT if kit.left_handed else Hands.RIGHT)
     limbs, why = _feet(score, kit.left_handed)
     rows = np.flatnonzero(limbs == Limb.UNKNOWN)
-    written = score.notes["limb"] != Limb.UNKNOWN
+    written = np.isin(score.notes["limb"], (Limb.RIGHT_HAND, Limb.LEFT_HAND))
     if len(rows):
         notes = HandNotes.of(score, kit, rows, lead)
         chosen, reasons = choose_hands(notes) if method == "station" else smed_hands(notes)

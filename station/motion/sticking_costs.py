@@ -70,7 +70,7 @@ def alone(notes: HandNotes, i: int, hand: int) -> tuple[float, ...]:
     written = WRITTEN if notes.written[i] not in (Limb.UNKNOWN, hand) else 0.0
     ostinato = natural = 0.0
     if notes.ostinato[i]:
-        ostinato = OSTINATO if hand != notes.ostinato_lead else 0.0
+        ostinato = OSTINATO if hand != notes.ostinato_hand(i) else 0.0
     elif hand != notes.natural[i]:
         natural = FIRM if notes.firm[i] else NATURAL
     home = HOME * max(0.0, (x if hand == LEFT else -x) - MIDDLE_M)
@@ -151,7 +151,7 @@ def _crossed(notes: HandNotes, i: int, hand: int, other: int) -> float:
         return 0.0
     own_piece, other_piece = notes.piece[i], notes.piece[other]
     lead_on, other_on = (own_piece, other_piece) if hand == notes.lead else (other_piece, own_piece)
-    if lead_on == Piece.HIHAT and other_on == Piece.SNARE and notes.ostinato_lead == notes.lead:
+    if lead_on == Piece.HIHAT and other_on == Piece.SNARE and not notes.open_handed:
         return 0.0
     return min(1.0, over / FULL_CROSSING_M)
 

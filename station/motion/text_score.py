@@ -16,13 +16,14 @@ from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from station.core.errors import BadInput
 from station.core.files import write_whole
-from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone, word
+from station.core.pieces import HAND_PIECES, Articulation, Dynamic, Limb, Ornament, Piece, Zone, word
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 
@@ -38,8 +39,21 @@ _ARTICULATIONS: dict[str, Articulation] = {_SPLASH: Articulation.SPLASH} | {
 }
 _DYNAMICS = {word(d): d for d in Dynamic if d is not Dynamic.NORMAL}
 _ORNAMENTS = {word(o): o for o in Ornament if o is not Ornament.NONE}
-_NUMBERS = {"lead_ms": float, "openness": float, "duration_ticks": int, "choke_ticks": int, "midi_note": int}
-_PLACE = re.compile(r"(\d+):(\d+)(?:\+(\d+)/(\d+))?")
+_LONGEST = 10**15
+"""Ticks that no score reaches and 64 bits hold (our choice)."""
+_NUMBERS: dict[str, tuple[type[int] | type[float], float]] = {
+    "lead_ms": (float, 1000.0),
+    "openness": (float, 1.0),
+    "duration_ticks": (int, _LONGEST),
+    "choke_ticks": (int, _LONGEST),
+    "midi_note": (int, 127),
+}
+"""What a number is and its greatest value; a grace stroke a second early is none any more (our choice)."""
+_PLAYERS = {True: (Limb.RIGHT_HAND, Limb.LEFT_HAND), False: (Limb.RIGHT_FOOT, Limb.LEFT_FOOT)}
+_UNITS = (1, 2, 4, 8, 16, 32, 64, 128)
+_SLOWEST_US = 10**9
+"""Microseconds a quarter note, far slower than MIDI files can say (our choice)."""
+_PLACE = re.compile(r"([0-9]{1,6}):([0-9]{1,3})(?:\+([0-9]{1,9})/([0-9]{1,9}))?")
 
 
 def write_text_score(score: Score, limbs: NDArray[np.int8], path: Path) -> None:
@@ -63,7 +77,8 @@ def score_text(score: Score, limbs: NDArray[np.int8]) -> str:
     """The text of `score` when `limbs` (n,) play it."""
     tempo_map = score.tempo_map
     lines = [HEADER, *([f"title {score.title}"] if score.title else [])]
-    lines += [f"meter {_where(tempo_map, m.tick)} {m.beats}/{m.unit}" for m in tempo_map.meters]
+    for k, m in enumerate(tempo_map.meters):  # counted by the meters before: a change in mid-bar begins a bar there
+        lines.append(f"meter {_where(TempoMap.build([], tempo_map.meters[:k]), m.tick)} {m.beats}/{m.unit}")
     lines += [f"tempo {_where(tempo_map, t.tick)} {t.us_per_quarter}us" for t in tempo_map.tempos]
     for note, limb in zip(score, limbs.tolist(), strict=True):
         place, limb_word = _where(tempo_map, note.tick), _LETTERS[Limb(limb)]
@@ -97,27 +112,42 @@ def _extras(note: Note) -> Iterator[str]:
 # --- reading ----------------------------------------------------------------------------------------------------------
 
 
+class _Word(NamedTuple):
+    """A word of the file and where it begins, line and column from 1."""
+
+    text: str
+    line: int
+    column: int
+
+
+_Line = list[_Word]
+_DIRECTIVES = ("title", "tempo", "meter", "end")
+
+
 def parse_text_score(text: str, source: str = "text score") -> Score:
-    """The score that `text` says; raises `BadInput` with the line of the first fault."""
-    lines = [(i + 1, _words(line)) for i, line in enumerate(text.splitlines())]
-    lines = [(number, words) for number, words in lines if words]
+    """The score that `text` says; raises `BadInput` with line and column of the first fault."""
+    rows = text.splitlines()
+    lines = [words for words in (_words(row, i + 1) for i, row in enumerate(rows)) if words]
     reader = _Reader(source)
     reader.tempo_map = reader.meters(lines)
     reader.tempo_map = reader.tempos(lines)
-    notes = [reader.note(number, words) for number, words in lines if words[0] not in _DIRECTIVES]
-    ends = [reader.tick(number, words[1:2]) for number, words in lines if words[0] == "end"]
-    titles = [" ".join(words[1:]) for _, words in lines if words[0] == "title"]
-    title = titles[-1] if titles else ""
-    return Score.from_notes(notes, reader.tempo_map, ends[-1] if ends else None, title)
+    notes = [reader.note(words) for words in lines if words[0].text not in _DIRECTIVES]
+    ends = [reader.end(words) for words in lines if words[0].text == "end"]
+    titles = [rows[words[0].line - 1].split(maxsplit=1)[1].strip() for words in lines if _is_title(words)]
+    return Score.from_notes(notes, reader.tempo_map, ends[-1] if ends else None, titles[-1] if titles else "")
 
 
-def _words(line: str) -> list[str]:
-    """What a line says without its comment; a title is taken as it stands."""
-    return line.split() if line.startswith("title ") else line.split("#", maxsplit=1)[0].split()
+def _is_title(words: _Line) -> bool:
+    return words[0].text == "title" and len(words) > 1
 
 
-_DIRECTIVES = {"title", "tempo", "meter", "end"}
-_Line = tuple[int, list[str]]
+def _words(row: str, line: int) -> _Line:
+    """What a row says without its comment; a title is taken as it stands."""
+    words = [_Word(m[0], line, m.start() + 1) for m in re.finditer(r"\S+", row)]
+    if words and words[0].text == "title":
+        return words
+    said = row.split("#", maxsplit=1)[0]
+    return [_Word(m[0], line, m.start() + 1) for m in re.finditer(r"\S+", said)]
 
 
 class _Reader:
@@ -127,73 +157,99 @@ class _Reader:
         self.source = source
         self.tempo_map = TempoMap()
 
-    def fault(self, number: int, what: str) -> BadInput:
-        return BadInput(self.source, f"line {number}", what)
+    def fault(self, word: _Word, expected: str) -> BadInput:
+        return BadInput(self.source, f"line {word.line}, column {word.column}", f"{expected}, found {word.text!r}")
 
     def meters(self, lines: list[_Line]) -> TempoMap:
         changes: list[MeterChange] = []
-        for number, words in lines:
-            if words[0] != "meter":
+        for words in lines:
+            if words[0].text != "meter":
                 continue
+            place, value = self.directive(words, "meter BAR:BEAT BEATS/UNIT")
             self.tempo_map = TempoMap.build([], changes)
-            match = re.fullmatch(r"(\d+)/(\d+)", words[2]) if len(words) == 3 else None
-            if not match or int(match[1]) == 0 or int(match[2]) not in (1, 2, 4, 8, 16, 32):
-                raise self.fault(number, 'expected "meter BAR:BEAT BEATS/UNIT"')
-            changes.append(MeterChange(self.tick(number, words[1:2]), int(match[1]), int(match[2])))
+            match = re.fullmatch(r"([0-9]{1,3})/([0-9]{1,3})", value.text)
+            if not match or int(match[1]) == 0 or int(match[2]) not in _UNITS:
+                raise self.fault(value, "expected a meter such as 4/4 or 6/8")
+            changes.append(MeterChange(self.tick(place), int(match[1]), int(match[2])))
         return TempoMap.build([], changes)
 
     def tempos(self, lines: list[_Line]) -> TempoMap:
         changes = []
-        for number, words in lines:
-            if words[0] != "tempo":
+        for words in lines:
+            if words[0].text != "tempo":
                 continue
-            match = re.fullmatch(r"(\d+(?:\.\d+)?)(us)?", words[2]) if len(words) == 3 else None
-            if not match or float(match[1]) <= 0:
-                raise self.fault(number, 'expected "tempo BAR:BEAT BPM" or microseconds a quarter with "us"')
-            tick = self.tick(number, words[1:2])
-            exact = TempoChange(tick, int(float(match[1]))) if match[2] else TempoChange.from_bpm(tick, float(match[1]))
-            changes.append(exact)
+            place, value = self.directive(words, "tempo BAR:BEAT BPM")
+            match = re.fullmatch(r"([0-9]+(?:\.[0-9]+)?)(us)?", value.text)
+            number = float(match[1]) if match else 0.0
+            us = number if match and match[2] else 60e6 / max(number, 1e-9)
+            if not 1 <= us <= _SLOWEST_US:
+                raise self.fault(value, 'expected quarter notes a minute, or microseconds of one with "us"')
+            changes.append(TempoChange(self.tick(place), round(us)))
         return TempoMap.build(changes, self.tempo_map.meters)
 
-    def tick(self, number: int, words: list[str]) -> int:
-        match = _PLACE.fullmatch(words[0]) if words else None
-        if not match or match[4] == "0":
-            raise self.fault(number, f"expected a place such as 2:3+1/2, found {words[0] if words else 'nothing'}")
-        bar, beat = int(match[1]) - 1, int(match[2]) - 1
-        if bar < 0 or beat < 0:
-            raise self.fault(number, f"bars and beats count from 1, found {words[0]}")
-        start = self.tempo_map.bar_start(bar)
-        beat_ticks = self.tempo_map.meter_at(start).beat_ticks
-        share = Fraction(int(match[3]), int(match[4])) if match[3] else Fraction(0)
-        return start + round((beat + share) * beat_ticks)
+    def directive(self, words: _Line, expected: str) -> tuple[_Word, _Word]:
+        if len(words) != 3:
+            raise self.fault(words[0], f'expected "{expected}"')
+        return words[1], words[2]
 
-    def note(self, number: int, words: list[str]) -> Note:
+    def end(self, words: _Line) -> int:
+        if len(words) != 2:
+            raise self.fault(words[0], 'expected "end BAR:BEAT"')
+        return self.tick(words[1])
+
+    def tick(self, word: _Word) -> int:
+        """The tick of a place, which must be in its bar."""
+        match = _PLACE.fullmatch(word.text)
+        if not match or (match[4] and int(match[3]) >= int(match[4])):
+            raise self.fault(word, "expected a place such as 2:3+1/2: bar, beat and a part of the beat below 1")
+        bar, beat = int(match[1]) - 1, int(match[2]) - 1
+        if bar < 0:
+            raise self.fault(word, "expected bars that count from 1")
+        start = self.tempo_map.bar_start(bar)
+        meter = self.tempo_map.meter_at(start)
+        if not 0 <= beat < meter.beats:
+            raise self.fault(word, f"expected a beat from 1 to {meter.beats}")
+        share = Fraction(int(match[3]), int(match[4])) if match[4] else Fraction(0)
+        return start + round((beat + share) * meter.beat_ticks)
+
+    def note(self, words: _Line) -> Note:
         if len(words) < 5:
-            raise self.fault(number, "expected place, piece, zone, limb and velocity")
+            raise self.fault(words[0], f"expected place, piece, zone, limb and velocity or {', '.join(_DIRECTIVES)}")
         place, piece, zone, limb, velocity, *extras = words
         for given, known, what in ((piece, _PIECES, "piece"), (zone, _ZONES, "zone"), (limb, _LIMBS, "limb")):
-            if given not in known:
-                raise self.fault(number, f"{given} is no {what}; there are {', '.join(known)}")
-        if not velocity.isdigit() or not 1 <= int(velocity) <= 127:
-            raise self.fault(number, f"expected a velocity from 1 to 127, found {velocity}")
-        tick = self.tick(number, [place])
-        note = Note(tick, _PIECES[piece], _ZONES[zone], int(velocity), limb=_LIMBS[limb])
+            if given.text not in known:
+                raise self.fault(given, f"expected a {what}: {', '.join(known)}")
+        if not re.fullmatch(r"[0-9]{1,3}", velocity.text) or not 1 <= int(velocity.text) <= 127:
+            raise self.fault(velocity, "expected a velocity from 1 to 127")
+        if _LIMBS[limb.text] not in (Limb.UNKNOWN, *_PLAYERS[_PIECES[piece.text] in HAND_PIECES]):
+            players = ", ".join(word(m) for m in _PLAYERS[_PIECES[piece.text] in HAND_PIECES])
+            raise self.fault(limb, f"expected one that can play the {piece.text}: {players} or -")
+        tick = self.tick(place)
+        note = Note(tick, _PIECES[piece.text], _ZONES[zone.text], int(velocity.text), limb=_LIMBS[limb.text])
         for extra in extras:
-            note = self.with_extra(number, note, extra)
+            note = self.with_extra(note, extra)
         return note
 
-    def with_extra(self, number: int, note: Note, extra: str) -> Note:
-        name, _, value = extra.partition("=")
+    def with_extra(self, note: Note, extra: _Word) -> Note:
+        name, _, value = extra.text.partition("=")
         if value and name in _NUMBERS:
-            try:
-                return replace(note, **{name: _NUMBERS[name](value)})
-            except ValueError as fault:
-                raise self.fault(number, f"{name} expects a number, found {value}") from fault
-        if extra in _ARTICULATIONS:
-            return replace(note, articulation=_ARTICULATIONS[extra])
-        if extra in _DYNAMICS:
-            return replace(note, dynamic=_DYNAMICS[extra])
-        if extra in _ORNAMENTS:
-            return replace(note, ornament=_ORNAMENTS[extra])
-        known = ", ".join((*_ARTICULATIONS, *_DYNAMICS, *_ORNAMENTS, *_NUMBERS))
-        raise self.fault(number, f"{extra} says nothing; there are {known}")
+            number = {name: self.number(extra, name, value)}
+            return replace(note, **number)  # type: ignore[arg-type] # each name is a field of its kind of number
+        if extra.text in _ARTICULATIONS:
+            return replace(note, articulation=_ARTICULATIONS[extra.text])
+        if extra.text in _DYNAMICS:
+            return replace(note, dynamic=_DYNAMICS[extra.text])
+        if extra.text in _ORNAMENTS:
+            return replace(note, ornament=_ORNAMENTS[extra.text])
+        known = ", ".join((*_ARTICULATIONS, *_DYNAMICS, *_ORNAMENTS, *(f"{n}=NUMBER" for n in _NUMBERS)))
+        raise self.fault(extra, f"expected one of {known}")
+
+    def number(self, extra: _Word, name: str, value: str) -> float:
+        kind, most = _NUMBERS[name]
+        try:
+            number = kind(value)
+        except ValueError:
+            number = -1
+        if not 0 <= number <= most:  # also refuses NaN
+            raise self.fault(extra, f"expected {name} from 0 to {most:g}")
+        return number

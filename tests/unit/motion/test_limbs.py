@@ -112,6 +112,11 @@ def test_right_left_and_open_handed_players(hands: Hands, hat: str, snare: str) 
     assert hand_letters(score, limbs, SNARE) == snare * 2
 
 
+def test_an_open_handed_players_ride_is_the_right_hands() -> None:
+    limbs = assign_limbs(score_of([*((i, RIDE) for i in range(0, 16, 2)), *BACKBEAT]), KIT, hands=Hands.OPEN).limbs
+    assert "".join("RL"[m] for m in limbs) == "RRLRRRRLRR"
+
+
 def test_a_left_handed_kit_leads_with_the_left_and_kicks_with_the_left() -> None:
     score = score_of(ROCK)
     limbs = assign_limbs(score, load_kit("left_handed")).limbs

@@ -67,28 +67,49 @@ def test_meters_that_change_are_counted_from() -> None:
 
 
 @pytest.mark.parametrize(
-    ("line", "fault"),
+    ("line", "column", "fault"),
     [
-        ("1:1 snair head - 80", "snair is no piece"),
-        ("1:1 snare middle - 80", "middle is no zone"),
-        ("1:1 snare head nose 80", "nose is no limb"),
-        ("1:1 snare head - 0", "velocity from 1 to 127"),
-        ("1:1 snare head - 80 loud", "loud says nothing"),
-        ("1:1 snare head - 80 lead_ms=long", "lead_ms expects a number"),
-        ("1.1 snare head - 80", "expected a place"),
-        ("0:1 snare head - 80", "count from 1"),
-        ("1:1+1/0 snare head - 80", "expected a place"),
-        ("1:1 snare", "expected place, piece, zone, limb and velocity"),
-        ("tempo 1:1 fast", 'expected "tempo'),
-        ("meter 1:1 4/5", 'expected "meter'),
+        ("1:1 snair head - 80", 5, "expected a piece: kick, snare"),
+        ("1:1 snare middle - 80", 11, "expected a zone"),
+        ("1:1 snare head nose 80", 16, "expected a limb: -, right_hand"),
+        ("1:1 snare head left_foot 80", 16, "that can play the snare: right_hand, left_hand or -"),
+        ("1:1 kick head left_hand 80", 15, "that can play the kick: right_foot, left_foot or -"),
+        ("1:1 snare head - 0", 18, "velocity from 1 to 127"),
+        ("1:1 snare head - \u00b2", 18, "velocity from 1 to 127"),
+        ("1:1 snare head - 80 loud", 21, "expected one of foot_splash"),
+        ("1:1 snare head - 80 lead_ms=long", 21, "lead_ms from 0 to 1000"),
+        ("1:1 snare head - 80 lead_ms=nan", 21, "lead_ms from 0 to 1000"),
+        ("1:1 snare head - 80 midi_note=999", 21, "midi_note from 0 to 127"),
+        ("1:1 snare head - 80 choke_ticks=" + "9" * 30, 21, "choke_ticks from 0 to"),
+        ("1.1 snare head - 80", 1, "expected a place"),
+        ("0:1 snare head - 80", 1, "count from 1"),
+        ("  1:5 snare head - 80", 3, "a beat from 1 to 4"),
+        ("1:1+1/0 snare head - 80", 1, "expected a place"),
+        ("1:1+3/2 snare head - 80", 1, "expected a place"),
+        ("1:1 snare", 1, "expected place, piece, zone, limb and velocity"),
+        ("tempo 1:1 fast", 11, "expected quarter notes a minute"),
+        ("tempo 1:1 0us", 11, "expected quarter notes a minute"),
+        ("tempo 1:1", 1, 'expected "tempo BAR:BEAT BPM"'),
+        ("meter 1:1 4/5", 11, "expected a meter"),
+        ("end", 1, 'expected "end BAR:BEAT"'),
     ],
 )
-def test_a_fault_names_its_line(line: str, fault: str) -> None:
+def test_a_fault_names_line_column_and_what_was_expected(line: str, column: int, fault: str) -> None:
     with pytest.raises(BadInput) as caught:
         parse_text_score(f"# a score\n1:1 kick head - 90\n{line}\n", "mine.txt")
     assert caught.value.source == "mine.txt"
-    assert caught.value.place == "line 3"
+    assert caught.value.place == f"line 3, column {column}"
     assert fault in caught.value.fault
+
+
+def test_a_meter_that_changes_in_mid_bar_reads_back() -> None:
+    """A bar of four that is cut after two beats: the next bar begins there."""
+    meters = [MeterChange(0, 4, 4), MeterChange(2 * PPQ, 3, 4)]
+    score = Score.from_notes([Note(4 * PPQ, Piece.KICK)], TempoMap.build([], meters))
+    text = score_text(score, assign_limbs(score, load_kit()).limbs)
+    assert "meter 1:3 3/4" in text
+    assert "\n2:3 " in text
+    assert same(parse_text_score(text), score.with_limbs(np.array([Limb.RIGHT_FOOT], np.int8)))
 
 
 def test_a_file_that_is_not_there_is_bad_input(tmp_path: Path) -> None:
