@@ -26,8 +26,6 @@ BOUNCE_S = 0.04
 """The second stroke of a double may come this soon: it is a rebound (HUMANS has 50–90 ms)."""
 FASTEST_HAND_M_S = 9.1
 """An Olympic boxer's fist in a straight punch (Walilko and others 2005, British Journal of Sports Medicine 39, 710)."""
-_TRAVEL_SHARE = 0.83
-"""Of the time between two strokes so much is left for the way (`travel`'s stays at their shortest)."""
 _NEAR_M = 0.10
 """So near together two contacts need no way: fingers and wrist reach both (our choice)."""
 
@@ -79,7 +77,7 @@ def _repeated(limb: Limb, times: Array, bars: NDArray[np.int64]) -> list[Beyond]
 def _sundered(limb: Limb, times: Array, bars: NDArray[np.int64], points: Array) -> list[Beyond]:
     """Bars in which the hand must be at places too far from each other for the time between."""
     gap, way = np.diff(times), np.linalg.norm(np.diff(points, axis=0), axis=1)
-    quickest = MINIMUM_JERK_PEAK * way / (_TRAVEL_SHARE * FASTEST_HAND_M_S)
+    quickest = MINIMUM_JERK_PEAK * way / FASTEST_HAND_M_S
     late = np.flatnonzero((way > _NEAR_M) & (gap < np.maximum(quickest, BOUNCE_S)))
     result = []
     for bar in np.unique(bars[late + 1]).tolist():

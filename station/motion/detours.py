@@ -71,7 +71,7 @@ def detoured(
         pairs, which = scene.tangled()
         if not len(pairs):
             break
-        bumps = [hand.bump_m.copy() for hand in hands]
+        bumps = [hand.bump.copy() for hand in hands]
         most = [hand.strokes.most.copy() for hand in hands]
         changed: set[tuple[int, int]] = set()
         for k, pair in enumerate(pairs.tolist()):
@@ -84,7 +84,7 @@ def detoured(
                 known[key] = scene.way_round(pair, moments)
             found = known[key]
             if found is not None:
-                bumps[found[0]][pair[found[0]]] += found[1]
+                bumps[found[0]][pair[found[0]], :3] += found[1]
             else:
                 side = scene.lower(moments)
                 near = slice(pair[side], pair[side] + 2)
@@ -143,7 +143,7 @@ class _Scene:
             part = slice(max(k - 1, 0), k + 3)
             words += [tuple(hand.which[part].tolist())]
             words += [tuple(np.round(hand.events.time_s[part] - start, 3).tolist())]
-            words += [tuple(np.round(hand.bump_m[k : k + 1].ravel(), 3).tolist())]
+            words += [tuple(np.round(hand.bump[k : k + 1].ravel(), 3).tolist())]
         return tuple(words)
 
     def lower(self, moments: NDArray[np.int64]) -> int:

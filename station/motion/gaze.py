@@ -20,6 +20,9 @@ LEAD_S = 0.25
 """The head is turned this long before the stroke (what drummers look for: 200–300 ms)."""
 MOVE_S = 0.22
 """A turn of the head takes so long (our choice)."""
+PEAK, FASTEST_RAD_S = 1.5, 6.0
+"""The peak speed of a turn over its mean, and what a head should not pass: 340°/s, well under vigorous shaking's 540
+(`limits`)."""
 STAY_S = 0.7
 """It stays with the piece after the stroke, then comes back (our choice)."""
 REST_S = 3.2
@@ -54,10 +57,12 @@ def gaze_curve(sights: Sights, around: Array, seed: int) -> Curves:
     home = np.median(direction, axis=0)
     keys: list[tuple[float, float, float]] = [(float(strike_s[0]) - 60.0, *home)]
     for at, look in _looks(sights, around, seed):
-        start = max(at - LEAD_S - MOVE_S, keys[-1][0] + 0.02)
-        if start > at - 0.05:  # the head has not come back yet: it stays where it is
+        turn = max(abs(look[0] - keys[-1][1]), abs(look[1] - keys[-1][2]))
+        least_s = max(PEAK * turn / FASTEST_RAD_S, 0.1)
+        start = max(at - LEAD_S - max(MOVE_S, least_s), keys[-1][0] + 0.02)
+        if start > at - 0.05 or start + least_s > at:  # the head has not come back yet: it stays where it is
             continue
-        keys += [(start, *keys[-1][1:]), (max(at - LEAD_S, start + 0.1), *look)]
+        keys += [(start, *keys[-1][1:]), (max(at - LEAD_S, start + least_s), *look)]
         keys += [(at + STAY_S, *look), (at + STAY_S + 2 * MOVE_S, *home)]
     table = np.array(keys)
     times, values = table[:, 0], np.ascontiguousarray(table[:, 1:].T)

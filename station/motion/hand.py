@@ -17,7 +17,7 @@ from station.motion.grip import Hold
 from station.motion.kit import Kit
 from station.motion.maths import MANY, Point
 from station.motion.stroke import NATURALLY, StrokePlan, Strokes, amplitudes
-from station.motion.travel import Way, lifts
+from station.motion.travel import DETOUR, Way, lifts
 from station.music.score import Score
 
 Array = NDArray[np.float64]
@@ -25,6 +25,9 @@ Array = NDArray[np.float64]
 _SPARE_RAD = radians(5)
 """What is left of a wrist's limits sideways in the natural style, for others to use (our choice)."""
 _EASINGS = 3
+_LEAST_HUMP, _MOST_TURN_RAD = 0.3, radians(60)
+"""Moments at which so little of a detour is left are not helped by turning the hand; nor is it turned more than this
+(our choice)."""
 _HAND_YAW = Contact._fields.index("hand_yaw")
 
 
@@ -33,8 +36,8 @@ class HandPart:
     """The events of one hand and how it makes them.
 
     `lies` are the kinds of contact that occur, `which` (n,) the kind of each event, `wrist_m` (n, 3) where the wrist is
-    at each, naturally, and `contacts` (n, fields) what its arm is solved from; the plan of its strokes; `bump_m`
-    (n − 1, 3) how each stretch between two events goes round, and whether it is travelled `early` (n − 1,).
+    at each, naturally, and `contacts` (n, fields) what its arm is solved from; the plan of its strokes; `bump`
+    (n − 1, 4) how each stretch between two events goes round (`Way.of`), and whether it is travelled `early` (n − 1,).
     """
 
     limb: Limb
@@ -45,7 +48,7 @@ class HandPart:
     wrist_m: Array
     strokes: StrokePlan
     contacts: Array
-    bump_m: Array
+    bump: Array
     early: NDArray[np.bool_]
 
     @classmethod
@@ -75,14 +78,14 @@ class HandPart:
         left_at_once = np.array([lie.shoulder_of_stick for lie in lies])[which]
         played = np.array([kit.stand_in(s.piece) for s in strikes])[which]
         wrists = np.array([lie.wrist for lie in lies])[which]
-        bump_m = np.zeros((len(contacts) - 1, 3))
-        bump_m[:, 2] = lifts(kit, contacts, played)
-        return cls(limb, hold, events, lies, which, wrists, plan, contacts, bump_m, left_at_once[:-1])
+        bump = np.zeros((len(contacts) - 1, DETOUR))
+        bump[:, 2] = lifts(kit, contacts, played)
+        return cls(limb, hold, events, lies, which, wrists, plan, contacts, bump, left_at_once[:-1])
 
     @cached_property
     def way(self) -> Way:
         """The way between the contacts."""
-        return Way.of(self.events.time_s, self.contacts, self.bump_m, self.early)
+        return Way.of(self.events.time_s, self.contacts, self.bump, self.early)
 
     def eased(self, figure: Figure, time_s: Array, root: Point) -> "HandPart":
         """The same with the hand so pointed at each contact that its wrist stays within its limits sideways.
@@ -110,18 +113,30 @@ class HandPart:
             least_turn, most_turn = high - most, low - least
             middle = 0.5 * (least_turn + most_turn)
             turn = np.clip(turn, np.minimum(least_turn, middle), np.maximum(most_turn, middle))
-            contacts[:, _HAND_YAW] -= side * np.where(np.isfinite(middle), turn, 0.0)
+            contacts[:, _HAND_YAW] -= side * turn
             part = replace(part, contacts=contacts)
-        return part
+        return part._turned_on_ways(side, time_s, bent, (least, most)) if len(self.bump) else part
+
+    def _turned_on_ways(self, side: float, time_s: Array, bent: Array, bounds: tuple[float, float]) -> "HandPart":
+        """The same with the hand turned on its ways as far as its wrist, `bent` at `time_s`, is beyond `bounds`."""
+        k, hump = self.way.humps(time_s)
+        over = bent - np.clip(bent, *bounds)
+        helped = hump > _LEAST_HUMP
+        turn = np.zeros((2, len(self.bump)))
+        np.maximum.at(turn[0], k[helped], over[helped] / hump[helped])
+        np.minimum.at(turn[1], k[helped], over[helped] / hump[helped])
+        bump = self.bump.copy()
+        bump[:, 3] -= side * np.clip(turn.sum(0), -_MOST_TURN_RAD, _MOST_TURN_RAD)
+        return replace(self, bump=bump)
 
     def held_under(self, height_m: Array) -> "HandPart":
         """The same, no stroke higher than `height_m` (n,), whatever the sliders say."""
         most = height_m / np.maximum(self.strokes.height_m, 1e-6)
         return replace(self, strokes=replace(self.strokes, most=most))
 
-    def led(self, bump_m: Array, most: Array) -> "HandPart":
-        """The same on the ways of `bump_m` (n − 1, 3), no stroke more than `most` (n,) times its height."""
-        return replace(self, bump_m=bump_m, strokes=replace(self.strokes, most=most))
+    def led(self, bump: Array, most: Array) -> "HandPart":
+        """The same on the ways of `bump` (n − 1, 4), no stroke more than `most` (n,) times its height."""
+        return replace(self, bump=bump, strokes=replace(self.strokes, most=most))
 
 
 def parts(hold: Hold) -> Array:

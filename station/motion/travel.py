@@ -31,23 +31,24 @@ _TRAVEL_S = 0.45
 
 
 FIELDS = len(Contact._fields)
-_HEAD = 5
+DETOUR = 4
+_HEAD = 2 + DETOUR
 _ROW = Struct(f"{_HEAD + 2 * FIELDS}d")
 
 
 @dataclass(frozen=True, eq=False)
 class Way:
-    """Contacts of one hand: `strike_s` (n,), `rows` (n, 5 + 2 · FIELDS) start, 1/duration, detour, from, step."""
+    """Contacts of one hand: `strike_s` (n,), `rows` (n, 6 + 2 · FIELDS) start, 1/duration, detour, from, step."""
 
     strike_s: Array
     rows: Array
 
     @classmethod
-    def of(cls, strike_s: Array, contacts: Array, bump_m: Array, early: NDArray[np.bool_]) -> "Way":
+    def of(cls, strike_s: Array, contacts: Array, bump: Array, early: NDArray[np.bool_]) -> "Way":
         """The way through `contacts` (n, FIELDS) at `strike_s` (n,).
 
-        Each stretch goes round by `bump_m` (n − 1, 3) in its middle, right, forward and up; an `early` one (n − 1,) is
-        travelled at once, the others late in their gap.
+        Each stretch goes round by `bump` (n − 1, 4) in its middle: right, forward and up in metres, and the hand turned
+        to the left in radians. An `early` one (n − 1,) is travelled at once, the others late in their gap.
         """
         gaps = np.diff(strike_s)
         leave, arrive = np.minimum(_LEAVE_SHARE * gaps, _LEAVE_S), np.minimum(_ARRIVE_SHARE * gaps, _ARRIVE_S)
@@ -60,7 +61,7 @@ class Way:
             np.where(early, np.minimum(end, start + _TRAVEL_S), end),
         )
         rows = np.zeros((len(strike_s), _HEAD + 2 * FIELDS))
-        rows[:-1, 0], rows[:-1, 1], rows[:-1, 2:_HEAD] = start, 1 / np.maximum(end - start, 1e-6), bump_m
+        rows[:-1, 0], rows[:-1, 1], rows[:-1, 2:_HEAD] = start, 1 / np.maximum(end - start, 1e-6), bump
         rows[:, _HEAD : _HEAD + FIELDS] = contacts
         rows[:-1, _HEAD + FIELDS :] = np.diff(contacts, axis=0)
         return cls(strike_s, rows)
@@ -75,7 +76,7 @@ class Way:
         strikes, rows = self._fast
         i = max(bisect_right(strikes, time_s) - 1, 0)
         row = _ROW.unpack_from(rows, i * _ROW.size)
-        t0, rate, bx, by, bz, x, y, z, sr, hr, sy, hy, ahead, wing, *steps = row
+        t0, rate, bx, by, bz, turn, x, y, z, sr, hr, sy, hy, ahead, wing, *steps = row
         u = (time_s - t0) * rate
         if u <= 0.0:
             return Contact(x, y, z, sr, hr, sy, hy, ahead, wing)
@@ -85,18 +86,18 @@ class Way:
         h = (4 * u * (1 - u)) ** 2
         return Contact(
             *(x + s * dx + h * bx, y + s * dy + h * by, z + s * dz + h * bz, sr + s * dsr, hr + s * dhr),
-            *(sy + s * dsy, hy + s * dhy, ahead + s * d_ahead, wing + s * d_wing),
+            *(sy + s * dsy, hy + s * dhy + h * turn, ahead + s * d_ahead, wing + s * d_wing),
         )
 
     def many(self, time_s: Array) -> Contact:
         """The contact at each time."""
         i = np.maximum(np.searchsorted(self.strike_s, time_s, side="right") - 1, 0)
-        t0, rate, bx, by, bz, *way = self.rows[i].T
+        t0, rate, bx, by, bz, turn, *way = self.rows[i].T
         u = np.clip((time_s - t0) * rate, 0.0, 1.0)
         s = u * u * u * (10 + u * (6 * u - 15))
-        x, y, z, *rest = (a + s * d for a, d in zip(way[:FIELDS], way[FIELDS:], strict=True))
+        x, y, z, sr, hr, sy, hy, ahead, wing = (a + s * d for a, d in zip(way[:FIELDS], way[FIELDS:], strict=True))
         h = (4 * u * (1 - u)) ** 2
-        return Contact(x + h * bx, y + h * by, z + h * bz, *rest)
+        return Contact(x + h * bx, y + h * by, z + h * bz, sr, hr, sy, hy + h * turn, ahead, wing)
 
     def nearest(self, time_s: Array) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
         """The contact that the hand is at, or nearer to on its way, at each time; and whether it stays there."""

@@ -1,0 +1,100 @@
+"""No stick goes through anything, no joint too far or too fast, for a spread of lessons; and planted faults are found.
+
+The whole sweep, every lesson and style on every kit, is `station bench --soak`.
+"""
+
+from dataclasses import replace
+from math import radians
+from types import MappingProxyType
+
+import pytest
+
+from station.core.pieces import Limb, Piece
+from station.core.units import PPQ
+from station.drills.library import find_lesson
+from station.motion.audit import Audit, Worst, audit
+from station.motion.drummer import Drummer
+from station.motion.figure import figure_of
+from station.motion.kit import kit_names, load_kit
+from station.motion.limbs import as_led
+from station.motion.style_file import load_style
+from station.music.score import Note, Score
+from station.music.tempo import TempoMap
+from tests.unit.motion.patterns import ROCK, score_of
+
+WITHIN_S = 16.0
+FEW_DEGREES = radians(6)
+"""Of the wrist and the elbow in the liveliest styles, whose body moves more than the hands were led for."""
+
+
+def drummer_of(lesson: str, kit_name: str, style: str = "natural") -> Drummer:
+    kit = load_kit(kit_name)
+    return Drummer(as_led(find_lesson(lesson).score, kit), kit, style=load_style(style))
+
+
+@pytest.mark.parametrize("kit", kit_names())
+@pytest.mark.parametrize(
+    "lesson", ["rock-fill-1", "bossa-fill-1", "quintuplet-1", "shuffle-fill-1", "six-eight-fill-1"]
+)
+def test_fills_go_through_nothing_on_any_kit(lesson: str, kit: str) -> None:
+    found = audit(drummer_of(lesson, kit), WITHIN_S)
+    assert found.kit_m.value <= 0.003, found.kit_m
+    assert found.hands_m.value <= 0.003, found.hands_m
+    assert found.limit_rad.value <= radians(1), found.limit_rad
+    assert found.speed.value <= 1.0, found.speed
+    assert found.strike_m.value <= 1e-6, found.strike_m
+
+
+@pytest.mark.parametrize("style", ["sweeping", "funk", "subdued", "jazz"])
+@pytest.mark.parametrize("lesson", ["rock-fill-2", "jazz-fill-1", "double-kick-1"])
+def test_styles_change_nothing_of_that(lesson: str, style: str) -> None:
+    found = audit(drummer_of(lesson, "four_piece", style), WITHIN_S)
+    assert found.kit_m.value <= 0.003, found.kit_m
+    assert found.hands_m.value <= 0.003, found.hands_m
+    assert found.limit_rad.value <= FEW_DEGREES, found.limit_rad
+    assert found.speed.value <= 1.0, found.speed
+    assert found.strike_m.value <= 1e-6, found.strike_m
+
+
+def test_a_drum_that_is_bigger_than_the_drummer_knows_is_gone_through() -> None:
+    drummer = Drummer(score_of(ROCK))
+    snare = drummer.kit.pieces[Piece.SNARE]
+    x, y, z = snare.centre_m
+    raised = replace(snare, centre_m=(x, y, z + 0.02))
+    kit = replace(drummer.kit, pieces=MappingProxyType({**drummer.kit.pieces, Piece.SNARE: raised}))
+    found = audit(replace(drummer, kit=kit))
+    assert found.kit_m.value == pytest.approx(0.02, abs=0.004)
+    assert "snare" in found.kit_m.what
+    assert found.strike_m.value == pytest.approx(0.02, abs=1e-6)
+
+
+def test_a_joint_beyond_its_limit_is_named() -> None:
+    figure = figure_of()
+    stiff = replace(figure, limits=replace(figure.limits, elbow_flexion=radians(40)))
+    found = audit(replace(Drummer(score_of(ROCK)), figure=stiff)).limit_rad
+    assert "elbow" in found.what
+    assert found.value > radians(20)
+
+
+def test_what_is_beyond_a_human_is_not_held_against_the_drummer() -> None:
+    """The right hand on snare and floor tom 20 ms apart: no arm does it, the strikes stay exact."""
+    notes = [
+        Note(4 * PPQ, Piece.SNARE, limb=Limb.RIGHT_HAND),
+        Note(4 * PPQ + PPQ // 30, Piece.FLOOR_TOM_1, limb=Limb.RIGHT_HAND),
+    ]
+    drummer = Drummer(Score.from_notes(notes, TempoMap.constant(100)))
+    assert drummer.assignment.beyond
+    found = audit(drummer)
+    assert found.speed.value <= 1.0
+    assert found.strike_m.value <= 1e-6
+    careless = replace(drummer.assignment, beyond=())
+    unsaid = audit(Drummer(drummer.score, plan=replace(drummer.plan, assignment=careless)))  # type: ignore[type-var]
+    assert unsaid.speed.value > 1.0
+
+
+def test_the_worse_of_two_is_kept_kind_by_kind() -> None:
+    one = Audit(kit_m=Worst(0.02, 1.0, "a"), speed=Worst(0.5, 2.0, "b"))
+    two = Audit(kit_m=Worst(0.01, 3.0, "c"), speed=Worst(0.7, 4.0, "d"))
+    both = one.worse(two, "there: ")
+    assert both.kit_m == Worst(0.02, 1.0, "a")
+    assert both.speed == Worst(0.7, 4.0, "there: d")
