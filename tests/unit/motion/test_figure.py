@@ -1,10 +1,17 @@
 import math
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from station.core.errors import BadInput
+from station.core.pieces import Piece
+from station.motion.drummer import Drummer
 from station.motion.figure import PARENT, Joint, figure_of, load_figure
+from station.motion.frame import ANGLES
+from station.motion.pose import ANGLE_NAMES
+from station.motion.style import Style
+from tests.unit.motion.patterns import score_of
 
 
 def test_segments_are_the_published_shares_of_the_stature() -> None:
@@ -61,3 +68,22 @@ def test_every_joint_hangs_from_the_pelvis_in_the_end() -> None:
         while (above := PARENT[seen]) is not None:
             seen = above
         assert seen is Joint.PELVIS
+
+
+def test_limits_of_a_file_hold_in_the_motion(tmp_path: Path) -> None:
+    """Large strokes on snare and crash: free elbows and necks pass what a stiff figure's file allows."""
+    path = tmp_path / "stiff.toml"
+    path.write_text("stature_m = 1.759\n[limits]\nelbow_flexion = 105\nneck_rotation = 15\n")
+    score = score_of(
+        [*((4 * i, Piece.SNARE) for i in range(8)), (32, Piece.CRASH_1), (40, Piece.FLOOR_TOM_1)], velocity=125
+    )
+    at = np.arange(-1.0, 8.0, 0.01)
+    style = Style(amplitude_gain=100, amplitude_gaze=100, amplitude_twist=0)
+    free, stiff = (
+        np.degrees(Drummer(score, figure=f, style=style).rows(at)[:, ANGLES]) for f in (figure_of(), load_figure(path))
+    )
+    for name, most in (("right_elbow", 105.0), ("left_elbow", 105.0), ("head_turn", 15.0)):
+        column = ANGLE_NAMES.index(name)
+        assert np.abs(stiff[:, column]).max() <= most + 1e-6, name
+    assert np.abs(free[:, ANGLE_NAMES.index("head_turn")]).max() > 15
+    assert free[:, [ANGLE_NAMES.index("right_elbow"), ANGLE_NAMES.index("left_elbow")]].max() > 105
