@@ -20,7 +20,7 @@ from station.motion.instruments import Instrument
 from station.motion.leg import HEEL_RAD, Footing
 from station.motion.life import BREATH_M, BREATH_RATE, Blinks
 from station.motion.maths import MANY, ONE, Number
-from station.motion.plan import Plan, bar_places, holds
+from station.motion.plan import Plan, holds
 from station.motion.reach import leans
 from station.motion.splines import Curves
 from station.motion.stroke import Sliders, Strokes
@@ -86,7 +86,7 @@ class Keys:
         return cls(
             style=style,
             parts=parts,
-            hands=(_hand(plan.score, right, style, hands[0], same), _hand(plan.score, left, style, hands[1], same)),
+            hands=(_hand(plan, right, style, hands[0], same), _hand(plan, left, style, hands[1], same)),
             body=old.body if old is not None and "body" in same else _body(plan, parts, style),
             head=old.head if old is not None and "head" in same else body.head_curve(ground, style),
             gaze=old.gaze if old is not None and "gaze" in same else plan.gaze(style),
@@ -169,10 +169,12 @@ def _body(plan: Plan, parts: tuple[HandPart, HandPart], style: Style) -> Curves:
     return body.curves(plan.ground, style, values)
 
 
-def _hand(score: Score, part: HandPart, style: Style, old: HandKeys | None, same: set[str]) -> HandKeys:
+def _hand(plan: Plan, part: HandPart, style: Style, old: HandKeys | None, same: set[str]) -> HandKeys:
     """The keys of one hand; of the `old` those whose stages stay the `same`."""
-    bars = _bars(score, part, style)
-    strokes = old.strokes if old and "strokes" in same else Strokes.of(part.strokes, sliders(score, part, style, bars))
+    bars = _bars(plan, part, style)
+    strokes = (
+        old.strokes if old and "strokes" in same else Strokes.of(part.strokes, sliders(plan.score, part, style, bars))
+    )
     return HandKeys(
         part.way, strokes, old.flourishes if old and "flourishes" in same else _flourishes(part, style, bars)
     )
@@ -184,11 +186,11 @@ def _flourishes(part: HandPart, style: Style, bars: Array) -> Flourishes | None:
     return flourishes if flourishes is not None and flourishes.start_s else None
 
 
-def _bars(score: Score, hand: HandPart, style: Style) -> Array:
+def _bars(plan: Plan, hand: HandPart, style: Style) -> Array:
     """The place in bars of each event of `hand`; one for all where nothing changes over the bars or it is idle."""
     if not style.automation or not len(hand.events.row):
         return np.ones(1)
-    return bar_places(score, score.notes["tick"][hand.events.row])
+    return plan.note_bars[hand.events.row]
 
 
 def sliders(score: Score, hand: HandPart, style: Style, bars: Array) -> Sliders:

@@ -107,6 +107,11 @@ class Plan:
         return gaze_curve(sights, style.value("look_around", bars) / 100, style.seed)
 
     @cached_property
+    def note_bars(self) -> Array:
+        """Each note's place in bars from 1, (n,)."""
+        return bar_places(self.score, self.score.notes["tick"])
+
+    @cached_property
     def _sights(self) -> tuple[Sights, NDArray[np.int64]]:
         """The hands' strikes as the eyes find them, and their ticks."""
         score = self.score

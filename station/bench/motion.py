@@ -1,0 +1,108 @@
+"""Benchmarks of the motion on five minutes of 16th-note grooves with fills at 120 bpm, on the default kit."""
+
+import gc
+import math
+import time
+import tracemalloc
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from station.bench.benchmark import Benchmark, Measured, median_s
+from station.bench.scoring_work import grooves
+from station.core.pieces import Piece
+from station.motion.drummer import Drummer
+from station.motion.kit import load_kit
+from station.motion.limbs import assign_limbs
+from station.motion.style import NUMBERS, Style, range_of
+
+_NOTES = 3_000
+"""Some 310 s of them."""
+_POSES, _ROUNDS = 2_000, 5
+_RENEWALS = 3
+_FRAMES_A_SECOND = 60
+_LENGTHS = (1_000, 8_000)
+
+
+def _pose() -> Measured:
+    """Every joint and instrument, at random times; the best round beside the median, for a machine that is shared."""
+    drummer = Drummer(grooves(_NOTES))
+    times = np.random.default_rng(1).uniform(0.0, drummer.score.length_ns / 1e9, _POSES).tolist()
+    rounds = []
+    for _ in range(_ROUNDS):
+        start = time.process_time()
+        for at in times:
+            drummer.pose(at)
+        rounds.append(1e6 * (time.process_time() - start) / _POSES)
+    return Measured(sorted(rounds)[_ROUNDS // 2], note=f"best round {min(rounds):.0f} µs")
+
+
+def _moved(style: Style) -> Iterator[tuple[str, Style]]:
+    """Every control of `style` moved alone, by its name; what the hands hold is a choice, not a slider."""
+    for control in NUMBERS:
+        low, high = range_of(control)
+        yield control, replace(style, **{control: low + 0.37 * (high - low)})  # type: ignore[arg-type] # floats only
+    yield "heel", replace(style, heel="up")
+    yield "beater", replace(style, beater="buried")
+    yield "seed", replace(style, seed=style.seed + 1)
+    yield "pieces", replace(style, pieces={Piece.SNARE: 80.0})
+    for control in ("amplitude_gain", "posture_deg"):
+        points = ((1.0, range_of(control)[0]), (40.0, range_of(control)[1]))
+        yield f"{control} over the bars", replace(style, automation={control: points})
+
+
+def _renewal_ms(drummer: Drummer, style: Style) -> float:
+    return 1e3 * median_s(lambda: drummer.with_style(style).pose(1.0), _RENEWALS)
+
+
+def _slider() -> Measured:
+    """The slowest control, from its change to the first pose: all its keyframes are there."""
+    drummer = Drummer(grooves(_NOTES))
+    taken = {control: _renewal_ms(drummer, style) for control, style in _moved(drummer.style)}
+    worst = max(taken, key=lambda control: taken[control])
+    start = time.perf_counter()
+    drummer.with_style(replace(drummer.style, grip_left="traditional")).pose(1.0)
+    grip = f"another grip, for which every contact is solved again, {time.perf_counter() - start:.1f} s"
+    return Measured(taken[worst], note=f"{worst}, of {len(taken)} controls; {grip}")
+
+
+def _memory() -> Measured:
+    """What a drummer holds after a pose, as tracemalloc counts it, the score left out."""
+    score = grooves(_NOTES)
+    Drummer(grooves(100)).pose(1.0)
+    tracemalloc.start()
+    drummer = Drummer(score)
+    drummer.pose(1.0)
+    gc.collect()
+    held, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    return Measured(held / 1e6, note=f"{peak / 1e6:.0f} MB while it is made")
+
+
+def _limbs() -> Measured:
+    """How the time of an assignment grows with the score's length, ours beside the thesis's."""
+    return Measured(_growth("station"), _growth("smed"))
+
+
+def _growth(method: str) -> float:
+    kit, scores = load_kit(), [grooves(notes) for notes in _LENGTHS]
+    short_s, long_s = (median_s(partial(assign_limbs, score, kit, method), _RENEWALS) for score in scores)
+    return math.log(long_s / short_s) / math.log(len(scores[1]) / len(scores[0]))
+
+
+def _rows() -> Measured:
+    """Poses a second as an export takes them, five minutes at 60 a second at once."""
+    drummer = Drummer(grooves(_NOTES))
+    times = np.arange(0.0, drummer.score.length_ns / 1e9, 1 / _FRAMES_A_SECOND)
+    return Measured(len(times) / median_s(lambda: drummer.rows(times), _RENEWALS))
+
+
+BENCHMARKS = (
+    Benchmark("pose_at_a_random_time", "µs", 50, "lower", None, _pose),
+    Benchmark("slider_renews_5_minutes_worst", "ms", 10, "lower", None, _slider),
+    Benchmark("drummer_5_minutes_held", "MB", 40, "lower", None, _memory),
+    Benchmark("limb_assignment_growth_exponent", "", 1.1, "lower", "smed", _limbs),
+    Benchmark("export_poses", "poses/s", None, "higher", None, _rows),
+)
