@@ -30,5 +30,13 @@ class Maths:
     most: Callable[[Number, Number], Number]
 
 
-ONE = Maths(math.sin, math.cos, math.acos, math.atan2, math.sqrt, min, max)
+def _least(a: float, b: float) -> float:
+    return a if a < b else b  # in half the time of min, which takes any number of anything
+
+
+def _most(a: float, b: float) -> float:
+    return a if a > b else b
+
+
+ONE = Maths(math.sin, math.cos, math.acos, math.atan2, math.sqrt, _least, _most)
 MANY = Maths(np.sin, np.cos, np.arccos, np.arctan2, np.sqrt, np.minimum, np.maximum)
