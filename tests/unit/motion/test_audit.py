@@ -5,8 +5,10 @@ The whole sweep, every lesson and style on every kit, is `station bench --soak`.
 
 from dataclasses import replace
 from math import radians
+from pathlib import Path
 from types import MappingProxyType
 
+import numpy as np
 import pytest
 
 from station.core.pieces import Limb, Piece
@@ -14,6 +16,7 @@ from station.core.units import PPQ
 from station.drills.library import find_lesson
 from station.motion.audit import Audit, Worst, audit
 from station.motion.drummer import Drummer
+from station.motion.export_npz import write_npz
 from station.motion.figure import figure_of
 from station.motion.kit import kit_names, load_kit
 from station.motion.limbs import as_led
@@ -96,3 +99,19 @@ def test_the_worse_of_two_is_kept_kind_by_kind() -> None:
     both = one.worse(two, "there: ")
     assert both.kit_m == Worst(0.02, 1.0, "a")
     assert both.speed == Worst(0.7, 4.0, "there: d")
+
+
+def test_tips_read_between_the_poses_of_a_file_are_on_their_drums(tmp_path: Path) -> None:
+    """As another program reads it: 60 poses a second, straight lines between them, the plane and edge as written."""
+    drummer = Drummer(score_of(ROCK))
+    write_npz(drummer, tmp_path / "a.npz", np.arange(-1.0, 6.0, 1 / 60))
+    with np.load(tmp_path / "a.npz") as held:
+        file = dict(held)
+    drums = np.flatnonzero((file["strike_piece"] == "snare") | (file["strike_piece"] == "hihat"))
+    assert len(drums) > 4
+    for k in drums.tolist():
+        side = int(file["strike_limb"][k] == "left_hand")
+        tip = [np.interp(file["strike_time_s"][k], file["time_s"], file["tip_m"][:, side, axis]) for axis in range(3)]
+        away = np.array(tip) - file["strike_centre_m"][k]
+        assert abs(away @ file["strike_normal"][k]) < 0.001
+        assert np.linalg.norm(away) <= file["strike_radius_m"][k]

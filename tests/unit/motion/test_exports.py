@@ -71,7 +71,8 @@ def test_an_npz_reads_back_without_pickle(tmp_path: Path) -> None:
     path = tmp_path / "x.npz"
     write_npz(DRUMMER, path, TIMES)
     with np.load(path, allow_pickle=False) as read:
-        assert (read["time_s"] == TIMES).all()
+        struck = SCORE.onset_s[(SCORE.onset_s >= TIMES[0]) & (SCORE.onset_s <= TIMES[-1])]
+        assert set(read["time_s"].tolist()) == {*TIMES.tolist(), *struck.tolist()}
         assert str(read["schema"]).startswith("drum-station-motion/")
 
 
