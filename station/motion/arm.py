@@ -81,7 +81,8 @@ class ArmLengths:
     """Upper arm, forearm, hand to the fulcrum, fulcrum to the tip and to the butt, in metres.
 
     `turns_hand`: 1 where the wrist's part of a stroke bends the hand, 0 where the forearm's roll swings the stick alone
-    (a traditional left hand). `roll_sine` and `roll_cosine` of the hand's roll from palm down, to the drummer's right.
+    (a traditional left hand), between them where both do; then `rolls_hand` is 1 for a right and −1 for a left hand,
+    else 0. `roll_sine` and `roll_cosine` of the hand's roll from palm down, to the drummer's right.
     `most_bend` is the elbow's limit: a hand that travels close past the shoulder keeps farther off instead.
     """
 
@@ -93,6 +94,7 @@ class ArmLengths:
     turns_hand: float = 1.0
     roll_sine: float = 0.0
     roll_cosine: float = 1.0
+    rolls_hand: float = 0.0
     most_bend: float = math.pi
 
 
@@ -176,7 +178,11 @@ def chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a 
     # the wrist's angles: the forearm seen from the hand's own axes, and the hand's rolled back
     bx, by, bz = wx - jx, wy - jy, wz - jz
     b = bx * vx + by * vy
-    across, upward = lengths.roll_sine, lengths.roll_cosine
+    across, upward, rolled = lengths.roll_sine, lengths.roll_cosine, 0.0
+    if lengths.rolls_hand:
+        rolled = (1 - lengths.turns_hand) * raised_wrist
+        c, s = cos(rolled), lengths.rolls_hand * sin(rolled)
+        across, upward = across * c + upward * s, upward * c - across * s
     tilted = sin_h * upward
     return (
         (sx, sy, sz, jx, jy, jz, wx, wy, wz, hx, hy, hz),
@@ -189,7 +195,7 @@ def chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a 
             inside + forearm + raised_elbow,
             atan2(sin_h * b - cos_h * bz, -(cos_h * b + sin_h * bz)),
             atan2(by * vx - bx * vy, sqrt(b * b + bz * bz)),
-            hand - stick,
+            hand - stick - rolled,
         ),
         missing,
     )

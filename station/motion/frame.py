@@ -71,17 +71,19 @@ class Rig:
         leg_a, bent_a = leg_chain(m, self.footings[0], (x + hip, y, z), board_a, heel * (0.6 + 0.4 * foot_a))
         leg_b, bent_b = leg_chain(m, self.footings[1], (x - hip, y, z), board_b, heel * (0.6 + 0.4 * foot_b))
         kick, hat = boards if self.right_kicks else (foot_b, foot_a)
+        rolled_a = self.rolls[0] + (1 - self.arms[0].turns_hand) * right[1][WRIST]
+        rolled_b = self.rolls[1] + (1 - self.arms[1].turns_hand) * left[1][WRIST]
         return [
             *(x, y, z, *spine, *arm_a, *arm_b, x + hip, y, z, *leg_a, x - hip, y, z, *leg_b),
             *(*butt_a, *butt_b, *tip_a, *tip_b, *back_a, *back_b, *face),
             *(twist, lean, side, nod, turn, tilt),
-            *(heading_a, shoulder_a, right[0][WING] + wing, elbow_a, wrist_a, aside_a, self.rolls[0], palm_a),
-            *(heading_b, shoulder_b, wing - left[0][WING], elbow_b, wrist_b, -aside_b, self.rolls[1], palm_b),
+            *(heading_a, shoulder_a, right[0][WING] + wing, elbow_a, wrist_a, aside_a, rolled_a, palm_a),
+            *(heading_b, shoulder_b, wing - left[0][WING], elbow_b, wrist_b, -aside_b, rolled_b, palm_b),
             *(*bent_a, *bent_b, board_a, board_b, kick * BEATER_SWING_RAD, hat * OPEN_GAP_M, eyes),
         ]
 
 
-WING = Contact._fields.index("wing")
+WING, WRIST = Contact._fields.index("wing"), Offsets._fields.index("wrist")
 FOLLOWS = 0.9
 """How far the head turns to what is looked at; the eyes do the rest (our choice)."""
 LOOK_DOWN = 0.45

@@ -46,7 +46,7 @@ GRIPS: Mapping[str, Grip] = MappingProxyType(
         for g in (
             _grip("german", (28.0, 14.0, 30.0, 0.0), 1.0, 1.0, 0.8),
             _grip("american", (20.0, 14.0, 22.0, 45.0), 1.0, 1.0, 1.0),
-            _grip("french", (8.0, 10.0, 8.0, 85.0), 1.0, 0.6, 1.8),
+            _grip("french", (8.0, 10.0, 8.0, 85.0), 0.4, 0.8, 1.6),
             _grip("traditional", (38.0, 0.0, 70.0, 120.0), 0.0, 1.0, 0.5),
         )
     }
@@ -104,6 +104,7 @@ class Hold:
             ahead=ahead,
             behind=length * pivot,
             turns_hand=self.grip.turns_hand,
+            rolls_hand=0.0 if self.grip.turns_hand == 1.0 else 1.0 if right else -1.0,
             roll_sine=math.sin(self.grip.roll) * (1 if right else -1),
             roll_cosine=math.cos(self.grip.roll),
             most_bend=figure.limits.elbow_flexion,

@@ -125,3 +125,22 @@ def test_heel_up_lifts_the_thigh_and_more_for_the_stroke() -> None:
     knee_up, knee_down = (d.rows(at)[:, 3 * 14 + 2] for d in (up, down))
     assert (knee_up - knee_down).min() > 0.01
     assert np.ptp(knee_up) > 0.01
+
+
+@pytest.mark.parametrize(("grip", "limb"), [("traditional", L), ("french", L), ("french", R)])
+def test_traditional_and_thumb_up_strokes_rotate_the_forearm(grip: str, limb: Limb) -> None:
+    side = "right" if limb == R else "left"
+    held = {"grip_right": grip} if limb == R else {"grip_left": grip}
+    notes = [Note(i * PPQ, Piece.SNARE, velocity=96, limb=limb) for i in range(4)]
+    drummer, at = drummer_of(notes, 100, replace(Style(), **held)), np.arange(0.6, 1.2, 0.005)  # type: ignore[arg-type]
+    roll = angle(drummer, f"{side}_forearm", at)
+    assert np.degrees(np.ptp(roll)) > 6.0
+    assert roll.argmax() not in (0, len(roll) - 1)  # outward as the stick rises, and back for the stroke
+    back = drummer.rows(at)[:, frame.PALM].reshape(-1, 2, 3)[:, int(limb)]
+    assert np.degrees(np.arccos(np.clip(back @ back[0], -1, 1)).max()) > 6.0
+    assert np.linalg.norm(back, axis=1) == pytest.approx(np.ones(len(back)))
+
+
+def test_a_matched_palm_down_hand_does_not_roll() -> None:
+    drummer = drummer_of([Note(i * PPQ, Piece.SNARE, velocity=96, limb=R) for i in range(4)])
+    assert np.ptp(angle(drummer, "right_forearm", np.arange(0.5, 1.5, 0.01))) == 0.0
