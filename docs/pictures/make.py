@@ -58,7 +58,13 @@ def main() -> None:
     )
     write_png(maker.draw(passing, named(View.EYES)), HERE / "pass.png")
     label = np.where(random.random(len(score)) < 0.05, Label.MISS, Label.MATCH).astype(np.uint8)
-    words = Words(lesson.title, "3 passes of bars 1–2 at 84 bpm", 86.0)
+    words = Words(
+        lesson.title,
+        "3 passes of bars 1–2 at 84 bpm",
+        86.0,
+        ("Nothing stands out: raise the tempo.",),
+        lesson.loop_score.bar_count,
+    )
     draw_report_png(result_facts(score, label, late_ns, np.empty(0), words), HERE / "result.png", (960, 600))
 
 

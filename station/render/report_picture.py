@@ -132,10 +132,9 @@ class _Page:
             self._badge(i, (x + 9, y - 6), with_opacity(colour, 1.0))
             self._ink.text(text, (x + 30, y), Type(18, INK))
             y += 31
-        y += 12
-        self._ink.text("WHAT TO DO NEXT", (x, y), Type(13, BRAND, Face.BOLD))
-        y += 26
-        self._advice(facts.words.advice, (x, y))
+        if facts.words.advice:
+            self._ink.text("WHAT TO DO NEXT", (x, y + 12), Type(13, BRAND, Face.BOLD))
+            self._advice(facts.words.advice, (x, y + 38))
 
     def _advice(self, sentences: tuple[str, ...], at: tuple[float, float]) -> None:
         """The sentences, in the largest type in which they fit on the card."""
