@@ -33,7 +33,8 @@ class Settings:
 
     `kit` part of the MIDI port's name, empty for the first kit found; `output` part of the sound device's name, empty
     for the system's default; `block_frames` the size of one audio block, 0 for the driver's own choice; `rate_hz` its
-    sample rate; `drums` the name or the path of the drum kit that sounds, `click` the name of the click; latencies in
+    sample rate; `drums` the name or the path of the drum kit that sounds, `click` the name of the click;
+    `own_sound` false where the kit's module sounds itself and the strokes of the student stay silent; latencies in
     milliseconds, subtracted from every hit (input) and added to every written time (output).
     """
 

@@ -31,7 +31,7 @@ from station.devices.midi_ports import MidiDirectory
 from station.devices.watch import KitWatch
 from station.engine.card import Card
 from station.engine.engine import Engine
-from station.engine.messages import Command, EngineEvent, Notice, Quit, Ready, SetBacking
+from station.engine.messages import Bus, Command, EngineEvent, Notice, Quit, Ready, SetBacking, SetLevel
 from station.engine.runner import Runner
 from station.sound.buses import ClickVoice
 from station.sound.click import DEFAULT_TIMBRE, click_sounds
@@ -56,8 +56,8 @@ class EngineConfig:
     """What the engine process opens.
 
     `kits` holds for each kit part of its port's name, empty for the first kit found; `midi_driver` is "auto" or one of
-    `station.devices.midi_ports.compiled_drivers()`; `output`, `block_frames`, `rate_hz`, `drums` and `click`
-    stand as in `Settings`; without `sound` no card is opened.
+    `station.devices.midi_ports.compiled_drivers()`; `output`, `block_frames`, `rate_hz`, `drums`, `click`
+    and `own_sound` stand as in `Settings`; without `sound` no card is opened.
     """
 
     kits: tuple[str, ...] = ("",)
@@ -68,6 +68,7 @@ class EngineConfig:
     rate_hz: int = 48_000
     drums: str = DEFAULT_KIT
     click: str = DEFAULT_TIMBRE
+    own_sound: bool = True
 
     @classmethod
     def from_settings(cls, settings: Settings) -> Self:
@@ -79,7 +80,13 @@ class EngineConfig:
             rate_hz=settings.rate_hz,
             drums=settings.drums,
             click=settings.click,
+            own_sound=settings.own_sound,
         )
+
+    @property
+    def first_commands(self) -> tuple[Command, ...]:
+        """What the engine is told before anything else."""
+        return () if self.own_sound else (SetLevel(Bus.STUDENT, 0.0),)
 
 
 class EngineProcess:
@@ -212,6 +219,8 @@ def _live(config: EngineConfig, inbox: "_Inbox", outbox: "_Outbox") -> None:
     card = _card(engine, config) if config.sound else None
     undisturbed = card.paused if card is not None else nullcontext
     runner = Runner(engine, _kits(engine, config, card), card)
+    for command in config.first_commands:
+        engine.handle(command)
     try:
         runner.start(monotonic_ns())
         sys.setswitchinterval(SWITCH_INTERVAL_S)  # not before: making the drum kit takes long turns
