@@ -173,7 +173,7 @@ class Window:
             self.backdrop.steer(io)
         if self._show_keys:
             self._keys_window()
-        if self._news_left_s > 0:
+        elif self._news_left_s > 0:
             self._news_line()
 
     def _keys(self) -> None:

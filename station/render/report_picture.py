@@ -193,7 +193,9 @@ class _Page:
         return _PLOT.top + 24 + (_PLOT.height - 44) * (0.5 - clipped / (2 * _REACH_MS))
 
     def _place_of(self, time_s: float) -> float:
+        """Across the plot; what was struck before the first bar or after the last stands on its edge."""
         start, end = float(self._facts.bar_s[0]), float(self._facts.bar_s[-1])
+        time_s = min(max(time_s, start), end)
         return _PLOT.left + 84 + (_PLOT.width - 116) * (time_s - start) / max(end - start, 1e-9)
 
     def _bars(self) -> None:

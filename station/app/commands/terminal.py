@@ -62,6 +62,7 @@ def practise_in_terminal(plan: Plan, settings: Settings, capture: Path) -> LiveO
     session = Session(plan, latency)
     display = _Display(plan, session.windows)
     clock = MonotonicClock()
+    sys.stderr.write("looking for a kit and a sound output …\n")
     try:
         with EngineProcess(EngineConfig.from_settings(settings)) as engine:
             wait_for_kit(engine, session, clock, KIT_WAIT_S, display.tell)

@@ -104,3 +104,14 @@ def test_the_time_axis_counts_passes_or_the_lesson_s_bars() -> None:
     assert ticks(played(0, 4, pass_bars=2, first_bar=4)) == ("pass", [(0, "1"), (2, "2")])
     counted, marks = ticks(played(0, 64, pass_bars=2))
     assert (counted, marks[:2], len(marks)) == ("pass", [(0, "1"), (4, "3")], 16)
+
+
+def test_hits_outside_the_bars_stay_on_the_plot() -> None:
+    early_and_late_s = np.array([-30.0, 60.0])  # the score lasts two seconds
+    label = np.full(len(rock()), Label.MATCH, np.uint8)
+    played_ns = np.zeros(len(label), np.int64)
+    shapes = report_shapes(result_facts(rock(), label, played_ns, early_and_late_s, Words("", "", None)), Atlas())
+    crosses = shapes[shapes["kind"] == Kind.CROSS]
+    assert len(crosses) == 3  # with that of the legend
+    assert crosses["centre"][:, 0].min() > 0
+    assert crosses["centre"][:, 0].max() < 1240  # the card's right edge, of 1280
