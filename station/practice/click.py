@@ -124,6 +124,19 @@ def click_cues(tempo_map: TempoMap, end_tick: int, pattern: ClickPattern = PLAIN
     return cues[np.argsort(cues["at_ns"], kind="stable")]
 
 
+def silences(tempo_map: TempoMap, end_tick: int, gap: Gap | None) -> tuple[tuple[int, int], ...]:
+    """From when until when in ns the click of `gap` is silent over [0, `end_tick`) and comes back, in order."""
+    found: list[tuple[int, int]] = []
+    first = bar = 0
+    while gap is not None and (start := tempo_map.bar_start(bar)) < end_tick:
+        if not gap.is_quiet(bar):
+            if first < bar:
+                found.append((int(tempo_map.ns_at(tempo_map.bar_start(first))), int(tempo_map.ns_at(start))))
+            first = bar + 1
+        bar += 1
+    return tuple(found)
+
+
 @lru_cache(maxsize=64)
 def bar_clicks(meter: MeterChange, pattern: ClickPattern) -> tuple[_Click, ...]:
     """The clicks of one whole bar of `meter`; silent ones are left out."""

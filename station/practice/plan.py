@@ -65,7 +65,7 @@ class Plan:
 
     `section` is one pass at the practice tempo, `score` all passes in a row (what is judged), `first_bar` the lesson's
     bar (from 0) where the section begins, `passes_start_ns` where tick 0 of `score` lies on the transport, `end_ns`
-    where the last pass ends, `cues` (n,) of `CUE_DTYPE` everything that sounds.
+    where the last pass ends, `cues` (n,) of `CUE_DTYPE` everything that sounds, `click` the pattern under the passes.
     """
 
     lesson: Lesson
@@ -78,6 +78,7 @@ class Plan:
     passes_start_ns: int
     end_ns: int
     cues: NDArray[np.void]
+    click: ClickPattern
 
     def segment_at(self, at_ns: int) -> Segment:
         """The segment that holds transport time `at_ns`: the first before zero, `Phase.OVER` after the end."""
@@ -150,6 +151,7 @@ def plan_practice(lesson: Lesson, wishes: Wishes) -> Plan:
         passes_start_ns=passes_start_ns,
         end_ns=now_ns,
         cues=_in_order(cues),
+        click=click,
     )
 
 

@@ -10,13 +10,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.units import NS_PER_MS, PPQ
+from station.drills.lesson import Goals
 from station.engine.engine import KEYBOARD
+from station.practice.click import silences
 from station.practice.headless import VirtualSession
 from station.practice.session import SessionResult
 from station.practice.virtual_student import VirtualPerformance
 from station.practice.what_next import advice_of, what_next
 from station.scoring.alignment import Alignment, Reference
+from station.scoring.craft.words import craft_lines
 from station.scoring.document import Json, assessment
+from station.scoring.points import FREE_LEAN_MS, Feel
 from station.scoring.summary import View, summarise
 
 
@@ -63,8 +67,19 @@ def with_truth(document: dict[str, Json], virtual: VirtualSession) -> dict[str, 
 def _view(result: SessionResult) -> View:
     """Bars are counted as in the lesson, however often they were played."""
     plan = result.plan
-    hears_velocity = result.device != KEYBOARD
-    return View(pass_bars=plan.section.bar_count, first_bar=plan.first_bar, hears_velocity=hears_velocity)
+    return View(
+        pass_bars=plan.section.bar_count,
+        first_bar=plan.first_bar,
+        hears_velocity=result.device != KEYBOARD,
+        feel=feel_of(plan.lesson.goals),
+        silences=silences(plan.score.tempo_map, plan.score.end_tick, plan.click.gap),
+    )
+
+
+def feel_of(goals: Goals) -> Feel:
+    """What costs nothing in a lesson: feel, unless its goals ask for less."""
+    lean_ms = FREE_LEAN_MS if goals.max_lean_ms is None else min(goals.max_lean_ms, FREE_LEAN_MS)
+    return Feel(lean_ms, goals.max_swing_error)
 
 
 def _true_asynchrony_ns(student: VirtualPerformance) -> NDArray[np.int64]:
@@ -124,7 +139,8 @@ def _figures_text(document: dict[str, Json]) -> str:
     if rows:
         lines += ["", f"{'piece':14}" + "".join(f"{name:>9}" for name in _COLUMNS)]
     lines += [f"{piece:14}" + "".join(f"{cell:>9}" for cell in _cells(group)) for piece, group in rows]
-    return "\n".join(lines) + "\n"
+    craft = craft_lines(document)
+    return "\n".join([*lines, "", *craft] if craft else lines) + "\n"
 
 
 _COLUMNS = ("notes", "hit", "missed", "wrong", "extra", "mean ms", "SD ms")

@@ -9,15 +9,17 @@ from collections.abc import Mapping
 
 from station.core.pieces import Dynamic, Limb, word
 from station.scoring.advice import advise
+from station.scoring.craft.cannot import cannot_tell
+from station.scoring.craft.table import Json, plain
 from station.scoring.dynamics import Dynamics
 from station.scoring.habits import Habits
 from station.scoring.summary import Group, Summary
 from station.scoring.tempo import TempoCurve
 from station.scoring.timing import Spread
 
-SCHEMA = "drum-station/assessment/1"
+__all__ = ["Json", "assessment", "to_text"]
 
-Json = dict[str, "Json"] | list["Json"] | str | float | int | bool | None
+SCHEMA = "drum-station/assessment/1"
 
 _DECIMALS = 3
 
@@ -42,12 +44,15 @@ def assessment(summary: Summary) -> dict[str, Json]:
         "timing": _timing(summary.timing),
         "tempo": _tempo(summary.tempo),
         "habits": _habits(summary.habits),
+        "craft": plain(summary.craft),
+        "cannot_tell": plain(cannot_tell(summary.craft, summary.untold)),
         "dynamics": None if summary.dynamics is None else _dynamics(summary.dynamics),
         "per_piece": {word(piece): _group(group) for piece, group in summary.by_piece.items()},
         "per_limb": _keyed(summary.by_limb),
         "per_bar": [{"bar": bar + 1, **_group(group)} for bar, group in summary.by_bar.items()],
         "per_subdivision": {name: _group(group) for name, group in summary.by_subdivision.items()},
         "per_dynamic": _keyed(summary.by_dynamic),
+        "per_passage": {name: _group(group) for name, group in summary.by_passage.items()},
         "wrong_pieces": [
             {"written": word(wrong.written), "played": word(wrong.played), "count": wrong.count}
             for wrong in summary.wrong_pieces

@@ -6,7 +6,8 @@ a piece, notes are the written and hits the played, so that there wrong pieces s
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 from types import MappingProxyType
 from typing import TypeVar
 
@@ -15,13 +16,18 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Dynamic, Limb, Piece
 from station.core.units import PPQ
+from station.music import passages
 from station.music.judgement import Label
 from station.music.performance import Performance
 from station.music.score import Score
 from station.scoring.alignment import Alignment
+from station.scoring.craft.craft import Circumstances, Craft, craft
+from station.scoring.craft.cymbals import choke_faults, hat_faults
+from station.scoring.craft.gaps import Silences
+from station.scoring.craft.untold import KitFacts, Untold, untold_notes
 from station.scoring.dynamics import Dynamics, dynamics
 from station.scoring.habits import Habits, habits
-from station.scoring.points import points
+from station.scoring.points import ALL_FREE, Feel, Judged, points
 from station.scoring.tempo import TempoCurve, tempo_curve
 from station.scoring.timing import Spread, asynchrony_ms, spread, timed_notes
 from station.scoring.windows import DEFAULT_LEVEL, Windows
@@ -80,13 +86,17 @@ class View:
     """How a score is looked at: the level, and how its bars are named.
 
     `pass_bars` bars make one pass of a loop (None: no loop), so that bar b of the score is the lesson's bar
-    `first_bar` + b mod `pass_bars`, from 0. `hears_velocity` False where the input cannot tell loud from soft.
+    `first_bar` + b mod `pass_bars`, from 0. `hears_velocity` False where the input cannot tell loud from soft. `feel`
+    is what costs nothing, `silences` where the click was silent, `kit` what was measured of the student's.
     """
 
     windows: Windows = DEFAULT_LEVEL
     pass_bars: int | None = None
     first_bar: int = 0
     hears_velocity: bool = True
+    feel: Feel = ALL_FREE
+    silences: Silences = ()
+    kit: KitFacts = field(default_factory=KitFacts)
 
     def bars(self, score: Score) -> NDArray[np.int64]:
         """The lesson's bar of each note, from 0, shape (n,)."""
@@ -98,8 +108,10 @@ class View:
 class Summary:
     """An assessment in figures; `points` 0–100, None for a score without notes.
 
-    Tables are keyed by piece, limb, the lesson's bar from 0, the subdivision's name and the dynamic; keys without notes
-    are absent (of pieces: without notes and hits).
+    `untold` (n,) says by `Untold` of which notes the kit cannot tell whether they were played.
+
+    Tables are keyed by piece, limb, the lesson's bar from 0, the subdivision's name, the dynamic and the passage
+    (`groove` or `fill`); keys without notes are absent (of pieces: without notes and hits).
     """
 
     score: Score
@@ -115,9 +127,18 @@ class Summary:
     by_bar: Mapping[int, Group]
     by_subdivision: Mapping[str, Group]
     by_dynamic: Mapping[Dynamic, Group]
+    by_passage: Mapping[str, Group]
     wrong_pieces: tuple[WrongPiece, ...]
     habits: Habits
     tempo: TempoCurve
+    untold: NDArray[np.uint8]
+
+    @cached_property
+    def craft(self) -> Craft:
+        """Rolls, ornaments, feel, the inner clock and what else there is beyond the single stroke."""
+        view = self.view
+        around = Circumstances(view.feel, view.silences, view.kit, view.hears_velocity)
+        return craft(self.score, self.performance, self.alignment, self.habits, around)
 
 
 def summarise(score: Score, performance: Performance, alignment: Alignment, view: View | None = None) -> Summary:
@@ -128,12 +149,18 @@ def summarise(score: Score, performance: Performance, alignment: Alignment, view
     notes = score.notes
     pieces = np.union1d(notes["piece"], performance.hits["piece"])
     limbs, bars, places = notes["limb"], view.bars(score), subdivisions(score)
+    untold = untold_notes(score, performance, alignment, view.kit)
+    judged = Judged(
+        loudness.off_db if view.hears_velocity else None,
+        _faulty(score, performance, alignment, view.kit),
+        untold != Untold.TOLD,
+    )
     return Summary(
         score=score,
         performance=performance,
         alignment=alignment,
         view=view,
-        points=points(score, alignment, loudness if view.hears_velocity else None, view.windows),
+        points=points(score, alignment, judged, view.windows, view.feel),
         counts=count(alignment),
         timing=group(np.ones(len(score), np.bool_), None).timing,
         dynamics=loudness if view.hears_velocity else None,
@@ -148,10 +175,18 @@ def summarise(score: Score, performance: Performance, alignment: Alignment, view
         by_dynamic=_table(
             (Dynamic(k), group(notes["dynamic"] == k, None)) for k in np.unique(notes["dynamic"]).tolist()
         ),
+        by_passage=_table((name, group(here, None)) for name, here in _passages(score) if here.any()),
         wrong_pieces=_wrong_pieces(score, performance, alignment),
         habits=habits(score, performance, alignment, view.hears_velocity),
         tempo=tempo_curve(score, performance, alignment),
+        untold=untold,
     )
+
+
+def _faulty(score: Score, performance: Performance, alignment: Alignment, kit: KitFacts) -> Flags:
+    """Notes (n,) whose hat was open for closed or closed for open, or whose cymbal was not grabbed, where told."""
+    not_grabbed = choke_faults(score, performance, alignment, kit.tells_chokes)[1]
+    return hat_faults(score, performance, alignment)[1] | not_grabbed
 
 
 def count(alignment: Alignment) -> Counts:
@@ -196,6 +231,12 @@ def _grouper(score: Score, performance: Performance, alignment: Alignment) -> _G
 
 def _table(rows: Iterable[tuple[Key, Group]]) -> Mapping[Key, Group]:
     return MappingProxyType(dict(rows))
+
+
+def _passages(score: Score) -> tuple[tuple[str, Flags], ...]:
+    """Fills and what is none, of a score that has both."""
+    fills = passages.fills(score)
+    return (("groove", ~fills), ("fill", fills)) if fills.any() else ()
 
 
 _PLACES = (*(name for name, _ in SUBDIVISIONS), "other")

@@ -24,7 +24,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Align, sum up, print."""
-    from station.practice.report import assessment_text
+    from station.drills.library import find_lesson
+    from station.practice.report import assessment_text, feel_of
     from station.scoring.align import align
     from station.scoring.document import assessment
     from station.scoring.pairs import write_pairs
@@ -34,7 +35,7 @@ def run(arguments: argparse.Namespace) -> int:
     score, performance = load_score_and_performance(arguments.score, arguments.performance)
     view = View(find_windows(arguments.level))
     if is_lesson(arguments.score):
-        view = replace(view, pass_bars=score.bar_count)
+        view = replace(view, pass_bars=score.bar_count, feel=feel_of(find_lesson(arguments.score).goals))
         score = score.repeated(max(1, round(len(performance) / max(len(score), 1))))
     alignment = align(score, performance, clocked=False)
     document = assessment(summarise(score, performance, alignment, view))

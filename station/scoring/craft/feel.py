@@ -1,0 +1,75 @@
+"""Feel, described and not scolded: how each piece leans, and the swing that is held.
+
+A stable lean of a piece up to `points.FREE_LEAN_MS` and a swing ratio within `points.FREE_SWING` cost nothing unless
+the lesson asks for less. Leans are those of `habits`, with everything else that can be told apart taken out.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from station.core.pieces import Piece, word
+from station.music import passages
+from station.music.score import Score
+from station.scoring.alignment import Alignment
+from station.scoring.habits import FEET, Habits
+from station.scoring.points import Feel, free_ms, ratio_of_place
+from station.scoring.regression import Effect
+from station.scoring.timing import asynchrony_ms, t_quantile_95, timed_notes
+
+
+@dataclass(frozen=True, slots=True)
+class Lean:
+    """A piece's lean against the others in ms, negative is ahead; `free`: it costs nothing."""
+
+    piece: Piece
+    lean_ms: float
+    ci: tuple[float, float]
+    free: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Swing:
+    """The ratio that is written and the one that is held, long to short; `sd_ms` of the offbeats about the held one."""
+
+    written: float
+    held: float
+    ci: tuple[float, float]
+    sd_ms: float | None
+    free: bool
+
+
+def leans(found: Habits, feel: Feel) -> tuple[Lean, ...]:
+    """How each piece leans, of which enough is known."""
+    names = {f"lean_{word(piece)}": piece for piece in Piece} | {name: piece for piece, name in FEET.items()}
+    told = [(names[name], effect) for name, effect in found.effects.items() if name in names]
+    return tuple(
+        Lean(piece, effect.value, _interval(effect), abs(effect.value) <= feel.lean_ms)
+        for piece, effect in told
+        if effect.slots > _FEWEST
+    )
+
+
+def swing(score: Score, alignment: Alignment, found: Habits, feel: Feel) -> Swing | None:
+    """The swing that is held; None where none is written or too little was played."""
+    flags, _, places = passages.swung(score)
+    effect = found.effects.get("swing")
+    if effect is None or effect.slots <= _FEWEST or not flags.any():
+        return None
+    written = float(np.median(places[flags]))
+    low, high = _interval(effect)
+    held = ratio_of_place(written + effect.value)
+    told = flags & timed_notes(score, alignment)
+    off = (asynchrony_ms(alignment) - free_ms(score, alignment, feel))[told]
+    sd_ms = float(off.std(ddof=1)) if len(off) > 1 else None
+    ends = (ratio_of_place(written + low), ratio_of_place(written + high))
+    return Swing(ratio_of_place(written), held, ends, sd_ms, feel.allows(held, ratio_of_place(written)))
+
+
+_FEWEST = 3
+"""Slots: fewer have no interval."""
+
+
+def _interval(effect: Effect) -> tuple[float, float]:
+    half = t_quantile_95(effect.slots - 1.0) * effect.error
+    return effect.value - half, effect.value + half

@@ -1,0 +1,92 @@
+"""Flams and drags: how far the grace strokes lead, how steadily, how softly, and by which hand.
+
+The main stroke carries the time and is judged like any other; here is only what belongs to the ornament. A good grace
+stroke is softer than its main stroke and leads by much the same each time. How far is the hand's choice: HUMANS has
+flams of 15–40 ms and drags whose strokes are 40–70 ms apart, which is told and not demanded. Hands are known only where
+the sticks say who struck.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.pieces import Limb, Ornament
+from station.core.units import NS_PER_MS
+from station.music.judgement import Label
+from station.music.performance import Performance
+from station.music.score import Score
+from station.scoring.alignment import Alignment
+from station.scoring.craft.figures import Figure, figure
+from station.scoring.dynamics import level_db
+from station.scoring.graces import main_of_grace
+
+USUAL_MS: Mapping[Ornament, tuple[float, float]] = MappingProxyType(
+    {Ornament.FLAM: (15.0, 40.0), Ornament.DRAG: (40.0, 70.0)}
+)
+"""How far the strokes of an ornament are usually apart (HUMANS, Timing)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Ornaments:
+    """All flams, or all drags.
+
+    `graces` written, `heard` with their main stroke. `spacing_ms` from each grace stroke to the next stroke of its
+    ornament, and how many of them lie within `USUAL_MS`. `level_db` grace less main stroke, `softer` so many of the
+    heard are softer. `hand_order`: so many of so many whose hands are known were led by the written one; None if none.
+    """
+
+    graces: int
+    heard: int
+    spacing_ms: Figure
+    usual: int
+    level_db: Figure
+    softer: int
+    hand_order: tuple[int, int] | None
+
+
+def ornaments(score: Score, performance: Performance, alignment: Alignment) -> dict[Ornament, Ornaments]:
+    """What there is to say of each kind of ornament that the score has."""
+    main = main_of_grace(score)
+    kinds = np.unique(score.notes["ornament"][main >= 0]).tolist()
+    return {
+        Ornament(kind): _of_kind(score, performance, alignment, main, Ornament(kind))
+        for kind in kinds
+        if Ornament(kind) in USUAL_MS
+    }
+
+
+def _of_kind(
+    score: Score, performance: Performance, alignment: Alignment, main: NDArray[np.int64], kind: Ornament
+) -> Ornaments:
+    graces = np.flatnonzero((main >= 0) & (score.notes["ornament"] == kind))
+    matched, ticks = alignment.note_label == Label.MATCH, score.notes["tick"]
+    heard = graces[matched[graces] & matched[main[graces]]]
+    hits, hit = performance.hits, alignment.hit_of_note
+    following = np.where(np.roll(main, -1)[heard] == main[heard], heard + 1, main[heard])
+    following = np.where(matched[following], following, -1)
+    spacing = np.where(following >= 0, hits["at_ns"][hit[following]] - hits["at_ns"][hit[heard]], np.nan) / NS_PER_MS
+    low, high = USUAL_MS[kind]
+    softness = level_db(hits["velocity"][hit[heard]]) - level_db(hits["velocity"][hit[main[heard]]])
+    return Ornaments(
+        graces=len(graces),
+        heard=len(heard),
+        spacing_ms=figure(spacing, ticks[heard]),
+        usual=int(((spacing >= low) & (spacing <= high)).sum()),
+        level_db=figure(softness, ticks[heard]),
+        softer=int((softness < 0).sum()),
+        hand_order=_hand_order(score.notes["limb"], hits["limb"][hit], main, heard),
+    )
+
+
+def _hand_order(
+    written: NDArray[np.int8], played: NDArray[np.int8], main: NDArray[np.int64], heard: NDArray[np.int64]
+) -> tuple[int, int] | None:
+    """Of the grace strokes whose own and main hands are both written and known: how many are as written, and all."""
+    mains = main[heard]
+    strokes = np.stack([written[heard], written[mains], played[heard], played[mains]])
+    known = (strokes != Limb.UNKNOWN).all(axis=0)
+    right = known & (strokes[0] == strokes[2]) & (strokes[1] == strokes[3])
+    return (int(right.sum()), int(known.sum())) if known.any() else None
