@@ -8,7 +8,7 @@ from station.music.performance import Performance
 from station.music.score import Score
 from station.scoring.alignment import Alignment
 from station.scoring.craft.cymbals import Chokes, Hats, chokes, hats
-from station.scoring.craft.feel import Lean, Swing, leans, swing
+from station.scoring.craft.feel import Fills, Lean, Swing, fills_against_groove, leans, swing
 from station.scoring.craft.gaps import Gaps, Silences, gaps
 from station.scoring.craft.keeper import Keeper, keeper
 from station.scoring.craft.ornaments import Ornaments, ornaments
@@ -26,6 +26,7 @@ class Craft:
 
     leans: tuple[Lean, ...]
     swing: Swing | None
+    fills: Fills | None
     together: Together | None
     keeper: Keeper
     gaps: Gaps | None
@@ -55,6 +56,7 @@ def craft(
     return Craft(
         leans=leans(found, feel),
         swing=swing(score, alignment, found, feel),
+        fills=fills_against_groove(score, alignment),
         together=together(score, alignment),
         keeper=keeper(score, performance, alignment),
         gaps=gaps(score, alignment, circumstances.silences),

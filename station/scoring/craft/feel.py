@@ -1,4 +1,4 @@
-"""Feel, described and not scolded: how each piece leans, and the swing that is held.
+"""Feel, described and not scolded: how each piece leans, the swing that is held, fills against the groove.
 
 A stable lean of a piece up to `points.FREE_LEAN_MS` and a swing ratio within `points.FREE_SWING` cost nothing unless
 the lesson asks for less. Leans are those of `habits`, with everything else that can be told apart taken out.
@@ -12,6 +12,7 @@ from station.core.pieces import Piece, word
 from station.music import passages
 from station.music.score import Score
 from station.scoring.alignment import Alignment
+from station.scoring.craft.figures import Figure, difference, figure
 from station.scoring.habits import FEET, Habits
 from station.scoring.points import Feel, free_ms, ratio_of_place
 from station.scoring.regression import Effect
@@ -37,6 +38,27 @@ class Swing:
     ci: tuple[float, float]
     sd_ms: float | None
     free: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Fills:
+    """Asynchrony in `fills` and in the `groove`, in ms; `apart_ms` fills less groove, negative is rushed."""
+
+    fills: Figure
+    groove: Figure
+    apart_ms: float | None
+    ci: tuple[float, float] | None
+
+
+def fills_against_groove(score: Score, alignment: Alignment) -> Fills | None:
+    """How far fills are played ahead of or behind the groove; None of a score without fills."""
+    fills, timed = passages.fills(score), timed_notes(score, alignment)
+    if not fills.any():
+        return None
+    off, ticks = asynchrony_ms(alignment), score.notes["tick"]
+    one, other = (figure(off[here], ticks[here]) for here in (timed & fills, timed & ~fills))
+    apart = None if one.mean is None or other.mean is None else one.mean - other.mean
+    return Fills(one, other, apart, difference(one, other))
 
 
 def leans(found: Habits, feel: Feel) -> tuple[Lean, ...]:

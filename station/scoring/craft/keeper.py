@@ -30,7 +30,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Limb
-from station.core.units import NS_PER_MS
+from station.core.units import NS_PER_MS, PPQ
 from station.music.performance import Performance
 from station.music.score import Score
 from station.scoring.alignment import Alignment, Reference
@@ -82,6 +82,8 @@ _WIDEST = 4.0
 """An interval whose ends are more than so many times apart tells nothing (our choice)."""
 _DROP = 1.920729
 """Half the 95 % point of χ² with one degree of freedom."""
+_MISFIT_SDS = 4.0
+"""Autocorrelations that lie farther from the model's are no clock's (their SD is about 1/√n; our choice)."""
 _RUN = 32
 """Intervals in a run without a click: the length of Wing and Kristofferson's trials."""
 _FEWEST_RUNS = 4
@@ -97,10 +99,18 @@ def keeper(score: Score, performance: Performance, alignment: Alignment) -> Keep
     if interval_ms is None or count < FEWEST:
         return Keeper(with_click, count, interval_ms, None, cannot_tell=Why.FEW)
     if with_click:
-        off = asynchrony_ms(alignment)
+        off = _without_places(score, asynchrony_ms(alignment), np.concatenate(runs))
         return _with_click([off[run] for run in runs], interval_ms)
     at_ms = performance.hits["at_ns"][np.maximum(alignment.hit_of_note, 0)] / NS_PER_MS
     return _without_click([np.diff(at_ms[run]) for run in runs], interval_ms, count)
+
+
+def _without_places(score: Score, off: Floats, rows: Indices) -> Floats:
+    """Asynchronies of `rows` less the mean of their place in the beat: a lean of all offbeats is neither."""
+    place = np.unique(score.notes["tick"][rows] % PPQ, return_inverse=True)[1]
+    rest = off.copy()
+    rest[rows] -= (np.bincount(place, weights=off[rows]) / np.bincount(place))[place]
+    return rest
 
 
 # --- the series -------------------------------------------------------------------------------------------------------
@@ -151,9 +161,10 @@ _GRID = np.stack([_PHI, _SHARE])[:, (1 - _PHI**2) - 2 * (1 - _PHI) * _SHARE >= 0
 
 def _with_click(runs: list[Floats], interval_ms: float) -> Keeper:
     """The likeliest clock and hand, and how far off they may be."""
-    values = np.concatenate(runs)
-    runs = _first([run - values.mean() for run in runs], _MOST)
-    lag_1 = _lag_1(runs)
+    runs = _first(runs, _MOST)
+    lag_1, lag_2 = _lag(runs, 1), _lag(runs, 2)
+    if lag_1 is None or lag_2 is None:
+        return Keeper(True, sum(map(len, runs)), interval_ms, lag_1, cannot_tell=Why.FEW)
     phi, share = _GRID
     squares, logs, count = _filtered(runs, phi, share)
     variance = squares / count
@@ -164,6 +175,10 @@ def _with_click(runs: list[Floats], interval_ms: float) -> Keeper:
     timekeeper, motor = (
         _part(part[best], (part[inside].min(), part[inside].max())) for part in (clock, variance * share)
     )
+    expected = float(phi[best] - share[best])
+    off = max(abs(lag_1 - expected), abs(lag_2 - phi[best] * expected))
+    if off > _MISFIT_SDS / count**0.5:
+        return Keeper(True, count, interval_ms, lag_1, cannot_tell=Why.NOT_ADMITTED)
     if timekeeper is None or motor is None:
         return Keeper(True, count, interval_ms, lag_1, cannot_tell=Why.INDEPENDENT)
     return Keeper(True, count, interval_ms, lag_1, timekeeper, motor, correction=1 - float(phi[best]))
@@ -196,20 +211,21 @@ def _first(runs: list[Floats], most: int) -> list[Floats]:
     return [run[: max(most - (int(end) - len(run)), 0)] for run, end in zip(runs, ends, strict=True)]
 
 
-def _lag_1(runs: list[Floats]) -> float | None:
+def _lag(runs: list[Floats], lag: int) -> float | None:
+    """Autocorrelation over pairs of one run; None where there is nothing to compare."""
     square = sum(float(run @ run) for run in runs) / max(sum(map(len, runs)), 1)
-    pairs = sum(max(len(run) - 1, 0) for run in runs)
+    pairs = sum(max(len(run) - lag, 0) for run in runs)
     if not pairs or not square:
         return None
-    return sum(float(run[1:] @ run[:-1]) for run in runs) / pairs / square
+    return sum(float(run[lag:] @ run[:-lag]) for run in runs if len(run) > lag) / pairs / square
 
 
 def _part(variance: float, ends: tuple[float, float]) -> Part | None:
     """The SDs of variances; None where the interval tells nothing."""
-    low, high = max(ends[0], 0.0) ** 0.5, max(ends[1], 0.0) ** 0.5
+    low, high = (float(max(end, 0.0)) ** 0.5 for end in ends)
     if variance <= 0 or low <= 0 or high > _WIDEST * low:
         return None
-    return Part(variance**0.5, (low, high))
+    return Part(float(variance) ** 0.5, (low, high))
 
 
 # --- without a click --------------------------------------------------------------------------------------------------

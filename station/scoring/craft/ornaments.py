@@ -66,9 +66,11 @@ def _of_kind(
     heard = graces[matched[graces] & matched[main[graces]]]
     hits, hit = performance.hits, alignment.hit_of_note
     following = np.where(np.roll(main, -1)[heard] == main[heard], heard + 1, main[heard])
-    following = np.where(matched[following], following, -1)
-    spacing = np.where(following >= 0, hits["at_ns"][hit[following]] - hits["at_ns"][hit[heard]], np.nan) / NS_PER_MS
+    spacing, known = np.full(len(heard), np.nan), matched[following]
+    spacing[known] = (hits["at_ns"][hit[following[known]]] - hits["at_ns"][hit[heard[known]]]) / NS_PER_MS
     low, high = USUAL_MS[kind]
+    limbs = np.full(len(score), Limb.UNKNOWN, np.int8)
+    limbs[matched] = hits["limb"][hit[matched]]
     softness = level_db(hits["velocity"][hit[heard]]) - level_db(hits["velocity"][hit[main[heard]]])
     return Ornaments(
         graces=len(graces),
@@ -77,7 +79,7 @@ def _of_kind(
         usual=int(((spacing >= low) & (spacing <= high)).sum()),
         level_db=figure(softness, ticks[heard]),
         softer=int((softness < 0).sum()),
-        hand_order=_hand_order(score.notes["limb"], hits["limb"][hit], main, heard),
+        hand_order=_hand_order(score.notes["limb"], limbs, main, heard),
     )
 
 

@@ -17,16 +17,10 @@ def craft_lines(document: Table) -> list[str]:
     """The lines of a whole document, most general first; empty where nothing can be said."""
     craft = document["craft"]
     lines = [line for say in _SAYINGS for line in say(craft)]
-    fills = document["habits"].get("fills")
-    if fills is not None and abs(fills["effect"]) > max(LEAST_MS, _Z_95 * fills["standard_error"]):
-        lines.insert(0, f"Fills: {_side(fills['effect'], 'ahead of', 'behind')} your groove")
     lines += [
         f"Cannot tell {one['what']} ({one['count']}): {one['why']}" for one in document["cannot_tell"] if one["judged"]
     ]
     return lines
-
-
-_Z_95 = 1.96
 
 
 def _side(ms: float, early: str, late: str) -> str:
@@ -57,6 +51,12 @@ def _swing(craft: Table) -> Iterator[str]:
     if (swing := craft["swing"]) is not None:
         beyond = "" if swing["free"] else ", beyond feel"
         yield f"Swing: {swing['held']:.1f}:1 held, {swing['written']:.1f}:1 written{beyond}"
+
+
+def _fills(craft: Table) -> Iterator[str]:
+    fills = craft["fills"]
+    if fills is not None and _sure({"mean": fills["apart_ms"], "ci": fills["ci"]}, LEAST_MS):
+        yield f"Fills: {_side(fills['apart_ms'], 'ahead of', 'behind')} your groove"
 
 
 def _together(craft: Table) -> Iterator[str]:
@@ -138,6 +138,7 @@ def _shades(craft: Table) -> Iterator[str]:
 
 
 _SAYINGS: tuple[Callable[[Table], Iterator[str]], ...] = (
+    _fills,
     _leans,
     _swing,
     _together,
