@@ -19,6 +19,8 @@ class Label(IntEnum):
     WRONG_PIECE = 3
     IGNORED = 4
     """A hit that nobody counts: unwritten foot timekeeping, a chick that closes an open hat, and their like."""
+    PENDING = 5
+    """Live only: a verdict on a note is taken back, and the note is still to be played or nobody's."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +28,7 @@ class Judgement:
     """One note, one hit, or the two paired.
 
     `note_index` None for extras, `hit_index` None for misses. `asynchrony_ns` played − written and `velocity_error`
-    played − written where both are there, else None.
+    played − written where both are there, else None. `corrects` when it takes back what was said live of its note or hit.
     """
 
     label: Label
@@ -34,6 +36,7 @@ class Judgement:
     hit_index: int | None
     asynchrony_ns: int | None = None
     velocity_error: int | None = None
+    corrects: bool = False
 
 
 @dataclass(frozen=True, eq=False)

@@ -90,6 +90,17 @@ class Tracker:
                 last_s = at
         return places, distances, Place(last_s, score_s, rate)
 
+    def step(self, at: float, match_class: int, here: Place) -> tuple[float, float, Place]:
+        """`follow` for one hit: its predicted place, its distance to the nearest note, and the place after it."""
+        since = at - here.at_s
+        place = here.score_s + here.rate * since
+        distance = self._notes[match_class][bisect_left(self._middles[match_class], place)] - place
+        if not -GATE_S < distance < GATE_S:
+            return place, distance, here
+        since = min(max(since, _MIN_STEP_S), _MAX_STEP_S)
+        pull = (1 - distance * distance / GATE_S**2) * since * distance
+        return place, distance, Place(at, place + 2 * ZETA * OMEGA * pull, here.rate + OMEGA * OMEGA * pull)
+
     def distances(self, score_s: list[float], classes: list[int]) -> list[float]:
         """Nearest note of each class − place, for places (k,) in any order."""
         notes, middles = self._notes, self._middles

@@ -32,15 +32,16 @@ def performance_of(which: int, seed: int, sd_ms: float) -> Performance:
 Verdicts = tuple[dict[int, Label], dict[int, tuple[Label, int | None]]]
 
 
-def judged(which: int, performance: Performance, frames_per_s: float) -> Verdicts:
+def judged(which: int, performance: Performance, frames_per_s: float, clocked: bool = True) -> Verdicts:
     """The last word on every note and hit when the clock is told `frames_per_s` times a second."""
     score = SCORES[which]
-    follower = Follower(score)
+    follower = Follower(score, clocked=clocked)
     notes: dict[int, Label] = {}
     hits: dict[int, tuple[Label, int | None]] = {}
     frame_ns = round(NS_PER_S / frames_per_s)
     now, played, i = -NS_PER_S, list(performance), 0
-    while now < score.length_ns + 2 * NS_PER_S:
+    end_ns = max(score.length_ns, int(performance.hits["at_ns"].max(initial=0)))
+    while now < end_ns + 2 * NS_PER_S:
         now += frame_ns
         said: list[Judgement] = []
         while i < len(played) and played[i].at_ns <= now:
@@ -55,12 +56,28 @@ def judged(which: int, performance: Performance, frames_per_s: float) -> Verdict
     return notes, hits
 
 
+@pytest.mark.parametrize("clocked", [True, False])
 @pytest.mark.parametrize("frames_per_s", [1, 24, 60, 240])
 @given(st.integers(0, len(SCORES) - 1), st.integers(0, 10_000), st.floats(0, 60))
-@settings(max_examples=12, deadline=None)
-def test_frame_rate_does_not_matter(frames_per_s: float, which: int, seed: int, sd_ms: float) -> None:
+@settings(max_examples=10, deadline=None)
+def test_frame_rate_does_not_matter(frames_per_s: float, clocked: bool, which: int, seed: int, sd_ms: float) -> None:
     performance = performance_of(which, seed, sd_ms)
-    assert judged(which, performance, frames_per_s) == judged(which, performance, 1000)
+    assert judged(which, performance, frames_per_s, clocked) == judged(which, performance, 1000, clocked)
+
+
+@given(st.integers(0, len(SCORES) - 1), st.integers(0, 10_000), st.floats(0, 60), st.floats(0.7, 1.4))
+@settings(max_examples=20, deadline=None)
+def test_verdicts_are_one_to_one_without_a_click(which: int, seed: int, sd_ms: float, rate: float) -> None:
+    """Whatever was corrected on the way, no two hits hold one note in the end."""
+    performance = performance_of(which, seed, sd_ms)
+    hits = performance.hits.copy()
+    hits["at_ns"] = np.rint(hits["at_ns"] / rate)
+    notes, said = judged(which, Performance.from_array(hits), 60, clocked=False)
+    claimed = [note for _, note in said.values() if note is not None]
+    assert sorted(said) == list(range(len(performance)))
+    assert len(set(claimed)) == len(claimed)
+    held = {note for note, label in notes.items() if label in (Label.MATCH, Label.WRONG_PIECE)}
+    assert set(claimed) == held
 
 
 @given(st.integers(0, len(SCORES) - 1), st.integers(0, 10_000), st.floats(0, 60))

@@ -1,0 +1,120 @@
+"""Where a student with a click is in the score: where the click is, or whole beats before or behind it.
+
+The click is the ruler: a stop, a rush or a drag moves nothing. Whoever skips a bar or begins again plays on in time, in
+another bar; then the hits speak against the place (`doubt`), and the last ones are held against the score moved by
+every number of beats up to `_MOST_BEATS`, until one fits so much better that it is worth a jump. Times are seconds
+unless a name says otherwise.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.units import NS_PER_S
+from station.scoring.doubt import DOUBT, Doubt
+from station.scoring.evidence import class_rates, evidence, nats
+from station.scoring.judge import Moved
+from station.scoring.pursuit import JUMP_COST, JUMP_COST_PER_S, MOST_JUMP_COST_MORE
+from station.scoring.shifts import Beats
+from station.scoring.tracker import Tracker
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+_MOST_BEATS = 64
+"""As far as the final alignment looks: 16 bars of 4/4 (`shifts`)."""
+
+_MOST_MOVED, _LEAST_HITS = 48, 6
+"""Hits that a move may judge anew, and that it must at least (our choice, as in `chase`)."""
+
+_WAITS = (4, 6, 8, 12, 16, 24, 32, 64, 128)
+"""Hits from one look that found nothing to the next (our choice): whoever does not play the score costs little."""
+
+_MISS_COST = 2.0
+"""Nats against a note that nobody hit (`locate`)."""
+
+
+class ClickChase:
+    """Follows hits through notes at `note_s` (n,) of `classes` (n,)."""
+
+    def __init__(self, note_s: Floats, classes: Indices, beats: Beats) -> None:
+        self._beats = beats
+        self._tracker, self._doubt = Tracker(note_s, classes), Doubt(note_s, classes)
+        self._note_s = np.sort(note_s)
+        rates = class_rates(note_s, classes)
+        self._rates = rates
+        self._rate_of: dict[int, float] = {c: float(rates[c]) for c in np.unique(classes).tolist()}
+        self._by_class = {c: np.sort(note_s[classes == c]) for c in self._rate_of}
+        self._shift = 0.0
+        self._at_ns: list[int] = []
+        self._classes: list[int] = []
+        self._nats: list[float] = []
+        self._looks, self._look_at = 0, _LEAST_HITS - 1
+
+    def place_ns(self, at_ns: int) -> int:
+        """Where the student is when the click is at `at_ns`."""
+        if self._shift == 0.0:
+            return at_ns
+        return round(float(self._beats.moved(np.array([at_ns / NS_PER_S]), np.array([self._shift]))[0]) * NS_PER_S)
+
+    def hit(self, at_ns: int, match_class: int) -> Moved:
+        """Take a hit; returns its place, and those of older ones where they turn out to lie elsewhere."""
+        index, place_ns = len(self._at_ns), self.place_ns(at_ns)
+        self._at_ns.append(at_ns)
+        self._classes.append(match_class)
+        if match_class not in self._rate_of:
+            self._nats.append(0.0)
+            return Moved(index, [place_ns])
+        place = place_ns / NS_PER_S
+        said = nats(self._tracker.distances([place], [match_class])[0], self._rate_of[match_class])
+        self._nats.append(said)
+        self._doubt.take(index, match_class, place, said)
+        if self._doubt.nats == 0.0:
+            self._looks, self._look_at = 0, index + _LEAST_HITS
+        elif self._doubt.nats > DOUBT and index >= self._look_at:
+            return self._look(index) or Moved(index, [place_ns])
+        return Moved(index, [place_ns])
+
+    def _look(self, index: int) -> Moved | None:
+        """Whether the doubtful hits fit some beats away; then the student is there from the first of them on."""
+        self._look_at = index + _WAITS[min(self._looks, len(_WAITS) - 1)]
+        self._looks += 1
+        first = max(self._doubt.since, index - _MOST_MOVED + 1)
+        known = [k for k in range(first, index + 1) if self._classes[k] in self._rate_of]
+        if len(known) < _LEAST_HITS:
+            return None
+        shifts = np.arange(-_MOST_BEATS, _MOST_BEATS + 1.0)
+        worth = self._worth(known, shifts)
+        beat_s = float(np.diff(self._beats.at_s[:2])[0])
+        cost = JUMP_COST + np.minimum(JUMP_COST_PER_S * beat_s * np.abs(shifts - self._shift), MOST_JUMP_COST_MORE)
+        best = int(np.argmax(worth - cost))
+        if worth[best] - cost[best] <= worth[shifts == self._shift].max(initial=-np.inf):
+            return None
+        self._shift = float(shifts[best])
+        self._doubt.calm(index + 1)
+        self._looks, self._look_at = 0, index + _LEAST_HITS
+        places = self._moved(range(first, index + 1), shifts[best : best + 1])[:, 0]
+        return Moved(first, np.rint(places * NS_PER_S).astype(np.int64).tolist())
+
+    def _moved(self, hits: range | list[int], shifts: Floats) -> Floats:
+        """Score times (hits, shifts)."""
+        at_s = np.array([self._at_ns[k] for k in hits]) / NS_PER_S
+        return self._beats.moved(at_s[:, None], shifts[None, :])
+
+    def _worth(self, hits: list[int], shifts: Floats) -> Floats:
+        """What hits and notes say for each of `shifts`, shape (shifts,)."""
+        places = self._moved(hits, shifts)
+        classes = np.array([self._classes[k] for k in hits])
+        said = np.empty_like(places)
+        for c in np.unique(classes).tolist():
+            here = classes == c
+            said[here] = evidence(_to_nearest(self._by_class[c], places[here]), self._rates[c : c + 1])
+        passed = np.searchsorted(self._note_s, places[-1]) - np.searchsorted(self._note_s, places[0])
+        unheard = np.maximum(passed - (said > 0.0).sum(0), 0)
+        return np.asarray(said.sum(0) - _MISS_COST * unheard)
+
+
+def _to_nearest(note_s: Floats, at_s: Floats) -> Floats:
+    """Distance to the nearest note, any shape."""
+    right = np.minimum(np.searchsorted(note_s, at_s), len(note_s) - 1)
+    left = np.maximum(right - 1, 0)
+    return np.asarray(np.minimum(np.abs(note_s[right] - at_s), np.abs(at_s - note_s[left])))
