@@ -28,7 +28,8 @@ class Judgement:
     """One note, one hit, or the two paired.
 
     `note_index` None for extras, `hit_index` None for misses. `asynchrony_ns` played − written and `velocity_error`
-    played − written where both are there, else None. `corrects` when it takes back what was said live of its note or hit.
+    played − written where both are there, else None. `corrects`: it takes back what was said live of its
+    note or hit.
     """
 
     label: Label

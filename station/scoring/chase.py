@@ -23,7 +23,8 @@ from station.scoring.doubt import DOUBT, SLACK_S, Doubt
 from station.scoring.evidence import best_evidence, class_rates, nats
 from station.scoring.judge import Moved
 from station.scoring.locate import Candidate, Hits, Notes, candidates
-from station.scoring.pursuit import JUMP_COST, JUMP_COST_PER_S, MOST_JUMP_COST_MORE
+from station.scoring.pursuit import JUMP_COST
+from station.scoring.shifts import LEAST_JUMP_S
 from station.scoring.tracker import Place, Tracker
 
 Floats = NDArray[np.float64]
@@ -72,6 +73,12 @@ _NEW_TEMPO, _SAME_TEMPO = 0.2, 0.06
 _SLACK_RATE = 0.05
 _MARGIN, _HOPELESS = 3.0, 12.0
 """Nats by which a rival must lead, and by which it is given up."""
+
+_PER_S = 2.0
+"""Nats more for each second of a jump (our choice: so early, where bars are alike, little but nearness decides)."""
+
+_MOST_FOR_TIME, _MOST_FOR_TEMPO = 10.0, 6.0
+"""Nats at most against a far jump, and against another tempo (our choice)."""
 
 _RESUMED_COST = 5.0
 """Nats against a place after a stop, besides its distance: nothing is sure, so little is asked (our choice)."""
@@ -174,8 +181,12 @@ class Chase:
         known = [k for k in range(max(self._doubt.since, index - _LOOK_HITS + 1), index + 1) if self._is_known(k)]
         if len(known) < _LEAST_HITS:
             return
+        if self._rivals:
+            self._keep_up(index)
+        for rival in self._rivals:
+            rival.total -= self._lead_total
         rivals = [self._rival(place, known[0], index) for place in self._elsewhere(known)]
-        self._rivals = [rival for rival in rivals if rival.total > -_HOPELESS]
+        self._rivals = [rival for rival in self._rivals + rivals if rival.total > -_HOPELESS]
         self._lead_total, self._contested, self._looked = 0.0, index + 1, index
 
     def _is_known(self, hit: int) -> bool:
@@ -188,7 +199,8 @@ class Chase:
         rate = min(max(self._place.rate, _SLOWEST), _FASTEST)
         here_s = self._places[known[0]] if self._stopped_at is None else self._stop_s
         first_s = self._note_s[0]
-        tried = self._candidates(window, (here_s - _CLOSE_S, here_s + _CLOSE_S), _RATES * rate)
+        tried = self._candidates(window, (here_s - LEAST_JUMP_S, here_s + LEAST_JUMP_S), _RATES * rate)
+        tried += self._candidates(window, (here_s - _CLOSE_S, here_s + _CLOSE_S), _RATES * rate)
         if here_s > first_s + _CLOSE_S:
             tried += self._candidates(window, (first_s, first_s + _CLOSE_S), _NEAR_RATES * rate)
         tried += self._candidates(window, (here_s - _NEAR_S, here_s + _NEAR_S), _NEAR_RATES * rate)
@@ -198,7 +210,8 @@ class Chase:
         return [candidate.place for candidate in tried if slow < candidate.place.rate < fast]
 
     def _candidates(self, window: Hits, among_s: tuple[float, float], rates: Floats) -> list[Candidate]:
-        among = slice(bisect_left(self._note_s, among_s[0]), bisect_right(self._note_s, among_s[1]))
+        end_s = among_s[1] + float((window.at_s[-1] - window.at_s[0]) * rates[-1])
+        among = slice(bisect_left(self._note_s, among_s[0]), bisect_right(self._note_s, end_s))
         return candidates(self._notes, among, window, rates)
 
     def _far(self, here_s: float) -> tuple[float, float]:
@@ -255,9 +268,9 @@ class Chase:
             jump_s = min(jump_s, abs(place_s - (self._stop_s if split else self._note_s[0])))
         new_tempo = log(rate / self._place.rate) / (_NEW_TEMPO if since_stop else _SAME_TEMPO)
         return (
-            (_RESUMED_COST if since_stop else JUMP_COST)
-            + min(JUMP_COST_PER_S * jump_s, MOST_JUMP_COST_MORE)
-            + min(0.5 * new_tempo * new_tempo, MOST_JUMP_COST_MORE)
+            (_RESUMED_COST if since_stop or jump_s < LEAST_JUMP_S else JUMP_COST)
+            + min(_PER_S * jump_s, _MOST_FOR_TIME)
+            + min(0.5 * new_tempo * new_tempo, _MOST_FOR_TEMPO)
         )
 
     # --- rivals -----------------------------------------------------------------------------------------------------
@@ -267,6 +280,20 @@ class Chase:
 
         That is where a rival begins that has become better, else `index`.
         """
+        self._keep_up(index)
+        best, first = max(self._rivals, key=lambda rival: rival.total), index
+        if best.total > self._lead_total + _MARGIN:
+            self._take(best)
+            first = best.hits[0]
+        limit = max(self._lead_total, best.total) - _HOPELESS
+        oldest = index - MOST_MOVED
+        self._rivals = [rival for rival in self._rivals if rival.total > limit and rival.hits[0] > oldest]
+        if self._contested - self._looked > MOST_MOVED:
+            self._rivals = []
+        return first
+
+    def _keep_up(self, index: int) -> None:
+        """Let the lead's and the rivals' totals take in the hits up to `index`."""
         known = [k for k in range(self._contested, index + 1) if self._is_known(k)]
         if known:
             self._lead_total += sum(
@@ -285,15 +312,6 @@ class Chase:
                 rival.places_s += places
                 rival.nats += said
         self._contested = index + 1
-        best = max(self._rivals, key=lambda rival: rival.total)
-        if best.total > self._lead_total + _MARGIN:
-            self._take(best)
-            index = best.hits[0]
-        limit = max(self._lead_total, best.total) - _HOPELESS
-        self._rivals = [rival for rival in self._rivals if rival.total > limit]
-        if self._contested - self._looked > MOST_MOVED:
-            self._rivals = []
-        return index
 
     def _take(self, line: "_Line") -> None:
         """Follow `line` from now on; the line followed so far becomes its rival."""

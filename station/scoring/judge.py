@@ -38,7 +38,7 @@ _WRONG_REACH_NS = 50 * NS_PER_MS
 
 @dataclass(frozen=True, slots=True)
 class Moved:
-    """Hits `first` … to the newest are at `places_ns` of the score, whose time passes `pace` times as fast as real time."""
+    """Hits `first` … to the newest are at `places_ns` of the score, of which `pace` s pass in a real second."""
 
     first: int
     places_ns: list[int]

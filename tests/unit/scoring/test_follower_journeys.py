@@ -46,7 +46,9 @@ CLICKED = {
 def judged_at_once(journey: Journey, clocked: bool) -> tuple[list[Judgement], dict[int, Judgement], int]:
     """What was first said of each hit, the last word on it, and the most judgements that one hit brought."""
     follower = Follower(journey.score, clocked=clocked)
-    first, last, most = [], {}, 0
+    first: list[Judgement] = []
+    last: dict[int, Judgement] = {}
+    most = 0
     for i, stroke in enumerate(journey.strokes):
         said = follower.hit(stroke.hit, stroke.hit.at_ns)
         most = max(most, len(said))
@@ -123,7 +125,7 @@ def test_a_correction_says_that_it_is_one() -> None:
     """20 % too slow: the first strokes are judged by the tempo written, then by his own."""
     journey = travel(SCORES["at 120"], [Leg(0, 4, 0.8)], 5, Slips(missing=0.0, extra=0.0, wrong_piece=0.0))
     follower = Follower(journey.score, clocked=False)
-    told: set[tuple[str, int]] = set()
+    told: set[tuple[str, int | None]] = set()
     corrections = 0
     for stroke in journey.strokes:
         for verdict in follower.hit(stroke.hit, stroke.hit.at_ns):
