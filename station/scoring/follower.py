@@ -16,13 +16,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.events import Hit
-from station.core.pieces import Piece
+from station.core.pieces import Articulation, Piece
 from station.core.units import NS_PER_S, PPQ
 from station.music.judgement import Judgement
 from station.music.score import Score
 from station.scoring.chase import Chase
 from station.scoring.classes import match_classes
 from station.scoring.click_chase import ClickChase
+from station.scoring.ignored import BOUNCE_NS, PRESS_LOUDER
 from station.scoring.judge import Judge, Moved
 from station.scoring.shifts import Beats
 from station.scoring.windows import DEFAULT_LEVEL, Windows
@@ -46,6 +47,8 @@ class Follower:
         self._clocked = clocked
         self._where = _where(score, match_classes(kit)[score.notes["piece"]], clocked)
         self._first_bar_ns = max(int(score.tempo_map.ns_at(score.tempo_map.bar_start(1))), _BEGINNING_NS)
+        buzzing = score.notes["piece"][score.notes["articulation"] == Articulation.BUZZ]
+        self._buzzed = {Piece(piece): (-BOUNCE_NS, 0) for piece in np.unique(buzzing)}  # last hit's time and velocity
         self._hits = 0
         self._begun = False
 
@@ -55,7 +58,8 @@ class Follower:
         Hits are numbered from 0 in the order of these calls. A judgement replaces all earlier ones on its note and on
         its hit.
         """
-        moved = Moved(self._hits, [at_ns]) if self._where is None else self._where.hit(at_ns, self._class_of[hit.piece])
+        told = BOUNCE if hit.piece in self._buzzed and self._bounces(hit, at_ns) else self._class_of[hit.piece]
+        moved = Moved(self._hits, [at_ns]) if self._where is None else self._where.hit(at_ns, told)
         self._hits += 1
         begun = self._begin(moved.places_ns[0]) if self._is_beginning(moved) else ()
         said = self._judge.hit(hit, moved)
@@ -73,6 +77,12 @@ class Follower:
         """Where in the score the student is at `at_ns`, as far as the hits told so far show."""
         return at_ns if self._where is None else self._where.place_ns(at_ns)
 
+    def _bounces(self, hit: Hit, at_ns: int) -> bool:
+        """Whether a hit on a piece that buzzes is but a bounce, which tells nothing of the place (`ignored`)."""
+        before_ns, before = self._buzzed[hit.piece]
+        self._buzzed[hit.piece] = at_ns, hit.velocity
+        return at_ns - before_ns < BOUNCE_NS and hit.velocity <= PRESS_LOUDER * before
+
     def _is_beginning(self, moved: Moved) -> bool:
         """Whether the first hit has found its place, or another one."""
         return moved.first == 0 and (not self._clocked or not self._begun)
@@ -82,6 +92,9 @@ class Follower:
         self._begun = True
         return self._judge.begin(0 if place_ns < self._first_bar_ns else place_ns)
 
+
+BOUNCE = -1
+"""A class that no note has."""
 
 _BEGINNING_NS = 2 * NS_PER_S
 """A student who begins so soon began at the beginning, however short the first bar and rare the frames (our choice)."""
