@@ -185,7 +185,7 @@ class PracticeRoom:
             except DeviceError as fault:
                 self._alive, self._fault = False, fault
         result = self._session.result()
-        document = practice_document(result, self._settings.student)
+        document = practice_document(result, self._settings)
         path = ""
         if self._folder is not None:
             path = str(self._folder.path)

@@ -14,6 +14,7 @@ from platformdirs import user_config_path, user_documents_path
 
 from station.core.errors import BadInput
 from station.core.files import write_whole
+from station.core.pieces import Piece, word
 
 APP_NAME = "drum-station"
 
@@ -23,6 +24,7 @@ _RANGES: dict[str, tuple[int, int]] = {
     "rate_hz": (8_000, 384_000),
     "input_latency_ms": (-1000, 1000),
     "output_latency_ms": (-1000, 1000),
+    "mask_ms": (0, 100),
 }
 """What a sound card or a person could mean; our choice, wide enough for every device on sale."""
 
@@ -35,7 +37,9 @@ class Settings:
     for the system's default; `block_frames` the size of one audio block, 0 for the driver's own choice; `rate_hz` its
     sample rate; `drums` the name or the path of the drum kit that sounds, `click` the name of the click;
     `own_sound` false where the kit's module sounds itself and the strokes of the student stay silent; latencies in
-    milliseconds, subtracted from every hit (input) and added to every written time (output).
+    milliseconds, subtracted from every hit (input) and added to every written time (output). `thresholds` says of pads
+    the least velocity that they send, as measured (`snare=20 tom_1=15`), `mask_ms` how long after a stroke a pad hears
+    no other.
     """
 
     student: str = "student"
@@ -49,6 +53,13 @@ class Settings:
     drums: str = "acoustic"
     click: str = "bar"
     sessions: str = ""
+    thresholds: str = ""
+    mask_ms: float = 9.0
+
+    @property
+    def threshold_of(self) -> dict[Piece, int]:
+        """The least velocity that each pad in `thresholds` sends."""
+        return _thresholds(self.thresholds, settings_path())
 
     @property
     def sessions_dir(self) -> Path:
@@ -90,6 +101,7 @@ def _checked(raw: dict[str, object], source: Path) -> Settings:
             raise BadInput(source, key, f"expected {_WORDS[types[key]]}, found {value!r}")
         _check_range(key, value, source)
         values[key] = value
+    _thresholds(str(values.get("thresholds", "")), source)
     return Settings(**values)  # type: ignore[arg-type] # each value's type was compared with its field's default
 
 
@@ -98,6 +110,21 @@ def with_said(settings: Settings, said: Mapping[str, object], source: str) -> Se
     for key, value in said.items():
         _check_range(key, value, source)
     return replace(settings, **said)  # type: ignore[arg-type] # whoever says it has parsed it
+
+
+def _thresholds(text: str, source: str | Path) -> dict[Piece, int]:
+    """`snare=20 tom_1=15` as a table; raises `BadInput` that says what is expected."""
+    found: dict[Piece, int] = {}
+    for entry in text.split():
+        name, _, velocity = entry.partition("=")
+        if name not in _PIECES or not velocity.isdecimal() or not 1 <= int(velocity) <= _LOUDEST:
+            raise BadInput(source, "thresholds", f"expected PIECE=1…{_LOUDEST}, such as snare=20, found {entry!r}")
+        found[_PIECES[name]] = int(velocity)
+    return found
+
+
+_PIECES = {word(piece): piece for piece in Piece}
+_LOUDEST = 127
 
 
 def _check_range(key: str, value: object, source: str | Path) -> None:

@@ -5,10 +5,12 @@ virtual student its own account under `truth`. docs/report.md describes it.
 """
 
 from collections.abc import Iterable
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.settings import Settings
 from station.core.units import NS_PER_MS, PPQ
 from station.drills.lesson import Goals
 from station.engine.engine import KEYBOARD
@@ -18,20 +20,26 @@ from station.practice.session import SessionResult
 from station.practice.virtual_student import VirtualPerformance
 from station.practice.what_next import advice_of, what_next
 from station.scoring.alignment import Alignment, Reference
+from station.scoring.craft.untold import KitFacts
 from station.scoring.craft.words import craft_lines
 from station.scoring.document import Json, assessment
 from station.scoring.points import FREE_LEAN_MS, Feel
 from station.scoring.summary import View, summarise
 
 
-def practice_document(result: SessionResult, student: str) -> dict[str, Json]:
-    """The report of a session of `student`; keys have no velocity, so of them nothing is said of dynamics."""
+def kit_facts(settings: Settings) -> KitFacts:
+    """What this user has measured of the kit."""
+    return KitFacts(MappingProxyType(settings.threshold_of), settings.mask_ms)
+
+
+def practice_document(result: SessionResult, settings: Settings) -> dict[str, Json]:
+    """The report of a session; computer keys have no velocity, so of them nothing is said of dynamics."""
     plan = result.plan
-    document = assessment(summarise(result.score, result.performance, result.alignment, _view(result)))
+    document = assessment(summarise(result.score, result.performance, result.alignment, _view(result, settings)))
     document["session"] = {
         "lesson": plan.lesson.name,
         "title": plan.lesson.title,
-        "student": student,
+        "student": settings.student,
         "device": result.device,
         "tempo_bpm": round(plan.tempo_bpm, 3),
         "beats_a_minute": round(plan.tempo_bpm * PPQ / plan.lesson.beat_ticks, 3),
@@ -45,7 +53,7 @@ def practice_document(result: SessionResult, student: str) -> dict[str, Json]:
     return document
 
 
-def with_truth(document: dict[str, Json], virtual: VirtualSession) -> dict[str, Json]:
+def with_truth(document: dict[str, Json], virtual: VirtualSession, settings: Settings) -> dict[str, Json]:
     """The document beside what the virtual student knows that it did."""
     student, matching = virtual.student, virtual.student.truth
     hit_ns = student.performance.hits["at_ns"]
@@ -60,11 +68,11 @@ def with_truth(document: dict[str, Json], virtual: VirtualSession) -> dict[str, 
         reference=Reference.CLICK,
         sd_ms=None,
     )
-    truth = assessment(summarise(student.score, student.performance, known, _view(virtual.result)))
+    truth = assessment(summarise(student.score, student.performance, known, _view(virtual.result, settings)))
     return {**document, "truth": {**truth, **student.truth_document()}}
 
 
-def _view(result: SessionResult) -> View:
+def _view(result: SessionResult, settings: Settings) -> View:
     """Bars are counted as in the lesson, however often they were played."""
     plan = result.plan
     return View(
@@ -72,6 +80,7 @@ def _view(result: SessionResult) -> View:
         first_bar=plan.first_bar,
         hears_velocity=result.device != KEYBOARD,
         feel=feel_of(plan.lesson.goals),
+        kit=kit_facts(settings),
         silences=silences(plan.score.tempo_map, plan.score.end_tick, plan.click.gap),
     )
 

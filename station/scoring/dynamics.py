@@ -1,9 +1,10 @@
 """How loud against how loud it was written: velocity error, level in dB, and the classes ghost, normal, accent.
 
 Pads answer differently and players play at their own level, so that loudness is judged against the player's own level
-on that pad: the median difference between what was played and written there is set apart first. Level is
-40·log10(v/127) dB (HUMANS, Velocity). Only marked notes, ghosts and accents, and the unmarked ones beside them ask for
-anything; elsewhere shaping a repeated hat is free.
+on that pad: the median difference between what was played and written there is set apart first, that of the unmarked
+strokes where there are enough, for these nobody thinks about. Level is 40·log10(v/127) dB (HUMANS, Velocity). Only
+marked notes, ghosts and accents, and the unmarked ones beside them ask for anything; elsewhere shaping a repeated hat
+is free.
 """
 
 from dataclasses import dataclass
@@ -87,12 +88,18 @@ def dynamics(score: Score, performance: Performance, alignment: Alignment) -> Dy
     )
 
 
+LEARNT_FROM = 5
+"""So many unmarked strokes tell a pad's own level (TEACHING: ghost and accent learnt from five hits)."""
+
+
 def _against_own_level(score: Score, off_db: Floats, judged: Flags) -> Floats:
-    """`off_db` less its median on each piece over the judged notes; NaN where not judged."""
+    """`off_db` less the player's own level on each piece; NaN where not judged."""
     own = np.full(len(off_db), np.nan)
     for piece in np.unique(score.notes["piece"][judged]):
         here = judged & (score.notes["piece"] == piece)
-        own[here] = off_db[here] - np.median(off_db[here])
+        plain = here & (score.notes["dynamic"] == Dynamic.NORMAL)
+        told = plain if plain.sum() >= LEARNT_FROM else here
+        own[here] = off_db[here] - np.median(off_db[told])
     return own
 
 

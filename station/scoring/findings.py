@@ -16,6 +16,7 @@ from station.core.pieces import Piece, word
 from station.music import passages
 from station.music.judgement import Label
 from station.scoring.alignment import Reference
+from station.scoring.craft.untold import Untold
 from station.scoring.habits import CHANCE
 from station.scoring.points import FREE_LEAN_MS, FREE_SWING
 from station.scoring.regression import CONSTANT, Effect
@@ -241,11 +242,12 @@ def _usual_interval_ms(summary: Summary) -> float:
 def _losses(summary: Summary) -> list[Finding]:
     """A piece whose notes are left out, and strokes that nobody wrote."""
     found = []
-    label = summary.alignment.note_label
+    told = summary.untold == Untold.TOLD
+    missed = (summary.alignment.note_label == Label.MISS) & told
     for piece, group in summary.by_piece.items():
-        here = summary.score.notes["piece"] == piece
-        missed = (label == Label.MISS).astype(np.float64)
-        found += _of_share("missed", _name(piece), (group.misses, group.notes), worst_bars(summary, missed[here], here))
+        here = (summary.score.notes["piece"] == piece) & told
+        bars = worst_bars(summary, missed[here].astype(np.float64), here)
+        found += _of_share("missed", _name(piece), (int(missed[here].sum()), int(here.sum())), bars)
         extras = group.extras or 0
         found += _of_share("extra", _name(piece), (extras, group.matched + extras), ())
     return found

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from station.app.commands.output import print_json, say
 from station.app.commands.scores import is_lesson, load_score_and_performance
+from station.core.settings import load_settings
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -25,7 +26,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Align, sum up, print."""
     from station.drills.library import find_lesson
-    from station.practice.report import assessment_text, feel_of
+    from station.practice.report import assessment_text, feel_of, kit_facts
     from station.scoring.align import align
     from station.scoring.document import assessment
     from station.scoring.pairs import write_pairs
@@ -33,7 +34,7 @@ def run(arguments: argparse.Namespace) -> int:
     from station.scoring.windows import find_windows
 
     score, performance = load_score_and_performance(arguments.score, arguments.performance)
-    view = View(find_windows(arguments.level))
+    view = View(find_windows(arguments.level), kit=kit_facts(load_settings()))
     if is_lesson(arguments.score):
         view = replace(view, pass_bars=score.bar_count, feel=feel_of(find_lesson(arguments.score).goals))
         score = score.repeated(max(1, round(len(performance) / max(len(score), 1))))

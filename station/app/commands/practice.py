@@ -70,7 +70,7 @@ def _virtual(plan: Plan, spec: str, arguments: argparse.Namespace, settings: Set
     student = parse_spec(spec)
     with SessionFolder(arguments.report, settings, plan) as folder:
         virtual = practise_virtually(plan, student, folder.capture)
-        document = with_truth(practice_document(virtual.result, settings.student), virtual)
+        document = with_truth(practice_document(virtual.result, settings), virtual, settings)
         _leave(folder, virtual.result, document, arguments)
     if virtual.fault is not None:
         raise virtual.fault
@@ -82,7 +82,7 @@ def _live(plan: Plan, arguments: argparse.Namespace, settings: Settings) -> int:
 
     with SessionFolder(arguments.report, settings, plan) as folder:
         outcome = practise_in_terminal(plan, settings, folder.capture)
-        _leave(folder, outcome.result, practice_document(outcome.result, settings.student), arguments)
+        _leave(folder, outcome.result, practice_document(outcome.result, settings), arguments)
     if outcome.fault is not None:
         raise outcome.fault
     return 0

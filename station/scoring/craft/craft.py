@@ -65,5 +65,7 @@ def craft(
         ornaments=ornaments(score, performance, alignment),
         hats=hats(score, performance, alignment),
         chokes=chokes(score, performance, alignment, circumstances.kit.tells_chokes),
-        shades=shades(score, performance, alignment) if circumstances.hears_velocity else None,
+        shades=shades(score, performance, alignment, found.effects.get("left_level"))
+        if circumstances.hears_velocity
+        else None,
     )

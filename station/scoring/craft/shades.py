@@ -20,7 +20,8 @@ from station.music.score import Score
 from station.scoring.alignment import Alignment
 from station.scoring.craft.figures import Figure, Scatter, difference, figure, scatter
 from station.scoring.dynamics import judged_notes, level_db
-from station.scoring.timing import spread
+from station.scoring.regression import Effect
+from station.scoring.timing import MIN_SLOTS, spread, t_quantile_95
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -44,6 +45,15 @@ class Contrast:
 
 
 @dataclass(frozen=True, slots=True)
+class Balance:
+    """By how many dB the left hand is louder, pads and marks apart (`habits`), its interval, over so many slots."""
+
+    louder_db: float
+    ci: tuple[float, float]
+    slots: int
+
+
+@dataclass(frozen=True, slots=True)
 class Crescendo:
     """A written rise or fall (`written_db` signed) over `bars` (first, last, from 0) on `piece`.
 
@@ -62,16 +72,20 @@ class Crescendo:
 
 @dataclass(frozen=True, eq=False)
 class Shades:
-    """`own` level in dB of each class on each pad; contrasts; evenness; crescendos in order."""
+    """`own` level in dB of each class on each pad; contrasts; evenness; crescendos in order.
+
+    `left_less_right` the left hand's strokes against the right hand's; None where no sticking is written.
+    """
 
     own: Mapping[Piece, Mapping[Dynamic, Figure]]
     contrasts: tuple[Contrast, ...]
     evenness_db: Scatter
     crescendos: tuple[Crescendo, ...]
+    left_less_right: Balance | None
 
 
-def shades(score: Score, performance: Performance, alignment: Alignment) -> Shades:
-    """All shades of what was matched; grace strokes are `ornaments`' business."""
+def shades(score: Score, performance: Performance, alignment: Alignment, hands: Effect | None) -> Shades:
+    """All shades of what was matched, no grace strokes; `hands` is what `habits` says of the left hand's level."""
     heard = (alignment.note_label == Label.MATCH) & ~score.is_grace
     level = np.full(len(score), np.nan)
     level[heard] = level_db(performance.hits["velocity"][alignment.hit_of_note[heard]])
@@ -80,7 +94,15 @@ def shades(score: Score, performance: Performance, alignment: Alignment) -> Shad
         _contrasts(score, level, heard & judged_notes(score)),
         _evenness(score, level, heard),
         tuple(_crescendo(score, level, rows) for rows in crescendo_runs(score)),
+        _balance(hands),
     )
+
+
+def _balance(hands: Effect | None) -> Balance | None:
+    if hands is None or hands.slots <= MIN_SLOTS:
+        return None
+    half = t_quantile_95(hands.slots - 1.0) * hands.error
+    return Balance(hands.value, (hands.value - half, hands.value + half), hands.slots)
 
 
 def _own(score: Score, level: Floats, heard: Flags) -> dict[Piece, dict[Dynamic, Figure]]:

@@ -131,6 +131,9 @@ def _shades(craft: Table) -> Iterator[str]:
             yield f"{_name(one['piece']).capitalize()}, {loud} against {soft}: {heard}"
     if shades["evenness_db"]["ci"] is not None:
         yield f"Evenness of plain strokes: {shades['evenness_db']['sd']:.1f} dB (SD)"
+    balance = shades["left_less_right"]
+    if balance is not None and _sure({"mean": balance["louder_db"], "ci": balance["ci"]}, 1.0):
+        yield f"Hands: the left is {_db(balance['louder_db'])} than the right"
     for one in shades["crescendos"]:
         if one["ci"] is not None:
             where = f"{_name(one['piece']).capitalize()}, bars {one['bars'][0]}-{one['bars'][1]}"

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from station.core.errors import BadInput
+from station.core.pieces import Piece
 from station.core.settings import Settings, load_settings, save_settings
 
 
@@ -42,6 +43,10 @@ def test_a_whole_number_does_where_a_fraction_is_expected(tmp_path: Path) -> Non
         ("rate_hz = 0", "rate_hz: expected 8000 to 384000, found 0"),
         ("input_latency_ms = nan", "input_latency_ms: expected -1000 to 1000, found nan"),
         ("output_latency_ms = 1e9", "output_latency_ms: expected -1000 to 1000, found 1000000000.0"),
+        ("mask_ms = 101", "mask_ms: expected 0 to 100, found 101"),
+        ('thresholds = "snaer=20"', "thresholds: expected PIECE=1…127, such as snare=20, found 'snaer=20'"),
+        ('thresholds = "snare=128"', "thresholds: expected PIECE=1…127, such as snare=20, found 'snare=128'"),
+        ('thresholds = "snare"', "thresholds: expected PIECE=1…127, such as snare=20, found 'snare'"),
         ("kit = 7x\nrate_hz = 48000\n", "at line 1, column 8"),
     ],
 )
@@ -92,3 +97,8 @@ def test_what_is_saved_is_toml_and_is_loaded_alike(
 def test_sessions_go_where_the_user_says() -> None:
     assert Settings(sessions="/music/drums").sessions_dir == Path("/music/drums")
     assert Settings().sessions_dir.name == "Drum station"
+
+
+def test_thresholds_are_read_pad_by_pad() -> None:
+    assert Settings(thresholds="snare=20 floor_tom_1=35").threshold_of == {Piece.SNARE: 20, Piece.FLOOR_TOM_1: 35}
+    assert Settings().threshold_of == {}

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import pytest
 
+from station.core.settings import Settings
 from station.drills.lesson import Goals, Lesson
 from station.drills.library import find_lesson
 from station.practice.headless import practise_virtually
@@ -13,6 +14,7 @@ from station.practice.student_spec import parse_spec
 from station.practice.what_next import what_next
 from station.scoring.document import Json
 
+IDA = Settings(student="Ida")
 ADVICE: Json = [{"fault": "late_kick", "text": "Your kick is late.", "bars": [1]}]
 
 
@@ -58,7 +60,7 @@ def test_at_the_goal_the_next_lesson_comes_first() -> None:
 def test_a_session_without_a_hit_is_reported() -> None:
     plan = plan_practice(find_lesson("rock-1"), Wishes(loops=1, bars=(2, 2)))
     virtual = practise_virtually(plan, parse_spec("miss_pct=100"))
-    made = with_truth(practice_document(virtual.result, "Ida"), virtual)
+    made = with_truth(practice_document(virtual.result, IDA), virtual, IDA)
     text = report_text(made)
     assert "Notes 12: 0 hit, 12 missed" in text
     assert "bar 2, 1 pass\n" in text
@@ -69,12 +71,12 @@ def test_a_session_without_a_hit_is_reported() -> None:
 def test_pieces_that_were_neither_written_nor_struck_extra_have_no_line() -> None:
     plan = plan_practice(find_lesson("rock-1"), Wishes())
     virtual = practise_virtually(plan, parse_spec("intermediate,seed=1"))
-    made = practice_document(virtual.result, "Ida")
+    made = practice_document(virtual.result, IDA)
     assert made["per_piece"]["crash_1"]["wrong_piece"] == 0  # type: ignore[index,call-overload] # its one hit was a hat's
     assert "crash_1" not in report_text(made)
 
 
 def test_the_tempo_is_said_in_the_beat_of_the_lesson_and_of_the_command_line() -> None:
     plan = plan_practice(find_lesson("six-eight-1"), Wishes(loops=1))  # written at 50 dotted quarters: 75 quarters
-    made = practice_document(practise_virtually(plan, parse_spec("seed=1")).result, "Ida")
+    made = practice_document(practise_virtually(plan, parse_spec("seed=1")).result, IDA)
     assert "at 50 bpm (75 quarter notes a minute), bars 1-2, 1 pass\n" in report_text(made)

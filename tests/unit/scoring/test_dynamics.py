@@ -55,6 +55,15 @@ def test_playing_all_softer_is_the_players_own_level() -> None:
     assert result.confusion.sum() == 16
 
 
+def test_the_own_level_is_that_of_the_unmarked_strokes() -> None:
+    """Twelve accents at 80 among eight unmarked strokes at 80: the accents alone are off, by 40·log10(80/110)."""
+    score = snares(*([ACCENT, NORMAL, ACCENT, NORMAL, ACCENT] * 4))
+    off = loudness(score, [80] * 20).off_db
+    accents = score.notes["dynamic"] == Dynamic.ACCENT
+    assert off[~accents] == pytest.approx(np.zeros(8))
+    assert off[accents] == pytest.approx(np.full(12, 40 * np.log10(80 / 110)))
+
+
 def test_accents_played_as_normal_strokes_are_confused() -> None:
     score = snares(*([ACCENT, NORMAL, NORMAL, NORMAL] * 4))
     result = loudness(score, [80] * 16)

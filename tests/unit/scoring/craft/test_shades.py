@@ -3,12 +3,13 @@
 import numpy as np
 import pytest
 
-from station.core.pieces import Dynamic, Piece, Zone
+from station.core.pieces import Dynamic, Limb, Piece, Zone
 from station.core.units import PPQ
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.scoring.craft.shades import Shades, crescendo_runs, shades
 from station.scoring.dynamics import level_db
+from station.scoring.habits import habits
 from tests.fakes.answers import Played, take
 from tests.fakes.scores import rock_beat
 
@@ -17,7 +18,8 @@ SNARE = Piece.SNARE
 
 def of(score: Score, how: Played) -> Shades:
     played = take(score, how)
-    return shades(score, played.performance, played.alignment)
+    found = habits(score, played.performance, played.alignment, hears_velocity=True)
+    return shades(score, played.performance, played.alignment, found.effects.get("left_level"))
 
 
 def accents(bars: int) -> Score:
@@ -61,6 +63,19 @@ def test_few_strokes_have_a_contrast_without_interval() -> None:
 def test_unmarked_bars_ask_for_no_contrast() -> None:
     notes = [Note(i * PPQ, SNARE) for i in range(16)]
     assert of(Score.from_notes(notes, TempoMap.constant(120)), Played()).contrasts == ()
+
+
+def test_the_balance_of_the_hands_by_hand() -> None:
+    """Singles right left, the left at 64 where the right has 80: 40·log10(0.8) = −3.9 dB, give or take 0.5."""
+    limbs = (Limb.RIGHT_HAND, Limb.LEFT_HAND)
+    notes = [Note(i * PPQ // 4, SNARE, limb=limbs[i % 2]) for i in range(64)]
+    score = Score.from_notes(notes, TempoMap.constant(100))
+    velocity = np.tile([80, 64], 32) + np.random.default_rng(1).integers(-3, 4, 64)
+    balance = of(score, Played(velocity=velocity)).left_less_right
+    assert balance is not None
+    assert balance.louder_db == pytest.approx(db(64, 80), abs=0.5)
+    assert balance.ci[0] < db(64, 80) < balance.ci[1]
+    assert of(accents(8), Played()).left_less_right is None
 
 
 def hats(bars: int) -> Score:

@@ -11,6 +11,7 @@ from station.core.units import PPQ
 from station.music.judgement import Label
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
+from station.scoring.advice import advise
 from station.scoring.craft.untold import KitFacts, Untold, untold_notes
 from station.scoring.document import assessment
 from station.scoring.summary import View, summarise
@@ -38,6 +39,15 @@ def test_ghosts_below_the_measured_threshold_cannot_be_told() -> None:
     document = assessment(summarise(played.score, played.performance, played.alignment, View(kit=deaf)))
     assert document["counts"]["misses"] == 4  # type: ignore[index,call-overload] # the document's own shape
     assert document["cannot_tell"][0]["count"] == 4  # type: ignore[index,call-overload] # as above
+
+
+def test_nobody_is_told_that_he_left_out_what_cannot_be_told() -> None:
+    """Eight of the snare's 24 strokes are missing: a sentence, unless they are ghosts that the pad swallowed."""
+    played = take(rock_beat(8), Played(left_out=tuple(np.flatnonzero(rock_beat(8).notes["velocity"] == 32).tolist())))
+    deaf = kit(threshold=MappingProxyType({Piece.SNARE: 40}))
+    for facts, said in ((KitFacts(), ["missed"]), (deaf, [])):
+        summary = summarise(played.score, played.performance, played.alignment, View(kit=facts))
+        assert [advice.fault for advice in advise(summary)] == said
 
 
 def test_a_threshold_below_the_ghosts_or_of_another_pad_excuses_nothing() -> None:
