@@ -20,7 +20,7 @@ from station.scoring.graces import with_far_graces
 from station.scoring.ignored import Unwritten
 from station.scoring.own_clock import align_unclocked
 from station.scoring.pairing import Indices
-from station.scoring.settle import Side, Start, note_kinds, settle, spots
+from station.scoring.settle import MOST_CLASSES, Side, Start, note_kinds, settle, spots
 
 
 def align(score: Score, performance: Performance, clocked: bool, kit: Collection[Piece] | None = None) -> Alignment:
@@ -31,9 +31,14 @@ def align(score: Score, performance: Performance, clocked: bool, kit: Collection
     """
     classes = match_classes(kit)
     note_class, hit_class = classes[score.notes["piece"]], classes[performance.hits["piece"]]
-    if clocked or not np.isin(hit_class, note_class).any():
+    if clocked or not _share_a_class(note_class, hit_class):
         return align_clocked(score, performance, note_class, hit_class)
     return align_unclocked(score, performance, note_class, hit_class)
+
+
+def _share_a_class(note_class: Indices, hit_class: Indices) -> bool:
+    written, played = (np.bincount(side, minlength=MOST_CLASSES) for side in (note_class, hit_class))
+    return bool((written * played).any())
 
 
 def align_clocked(score: Score, performance: Performance, note_class: Indices, hit_class: Indices) -> Alignment:

@@ -5,10 +5,12 @@ first hits match is found by voting; the likeliest beginnings are then followed 
 part ways sooner or later. Times are seconds.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from station.scoring.evidence import best_evidence
-from station.scoring.locate import Candidate, Hits, Notes, candidates, nats_for
+from station.scoring.locate import Candidate, Hits, Notes, Search, candidates, nats_for
 from station.scoring.tracker import Place
 
 RATES = np.exp(np.arange(-35, 36) * 0.02)
@@ -21,7 +23,8 @@ _EARLY_S = 15.0
 """Most performances begin within so much of the score's beginning: there is looked first."""
 
 _COST_PER_S, _MOST_COST, _COST_PER_S_MORE = 2.0, 15.0, 0.02
-"""Nats a second against a first hit that is not the first note, up to a jump's cost, for it is one; a little beyond."""
+"""Nats a second against a first hit that is neither the first note nor at its own time in the score, up to a jump's
+cost, for it is one; a little beyond."""
 
 _ENOUGH = 0.5
 """Share of all possible evidence with which a beginning is believed without looking elsewhere."""
@@ -42,9 +45,10 @@ def find_beginning(notes: Notes, hits: Hits) -> Place:
         return same
     window = hits.window(0)
     early = slice(0, int(np.searchsorted(notes.at_s, notes.at_s[0] + _EARLY_S)))
-    tried = [Candidate(same, nats_for(notes, window, same)), *candidates(notes, early, window, RATES)]
+    search = Search(early, RATES, float(notes.at_s[0]))
+    tried = [Candidate(same, nats_for(notes, window, same)), *candidates(notes, search, window)]
     if max(candidate.nats for candidate in tried) < _ENOUGH * _possible(notes, window):
-        tried += candidates(notes, slice(None), window, RATES)
+        tried += candidates(notes, replace(search, among=slice(None)), window)
     tried.sort(key=lambda candidate: -candidate.nats - _prior(candidate.place, notes))
     return max((c.place for c in tried[:_LOOKED_AT]), key=lambda p: nats_for(notes, longer, p) + _prior(p, notes))
 
@@ -54,6 +58,6 @@ def _possible(notes: Notes, hits: Hits) -> float:
 
 
 def _prior(place: Place, notes: Notes) -> float:
-    from_start_s = abs(place.score_s - float(notes.at_s[0]))
+    from_start_s = min(abs(place.score_s - float(notes.at_s[0])), abs(place.score_s - place.at_s))
     elsewhere = min(_COST_PER_S * from_start_s, _MOST_COST) + _COST_PER_S_MORE * from_start_s
     return -0.5 * float(np.log(place.rate) / _TEMPO_PRIOR) ** 2 - elsewhere

@@ -22,7 +22,7 @@ from station.core.units import NS_PER_S
 from station.scoring.doubt import DOUBT, SLACK_S, Doubt
 from station.scoring.evidence import best_evidence, class_rates, nats
 from station.scoring.judge import Moved
-from station.scoring.locate import Candidate, Hits, Notes, candidates
+from station.scoring.locate import Candidate, Hits, Notes, Search, candidates
 from station.scoring.pursuit import JUMP_COST
 from station.scoring.shifts import LEAST_JUMP_S
 from station.scoring.tracker import Place, Tracker
@@ -199,20 +199,22 @@ class Chase:
         rate = min(max(self._place.rate, _SLOWEST), _FASTEST)
         here_s = self._places[known[0]] if self._stopped_at is None else self._stop_s
         first_s = self._note_s[0]
-        tried = self._candidates(window, (here_s - LEAST_JUMP_S, here_s + LEAST_JUMP_S), _RATES * rate)
-        tried += self._candidates(window, (here_s - _CLOSE_S, here_s + _CLOSE_S), _RATES * rate)
+        tried = self._candidates(window, (here_s - LEAST_JUMP_S, here_s + LEAST_JUMP_S), _RATES * rate, here_s)
+        tried += self._candidates(window, (here_s - _CLOSE_S, here_s + _CLOSE_S), _RATES * rate, here_s)
         if here_s > first_s + _CLOSE_S:
-            tried += self._candidates(window, (first_s, first_s + _CLOSE_S), _NEAR_RATES * rate)
-        tried += self._candidates(window, (here_s - _NEAR_S, here_s + _NEAR_S), _NEAR_RATES * rate)
+            tried += self._candidates(window, (first_s, first_s + _CLOSE_S), _NEAR_RATES * rate, first_s)
+        tried += self._candidates(window, (here_s - _NEAR_S, here_s + _NEAR_S), _NEAR_RATES * rate, here_s)
         if self._looks > 1 and max((candidate.nats for candidate in tried), default=0.0) < _ENOUGH * possible:
-            tried += self._candidates(window, self._far(here_s), _NEAR_RATES * rate)
+            tried += self._candidates(window, self._far(here_s), _NEAR_RATES * rate, here_s)
         slow, fast = rate * float(_RATES[0]) - _SLACK_RATE, rate * float(_RATES[-1]) + _SLACK_RATE
         return [candidate.place for candidate in tried if slow < candidate.place.rate < fast]
 
-    def _candidates(self, window: Hits, among_s: tuple[float, float], rates: Floats) -> list[Candidate]:
+    def _candidates(
+        self, window: Hits, among_s: tuple[float, float], rates: Floats, expected_s: float
+    ) -> list[Candidate]:
         end_s = among_s[1] + float((window.at_s[-1] - window.at_s[0]) * rates[-1])
         among = slice(bisect_left(self._note_s, among_s[0]), bisect_right(self._note_s, end_s))
-        return candidates(self._notes, among, window, rates)
+        return candidates(self._notes, Search(among, rates, expected_s), window)
 
     def _far(self, here_s: float) -> tuple[float, float]:
         """The part of the score that this look takes: first around `here_s`, then the next to the left and right."""

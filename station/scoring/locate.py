@@ -6,7 +6,7 @@ then played through by the tempo follower and judged by what hits *and* notes sa
 speak against a tempo that is too fast.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,9 @@ Indices = NDArray[np.int64]
 
 WINDOW_HITS, WINDOW_S = 48, 6.0
 """So much music is known again: a bar or two of a groove (our choice)."""
+
+COST_PER_S, MOST_COST = 1.0, 6.0
+"""Nats against a place for each second that it lies off the expected one, up to so many (our choice)."""
 
 _BIN_S = 0.02
 _SPOTS = 12
@@ -71,9 +74,22 @@ class Candidate:
     nats: float
 
 
-def candidates(notes: Notes, among: slice, hits: Hits, rates_tried: Floats) -> list[Candidate]:
-    """The likeliest places of the window `hits` at the tempi `rates_tried`, notes being taken from `among` only."""
-    spots = [_fitted(notes, hits, place) for place in _best_spots(notes, among, hits, rates_tried)]
+@dataclass(frozen=True, slots=True)
+class Search:
+    """Where and how is looked: among these notes, at `rates`, and nearest to `expected_s` where all else is alike."""
+
+    among: slice
+    rates: Floats
+    expected_s: float
+
+    def cost(self, score_s: Floats) -> Floats:
+        """Nats against a first hit at these places (any shape): where bars are alike, the nearest is believed."""
+        return np.minimum(COST_PER_S * np.abs(score_s - self.expected_s), MOST_COST)
+
+
+def candidates(notes: Notes, search: Search, hits: Hits) -> list[Candidate]:
+    """The likeliest places of the window `hits`."""
+    spots = [_fitted(notes, hits, place) for place in _best_spots(notes, search, hits)]
     return [Candidate(place, nats_for(notes, hits, place)) for place in spots]
 
 
@@ -102,15 +118,15 @@ def nats_for(notes: Notes, hits: Hits, place: Place) -> float:
     return float(evidence(off, notes.rates[hits.classes]).sum()) - _MISS_COST * unheard
 
 
-def _best_spots(notes: Notes, among: slice, hits: Hits, rates_tried: Floats) -> list[Place]:
+def _best_spots(notes: Notes, search: Search, hits: Hits) -> list[Place]:
     """Places with most votes, at least `_APART_S` from each other."""
     found: list[tuple[float, float, float]] = []  # votes, score_s, rate
     pairs = sum(
-        int((hits.classes == c).sum()) * int((notes.classes[among] == c).sum()) for c in np.unique(hits.classes)
+        int((hits.classes == c).sum()) * int((notes.classes[search.among] == c).sum()) for c in np.unique(hits.classes)
     )
     step = max(1, _VOTES_AT_ONCE // max(pairs, 1))
-    for start in range(0, len(rates_tried), step):
-        found += _vote(notes, among, hits, rates_tried[start : start + step])
+    for start in range(0, len(search.rates), step):
+        found += _vote(notes, replace(search, rates=search.rates[start : start + step]), hits)
     found.sort(reverse=True)
     spots: list[Place] = []
     for _, score_s, rate in found:
@@ -121,9 +137,9 @@ def _best_spots(notes: Notes, among: slice, hits: Hits, rates_tried: Floats) -> 
     return spots
 
 
-def _vote(notes: Notes, among: slice, hits: Hits, rates_tried: Floats) -> list[tuple[float, float, float]]:
+def _vote(notes: Notes, search: Search, hits: Hits) -> list[tuple[float, float, float]]:
     """The spots with most votes as (votes, score time of the first hit, rate)."""
-    note_s, note_class = notes.at_s[among], notes.classes[among]
+    note_s, note_class, rates_tried = notes.at_s[search.among], notes.classes[search.among], search.rates
     if not len(note_s):
         return []
     since = hits.at_s - hits.at_s[0]
@@ -140,6 +156,7 @@ def _vote(notes: Notes, among: slice, hits: Hits, rates_tried: Floats) -> list[t
         weight = float(best_evidence(notes.rates[c : c + 1])[0])
         votes += weight * np.bincount(cells, minlength=len(votes))
     votes[1:-1] += 0.5 * (votes[:-2] + votes[2:])
+    votes -= np.tile(search.cost(first_s + np.arange(bins, dtype=np.float64) * _BIN_S), len(rates_tried))
     most = min(8 * _SPOTS, len(votes))
     best = np.argpartition(-votes, most - 1)[:most]
     return [(float(votes[k]), first_s + int(k % bins) * _BIN_S, float(rates_tried[k // bins])) for k in best]

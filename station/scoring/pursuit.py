@@ -5,13 +5,13 @@ be elsewhere: the place is found anew by voting (`locate`), and if that is worth
 the one that leaves most evidence on both sides. Times are seconds.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from station.scoring.evidence import best_evidence, evidence
-from station.scoring.locate import Hits, Notes, candidates
+from station.scoring.locate import COST_PER_S, MOST_COST, Hits, Notes, Search, candidates
 from station.scoring.tracker import Place
 
 Floats = NDArray[np.float64]
@@ -19,7 +19,7 @@ Floats = NDArray[np.float64]
 JUMP_COST = 15.0
 """Nats against a jump (our choice: chance differences over `_HORIZON` hits are about 6 nats, 2.5 SD)."""
 
-JUMP_COST_PER_S, MOST_JUMP_COST_MORE = 1.0, 6.0
+JUMP_COST_PER_S, MOST_JUMP_COST_MORE = COST_PER_S, MOST_COST
 """Nats more for each second of a jump, up to so many: where bars are alike, the nearest place is believed."""
 
 _BLOCK = 512
@@ -97,10 +97,11 @@ class Pursuit:
         window = self._hits.window(hit)
         expected_s = base.score_s + base.rate * (self._times[hit] - base.at_s)
         near = slice(*np.searchsorted(self._notes.at_s, (expected_s - _NEAR_S, expected_s + _NEAR_S)).tolist())
-        tried = candidates(self._notes, near, window, _NEAR_RATES * base.rate)
+        search = Search(near, _NEAR_RATES * base.rate, expected_s)
+        tried = candidates(self._notes, search, window)
         possible = float(best_evidence(self._rates[hit : hit + len(window.at_s)]).sum())
         if not tried or max(candidate.nats for candidate in tried) < _ENOUGH * possible:
-            tried += candidates(self._notes, slice(None), window, _NEAR_RATES * base.rate)
+            tried += candidates(self._notes, replace(search, among=slice(None)), window)
         return [candidate.place for candidate in tried]
 
     def _move(self, place: Place, back: int, suspect: int, end: int) -> "_Move":

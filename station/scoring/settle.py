@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from station.core.units import NS_PER_MS, PPQ
 from station.music.score import Score
-from station.scoring.drift import local_trend, robust_sd
+from station.scoring.drift import local_trend, median, robust_sd
 from station.scoring.pairing import Indices, Times, lanes, pair_nearest
 
 REACH_SDS = 4.5
@@ -135,16 +135,20 @@ def settle(notes: Side, hits: Side, kinds: Indices, unpaired: NDArray[np.bool_],
         partner = pair_nearest(note_lane, hit_lane, round(reach_ms * NS_PER_MS))
         player = _player(notes, hits, partner, kinds, player)
         reach_ms = min(max(REACH_SDS * player.spread_ms, MIN_REACH_MS), MAX_REACH_MS)
-    if len(np.unique(notes.spot)) > 1:
+    if _differ(notes.spot):
         partner = _like_first(notes, hits, player.expected_ns, partner, round(reach_ms * NS_PER_MS))
     wrong = _other_pieces(notes, hits, partner, player, unpaired)
     return Settled(partner, wrong, player.trend_ns, player.sd_ms)
 
 
+def _differ(values: Indices) -> bool:
+    return bool((values != values[:1]).any())
+
+
 def _like_first(notes: Side, hits: Side, expected_ns: Times, partner: Indices, reach_ns: int) -> Indices:
     """The matching again where a piece's strokes are written together: those on one spot first, then what is left."""
     again = _together(notes)
-    if not len(np.unique(notes.spot[again])) > 1:
+    if not _differ(notes.spot[again]):
         return partner
     due_ns, span = notes.at_ns + expected_ns, _span(notes, hits)
     own = np.concatenate([notes.lane, hits.lane]), np.concatenate([notes.spot, hits.spot])
@@ -209,7 +213,7 @@ def _player(notes: Side, hits: Side, partner: Indices, kinds: Indices, before: _
     if spread is None:
         return before
     groups = notes.classes + MOST_CLASSES * kinds
-    lean = _leans(groups[known], deviation - np.median(deviation[main]), MOST_CLASSES * _KINDS)[groups]
+    lean = _leans(groups[known], deviation - median(deviation[main]), MOST_CLASSES * _KINDS)[groups]
     off, at_s = (deviation - lean[known])[main], notes.at_ns[known[main]] / 1e9
     trend = local_trend(at_s, off, _TREND_HALF_WIDTH, max(spread, NS_PER_MS))
     rest = robust_sd(off - trend) or 0.0
@@ -224,9 +228,9 @@ def _whole(values: NDArray[np.float64]) -> Times:
 def _leans(classes: Indices, deviation: NDArray[np.float64], count: int) -> NDArray[np.float64]:
     """Median deviation of each group, drawn towards 0 where few are known, shape (count,)."""
     leans = np.zeros(count)
-    for c in np.unique(classes):
+    for c in np.flatnonzero(np.bincount(classes)):
         own = deviation[classes == c]
-        leans[c] = np.median(own) * len(own) / (len(own) + _LEAN_PRIOR)
+        leans[c] = median(own) * len(own) / (len(own) + _LEAN_PRIOR)
     return leans
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.scoring.beginning import find_beginning
-from station.scoring.drift import local_trend, robust_sd
+from station.scoring.drift import half_width, local_trend, robust_sd
 from station.scoring.evidence import best_evidence, class_rates, evidence
 from station.scoring.locate import Hits, Notes
 from station.scoring.pursuit import Pursuit
@@ -24,8 +24,6 @@ Indices = NDArray[np.int64]
 _DOUBT_HITS, _DOUBT_SHARE = 32, 0.4
 """So many hits in a row that bring less than so much of the usual share of the possible evidence are held against the
 score moved by whole beats (our choice: about every 3000 hits by chance)."""
-
-_TREND_HALF_WIDTH = 16
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,8 +106,9 @@ def _smoothed(at_s: Floats, places: Floats, distances: Floats, stretch: Indices)
         scale = robust_sd(off[near])
         if scale:
             met, weights = places[own] + off - at_s[own], near.astype(np.float64)
-            first = local_trend(at_s[own], met, _TREND_HALF_WIDTH, scale, weights)
-            second = local_trend(at_s[own], met - first, _TREND_HALF_WIDTH, scale, weights)
+            width = half_width(at_s[own])
+            first = local_trend(at_s[own], met, width, scale, weights)
+            second = local_trend(at_s[own], met - first, width, scale, weights)
             way[own] = at_s[own] + first + second
     return way
 
