@@ -10,6 +10,7 @@ so that a traditional left hand, whose stick crosses the palm, is solved by the 
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -115,9 +116,14 @@ ArmChain = tuple[tuple[Number, ...], Point, Point, Point, tuple[Number, ...], Nu
 
 
 def chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a tenth of a pose
-    m: Maths, lengths: ArmLengths, shoulder: Point, contact: Contact, offsets: Offsets, wing_more: Number
+    m: Maths,
+    lengths: ArmLengths,
+    shoulder: Point,
+    contact: Sequence[Number],
+    offsets: Sequence[Number],
+    wing_more: Number,
 ) -> ArmChain:
-    """`solve` in plain tuples, as a row takes it."""
+    """`solve` in plain tuples, as a row takes it; `contact` and `offsets` in the order of `Contact` and `Offsets`."""
     sin, cos, sqrt, atan2, acos, most = m.sin, m.cos, m.sqrt, m.atan2, m.acos, m.most
     sx, sy, sz = shoulder
     cx, cy, cz, stick_rise, hand_rise, stick_yaw, hand_yaw, touching, wing = contact

@@ -7,7 +7,8 @@ strike.
 """
 
 from dataclasses import dataclass, field
-from struct import pack
+from functools import lru_cache
+from struct import Struct
 
 import numpy as np
 from numpy.typing import NDArray
@@ -92,9 +93,14 @@ class Drummer:
         row = keys.at(time_s)
         for instrument in keys.instruments:
             row += instrument.at(time_s)
-        return Pose(time_s, np.frombuffer(pack(f"{len(row)}d", *row)))
+        return Pose(time_s, np.frombuffer(_packing(len(row)).pack(*row)))
 
     def rows(self, time_s: Array) -> Array:
         """The poses at each time (n,) as rows (n, fields) in the layout of `frame`; the instruments are left out."""
         row = self._keys.many(time_s)
         return np.stack([np.broadcast_to(value, time_s.shape) for value in row], axis=1)
+
+
+@lru_cache(maxsize=8)
+def _packing(numbers: int) -> Struct:
+    return Struct(f"{numbers}d")

@@ -4,6 +4,7 @@ Everything that moves is evaluated at its time and carried forward from the pelv
 floats, for a live pose, and on arrays, for a whole performance (`maths`).
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from station.motion.arm import ArmLengths, Contact, Offsets
@@ -11,7 +12,8 @@ from station.motion.arm import chain as arm_chain
 from station.motion.figure import Figure
 from station.motion.leg import Footing
 from station.motion.leg import chain as leg_chain
-from station.motion.maths import Maths, Number, Point
+from station.motion.leg import settled as settled_leg
+from station.motion.maths import ONE, Maths, Number, Point
 from station.motion.pedals import BEATER_SWING_RAD, OPEN_GAP_M
 from station.motion.trunk import chain as trunk_chain
 
@@ -30,8 +32,9 @@ STAND_M = (0.10, 0.30)
 BodyNow = tuple[Number, ...]
 """What the body's channels say: `body.CHANNELS`, the look's bearing and pitch in space, head and eyes."""
 
-HandNow = tuple[Contact, Offsets]
-"""What one hand's channels say: its contact without the style's wing, and its stroke."""
+HandNow = tuple[Sequence[Number], Sequence[Number]]
+"""What one hand's channels say: its contact without the style's wing, and its stroke, in the order of `Contact` and
+`Offsets`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,8 +71,9 @@ class Rig:
         heading_b, shoulder_b, elbow_b, wrist_b, aside_b, palm_b = angles
         foot_a, foot_b = boards
         board_a, board_b = foot_a * self.raised[0], foot_b * self.raised[1]
-        leg_a, bent_a = leg_chain(m, self.footings[0], (x + hip, y, z), board_a, heel * (0.6 + 0.4 * foot_a))
-        leg_b, bent_b = leg_chain(m, self.footings[1], (x - hip, y, z), board_b, heel * (0.6 + 0.4 * foot_b))
+        stands = settled_leg if m is ONE else leg_chain
+        leg_a, bent_a = stands(m, self.footings[0], (x + hip, y, z), board_a, heel * (0.6 + 0.4 * foot_a))
+        leg_b, bent_b = stands(m, self.footings[1], (x - hip, y, z), board_b, heel * (0.6 + 0.4 * foot_b))
         kick, hat = boards if self.right_kicks else (foot_b, foot_a)
         rolled_a = self.rolls[0] + (1 - self.arms[0].turns_hand) * right[1][WRIST]
         rolled_b = self.rolls[1] + (1 - self.arms[1].turns_hand) * left[1][WRIST]

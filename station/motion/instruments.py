@@ -35,11 +35,16 @@ _HEAD_PRESS_M, _HEAD_DECAY_S = 0.008, 0.035
 """A head gives way by 8 mm under a 5 m/s stroke (HUMANS: calculated)."""
 
 _STILL = (0.0, 0.0, 0.0, 0.0)
+_DECAYS = 9.2
+"""After so many decays a ten-thousandth is left: the piece is still."""
 
 
 @dataclass(frozen=True, eq=False)
 class Instrument:
-    """One piece's response: its strokes' times, the complex swing after each and the two directions' shares."""
+    """One piece's response: its strokes' times, the complex swing after each, and for how long it then moves.
+
+    `axis`: the shares of the two directions in the swing.
+    """
 
     times_s: list[float]
     swing: list[complex]
@@ -47,6 +52,7 @@ class Instrument:
     axis: tuple[float, float]
     rate: complex
     drum: bool
+    rings_s: float
 
     def at(self, time_s: float) -> tuple[float, float, float, float]:
         """Tip about the piece's right and away axes, flash 0 … 1, and how deep the head is pressed."""
@@ -54,7 +60,7 @@ class Instrument:
         if i < 0:
             return _STILL
         ago = time_s - self.times_s[i]
-        if ago > 12.0:
+        if ago > self.rings_s:
             return _STILL
         swing = (self.swing[i] * cmath.exp(self.rate * ago)).imag
         flash = self.force[i] * math.exp(-ago / _FLASH_DECAY_S)
@@ -97,4 +103,4 @@ def _instrument(piece: KitPiece, times_s: Array, velocity: Array, strike_m: Arra
     norm = float(np.hypot(*tips)) or 1.0
     reach = min(1.0, norm / piece.radius_m) / norm if cymbal else 1.0 / norm
     axis = (float(tips[0] * reach), float(tips[1] * reach))
-    return Instrument(times_s.tolist(), swing, force, axis, rate, not cymbal)
+    return Instrument(times_s.tolist(), swing, force, axis, rate, not cymbal, _DECAYS * decay)

@@ -51,9 +51,9 @@ class HandKeys:
 
 
 def _flourished(now: HandNow, flourish: tuple[Number, Number, Number]) -> tuple[HandNow, Number]:
-    contact, offsets = now
+    (x, y, z, *lie), (*arm, stick) = now
     lift, turn, toss = flourish
-    return (contact._replace(z=contact.z + lift), offsets._replace(stick=offsets.stick + turn)), toss
+    return ((x, y, z + lift, *lie), (*arm, stick + turn)), toss
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,6 +7,7 @@ The foot stands heel down, its sole on the board, or heel up, its ball on the bo
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -38,7 +39,7 @@ _STRAIGHT = 0.9999
 """A leg is never straighter than this share of its length (our choice)."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Footing:
     """A foot's place: its board's hinge, heading in plan (unit) and the sole's length beyond the ball and ankle."""
 
@@ -109,3 +110,7 @@ def chain(m: Maths, footing: Footing, hip: Point, board_rad: Number, heel_rad: N
         (kx, ky, kz, ax, ay, up, x0 + reach * hx, y0 + reach * hy, z0 + foot * sin_b),
         (atan2(sqrt(tx * tx + ty * ty), -tz), acos(inside) + acos(below), 0.5 * math.pi - shin + sole),
     )
+
+
+settled = lru_cache(maxsize=256)(chain)
+"""`chain` on floats, remembered: feet rest on their boards most of the time."""

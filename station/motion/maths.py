@@ -17,7 +17,7 @@ Number = Any
 Point = tuple[Number, Number, Number]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Maths:
     """The functions of one kind of number."""
 

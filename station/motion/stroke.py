@@ -223,8 +223,8 @@ class Strokes:
         joints = [(k.data, c.data.cast("B")) for k, c in zip(self.knots_s, self.cubics, strict=True)]
         return self.strike_s.data, joints
 
-    def at(self, time_s: float) -> Offsets:
-        """The offsets at one instant."""
+    def at(self, time_s: float) -> list[float]:
+        """The offsets at one instant, in `Offsets`' order."""
         strikes, joints = self._fast
         first = max((bisect_right(strikes, time_s) - 1) * KEYS + _STRIKE, 0)
         last = min(first + KEYS, len(strikes) * KEYS)
@@ -237,7 +237,7 @@ class Strokes:
             a, b, c, d = _CUBIC.unpack_from(rows, k * _CUBIC.size)
             u = time_s - knots[k]
             result.append(((d * u + c) * u + b) * u + a)
-        return Offsets(*result)
+        return result
 
     def many(self, time_s: Array) -> Offsets:
         """The offsets at each time."""

@@ -71,23 +71,22 @@ class Way:
         """Strikes and rows as buffers: read one by one they beat arrays."""
         return self.strike_s.data, self.rows.data.cast("B")
 
-    def at(self, time_s: float) -> Contact:
-        """The contact at one instant."""
+    def at(self, time_s: float) -> tuple[float, ...]:
+        """The contact at one instant, in `Contact`'s order."""
         strikes, rows = self._fast
         i = max(bisect_right(strikes, time_s) - 1, 0)
         row = _ROW.unpack_from(rows, i * _ROW.size)
         t0, rate, bx, by, bz, turn, x, y, z, sr, hr, sy, hy, ahead, wing, *steps = row
         u = (time_s - t0) * rate
         if u <= 0.0:
-            return Contact(x, y, z, sr, hr, sy, hy, ahead, wing)
+            return x, y, z, sr, hr, sy, hy, ahead, wing
         u = min(u, 1.0)
         s = u * u * u * (10 + u * (6 * u - 15))
         dx, dy, dz, dsr, dhr, dsy, dhy, d_ahead, d_wing = steps
         h = (4 * u * (1 - u)) ** 2
-        return Contact(
-            *(x + s * dx + h * bx, y + s * dy + h * by, z + s * dz + h * bz, sr + s * dsr, hr + s * dhr),
-            *(sy + s * dsy, hy + s * dhy + h * turn, ahead + s * d_ahead, wing + s * d_wing),
-        )
+        x, y, z = x + s * dx + h * bx, y + s * dy + h * by, z + s * dz + h * bz
+        sr, hr, sy, hy = sr + s * dsr, hr + s * dhr, sy + s * dsy, hy + s * dhy + h * turn
+        return x, y, z, sr, hr, sy, hy, ahead + s * d_ahead, wing + s * d_wing
 
     def many(self, time_s: Array) -> Contact:
         """The contact at each time."""
