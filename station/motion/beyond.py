@@ -22,6 +22,8 @@ FASTEST_HZ = {True: 10.0, False: 11.0}
 """Strokes a second of one hand (Fujii 2009) and one foot (HUMANS) that champions reach."""
 _OVER = 1.25
 """Three strokes in a row may be so much quicker than a champion's mean: players' timing varies (our choice)."""
+_LONG_RUN, _OVER_LONG = 6, 1.05
+"""So many strokes on end, half a second's worth, hardly vary in their mean (our choice)."""
 BOUNCE_S = 0.04
 """The second stroke of a double may come this soon: it is a rebound (HUMANS has 50–90 ms)."""
 FASTEST_HAND_M_S = 9.1
@@ -60,18 +62,24 @@ def beyond_human(score: Score, kit: Kit, limbs: NDArray[np.int8]) -> tuple[Beyon
 
 
 def _repeated(limb: Limb, times: Array, bars: NDArray[np.int64]) -> list[Beyond]:
-    """Bars in which three strokes of the limb come too soon after one another."""
+    """Bars in which three strokes of the limb come too soon after one another, or a run is faster than champions'."""
     apart = times[np.concatenate(([True], np.diff(times) > SAME_STROKE_S))]
     bars = bars[np.concatenate(([True], np.diff(times) > SAME_STROKE_S))]
-    rate = 2.0 / (apart[2:] - apart[:-2])
-    fast = np.flatnonzero(rate > FASTEST_HZ[limb.is_hand] * _OVER)
     word = "hand" if limb.is_hand else "foot"
-    result = []
-    for bar in np.unique(bars[fast + 1]).tolist():
-        at = fast[bars[fast + 1] == bar]
-        text = f"bar {bar + 1} needs {rate[at].max():.0f} strokes a second of one {word}"
-        result.append(Beyond(bar, limb, float(apart[at[0]]), float(apart[at[-1] + 2]), text))
-    return result
+    worst: dict[int, tuple[float, float, float]] = {}  # of each bar: rate, first and last stroke
+    for strokes, over in ((3, _OVER), (_LONG_RUN, _OVER_LONG)):
+        last = strokes - 1
+        rate = last / (apart[last:] - apart[: max(len(apart) - last, 0)])
+        fast = np.flatnonzero(rate > FASTEST_HZ[limb.is_hand] * over)
+        for bar in np.unique(bars[fast + 1]).tolist():
+            at = fast[bars[fast + 1] == bar]
+            told, start, end = worst.get(bar, (0.0, np.inf, -np.inf))
+            found = float(rate[at].max()), float(apart[at[0]]), float(apart[at[-1] + last])
+            worst[bar] = max(told, found[0]), min(start, found[1]), max(end, found[2])
+    return [
+        Beyond(bar, limb, start, end, f"bar {bar + 1} needs {rate:.0f} strokes a second of one {word}")
+        for bar, (rate, start, end) in worst.items()
+    ]
 
 
 def _sundered(limb: Limb, times: Array, bars: NDArray[np.int64], points: Array) -> list[Beyond]:

@@ -23,6 +23,8 @@ from station.motion.pose import ANGLE_NAMES
 Array = NDArray[np.float64]
 
 SCHEMA = "drum-station-motion/1"
+_ONE_INSTANT_S = 1e-6
+"""So near together two poses are one: a speed taken between them would be of rounding (our choice)."""
 _HANDS = {Limb.RIGHT_HAND: Joint.RIGHT_HAND, Limb.LEFT_HAND: Joint.LEFT_HAND}
 
 
@@ -56,8 +58,17 @@ def write_npz(drummer: Drummer, path: Path, time_s: Array) -> None:
     onsets = drummer.score.onset_s
     struck = onsets[(onsets >= time_s.min(initial=np.inf)) & (onsets <= time_s.max(initial=-np.inf))]
     buffer = io.BytesIO()
-    np.savez_compressed(buffer, allow_pickle=False, **motion_arrays(drummer, np.union1d(time_s, struck)))
+    np.savez_compressed(buffer, allow_pickle=False, **motion_arrays(drummer, _with(time_s, struck)))
     write_whole(path, buffer.getvalue())
+
+
+def _with(time_s: Array, struck_s: Array) -> Array:
+    """Both in order, each instant once: a pose that is due at a strike, but for rounding, is the strike's own."""
+    every = np.union1d(time_s, struck_s)
+    alone = np.ones(len(every), bool)
+    together = np.flatnonzero(np.diff(every) < _ONE_INSTANT_S)
+    alone[np.where(np.isin(every[together], struck_s), together + 1, together)] = False
+    return every[alone]
 
 
 def _strikes(drummer: Drummer) -> dict[str, NDArray[Any]]:

@@ -95,6 +95,8 @@ _PIECE_KEYS = {
     "wrist_height_m": "wrist_height_m",
 }
 _MAX_TILT_DEG = 80.0
+_LEAST_BOARD_M = 0.1
+"""A shorter footboard points nowhere (our choice; real ones are 25–33 cm long)."""
 
 
 def kit_names() -> list[str]:
@@ -173,8 +175,12 @@ def _spot(table: "Table", default: Spot) -> Spot:
 
 def _pedal(table: "Table") -> Pedal:
     table.only({"heel_m", "toe_m", "raised_deg"})
+    heel_m, toe_m = table.point("heel_m"), table.point("toe_m")
+    if math.dist(heel_m, toe_m) < _LEAST_BOARD_M:
+        fault = f"the toe end is {math.dist(heel_m, toe_m):.2f} m from the heel, expected at least {_LEAST_BOARD_M:g} m"
+        raise BadInput(table.source, f"{table.place}.toe_m", fault)
     return Pedal(
-        heel_m=table.point("heel_m"),
-        toe_m=table.point("toe_m"),
+        heel_m=heel_m,
+        toe_m=toe_m,
         raised_rad=math.radians(table.number("raised_deg", 0.0, 60.0, 18.0)),
     )

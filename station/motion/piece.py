@@ -48,6 +48,11 @@ RIM_ABOVE_HEAD_M = 0.012
 BELL_ABOVE_BOW_M = 0.02
 """Height of a ride's bell over the plane of its bow (our choice)."""
 
+BELL_SHARE = 0.25
+"""A bell's radius as a share of its cymbal's (our choice: about 13 cm across a 20-inch ride)."""
+HOOP_M = 0.01
+"""A raised zone away from the middle is so much around its point: a counter-hoop's top (our choice)."""
+
 _DRUM_SPOTS = {
     Zone.HEAD: Spot(0.0, 0.0, HAND_SPREAD_M),
     Zone.RIM: Spot(0.0, -0.99, 0.16, RIM_ABOVE_HEAD_M, shoulder=True),
@@ -147,7 +152,15 @@ class KitPiece:
         radius = spot.wrist_radius_m if spot.wrist_radius_m is not None else self.wrist_radius_m
         height = spot.wrist_height_m if spot.wrist_height_m is not None else self.wrist_height_m
         rise = float(np.arctan2(height, radius))
-        return Target(point, normal, centre, self.radius_m, rise, spot.shoulder, spot.raised_m)
+        surface, size = self._surface(centre, point, spot)
+        return Target(point, normal, surface, size, rise, spot.shoulder, spot.raised_m)
+
+    def _surface(self, centre: Vector, point: Vector, spot: Spot) -> tuple[Vector, float]:
+        """Centre and radius of the surface that `point` is on: a raised zone is no disc over the whole piece."""
+        if spot.raised_m <= 0.0:
+            return centre, self.radius_m
+        bell = BELL_SHARE * self.radius_m
+        return (centre, bell) if float(np.linalg.norm(point - centre)) <= bell else (point, HOOP_M)
 
     def _spot(self, zone: Zone) -> Spot:
         for candidate in (zone, *_FALLBACK[zone]):

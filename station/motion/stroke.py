@@ -81,8 +81,6 @@ _SHORT_REST = 0.5
 """Where strokes are near, the rest after a stroke is shortened to this share before the preparation is."""
 _LEAST_PAUSE = 0.03
 """Share of the gap that lies at least between the rest after a strike and the start of the next."""
-_LEAST_HEIGHT_M = 0.001
-"""A stroke of no amplitude takes its time from this height."""
 _LONG_S = 10.0
 """The gap before the first and after the last strike."""
 _SHARE_MERGED = np.array([0.0, 0.85, 1.0, 0.7, 0.25])

@@ -52,8 +52,15 @@ def find_shipped(name_or_path: str | Path, folder: Path, what: str) -> Path:
     if not path.exists():
         names = shipped(folder)
         near = difflib.get_close_matches(str(name_or_path), names, n=2) or names
-        raise BadInput(str(name_or_path), "", f"no such {what}; there is {' and '.join(near)}")
+        raise BadInput(str(name_or_path), "", f"no such {what}; {_there(near)}")
     return path
+
+
+def _there(names: list[str]) -> str:
+    """What there is, in words."""
+    if len(names) == 1:
+        return f"there is {names[0]}"
+    return f"there are {', '.join(names[:-1])} and {names[-1]}"
 
 
 def shipped(folder: Path) -> list[str]:

@@ -100,7 +100,8 @@ def _times(score: Score, arguments: argparse.Namespace) -> Times:
 
 def _ticks(score: Score, arguments: argparse.Namespace) -> tuple[int, int]:
     """First tick of the first bar, last of the last."""
-    first, last = arguments.start_bar, arguments.end_bar or score.bar_count
+    first = arguments.start_bar
+    last = score.bar_count if arguments.end_bar is None else arguments.end_bar
     if not 1 <= first <= last <= score.bar_count:
         raise BadInput("--start-bar, --end-bar", f"{first}-{last}", f"the score has bars 1 to {score.bar_count}")
     return score.tempo_map.bar_start(first - 1), score.tempo_map.bar_start(last)

@@ -251,6 +251,7 @@ def test_animate_draws_the_figure_that_is_asked_for(tmp_path: Path, capsys: pyte
     assert np.linalg.norm(arm, axis=1) == pytest.approx(0.186 * 1.5)  # Winter's share of the stature
     capsys.readouterr()
     assert "expected 0.8 to 2.4 metres" in refused(capsys, "animate", "rock-1", "--stature", "17", "--out", str(out))
+    assert "the score has bars 1 to 2" in refused(capsys, "animate", "rock-1", "--end-bar", "0", "--out", str(out))
     assert "no such figure; there is small" in refused(
         capsys, "animate", "rock-1", "--figure", "smal", "--out", str(out)
     )

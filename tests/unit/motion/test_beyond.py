@@ -32,6 +32,13 @@ def test_a_champions_rate_and_a_double_are_human() -> None:
     assert said(repeated(2, PPQ // 2, 500)) == ()  # 60 ms: a rebound
 
 
+def test_a_long_run_just_over_a_champions_rate_is_named_a_short_one_not() -> None:
+    """Eighths at 345 bpm are 11.5 a second: within a short burst's scatter, not for a second on end."""
+    assert said(repeated(5, PPQ // 2, 345)) == ()
+    assert said(repeated(6, PPQ // 2, 345)) == ("bar 2 needs 12 strokes a second of one hand",)
+    assert said(repeated(6, PPQ // 2, 312)) == ()  # 10.4 a second
+
+
 def test_a_hand_in_two_far_places_is_named_with_the_way_and_the_time() -> None:
     """From the snare to the floor tom it is about 60 cm; 50 ms leave 12 m/s, a boxer's fist does 9."""
     tick = 4 * PPQ

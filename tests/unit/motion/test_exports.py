@@ -76,6 +76,16 @@ def test_an_npz_reads_back_without_pickle(tmp_path: Path) -> None:
         assert str(read["schema"]).startswith("drum-station-motion/")
 
 
+def test_a_pose_that_rounding_parts_from_a_strike_is_not_told_twice(tmp_path: Path) -> None:
+    """Speeds taken between the poses of a file must be of the motion, not of the last bits of its times."""
+    path = tmp_path / "x.npz"
+    struck = SCORE.onset_s[2:5]
+    write_npz(DRUMMER, path, np.sort(np.concatenate((TIMES[:1], struck - 1e-12, struck[:1] + 1e-12, TIMES[-1:]))))
+    with np.load(path, allow_pickle=False) as read:
+        assert np.diff(read["time_s"]).min() > 1e-6
+        assert set(struck.tolist()) <= set(read["time_s"].tolist())
+
+
 # --- BVH --------------------------------------------------------------------------------------------------------------
 
 

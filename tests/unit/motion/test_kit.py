@@ -54,6 +54,16 @@ def test_every_zone_has_its_own_point_on_its_surface(name: str) -> None:
                 assert np.linalg.norm(away) <= target.radius_m + 1e-12
 
 
+def test_a_bell_and_a_rim_are_no_discs_over_the_whole_piece() -> None:
+    """A tip on the ride's bow is 2 cm lower than its bell, one on the head lower than the rim: in neither of them."""
+    kit = load_kit()
+    for piece, low, high in ((Piece.RIDE, Zone.BOW, Zone.BELL), (Piece.SNARE, Zone.HEAD, Zone.RIM)):
+        for limb in (Limb.RIGHT_HAND, Limb.LEFT_HAND):
+            under, over = kit.target(piece, low, limb), kit.target(piece, high, limb)
+            assert np.linalg.norm(under.point_m - over.centre_m) > over.radius_m + 0.02
+            assert np.linalg.norm(over.point_m - over.centre_m) <= over.radius_m
+
+
 def test_two_snare_spots_are_five_centimetres_apart() -> None:
     snare = load_kit().pieces[Piece.SNARE]
     right, left = (snare.target(Zone.HEAD, limb).point_m for limb in (Limb.RIGHT_HAND, Limb.LEFT_HAND))
@@ -91,6 +101,7 @@ def test_a_missing_piece_has_a_stand_in(piece: Piece, played: Piece) -> None:
         ("centre_m = [-0.07, 0.45, 0.66]", "centre_m = [-0.07, 0.45]", "snare.centre_m", "[right, forward, up]"),
         ("depth_m = 0.14", "deep_m = 0.14", "snare.deep_m", "no such key"),
         ("[pedals.kick]", "[pedals.drum]", "pedals.kick", "is missing"),
+        ("toe_m = [0.20, 0.71, 0.03]", "toe_m = [0.20, 0.44, 0.03]", "pedals.kick.toe_m", "expected at least 0.1 m"),
         ("[ride]", "[ride.zones.top]\nright = 0\n\n[ride]", "ride.zones.top", "no such zone"),
     ],
 )
