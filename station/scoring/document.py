@@ -92,6 +92,7 @@ def _tempo(tempo: TempoCurve) -> dict[str, Json]:
     return {
         "median_bpm": _number(tempo.median_bpm),
         "drift_pct_per_minute": _number(tempo.drift_pct_per_minute),
+        "drift_ci": None if tempo.drift_ci is None else [_number(end) for end in tempo.drift_ci],
         "bars": [
             {"bar": bar.bar + 1, "at_s": _number(bar.at_s), "tempo_bpm": _number(bar.tempo_bpm)} for bar in tempo.bars
         ],

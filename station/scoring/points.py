@@ -3,13 +3,14 @@
     score = 100 · mean credit of the notes · precision²
 
 A note's credit is the credit of its timing (`windows`), of which a fifth is at stake for dynamics where dynamics are
-judged, and a tenth for a hi-hat's openness or a grabbed cymbal where the kit tells them; a miss and a wrong piece earn
+judged, and a tenth for a hi-hat's openness or a grabbed cymbal where the kit tells them, and for a grace stroke that is
+softer than its main stroke; a miss and a wrong piece earn
 nothing. Precision is matched / (matched + extras + wrong pieces). Notes of which the kit cannot tell whether they were
 played are left out.
 
 * Feel is free: each piece's own lean, up to 25 ms, is taken off before timing is credited, and swung offbeats are
   judged against the ratio that the player holds if it lies within 1.3–3.5; a lesson may ask for less (`Feel`).
-* A grace stroke earns its credit by being played: its spacing is the hand's choice.
+* A grace stroke earns its credit by being played, softly: its spacing is the hand's choice.
 * It never rises when a note is missed, a hit is added or moved away from its note, and it is 100 for a performance
   without fault, 0 for silence.
 * It is hard to cheat: who hammers all eight pads on every 16th of a bar of 13 notes hits everything and has 115 extras,
@@ -67,8 +68,8 @@ ALL_FREE = Feel()
 class Judged:
     """What beside timing is judged, over the notes (n,).
 
-    `off_db` beyond the player's own level, NaN where not judged (None: nowhere); `faulty` where the openness or the
-    grab is wrong; `untold` where nothing can be told.
+    `off_db` beyond the player's own level, NaN where not judged (None: nowhere); `faulty` where the openness, the grab
+    or the grace stroke's softness is wrong; `untold` where nothing can be told.
     """
 
     off_db: NDArray[np.float64] | None

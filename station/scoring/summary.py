@@ -24,6 +24,7 @@ from station.scoring.alignment import Alignment
 from station.scoring.craft.craft import Circumstances, Craft, craft
 from station.scoring.craft.cymbals import choke_faults, hat_faults
 from station.scoring.craft.gaps import Silences
+from station.scoring.craft.ornaments import loud_graces
 from station.scoring.craft.untold import KitFacts, Untold, untold_notes
 from station.scoring.dynamics import Dynamics, dynamics
 from station.scoring.habits import Habits, habits
@@ -152,7 +153,7 @@ def summarise(score: Score, performance: Performance, alignment: Alignment, view
     untold = untold_notes(score, performance, alignment, view.kit)
     judged = Judged(
         loudness.off_db if view.hears_velocity else None,
-        _faulty(score, performance, alignment, view.kit),
+        _faulty(score, performance, alignment, view),
         untold != Untold.TOLD,
     )
     return Summary(
@@ -183,10 +184,11 @@ def summarise(score: Score, performance: Performance, alignment: Alignment, view
     )
 
 
-def _faulty(score: Score, performance: Performance, alignment: Alignment, kit: KitFacts) -> Flags:
-    """Notes (n,) whose hat was open for closed or closed for open, or whose cymbal was not grabbed, where told."""
-    not_grabbed = choke_faults(score, performance, alignment, kit.tells_chokes)[1]
-    return hat_faults(score, performance, alignment)[1] | not_grabbed
+def _faulty(score: Score, performance: Performance, alignment: Alignment, view: View) -> Flags:
+    """Notes (n,), where told: hats open for closed or closed for open, cymbals not grabbed, grace strokes too loud."""
+    faulty = hat_faults(score, performance, alignment)[1]
+    faulty = faulty | choke_faults(score, performance, alignment, view.kit.tells_chokes)[1]
+    return faulty | loud_graces(score, performance, alignment) if view.hears_velocity else faulty
 
 
 def count(alignment: Alignment) -> Counts:

@@ -14,7 +14,7 @@ from station.core.units import NS_PER_S
 from station.music.performance import Performance
 from station.music.score import Score
 from station.scoring.alignment import Alignment
-from station.scoring.timing import timed_notes
+from station.scoring.timing import spread, timed_notes
 
 Floats = NDArray[np.float64]
 
@@ -33,11 +33,15 @@ class BarTempo:
 
 @dataclass(frozen=True, slots=True)
 class TempoCurve:
-    """All bars that have a tempo, their median, and the drift in percent a minute; None where too little is known."""
+    """All bars that have a tempo, their median, and the drift in percent a minute with its 95 % interval.
+
+    None where too little is known: a drift needs three bars, an interval `MIN_SLOTS`.
+    """
 
     bars: tuple[BarTempo, ...]
     median_bpm: float | None
     drift_pct_per_minute: float | None
+    drift_ci: tuple[float, float] | None
 
 
 def tempo_curve(score: Score, performance: Performance, alignment: Alignment) -> TempoCurve:
@@ -54,7 +58,7 @@ def tempo_curve(score: Score, performance: Performance, alignment: Alignment) ->
         if pace is not None:
             written_bpm = score.tempo_map.bpm_at(score.tempo_map.bar_start(b))
             bars.append(BarTempo(b, float(played_s[here].min()), written_bpm / pace))
-    return TempoCurve(tuple(bars), _median(bars), _drift(score, bars))
+    return TempoCurve(tuple(bars), _median(bars), *_drift(score, bars))
 
 
 def _slope(x: Floats, y: Floats) -> float | None:
@@ -70,12 +74,19 @@ def _median(bars: list[BarTempo]) -> float | None:
     return float(np.median([bar.tempo_bpm for bar in bars])) if bars else None
 
 
-def _drift(score: Score, bars: list[BarTempo]) -> float | None:
-    """By how much the tempo, as a share of the written one, rose a minute, in percent; negative: it fell."""
+def _drift(score: Score, bars: list[BarTempo]) -> tuple[float | None, tuple[float, float] | None]:
+    """By how much the tempo, as a share of the written one, rose a minute, in percent; negative: it fell.
+
+    Its interval is that of a straight line's slope whose deviations may hang together (`timing.standard_error`).
+    """
     starts = [score.tempo_map.bpm_at(score.tempo_map.bar_start(bar.bar)) for bar in bars]
     share = np.array([100 * bar.tempo_bpm / written for bar, written in zip(bars, starts, strict=True)])
-    at_s = np.array([bar.at_s for bar in bars])
-    if len(np.unique(at_s)) < _FEWEST:
-        return None
-    off = at_s - at_s.mean()
-    return float(off @ share) / float(off @ off) * _S_PER_MINUTE
+    at_min = np.array([bar.at_s for bar in bars]) / _S_PER_MINUTE
+    if len(np.unique(at_min)) < _FEWEST:
+        return None, None
+    off = at_min - at_min.mean()
+    slope = float(off @ share) / float(off @ off)
+    rest = share - share.mean() - slope * off
+    error = spread(rest * off * len(off) / float(off @ off), np.arange(len(off))).ci_ms
+    half = (error[1] - error[0]) / 2 if error is not None else None
+    return slope, None if half is None else (slope - half, slope + half)

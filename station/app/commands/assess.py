@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from station.app.commands.output import print_json, say
-from station.app.commands.scores import is_lesson, load_score_and_performance
+from station.app.commands.scores import bars_of_gap, is_lesson, load_score_and_performance
 from station.core.settings import load_settings
 
 
@@ -19,6 +19,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("score", metavar="SCORE", help="a lesson or a MIDI file")
     parser.add_argument("performance", metavar="PERFORMANCE", help="a MIDI file or a capture")
     parser.add_argument("--level", choices=LEVELS, default=DEFAULT_LEVEL.name, help="how strictly (%(default)s)")
+    parser.add_argument(
+        "--gap", type=bars_of_gap, metavar="ON/OFF", help="the click it was played to fell silent in turn"
+    )
     parser.add_argument("--pairs", type=Path, metavar="FILE.csv", help="write which hit answers which note")
     parser.add_argument("--json", action="store_true", help="print one JSON document")
 
@@ -26,6 +29,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Align, sum up, print."""
     from station.drills.library import find_lesson
+    from station.practice.click import silences
     from station.practice.report import assessment_text, feel_of, kit_facts
     from station.scoring.align import align
     from station.scoring.document import assessment
@@ -38,6 +42,8 @@ def run(arguments: argparse.Namespace) -> int:
     if is_lesson(arguments.score):
         view = replace(view, pass_bars=score.bar_count, feel=feel_of(find_lesson(arguments.score).goals))
         score = score.repeated(max(1, round(len(performance) / max(len(score), 1))))
+    if arguments.gap is not None:
+        view = replace(view, silences=silences(score.tempo_map, score.end_tick, arguments.gap))
     alignment = align(score, performance, clocked=False)
     document = assessment(summarise(score, performance, alignment, view))
     if arguments.pairs is not None:

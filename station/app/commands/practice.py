@@ -1,14 +1,17 @@
 """`station practice [LESSON]`: a practice session in the window, in the terminal, or with a virtual student."""
 
 import argparse
+from dataclasses import replace
 from pathlib import Path
 
 from station.app.commands.output import print_json, say
+from station.app.commands.scores import bars_of_gap
 from station.app.health import has_screen
 from station.app.session_folder import SessionFolder, rescued
 from station.core.errors import DeviceError, StationError
 from station.core.settings import Settings, load_settings, with_said
 from station.drills.lesson import Lesson
+from station.practice.click import PLAIN
 from station.practice.folder import TEXT_NAME
 from station.practice.plan import Plan, Wishes, plan_practice
 from station.practice.report import practice_document, report_text, with_truth
@@ -27,6 +30,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--loops", type=int, metavar="N", help="how often the loop is played (the lesson's)")
     parser.add_argument("--bars", type=_bars, metavar="A-B", help="bars to practise, from 1 (the lesson's loop)")
+    parser.add_argument("--gap", type=bars_of_gap, metavar="ON/OFF", help="bars with a click and bars without, in turn")
     parser.add_argument("--kit", metavar="PORT", help="part of the MIDI port's name (the first kit found)")
     parser.add_argument("--output", metavar="DEVICE", help="part of the sound output's name (the system's default)")
     parser.add_argument("--block-frames", type=int, metavar="N", help="frames an audio block (the driver's choice)")
@@ -135,7 +139,7 @@ def _lesson(name: str | None) -> Lesson:
 
 def _wishes(arguments: argparse.Namespace) -> Wishes:
     demonstrations = 0 if arguments.no_demonstration else None
-    return Wishes(arguments.tempo, arguments.loops, arguments.bars, demonstrations)
+    return Wishes(arguments.tempo, arguments.loops, arguments.bars, demonstrations, replace(PLAIN, gap=arguments.gap))
 
 
 def _wanted(arguments: argparse.Namespace, settings: Settings) -> Settings:

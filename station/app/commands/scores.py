@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from argparse import ArgumentTypeError
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from station.core.errors import BadInput
 from station.music.performance import Performance
 from station.music.score import Score
+
+if TYPE_CHECKING:
+    from station.practice.click import Gap
 
 if TYPE_CHECKING:
     from station.motion.kit import Kit
@@ -95,3 +99,13 @@ def _performance_of_capture(path: Path) -> Performance:
     hits = [event for event in events if isinstance(event, Hit)]
     start_ns = hits[0].at_ns if hits else 0
     return Performance.from_hits(hits, [event for event in events if isinstance(event, Choke)]).shifted(-start_ns)
+
+
+def bars_of_gap(text: str) -> Gap:
+    """`2/1`: two bars with a click, one without; raises `ArgumentTypeError` for anything else."""
+    from station.practice.click import Gap
+
+    sounding, _, quiet = text.partition("/")
+    if not (sounding.isdecimal() and quiet.isdecimal() and int(sounding) and int(quiet)):
+        raise ArgumentTypeError(f"{text!r}: expected bars with and without a click such as 2/1")
+    return Gap(int(sounding), int(quiet))

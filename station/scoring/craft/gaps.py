@@ -48,8 +48,8 @@ class Gaps:
 
 
 def gaps(score: Score, alignment: Alignment, silences: Silences) -> Gaps | None:
-    """How the player came out of each of `silences`; None without any, or where no click was played to."""
-    if not silences or alignment.reference is not Reference.CLICK:
+    """How the player came out of each of `silences`; None without any, or of a recording that was not to a click."""
+    if not silences or alignment.reference is Reference.PLAYER:
         return None
     timed = np.flatnonzero(timed_notes(score, alignment))
     due, off = score.onset_ns[timed], asynchrony_ms(alignment)[timed]

@@ -58,6 +58,19 @@ def ornaments(score: Score, performance: Performance, alignment: Alignment) -> d
     }
 
 
+def loud_graces(score: Score, performance: Performance, alignment: Alignment) -> NDArray[np.bool_]:
+    """Which grace strokes (n,) were as loud as their main stroke or louder, where they are written softer."""
+    loud, graces = np.zeros(len(score), np.bool_), np.flatnonzero(score.is_grace)
+    if not len(graces):
+        return loud
+    main, matched = main_of_grace(score), alignment.note_label == Label.MATCH
+    graces = graces[(main[graces] >= 0) & matched[graces] & matched[main[graces]]]
+    graces = graces[score.notes["velocity"][graces] < score.notes["velocity"][main[graces]]]
+    played, hit = performance.hits["velocity"], alignment.hit_of_note
+    loud[graces] = played[hit[graces]] >= played[hit[main[graces]]]
+    return loud
+
+
 def _of_kind(
     score: Score, performance: Performance, alignment: Alignment, main: NDArray[np.int64], kind: Ornament
 ) -> Ornaments:

@@ -8,7 +8,7 @@ from station.core.units import PPQ
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.scoring.craft.ornaments import Ornaments, ornaments
-from station.scoring.summary import summarise
+from station.scoring.summary import View, summarise
 from tests.fakes.answers import Played, take
 from tests.fakes.scores import flams
 
@@ -44,6 +44,19 @@ def test_softness_by_hand() -> None:
     found = told(Played(velocity=velocity))
     assert found.softer == 11
     assert found.level_db.mean == pytest.approx(11 / 12 * 40 * np.log10(0.35), abs=1e-6)
+
+
+def test_a_grace_stroke_as_loud_as_its_main_stroke_costs_a_tenth() -> None:
+    """Six of 24 notes: 100·(1 − 0.1/4); keys that have no velocity lose nothing."""
+    velocity = flams(3).notes["velocity"].copy()
+    velocity[:12:2] = 100
+    played = take(flams(3), Played(velocity=velocity))
+    told, deaf = (
+        summarise(played.score, played.performance, played.alignment, View(hears_velocity=hears)).points
+        for hears in (True, False)
+    )
+    assert told == pytest.approx(97.5)
+    assert deaf == pytest.approx(100.0)
 
 
 def test_hand_order_where_the_sticks_say_it() -> None:

@@ -180,6 +180,32 @@ def test_few_gaps_have_no_interval_and_no_stroke_on_return_no_drift() -> None:
     assert (found.returns[0].drift_ms, found.drift_ms.count) == (None, 1)
 
 
+def test_a_recording_to_the_click_has_its_gaps_and_one_without_has_none() -> None:
+    """The same on the file's own time base; at another tempo there was no such click."""
+    played, spans = rushing_in_the_dark(22, 9.0)
+    recorded = take(played.score, Played(off_ms=(played.alignment.asynchrony_ns / 1e6)), clocked=False)
+    found = gaps(played.score, recorded.alignment, spans)
+    assert found is not None
+    assert found.drift_ms.mean == pytest.approx(-18.0)
+    slower = take(played.score, Played(off_ms=0.1 * played.score.onset_ns / 1e6), clocked=False)
+    assert gaps(played.score, slower.alignment, spans) is None
+
+
+@pytest.mark.parametrize("per_bar_ms", [20.0, 50.0])
+def test_drifting_far_in_the_dark_loses_no_stroke(per_bar_ms: float) -> None:
+    """Three bars of silence: 60 and 150 ms early on return, and back at once, in a groove with 8 ms of noise."""
+    score = rock_beat(24)
+    spans = silences(score.tempo_map, score.end_tick, Gap(1, 3))
+    off, at = np.random.default_rng(1).normal(0, 8, len(score)), score.onset_ns
+    for start, end in spans:
+        dark = (at > start) & (at <= end)
+        off[dark] -= per_bar_ms * (at[dark] - start) / 2e9
+    found = gaps(score, take(score, Played(off_ms=off)).alignment, spans)
+    assert found is not None
+    assert found.drift_ms.count == 5
+    assert found.drift_ms.mean == pytest.approx(-3 * per_bar_ms, abs=5.0)
+
+
 def test_without_a_silent_click_there_is_nothing_to_tell() -> None:
     score = even_snare(16, 500)
     assert gaps(score, take(score).alignment, ()) is None
