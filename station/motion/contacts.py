@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from station.core.pieces import Articulation, Limb, Piece, Zone
 from station.motion.arm import ArmLengths, Contact, Offsets, solve
 from station.motion.collisions import ALONG, depth
-from station.motion.events import GRAB, WAIT
+from station.motion.events import GRAB, SHOW, WAIT
 from station.motion.figure import Figure
 from station.motion.grip import Grip, Hold
 from station.motion.kit import Kit
@@ -47,7 +47,7 @@ class Strike:
 
     piece: Piece
     zone: Zone
-    articulation: int  # `Articulation`, or `events.GRAB`
+    articulation: int  # `Articulation`, or `GRAB`, `WAIT` or `SHOW` of `events`
     limb: Limb
 
 
@@ -59,15 +59,17 @@ PROTRACTION_M = 0.08
 
 WAIT_M = (0.10, 0.02, 0.07)
 """Where a waiting stick's tip is: to the hand's own side of its spot on the snare, nearer, higher (our choice)."""
+SHOW_M = (0.08, 0.17, 0.40)
+"""Where a stick's tip is before it is spun or tossed: high enough for all of it to turn over the kit (our choice)."""
 
 
 def target_of(kit: Kit, strike: Strike) -> Target:
     """What the stick aims at: a rim shot's tip is on the head while its shaft meets the rim."""
     zone = Zone.HEAD if strike.articulation == Articulation.RIM_SHOT else strike.zone
     target = kit.target(strike.piece, zone, strike.limb)
-    if strike.articulation != WAIT:
+    if strike.articulation not in (WAIT, SHOW):
         return target
-    x, y, z = WAIT_M
+    x, y, z = WAIT_M if strike.articulation == WAIT else SHOW_M
     side = 1.0 if strike.limb == Limb.RIGHT_HAND else -1.0
     return replace(target, point_m=target.point_m + np.array([side * x, y, z]))
 
@@ -105,7 +107,7 @@ def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike) -> Lie:
     right = strike.limb == Limb.RIGHT_HAND
     lengths = hold.lengths(figure, right)
     slopes = _slopes(lengths, target, hold, strike, hold.length_m(figure))
-    faced = np.array([0.0, 1.0, 0.0]) if strike.articulation == WAIT else target.point_m  # one waits for anything
+    faced = np.array([0.0, 1.0, 0.0]) if strike.articulation in (WAIT, SHOW) else target.point_m  # for anything
     for lean in LEANS_RAD.tolist():
         root = natural_shoulder(kit, figure, strike.limb, faced, lean)
         touch, stretched = _easiest(lengths, root, target, slopes, hold.grip, 1.0 if right else -1.0)

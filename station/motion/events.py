@@ -16,8 +16,9 @@ from station.music.score import Score
 
 Array = NDArray[np.float64]
 
-GRAB, WAIT = len(Articulation), len(Articulation) + 1
-"""Stand where an articulation stands: the hand grabs the cymbal's edge, or waits on its own side over the snare."""
+GRAB, WAIT, SHOW = (len(Articulation) + k for k in range(3))
+"""Stand where an articulation stands: the hand grabs the cymbal's edge, waits on its own side over the snare, or shows
+a spin or toss above that."""
 SAME_STROKE_S = 0.004
 """Events of one hand nearer than this are one movement."""
 GRACE_HEIGHT_M, LAID_HEIGHT_M, PRESS_HEIGHT_M, GRAB_HEIGHT_M = 0.045, 0.06, 0.02, 0.03

@@ -11,7 +11,7 @@ from station.core.errors import BadInput
 from station.core.pieces import Limb, Piece, Zone, word
 from station.motion.arm import Contact, solve
 from station.motion.contacts import PROTRACTION_M, Lie, Strike, lie_of
-from station.motion.events import HandEvents
+from station.motion.events import SHOW, HandEvents
 from station.motion.figure import Figure
 from station.motion.grip import Hold
 from station.motion.kit import Kit
@@ -37,7 +37,8 @@ class HandPart:
 
     `lies` are the kinds of contact that occur, `which` (n,) the kind of each event, `wrist_m` (n, 3) where the wrist is
     at each, naturally, and `contacts` (n, fields) what its arm is solved from; the plan of its strokes; `bump`
-    (n − 1, 4) how each stretch between two events goes round (`Way.of`), and whether it is travelled `early` (n − 1,).
+    (n − 1, 4) how each stretch between two events goes round (`Way.of`), and whether it is travelled `early` (n − 1,);
+    `show`, where its stick is spun and tossed.
     """
 
     limb: Limb
@@ -50,6 +51,7 @@ class HandPart:
     contacts: Array
     bump: Array
     early: NDArray[np.bool_]
+    show: Contact
 
     @classmethod
     def of(cls, score: Score, kit: Kit, figure: Figure, hold: Hold, limb: Limb, events: HandEvents) -> "HandPart":
@@ -80,7 +82,8 @@ class HandPart:
         wrists = np.array([lie.wrist for lie in lies])[which]
         bump = np.zeros((len(contacts) - 1, DETOUR))
         bump[:, 2] = lifts(kit, contacts, played)
-        return cls(limb, hold, events, lies, which, wrists, plan, contacts, bump, left_at_once[:-1])
+        show = lie_of(kit, figure, hold, Strike(Piece.SNARE, Zone.HEAD, SHOW, limb)).contact
+        return cls(limb, hold, events, lies, which, wrists, plan, contacts, bump, left_at_once[:-1], show)
 
     @cached_property
     def way(self) -> Way:

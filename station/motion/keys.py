@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Piece, word
-from station.motion import body, frame
-from station.motion.flourish import Flourishes
+from station.motion import body
+from station.motion.arm import Contact
+from station.motion.flourish import Flourishes, Now, flourished
 from station.motion.frame import HandNow, Rig
 from station.motion.hand import HandPart
 from station.motion.instruments import Instrument
@@ -33,27 +34,27 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class HandKeys:
-    """One hand's way, strokes and flourishes."""
+    """One hand's way, strokes and flourishes, and where it shows these."""
 
     way: Way
     strokes: Strokes
     flourishes: Flourishes | None
+    show: Contact
 
-    def at(self, time_s: float) -> tuple[HandNow, float | None]:
-        """The contact and the stroke, and how high a tossed stick is over the hand, None where nothing is tossed."""
+    def at(self, time_s: float) -> tuple[HandNow, Now | None]:
+        """The contact and the stroke, and what the stick does of its own, None where there are no flourishes."""
         now = self.way.at(time_s), self.strokes.at(time_s)
-        return (now, None) if self.flourishes is None else _flourished(now, self.flourishes.at(time_s))
+        return (now, None) if self.flourishes is None else self._raised(now, self.flourishes.at(time_s))
 
-    def many(self, time_s: Array) -> tuple[HandNow, Array | None]:
+    def many(self, time_s: Array) -> tuple[HandNow, Now | None]:
         """The same at each time."""
         now = self.way.many(time_s), self.strokes.many(time_s)
-        return (now, None) if self.flourishes is None else _flourished(now, self.flourishes.many(time_s))
+        return (now, None) if self.flourishes is None else self._raised(now, self.flourishes.many(time_s))
 
-
-def _flourished(now: HandNow, flourish: tuple[Number, Number, Number]) -> tuple[HandNow, Number]:
-    (x, y, z, *lie), (*arm, stick) = now
-    lift, turn, toss = flourish
-    return ((x, y, z + lift, *lie), (*arm, stick + turn)), toss
+    def _raised(self, now: HandNow, flourish: Now) -> tuple[HandNow, Now]:
+        contact, offsets = now
+        to = flourish.raised
+        return (tuple([c + to * (s - c) for c, s in zip(contact, self.show, strict=True)]), offsets), flourish
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,11 +103,11 @@ class Keys:
         bearing, pitch = self.gaze.at(time_s)
         shrug += breath * BREATH_M * math.sin(BREATH_RATE * time_s)
         nod, tilt = self.head.at(time_s)
-        (right, right_toss), (left, left_toss) = self.hands[0].at(time_s), self.hands[1].at(time_s)
+        (right, right_spin), (left, left_spin) = self.hands[0].at(time_s), self.hands[1].at(time_s)
         boards = self.feet[0].first(time_s), self.feet[1].first(time_s)
         look = gaze * bearing, gaze * pitch
         now = (twist, lean, side, shrug, wing, stand, *look, nod, tilt, self.blinks.at(time_s))
-        return _tossed(self.rig.row(ONE, now, right, left, boards), right_toss, left_toss)
+        return flourished(ONE, self.rig.row(ONE, now, right, left, boards), right_spin, left_spin)
 
     def many(self, time_s: Array) -> list[Number]:
         """The same at each time (n,): numbers and arrays (n,)."""
@@ -114,20 +115,11 @@ class Keys:
         bearing, pitch = self.gaze.many(time_s)
         shrug = shrug + breath * BREATH_M * np.sin(BREATH_RATE * time_s)
         nod, tilt = self.head.many(time_s)
-        (right, right_toss), (left, left_toss) = self.hands[0].many(time_s), self.hands[1].many(time_s)
+        (right, right_spin), (left, left_spin) = self.hands[0].many(time_s), self.hands[1].many(time_s)
         boards = self.feet[0].many(time_s)[0], self.feet[1].many(time_s)[0]
         look = gaze * bearing, gaze * pitch
         now = (twist, lean, side, shrug, wing, stand, *look, nod, tilt, self.blinks.many(time_s))
-        return _tossed(self.rig.row(MANY, now, right, left, boards), right_toss, left_toss)
-
-
-def _tossed(row: list[Number], *toss_m: Number | None) -> list[Number]:
-    """`row` with the right and the left stick so high over their hands; None where nothing is tossed."""
-    for side, high in enumerate(toss_m):
-        if high is not None:
-            for part in (frame.BUTT, frame.TIP):
-                row[part.start + 3 * side + 2] = row[part.start + 3 * side + 2] + high
-    return row
+        return flourished(MANY, self.rig.row(MANY, now, right, left, boards), right_spin, left_spin)
 
 
 READS: Mapping[str, tuple[str, ...]] = MappingProxyType(
@@ -175,13 +167,13 @@ def _hand(plan: Plan, part: HandPart, style: Style, old: HandKeys | None, same: 
     strokes = (
         old.strokes if old and "strokes" in same else Strokes.of(part.strokes, sliders(plan.score, part, style, bars))
     )
-    return HandKeys(
-        part.way, strokes, old.flourishes if old and "flourishes" in same else _flourishes(part, style, bars)
-    )
+    flourishes = old.flourishes if old and "flourishes" in same else _flourishes(part, style, bars)
+    return HandKeys(part.way, strokes, flourishes, part.show)
 
 
 def _flourishes(part: HandPart, style: Style, bars: Array) -> Flourishes | None:
-    likely = style.value("flourish", bars) / 100
+    at_home = part.events.key[:, 0] == Piece.SNARE  # elsewhere a raised hand has its wrist bent too far
+    likely = style.value("flourish", bars) / 100 * at_home
     flourishes = Flourishes.of(part.events.time_s, likely, style.seed + int(part.limb)) if likely.any() else None
     return flourishes if flourishes is not None and flourishes.start_s else None
 
