@@ -100,7 +100,9 @@ def _buzz_rolls(craft: Table) -> Iterator[str]:
         return
     words = [f"Buzz rolls: {buzz['continuous']} of {buzz['judged']} without a hole"]
     words += [f"they end {_side(buzz['end_ms']['mean'], 'early', 'late')}"] if _sure(buzz["end_ms"], LEAST_MS) else []
-    words += [f"their end is {_db(buzz['shape_db']['mean'])}"] if _sure(buzz["shape_db"], 1.0) else []
+    if _sure(buzz["shape_db"], 1.0):
+        shape = buzz["shape_db"]["mean"]
+        words.append(f"they {'fade' if shape < 0 else 'grow'} by {abs(shape):.0f} dB")
     yield ", ".join(words)
 
 
@@ -121,12 +123,15 @@ def _cymbals(craft: Table) -> Iterator[str]:
         yield f"Grabbed cymbals: {chokes['made']} of {chokes['judged']}{late}"
 
 
+_CLASSES = {"ghost": "ghost notes", "normal": "plain strokes", "accent": "accents"}
+
+
 def _shades(craft: Table) -> Iterator[str]:
     if (shades := craft["shades"]) is None:
         return
     for one in shades["contrasts"]:
         if one["ci"] is not None:
-            loud, soft = f"{one['loud']}s", f"{one['soft']} strokes"
+            loud, soft = (_CLASSES[one[which]] for which in ("loud", "soft"))
             heard = f"{one['played_db']:+.1f} dB, written {one['written_db']:+.1f}"
             yield f"{_name(one['piece']).capitalize()}, {loud} against {soft}: {heard}"
     if shades["evenness_db"]["ci"] is not None:
