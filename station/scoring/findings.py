@@ -18,10 +18,10 @@ from station.music.judgement import Label
 from station.scoring.alignment import Reference
 from station.scoring.craft.untold import Untold
 from station.scoring.habits import CHANCE
-from station.scoring.points import FREE_LEAN_MS, FREE_SWING
+from station.scoring.points import FREE_LEAN_MS, FREE_SWING, ratio_of_place
 from station.scoring.regression import CONSTANT, Effect
 from station.scoring.summary import Summary
-from station.scoring.timing import asynchrony_ms, t_quantile_95, timed_notes
+from station.scoring.timing import asynchrony_ms, timed_notes
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -125,17 +125,12 @@ def _habits(summary: Summary) -> list[Finding]:
         if effect is not None and effect.value * kind.sign > kind.free and _is_sure(effect):
             bars = _bars_of_habit(summary, kind)
             severity = abs(effect.value) / kind.clear
-            found.append(Finding(kind.fault, "", effect.value, _interval(effect), kind.unit, severity, bars))
+            found.append(Finding(kind.fault, "", effect.value, effect.ci, kind.unit, severity, bars))
     return found
 
 
 def _is_sure(effect: Effect) -> bool:
     return effect.slots >= MIN_SLOTS and abs(effect.value) > CHANCE * effect.error
-
-
-def _interval(effect: Effect) -> tuple[float, float]:
-    half = t_quantile_95(effect.slots - 1.0) * effect.error
-    return effect.value - half, effect.value + half
 
 
 def _bars_of_habit(summary: Summary, kind: Kind) -> tuple[int, ...]:
@@ -155,23 +150,18 @@ def _swing(summary: Summary) -> list[Finding]:
     if effect is None or not flags.any() or not _is_sure(effect):
         return []
     written = float(np.median(places[flags]))
-    held, low, high = (_ratio(written + effect.value + k * effect.error) for k in (0.0, -_Z_95, _Z_95))
+    held, low, high = (ratio_of_place(written + effect.value + k * effect.error) for k in (0.0, -_Z_95, _Z_95))
     if FREE_SWING[0] <= held <= FREE_SWING[1]:
         return []
     fault = "straight_swing" if held < FREE_SWING[0] else "hard_swing"
     bars = tuple(worst_bars(summary, np.ones(int(flags.sum())), flags))
-    asked = _ratio(written)
+    asked = ratio_of_place(written)
     severity = abs(held - asked) / _CLEAR_SWING
     return [
         Finding(
             fault, f"{held:.1f}:1 for {asked:.1f}:1", held - asked, (low - asked, high - asked), "ratio", severity, bars
         )
     ]
-
-
-def _ratio(place: float) -> float:
-    inside = min(max(place, 0.05), 0.95)
-    return inside / (1 - inside)
 
 
 def _leans(summary: Summary) -> list[Finding]:
@@ -188,7 +178,7 @@ def _leans(summary: Summary) -> list[Finding]:
                 fault,
                 piece.replace("_", " "),
                 effect.value,
-                _interval(effect),
+                effect.ci,
                 "ms",
                 abs(effect.value) / _CLEAR_MS,
                 bars,
@@ -212,7 +202,7 @@ def _common_lean(summary: Summary) -> list[Finding]:
     side = np.sign(effect.value)
     bars = tuple(worst_bars(summary, off * side - (off * side).min(), timed))
     fault = "late" if effect.value > 0 else "early"
-    return [Finding(fault, "", effect.value, _interval(effect), "ms", abs(effect.value) / _CLEAR_BIAS_MS, bars)]
+    return [Finding(fault, "", effect.value, effect.ci, "ms", abs(effect.value) / _CLEAR_BIAS_MS, bars)]
 
 
 def _unsteady(summary: Summary) -> list[Finding]:

@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.scoring.drift import robust_sd
+from station.scoring.timing import t_quantile_95
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -48,6 +49,12 @@ class Effect:
     value: float
     error: float
     slots: int
+
+    @property
+    def ci(self) -> tuple[float, float]:
+        """The 95 % interval, by Student's t over the slots."""
+        half = t_quantile_95(self.slots - 1.0) * self.error
+        return self.value - half, self.value + half
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,10 +5,11 @@ import pytest
 from station.drills.library import find_lesson, lesson_names
 from station.music.judgement import Label
 from station.practice.plan import Wishes, plan_practice
+from station.practice.report import feel_of
 from station.practice.student_spec import parse_spec
 from station.practice.virtual_student import play
 from station.scoring.align import align
-from station.scoring.summary import summarise
+from station.scoring.summary import View, summarise
 
 SPEC = "seed={seed},sd_ms=12,bias_ms=-8,miss_pct=3,extra_pct=2"
 
@@ -25,3 +26,15 @@ def test_counts_and_timing_are_the_truth(lesson: str) -> None:
         told, true_ms = summarise(score, student.performance, alignment).timing, student.asynchrony_ms()
         assert told.mean_ms == pytest.approx(float(true_ms.mean()), abs=1.0)
         assert told.sd_ms == pytest.approx(float(true_ms.std(ddof=1)), abs=1.0)
+
+
+@pytest.mark.parametrize("lesson", lesson_names())
+def test_who_plays_exactly_what_is_written_has_100(lesson: str) -> None:
+    """Openness, grabbed cymbals and grace strokes among it, as a General MIDI kit tells them."""
+    found = find_lesson(lesson)
+    score = plan_practice(found, Wishes(loops=1)).score
+    student = play(score, parse_spec("seed=1,sd_ms=0,velocity_sd=0"))
+    alignment = align(score, student.performance, clocked=True)
+    assert summarise(score, student.performance, alignment, View(feel=feel_of(found.goals))).points == pytest.approx(
+        100
+    )

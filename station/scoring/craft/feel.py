@@ -15,8 +15,7 @@ from station.scoring.alignment import Alignment
 from station.scoring.craft.figures import Figure, difference, figure
 from station.scoring.habits import FEET, Habits
 from station.scoring.points import Feel, free_ms, ratio_of_place
-from station.scoring.regression import Effect
-from station.scoring.timing import asynchrony_ms, t_quantile_95, timed_notes
+from station.scoring.timing import asynchrony_ms, timed_notes
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +65,7 @@ def leans(found: Habits, feel: Feel) -> tuple[Lean, ...]:
     names = {f"lean_{word(piece)}": piece for piece in Piece} | {name: piece for piece, name in FEET.items()}
     told = [(names[name], effect) for name, effect in found.effects.items() if name in names]
     return tuple(
-        Lean(piece, effect.value, _interval(effect), abs(effect.value) <= feel.lean_ms)
+        Lean(piece, effect.value, effect.ci, abs(effect.value) <= feel.lean_ms)
         for piece, effect in told
         if effect.slots > _FEWEST
     )
@@ -79,7 +78,7 @@ def swing(score: Score, alignment: Alignment, found: Habits, feel: Feel) -> Swin
     if effect is None or effect.slots <= _FEWEST or not flags.any():
         return None
     written = float(np.median(places[flags]))
-    low, high = _interval(effect)
+    low, high = effect.ci
     held = ratio_of_place(written + effect.value)
     told = flags & timed_notes(score, alignment)
     off = (asynchrony_ms(alignment) - free_ms(score, alignment, feel))[told]
@@ -90,8 +89,3 @@ def swing(score: Score, alignment: Alignment, found: Habits, feel: Feel) -> Swin
 
 _FEWEST = 3
 """Slots: fewer have no interval."""
-
-
-def _interval(effect: Effect) -> tuple[float, float]:
-    half = t_quantile_95(effect.slots - 1.0) * effect.error
-    return effect.value - half, effect.value + half

@@ -21,7 +21,7 @@ from station.scoring.alignment import Alignment
 from station.scoring.craft.figures import Figure, Scatter, difference, figure, scatter
 from station.scoring.dynamics import judged_notes, level_db
 from station.scoring.regression import Effect
-from station.scoring.timing import MIN_SLOTS, spread, t_quantile_95
+from station.scoring.timing import MIN_SLOTS, spread
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -101,8 +101,7 @@ def shades(score: Score, performance: Performance, alignment: Alignment, hands: 
 def _balance(hands: Effect | None) -> Balance | None:
     if hands is None or hands.slots <= MIN_SLOTS:
         return None
-    half = t_quantile_95(hands.slots - 1.0) * hands.error
-    return Balance(hands.value, (hands.value - half, hands.value + half), hands.slots)
+    return Balance(hands.value, hands.ci, hands.slots)
 
 
 def _own(score: Score, level: Floats, heard: Flags) -> dict[Piece, dict[Dynamic, Figure]]:
