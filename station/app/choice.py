@@ -21,11 +21,12 @@ class Choice:
         self.card: LessonCard | None = None
         self.tempo_bpm = 100.0
         self.loops = 4
+        self.adapt = True
         if self._lessons:
             named = [card for card in self._lessons if first is not None and card.name == first.lesson]
             self.choose(named[0] if named else self._lessons[0])
             if first is not None and named:
-                self.tempo_bpm, self.loops = first.tempo_bpm, first.loops
+                self.tempo_bpm, self.loops, self.adapt = first.tempo_bpm, first.loops, first.adapt
 
     def choose(self, card: LessonCard) -> None:
         """Take a lesson at the tempo and with the passes that its author wants."""
@@ -40,7 +41,7 @@ class Choice:
         """What to start; None where there is no lesson."""
         if self.card is None:
             return None
-        wish = Start(self.card.name, float(self.tempo_bpm), self.loops)
+        wish = Start(self.card.name, float(self.tempo_bpm), self.loops, adapt=self.adapt)
         if self._first is not None and self._first.lesson == self.card.name:
             return replace(wish, bars=self._first.bars, demonstrations=self._first.demonstrations)
         return wish

@@ -33,13 +33,17 @@ class LessonCard:
 
 @dataclass(frozen=True, slots=True)
 class Start:
-    """What the user chose: a lesson by name, quarter notes a minute, passes, bars from 1 (None: the lesson's)."""
+    """What the user chose: a lesson by name, quarter notes a minute, passes, bars from 1 (None: the lesson's).
+
+    With `adapt` the tempo follows the student from pass to pass, and `tempo_bpm` says nothing.
+    """
 
     lesson: str
     tempo_bpm: float
     loops: int
     bars: tuple[int, int] | None = None
     demonstrations: int | None = None
+    adapt: bool = False
 
 
 class Stage(IntEnum):
@@ -54,7 +58,8 @@ class Stage(IntEnum):
 class RoomState:
     """What surrounds the picture: `stage`, the kit and the sound in words, `notices` newest last, `progress` 0–1.
 
-    `progress` None while nothing plays.
+    `progress` None while nothing plays. `why` is the reason for the pass that is counted in, and `can_veto` whether the
+    student may still refuse it.
     """
 
     stage: Stage = Stage.IDLE
@@ -62,6 +67,8 @@ class RoomState:
     sound: str = ""
     notices: tuple[str, ...] = ()
     progress: float | None = None
+    why: str = ""
+    can_veto: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,6 +105,10 @@ class PracticeModel(Protocol):
 
     def start(self, wish: Start) -> None:
         """Begin a session; raises `StationError`."""
+        ...
+
+    def veto(self) -> None:
+        """Refuse what the next pass would change: it is as the last one was."""
         ...
 
     def stop(self) -> None:

@@ -16,6 +16,8 @@ from station.app.model import LessonCard, RoomState, Stage
 from station.render.camera import VIEW_NAMES, View
 
 START_LABEL = "Start##start"
+ADAPT_LABEL = "the tempo follows me"
+VETO_LABEL = "As it was##veto"
 STOP_LABEL = "Stop##stop"
 AGAIN_LABEL = "Once more##again"
 BACK_LABEL = "Back to the lessons##back"
@@ -77,17 +79,24 @@ class LessonsPanel:
         theme.soft(f"{card.bars} bars · {card.meter} · {card.tempo_bpm:g} bpm{author}")
         if card.about:
             theme.soft(card.about)
-        low = min(MIN_TEMPO_BPM, int(card.tempo_bpm))
-        high = max(MAX_TEMPO_BPM, int(card.tempo_bpm) + 1)
-        imgui.set_next_item_width(-theme.points(84))
-        _, choice.tempo_bpm = imgui.slider_float("tempo", choice.tempo_bpm, low, high, "%.0f bpm")
-        tooltip("How fast to practise; the lesson's own tempo is set when you choose it. Ctrl+click to type")
+        _, choice.adapt = imgui.checkbox(ADAPT_LABEL, choice.adapt)
+        tooltip("Each pass begins where the last one led: faster when it is clean, slower when it is not, and says why")
+        if not choice.adapt:
+            self._tempo(card)
         imgui.set_next_item_width(-theme.points(84))
         _, choice.loops = imgui.slider_int("passes", choice.loops, 1, MAX_LOOPS)
         tooltip("How often the loop is played")
         if theme.main_button(START_LABEL, (-1, theme.points(46))):
             self._start()
         tooltip("Count-in, demonstration, then you (Enter)")
+
+    def _tempo(self, card: LessonCard) -> None:
+        choice = self._choice
+        low = min(MIN_TEMPO_BPM, int(card.tempo_bpm))
+        high = max(MAX_TEMPO_BPM, int(card.tempo_bpm) + 1)
+        imgui.set_next_item_width(-theme.points(84))
+        _, choice.tempo_bpm = imgui.slider_float("tempo", choice.tempo_bpm, low, high, "%.0f bpm")
+        tooltip("How fast to practise; the lesson's own tempo is set when you choose it. Ctrl+click to type")
 
 
 _RIGHT_PART = 330
@@ -106,6 +115,11 @@ def transport_bar(room: RoomState, look: Look, actions: "dict[str, Callable[[], 
         if imgui.button(STOP_LABEL, imgui.ImVec2(theme.points(96), height)):
             actions["stop"]()
         tooltip("End the session here; what was played is kept (Esc)")
+        if room.can_veto:
+            imgui.same_line()
+            if imgui.button(VETO_LABEL, imgui.ImVec2(theme.points(110), height)):
+                actions["veto"]()
+            tooltip(f"{room.why} Press to play the last pass once more instead")
     elif room.stage is Stage.RESULT:
         if theme.main_button(AGAIN_LABEL, (theme.points(150), height)):
             actions["again"]()

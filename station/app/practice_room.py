@@ -6,6 +6,8 @@ it when it is over. The hits carry their own times, so that the frame rate decid
 
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from dataclasses import replace
+from datetime import date
 
 from station.app.model import LessonCard, Report, RoomState, Stage, Start
 from station.app.results import session_facts
@@ -18,11 +20,16 @@ from station.core.units import ns_from_ms
 from station.drills.lesson import LEVELS, Lesson
 from station.drills.library import find_lesson, shipped_lessons
 from station.engine.messages import EngineEvent, KeyHit, Notice, Ready
-from station.practice.live import EngineLink, begin, end
+from station.music.judgement import Judgement
+from station.practice.adaptation import Adaptation
+from station.practice.live import EngineLink, begin, end, next_session
+from station.practice.mastery_report import with_mastery
+from station.practice.memory import Memory, Remembered
 from station.practice.plan import Phase, Plan, Wishes, plan_practice
 from station.practice.report import practice_document
-from station.practice.session import Latency, Session
+from station.practice.session import Latency, Session, SessionResult
 from station.render.snapshot import Snapshot
+from station.scoring.document import Json
 
 NOTICES_KEPT = 5
 """How many notices the window may show at once; our choice."""
@@ -37,12 +44,14 @@ class PracticeRoom:
     `wake` starts an engine: once now, and again when a session is begun after one has died.
     """
 
-    def __init__(self, wake: WakeEngine, settings: Settings, first: Plan) -> None:
+    def __init__(self, wake: WakeEngine, settings: Settings, first: Plan, adapt: bool = False) -> None:
         self._wake = wake
         self._engine = wake()
         self._settings = settings
         self._lessons = _all_lessons(first.lesson)
-        self._first = _wish_of(first)
+        self._first = replace(_wish_of(first), adapt=adapt)
+        self._followed: Remembered | None = None
+        self._taken: Session | None = None
         self._plan = first
         self._view = SessionView(first, first.lesson.kit)
         self._session = self._new_session(first)
@@ -62,9 +71,9 @@ class PracticeRoom:
         for event in self._heard():
             self._take(event, now_ns)
         if self._stage is Stage.PLAYING:
-            self._view.judged(self._session.advance(now_ns), now_ns, self._session.windows)
+            self._judged(self._session.advance(now_ns), now_ns)
             if self._session.over:
-                self._finish()
+                self._pass_over()
         return self._view.snapshot(self._session, now_ns)
 
     def room(self) -> RoomState:
@@ -73,7 +82,12 @@ class PracticeRoom:
         progress = None
         if self._stage is Stage.PLAYING and state.transport_ns is not None:
             progress = min(max(state.transport_ns / self._plan.end_ns, 0.0), 1.0)
-        return RoomState(self._stage, self._kit, self._sound, tuple(self._notices[-NOTICES_KEPT:]), progress)
+        adaptation = None if self._followed is None or self._stage is not Stage.PLAYING else self._followed.adaptation
+        if adaptation is not None and progress is not None:
+            progress = (len(adaptation.rounds) + progress) / adaptation.loops
+        can_veto = adaptation is not None and bool(adaptation.rounds) and state.segment.phase is Phase.COUNT_IN
+        notices = tuple(self._notices[-NOTICES_KEPT:])
+        return RoomState(self._stage, self._kit, self._sound, notices, progress, self._session.message, can_veto)
 
     def lessons(self) -> Sequence[LessonCard]:
         """Every shipped lesson, and the one that was named when the window was opened."""
@@ -92,24 +106,31 @@ class PracticeRoom:
     def preview(self, wish: Start) -> None:
         """Show the chosen lesson, ready to begin; raises `StationError`."""
         if self._stage is Stage.IDLE:
-            self._plan, self._view = self._laid_out(wish)
+            self._plan, self._view, _ = self._laid_out(wish)
             self._session = self._new_session(self._plan)
 
     def start(self, wish: Start) -> None:
         """Begin a session, ending the one that runs; wakes a new engine if the old has ended. Raises `StationError`."""
-        plan, view = self._laid_out(wish)
+        plan, view, followed = self._laid_out(wish)
         if self._stage is Stage.PLAYING:
             self.stop()
         if not self._alive:
             self._engine, self._alive = self._wake(), True
-        folder, session = SessionFolder(None, self._settings, plan), self._new_session(plan)
+        folder = SessionFolder(None, self._settings, plan)
+        session = self._new_session(plan) if followed is None else followed.adaptation.session(self._latency())
         try:
             begin(self._engine, session, folder.capture)
         except StationError:
             folder.discard()
             raise
         self._plan, self._view, self._session, self._folder = plan, view, session, folder
-        self._stage = Stage.PLAYING
+        self._followed, self._stage = followed, Stage.PLAYING
+
+    def veto(self) -> None:
+        """Refuse what the next pass would change, while it is counted in: the last one once more."""
+        if self._followed is not None and self.room().can_veto:
+            self._followed.adaptation.veto()
+            self._next_pass(self._followed.adaptation)
 
     def stop(self) -> None:
         """End the session early; what was played is judged and kept."""
@@ -137,14 +158,54 @@ class PracticeRoom:
 
     # --- inside ------------------------------------------------------------------------------------------------------
 
-    def _laid_out(self, wish: Start) -> tuple[Plan, SessionView]:
+    def _laid_out(self, wish: Start) -> tuple[Plan, SessionView, Remembered | None]:
         lesson = self._lessons.get(wish.lesson) or find_lesson(wish.lesson)
-        plan = plan_practice(lesson, Wishes(wish.tempo_bpm, wish.loops, wish.bars, wish.demonstrations))
-        return plan, SessionView(plan, lesson.kit)
+        tempo_bpm = None if wish.adapt else wish.tempo_bpm
+        wishes = Wishes(tempo_bpm, wish.loops, wish.bars, wish.demonstrations)
+        plan, followed = plan_practice(lesson, wishes), None
+        if wish.adapt:
+            settings = self._settings
+            memory = Memory.of(settings.sessions_dir, settings.student, lesson.name, plan.bars)
+            followed = Remembered.of(lesson, wishes, date.today(), memory)
+            plan = followed.adaptation.plan
+            if followed.fault is not None:
+                self._notices.append(followed.fault)
+        return plan, SessionView(plan, lesson.kit), followed
+
+    def _latency(self) -> Latency:
+        settings = self._settings
+        return Latency(ns_from_ms(settings.input_latency_ms), ns_from_ms(settings.output_latency_ms))
 
     def _new_session(self, plan: Plan) -> Session:
-        settings = self._settings
-        return Session(plan, Latency(ns_from_ms(settings.input_latency_ms), ns_from_ms(settings.output_latency_ms)))
+        return Session(plan, self._latency())
+
+    def _judged(self, verdicts: tuple[Judgement, ...], now_ns: int) -> None:
+        """Show what the student is to see of `verdicts`."""
+        self._view.judged(self._session.told(verdicts), now_ns, self._session.windows)
+
+    def _pass_over(self) -> None:
+        """On to the next pass where the tempo follows the student and there is one, else to the result."""
+        if self._followed is not None:
+            adaptation = self._followed.adaptation
+            step = adaptation.take(self._session.result())
+            self._taken = self._session
+            if step.notice is not None:
+                self._notices.append(step.notice)
+            if not adaptation.over:
+                self._next_pass(adaptation)
+                return
+        self._finish()
+
+    def _next_pass(self, adaptation: Adaptation) -> None:
+        try:
+            self._session = next_session(self._engine, adaptation, self._session)
+        except DeviceError as fault:
+            self._alive = False
+            self._notices.append(str(fault))
+            self._finish()
+            return
+        self._plan = adaptation.plan
+        self._view = SessionView(self._plan, self._plan.lesson.kit)
 
     def _heard(self) -> list[EngineEvent]:
         if not self._alive:
@@ -162,7 +223,7 @@ class PracticeRoom:
     def _take(self, event: EngineEvent, now_ns: int) -> None:
         told = len(self._session.notices)
         verdicts = self._session.handle(event)
-        self._view.judged(verdicts, now_ns, self._session.windows)
+        self._judged(verdicts, now_ns)
         self._notices += self._session.notices[told:]
         match event:
             case DeviceFound(_, device):
@@ -184,19 +245,32 @@ class PracticeRoom:
                 self._fault = end(self._engine, self._session)
             except DeviceError as fault:
                 self._alive, self._fault = False, fault
-        result = self._session.result()
-        document = practice_document(result, self._settings)
+        result, document = self._told_whole()
         path = ""
         if self._folder is not None:
             path = str(self._folder.path)
             try:
                 self._folder.write(result, document)
+                if self._followed is not None:
+                    self._followed.keep()
             except StationError as fault:
                 self._fault = rescued(fault, result, document)
         if self._fault is not None:
             self._notices.append(str(self._fault))
         self._report = Report(session_facts(result, document), document, path)
         self._stage = Stage.RESULT
+
+    def _told_whole(self) -> tuple[SessionResult, dict[str, Json]]:
+        """The session's result and report, over all passes where there were several sessions."""
+        if self._followed is None:
+            result = self._session.result()
+            return result, practice_document(result, self._settings)
+        adaptation = self._followed.adaptation
+        if self._taken is not self._session:
+            adaptation.take(self._session.result())
+            self._taken = self._session
+        result = adaptation.result()
+        return result, with_mastery(practice_document(result, self._settings), adaptation)
 
 
 def _wish_of(plan: Plan) -> Start:

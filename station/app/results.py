@@ -17,7 +17,7 @@ def session_facts(result: SessionResult, document: dict[str, Json]) -> ResultFac
     assert isinstance(session, dict), "the report is ours"
     steps = session["next"]
     assert isinstance(steps, list), "the report is ours"
-    first, last = plan.first_bar + 1, plan.first_bar + plan.section.bar_count
+    first, last = plan.bars[0] + 1, plan.bars[1] + 1
     bars = f"bars {first}–{last}" if first != last else f"bar {first}"
     stopped = "" if result.complete else ", stopped early"
     passes = "1 pass" if plan.passes == 1 else f"{plan.passes} passes"
@@ -28,6 +28,7 @@ def session_facts(result: SessionResult, document: dict[str, Json]) -> ResultFac
         advice=tuple(map(str, steps)),
         pass_bars=plan.section.bar_count,
         first_bar=plan.first_bar,
+        starts=() if plan.rounds is None else plan.rounds.starts,
     )
     return result_facts(
         result.score,

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.units import NS_PER_MS, NS_PER_S
+from station.drills.mastery.fading import Feedback
 from station.motion.drummer import Drummer
 from station.motion.figure import Figure, figure_of
 from station.motion.kit import DEFAULT_KIT, Kit, load_kit
@@ -62,7 +63,7 @@ class SessionView:
         return _Part(score, Drummer(score, self._kit, self._figure), start_ns)
 
     def judged(self, verdicts: tuple[Judgement, ...], now_ns: int, windows: Windows) -> None:
-        """Take new judgements in; the marks that older snapshots hold stay as they were."""
+        """Take in new judgements that the student may see; the marks that older snapshots hold stay as they were."""
         if not verdicts:
             return
         self._marks = self._marks.copy()
@@ -87,9 +88,9 @@ class SessionView:
             pose=part.drummer.pose(position_s),
             limbs=part.drummer.assignment.limbs,
             marks=self._marks if part is self._passes else None,
-            extras=self._extras(session) if part is self._passes else (),
+            extras=self._extras(session) if part is self._passes and session.feedback is not Feedback.NONE else (),
             strikes=self._strikes(session, now_ns),
-            hud=self._hud(session, now_ns, message),
+            hud=self._hud(session, now_ns, message or _why(session)),
             bar_numbers=self.bar_numbers,
         )
 
@@ -144,6 +145,11 @@ class SessionView:
         per_pass = len(self.plan.section)
         labels: NDArray[np.int8] = self._marks["label"][pass_index * per_pass : (pass_index + 1) * per_pass]
         return int((labels == Label.MATCH).sum()), int((labels >= 0).sum())
+
+
+def _why(session: Session) -> str:
+    """The reason for the pass, while it is counted in."""
+    return session.message if session.state().segment.phase is not Phase.PASS else ""
 
 
 def bar_numbers(plan: Plan) -> BarNumbers:

@@ -225,6 +225,7 @@ class Window:
         actions: dict[str, Callable[[], None]] = {
             "stop": lambda: self._tried(self._model.stop),
             "again": self._start,
+            "veto": lambda: self._tried(self._model.veto),
             "back": self._model.dismiss,
         }
         self.backdrop.look_from(panels.transport_bar(self._model.room(), self.backdrop.look, actions))

@@ -28,6 +28,7 @@ from station.music.performance import Performance
 from station.music.score import Score
 from station.practice.learner import Exercise, Learner
 from station.practice.learner_kinds import LEARNERS
+from station.practice.learner_nature import HUMAN, perturbed
 from station.practice.student_limbs import limbs_of
 from station.practice.virtual_student import VirtualPerformance
 from station.scoring.alignment import Alignment, Reference
@@ -78,26 +79,33 @@ class Outcome:
     gone: bool
 
 
-def trial(tutor: str, kind: str, seed: int, schedule: Schedule = USUAL_SCHEDULE) -> Outcome:
-    """Teach one learner for the whole time, and examine it afterwards."""
-    return Trial(tutor, kind, seed, schedule).run()
+def trial(tutor: str, kind: str, seed: int, schedule: Schedule = USUAL_SCHEDULE, perturb_share: float = 0.0) -> Outcome:
+    """Teach one learner for the whole time, and examine it afterwards.
+
+    With `perturb_share` every number of the learner and of how people learn is drawn anew within that share.
+    """
+    return Trial(tutor, kind, seed, schedule, perturb_share).run()
 
 
 def repetitions(tutor: str, kind: str, seed: int) -> float:
     """Teach one learner until it reaches the criterion, and no longer."""
-    return Trial(tutor, kind, seed, USUAL_SCHEDULE).to_criterion()
+    return Trial(tutor, kind, seed).to_criterion()
 
 
 class Trial:
     """One learner, one tutor, one lesson."""
 
-    def __init__(self, tutor: str, kind: str, seed: int, schedule: Schedule) -> None:
+    def __init__(
+        self, tutor: str, kind: str, seed: int, schedule: Schedule = USUAL_SCHEDULE, perturb_share: float = 0.0
+    ) -> None:
         self._schedule = schedule
         self._lesson = LESSONS[seed % len(LESSONS)]
         self._item: Item = item_of(find_lesson(self._lesson))
         self._bars = len(self._item.bar_notes)
-        self._learner = Learner(LEARNERS[kind], seed, self._bars)
-        self._tutor: Tutor = TUTORS[tutor](self._item, seed)
+        rng = np.random.default_rng([seed, 41])
+        person, nature = perturbed(LEARNERS[kind], rng, perturb_share), perturbed(HUMAN, rng, perturb_share)
+        self._learner = Learner(person, seed, self._bars, nature)
+        self._tutor: Tutor = TUTORS[tutor](self._item, seed, self._learner)
         self._played_s, self._bars_played, self._bars_wrong = 0.0, 0, 0
         self._exams_s, self._exams_clean = schedule.exam_every_s, 0
         self._criterion: tuple[float, float] | None = None

@@ -22,6 +22,7 @@ from station.drills.mastery.steps import Item, Kind
 from station.drills.mastery.verdict import judge
 from station.music.performance import Performance
 from station.music.score import Score
+from station.practice.learner import Learner
 from station.scoring.align import align
 
 FULL_FEEDBACK = 1.0
@@ -172,17 +173,50 @@ class RandomTempo:
         """Go on."""
 
 
-TUTORS: Mapping[str, Callable[[Item, int], Tutor]] = MappingProxyType(
+@dataclass(eq=False)
+class Oracle:
+    """Knows the learner's comfortable speeds, as nobody does: the bar that is hardest now, alone, just below its own.
+
+    No policy; it says what can be reached at all in the time.
+    """
+
+    item: Item
+    learner: Learner
+
+    def __post_init__(self) -> None:
+        self.chunks: set[int] = set()
+
+    def ask(self) -> Ask | None:
+        """The hardest bar at the speed at which most is learnt of it."""
+        comfort = self.learner.comfort(PADS_FEEDBACK)
+        hardest = int(comfort.argmin())
+        self.chunks.add(hardest)
+        pct = min(TOP_PCT, round(100.0 * 2.0 ** (float(comfort[hardest]) - ORACLE_EASE_OCTAVES)))
+        bar = self.item.first_bar + hardest
+        return Ask((bar, bar), 2, pct, PADS_FEEDBACK, on_ladder=False)
+
+    def hear(self, score: Score, played: Performance, bars: tuple[int, ...]) -> None:
+        """Nothing that it did not know."""
+
+    def new_day(self, day: int) -> None:
+        """Go on."""
+
+
+ORACLE_EASE_OCTAVES = 0.1
+"""So much slower than comfortable most strokes are right, and nearly as much is learnt (`Nature.challenge_octaves`)."""
+
+TUTORS: Mapping[str, Callable[[Item, int, Learner], Tutor]] = MappingProxyType(
     {
-        "ours": lambda item, seed: Mastery(item),
-        "ours, sources only": lambda item, seed: Mastery(item, LETTER_RULES),
-        "fixed ladder": lambda item, seed: FixedLadder(item),
-        "fixed ladder, pads only": lambda item, seed: FixedLadder(item, feedback=PADS_FEEDBACK),
-        "ladder of 4": lambda item, seed: FixedLadder(item, passes_a_rung=4),
-        "ratchet": lambda item, seed: Ratchet(item),
-        "random": RandomTempo,
-        "none": lambda item, seed: FixedLadder(item, start_pct=TOP_PCT),
+        "ours": lambda item, seed, learner: Mastery(item),
+        "ours, sources only": lambda item, seed, learner: Mastery(item, LETTER_RULES),
+        "fixed ladder": lambda item, seed, learner: FixedLadder(item),
+        "fixed ladder, pads only": lambda item, seed, learner: FixedLadder(item, feedback=PADS_FEEDBACK),
+        "ladder of 4": lambda item, seed, learner: FixedLadder(item, passes_a_rung=4),
+        "ratchet": lambda item, seed, learner: Ratchet(item),
+        "random": lambda item, seed, learner: RandomTempo(item, seed),
+        "none": lambda item, seed, learner: FixedLadder(item, start_pct=TOP_PCT),
+        "oracle": lambda item, seed, learner: Oracle(item, learner),
     }
 )
-"""Policies by name: a tutor for an item and a seed. The fixed ladder stays on a rung for eight passes, which is what a
-lesson plays by default; none is the target tempo from the start."""
+"""Policies by name: a tutor for an item, a seed and a learner, into which only the oracle looks. The fixed ladder stays
+on a rung for eight passes, which is what a lesson plays by default; none is the target tempo from the start."""

@@ -8,10 +8,11 @@ from station.core.errors import DeviceError, StationError
 from station.devices.presets import GENERAL_MIDI_PRESET
 from station.engine.engine import Engine
 from station.engine.messages import Command, Record
+from station.practice.adaptation import Adaptation
 from station.practice.plan import TAIL_NS, Plan
 from station.practice.session import LEAD_IN_NS, Session, SessionResult
 from station.practice.student_spec import StudentSpec
-from station.practice.virtual_student import VirtualPerformance, play
+from station.practice.virtual_student import VirtualPerformance, VirtualStudent, joined, play
 
 DEVICE = "virtual student"
 
@@ -31,33 +32,62 @@ def practise_virtually(plan: Plan, spec: StudentSpec, capture: Path | None = Non
     Raises `BadInput` where the lesson asks for a piece that General MIDI has no number for, `DeviceError` where the
     capture cannot be begun.
     """
-    student = play(plan.score, spec)
-    session, engine, clock = Session(plan), Engine(), ManualClock()
+    student, room = play(plan.score, spec), _Room()
+    result = room.practise(plan, student, capture)
+    return VirtualSession(result, student, room.end())
 
-    def step(now_ns: int) -> None:
-        clock.advance_to(max(now_ns, clock.now_ns()))
-        for event in engine.advance(clock.now_ns()):
-            session.handle(event)
-        session.advance(clock.now_ns())
 
-    step(0)
-    engine.use_preset(DEVICE, GENERAL_MIDI_PRESET)
-    engine.device_found(DEVICE, clock.now_ns())
-    commands: tuple[Command, ...] = session.start()
-    if capture is not None:
-        commands = (Record(capture), *commands)
-    for command in commands:
-        engine.handle(command)
-    step(LEAD_IN_NS)
-    if session.capture_fault is not None:
-        raise DeviceError(session.capture_fault)
-    zero_ns = LEAD_IN_NS
-    for at_ns, data in student.midi:
-        now_ns = zero_ns + plan.passes_start_ns + at_ns
-        engine.feed(DEVICE, data, now_ns)
-        step(now_ns)
-    step(zero_ns + plan.end_ns + TAIL_NS)
-    engine.handle(Record(None))
-    step(clock.now_ns())
-    fault = None if session.capture_fault is None else DeviceError(session.capture_fault)
-    return VirtualSession(session.result(), student, fault)
+def practise_adaptively(adaptation: Adaptation, spec: StudentSpec, capture: Path | None = None) -> VirtualSession:
+    """Let a virtual student practise, pass by pass, what `adaptation` asks for; raises as `practise_virtually` does."""
+    student, room, parts = VirtualStudent(spec), _Room(), list[VirtualPerformance]()
+    while not adaptation.over:
+        plan = adaptation.plan
+        parts.append(student.play(plan.score))
+        adaptation.take(room.practise(plan, parts[-1], capture if len(parts) == 1 else None))
+    row = adaptation.row()
+    performance = row.performance(part.performance for part in parts)
+    return VirtualSession(adaptation.result(), joined(parts, row.score, performance), room.end())
+
+
+class _Room:
+    """One engine on one clock, for one plan after the other."""
+
+    def __init__(self) -> None:
+        self._engine, self._clock = Engine(), ManualClock()
+        self._session: Session | None = None
+        self._step(0)
+        self._engine.use_preset(DEVICE, GENERAL_MIDI_PRESET)
+        self._engine.device_found(DEVICE, self._clock.now_ns())
+
+    def practise(self, plan: Plan, student: VirtualPerformance, capture: Path | None) -> SessionResult:
+        """What the session makes of `plan` as the student played it; the capture begins before it."""
+        session = self._session = Session(plan)
+        commands: tuple[Command, ...] = session.start()
+        for command in commands if capture is None else (Record(capture), *commands):
+            self._engine.handle(command)
+        zero_ns = self._clock.now_ns() + LEAD_IN_NS
+        self._step(zero_ns)
+        if session.capture_fault is not None:
+            raise DeviceError(session.capture_fault)
+        for at_ns, data in student.midi:
+            now_ns = zero_ns + plan.passes_start_ns + at_ns
+            self._engine.feed(DEVICE, data, now_ns)
+            self._step(now_ns)
+        self._step(zero_ns + plan.end_ns + TAIL_NS)
+        return session.result()
+
+    def end(self) -> StationError | None:
+        """Close the capture; returns why it lacks some of what was played, if it does."""
+        assert self._session is not None, "something was practised"
+        self._engine.handle(Record(None))
+        self._step(self._clock.now_ns())
+        fault = self._session.capture_fault
+        return None if fault is None else DeviceError(fault)
+
+    def _step(self, now_ns: int) -> None:
+        self._clock.advance_to(max(now_ns, self._clock.now_ns()))
+        for event in self._engine.advance(self._clock.now_ns()):
+            if self._session is not None:
+                self._session.handle(event)
+        if self._session is not None:
+            self._session.advance(self._clock.now_ns())

@@ -27,6 +27,7 @@ from station.core.units import NS_PER_MS, s_from_ns
 from station.music.judgement import Label
 from station.music.score import Score
 from station.practice.learner_kinds import LearnerKind
+from station.practice.learner_nature import HUMAN, Nature
 from station.practice.student_form import SMALLEST_SD_MS, Form, usual_wait_ms
 from station.practice.student_limbs import limbs_of
 from station.practice.student_spec import StudentSpec
@@ -34,49 +35,15 @@ from station.practice.virtual_student import VirtualPerformance, VirtualStudent
 
 Floats = NDArray[np.float64]
 
-# --- all numbers below are our choice; each line names the effect that it stands for ---
-
-STEEPNESS = 8.0
-"""An overload of 1/8 octave (9 % too fast) multiplies the odds of a lapse by e."""
-SPREAD_PER_OCTAVE = 3.0
-"""At twice the comfortable speed the spread, in shares of the interval, is about four times as large."""
-COMFORT_ODDS = 2.0
-"""At the comfortable speed a lapse has odds of e^−2 of what it has when far too fast, …"""
-WORST_LAPSE, WORST_CONFUSION = 0.40, 0.15
-"""… where these shares of the strokes go wrong."""
-
-FAST_GAIN, FAST_KEPT = 0.010, 0.985
-SLOW_GAIN, SLOW_KEPT = 0.012, 0.9995
-"""A pass at the best speed adds these shares of what is left to learn; so much stays from pass to pass."""
-CHALLENGE_OCTAVES = 0.35
-"""Passes so much faster or slower than comfortable teach 1/e of it."""
-FAST_LIFE_S = 20 * 60.0
-SLOW_LIFE_S = 14 * 86_400.0
-"""The memories fade by e in this time of rest."""
-SPACING_S, SPACING_GROWTH = 86_400.0, 1.7
-"""After a gap of a day the slow memory's life grows so many times (TEACHING: gains only after 24 h gaps)."""
-
-HABIT_GAIN, HABIT_WORN_OFF, WORST_HABIT = 0.05, 0.03, 0.30
-"""An all wrong pass adds so much chance of a lapse, an all right one takes so much off; the last is the worst."""
-LIMB_GAIN = 0.03
-"""A right pass takes this share off each limb's own lapses and confusions, and with feedback off its lean."""
-
-FEEDBACK_HELP_OCTAVES = 0.12
-"""Feedback lets a student play so much faster; once used to it, missing it costs as much."""
-FEEDBACK_TO_FAST, FEEDBACK_FROM_SLOW = 0.5, 0.4
-"""With feedback on every stroke the fast memory learns so much more, the slow one so much less."""
-HABITUATION = 0.04
-"""A pass makes a student used to its share of feedback by this much."""
-
-TIRING_S = 40 * 60.0
-RECOVERY_S = 10 * 60.0
-FATIGUE_OCTAVES = 0.30
-"""Playing tires by e in the first, rest restores in the second, and who is exhausted is so much slower."""
-
 RIGHT_WITHIN_MS = 40.0
-"""A stroke further from where the student means to play is a wrong repetition (HUMANS: a clear fault beyond 40 ms)."""
+RIGHT_WITHIN_INTERVALS = 0.2
+"""A stroke further than both from where the student means to play is a wrong repetition: HUMANS calls 40 ms a clear
+fault, but long waits are hard to keep (the spread grows with them), and a novice's wide stroke in a slow beat is no
+bad habit. The share is our choice: two fifths of the way to where it would be another stroke."""
 BAD_PASS = 0.75
-"""A quitter counts a pass with fewer right strokes as bad."""
+"""A quitter counts a pass with fewer right strokes as bad; our choice."""
+SPACING_S = 86_400.0
+"""Gains last longer only after gaps of a day (TEACHING: Simmons 2012)."""
 
 _LIMBS = 4
 
@@ -98,8 +65,9 @@ class Exercise:
 class Learner:
     """One learner and one lesson of `bar_count` bars."""
 
-    def __init__(self, kind: LearnerKind, seed: int, bar_count: int) -> None:
+    def __init__(self, kind: LearnerKind, seed: int, bar_count: int, nature: Nature = HUMAN) -> None:
         self.kind = kind
+        self._nature = nature
         rng = np.random.default_rng([seed, 99])
         weak = rng.permutation(bar_count) < round(kind.weak_share * bar_count)
         self.weak_bars: tuple[int, ...] = tuple(np.flatnonzero(weak).tolist())
@@ -109,7 +77,7 @@ class Learner:
         self._bias_ms: Floats = kind.bias_ms + kind.lean_ms * rng.standard_normal(_LIMBS)
         self._lapse, self._confusion = np.full(_LIMBS, kind.lapse), np.full(_LIMBS, kind.confusion)
         self._fatigue, self._dependence = 0.0, 0.0
-        self._slow_life_s = SLOW_LIFE_S
+        self._slow_life_s = nature.slow_life_s
         self._bad_passes = 0
         self._student = VirtualStudent(StudentSpec(seed=seed))
 
@@ -124,8 +92,8 @@ class Learner:
         """The comfortable speed of each bar of the lesson now, in octaves of the target tempo."""
         ceiling = math.log2(self.kind.ceiling_speed)
         learnt = np.minimum(self._brought + self._fast + self._slow, ceiling)
-        helped = FEEDBACK_HELP_OCTAVES * (feedback - (1.0 - feedback) * self._dependence)
-        comfort: Floats = learnt + helped - FATIGUE_OCTAVES * self._fatigue
+        helped = self._nature.feedback_help_octaves * (feedback - (1.0 - feedback) * self._dependence)
+        comfort: Floats = learnt + helped - self._nature.fatigue_octaves * self._fatigue
         return comfort
 
     def practise(self, exercise: Exercise) -> VirtualPerformance:
@@ -141,27 +109,28 @@ class Learner:
 
     def rest(self, seconds: float) -> None:
         """Do something else."""
-        self._fatigue *= math.exp(-seconds / RECOVERY_S)
-        self._fast *= math.exp(-seconds / FAST_LIFE_S)
+        self._fatigue *= math.exp(-seconds / self._nature.recovery_s)
+        self._fast *= math.exp(-seconds / self._nature.fast_life_s)
         self._slow *= math.exp(-seconds / self._slow_life_s)
         if seconds >= SPACING_S:
-            self._slow_life_s *= SPACING_GROWTH
+            self._slow_life_s *= self._nature.spacing_growth
 
     # --- how it plays -------------------------------------------------------------------------------------------------
 
     def _form(self, exercise: Exercise) -> Form:
-        score, kind = exercise.score, self.kind
+        score, kind, nature = exercise.score, self.kind, self._nature
         bar, limb = np.array(exercise.bars)[score.bar], limbs_of(score)
         overload = math.log2(exercise.speed) - self.comfort(exercise.feedback)[bar]
-        hurried = 1.0 / (1.0 + np.exp(COMFORT_ODDS - STEEPNESS * overload))
-        spread = 1.0 + SPREAD_PER_OCTAVE * np.logaddexp(0.0, STEEPNESS * overload) / STEEPNESS
+        hurried = 1.0 / (1.0 + np.exp(nature.comfort_odds - nature.steepness * overload))
+        steep = nature.steepness
+        spread = 1.0 + nature.spread_per_octave * np.logaddexp(0.0, steep * overload) / steep
         sd_ms = kind.sd_interval_pct / 100.0 * usual_wait_ms(score) * spread
-        miss = np.clip(self._lapse[limb] + self._habit[bar] + WORST_LAPSE * hurried, 0.0, 1.0)
+        miss = np.clip(self._lapse[limb] + self._habit[bar] + nature.worst_lapse * hurried, 0.0, 1.0)
         return Form(
             bias_ms=self._bias_ms[limb] + kind.latency_ms,
             sd_ms=np.maximum(sd_ms, SMALLEST_SD_MS),
             miss=miss,
-            wrong_piece=np.minimum(self._confusion[limb] + WORST_CONFUSION * hurried, 1.0 - miss),
+            wrong_piece=np.minimum(self._confusion[limb] + nature.worst_confusion * hurried, 1.0 - miss),
             velocity_sd=kind.velocity_cv_pct / 100.0 * score.notes["velocity"].astype(np.float64),
             extra=kind.extra,
             wires=kind.wires,
@@ -170,28 +139,28 @@ class Learner:
     # --- what it makes of it ------------------------------------------------------------------------------------------
 
     def _learn(self, exercise: Exercise, played: VirtualPerformance) -> None:
-        score, feedback = exercise.score, exercise.feedback
+        score, feedback, nature = exercise.score, exercise.feedback, self._nature
         right = self._rightly_struck(played)
         practised, success = self._success(exercise, right)
         overload = math.log2(exercise.speed) - self.comfort(feedback)[practised]
         left = np.maximum(
             math.log2(self.kind.ceiling_speed) - (self._brought + self._fast + self._slow)[practised], 0.0
         )
-        taught = self.kind.quickest * success * np.exp(-((overload / CHALLENGE_OCTAVES) ** 2)) * left
-        self._fast *= FAST_KEPT
-        self._slow *= SLOW_KEPT
-        self._fast[practised] += FAST_GAIN * (1.0 + FEEDBACK_TO_FAST * feedback) * taught
-        self._slow[practised] += SLOW_GAIN * (1.0 - FEEDBACK_FROM_SLOW * feedback) * taught
-        habit = self._habit[practised] + HABIT_GAIN * (1.0 - success) - HABIT_WORN_OFF * success
-        self._habit[practised] = np.clip(habit, 0.0, WORST_HABIT)
+        taught = self.kind.quickest * success * np.exp(-((overload / nature.challenge_octaves) ** 2)) * left
+        self._fast *= nature.fast_kept
+        self._slow *= nature.slow_kept
+        self._fast[practised] += nature.fast_gain * (1.0 + nature.feedback_to_fast * feedback) * taught
+        self._slow[practised] += nature.slow_gain * (1.0 - nature.feedback_from_slow * feedback) * taught
+        habit = self._habit[practised] + nature.habit_gain * (1.0 - success) - nature.habit_worn_off * success
+        self._habit[practised] = np.clip(habit, 0.0, nature.worst_habit)
         limbs = limbs_of(score)
         for limb in np.unique(limbs).tolist():
-            share = LIMB_GAIN * float(right[limbs == limb].mean())
+            share = nature.limb_gain * float(right[limbs == limb].mean())
             self._lapse[limb] *= 1.0 - share
             self._confusion[limb] *= 1.0 - share
             self._bias_ms[limb] *= 1.0 - share * feedback
-        self._fatigue += (1.0 - self._fatigue) * -math.expm1(-s_from_ns(score.length_ns) / TIRING_S)
-        self._dependence += HABITUATION * (feedback - self._dependence)
+        self._fatigue += (1.0 - self._fatigue) * -math.expm1(-s_from_ns(score.length_ns) / nature.tiring_s)
+        self._dependence += nature.habituation * (feedback - self._dependence)
         self._bad_passes = self._bad_passes + 1 if right.mean() < BAD_PASS else 0
 
     def _rightly_struck(self, played: VirtualPerformance) -> NDArray[np.bool_]:
@@ -203,8 +172,9 @@ class Learner:
         meant = np.array([self.kind.wires.get(Piece(p), p) for p in written], np.uint8)
         off_ms = (hits["at_ns"] - score.onset_ns[struck]) / NS_PER_MS
         off_ms -= self._bias_ms[limbs_of(score)[struck]] + self.kind.latency_ms
+        right_within_ms = max(RIGHT_WITHIN_MS, RIGHT_WITHIN_INTERVALS * usual_wait_ms(score))
         right = np.zeros(len(score), bool)
-        right[struck] = (hits["piece"] == meant) & (np.abs(off_ms) <= RIGHT_WITHIN_MS)
+        right[struck] = (hits["piece"] == meant) & (np.abs(off_ms) <= right_within_ms)
         return right
 
     def _success(self, exercise: Exercise, right: NDArray[np.bool_]) -> tuple[NDArray[np.int64], Floats]:

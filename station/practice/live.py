@@ -16,6 +16,7 @@ from station.core.errors import DeviceError, StationError
 from station.core.units import ns_from_s
 from station.engine.messages import Command, EngineEvent, Ready, Record, Recorded, Stop
 from station.music.judgement import Judgement
+from station.practice.adaptation import Adaptation
 from station.practice.session import Session, SessionResult
 
 POLL_S = 0.02
@@ -67,6 +68,47 @@ def practise_live(engine: EngineLink, session: Session, clock: Clock, capture: P
     if fault is None and session.device is None:
         fault = DeviceError("the kit was unplugged and did not come back; what was played until then is kept")
     return LiveOutcome(session.result(), fault)
+
+
+def practise_rounds(
+    engine: EngineLink, adaptation: Adaptation, first: Session, clock: Clock, capture: Path, tell: Tell
+) -> LiveOutcome:
+    """Run pass after pass of `adaptation`, beginning with the session `first`, until it is over, or Ctrl-C.
+
+    The capture goes on from pass to pass. Raises `DeviceError` if the engine dies before the transport runs.
+    """
+    session, fault = first, None
+    try:
+        begin(engine, session, capture)
+        with _ctrl_c() as pressed:
+            while not pressed.is_set():
+                judged = take_in(engine, session, POLL_S) + session.advance(clock.now_ns())
+                tell(session, judged)
+                if not session.over:
+                    continue
+                adaptation.take(session.result())
+                if adaptation.over:
+                    break
+                session = next_session(engine, adaptation, session)
+            fault = end(engine, session)
+    except DeviceError as error:
+        if not session.started and not adaptation.rounds:
+            raise
+        fault = error
+    if not adaptation.over:
+        adaptation.take(session.result())
+    if fault is None and session.device is None:
+        fault = DeviceError("the kit was unplugged and did not come back; what was played until then is kept")
+    return LiveOutcome(adaptation.result(), fault)
+
+
+def next_session(engine: EngineLink, adaptation: Adaptation, before: Session) -> Session:
+    """Start the pass that `adaptation` asks for, on what the session `before` knows of the kit."""
+    session = adaptation.session(before.latency)
+    session.device, session.capture_fault = before.device, before.capture_fault
+    for command in session.start():
+        engine.send(command)
+    return session
 
 
 def begin(engine: EngineLink, session: Session, capture: Path) -> None:

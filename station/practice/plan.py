@@ -18,7 +18,7 @@ from station.engine.messages import CUE_DTYPE, Bus
 from station.motion.kit import DEFAULT_KIT, load_kit
 from station.motion.limbs import as_led, assign_limbs
 from station.music.score import Score
-from station.practice.click import PLAIN, ClickPattern, click_cues, count_in, counting, pickup_of
+from station.practice.click import PLAIN, ClickPattern, click_cues, count_in, counting, pickup_of, silences
 
 MIN_TEMPO_BPM, MAX_TEMPO_BPM = 20.0, 400.0
 """The range of GrooveScribe (PEERS); beyond it neither a click nor a drummer makes sense."""
@@ -59,6 +59,19 @@ class Wishes:
     click: ClickPattern = PLAIN
 
 
+@dataclass(frozen=True, slots=True)
+class Rounds:
+    """Passes that differ: the lesson's bar (from 0) of each of `bars`, the bars in which passes start, the `loop`.
+
+    `silences` say from and until which ns the click was silent.
+    """
+
+    bars: tuple[int, ...]
+    starts: tuple[int, ...]
+    loop: tuple[int, int]
+    silences: tuple[tuple[int, int], ...]
+
+
 @dataclass(frozen=True, eq=False)
 class Plan:
     """A session laid out.
@@ -66,6 +79,7 @@ class Plan:
     `section` is one pass at the practice tempo, `score` all passes in a row (what is judged), `first_bar` the lesson's
     bar (from 0) where the section begins, `passes_start_ns` where tick 0 of `score` lies on the transport, `end_ns`
     where the last pass ends, `cues` (n,) of `CUE_DTYPE` everything that sounds, `click` the pattern under the passes.
+    `rounds` is there where passes differ in bars or tempo: then `section` is all of them in a row.
     """
 
     lesson: Lesson
@@ -79,6 +93,21 @@ class Plan:
     end_ns: int
     cues: NDArray[np.void]
     click: ClickPattern
+    rounds: Rounds | None = None
+
+    @property
+    def bars(self) -> tuple[int, int]:
+        """The lesson's first and last bar, from 0, that are practised."""
+        if self.rounds is not None:
+            return self.rounds.loop
+        return self.first_bar, self.first_bar + self.section.bar_count - 1
+
+    @property
+    def silences(self) -> tuple[tuple[int, int], ...]:
+        """From when until when in ns of the score the click is silent, in order."""
+        if self.rounds is not None:
+            return self.rounds.silences
+        return silences(self.score.tempo_map, self.score.end_tick, self.click.gap)
 
     def segment_at(self, at_ns: int) -> Segment:
         """The segment that holds transport time `at_ns`: the first before zero, `Phase.OVER` after the end."""

@@ -14,8 +14,8 @@ from station.core.settings import Settings
 from station.core.units import NS_PER_MS, PPQ
 from station.drills.lesson import Goals
 from station.engine.engine import KEYBOARD
-from station.practice.click import silences
 from station.practice.headless import VirtualSession
+from station.practice.mastery_report import passes_text
 from station.practice.session import SessionResult
 from station.practice.virtual_student import VirtualPerformance
 from station.practice.what_next import advice_of, what_next
@@ -43,7 +43,7 @@ def practice_document(result: SessionResult, settings: Settings) -> dict[str, Js
         "device": result.device,
         "tempo_bpm": round(plan.tempo_bpm, 3),
         "beats_a_minute": round(plan.tempo_bpm * PPQ / plan.lesson.beat_ticks, 3),
-        "bars": [plan.first_bar + 1, plan.first_bar + plan.section.bar_count],
+        "bars": [plan.bars[0] + 1, plan.bars[1] + 1],
         "passes": plan.passes,
         "complete": result.complete,
         "input_latency_ms": result.latency.input_ns / NS_PER_MS,
@@ -81,7 +81,8 @@ def _view(result: SessionResult, settings: Settings) -> View:
         hears_velocity=result.device != KEYBOARD,
         feel=feel_of(plan.lesson.goals),
         kit=kit_facts(settings),
-        silences=silences(plan.score.tempo_map, plan.score.end_tick, plan.click.gap),
+        silences=plan.silences,
+        bar_names=None if plan.rounds is None else plan.rounds.bars,
     )
 
 
@@ -114,12 +115,19 @@ def report_text(document: dict[str, Json]) -> str:
     tempo = f"{session['beats_a_minute']:g} bpm"
     if session["beats_a_minute"] != session["tempo_bpm"]:
         tempo += f" ({session['tempo_bpm']:g} quarter notes a minute)"
+    if "mastery" in document:
+        tempo = f"a tempo that follows you, {tempo} at last"
     head = f"{session['title']} at {tempo}, {which}, {passes}"
     latency = f"{session['input_latency_ms']:g} ms input, {session['output_latency_ms']:g} ms output"
     return (
         f"{head}{'' if session['complete'] else ' (stopped early)'}\n\n"
-        f"{_figures_text(document)}{_steps_text(map(str, steps))}\nLatency taken out: {latency}.\n"
+        f"{_figures_text(document)}{_passes(document)}{_steps_text(map(str, steps))}\nLatency taken out: {latency}.\n"
     )
+
+
+def _passes(document: dict[str, Json]) -> str:
+    """The passes of a session that followed the student, nothing of another."""
+    return f"\n{passes_text(_table(document, 'mastery'))}" if "mastery" in document else ""
 
 
 def assessment_text(document: dict[str, Json]) -> str:

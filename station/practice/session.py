@@ -15,6 +15,7 @@ from dataclasses import dataclass, field, replace
 
 from station.core.events import Choke, DeviceFound, DeviceLost, Hit
 from station.core.units import NS_PER_MS
+from station.drills.mastery.fading import Feedback
 from station.engine.engine import KEYBOARD
 from station.engine.messages import Command, EngineEvent, Notice, Play, Recorded, Started
 from station.music.judgement import Judgement, Label
@@ -70,11 +71,16 @@ class SessionResult:
 
 @dataclass(eq=False)
 class Session:
-    """One practice session; call `start`, then `handle` every event and `advance` the time, until `over`."""
+    """One practice session; call `start`, then `handle` every event and `advance` the time, until `over`.
+
+    `feedback` is what the student is shown while playing (judgement is the same); `message` what to say before it.
+    """
 
     plan: Plan
     latency: Latency = field(default_factory=Latency)
     windows: Windows = DEFAULT_LEVEL
+    feedback: Feedback = Feedback.TIMING
+    message: str = ""
 
     def __post_init__(self) -> None:
         self._follower = Follower(self.plan.score, self.windows)
@@ -183,6 +189,14 @@ class Session:
     def recent(self) -> Iterable[Hit]:
         """The last hits, judged or not, the newest last."""
         return self._recent
+
+    def told(self, verdicts: Iterable[Judgement]) -> tuple[Judgement, ...]:
+        """What the student is shown of `verdicts`: all; what was right and wrong, without its time; nothing."""
+        if self.feedback is Feedback.NONE:
+            return ()
+        if self.feedback is Feedback.TIMING:
+            return tuple(verdicts)
+        return tuple(replace(v, asynchrony_ns=None) if v.label is Label.MATCH else v for v in verdicts)
 
     def extras(self) -> list[int]:
         """Indices of the hits that answer no note, as far as is known."""

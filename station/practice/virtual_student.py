@@ -11,7 +11,9 @@ One seed is one playing. Each cause draws from a stream of its own, so that a sp
 """
 
 import copy
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -140,6 +142,33 @@ class VirtualStudent:
             preset=self.preset,
             habit_strokes=habits.strokes,
         )
+
+
+def joined(parts: Sequence[VirtualPerformance], score: Score, performance: Performance) -> VirtualPerformance:
+    """What one student played part by part, as one playing of `score`, the parts in a row; `performance` is all hits.
+
+    No hit of a part may lie beyond one of the next, which silences between the parts see to.
+    """
+    notes = np.cumsum([0] + [len(part.score) for part in parts]).tolist()
+    hits = np.cumsum([0] + [len(part.performance) for part in parts]).tolist()
+    moved = [
+        (_moved(part.truth.hit_of_note, hit), _moved(part.truth.note_of_hit, note))
+        for part, note, hit in zip(parts, notes, hits, strict=False)
+    ]
+    truth = Matching(
+        np.concatenate([hit_of_note for hit_of_note, _ in moved]),
+        np.concatenate([note_of_hit for _, note_of_hit in moved]),
+        np.concatenate([part.truth.note_label for part in parts]),
+        np.concatenate([part.truth.hit_label for part in parts]),
+    )
+    strokes: Counter[str] = Counter()
+    for part in parts:
+        strokes.update(part.habit_strokes)
+    return replace(parts[0], score=score, performance=performance, truth=truth, habit_strokes=dict(strokes))
+
+
+def _moved(partner: NDArray[np.int64], by: int) -> NDArray[np.int64]:
+    return np.where(partner == NOBODY, NOBODY, partner + by)
 
 
 def play(score: Score, spec: StudentSpec, preset: KitPreset = GENERAL_MIDI_PRESET) -> VirtualPerformance:

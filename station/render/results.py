@@ -51,7 +51,7 @@ class Words:
     """What is written on a result beside its numbers.
 
     `points` 0–100, `advice` sentences on what to do next; a pass has `pass_bars` bars (0: all are one pass), the first
-    is the lesson's `first_bar`, from 0.
+    is the lesson's `first_bar`, from 0; passes that differ begin in the bars `starts`.
     """
 
     title: str
@@ -60,6 +60,7 @@ class Words:
     advice: tuple[str, ...] = ()
     pass_bars: int = 0
     first_bar: int = 0
+    starts: tuple[int, ...] = ()
 
 
 def result_facts(
@@ -112,6 +113,9 @@ def headline(facts: ResultFacts) -> str:
 
 def ticks(facts: ResultFacts) -> tuple[str, list[tuple[int, str]]]:
     """What the time axis counts, and its marks: row of `bar_s` and number. Passes if several, else bars."""
+    if facts.words.starts:
+        every = max(1, round(len(facts.words.starts) / MOST_TICKS))
+        return "pass", [(bar, str(number)) for number, bar in enumerate(facts.words.starts, 1)][::every]
     bars, pass_bars = len(facts.bar_s) - 1, facts.words.pass_bars
     several = 0 < pass_bars < bars
     step, first = (pass_bars, 0) if several else (1, facts.words.first_bar)

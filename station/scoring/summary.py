@@ -87,8 +87,9 @@ class View:
     """How a score is looked at: the level, and how its bars are named.
 
     `pass_bars` bars make one pass of a loop (None: no loop), so that bar b of the score is the lesson's bar
-    `first_bar` + b mod `pass_bars`, from 0. `hears_velocity` False where the input cannot tell loud from soft. `feel`
-    is what costs nothing, `silences` where the click was silent, `kit` what was measured of the student's.
+    `first_bar` + b mod `pass_bars`, from 0; where passes differ `bar_names` says it of each bar. `hears_velocity` False
+    where the input cannot tell loud from soft. `feel` is what costs nothing, `silences` where the click was silent,
+    `kit` what was measured of the student's.
     """
 
     windows: Windows = DEFAULT_LEVEL
@@ -97,10 +98,13 @@ class View:
     hears_velocity: bool = True
     feel: Feel = ALL_FREE
     silences: Silences = ()
+    bar_names: tuple[int, ...] | None = None
     kit: KitFacts = field(default_factory=KitFacts)
 
     def bars(self, score: Score) -> NDArray[np.int64]:
         """The lesson's bar of each note, from 0, shape (n,)."""
+        if self.bar_names is not None:
+            return np.asarray(self.bar_names, np.int64)[score.bar]
         own = score.bar if self.pass_bars is None else score.bar % self.pass_bars
         return np.asarray(own + self.first_bar, np.int64)
 

@@ -2,6 +2,7 @@
 
 import argparse
 from dataclasses import replace
+from datetime import date
 from pathlib import Path
 
 from station.app.commands.output import print_json, say
@@ -13,6 +14,8 @@ from station.core.settings import Settings, load_settings, with_said
 from station.drills.lesson import Lesson
 from station.practice.click import PLAIN
 from station.practice.folder import TEXT_NAME
+from station.practice.mastery_report import with_mastery
+from station.practice.memory import Memory, Remembered
 from station.practice.plan import Plan, Wishes, plan_practice
 from station.practice.report import practice_document, report_text, with_truth
 from station.practice.session import SessionResult
@@ -27,6 +30,11 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("lesson", metavar="LESSON", nargs="?", help="a lesson's name or file (the first lesson)")
     parser.add_argument(
         "--tempo", type=float, metavar="BPM", help="quarter notes a minute, in any meter (the lesson's)"
+    )
+    parser.add_argument(
+        "--adapt",
+        action=argparse.BooleanOptionalAction,
+        help="let tempo, bars and feedback follow the student from pass to pass (on in the window, unless --tempo)",
     )
     parser.add_argument("--loops", type=int, metavar="N", help="how often the loop is played (the lesson's)")
     parser.add_argument("--bars", type=_bars, metavar="A-B", help="bars to practise, from 1 (the lesson's loop)")
@@ -50,46 +58,63 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Practise."""
     settings = _wanted(arguments, load_settings())
-    plan = plan_practice(_lesson(arguments.lesson), _wishes(arguments))
+    lesson, wishes = _lesson(arguments.lesson), _wishes(arguments)
+    plan = plan_practice(lesson, wishes)
     if arguments.virtual_student is not None:
-        return _virtual(plan, arguments.virtual_student, arguments, settings)
+        return _virtual(plan, wishes, arguments.virtual_student, arguments, settings)
     in_terminal = arguments.headless or arguments.json or arguments.report is not None
     if not in_terminal and has_screen():
         from station.app.commands.window import open_window
 
-        return open_window(settings, plan)
+        adapt = arguments.tempo is None if arguments.adapt is None else arguments.adapt
+        return open_window(settings, plan, adapt)
     if not in_terminal and arguments.kit is None and not _is_kit_there(settings.kit):
         say("no screen and no kit here: a virtual student practises instead")
-        return _virtual(plan, STAND_IN, arguments, settings)
-    return _live(plan, arguments, settings)
+        return _virtual(plan, wishes, STAND_IN, arguments, settings)
+    return _live(plan, wishes, arguments, settings)
 
 
 # --- ways to practise ------------------------------------------------------------------------------------------------
 
 
-def _virtual(plan: Plan, spec: str, arguments: argparse.Namespace, settings: Settings) -> int:
-    from station.practice.headless import practise_virtually
+def _virtual(plan: Plan, wishes: Wishes, spec: str, arguments: argparse.Namespace, settings: Settings) -> int:
+    """A virtual student is new to every lesson, and forgotten, unless it practises under a name."""
+    from station.practice.headless import practise_adaptively, practise_virtually
     from station.practice.student_spec import parse_spec
 
     student = parse_spec(spec)
+    remembered = _remembered(plan, wishes, settings, arguments.student is not None) if arguments.adapt else None
     with SessionFolder(arguments.report, settings, plan) as folder:
-        virtual = practise_virtually(plan, student, folder.capture)
+        if remembered is None:
+            virtual = practise_virtually(plan, student, folder.capture)
+        else:
+            virtual = practise_adaptively(remembered.adaptation, student, folder.capture)
         document = with_truth(practice_document(virtual.result, settings), virtual, settings)
-        _leave(folder, virtual.result, document, arguments)
+        _leave(folder, virtual.result, document, arguments, remembered)
     if virtual.fault is not None:
         raise virtual.fault
     return 0
 
 
-def _live(plan: Plan, arguments: argparse.Namespace, settings: Settings) -> int:
+def _live(plan: Plan, wishes: Wishes, arguments: argparse.Namespace, settings: Settings) -> int:
     from station.app.commands.terminal import practise_in_terminal
 
+    remembered = _remembered(plan, wishes, settings, keeps=True) if arguments.adapt else None
     with SessionFolder(arguments.report, settings, plan) as folder:
-        outcome = practise_in_terminal(plan, settings, folder.capture)
-        _leave(folder, outcome.result, practice_document(outcome.result, settings), arguments)
+        outcome = practise_in_terminal(plan if remembered is None else remembered.adaptation, settings, folder.capture)
+        _leave(folder, outcome.result, practice_document(outcome.result, settings), arguments, remembered)
     if outcome.fault is not None:
         raise outcome.fault
     return 0
+
+
+def _remembered(plan: Plan, wishes: Wishes, settings: Settings, keeps: bool) -> Remembered:
+    """Practice that follows the student; what could not be read is said at once."""
+    memory = Memory.of(settings.sessions_dir, settings.student, plan.lesson.name, plan.bars) if keeps else None
+    remembered = Remembered.of(plan.lesson, wishes, date.today(), memory)
+    if remembered.fault is not None:
+        say(remembered.fault)
+    return remembered
 
 
 def _is_kit_there(wanted: str) -> bool:
@@ -103,12 +128,20 @@ def _is_kit_there(wanted: str) -> bool:
 
 
 def _leave(
-    folder: SessionFolder, result: SessionResult, document: dict[str, Json], arguments: argparse.Namespace
+    folder: SessionFolder,
+    result: SessionResult,
+    document: dict[str, Json],
+    arguments: argparse.Namespace,
+    remembered: Remembered | None,
 ) -> None:
     """Write everything, then print the report; what the disk refused is said after the report was printed."""
     fault = None
+    if remembered is not None:
+        document = with_mastery(document, remembered.adaptation)
     try:
         folder.write(result, document)
+        if remembered is not None:
+            remembered.keep()
     except StationError as error:
         fault = rescued(error, result, document)
     if arguments.json:

@@ -9,7 +9,8 @@ from station.core.settings import Settings
 from station.core.units import NS_PER_MS, ns_from_ms
 from station.engine.process import EngineConfig, EngineProcess
 from station.music.judgement import Judgement, Label
-from station.practice.live import LiveOutcome, practise_live, wait_for_kit
+from station.practice.adaptation import Adaptation
+from station.practice.live import LiveOutcome, practise_live, practise_rounds, wait_for_kit
 from station.practice.plan import Plan, Segment
 from station.practice.session import Latency, Session
 from station.scoring.windows import Windows
@@ -17,38 +18,40 @@ from station.scoring.windows import Windows
 KIT_WAIT_S = 5.0
 """How long to look for a kit before giving up: a USB kit announces itself within two seconds; our choice."""
 
-_MARKS = {Label.MISS: "o", Label.EXTRA: "+", Label.WRONG_PIECE: "x", Label.IGNORED: ""}
+_MARKS = {Label.MATCH: "·", Label.MISS: "o", Label.EXTRA: "+", Label.WRONG_PIECE: "x", Label.IGNORED: ""}
 _GOOD, _EARLY, _LATE = "|", "<", ">"
 _LEANS = {-1: _EARLY, 0: _GOOD, 1: _LATE}
-LEGEND = f"{_GOOD} on time  {_EARLY} early  {_LATE} late  o missed  x wrong piece  + extra"
+LEGEND = f"{_GOOD} on time  {_EARLY} early  {_LATE} late  o missed  x wrong piece  + extra  · hit, its time not shown"
 
 
 class _Display:
     """Writes to standard error: a line a segment, a mark a judgement, notices between."""
 
-    def __init__(self, plan: Plan, windows: Windows) -> None:
-        self._plan = plan
-        self._windows = windows
+    def __init__(self) -> None:
+        self._session: Session | None = None
         self._segment: Segment | None = None
         self._told = 0
 
     def tell(self, session: Session, judged: tuple[Judgement, ...]) -> None:
         """Show what is new."""
+        if session is not self._session:
+            self._session, self._segment, self._told = session, None, 0
         for notice in session.notices[self._told :]:
             self._line(f"\n{notice}")
         self._told = len(session.notices)
         state = session.state()
         if state.transport_ns is not None and state.segment != self._segment:
+            if self._segment is None and session.message:
+                self._line(f"\n{session.message}")
             self._segment = state.segment
-            self._line(f"\n{self._plan.words(state.segment):14}")
-        marks = "".join(self._mark(verdict) for verdict in judged)
+            self._line(f"\n{session.plan.words(state.segment):14}")
+        marks = "".join(_mark(verdict, session.windows) for verdict in session.told(judged))
         if marks:
             self._line(marks)
 
-    def _mark(self, verdict: Judgement) -> str:
-        if verdict.label is not Label.MATCH or verdict.asynchrony_ns is None:
-            return _MARKS[verdict.label]
-        return _LEANS[self._windows.lean(verdict.asynchrony_ns / NS_PER_MS)]
+    def last_words(self, first: Session) -> None:
+        """Show what is still untold of the session that ran last, `first` where none did."""
+        self.tell(self._session or first, ())
 
     @staticmethod
     def _line(text: str) -> None:
@@ -56,11 +59,20 @@ class _Display:
         sys.stderr.flush()
 
 
-def practise_in_terminal(plan: Plan, settings: Settings, capture: Path) -> LiveOutcome:
-    """Practise `plan`. Raises `DeviceError` where there is no kit, or where the engine dies before it began."""
+def _mark(verdict: Judgement, windows: Windows) -> str:
+    if verdict.label is not Label.MATCH or verdict.asynchrony_ns is None:
+        return _MARKS[verdict.label]
+    return _LEANS[windows.lean(verdict.asynchrony_ns / NS_PER_MS)]
+
+
+def practise_in_terminal(asked: Plan | Adaptation, settings: Settings, capture: Path) -> LiveOutcome:
+    """Practise a plan, or what an adaptation asks for pass by pass.
+
+    Raises `DeviceError` where there is no kit, or where the engine dies before it began.
+    """
     latency = Latency(ns_from_ms(settings.input_latency_ms), ns_from_ms(settings.output_latency_ms))
-    session = Session(plan, latency)
-    display = _Display(plan, session.windows)
+    session = Session(asked, latency) if isinstance(asked, Plan) else asked.session(latency)
+    display = _Display()
     clock = MonotonicClock()
     sys.stderr.write("looking for a kit and a sound output …\n")
     try:
@@ -69,9 +81,11 @@ def practise_in_terminal(plan: Plan, settings: Settings, capture: Path) -> LiveO
             if session.device is None:
                 raise DeviceError(_no_kit(settings.kit))
             sys.stderr.write(f"\n{LEGEND}\n")
-            return practise_live(engine, session, clock, capture, display.tell)
+            if isinstance(asked, Plan):
+                return practise_live(engine, session, clock, capture, display.tell)
+            return practise_rounds(engine, asked, session, clock, capture, display.tell)
     finally:
-        display.tell(session, ())
+        display.last_words(session)
         sys.stderr.write("\n")
 
 

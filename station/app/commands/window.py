@@ -17,11 +17,14 @@ def run(_: argparse.Namespace) -> int:
     """Open the window on the first lesson."""
     from station.drills.library import FIRST_LESSON, find_lesson
 
-    return open_window(load_settings(), plan_practice(find_lesson(FIRST_LESSON), Wishes()))
+    return open_window(load_settings(), plan_practice(find_lesson(FIRST_LESSON), Wishes()), adapt=True)
 
 
-def open_window(settings: Settings, first: Plan) -> int:
-    """Show the practice room until it is closed; what was played until then is kept."""
+def open_window(settings: Settings, first: Plan, adapt: bool) -> int:
+    """Show the practice room until it is closed; what was played until then is kept.
+
+    `adapt` whether the tempo follows the student, until another choice is made in the window.
+    """
     if not has_screen():
         raise DeviceError("no screen: `station practice --headless` practises in the terminal")
     from station.app.practice_room import PracticeRoom
@@ -30,7 +33,7 @@ def open_window(settings: Settings, first: Plan) -> int:
 
     with ExitStack() as engines:
         wake = lambda: engines.enter_context(EngineProcess(EngineConfig.from_settings(settings)))  # noqa: E731
-        room = PracticeRoom(wake, settings, first)
+        room = PracticeRoom(wake, settings, first, adapt)
         try:
             run_window(room)
         finally:

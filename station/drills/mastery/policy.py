@@ -31,11 +31,17 @@ def new_item(item: Item, today: date, rules: Rules = DEFAULT_RULES) -> ItemState
 
 
 def begin(state: ItemState, today: date, rules: Rules = DEFAULT_RULES) -> ItemState:
-    """The state as a day opens: a review that is due comes first, the rest goes on a step below where it ended."""
+    """The state as a day opens: a review that is due comes first, the rest goes on a step below where it ended.
+
+    On the same day it goes on where it was.
+    """
     if state.review.is_due(today) and state.fixed_pct is None:
         opened = _opened(state, state.ladder.resting(), today)
         why = "Some days have passed: does it still stick? This one is blind"
         return _with(opened, Kind.REVIEW, TOP_PCT, why, rules)
+    if state.today == today:
+        here = _opened(state, state.ladder.resting(), today)
+        return _asked(here, f"On from where it was, {state.item.beats(here.pct)}", rules)
     start = min(rules.start_pct, state.ladder.pct)
     ladder = Ladder(state.ladder.pct if state.is_stable(rules) else max(state.ladder.pct - rules.down_pct, start))
     return _asked(_opened(state, ladder, today), f"Another day: a start at {state.item.beats(ladder.pct)}", rules)

@@ -104,9 +104,9 @@ class Step:
         return tuple(range(self.bars[0], self.bars[1] + 1)) * self.repeats
 
 
-def item_of(lesson: Lesson) -> Item:
-    """A lesson's loop as an item."""
-    first, last = lesson.loop
+def item_of(lesson: Lesson, bars: tuple[int, int] | None = None) -> Item:
+    """The `bars` (first, last) of a lesson, its loop if None, as an item."""
+    first, last = lesson.loop if bars is None else bars
     score = lesson.score.at_speed(lesson.target_tempo_bpm / lesson.tempo_bpm)
     starts = score.tempo_map.ns_at([score.tempo_map.bar_start(bar) for bar in range(first, last + 2)])
     notes = np.bincount(score.bar, minlength=last + 1)[first : last + 1]

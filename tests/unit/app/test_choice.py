@@ -17,7 +17,7 @@ PARADIDDLE = LessonCard("paradiddle", "Single paradiddle", 2, "beginner", "RLRR 
 
 
 def test_the_first_lesson_is_chosen_at_its_own_tempo() -> None:
-    assert Choice([ROCK, PARADIDDLE]).wish() == Start("rock-1", 80.0, 8)
+    assert Choice([ROCK, PARADIDDLE]).wish() == Start("rock-1", 80.0, 8, adapt=True)
 
 
 def test_without_lessons_there_is_nothing_to_start() -> None:
@@ -28,7 +28,7 @@ def test_choosing_takes_the_author_s_tempo_and_passes() -> None:
     choice = Choice([ROCK, PARADIDDLE])
     choice.tempo_bpm = 140.0
     choice.choose(replace(PARADIDDLE, passes=500))
-    assert choice.wish() == Start("paradiddle", 100.0, MAX_LOOPS)
+    assert choice.wish() == Start("paradiddle", 100.0, MAX_LOOPS, adapt=True)
 
 
 @pytest.mark.parametrize(

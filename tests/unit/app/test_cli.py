@@ -58,6 +58,16 @@ def test_the_same_seed_is_the_same_session(capsys: pytest.CaptureFixture[str], t
     assert first == second
 
 
+def test_the_tempo_follows_the_student_where_it_is_asked_to(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    first = practise(capsys, "--adapt", "--loops", "3", "--student", "anna")
+    second = practise(capsys, "--adapt", "--loops", "1", "--student", "anna")
+    nobody = practise(capsys, "--adapt", "--loops", "1")
+    tempi = [one["mastery"]["passes"][0]["tempo_bpm"] for one in (first, second, nobody)]  # type: ignore[index]
+    assert tempi[0] == tempi[2] < tempi[1]
+    assert first["counts"]["notes"] == 3 * 24  # type: ignore[index]
+    assert len(list(tmp_path.rglob("mastery/rock-1_1-2.json"))) == 1
+
+
 def test_a_session_has_a_folder_of_the_students_own(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     practise(capsys, "--loops", "1", "--student", "Gene K. / 2")
     folders = list(tmp_path.rglob("report.json"))

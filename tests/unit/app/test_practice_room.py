@@ -12,9 +12,10 @@ from station.core.pieces import Piece, Zone
 from station.core.settings import Settings
 from station.core.units import NS_PER_S
 from station.drills.library import find_lesson
-from station.engine.messages import Command, EngineEvent, Record, Recorded, Started
+from station.engine.messages import Command, EngineEvent, Play, Record, Recorded, Started
 from station.practice.plan import Wishes, plan_practice
 
+TARGET_BPM = find_lesson("rock-1").target_tempo_bpm
 PLAN = plan_practice(find_lesson("rock-1"), Wishes(loops=1, demonstrations=0))
 WISH = Start("rock-1", 80.0, 1, demonstrations=0)
 
@@ -101,3 +102,42 @@ def test_keys_to_a_dead_engine_are_harmless(tmp_path: Path) -> None:
     line.dead = True
     room.key(KeyHit(0, Piece.SNARE, Zone.HEAD, 90))
     assert line.heard == []
+
+
+def test_where_the_tempo_follows_the_student_the_next_pass_begins_by_itself(tmp_path: Path) -> None:
+    """Silence on both: the second pass is the first once more, and then nobody is there."""
+    line = Line()
+    room = room_on([line], tmp_path)
+    room.start(Start("rock-1", 80.0, 5, demonstrations=0, adapt=True))
+    now_ns = 0
+    for _ in range(2):
+        line.says.append(Started(now_ns))
+        room.snapshot(now_ns + 1)
+        assert room.room().stage is Stage.PLAYING
+        now_ns += 60 * NS_PER_S
+        room.snapshot(now_ns)
+    assert [type(command) for command in line.heard].count(Play) == 2
+    assert room.room().stage is Stage.RESULT
+    report = room.report()
+    assert report is not None
+    mastery = report.document["mastery"]
+    assert isinstance(mastery, dict)
+    assert [one["tempo_bpm"] for one in mastery["passes"]] == [pytest.approx(0.7 * TARGET_BPM)] * 2
+    assert len(list(tmp_path.glob("*/mastery/rock-1_*.json"))) == 1
+
+
+def test_a_change_may_be_refused_while_the_next_pass_is_counted_in(tmp_path: Path) -> None:
+    line = Line()
+    room = room_on([line], tmp_path)
+    room.start(Start("rock-1", 80.0, 5, demonstrations=0, adapt=True))
+    line.says.append(Started(0))
+    room.snapshot(1)
+    assert not room.room().can_veto
+    line.says.append(Hit(3 * NS_PER_S, Piece.KICK, Zone.HEAD, 90))
+    room.snapshot(60 * NS_PER_S)
+    line.says.append(Started(60 * NS_PER_S))
+    room.snapshot(60 * NS_PER_S + 1)
+    assert room.room().can_veto
+    assert "down to" in room.room().why
+    room.veto()
+    assert room.room().why == "As you wish: all stays as it was."

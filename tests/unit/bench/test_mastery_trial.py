@@ -9,10 +9,13 @@ from station.drills.library import find_lesson
 from station.drills.mastery.steps import Item, item_of
 from station.music.performance import HIT_DTYPE, Performance
 from station.music.score import Score
+from station.practice.learner import Learner
+from station.practice.learner_kinds import LEARNERS
 
 LESSON = find_lesson("rock-1")
 ITEM: Item = item_of(LESSON)
 SCORE: Score = LESSON.loop_score
+LEARNER = Learner(LEARNERS["usual"], 1, 2)
 SHORT = Schedule(days=2, session_s=40.0, block_s=20.0, exam_every_s=20.0)
 
 
@@ -54,12 +57,12 @@ def test_ours_hears_a_perfect_pass_as_clean() -> None:
 
 
 def test_none_is_the_target_from_the_start() -> None:
-    assert tempi(TUTORS["none"](ITEM, 0), 3) == [100, 100, 100]
+    assert tempi(TUTORS["none"](ITEM, 0, LEARNER), 3) == [100, 100, 100]
 
 
 def test_random_is_the_same_for_the_same_seed() -> None:
-    assert tempi(TUTORS["random"](ITEM, 3), 9) == tempi(TUTORS["random"](ITEM, 3), 9)
-    assert len(set(tempi(TUTORS["random"](ITEM, 3), 9))) > 1
+    assert tempi(TUTORS["random"](ITEM, 3, LEARNER), 9) == tempi(TUTORS["random"](ITEM, 3, LEARNER), 9)
+    assert len(set(tempi(TUTORS["random"](ITEM, 3, LEARNER), 9))) > 1
 
 
 @pytest.mark.parametrize("tutor", TUTORS)

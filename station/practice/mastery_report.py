@@ -1,0 +1,77 @@
+"""What a session that followed the student tells of its passes, and what comes next; keys are added to the report."""
+
+from station.drills.mastery.rules import Rules
+from station.drills.mastery.state import ItemState
+from station.practice.adaptation import Adaptation, Round
+from station.practice.what_next import advice_of
+from station.scoring.document import Json
+
+MOST_STEPS = 3
+"""So many sentences on what to do next (part of every report): the policy's first, then the advice's first."""
+
+
+def with_mastery(document: dict[str, Json], adaptation: Adaptation) -> dict[str, Json]:
+    """The report with every pass and its reason, the state of mastery, and what comes next as the first step."""
+    session, state = document["session"], adaptation.state
+    assert isinstance(session, dict), "the report is ours"
+    counts, said = document["counts"], session["next"]
+    assert isinstance(counts, dict), "the report is ours"
+    assert isinstance(said, list), "the report is ours"
+    # what is said where nothing stands out speaks of the tempo, which is the policy's here
+    steps: list[Json] = [adaptation.step.why, *advice_of(document)]
+    return {
+        **document,
+        "session": {**session, "next": steps[:MOST_STEPS] if counts["hits"] else said},
+        "mastery": {
+            "target_tempo_bpm": round(state.item.target_bpm, 3),
+            "mastery_pct": state.mastery_pct,
+            "stable": state.is_stable(adaptation.rules),
+            "review_due": None if state.review.due is None else state.review.due.isoformat(),
+            "words": mastery_words(state, adaptation.rules),
+            "passes": [_pass(one) for one in adaptation.rounds],
+            "next": _step(adaptation.step.tempo_bpm, adaptation.step.bars, adaptation.step.why),
+        },
+    }
+
+
+def passes_text(mastery: dict[str, Json]) -> str:
+    """The passes of the report's `mastery`, a line each with its reason, and where the student stands."""
+    passes = mastery["passes"]
+    assert isinstance(passes, list), "the report is ours"
+    rows = [_pass_words(number, one) for number, one in enumerate(passes, 1) if isinstance(one, dict)]
+    return "\n".join(["Passes", *rows, str(mastery["words"]), ""])
+
+
+def _pass_words(number: int, one: dict[str, Json]) -> str:
+    bars = one["bars"]
+    assert isinstance(bars, list), "the report is ours"
+    which = f"bar {bars[0]}" if bars[0] == bars[1] else f"bars {bars[0]}-{bars[1]}"
+    right = "stopped early" if one["right"] is None else f"{one['right']} of {one['notes']} right"
+    return f"{number:3}  {one['tempo_bpm']:6g} bpm  {which:9} {right:16}  {one['why']}"
+
+
+def _step(tempo_bpm: float, bars: tuple[int, int], why: str) -> dict[str, Json]:
+    return {"tempo_bpm": round(tempo_bpm, 3), "bars": [bars[0] + 1, bars[1] + 1], "why": why}
+
+
+def _pass(one: Round) -> dict[str, Json]:
+    step, measured = one.step, one.measured
+    return {
+        **_step(step.tempo_bpm, step.bars, step.why),
+        "kind": step.kind.value,
+        "feedback": step.feedback.value,
+        "repeats": step.repeats,
+        "notes": None if measured is None else measured.notes,
+        "right": None if measured is None else measured.right,
+        "sd_ms": None if measured is None or measured.sd_ms is None else round(measured.sd_ms, 1),
+    }
+
+
+def mastery_words(state: ItemState, rules: Rules) -> str:
+    """Where a student stands, in one line."""
+    if state.is_stable(rules):
+        due = state.review.due
+        return f"Mastered{'' if due is None else f'; asked for again on {due:%d %B}'}."
+    if state.mastery_pct == 0:
+        return "Not yet shown in a blind pass."
+    return f"Shown blind: {state.mastery_pct:g} % of the tempo, {state.item.beats(state.mastery_pct)}."
