@@ -93,6 +93,10 @@ def candidates(notes: Notes, search: Search, hits: Hits) -> list[Candidate]:
     return [Candidate(place, nats_for(notes, hits, place)) for place in spots]
 
 
+_MOST_REFIT = 1.25
+"""A fit moves the tempo by no more: tried tempi lie a few percent apart (our choice)."""
+
+
 def _fitted(notes: Notes, hits: Hits, place: Place) -> Place:
     """The place and rate that the window's hits near their notes support, by least squares from `place` on."""
     since, classes = hits.at_s - hits.at_s[0], hits.classes.tolist()
@@ -104,6 +108,8 @@ def _fitted(notes: Notes, hits: Hits, place: Place) -> Place:
         spread = float(np.sum((t - t.mean()) ** 2)) if len(t) else 0.0
         if spread > 0.0:
             slope = float(np.sum((t - t.mean()) * d)) / spread
+            if not 1 / _MOST_REFIT < (rate + slope) / place.rate < _MOST_REFIT:
+                break  # a flurry of hits around one note fits any tempo
             score_s, rate = score_s + float(d.mean()) - slope * float(t.mean()), rate + slope
     return Place(place.at_s, score_s, rate)
 

@@ -30,6 +30,9 @@ SAME_BASE_MS, SAME_BASE_WANDER_MS = 100.0, 60.0
 """A performance that starts within the first and wanders less than the second about it was recorded on the score's own
 time base (our choice: a lean and a latency; three times a bar's slow sway)."""
 
+_MOST_PACE = 5.0
+"""So many times the written tempo, or slower by as much, nobody plays; a flurry about one note might seem to."""
+
 _CURVE_HALF_WIDTH = 16
 """Hits to both sides in the player's tempo curve: two bars in all, so that a fill's rush stays visible."""
 
@@ -86,6 +89,6 @@ def _paces(at_ns: Times, warp: Warp) -> Floats:
         low, high = np.maximum(k - _CURVE_HALF_WIDTH, start), np.minimum(k + _CURVE_HALF_WIDTH, end - 1)
         took = (at_ns[high] - at_ns[low]) / NS_PER_S
         passed = warp.score_s[high] - warp.score_s[low]
-        known = (took > 0.0) & (passed > 0.0)
+        known = (took > 0.0) & (passed * _MOST_PACE > took) & (passed < _MOST_PACE * took)
         pace[k[known]] = passed[known] / took[known]
     return pace

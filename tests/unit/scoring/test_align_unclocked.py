@@ -15,6 +15,7 @@ from station.music.score import Score
 from station.scoring.align import align
 from station.scoring.alignment import Alignment, Reference
 from tests.fakes.played import played, varied_groove, with_noise
+from tests.fakes.scores import even_snare
 
 BAR_S = 2.0
 Times = NDArray[np.float64]
@@ -191,3 +192,13 @@ def test_a_score_of_one_note() -> None:
     one = Score.from_array(score.notes[:1].copy(), score.tempo_map)
     performance = played(one, np.array([7.0]), np.array([0]))
     assert align(one, performance, clocked=False).count(Label.MATCH) == 1
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_flurry_has_no_tempo_and_is_aligned_all_the_same(seed: int) -> None:
+    """Eight strokes within a fifth of a second against quarters at 60 bpm: at most two of them answer notes."""
+    score = even_snare(12, 1000)
+    at_s = np.sort(np.random.default_rng(seed).uniform(0, 0.2, 8))
+    alignment = align(score, played(score, at_s, np.arange(8)), clocked=False)
+    assert alignment.count(Label.MATCH) + alignment.count(Label.EXTRA) == 8
+    assert alignment.count(Label.MATCH) <= 2
