@@ -120,6 +120,16 @@ def _times_over(name: str, degrees: float) -> Measure:
     return lambda poses: float((np.diff((np.abs(_angle(poses, name)) > degrees).astype(int)) > 0).sum())
 
 
+def _shown(poses: Array) -> float:
+    """How often the right hand has gone up to where sticks are spun and tossed."""
+    high = poses[:, frame.JOINTS.start + 3 * Joint.RIGHT_HAND + 2] > _SHOWN_M
+    return float((np.diff(high.astype(int)) > 0).sum())
+
+
+_SHOWN_M = 1.05
+"""A hand so high over the floor shows a flourish: no stroke on the snare raises it so far."""
+
+
 _STILL = Style(breathing=0.0, shrug=0.0, amplitude_back=0.0, amplitude_side=0.0, amplitude_twist=0.0)
 _SWAYING = Style(breathing=0.0)
 
@@ -164,7 +174,7 @@ EFFECTS = {
     "wing_deg": Effect("elbow outward, cm", _aside, _STROKES),
     "posture_deg": Effect("mean lean, °", mean("torso_lean"), _STROKES),
     "stand": Effect("pelvis over the floor, cm", _height(Joint.PELVIS, np.mean), _STROKES),
-    "flourish": Effect("turned sticks in 39 rests", _times_over("right_stick", 120.0), _RESTS, steps=True),
+    "flourish": Effect("turned sticks in 39 rests", _shown, _RESTS, steps=True),
     "look_around": Effect(
         "looks in 39 rests",
         _times_over("head_turn", 12.0),

@@ -16,7 +16,7 @@ from station.motion.figure import Figure
 from station.motion.grip import Hold
 from station.motion.kit import Kit
 from station.motion.maths import MANY, Point
-from station.motion.stroke import NATURALLY, StrokePlan, Strokes, amplitudes
+from station.motion.stroke import NATURALLY, StrokePlan, Strokes, amplitudes, rebounds
 from station.motion.travel import DETOUR, Way, lifts
 from station.music.score import Score
 
@@ -69,10 +69,12 @@ class HandPart:
         contacts = np.array([lie.contact for lie in lies])[which]
         lengths = hold.lengths(figure)
         height = events.height_m * hold.held.height
+        amplitude = amplitudes(height, np.array([lie.angles for lie in lies])[which].T, lengths, parts(hold))
         plan = StrokePlan(
             strike_s=events.time_s,
             height_m=height,
-            amplitude=amplitudes(height, np.array([lie.angles for lie in lies])[which].T, lengths, parts(hold)),
+            amplitude=rebounds(amplitude, height, events.rebounds, events.bounces, lengths),
+            rebounds=events.rebounds | events.bounces,
             ceiling=np.array([lie.ceiling for lie in lies])[which].T,
             most=np.full(len(height), np.inf),
             lever_m=lengths.hand + lengths.ahead,

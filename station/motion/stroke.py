@@ -163,6 +163,31 @@ def _rise(amplitude: Array, contact_angles: Array, lengths: ArmLengths) -> tuple
     return np.take_along_axis(rise, highest, 0)[0], np.take_along_axis(slope, highest, 0)[0]
 
 
+def rebounds(
+    amplitude: Array,
+    height_m: Array,
+    doubled: NDArray[np.bool_],
+    bounced: NDArray[np.bool_],
+    lengths: ArmLengths,
+) -> Array:
+    """`amplitude` (4, n), but that the stick and the fingers alone raise `doubled` and `bounced` strokes (n,).
+
+    Between the two strokes of a double the wrist goes on down a little, so that it makes one motion of both; it stays
+    where it is while a pressed stick bounces.
+    """
+    dip = np.where(doubled, np.minimum(_DIP_RAD, _DIP_SHARE * height_m / lengths.ahead), 0.0)
+    stick = (height_m + dip * (lengths.hand * lengths.turns_hand + lengths.ahead)) / lengths.ahead
+    zero = np.zeros_like(dip)
+    result: Array = np.where(doubled | bounced, np.stack([zero, zero, -dip, stick]) / _SHARE_AT_TOP, amplitude)
+    return result
+
+
+_REBOUNDS_AGAIN = 0.3
+"""What fingers alone have struck rebounds from so much less (our choice)."""
+_DIP_RAD, _DIP_SHARE = 0.03, 0.5
+"""How far the wrist goes on down within a double, and at most in shares of the second stroke's angle (our choice)."""
+
+
 def top(amplitude: Array) -> Array:
     """The offsets (4, n) of strokes with `amplitude` (4, n) about where the tip is highest."""
     result: Array = amplitude * _SHARE_AT_TOP
@@ -173,13 +198,16 @@ def top(amplitude: Array) -> Array:
 class StrokePlan:
     """What the strokes of one hand need: `strike_s` (n,), rising, each from `height_m` (n,).
 
-    `amplitude` (4, n) is what `amplitudes` gives, `ceiling` (4, n) what the joints' limits leave, `most` (n,) how often
-    the height is the highest that has room, `lever_m` the distance from wrist to tip.
+    `rebounds` (n,) come out of the stroke before them, moved by the fingers alone.
+
+    `amplitude` (4, n) is what `amplitudes` and `rebounds` give, `ceiling` (4, n) what the joints' limits leave, `most`
+    (n,) how often the height is the highest that has room, `lever_m` the distance from wrist to tip.
     """
 
     strike_s: Array
     height_m: Array
     amplitude: Array
+    rebounds: NDArray[np.bool_]
     ceiling: Array
     most: Array
     lever_m: float
@@ -202,11 +230,14 @@ class Strokes:
         strike_s, height_m = plan.strike_s, plan.height_m
         gaps = np.concatenate(([_LONG_S], np.diff(strike_s), [_LONG_S]))
         room = gaps[:-1] / (_FULL_GAP_S * np.sqrt(np.maximum(height_m, 0.01) / _FULL_GAP_HEIGHT_M))
-        gain = np.minimum(sliders.gain * np.minimum(room, 1.0), plan.most)
+        own = np.where(plan.rebounds, sliders.gain[3:], sliders.gain)  # one motion of all joints
+        gain = np.minimum(own * np.minimum(room, 1.0), plan.most)
         peak = np.minimum(plan.amplitude * gain, plan.ceiling)
         n = len(strike_s)
         times, merged = _times(strike_s, gaps, np.maximum(height_m * gain.mean(0), _LEAST_HEIGHT_M), sliders)
-        values = _values(times, merged, peak, np.minimum(_REST_HEIGHT_M, 0.6 * height_m) / plan.lever_m)
+        merged[:, plan.rebounds] = 1.0
+        struck = np.where(plan.rebounds, _REBOUNDS_AGAIN, 1.0) * np.maximum(peak, 0.0)
+        values = _values(times, merged, (peak, struck), np.minimum(_REST_HEIGHT_M, 0.6 * height_m) / plan.lever_m)
         tension = np.tile(_TENSION[:, None, :], (1, n, 1))
         tension[..., 0] = _START_TENSION * (1 - merged)
         tension[..., 7] = _REST_TENSION * (1 - _merged_after(merged))
@@ -283,8 +314,13 @@ def _times(strike_s: Array, gaps: Array, height_m: Array, sliders: Sliders) -> t
     return times, 1.0 - up / rise
 
 
-def _values(times: Array, merged: Array, peak: Array, hold: Array) -> Array:
-    """Values (4, n, KEYS) of all keys; `hold` (n,) the wrist's angle of rest before each strike."""
+def _values(times: Array, merged: Array, peaks: tuple[Array, Array], hold: Array) -> Array:
+    """Values (4, n, KEYS) of all keys.
+
+    `peaks` (4, n) how far the joints go before each strike, and what they rebound from; `hold` (n,) the wrist's angle
+    of rest before each strike.
+    """
+    peak, struck = peaks
     values = np.zeros_like(times)
     m, m_after, peak_after = merged[..., None], _merged_after(merged), _next(peak)
     held = np.zeros_like(peak)
@@ -296,7 +332,7 @@ def _values(times: Array, merged: Array, peak: Array, hold: Array) -> Array:
     values[..., 1] += 0.5 * held
     together = _SHARE_AT_TOP * peak_after
     low = np.minimum(1.0, 0.35 + 0.65 * peak_after / np.maximum(peak, 1e-6))  # a down stroke keeps the stick low
-    values[..., 6] = _SHARE_REBOUND * peak * low * (1 - m_after) + _MERGED_REBOUND * together * m_after
+    values[..., 6] = _SHARE_REBOUND * struck * low * (1 - m_after) + _MERGED_REBOUND * together * m_after
     values[..., 7] = _next(held) + _MERGED_REST * together * m_after
     # merged, the start is no key of its own but a point between the rest before it and the middle
     rest_t, rest_v = times[:, :-1, 7], values[:, :-1, 7]

@@ -31,17 +31,23 @@ def test_strikes_come_in_order_of_sound_grace_notes_included() -> None:
     assert left == [(0.475, 0)]
 
 
+def pressed(events: list[tuple[float, int]]) -> list[float]:
+    """When the hand presses: what comes within 50 ms of the event before it is a bounce."""
+    times = [t for t, _ in events]
+    return [t for t, before in zip(times, [-1.0, *times], strict=False) if t - before > 0.05]
+
+
 def test_a_long_buzz_is_pressed_by_both_hands_in_turn() -> None:
     buzz = Note(0, Piece.SNARE, articulation=Articulation.BUZZ, duration_ticks=2 * PPQ, limb=R)
     right, left = events_of([buzz])
-    assert [t for t, _ in right] == pytest.approx([0, 0.2, 0.4, 0.6, 0.8])  # 1 s in ten presses
-    assert [t for t, _ in left] == pytest.approx([0.1, 0.3, 0.5, 0.7, 0.9])
+    assert pressed(right) == pytest.approx([0, 0.2, 0.4, 0.6, 0.8])  # 1 s in ten presses
+    assert pressed(left) == pytest.approx([0.1, 0.3, 0.5, 0.7, 0.9])
 
 
 def test_one_hand_presses_alone_where_the_other_plays() -> None:
     buzz = Note(0, Piece.SNARE, articulation=Articulation.BUZZ, duration_ticks=2 * PPQ, limb=L)
     right, left = events_of([buzz, Note(PPQ, Piece.RIDE, limb=R)])
-    assert len(left) == 5
+    assert len(pressed(left)) == 5
     assert [t for t, a in right if a != WAIT] == [0.5]
 
 

@@ -23,7 +23,8 @@ def plan_of(times: list[float], heights: list[float], most: float = np.inf) -> S
     n = len(times)
     height = np.array(heights)
     amplitude = amplitudes(height, np.repeat(CONTACT[:, None], n, 1), LENGTHS, np.ones((4, 1)))
-    return StrokePlan(np.array(times), height, amplitude, np.full((4, n), 3.0), np.full(n, most), 0.43)
+    alone = np.zeros(n, bool)
+    return StrokePlan(np.array(times), height, amplitude, alone, np.full((4, n), 3.0), np.full(n, most), 0.43)
 
 
 def rise(strokes: Strokes, at: Array) -> Array:
