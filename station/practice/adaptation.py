@@ -25,6 +25,7 @@ from station.drills.mastery.steps import Item, Kind, Step, item_of
 from station.music.performance import Performance
 from station.music.score import Score
 from station.music.tempo import TempoMap
+from station.practice.click import Gap
 from station.practice.plan import MAX_TEMPO_BPM, MIN_TEMPO_BPM, Phase, Plan, Rounds, Segment, Wishes, plan_practice
 from station.practice.session import Latency, Session, SessionResult
 from station.scoring.align import align
@@ -122,13 +123,14 @@ class Adaptation:
         return Row(tuple(one.result.score for one in self.rounds))
 
     def _laid_out(self) -> Plan:
-        step, played = self.step, bool(self.rounds)
+        step, played, click = self.step, bool(self.rounds), self.wishes.click
         wishes = replace(
             self.wishes,
             tempo_bpm=min(max(step.tempo_bpm, MIN_TEMPO_BPM), MAX_TEMPO_BPM),
             loops=step.repeats,
             bars=(step.bars[0] + 1, step.bars[1] + 1),
             demonstrations=0 if played else self.wishes.demonstrations,
+            click=click if step.gap is None else replace(click, gap=Gap(*step.gap)),
         )
         return plan_practice(self.lesson, wishes)
 

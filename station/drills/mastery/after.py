@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from types import MappingProxyType
 
+from station.drills.mastery.gaps import Gaps
 from station.drills.mastery.ladder import TOP_PCT, Ladder, Move
 from station.drills.mastery.passes import PassResult
 from station.drills.mastery.rules import Rules
@@ -24,11 +25,16 @@ def after_pass(state: ItemState, result: PassResult, verdict: Verdict, rules: Ru
     pct = state.step.pct
     state, why = _AFTER[state.step.kind](state, result, verdict, rules)
     if state.is_stable(rules):
-        return replace(state, plateau=state.plateau.again()), why
+        return replace(state, plateau=state.plateau.again(), gaps=_gaps(state, verdict, rules)), why
     is_lost = verdict.grade is Grade.BROKEN and pct <= rules.floor_pct
     passes = rules.passes_a_run if is_lost else 1
     reached = state.ladder.pct, state.mastery_pct, state.probes.in_a_row
     return replace(state, plateau=state.plateau.after(*reached, passes)), why
+
+
+def _gaps(state: ItemState, verdict: Verdict, rules: Rules) -> Gaps:
+    """The click's silences; blind passes leave them as they are."""
+    return state.gaps if state.step.is_probe else state.gaps.after(verdict.is_clean, rules)
 
 
 # --- the whole --------------------------------------------------------------------------------------------------------

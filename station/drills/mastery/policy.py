@@ -141,9 +141,18 @@ def _varied(state: ItemState, why: str, rules: Rules) -> ItemState:
 def _with(state: ItemState, kind: Kind, pct: float, why: str, rules: Rules) -> ItemState:
     bars = state.item.bars if state.chunk is None else _chunk_bars(state.item, state.chunk.bar, rules)
     feedback = Feedback.NONE if kind in PROBES else state.fading.feedback(rules)
-    item = state.item
-    step = Step(kind, pct, item.bpm(pct), bars, item.repeats(bars, rules), feedback, f"{why}.")
+    item, gap = state.item, state.gaps.bars(rules) if kind in _GAPPED and state.is_stable(rules) else None
+    if gap is not None:
+        why = f"{why}; the click sounds for {_bars(gap[0])} and is silent for {_bars(gap[1])}: keep the time"
+    step = Step(kind, pct, item.bpm(pct), bars, item.repeats(bars, rules, gap), feedback, f"{why}.", gap=gap)
     return replace(state, step=step)
+
+
+_GAPPED = frozenset({Kind.WHOLE, Kind.VARIATION})
+
+
+def _bars(count: int) -> str:
+    return "1 bar" if count == 1 else f"{count} bars"
 
 
 def _replied(state: ItemState, why: str, rules: Rules) -> tuple[ItemState, Step]:

@@ -64,6 +64,12 @@ class Rules:
     clean_to_fade: int = 4
     """Clean passes at one of these levels that lead to the next."""
 
+    # --- a click that falls silent (TEACHING) ---
+    gaps: tuple[tuple[int, int], ...] = ((4, 1), (2, 2), (1, 3))
+    """Bars with a click and bars without, level after level, once an item is stable."""
+    clean_to_gap: int = 2
+    """Clean passes in a row at one level that lead to the next; our choice, as many as lead up the ladder."""
+
     # --- weak bars ---
     chunk_bars: int = 1
     chunk_passes: int = 8
@@ -129,7 +135,7 @@ class Rules:
                 raise BadInput("mastery rules", name, f"no such rule; there are {', '.join(sorted(known))}")
             if not _fits(value, getattr(DEFAULT_RULES, name)):
                 raise BadInput("mastery rules", name, f"{value!r} is not like {getattr(DEFAULT_RULES, name)!r}")
-        values: dict[str, Any] = {name: tuple(v) if isinstance(v, list) else v for name, v in changes.items()}
+        values: dict[str, Any] = {name: _tuples(value) for name, value in changes.items()}
         return replace(self, **values)
 
     def sd_limit_ms(self, interval_ms: float | None) -> float:
@@ -143,7 +149,15 @@ class Rules:
 
 _COUNTS = (
     *("notes_a_wrong_pad", "clean_to_climb", "bad_to_drop", "passes_a_probe", "rungs_a_target_probe"),
-    *("probes_to_be_stable", "clean_to_fade", "chunk_bars", "chunk_passes", "clean_to_return", "least_bars"),
+    *(
+        "probes_to_be_stable",
+        "clean_to_fade",
+        "clean_to_gap",
+        "chunk_bars",
+        "chunk_passes",
+        "clean_to_return",
+        "least_bars",
+    ),
     *(
         "least_notes",
         "passes_a_run",
@@ -173,8 +187,14 @@ def _checks(rules: Rules) -> list[tuple[str, bool, str]]:
         ("floor_pct", 0 < rules.floor_pct <= 100, "above 0 and at most 100"),
         ("vary_pct", 0 <= rules.vary_pct < 100, "from 0 to below 100"),
         ("fades", len(rules.fades) > 0 and all(0 <= f <= 1 for f in rules.fades), "a list of shares from 0 to 1"),
+        ("gaps", all(len(gap) == 2 and min(gap) >= 1 for gap in rules.gaps), "pairs of bars from 1"),
         ("review_days", all(a < b for a, b in zip((0, *days), days, strict=False)), "a rising list of days from 1"),
     ]
+
+
+def _tuples(value: object) -> object:
+    """A list, and what lists it holds, as tuples; anything else as it is."""
+    return tuple(map(_tuples, value)) if isinstance(value, list | tuple) else value
 
 
 def _fits(value: object, like: object) -> bool:

@@ -5,6 +5,7 @@ from datetime import date
 
 from station.drills.mastery.equipment import Equipment
 from station.drills.mastery.fading import Fading
+from station.drills.mastery.gaps import Gaps
 from station.drills.mastery.ladder import Ladder
 from station.drills.mastery.plateau import Plateau
 from station.drills.mastery.probes import Probes
@@ -50,6 +51,7 @@ class ItemState:
     chunk: Chunk | None = None
     equipment: Equipment = field(default_factory=Equipment)
     review: Review = field(default_factory=Review)
+    gaps: Gaps = field(default_factory=Gaps)
     fixed_pct: float | None = None
     varied: int = 0
     before: Before | None = None

@@ -65,11 +65,12 @@ class Item:
         """The tempo as a student reads it."""
         return f"{self.bpm(pct) / self.beat_quarters:.0f} bpm"
 
-    def repeats(self, bars: tuple[int, int], rules: Rules) -> int:
-        """How often `bars` are played a pass so that it says something."""
+    def repeats(self, bars: tuple[int, int], rules: Rules, gap: tuple[int, int] | None = None) -> int:
+        """How often `bars` are played a pass so that it says something, and so that a click with a `gap` comes back."""
         notes = sum(self.bar_notes[bars[0] - self.first_bar : bars[1] - self.first_bar + 1])
         least = max(rules.least_bars / (bars[1] - bars[0] + 1), rules.least_notes / max(notes, 1))
-        return math.ceil(min(least, rules.least_notes))
+        often = math.ceil(min(least, rules.least_notes))
+        return often if gap is None else max(often, math.ceil((sum(gap) + 1) / (bars[1] - bars[0] + 1)))
 
     def pass_s(self, step: "Step") -> float:
         """How long the pass lasts."""
@@ -81,7 +82,8 @@ class Item:
 class Step:
     """The next pass: `bars` (first, last) played `repeats` times at `tempo_bpm` (quarter notes), `pct` of the target.
 
-    `why` is one sentence. `notice` is what the student should be told once besides, such as a fault of the equipment.
+    `why` is one sentence. `notice` is what the student should be told once besides, such as a fault of the
+    equipment. `gap` is how many bars the click sounds and is silent in turn, None where it sounds throughout.
     """
 
     kind: Kind
@@ -92,6 +94,7 @@ class Step:
     feedback: Feedback
     why: str
     notice: str | None = None
+    gap: tuple[int, int] | None = None
 
     @property
     def is_probe(self) -> bool:

@@ -11,8 +11,8 @@ from station.drills.mastery.rules import Rules
 from station.drills.mastery.steps import Kind
 from tests.unit.drills.mastering import BAD, BROKEN, CLEAN, DAY, ITEM, played
 
-LONG = Rules(session_s=10_000.0)
-"""No end by the clock. A pass of the item takes 8 s at its target tempo."""
+LONG = Rules(session_s=10_000.0, gaps=())
+"""No end by the clock, and no longer passes for a silent click. A pass of the item takes 8 s at its target tempo."""
 
 
 def session(count: int, rules: Rules = LONG) -> Agenda:

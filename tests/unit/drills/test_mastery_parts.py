@@ -11,10 +11,11 @@ from station.core.pieces import Piece
 from station.drills.lesson import Goals
 from station.drills.library import find_lesson
 from station.drills.mastery.equipment import Equipment, rewired
+from station.drills.mastery.gaps import Gaps
 from station.drills.mastery.passes import Answers, BarResult, PassResult
 from station.drills.mastery.reviews import Review
 from station.drills.mastery.rules import DEFAULT_RULES, Rules
-from station.drills.mastery.steps import item_of
+from station.drills.mastery.steps import Item, item_of
 from station.drills.mastery.verdict import Fault, Grade, judge
 from station.drills.mastery.weak_bars import tallied, weakest
 from station.music.performance import HIT_DTYPE, Performance
@@ -242,3 +243,27 @@ def test_an_item_of_a_lesson() -> None:
 def test_the_grades_of_the_fixtures() -> None:
     assert [grade(one) for one in (CLEAN, LOOSE, BAD, BROKEN)] == list(Grade)
     assert INTERVAL_MS * DEFAULT_RULES.sd_interval_share > DEFAULT_RULES.sd_ceiling_ms
+
+
+def test_the_click_falls_silent_longer_and_longer_and_comes_back() -> None:
+    """TEACHING: 4 on 1 off, 2/2, 1/3; two clean passes a level, one that is not clean goes back."""
+    gaps, seen = Gaps(), []
+    for is_clean in (True,) * 8 + (False,) * 4:
+        gaps = gaps.after(is_clean, DEFAULT_RULES)
+        seen.append(gaps.bars(DEFAULT_RULES))
+    rising = [None, (4, 1), (4, 1), (2, 2), (2, 2), (1, 3), (1, 3), (1, 3)]
+    assert seen == [*rising, (2, 2), (4, 1), None, None]
+
+
+def test_a_pass_with_a_silent_click_is_long_enough_for_its_return() -> None:
+    """A loop of two bars: 4 on, 1 off and the bar after it are six bars, three times round."""
+    item = Item("x", 100.0, 0, (16, 16), (2.4, 2.4))
+    assert item.repeats((0, 1), DEFAULT_RULES) == 1
+    assert item.repeats((0, 1), DEFAULT_RULES, (4, 1)) == 3
+    assert item.repeats((0, 1), DEFAULT_RULES, (1, 3)) == 3
+
+
+@pytest.mark.parametrize("gaps", [[[0, 1]], [[4]], [4, 1]])
+def test_gaps_that_are_none_are_refused(gaps: list[object]) -> None:
+    with pytest.raises(BadInput, match="gaps"):
+        DEFAULT_RULES.changed({"gaps": gaps})

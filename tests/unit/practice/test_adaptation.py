@@ -177,3 +177,16 @@ def test_feedback_is_what_the_student_is_shown(feedback: Feedback, shown: list[i
     session = Session(plan_practice(FILL, Wishes(loops=1)), feedback=feedback)
     verdicts = (Judgement(Label.MATCH, 0, 0, 9), Judgement(Label.MISS, 1, None))
     assert [verdict.asynchrony_ns for verdict in session.told(verdicts)] == shown
+
+
+def test_what_is_stable_is_kept_while_the_click_is_silent() -> None:
+    """A student without a fault is stable after probes of the target; then passes have gaps, and the report knows."""
+    adaptation, virtual = practised("sd_ms=8,seed=4", Wishes(loops=20))
+    gapped = [one.result.plan.silences for one in adaptation.rounds if one.step.gap is not None]
+    assert gapped
+    assert all(gapped)
+    assert len(virtual.result.plan.silences) == sum(map(len, gapped))
+    quiet_ns, _ = virtual.result.plan.silences[0]
+    clicks = next(one.result.plan for one in adaptation.rounds if one.step.gap is not None)
+    assert clicks.click.gap is not None
+    assert clicks.silences[0][0] < quiet_ns
