@@ -22,6 +22,7 @@ from station.drills.mastery.policy import begin, fix_tempo, new_item, next_step,
 from station.drills.mastery.rules import Rules
 from station.drills.mastery.state import ItemState
 from station.drills.mastery.steps import Item, Kind, Step, item_of
+from station.drills.voicing import revoiced
 from station.music.performance import Performance
 from station.music.score import Score
 from station.music.tempo import TempoMap
@@ -132,7 +133,8 @@ class Adaptation:
             demonstrations=0 if played else self.wishes.demonstrations,
             click=click if step.gap is None else replace(click, gap=Gap(*step.gap)),
         )
-        return plan_practice(self.lesson, wishes)
+        lesson = replace(self.lesson, score=revoiced(self.lesson.score)) if step.revoiced else self.lesson
+        return plan_practice(lesson, wishes)
 
     def _measured(self, result: SessionResult) -> PassResult:
         swap = self.state.equipment.swap

@@ -128,14 +128,15 @@ def _asked(state: ItemState, why: str, rules: Rules) -> ItemState:
 
 
 def _varied(state: ItemState, why: str, rules: Rules) -> ItemState:
-    """A stable item: a little faster, a little slower, as written, and round again."""
-    off_pct = (rules.vary_pct, -rules.vary_pct, 0.0)[state.varied % 3]
-    if off_pct == 0.0:
+    """A stable item: a little faster, a little slower, on the other cymbal if it may, as written, and again."""
+    turns = [(rules.vary_pct, "a little faster"), (-rules.vary_pct, "a little slower"), (0.0, "")]
+    if state.item.can_revoice:
+        turns.insert(2, (0.0, "on the other cymbal"))
+    off_pct, how = turns[state.varied % len(turns)]
+    if not how:
         return _with(replace(state, varied=state.varied + 1), Kind.WHOLE, state.pct, why, rules)
-    side = "faster" if off_pct > 0 else "slower"
-    return _with(
-        state, Kind.VARIATION, TOP_PCT + off_pct, f"{why}; now a little {side}, so that it holds anywhere", rules
-    )
+    varied = _with(state, Kind.VARIATION, TOP_PCT + off_pct, f"{why}; now {how}, so that it holds anywhere", rules)
+    return replace(varied, step=replace(varied.step, revoiced=off_pct == 0.0))
 
 
 def _with(state: ItemState, kind: Kind, pct: float, why: str, rules: Rules) -> ItemState:

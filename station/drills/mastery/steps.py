@@ -13,6 +13,7 @@ from station.core.units import NS_PER_S, PPQ
 from station.drills.lesson import Lesson
 from station.drills.mastery.fading import Feedback
 from station.drills.mastery.rules import Rules
+from station.drills.voicing import can_revoice
 
 
 class Kind(StrEnum):
@@ -29,7 +30,7 @@ class Kind(StrEnum):
     REVIEW = "review"
     """All bars at the target tempo, blind, another day."""
     VARIATION = "variation"
-    """All bars of a stable item, a little slower or faster than the target."""
+    """All bars of a stable item, a little slower or faster than the target, or on the other cymbal."""
     LEAVE = "leave"
     """Nothing more today; who plays on all the same plays the whole."""
 
@@ -42,7 +43,8 @@ class Item:
     """Something to practise: bars `first_bar` … of a lesson, looped.
 
     `bar_notes` and `bar_s` have the strokes and the length in seconds at the target tempo of each bar. `target_bpm`
-    counts quarter notes, `beat_quarters` says how many of them make the beat that a student counts.
+    counts quarter notes, `beat_quarters` says how many of them make the beat that a student counts, and
+    `can_revoice` whether there is timekeeping that can move to another cymbal.
     """
 
     name: str
@@ -51,6 +53,7 @@ class Item:
     bar_notes: tuple[int, ...]
     bar_s: tuple[float, ...]
     beat_quarters: float = 1.0
+    can_revoice: bool = False
 
     @property
     def bars(self) -> tuple[int, int]:
@@ -84,6 +87,7 @@ class Step:
 
     `why` is one sentence. `notice` is what the student should be told once besides, such as a fault of the
     equipment. `gap` is how many bars the click sounds and is silent in turn, None where it sounds throughout.
+    `revoiced` whether the timekeeping moves to the other cymbal.
     """
 
     kind: Kind
@@ -95,6 +99,7 @@ class Step:
     why: str
     notice: str | None = None
     gap: tuple[int, int] | None = None
+    revoiced: bool = False
 
     @property
     def is_probe(self) -> bool:
@@ -120,4 +125,5 @@ def item_of(lesson: Lesson, bars: tuple[int, int] | None = None) -> Item:
         bar_notes=tuple(notes.tolist()),
         bar_s=tuple((np.diff(starts) / NS_PER_S).tolist()),
         beat_quarters=lesson.beat_ticks / PPQ,
+        can_revoice=can_revoice(lesson.score),
     )

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from station.core.errors import BadInput
+from station.core.pieces import Piece
 from station.core.settings import Settings
 from station.drills.library import find_lesson
 from station.drills.mastery.fading import Feedback
@@ -190,3 +191,12 @@ def test_what_is_stable_is_kept_while_the_click_is_silent() -> None:
     clicks = next(one.result.plan for one in adaptation.rounds if one.step.gap is not None)
     assert clicks.click.gap is not None
     assert clicks.silences[0][0] < quiet_ns
+
+
+def test_what_is_stable_is_also_played_on_the_other_cymbal() -> None:
+    adaptation, virtual = practised("sd_ms=8,seed=4", Wishes(loops=24))
+    other = [one for one in adaptation.rounds if one.step.revoiced]
+    assert other
+    assert {one.step.pct for one in other} == {100.0}
+    assert all((one.result.score.notes["piece"] == Piece.RIDE).any() for one in other)
+    assert virtual.result.alignment.count(Label.WRONG_PIECE) == 0
