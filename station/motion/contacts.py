@@ -103,6 +103,8 @@ class Lie:
 
 def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike) -> Lie:
     """The most comfortable way for `strike` with `hold`."""
+    if strike.articulation == WAIT and not hold.held.rest_m:  # a brush waits on the head
+        strike = replace(strike, articulation=Articulation.NORMAL)
     target = target_of(kit, strike)
     right = strike.limb == Limb.RIGHT_HAND
     lengths = hold.lengths(figure, right)

@@ -57,27 +57,30 @@ GRIPS: Mapping[str, Grip] = MappingProxyType(
 class Held:
     """What is held: its length in shares of a stick's, the fulcrum's place on it from the butt, and how it strikes.
 
-    `height` multiplies the stroke's height. A bare hand has no length of its own: the fingers are its stick.
+    `height` multiplies the stroke's height; `rest_m` is how high the tip rests between strokes. A bare hand has no
+    length of its own: the fingers are its stick.
     """
 
     name: str
     length: float
     pivot: float
     height: float
+    rest_m: float
 
 
 HELD: Mapping[str, Held] = MappingProxyType(
     {
         h.name: h
         for h in (
-            Held("stick", 1.0, 1 / 3, 1.0),
-            Held("brush", 0.84, 0.30, 0.7),
-            Held("mallet", 0.96, 0.30, 0.9),
-            Held("hand", 0.0, 0.0, 0.55),
+            Held("stick", 1.0, 1 / 3, 1.0, 0.045),
+            Held("brush", 0.84, 0.30, 0.7, 0.0),
+            Held("mallet", 0.96, 0.30, 0.9, 0.045),
+            Held("hand", 0.0, 0.0, 0.55, 0.045),
         )
     }
 )
-"""A stick's pivot is a third from the butt (HUMANS); the rest are our choices."""
+"""A stick's pivot is a third from the butt (HUMANS) and it rests 3.4–4.5 cm high in the measured stroke; a brush rests
+on the head. The rest are our choices."""
 
 _KNUCKLES = 0.055
 _FINGERTIPS = 0.108

@@ -78,6 +78,7 @@ class HandPart:
             ceiling=np.array([lie.ceiling for lie in lies])[which].T,
             most=np.full(len(height), np.inf),
             lever_m=lengths.hand + lengths.ahead,
+            rest_m=hold.held.rest_m,
         )
         left_at_once = np.array([lie.shoulder_of_stick for lie in lies])[which]
         played = np.array([kit.stand_in(s.piece) for s in strikes])[which]

@@ -11,7 +11,7 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Piece, word
+from station.core.pieces import Limb, Piece, word
 from station.motion import body
 from station.motion.arm import Contact
 from station.motion.flourish import Flourishes, Now, flourished
@@ -20,12 +20,13 @@ from station.motion.hand import HandPart
 from station.motion.instruments import Instrument
 from station.motion.leg import HEEL_RAD, Footing
 from station.motion.life import BREATH_M, BREATH_RATE, Blinks
-from station.motion.maths import MANY, ONE, Number
+from station.motion.maths import MANY, ONE, Number, Point
 from station.motion.plan import Plan, holds
 from station.motion.reach import leans
 from station.motion.splines import Curves
 from station.motion.stroke import Sliders, Strokes
 from station.motion.style import Style
+from station.motion.sweeps import SWEEP_M, SWISH_M, Sweeps
 from station.motion.travel import Way
 from station.music.score import Score
 
@@ -34,27 +35,37 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class HandKeys:
-    """One hand's way, strokes and flourishes, and where it shows these."""
+    """One hand's way, strokes and flourishes, where it shows these, and what a brush sweeps."""
 
     way: Way
     strokes: Strokes
     flourishes: Flourishes | None
     show: Contact
+    sweeps: Sweeps | None
 
     def at(self, time_s: float) -> tuple[HandNow, Now | None]:
         """The contact and the stroke, and what the stick does of its own, None where there are no flourishes."""
         now = self.way.at(time_s), self.strokes.at(time_s)
+        if self.sweeps is not None:
+            return _swept(now, self.sweeps.at(time_s)), None
         return (now, None) if self.flourishes is None else self._raised(now, self.flourishes.at(time_s))
 
     def many(self, time_s: Array) -> tuple[HandNow, Now | None]:
         """The same at each time."""
         now = self.way.many(time_s), self.strokes.many(time_s)
+        if self.sweeps is not None:
+            return _swept(now, self.sweeps.many(time_s)), None
         return (now, None) if self.flourishes is None else self._raised(now, self.flourishes.many(time_s))
 
     def _raised(self, now: HandNow, flourish: Now) -> tuple[HandNow, Now]:
         contact, offsets = now
         to = flourish.raised
         return (tuple([c + to * (s - c) for c, s in zip(contact, self.show, strict=True)]), offsets), flourish
+
+
+def _swept(now: HandNow, sweep: Point) -> HandNow:
+    (x, y, z, *lie), offsets = now
+    return (x + sweep[0], y + sweep[1], z + sweep[2], *lie), offsets
 
 
 @dataclass(frozen=True, eq=False)
@@ -168,7 +179,18 @@ def _hand(plan: Plan, part: HandPart, style: Style, old: HandKeys | None, same: 
         old.strokes if old and "strokes" in same else Strokes.of(part.strokes, sliders(plan.score, part, style, bars))
     )
     flourishes = old.flourishes if old and "flourishes" in same else _flourishes(part, style, bars)
-    return HandKeys(part.way, strokes, flourishes, part.show)
+    return HandKeys(part.way, strokes, flourishes, part.show, _sweeps(plan, part, strokes))
+
+
+def _sweeps(plan: Plan, part: HandPart, strokes: Strokes) -> Sweeps | None:
+    """What the hand sweeps if it holds a brush, which it then neither spins nor tosses."""
+    if part.hold.held.name != "brush":
+        return None
+    right = part.limb == Limb.RIGHT_HAND
+    along_m = SWISH_M if right != plan.kit.left_handed else SWEEP_M
+    nx, ny, nz = plan.kit.pieces[Piece.SNARE].normal.tolist()
+    beats = plan.ground.beats.time_s
+    return Sweeps.of(part.events, strokes, beats, along_m if right else -along_m, (nx, ny, nz))
 
 
 def _flourishes(part: HandPart, style: Style, bars: Array) -> Flourishes | None:

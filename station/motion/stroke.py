@@ -71,8 +71,8 @@ _TIME_GROWTH, _RISE_GROWTH = 0.25, 0.18
 much faster, and takes hardly longer to raise."""
 _LEAST_HEIGHT_M = 1e-3
 """Even a stroke of no height takes its time, that of one of this height (our choice)."""
-_REST_HEIGHT_M = 0.045
-"""Where the tip rests between strokes that are far apart (3.4–4.5 cm in the measured stroke)."""
+_REST_SHARE = 0.6
+"""Between strokes that are far apart the tip rests no higher than this share of the next (our choice)."""
 _FULL_GAP_S = 0.16
 _FULL_GAP_HEIGHT_M = 0.15
 """A repetition in `_FULL_GAP_S` leaves room for a stroke of `_FULL_GAP_HEIGHT_M`; the time goes with its root."""
@@ -201,7 +201,8 @@ class StrokePlan:
     `rebounds` (n,) come out of the stroke before them, moved by the fingers alone.
 
     `amplitude` (4, n) is what `amplitudes` and `rebounds` give, `ceiling` (4, n) what the joints' limits leave, `most`
-    (n,) how often the height is the highest that has room, `lever_m` the distance from wrist to tip.
+    (n,) how often the height is the highest that has room, `lever_m` the distance from wrist to tip, and `rest_m` how
+    high the tip rests.
     """
 
     strike_s: Array
@@ -211,6 +212,7 @@ class StrokePlan:
     ceiling: Array
     most: Array
     lever_m: float
+    rest_m: float
 
 
 _CUBIC = Struct("4d")
@@ -237,7 +239,7 @@ class Strokes:
         times, merged = _times(strike_s, gaps, np.maximum(height_m * gain.mean(0), _LEAST_HEIGHT_M), sliders)
         merged[:, plan.rebounds] = 1.0
         struck = np.where(plan.rebounds, _REBOUNDS_AGAIN, 1.0) * np.maximum(peak, 0.0)
-        values = _values(times, merged, (peak, struck), np.minimum(_REST_HEIGHT_M, 0.6 * height_m) / plan.lever_m)
+        values = _values(times, merged, (peak, struck), np.minimum(plan.rest_m, _REST_SHARE * height_m) / plan.lever_m)
         tension = np.tile(_TENSION[:, None, :], (1, n, 1))
         tension[..., 0] = _START_TENSION * (1 - merged)
         tension[..., 7] = _REST_TENSION * (1 - _merged_after(merged))
