@@ -98,6 +98,10 @@ class ArmLengths:
     rolls_hand: float = 0.0
     most_bend: float = math.pi
 
+    def nearest_m(self, m: Maths, bend: Number) -> Number:
+        """How near to the shoulder an elbow bent by `bend` brings the wrist, metres."""
+        return m.sqrt(self.upper**2 + self.fore**2 + 2 * self.upper * self.fore * m.cos(bend))
+
 
 def solve(
     m: Maths, lengths: ArmLengths, shoulder: Point, contact: Contact, offsets: Offsets, wing_more: Number = 0.0

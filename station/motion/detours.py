@@ -7,7 +7,8 @@ hand travels, the lower one's stroke is held lower. What is found once for a fig
 repetitions.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import pi, radians
 
 import numpy as np
 from numpy.typing import NDArray
@@ -50,8 +51,10 @@ _WAYS = np.array(
 _WAY_COST = 0.08
 """A metre of detour is taken for this many metres of clearance (our choice)."""
 _DEPTH_COST = 10.0
+_ELBOW_SPARE_RAD = radians(10)
 _ANGLE_COST_M = 0.3
-"""A metre deep in a drum or a radian beyond a joint's limit weighs as this many metres too near (our choice)."""
+"""A metre deep in a drum or a radian beyond a joint's limit weighs as this many metres too near; the elbow's limit is
+left to styles by the spare (our choice)."""
 
 
 def looks(*event_s: Array) -> Array:
@@ -172,7 +175,7 @@ class _Scene:
         x, y, z = (c + hump * w[:, None] for c, w in zip(contact[:3], ways.T, strict=True))
         every = Contact(x, y, z, *(np.broadcast_to(c, x.shape) for c in contact[3:]))
         strokes = Strokes.of(hand.strokes, NATURALLY).many(times)
-        lengths = hand.hold.lengths(self.figure, hand.limb == Limb.RIGHT_HAND)
+        lengths = replace(hand.hold.lengths(self.figure, hand.limb == Limb.RIGHT_HAND), most_bend=pi)
         rx, ry, rz = (np.broadcast_to(r, self.grid.shape)[on] for r in self.roots[side])
         arm = solve(MANY, lengths, (rx, ry, rz), every, strokes)
         own = [np.broadcast_to(p, (*x.shape, 3)) for p in _limbs(arm)]
@@ -206,7 +209,7 @@ class _Scene:
         limits = self.figure.limits
         sideways = arm.deviation if side == 0 else -arm.deviation
         over = [
-            arm.elbow_bend - limits.elbow_flexion,
+            arm.elbow_bend - limits.elbow_flexion + _ELBOW_SPARE_RAD,
             arm.extension - limits.wrist_extension,
             -arm.extension - limits.wrist_flexion,
             sideways - limits.wrist_radial,

@@ -87,6 +87,7 @@ class Plan:
             return right, left
         grid = looks(right.events.time_s, left.events.time_s)
         roots = self._roots(grid)
+        right, left = (hand.in_front(self.figure, grid, root) for hand, root in zip((right, left), roots, strict=True))
         right, left = (hand.eased(self.figure, grid, root) for hand, root in zip((right, left), roots, strict=True))
         right, left = detoured((right, left), self.figure, self.kit, grid, roots)
         right, left = (hand.eased(self.figure, grid, root) for hand, root in zip((right, left), roots, strict=True))
