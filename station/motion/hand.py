@@ -2,14 +2,14 @@
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import pi, radians
+from math import radians
 
 import numpy as np
 from numpy.typing import NDArray
 
 from station.core.errors import BadInput
 from station.core.pieces import Limb, Piece, Zone, word
-from station.motion.arm import Contact, Offsets, solve
+from station.motion.arm import Contact, solve
 from station.motion.contacts import PROTRACTION_M, Lie, Strike, lie_of
 from station.motion.events import SHOW, HandEvents
 from station.motion.figure import Figure
@@ -28,10 +28,6 @@ _EASINGS = 3
 _LEAST_HUMP, _MOST_TURN_RAD = 0.3, radians(60)
 """Moments at which so little of a detour is left are not helped by turning the hand; nor is it turned more than this
 (our choice)."""
-_ELBOW_SPARE_RAD = radians(15)
-_MOST_FORWARD_M = 0.35
-"""What ways leave of the elbow's limit, for others' bodies and strokes, and how far one is led in front of the shoulder
-at most (our choice)."""
 _HAND_YAW = Contact._fields.index("hand_yaw")
 
 
@@ -96,28 +92,6 @@ class HandPart:
     def way(self) -> Way:
         """The way between the contacts."""
         return Way.of(self.events.time_s, self.contacts, self.bump, self.early)
-
-    def in_front(self, figure: Figure, time_s: Array, root: Point) -> "HandPart":
-        """The same on ways that pass so far in front of the shoulder that the elbow stays within its limit.
-
-        `root` is the shoulder's x, y, z as the body naturally is at `time_s` (k,).
-        """
-        lengths = replace(self.hold.lengths(figure, self.limb == Limb.RIGHT_HAND), most_bend=pi)
-        raised = Strokes.of(self.strokes, NATURALLY).many(time_s).elbow
-        near = np.asarray(lengths.nearest_m(MANY, figure.limits.elbow_flexion - _ELBOW_SPARE_RAD - raised))
-        part = self
-        for _ in range(_EASINGS):
-            wrist = solve(MANY, lengths, root, part.way.many(time_s), Offsets(0.0, 0.0, 0.0, 0.0)).wrist
-            x, y, z = (np.asarray(w) - r for w, r in zip(wrist, root, strict=True))
-            k, hump = part.way.humps(time_s)
-            lacking = np.where(x * x + y * y + z * z < near**2, np.sqrt(np.maximum(near**2 - x * x - z * z, 0)) - y, 0)
-            helped = (hump > _LEAST_HUMP) & (lacking > 0)
-            forward = np.zeros(len(part.bump))
-            np.maximum.at(forward, k[helped], lacking[helped] / hump[helped])
-            bump = part.bump.copy()
-            bump[:, 1] = np.minimum(bump[:, 1] + forward, np.maximum(bump[:, 1], _MOST_FORWARD_M))
-            part = replace(part, bump=bump)
-        return part
 
     def eased(self, figure: Figure, time_s: Array, root: Point) -> "HandPart":
         """The same with the hand so pointed at each contact that its wrist stays within its limits sideways.

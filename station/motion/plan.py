@@ -25,6 +25,7 @@ from station.motion.limbs import Assignment, assign_limbs
 from station.motion.maths import MANY, Point
 from station.motion.pedals import hat_board, kick_board
 from station.motion.posture import pelvis_of
+from station.motion.shoulders import past_the_shoulder
 from station.motion.splines import Curves
 from station.motion.style import Style
 from station.motion.trunk import TrunkAngles, trunk
@@ -87,7 +88,10 @@ class Plan:
             return right, left
         grid = looks(right.events.time_s, left.events.time_s)
         roots = self._roots(grid)
-        right, left = (hand.in_front(self.figure, grid, root) for hand, root in zip((right, left), roots, strict=True))
+        right, left = (
+            past_the_shoulder(hand, self.figure, self.kit, grid, root)
+            for hand, root in zip((right, left), roots, strict=True)
+        )
         right, left = (hand.eased(self.figure, grid, root) for hand, root in zip((right, left), roots, strict=True))
         right, left = detoured((right, left), self.figure, self.kit, grid, roots)
         right, left = (hand.eased(self.figure, grid, root) for hand, root in zip((right, left), roots, strict=True))

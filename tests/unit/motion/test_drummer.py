@@ -13,7 +13,7 @@ from station.motion import frame
 from station.motion.collisions import collisions
 from station.motion.contacts import Strike, target_of
 from station.motion.drummer import Drummer
-from station.motion.figure import figure_of
+from station.motion.figure import Joint, figure_of
 from station.motion.kit import kit_names, load_kit
 from station.motion.pose import ANGLE_NAMES
 from station.motion.style import Style
@@ -214,3 +214,22 @@ def test_shoulders_breathe_and_eyes_blink_without_a_note() -> None:
     assert np.ptp(rows[:, 3 * 5 + 2]) > 0.004  # the right shoulder's height
     assert rows[:, frame.EYES].min() < 0.2
     assert rows[:, frame.EYES].mean() > 0.9
+
+
+FROM_FAR = (
+    (60, [(0, Piece.CRASH_1), (3, Piece.HIHAT), (6, Piece.SNARE), (10, Piece.CRASH_1), (11, Piece.CRASH_1)]),
+    (60, [(0, Piece.TOM_1), (3, Piece.FLOOR_TOM_1), (4, Piece.TOM_1), (7, Piece.CRASH_1), (8, Piece.FLOOR_TOM_1)]),
+)
+"""Home from a far piece past a waiting hand, and across the body, tempo and beats."""
+
+
+@pytest.mark.parametrize(("bpm", "strokes"), FROM_FAR)
+def test_a_hand_passes_in_front_of_its_shoulder(bpm: int, strokes: list[tuple[int, Piece]]) -> None:
+    """An arm that folds at its shoulder would throw the elbow out."""
+    notes = [Note(beat * PPQ, p, zone_of(p), 112) for beat, p in strokes]
+    drummer = Drummer(Score.from_notes(notes, TempoMap.constant(bpm)))
+    joints = drummer.rows(np.arange(-1.0, 12.0, 1 / 480))[:, frame.JOINTS].reshape(-1, 21, 3)
+    elbows = joints[:, [Joint.RIGHT_ELBOW, Joint.LEFT_ELBOW]]
+    assert np.linalg.norm(np.diff(elbows, axis=0), axis=2).max() * 480 < 5.0
+    for shoulder, wrist in ((Joint.RIGHT_SHOULDER, Joint.RIGHT_WRIST), (Joint.LEFT_SHOULDER, Joint.LEFT_WRIST)):
+        assert np.linalg.norm(joints[:, shoulder] - joints[:, wrist], axis=1).min() > 0.17  # at the limit it is 0.166
