@@ -22,6 +22,7 @@ class Choice:
         self.tempo_bpm = 100.0
         self.loops = 4
         self.adapt = True
+        self.click = first is None or first.click
         if self._lessons:
             named = [card for card in self._lessons if first is not None and card.name == first.lesson]
             self.choose(named[0] if named else self._lessons[0])
@@ -41,7 +42,8 @@ class Choice:
         """What to start; None where there is no lesson."""
         if self.card is None:
             return None
-        wish = Start(self.card.name, float(self.tempo_bpm), self.loops, adapt=self.adapt)
+        adapt = self.adapt and self.click
+        wish = Start(self.card.name, float(self.tempo_bpm), self.loops, adapt=adapt, click=self.click)
         if self._first is not None and self._first.lesson == self.card.name:
             return replace(wish, bars=self._first.bars, demonstrations=self._first.demonstrations)
         return wish

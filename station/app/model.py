@@ -35,7 +35,8 @@ class LessonCard:
 class Start:
     """What the user chose: a lesson by name, quarter notes a minute, passes, bars from 1 (None: the lesson's).
 
-    With `adapt` the tempo follows the student from pass to pass, and `tempo_bpm` says nothing.
+    With `adapt` the tempo follows the student from pass to pass, and `tempo_bpm` says nothing. Without
+    `click` the score follows him within a pass; the two exclude each other.
     """
 
     lesson: str
@@ -44,6 +45,7 @@ class Start:
     bars: tuple[int, int] | None = None
     demonstrations: int | None = None
     adapt: bool = False
+    click: bool = True
 
 
 class Stage(IntEnum):

@@ -86,6 +86,8 @@ class LessonsPanel:
         imgui.set_next_item_width(-theme.points(84))
         _, choice.loops = imgui.slider_int("passes", choice.loops, 1, MAX_LOOPS)
         tooltip("How often the loop is played")
+        _, choice.click = imgui.checkbox("click", choice.click)
+        tooltip("Without it you are counted in, then the score follows your own tempo and waits when you stop")
         if theme.main_button(START_LABEL, (-1, theme.points(46))):
             self._start()
         tooltip("Count-in, demonstration, then you (Enter)")

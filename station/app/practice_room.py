@@ -22,6 +22,7 @@ from station.drills.library import find_lesson, shipped_lessons
 from station.engine.messages import EngineEvent, KeyHit, Notice, Ready
 from station.music.judgement import Judgement
 from station.practice.adaptation import Adaptation
+from station.practice.click import PLAIN
 from station.practice.live import EngineLink, begin, end, next_session
 from station.practice.mastery_report import with_mastery
 from station.practice.memory import Memory, Remembered
@@ -161,7 +162,7 @@ class PracticeRoom:
     def _laid_out(self, wish: Start) -> tuple[Plan, SessionView, Remembered | None]:
         lesson = self._lessons.get(wish.lesson) or find_lesson(wish.lesson)
         tempo_bpm = None if wish.adapt else wish.tempo_bpm
-        wishes = Wishes(tempo_bpm, wish.loops, wish.bars, wish.demonstrations)
+        wishes = Wishes(tempo_bpm, wish.loops, wish.bars, wish.demonstrations, PLAIN if wish.click else None)
         plan, followed = plan_practice(lesson, wishes), None
         if wish.adapt:
             settings = self._settings
@@ -276,7 +277,8 @@ class PracticeRoom:
 def _wish_of(plan: Plan) -> Start:
     last_bar = plan.first_bar + plan.section.bar_count
     demonstrations = sum(segment.phase is Phase.DEMONSTRATION for segment in plan.segments)
-    return Start(plan.lesson.name, plan.tempo_bpm, plan.passes, (plan.first_bar + 1, last_bar), demonstrations)
+    bars = plan.first_bar + 1, last_bar
+    return Start(plan.lesson.name, plan.tempo_bpm, plan.passes, bars, demonstrations, click=plan.click is not None)
 
 
 def _all_lessons(first: Lesson) -> dict[str, Lesson]:

@@ -73,7 +73,8 @@ class _Room:
             now_ns = zero_ns + plan.passes_start_ns + at_ns
             self._engine.feed(DEVICE, data, now_ns)
             self._step(now_ns)
-        self._step(zero_ns + plan.end_ns + TAIL_NS)
+        played_until_ns = plan.passes_start_ns + max((at_ns for at_ns, _ in student.midi), default=0)
+        self._step(zero_ns + max(plan.end_ns, played_until_ns) + TAIL_NS)
         return session.result()
 
     def end(self) -> StationError | None:

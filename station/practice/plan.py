@@ -49,14 +49,15 @@ class Segment:
 class Wishes:
     """What a student asks of a lesson; None leaves the choice to the lesson. `bars` (first, last) counts from 1.
 
-    `click` is for the demonstrations and passes; the count-in clicks, or counts, every beat.
+    `click` is for the demonstrations and passes; the count-in clicks, or counts, every beat. With None the passes have
+    no click, and the score follows the student.
     """
 
     tempo_bpm: float | None = None
     loops: int | None = None
     bars: tuple[int, int] | None = None
     demonstrations: int | None = None
-    click: ClickPattern = PLAIN
+    click: ClickPattern | None = PLAIN
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +79,8 @@ class Plan:
 
     `section` is one pass at the practice tempo, `score` all passes in a row (what is judged), `first_bar` the lesson's
     bar (from 0) where the section begins, `passes_start_ns` where tick 0 of `score` lies on the transport, `end_ns`
-    where the last pass ends, `cues` (n,) of `CUE_DTYPE` everything that sounds, `click` the pattern under the passes.
+    where the last pass ends, `cues` (n,) of `CUE_DTYPE` everything that sounds, `click` the pattern under the passes,
+    None where the score follows the student.
     `rounds` is there where passes differ in bars or tempo: then `section` is all of them in a row.
     """
 
@@ -92,7 +94,7 @@ class Plan:
     passes_start_ns: int
     end_ns: int
     cues: NDArray[np.void]
-    click: ClickPattern
+    click: ClickPattern | None
     rounds: Rounds | None = None
 
     @property
@@ -107,7 +109,7 @@ class Plan:
         """From when until when in ns of the score the click is silent, in order."""
         if self.rounds is not None:
             return self.rounds.silences
-        return silences(self.score.tempo_map, self.score.end_tick, self.click.gap)
+        return silences(self.score.tempo_map, self.score.end_tick, None if self.click is None else self.click.gap)
 
     def segment_at(self, at_ns: int) -> Segment:
         """The segment that holds transport time `at_ns`: the first before zero, `Phase.OVER` after the end."""
@@ -145,7 +147,7 @@ def plan_practice(lesson: Lesson, wishes: Wishes) -> Plan:
     segments: list[Segment] = []
     cues: list[NDArray[np.void]] = []
     now_ns = 0
-    click = wishes.click
+    click = wishes.click or PLAIN
     count_in = _count_in(section, lesson.count_in_bars)
     count_in_cues = click_cues(count_in.tempo_map, count_in.end_tick, counting(click))
     section_cues = np.concatenate([click_cues(section.tempo_map, section.end_tick, click), demonstration_cues(section)])
@@ -163,7 +165,8 @@ def plan_practice(lesson: Lesson, wishes: Wishes) -> Plan:
                 cues.append(_moved(section_cues, now_ns + start))
         else:
             passes_start_ns = now_ns
-            cues.append(_moved(click_cues(whole.tempo_map, whole.end_tick, click), now_ns))
+            if wishes.click is not None:
+                cues.append(_moved(click_cues(whole.tempo_map, whole.end_tick, click), now_ns))
         segments += [
             Segment(phase, i, now_ns + start, now_ns + end)
             for i, (start, end) in enumerate(zip((0, *ends[:-1].tolist()), ends.tolist(), strict=True))
@@ -180,7 +183,7 @@ def plan_practice(lesson: Lesson, wishes: Wishes) -> Plan:
         passes_start_ns=passes_start_ns,
         end_ns=now_ns,
         cues=_in_order(cues),
-        click=click,
+        click=wishes.click,
     )
 
 

@@ -45,6 +45,7 @@ def practice_document(result: SessionResult, settings: Settings) -> dict[str, Js
         "beats_a_minute": round(plan.tempo_bpm * PPQ / plan.lesson.beat_ticks, 3),
         "bars": [plan.bars[0] + 1, plan.bars[1] + 1],
         "passes": plan.passes,
+        "click": plan.click is not None,
         "complete": result.complete,
         "input_latency_ms": result.latency.input_ns / NS_PER_MS,
         "output_latency_ms": result.latency.output_ns / NS_PER_MS,

@@ -5,6 +5,9 @@ it every event of the engine and now and then the time. Judgement depends on the
 is the same at any frame rate. Session time is monotonic nanoseconds; transport time starts at the engine's zero;
 score time at tick 0 of the plan's score.
 
+Without a click the score follows the student (`scoring.follower`): what the window shows and when the session ends goes
+by where he is, and the score waits when he stops.
+
 A hit's score time = its stamp − input latency − (the transport's zero + output latency) − the passes' start: what the
 student heard and played, compared where both are known.
 """
@@ -12,6 +15,7 @@ student heard and played, compared where both are known.
 from collections import Counter, deque
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import TypeVar
 
 from station.core.events import Choke, DeviceFound, DeviceLost, Hit
 from station.core.units import NS_PER_MS
@@ -26,6 +30,8 @@ from station.scoring.align import align
 from station.scoring.alignment import Alignment
 from station.scoring.follower import Follower
 from station.scoring.windows import DEFAULT_LEVEL, Windows
+
+_Played = TypeVar("_Played", Hit, Choke)
 
 LEAD_IN_NS = 300 * NS_PER_MS
 """How long after `start` the first click is heard: time for the engine to wake; our choice."""
@@ -45,7 +51,10 @@ class Latency:
 
 @dataclass(frozen=True, slots=True)
 class SessionState:
-    """What a window shows: the segment, transport and score time, the counts of the verdicts so far."""
+    """What a window shows: the segment, the place on the plan's timeline and in the score.
+
+    With a click the timeline is the transport's; without one it runs as the student plays.
+    """
 
     segment: Segment
     transport_ns: int | None
@@ -83,7 +92,7 @@ class Session:
     message: str = ""
 
     def __post_init__(self) -> None:
-        self._follower = Follower(self.plan.score, self.windows)
+        self._follower = Follower(self.plan.score, self.windows, clocked=self.plan.click is not None)
         self._zero_ns: int | None = None
         self._now_ns = 0
         self._hits: list[Hit] = []
@@ -163,16 +172,16 @@ class Session:
     @property
     def over(self) -> bool:
         """Whether the last bar and the tail after it have passed."""
-        at_ns = self._transport_ns(self._now_ns)
+        at_ns = self._plan_ns()
         return at_ns is not None and at_ns >= self.plan.end_ns + TAIL_NS
 
     def state(self) -> SessionState:
         """What is going on, as of the last `advance`."""
-        transport_ns = self._transport_ns(self._now_ns)
+        plan_ns = self._plan_ns()
         return SessionState(
-            segment=self.plan.segment_at(transport_ns if transport_ns is not None else -1),
-            transport_ns=transport_ns,
-            score_ns=self._score_ns(self._now_ns),
+            segment=self.plan.segment_at(plan_ns if plan_ns is not None else -1),
+            transport_ns=plan_ns,
+            score_ns=None if plan_ns is None else plan_ns - self.plan.passes_start_ns,
         )
 
     @property
@@ -204,12 +213,23 @@ class Session:
 
     def result(self) -> SessionResult:
         """The final alignment of all that was heard so far."""
-        performance = Performance.from_hits(self._hits, self._chokes)
-        heard_until_ns = self._score_ns(self._now_ns)
+        performance = self._performance()
+        heard_until_ns = self.state().score_ns
         complete = heard_until_ns is not None and heard_until_ns >= self.plan.score.length_ns
         score = self.plan.score if complete else self.plan.score.until_ns(heard_until_ns or 0)
-        alignment = align(score, performance, clocked=True)
+        alignment = align(score, performance, clocked=self.plan.click is not None)
         return SessionResult(self.plan, score, performance, alignment, self.latency, complete, self._played_on())
+
+    def _performance(self) -> Performance:
+        """What was played; where the score waited for the student, so does the time of what came after."""
+        waited = [(self._hits[hit].at_ns, by_ns) for hit, by_ns in self._follower.waited]
+
+        def moved(event: _Played) -> _Played:
+            return replace(event, at_ns=event.at_ns - sum(by_ns for from_ns, by_ns in waited if event.at_ns >= from_ns))
+
+        if not waited:
+            return Performance.from_hits(self._hits, self._chokes)
+        return Performance.from_hits(map(moved, self._hits), map(moved, self._chokes))
 
     def _played_on(self) -> str | None:
         return Counter(hit.device for hit in self._hits).most_common(1)[0][0] if self._hits else None
@@ -223,5 +243,14 @@ class Session:
         transport_ns = self._transport_ns(at_ns)
         return None if transport_ns is None else transport_ns - self.plan.passes_start_ns
 
+    def _plan_ns(self) -> int | None:
+        """The place on the plan's timeline now: the transport's, or the student's where no click rules the passes."""
+        transport_ns, start_ns = self._transport_ns(self._now_ns), self.plan.passes_start_ns
+        if transport_ns is None or self.plan.click is not None or transport_ns < start_ns:
+            return transport_ns
+        return start_ns + self._follower.place_ns(transport_ns - start_ns)
+
     def _is_judged(self, score_ns: int) -> bool:
+        if self.plan.click is None:
+            return score_ns >= -EARLIEST_NS
         return -EARLIEST_NS <= score_ns <= self.plan.score.length_ns + TAIL_NS

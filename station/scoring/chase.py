@@ -23,7 +23,6 @@ from station.scoring.doubt import DOUBT, SLACK_S, Doubt
 from station.scoring.evidence import best_evidence, class_rates, nats
 from station.scoring.judge import Moved
 from station.scoring.locate import Candidate, Hits, Notes, Search, candidates
-from station.scoring.pursuit import JUMP_COST
 from station.scoring.shifts import LEAST_JUMP_S
 from station.scoring.tracker import Place, Tracker
 
@@ -74,6 +73,9 @@ _SLACK_RATE = 0.05
 _MARGIN, _HOPELESS = 3.0, 12.0
 """Nats by which a rival must lead, and by which it is given up."""
 
+_JUMP_COST = 18.0
+"""Nats against a change of place (`pursuit` asks 15 of whoever knows what comes after)."""
+
 _PER_S = 2.0
 """Nats more for each second of a jump (our choice: so early, where bars are alike, little but nearness decides)."""
 
@@ -102,6 +104,8 @@ class Chase:
         self._nats: list[float] = []
         self._stopped_at: int | None = None  # the first hit after the last stop, while that is in doubt
         self._stop_s = 0.0
+        self.waited: list[tuple[int, int]] = []
+        """The first hit after each stop, and for how many ns the score had waited for it."""
         self._rivals: list[_Line] = []
         self._lead_total = 0.0
         self._contested = 0  # hits before this one have been held against the rivals
@@ -162,6 +166,9 @@ class Chase:
         """Take hit `index`, the first after a stop, for the next note of its class."""
         own, last_s = self._by_class[self._classes[index]], self._places[index - 1] if index else -SLACK_S
         place = own[min(bisect_right(own, last_s + SLACK_S), len(own) - 1)]
+        played_on_s = (place - last_s) / self._place.rate
+        silence_s = self._times[index] - (self._times[index - 1] if index else 0.0)
+        self.waited.append((index, round((silence_s - played_on_s) * NS_PER_S)))
         self._place = Place(self._times[index], place, self._place.rate)
         self._calm(index)
         self._stopped_at, self._stop_s = index, last_s
@@ -214,7 +221,7 @@ class Chase:
     ) -> list[Candidate]:
         end_s = among_s[1] + float((window.at_s[-1] - window.at_s[0]) * rates[-1])
         among = slice(bisect_left(self._note_s, among_s[0]), bisect_right(self._note_s, end_s))
-        return candidates(self._notes, Search(among, rates, expected_s), window)
+        return candidates(self._notes, _Anywhere(among, rates, expected_s), window)
 
     def _far(self, here_s: float) -> tuple[float, float]:
         """The part of the score that this look takes: first around `here_s`, then the next to the left and right."""
@@ -232,19 +239,23 @@ class Chase:
         distances = self._notes.tracker.distances(early, [self._classes[k] for k in known[:since]])
         late, more, after = self._follow(known[since:], place)
         line = _Line(known, early + late, self._said(known, distances + more), after)
-        worth = [
-            own - lead
-            for own, lead in zip(
-                self._worth(line.places_s, line.nats),
-                self._worth([self._places[k] for k in known], [self._nats[k] for k in known]),
-                strict=True,
-            )
+        own, lead = self._worth(line.places_s, line.nats), self._worth(*self._lead(known))
+        gains = [
+            line.nats[i]
+            + MISS_COST * (line.nats[i] > 0.0)
+            + sum(own[i + 1 :])
+            - sum(lead[i:])
+            - self._cost(known[i], line.places_s[i], place.rate)
+            for i in range(len(known) - _LEAST_HITS + 1)
         ]
-        gains = [sum(worth[i:]) for i in range(len(worth) - _LEAST_HITS + 1)]
         split = max(range(len(gains)), key=gains.__getitem__)
         line = _Line(known[split:], line.places_s[split:], line.nats[split:], after)
-        line.total = gains[split] - self._cost(known[split], line.places_s[0], place.rate)
+        line.total = gains[split]
         return line
+
+    def _lead(self, hits: list[int]) -> tuple[list[float], list[float]]:
+        """Places and evidence of `hits` as believed so far."""
+        return [self._places[k] for k in hits], [self._nats[k] for k in hits]
 
     def _follow(self, hits: list[int], place: Place) -> tuple[list[float], list[float], Place]:
         return self._notes.tracker.follow([self._times[k] for k in hits], [self._classes[k] for k in hits], place)
@@ -269,11 +280,8 @@ class Chase:
         if since_stop:
             jump_s = min(jump_s, abs(place_s - (self._stop_s if split else self._note_s[0])))
         new_tempo = log(rate / self._place.rate) / (_NEW_TEMPO if since_stop else _SAME_TEMPO)
-        return (
-            (_RESUMED_COST if since_stop or jump_s < LEAST_JUMP_S else JUMP_COST)
-            + min(_PER_S * jump_s, _MOST_FOR_TIME)
-            + min(0.5 * new_tempo * new_tempo, _MOST_FOR_TEMPO)
-        )
+        base = _RESUMED_COST if since_stop or jump_s < LEAST_JUMP_S else _JUMP_COST
+        return base + min(_PER_S * jump_s, _MOST_FOR_TIME) + min(0.5 * new_tempo * new_tempo, _MOST_FOR_TEMPO)
 
     # --- rivals -----------------------------------------------------------------------------------------------------
 
@@ -300,9 +308,7 @@ class Chase:
         if known:
             self._lead_total += sum(
                 self._worth(
-                    [self._places[k] for k in known],
-                    [self._nats[k] for k in known],
-                    bisect_left(self._note_s, self._places[max(self._contested - 1, 0)] + SLACK_S),
+                    *self._lead(known), bisect_left(self._note_s, self._places[max(self._contested - 1, 0)] + SLACK_S)
                 )
             )
             for rival in self._rivals:
@@ -319,7 +325,7 @@ class Chase:
         """Follow `line` from now on; the line followed so far becomes its rival."""
         first = line.hits[0]
         hits = [k for k in range(first, len(self._times)) if self._is_known(k)]
-        old = _Line(hits, [self._places[k] for k in hits], [self._nats[k] for k in hits], self._place)
+        old = _Line(hits, *self._lead(hits), self._place)
         old.total, self._lead_total = self._lead_total, line.total
         self._rivals = [old, *(rival for rival in self._rivals if rival is not line)]
         for k, place, said in zip(line.hits, line.places_s, line.nats, strict=True):
@@ -333,6 +339,14 @@ class Chase:
         self._place = line.place
         self._calm(len(self._times))
         self._doubt.calm(len(self._times))
+
+
+class _Anywhere(Search):
+    """A search in which no place is likelier than another: what a jump costs is told later, line by line."""
+
+    def cost(self, score_s: Floats) -> Floats:
+        """Nothing."""
+        return np.zeros(np.shape(score_s))
 
 
 class _Line:

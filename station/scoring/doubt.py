@@ -16,7 +16,7 @@ from station.scoring.evidence import STRAY
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-DOUBT = 5.0
+DOUBT = 6.0
 """Nats that raise a doubt (our choice: two strays in a row do not, a wrong bar does)."""
 
 SLACK_S = 0.05

@@ -9,7 +9,7 @@ Everything is a function of the hits and their own times alone; frames decide no
 plays are missed as time passes; without one, as the student passes them, for silence is no mistake of his.
 """
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from typing import Protocol
 
 import numpy as np
@@ -76,6 +76,11 @@ class Follower:
     def place_ns(self, at_ns: int) -> int:
         """Where in the score the student is at `at_ns`, as far as the hits told so far show."""
         return at_ns if self._where is None else self._where.place_ns(at_ns)
+
+    @property
+    def waited(self) -> Sequence[tuple[int, int]]:
+        """The first hit after each stop of a student without a click, and for how many ns the score waited for it."""
+        return self._where.waited if isinstance(self._where, Chase) else ()
 
     def _bounces(self, hit: Hit, at_ns: int) -> bool:
         """Whether a hit on a piece that buzzes is but a bounce, which tells nothing of the place (`ignored`)."""

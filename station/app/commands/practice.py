@@ -9,7 +9,7 @@ from station.app.commands.output import print_json, say
 from station.app.commands.scores import bars_of_gap
 from station.app.health import has_screen
 from station.app.session_folder import SessionFolder, rescued
-from station.core.errors import DeviceError, StationError
+from station.core.errors import BadInput, DeviceError, StationError
 from station.core.settings import Settings, load_settings, with_said
 from station.drills.lesson import Lesson
 from station.practice.click import PLAIN
@@ -38,7 +38,11 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--loops", type=int, metavar="N", help="how often the loop is played (the lesson's)")
     parser.add_argument("--bars", type=_bars, metavar="A-B", help="bars to practise, from 1 (the lesson's loop)")
-    parser.add_argument("--gap", type=bars_of_gap, metavar="ON/OFF", help="bars with a click and bars without, in turn")
+    click = parser.add_mutually_exclusive_group()
+    click.add_argument("--gap", type=bars_of_gap, metavar="ON/OFF", help="bars with a click and bars without, in turn")
+    click.add_argument(
+        "--no-click", action="store_true", help="no click after the count-in: the score follows you, and waits"
+    )
     parser.add_argument("--kit", metavar="PORT", help="part of the MIDI port's name (the first kit found)")
     parser.add_argument("--output", metavar="DEVICE", help="part of the sound output's name (the system's default)")
     parser.add_argument("--block-frames", type=int, metavar="N", help="frames an audio block (the driver's choice)")
@@ -58,6 +62,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Practise."""
     settings = _wanted(arguments, load_settings())
+    if arguments.no_click and arguments.adapt:
+        raise BadInput("--no-click", "--adapt", "the tempo follows you either within a pass or from pass to pass")
     lesson, wishes = _lesson(arguments.lesson), _wishes(arguments)
     plan = plan_practice(lesson, wishes)
     if arguments.virtual_student is not None:
@@ -66,7 +72,8 @@ def run(arguments: argparse.Namespace) -> int:
     if not in_terminal and has_screen():
         from station.app.commands.window import open_window
 
-        adapt = arguments.tempo is None if arguments.adapt is None else arguments.adapt
+        by_default = arguments.tempo is None and not arguments.no_click
+        adapt = by_default if arguments.adapt is None else arguments.adapt
         return open_window(settings, plan, adapt)
     if not in_terminal and arguments.kit is None and not _is_kit_there(settings.kit):
         say("no screen and no kit here: a virtual student practises instead")
@@ -172,7 +179,8 @@ def _lesson(name: str | None) -> Lesson:
 
 def _wishes(arguments: argparse.Namespace) -> Wishes:
     demonstrations = 0 if arguments.no_demonstration else None
-    return Wishes(arguments.tempo, arguments.loops, arguments.bars, demonstrations, replace(PLAIN, gap=arguments.gap))
+    click = None if arguments.no_click else replace(PLAIN, gap=arguments.gap)
+    return Wishes(arguments.tempo, arguments.loops, arguments.bars, demonstrations, click)
 
 
 def _wanted(arguments: argparse.Namespace, settings: Settings) -> Settings:
