@@ -26,7 +26,7 @@ from station.drills.voicing import revoiced
 from station.music.performance import Performance
 from station.music.score import Score
 from station.music.tempo import TempoMap
-from station.practice.click import Gap
+from station.practice.click import PLAIN, Gap
 from station.practice.plan import MAX_TEMPO_BPM, MIN_TEMPO_BPM, Phase, Plan, Rounds, Segment, Wishes, plan_practice
 from station.practice.session import Latency, Session, SessionResult
 from station.scoring.align import align
@@ -131,7 +131,7 @@ class Adaptation:
             loops=step.repeats,
             bars=(step.bars[0] + 1, step.bars[1] + 1),
             demonstrations=0 if played else self.wishes.demonstrations,
-            click=click if step.gap is None else replace(click, gap=Gap(*step.gap)),
+            click=click if step.gap is None else replace(click or PLAIN, gap=Gap(*step.gap)),
         )
         lesson = replace(self.lesson, score=revoiced(self.lesson.score)) if step.revoiced else self.lesson
         return plan_practice(lesson, wishes)

@@ -189,6 +189,7 @@ def test_what_is_stable_is_kept_while_the_click_is_silent() -> None:
     assert len(virtual.result.plan.silences) == sum(map(len, gapped))
     quiet_ns, _ = virtual.result.plan.silences[0]
     clicks = next(one.result.plan for one in adaptation.rounds if one.step.gap is not None)
+    assert clicks.click is not None
     assert clicks.click.gap is not None
     assert clicks.silences[0][0] < quiet_ns
 
