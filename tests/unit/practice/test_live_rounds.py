@@ -1,0 +1,64 @@
+"""Pass after pass in real time, against an engine that says what it is given to say on a clock that it moves itself."""
+
+from datetime import date
+from pathlib import Path
+
+from station.core.clock import ManualClock
+from station.core.events import DeviceFound, Hit
+from station.core.pieces import Piece, Zone
+from station.core.units import NS_PER_S
+from station.drills.library import find_lesson
+from station.engine.messages import Command, EngineEvent, Play, Record, Recorded, Started
+from station.music.judgement import Judgement
+from station.practice.adaptation import Adaptation
+from station.practice.live import practise_rounds
+from station.practice.plan import Wishes
+from station.practice.session import Latency, Session
+
+TODAY = date(2026, 3, 1)
+
+
+class Link:
+    """Each look at the events is a second later; every transport that runs gets one stroke after ten seconds."""
+
+    def __init__(self, clock: ManualClock) -> None:
+        self._clock = clock
+        self._says: list[EngineEvent] = [DeviceFound(0, "kit")]
+        self.plays = 0
+        self.records: list[Path | None] = []
+
+    def send(self, command: Command) -> None:
+        if isinstance(command, Play):
+            self.plays += 1
+            zero_ns = self._clock.now_ns() + command.start_in_ns
+            self._says += [Started(zero_ns), Hit(zero_ns + 10 * NS_PER_S, Piece.SNARE, Zone.HEAD, 90)]
+        elif isinstance(command, Record):
+            self.records.append(command.path)
+            self._says.append(Recorded(command.path))
+
+    def events(self, wait_s: float = 0.0) -> list[EngineEvent]:
+        del wait_s
+        self._clock.advance_to(self._clock.now_ns() + NS_PER_S)
+        said, self._says = self._says, []
+        return said
+
+
+def test_passes_follow_each_other_in_one_capture_and_come_down(tmp_path: Path) -> None:
+    """One stroke of 24 is right at best: too much went wrong, two steps of 8 % down from 70 % after each pass."""
+    clock = ManualClock()
+    link, adaptation = Link(clock), Adaptation(find_lesson("rock-1"), Wishes(loops=3, demonstrations=0), TODAY)
+    heard: list[Session] = []
+
+    def tell(session: Session, judged: tuple[Judgement, ...]) -> None:
+        del judged
+        if session not in heard:
+            heard.append(session)
+
+    outcome = practise_rounds(link, adaptation, adaptation.session(Latency()), clock, tmp_path / "x", tell)
+    assert outcome.fault is None
+    assert (link.plays, len(heard)) == (3, 3)
+    assert link.records == [tmp_path / "x", None]
+    assert [one.step.pct for one in adaptation.rounds] == [70.0, 54.0, 40.0]
+    assert len(outcome.result.performance) == 3
+    assert all(session.device == "kit" for session in heard)
+    assert heard[1].message == adaptation.rounds[1].step.why
