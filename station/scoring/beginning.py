@@ -33,6 +33,10 @@ _SURELY = 0.6
 """As `_ENOUGH`, of the long look, for a performance on the score's own time base: a player of SD 20 ms, with one stroke
 in ten astray, brings so much."""
 
+_CLEARLY = 0.2
+"""The score's own time base is left only for so much more of the possible evidence: another drummer's groove, with its
+fills and ghosts, may fit a bar off by a tenth better; a recording that is truly elsewhere fits by half."""
+
 _LOOKED_AT, _LONG_LOOK = 12, 256
 """So many of the likeliest beginnings are followed over so many hits."""
 
@@ -41,7 +45,9 @@ def find_beginning(notes: Notes, hits: Hits) -> Place:
     """Where and how fast the performance begins."""
     longer = hits.part(0, _LONG_LOOK)
     same = Place(float(hits.at_s[0]), float(hits.at_s[0]), 1.0)  # recorded on the score's own time base
-    if nats_for(notes, longer, same) > _SURELY * _possible(notes, longer):
+    possible = _possible(notes, longer)
+    nats_same = nats_for(notes, longer, same)
+    if nats_same > _SURELY * possible:
         return same
     window = hits.window(0)
     early = slice(0, int(np.searchsorted(notes.at_s, notes.at_s[0] + _EARLY_S)))
@@ -50,7 +56,8 @@ def find_beginning(notes: Notes, hits: Hits) -> Place:
     if max(candidate.nats for candidate in tried) < _ENOUGH * _possible(notes, window):
         tried += candidates(notes, replace(search, among=slice(None)), window)
     tried.sort(key=lambda candidate: -candidate.nats - _prior(candidate.place, notes))
-    return max((c.place for c in tried[:_LOOKED_AT]), key=lambda p: nats_for(notes, longer, p) + _prior(p, notes))
+    best = max((c.place for c in tried[:_LOOKED_AT]), key=lambda p: nats_for(notes, longer, p) + _prior(p, notes))
+    return best if nats_for(notes, longer, best) - nats_same > _CLEARLY * possible else same
 
 
 def _possible(notes: Notes, hits: Hits) -> float:

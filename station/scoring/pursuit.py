@@ -19,6 +19,10 @@ Floats = NDArray[np.float64]
 JUMP_COST = 15.0
 """Nats against a jump (our choice: chance differences over `_HORIZON` hits are about 6 nats, 2.5 SD)."""
 
+SURE_JUMP_COST = 30.0
+"""As `JUMP_COST`, where nothing corrects a wrong jump any more: a drummer's own variation of a groove, repeated, speaks
+for a wrong bar by 15 to 30 nats (the drummers of GMD's `eval_session` against each other)."""
+
 JUMP_COST_PER_S, MOST_JUMP_COST_MORE = COST_PER_S, MOST_COST
 """Nats more for each second of a jump, up to so many: where bars are alike, the nearest place is believed."""
 
@@ -112,7 +116,7 @@ class Pursuit:
         moved = evidence(np.concatenate((early, late)), self._rates[back:end])
         surplus = np.concatenate((np.cumsum((moved - self._nats[back:end])[::-1])[::-1], [0.0]))
         split = back + int(np.argmax(surplus[: suspect - back + 1]))
-        cost = JUMP_COST + min(JUMP_COST_PER_S * self._jump_s(split, suspect, place), MOST_JUMP_COST_MORE)
+        cost = SURE_JUMP_COST + min(JUMP_COST_PER_S * self._jump_s(split, suspect, place), MOST_JUMP_COST_MORE)
         return _Move(place, split, float(surplus[split - back]) - cost, before, early)
 
     def _jump_s(self, split: int, suspect: int, place: Place) -> float:

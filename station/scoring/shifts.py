@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from station.scoring.evidence import evidence
 from station.scoring.locate import Hits, Notes
-from station.scoring.pursuit import JUMP_COST, JUMP_COST_PER_S, MOST_JUMP_COST_MORE
+from station.scoring.pursuit import JUMP_COST_PER_S, MOST_JUMP_COST_MORE, SURE_JUMP_COST
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -75,12 +75,12 @@ def best_shifts(notes: Notes, hits: Hits, places: Floats, beats: Beats) -> Float
     tried = _with(SHIFTS_BEATS, list(made.values()))
     distance_s = float(np.median(np.diff(beats.at_s))) * np.abs(tried)
     more = np.minimum(JUMP_COST_PER_S * distance_s, MOST_JUMP_COST_MORE)
-    total = np.where(tried == 0.0, 0.0, -JUMP_COST - more)
+    total = np.where(tried == 0.0, 0.0, -SURE_JUMP_COST - more)
     came_from = np.empty((len(places), len(tried)), np.int16)
     straight = np.arange(len(tried), dtype=np.int16)
     for i, said in enumerate(_evidence(notes, hits, places, beats, tried)):
         best = int(total.argmax())
-        jumped = total[best] - JUMP_COST
+        jumped = total[best] - SURE_JUMP_COST
         came_from[i] = straight
         if i in made:
             came_from[i] = _index_of(tried + made[i], tried)
@@ -96,7 +96,7 @@ def fits_elsewhere(notes: Notes, hits: Hits, places: Floats, beats: Beats, part:
     """Whether the hits of `part`, moved together by some shift, fit better by more than a jump costs."""
     some = hits.part(part.start, part.stop)
     said = sum(_evidence(notes, some, places[part], beats, SHIFTS_BEATS), np.zeros(len(SHIFTS_BEATS)))
-    return bool(said.max() - said[SHIFTS_BEATS == 0.0][0] > JUMP_COST)
+    return bool(said.max() - said[SHIFTS_BEATS == 0.0][0] > SURE_JUMP_COST)
 
 
 def jumps(at_s: Floats, places: Floats) -> Indices:

@@ -1,0 +1,28 @@
+"""One drummer's hits against another's notes: the truth is that both played to one click (`benchmarks/gmd_cross.py`).
+
+The pairs are those that fit a bar off about as well, because each drummer has fills and ghost strokes of his own.
+"""
+
+import pytest
+
+from benchmarks.gmd_cross import compared, f1, read
+from tests.real_data import real_file
+
+
+@pytest.mark.parametrize(
+    ("groove", "one", "other"),
+    [
+        ("1_funk-groove1_138", 1, 5),
+        ("2_funk-groove2_105", 7, 1),
+        ("2_funk-groove2_105", 8, 1),
+        ("3_soul-groove3_86", 5, 7),
+        ("3_soul-groove3_86", 7, 5),
+        ("4_soul-groove4_80", 5, 8),
+        ("5_funk-groove5_84", 5, 7),
+    ],
+)
+def test_bars_of_another_drummer_are_found(groove: str, one: int, other: int) -> None:
+    takes = [read(real_file(f"gmd/drummer{n}/eval_session/{groove}_beat_4-4.mid")) for n in (one, other)]
+    alignment, truth, _ = compared(takes[0], takes[1])
+    assert len(truth) > 100
+    assert f1(alignment, truth) > 0.98
