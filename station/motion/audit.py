@@ -16,6 +16,7 @@ from station.motion import frame
 from station.motion.collisions import collisions
 from station.motion.contacts import Strike, target_of
 from station.motion.drummer import Drummer
+from station.motion.events import SAME_STROKE_S
 from station.motion.limits import FASTEST_RAD_S, Limits
 from station.motion.pose import ANGLE_NAMES
 
@@ -116,11 +117,13 @@ def _strikes(drummer: Drummer, end_s: float) -> Worst:
     rows = np.flatnonzero(np.isin(limbs, (Limb.RIGHT_HAND, Limb.LEFT_HAND)) & (score.onset_s < end_s))
     tips = drummer.rows(score.onset_s[rows])[:, frame.TIP].reshape(-1, 2, 3)
     worst = Worst()
-    taken: dict[tuple[int, int], int] = {}
-    for k, row in enumerate(rows.tolist()):
+    moved = {Limb.RIGHT_HAND: -inf, Limb.LEFT_HAND: -inf}
+    for k in np.argsort(score.onset_ns[rows], kind="stable").tolist():
+        row = int(rows[k])
         limb, note = Limb(int(limbs[row])), score[row]
-        if taken.setdefault((int(limb), int(score.onset_ns[row])), row) != row:
-            continue  # one hand cannot strike twice at once: the assignment says so
+        before, moved[limb] = moved[limb], float(score.onset_s[row])
+        if moved[limb] - before <= SAME_STROKE_S:
+            continue  # one hand makes one movement of both; in far places the assignment says so
         target = target_of(drummer.kit, Strike(note.piece, note.zone, note.articulation, limb))
         if not target.shoulder:
             off = float(np.linalg.norm(tips[k, limb] - target.point_m))

@@ -96,3 +96,27 @@ def test_boards_stay_between_down_and_raised() -> None:
     _, gap = hat([*opened, *(Note(i * PPQ // 2, **chick) for i in range(3, 8))])  # type: ignore[arg-type] # a table
     assert gap.min() >= -1e-9
     assert gap.max() <= 1.0 + 1e-9
+
+
+@pytest.mark.parametrize("gap_s", [0.3, 0.15, 0.1, 0.06, 0.02, 0.003])
+def test_no_board_moves_faster_than_the_measured_foot(gap_s: float) -> None:
+    """Its beater comes down with 2267°/s of 60° (HUMANS); what comes too soon after swings less, and still hits."""
+    strikes = np.array([1.0, 1.0 + gap_s, 1.0 + 2 * gap_s])
+    board = kick_board(strikes, np.full(3, 127.0), buried=False)
+    at = np.arange(0.5, 2.0, 0.0005)
+    assert np.abs(np.diff(board.many(at)[0])).max() / 0.0005 < 1.05 * 2267 / 60
+    assert board.many(strikes)[0] == pytest.approx(np.zeros(3), abs=1e-9)
+
+
+@pytest.mark.parametrize("gap_ticks", [PPQ, PPQ // 8, PPQ // 24, PPQ // 60])
+def test_a_hat_that_is_shut_at_once_hardly_opens(gap_ticks: int) -> None:
+    at, gap = hat(
+        [
+            Note(2 * PPQ, Piece.HIHAT, Zone.BOW, openness=1.0),
+            Note(2 * PPQ + gap_ticks, Piece.HIHAT_PEDAL, Zone.PEDAL, limb=FOOT),
+            Note(2 * PPQ + 2 * gap_ticks, Piece.HIHAT_PEDAL, Zone.PEDAL, limb=FOOT),
+        ]
+    )
+    assert np.abs(np.diff(gap)).max() / 0.001 < 1.05 * 2267 / 60
+    struck = 1.0 + np.array([1, 2]) * gap_ticks / (2 * PPQ)
+    assert np.interp(struck, at, gap) == pytest.approx(np.zeros(2), abs=0.02)
