@@ -36,9 +36,10 @@ before each costs as much as the others (our choice, within the limits of HUMANS
 SHOULDER_OF_STICK = 0.25
 """From the tip back to the part that meets a cymbal's edge or a rim, as a share of the stick (our choice)."""
 _LAID_AHEAD = 0.55
-_LAID_RISE = math.radians(-4.0)
+_LAID_RISE = math.radians(2.0)
 _LAID_AZIMUTH = {Limb.LEFT_HAND: math.radians(-62.0), Limb.RIGHT_HAND: math.radians(62.0)}
-"""A cross-stick lies across the head under the hand, its far end over the opposite rim (our choice)."""
+"""A cross-stick's hand lies on the head near its middle; the stick strikes the rim beyond, so far ahead of the fulcrum
+as a share of its length, in this direction from straight ahead (our choice)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +65,15 @@ SHOW_M = (0.08, 0.17, 0.40)
 
 
 def target_of(kit: Kit, strike: Strike) -> Target:
-    """What the stick aims at: a rim shot's tip is on the head while its shaft meets the rim."""
+    """What the stick aims at: a rim shot's tip is on the head while its shaft meets the rim, a cross-stick's too."""
+    drum = kit.pieces[kit.stand_in(strike.piece)]
+    if strike.articulation == Articulation.CROSS_STICK and drum.kind == "drum":
+        rim, azimuth = kit.target(strike.piece, Zone.RIM, strike.limb), _LAID_AZIMUTH[strike.limb]
+        across = np.array([-math.sin(azimuth), math.cos(azimuth), 0.0])
+        across -= (across @ drum.normal) * drum.normal
+        across *= drum.radius_m / np.linalg.norm(across)
+        point = drum.centre + across + rim.raised_m * drum.normal
+        return replace(rim, point_m=point, centre_m=point)
     zone = Zone.HEAD if strike.articulation == Articulation.RIM_SHOT else strike.zone
     target = kit.target(strike.piece, zone, strike.limb)
     if strike.articulation not in (WAIT, SHOW):

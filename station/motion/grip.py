@@ -1,7 +1,8 @@
 """What a hand holds, and how: grips of the stick, and brushes, mallets and bare hands in its place.
 
 Grips after HUMANS: German palms flat, sticks near 90° to each other; American palms at 45°; French palms facing, the
-fingers do the work; traditional left palm 45–90° up, the stick across it, and the forearm's roll strikes.
+forearm's roll and the fingers do the work; traditional left palm 45–90° up, the stick across it, and the forearm's
+roll strikes.
 """
 
 import math
@@ -46,8 +47,8 @@ GRIPS: Mapping[str, Grip] = MappingProxyType(
         for g in (
             _grip("german", (28.0, 14.0, 30.0, 0.0), 1.0, 1.0, 0.8),
             _grip("american", (20.0, 14.0, 22.0, 45.0), 1.0, 1.0, 1.0),
-            _grip("french", (8.0, 10.0, 8.0, 85.0), 0.4, 0.8, 1.6),
-            _grip("traditional", (38.0, 0.0, 70.0, 120.0), 0.0, 1.0, 0.5),
+            _grip("french", (8.0, 10.0, 8.0, 85.0), 0.4, 1.0, 0.8),
+            _grip("traditional", (38.0, 0.0, 70.0, 120.0), 0.0, 1.0, 0.65),
         )
     }
 )
