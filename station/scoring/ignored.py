@@ -76,9 +76,10 @@ class Unwritten:
 
     @cached_property
     def _backbeat_bar(self) -> NDArray[np.bool_]:
-        """Which bars hold a snare that is no ghost."""
+        """Which bars hold a snare that is no ghost, and other pieces: a snare alone is an exercise and no groove."""
         notes = self._score.notes
-        return self._bars_with((notes["piece"] == Piece.SNARE) & (notes["dynamic"] != Dynamic.GHOST))
+        snare = notes["piece"] == Piece.SNARE
+        return self._bars_with(snare & (notes["dynamic"] != Dynamic.GHOST)) & self._bars_with(~snare)
 
     @cached_property
     def _hats(self) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:

@@ -110,8 +110,15 @@ def test_simultaneous_notes_in_any_order() -> None:
     ],
 )
 def test_what_nobody_counts(piece: Piece, velocity: int, label: Label) -> None:
-    (said,) = strike(Follower(snares(2)), 125, piece, velocity)
+    """A backbeat: a snare with a hat on it, in a bar of its own groove."""
+    (said,) = strike(Follower(snares(2, other=Piece.HIHAT)), 125, piece, velocity)
     assert said.label is label
+
+
+def test_quiet_strokes_beside_a_snare_alone_are_extras() -> None:
+    """An exercise of the snare has no backbeat to put ghosts beside."""
+    (said,) = strike(Follower(snares(2)), 125, Piece.SNARE, 30)
+    assert said.label is Label.EXTRA
 
 
 def test_pieces_that_the_score_lacks() -> None:
