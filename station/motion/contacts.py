@@ -12,12 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Articulation, Limb, Piece, Zone
-from station.motion.arm import ArmLengths, Contact, Offsets, solve
+from station.motion.arm import Arm, ArmLengths, Contact, Offsets, solve
 from station.motion.collisions import ALONG, depth
 from station.motion.events import GRAB, SHOW, WAIT
 from station.motion.figure import Figure
 from station.motion.grip import Grip, Hold
 from station.motion.kit import Kit
+from station.motion.limits import Limits
 from station.motion.maths import MANY, ONE, Point
 from station.motion.piece import RIM_ABOVE_HEAD_M, Target
 from station.motion.posture import natural_shoulder
@@ -30,16 +31,19 @@ _HAND_YAWS = np.radians(np.arange(-60.0, 61.0, 6.0))
 _EXTENSION_EASE, _DEVIATION_EASE = np.radians(25.0), np.radians(12.0)
 _NATURAL_WING, _WING_EASE = np.radians(12.0), np.radians(40.0)
 _CROSSING_EASE = np.radians(35.0)
+_SPARE, _BEYOND_EASE = np.radians(8.0), np.radians(1.0)
 """What is called comfortable: how far the wrist bends, the elbow leaves its place and the stick crosses the palm
-before each costs as much as the others (our choice, within the limits of HUMANS)."""
+before each costs as much as the others; near its limits no wrist is comfortable, for strokes and styles need room (our
+choice, within the limits of HUMANS)."""
 
 SHOULDER_OF_STICK = 0.25
 """From the tip back to the part that meets a cymbal's edge or a rim, as a share of the stick (our choice)."""
 _LAID_AHEAD = 0.55
-_LAID_RISE = math.radians(2.0)
+_LAID_RISE, _LAID_PALM = math.radians(2.0), math.radians(12.0)
 _LAID_AZIMUTH = {Limb.LEFT_HAND: math.radians(-62.0), Limb.RIGHT_HAND: math.radians(62.0)}
 """A cross-stick's hand lies on the head near its middle; the stick strikes the rim beyond, so far ahead of the fulcrum
-as a share of its length, in this direction from straight ahead (our choice)."""
+as a share of its length, in this direction from straight ahead; the wrist is a little higher than the fingers, else it
+would be bent to its limit (our choice)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,12 +120,13 @@ def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike) -> Lie:
         strike = replace(strike, articulation=Articulation.NORMAL)
     target = target_of(kit, strike)
     right = strike.limb == Limb.RIGHT_HAND
+    side = 1.0 if right else -1.0
     lengths = hold.lengths(figure, right)
     slopes = _slopes(lengths, target, hold, strike, hold.length_m(figure))
     faced = np.array([0.0, 1.0, 0.0]) if strike.articulation in (WAIT, SHOW) else target.point_m  # for anything
     for lean in LEANS_RAD.tolist():
         root = natural_shoulder(kit, figure, strike.limb, faced, lean)
-        touch, stretched = _easiest(lengths, root, target, slopes, hold.grip, 1.0 if right else -1.0)
+        touch, stretched = _easiest(lengths, root, target, slopes, hold.grip, (side, figure.limits))
         if not stretched:
             break
     arm = solve(ONE, lengths, root, touch, Offsets(0.0, 0.0, 0.0, 0.0))
@@ -129,7 +134,7 @@ def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike) -> Lie:
         if not _caught(kit, lengths, root, touch):
             break
         grip = replace(hold.grip, yaw=share * hold.grip.yaw, crossing=share * hold.grip.crossing)
-        touch, _ = _easiest(lengths, root, target, slopes, grip, 1.0 if right else -1.0)
+        touch, _ = _easiest(lengths, root, target, slopes, grip, (side, figure.limits))
         arm = solve(ONE, lengths, root, touch, Offsets(0.0, 0.0, 0.0, 0.0))
     limits = figure.limits
     return Lie(
@@ -171,9 +176,13 @@ _EASY = 0.95
 
 
 def _easiest(
-    lengths: ArmLengths, root: Point, target: Target, slopes: "_Slopes", grip: Grip, side: float
+    lengths: ArmLengths, root: Point, target: Target, slopes: "_Slopes", grip: Grip, arm_of: tuple[float, Limits]
 ) -> tuple[Contact, bool]:
-    """Among all wings and ways to point the hand the easiest one, and whether the arm is stretched for it."""
+    """Among all wings and ways to point the hand the easiest one, and whether the arm is stretched for it.
+
+    `arm_of` is the arm's side, 1 right and −1 left, and its limits.
+    """
+    side, limits = arm_of
     wing, yaw = (g.ravel() for g in np.meshgrid(side * _WINGS, _HAND_YAWS, indexing="ij"))
     x, y, z = target.point_m.tolist()
     stick_yaw = side * grip.yaw if slopes.azimuth is None else _turn(root, target, slopes.azimuth)
@@ -187,11 +196,23 @@ def _easiest(
         + ((side * wing - _NATURAL_WING) / _WING_EASE) ** 2
         + ((yaw + side * grip.crossing) / _CROSSING_EASE) ** 2
         + 100.0 * arm.missing_m
+        + (_beyond(arm, side, limits) / _BEYOND_EASE) ** 2
     )
     best = int(np.argmin(price))
     wx, wy, wz = (float(np.broadcast_to(w, price.shape)[best]) for w in arm.wrist)
     stretched = math.dist((wx, wy, wz), root) > _EASY * (lengths.upper + lengths.fore)
     return trial._replace(hand_yaw=stick_yaw + float(yaw[best]), wing=float(wing[best])), stretched
+
+
+def _beyond(arm: Arm, side: float, limits: Limits) -> Array:
+    """By how much the wrist is bent beyond what its limits leave to strokes and styles, radians."""
+    over = (
+        arm.extension - limits.wrist_extension,
+        -arm.extension - limits.wrist_flexion,
+        side * arm.deviation - limits.wrist_radial,
+        -side * arm.deviation - limits.wrist_ulnar,
+    )
+    return np.asarray(sum(np.maximum(o + _SPARE, 0.0) for o in over))
 
 
 @dataclass(frozen=True, slots=True)
@@ -216,7 +237,7 @@ def _slopes(lengths: ArmLengths, target: Target, hold: Hold, strike: Strike, len
         return _Slopes(0.0, lengths.ahead, target.rise_rad, palm)
     if strike.articulation == Articulation.CROSS_STICK:
         laid = _LAID_AHEAD * length_m
-        return _Slopes(laid, ahead - laid, _LAID_RISE, 0.0, _LAID_AZIMUTH[strike.limb])
+        return _Slopes(laid, ahead - laid, _LAID_RISE, _LAID_PALM, _LAID_AZIMUTH[strike.limb])
     if target.shoulder:
         ahead -= SHOULDER_OF_STICK * length_m
     lean = math.atan2(h * math.sin(palm), ahead + h * math.cos(palm))  # between the stick and the line to the wrist

@@ -1,14 +1,20 @@
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from station.core.errors import BadInput
-from station.core.pieces import Piece
+from station.core.pieces import Articulation, Limb, Piece, Zone
+from station.motion.arm import Offsets, solve
+from station.motion.contacts import Strike, lie_of
 from station.motion.drummer import Drummer
 from station.motion.figure import PARENT, Joint, figure_of, load_figure
 from station.motion.frame import ANGLES
+from station.motion.grip import MATCHED
+from station.motion.kit import load_kit
+from station.motion.maths import ONE
 from station.motion.pose import ANGLE_NAMES
 from station.motion.style import Style
 from tests.unit.motion.patterns import score_of
@@ -87,3 +93,19 @@ def test_limits_of_a_file_hold_in_the_motion(tmp_path: Path) -> None:
         assert np.abs(stiff[:, column]).max() <= most + 1e-6, name
     assert np.abs(free[:, ANGLE_NAMES.index("head_turn")]).max() > 15
     assert free[:, [ANGLE_NAMES.index("right_elbow"), ANGLE_NAMES.index("left_elbow")]].max() > 105
+
+
+@pytest.mark.parametrize("piece", [Piece.HIHAT, Piece.TOM_1, Piece.RIDE])
+@pytest.mark.parametrize("limb", [Limb.RIGHT_HAND, Limb.LEFT_HAND])
+def test_a_stiff_wrist_is_held_so_that_it_is_not_bent_beyond_its_limit(piece: Piece, limb: Limb) -> None:
+    """A free wrist is bent down by more than 20 degrees there; another elbow and hand serve a stiff one."""
+    free = figure_of()
+    stiff = replace(free, limits=replace(free.limits, wrist_flexion=math.radians(17)))
+    zone = Zone.HEAD if piece is Piece.TOM_1 else Zone.BOW
+    bent = []
+    for figure in (free, stiff):
+        lie = lie_of(load_kit(), figure, MATCHED, Strike(piece, zone, Articulation.NORMAL, limb))
+        lengths = MATCHED.lengths(figure, limb is Limb.RIGHT_HAND)
+        bent.append(-math.degrees(solve(ONE, lengths, lie.root, lie.contact, Offsets(0.0, 0.0, 0.0, 0.0)).extension))
+    assert bent[0] > 20
+    assert bent[1] <= 17
