@@ -50,6 +50,7 @@ def find_warp(written: Written, hit_s: Floats, hit_classes: Indices) -> Warp:
     """The way of the hits (m,), sorted, through the score; at least one hit has the class of a note."""
     known = np.flatnonzero(np.isin(hit_classes, written.classes))
     order = np.argsort(written.at_s, kind="stable")
+    order = order[np.isin(written.classes[order], hit_classes)]  # a part that is never played tells no place
     note_s, classes = written.at_s[order], written.classes[order]
     hits = Hits(hit_s[known], hit_classes[known])
     notes = _prepared(note_s, classes)
