@@ -110,7 +110,7 @@ def solve(
 
     Where the contact is out of reach, the shoulder itself comes forward by what is missing, as shoulders do a little.
     """
-    joints, butt, tip, back, angles, missing = chain(m, lengths, shoulder, contact, offsets, wing_more)
+    joints, butt, tip, back, angles, missing = chain(m, lengths, shoulder, contact, offsets, (wing_more, 0.0))
     named = (joints[:3], joints[3:6], joints[6:9], joints[9:], tip, butt, back, *angles, missing)
     return Arm._make(named)
 
@@ -125,13 +125,17 @@ def chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a 
     shoulder: Point,
     contact: Sequence[Number],
     offsets: Sequence[Number],
-    wing_more: Number,
+    more: tuple[Number, Number],
 ) -> ArmChain:
-    """`solve` in plain tuples, as a row takes it; `contact` and `offsets` in the order of `Contact` and `Offsets`."""
+    """`solve` in plain tuples, as a row takes it; `contact` and `offsets` in the order of `Contact` and `Offsets`.
+
+    `more`: by how much the elbow is farther out than the contact's `wing`, the wrist higher than its `hand_rise`.
+    """
     sin, cos, sqrt, atan2, acos, most = m.sin, m.cos, m.sqrt, m.atan2, m.acos, m.most
     sx, sy, sz = shoulder
     cx, cy, cz, stick_rise, hand_rise, stick_yaw, hand_yaw, touching, wing = contact
     raised_shoulder, raised_elbow, raised_wrist, raised_stick = offsets
+    hand_rise = hand_rise + more[1]
     upper, fore, h = lengths.upper, lengths.fore, lengths.hand
     whole = upper + fore
     # plan directions: towards the player (gx, gy), and turned from it those of the stick (ux, uy) and hand (vx, vy)
@@ -169,7 +173,7 @@ def chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a 
     on, off = cos_u + fore * cos(at_elbow), sin_u - fore * sin(at_elbow)
     wx, wy, wz = sx + on * kx + off * ex, sy + on * ky + off * ey, sz + on * kz + off * ez
     # the elbow: its foot on the line to the wrist, and from there out, swung about the line
-    wing = wing + wing_more
+    wing = wing + more[0]
     reach2 = on * on + off * off
     foot, out = (cos_u * on + sin_u * off) / reach2, (sin_u * on - cos_u * off) / reach2
     down = out * cos(wing)

@@ -4,6 +4,7 @@ Everything that moves is evaluated at its time and carried forward from the pelv
 floats, for a live pose, and on arrays, for a whole performance (`maths`).
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -27,6 +28,9 @@ PLAYED = 120
 
 STAND_M = (0.10, 0.30)
 """How far forward and up the pelvis goes to stand (our choice)."""
+HAND_STANDING_RAD = math.radians(30)
+"""Who stands plays from above: the wrists are higher over the sticks, and bend back no farther than they can. By half
+the way up they are there (our choice)."""
 
 
 BodyNow = tuple[Number, ...]
@@ -62,12 +66,13 @@ class Rig:
         most = self.neck_rad
         turn = m.most(m.least(FOLLOWS * bearing - twist, most), -most)
         nod, tilt = bob + LOOK_DOWN * pitch, tilt - TILT_OF_TURN * turn
+        hand = HAND_STANDING_RAD * m.least(2 * stand, 1.0)
         spine, right_shoulder, left_shoulder, face = trunk_chain(
             m, figure, (x, y, z), (twist, lean, side, nod, turn, tilt, shrug)
         )
-        arm_a, butt_a, tip_a, back_a, angles, _ = arm_chain(m, self.arms[0], right_shoulder, *right, wing)
+        arm_a, butt_a, tip_a, back_a, angles, _ = arm_chain(m, self.arms[0], right_shoulder, *right, (wing, hand))
         heading_a, shoulder_a, elbow_a, wrist_a, aside_a, palm_a = angles
-        arm_b, butt_b, tip_b, back_b, angles, _ = arm_chain(m, self.arms[1], left_shoulder, *left, -wing)
+        arm_b, butt_b, tip_b, back_b, angles, _ = arm_chain(m, self.arms[1], left_shoulder, *left, (-wing, hand))
         heading_b, shoulder_b, elbow_b, wrist_b, aside_b, palm_b = angles
         foot_a, foot_b = boards
         board_a, board_b = foot_a * self.raised[0], foot_b * self.raised[1]

@@ -142,8 +142,8 @@ NUMBERS = tuple(f.name for f in fields(Style) if f.type == "float" or f.type is 
 """The controls that are numbers and can be automated."""
 _RANGES: Mapping[str, tuple[float, float]] = MappingProxyType(
     {
-        "wing_deg": (-20.0, 60.0),
-        "posture_deg": (-10.0, 30.0),
+        "wing_deg": (-10.0, 20.0),
+        "posture_deg": (-10.0, 12.0),
         "stand": (0.0, 1.0),
         "twist_deg_s": (5.0, 100.0),
         "bobs_per_beat": (0.5, 2.0),

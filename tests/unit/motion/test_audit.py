@@ -20,6 +20,7 @@ from station.motion.export_npz import write_npz
 from station.motion.figure import figure_of
 from station.motion.kit import kit_names, load_kit
 from station.motion.limbs import as_led
+from station.motion.style import Style
 from station.motion.style_file import load_style
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
@@ -55,6 +56,18 @@ def test_styles_change_nothing_of_that(lesson: str, style: str) -> None:
     assert found.limit_rad.value <= FEW_DEGREES, found.limit_rad
     assert found.speed.value <= 1.0, found.speed
     assert found.strike_m.value <= 1e-6, found.strike_m
+
+
+@pytest.mark.parametrize(
+    "style",
+    [Style(stand=1.0), Style(stand=0.5), Style(posture_deg=12.0), Style(posture_deg=-10.0), Style(wing_deg=20.0)],
+    ids=["standing", "half up", "bent forward", "leaning back", "elbows out"],
+)
+@pytest.mark.parametrize("lesson", ["samba-1", "rock-fill-1"])
+def test_the_ends_of_posture_leave_the_wrists_within_their_limits(lesson: str, style: Style) -> None:
+    found = audit(drummer_of(lesson, "four_piece").with_style(style), 8.0)
+    assert found.limit_rad.value <= FEW_DEGREES, found.limit_rad
+    assert found.kit_m.value <= 0.003, found.kit_m
 
 
 def test_a_drum_that_is_bigger_than_the_drummer_knows_is_gone_through() -> None:
