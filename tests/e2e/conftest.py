@@ -14,5 +14,5 @@ PERIOD_FRAMES = 256
 def jack_server() -> Iterator[JackServer]:
     if not jackd_is_installed():
         pytest.skip("jackd is not installed: apt install jackd2")
-    with JackServer(period_frames=PERIOD_FRAMES) as server, joined(server):
+    with JackServer(period_frames=PERIOD_FRAMES, patient=True) as server, joined(server):
         yield server

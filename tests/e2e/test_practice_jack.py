@@ -88,7 +88,7 @@ def test_a_fake_kit_is_heard_judged_and_sounded(tmp_path: Path) -> None:
     student = play(plan.score, parse_spec("seed=3,sd_ms=6,bias_ms=-15,miss_pct=6,extra_pct=4"))
     strokes = [Stroke(at_ns, data) for at_ns, data in student.midi]
     report = tmp_path / "session"
-    with JackServer() as server, KitPlayer(server, "Fake Kit", strokes, tmp_path) as kit:
+    with JackServer(patient=True) as server, KitPlayer(server, "Fake Kit", strokes, tmp_path) as kit:
         with JackRecorder(server, tmp_path) as recorder, start_station(server, report) as station:
             zero_ns = wait_for_zero_ns(report / CAPTURE_NAME, station)
             start_ns = zero_ns + plan.passes_start_ns

@@ -26,6 +26,11 @@ class Child:
             bufsize=1,
         )
 
+    @property
+    def pid(self) -> int:
+        """Its process id."""
+        return self._process.pid
+
     def expect(self, word: str) -> None:
         """Wait for the next line and check it; the test's own timeout bounds the wait."""
         assert self._process.stdout is not None

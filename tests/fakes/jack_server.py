@@ -3,6 +3,9 @@
 `JackServer` starts `jackd` with its dummy driver as a child, under a name that no other server has, and waits until a
 client can really join. `JACK_DEFAULT_SERVER` in `env` leads children to it; `joined` leads this process to it.
 
+Where a busy machine holds a client up, JACK goes on without it, and MIDI that came for it in the meantime is gone. A
+server that is `patient` waits for it (-S); it tells its clients of no latency, though.
+
 JACK keeps a table of eight servers for the whole machine, and frees the place of one that was killed only for a server
 of the same name. So the names come from a small pool, each guarded by a file lock that ends with its holder.
 """
@@ -38,9 +41,10 @@ def jackd_is_installed() -> bool:
 class JackServer:
     """A running server; use it as a context manager."""
 
-    def __init__(self, rate_hz: int = 48_000, period_frames: int = 64) -> None:
+    def __init__(self, rate_hz: int = 48_000, period_frames: int = 64, patient: bool = False) -> None:
         self.rate_hz = rate_hz
         self.period_frames = period_frames
+        self._patience = ["-S"] if patient else []
         self.name = ""
         self._lock: IO[bytes] | None = None
         self._process: subprocess.Popen[bytes] | None = None
@@ -104,7 +108,7 @@ class JackServer:
     def _launch(self, realtime: bool) -> None:
         handle, path = tempfile.mkstemp(prefix="jackd-", suffix=".log")
         self._log = Path(path)
-        options = [f"-n{self.name}", f"-t{_CLIENT_PATIENCE_MS}", "-R" if realtime else "-r"]
+        options = [f"-n{self.name}", *self._patience, f"-t{_CLIENT_PATIENCE_MS}", "-R" if realtime else "-r"]
         driver = ["-d", "dummy", "-r", str(self.rate_hz), "-p", str(self.period_frames)]
         self._process = subprocess.Popen(
             [*_DIES_WITH_US, "jackd", *options, *driver],
