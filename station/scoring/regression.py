@@ -21,8 +21,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.student_t import t_quantile_95
 from station.scoring.drift import robust_sd
-from station.scoring.timing import t_quantile_95
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

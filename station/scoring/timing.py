@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.student_t import t_quantile_95
 from station.core.units import NS_PER_MS
 from station.music.judgement import Label
 from station.music.score import Score
@@ -26,7 +27,6 @@ MIN_SLOTS = 4
 """Below that a confidence interval says nothing (our choice: three degrees of freedom)."""
 
 _MAX_LAG_1 = 0.9
-_Z_95 = 1.959964
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,12 +84,3 @@ def standard_error(values: Floats, slots: NDArray[np.int64]) -> StandardError | 
     rho = min(max(lag_1, 0.0), _MAX_LAG_1)
     effective = max(len(off) * (1 - rho) / (1 + rho), 2.0)
     return StandardError((variance / effective) ** 0.5, effective - 1)
-
-
-def t_quantile_95(freedom: float) -> float:
-    """Two-sided 95 % point of Student's t (Abramowitz & Stegun 26.7.5: off by under 2 % from 3 degrees up)."""
-    z, v = _Z_95, max(freedom, 1.0)
-    g1 = (z**3 + z) / 4
-    g2 = (5 * z**5 + 16 * z**3 + 3 * z) / 96
-    g3 = (3 * z**7 + 19 * z**5 + 17 * z**3 - 15 * z) / 384
-    return z + g1 / v + g2 / v**2 + g3 / v**3

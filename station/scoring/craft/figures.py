@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from station.scoring.timing import spread, standard_error, t_quantile_95
+from station.core.student_t import t_quantile_95
+from station.scoring.timing import spread, standard_error
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

@@ -30,11 +30,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Limb
+from station.core.student_t import t_quantile_95
 from station.core.units import NS_PER_MS, PPQ
 from station.music.performance import Performance
 from station.music.score import Score
 from station.scoring.alignment import Alignment, Reference
-from station.scoring.timing import asynchrony_ms, t_quantile_95, timed_notes
+from station.scoring.timing import asynchrony_ms, timed_notes
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from scipy import stats
 
+from station.core.student_t import t_quantile_95
 from station.scoring.drift import local_trend, robust_sd
-from station.scoring.timing import spread, standard_error, t_quantile_95
+from station.scoring.timing import spread, standard_error
 
 
 def test_spread_by_hand() -> None:
