@@ -22,7 +22,7 @@ class Check:
 
 def all_checks() -> tuple[Callable[[], Check], ...]:
     """Every check, in the order in which a user meets what it checks."""
-    return (check_python, check_settings, check_midi, check_sound, check_picture, check_screen)
+    return (check_python, check_settings, check_midi, check_serial, check_sound, check_picture, check_screen)
 
 
 def check_python() -> Check:
@@ -53,6 +53,20 @@ def check_midi() -> Check:
     if not ports:
         return Check("kit (MIDI)", False, f"{directory.driver} works, no kit is plugged in", "plug in a kit by USB")
     return Check("kit (MIDI)", True, f"{directory.driver}: {', '.join(ports)}")
+
+
+def check_serial() -> Check:
+    """The serial ports, where a home-built module may be, and whether this user may open them."""
+    from station.devices.serial_ports import SerialDirectory, no_access
+
+    addresses = SerialDirectory().addresses()
+    if not addresses:
+        return Check("kit (serial)", True, "no serial port; only home-built modules need one")
+    denied = [(address.port, why) for address in addresses if (why := no_access(address.path)) is not None]
+    if denied:
+        finding, remedy = ("; ".join(sorted(set(texts))) for texts in zip(*denied, strict=True))
+        return Check("kit (serial)", False, f"{finding} cannot be opened", remedy)
+    return Check("kit (serial)", True, ", ".join(address.port for address in addresses))
 
 
 def check_sound() -> Check:

@@ -59,7 +59,7 @@ class PracticeRoom:
         self._folder: SessionFolder | None = None
         self._report: Report | None = None
         self._stage = Stage.IDLE
-        self._kit = ""
+        self._kits: list[str] = []
         self._sound = "the engine is waking"
         self._notices: list[str] = []
         self._alive = True
@@ -88,7 +88,8 @@ class PracticeRoom:
             progress = (len(adaptation.rounds) + progress) / adaptation.loops
         can_veto = adaptation is not None and bool(adaptation.rounds) and state.segment.phase is Phase.COUNT_IN
         notices = tuple(self._notices[-NOTICES_KEPT:])
-        return RoomState(self._stage, self._kit, self._sound, notices, progress, self._session.message, can_veto)
+        kits = ", ".join(self._kits)
+        return RoomState(self._stage, kits, self._sound, notices, progress, self._session.message, can_veto)
 
     def lessons(self) -> Sequence[LessonCard]:
         """Every shipped lesson, and the one that was named when the window was opened."""
@@ -228,9 +229,9 @@ class PracticeRoom:
         self._notices += self._session.notices[told:]
         match event:
             case DeviceFound(_, device):
-                self._kit = device
-            case DeviceLost():
-                self._kit = ""
+                self._kits = [*(kit for kit in self._kits if kit != device), device]
+            case DeviceLost(_, device):
+                self._kits = [kit for kit in self._kits if kit != device]
             case Ready(output):
                 self._sound = output or "silent"
             case Notice(text) if text.startswith("sound is back"):

@@ -5,6 +5,9 @@ those stamps. We see each message some time later, when we poll: always later, n
 two clocks is the least (poll time − driver time) seen so far, let creep upwards slowly lest a driver's clock that runs
 slow make every stamp early. The error left is the creep since the last prompt poll and the driver's own quantisation.
 
+A serial line has no driver's time at all: there the moment of reading is all we know, and how long a byte takes on the
+wire. `WireClock` makes the best of both.
+
 Times are integer nanoseconds; rtmidi's differences are seconds in floating point.
 """
 
@@ -43,3 +46,26 @@ class DriverClock:
             self._offset_ns = min(seen_ns, crept_ns)
         self._last_ns = max(self._last_ns, self._driver_ns + self._offset_ns)
         return self._last_ns
+
+
+BITS_A_BYTE = 10
+"""A start bit, eight data bits and a stop bit (MIDI 1.0 Electrical Specification; every module's 8N1)."""
+
+
+class WireClock:
+    """Session time of every byte that was read at once from a line of `baud` bits a second.
+
+    The last byte may have come just now; each before it came at least a byte's time earlier. The error left is the time
+    between two polls, always late, never early.
+    """
+
+    def __init__(self, baud: int) -> None:
+        self._byte_ns = BITS_A_BYTE * NS_PER_S // baud
+        self._last_ns: int | None = None
+
+    def stamp(self, count: int, read_ns: int) -> list[int]:
+        """The times of `count` bytes read at `read_ns`, in order; they never go back."""
+        floor_ns = read_ns - count * self._byte_ns if self._last_ns is None else self._last_ns
+        times_ns = [max(floor_ns, read_ns - left * self._byte_ns) for left in reversed(range(count))]
+        self._last_ns = times_ns[-1] if times_ns else self._last_ns
+        return times_ns

@@ -1,7 +1,7 @@
 """What every way in has in common: whole or partial messages as bytes, each with the session time at which it came.
 
 A transport never waits: `read` gives what has come since the last call, and an empty list where nothing has. It stamps
-with the driver's own time where there is one, else with the moment at which the bytes were read.
+with the driver's own time where there is one, else by the moment at which the bytes were read.
 """
 
 from typing import NamedTuple, Protocol
@@ -23,7 +23,10 @@ class Transport(Protocol):
         ...
 
     def read(self) -> list[Packet]:
-        """What has come since the last call, in order, with times that never go back."""
+        """What has come since the last call, in order, with times that never go back.
+
+        Raises `DeviceError` where the device has gone and its driver says so.
+        """
         ...
 
     def close(self) -> None:

@@ -1,15 +1,18 @@
 """Keeps one kit connected: finds its port by part of its name, notices when it goes, opens it again when it comes back.
 
 A kit that vanishes in mid-bar costs nothing but the strokes of the time it is away: the session goes on, told by
-`DeviceLost` and `DeviceFound`. Pure but for the directory that it is given; time is what `poll` is told.
+`DeviceLost` and `DeviceFound`. Several kits are watched by as many watches, which share their claims: none opens what
+another holds, and two modules of one model have names of their own. Pure but for the directory that it is given; time
+is what `poll` is told.
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_MS
 from station.devices.presets import GENERAL_MIDI_PRESET, preset_for, stable_name
+from station.devices.serial_names import SERIAL, device_of_port
 from station.devices.transport import Packet, PortDirectory, Transport
 
 SCAN_EVERY_NS = 400 * NS_PER_MS
@@ -21,26 +24,55 @@ _NO_KITS = ("midi through", "through port", "midi_playback", "virmidi")
 
 @dataclass(frozen=True, slots=True)
 class Findings:
-    """What one poll brought: the device's name (empty while there is none), its packets, whether it went or came."""
+    """What one poll brought: the device's name (empty while there is none), its packets, whether it went or came.
+
+    `fault` says, once, why a port that is there cannot be opened.
+    """
 
     device: str
     packets: list[Packet]
     lost: bool = False
     found: bool = False
+    fault: str = ""
 
 
 _NOTHING = Findings("", [])
 
 
+@dataclass(slots=True)
+class Claims:
+    """What the watches of one station hold: their ports, and the names by which their kits go."""
+
+    ports: set[str] = field(default_factory=set)
+    devices: set[str] = field(default_factory=set)
+
+    def take(self, port: str, name: str) -> str:
+        """Hold `port`; returns the kit's name, numbered where another kit has the same."""
+        device, count = name, 1
+        while device in self.devices:
+            count += 1
+            device = f"{name} ({count})"
+        self.ports.add(port)
+        self.devices.add(device)
+        return device
+
+    def leave(self, port: str, device: str) -> None:
+        """Hold them no longer."""
+        self.ports.discard(port)
+        self.devices.discard(device)
+
+
 def choose_port(ports: Iterable[str], wanted: str) -> str | None:
-    """The port to open: the first whose name contains `wanted` in any case of letters.
+    """The port to open: the first whose name contains `wanted` in any case of letters, a serial one by its whole path.
 
     With `wanted` empty the first of a module that has a preset, else the first behind which a kit may sit.
     """
     names = list(ports)
+    if wanted.startswith(SERIAL):
+        return next((name for name in names if name == wanted or name.endswith(f" {wanted}")), None)
     if wanted:
         return next((name for name in names if wanted.lower() in name.lower()), None)
-    likely = [name for name in names if not any(part in name.lower() for part in _NO_KITS)]
+    likely = [name for name in names if SERIAL not in name and not any(part in name.lower() for part in _NO_KITS)]
     known = [name for name in likely if preset_for(name) is not GENERAL_MIDI_PRESET]
     return next(iter(known or likely), None)
 
@@ -48,12 +80,16 @@ def choose_port(ports: Iterable[str], wanted: str) -> str | None:
 class KitWatch:
     """The connection to one kit, kept up."""
 
-    def __init__(self, directory: PortDirectory, wanted: str = "") -> None:
+    def __init__(self, directory: PortDirectory, wanted: str = "", claims: Claims | None = None) -> None:
         self.wanted = wanted
         self._directory = directory
+        self._claims = Claims() if claims is None else claims
         self._transport: Transport | None = None
         self._port = ""
+        self._plug = ""  # the port's stable name: what it is called when it comes back
         self._device = ""
+        self._fault = ""
+        self._told_fault = ""
         self._next_scan_ns: int | None = None
 
     @property
@@ -78,6 +114,7 @@ class KitWatch:
         if self._transport is not None:
             self._transport.close()
             self._transport = None
+            self._claims.leave(self._port, self._device)
 
     def _scan(self) -> Findings:
         ports = self._directory.names()
@@ -90,21 +127,35 @@ class KitWatch:
         return Findings(self._device, packets) if self._port in ports else self._lose(packets)
 
     def _find(self, ports: list[str]) -> Findings:
-        port = self._choose(ports)
+        port = self._choose([port for port in ports if port not in self._claims.ports])
         if port is None:
             return _NOTHING
         try:
             self._transport = self._directory.open(port)
-        except DeviceError:  # taken by another program or gone again; the next scan tries anew
-            return _NOTHING
-        self._port, self._device = port, self._transport.name
+        except DeviceError as fault:  # taken by another program or gone again; the next scan tries anew
+            return self._refused(str(fault))
+        self._fault = self._told_fault = ""
+        self._port, self._plug = port, _plug_of(port)
+        self._device = self._claims.take(port, self._transport.name)
         return Findings(self._device, [], found=True)
+
+    def _refused(self, fault: str) -> Findings:
+        """Tell a fault that lasts: a port that has just come may not be ours before the system has said whose it is."""
+        lasts, self._fault = fault == self._fault, fault
+        if not lasts or fault == self._told_fault:
+            return _NOTHING
+        self._told_fault = fault
+        return Findings("", [], fault=fault)
 
     def _choose(self, ports: list[str]) -> str | None:
         """The kit that was lost if it is back, by its stable name, else the one that is wanted."""
-        back = next((port for port in ports if self._device and stable_name(port) == self._device), None)
+        back = next((port for port in ports if self._plug and _plug_of(port) == self._plug), None)
         return back or choose_port(ports, self.wanted)
 
     def _lose(self, packets: list[Packet]) -> Findings:
         self.close()
         return Findings(self._device, packets, lost=True)
+
+
+def _plug_of(port: str) -> str:
+    return device_of_port(stable_name(port))

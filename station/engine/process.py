@@ -26,8 +26,8 @@ from typing import Self
 from station.core.clock import monotonic_ns
 from station.core.errors import DeviceError, StationError
 from station.core.settings import Settings
+from station.devices.kit_ports import KitWish, parse_kits, watch_kits
 from station.devices.midi_out import open_midi_output
-from station.devices.midi_ports import MidiDirectory
 from station.devices.watch import KitWatch
 from station.engine.card import Card
 from station.engine.engine import Engine
@@ -55,12 +55,12 @@ NICENESS = -11
 class EngineConfig:
     """What the engine process opens.
 
-    `kits` holds for each kit part of its port's name, empty for the first kit found; `midi_driver` is "auto" or one of
+    `kits` are those to listen to, none for an engine without; `midi_driver` is "auto" or one of
     `station.devices.midi_ports.compiled_drivers()`; `output`, `block_frames`, `rate_hz`, `drums`, `click`
     and `own_sound` stand as in `Settings`; without `sound` no card is opened.
     """
 
-    kits: tuple[str, ...] = ("",)
+    kits: tuple[KitWish, ...] = (KitWish(""),)
     midi_driver: str = "auto"
     sound: bool = True
     output: str = ""
@@ -72,9 +72,9 @@ class EngineConfig:
 
     @classmethod
     def from_settings(cls, settings: Settings) -> Self:
-        """What a user has chosen."""
+        """What a user has chosen; raises `BadInput` for kits that cannot be meant."""
         return cls(
-            kits=(settings.kit,),
+            kits=parse_kits(settings.kit),
             output=settings.output,
             block_frames=settings.block_frames,
             rate_hz=settings.rate_hz,
@@ -241,14 +241,12 @@ def _live(config: EngineConfig, inbox: "_Inbox", outbox: "_Outbox") -> None:
         outbox.put(engine.advance(monotonic_ns()))
 
 
-def _kits(engine: Engine, config: EngineConfig, card: Card | None) -> list[KitWatch]:
+def _kits(engine: Engine, config: EngineConfig, card: Card | None) -> tuple[KitWatch, ...]:
     undisturbed = card.paused if card is not None else nullcontext
-    try:
-        directory = MidiDirectory(config.midi_driver, monotonic_ns, undisturbed)
-    except DeviceError as fault:
-        engine.notify(f"no kit can be heard: {fault}")
-        return []
-    return [KitWatch(directory, part) for part in config.kits]
+    watches = watch_kits(config.kits, config.midi_driver, monotonic_ns, undisturbed)
+    if watches.fault is not None:
+        engine.notify(f"no MIDI kit can be heard: {watches.fault}")
+    return watches.kits
 
 
 def _card(engine: Engine, config: EngineConfig) -> Card:

@@ -40,6 +40,8 @@ class Runner:
         findings = kit.poll(now_ns)
         for packet in findings.packets:
             self.engine.feed(findings.device, packet.data, packet.at_ns)
+        if findings.fault:
+            self.engine.notify(findings.fault)
         if findings.lost:
             self.engine.device_lost(findings.device, now_ns)
         if findings.found:

@@ -100,8 +100,8 @@ class Session:
         self._verdict_of_note: dict[int, Judgement] = {}
         self._recent: deque[Hit] = deque(maxlen=RECENT_HITS)
         self._verdict_of_hit: dict[int, Judgement] = {}
-        self.device: str | None = None
-        """The kit that is connected, as far as the engine has said."""
+        self.devices: list[str] = []
+        """The kits that are connected, as far as the engine has said, the newest last."""
         self.capture_fault: str | None = None
         """Why the capture lacks what came after, if it does."""
         self.notices: list[str] = []
@@ -124,10 +124,10 @@ class Session:
             case Started(zero_ns):
                 self._zero_ns = zero_ns
             case DeviceLost(_, device):
-                self.device = None
+                self.devices = [other for other in self.devices if other != device]
                 self.notices.append(f"{device} is gone; plug it in again, the session goes on")
             case DeviceFound(_, device):
-                self.device = device
+                self.devices = [*(other for other in self.devices if other != device), device]
                 self.notices.append(f"{device} is here")
             case Recorded(_, fault) if fault is not None:
                 self.capture_fault = fault

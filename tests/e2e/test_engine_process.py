@@ -85,7 +85,7 @@ def test_what_is_missing_is_said_once_and_the_transport_runs() -> None:
         listener.until(lambda event: isinstance(event, Started))
         texts = [event.text for event in listener.events if isinstance(event, Notice)]
     assert len(texts) == 2
-    assert "no kit can be heard" in texts[0]
+    assert "no MIDI kit can be heard" in texts[0]
     assert "JACK" in texts[0]
     assert "running silent" in texts[1]
 

@@ -15,6 +15,7 @@ from station.core.events import Choke, DeviceFound, DeviceLost, Hit
 from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.devices.capture import read_capture
+from station.devices.kit_ports import KitWish
 from station.devices.replay import replay, transport_zeros_ns
 from station.engine.messages import KeyHit, Notice, Play, Ready, Record, Started
 from station.engine.process import EngineConfig, EngineProcess
@@ -29,7 +30,7 @@ pytestmark = pytest.mark.jack
 Times = NDArray[np.int64]
 
 KIT = "TD-17 fake kit"
-CONFIG = EngineConfig(kits=(KIT,), midi_driver="jack", output="jack")
+CONFIG = EngineConfig(kits=(KitWish(KIT),), midi_driver="jack", output="jack")
 OUTPUTS = "PortAudio:.*"
 LEAD_NS = 300 * NS_PER_MS
 CLICKS_NS = np.arange(9) * 125 * NS_PER_MS

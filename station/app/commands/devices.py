@@ -9,6 +9,7 @@ from enum import IntEnum
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from station.app.commands.kit_option import KIT_HELP, wanted_kits
 from station.app.commands.output import print_json, say
 from station.core.clock import monotonic_ns
 from station.core.errors import DeviceError
@@ -39,7 +40,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     record = verbs.add_parser("record", help="keep every byte of a kit with its time; Ctrl-C ends")
     record.add_argument("file", metavar="FILE", type=Path, help="the capture to write")
     for verb in (monitor, record):
-        verb.add_argument("--kit", metavar="PORT", help="part of the MIDI port's name (the first kit found)")
+        verb.add_argument("--kit", metavar="PORT", action="append", help=KIT_HELP)
         verb.add_argument("--seconds", type=_seconds, metavar="S", help="end by itself after so long")
     replay = verbs.add_parser("replay", help="the hits of a capture, as they were")
     replay.add_argument("file", metavar="FILE", type=Path, help="a capture")
@@ -60,17 +61,10 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _list(arguments: argparse.Namespace) -> int:
-    from station.devices.midi_ports import MidiDirectory
-    from station.devices.presets import preset_for
     from station.sound.output import list_outputs
 
-    faults: list[str] = []
-    kits: list[dict[str, str]] = []
+    kits, faults = _ports()
     outputs: list[dict[str, object]] = []
-    try:
-        kits = [{"port": port, "preset": preset_for(port).title} for port in MidiDirectory().names()]
-    except DeviceError as fault:
-        faults.append(str(fault))
     try:
         outputs = [asdict(output) for output in list_outputs()]
     except DeviceError as fault:
@@ -78,37 +72,66 @@ def _list(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print_json({"schema": SCHEMA, "kits": kits, "outputs": outputs, "faults": faults})
         return 0
-    print("Kits (MIDI inputs)", *[f"  {kit['port']}  [{kit['preset']}]" for kit in kits] or ["  none"], sep="\n")
+    rows = [f"  {kit['port']}  [{kit['preset']}]" for kit in kits]
+    print("Kits (MIDI inputs and serial ports)", *rows or ["  none"], sep="\n")
     print("Sound outputs", *[f"  {output['name']}" for output in outputs] or ["  none"], sep="\n")
     for text in faults:
         say(f"station: {text}")
     return 0
 
 
+def _ports() -> tuple[list[dict[str, str]], list[str]]:
+    """A row a port, MIDI before serial, and why some cannot be listed or opened."""
+    from station.devices.midi_ports import MidiDirectory
+    from station.devices.presets import preset_for
+    from station.devices.serial_ports import SerialDirectory, no_access
+
+    faults: list[str] = []
+    names: list[tuple[str, str]] = []
+    try:
+        names = [(port, "midi") for port in MidiDirectory().names()]
+    except DeviceError as fault:
+        faults.append(str(fault))
+    for address in SerialDirectory().addresses():
+        names.append((address.port, "serial"))
+        if (denied := no_access(address.path)) is not None:
+            faults.append(f"{address.port}: {denied}")
+    return [{"port": port, "preset": preset_for(port).title, "wire": wire} for port, wire in names], faults
+
+
 # --- live ------------------------------------------------------------------------------------------------------------
 
 
 @contextmanager
-def _listening(arguments: argparse.Namespace) -> Iterator[KitWatch]:
-    """The chosen kit; raises `DeviceError` where there is no MIDI driver. Ctrl-C, wherever it falls, ends the block."""
-    from station.devices.midi_ports import MidiDirectory
+def _listening(arguments: argparse.Namespace) -> Iterator[tuple[KitWatch, ...]]:
+    """The chosen kits; raises `DeviceError` where none can be heard. Ctrl-C, wherever it falls, ends the block."""
+    from station.devices.kit_ports import parse_kits, watch_kits
 
-    wanted = load_settings().kit if arguments.kit is None else arguments.kit
-    watch = KitWatch(MidiDirectory(), wanted)
+    watches = watch_kits(parse_kits(wanted_kits(arguments.kit, load_settings().kit)))
+    if watches.fault is not None:
+        if not watches.kits:
+            raise DeviceError(watches.fault)
+        say(f"station: {watches.fault}")
     try:
-        yield watch
+        yield watches.kits
     except KeyboardInterrupt:
         pass
     finally:
-        watch.close()
+        for kit in watches.kits:
+            kit.close()
 
 
-def _polls(watch: KitWatch, seconds: float | None) -> Iterator[Findings]:
-    """What the kit brings, poll by poll, until the time is up."""
+def _polls(kits: tuple[KitWatch, ...], seconds: float | None) -> Iterator[Findings]:
+    """What the kits bring, poll by poll, until the time is up."""
     end_ns = None if seconds is None else monotonic_ns() + ns_from_s(seconds)
-    say(f"waiting for {f'a kit called {watch.wanted!r}' if watch.wanted else 'a kit'}; Ctrl-C ends")
+    names = " and ".join(f"a kit called {kit.wanted!r}" if kit.wanted else "a kit" for kit in kits)
+    say(f"waiting for {names}; Ctrl-C ends")
     while end_ns is None or monotonic_ns() < end_ns:
-        yield watch.poll(monotonic_ns())
+        for kit in kits:
+            findings = kit.poll(monotonic_ns())
+            if findings.fault:
+                say(f"station: {findings.fault}")
+            yield findings
         time.sleep(POLL_S)
 
 
@@ -116,8 +139,8 @@ def _monitor(arguments: argparse.Namespace) -> int:
     from station.devices.decoders import DecoderBank
 
     decoders, start_ns = DecoderBank(), monotonic_ns()
-    with _listening(arguments) as watch:
-        for findings in _polls(watch, arguments.seconds):
+    with _listening(arguments) as kits:
+        for findings in _polls(kits, arguments.seconds):
             _show(findings, decoders, start_ns)
     return 0
 
@@ -146,12 +169,12 @@ def _record(arguments: argparse.Namespace) -> int:
     from station.engine.messages import Record
 
     engine, hits = Engine(), 0
-    with _listening(arguments) as watch:  # before the file: where nothing can be heard, none is left behind
+    with _listening(arguments) as kits:  # before the file: where nothing can be heard, none is left behind
         engine.advance(monotonic_ns())
         engine.handle(Record(arguments.file))
         try:
             hits += _tell(engine)
-            for findings in _polls(watch, arguments.seconds):
+            for findings in _polls(kits, arguments.seconds):
                 _feed(engine, findings)
                 hits += _tell(engine)
         finally:

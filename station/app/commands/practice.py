@@ -5,11 +5,12 @@ from dataclasses import replace
 from datetime import date
 from pathlib import Path
 
+from station.app.commands.kit_option import KIT_HELP, wanted_kits
 from station.app.commands.output import print_json, say
 from station.app.commands.scores import bars_of_gap
 from station.app.health import has_screen
 from station.app.session_folder import SessionFolder, rescued
-from station.core.errors import BadInput, DeviceError, StationError
+from station.core.errors import BadInput, StationError
 from station.core.settings import Settings, load_settings, with_said
 from station.drills.lesson import Lesson
 from station.practice.click import PLAIN
@@ -43,7 +44,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     click.add_argument(
         "--no-click", action="store_true", help="no click after the count-in: the score follows you, and waits"
     )
-    parser.add_argument("--kit", metavar="PORT", help="part of the MIDI port's name (the first kit found)")
+    parser.add_argument("--kit", metavar="PORT", action="append", help=KIT_HELP)
     parser.add_argument("--output", metavar="DEVICE", help="part of the sound output's name (the system's default)")
     parser.add_argument("--block-frames", type=int, metavar="N", help="frames an audio block (the driver's choice)")
     parser.add_argument("--virtual-student", metavar="SPEC", help="who plays instead of a person, such as pro,seed=3")
@@ -125,13 +126,9 @@ def _remembered(plan: Plan, wishes: Wishes, settings: Settings, keeps: bool) -> 
 
 
 def _is_kit_there(wanted: str) -> bool:
-    from station.devices.midi_ports import MidiDirectory
-    from station.devices.watch import choose_port
+    from station.devices.kit_ports import are_there, parse_kits
 
-    try:
-        return choose_port(MidiDirectory().names(), wanted) is not None
-    except DeviceError:
-        return False
+    return any(are_there(parse_kits(wanted)))
 
 
 def _leave(
@@ -185,7 +182,8 @@ def _wishes(arguments: argparse.Namespace) -> Wishes:
 
 def _wanted(arguments: argparse.Namespace, settings: Settings) -> Settings:
     """The settings with what the command line says instead."""
-    said = {name: getattr(arguments, name) for name in ("kit", "output", "block_frames", "student")}
+    said = {name: getattr(arguments, name) for name in ("output", "block_frames", "student")}
+    said["kit"] = wanted_kits(arguments.kit, settings.kit)
     return with_said(settings, {name: value for name, value in said.items() if value is not None}, "practice")
 
 

@@ -10,7 +10,7 @@ from station.core.units import NS_PER_MS, ns_from_ms
 from station.engine.process import EngineConfig, EngineProcess
 from station.music.judgement import Judgement, Label
 from station.practice.adaptation import Adaptation
-from station.practice.live import LiveOutcome, practise_live, practise_rounds, wait_for_kit
+from station.practice.live import LiveOutcome, practise_live, practise_rounds, wait_for_kits
 from station.practice.plan import Plan, Segment
 from station.practice.session import Latency, Session
 from station.scoring.windows import Windows
@@ -76,10 +76,13 @@ def practise_in_terminal(asked: Plan | Adaptation, settings: Settings, capture: 
     clock = MonotonicClock()
     sys.stderr.write("looking for a kit and a sound output …\n")
     try:
-        with EngineProcess(EngineConfig.from_settings(settings)) as engine:
-            wait_for_kit(engine, session, clock, KIT_WAIT_S, display.tell)
-            if session.device is None:
+        config = EngineConfig.from_settings(settings)
+        with EngineProcess(config) as engine:
+            wait_for_kits(engine, session, clock, KIT_WAIT_S, display.tell, len(config.kits))
+            if not session.devices:
                 raise DeviceError(_no_kit(settings.kit))
+            if len(session.devices) < len(config.kits):
+                sys.stderr.write(f"\n{len(session.devices)} of {len(config.kits)} kits are here; the others may come")
             sys.stderr.write(f"\n{LEGEND}\n")
             if isinstance(asked, Plan):
                 return practise_live(engine, session, clock, capture, display.tell)
@@ -90,9 +93,9 @@ def practise_in_terminal(asked: Plan | Adaptation, settings: Settings, capture: 
 
 
 def _no_kit(wanted: str) -> str:
-    from station.devices.midi_ports import MidiDirectory
+    from station.devices.kit_ports import all_names
 
-    ports = MidiDirectory().names()
-    looked_for = f"no MIDI port's name contains {wanted!r}" if wanted else "no kit is plugged in"
-    there = f"the ports are {', '.join(ports)}" if ports else "there is no MIDI port at all"
+    ports = all_names()
+    looked_for = f"no port's name contains {wanted!r}" if wanted else "no kit is plugged in"
+    there = f"the ports are {', '.join(ports)}" if ports else "there is neither a MIDI nor a serial port"
     return f"{looked_for}; {there} (station practice --virtual-student intermediate needs none)"

@@ -11,6 +11,7 @@ from station.core.errors import DeviceError
 from station.devices.capture import read_capture
 from station.devices.midi_ports import MidiDirectory
 from tests.fakes.ports import FakeDriver
+from tests.fakes.serial_kit import SerialKit
 
 
 @pytest.fixture(autouse=True)
@@ -46,7 +47,7 @@ def test_without_a_driver_no_file_is_left_behind(tmp_path: Path, capsys: pytest.
 
 def test_ctrl_c_at_any_moment_leaves_a_whole_capture(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     console, driver = ImpatientConsole(), FakeDriver("TD-17 20:0")
-    monkeypatch.setattr("station.devices.midi_ports.MidiDirectory", lambda: driver)
+    monkeypatch.setattr("station.devices.kit_ports.MidiDirectory", lambda *_: driver)
     monkeypatch.setattr(sys, "stderr", console)
     assert main(["devices", "record", str(tmp_path / "take.cap"), "--seconds", "20"]) == 0
     assert read_capture(tmp_path / "take.cap").complete
@@ -58,7 +59,7 @@ def test_ctrl_c_at_any_moment_leaves_a_whole_capture(tmp_path: Path, monkeypatch
 def test_a_capture_that_is_not_on_the_disk_is_no_success(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("station.devices.midi_ports.MidiDirectory", FakeDriver)
+    monkeypatch.setattr("station.devices.kit_ports.MidiDirectory", lambda *_: FakeDriver())
     assert main(["devices", "record", "/dev/full", "--seconds", "0.01"]) == 2
     assert "No space left" in capsys.readouterr().err
 
@@ -68,3 +69,61 @@ def test_a_length_that_is_none_is_refused(seconds: str, tmp_path: Path, capsys: 
     assert main(["devices", "record", str(tmp_path / "take.cap"), "--seconds", seconds]) == 2
     assert "no length of time" in capsys.readouterr().err
     assert not (tmp_path / "take.cap").exists()
+
+
+# --- several kits, and one on a serial port --------------------------------------------------------------------------
+
+on_linux = pytest.mark.skipif(sys.platform != "linux", reason="ptys that speak as serial ports are Linux's")
+
+
+class Player(io.StringIO):
+    """A console; as soon as a kit is announced on it, the serial kit plays, and a moment later Ctrl-C is pressed."""
+
+    def __init__(self, kit: SerialKit) -> None:
+        super().__init__()
+        self._kit = kit
+        self._hits = 0
+
+    def write(self, text: str) -> int:
+        super().write(text)
+        if f"{self._kit.wish} is here" in text:
+            self._kit.play(bytes.fromhex("99 26 64 26 00 24 50"))
+        self._hits += "velocity" in text
+        if self._hits == 2:
+            raise KeyboardInterrupt
+        return len(text)
+
+
+@on_linux
+def test_a_serial_kit_and_a_midi_kit_are_monitored_at_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with SerialKit(tmp_path / "ttyUSB0") as kit:
+        console, driver = Player(kit), FakeDriver("TD-17 20:0")
+        monkeypatch.setattr("station.devices.kit_ports.MidiDirectory", lambda *_: driver)
+        monkeypatch.setattr(sys, "stdout", console)
+        words = ["devices", "monitor", "--kit", "td-17", "--kit", f"{kit.wish}@115200", "--seconds", "20"]
+        assert main(words) == 0
+        assert kit.rate() == (115_200, 115_200)
+    lines = console.getvalue()
+    assert "TD-17 is here" in lines
+    assert [line.split()[1] for line in lines.splitlines() if "velocity" in line] == ["snare", "kick"]
+
+
+@on_linux
+def test_a_serial_kit_is_heard_where_no_midi_driver_works(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def no_driver(*_: object) -> FakeDriver:
+        raise DeviceError("no MIDI driver works")
+
+    monkeypatch.setattr("station.devices.kit_ports.MidiDirectory", no_driver)
+    with SerialKit(tmp_path / "ttyUSB0") as kit:
+        words = ["devices", "record", str(tmp_path / "take.cap"), "--seconds", "0.05"]
+        assert main([*words, "--kit", kit.wish]) == 0
+        assert f"{kit.wish} is here" in capsys.readouterr().err
+        assert main([*words, "--kit", "TD-17"]) == 2
+        assert "no MIDI driver works" in capsys.readouterr().err
+
+
+def test_a_rate_that_no_port_has_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["devices", "monitor", "--kit", "serial:/dev/ttyUSB0@fast"]) == 2
+    assert "expected serial:PATH@BAUD" in capsys.readouterr().err

@@ -120,11 +120,18 @@ def test_the_frame_rate_changes_nothing(rate_hz: int) -> None:
     assert outcome(NS_PER_S // rate_hz) == outcome(NS_PER_MS)
 
 
+def test_of_two_kits_the_other_stays_when_one_goes() -> None:
+    practice = session()
+    for event in (DeviceFound(0, "TD-17"), DeviceFound(0, "Nitro"), DeviceLost(1, "TD-17")):
+        practice.handle(event)
+    assert practice.devices == ["Nitro"]
+
+
 def test_a_kit_that_goes_and_comes_is_told() -> None:
     practice = session()
     there = []
     for event in (DeviceFound(0, "TD-17"), DeviceLost(1, "TD-17")):
         practice.handle(event)
-        there.append(practice.device)
-    assert there == ["TD-17", None]
+        there.append(tuple(practice.devices))
+    assert there == [("TD-17",), ()]
     assert [("gone" in text, "here" in text) for text in practice.notices] == [(False, True), (True, False)]

@@ -1,0 +1,139 @@
+"""All ports at which a kit may be, MIDI and serial in one list, and the word with which a user asks for one.
+
+    KIT = PART | PART@BAUD | serial:PATH | serial:PATH@BAUD          KITS = KIT; KIT; …
+
+PART is part of a port's name in any case of letters, empty for the first MIDI kit found. A serial port is never opened
+unless it is asked for: there may be a motion sensor, a modem or a robot behind it.
+"""
+
+import re
+from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass
+
+from station.core.clock import monotonic_ns
+from station.core.errors import BadInput, DeviceError
+from station.devices.midi_ports import MidiDirectory
+from station.devices.serial_names import SERIAL
+from station.devices.serial_ports import FASTEST_BAUD, MIDI_BAUD, SLOWEST_BAUD, SerialDirectory
+from station.devices.transport import PortDirectory, Transport
+from station.devices.watch import Claims, KitWatch, choose_port
+
+BETWEEN_KITS = ";"
+"""Stands between several kits in the settings: no driver puts one into a port's name."""
+
+_BAUD = re.compile(r"(.*)@(\d+)", re.DOTALL)
+
+
+@dataclass(frozen=True, slots=True)
+class KitWish:
+    """A kit that a user asks for: `part` of its port's name, and the `baud` at which to open it if it is serial."""
+
+    part: str
+    baud: int = MIDI_BAUD
+
+    @property
+    def path(self) -> str:
+        """The path of a serial port, empty where none is asked for by its path."""
+        return self.part.removeprefix(SERIAL) if self.part.startswith(SERIAL) else ""
+
+
+def parse_kit(text: str) -> KitWish:
+    """The wish that `text` says; raises `BadInput` for a rate that no serial port has."""
+    wish = text.strip()
+    rated = _BAUD.fullmatch(wish)
+    if rated is None:
+        if wish.startswith(SERIAL) and "@" in wish:
+            raise BadInput(f"kit {wish}", "", "expected serial:PATH@BAUD, such as serial:/dev/ttyUSB0@115200")
+        return KitWish(wish)
+    baud = int(rated[2])
+    if not SLOWEST_BAUD <= baud <= FASTEST_BAUD:
+        raise BadInput(f"kit {wish}", "", f"{baud} baud: expected {SLOWEST_BAUD} to {FASTEST_BAUD}")
+    return KitWish(rated[1], baud)
+
+
+def parse_kits(text: str) -> tuple[KitWish, ...]:
+    """All the wishes in `text`; a wish for any kit counts only alone. Raises `BadInput` as `parse_kit` does."""
+    return tuple(parse_kit(part) for part in text.split(BETWEEN_KITS) if part.strip()) or (KitWish(""),)
+
+
+class KitPorts:
+    """MIDI and serial ports in one list; `midi` is None where no MIDI driver works."""
+
+    def __init__(self, midi: PortDirectory | None, serial: SerialDirectory) -> None:
+        self._midi = midi
+        self._serial = serial
+
+    def names(self) -> list[str]:
+        """The ports that are there now, MIDI before serial."""
+        return [*(self._midi.names() if self._midi is not None else ()), *self._serial.names()]
+
+    def open(self, port: str) -> Transport:
+        """Open one of `names()`; raises `DeviceError` where it cannot be had."""
+        if SERIAL in port:
+            return self._serial.open(port)
+        if self._midi is None:
+            raise DeviceError(f"{port}: no MIDI driver works")
+        return self._midi.open(port)
+
+
+def ports_for(wish: KitWish, midi: PortDirectory | None) -> PortDirectory:
+    """Where to look for the kit that is wished for: not on serial ports unless it has a name."""
+    if not wish.part and midi is not None:
+        return midi
+    serial = SerialDirectory(wish.baud, wish.path)
+    return serial if wish.path else KitPorts(midi, serial)
+
+
+@dataclass(frozen=True, slots=True)
+class Watches:
+    """The watches over the kits that were asked for, and the `fault` of a MIDI driver that one of them would need."""
+
+    kits: tuple[KitWatch, ...]
+    fault: str | None = None
+
+
+def watch_kits(
+    wishes: tuple[KitWish, ...],
+    driver: str = "auto",
+    now_ns: Callable[[], int] = monotonic_ns,
+    undisturbed: Callable[[], AbstractContextManager[None]] = nullcontext,
+) -> Watches:
+    """A watch a wish, none of which takes another's port; without a MIDI driver serial ports are heard all the same.
+
+    Raises `BadInput` for a driver that there is not; the other parameters stand as in `MidiDirectory`.
+    """
+    midi, fault = None, None
+    if any(not wish.path for wish in wishes):
+        try:
+            midi = MidiDirectory(driver, now_ns, undisturbed)
+        except DeviceError as error:
+            fault = str(error)
+    claims = Claims()
+    heard = [wish for wish in wishes if midi is not None or wish.path or _is_serial(wish)]
+    return Watches(tuple(KitWatch(ports_for(wish, midi), wish.part, claims) for wish in heard), fault)
+
+
+def are_there(wishes: tuple[KitWish, ...]) -> list[bool]:
+    """Whether each kit could be opened now, as far as the lists of ports tell."""
+    try:
+        midi = MidiDirectory()
+    except DeviceError:
+        midi = None
+    return [
+        (wish.part != "" or midi is not None) and choose_port(ports_for(wish, midi).names(), wish.part) is not None
+        for wish in wishes
+    ]
+
+
+def all_names() -> list[str]:
+    """Every port of this computer, MIDI before serial."""
+    try:
+        midi = MidiDirectory()
+    except DeviceError:
+        midi = None
+    return KitPorts(midi, SerialDirectory()).names()
+
+
+def _is_serial(wish: KitWish) -> bool:
+    return choose_port(SerialDirectory().names(), wish.part) is not None
