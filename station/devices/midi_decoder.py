@@ -1,9 +1,9 @@
 """MIDI bytes to events of the drum kit: pure, no clock, no port.
 
-A message bears the time of the piece of bytes that completed it. The hi-hat pedal (controller 4) and the position
-controllers come before the note that they describe. Note off, note on with velocity 0, clock, active sensing, program
-changes and the high-resolution velocity prefix (controller 88: a velocity of 1–127 has no room for its bits) are no
-hits. All channels count: modules differ in the one they use, and many drum pads can each have their own.
+A message bears the time of the piece of bytes that completed it. The hi-hat pedal (controller 4), the position
+controllers and the high-resolution velocity prefix (controller 88: what the velocity is above its whole number, in
+128ths) come before the note that they describe; the prefix holds for the next note on or off of its channel and no
+longer. Note off, note on with velocity 0, clock, active sensing and program changes are no hits. All channels count: modules differ in the one they use, and many drum pads can each have their own.
 
 Sources: MIDI 1.0 Detailed Specification 4.2; MMA CA-031 (high-resolution velocity prefix); Roland MIDI implementations:
 polyphonic aftertouch `An note 7F` while a cymbal is held and `00` on release, sent for bow and edge alike; VQD106 sends
@@ -16,12 +16,16 @@ from station.core.pieces import CYMBALS, Piece
 from station.devices.midi_tokens import MidiTokenizer
 from station.devices.presets import PEDAL_CONTROLLER, KitPreset
 
+_NOTE_OFF = 0x8
 _NOTE_ON = 0x9
 _POLY_AFTERTOUCH = 0xA
 _CONTROL_CHANGE = 0xB
 _FIRST_SYSTEM = 0xF0
+_VELOCITY_PREFIX = 88
+_CHANNEL = 0x0F
 
 _GREATEST = 127
+_STEPS = 128
 _CHOKEABLE = CYMBALS | {Piece.HIHAT}
 _CONTRADICTION = 0.75
 """Where the pedal's openness and the note's own differ by more, the note is right (our choice: Roland modules change
@@ -38,6 +42,7 @@ class MidiDecoder:
         self._openness: float | None = None
         self._positions: dict[Piece, float] = {}
         self._held: dict[Piece, set[int]] = {}
+        self._prefixes: dict[int, bytes] = {}  # high-resolution velocity prefixes that await their note, by channel
         self._controllers: dict[int, bytes] = {}  # the newest message of each controller that says how the kit stands
 
     def reset(self) -> None:
@@ -46,12 +51,13 @@ class MidiDecoder:
         self._openness = None
         self._positions.clear()
         self._held.clear()
+        self._prefixes.clear()
         self._controllers.clear()
 
     def bequeath(self) -> bytes:
         """Bytes that bring a new decoder to this one's state, as a capture begins; lets go of held cymbals."""
         self._held.clear()
-        return b"".join(self._controllers.values()) + self._tokens.unfinished()
+        return b"".join([*self._controllers.values(), *self._prefixes.values()]) + self._tokens.unfinished()
 
     def feed(self, data: bytes, at_ns: int) -> list[DeviceEvent]:
         """The events that `data`, come at `at_ns`, completes; in order, each stamped `at_ns`."""
@@ -61,15 +67,18 @@ class MidiDecoder:
             if status >= _FIRST_SYSTEM:
                 continue
             kind = status >> 4
-            if kind == _NOTE_ON and message[2]:
-                events.append(self._hit(message[1], message[2], at_ns))
+            if kind in (_NOTE_ON, _NOTE_OFF):
+                prefix = self._prefixes.pop(status & _CHANNEL, None)
+                if kind == _NOTE_ON and message[2]:
+                    fraction = 0.0 if prefix is None else prefix[2] / _STEPS
+                    events.append(self._hit(message[1], message[2], at_ns, fraction))
             elif kind == _CONTROL_CHANGE:
                 self._take_controller(message, at_ns, events)
             elif kind == _POLY_AFTERTOUCH:
                 self._take_aftertouch(message[1], message[2], at_ns, events)
         return events
 
-    def _hit(self, note: int, velocity: int, at_ns: int) -> Hit:
+    def _hit(self, note: int, velocity: int, at_ns: int, velocity_fraction: float) -> Hit:
         strike = strike_of(note, self.preset.notes)
         self._held.pop(strike.piece, None)
         openness = strike.openness
@@ -87,11 +96,14 @@ class MidiDecoder:
             midi_note=note,
             position=self._positions.get(strike.piece),
             device=self.device,
+            velocity_fraction=velocity_fraction,
         )
 
     def _take_controller(self, message: bytes, at_ns: int, events: list[DeviceEvent]) -> None:
-        _, number, value = message
-        if number == PEDAL_CONTROLLER and self.preset.pedal is not None:
+        status, number, value = message
+        if number == _VELOCITY_PREFIX:
+            self._prefixes[status & _CHANNEL] = message
+        elif number == PEDAL_CONTROLLER and self.preset.pedal is not None:
             self._controllers[number] = message
             openness = self.preset.pedal.openness(value)
             if openness != self._openness:

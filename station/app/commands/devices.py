@@ -248,7 +248,8 @@ def _words(event: DeviceEvent) -> str:
         case Hit():
             openness = "" if event.openness is None else f"  openness {event.openness:.2f}"
             how = f"{word(event.zone)}, {word(event.articulation)}"
-            return f"{word(event.piece):13} {how:18} velocity {event.velocity:3}{openness}"
+            fraction = f"{event.velocity_fraction:.2f}"[1:] if event.velocity_fraction else ""
+            return f"{word(event.piece):13} {how:18} velocity {event.velocity:3}{fraction}{openness}"
         case Choke():
             return f"{word(event.piece):13} choked"
         case PedalMoved():

@@ -46,8 +46,31 @@ def test_what_is_no_stroke_makes_no_event(data: str) -> None:
     assert decode(data) == []
 
 
-def test_a_velocity_prefix_leaves_the_note_as_it_is() -> None:
-    assert [hit.velocity for hit in hits("b9 58 33 99 26 64")] == [100]
+@pytest.mark.parametrize(
+    ("data", "velocities"),
+    [
+        pytest.param("b9 58 40 99 26 64", [100.5], id="64 of 128 is a half"),
+        pytest.param("b9 58 00 99 26 64", [100.0], id="a prefix of nothing"),
+        pytest.param("b9 58 20 99 26 64 99 26 64", [100.25, 100.0], id="for one note only"),
+        pytest.param("b9 58 20 99 24 00 99 26 64", [100.0], id="a note off takes its own"),
+        pytest.param("b9 58 20 89 24 40 99 26 64", [100.0], id="so does a real note off"),
+        pytest.param("b9 58 20 90 26 64 99 26 64", [100.0, 100.25], id="for its own channel only"),
+        pytest.param("b9 58 20 b9 04 40 99 26 64", [100.25], id="other controllers may come between"),
+        pytest.param("b9 58 20 58 60 99 26 64", [100.75], id="the last prefix counts"),
+    ],
+)
+def test_a_velocity_prefix_makes_the_next_note_of_its_channel_finer(data: str, velocities: list[float]) -> None:
+    """MMA CA-031: velocity in 14 bits, of which the prefix bears the lower seven."""
+    assert [hit.velocity + hit.velocity_fraction for hit in hits(data)] == velocities
+
+
+def test_a_kit_that_was_unplugged_forgets_a_velocity_prefix() -> None:
+    decoder = MidiDecoder(preset_named("roland-td-27"))
+    decoder.feed(bytes.fromhex("b9 58 40"), AT_NS)
+    decoder.reset()
+    (hit,) = decoder.feed(bytes.fromhex("99 26 64"), AT_NS)
+    assert isinstance(hit, Hit)
+    assert hit.velocity_fraction == 0.0
 
 
 def test_an_unknown_note_is_percussion_and_not_lost() -> None:
