@@ -3,7 +3,8 @@
 A message bears the time of the piece of bytes that completed it. The hi-hat pedal (controller 4), the position
 controllers and the high-resolution velocity prefix (controller 88: what the velocity is above its whole number, in
 128ths) come before the note that they describe; the prefix holds for the next note on or off of its channel and no
-longer. Note off, note on with velocity 0, clock, active sensing and program changes are no hits. All channels count: modules differ in the one they use, and many drum pads can each have their own.
+longer. Note off, note on with velocity 0, clock, active sensing and program changes are no hits. All channels count:
+modules differ in the one they use, and many drum pads can each have their own.
 
 Sources: MIDI 1.0 Detailed Specification 4.2; MMA CA-031 (high-resolution velocity prefix); Roland MIDI implementations:
 polyphonic aftertouch `An note 7F` while a cymbal is held and `00` on release, sent for bow and edge alike; VQD106 sends
