@@ -35,8 +35,8 @@ CLOSE_WITHIN_S = 1.0
 
 
 @dataclass(frozen=True, slots=True)
-class OutputDevice:
-    """A device that can play: its PortAudio number and name, the system behind it, and what it prefers."""
+class SoundDevice:
+    """A device that can play or record: its PortAudio number and name, the system behind it, what it prefers."""
 
     index: int
     name: str
@@ -49,7 +49,7 @@ class OutputDevice:
 class CardOutput:
     """A stream on a real device, one user of PortAudio; `start` makes it play."""
 
-    def __init__(self, sd: ModuleType, device: OutputDevice, block_frames: int, rate_hz: int) -> None:
+    def __init__(self, sd: ModuleType, device: SoundDevice, block_frames: int, rate_hz: int) -> None:
         self.name = device.name
         self.underflows = 0
         self.load = 0.0
@@ -140,7 +140,7 @@ class CardOutput:
         self.load += LOAD_SMOOTHING * (used - self.load)
 
 
-def accepted_settings(sd: ModuleType, device: OutputDevice, rate_hz: int) -> tuple[int, int]:
+def accepted_settings(sd: ModuleType, device: SoundDevice, rate_hz: int) -> tuple[int, int]:
     """Channels and rate to open `device` with: those wished for, else the nearest that it takes.
 
     Two channels are enough; a device that insists on all of its own gets them. The device's own rate stands in for one

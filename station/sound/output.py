@@ -1,10 +1,10 @@
 """Where the sound goes: a sound card through PortAudio (JACK, ALSA, CoreAudio, WASAPI), or nowhere."""
 
 from collections.abc import Sequence
-from typing import Any, Protocol
+from typing import Any, Literal, Protocol
 
 from station.core.errors import DeviceError
-from station.sound.card_output import CardOutput, OutputDevice, Renderer
+from station.sound.card_output import CardOutput, Renderer, SoundDevice
 from station.sound.portaudio import PORTAUDIO
 
 SILENT_RATE_HZ = 48_000
@@ -78,43 +78,54 @@ class SilentOutput:
         """Do nothing."""
 
 
-def list_outputs() -> list[OutputDevice]:
+def list_outputs() -> list[SoundDevice]:
     """Every device that can play, the system's default first; raises `DeviceError` where PortAudio is missing."""
+    return list_devices("output")
+
+
+def list_devices(direction: Literal["input", "output"]) -> list[SoundDevice]:
+    """Every device that can record, or play, the system's default first; raises `DeviceError`."""
     with PORTAUDIO.running() as sd:
         try:
             hosts: Sequence[dict[str, Any]] = sd.query_hostapis()
             devices: Sequence[dict[str, Any]] = sd.query_devices()
-            default = sd.default.device[1]
+            default = sd.default.device[direction == "output"]
         except sd.PortAudioError as fault:
             raise DeviceError(f"the sound devices cannot be listed: {fault}") from fault
+    channels = f"max_{direction}_channels"
     found = [
-        OutputDevice(
+        SoundDevice(
             index=index,
             name=device["name"],
             host=hosts[device["hostapi"]]["name"],
-            channels=device["max_output_channels"],
+            channels=device[channels],
             rate_hz=round(device["default_samplerate"]),
             is_default=index == default,
         )
         for index, device in enumerate(devices)
-        if device["max_output_channels"] > 0
+        if device[channels] > 0
     ]
     return sorted(found, key=lambda device: not device.is_default)
 
 
-def choose_output(devices: Sequence[OutputDevice], part: str) -> OutputDevice:
+def choose_output(devices: Sequence[SoundDevice], part: str) -> SoundDevice:
     """The device whose "host: name" contains `part`, letter case aside; the first (the default) for an empty `part`.
 
     A device called exactly so comes before those that merely contain it. Raises `DeviceError` naming what there is.
     """
+    return choose_device(devices, part, "output")
+
+
+def choose_device(devices: Sequence[SoundDevice], part: str, direction: Literal["input", "output"]) -> SoundDevice:
+    """The same for either direction."""
     if not devices:
-        raise DeviceError("no sound: no output device was found; connect one, or start the sound server")
+        raise DeviceError(f"no sound: no {direction} device was found; connect one, or start the sound server")
     wanted = part.casefold()
     exact = [device for device in devices if device.name.casefold() == wanted]
     near = [device for device in devices if wanted in f"{device.host}: {device.name}".casefold()]
     if not (exact or near):
         names = ", ".join(repr(device.name) for device in devices)
-        raise DeviceError(f"no sound output is called {part!r}; there are {names}")
+        raise DeviceError(f"no sound {direction} is called {part!r}; there are {names}")
     return (exact or near)[0]
 
 

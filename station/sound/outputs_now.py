@@ -11,14 +11,14 @@ import sys
 from dataclasses import asdict
 
 from station.core.errors import DeviceError
-from station.sound.card_output import OutputDevice
+from station.sound.card_output import SoundDevice
 from station.sound.output import list_outputs
 
 PATIENCE_S = 10.0
 """A driver that lists its devices for longer hangs (our choice: a cold start on a busy computer takes two)."""
 
 
-def outputs_now(patience_s: float = PATIENCE_S) -> list[OutputDevice]:
+def outputs_now(patience_s: float = PATIENCE_S) -> list[SoundDevice]:
     """Every device that can play, the system's default first; takes some tenths of a second, never in real time.
 
     Raises `DeviceError` where the devices cannot be listed.
@@ -31,10 +31,10 @@ def outputs_now(patience_s: float = PATIENCE_S) -> list[OutputDevice]:
         raise DeviceError(f"the sound devices cannot be listed: {fault}") from fault
     if isinstance(found, str):
         raise DeviceError(found)
-    return [OutputDevice(**device) for device in found]
+    return [SoundDevice(**device) for device in found]
 
 
-def default_has_changed(playing: str, devices: list[OutputDevice]) -> bool:
+def default_has_changed(playing: str, devices: list[SoundDevice]) -> bool:
     """Whether the system's default is now another device than the one called `playing`."""
     default = next((device for device in devices if device.is_default), None)
     return default is not None and default.name != playing

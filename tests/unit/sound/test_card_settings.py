@@ -5,7 +5,7 @@ from types import ModuleType
 import numpy as np
 import pytest
 
-from station.sound.card_output import OutputDevice, accepted_settings, fit_channels
+from station.sound.card_output import SoundDevice, accepted_settings, fit_channels
 
 
 class PortAudioError(Exception):
@@ -25,8 +25,8 @@ def portaudio(channels: set[int], rates_hz: set[int]) -> ModuleType:
     return module
 
 
-def device(channels: int, rate_hz: int) -> OutputDevice:
-    return OutputDevice(3, "a card", "ALSA", channels, rate_hz, is_default=True)
+def device(channels: int, rate_hz: int) -> SoundDevice:
+    return SoundDevice(3, "a card", "ALSA", channels, rate_hz, is_default=True)
 
 
 @pytest.mark.parametrize(

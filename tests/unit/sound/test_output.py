@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from station.core.errors import DeviceError
-from station.sound.card_output import OutputDevice, fit_channels, reported_dac_ns
+from station.sound.card_output import SoundDevice, fit_channels, reported_dac_ns
 from station.sound.output import SilentOutput, choose_output, open_output
 
 
-def device(index: int, name: str, host: str = "ALSA") -> OutputDevice:
-    return OutputDevice(index, name, host, channels=2, rate_hz=48_000, is_default=index == 0)
+def device(index: int, name: str, host: str = "ALSA") -> SoundDevice:
+    return SoundDevice(index, name, host, channels=2, rate_hz=48_000, is_default=index == 0)
 
 
 DEVICES = [

@@ -1,13 +1,13 @@
 import pytest
 
 from station.core.errors import DeviceError
-from station.sound.card_output import OutputDevice
+from station.sound.card_output import SoundDevice
 from station.sound.outputs_now import default_has_changed, outputs_now
 from tests.fakes.jack_server import JackServer, jackd_is_installed
 
 
-def device(name: str, is_default: bool) -> OutputDevice:
-    return OutputDevice(0, name, "ALSA", 2, 48_000, is_default)
+def device(name: str, is_default: bool) -> SoundDevice:
+    return SoundDevice(0, name, "ALSA", 2, 48_000, is_default)
 
 
 @pytest.mark.parametrize(
@@ -19,7 +19,7 @@ def device(name: str, is_default: bool) -> OutputDevice:
         ([], False),
     ],
 )
-def test_another_default_is_noticed(devices: list[OutputDevice], changed: bool) -> None:
+def test_another_default_is_noticed(devices: list[SoundDevice], changed: bool) -> None:
     assert default_has_changed("card", devices) is changed
 
 

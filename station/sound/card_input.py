@@ -1,0 +1,147 @@
+"""A recording stream on a sound card, and when each of its frames was heard; for measuring latency alone.
+
+As in `card_output`: PortAudio's `inputBufferAdcTime` on the stream's own clock, read together with the monotonic one
+and smoothed by the same loop. Where a driver reports no time, the present less the stream's latency stands in. Blocks
+are kept as they come, the callback does nothing else.
+"""
+
+from dataclasses import dataclass
+from threading import Thread
+from types import ModuleType
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.clock import monotonic_ns
+from station.core.errors import DeviceError
+from station.core.units import ns_from_s
+from station.sound.calibration.timeline import Recording, Timeline
+from station.sound.card_output import CLOSE_WITHIN_S, MAX_LATENCY_S, MAX_PAST_S, SoundDevice
+from station.sound.dac_clock import DacClock
+from station.sound.output import SILENT_RATE_HZ, choose_device, list_devices
+from station.sound.portaudio import PORTAUDIO
+
+MOST_CHANNELS = 2
+
+
+class DriverTimes(Protocol):
+    """What PortAudio tells a recording callback, in seconds of the stream's clock."""
+
+    currentTime: float  # noqa: N815 - PortAudio's name
+    inputBufferAdcTime: float  # noqa: N815 - PortAudio's name
+
+
+class DriverStatus(Protocol):
+    """What PortAudio says went wrong before a callback."""
+
+    input_overflow: bool
+
+
+@dataclass(frozen=True, slots=True)
+class _Block:
+    first_ns: int
+    sound: NDArray[np.float32]
+
+
+class CardInput:
+    """A stream from a real device, one user of PortAudio; it records from `start` to `close`."""
+
+    def __init__(self, sd: ModuleType, device: SoundDevice, block_frames: int, rate_hz: int) -> None:
+        self.name = device.name
+        self.lost_blocks = 0
+        self._blocks: list[_Block] = []
+        self._error: type[Exception] = sd.PortAudioError
+        self._is_open = True
+        channels, self.rate_hz = _accepted(sd, device, rate_hz)
+        try:
+            self._stream = sd.InputStream(
+                device=device.index,
+                channels=channels,
+                dtype="float32",
+                samplerate=self.rate_hz,
+                blocksize=block_frames,
+                latency="low",
+                callback=self._callback,
+            )
+        except sd.PortAudioError as fault:
+            raise DeviceError(f"sound input {device.name!r} cannot be opened: {fault}; choose another") from fault
+        self._clock = DacClock(self.rate_hz)
+        self._latency_s = float(self._stream.latency)
+
+    @property
+    def latency_ms(self) -> float:
+        """From the converter to the callback as the stream reports it."""
+        return 1000.0 * self._latency_s
+
+    def start(self) -> None:
+        """Begin to record; raises `DeviceError`."""
+        try:
+            self._stream.start()
+        except self._error as fault:
+            raise DeviceError(f"sound input {self.name!r} does not start: {fault}; choose another") from fault
+
+    def recording(self) -> Recording:
+        """All that was recorded so far; raises `DeviceError` where nothing came."""
+        blocks = list(self._blocks)
+        if not blocks:
+            raise DeviceError(f"sound input {self.name!r} brings nothing: is it the right one, may it be used?")
+        lengths = np.array([len(block.sound) for block in blocks])
+        first = np.concatenate([[0], np.cumsum(lengths)[:-1]]).astype(np.int64)
+        times = np.array([block.first_ns for block in blocks], np.int64)
+        sound = np.concatenate([block.sound for block in blocks])
+        return Recording(sound, Timeline(first, times, self.rate_hz), self.lost_blocks)
+
+    def close(self) -> None:
+        """Stop and give the device back; harmless when closed already."""
+        if not self._is_open:
+            return
+        self._is_open = False
+        closing = Thread(target=self._stream.close, name="close sound input", daemon=True)
+        closing.start()
+        closing.join(CLOSE_WITHIN_S)
+        if closing.is_alive():
+            PORTAUDIO.abandon()
+        PORTAUDIO.release()
+
+    def _callback(self, heard: NDArray[np.float32], frames: int, times: DriverTimes, status: DriverStatus) -> None:
+        begun_ns = monotonic_ns()
+        if status.input_overflow:
+            self.lost_blocks += 1
+            self._clock.resync()
+        reported_ns = reported_adc_ns(begun_ns, self._stream.time, times, self._latency_s)
+        self._blocks.append(_Block(self._clock.block(frames, reported_ns), heard.copy()))
+
+
+def reported_adc_ns(now_ns: int, stream_s: float, times: DriverTimes, latency_s: float) -> int:
+    """When a block's first frame was heard by the driver's report, in monotonic ns.
+
+    `now_ns` and `stream_s` are the monotonic and the stream's clock at one moment; falls back as the output's does.
+    """
+    for clock_s in (stream_s, times.currentTime):
+        ago_s = clock_s - times.inputBufferAdcTime
+        if clock_s and times.inputBufferAdcTime and -MAX_PAST_S < ago_s < MAX_LATENCY_S:
+            return now_ns - ns_from_s(ago_s)
+    return now_ns - ns_from_s(latency_s)
+
+
+def _accepted(sd: ModuleType, device: SoundDevice, rate_hz: int) -> tuple[int, int]:
+    """Channels and rate to open `device` with: the rate that is wished for, else the device's own."""
+    few = min(MOST_CHANNELS, device.channels)
+    for channels, rate in [(few, rate_hz), (few, device.rate_hz), (device.channels, device.rate_hz)]:
+        try:
+            sd.check_input_settings(device=device.index, channels=channels, dtype="float32", samplerate=rate)
+        except sd.PortAudioError:
+            continue
+        return channels, rate
+    return few, device.rate_hz
+
+
+def open_input(part: str = "", block_frames: int = 0, rate_hz: int = SILENT_RATE_HZ) -> CardInput:
+    """Open the input whose name contains `part` (empty: the default), not yet recording; raises `DeviceError`."""
+    sd = PORTAUDIO.acquire()
+    try:
+        return CardInput(sd, choose_device(list_devices("input"), part, "input"), block_frames, rate_hz)
+    except BaseException:
+        PORTAUDIO.release()
+        raise
