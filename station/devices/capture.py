@@ -10,12 +10,13 @@ the first fault and has everything before it. Kinds that it does not know it pas
 | kind | device | at_ns | payload |
 |---|---|---|---|
 | START | 0 | when writing began | unix time in ns, i64 |
-| DEVICE | its number from now on | when it was first heard | JSON object: `name`, `preset` |
+| DEVICE | its number from now on | when it was first heard | JSON: `name`, `preset`; `kit`, its own file, if any |
 | BYTES | number | when they came | the bytes as they came |
 | LOST, FOUND | number | when | none |
 | STROKE | number | when it was played | a hit that had no bytes (computer keyboard): `_STROKE` |
 | ZERO | 0 | when cue time 0 was heard | none |
 | END | 0 | when the capture was closed | none |
+| SETTLED | number | until when its hits had been told | none; only before bytes from earlier, that came late |
 """
 
 import json
@@ -25,6 +26,7 @@ import zlib
 from dataclasses import dataclass
 from enum import IntEnum
 from pathlib import Path
+from typing import NamedTuple
 
 from station.core.errors import BadInput, DeviceError
 from station.core.events import Hit
@@ -48,6 +50,7 @@ class Kind(IntEnum):
     STROKE = 5
     ZERO = 6
     END = 7
+    SETTLED = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,22 +137,30 @@ def start_record(at_ns: int, unix_ns: int) -> Record:
     return Record(Kind.START, 0, at_ns, _UNIX.pack(unix_ns))
 
 
-def device_record(number: int, at_ns: int, name: str, preset: str) -> Record:
-    """From now on `number` stands for the device `name`, understood by `preset`."""
-    payload = json.dumps({"name": name, "preset": preset}, ensure_ascii=False).encode()
-    return Record(Kind.DEVICE, number, at_ns, payload)
+class DeviceWord(NamedTuple):
+    """What a DEVICE record says: the device's name, its preset's, and the text of a kit of the user's own, if any."""
+
+    name: str
+    preset: str
+    kit: str | None = None
 
 
-def device_of(record: Record) -> tuple[str, str]:
-    """Name and preset of a DEVICE record; raises `BadInput` where its payload is not ours."""
+def device_record(number: int, at_ns: int, name: str, preset: str, kit: str | None = None) -> Record:
+    """From now on `number` stands for the device `name`, understood by `preset` or by the text of an own `kit`."""
+    said = {"name": name, "preset": preset} | ({} if kit is None else {"kit": kit})
+    return Record(Kind.DEVICE, number, at_ns, json.dumps(said, ensure_ascii=False).encode())
+
+
+def device_of(record: Record) -> DeviceWord:
+    """What a DEVICE record says; raises `BadInput` where its payload is not ours."""
     try:
         fields = json.loads(record.payload)
-        name, preset = fields["name"], fields["preset"]
-        if not (isinstance(name, str) and isinstance(preset, str)):
+        name, preset, kit = fields["name"], fields["preset"], fields.get("kit")
+        if not (isinstance(name, str) and isinstance(preset, str) and isinstance(kit, str | None)):
             raise TypeError
-    except (ValueError, TypeError, KeyError):
+    except (ValueError, TypeError, KeyError, AttributeError):
         raise BadInput("capture", f"device {record.device}", "its name and preset cannot be read") from None
-    return name, preset
+    return DeviceWord(name, preset, kit)
 
 
 def stroke_record(number: int, hit: Hit) -> Record:

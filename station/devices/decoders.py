@@ -1,44 +1,97 @@
-"""All the kits that are heard, each with its own decoder, by the device's name: for live bytes and captures alike."""
+"""All the kits that are heard, each with its own decoder and guard, by its name: for live bytes and captures."""
+
+from collections.abc import Callable
+from typing import NamedTuple
 
 from station.core.events import DeviceEvent, DeviceFound, DeviceLost
+from station.devices.guard import Ghost, Guard
+from station.devices.kit import KitPreset
 from station.devices.midi_decoder import MidiDecoder
-from station.devices.presets import KitPreset, preset_for
+from station.devices.presets import preset_for
+
+
+class Heard(NamedTuple):
+    """What bytes brought: the events that may sound at once, and those that are certain now and can be told."""
+
+    sounding: list[DeviceEvent]
+    told: list[DeviceEvent]
+
+
+class _Kit:
+    """One kit: what it sends, and which of it counts."""
+
+    def __init__(self, preset: KitPreset, device: str) -> None:
+        self.decoder = MidiDecoder(preset, device)
+        self.guard = Guard(preset)
+
+    def reset(self) -> list[DeviceEvent]:
+        """Start afresh; returns what still waited."""
+        self.decoder.reset()
+        waiting = self.guard.flush()
+        self.guard.reset()
+        return waiting
 
 
 class DecoderBank:
-    """Decoders by device; a device that nobody announced gets the preset that its name suggests."""
+    """Decoders by device; a device that nobody announced gets the preset that `suggest` has for its name."""
 
-    def __init__(self) -> None:
-        self._decoders: dict[str, MidiDecoder] = {}
+    def __init__(self, suggest: Callable[[str], KitPreset] = preset_for) -> None:
+        self._suggest = suggest
+        self._kits: dict[str, _Kit] = {}
 
     def add(self, device: str, preset: KitPreset) -> None:
         """Understand `device` by `preset` from now on; what its decoder knew is forgotten."""
-        self._decoders[device] = MidiDecoder(preset, device)
+        self._kits[device] = _Kit(preset, device)
 
     def preset_of(self, device: str) -> KitPreset:
         """The preset by which `device` is understood."""
-        return self._decoder(device).preset
+        return self._kit(device).decoder.preset
 
-    def feed(self, device: str, data: bytes, at_ns: int) -> list[DeviceEvent]:
-        """The events that `data` from `device`, come at `at_ns`, completes."""
-        return self._decoder(device).feed(data, at_ns)
+    def feed(self, device: str, data: bytes, at_ns: int) -> Heard:
+        """What `data` from `device`, come at `at_ns`, brings."""
+        kit = self._kit(device)
+        sounding = [event for event in kit.decoder.feed(data, at_ns) if kit.guard.feed(event)]
+        return Heard(sounding, kit.guard.told())
+
+    def settle(self, now_ns: int) -> list[DeviceEvent]:
+        """What is certain by the clock, which must not run ahead of the bytes."""
+        return [event for kit in self._kits.values() for event in kit.guard.settle(now_ns)]
+
+    def settle_until(self, device: str, until_ns: int) -> list[DeviceEvent]:
+        """What a clock had made certain of `device` at `until_ns`; see `overtaken_ns`."""
+        return self._kit(device).guard.settle_until(until_ns)
+
+    def overtaken_ns(self, device: str, at_ns: int) -> int | None:
+        """Up to when events of `device` were let go, if bytes from before that come only now; see `Guard`."""
+        return self._kit(device).guard.overtaken_ns(at_ns)
+
+    def flush(self) -> list[DeviceEvent]:
+        """All that still waits, as it stands."""
+        return [event for kit in self._kits.values() for event in kit.guard.flush()]
+
+    def take_ghosts(self) -> list[Ghost]:
+        """What was held back since the last call."""
+        ghosts = [ghost for kit in self._kits.values() for ghost in kit.guard.ghosts]
+        for kit in self._kits.values():
+            kit.guard.ghosts.clear()
+        return ghosts
 
     def bequeath(self, device: str) -> bytes:
         """Bytes that tell a later decoder of `device` how the kit stands now; see `MidiDecoder.bequeath`."""
-        return self._decoder(device).bequeath()
+        kit = self._kit(device)
+        kit.guard.reset()
+        return kit.decoder.bequeath()
 
-    def lost(self, device: str, at_ns: int) -> DeviceLost:
+    def lost(self, device: str, at_ns: int) -> list[DeviceEvent]:
         """`device` is gone: half a message and the pedal's position mean nothing any more."""
-        self._decoder(device).reset()
-        return DeviceLost(at_ns, device)
+        return [*self._kit(device).reset(), DeviceLost(at_ns, device)]
 
-    def found(self, device: str, at_ns: int) -> DeviceFound:
+    def found(self, device: str, at_ns: int) -> list[DeviceEvent]:
         """`device` is there, or there again."""
-        self._decoder(device).reset()
-        return DeviceFound(at_ns, device)
+        return [*self._kit(device).reset(), DeviceFound(at_ns, device)]
 
-    def _decoder(self, device: str) -> MidiDecoder:
-        decoder = self._decoders.get(device)
-        if decoder is None:
-            decoder = self._decoders[device] = MidiDecoder(preset_for(device), device)
-        return decoder
+    def _kit(self, device: str) -> _Kit:
+        kit = self._kits.get(device)
+        if kit is None:
+            kit = self._kits[device] = _Kit(self._suggest(device), device)
+        return kit

@@ -1,21 +1,23 @@
 """MIDI bytes to events of the drum kit: pure, no clock, no port.
 
-A message bears the time of the piece of bytes that completed it. The hi-hat pedal (controller 4), the position
-controllers and the high-resolution velocity prefix (controller 88: what the velocity is above its whole number, in
-128ths) come before the note that they describe; the prefix holds for the next note on or off of its channel and no
-longer. Note off, note on with velocity 0, clock, active sensing and program changes are no hits. All channels count:
-modules differ in the one they use, and many drum pads can each have their own.
+A message bears the time of the piece of bytes that completed it. The hi-hat pedal's controller, the position controllers
+and the high-resolution velocity prefix (controller 88: what the velocity is above its whole number, in 128ths) come
+before the note that they describe. A position is that of the next stroke on its piece alone, the prefix holds for the
+next note on or off of its channel and no longer. Note off, note on with velocity 0, clock, active sensing and program
+changes are no hits. All channels count: modules differ in the one they use, and many drum pads can each have their own.
 
 Sources: MIDI 1.0 Detailed Specification 4.2; MMA CA-031 (high-resolution velocity prefix); Roland MIDI implementations:
 polyphonic aftertouch `An note 7F` while a cymbal is held and `00` on release, sent for bow and edge alike; VQD106 sends
-aftertouch 0 before every hi-hat note, so only a value above 0 is a choke.
+aftertouch 0 before every hi-hat note, so only a value above 0 is a choke. Position: every snare note of a TD-11 in the
+Groove MIDI Dataset has its own, just before it.
 """
 
-from station.core.events import Choke, DeviceEvent, Hit, PedalMoved
+from station.core.events import Choke, DeviceEvent, Hit
 from station.core.kitmap import strike_of
-from station.core.pieces import CYMBALS, Piece
+from station.core.pieces import Piece
+from station.devices.hihat import Hihat
+from station.devices.kit import CHOKEABLE, KitPreset
 from station.devices.midi_tokens import MidiTokenizer
-from station.devices.presets import PEDAL_CONTROLLER, KitPreset
 
 _NOTE_OFF = 0x8
 _NOTE_ON = 0x9
@@ -27,10 +29,7 @@ _CHANNEL = 0x0F
 
 _GREATEST = 127
 _STEPS = 128
-_CHOKEABLE = CYMBALS | {Piece.HIHAT}
-_CONTRADICTION = 0.75
-"""Where the pedal's openness and the note's own differ by more, the note is right (our choice: Roland modules change
-from the open to the closed note at about a third of the way; a controller that never moves says 0 or 1)."""
+_MESSAGE = 3
 
 
 class MidiDecoder:
@@ -40,25 +39,26 @@ class MidiDecoder:
         self.preset = preset
         self.device = device
         self._tokens = MidiTokenizer()
-        self._openness: float | None = None
-        self._positions: dict[Piece, float] = {}
+        self._hihat = Hihat(preset.pedal, preset.foot, device)
+        self._positions: dict[int, bytes] = {}  # the message of each controller that waits for its stroke
         self._held: dict[Piece, set[int]] = {}
         self._prefixes: dict[int, bytes] = {}  # high-resolution velocity prefixes that await their note, by channel
-        self._controllers: dict[int, bytes] = {}  # the newest message of each controller that says how the kit stands
+        self._pedal = b""  # the last two messages that moved it: how the pedal stands
 
     def reset(self) -> None:
         """Start afresh, as after the kit was unplugged."""
         self._tokens.reset()
-        self._openness = None
+        self._hihat.reset()
         self._positions.clear()
         self._held.clear()
         self._prefixes.clear()
-        self._controllers.clear()
+        self._pedal = b""
 
     def bequeath(self) -> bytes:
         """Bytes that bring a new decoder to this one's state, as a capture begins; lets go of held cymbals."""
         self._held.clear()
-        return b"".join([*self._controllers.values(), *self._prefixes.values()]) + self._tokens.unfinished()
+        pedal = self._pedal[-_MESSAGE:] if self.preset.foot.by_controller else self._pedal  # two would be a stomp
+        return b"".join((pedal, *self._positions.values(), *self._prefixes.values(), self._tokens.unfinished()))
 
     def feed(self, data: bytes, at_ns: int) -> list[DeviceEvent]:
         """The events that `data`, come at `at_ns`, completes; in order, each stamped `at_ns`."""
@@ -71,52 +71,56 @@ class MidiDecoder:
             if kind in (_NOTE_ON, _NOTE_OFF):
                 prefix = self._prefixes.pop(status & _CHANNEL, None)
                 if kind == _NOTE_ON and message[2]:
-                    fraction = 0.0 if prefix is None else prefix[2] / _STEPS
-                    events.append(self._hit(message[1], message[2], at_ns, fraction))
+                    events.append(self._note(message, at_ns, 0.0 if prefix is None else prefix[2] / _STEPS))
             elif kind == _CONTROL_CHANGE:
                 self._take_controller(message, at_ns, events)
             elif kind == _POLY_AFTERTOUCH:
                 self._take_aftertouch(message[1], message[2], at_ns, events)
         return events
 
-    def _hit(self, note: int, velocity: int, at_ns: int, velocity_fraction: float) -> Hit:
+    def _note(self, message: bytes, at_ns: int, velocity_fraction: float) -> Hit | Choke:
+        _, note, velocity = message
+        choked = self.preset.choke_notes.get(note)
+        if choked is not None:
+            return Choke(at_ns, choked, self.device)
         strike = strike_of(note, self.preset.notes)
         self._held.pop(strike.piece, None)
-        openness = strike.openness
-        if strike.piece is Piece.HIHAT and self._openness is not None:
-            written = self._openness if openness is None else openness
-            if abs(written - self._openness) <= _CONTRADICTION:
-                openness = self._openness
         return Hit(
             at_ns=at_ns,
             piece=strike.piece,
             zone=strike.zone,
             velocity=velocity,
             articulation=strike.articulation,
-            openness=openness,
+            openness=self._hihat.openness_of(strike),
             midi_note=note,
-            position=self._positions.get(strike.piece),
+            position=self._position(strike.piece),
             device=self.device,
             velocity_fraction=velocity_fraction,
         )
+
+    def _position(self, piece: Piece) -> float | None:
+        """Where the stroke on `piece` that now comes lands; said once."""
+        for controller, message in self._positions.items():
+            if piece in self.preset.position_controllers[controller]:
+                del self._positions[controller]
+                return message[2] / _GREATEST
+        return None
 
     def _take_controller(self, message: bytes, at_ns: int, events: list[DeviceEvent]) -> None:
         status, number, value = message
         if number == _VELOCITY_PREFIX:
             self._prefixes[status & _CHANNEL] = message
-        elif number == PEDAL_CONTROLLER and self.preset.pedal is not None:
-            self._controllers[number] = message
-            openness = self.preset.pedal.openness(value)
-            if openness != self._openness:
-                self._openness = openness
-                events.append(PedalMoved(at_ns, openness, self.device))
-        elif (piece := self.preset.position_controllers.get(number)) is not None:
-            self._controllers[number] = message
-            self._positions[piece] = value / _GREATEST
+        elif self._hihat.listens_to(number):
+            moved = self._hihat.moved(value, at_ns)
+            if moved:
+                self._pedal = self._pedal[-_MESSAGE:] + message
+            events += moved
+        elif number in self.preset.position_controllers:
+            self._positions[number] = message
 
     def _take_aftertouch(self, note: int, value: int, at_ns: int, events: list[DeviceEvent]) -> None:
         piece = strike_of(note, self.preset.notes).piece
-        if piece not in _CHOKEABLE:
+        if piece not in CHOKEABLE:
             return
         held = self._held.setdefault(piece, set())
         if value < self.preset.choke_from:

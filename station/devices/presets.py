@@ -1,56 +1,22 @@
 """Which note number and controller of a drum module means what: one table a module, and General MIDI for the rest.
 
 Only modules with a map that its maker or several independent users published are here; another kit starts from General
-MIDI. Each table lists what differs from its base. Controller 4 is the hi-hat pedal (Roland and Yamaha MIDI
-implementations); `PedalRange` says which of its values mean shut and wide open.
+MIDI, and its owner teaches the station the rest. Each table lists what differs from its base.
 
 Sources: Roland TD-17 default factory MIDI note map (TD-11 and TD-27 send the same numbers), Roland VQD106 MIDI
 implementation, Alesis Nitro and Nitro Max user guides, Alesis Crimson II user guide, Yamaha DTX502 and DTXplorer
-owner's manuals (MIDI data format).
+owner's manuals (MIDI data format), Alesis DM10 MkII user guide, edrumulus.ino of corrados/edrumulus; the Groove MIDI
+Dataset (a TD-11) for the pieces of the position controllers, which its implementation leaves to the owner.
 """
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from types import MappingProxyType
 
 from station.core.errors import BadInput
 from station.core.kitmap import GENERAL_MIDI, V_DRUMS, KitMap, Strike
-from station.core.pieces import Articulation, Piece, Zone
-
-PEDAL_CONTROLLER = 4
-
-
-@dataclass(frozen=True, slots=True)
-class PedalRange:
-    """The values of controller 4 at which the hi-hat is wide open and shut; linear between, clipped outside."""
-
-    wide_open: int = 0
-    shut: int = 127
-
-    def openness(self, value: int) -> float:
-        """Openness 0 closed … 1 open of a controller value 0–127."""
-        share = (self.shut - value) / (self.shut - self.wide_open)
-        return min(1.0, max(0.0, share))
-
-
-@dataclass(frozen=True, slots=True)
-class KitPreset:
-    """How to understand one module.
-
-    `port_words` are parts of the names that drivers give its port; `pedal` is None where the notes alone tell the
-    hi-hat's openness; `choke_from` the least polyphonic aftertouch that means a grabbed cymbal; `position_controllers`
-    bear where the next hit on a piece lands, 0 centre … 127 edge.
-    """
-
-    name: str
-    title: str
-    notes: KitMap
-    port_words: tuple[str, ...] = ()
-    pedal: PedalRange | None = field(default_factory=PedalRange)
-    choke_from: int = 1
-    position_controllers: Mapping[int, Piece] = field(default_factory=lambda: MappingProxyType({}))
-
+from station.core.pieces import TOMS, Articulation, Piece, Zone
+from station.devices.kit import KitPreset, PedalRange
 
 _HALF_OPEN = 0.5
 _SHUT = 0.0
@@ -134,20 +100,37 @@ _YAMAHA_DTXPLORER: KitMap = MappingProxyType(
     }
 )
 
-_SNARE_POSITION: Mapping[int, Piece] = MappingProxyType({16: Piece.SNARE})
+_ALESIS_DM10: KitMap = MappingProxyType(
+    {**GENERAL_MIDI, 42: Strike(Piece.HIHAT, Zone.BOW), 46: Strike(Piece.HIHAT, Zone.BOW)}
+)
+"""One hi-hat note, whichever its owner has set: the pedal alone tells how open it is."""
+
+_EDRUMULUS: KitMap = MappingProxyType({**V_DRUMS, 66: Strike(Piece.RIDE, Zone.EDGE)})
+
+_UP_TO_90 = PedalRange(wide_open=0, shut=90)
+"""The TD-11 too: whoever plays its closed notes in the Groove MIDI Dataset has the pedal at 90."""
+_THREE_PLACES = PedalRange(steps=(0, 56, 127))
+"""A DTXplorer's pedal may be an on-off one, or one with a middle."""
+
+_SNARE_POSITION: Mapping[int, frozenset[Piece]] = MappingProxyType({16: frozenset({Piece.SNARE})})
+_TD11_POSITIONS: Mapping[int, frozenset[Piece]] = MappingProxyType(
+    {**_SNARE_POSITION, 17: frozenset({Piece.RIDE}), 18: frozenset(TOMS)}
+)
 
 GENERAL_MIDI_PRESET = KitPreset("general-midi", "General MIDI", GENERAL_MIDI)
 
 _TABLE = (
     GENERAL_MIDI_PRESET,
-    KitPreset("roland-td-11", "Roland TD-11", V_DRUMS, ("td-11",), position_controllers=_SNARE_POSITION),
+    KitPreset("roland-td-11", "Roland TD-11", V_DRUMS, ("td-11",), _UP_TO_90, position_controllers=_TD11_POSITIONS),
     KitPreset("roland-td-17", "Roland TD-17", _ROLAND, ("td-17",)),
     KitPreset("roland-td-27", "Roland TD-27", _ROLAND, ("td-27",), position_controllers=_SNARE_POSITION),
-    KitPreset("roland-vqd106", "Roland VQD106", V_DRUMS, ("vqd106",), PedalRange(wide_open=0, shut=90)),
+    KitPreset("roland-vqd106", "Roland VQD106", V_DRUMS, ("vqd106",), _UP_TO_90),
     KitPreset("alesis-nitro", "Alesis Nitro, Nitro Mesh, Nitro Max", _ALESIS_NITRO, ("nitro",), None),
     KitPreset("alesis-crimson-2", "Alesis Crimson II", _ALESIS_CRIMSON, ("crimson",)),
+    KitPreset("alesis-dm10", "Alesis DM10 MkII", _ALESIS_DM10, ("dm10",)),
     KitPreset("yamaha-dtx502", "Yamaha DTX502", _YAMAHA_DTX502, ("dtx502",)),
-    KitPreset("yamaha-dtxplorer", "Yamaha DTXplorer", _YAMAHA_DTXPLORER, ("dtxplorer",)),
+    KitPreset("yamaha-dtxplorer", "Yamaha DTXplorer", _YAMAHA_DTXPLORER, ("dtxplorer",), _THREE_PLACES),
+    KitPreset("edrumulus", "edrumulus", _EDRUMULUS, ("edrumulus",), position_controllers=_SNARE_POSITION),
 )
 
 PRESETS: Mapping[str, KitPreset] = MappingProxyType({preset.name: preset for preset in _TABLE})

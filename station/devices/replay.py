@@ -5,8 +5,10 @@ from collections.abc import Iterator
 
 from station.core.clock import Clock
 from station.core.events import DeviceEvent
-from station.devices.capture import Capture, Kind, device_of, stroke_of
+from station.devices.capture import Capture, DeviceWord, Kind, device_of, stroke_of
 from station.devices.decoders import DecoderBank
+from station.devices.kit import KitPreset
+from station.devices.kit_file import parse_kit
 from station.devices.presets import GENERAL_MIDI_PRESET, PRESETS
 from station.devices.transport import Packet
 
@@ -19,19 +21,31 @@ def replay(capture: Capture) -> Iterator[DeviceEvent]:
         name = names.get(record.device, f"device {record.device}")
         match record.kind:
             case Kind.DEVICE:
-                name, preset = device_of(record)
-                names[record.device] = name
-                decoders.add(name, PRESETS.get(preset, GENERAL_MIDI_PRESET))
+                yield from decoders.flush()
+                device = device_of(record)
+                names[record.device] = device.name
+                decoders.add(device.name, _kit_of(device))
             case Kind.BYTES:
-                yield from decoders.feed(name, record.payload, record.at_ns)
+                yield from decoders.feed(name, record.payload, record.at_ns).told
+            case Kind.SETTLED:
+                yield from decoders.settle_until(name, record.at_ns)
             case Kind.STROKE:
                 yield stroke_of(record, name)
             case Kind.LOST:
-                yield decoders.lost(name, record.at_ns)
+                yield from decoders.lost(name, record.at_ns)
             case Kind.FOUND:
-                yield decoders.found(name, record.at_ns)
+                yield from decoders.found(name, record.at_ns)
+            case Kind.END:
+                yield from decoders.flush()
             case _:
                 pass
+    yield from decoders.flush()
+
+
+def _kit_of(device: DeviceWord) -> KitPreset:
+    if device.kit is not None:
+        return parse_kit(device.kit, device.preset)
+    return PRESETS.get(device.preset, GENERAL_MIDI_PRESET)
 
 
 def transport_zeros_ns(capture: Capture) -> list[int]:
@@ -73,6 +87,6 @@ def _packets_of(capture: Capture, device: str) -> Iterator[Packet]:
     numbers: set[int] = set()
     for record in capture.records:
         if record.kind == Kind.DEVICE:
-            (numbers.add if device_of(record)[0] == device else numbers.discard)(record.device)
+            (numbers.add if device_of(record).name == device else numbers.discard)(record.device)
         elif record.kind == Kind.BYTES and record.device in numbers:
             yield Packet(record.payload, record.at_ns)

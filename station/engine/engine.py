@@ -16,12 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.errors import DeviceError, StationError
-from station.core.events import Choke, DeviceEvent, Hit, PedalMoved
+from station.core.events import Choke, DeviceEvent, DeviceFound, DeviceLost, Hit, PedalMoved
 from station.core.kitmap import Strike
 from station.core.units import NS_PER_S
 from station.devices.capture_file import CaptureFile, CaptureSink
 from station.devices.decoders import DecoderBank
-from station.devices.presets import KitPreset
+from station.devices.kit import KitPreset
 from station.engine.messages import (
     Command,
     EngineEvent,
@@ -52,11 +52,18 @@ KEYBOARD = "keyboard"
 
 OpenCapture = Callable[[Path, int], CaptureSink]
 OpenMidiOut = Callable[[str], MidiSink]
+FindKit = Callable[[str], KitPreset | None]
+"""The user's own kit for a device; raises `BadInput` where its file is at fault."""
 
 
 def no_midi_out(port: str) -> MidiSink:
     """For an engine without ports."""
     raise DeviceError(f"{port}: there is no MIDI output here")
+
+
+def no_own_kit(_: str) -> KitPreset | None:
+    """For an engine that knows kits by their presets alone."""
+    return None
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,6 +83,7 @@ class Engine:
         mixer: Mixer | None = None,
         open_capture: OpenCapture = CaptureFile,
         open_midi_out: OpenMidiOut = no_midi_out,
+        own_kit: FindKit = no_own_kit,
     ) -> None:
         self.output = OutputState()
         """What the next `Status` tells of the sound card; set by whoever owns it."""
@@ -84,6 +92,7 @@ class Engine:
         self._player = Player(mixer)
         self._open_capture = open_capture
         self._open_midi_out = open_midi_out
+        self._own_kit = own_kit
         self._midi: MidiPlayer | None = None
         self._midi_fault: DeviceError | None = None
         self._decoders = DecoderBank()
@@ -99,35 +108,49 @@ class Engine:
 
     def use_preset(self, device: str, preset: KitPreset) -> None:
         """Understand `device` by `preset` instead of the one that its name suggests."""
+        self._events += self._decoders.flush()
         self._decoders.add(device, preset)
         if self._recorder is not None:
             self._recorder.add_device(device, self._now_ns)
 
     def feed(self, device: str, data: bytes, at_ns: int) -> None:
         """Take bytes of `device` that came at `at_ns`; the strokes in them sound with the next block."""
+        overtaken_ns = self._decoders.overtaken_ns(device, at_ns)
         if self._recorder is not None:
+            if overtaken_ns is not None:
+                self._recorder.settled(device, overtaken_ns)
             self._recorder.bytes_came(device, data, at_ns)
-        for event in self._decoders.feed(device, data, at_ns):
+        heard = self._decoders.feed(device, data, at_ns)
+        for event in heard.sounding:
             self._sound(event)
-            self._events.append(event)
+        self._events += heard.told
 
     def device_found(self, device: str, at_ns: int) -> None:
-        """`device` is connected, or connected again."""
+        """`device` is connected, or connected again; the user's own kit for it, if there is one, holds from now on."""
+        self._take_own_kit(device)
         if device not in self._devices:
             self._devices.append(device)
-        event = self._decoders.found(device, at_ns)
         if self._recorder is not None:
-            self._recorder.device_changed(event)
-        self._events.append(event)
+            self._recorder.device_changed(DeviceFound(at_ns, device))
+        self._events += self._decoders.found(device, at_ns)
+
+    def _take_own_kit(self, device: str) -> None:
+        try:
+            kit = self._own_kit(device)
+        except StationError as fault:
+            self.notify(f"{fault}; {device} is taken for {self._decoders.preset_of(device).title}")
+            return
+        if kit is not None and kit != self._decoders.preset_of(device):
+            self.use_preset(device, kit)
+            self.notify(f"{device} is understood as you taught it: {kit.title}")
 
     def device_lost(self, device: str, at_ns: int) -> None:
         """`device` is gone."""
         if device in self._devices:
             self._devices.remove(device)
-        event = self._decoders.lost(device, at_ns)
         if self._recorder is not None:
-            self._recorder.device_changed(event)
-        self._events.append(event)
+            self._recorder.device_changed(DeviceLost(at_ns, device))
+        self._events += self._decoders.lost(device, at_ns)
 
     def _sound(self, event: DeviceEvent) -> None:
         match event:
@@ -220,6 +243,7 @@ class Engine:
         self._events.append(hit)
 
     def _record(self, path: Path | None) -> None:
+        self._events += self._decoders.flush()  # what was played before a capture begins or ends is told before it
         lacking = self._end_capture()
         if path is None:
             self._events.append(Recorded(None, lacking))
@@ -255,6 +279,7 @@ class Engine:
     def advance(self, now_ns: int) -> list[EngineEvent]:
         """Move to `now_ns`; returns what happened since the last call, in the order in which it was found out."""
         self._now_ns = now_ns
+        self._events += self._decoders.settle(now_ns)
         if self._player.is_silent:
             self._player.pass_by(now_ns)
         for zero_ns in self._player.take_zeros_ns():
@@ -292,6 +317,7 @@ class Engine:
     def close(self) -> None:
         """Leave the MIDI output, and end the capture, so that its last hits are on the disk."""
         self._set_midi_out(None)
+        self._events += self._decoders.flush()
         lacking = self._end_capture()
         if lacking is not None:
             self.notify(lacking)

@@ -26,6 +26,7 @@ from typing import Self
 from station.core.clock import monotonic_ns
 from station.core.errors import DeviceError, StationError
 from station.core.settings import Settings
+from station.devices.kit_file import own_kit
 from station.devices.kit_ports import KitWish, parse_kits, watch_kits
 from station.devices.midi_out import open_midi_output
 from station.devices.watch import KitWatch
@@ -215,7 +216,7 @@ def run_engine(
 
 
 def _live(config: EngineConfig, inbox: "_Inbox", outbox: "_Outbox") -> None:
-    engine = Engine(open_midi_out=lambda port: open_midi_output(config.midi_driver, port, undisturbed))
+    engine = Engine(open_midi_out=lambda port: open_midi_output(config.midi_driver, port, undisturbed), own_kit=own_kit)
     card = _card(engine, config) if config.sound else None
     undisturbed = card.paused if card is not None else nullcontext
     runner = Runner(engine, _kits(engine, config, card), card)

@@ -4,6 +4,8 @@ from station.core.events import DeviceFound, DeviceLost, Hit
 from station.devices.capture import Kind, Record, device_record, stroke_record
 from station.devices.capture_file import CaptureSink
 from station.devices.decoders import DecoderBank
+from station.devices.kit_text import kit_text
+from station.devices.presets import PRESETS
 
 
 class Recorder:
@@ -21,14 +23,19 @@ class Recorder:
 
     def add_device(self, device: str, at_ns: int) -> None:
         """Record who `device` is and how it stands; later bytes refer to it."""
-        preset = self._decoders.preset_of(device).name
+        preset = self._decoders.preset_of(device)
+        own = None if PRESETS.get(preset.name) == preset else kit_text(preset)
         number = self._numbers.setdefault(device, len(self._numbers) + 1)
-        self._sink.append(device_record(number, at_ns, device, preset))
+        self._sink.append(device_record(number, at_ns, device, preset.name, own))
         self._sink.append(Record(Kind.BYTES, number, at_ns, self._decoders.bequeath(device)))
 
     def bytes_came(self, device: str, data: bytes, at_ns: int) -> None:
         """Record bytes, to be called before they are decoded."""
         self._sink.append(Record(Kind.BYTES, self._number(device, at_ns), at_ns, data))
+
+    def settled(self, device: str, until_ns: int) -> None:
+        """Record that hits of `device` up to `until_ns` were told before bytes from earlier came."""
+        self._sink.append(Record(Kind.SETTLED, self._number(device, until_ns), until_ns))
 
     def device_changed(self, event: DeviceLost | DeviceFound) -> None:
         """Record that a device went or came."""

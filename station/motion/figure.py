@@ -13,8 +13,8 @@ from enum import IntEnum
 from math import radians
 from pathlib import Path
 
+from station.core.toml_table import Table, find_shipped, located, read_toml, shipped
 from station.motion.limits import Limits
-from station.motion.toml_table import Table, find_shipped, located, read_toml, shipped
 
 
 class Joint(IntEnum):

@@ -15,8 +15,8 @@ from types import MappingProxyType
 
 from station.core.errors import BadInput
 from station.core.pieces import Limb, Piece, Zone, word
+from station.core.toml_table import Table, find_shipped, located, read_toml, shipped
 from station.motion.piece import SPOTS, KitPiece, Spot, Target
-from station.motion.toml_table import Table, find_shipped, located, read_toml, shipped
 
 KITS = Path(__file__).parent / "data" / "kits"
 DEFAULT_KIT = "four_piece"

@@ -14,8 +14,8 @@ from types import MappingProxyType
 from station.core.errors import BadInput
 from station.core.files import write_whole
 from station.core.pieces import Piece, word
+from station.core.toml_table import Table, find_shipped, located, read_toml, shipped
 from station.motion.style import NUMBERS, WORDS, Automation, Style, checked, range_of
-from station.motion.toml_table import Table, find_shipped, located, read_toml, shipped
 
 STYLES = Path(__file__).parent / "data" / "styles"
 SLOTS = 8

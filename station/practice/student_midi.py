@@ -13,7 +13,7 @@ from station.core.events import Hit
 from station.core.kitmap import Strike, general_midi_note, strike_of
 from station.core.pieces import Piece, Zone, word
 from station.core.units import NS_PER_MS
-from station.devices.presets import PEDAL_CONTROLLER, KitPreset, PedalRange
+from station.devices.kit import KitPreset, PedalRange
 from station.music.performance import Performance
 
 TimedBytes = tuple[int, bytes]
@@ -84,8 +84,8 @@ def midi_stream(sent: Performance, preset: KitPreset) -> list[TimedBytes]:
         messages.append((off_ns, bytes((_NOTE_OFF, note, _RELEASE_VELOCITY))))
         messages.append((at_ns, bytes((_NOTE_ON, note, velocity))))
         if piece == Piece.HIHAT and preset.pedal is not None:
-            value = _pedal_value(openness, preset.pedal)  # `as_sent` leaves none untold
-            messages.append((at_ns, bytes((_CONTROL, PEDAL_CONTROLLER, value))))
+            value = preset.pedal.value(openness)  # `as_sent` leaves none untold
+            messages.append((at_ns, bytes((_CONTROL, preset.pedal.controller, value))))
     messages.reverse()
     for choke in sent.chokes:
         note = note_number(Hit(0, Piece(choke["piece"]), Zone.EDGE, 1), preset)
@@ -99,8 +99,4 @@ def _told_openness(hit: Hit, strike: Strike, pedal: PedalRange | None) -> float 
     """The openness that the module tells with this stroke."""
     if hit.piece is not Piece.HIHAT or pedal is None:
         return strike.openness
-    return pedal.openness(_pedal_value(hit.openness or 0.0, pedal))
-
-
-def _pedal_value(openness: float, pedal: PedalRange) -> int:
-    return round(pedal.shut - openness * (pedal.shut - pedal.wide_open))
+    return pedal.openness(pedal.value(hit.openness or 0.0))

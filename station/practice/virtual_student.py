@@ -20,7 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.units import NS_PER_MS
-from station.devices.presets import GENERAL_MIDI_PRESET, KitPreset
+from station.devices.kit import KitPreset
+from station.devices.presets import GENERAL_MIDI_PRESET
 from station.music.judgement import Label, Matching
 from station.music.performance import Performance
 from station.music.score import Score

@@ -148,16 +148,21 @@ def _monitor(arguments: argparse.Namespace) -> int:
 def _show(findings: Findings, decoders: "DecoderBank", start_ns: int) -> None:
     now_ns = monotonic_ns()
     if findings.found:
-        print(_line(decoders.found(findings.device, now_ns), start_ns), flush=True)
+        _print(decoders.found(findings.device, now_ns), start_ns)
     for packet in findings.packets:
-        events = list(decoders.feed(findings.device, packet.data, packet.at_ns))
+        events = decoders.feed(findings.device, packet.data, packet.at_ns).told
         raw = packet.data.hex(" ")
         for event in events:
             print(f"{_line(event, start_ns):72}  {raw}", flush=True)
         if not events and packet.data[:1] not in _CHATTER:
             print(f"{s_from_ns(packet.at_ns - start_ns):10.4f}  {'':60}  {raw}", flush=True)
     if findings.lost:
-        print(_line(decoders.lost(findings.device, now_ns), start_ns), flush=True)
+        _print(decoders.lost(findings.device, now_ns), start_ns)
+
+
+def _print(events: "list[DeviceEvent]", start_ns: int) -> None:
+    for event in events:
+        print(_line(event, start_ns), flush=True)
 
 
 _CHATTER = (b"\xf8", b"\xfe")

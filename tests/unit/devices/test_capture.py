@@ -84,7 +84,7 @@ def test_another_file_is_refused(data: bytes) -> None:
 
 
 def test_a_device_has_a_name_and_a_preset() -> None:
-    assert device_of(RECORDS[0]) == ("Kit «ü»", "roland-td-17")
+    assert device_of(RECORDS[0])[:2] == ("Kit «ü»", "roland-td-17")
 
 
 @pytest.mark.parametrize("payload", [b"", b"[]", b"{}", b'{"name": 1, "preset": "x"}', b"\xff", b"3"])

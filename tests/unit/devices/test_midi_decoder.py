@@ -1,5 +1,7 @@
 """Bytes as the modules' MIDI implementations and users' dumps give them; expected strokes from their note tables."""
 
+from dataclasses import replace
+
 import pytest
 
 from station.core.events import Choke, DeviceEvent, Hit, PedalMoved
@@ -130,11 +132,40 @@ def test_a_stroke_ends_a_grip_whose_release_was_lost() -> None:
     assert [type(event) for event in events] == [Choke, Hit, Choke]
 
 
+def test_a_note_may_say_that_a_cymbal_was_grabbed() -> None:
+    kit = replace(preset_named("roland-td-17"), choke_notes={60: Piece.CRASH_1})
+    assert MidiDecoder(kit, "kit").feed(bytes.fromhex("99 3c 40 99 3c 00"), AT_NS) == [
+        Choke(AT_NS, Piece.CRASH_1, "kit")
+    ]
+
+
+def test_a_one_note_hi_hat_is_as_open_as_its_pedal() -> None:
+    assert [hit.openness for hit in hits("99 2e 64 b9 04 7f 99 2e 64 b9 04 00 99 2e 64", "alesis-dm10")] == [
+        None,
+        0.0,
+        1.0,
+    ]
+
+
+def test_what_a_decoder_bequeaths_brings_another_to_its_state() -> None:
+    first, second = (MidiDecoder(preset_named("roland-td-11"), "kit") for _ in range(2))
+    first.feed(bytes.fromhex("b9 04 00 b9 04 5a b9 04 7f b9 10 40 99 2e"), 0)
+    second.feed(first.bequeath(), 1)
+    rest = bytes.fromhex("64 99 26 64 99 2a 64")
+    assert second.feed(rest, 2) == first.feed(rest, 2)
+
+
 # --- position --------------------------------------------------------------------------------------------------------
 
 
 def test_the_position_comes_before_its_note() -> None:
     assert [hit.position for hit in hits("b9 10 7f 99 26 64 99 24 64", "roland-td-27")] == [1.0, None]
+
+
+def test_a_position_is_that_of_the_next_stroke_on_its_pieces_alone() -> None:
+    stream = "b9 10 00 b9 12 7f 99 24 64 99 30 64 99 26 64 99 2d 64 99 26 64"
+    expected = [None, 1.0, 0.0, None, None]
+    assert [hit.position for hit in hits(stream, "roland-td-11")] == expected
 
 
 def test_a_kit_without_position_ignores_the_controller() -> None:

@@ -5,7 +5,8 @@ import pytest
 from station.core.errors import BadInput
 from station.core.kitmap import strike_of
 from station.core.pieces import Articulation, Piece, Zone
-from station.devices.presets import PRESETS, PedalRange, preset_for, preset_named, stable_name
+from station.devices.kit import PedalRange
+from station.devices.presets import PRESETS, preset_for, preset_named, stable_name
 
 
 @pytest.mark.parametrize(
@@ -19,6 +20,8 @@ from station.devices.presets import PRESETS, PedalRange, preset_for, preset_name
         ("DTX502 Port1", "yamaha-dtx502"),
         ("TD-50", "general-midi"),
         ("USB Keyboard", "general-midi"),
+        ("Alesis DM10 MkII", "alesis-dm10"),
+        ("Edrumulus", "edrumulus"),
     ],
 )
 def test_a_port_suggests_its_preset(port: str, name: str) -> None:

@@ -8,8 +8,9 @@ from station.core.errors import BadInput
 from station.core.events import Choke, DeviceEvent, Hit, PedalMoved
 from station.core.pieces import Articulation, Limb, Piece, Zone
 from station.core.units import NS_PER_MS, PPQ
+from station.devices.kit import KitPreset
 from station.devices.midi_decoder import MidiDecoder
-from station.devices.presets import PRESETS, KitPreset
+from station.devices.presets import PRESETS
 from station.music.performance import Performance
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap

@@ -1,4 +1,7 @@
-"""TOML tables that check what is taken from them and name the place of a fault: kits, figures and styles share them."""
+"""TOML tables that check what is taken from them and name the place of a fault: kits, figures and styles share them.
+
+A place is the keys that lead to a value, joined by dots; the tables of an array are counted from 0.
+"""
 
 import difflib
 import re
@@ -8,7 +11,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from station.core.errors import BadInput
-from station.core.toml_places import Places
+from station.core.toml_places import KeyPath, Places
 
 _MAX_LENGTH_M = 3.0
 
@@ -36,8 +39,18 @@ def located(path: Path) -> Iterator[None]:
     except BadInput as fault:
         if fault.source != str(path) or not fault.place or fault.place.startswith("line "):
             raise
-        line, column = Places.of(path.read_text(encoding="utf-8")).find(tuple(fault.place.split(".")))
+        places = Places.of(path.read_text(encoding="utf-8"))
+        line, column = places.find(_key_path(fault.place, places))
         raise BadInput(path, f"line {line}, column {column}, {fault.place}", fault.fault) from fault
+
+
+def _key_path(place: str, places: Places) -> KeyPath:
+    """The keys of a place; a number is an index where the file has an array there, else a key."""
+    path: KeyPath = ()
+    for part in place.split("."):
+        index = (*path, int(part)) if part.isdecimal() else None
+        path = index if index in places.keys or index in places.values else (*path, part)
+    return path
 
 
 def find_shipped(name_or_path: str | Path, folder: Path, what: str) -> Path:
@@ -92,6 +105,20 @@ class Table:
         if key not in self.raw and default is None:
             raise BadInput(self.source, self._at(key), "is missing")
         return Table(self.raw.get(key, default), self.source, self._at(key))
+
+    def tables(self, key: str) -> list["Table"]:
+        """The array of tables at `key`; empty where there is none."""
+        found = self.raw.get(key, [])
+        if not isinstance(found, list):
+            raise BadInput(self.source, self._at(key), f"expected an array of tables, found {found!r}")
+        return [Table(entry, self.source, f"{self._at(key)}.{index}") for index, entry in enumerate(found)]
+
+    def numbers(self, low: int, high: int) -> list[tuple[int, str]]:
+        """Its keys, which must be whole numbers from `low` to `high`, each as a number and as written."""
+        for key in self.raw:
+            if not key.isdecimal() or not low <= int(key) <= high:
+                raise BadInput(self.source, self._at(key), f"expected a number from {low} to {high} for a key")
+        return [(int(key), key) for key in self.raw]
 
     def number(self, key: str, low: float, high: float, default: float | None = None) -> float:
         """The number at `key`, from `low` to `high`."""

@@ -1,0 +1,223 @@
+"""A user's own kit as a TOML file: what differs from a preset, one file a kit, for maps vary within a model.
+
+    title = "my TD-17"
+    base = "roland-td-17"                 # a preset; all that is not said is as there
+    notes.66 = { piece = "ride", zone = "edge" }          # articulation, openness too; piece = "none" for no stroke
+    pedal = { controller = 4, open = 0, shut = 90, steps = [] }      # or { present = false }
+    foot = { least_travel = 0.3, splash_ms = 90, by_controller = false }
+    choke = { from = 1, grab_velocity = 20 }
+    choke.notes.60 = { piece = "crash_1" }
+    positions.16 = { pieces = ["snare"] }
+    pads.snare = { threshold = 5, mask_ms = 9, least_velocity = 12 }
+    [[crosstalk]]
+    source = "kick"
+    victim = "snare"
+    share = 0.3                           # within_ms, before_ms too
+
+`station.devices.kit` says what each means. A fault is `BadInput` with line and column.
+"""
+
+import re
+import tomllib
+from collections.abc import Mapping
+from enum import IntEnum
+from pathlib import Path
+from types import MappingProxyType
+from typing import TypeVar
+
+from station.core.errors import BadInput
+from station.core.files import write_whole
+from station.core.kitmap import KitMap, Strike
+from station.core.pieces import Articulation, Piece, Zone, word
+from station.core.settings import settings_path
+from station.core.toml_table import Table, located, read_toml
+from station.core.units import ms_from_ns, ns_from_ms
+from station.devices.kit import GHOST_BEFORE_NS, GHOST_WITHIN_NS, Crosstalk, Foot, KitPreset, Pad, PedalRange
+from station.devices.kit_text import kit_text
+from station.devices.presets import GENERAL_MIDI_PRESET, preset_named, stable_name
+
+_KEYS = {"title", "base", "notes", "pedal", "foot", "choke", "positions", "pads", "crosstalk"}
+_NONE = "none"
+_LONGEST_MS = 500.0
+_Member = TypeVar("_Member", bound=IntEnum)
+
+
+def kits_folder() -> Path:
+    """Where this user's own kits live."""
+    return settings_path().parent / "kits"
+
+
+def own_kit_path(device: str, folder: Path | None = None) -> Path:
+    """The file of the kit called `device`, whether there is one or not."""
+    name = re.sub(r"[^\w.+-]+", "-", stable_name(device)).strip("-.") or "kit"
+    return (folder or kits_folder()) / f"{name}.toml"
+
+
+def own_kit(device: str, folder: Path | None = None) -> KitPreset | None:
+    """The user's own kit for `device`, None where there is none; raises `BadInput` where its file is at fault."""
+    path = own_kit_path(device, folder)
+    return read_kit(path) if path.exists() else None
+
+
+def read_kit(path: Path) -> KitPreset:
+    """The kit in the file at `path`; raises `BadInput`."""
+    with located(path):
+        return _kit(Table(read_toml(path), path, ""), path.stem)
+
+
+def parse_kit(text: str, name: str) -> KitPreset:
+    """The kit in a text that `kit_text` wrote; raises `BadInput`."""
+    try:
+        return _kit(Table(tomllib.loads(text), Path(name), ""), name)
+    except tomllib.TOMLDecodeError as fault:
+        raise BadInput(name, "", f"its kit cannot be read: {fault}") from fault
+
+
+def save_kit(kit: KitPreset, device: str, folder: Path | None = None) -> Path:
+    """Keep `kit` as the user's own for `device`; returns where. Raises `DeviceError` if the disk refuses."""
+    path = own_kit_path(device, folder)
+    write_whole(path, kit_text(kit).encode())
+    return path
+
+
+# --- reading ---------------------------------------------------------------------------------------------------------
+
+
+def _kit(table: Table, name: str) -> KitPreset:
+    table.only(_KEYS)
+    base = _base(table)
+    choke = table.table("choke", {})
+    choke.only({"from", "notes", "grab_velocity"})
+    return KitPreset(
+        name=name,
+        title=_text(table, "title", name),
+        base=base.name,
+        notes=_notes(table.table("notes", {}), base.notes),
+        pedal=_pedal(table.table("pedal", {}), base.pedal) if "pedal" in table.raw else base.pedal,
+        choke_from=choke.whole("from", 1, 127, base.choke_from),
+        choke_notes=_choke_notes(choke, base),
+        grab_velocity=choke.whole("grab_velocity", 0, 127, base.grab_velocity),
+        position_controllers=_positions(table, base),
+        foot=_foot(table.table("foot", {}), base.foot),
+        pads=_pads(table, base),
+        crosstalk=tuple(map(_crosstalk, table.tables("crosstalk"))) if "crosstalk" in table.raw else base.crosstalk,
+    )
+
+
+def _text(table: Table, key: str, default: str) -> str:
+    value = table.raw.get(key, default)
+    if not isinstance(value, str):
+        raise BadInput(table.source, key, f"expected a text in quotes, found {value!r}")
+    return value
+
+
+def _base(table: Table) -> KitPreset:
+    try:
+        return preset_named(_text(table, "base", GENERAL_MIDI_PRESET.name))
+    except BadInput as fault:
+        raise BadInput(table.source, "base", fault.fault) from None
+
+
+def _member(table: Table, key: str, kind: type[_Member], default: str = "") -> _Member:
+    words = {word(member): member for member in kind}
+    if key not in table.raw and not default:
+        raise BadInput(table.source, f"{table.place}.{key}", "is missing")
+    return words[table.word(key, tuple(words), default)]
+
+
+def _notes(table: Table, base: KitMap) -> KitMap:
+    notes = dict(base)
+    for number, key in table.numbers(0, 127):
+        entry = table.table(key)
+        entry.only({"piece", "zone", "articulation", "openness"})
+        if entry.raw.get("piece") == _NONE:
+            notes.pop(number, None)
+            continue
+        notes[number] = Strike(
+            _member(entry, "piece", Piece),
+            _member(entry, "zone", Zone, "head"),
+            _member(entry, "articulation", Articulation, "normal"),
+            entry.number("openness", 0.0, 1.0) if "openness" in entry.raw else None,
+        )
+    return MappingProxyType(notes)
+
+
+def _pedal(table: Table, base: PedalRange | None) -> PedalRange | None:
+    table.only({"present", "controller", "open", "shut", "steps"})
+    if not table.flag("present", True):
+        return None
+    usual = base or PedalRange()
+    wide_open, shut = table.whole("open", 0, 127, usual.wide_open), table.whole("shut", 0, 127, usual.shut)
+    if wide_open == shut:
+        raise BadInput(table.source, f"{table.place}.shut", f"open and shut are both {shut}: the pedal tells nothing")
+    steps = table.raw.get("steps", list(usual.steps))
+    if not isinstance(steps, list) or len(steps) == 1 or not all(type(s) is int and 0 <= s <= 127 for s in steps):
+        raise BadInput(table.source, f"{table.place}.steps", f"expected values such as [0, 56, 127], found {steps!r}")
+    return PedalRange(wide_open, shut, table.whole("controller", 0, 127, usual.controller), tuple(steps))
+
+
+def _foot(table: Table, base: Foot) -> Foot:
+    table.only({"least_travel", "splash_ms", "by_controller"})
+    return Foot(
+        least_travel=table.number("least_travel", 0.0, 1.0, base.least_travel),
+        splash_ns=_ns(table, "splash_ms", base.splash_ns),
+        by_controller=table.flag("by_controller", base.by_controller),
+    )
+
+
+def _ns(table: Table, key: str, default_ns: int) -> int:
+    return ns_from_ms(table.number(key, 0.0, _LONGEST_MS, ms_from_ns(default_ns)))
+
+
+def _choke_notes(choke: Table, base: KitPreset) -> Mapping[int, Piece]:
+    if "notes" not in choke.raw:
+        return base.choke_notes
+    notes = choke.table("notes")
+    found = {}
+    for number, key in notes.numbers(0, 127):
+        entry = notes.table(key)
+        entry.only({"piece"})
+        found[number] = _member(entry, "piece", Piece)
+    return MappingProxyType(found)
+
+
+def _positions(table: Table, base: KitPreset) -> Mapping[int, frozenset[Piece]]:
+    if "positions" not in table.raw:
+        return base.position_controllers
+    positions = table.table("positions")
+    found = {}
+    for number, key in positions.numbers(0, 127):
+        entry = positions.table(key)
+        entry.only({"pieces"})
+        found[number] = frozenset(_pieces(entry))
+    return MappingProxyType(found)
+
+
+def _pieces(entry: Table) -> list[Piece]:
+    words, names = {word(piece): piece for piece in Piece}, entry.raw.get("pieces")
+    if not isinstance(names, list) or not names or not all(name in words for name in names):
+        raise BadInput(entry.source, f"{entry.place}.pieces", f'expected pieces such as ["snare"], found {names!r}')
+    return [words[name] for name in names]
+
+
+def _pads(table: Table, base: KitPreset) -> Mapping[Piece, Pad]:
+    words, pads = {word(piece): piece for piece in Piece}, dict(base.pads)
+    found = table.table("pads", {})
+    found.only(set(words))
+    for name in found.raw:
+        entry, usual = found.table(name), base.pad(words[name])
+        entry.only({"threshold", "mask_ms", "least_velocity"})
+        least = entry.whole("least_velocity", 1, 127, 1) if "least_velocity" in entry.raw else usual.least_velocity
+        threshold = entry.whole("threshold", 1, 127, usual.threshold)
+        pads[words[name]] = Pad(threshold, _ns(entry, "mask_ms", usual.mask_ns), least)
+    return MappingProxyType(pads)
+
+
+def _crosstalk(entry: Table) -> Crosstalk:
+    entry.only({"source", "victim", "share", "within_ms", "before_ms"})
+    source, victim = _member(entry, "source", Piece), _member(entry, "victim", Piece)
+    if source is victim:
+        raise BadInput(entry.source, f"{entry.place}.victim", "a pad is not its own crosstalk; its mask_ms is for that")
+    share = entry.number("share", 0.0, 1.0)
+    within_ns, before_ns = _ns(entry, "within_ms", GHOST_WITHIN_NS), _ns(entry, "before_ms", GHOST_BEFORE_NS)
+    return Crosstalk(source, victim, share, within_ns, before_ns)
