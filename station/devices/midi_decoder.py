@@ -1,6 +1,6 @@
 """MIDI bytes to events of the drum kit: pure, no clock, no port.
 
-A message bears the time of the piece of bytes that completed it. The hi-hat pedal's controller, the position controllers
+A message bears the time of the piece of bytes that completed it. The pedal's controller, the position controllers
 and the high-resolution velocity prefix (controller 88: what the velocity is above its whole number, in 128ths) come
 before the note that they describe. A position is that of the next stroke on its piece alone, the prefix holds for the
 next note on or off of its channel and no longer. Note off, note on with velocity 0, clock, active sensing and program
