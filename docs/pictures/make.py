@@ -39,7 +39,7 @@ def main() -> None:
     place = lesson.loop_score.tempo_map.position_at(
         int(score.tempo_map.ticks_at(POSITION_S)) % lesson.loop_score.end_tick
     )
-    where = (place.bar + 1, place.beat + 1, 4, lesson.loop_score.bar_count, lesson.tempo_bpm)
+    where = (place.bar + 1, place.beat + 1, 4, lesson.loop_score.bar_count, lesson.beats_a_minute)
     hud = Hud(lesson.title, "Demonstration", *where)
     snapshot = Snapshot(score, POSITION_S, kit, figure, drummer.pose(POSITION_S), drummer.assignment.limbs, hud=hud)
     maker = PictureMaker(SIZE, QUALITIES[1])

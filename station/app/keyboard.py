@@ -10,9 +10,9 @@ from types import MappingProxyType
 
 from imgui_bundle import imgui
 
+from station.core.names import piece_name
 from station.core.pieces import Articulation, Piece, Zone
 from station.engine.messages import KeyHit
-from station.render.names import piece_name
 
 VELOCITY = 90
 """A plain stroke (HUMANS: normal 60–95); keys cannot tell more."""

@@ -16,7 +16,10 @@ from station.render.snapshot import Snapshot
 
 @dataclass(frozen=True, slots=True)
 class LessonCard:
-    """A lesson as the list shows it; `level` 1–5, `bars` in its loop, `passes` as its author wants them."""
+    """A lesson as the list shows it; `level` 1–5, `bars` in its loop, `passes` as its author wants them.
+
+    `tempo_bpm` counts quarter notes, `beat_quarters` is how many make the beat that a teacher counts.
+    """
 
     name: str
     title: str
@@ -29,6 +32,12 @@ class LessonCard:
     passes: int
     meter: str = "4/4"
     tags: tuple[str, ...] = ()
+    beat_quarters: float = 1.0
+
+    @property
+    def beats_a_minute(self) -> float:
+        """The tempo in the lesson's own beat."""
+        return self.tempo_bpm / self.beat_quarters
 
 
 @dataclass(frozen=True, slots=True)

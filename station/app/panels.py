@@ -70,13 +70,13 @@ class LessonsPanel:
         pressed, _ = imgui.selectable(f"{card.title}##{card.name}", chosen)
         if pressed:
             self._choice.choose(card)
-        tooltip(f"{card.about}\n{card.bars} bars, {card.meter}, {card.tempo_bpm:g} bpm")
+        tooltip(f"{card.about}\n{card.bars} bars, {card.meter}, {card.beats_a_minute:g} bpm")
 
     def _chosen(self, card: LessonCard) -> None:
         choice = self._choice
         theme.heading(card.title, 20)
         author = f" · {card.author}" if card.author else ""
-        theme.soft(f"{card.bars} bars · {card.meter} · {card.tempo_bpm:g} bpm{author}")
+        theme.soft(f"{card.bars} bars · {card.meter} · {card.beats_a_minute:g} bpm{author}")
         if card.about:
             theme.soft(card.about)
         _, choice.adapt = imgui.checkbox(ADAPT_LABEL, choice.adapt)
@@ -94,10 +94,13 @@ class LessonsPanel:
 
     def _tempo(self, card: LessonCard) -> None:
         choice = self._choice
-        low = min(MIN_TEMPO_BPM, int(card.tempo_bpm))
-        high = max(MAX_TEMPO_BPM, int(card.tempo_bpm) + 1)
+        low = min(MIN_TEMPO_BPM, int(card.beats_a_minute))
+        high = max(MAX_TEMPO_BPM, int(card.beats_a_minute) + 1)
         imgui.set_next_item_width(-theme.points(84))
-        _, choice.tempo_bpm = imgui.slider_float("tempo", choice.tempo_bpm, low, high, "%.0f bpm")
+        beats = choice.tempo_bpm / card.beat_quarters
+        moved, beats = imgui.slider_float("tempo", beats, low, high, "%.0f bpm")
+        if moved:
+            choice.tempo_bpm = beats * card.beat_quarters
         tooltip("How fast to practise; the lesson's own tempo is set when you choose it. Ctrl+click to type")
 
 

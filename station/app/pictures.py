@@ -40,7 +40,7 @@ def draw_session(result: SessionResult, path: Path) -> None:
     hud = Hud(
         title=plan.lesson.title,
         phase="1 pass played" if plan.passes == 1 else f"{plan.passes} passes played",
-        tempo_bpm=plan.tempo_bpm,
+        beats_a_minute=plan.beats_a_minute,
         right=right,
         judged=len(result.score),
     )

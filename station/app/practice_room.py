@@ -16,7 +16,7 @@ from station.app.session_view import SessionView
 from station.core.errors import DeviceError, StationError
 from station.core.events import DeviceFound, DeviceLost
 from station.core.settings import Settings
-from station.core.units import ns_from_ms
+from station.core.units import PPQ, ns_from_ms
 from station.drills.lesson import LEVELS, Lesson
 from station.drills.library import find_lesson, shipped_lessons
 from station.engine.messages import EngineEvent, KeyHit, Notice, Ready
@@ -300,4 +300,5 @@ def _card(lesson: Lesson) -> LessonCard:
         passes=lesson.passes,
         meter=f"{meter.beats}/{meter.unit}",
         tags=lesson.tags,
+        beat_quarters=lesson.beat_ticks / PPQ,
     )

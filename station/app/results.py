@@ -6,6 +6,7 @@ from station.core.units import NS_PER_S
 from station.music.judgement import Label
 from station.practice.session import SessionResult
 from station.render.results import ResultFacts, Words, result_facts
+from station.scoring.craft.words import craft_lines
 from station.scoring.document import Json
 
 
@@ -23,9 +24,10 @@ def session_facts(result: SessionResult, document: dict[str, Json]) -> ResultFac
     passes = "1 pass" if plan.passes == 1 else f"{plan.passes} passes"
     words = Words(
         title=plan.lesson.title,
-        subtitle=f"{passes} of {bars} at {plan.tempo_bpm:g} bpm{stopped}",
+        subtitle=f"{passes} of {bars} at {round(plan.beats_a_minute, 3):g} bpm{stopped}",
         points=float(points) if isinstance(points, float | int) else None,
         advice=tuple(map(str, steps)),
+        craft=tuple(craft_lines(document)),
         pass_bars=plan.section.bar_count,
         first_bar=plan.first_bar,
         starts=() if plan.rounds is None else plan.rounds.starts,

@@ -98,7 +98,7 @@ class SessionView:
         """The picture before anything runs: the drummer waits, the score stands at its first bar."""
         part, plan = self._demonstration, self.plan
         drummer = part.drummer
-        hud = Hud(plan.lesson.title, "Ready", tempo_bpm=plan.tempo_bpm, message=message)
+        hud = Hud(plan.lesson.title, "Ready", beats_a_minute=plan.beats_a_minute, message=message)
         pose, limbs = drummer.pose(WAITING_S), drummer.assignment.limbs
         return Snapshot(part.score, 0.0, self._kit, self._figure, pose, limbs, hud=hud, bar_numbers=self.bar_numbers)
 
@@ -131,7 +131,7 @@ class SessionView:
             beat=None if place is None else place.beat + 1,
             beats=tempo_map.meters[0].beats,
             bar_count=plan.lesson.score.bar_count,
-            tempo_bpm=plan.tempo_bpm,
+            beats_a_minute=plan.beats_a_minute,
             count_in=place.beat + 1 if counting and place is not None else None,
             right=right,
             judged=judged,

@@ -2,6 +2,7 @@
 
 from station.drills.mastery.rules import Rules
 from station.drills.mastery.state import ItemState
+from station.drills.mastery.steps import Item, Step
 from station.practice.adaptation import Adaptation, Round
 from station.practice.what_next import advice_of
 from station.scoring.document import Json
@@ -28,8 +29,8 @@ def with_mastery(document: dict[str, Json], adaptation: Adaptation) -> dict[str,
             "stable": state.is_stable(adaptation.rules),
             "review_due": None if state.review.due is None else state.review.due.isoformat(),
             "words": mastery_words(state, adaptation.rules),
-            "passes": [_pass(one) for one in adaptation.rounds],
-            "next": _step(adaptation.step.tempo_bpm, adaptation.step.bars, adaptation.step.why),
+            "passes": [_pass(one, state.item) for one in adaptation.rounds],
+            "next": _step(adaptation.step, state.item),
         },
     }
 
@@ -47,17 +48,22 @@ def _pass_words(number: int, one: dict[str, Json]) -> str:
     assert isinstance(bars, list), "the report is ours"
     which = f"bar {bars[0]}" if bars[0] == bars[1] else f"bars {bars[0]}-{bars[1]}"
     right = "stopped early" if one["right"] is None else f"{one['right']} of {one['notes']} right"
-    return f"{number:3}  {one['tempo_bpm']:6g} bpm  {which:9} {right:16}  {one['why']}"
+    return f"{number:3}  {one['beats_a_minute']:6g} bpm  {which:9} {right:16}  {one['why']}"
 
 
-def _step(tempo_bpm: float, bars: tuple[int, int], why: str) -> dict[str, Json]:
-    return {"tempo_bpm": round(tempo_bpm, 3), "bars": [bars[0] + 1, bars[1] + 1], "why": why}
+def _step(step: Step, item: Item) -> dict[str, Json]:
+    return {
+        "tempo_bpm": round(step.tempo_bpm, 3),
+        "beats_a_minute": round(step.tempo_bpm / item.beat_quarters, 3),
+        "bars": [step.bars[0] + 1, step.bars[1] + 1],
+        "why": step.why,
+    }
 
 
-def _pass(one: Round) -> dict[str, Json]:
+def _pass(one: Round, item: Item) -> dict[str, Json]:
     step, measured = one.step, one.measured
     return {
-        **_step(step.tempo_bpm, step.bars, step.why),
+        **_step(step, item),
         "kind": step.kind.value,
         "feedback": step.feedback.value,
         "repeats": step.repeats,

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.errors import BadInput
-from station.core.units import NS_PER_S
+from station.core.units import NS_PER_S, PPQ
 from station.drills.lesson import Lesson
 from station.engine.messages import CUE_DTYPE, Bus
 from station.motion.kit import DEFAULT_KIT, load_kit
@@ -96,6 +96,11 @@ class Plan:
     cues: NDArray[np.void]
     click: ClickPattern | None
     rounds: Rounds | None = None
+
+    @property
+    def beats_a_minute(self) -> float:
+        """The practice tempo in the lesson's own beat."""
+        return self.tempo_bpm * PPQ / self.lesson.beat_ticks
 
     @property
     def bars(self) -> tuple[int, int]:

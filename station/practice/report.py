@@ -10,8 +10,9 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.names import name_of
 from station.core.settings import Settings
-from station.core.units import NS_PER_MS, PPQ
+from station.core.units import NS_PER_MS
 from station.drills.lesson import Goals
 from station.engine.engine import KEYBOARD
 from station.practice.headless import VirtualSession
@@ -42,7 +43,7 @@ def practice_document(result: SessionResult, settings: Settings) -> dict[str, Js
         "student": settings.student,
         "device": result.device,
         "tempo_bpm": round(plan.tempo_bpm, 3),
-        "beats_a_minute": round(plan.tempo_bpm * PPQ / plan.lesson.beat_ticks, 3),
+        "beats_a_minute": round(plan.beats_a_minute, 3),
         "bars": [plan.bars[0] + 1, plan.bars[1] + 1],
         "passes": plan.passes,
         "click": plan.click is not None,
@@ -84,6 +85,7 @@ def _view(result: SessionResult, settings: Settings) -> View:
         kit=kit_facts(settings),
         silences=plan.silences,
         bar_names=None if plan.rounds is None else plan.rounds.bars,
+        beat_ticks=plan.lesson.beat_ticks,
     )
 
 
@@ -155,8 +157,8 @@ def _figures_text(document: dict[str, Json]) -> str:
         if isinstance(group, dict) and (group["notes"] or group["extras"])  # else only wrong hits landed there
     ]
     if rows:
-        lines += ["", f"{'piece':14}" + "".join(f"{name:>9}" for name in _COLUMNS)]
-    lines += [f"{piece:14}" + "".join(f"{cell:>9}" for cell in _cells(group)) for piece, group in rows]
+        lines += ["", f"{'piece':17}" + "".join(f"{name:>9}" for name in _COLUMNS)]
+    lines += [f"{name_of(piece):17}" + "".join(f"{cell:>9}" for cell in _cells(group)) for piece, group in rows]
     craft = craft_lines(document)
     return "\n".join([*lines, "", *craft] if craft else lines) + "\n"
 

@@ -55,6 +55,12 @@ def _short_of_goal(document: dict[str, Json], lesson: Lesson) -> str:
             f"You play {ceil(abs(lean_ms))} ms {side} on average and the lesson allows {goals.max_lean_ms:g}:"
             " play it again and listen to the click."
         )
+    swing = _numbers(_table(document, "craft").get("swing"))
+    if goals.max_swing_error is not None and swing and abs(swing["held"] - swing["written"]) > goals.max_swing_error:
+        return (
+            f"You swing {swing['held']:.2f}:1, {swing['written']:.2f}:1 is written and the lesson allows"
+            f" {goals.max_swing_error:g} to either side: play it again and listen to the offbeats."
+        )
     score = document["score"]
     if goals.min_score is not None and isinstance(score, float | int) and score < goals.min_score:
         return f"The score is {floor(score)} and {goals.min_score:g} is the goal: play it again at this tempo."
@@ -70,7 +76,13 @@ _SAME_TEMPO = 0.01
 """Tempi that nobody tells apart (our choice)."""
 
 
-def _numbers(table: Json) -> dict[str, float]:
-    """The table's numbers; what has no data is left out."""
+def _table(of: dict[str, Json], key: str) -> dict[str, Json]:
+    table = of[key]
     assert isinstance(table, dict), "the report is ours"
-    return {key: float(value) for key, value in table.items() if isinstance(value, float | int)}
+    return table
+
+
+def _numbers(table: Json) -> dict[str, float]:
+    """The table's numbers; what has no data is left out, and all of it where there is no table."""
+    assert table is None or isinstance(table, dict), "the report is ours"
+    return {key: float(value) for key, value in (table or {}).items() if isinstance(value, float | int)}

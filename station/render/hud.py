@@ -95,10 +95,10 @@ class _HudPage:
     def _tempo(self) -> None:
         k, hud = self._k, self._hud
         right = self._width - _EDGE * k
-        if hud.tempo_bpm is not None:
+        if hud.beats_a_minute is not None:
             width = self._ink.text("bpm", (right, 46 * k), Type(17 * k, INK_SOFT, Face.REGULAR, 1.0, _HALO))
             tempo = Type(34 * k, INK, Face.BOLD, 1.0, _HALO)
-            self._ink.text(f"{hud.tempo_bpm:.0f}", (right - width - 6 * k, 46 * k), tempo)
+            self._ink.text(f"{hud.beats_a_minute:.0f}", (right - width - 6 * k, 46 * k), tempo)
         if hud.bar is None or hud.beat is None:
             return
         x = right - 7 * k

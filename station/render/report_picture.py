@@ -41,6 +41,9 @@ _LEAN_REACH_MS = 60.0
 _TICKS = 56
 _MAX_ROWS = 8
 _ADVICE_SIZES = (15.5, 14.0, 12.5, 11.0)
+_MOST_ROW, _LEAST_ROW = 30.0, 24.0
+"""Height of a piece's row, as craft leaves room."""
+_CRAFT_LINE, _CRAFT_COLUMNS = 19.0, 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,8 +54,8 @@ class _Box:
     height: float
 
 
-_PLOT = _Box(356, 132, 884, 296)
-_ROWS = _Box(356, 474, 884, 286)
+_PLOT = _Box(356, 132, 884, 236)
+_ROWS = _Box(356, 414, 884, 346)
 _SIDE = _Box(40, 108, 276, 652)
 
 
@@ -237,12 +240,28 @@ class _Page:
             Type(16, INK, Face.BOLD),
         )
         rows = sorted(leans(self._facts), key=lambda lean: -lean.notes)[:_MAX_ROWS]
-        step = min(34.0, (_ROWS.height - 66) / max(len(rows), 1))
+        step = _LEAST_ROW if len(rows) > _MAX_ROWS // 2 else _MOST_ROW
         centre = _ROWS.left + 430
         top, bottom = _ROWS.top + 48, _ROWS.top + 56 + step * len(rows)
         self._ink.box((centre - 0.75, top), (1.5, bottom - top), INK_SOFT)
         for i, lean in enumerate(rows):
             self._row(lean, _ROWS.top + 60 + step * (i + 0.5) - 6, centre)
+        self._craft(bottom + 8)
+
+    def _craft(self, top: float) -> None:
+        """What hands and feet did, as many lines as there is room for, column by column."""
+        fit = int((_ROWS.top + _ROWS.height - top - 30) / _CRAFT_LINE)
+        lines = self._facts.words.craft[: fit * _CRAFT_COLUMNS]
+        if not lines:
+            return
+        left, width = _ROWS.left + 22, (_ROWS.width - 44) / _CRAFT_COLUMNS
+        self._ink.text("HANDS AND FEET", (left, top + 12), Type(13, BRAND, Face.BOLD))
+        style = Type(14.5, INK_SOFT)
+        each = -(-len(lines) // _CRAFT_COLUMNS)
+        for i, line in enumerate(lines):
+            column, row = divmod(i, each)
+            at = left + column * width, top + 34 + row * _CRAFT_LINE
+            self._ink.text(self._ink.fitted(line, style, width - 16), at, style)
 
     def _row(self, lean: Lean, y: float, centre: float) -> None:
         self._ink.text(lean.name, (_ROWS.left + 22, y + 6), Type(18, INK))

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.names import piece_name
 from station.core.pieces import Piece
 from station.music.judgement import Label
 from station.music.score import Score
-from station.render.names import piece_name
 
 ON_THE_BEAT_MS = 10.0
 """Full marks within 10 ms (HUMANS, Velocity and ears)."""
@@ -50,14 +50,16 @@ class ResultFacts:
 class Words:
     """What is written on a result beside its numbers.
 
-    `points` 0–100, `advice` sentences on what to do next; a pass has `pass_bars` bars (0: all are one pass), the first
-    is the lesson's `first_bar`, from 0; passes that differ begin in the bars `starts`.
+    `points` 0–100, `advice` sentences on what to do next, `craft` lines on what hands and feet did; a pass has
+    `pass_bars` bars (0: all are one pass), the first is the lesson's `first_bar`, from 0; passes that differ begin in
+    the bars `starts`.
     """
 
     title: str
     subtitle: str
     points: float | None
     advice: tuple[str, ...] = ()
+    craft: tuple[str, ...] = ()
     pass_bars: int = 0
     first_bar: int = 0
     starts: tuple[int, ...] = ()

@@ -68,7 +68,7 @@ class Hud:
     beat: int | None = None
     beats: int = 4
     bar_count: int = 0
-    tempo_bpm: float | None = None
+    beats_a_minute: float | None = None
     count_in: int | None = None
     right: int = 0
     judged: int = 0

@@ -6,6 +6,7 @@ A sentence says what was heard, how much and where, then one thing to do. Effect
 from dataclasses import dataclass
 from types import MappingProxyType
 
+from station.core.units import PPQ
 from station.scoring.findings import Finding, find_all
 from station.scoring.summary import Summary
 
@@ -45,8 +46,8 @@ _HEARD = MappingProxyType(
         "weak_right": "Your right hand is {size:.1f} dB softer than your left{where}",
         "loud_ghosts": "Your ghost notes are {size:.1f} dB too loud{where}",
         "flat_accents": "Your accents are {size:.1f} dB too soft{where}",
-        "straight_swing": "Your swing is nearly straight, {subject}{where}",
-        "hard_swing": "Your swing is sharper than any dotted figure, {subject}{where}",
+        "straight_swing": "Your swing is straighter than written, {subject}{where}",
+        "hard_swing": "Your swing is sharper than written, {subject}{where}",
         "early": "You play {size:.0f} ms early throughout{where}",
         "late": "You play {size:.0f} ms late throughout{where}",
         "unsteady": "Your strokes spread by {size:.0f} ms where {subject} would do{where}",
@@ -95,7 +96,7 @@ def advise(summary: Summary) -> tuple[Advice, ...]:
 
 def _sentence(finding: Finding, summary: Summary) -> Advice:
     bars = tuple(bar + 1 for bar in finding.bars)
-    tempo = summary.score.tempo_map.bpm_at(0)
+    tempo = summary.score.tempo_map.bpm_at(0) * PPQ / summary.view.beat_ticks
     template = f"{_HEARD.get(finding.fault, _HEARD_LEAN)}: {_DO.get(finding.fault, _DO_LEAN)}."
     text = template.format(
         size=abs(finding.effect),

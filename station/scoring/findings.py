@@ -12,13 +12,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Piece, word
+from station.core.names import name_of, piece_name
+from station.core.pieces import Piece
 from station.music import passages
 from station.music.judgement import Label
 from station.scoring.alignment import Reference
 from station.scoring.craft.untold import Untold
 from station.scoring.habits import CHANCE
-from station.scoring.points import FREE_LEAN_MS, FREE_SWING, ratio_of_place
+from station.scoring.points import FREE_LEAN_MS, ratio_of_place
 from station.scoring.regression import CONSTANT, Effect
 from station.scoring.summary import Summary
 from station.scoring.timing import asynchrony_ms, timed_notes
@@ -122,11 +123,16 @@ def _habits(summary: Summary) -> list[Finding]:
     found = []
     for kind in KINDS:
         effect = summary.habits.effects.get(kind.effect)
-        if effect is not None and effect.value * kind.sign > kind.free and _is_sure(effect):
+        if effect is not None and effect.value * kind.sign > _free(kind, summary) and _is_sure(effect):
             bars = _bars_of_habit(summary, kind)
             severity = abs(effect.value) / kind.clear
             found.append(Finding(kind.fault, "", effect.value, effect.ci, kind.unit, severity, bars))
     return found
+
+
+def _free(kind: Kind, summary: Summary) -> float:
+    """What a fault's effect may be without a word: a foot's lean is feel, unless the lesson asks for less."""
+    return summary.view.feel.lean_ms if kind.free == FREE_LEAN_MS else kind.free
 
 
 def _is_sure(effect: Effect) -> bool:
@@ -144,16 +150,16 @@ def _bars_of_habit(summary: Summary, kind: Kind) -> tuple[int, ...]:
 
 
 def _swing(summary: Summary) -> list[Finding]:
-    """Swing that is held straighter or harder than feel allows; the effect is in ratios against what is written."""
+    """Swing that is held straighter or harder than is free; the effect is in ratios against what is written."""
     effect = summary.habits.effects.get("swing")
     flags, _, places = passages.swung(summary.score)
     if effect is None or not flags.any() or not _is_sure(effect):
         return []
     written = float(np.median(places[flags]))
     held, low, high = (ratio_of_place(written + effect.value + k * effect.error) for k in (0.0, -_Z_95, _Z_95))
-    if FREE_SWING[0] <= held <= FREE_SWING[1]:
+    if summary.view.feel.allows(held, ratio_of_place(written)):
         return []
-    fault = "straight_swing" if held < FREE_SWING[0] else "hard_swing"
+    fault = "straight_swing" if held < ratio_of_place(written) else "hard_swing"
     bars = tuple(worst_bars(summary, np.ones(int(flags.sum())), flags))
     asked = ratio_of_place(written)
     severity = abs(held - asked) / _CLEAR_SWING
@@ -165,10 +171,10 @@ def _swing(summary: Summary) -> list[Finding]:
 
 
 def _leans(summary: Summary) -> list[Finding]:
-    """A hand's piece that stands apart from the other pieces by more than feel; of two the one with fewer strokes."""
-    found = []
+    """A hand's piece that stands apart from the other pieces by more than is free; of two the one of fewer strokes."""
+    found, free_ms = [], summary.view.feel.lean_ms
     for name, effect in summary.habits.effects.items():
-        if name.startswith("lean_") and abs(effect.value) > FREE_LEAN_MS and _is_sure(effect):
+        if name.startswith("lean_") and abs(effect.value) > free_ms and _is_sure(effect):
             strokes = summary.habits.strokes[name] & timed_notes(summary.score, summary.alignment)
             piece = name.removeprefix("lean_")
             off = asynchrony_ms(summary.alignment)[strokes] * np.sign(effect.value)
@@ -176,7 +182,7 @@ def _leans(summary: Summary) -> list[Finding]:
             fault = f"{'late' if effect.value > 0 else 'early'}_{piece}"
             finding = Finding(
                 fault,
-                piece.replace("_", " "),
+                name_of(piece),
                 effect.value,
                 effect.ci,
                 "ms",
@@ -206,13 +212,16 @@ def _common_lean(summary: Summary) -> list[Finding]:
 
 
 def _unsteady(summary: Summary) -> list[Finding]:
-    """A spread, leans and habits apart, beyond what a pass allows; its interval by the normal law of SDs."""
-    sd, count = summary.habits.timing_sd_ms, summary.timing.count
-    if sd is None or count < 4 * MIN_SLOTS:
+    """A spread beyond what a pass allows, with leans and habits and without; its interval by the normal law of SDs.
+
+    The effect is the spread of the report's tables, so that a student reads one number everywhere.
+    """
+    sd, left, count = summary.timing.sd_ms, summary.habits.timing_sd_ms, summary.timing.count
+    if sd is None or left is None or count < 4 * MIN_SLOTS:
         return []
     limit = min(_MOST_SD_MS, max(_LEAST_SD_MS, _SD_SHARE * _usual_interval_ms(summary)))
     half = _Z_95 * sd / (2 * count) ** 0.5
-    if sd - half <= limit:
+    if min(sd, left) - half <= limit:
         return []
     timed = timed_notes(summary.score, summary.alignment)
     off = asynchrony_ms(summary.alignment)[timed]
@@ -285,4 +294,4 @@ def worst_bars(summary: Summary, badness: Floats, notes: Flags, most: int = 3) -
 
 
 def _name(piece: int) -> str:
-    return word(Piece(piece)).replace("_", " ")
+    return piece_name(Piece(piece))

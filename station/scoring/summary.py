@@ -89,7 +89,7 @@ class View:
     `pass_bars` bars make one pass of a loop (None: no loop), so that bar b of the score is the lesson's bar
     `first_bar` + b mod `pass_bars`, from 0; where passes differ `bar_names` says it of each bar. `hears_velocity` False
     where the input cannot tell loud from soft. `feel` is what costs nothing, `silences` where the click was silent,
-    `kit` what was measured of the student's.
+    `kit` what was measured of the student's. `beat_ticks` is the beat that tempi in sentences count.
     """
 
     windows: Windows = DEFAULT_LEVEL
@@ -100,6 +100,7 @@ class View:
     silences: Silences = ()
     bar_names: tuple[int, ...] | None = None
     kit: KitFacts = field(default_factory=KitFacts)
+    beat_ticks: int = PPQ
 
     def bars(self, score: Score) -> NDArray[np.int64]:
         """The lesson's bar of each note, from 0, shape (n,)."""

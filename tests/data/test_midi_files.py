@@ -16,11 +16,11 @@ MIDI_FILES = real_files("midi/**/*.mid", "gmd/**/*.mid", "charts/**/*.mid")
 
 REFUSED = {
     "test-empty-file.mid": "byte 0: the file is empty",
-    "test-not-a-midi-file.mid": "byte 0: not a MIDI file: b'not ' where b'MThd' should be",
+    "test-not-a-midi-file.mid": "byte 0: not a MIDI file: not  where MThd should be",
     "test-illegal-message-f4.mid": "byte 205: undefined status byte F4",
     "test-illegal-message-f5.mid": "byte 205: undefined status byte F5",
     "test-illegal-message-f9.mid": "byte 205: undefined status byte F9",
-    "MIDIBadHeaderChunk.mid": "byte 0: not a MIDI file: b'MT0d' where b'MThd' should be",
+    "MIDIBadHeaderChunk.mid": "byte 0: not a MIDI file: MT0d where MThd should be",
     "MIDIBadHeaderFormat.mid": "byte 8: MIDI file format 3; there are only 0, 1 and 2",
     "MIDIBadHeaderSMTPE.mid": "byte 12: 16 frames of 96 ticks a second; SMPTE has 24, 25, 29 or 30 frames",
     "MIDIBadHeaderTracksNum.mid": "byte 81: the file ends with 1 of its 2 tracks",
@@ -72,7 +72,7 @@ def test_a_file_reads_as_mido_reads_it_or_is_refused(path: Path) -> None:
         return
     ours = read_midi(path)
     if path.name in MIDO_READS_NOT:
-        assert ours.oddities == ("byte 14: a chunk of another kind, b'Junk', was skipped",)
+        assert ours.oddities == ("byte 14: a chunk of another kind, Junk, was skipped",)
         return
     theirs = mido.MidiFile(path)
     assert (ours.format, len(ours.tracks)) == (theirs.type, len(theirs.tracks))

@@ -177,7 +177,7 @@ def test_early_and_late_differ_in_shape_too(draw: Draw) -> None:
     ("hud", "box"),
     [
         (Hud(title="Rock"), np.s_[5:45, 5:120]),
-        (Hud(tempo_bpm=120.0), np.s_[5:45, 520:635]),
+        (Hud(beats_a_minute=120.0), np.s_[5:45, 520:635]),
         (Hud(count_in=4), np.s_[80:190, 270:370]),
         (Hud(cue=Cue.EARLY), np.s_[200:252, 260:380]),
         (Hud(message="Play when you are ready"), np.s_[50:90, 200:440]),
@@ -211,6 +211,22 @@ def test_a_result_is_written_as_png(tmp_path: Path) -> None:
     assert lit[:56].any()
     assert lit[56:].any()
     assert lit[:, :60].any(), "all of the dial is lit at 100 points"
+
+
+def test_the_result_shows_what_hands_and_feet_did(tmp_path: Path) -> None:
+    """Two lines in two columns, below the pieces; without them that part of the card is empty."""
+    label = np.full(len(SCORE), Label.MATCH, np.uint8)
+    pictures = []
+    for craft in ((), ("Swing: 1.8:1 held, 2.0:1 written", "Hi-hat: 9 of 12 as open as written")):
+        words = Words("Rock", "120 bpm", 100.0, craft=craft)
+        facts = result_facts(SCORE, label, np.zeros(len(SCORE), np.int64), np.empty(0), words)
+        draw_report_png(facts, tmp_path / "report.png", (1280, 800))
+        pictures.append(decode((tmp_path / "report.png").read_bytes()).astype(int))
+    changed = np.abs(pictures[0] - pictures[1]).max(axis=2) > 24
+    assert changed[460:756, 378:780].any(), "a column to the left"
+    assert changed[460:756, 798:1236].any(), "and one to the right"
+    changed[460:756, 370:1236] = False
+    assert not changed.any(), "and nowhere else"
 
 
 def test_no_opengl_is_said_with_what_to_install() -> None:

@@ -40,7 +40,8 @@ def run(arguments: argparse.Namespace) -> int:
     score, performance = load_score_and_performance(arguments.score, arguments.performance)
     view = View(find_windows(arguments.level), kit=kit_facts(load_settings()))
     if is_lesson(arguments.score):
-        view = replace(view, pass_bars=score.bar_count, feel=feel_of(find_lesson(arguments.score).goals))
+        lesson = find_lesson(arguments.score)
+        view = replace(view, pass_bars=score.bar_count, feel=feel_of(lesson.goals), beat_ticks=lesson.beat_ticks)
         score = score.repeated(max(1, round(len(performance) / max(len(score), 1))))
     if arguments.gap is not None:
         view = replace(view, silences=silences(score.tempo_map, score.end_tick, arguments.gap))

@@ -28,6 +28,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     exporting.add_argument("lesson", metavar="LESSON", help="a lesson's name or file")
     for verb in (importing, exporting):
         verb.add_argument("--out", metavar="FILE", type=Path, required=True, help="the file to write")
+    importing.add_argument("--overwrite", action="store_true", help="write FILE even if there is one already")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -107,6 +108,8 @@ def _import(arguments: argparse.Namespace) -> int:
     out: Path = arguments.out
     if out.suffix != ".toml":
         raise BadInput(out, "", "expected a name that ends in .toml")
+    if out.exists() and not arguments.overwrite:
+        raise BadInput(out, "", "is there already: choose another name, or say --overwrite")
     source = existing(arguments.source)
     score = score_from_midi(read_midi(source))
     if not len(score):

@@ -49,6 +49,9 @@ CONTROL_DTYPE = np.dtype(
 MAX_NS = 366 * 24 * 3600 * NS_PER_S
 """A year (our choice: far beyond any music, and every product below stays inside 63 bits)."""
 
+_NO_NAME = re.compile(r"\s*|midi|(midi )?track ?\d*|untitled|unnamed", re.IGNORECASE)
+"""What programs call a track that nobody named (the Groove MIDI Dataset's are all "MIDI")."""
+
 _DRUM_NAME = re.compile(r"drum|percus|\bperc\b|\bkit\b|schlagzeug|batterie|bater[ií]a|batteria", re.IGNORECASE)
 _TUNED_NAME = re.compile(r"steel ?drum", re.IGNORECASE)
 
@@ -199,4 +202,4 @@ class MidiFile:
     def title(self) -> str:
         """The name of the first track, which RP-001 makes the sequence's; else of the file, without its ending."""
         first = self.tracks[0].name if self.tracks else ""
-        return first or Path(self.source).stem
+        return Path(self.source).stem if _NO_NAME.fullmatch(first) else first

@@ -57,11 +57,18 @@ class _Header:
     end: int
 
 
+def _told(kind: bytes) -> str:
+    """The four letters of a chunk's head; what is no letter as its number."""
+    return "".join(chr(c) if 0x20 <= c < 0x7F else f"\\x{c:02x}" for c in kind)
+
+
 def _header(data: bytes, start: int, source: str) -> _Header:
     if not data:
         raise BadInput(source, "byte 0", "the file is empty")
     if data[start : start + 4] != b"MThd":
-        raise BadInput(source, f"byte {start}", f"not a MIDI file: {data[start : start + 4]!r} where b'MThd' should be")
+        raise BadInput(
+            source, f"byte {start}", f"not a MIDI file: {_told(data[start : start + 4])} where MThd should be"
+        )
     body = start + _CHUNK_HEAD_BYTES
     length = int.from_bytes(data[start + 4 : body], "big")
     if len(data) < body + _HEADER_BYTES:
@@ -114,7 +121,7 @@ def _tracks(data: bytes, header: _Header, source: str) -> _Found:
             tracks.append(parse_events(data, start, end, source))
             oddities += tracks[-1].oddities
         else:
-            oddities.append(f"byte {at}: a chunk of another kind, {kind!r}, was skipped")
+            oddities.append(f"byte {at}: a chunk of another kind, {_told(kind)}, was skipped")
         at = end
     if at < len(data):
         oddities.append(f"byte {at}: {len(data) - at} bytes follow the last track")

@@ -6,6 +6,8 @@ What lies within its interval of nothing is not said; figures are rounded to wha
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
+from station.core.names import name_of
+
 Table = Mapping[str, Any]
 """A part of the document that `table.plain` wrote."""
 
@@ -33,13 +35,10 @@ def _sure(figure: Table, least: float = 0.0) -> bool:
     return ci is not None and ci[0] * ci[1] > 0 and abs(mean) >= least
 
 
-def _name(word: str) -> str:
-    return word.replace("_", " ")
-
-
 def _leans(craft: Table) -> Iterator[str]:
     told = [
-        f"{_name(one['piece'])} {_side(one['lean_ms'], 'ahead', 'behind')}{'' if one['free'] else ' (more than feel)'}"
+        name_of(one["piece"])
+        + f" {_side(one['lean_ms'], 'ahead', 'behind')}{'' if one['free'] else ' (more than feel)'}"
         for one in craft["leans"]
         if one["ci"][0] * one["ci"][1] > 0 and abs(one["lean_ms"]) >= LEAST_MS
     ]
@@ -133,7 +132,7 @@ def _shades(craft: Table) -> Iterator[str]:
         if one["ci"] is not None:
             loud, soft = (_CLASSES[one[which]] for which in ("loud", "soft"))
             heard = f"{one['played_db']:+.1f} dB, written {one['written_db']:+.1f}"
-            yield f"{_name(one['piece']).capitalize()}, {loud} against {soft}: {heard}"
+            yield f"{name_of(one['piece']).capitalize()}, {loud} against {soft}: {heard}"
     if shades["evenness_db"]["ci"] is not None:
         yield f"Evenness of plain strokes: {shades['evenness_db']['sd']:.1f} dB (SD)"
     balance = shades["left_less_right"]
@@ -141,7 +140,7 @@ def _shades(craft: Table) -> Iterator[str]:
         yield f"Hands: the left is {_db(balance['louder_db'])} than the right"
     for one in shades["crescendos"]:
         if one["ci"] is not None:
-            where = f"{_name(one['piece']).capitalize()}, bars {one['bars'][0]}-{one['bars'][1]}"
+            where = f"{name_of(one['piece']).capitalize()}, bars {one['bars'][0]}-{one['bars'][1]}"
             yield f"{where}: {one['played_db']:+.0f} dB for {one['written_db']:+.0f}"
 
 

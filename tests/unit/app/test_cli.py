@@ -106,6 +106,18 @@ def test_a_lesson_goes_to_midi_and_back(capsys: pytest.CaptureFixture[str], tmp_
     assert (document["counts"]["matched"], document["score"]) == (24, 100.0)
 
 
+def test_a_lesson_is_not_overwritten_unasked(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    midi, toml = tmp_path / "rock.mid", tmp_path / "mine.toml"
+    assert main(["lesson", "export", "rock-1", "--out", str(midi)]) == 0
+    toml.write_text("an evening's work")
+    capsys.readouterr()
+    assert main(["lesson", "import", str(midi), "--out", str(toml)]) == 2
+    assert "is there already" in capsys.readouterr().err
+    assert toml.read_text() == "an evening's work"
+    assert main(["lesson", "import", str(midi), "--out", str(toml), "--overwrite"]) == 0
+    assert main(["lesson", "check", str(toml)]) == 0
+
+
 def test_a_new_lesson_is_a_lesson(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert main(["lesson", "new"]) == 0
     file = tmp_path / "mine.toml"

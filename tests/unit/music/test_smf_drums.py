@@ -221,8 +221,10 @@ def test_a_score_has_the_files_tempo_meter_and_title() -> None:
     assert (score.bar_count, score.end_tick) == (2, 6 * PPQ)
 
 
-def test_a_file_without_a_name_is_titled_by_its_path() -> None:
-    assert score_from_midi(midi(file(drum(0, 36)))).title == "test"
+@pytest.mark.parametrize("named", [None, b"", b"MIDI", b"Track 1", b"untitled"])
+def test_a_file_without_a_name_is_titled_by_its_path(named: bytes | None) -> None:
+    name = b"" if named is None else meta(0, 3, named)
+    assert score_from_midi(midi(file(name + drum(0, 36)))).title == "test"
 
 
 def test_a_note_is_a_plain_stroke() -> None:

@@ -138,7 +138,7 @@ def test_a_file_without_tracks_is_empty_and_no_fault() -> None:
         (header() + track(event(0, 0x99, 38, 1), end=b""), "byte 26: the track has no end-of-track event"),
         (header() + track(end=END + b"\x00\x99"), "byte 26: 2 bytes follow the end of track"),
         (file() + b"junk", "byte 26: 4 bytes follow the last track"),
-        (header() + chunk(b"XFIH", b"abc") + track(), "byte 14: a chunk of another kind, b'XFIH', was skipped"),
+        (header() + chunk(b"XFIH", b"abc") + track(), "byte 14: a chunk of another kind, XFIH, was skipped"),
         (file(event(0, 0xF8)), "byte 23: system message F8, which has no place in a file, was skipped"),
         (file(event(0, 0xF2, 1, 2)), "byte 23: system message F2, which has no place in a file, was skipped"),
     ],
@@ -201,7 +201,7 @@ def test_tracks_of_format_2_keep_their_own_time() -> None:
 
 REFUSALS = {
     "nothing": (b"", "byte 0: the file is empty"),
-    "text": (b"<html>", "byte 0: not a MIDI file: b'<htm' where b'MThd' should be"),
+    "text": (b"<html>", "byte 0: not a MIDI file: <htm where MThd should be"),
     "half a header": (header()[:10], "byte 10: the file ends in the middle of its header"),
     "short header": (chunk(b"MThd", b"\0\0\0\1") + track(), "byte 4: a header of 4 bytes; 6 were expected"),
     "endless header": (b"MThd\xff\xff\xff\xff" + bytes(6), "byte 4: a header of 4294967295 bytes; 6 were expected"),

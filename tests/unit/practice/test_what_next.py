@@ -27,7 +27,11 @@ def document(
 ) -> dict[str, Json]:
     counts: dict[str, Json] = {"notes": 100, "hits": matched, "matched": matched}
     timing: dict[str, Json] = {"mean_signed_asynchrony_ms": mean_ms, "sd_asynchrony_ms": sd_ms}
-    return {"score": 90.0, "counts": counts, "timing": timing, "advice": [], **other}
+    return {"score": 90.0, "counts": counts, "timing": timing, "advice": [], "craft": {"swing": None}, **other}
+
+
+def swinging(held: float) -> dict[str, Json]:
+    return document(craft={"swing": {"written": 2.0, "held": held, "ci": None}})
 
 
 @pytest.mark.parametrize(
@@ -42,6 +46,9 @@ def document(
         (document(sd_ms=None, mean_ms=None), {}, "raise the tempo."),
         (document(mean_ms=-12.5), {}, "raise the tempo."),
         (document(mean_ms=-12.5), {"max_lean_ms": 10.0}, "13 ms early on average and the lesson allows 10"),
+        (swinging(1.6), {}, "raise the tempo."),
+        (swinging(1.6), {"max_swing_error": 0.4}, "raise the tempo."),
+        (swinging(1.59), {"max_swing_error": 0.4}, "You swing 1.59:1, 2.00:1 is written and the lesson allows 0.4"),
         (document(), {"min_score": 95.0}, "The score is 90 and 95 is the goal"),
         (document(advice=ADVICE), {"min_score": 95.0}, "Your kick is late."),
         (document(0, None, None, advice=ADVICE), {}, "Not one hit was heard"),

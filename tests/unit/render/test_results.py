@@ -87,7 +87,11 @@ def played(missed: int, passes: int = 1, pass_bars: int = 0, first_bar: int = 0)
     label = np.full(len(score), Label.MATCH, np.uint8)
     label[:missed] = Label.MISS
     return result_facts(
-        score, label, np.zeros(len(score), np.int64), np.empty(0), Words("", "", None, (), pass_bars, first_bar)
+        score,
+        label,
+        np.zeros(len(score), np.int64),
+        np.empty(0),
+        Words("", "", None, pass_bars=pass_bars, first_bar=first_bar),
     )
 
 

@@ -73,7 +73,7 @@ def test_marks_take_judgements_of_notes_alone() -> None:
 
 
 def test_every_piece_has_a_name_of_its_own() -> None:
-    from station.render.names import piece_name
+    from station.core.names import piece_name
 
     assert len({piece_name(piece) for piece in Piece}) == len(Piece)
     assert piece_name(Piece.HIHAT) == "hi-hat"

@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 from station.core.pieces import Dynamic, Limb, Piece
-from station.core.units import NS_PER_MS
+from station.core.units import NS_PER_MS, PPQ
 from station.music import passages
 from station.music.performance import HIT_DTYPE, Performance
 from station.music.score import Score
@@ -17,8 +17,9 @@ from station.scoring.advice import Advice, advise
 from station.scoring.align import align
 from station.scoring.findings import wilson
 from station.scoring.habits import Habits, fill_ramp, habits
+from station.scoring.points import Feel
 from station.scoring.regression import Column, fit
-from station.scoring.summary import Summary, summarise
+from station.scoring.summary import Summary, View, summarise
 from tests.fakes.scores import beat_and_fill, double_strokes, flams, rock_beat, swing_ride
 
 Floats = NDArray[np.float64]
@@ -35,7 +36,13 @@ def noise_ms(score: Score, seed: int, sd_ms: float = 10.0) -> Floats:
     return mixed
 
 
-def performed(score: Score, seed: int = 1, shift_ms: Floats | float = 0.0, level_db: Floats | float = 0.0) -> Summary:
+def performed(
+    score: Score,
+    seed: int = 1,
+    shift_ms: Floats | float = 0.0,
+    level_db: Floats | float = 0.0,
+    view: View | None = None,
+) -> Summary:
     rng = np.random.default_rng(1000 + seed)
     hits = np.zeros(len(score), HIT_DTYPE)
     hits["at_ns"] = score.onset_ns + np.rint((noise_ms(score, seed) + shift_ms) * NS_PER_MS).astype(np.int64)
@@ -43,7 +50,7 @@ def performed(score: Score, seed: int = 1, shift_ms: Floats | float = 0.0, level
     loud = score.notes["velocity"] * 10 ** (np.asarray(level_db) / 40) * (1 + 0.06 * rng.normal(size=len(score)))
     hits["velocity"] = np.clip(np.rint(loud), 1, 127)
     performance = Performance.from_array(hits)
-    return summarise(score, performance, align(score, performance, clocked=True))
+    return summarise(score, performance, align(score, performance, clocked=True), view)
 
 
 def first(advice: tuple[Advice, ...]) -> str | None:
@@ -118,6 +125,37 @@ def test_a_swing_within_feel_is_not_scolded_and_costs_nothing() -> None:
     held = performed(SWING, 3, shift_ms=softer)
     assert exact.points is not None
     assert held.points == pytest.approx(exact.points, abs=1.0)
+
+
+def test_a_goal_makes_feel_a_fault() -> None:
+    """The same lean and the same swing, where a lesson allows 10 ms and a ratio 0.2 off."""
+    strict = View(feel=Feel(lean_ms=10.0, swing_error=0.2))
+    laid_back = 18.0 * (ROCK.notes["piece"] == Piece.SNARE)
+    assert first(advise(performed(ROCK, 3, shift_ms=laid_back, view=strict))) == "late_snare"
+    softer: Floats = (1.6 / 2.6 - 2 / 3) * 500.0 * passages.swung(SWING)[0].astype(np.float64)
+    assert first(advise(performed(SWING, 3, shift_ms=softer, view=strict))) == "straight_swing"
+
+
+def test_the_spread_is_the_same_number_in_sentence_and_table() -> None:
+    rng = np.random.default_rng(5)
+    summary = performed(ROCK, 5, shift_ms=rng.normal(0.0, 40.0, len(ROCK)))
+    (said,) = (advice for advice in advise(summary) if advice.fault == "unsteady")
+    assert said.effect == summary.timing.sd_ms
+    assert f"spread by {said.effect:.0f} ms" in said.text
+
+
+def test_tempi_are_told_in_the_beat_of_the_lesson() -> None:
+    """100 quarters a minute are 66.7 dotted quarters; 85 % of them 56.7."""
+    view = View(beat_ticks=PPQ * 3 // 2)
+    said = advise(performed(FILL, 1, shift_ms=-25.0 * fill_ramp(FILL), view=view))[0]
+    assert "57 bpm" in said.text
+
+
+def test_pieces_are_called_as_drummers_call_them() -> None:
+    late: Floats = 60.0 * (ROCK.notes["piece"] == Piece.HIHAT)
+    said = advise(performed(ROCK, 3, shift_ms=late))
+    assert not any("hihat" in one.text for one in said)
+    assert any("hi-hat" in one.text for one in said)
 
 
 def test_few_strokes_bear_no_sentence() -> None:

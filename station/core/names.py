@@ -25,3 +25,11 @@ _NAMES: Mapping[Piece, str] = MappingProxyType(
 def piece_name(piece: Piece) -> str:
     """The piece as a drummer says it."""
     return _NAMES.get(piece, word(piece))
+
+
+_OF_WORD: Mapping[str, str] = MappingProxyType({word(piece): piece_name(piece) for piece in Piece})
+
+
+def name_of(piece_word: str) -> str:
+    """`piece_name` of the piece that files and reports write as `piece_word`."""
+    return _OF_WORD[piece_word]
