@@ -13,22 +13,24 @@ from station.app.model import LessonCard, Report, RoomState, Stage, Start
 from station.app.results import session_facts
 from station.app.session_folder import SessionFolder, rescued
 from station.app.session_view import SessionView
+from station.core.calibration import Calibration
 from station.core.errors import DeviceError, StationError
 from station.core.events import DeviceFound, DeviceLost
 from station.core.settings import Settings
-from station.core.units import PPQ, ns_from_ms
+from station.core.units import PPQ
 from station.drills.lesson import LEVELS, Lesson
 from station.drills.library import find_lesson, shipped_lessons
 from station.engine.messages import EngineEvent, KeyHit, Notice, Ready
 from station.music.judgement import Judgement
 from station.practice.adaptation import Adaptation
 from station.practice.click import PLAIN
+from station.practice.latency import Latency, latency_of
 from station.practice.live import EngineLink, begin, end, next_session
 from station.practice.mastery_report import with_mastery
 from station.practice.memory import Memory, Remembered
 from station.practice.plan import Phase, Plan, Wishes, plan_practice
 from station.practice.report import practice_document
-from station.practice.session import Latency, Session, SessionResult
+from station.practice.session import Session, SessionResult
 from station.render.snapshot import Snapshot
 from station.scoring.document import Json
 
@@ -42,13 +44,17 @@ WakeEngine = Callable[[], EngineLink]
 class PracticeRoom:
     """The `PracticeModel` of the real window; `first` is shown, and not yet played, when it opens.
 
-    `wake` starts an engine: once now, and again when a session is begun after one has died.
+    `wake` starts an engine: once now, and again when a session is begun after one has died. `latency` is what was
+    measured of the devices, the settings' word where nothing was.
     """
 
-    def __init__(self, wake: WakeEngine, settings: Settings, first: Plan, adapt: bool = False) -> None:
+    def __init__(
+        self, wake: WakeEngine, settings: Settings, first: Plan, adapt: bool = False, latency: Latency | None = None
+    ) -> None:
         self._wake = wake
         self._engine = wake()
         self._settings = settings
+        self._latency = latency or latency_of(settings, Calibration())
         self._lessons = _all_lessons(first.lesson)
         self._first = replace(_wish_of(first), adapt=adapt)
         self._followed: Remembered | None = None
@@ -119,7 +125,7 @@ class PracticeRoom:
         if not self._alive:
             self._engine, self._alive = self._wake(), True
         folder = SessionFolder(None, self._settings, plan)
-        session = self._new_session(plan) if followed is None else followed.adaptation.session(self._latency())
+        session = self._new_session(plan) if followed is None else followed.adaptation.session(self._latency)
         try:
             begin(self._engine, session, folder.capture)
         except StationError:
@@ -174,12 +180,8 @@ class PracticeRoom:
                 self._notices.append(followed.fault)
         return plan, SessionView(plan, lesson.kit), followed
 
-    def _latency(self) -> Latency:
-        settings = self._settings
-        return Latency(ns_from_ms(settings.input_latency_ms), ns_from_ms(settings.output_latency_ms))
-
     def _new_session(self, plan: Plan) -> Session:
-        return Session(plan, self._latency())
+        return Session(plan, self._latency)
 
     def _judged(self, verdicts: tuple[Judgement, ...], now_ns: int) -> None:
         """Show what the student is to see of `verdicts`."""

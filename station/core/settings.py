@@ -4,7 +4,6 @@ An unknown key or a value of another type is the file's fault and named with its
 defaults. Writing goes through a temporary file beside it, so that a full disk never leaves half a file.
 """
 
-import json
 import tomllib
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields, replace
@@ -15,6 +14,7 @@ from platformdirs import user_config_path, user_documents_path
 from station.core.errors import BadInput
 from station.core.files import write_whole
 from station.core.pieces import Piece, word
+from station.core.toml_write import toml_value
 
 APP_NAME = "drum-station"
 
@@ -37,7 +37,8 @@ class Settings:
     for the system's default; `block_frames` the size of one audio block, 0 for the driver's own choice; `rate_hz` its
     sample rate; `drums` the name or the path of the drum kit that sounds, `click` the name of the click;
     `own_sound` false where the kit's module sounds itself and the strokes of the student stay silent; latencies in
-    milliseconds, subtracted from every hit (input) and added to every written time (output). `thresholds` says of pads
+    milliseconds, subtracted from every hit (input) and added to every written time (output) on devices that nobody has
+    measured (`core.calibration`). `thresholds` says of pads
     the least velocity that they send, as measured (`snare=20 tom_1=15`), `mask_ms` how long after a stroke a pad hears
     no other.
     """
@@ -137,15 +138,6 @@ def _check_range(key: str, value: object, source: str | Path) -> None:
 def save_settings(settings: Settings, path: Path | None = None) -> Path:
     """Write all to `path` (this user's by default) and return it; raises `DeviceError` if the disk refuses."""
     target = path or settings_path()
-    lines = [f"{key} = {_toml(value)}\n" for key, value in asdict(settings).items()]
+    lines = [f"{key} = {toml_value(value)}\n" for key, value in asdict(settings).items()]
     write_whole(target, "".join(lines).encode())
     return target
-
-
-def _toml(value: object) -> str:
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, str):
-        # JSON's escapes are TOML's too, but TOML wants the delete character escaped as well
-        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
-    return str(value)

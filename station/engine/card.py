@@ -100,6 +100,7 @@ class Card:
             self._engine.attach(None)
             raise
         self._output, self._alive_ns, self._retry_ns = output, now_ns, None
+        self._engine.output = OutputState(output.name, self._underflows, output.latency_ms)
 
     def _reopen(self, now_ns: int) -> None:
         self._retry_ns = now_ns + RETRY_NS
@@ -117,7 +118,7 @@ class Card:
             fault = DeviceError(f"sound output {output.name!r} asks for no more sound")
         if fault is None:
             underflows = self._underflows + output.underflows
-            self._engine.output = OutputState(underflows, output.latency_ms, output.load)
+            self._engine.output = OutputState(output.name, underflows, output.latency_ms, output.load)
             return
         self._lose(fault, now_ns)
 

@@ -68,8 +68,9 @@ def no_own_kit(_: str) -> KitPreset | None:
 
 @dataclass(frozen=True, slots=True)
 class OutputState:
-    """How the sound card's stream is doing; the fields stand as in `Status`."""
+    """How the stream on the sound card called `name` is doing; the other fields stand as in `Status`."""
 
+    name: str | None = None
     underflows: int = 0
     latency_ms: float | None = None
     load: float = 0.0
@@ -286,7 +287,7 @@ class Engine:
             self._zero_ns = zero_ns
             if self._midi is not None:
                 self._midi.started(zero_ns)
-            self._events.append(Started(zero_ns))
+            self._events.append(Started(zero_ns, self.output.name))
             if self._recorder is not None:
                 self._recorder.zero(zero_ns)
         self._send_midi(now_ns)

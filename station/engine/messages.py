@@ -156,9 +156,10 @@ class Recorded:
 
 @dataclass(frozen=True, slots=True)
 class Started:
-    """The transport runs; its zero is heard at session time `zero_ns`."""
+    """The transport runs; its zero is heard at session time `zero_ns` by the report of `output`, None when silent."""
 
     zero_ns: int
+    output: str | None = None
 
 
 @dataclass(frozen=True, slots=True)

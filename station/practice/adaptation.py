@@ -27,8 +27,9 @@ from station.music.performance import Performance
 from station.music.score import Score
 from station.music.tempo import TempoMap
 from station.practice.click import PLAIN, Gap
+from station.practice.latency import Latency
 from station.practice.plan import MAX_TEMPO_BPM, MIN_TEMPO_BPM, Phase, Plan, Rounds, Segment, Wishes, plan_practice
-from station.practice.session import Latency, Session, SessionResult
+from station.practice.session import Session, SessionResult
 from station.scoring.align import align
 
 REST_S = 1.5
@@ -216,6 +217,7 @@ def whole(results: list[SessionResult], item: Item) -> SessionResult:
         latency=last.latency,
         complete=last.complete,
         device=_played_on(results),
+        output=last.output,
     )
 
 

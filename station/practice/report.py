@@ -48,8 +48,10 @@ def practice_document(result: SessionResult, settings: Settings) -> dict[str, Js
         "passes": plan.passes,
         "click": plan.click is not None,
         "complete": result.complete,
-        "input_latency_ms": result.latency.input_ns / NS_PER_MS,
-        "output_latency_ms": result.latency.output_ns / NS_PER_MS,
+        "output": result.output,
+        "input_latency_ms": result.latency.of_kit(result.device) / NS_PER_MS,
+        "output_latency_ms": result.latency.of_output(result.output) / NS_PER_MS,
+        "latency": result.latency.words(result.device, result.output),
         "next": [*what_next(document, plan.lesson, plan.tempo_bpm)],
     }
     return document
@@ -121,10 +123,10 @@ def report_text(document: dict[str, Json]) -> str:
     if "mastery" in document:
         tempo = f"a tempo that follows you, {tempo} at last"
     head = f"{session['title']} at {tempo}, {which}, {passes}"
-    latency = f"{session['input_latency_ms']:g} ms input, {session['output_latency_ms']:g} ms output"
     return (
         f"{head}{'' if session['complete'] else ' (stopped early)'}\n\n"
-        f"{_figures_text(document)}{_passes(document)}{_steps_text(map(str, steps))}\nLatency taken out: {latency}.\n"
+        f"{_figures_text(document)}{_passes(document)}{_steps_text(map(str, steps))}"
+        f"\nLatency taken out: {session['latency']}.\n"
     )
 
 

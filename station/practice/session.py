@@ -8,8 +8,8 @@ score time at tick 0 of the plan's score.
 Without a click the score follows the student (`scoring.follower`): what the window shows and when the session ends goes
 by where he is, and the score waits when he stops.
 
-A hit's score time = its stamp − input latency − (the transport's zero + output latency) − the passes' start: what the
-student heard and played, compared where both are known.
+A hit's score time = its stamp − its pad's latency − (the transport's zero + the output's latency) − the passes' start:
+what the student heard and played, compared where both are known (`practice.latency`).
 """
 
 from collections import Counter, deque
@@ -20,11 +20,11 @@ from typing import TypeVar
 from station.core.events import Choke, DeviceFound, DeviceLost, Hit
 from station.core.units import NS_PER_MS
 from station.drills.mastery.fading import Feedback
-from station.engine.engine import KEYBOARD
 from station.engine.messages import Command, EngineEvent, Notice, Play, Recorded, Started
 from station.music.judgement import Judgement, Label
 from station.music.performance import Performance
 from station.music.score import Score
+from station.practice.latency import Latency
 from station.practice.plan import TAIL_NS, Plan, Segment
 from station.scoring.align import align
 from station.scoring.alignment import Alignment
@@ -39,14 +39,6 @@ RECENT_HITS = 32
 """How many hits a window may look back on to show what was struck just now; our choice."""
 EARLIEST_NS = 250 * NS_PER_MS
 """A hit so long before the first bar is still judged, an earlier one belongs to the count-in; our choice."""
-
-
-@dataclass(frozen=True, slots=True)
-class Latency:
-    """Calibrated delays in ns that judgement subtracts: of the kit (`input_ns`) and of the sound (`output_ns`)."""
-
-    input_ns: int = 0
-    output_ns: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +58,7 @@ class SessionResult:
     """A session when it is over: the plan, what was played in score time, and the final alignment.
 
     `score` is what is judged: the plan's, or, when the session was stopped early (`complete` False), its strokes up to
-    there. `device` is what most hits were played on, None where there was none.
+    there. `device` is what most hits were played on, `output` what the click was heard on; None where there was none.
     """
 
     plan: Plan
@@ -76,6 +68,7 @@ class SessionResult:
     latency: Latency
     complete: bool
     device: str | None
+    output: str | None = None
 
 
 @dataclass(eq=False)
@@ -102,6 +95,8 @@ class Session:
         self._verdict_of_hit: dict[int, Judgement] = {}
         self.devices: list[str] = []
         """The kits that are connected, as far as the engine has said, the newest last."""
+        self.output: str | None = None
+        """What the click is heard on, as the engine said when the transport started."""
         self.capture_fault: str | None = None
         """Why the capture lacks what came after, if it does."""
         self.notices: list[str] = []
@@ -119,10 +114,11 @@ class Session:
             case Hit():
                 return self._take_hit(event)
             case Choke():
-                if (score_ns := self._score_ns(event.at_ns - self.latency.input_ns)) is not None:
+                played_ns = event.at_ns - self.latency.of_stroke(event.device, event.piece)
+                if (score_ns := self._score_ns(played_ns)) is not None:
                     self._chokes.append(replace(event, at_ns=score_ns))
-            case Started(zero_ns):
-                self._zero_ns = zero_ns
+            case Started(zero_ns, output):
+                self._zero_ns, self.output = zero_ns, output
             case DeviceLost(_, device):
                 self.devices = [other for other in self.devices if other != device]
                 self.notices.append(f"{device} is gone; plug it in again, the session goes on")
@@ -146,8 +142,7 @@ class Session:
 
     def _take_hit(self, hit: Hit) -> tuple[Judgement, ...]:
         self._recent.append(hit)
-        # keys are not the kit: what was measured of the kit says nothing of them
-        score_ns = self._score_ns(hit.at_ns - (0 if hit.device == KEYBOARD else self.latency.input_ns))
+        score_ns = self._score_ns(hit.at_ns - self.latency.of_stroke(hit.device, hit.piece))
         if score_ns is None or not self._is_judged(score_ns):
             return ()
         self._hits.append(replace(hit, at_ns=score_ns))
@@ -218,7 +213,9 @@ class Session:
         complete = heard_until_ns is not None and heard_until_ns >= self.plan.score.length_ns
         score = self.plan.score if complete else self.plan.score.until_ns(heard_until_ns or 0)
         alignment = align(score, performance, clocked=self.plan.click is not None)
-        return SessionResult(self.plan, score, performance, alignment, self.latency, complete, self._played_on())
+        return SessionResult(
+            self.plan, score, performance, alignment, self.latency, complete, self._played_on(), self.output
+        )
 
     def _performance(self) -> Performance:
         """What was played; where the score waited for the student, so does the time of what came after."""
@@ -237,7 +234,7 @@ class Session:
     # --- time -------------------------------------------------------------------------------------------------------
 
     def _transport_ns(self, at_ns: int) -> int | None:
-        return None if self._zero_ns is None else at_ns - self._zero_ns - self.latency.output_ns
+        return None if self._zero_ns is None else at_ns - self._zero_ns - self.latency.of_output(self.output)
 
     def _score_ns(self, at_ns: int) -> int | None:
         transport_ns = self._transport_ns(at_ns)

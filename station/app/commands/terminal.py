@@ -3,16 +3,18 @@
 import sys
 from pathlib import Path
 
+from station.core.calibration import load_calibration
 from station.core.clock import MonotonicClock
 from station.core.errors import DeviceError
 from station.core.settings import Settings
-from station.core.units import NS_PER_MS, ns_from_ms
+from station.core.units import NS_PER_MS
 from station.engine.process import EngineConfig, EngineProcess
 from station.music.judgement import Judgement, Label
 from station.practice.adaptation import Adaptation
+from station.practice.latency import latency_of
 from station.practice.live import LiveOutcome, practise_live, practise_rounds, wait_for_kits
 from station.practice.plan import Plan, Segment
-from station.practice.session import Latency, Session
+from station.practice.session import Session
 from station.scoring.windows import Windows
 
 KIT_WAIT_S = 5.0
@@ -70,7 +72,7 @@ def practise_in_terminal(asked: Plan | Adaptation, settings: Settings, capture: 
 
     Raises `DeviceError` where there is no kit, or where the engine dies before it began.
     """
-    latency = Latency(ns_from_ms(settings.input_latency_ms), ns_from_ms(settings.output_latency_ms))
+    latency = latency_of(settings, load_calibration())
     session = Session(asked, latency) if isinstance(asked, Plan) else asked.session(latency)
     display = _Display()
     clock = MonotonicClock()

@@ -4,6 +4,7 @@ import argparse
 from contextlib import ExitStack
 
 from station.app.health import has_screen
+from station.core.calibration import load_calibration
 from station.core.errors import DeviceError
 from station.core.settings import Settings, load_settings
 from station.practice.plan import Plan, Wishes, plan_practice
@@ -30,10 +31,12 @@ def open_window(settings: Settings, first: Plan, adapt: bool) -> int:
     from station.app.practice_room import PracticeRoom
     from station.app.window import run_window
     from station.engine.process import EngineConfig, EngineProcess
+    from station.practice.latency import latency_of
 
+    latency = latency_of(settings, load_calibration())
     with ExitStack() as engines:
         wake = lambda: engines.enter_context(EngineProcess(EngineConfig.from_settings(settings)))  # noqa: E731
-        room = PracticeRoom(wake, settings, first, adapt)
+        room = PracticeRoom(wake, settings, first, adapt, latency)
         try:
             run_window(room)
         finally:

@@ -11,9 +11,10 @@ from station.drills.library import find_lesson
 from station.engine.messages import Command, EngineEvent, Play, Record, Recorded, Started
 from station.music.judgement import Judgement
 from station.practice.adaptation import Adaptation
+from station.practice.latency import Latency
 from station.practice.live import practise_rounds
 from station.practice.plan import Wishes
-from station.practice.session import Latency, Session
+from station.practice.session import Session
 
 TODAY = date(2026, 3, 1)
 

@@ -1,17 +1,23 @@
 """The session as a state machine, driven by hand: one bar of four quarters on the snare at 120 bpm."""
 
+from datetime import date
+
 import pytest
 
+from station.core.calibration import Calibration, KitMeasured, Measured
 from station.core.events import DeviceFound, DeviceLost, Hit
 from station.core.pieces import Piece, Zone
+from station.core.settings import Settings
 from station.core.units import NS_PER_MS, NS_PER_S, PPQ
 from station.drills.lesson import Lesson
+from station.engine.engine import KEYBOARD
 from station.engine.messages import Play, Started
 from station.music.judgement import Label
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
+from station.practice.latency import Latency, latency_of
 from station.practice.plan import TAIL_NS, Phase, Wishes, plan_practice
-from station.practice.session import Latency, Session
+from station.practice.session import Session
 
 BAR_NS = 2 * NS_PER_S
 BEAT_NS = NS_PER_S // 2
@@ -135,3 +141,32 @@ def test_a_kit_that_goes_and_comes_is_told() -> None:
         there.append(tuple(practice.devices))
     assert there == [("TD-17",), ()]
     assert [("gone" in text, "here" in text) for text in practice.notices] == [(False, True), (True, False)]
+
+
+KIT, OTHER, DAY = "TD-17", "Nitro", date(2026, 1, 2)
+MEASURED = latency_of(
+    Settings(input_latency_ms=9.0, output_latency_ms=2.0),
+    Calibration(
+        {"card": Measured(-3.0, 0.1, "loopback", DAY)},
+        {KIT: KitMeasured(Measured(4.0, 0.5, "strike", DAY), {Piece.SNARE: Measured(6.0, 0.5, "strike", DAY)})},
+    ),
+)
+
+
+@pytest.mark.parametrize(
+    ("device", "piece", "output", "late_ms"),
+    [
+        (KIT, Piece.SNARE, "card", 6 - 3),
+        (KIT, Piece.RIDE, "card", 4 - 3),  # no latency of its own: the kit's
+        (OTHER, Piece.SNARE, "card", 9 - 3),  # not measured: what the settings say
+        (KIT, Piece.SNARE, "headphones", 6 + 2),
+        (KIT, Piece.SNARE, None, 6 + 2),
+        (KEYBOARD, Piece.SNARE, "card", 0 - 3),  # keys are no kit
+    ],
+)
+def test_each_device_and_pad_has_its_own_latency(device: str, piece: Piece, output: str | None, late_ms: int) -> None:
+    lesson = Lesson(name="one", title="One", score=Score.from_notes([Note(0, piece)], TempoMap.constant(120)))
+    practice = Session(plan_practice(lesson, Wishes(demonstrations=0, loops=1)), MEASURED)
+    practice.handle(Started(ZERO_NS, output))
+    (verdict,) = practice.handle(Hit(ZERO_NS + BAR_NS + late_ms * NS_PER_MS, piece, Zone.HEAD, 90, device=device))
+    assert verdict.asynchrony_ns == 0
