@@ -52,8 +52,8 @@ def fuzz_engine(inputs: int, seed: int) -> Fuzzed:
             engine.device_found(device, at_ns)
             for piece in cut_anywhere(data, chance):
                 engine.feed(device, piece, at_ns)
+            engine.device_lost(device, at_ns)  # which settles what was still in doubt
             events = [event for event in engine.advance(at_ns) if isinstance(event, DeviceEvent)]
-            engine.device_lost(device, at_ns)
         except Exception as fault:
             result.blame(repr(fault), data)
             continue
