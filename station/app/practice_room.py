@@ -20,7 +20,7 @@ from station.core.settings import Settings
 from station.core.units import PPQ
 from station.drills.lesson import LEVELS, Lesson
 from station.drills.library import find_lesson, shipped_lessons
-from station.engine.messages import EngineEvent, KeyHit, Notice, Ready
+from station.engine.messages import EngineEvent, KeyHit, Ready, Sounding
 from station.music.judgement import Judgement
 from station.practice.adaptation import Adaptation
 from station.practice.click import PLAIN
@@ -234,10 +234,8 @@ class PracticeRoom:
                 self._kits = [*(kit for kit in self._kits if kit != device), device]
             case DeviceLost(_, device):
                 self._kits = [kit for kit in self._kits if kit != device]
-            case Ready(output):
+            case Ready(output) | Sounding(output):
                 self._sound = output or "silent"
-            case Notice(text) if text.startswith("sound is back"):
-                self._sound = text.removeprefix("sound is back on ")
             case _:
                 pass
 

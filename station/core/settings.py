@@ -27,6 +27,8 @@ _RANGES: dict[str, tuple[int, int]] = {
     "mask_ms": (0, 100),
 }
 """What a sound card or a person could mean; our choice, wide enough for every device on sale."""
+LEAST_BLOCK_FRAMES = 16
+"""Less is beyond any driver here (our choice); 0 leaves the size to it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,6 +133,9 @@ _LOUDEST = 127
 def _check_range(key: str, value: object, source: str | Path) -> None:
     if key in _RANGES and isinstance(value, int | float):
         least, most = _RANGES[key]
+        if key == "block_frames" and 0 < value < LEAST_BLOCK_FRAMES:
+            limits = f"expected 0 (the driver's choice) or {LEAST_BLOCK_FRAMES} to {most}"
+            raise BadInput(source, key, f"{limits}, found {value!r}")
         if not least <= value <= most:
             raise BadInput(source, key, f"expected {least} to {most}, found {value!r}")
 

@@ -2,6 +2,9 @@
 
 A card that is missing from the start is told of once and not asked for again; one that stops in mid-session (unplugged,
 its server ended, no block asked for in a while) is tried anew every few seconds, and the session goes on meanwhile.
+Where a sound server took this process's sound library with it, only a new process sounds again: as soon as there is an
+output once more, the card says that this one is worn out. Where the user left the choice to the system, the sound moves
+with the system's default, while no transport runs.
 """
 
 from collections.abc import Callable, Iterator
@@ -10,25 +13,39 @@ from contextlib import contextmanager
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_S
 from station.engine.engine import Engine, OutputState
+from station.engine.lookout import Lookout
+from station.engine.messages import Sounding
 from station.sound.drum_kit import Frames
 from station.sound.mixer import Mixer
 from station.sound.output import Output
+from station.sound.portaudio import SoundServerGone
 
 STALLED_NS = 2 * NS_PER_S
 """A card that asks for nothing so long has stopped (our choice: every driver's blocks are well under a second)."""
 RETRY_NS = 3 * NS_PER_S
+LOOK_EVERY_NS = 10 * NS_PER_S
+"""How often the system's default is looked up while nothing plays (our choice: a look costs a quarter of a second)."""
+_ONE_DEFAULT = "JACK"
+"""The host whose default stays what it is, and whose graph a look would disturb."""
 
 OpenOutput = Callable[[], Output]
 BuildMixer = Callable[[int], Mixer]
 
 
 class Card:
-    """The engine's sound card. `build_mixer` makes a mixer for a sample rate."""
+    """The engine's sound card. `build_mixer` makes a mixer for a sample rate, `lookout` finds what there is to open."""
 
-    def __init__(self, engine: Engine, open_output: OpenOutput, build_mixer: BuildMixer) -> None:
+    def __init__(
+        self, engine: Engine, open_output: OpenOutput, build_mixer: BuildMixer, lookout: Lookout | None = None
+    ) -> None:
+        self.is_worn_out = False
+        """Whether sound can be had again, but only by a new process."""
         self._engine = engine
         self._open_output = open_output
         self._build_mixer = build_mixer
+        self._lookout = lookout
+        self._server_is_gone = False
+        self._next_look_ns = 0
         self._mixers: dict[int, Mixer] = {}
         self._output: Output | None = None
         self._underflows = 0
@@ -58,6 +75,9 @@ class Card:
         """Look after the stream; to be called now and then."""
         if self._output is not None:
             self._watch(self._output, now_ns)
+            self._follow_default(now_ns)
+        elif self._server_is_gone:
+            self._await_server(now_ns)
         elif self._retry_ns is not None and now_ns >= self._retry_ns:
             self._reopen(now_ns)
 
@@ -106,9 +126,46 @@ class Card:
         self._retry_ns = now_ns + RETRY_NS
         try:
             self._open(now_ns)
+        except SoundServerGone:
+            self._server_is_gone = True
+            return
         except DeviceError:  # told when it went; the next try will come
             return
         self._engine.notify(f"sound is back on {self.name}")
+        self._engine.tell(Sounding(self.name, self.rate_hz))
+
+    def _await_server(self, now_ns: int) -> None:
+        if self._lookout is None:
+            return
+        self.is_worn_out = self.is_worn_out or self._lookout.take() is not None
+        if not self.is_worn_out and self._retry_ns is not None and now_ns >= self._retry_ns:
+            self._retry_ns = now_ns + RETRY_NS
+            self._lookout.begin()
+
+    def _follow_default(self, now_ns: int) -> None:
+        output, lookout = self._output, self._lookout
+        if output is None or lookout is None or not lookout.follows_default or _ONE_DEFAULT in output.host:
+            return
+        if self._engine.is_playing:
+            return
+        found = lookout.take()
+        if found is not None and found.is_default and found.name != output.name:
+            self._move(now_ns)
+        elif now_ns >= self._next_look_ns:
+            self._next_look_ns = now_ns + LOOK_EVERY_NS
+            lookout.begin()
+
+    def _move(self, now_ns: int) -> None:
+        """Leave the card for the one that is the system's default by now."""
+        self.close()
+        try:
+            self._open(now_ns)
+        except DeviceError as fault:
+            self._retry_ns = now_ns + RETRY_NS
+            self._engine.notify(f"{fault}; the session goes on, silent, and looks for it again")
+        else:
+            self._engine.notify(f"the system's default has changed: sound goes to {self.name}")
+        self._engine.tell(Sounding(self.name, self.rate_hz))
 
     def _watch(self, output: Output, now_ns: int) -> None:
         if self._blocks != self._blocks_seen:
@@ -132,6 +189,7 @@ class Card:
         self.close()
         self._retry_ns = now_ns + RETRY_NS
         self._engine.notify(f"{fault}; the session goes on, silent, and looks for it again")
+        self._engine.tell(Sounding(None))
 
     def _render(self, frames: int, dac_ns: int) -> Frames:
         self._blocks += 1

@@ -28,10 +28,10 @@ from station.engine.messages import (
     KeyHit,
     Notice,
     Play,
-    Queue,
     Quit,
     Record,
     Recorded,
+    Resume,
     SetBacking,
     SetLevel,
     SetMidiOut,
@@ -174,10 +174,11 @@ class Engine:
                 self._player.play(CueRun(command.cues), self._now_ns + command.start_in_ns)
                 if self._midi is not None:
                     self._midi.play(CueRun(command.cues))
-            case Queue():
-                self._player.queue(CueRun(command.cues))
+            case Resume():
+                self._zero_ns = command.zero_ns
+                self._player.resume(CueRun(command.cues), command.zero_ns)
                 if self._midi is not None:
-                    self._midi.queue(CueRun(command.cues))
+                    self._midi.resume(CueRun(command.cues), command.zero_ns, self._now_ns)
             case Stop():
                 self._zero_ns = None
                 self._player.stop()
@@ -276,6 +277,15 @@ class Engine:
     def notify(self, text: str) -> None:
         """Tell the user something with the next `advance`."""
         self._events.append(Notice(text))
+
+    def tell(self, event: EngineEvent) -> None:
+        """Say `event` with the next `advance`."""
+        self._events.append(event)
+
+    @property
+    def is_playing(self) -> bool:
+        """Whether the transport runs and something is still to sound."""
+        return self._player.has_cues
 
     def advance(self, now_ns: int) -> list[EngineEvent]:
         """Move to `now_ns`; returns what happened since the last call, in the order in which it was found out."""

@@ -1,8 +1,7 @@
 """What the app says to the engine and hears from it: plain immutable values that cross a process boundary.
 
 The transport has a zero, the session time at which cue time 0 is *heard*. Cues are placed on it in nanoseconds; the
-engine knows no bars and no lessons. While it runs, more cues may be added ahead of the play position, so that loops are
-gapless.
+engine knows no bars and no lessons.
 """
 
 from dataclasses import dataclass
@@ -25,14 +24,15 @@ __all__ = [
     "KeyHit",
     "Notice",
     "Play",
-    "Queue",
     "Quit",
     "Ready",
     "Record",
     "Recorded",
+    "Resume",
     "SetBacking",
     "SetLevel",
     "SetMidiOut",
+    "Sounding",
     "Started",
     "Status",
     "Stop",
@@ -63,10 +63,14 @@ class Play:
 
 
 @dataclass(frozen=True, eq=False)
-class Queue:
-    """Add cues to the running transport; those already past are dropped and counted in the next `Status`."""
+class Resume:
+    """Go on with a transport whose zero was heard at session time `zero_ns`: what lies behind is over.
+
+    It is for an engine that takes another's place; that one has said `Started` and recorded its zero.
+    """
 
     cues: NDArray[np.void]
+    zero_ns: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,7 +130,7 @@ class Quit:
     """End the engine process."""
 
 
-Command = Play | Queue | Stop | SetLevel | SetBacking | SetMidiOut | KeyHit | Record | Quit
+Command = Play | Resume | Stop | SetLevel | SetBacking | SetMidiOut | KeyHit | Record | Quit
 
 
 # --- from the engine -------------------------------------------------------------------------------------------------
@@ -138,6 +142,14 @@ class Ready:
 
     `rate_hz` is the card's, for which a track to play along to is prepared; None when silent.
     """
+
+    output: str | None
+    rate_hz: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Sounding:
+    """The sound goes to the card named `output` from now on, at `rate_hz`; None where there is none any more."""
 
     output: str | None
     rate_hz: int | None = None
@@ -173,7 +185,7 @@ class Notice:
 class Status:
     """How the engine is doing; sent once a second while it runs.
 
-    `underflows` audio blocks that came too late, `late_cues` cues queued after their time, both since the start;
+    `underflows` audio blocks that came too late, `late_cues` cues whose time had passed, both since the start;
     `output_latency_ms` as the stream reports it, None when silent; `load` share of the block time used for mixing.
     """
 
@@ -184,4 +196,4 @@ class Status:
     load: float
 
 
-EngineEvent = DeviceEvent | Ready | Recorded | Started | Notice | Status
+EngineEvent = DeviceEvent | Ready | Sounding | Recorded | Started | Notice | Status

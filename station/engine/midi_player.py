@@ -38,30 +38,24 @@ class MidiPlayer:
         self._bus = bus
         self._playback = Playback()
         self._ends: list[tuple[int, bytes]] = []  # when notes end (session time), and how: a heap
-        self._waiting: deque[list[CueRun]] = deque()  # what each start yet to take effect will play
+        self._waiting: deque[CueRun] = deque()  # what each start yet to take effect will play
         self.fault: DeviceError | None = None
         """Why nothing is sent any more; None while all is well."""
 
     def play(self, run: CueRun) -> None:
         """Play `run`, of this player's own, and nothing else, as soon as `started` says where its time 0 lies."""
-        self._waiting.append([run])
+        self._waiting.append(run)
 
-    def queue(self, run: CueRun) -> None:
-        """Play `run` too; while the transport stands it is forgotten."""
-        if self._waiting:
-            self._waiting[-1].append(run)
-        else:
-            self._playback.add(run)
+    def resume(self, run: CueRun, zero_ns: int, now_ns: int) -> None:
+        """Play what of `run` lies ahead of `now_ns`, with time 0 at `zero_ns`, from now on."""
+        self._playback.resume(run, zero_ns, now_ns)
 
     def started(self, zero_ns: int) -> None:
         """The transport's next start has taken effect: time 0 is `zero_ns` of session time."""
         if not self._waiting:  # stopped in the meantime
             return
-        first, *others = self._waiting.popleft()
         self._silence()
-        self._playback.start(first, zero_ns)
-        for run in others:
-            self._playback.add(run)
+        self._playback.start(self._waiting.popleft(), zero_ns)
 
     def stop(self) -> None:
         """Forget what was to be played, and end every note that sounds."""

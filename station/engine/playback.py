@@ -1,4 +1,4 @@
-"""The cues that are still to sound: sorted runs, each with its own place, so that adding one costs the sound nothing.
+"""The cues that are still to sound: a sorted run with its place in it, so that what is due is taken at no cost.
 
 Cue times are nanoseconds from the transport's zero, the session time at which cue time 0 is heard. A cue that the sound
 has already passed is late; up to `LATE_NS` it still sounds (two blocks never meet to the nanosecond), beyond it is
@@ -78,43 +78,32 @@ class Playback:
         """Session time of cue time 0; None while the transport stands."""
         self.late = 0
         """Cues dropped because their time had passed, since the start."""
-        self._runs: list[CueRun] = []
+        self._run: CueRun | None = None
 
     @property
     def has_cues(self) -> bool:
         """Whether something is still to sound."""
-        return any(not run.is_empty for run in self._runs)
+        return self._run is not None and not self._run.is_empty
 
     def start(self, run: CueRun, zero_ns: int) -> None:
         """Run from now on, with nothing but `run` to sound."""
         self.zero_ns = zero_ns
-        self._runs = [run]
+        self._run = run
 
-    def add(self, run: CueRun) -> None:
-        """Sound `run` too; while the transport stands it is forgotten."""
-        if self.zero_ns is not None:
-            self._runs.append(run)
+    def resume(self, run: CueRun, zero_ns: int, now_ns: int) -> None:
+        """Run as if started before with `run` at `zero_ns`: what was due before `now_ns` is over, and not late."""
+        run.take(now_ns - zero_ns)
+        self.start(run, zero_ns)
 
     def stop(self) -> None:
         """Stand still and forget what was to sound."""
-        self.zero_ns = None
-        self._runs = []
+        self.zero_ns = self._run = None
 
     def take(self, from_ns: int, until_ns: int) -> list[Cue]:
         """The cues due in [`from_ns`, `until_ns`) of session time, in order, and those but a little before it."""
-        if self.zero_ns is None:
+        if self.zero_ns is None or self._run is None:
             return []
-        zero_ns = self.zero_ns
-        due = [cue for run in self._runs for cue in run.take(until_ns - zero_ns)]
-        if not due:
-            return due
-        self._runs = [run for run in self._runs if not run.is_empty]
-        due.sort(key=_time_of)
-        moved = [cue._replace(at_ns=cue.at_ns + zero_ns) for cue in due]
+        moved = [cue._replace(at_ns=cue.at_ns + self.zero_ns) for cue in self._run.take(until_ns - self.zero_ns)]
         in_time = [cue for cue in moved if cue.at_ns >= from_ns - LATE_NS]
         self.late += len(moved) - len(in_time)
         return in_time
-
-
-def _time_of(cue: Cue) -> int:
-    return cue.at_ns

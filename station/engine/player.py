@@ -77,9 +77,9 @@ class Player:
         """Start the transport with its zero at `wish_ns`, or at the next block if that is later."""
         self._inbox.append(partial(self._start, run, wish_ns))
 
-    def queue(self, run: CueRun) -> None:
-        """Add cues to the running transport."""
-        self._inbox.append(lambda _: self._playback.add(run))
+    def resume(self, run: CueRun, zero_ns: int) -> None:
+        """Run the transport on whose zero was heard at `zero_ns`; what lies behind the next block is over."""
+        self._inbox.append(lambda block_ns: self._playback.resume(run, zero_ns, block_ns))
 
     def stop(self) -> None:
         """Stop the transport; what rings, rings out."""

@@ -20,6 +20,11 @@ class Runner:
         self._card = card
         self._next_supervision_ns = 0
 
+    @property
+    def is_worn_out(self) -> bool:
+        """Whether only a new process would sound again, and there is something to sound on."""
+        return self._card is not None and self._card.is_worn_out
+
     def start(self, now_ns: int) -> None:
         """Open kits and card, the kits first: what they change in the driver then disturbs no sound."""
         for kit in self._kits:

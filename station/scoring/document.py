@@ -4,7 +4,6 @@ Every figure is a number or null; null means "no data" and never zero. Percentag
 names say, bars are counted from 1 as people do.
 """
 
-import json
 from collections.abc import Mapping
 
 from station.core.pieces import Dynamic, Limb, word
@@ -17,7 +16,7 @@ from station.scoring.summary import Group, Summary
 from station.scoring.tempo import TempoCurve
 from station.scoring.timing import Spread
 
-__all__ = ["Json", "assessment", "to_text"]
+__all__ = ["Json", "assessment"]
 
 SCHEMA = "drum-station/assessment/1"
 
@@ -68,11 +67,6 @@ def assessment(summary: Summary) -> dict[str, Json]:
             for advice in advise(summary)
         ],
     }
-
-
-def to_text(document: Mapping[str, Json]) -> str:
-    """The document as JSON text with a newline at its end; a number that is none is a fault of ours."""
-    return json.dumps(document, ensure_ascii=False, indent=2, allow_nan=False) + "\n"
 
 
 def _number(value: float | None) -> float | None:

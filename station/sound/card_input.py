@@ -19,7 +19,7 @@ from station.core.units import ns_from_s
 from station.sound.calibration.timeline import Recording, Timeline
 from station.sound.card_output import CLOSE_WITHIN_S, MAX_LATENCY_S, MAX_PAST_S, SoundDevice
 from station.sound.dac_clock import DacClock
-from station.sound.output import SILENT_RATE_HZ, choose_device, list_devices
+from station.sound.output import USUAL_RATE_HZ, choose_device, list_devices
 from station.sound.portaudio import PORTAUDIO
 
 MOST_CHANNELS = 2
@@ -137,7 +137,7 @@ def _accepted(sd: ModuleType, device: SoundDevice, rate_hz: int) -> tuple[int, i
     return few, device.rate_hz
 
 
-def open_input(part: str = "", block_frames: int = 0, rate_hz: int = SILENT_RATE_HZ) -> CardInput:
+def open_input(part: str = "", block_frames: int = 0, rate_hz: int = USUAL_RATE_HZ) -> CardInput:
     """Open the input whose name contains `part` (empty: the default), not yet recording; raises `DeviceError`."""
     sd = PORTAUDIO.acquire()
     try:

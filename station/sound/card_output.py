@@ -51,6 +51,7 @@ class CardOutput:
 
     def __init__(self, sd: ModuleType, device: SoundDevice, block_frames: int, rate_hz: int) -> None:
         self.name = device.name
+        self.host = device.host
         self.underflows = 0
         self.load = 0.0
         self._fault: DeviceError | None = None

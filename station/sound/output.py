@@ -1,26 +1,28 @@
-"""Where the sound goes: a sound card through PortAudio (JACK, ALSA, CoreAudio, WASAPI), or nowhere."""
+"""Where the sound goes: a sound card through PortAudio (JACK, ALSA, CoreAudio, WASAPI)."""
 
 from collections.abc import Sequence
 from typing import Any, Literal, Protocol
 
 from station.core.errors import DeviceError
+from station.core.settings import LEAST_BLOCK_FRAMES
 from station.sound.card_output import CardOutput, Renderer, SoundDevice
 from station.sound.portaudio import PORTAUDIO
 
-SILENT_RATE_HZ = 48_000
-BLOCK_FRAMES = range(16, 8_192 + 1)
+USUAL_RATE_HZ = 48_000
+BLOCK_FRAMES = range(LEAST_BLOCK_FRAMES, 8_192 + 1)
 """The sizes of a block that may be asked for: less is beyond any driver here, more is 170 ms late (our choice)."""
 
 
 class Output(Protocol):
-    """A place for sound: real or silent."""
+    """A place for sound."""
 
     name: str
+    host: str
     rate_hz: int
 
     @property
     def latency_ms(self) -> float | None:
-        """From the callback to the converter as the stream reports it; None when silent."""
+        """From the callback to the converter as the stream reports it; None where it does not."""
         ...
 
     @property
@@ -53,29 +55,6 @@ class Output(Protocol):
     def close(self) -> None:
         """Stop and give the device back; harmless when closed already."""
         ...
-
-
-class SilentOutput:
-    """No sound card: nothing is ever asked for, and the engine keeps time by the monotonic clock."""
-
-    name = "silent"
-    rate_hz = SILENT_RATE_HZ
-    latency_ms: float | None = None
-    underflows = 0
-    load = 0.0
-    fault: DeviceError | None = None
-
-    def start(self, render: Renderer) -> None:
-        """Do nothing: `render` is never called."""
-
-    def pause(self) -> None:
-        """Do nothing."""
-
-    def resume(self) -> None:
-        """Do nothing."""
-
-    def close(self) -> None:
-        """Do nothing."""
 
 
 def list_outputs() -> list[SoundDevice]:
@@ -129,7 +108,7 @@ def choose_device(devices: Sequence[SoundDevice], part: str, direction: Literal[
     return (exact or near)[0]
 
 
-def open_output(part: str = "", block_frames: int = 0, rate_hz: int = SILENT_RATE_HZ) -> CardOutput:
+def open_output(part: str = "", block_frames: int = 0, rate_hz: int = USUAL_RATE_HZ) -> CardOutput:
     """Open the output whose name contains `part` (empty: the default), not yet playing.
 
     `block_frames` 0 leaves the block's size to the driver. A device that refuses `rate_hz` is opened at the rate it

@@ -34,12 +34,6 @@ def outputs_now(patience_s: float = PATIENCE_S) -> list[SoundDevice]:
     return [SoundDevice(**device) for device in found]
 
 
-def default_has_changed(playing: str, devices: list[SoundDevice]) -> bool:
-    """Whether the system's default is now another device than the one called `playing`."""
-    default = next((device for device in devices if device.is_default), None)
-    return default is not None and default.name != playing
-
-
 def _tell() -> None:
     try:
         told: object = [asdict(device) for device in list_outputs()]

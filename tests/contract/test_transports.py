@@ -12,15 +12,11 @@ from typing import Protocol
 
 import pytest
 
-from station.core.clock import MonotonicClock
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_MS, NS_PER_S
-from station.devices.capture import Kind, Record, device_record, parse_capture
 from station.devices.midi_ports import SILENT_SERVER_NS, MidiDirectory
-from station.devices.replay import CapturePlayer
 from station.devices.serial_ports import SerialDirectory
 from station.devices.transport import Packet, Transport
-from tests.fakes.captures import capture_bytes
 from tests.fakes.jack_server import JackServer, jackd_is_installed, joined
 from tests.fakes.kit_player import KitPlayer, Stroke
 from tests.fakes.port_reader import PortReader
@@ -61,23 +57,6 @@ class FakeRig:
 
     def unplug(self) -> None:
         self._driver.unplug("kit 20:0")
-
-
-class CaptureRig:
-    """A capture that is played again."""
-
-    def open(self) -> Transport:
-        records = [device_record(1, 0, "kit", "general-midi"), device_record(2, 0, "other", "general-midi")]
-        for index, message in enumerate(MESSAGES):
-            records.append(Record(Kind.BYTES, 2, index * EVERY_NS, b"\xfe"))
-            records.append(Record(Kind.BYTES, 1, index * EVERY_NS, message))
-        self._start_ns = time.monotonic_ns() + 10 * NS_PER_MS
-        return CapturePlayer(parse_capture(capture_bytes(records)), "kit", MonotonicClock(), self._start_ns)
-
-    def play(self) -> list[Packet]:
-        return [Packet(message, self._start_ns + index * EVERY_NS) for index, message in enumerate(MESSAGES)]
-
-    def unplug(self) -> None: ...
 
 
 class SerialRig:
@@ -123,7 +102,7 @@ class JackRig:
         self._directory.close()
 
 
-@pytest.fixture(params=["fake", "capture", "serial", pytest.param("jack", marks=pytest.mark.jack)])
+@pytest.fixture(params=["fake", "serial", pytest.param("jack", marks=pytest.mark.jack)])
 def rig(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Rig]:
     if request.param == "serial":
         if sys.platform != "linux":
@@ -136,7 +115,7 @@ def rig(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Rig]:
         yield jack_rig
         jack_rig.close()
     else:
-        yield FakeRig() if request.param == "fake" else CaptureRig()
+        yield FakeRig()
 
 
 def until(enough: Callable[[], bool], within_s: float = 10.0) -> bool:

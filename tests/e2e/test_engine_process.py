@@ -15,8 +15,9 @@ from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_MS
 from station.devices.capture import read_capture
 from station.devices.replay import replay
+from station.engine.config import EngineConfig
 from station.engine.messages import KeyHit, Notice, Play, Ready, Record, Recorded, Started
-from station.engine.process import EngineConfig, EngineProcess
+from station.engine.process import EngineProcess
 from tests.fakes.cues import clicks
 from tests.fakes.engine_listener import EngineListener
 
@@ -26,7 +27,8 @@ NO_JACK = "drum-test-no-such-server"
 PARENT = """
 import sys, time
 from station.engine.messages import Ready
-from station.engine.process import EngineConfig, EngineProcess
+from station.engine.config import EngineConfig
+from station.engine.process import EngineProcess
 if __name__ == "__main__":
     engine = EngineProcess(EngineConfig(kits=(), sound=False))
     while not any(isinstance(event, Ready) for event in engine.events(1.0)):
@@ -40,7 +42,8 @@ CTRL_C_PARENT = """
 import signal
 import time
 from station.engine.messages import Ready
-from station.engine.process import EngineConfig, EngineProcess
+from station.engine.config import EngineConfig
+from station.engine.process import EngineProcess
 if __name__ == "__main__":
     signal.signal(signal.SIGINT, signal.default_int_handler)  # who runs tests in the background has them ignore Ctrl-C
     with EngineProcess(EngineConfig(kits=(), sound=False)) as engine:

@@ -17,8 +17,9 @@ from station.core.units import NS_PER_MS, NS_PER_S
 from station.devices.capture import read_capture
 from station.devices.kit_ports import KitWish
 from station.devices.replay import replay, transport_zeros_ns
+from station.engine.config import EngineConfig
 from station.engine.messages import KeyHit, Notice, Play, Ready, Record, Started
-from station.engine.process import EngineConfig, EngineProcess
+from station.engine.process import EngineProcess
 from tests.fakes.cues import clicks
 from tests.fakes.engine_listener import EngineListener
 from tests.fakes.jack_recorder import JackRecorder, Recording

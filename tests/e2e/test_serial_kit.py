@@ -14,8 +14,9 @@ from station.core.units import NS_PER_MS, NS_PER_S
 from station.devices.capture import read_capture
 from station.devices.kit_ports import parse_kits
 from station.devices.replay import replay
+from station.engine.config import EngineConfig
 from station.engine.messages import Ready, Record, Recorded
-from station.engine.process import EngineConfig, EngineProcess
+from station.engine.process import EngineProcess
 from tests.fakes.engine_listener import EngineListener
 from tests.fakes.serial_kit import SerialKit
 

@@ -5,13 +5,13 @@ from collections.abc import Callable
 
 from station.core.events import Hit
 from station.engine.messages import EngineEvent, Status
-from station.engine.process import EngineProcess
+from station.practice.live import EngineLink
 
 
 class EngineListener:
     """Collects an engine's events."""
 
-    def __init__(self, engine: EngineProcess) -> None:
+    def __init__(self, engine: EngineLink) -> None:
         self._engine = engine
         self.events: list[EngineEvent] = []
 

@@ -41,10 +41,16 @@ def jackd_is_installed() -> bool:
 class JackServer:
     """A running server; use it as a context manager."""
 
-    def __init__(self, rate_hz: int = 48_000, period_frames: int = 64, patient: bool = False) -> None:
+    def __init__(
+        self,
+        rate_hz: int = 48_000,
+        period_frames: int = 64,
+        patient: bool = False,
+        patience_ms: int = _CLIENT_PATIENCE_MS,
+    ) -> None:
         self.rate_hz = rate_hz
         self.period_frames = period_frames
-        self._patience = ["-S"] if patient else []
+        self._patience = [*(["-S"] if patient else []), f"-t{patience_ms}"]
         self.name = ""
         self._lock: IO[bytes] | None = None
         self._process: subprocess.Popen[bytes] | None = None
@@ -108,7 +114,7 @@ class JackServer:
     def _launch(self, realtime: bool) -> None:
         handle, path = tempfile.mkstemp(prefix="jackd-", suffix=".log")
         self._log = Path(path)
-        options = [f"-n{self.name}", *self._patience, f"-t{_CLIENT_PATIENCE_MS}", "-R" if realtime else "-r"]
+        options = [f"-n{self.name}", *self._patience, "-R" if realtime else "-r"]
         driver = ["-d", "dummy", "-r", str(self.rate_hz), "-p", str(self.period_frames)]
         self._process = subprocess.Popen(
             [*_DIES_WITH_US, "jackd", *options, *driver],

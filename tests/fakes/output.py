@@ -12,6 +12,7 @@ class FakeOutput:
 
     def __init__(self, name: str = "fake card", rate_hz: int = 48_000, *faults: str) -> None:
         self.name = name
+        self.host = "fake host"
         self.rate_hz = rate_hz
         self.latency_ms: float | None = 3.0
         self.underflows = 0

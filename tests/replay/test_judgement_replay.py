@@ -13,8 +13,9 @@ from station.devices.replay import replay, transport_zeros_ns
 from station.drills.library import find_lesson
 from station.engine.engine import Engine
 from station.engine.messages import Record, Started
+from station.practice.latency import Latency
 from station.practice.plan import TAIL_NS, Plan, Wishes, plan_practice
-from station.practice.session import Latency, Session
+from station.practice.session import Session
 from station.practice.student_spec import parse_spec
 from station.practice.virtual_student import play
 

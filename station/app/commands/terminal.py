@@ -8,7 +8,8 @@ from station.core.clock import MonotonicClock
 from station.core.errors import DeviceError
 from station.core.settings import Settings
 from station.core.units import NS_PER_MS
-from station.engine.process import EngineConfig, EngineProcess
+from station.engine.config import EngineConfig
+from station.engine.lasting import LastingEngine
 from station.music.judgement import Judgement, Label
 from station.practice.adaptation import Adaptation
 from station.practice.latency import latency_of
@@ -79,7 +80,7 @@ def practise_in_terminal(asked: Plan | Adaptation, settings: Settings, capture: 
     sys.stderr.write("looking for a kit and a sound output …\n")
     try:
         config = EngineConfig.from_settings(settings)
-        with EngineProcess(config) as engine:
+        with LastingEngine(config) as engine:
             wait_for_kits(engine, session, clock, KIT_WAIT_S, display.tell, len(config.kits))
             if not session.devices:
                 raise DeviceError(_no_kit(settings.kit))

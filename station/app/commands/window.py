@@ -30,12 +30,13 @@ def open_window(settings: Settings, first: Plan, adapt: bool) -> int:
         raise DeviceError("no screen: `station practice --headless` practises in the terminal")
     from station.app.practice_room import PracticeRoom
     from station.app.window import run_window
-    from station.engine.process import EngineConfig, EngineProcess
+    from station.engine.config import EngineConfig
+    from station.engine.lasting import LastingEngine
     from station.practice.latency import latency_of
 
     latency = latency_of(settings, load_calibration())
     with ExitStack() as engines:
-        wake = lambda: engines.enter_context(EngineProcess(EngineConfig.from_settings(settings)))  # noqa: E731
+        wake = lambda: engines.enter_context(LastingEngine(EngineConfig.from_settings(settings)))  # noqa: E731
         room = PracticeRoom(wake, settings, first, adapt, latency)
         try:
             run_window(room)

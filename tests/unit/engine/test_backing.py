@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.engine.engine import Engine
 from station.engine.messages import CUE_DTYPE, Notice, Play, SetBacking, Stop
-from station.engine.process import _loaded
+from station.engine.pipes import with_track
 from station.sound.track import PreparedTrack, Track
 from tests.fakes.impulse_kit import impulse_mixer
 
@@ -99,12 +99,12 @@ def test_another_rate_is_told_and_mute(tmp_path: Path) -> None:
 
 def test_a_file_that_is_gone_is_told(tmp_path: Path) -> None:
     engine = Engine(impulse_mixer(RATE_HZ))
-    engine.handle(_loaded(SetBacking(PreparedTrack(tmp_path / "gone.track", RATE_HZ, 0, None))))
+    engine.handle(with_track(SetBacking(PreparedTrack(tmp_path / "gone.track", RATE_HZ, 0, None))))
     assert any(isinstance(event, Notice) and "choose its file again" in event.text for event in engine.advance(0))
 
 
 def test_the_file_is_read_where_nobody_waits(tmp_path: Path) -> None:
-    command = _loaded(SetBacking(prepared(tmp_path)))
+    command = with_track(SetBacking(prepared(tmp_path)))
     assert isinstance(command, SetBacking)
     assert isinstance(command.loaded, Track)
     (tmp_path / "a.track").unlink()

@@ -8,8 +8,11 @@ from station.core.errors import DeviceError
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.engine.card import RETRY_NS, STALLED_NS, Card
 from station.engine.engine import Engine
-from station.engine.messages import Notice, Play, Started, Status
+from station.engine.lookout import Lookout
+from station.engine.messages import Notice, Play, Sounding, Started, Status, Stop
+from station.sound.card_output import SoundDevice
 from station.sound.mixer import Mixer
+from station.sound.portaudio import SoundServerGone
 from tests.fakes.cues import clicks
 from tests.fakes.impulse_kit import impulse_mixer
 from tests.fakes.output import FakeOutput
@@ -22,7 +25,11 @@ class Shop:
     outputs: list[FakeOutput | None]
     built_hz: list[int] = field(default_factory=list)
 
+    is_gone: bool = False
+
     def open(self) -> FakeOutput:
+        if self.is_gone:
+            raise SoundServerGone("the server has ended")
         output = self.outputs.pop(0) if self.outputs else None
         if output is None:
             raise DeviceError("no sound device is there")
@@ -159,3 +166,106 @@ def test_closing_gives_the_card_back_and_leaves_the_engine_silent() -> None:
     assert output.calls == ["start", "close"]
     engine.handle(Play(clicks([0]), 0))
     assert engine.advance(0) == [Started(0)]
+
+
+# --- what there is to sound on changes -------------------------------------------------------------------------------
+
+
+@dataclass
+class Street:
+    """What a lookout sees."""
+
+    devices: list[SoundDevice] = field(default_factory=list)
+    looks: int = 0
+
+    def look(self) -> list[SoundDevice]:
+        self.looks += 1
+        if not self.devices:
+            raise DeviceError("there is none")
+        return self.devices
+
+
+def device(name: str, is_default: bool = True) -> SoundDevice:
+    return SoundDevice(0, name, "fake host", 2, 48_000, is_default)
+
+
+def seen(lookout: Lookout) -> None:
+    """Wait until the look that is on its way is done."""
+    if lookout._looking is not None:
+        lookout._looking.join()
+
+
+def test_after_a_sound_servers_death_the_engine_wears_out_as_soon_as_there_is_an_output() -> None:
+    engine, street, shop = Engine(), Street(), Shop([FakeOutput("jack")])
+    lookout = Lookout("", street.look)
+    card = Card(engine, shop.open, shop.build, lookout)
+    card.start(0)
+    shop.outputs[:] = []
+    shop.is_gone = True
+    card._output.fault = DeviceError("its server ended")  # type: ignore[union-attr, misc]
+    told = []
+    for step in range(100):
+        if step == 60:
+            street.devices = [device("jack")]
+        card.supervise(step * NS_PER_S // 2)
+        seen(lookout)
+        told += engine.advance(step)
+        if step < 60:
+            assert not card.is_worn_out
+    assert card.is_worn_out
+    assert len([event for event in told if isinstance(event, Notice)]) == 1  # when it went
+    assert [event for event in told if isinstance(event, Sounding)] == [Sounding(None)]
+
+
+def test_the_sound_follows_the_systems_default_while_nothing_plays() -> None:
+    engine, street, shop = Engine(), Street([device("speakers")]), Shop([FakeOutput("speakers"), FakeOutput("phones")])
+    lookout = Lookout("", street.look)
+    card = Card(engine, shop.open, shop.build, lookout)
+    card.start(0)
+    first = card._output
+    assert isinstance(first, FakeOutput)
+    engine.handle(Play(clicks([0, 3600 * NS_PER_S]), 0))
+
+    def go_by(seconds: range) -> list[object]:
+        told: list[object] = []
+        for second in seconds:
+            assert isinstance(card._output, FakeOutput)
+            card._output.ask(64, second * NS_PER_S)
+            card.supervise(second * NS_PER_S)
+            seen(lookout)
+            told += engine.advance(second * NS_PER_S)
+        return told
+
+    go_by(range(1, 30))
+    assert street.looks == 0  # it plays
+    engine.handle(Stop())
+    go_by(range(30, 60))
+    assert street.looks > 1
+    assert card.name == "speakers"
+    street.devices = [device("phones"), device("speakers", False)]
+    told = go_by(range(60, 72))
+    assert card.name == "phones"
+    assert first.calls[-1] == "close"
+    assert [event for event in told if isinstance(event, Sounding)] == [Sounding("phones", 48_000)]
+    assert "sound goes to phones" in " ".join(event.text for event in told if isinstance(event, Notice))
+
+
+@pytest.mark.parametrize(
+    ("wanted", "devices"),
+    [
+        ("speakers", [device("phones"), device("speakers", False)]),  # the user has chosen
+        ("", [device("phones", False), device("speakers", False)]),  # there is no default
+        ("", []),
+    ],
+)
+def test_the_sound_stays_where_it_was_chosen(wanted: str, devices: list[SoundDevice]) -> None:
+    engine, shop = Engine(), Shop([FakeOutput("speakers"), FakeOutput("phones")])
+    lookout = Lookout(wanted, Street(devices).look)
+    card = Card(engine, shop.open, shop.build, lookout)
+    card.start(0)
+    for second in range(1, 40):
+        assert isinstance(card._output, FakeOutput)
+        card._output.ask(64, second * NS_PER_S)
+        card.supervise(second * NS_PER_S)
+        seen(lookout)
+    assert card.name == "speakers"

@@ -2,9 +2,9 @@ from pathlib import Path
 
 import pytest
 
+from station.engine.child import _clicks, _drums
 from station.engine.engine import Engine
 from station.engine.messages import Notice
-from station.engine.process import _clicks, _drums
 from tests.fakes.sound_files import stroke
 
 

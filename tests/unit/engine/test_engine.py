@@ -21,10 +21,10 @@ from station.engine.messages import (
     KeyHit,
     Notice,
     Play,
-    Queue,
     Quit,
     Record,
     Recorded,
+    Resume,
     SetLevel,
     Started,
     Status,
@@ -161,25 +161,17 @@ def test_a_start_that_comes_too_late_for_its_block_begins_with_the_next() -> Non
     assert rig.sink.onsets_ns() == [pytest.approx(started.zero_ns, abs=1)]
 
 
-def test_queued_cues_join_without_a_gap() -> None:
+def test_an_engine_goes_on_where_another_one_ended(tmp_path: Path) -> None:
     rig = Rig()
-    rig.engine.handle(Play(clicks([0, 10 * NS_PER_MS]), 0))
-    rig.run_ms(2)
-    rig.engine.handle(Queue(clicks([5 * NS_PER_MS, 20 * NS_PER_MS])))
-    rig.engine.handle(Queue(clicks([15 * NS_PER_MS])))
-    rig.run_ms(30)
-    gaps = np.diff(rig.sink.onsets_ns())
-    assert gaps == pytest.approx([5 * NS_PER_MS] * 4, abs=FRAME_NS)
-
-
-def test_cues_that_come_too_late_are_dropped_and_counted() -> None:
-    rig = Rig()
-    rig.engine.handle(Play(clicks([0]), 0))
-    rig.run_ms(100)
-    rig.engine.handle(Queue(clicks([20 * NS_PER_MS, 30 * NS_PER_MS, 200 * NS_PER_MS])))
+    zero_ns = rig.clock.now_ns() - 100 * NS_PER_MS
+    rig.engine.handle(Record(tmp_path / "take.cap"))
+    rig.engine.handle(Resume(clicks([0, 50 * NS_PER_MS, 110 * NS_PER_MS, 130 * NS_PER_MS]), zero_ns))
     events = rig.run_ms(1000)
-    assert only(events, Status).late_cues == 2
-    assert len(rig.sink.onsets_ns()) == 2
+    rig.engine.close()
+    assert rig.sink.onsets_ns() == pytest.approx([zero_ns + 110 * NS_PER_MS, zero_ns + 130 * NS_PER_MS], abs=FRAME_NS)
+    assert only(events, Status).late_cues == 0
+    assert not [event for event in events if isinstance(event, Started)]  # that has been said
+    assert transport_zeros_ns(read_capture(tmp_path / "take.cap")) == []  # and recorded
 
 
 def test_stop_drops_what_was_to_sound() -> None:
@@ -187,7 +179,6 @@ def test_stop_drops_what_was_to_sound() -> None:
     rig.engine.handle(Play(clicks([0, 50 * NS_PER_MS]), 0))
     rig.run_ms(20)
     rig.engine.handle(Stop())
-    rig.engine.handle(Queue(clicks([60 * NS_PER_MS])))
     rig.run_ms(100)
     assert len(rig.sink.onsets_ns()) == 1
 
@@ -242,14 +233,12 @@ def test_a_silent_engine_tells_strokes() -> None:
     assert only(engine.advance(10), Hit).at_ns == 5
 
 
-def test_a_silent_engine_counts_late_cues() -> None:
-    engine = Engine()
-    engine.advance(0)
-    engine.handle(Play(clicks([0]), 0))
-    engine.advance(0)
-    engine.advance(500 * NS_PER_MS)
-    engine.handle(Queue(clicks([100 * NS_PER_MS, 900 * NS_PER_MS])))
-    assert only(engine.advance(NS_PER_S), Status).late_cues == 1
+def test_cues_that_a_gap_between_blocks_swallowed_are_dropped_and_counted() -> None:
+    rig = Rig()
+    rig.engine.handle(Play(clicks([0, 20 * NS_PER_MS, 200 * NS_PER_MS]), 0))
+    rig.run_ms(10)
+    rig.engine.render(64, rig.clock.now_ns() + 100 * NS_PER_MS)
+    assert only(rig.engine.advance(rig.clock.now_ns() + NS_PER_S), Status).late_cues == 1
 
 
 def test_a_transport_outlives_the_card() -> None:

@@ -7,7 +7,7 @@ from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_MS
 from station.devices.midi_encode import GATE_NS
 from station.engine.engine import Engine
-from station.engine.messages import CUE_DTYPE, Bus, ClickVoice, Notice, Play, Queue, SetMidiOut, Stop
+from station.engine.messages import CUE_DTYPE, Bus, ClickVoice, Notice, Play, SetMidiOut, Stop
 from station.engine.midi_player import MidiPlayer
 from station.engine.playback import CueRun
 
@@ -110,21 +110,18 @@ def test_a_note_still_ends_when_that_is_late() -> None:
     assert wire.heard == [KICK_ON, KICK_OFF]
 
 
-def test_added_cues_fall_in_among_the_others() -> None:
+def test_a_module_is_played_on_where_another_engine_ended() -> None:
     wire = Wire()
     player = MidiPlayer(wire)
-    player.play(run(kick(0), kick(200)))
-    player.started(ZERO_NS)
-    player.queue(run((100, Bus.DEMONSTRATION, Piece.SNARE, 9)))
-    for now_ms in range(0, 300):
+    player.resume(run(kick(0), kick(100), kick(200)), ZERO_NS, at(150))
+    for now_ms in range(150, 300):
         player.advance(at(now_ms))
-    assert [message for message in wire.heard if message.startswith("99")] == [KICK_ON, "99 26 09", KICK_ON]
+    assert [message for message in wire.heard if message.startswith("99")] == [KICK_ON]
 
 
 def test_while_the_transport_stands_nothing_is_sent() -> None:
     wire = Wire()
     player = MidiPlayer(wire)
-    player.queue(run(kick(0)))
     player.advance(at(0))
     player.play(run(kick(0)))
     player.started(ZERO_NS)
@@ -158,17 +155,6 @@ def test_however_often_it_is_advanced_every_stroke_is_sent(step_ms: float) -> No
     assert wire.heard.count(KICK_ON) == wire.heard.count(KICK_OFF) == 50
 
 
-def test_what_is_queued_before_the_start_takes_effect_is_played_with_it() -> None:
-    wire = Wire()
-    player = MidiPlayer(wire)
-    player.play(run(kick(0)))
-    player.queue(run(kick(100)))
-    player.started(ZERO_NS)
-    for now_ms in range(200):
-        player.advance(at(now_ms))
-    assert wire.heard.count(KICK_ON) == 2
-
-
 def test_a_start_that_was_stopped_before_it_took_effect_plays_nothing() -> None:
     wire = Wire()
     player = MidiPlayer(wire)
@@ -188,13 +174,12 @@ def test_the_engine_plays_the_demonstration_on_the_module() -> None:
     engine.handle(SetMidiOut("module"))
     engine.advance(0)
     engine.handle(Play(cues(kick(100), kick(200)), start_in_ns=50 * NS_PER_MS))
-    engine.handle(Queue(cues((150, Bus.DEMONSTRATION, Piece.SNARE, 9))))
     times_ms = []
     for now_ms in range(400):
         before = len(wire.heard)
         engine.advance(now_ms * NS_PER_MS)
         times_ms += [now_ms for message in wire.heard[before:] if message.startswith("99")]
-    assert times_ms == [150, 200, 250]
+    assert times_ms == [150, 250]
     engine.handle(SetMidiOut(None))
     assert wire.is_closed
 

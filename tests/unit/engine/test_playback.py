@@ -20,12 +20,12 @@ def test_each_cue_is_taken_once_in_its_own_stretch() -> None:
     assert times(playback, 1100, 9999) == []
 
 
-def test_cues_of_several_runs_come_in_order() -> None:
+def test_a_transport_that_goes_on_leaves_out_what_is_over_and_calls_nothing_late() -> None:
     playback = Playback()
-    playback.start(CueRun(clicks([0, 40])), 0)
-    playback.add(CueRun(clicks([20, 60])))
-    playback.add(CueRun(clicks([10])))
-    assert times(playback, 0, 100) == [0, 10, 20, 40, 60]
+    playback.resume(CueRun(clicks([0, 40, 50, 60])), 1000, 1050)
+    assert times(playback, 1050, 1100) == [1050, 1060]
+    assert playback.late == 0
+    assert playback.zero_ns == 1000
 
 
 def test_a_stretch_that_was_skipped_drops_its_cues_but_for_the_last_moment() -> None:
@@ -38,7 +38,6 @@ def test_a_stretch_that_was_skipped_drops_its_cues_but_for_the_last_moment() -> 
 
 def test_a_transport_that_stands_has_nothing_to_sound() -> None:
     playback = Playback()
-    playback.add(CueRun(clicks([0])))
     assert times(playback, 0, 100) == []
     playback.start(CueRun(clicks([0, 50])), 0)
     playback.stop()

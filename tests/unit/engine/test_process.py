@@ -1,8 +1,8 @@
 """What the settings tell the engine's process."""
 
 from station.core.settings import Settings
+from station.engine.config import EngineConfig
 from station.engine.messages import Bus, SetLevel
-from station.engine.process import EngineConfig
 
 
 def test_a_module_that_sounds_itself_silences_the_students_strokes() -> None:

@@ -8,7 +8,7 @@ import pytest
 
 from station.core.errors import DeviceError
 from station.sound.card_output import SoundDevice, fit_channels, reported_dac_ns
-from station.sound.output import SilentOutput, choose_output, open_output
+from station.sound.output import choose_output, open_output
 
 
 def device(index: int, name: str, host: str = "ALSA") -> SoundDevice:
@@ -87,16 +87,6 @@ def test_one_channel_gets_the_mean_of_both() -> None:
     fit_channels(stereo, two)
     assert mono[:, 0].tolist() == pytest.approx([0.3, 0.0])
     assert two.tolist() == stereo.tolist()
-
-
-def test_silence_asks_for_nothing() -> None:
-    output = SilentOutput()
-    output.start(lambda frames, dac_ns: pytest.fail("nobody listens"))
-    output.pause()
-    output.resume()
-    output.close()
-    assert output.latency_ms is None
-    assert output.fault is None
 
 
 def run_python(program: str) -> subprocess.CompletedProcess[str]:

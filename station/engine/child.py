@@ -1,0 +1,131 @@
+"""The engine's process from inside: ready to begin as soon as it is told what to open, ended with its parent.
+
+It polls the kits every half millisecond in its main thread; the sound card's driver asks for blocks in a thread of its
+own. Whatever takes long to import is imported before it is told to begin, so that a process that waits as a spare
+begins at once.
+"""
+
+import gc
+import os
+import signal
+import sys
+import time
+import traceback
+from contextlib import nullcontext, suppress
+from multiprocessing.connection import Connection
+
+from station.core.clock import monotonic_ns
+from station.core.errors import StationError
+from station.devices.kit_file import own_kit
+from station.devices.kit_ports import watch_kits
+from station.devices.midi_out import open_midi_output
+from station.devices.watch import KitWatch
+from station.engine.card import Card
+from station.engine.config import EngineConfig
+from station.engine.engine import Engine
+from station.engine.lookout import Lookout
+from station.engine.messages import Command, EngineEvent, Notice, Ready
+from station.engine.pipes import Inbox, Outbox
+from station.engine.process import WORN_OUT
+from station.engine.runner import Runner
+from station.sound.buses import ClickVoice
+from station.sound.click import DEFAULT_TIMBRE, click_sounds
+from station.sound.drum_kit import DrumKit, Frames
+from station.sound.kits.load import DEFAULT_KIT, load_kit
+from station.sound.mixer import Mixer
+from station.sound.output import open_output
+
+POLL_S = 0.0004
+"""Pause between two looks at the kits; with the work itself and the system's timer slack about half a millisecond."""
+SWITCH_INTERVAL_S = 0.0002
+"""How soon the audio callback gets the interpreter lock; 5 ms, Python's own choice, is four blocks of sound."""
+NICENESS = -11
+"""What desktop sound servers run at; granted only to those whom the system lets."""
+
+
+def run_engine(commands: "Connection[None, Command]", events: "Connection[list[EngineEvent], None]") -> None:
+    """The child's whole life: the first thing that it is sent is its configuration."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches both; the parent asks the child to quit
+    try:
+        config: object = commands.recv()
+    except (EOFError, OSError):  # a spare whose parent needs it no more
+        return
+    assert isinstance(config, EngineConfig), "an engine is told what to open before anything else"
+    if hasattr(os, "nice"):
+        with suppress(OSError):
+            os.nice(NICENESS)
+    outbox = Outbox(events)
+    try:
+        is_worn = _live(config, Inbox(commands), outbox)
+    except Exception as fault:
+        traceback.print_exc()
+        outbox.put([Notice(f"the sound and MIDI engine failed: {fault!r}")])
+        raise SystemExit(1) from fault
+    finally:
+        outbox.close()
+    if is_worn:
+        raise SystemExit(WORN_OUT)
+
+
+def _live(config: EngineConfig, inbox: Inbox, outbox: Outbox) -> bool:
+    """Runs until told to quit, or the parent is gone; returns whether it ended because it is worn out."""
+    engine = Engine(open_midi_out=lambda port: open_midi_output(config.midi_driver, port, undisturbed), own_kit=own_kit)
+    card = _card(engine, config) if config.sound else None
+    undisturbed = card.paused if card is not None else nullcontext
+    runner = Runner(engine, _kits(engine, config, card), card)
+    for command in config.first_commands:
+        engine.handle(command)
+    try:
+        runner.start(monotonic_ns())
+        sys.setswitchinterval(SWITCH_INTERVAL_S)  # not before: making the drum kit takes long turns
+        gc.collect()
+        gc.freeze()
+        gc.disable()  # a collection in the audio thread is a late block; what runs from here on makes no cycles
+        outbox.put([Ready(card.name, card.rate_hz) if card is not None else Ready(None)])
+        while not (engine.quitting or inbox.is_closed or runner.is_worn_out):
+            commands = inbox.take()
+            happened = runner.step(monotonic_ns())  # after taking them: what was played before a command counts before
+            if happened:
+                outbox.put(happened)
+            for command in commands:
+                engine.handle(command)
+            time.sleep(POLL_S)
+    finally:
+        runner.close()
+        outbox.put(engine.advance(monotonic_ns()))
+    return runner.is_worn_out and not engine.quitting
+
+
+def _kits(engine: Engine, config: EngineConfig, card: Card | None) -> tuple[KitWatch, ...]:
+    undisturbed = card.paused if card is not None else nullcontext
+    watches = watch_kits(config.kits, config.midi_driver, monotonic_ns, undisturbed)
+    if watches.fault is not None:
+        engine.notify(f"no MIDI kit can be heard: {watches.fault}")
+    return watches.kits
+
+
+def _card(engine: Engine, config: EngineConfig) -> Card:
+    return Card(
+        engine,
+        lambda: open_output(config.output, config.block_frames, config.rate_hz),
+        lambda rate_hz: Mixer(_drums(engine, config.drums, rate_hz), _clicks(engine, config.click, rate_hz)),
+        Lookout(config.output),
+    )
+
+
+def _drums(engine: Engine, name: str, rate_hz: int) -> DrumKit:
+    """The kit called `name`; where it cannot be had the user is told, and the default one plays."""
+    try:
+        return load_kit(name, rate_hz)
+    except StationError as fault:
+        engine.notify(f"{fault}; the {DEFAULT_KIT} kit plays instead")
+        return load_kit(DEFAULT_KIT, rate_hz)
+
+
+def _clicks(engine: Engine, timbre: str, rate_hz: int) -> dict[ClickVoice, Frames]:
+    """The clicks of `timbre`, likewise."""
+    try:
+        return click_sounds(rate_hz, timbre)
+    except StationError as fault:
+        engine.notify(f"{fault}; the click called {DEFAULT_TIMBRE} plays instead")
+        return click_sounds(rate_hz)

@@ -1,0 +1,48 @@
+"""What the engine process opens, and what it is told before anything else."""
+
+from dataclasses import dataclass
+from typing import Self
+
+from station.core.settings import Settings
+from station.devices.kit_ports import KitWish, parse_kits
+from station.engine.messages import Bus, Command, SetLevel
+
+_CHOSEN = Settings()
+
+
+@dataclass(frozen=True, slots=True)
+class EngineConfig:
+    """What the engine process opens.
+
+    `kits` are those to listen to, none for an engine without; `midi_driver` is "auto" or one of
+    `station.devices.midi_ports.compiled_drivers()`; `output`, `block_frames`, `rate_hz`, `drums`, `click`
+    and `own_sound` stand as in `Settings`; without `sound` no card is opened.
+    """
+
+    kits: tuple[KitWish, ...] = (KitWish(""),)
+    midi_driver: str = "auto"
+    sound: bool = True
+    output: str = ""
+    block_frames: int = 0
+    rate_hz: int = _CHOSEN.rate_hz
+    drums: str = _CHOSEN.drums
+    click: str = _CHOSEN.click
+    own_sound: bool = True
+
+    @classmethod
+    def from_settings(cls, settings: Settings) -> Self:
+        """What a user has chosen; raises `BadInput` for kits that cannot be meant."""
+        return cls(
+            kits=parse_kits(settings.kit),
+            output=settings.output,
+            block_frames=settings.block_frames,
+            rate_hz=settings.rate_hz,
+            drums=settings.drums,
+            click=settings.click,
+            own_sound=settings.own_sound,
+        )
+
+    @property
+    def first_commands(self) -> tuple[Command, ...]:
+        """What the engine is told before anything else."""
+        return () if self.own_sound else (SetLevel(Bus.STUDENT, 0.0),)
