@@ -119,13 +119,35 @@ def _peak_mb() -> Measured:
     return Measured(peak / 1e6)
 
 
-def _hit_us(notes: int, percentile: float) -> Callable[[], Measured]:
+def followed_f1(score: Score, played: Played) -> float:
+    """The F1 of what is judged live, by the last word on each hit, where there is no click to go by."""
+    follower, said = Follower(score, clocked=False), np.full(len(played.performance), -1)
+    for hit in played.performance:
+        for verdict in follower.hit(hit, hit.at_ns):
+            if verdict.hit_index is not None:
+                matched = verdict.label is Label.MATCH and verdict.note_index is not None
+                said[verdict.hit_index] = verdict.note_index if matched else -1
+    return f1(said, played)
+
+
+def _followed_below_oracle(player: Player) -> Callable[[], Measured]:
     def measure() -> Measured:
-        score, played = _work(notes, _LIVE_PLAYER)
-        follower, hits = Follower(score), played.performance
-        start = max(0, len(hits) - _LIVE_HITS)
+        work = _work(3_000, player)
+        oracle, ours = oracle_f1(*work), followed_f1(*work)
+        return Measured(oracle - ours, None, f"F1 {ours:.4f}, oracle {oracle:.4f}")
+
+    return measure
+
+
+def _hit_us(notes: int, percentile: float, clocked: bool = True) -> Callable[[], Measured]:
+    """A percentile of the time of a hit: with a click of the last hits of a score, without one of the first."""
+
+    def measure() -> Measured:
+        score, played = _work(notes, _LIVE_PLAYER if clocked else _PLAYER)
+        follower, hits = Follower(score, clocked=clocked), played.performance
+        start = max(0, len(hits) - _LIVE_HITS) if clocked else 0
         taken = []
-        for hit in (hits[i] for i in range(start, len(hits))):
+        for hit in (hits[i] for i in range(start, min(start + _LIVE_HITS, len(hits)))):
             begun = time.perf_counter_ns()
             follower.hit(hit, hit.at_ns)
             taken.append(time.perf_counter_ns() - begun)
@@ -180,4 +202,11 @@ BENCHMARKS = (
     Benchmark("live_hit_p99", "µs", 100, "lower", None, _hit_us(3_000, 99)),
     Benchmark("live_hit_median_100k_notes", "µs", 20, "lower", None, _hit_us(100_000, 50)),
     Benchmark("live_hit_p99_100k_notes", "µs", 100, "lower", None, _hit_us(100_000, 99)),
+    Benchmark("no_click_f1_below_oracle_3_pct_drift", "F1", 0.001, "lower", None, _followed_below_oracle(_PLAYER)),
+    Benchmark(
+        "no_click_f1_below_oracle_12_pct_drift", "F1", 0.001, "lower", None, _followed_below_oracle(_HARD_PLAYER)
+    ),
+    Benchmark("no_click_hit_median", "µs", 20, "lower", None, _hit_us(3_000, 50, clocked=False)),
+    Benchmark("no_click_hit_p99", "µs", 100, "lower", None, _hit_us(3_000, 99, clocked=False)),
+    Benchmark("no_click_hit_median_100k_notes", "µs", 20, "lower", None, _hit_us(100_000, 50, clocked=False)),
 )

@@ -101,7 +101,9 @@ class Slipper:
         step = _grid(score)
         ticks = np.arange(0, max(score.end_tick, step), step)
         wrongly_played = np.flatnonzero(label != Label.MATCH)
-        from_wrong = _distance_ms(np.sort(where.onset_ns[wrongly_played]), score.tempo_map.ns_at(ticks))
+        # a stroke at the very end would be the landing that nobody counts
+        disputed_ns = np.sort(np.append(where.onset_ns[wrongly_played], score.length_ns))
+        from_wrong = _distance_ms(disputed_ns, score.tempo_map.ns_at(ticks))
         places: list[NDArray[np.float64]] = []
         for struck, share in where.shares.items():
             clear = np.minimum(np.minimum(from_wrong, where.distance_ms(struck, ticks)), CLEAR_MS)

@@ -1,12 +1,13 @@
 """Hits that nobody counts, however much they are unwritten: what good drummers' feet and left hands do on their own.
 
 The list is the teacher's: the hi-hat foot keeping time, the chick that closes an open hat, a feathered kick, notes at
-ghost level beside a backbeat, and the bounces of a buzz roll, which is one note however often the stick bounces. Such a
+ghost level beside a backbeat, the bounces of a buzz roll, which is one note however often the stick bounces, and the
+stroke on one that music lands on when it stops: a fill ends there, and behind the last pass nothing is written. Such a
 hit still answers a written note of its piece; only if none claims it, it is not an extra. `Unwritten` answers for whole
 arrays (the report) and for one hit at a time (live) by the same rules; live, a hit within a buzz is taken for a bounce.
 """
 
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -36,6 +37,12 @@ BUZZ_REACH_NS = 60 * NS_PER_MS
 
 BOUNCE_NS = 80 * NS_PER_MS
 """Slower than that a stick is led and does not bounce (our choice: a double's second bounce comes after 50–90 ms)."""
+
+LANDING_EARLY_NS, LANDING_LATE_NS = 50 * NS_PER_MS, 100 * NS_PER_MS
+"""How far before and after the one a landing may come (our choice: less than a 16th at 120 bpm; who stops is late)."""
+
+_LANDED_ON = frozenset({Piece.KICK, Piece.CRASH_1, Piece.CRASH_2})
+"""What a phrase is ended with, besides what the score itself has on its ones."""
 
 LEAST_COMPANY = 3
 """So many hits are a buzz that bounces, whatever its gaps (our choice: a press and two bounces)."""
@@ -105,6 +112,15 @@ class Unwritten:
         return {piece: (starts.tolist(), ends.tolist()) for piece, (starts, ends) in self._buzzes.items()}
 
     @cached_property
+    def _landings(self) -> tuple[list[int], frozenset[int]]:
+        """Where music may land, rising: the ones of silent bars after music, and of the bar after the end; on what."""
+        full = self._bars_with(np.ones(len(self._score), np.bool_))
+        after_music = np.flatnonzero(full[:-1] & ~full[1:]) + 1
+        on_one = self._score.onset_ns == self._bar_ns[self._score.bar]
+        pieces = {*np.unique(self._score.notes["piece"][on_one]).tolist(), *_LANDED_ON}
+        return self._bar_ns[after_music].tolist(), frozenset(pieces)
+
+    @cached_property
     def _lists(self) -> tuple[list[int], list[bool], list[bool], list[int], list[bool]]:
         """Bars, their flags and hats as lists, which single hits are looked up in faster."""
         hat_ns, opened = self._hats
@@ -129,7 +145,7 @@ class Unwritten:
         if feathers.any():
             feathers[feathers] = self._on_beat(hit_ns[feathers])
         own_only = feet | self._bounces(piece, hit_ns)
-        return Masks(own_only, own_only | ghosts | feathers)
+        return Masks(own_only, own_only | ghosts | feathers | self._land(piece, hit_ns))
 
     def is_own_only(self, piece: Piece, hit_ns: int) -> bool:
         """One hit of `Masks.own_only`."""
@@ -152,7 +168,12 @@ class Unwritten:
         if piece is Piece.KICK and velocity <= FEATHER_VELOCITY:
             beats = self._beat_list
             i = bisect_right(beats, hit_ns)
-            return any(abs(beat - hit_ns) <= _BEAT_REACH_NS for beat in beats[max(i - 1, 0) : i + 1])
+            if any(abs(beat - hit_ns) <= _BEAT_REACH_NS for beat in beats[max(i - 1, 0) : i + 1]):
+                return True
+        at_ns, pieces = self._landings
+        i = bisect_left(at_ns, hit_ns - LANDING_LATE_NS)
+        if i < len(at_ns) and at_ns[i] <= hit_ns + LANDING_EARLY_NS and piece in pieces:
+            return True
         return self.is_own_only(piece, hit_ns)
 
     def surely_bounces(self, performance: Performance) -> NDArray[np.bool_]:
@@ -181,6 +202,16 @@ class Unwritten:
             after_another = np.diff(hit_ns[here], prepend=-(2**62)) < BOUNCE_NS
             bounces[here] = inside & (many[np.maximum(buzz, 0)] | after_another)
         return bounces
+
+    def _land(self, piece: NDArray[np.uint8], hit_ns: NDArray[np.int64]) -> NDArray[np.bool_]:
+        """Which hits are a landing on one."""
+        landings, pieces = self._landings
+        if not landings:
+            return np.zeros(len(hit_ns), np.bool_)
+        at_ns = np.array(landings)
+        i = np.minimum(np.searchsorted(at_ns, hit_ns - LANDING_LATE_NS), len(at_ns) - 1)
+        there = (at_ns[i] >= hit_ns - LANDING_LATE_NS) & (at_ns[i] <= hit_ns + LANDING_EARLY_NS)
+        return np.asarray(there & np.isin(piece, list(pieces)))
 
     def _bars(self, hit_ns: NDArray[np.int64]) -> NDArray[np.int64]:
         return np.maximum(np.searchsorted(self._bar_ns, hit_ns, side="right") - 1, 0)

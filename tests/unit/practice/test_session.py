@@ -95,6 +95,65 @@ def test_an_early_downbeat_belongs_to_the_next_pass() -> None:
     assert (verdict.note_index, verdict.asynchrony_ns) == (4, -30 * NS_PER_MS)
 
 
+def test_a_last_note_that_was_left_out_is_no_matter_of_the_next_pass() -> None:
+    """The stroke on one of the next pass comes 40 ms early, 460 ms after the note that nobody played."""
+    practice = session(loops=2)
+    for beat in range(3):
+        practice.handle(snare(beat * BEAT_NS))
+    said = practice.handle(snare(BAR_NS - 40 * NS_PER_MS))
+    assert [(v.label, v.note_index) for v in said if v.label is Label.MATCH] == [(Label.MATCH, 4)]
+    practice.advance(ZERO_NS + 2 * BAR_NS + BEAT_NS)
+    assert practice.verdicts[3].label is Label.MISS
+    assert practice.verdicts[4].asynchrony_ns == -40 * NS_PER_MS
+
+
+@pytest.mark.parametrize("first_ms", [-30, 0, 60])
+def test_passes_are_judged_each_by_itself(first_ms: int) -> None:
+    """However late or early the first pass, the second is on time."""
+    practice = session(loops=2)
+    for beat in range(8):
+        late_ms = first_ms if beat < 4 else 0
+        practice.handle(snare(beat * BEAT_NS + late_ms * NS_PER_MS))
+    heard = [practice.verdicts[note].asynchrony_ns for note in range(8)]
+    assert heard == [first_ms * NS_PER_MS] * 4 + [0] * 4
+
+
+@pytest.mark.parametrize(("at_ms", "piece", "label"), [
+    (-40, Piece.CRASH_1, Label.IGNORED),
+    (90, Piece.KICK, Label.IGNORED),
+    (10, Piece.SNARE, Label.IGNORED),
+    (10, Piece.TOM_1, Label.EXTRA),
+    (400, Piece.CRASH_1, Label.EXTRA),
+])  # fmt: skip
+def test_a_fill_includes_its_landing_on_one(at_ms: int, piece: Piece, label: Label) -> None:
+    """Inside the loop the next pass's one is the landing; behind the last pass nobody wrote it, and nobody counts it."""
+    practice = session()
+    for beat in range(4):
+        practice.handle(snare(beat * BEAT_NS))
+    (said,) = practice.handle(snare(BAR_NS + at_ms * NS_PER_MS, piece))
+    assert said.label is label
+    practice.advance(ZERO_NS + 2 * BAR_NS + TAIL_NS)
+    alignment = practice.result().alignment
+    assert (alignment.count(label), alignment.count(Label.MATCH)) == (1, 4)
+
+
+@pytest.mark.parametrize("percent", [50, 100, 200])
+def test_latency_is_real_time_at_any_speed(percent: int) -> None:
+    """14 ms of latency are 14 ms, and 9 ms late are 9 ms, at half the tempo as at twice the tempo."""
+    score = Score.from_notes([Note(i * PPQ, Piece.SNARE) for i in range(4)], TempoMap.constant(120))
+    lesson = Lesson(name="quarters", title="Quarters", score=score)
+    wishes = Wishes(tempo_bpm=1.2 * percent, demonstrations=0, loops=1)
+    practice = Session(plan_practice(lesson, wishes), Latency(input_ns=4 * NS_PER_MS, output_ns=10 * NS_PER_MS))
+    practice.start()
+    practice.handle(Started(ZERO_NS))
+    beat_ns = BEAT_NS * 100 // percent
+    for beat in range(4):
+        practice.handle(Hit(ZERO_NS + (4 + beat) * beat_ns + 23 * NS_PER_MS, Piece.SNARE, Zone.HEAD, 80))
+    assert [practice.verdicts[note].asynchrony_ns for note in range(4)] == [9 * NS_PER_MS] * 4
+    practice.advance(ZERO_NS + 8 * beat_ns + TAIL_NS + 10 * NS_PER_MS)
+    assert practice.result().alignment.asynchrony_ns.tolist() == [9 * NS_PER_MS] * 4
+
+
 def test_a_session_that_was_stopped_judges_what_was_heard() -> None:
     practice = session()
     practice.handle(snare(0))
