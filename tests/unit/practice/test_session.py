@@ -126,7 +126,7 @@ def test_passes_are_judged_each_by_itself(first_ms: int) -> None:
     (400, Piece.CRASH_1, Label.EXTRA),
 ])  # fmt: skip
 def test_a_fill_includes_its_landing_on_one(at_ms: int, piece: Piece, label: Label) -> None:
-    """Inside the loop the next pass's one is the landing; behind the last pass nobody wrote it, and nobody counts it."""
+    """Inside the loop the next pass's one is the landing; behind the last pass it is nobody's extra."""
     practice = session()
     for beat in range(4):
         practice.handle(snare(beat * BEAT_NS))
