@@ -20,7 +20,7 @@ from station.motion.grip import Grip, Hold
 from station.motion.kit import Kit
 from station.motion.limits import Limits
 from station.motion.maths import MANY, ONE, Point
-from station.motion.piece import RIM_ABOVE_HEAD_M, Target
+from station.motion.piece import RIM_ABOVE_HEAD_M, KitPiece, Target
 from station.motion.posture import natural_shoulder
 from station.music.score import Score
 
@@ -40,10 +40,12 @@ SHOULDER_OF_STICK = 0.25
 """From the tip back to the part that meets a cymbal's edge or a rim, as a share of the stick (our choice)."""
 _LAID_AHEAD = 0.55
 _LAID_RISE, _LAID_PALM = math.radians(2.0), math.radians(12.0)
-_LAID_AZIMUTH = {Limb.LEFT_HAND: math.radians(-62.0), Limb.RIGHT_HAND: math.radians(62.0)}
-"""A cross-stick's hand lies on the head near its middle; the stick strikes the rim beyond, so far ahead of the fulcrum
-as a share of its length, in this direction from straight ahead; the wrist is a little higher than the fingers, else it
-would be bent to its limit (our choice)."""
+_LAID_AZIMUTHS = tuple(math.radians(d) for d in (62.0, 50.0, 38.0, 26.0, 14.0))
+_LAID_UNDER_M, _LAID_ASIDE_M = 0.04, 0.03
+"""A cross-stick's hand lies on the head, so far ahead and to its own side of the middle, where the other's stick may
+strike; the stick strikes the rim beyond, so far ahead of the fulcrum as a share of its length, across the player in the
+first of these directions from straight ahead in which its end is not under another piece, nor so near; the wrist is a
+little higher than the fingers, else it would be bent to its limit (our choice)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,11 +74,9 @@ def target_of(kit: Kit, strike: Strike) -> Target:
     """What the stick aims at: a rim shot's tip is on the head while its shaft meets the rim, a cross-stick's too."""
     drum = kit.pieces[kit.stand_in(strike.piece)]
     if strike.articulation == Articulation.CROSS_STICK and drum.kind == "drum":
-        rim, azimuth = kit.target(strike.piece, Zone.RIM, strike.limb), _LAID_AZIMUTH[strike.limb]
-        across = np.array([-math.sin(azimuth), math.cos(azimuth), 0.0])
-        across -= (across @ drum.normal) * drum.normal
-        across *= drum.radius_m / np.linalg.norm(across)
-        point = drum.centre + across + rim.raised_m * drum.normal
+        rim = kit.target(strike.piece, Zone.RIM, strike.limb)
+        azimuth = _laid_azimuth(kit, drum, strike.limb)
+        point = drum.centre + _to_the_rim(drum, azimuth) + rim.raised_m * drum.normal
         return replace(rim, point_m=point, centre_m=point)
     zone = Zone.HEAD if strike.articulation == Articulation.RIM_SHOT else strike.zone
     target = kit.target(strike.piece, zone, strike.limb)
@@ -85,6 +85,26 @@ def target_of(kit: Kit, strike: Strike) -> Target:
     x, y, z = WAIT_M if strike.articulation == WAIT else SHOW_M
     side = 1.0 if strike.limb == Limb.RIGHT_HAND else -1.0
     return replace(target, point_m=target.point_m + np.array([side * x, y, z]))
+
+
+def _to_the_rim(drum: KitPiece, azimuth: float) -> Array:
+    """From the middle of `drum` to where a cross-stick that points to `azimuth` lies on the rim."""
+    across = np.array([-math.sin(azimuth), math.cos(azimuth), 0.0])
+    across -= (across @ drum.normal) * drum.normal
+    across /= np.linalg.norm(across)
+    aside = math.copysign(_LAID_ASIDE_M, azimuth) * np.cross(across, drum.normal)
+    return np.asarray(aside + math.sqrt(drum.radius_m**2 - _LAID_ASIDE_M**2) * across)
+
+
+def _laid_azimuth(kit: Kit, drum: KitPiece, limb: Limb) -> float:
+    """Where a cross-stick on `drum` points, from straight ahead to the left."""
+    others = [p for p in kit.pieces.values() if p is not drum and p.kind != "kick"]
+    for azimuth in _LAID_AZIMUTHS:
+        turned = azimuth if limb == Limb.RIGHT_HAND else -azimuth
+        x, y, _ = drum.centre + (1 + _LAID_UNDER_M / drum.radius_m) * _to_the_rim(drum, turned)
+        if all(math.hypot(x - p.centre_m[0], y - p.centre_m[1]) > p.radius_m + _LAID_UNDER_M for p in others):
+            break
+    return turned
 
 
 def strike_points(score: Score, kit: Kit, limbs: NDArray[np.int8]) -> Array:
@@ -123,6 +143,9 @@ def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike) -> Lie:
     side = 1.0 if right else -1.0
     lengths = hold.lengths(figure, right)
     slopes = _slopes(lengths, target, hold, strike, hold.length_m(figure))
+    if strike.articulation == Articulation.CROSS_STICK:
+        azimuth = _laid_azimuth(kit, kit.pieces[kit.stand_in(strike.piece)], strike.limb)
+        slopes = replace(slopes, azimuth=azimuth)
     faced = np.array([0.0, 1.0, 0.0]) if strike.articulation in (WAIT, SHOW) else target.point_m  # for anything
     for lean in LEANS_RAD.tolist():
         root = natural_shoulder(kit, figure, strike.limb, faced, lean)
@@ -237,7 +260,7 @@ def _slopes(lengths: ArmLengths, target: Target, hold: Hold, strike: Strike, len
         return _Slopes(0.0, lengths.ahead, target.rise_rad, palm)
     if strike.articulation == Articulation.CROSS_STICK:
         laid = _LAID_AHEAD * length_m
-        return _Slopes(laid, ahead - laid, _LAID_RISE, _LAID_PALM, _LAID_AZIMUTH[strike.limb])
+        return _Slopes(laid, ahead - laid, _LAID_RISE, _LAID_PALM)
     if target.shoulder:
         ahead -= SHOULDER_OF_STICK * length_m
     lean = math.atan2(h * math.sin(palm), ahead + h * math.cos(palm))  # between the stick and the line to the wrist

@@ -4,6 +4,7 @@ A score has a buzz roll as one note with a duration and a choke as a delay after
 hands. Times in seconds from tick 0.
 """
 
+from bisect import bisect_left, bisect_right
 from dataclasses import dataclass
 from itertools import zip_longest
 
@@ -78,7 +79,8 @@ def hand_events(score: Score, limbs: NDArray[np.int8]) -> tuple[HandEvents, Hand
         _press(score, row, limbs, onset, found)
     for row in np.flatnonzero(notes["choke_ticks"] > 0).tolist():
         _grab(score, row, limbs, found)
-    right, left = (_events(notes, _with_waits(notes, _with_bounces(sorted(events)))) for events in found)
+    ordered = [_with_bounces(sorted(events)) for events in found]
+    right, left = (_events(notes, _with_waits(notes, own, other)) for own, other in (ordered, reversed(ordered)))
     return right, left
 
 
@@ -86,9 +88,13 @@ _HOME = (Piece.SNARE,)
 _STATIONS = (Piece.HIHAT, Piece.RIDE, Piece.RIDE_2)
 
 
-def _with_waits(notes: NDArray[np.void], events: list[Event]) -> list[Event]:
-    """The same with a wait in every long rest, but where the hand is at home or stationed at its cymbal."""
+def _with_waits(notes: NDArray[np.void], events: list[Event], others: list[Event]) -> list[Event]:
+    """The same with a wait in every long rest, but where the hand is at home or stationed at its cymbal.
+
+    Nor does it go home past the other hand, which has come to where this one is.
+    """
     result = []
+    other_s = [other[0] for other in others]
     for event, after in zip_longest(events, events[1:]):
         result.append(event)
         at, row, *_ = event
@@ -96,6 +102,9 @@ def _with_waits(notes: NDArray[np.void], events: list[Event]) -> list[Event]:
         if piece in _HOME or (after is not None and after[0] - at < REST_S):
             continue
         if after is not None and piece in _STATIONS and notes["piece"][after[1]] == piece:
+            continue
+        beside = others[bisect_left(other_s, at) : bisect_right(other_s, at + REST_S)]
+        if any(notes["piece"][other[1]] == piece for other in beside):
             continue
         result.append((at + LEAVE_S, row, WAIT, PRESS_HEIGHT_M, False))
     return result

@@ -11,7 +11,7 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Limb, Ornament, Piece, Zone
+from station.core.pieces import Articulation, Limb, Ornament, Piece, Zone
 from station.core.units import PPQ
 from station.motion.kit import Kit
 from station.music.score import Score
@@ -53,6 +53,7 @@ class HandNotes:
     natural: list[int]  # the hand of natural sticking
     firm: list[bool]  # whether drummers insist on that hand: a drum and a hat at once in a quick run
     odd: list[bool]  # whether it falls between the strokes that the leading hand has
+    laid: list[bool]  # whether it is a cross-stick
     paired: list[int]  # +1: with the same hand as the note before (the second of a double), −1 another, 0 free
     lead: int
     open_handed: bool
@@ -91,6 +92,7 @@ class HandNotes:
             natural=np.where(odd ^ (firm & quick), 1 - lead, lead).tolist(),
             firm=firm.tolist(),
             odd=odd.tolist(),
+            laid=(notes["articulation"] == Articulation.CROSS_STICK).tolist(),
             paired=_paired(notes).tolist(),
             lead=lead,
             open_handed=hands is Hands.OPEN,

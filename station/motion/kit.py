@@ -99,6 +99,10 @@ _LEAST_BOARD_M = 0.1
 """A shorter footboard points nowhere (our choice; real ones are 25–33 cm long)."""
 
 
+_ASIDE_M = 0.4
+"""A piece so far to a side has rim and edge struck on the player's side; one in the middle, in front (our choice)."""
+
+
 def kit_names() -> list[str]:
     """The kits that ship with the station."""
     return shipped(KITS)
@@ -153,11 +157,12 @@ def _piece(table: "Table", name: str) -> KitPiece:
         wrist_radius_m=table.number("wrist_radius_m", 0.05, 1.0, 0.40),
         wrist_height_m=table.number("wrist_height_m", -0.5, 0.5, 0.06),
     )
-    return replace(piece, spots=MappingProxyType(_spots(table, kind)))
+    return replace(piece, spots=MappingProxyType(_spots(table, piece)))
 
 
-def _spots(table: "Table", kind: str) -> dict[Zone, Spot]:
-    spots = dict(SPOTS[kind])
+def _spots(table: "Table", piece: KitPiece) -> dict[Zone, Spot]:
+    inward = max(-1.0, min(1.0, -piece.centre_m[0] / _ASIDE_M))
+    spots = {zone: replace(spot, right=inward * spot.right) for zone, spot in SPOTS[piece.kind].items()}
     zones = table.table("zones", {})
     for key in zones.raw:
         if key not in _ZONES:

@@ -50,29 +50,32 @@ BELL_ABOVE_BOW_M = 0.02
 
 BELL_SHARE = 0.25
 """A bell's radius as a share of its cymbal's (our choice: about 13 cm across a 20-inch ride)."""
+_INSIDE = 0.99
+"""No target is farther out than this share of the radius (our choice: still the edge, and on the surface)."""
 HOOP_M = 0.01
 """A raised zone away from the middle is so much around its point: a counter-hoop's top (our choice)."""
 
 _DRUM_SPOTS = {
     Zone.HEAD: Spot(0.0, 0.0, HAND_SPREAD_M),
-    Zone.RIM: Spot(0.0, -0.99, 0.16, RIM_ABOVE_HEAD_M, shoulder=True),
+    Zone.RIM: Spot(0.60, -0.78, 0.16, RIM_ABOVE_HEAD_M, shoulder=True),
 }
 _CYMBAL_SPOTS = {
     Zone.BOW: Spot(0.0, -0.6, 0.03),
-    Zone.BELL: Spot(0.0, -0.12, 0.02, BELL_ABOVE_BOW_M, shoulder=True),
-    Zone.EDGE: Spot(0.0, -0.98, 0.04, shoulder=True),
+    Zone.BELL: Spot(0.0, -0.12, 0.05, BELL_ABOVE_BOW_M, shoulder=True),
+    Zone.EDGE: Spot(0.0, -0.98, 0.14, shoulder=True),
 }
 SPOTS: Mapping[str, Mapping[Zone, Spot]] = MappingProxyType(
     {
         "drum": _DRUM_SPOTS,
         "cymbal": _CYMBAL_SPOTS,
-        "hihat": {Zone.BOW: Spot(0.0, -0.55, 0.03), Zone.EDGE: Spot(0.0, -0.98, 0.04, shoulder=True)},
+        "hihat": {Zone.BOW: Spot(0.0, -0.55, 0.04), Zone.EDGE: Spot(0.30, -0.92, 0.18, shoulder=True)},
         "kick": {Zone.HEAD: Spot(0.0, 0.0)},
         "block": {Zone.HEAD: Spot(0.0, 0.0, 0.02)},
     }
 )
 """Zones of each kind of piece where its file says nothing else: ride bow at .6 of the radius, crash on the edge with
-the stick's shoulder (HUMANS, Kit)."""
+the stick's shoulder (HUMANS, Kit). Of a piece on the left or the right `right` is inward, to the player: so one hand's
+stick on the edge or the rim stays clear of the other's on the bow or the head."""
 
 _FALLBACK: Mapping[Zone, tuple[Zone, ...]] = MappingProxyType(
     {
@@ -146,7 +149,7 @@ class KitPiece:
         right, away, normal = self.axes
         centre = self.centre + spot.raised_m * normal
         point = centre + (spot.right * self.radius_m + side * spot.spread_m) * right + spot.away * self.radius_m * away
-        over = np.linalg.norm(point - centre) / self.radius_m
+        over = np.linalg.norm(point - centre) / (_INSIDE * self.radius_m)
         if over > 1.0:  # half the spread must not leave the edge
             point = centre + (point - centre) / over
         radius = spot.wrist_radius_m if spot.wrist_radius_m is not None else self.wrist_radius_m

@@ -48,6 +48,7 @@ NATURAL = 0.6
 FIRM = 1.8
 OSTINATO = 0.9
 SWITCH = 0.6
+LAID = 1.0
 HOME = 0.15
 BEGIN = 0.1
 
@@ -61,7 +62,14 @@ FULL_CROSSING_M = 0.2
 
 # --- a note alone -----------------------------------------------------------------------------------------------------
 
-ALONE = ("written", "the ostinato's hand", "natural sticking", "its own side of the kit", "the leading hand begins")
+ALONE = (
+    "written",
+    "the ostinato's hand",
+    "natural sticking",
+    "the cross-stick's hand",
+    "its own side of the kit",
+    "the leading hand begins",
+)
 
 
 def alone(notes: HandNotes, i: int, hand: int) -> tuple[float, ...]:
@@ -73,9 +81,10 @@ def alone(notes: HandNotes, i: int, hand: int) -> tuple[float, ...]:
         ostinato = OSTINATO if hand != notes.ostinato_hand(i) else 0.0
     elif hand != notes.natural[i]:
         natural = FIRM if notes.firm[i] else NATURAL
+    laid = LAID if notes.laid[i] and hand == notes.lead else 0.0  # drummers lay the hand that has the backbeat
     home = HOME * max(0.0, (x if hand == LEFT else -x) - MIDDLE_M)
     begins = i == 0 or notes.time_s[i] - notes.time_s[i - 1] > PHRASE_S
-    return written, ostinato, natural, home, BEGIN if begins and hand != notes.lead else 0.0
+    return written, ostinato, natural, laid, home, BEGIN if begins and hand != notes.lead else 0.0
 
 
 # --- after the same hand's last note ----------------------------------------------------------------------------------

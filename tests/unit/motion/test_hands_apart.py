@@ -1,0 +1,86 @@
+"""Both hands on neighbouring spots, one under a cymbal, one at rest: they and the kit stay apart (3 mm)."""
+
+import numpy as np
+import pytest
+
+from station.core.pieces import Articulation, Limb, Piece, Zone
+from station.core.units import PPQ
+from station.motion.audit import audit
+from station.motion.drummer import Drummer
+from station.motion.events import WAIT, hand_events
+from station.motion.kit import load_kit
+from station.motion.limbs import as_led, assign_limbs
+from station.music.score import Note, Score
+from station.music.tempo import TempoMap
+
+R, L = Limb.RIGHT_HAND, Limb.LEFT_HAND
+Struck = tuple[Piece, Zone, Articulation]
+HEAD: Struck = (Piece.SNARE, Zone.HEAD, Articulation.NORMAL)
+LAID: Struck = (Piece.SNARE, Zone.RIM, Articulation.CROSS_STICK)
+BOW: Struck = (Piece.HIHAT, Zone.BOW, Articulation.NORMAL)
+EDGE: Struck = (Piece.HIHAT, Zone.EDGE, Articulation.NORMAL)
+FLOOR: Struck = (Piece.FLOOR_TOM_1, Zone.HEAD, Articulation.NORMAL)
+FLOOR_RIM: Struck = (Piece.FLOOR_TOM_1, Zone.RIM, Articulation.NORMAL)
+CRASH: Struck = (Piece.CRASH_1, Zone.EDGE, Articulation.NORMAL)
+
+
+def alternating(right: list[Struck], left: list[Struck], each_ticks: int = PPQ // 2, bpm: float = 100) -> Score:
+    """Right and left in turn, each going through its own list, four times."""
+    count = 4 * max(len(right), len(left))
+    notes = []
+    for i in range(count):
+        for k, (limb, struck) in enumerate(((R, right), (L, left))):
+            piece, zone, articulation = struck[i % len(struck)]
+            notes.append(Note((2 * i + k) * each_ticks, piece, zone, 70, limb=limb, articulation=articulation))
+    return Score.from_notes(notes, TempoMap.constant(bpm))
+
+
+@pytest.mark.parametrize("kit", ["four_piece", "seven_piece", "left_handed"])
+@pytest.mark.parametrize(
+    ("right", "left"),
+    [
+        ([EDGE], [BOW]),
+        ([BOW], [EDGE]),
+        ([EDGE], [EDGE]),
+        ([HEAD], [LAID]),
+        ([BOW], [LAID]),
+        ([FLOOR], [FLOOR_RIM]),
+        ([CRASH], [CRASH]),
+    ],
+    ids=["edge-bow", "bow-edge", "edges", "head-laid", "hat-laid", "floor-rim", "crashes"],
+)
+def test_hands_on_one_piece_stay_apart(kit: str, right: list[Struck], left: list[Struck]) -> None:
+    played = load_kit(kit)
+    found = audit(Drummer(as_led(alternating(right, left), played), played))
+    assert found.hands_m.value <= 0.003, found.hands_m
+    assert found.kit_m.value <= 0.003, found.kit_m
+
+
+@pytest.mark.parametrize("limb", [R, L])
+def test_a_hand_that_has_laid_its_stick_comes_up_past_the_hat(limb: Limb) -> None:
+    """The end of a right hand's cross-stick would lie under the hi-hat."""
+    notes = [
+        Note(i * PPQ, piece, zone, 90, limb=limb, articulation=how)
+        for i, (piece, zone, how) in enumerate(4 * [LAID, EDGE])
+    ]
+    found = audit(Drummer(Score.from_notes(notes, TempoMap.constant(120))))
+    assert found.kit_m.value <= 0.003, found.kit_m
+
+
+def test_the_hand_that_does_not_lead_lays_the_cross_stick() -> None:
+    """Alone in time, on the beat, where natural sticking has the leading hand: drummers keep that on the cymbal."""
+    notes = [Note(2 * i * PPQ, *LAID[:2], 80, articulation=LAID[2]) for i in range(8)]
+    score = Score.from_notes(notes, TempoMap.constant(100))
+    assert set(assign_limbs(score, load_kit()).limbs.tolist()) == {int(L)}
+    assert set(assign_limbs(score, load_kit("left_handed")).limbs.tolist()) == {int(R)}
+
+
+def test_a_hand_does_not_go_home_past_the_other() -> None:
+    """Home is the snare; with the left hand on the floor tom the right one stays there beside it, alone it goes."""
+    stays = [Note(0, Piece.FLOOR_TOM_1, limb=R)]
+    others = [Note(i * PPQ, Piece.FLOOR_TOM_1, limb=L) for i in range(1, 8)]
+    later = [Note(8 * PPQ, Piece.FLOOR_TOM_1, limb=R)]
+    for notes, waits in ((stays + later, True), (stays + others + later, False)):
+        score = Score.from_notes(notes, TempoMap.constant(100))
+        right, _ = hand_events(score, score.notes["limb"])
+        assert bool(np.any(right.key[:-1, 2] == WAIT)) is waits
