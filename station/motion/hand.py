@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 
 _SPARE_RAD = radians(5)
 """What is left of a wrist's limits sideways in the natural style, for others to use (our choice)."""
-_EASINGS = 3
+_EASINGS = 4
 _LEAST_HUMP, _MOST_TURN_RAD = 0.3, radians(60)
 """Moments at which so little of a detour is left are not helped by turning the hand; nor is it turned more than this
 (our choice)."""
