@@ -31,6 +31,8 @@ ROUNDS = 8
 """A detour may need another: so often the whole is looked at (our choice)."""
 _SPARE_M = 0.012
 """Nearer than this to touching is too near: styles move the body and the strokes a little (our choice)."""
+_TOO_NEAR_M = (2 * STICK_RADIUS_M + _SPARE_M, ARM_RADIUS_M + _SPARE_M)
+"""Between sticks, and from a stick to the other forearm."""
 _LOW = 0.4
 """A style may make strokes this much lower, and the way must be free then too (our choice)."""
 _LEAST_HUMP = 0.08
@@ -48,12 +50,16 @@ _WAYS = np.array(
     ]
 )
 """The detours that are tried in the middle of a stretch: aside to the hand's own side, forward, up, (k, 3) metres."""
+_MOST_M = 0.45
+"""No detour is longer in all (our choice)."""
 _WAY_COST = 0.08
 """A metre of detour is taken for this many metres of clearance (our choice)."""
+_NEAR_COST = 3.0
+"""What is too near costs so much more than what is nearer than drummers like (our choice)."""
 _DEPTH_COST = 10.0
 _ELBOW_SPARE_RAD = radians(10)
-_ANGLE_COST_M = 0.3
-"""A metre deep in a drum or a radian beyond a joint's limit weighs as this many metres too near; the elbow's limit is
+_ANGLE_COST_M = 1.0
+"""A metre deep in a drum or a radian beyond a joint's limit weighs as this many metres less clear; the elbow's limit is
 left to styles by the spare (our choice)."""
 
 
@@ -132,7 +138,7 @@ class _Scene:
     def tangled(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """The pairs (p, 2) of stretches on which the hands come too near, and of each moment which, −1 none."""
         a, b = (_limbs(arm) for arm in self.arms)
-        near = _lack(a, b, 2 * STICK_RADIUS_M + _SPARE_M, ARM_RADIUS_M + _SPARE_M) > 0
+        near = _lack(a, b, *_TOO_NEAR_M) > 0
         which = np.full(len(self.grid), -1)
         pairs, of = np.unique(np.stack(self.stretch, 1)[near], axis=0, return_inverse=True)
         which[near] = of.reshape(-1)
@@ -162,6 +168,8 @@ class _Scene:
                 continue
             on = np.flatnonzero((self.stretch[side] == pair[side]) & (self.hump[side] > 0.0))
             ways = _WAYS * (1.0 if side == 0 else -1.0, 1.0, 1.0)
+            so_far = self.hands[side].bump[pair[side], :3]
+            ways = ways[(np.linalg.norm(so_far + ways, axis=1) <= _MOST_M) | ~ways.any(1)]
             price, way = self._best(side, on, ways)
             if way.any() and (best is None or price < best[0]):
                 best = price, side, way
@@ -180,9 +188,13 @@ class _Scene:
         arm = solve(MANY, lengths, (rx, ry, rz), every, strokes)
         own = [np.broadcast_to(p, (*x.shape, 3)) for p in _limbs(arm)]
         other = [np.broadcast_to(p[on], (*x.shape, 3)).reshape(-1, 3) for p in _limbs(self.arms[1 - side])]
-        lack = _lack([p.reshape(-1, 3) for p in own], other, STICKS_M, ARM_M).reshape(x.shape)
+        own_flat = [p.reshape(-1, 3) for p in own]
+        lack = _lack(own_flat, other, STICKS_M, ARM_M).reshape(x.shape)
+        near = _lack(own_flat, other, *_TOO_NEAR_M).reshape(x.shape)
+        helped = hump > _LEAST_HUMP
         prices = (
-            np.where(hump > _LEAST_HUMP, np.maximum(lack, 0.0), 0.0).max(1)
+            np.where(helped, np.maximum(lack, 0.0), 0.0).max(1)
+            + _NEAR_COST * np.where(helped, np.maximum(near, 0.0), 0.0).max(1)
             + _WAY_COST * np.linalg.norm(ways, axis=1)
             + _ANGLE_COST_M * np.broadcast_to(self._beyond(side, arm), x.shape).max(1)
             + np.broadcast_to(arm.missing_m, x.shape).max(1)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from station.core.errors import BadInput
 from station.core.pieces import Limb, Piece, Zone, word
-from station.motion.arm import Contact, solve
+from station.motion.arm import Contact, Offsets, solve
 from station.motion.contacts import PROTRACTION_M, Lie, Strike, lie_of
 from station.motion.events import SHOW, HandEvents
 from station.motion.figure import Figure
@@ -93,24 +93,23 @@ class HandPart:
         """The way between the contacts."""
         return Way.of(self.events.time_s, self.contacts, self.bump, self.early)
 
-    def eased(self, figure: Figure, time_s: Array, root: Point) -> "HandPart":
+    def eased(self, figure: Figure, time_s: Array, roots: tuple[Point, Point]) -> "HandPart":
         """The same with the hand so pointed at each contact that its wrist stays within its limits sideways.
 
-        `root` is the shoulder's x, y, z as the body naturally is at `time_s` (k,).
+        `roots` is the shoulder's x, y, z at `time_s` (k,) as the body naturally is, and as a lively one has it, which
+        counts while the hand stays.
         """
-        right = self.limb == Limb.RIGHT_HAND
-        limits, side = figure.limits, 1.0 if right else -1.0
-        strokes = Strokes.of(self.strokes, NATURALLY).many(time_s)
+        limits = figure.limits
         most, least = limits.wrist_radial - _SPARE_RAD, _SPARE_RAD - limits.wrist_ulnar
-        part = self
+        strokes = Strokes.of(self.strokes, NATURALLY).many(time_s)
+        part, side = self, 1.0 if self.limb == Limb.RIGHT_HAND else -1.0
         for _ in range(_EASINGS):
             contacts = part.contacts.copy()
-            arm = solve(MANY, self.hold.lengths(figure, right), root, part.way.many(time_s), strokes)
-            bent = side * np.broadcast_to(arm.deviation, time_s.shape)
+            bent, lively = (part._sideways(figure, time_s, root, strokes) for root in roots)
             nearest, stays = part.way.nearest(time_s)
             low, high = np.full(len(contacts), np.inf), np.full(len(contacts), -np.inf)
-            np.maximum.at(high, nearest[stays], bent[stays])
-            np.minimum.at(low, nearest[stays], bent[stays])
+            np.maximum.at(high, nearest[stays], np.maximum(bent, lively)[stays])
+            np.minimum.at(low, nearest[stays], np.minimum(bent, lively)[stays])
             turn = np.zeros(len(contacts))  # what the ways want, within what the stays allow
             np.maximum.at(turn, nearest, bent - most)
             under = np.zeros(len(contacts))
@@ -122,6 +121,12 @@ class HandPart:
             contacts[:, _HAND_YAW] -= side * turn
             part = replace(part, contacts=contacts)
         return part._turned_on_ways(side, time_s, bent, (least, most)) if len(self.bump) else part
+
+    def _sideways(self, figure: Figure, time_s: Array, root: Point, strokes: Offsets) -> Array:
+        """How far the wrist is bent to the thumb's side at `time_s` (k,) with the shoulder at `root`."""
+        right = self.limb == Limb.RIGHT_HAND
+        arm = solve(MANY, self.hold.lengths(figure, right), root, self.way.many(time_s), strokes)
+        return np.asarray((1.0 if right else -1.0) * np.broadcast_to(arm.deviation, time_s.shape))
 
     def _turned_on_ways(self, side: float, time_s: Array, bent: Array, bounds: tuple[float, float]) -> "HandPart":
         """The same with the hand turned on its ways as far as its wrist, `bent` at `time_s`, is beyond `bounds`."""

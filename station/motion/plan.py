@@ -33,7 +33,7 @@ from station.music.score import Score
 
 Array = NDArray[np.float64]
 
-LIVELY = Style(amplitude_twist=65.0, amplitude_back=95.0, amplitude_side=45.0)
+LIVELY = Style(amplitude_twist=75.0, amplitude_back=95.0, amplitude_side=45.0)
 """The style whose shoulders are farthest from the natural ones: hands are so pointed that both serve their wrists."""
 HANDS = (Limb.RIGHT_HAND, Limb.LEFT_HAND)
 
@@ -94,20 +94,18 @@ class Plan:
             past_the_shoulder(hand, self.figure, self.kit, grid, root)
             for hand, root in zip((right, left), roots, strict=True)
         )
-        twice = np.concatenate((grid, grid))
-        both = [np.concatenate(pair, axis=1) for pair in zip(roots, self._roots(grid, LIVELY), strict=True)]
-        right, left = (hand.eased(self.figure, twice, root) for hand, root in zip((right, left), both, strict=True))
+        shoulders = list(zip(roots, self._roots(grid, LIVELY), strict=True))
+        right, left = (hand.eased(self.figure, grid, r) for hand, r in zip((right, left), shoulders, strict=True))
         right, left = detoured((right, left), self.figure, self.kit, grid, roots)
-        right, left = (hand.eased(self.figure, twice, root) for hand, root in zip((right, left), both, strict=True))
+        right, left = (hand.eased(self.figure, grid, r) for hand, r in zip((right, left), shoulders, strict=True))
         return right, left
 
-    def _roots(self, time_s: Array, style: Style) -> tuple[Array, Array]:
-        """Where the right and the left shoulder are at each time under `style`, (3, n) each."""
+    def _roots(self, time_s: Array, style: Style) -> tuple[Point, Point]:
+        """Where the right and the left shoulder are at each time under `style`."""
         curves = body.curves(self.ground, style, body.keys(self.ground, style))
         twist, lean, side, shrug, *_ = curves.many(time_s)
         frame = trunk(MANY, self.figure, self.pelvis, TrunkAngles(twist, lean, side, 0.0, 0.0, 0.0, shrug))
-        right, left = frame.right_shoulder, frame.left_shoulder
-        return np.array(np.broadcast_arrays(*right, time_s)[:3]), np.array(np.broadcast_arrays(*left, time_s)[:3])
+        return frame.right_shoulder, frame.left_shoulder
 
     def gaze(self, style: Style) -> Curves:
         """Where the drummer looks."""

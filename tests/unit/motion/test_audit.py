@@ -27,7 +27,7 @@ from station.music.tempo import TempoMap
 from tests.unit.motion.patterns import ROCK, score_of
 
 WITHIN_S = 16.0
-FEW_DEGREES = radians(6)
+FEW_DEGREES = radians(1.5)
 """Of the wrist and the elbow in the liveliest styles, whose body moves more than the hands were led for."""
 
 
