@@ -54,8 +54,8 @@ _MOST_M = 0.45
 """No detour is longer in all (our choice)."""
 _WAY_COST = 0.08
 """A metre of detour is taken for this many metres of clearance (our choice)."""
-_NEAR_COST = 3.0
-"""What is too near costs so much more than what is nearer than drummers like (our choice)."""
+_NEAR_COST = 0.7
+"""A metre of what is too near costs so much more than one of what is nearer than drummers like (our choice)."""
 _DEPTH_COST = 10.0
 _ELBOW_SPARE_RAD = radians(10)
 _ANGLE_COST_M = 1.0

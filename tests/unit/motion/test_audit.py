@@ -27,8 +27,8 @@ from station.music.tempo import TempoMap
 from tests.unit.motion.patterns import ROCK, score_of
 
 WITHIN_S = 16.0
-FEW_DEGREES = radians(1.5)
-"""Of the wrist and the elbow in the liveliest styles, whose body moves more than the hands were led for."""
+ALL_BUT_HELD, FEW_DEGREES = radians(1.5), radians(6)
+"""By how much wrists may be beyond their limits in shipped styles, and at the ends of posture, where no hand is led."""
 
 
 def drummer_of(lesson: str, kit_name: str, style: str = "natural") -> Drummer:
@@ -48,12 +48,12 @@ def test_fills_go_through_nothing_on_any_kit(lesson: str, kit: str) -> None:
 
 
 @pytest.mark.parametrize("style", ["sweeping", "funk", "subdued", "jazz"])
-@pytest.mark.parametrize("lesson", ["rock-fill-2", "jazz-fill-1", "double-kick-1"])
+@pytest.mark.parametrize("lesson", ["rock-fill-2", "jazz-fill-1", "stops-1", "linear-fill-1", "quintuplet-1"])
 def test_styles_change_nothing_of_that(lesson: str, style: str) -> None:
     found = audit(drummer_of(lesson, "four_piece", style), WITHIN_S)
     assert found.kit_m.value <= 0.003, found.kit_m
     assert found.hands_m.value <= 0.003, found.hands_m
-    assert found.limit_rad.value <= FEW_DEGREES, found.limit_rad
+    assert found.limit_rad.value <= ALL_BUT_HELD, found.limit_rad
     assert found.speed.value <= 1.0, found.speed
     assert found.strike_m.value <= 1e-6, found.strike_m
 
