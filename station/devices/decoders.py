@@ -65,6 +65,10 @@ class DecoderBank:
         """Up to when events of `device` were let go, if bytes from before that come only now; see `Guard`."""
         return self._kit(device).guard.overtaken_ns(at_ns)
 
+    def waits(self, device: str) -> bool:
+        """Whether something of `device` is not certain yet."""
+        return self._kit(device).guard.waits
+
     def flush(self) -> list[DeviceEvent]:
         """All that still waits, as it stands."""
         return [event for kit in self._kits.values() for event in kit.guard.flush()]

@@ -198,6 +198,11 @@ class Guard:
             doubt_ns = max(doubt_ns, self.kit.foot.splash_ns)
         return doubt_ns
 
+    @property
+    def waits(self) -> bool:
+        """Whether something is not certain yet."""
+        return bool(self._queue)
+
     # --- out ---------------------------------------------------------------------------------------------------------
 
     def told(self) -> list[DeviceEvent]:

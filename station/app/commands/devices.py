@@ -1,26 +1,23 @@
 """`station devices`: list kits and sound outputs, watch a kit live, record it, replay a capture."""
 
 import argparse
-import time
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import asdict
 from enum import IntEnum
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from station.app.commands.kit_option import KIT_HELP, wanted_kits
+from station.app.commands.kit_option import KIT_HELP
+from station.app.commands.learn import learn
+from station.app.commands.listening import event_line, listening, polls
+from station.app.commands.monitor import monitor
 from station.app.commands.output import print_json, say
 from station.core.clock import monotonic_ns
 from station.core.errors import DeviceError
-from station.core.events import Choke, DeviceEvent, DeviceFound, DeviceLost, Hit, PedalMoved
+from station.core.events import DeviceEvent, DeviceFound, DeviceLost, Hit
 from station.core.pieces import word
-from station.core.settings import load_settings
-from station.core.units import NS_PER_S, ns_from_s, s_from_ns
-from station.devices.watch import Findings, KitWatch
+from station.devices.watch import Findings
 
 if TYPE_CHECKING:
-    from station.devices.decoders import DecoderBank
     from station.engine.engine import Engine
 
 SCHEMA = "drum-station/devices/1"
@@ -36,10 +33,11 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     verbs = parser.add_subparsers(dest="verb", required=True, metavar="VERB")
     listing = verbs.add_parser("list", help="the kits and sound outputs that this computer sees")
     listing.add_argument("--json", action="store_true", help="print one JSON document")
-    monitor = verbs.add_parser("monitor", help="every hit as it comes, with its raw bytes; Ctrl-C ends")
+    watch = verbs.add_parser("monitor", help="every hit with its raw bytes, and what looks like a ghost; Ctrl-C ends")
+    teach = verbs.add_parser("learn", help="teach the station your kit: strike what is asked for")
     record = verbs.add_parser("record", help="keep every byte of a kit with its time; Ctrl-C ends")
     record.add_argument("file", metavar="FILE", type=Path, help="the capture to write")
-    for verb in (monitor, record):
+    for verb in (watch, teach, record):
         verb.add_argument("--kit", metavar="PORT", action="append", help=KIT_HELP)
         verb.add_argument("--seconds", type=_seconds, metavar="S", help="end by itself after so long")
     replay = verbs.add_parser("replay", help="the hits of a capture, as they were")
@@ -56,7 +54,7 @@ def _seconds(text: str) -> float:
 
 def run(arguments: argparse.Namespace) -> int:
     """Do what the verb says."""
-    verbs = {"list": _list, "monitor": _monitor, "record": _record, "replay": _replay}
+    verbs = {"list": _list, "monitor": monitor, "learn": learn, "record": _record, "replay": _replay}
     return verbs[arguments.verb](arguments)
 
 
@@ -99,87 +97,21 @@ def _ports() -> tuple[list[dict[str, str]], list[str]]:
     return [{"port": port, "preset": preset_for(port).title, "wire": wire} for port, wire in names], faults
 
 
-# --- live ------------------------------------------------------------------------------------------------------------
-
-
-@contextmanager
-def _listening(arguments: argparse.Namespace) -> Iterator[tuple[KitWatch, ...]]:
-    """The chosen kits; raises `DeviceError` where none can be heard. Ctrl-C, wherever it falls, ends the block."""
-    from station.devices.kit_ports import parse_kits, watch_kits
-
-    watches = watch_kits(parse_kits(wanted_kits(arguments.kit, load_settings().kit)))
-    if watches.fault is not None:
-        if not watches.kits:
-            raise DeviceError(watches.fault)
-        say(f"station: {watches.fault}")
-    try:
-        yield watches.kits
-    except KeyboardInterrupt:
-        pass
-    finally:
-        for kit in watches.kits:
-            kit.close()
-
-
-def _polls(kits: tuple[KitWatch, ...], seconds: float | None) -> Iterator[Findings]:
-    """What the kits bring, poll by poll, until the time is up."""
-    end_ns = None if seconds is None else monotonic_ns() + ns_from_s(seconds)
-    names = " and ".join(f"a kit called {kit.wanted!r}" if kit.wanted else "a kit" for kit in kits)
-    say(f"waiting for {names}; Ctrl-C ends")
-    while end_ns is None or monotonic_ns() < end_ns:
-        for kit in kits:
-            findings = kit.poll(monotonic_ns())
-            if findings.fault:
-                say(f"station: {findings.fault}")
-            yield findings
-        time.sleep(POLL_S)
-
-
-def _monitor(arguments: argparse.Namespace) -> int:
-    from station.devices.decoders import DecoderBank
-
-    decoders, start_ns = DecoderBank(), monotonic_ns()
-    with _listening(arguments) as kits:
-        for findings in _polls(kits, arguments.seconds):
-            _show(findings, decoders, start_ns)
-    return 0
-
-
-def _show(findings: Findings, decoders: "DecoderBank", start_ns: int) -> None:
-    now_ns = monotonic_ns()
-    if findings.found:
-        _print(decoders.found(findings.device, now_ns), start_ns)
-    for packet in findings.packets:
-        events = decoders.feed(findings.device, packet.data, packet.at_ns).told
-        raw = packet.data.hex(" ")
-        for event in events:
-            print(f"{_line(event, start_ns):72}  {raw}", flush=True)
-        if not events and packet.data[:1] not in _CHATTER:
-            print(f"{s_from_ns(packet.at_ns - start_ns):10.4f}  {'':60}  {raw}", flush=True)
-    if findings.lost:
-        _print(decoders.lost(findings.device, now_ns), start_ns)
-
-
-def _print(events: "list[DeviceEvent]", start_ns: int) -> None:
-    for event in events:
-        print(_line(event, start_ns), flush=True)
-
-
-_CHATTER = (b"\xf8", b"\xfe")
-"""MIDI clock and active sensing: several a second, and nothing that a drummer did."""
+# --- record ----------------------------------------------------------------------------------------------------------
 
 
 def _record(arguments: argparse.Namespace) -> int:
+    from station.devices.kit_file import own_kit
     from station.engine.engine import Engine
     from station.engine.messages import Record
 
-    engine, hits = Engine(), 0
-    with _listening(arguments) as kits:  # before the file: where nothing can be heard, none is left behind
+    engine, hits = Engine(own_kit=own_kit), 0
+    with listening(arguments) as kits:  # before the file: where nothing can be heard, none is left behind
         engine.advance(monotonic_ns())
         engine.handle(Record(arguments.file))
         try:
             hits += _tell(engine)
-            for findings in _polls(kits, arguments.seconds):
+            for findings in polls(kits, arguments.seconds):
                 _feed(engine, findings)
                 hits += _tell(engine)
         finally:
@@ -235,31 +167,9 @@ def _replay(arguments: argparse.Namespace) -> int:
         print_json({"schema": "drum-station/replay/1", "complete": capture.complete, "events": rows})
     else:
         for event in events:
-            print(_line(event, start_ns))
+            print(event_line(event, start_ns))
     return 0
 
 
 def _plain(event: DeviceEvent) -> dict[str, object]:
     return {name: word(value) if isinstance(value, IntEnum) else value for name, value in asdict(event).items()}
-
-
-def _line(event: DeviceEvent, start_ns: int) -> str:
-    """One event in words, its time in seconds from `start_ns`."""
-    return f"{(event.at_ns - start_ns) / NS_PER_S:10.4f}  {_words(event)}"
-
-
-def _words(event: DeviceEvent) -> str:
-    match event:
-        case Hit():
-            openness = "" if event.openness is None else f"  openness {event.openness:.2f}"
-            how = f"{word(event.zone)}, {word(event.articulation)}"
-            fraction = f"{event.velocity_fraction:.2f}"[1:] if event.velocity_fraction else ""
-            return f"{word(event.piece):13} {how:18} velocity {event.velocity:3}{fraction}{openness}"
-        case Choke():
-            return f"{word(event.piece):13} choked"
-        case PedalMoved():
-            return f"hi-hat pedal  openness {event.openness:.2f}"
-        case DeviceLost():
-            return f"{event.device} is gone"
-        case DeviceFound():
-            return f"{event.device} is here"

@@ -1,0 +1,96 @@
+"""Listening to kits from the terminal: what they bring, poll by poll, and their events in words."""
+
+import argparse
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from queue import SimpleQueue
+
+from station.app.commands.kit_option import wanted_kits
+from station.app.commands.output import say
+from station.core.clock import monotonic_ns
+from station.core.errors import DeviceError
+from station.core.events import Choke, DeviceEvent, DeviceFound, DeviceLost, Hit, PedalMoved
+from station.core.pieces import word
+from station.core.settings import load_settings
+from station.core.units import NS_PER_S, ns_from_s
+from station.devices.watch import Findings, KitWatch
+
+POLL_S = 0.0005
+"""Pause between two looks at the kit: the engine's own pace."""
+
+
+class TypedLines:
+    """What a person types, line by line, read in a thread of its own; `ended` once there is no more to come."""
+
+    def __init__(self) -> None:
+        self._lines: SimpleQueue[str] = SimpleQueue()
+        self.ended = False
+        threading.Thread(target=self._run, name="keys", daemon=True).start()
+
+    def _run(self) -> None:
+        with suppress(OSError, ValueError):  # there is no standard input, or it was closed
+            for line in sys.stdin or ():
+                self._lines.put(line.strip())
+        self.ended = True
+
+    def take(self) -> list[str]:
+        """The lines since the last call."""
+        return [self._lines.get() for _ in range(self._lines.qsize())]
+
+
+@contextmanager
+def listening(arguments: argparse.Namespace) -> Iterator[tuple[KitWatch, ...]]:
+    """The chosen kits; raises `DeviceError` where none can be heard. Ctrl-C, wherever it falls, ends the block."""
+    from station.devices.kit_ports import parse_kits, watch_kits
+
+    watches = watch_kits(parse_kits(wanted_kits(arguments.kit, load_settings().kit)))
+    if watches.fault is not None:
+        if not watches.kits:
+            raise DeviceError(watches.fault)
+        say(f"station: {watches.fault}")
+    try:
+        yield watches.kits
+    except KeyboardInterrupt:
+        pass
+    finally:
+        for kit in watches.kits:
+            kit.close()
+
+
+def polls(kits: tuple[KitWatch, ...], seconds: float | None) -> Iterator[Findings]:
+    """What the kits bring, poll by poll, until the time is up."""
+    end_ns = None if seconds is None else monotonic_ns() + ns_from_s(seconds)
+    names = " and ".join(f"a kit called {kit.wanted!r}" if kit.wanted else "a kit" for kit in kits)
+    say(f"waiting for {names}; Ctrl-C ends")
+    while end_ns is None or monotonic_ns() < end_ns:
+        for kit in kits:
+            findings = kit.poll(monotonic_ns())
+            if findings.fault:
+                say(f"station: {findings.fault}")
+            yield findings
+        time.sleep(POLL_S)
+
+
+def event_line(event: DeviceEvent, start_ns: int) -> str:
+    """One event in words, its time in seconds from `start_ns`."""
+    return f"{(event.at_ns - start_ns) / NS_PER_S:10.4f}  {_words(event)}"
+
+
+def _words(event: DeviceEvent) -> str:
+    match event:
+        case Hit():
+            openness = "" if event.openness is None else f"  openness {event.openness:.2f}"
+            how = f"{word(event.zone)}, {word(event.articulation)}"
+            fraction = f"{event.velocity_fraction:.2f}"[1:] if event.velocity_fraction else ""
+            return f"{word(event.piece):13} {how:18} velocity {event.velocity:3}{fraction}{openness}"
+        case Choke():
+            return f"{word(event.piece):13} choked"
+        case PedalMoved():
+            return f"hi-hat pedal  openness {event.openness:.2f}"
+        case DeviceLost():
+            return f"{event.device} is gone"
+        case DeviceFound():
+            return f"{event.device} is here"

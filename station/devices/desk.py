@@ -1,0 +1,87 @@
+"""Changes a kit by words, as a live page offers them.
+
+threshold PIECE VELOCITY      softer is no stroke
+mask PIECE MS                 so long after a stroke there is no other
+ghost SOURCE VICTIM SHARE     a stroke on SOURCE makes VICTIM send ghosts up to so loud (0: no longer)
+travel OPENNESS               a stomp beside a hi-hat stroke counts if the pedal closed by so much (0: always)
+grab VELOCITY                 strokes up to so hard around a grab come from the grabbing hand
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+from types import MappingProxyType
+
+from station.core.errors import BadInput
+from station.core.pieces import Piece, word
+from station.core.units import ns_from_ms
+from station.devices.kit import Crosstalk, KitPreset, Pad
+
+USAGE = "threshold PIECE VELOCITY | mask PIECE MS | ghost SOURCE VICTIM SHARE | travel OPENNESS | grab VELOCITY"
+_PIECES = {word(piece): piece for piece in Piece}
+_LONGEST_MASK_MS = 100.0
+
+
+def obey(kit: KitPreset, line: str) -> KitPreset:
+    """The kit as `line` wants it; raises `BadInput` that says what is expected."""
+    name, *words = line.split() or [""]
+    order = _ORDERS.get(name)
+    if order is None or len(words) != order[0]:
+        raise BadInput(line, "", f"expected {USAGE}")
+    return order[1](kit, words)
+
+
+def _threshold(kit: KitPreset, words: list[str]) -> KitPreset:
+    piece = _piece(words[0])
+    return _with_pad(kit, piece, replace(kit.pad(piece), threshold=int(_number(words[1], 1, 127))))
+
+
+def _mask(kit: KitPreset, words: list[str]) -> KitPreset:
+    piece = _piece(words[0])
+    return _with_pad(kit, piece, replace(kit.pad(piece), mask_ns=ns_from_ms(_number(words[1], 0, _LONGEST_MASK_MS))))
+
+
+def _ghost(kit: KitPreset, words: list[str]) -> KitPreset:
+    source, victim, share = _piece(words[0]), _piece(words[1]), _number(words[2], 0, 1)
+    if source is victim:
+        raise BadInput(words[1], "", "a pad is not its own crosstalk; mask is for that")
+    others = [rule for rule in kit.crosstalk if (rule.source, rule.victim) != (source, victim)]
+    old = next((rule for rule in kit.crosstalk if rule not in others), Crosstalk(source, victim, share))
+    new = [replace(old, share=share)] if share else []
+    return replace(kit, crosstalk=(*others, *new))
+
+
+def _travel(kit: KitPreset, words: list[str]) -> KitPreset:
+    return replace(kit, foot=replace(kit.foot, least_travel=_number(words[0], 0, 1)))
+
+
+def _grab(kit: KitPreset, words: list[str]) -> KitPreset:
+    return replace(kit, grab_velocity=int(_number(words[0], 0, 127)))
+
+
+_ORDERS: dict[str, tuple[int, Callable[[KitPreset, list[str]], KitPreset]]] = {
+    "threshold": (2, _threshold),
+    "mask": (2, _mask),
+    "ghost": (3, _ghost),
+    "travel": (1, _travel),
+    "grab": (1, _grab),
+}
+
+
+def _with_pad(kit: KitPreset, piece: Piece, pad: Pad) -> KitPreset:
+    return replace(kit, pads=MappingProxyType({**kit.pads, piece: pad}))
+
+
+def _piece(text: str) -> Piece:
+    if text not in _PIECES:
+        raise BadInput(text, "", f"no such piece; there are {', '.join(_PIECES)}")
+    return _PIECES[text]
+
+
+def _number(text: str, low: float, high: float) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = float("nan")
+    if not low <= value <= high:
+        raise BadInput(text, "", f"expected a number from {low:g} to {high:g}")
+    return value

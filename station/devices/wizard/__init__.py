@@ -1,0 +1,1 @@
+"""Learns a kit from its owner, who strikes what is asked for."""
