@@ -20,10 +20,11 @@ from station.core.settings import Settings
 from station.core.units import PPQ
 from station.drills.lesson import LEVELS, Lesson
 from station.drills.library import find_lesson, shipped_lessons
-from station.engine.messages import EngineEvent, KeyHit, Ready, Sounding
+from station.engine.messages import EngineEvent, KeyHit, Ready, SetBacking, Sounding
 from station.music.judgement import Judgement
 from station.practice.adaptation import Adaptation
-from station.practice.click import PLAIN
+from station.practice.backing import Backing, BackingWish
+from station.practice.click_word import parse_click
 from station.practice.latency import Latency, latency_of
 from station.practice.live import EngineLink, begin, end, next_session
 from station.practice.mastery_report import with_mastery
@@ -33,6 +34,7 @@ from station.practice.report import practice_document
 from station.practice.session import Session, SessionResult
 from station.render.snapshot import Snapshot
 from station.scoring.document import Json
+from station.sound.track import PreparedTrack
 
 NOTICES_KEPT = 5
 """How many notices the window may show at once; our choice."""
@@ -45,15 +47,23 @@ class PracticeRoom:
     """The `PracticeModel` of the real window; `first` is shown, and not yet played, when it opens.
 
     `wake` starts an engine: once now, and again when a session is begun after one has died. `latency` is what was
-    measured of the devices, the settings' word where nothing was.
+    measured of the devices, the settings' word where nothing was. Sessions whose tempo stays play along to `backing`.
     """
 
     def __init__(
-        self, wake: WakeEngine, settings: Settings, first: Plan, adapt: bool = False, latency: Latency | None = None
+        self,
+        wake: WakeEngine,
+        settings: Settings,
+        first: Plan,
+        adapt: bool = False,
+        latency: Latency | None = None,
+        backing: BackingWish | None = None,
     ) -> None:
         self._wake = wake
         self._engine = wake()
         self._settings = settings
+        self._backing = None if backing is None else Backing(backing)
+        self._rate_hz = settings.rate_hz
         self._latency = latency or latency_of(settings, Calibration())
         self._lessons = _all_lessons(first.lesson)
         self._first = replace(_wish_of(first), adapt=adapt)
@@ -124,9 +134,13 @@ class PracticeRoom:
             self.stop()
         if not self._alive:
             self._engine, self._alive = self._wake(), True
+        track = None if wish.adapt else self._track(plan)
         folder = SessionFolder(None, self._settings, plan)
         session = self._new_session(plan) if followed is None else followed.adaptation.session(self._latency)
+        session.backing = track
         try:
+            if self._backing is not None and track is None:
+                self._engine.send(SetBacking(None))
             begin(self._engine, session, folder.capture)
         except StationError:
             folder.discard()
@@ -169,7 +183,8 @@ class PracticeRoom:
     def _laid_out(self, wish: Start) -> tuple[Plan, SessionView, Remembered | None]:
         lesson = self._lessons.get(wish.lesson) or find_lesson(wish.lesson)
         tempo_bpm = None if wish.adapt else wish.tempo_bpm
-        wishes = Wishes(tempo_bpm, wish.loops, wish.bars, wish.demonstrations, PLAIN if wish.click else None)
+        click = parse_click(self._settings.click_pattern, "settings: click_pattern") if wish.click else None
+        wishes = Wishes(tempo_bpm, wish.loops, wish.bars, wish.demonstrations, click, self._settings.guide)
         plan, followed = plan_practice(lesson, wishes), None
         if wish.adapt:
             settings = self._settings
@@ -179,6 +194,16 @@ class PracticeRoom:
             if followed.fault is not None:
                 self._notices.append(followed.fault)
         return plan, SessionView(plan, lesson.kit), followed
+
+    def _track(self, plan: Plan) -> PreparedTrack | None:
+        """The track to play along to; raises `DeviceError` while it is being made ready, `BadInput` if it cannot be."""
+        if self._backing is None:
+            return None
+        self._backing.ask(plan, self._rate_hz)
+        track = self._backing.take()
+        if track is None:
+            raise DeviceError("the track is being made ready for this tempo: start again in a moment")
+        return track
 
     def _new_session(self, plan: Plan) -> Session:
         return Session(plan, self._latency)
@@ -234,8 +259,9 @@ class PracticeRoom:
                 self._kits = [*(kit for kit in self._kits if kit != device), device]
             case DeviceLost(_, device):
                 self._kits = [kit for kit in self._kits if kit != device]
-            case Ready(output) | Sounding(output):
+            case Ready(output, rate_hz) | Sounding(output, rate_hz):
                 self._sound = output or "silent"
+                self._rate_hz = rate_hz or self._rate_hz
             case _:
                 pass
 

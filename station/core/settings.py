@@ -37,7 +37,9 @@ class Settings:
 
     `kit` part of the MIDI port's name, empty for the first kit found; `output` part of the sound device's name, empty
     for the system's default; `block_frames` the size of one audio block, 0 for the driver's own choice; `rate_hz` its
-    sample rate; `drums` the name or the path of the drum kit that sounds, `click` the name of the click;
+    sample rate; `drums` the name or the path of the drum kit that sounds, `click` the name of the click,
+    `click_pattern` what clicks (`practice.click_word`), `levels` of what sounds (`engine.levels`), `guide` whether the
+    demonstration plays along in the passes, `midi_out` part of the name of a MIDI output that gets it, empty for none;
     `own_sound` false where the kit's module sounds itself and the strokes of the student stay silent; latencies in
     milliseconds, subtracted from every hit (input) and added to every written time (output) on devices that nobody has
     measured (`core.calibration`). `thresholds` says of pads
@@ -55,6 +57,10 @@ class Settings:
     own_sound: bool = True
     drums: str = "acoustic"
     click: str = "bar"
+    click_pattern: str = ""
+    levels: str = ""
+    guide: bool = False
+    midi_out: str = ""
     sessions: str = ""
     thresholds: str = ""
     mask_ms: float = 9.0

@@ -5,7 +5,8 @@ from typing import Self
 
 from station.core.settings import Settings
 from station.devices.kit_ports import KitWish, parse_kits
-from station.engine.messages import Bus, Command, SetLevel
+from station.engine.levels import parse_levels
+from station.engine.messages import Bus, Command, SetLevel, SetMidiOut
 
 _CHOSEN = Settings()
 
@@ -16,7 +17,7 @@ class EngineConfig:
 
     `kits` are those to listen to, none for an engine without; `midi_driver` is "auto" or one of
     `station.devices.midi_ports.compiled_drivers()`; `output`, `block_frames`, `rate_hz`, `drums`, `click`
-    and `own_sound` stand as in `Settings`; without `sound` no card is opened.
+    `own_sound`, `levels` and `midi_out` stand as in `Settings`; without `sound` no card is opened.
     """
 
     kits: tuple[KitWish, ...] = (KitWish(""),)
@@ -28,10 +29,12 @@ class EngineConfig:
     drums: str = _CHOSEN.drums
     click: str = _CHOSEN.click
     own_sound: bool = True
+    levels: tuple[SetLevel, ...] = ()
+    midi_out: str = ""
 
     @classmethod
     def from_settings(cls, settings: Settings) -> Self:
-        """What a user has chosen; raises `BadInput` for kits that cannot be meant."""
+        """What a user has chosen; raises `BadInput` for kits and levels that cannot be meant."""
         return cls(
             kits=parse_kits(settings.kit),
             output=settings.output,
@@ -40,9 +43,13 @@ class EngineConfig:
             drums=settings.drums,
             click=settings.click,
             own_sound=settings.own_sound,
+            levels=parse_levels(settings.levels, "settings: levels"),
+            midi_out=settings.midi_out,
         )
 
     @property
     def first_commands(self) -> tuple[Command, ...]:
         """What the engine is told before anything else."""
-        return () if self.own_sound else (SetLevel(Bus.STUDENT, 0.0),)
+        silent = () if self.own_sound else (SetLevel(Bus.STUDENT, 0.0),)
+        port = (SetMidiOut(self.midi_out),) if self.midi_out else ()
+        return (*self.levels, *silent, *port)

@@ -105,7 +105,7 @@ def practise_rounds(
 def next_session(engine: EngineLink, adaptation: Adaptation, before: Session) -> Session:
     """Start the pass that `adaptation` asks for, on what the session `before` knows of the kit."""
     session = adaptation.session(before.latency)
-    session.devices, session.capture_fault = before.devices, before.capture_fault
+    session.devices, session.capture_fault, session.rate_hz = before.devices, before.capture_fault, before.rate_hz
     for command in session.start():
         engine.send(command)
     return session

@@ -50,7 +50,7 @@ class Wishes:
     """What a student asks of a lesson; None leaves the choice to the lesson. `bars` (first, last) counts from 1.
 
     `click` is for the demonstrations and passes; the count-in clicks, or counts, every beat. With None the passes have
-    no click, and the score follows the student.
+    no click, and the score follows the student. With `guide` the demonstration plays along in the passes.
     """
 
     tempo_bpm: float | None = None
@@ -58,6 +58,7 @@ class Wishes:
     bars: tuple[int, int] | None = None
     demonstrations: int | None = None
     click: ClickPattern | None = PLAIN
+    guide: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -172,6 +173,8 @@ def plan_practice(lesson: Lesson, wishes: Wishes) -> Plan:
             passes_start_ns = now_ns
             if wishes.click is not None:
                 cues.append(_moved(click_cues(whole.tempo_map, whole.end_tick, click), now_ns))
+            if wishes.guide:
+                cues.append(_moved(demonstration_cues(whole), now_ns))
         segments += [
             Segment(phase, i, now_ns + start, now_ns + end)
             for i, (start, end) in enumerate(zip((0, *ends[:-1].tolist()), ends.tolist(), strict=True))

@@ -20,7 +20,7 @@ from typing import TypeVar
 from station.core.events import Choke, DeviceFound, DeviceLost, Hit
 from station.core.units import NS_PER_MS
 from station.drills.mastery.fading import Feedback
-from station.engine.messages import Command, EngineEvent, Notice, Play, Recorded, Started
+from station.engine.messages import Command, EngineEvent, Notice, Play, Ready, Recorded, SetBacking, Sounding, Started
 from station.music.judgement import Judgement, Label
 from station.music.performance import Performance
 from station.music.score import Score
@@ -30,6 +30,7 @@ from station.scoring.align import align
 from station.scoring.alignment import Alignment
 from station.scoring.follower import Follower
 from station.scoring.windows import DEFAULT_LEVEL, Windows
+from station.sound.track import PreparedTrack
 
 _Played = TypeVar("_Played", Hit, Choke)
 
@@ -75,7 +76,8 @@ class SessionResult:
 class Session:
     """One practice session; call `start`, then `handle` every event and `advance` the time, until `over`.
 
-    `feedback` is what the student is shown while playing (judgement is the same); `message` what to say before it.
+    `feedback` is what the student is shown while playing (judgement is the same); `message` what to say before it;
+    `backing` a track to play along to in the passes.
     """
 
     plan: Plan
@@ -83,6 +85,7 @@ class Session:
     windows: Windows = DEFAULT_LEVEL
     feedback: Feedback = Feedback.TIMING
     message: str = ""
+    backing: PreparedTrack | None = None
 
     def __post_init__(self) -> None:
         self._follower = Follower(self.plan.score, self.windows, clocked=self.plan.click is not None)
@@ -99,12 +102,15 @@ class Session:
         """What the click is heard on, as the engine said when the transport started."""
         self.capture_fault: str | None = None
         """Why the capture lacks what came after, if it does."""
+        self.rate_hz: int | None = None
+        """The sound card's rate, None where there is none."""
         self.notices: list[str] = []
         """What a user should read once, in order."""
 
     def start(self) -> tuple[Command, ...]:
         """The commands that set the engine going."""
-        return (Play(self.plan.cues, LEAD_IN_NS),)
+        play = Play(self.plan.cues, LEAD_IN_NS)
+        return (play,) if self.backing is None else (SetBacking(self.backing, self.plan.passes_start_ns), play)
 
     # --- input ------------------------------------------------------------------------------------------------------
 
@@ -128,6 +134,8 @@ class Session:
             case Recorded(_, fault) if fault is not None:
                 self.capture_fault = fault
                 self.notices.append(f"nothing more is recorded: {fault}")
+            case Ready(_, rate_hz) | Sounding(_, rate_hz):
+                self.rate_hz = rate_hz
             case Notice(text):
                 self.notices.append(text)
             case _:

@@ -8,12 +8,16 @@ from pathlib import Path
 from station.app.commands.kit_option import KIT_HELP, wanted_kits
 from station.app.commands.output import print_json, say
 from station.app.commands.scores import bars_of_gap
+from station.app.commands.sound_options import add_sound_options, backing_of, said_of
+from station.app.commands.tapping import TAP, tapped_tempo
 from station.app.health import has_screen
 from station.app.session_folder import SessionFolder, rescued
 from station.core.errors import BadInput, StationError
-from station.core.settings import Settings, load_settings, with_said
+from station.core.settings import Settings, load_settings, save_settings, with_said
+from station.core.units import PPQ
 from station.drills.lesson import Lesson
-from station.practice.click import PLAIN
+from station.practice.backing import BackingWish
+from station.practice.click_word import parse_click
 from station.practice.folder import TEXT_NAME
 from station.practice.mastery_report import with_mastery
 from station.practice.memory import Memory, Remembered
@@ -30,7 +34,10 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Add this command's words."""
     parser.add_argument("lesson", metavar="LESSON", nargs="?", help="a lesson's name or file (the first lesson)")
     parser.add_argument(
-        "--tempo", type=float, metavar="BPM", help="quarter notes a minute, in any meter (the lesson's)"
+        "--tempo",
+        type=_tempo,
+        metavar="BPM",
+        help="quarter notes a minute, in any meter, or tap to tap it on the Enter key (the lesson's)",
     )
     parser.add_argument(
         "--adapt",
@@ -45,8 +52,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--no-click", action="store_true", help="no click after the count-in: the score follows you, and waits"
     )
     parser.add_argument("--kit", metavar="PORT", action="append", help=KIT_HELP)
-    parser.add_argument("--output", metavar="DEVICE", help="part of the sound output's name (the system's default)")
-    parser.add_argument("--block-frames", type=int, metavar="N", help="frames an audio block (the driver's choice)")
     parser.add_argument("--virtual-student", metavar="SPEC", help="who plays instead of a person, such as pro,seed=3")
     parser.add_argument(
         "--headless", action="store_true", help="no window; a virtual student plays faster than real time"
@@ -58,14 +63,19 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--no-pictures", action="store_true", help="leave a report, but no pictures")
     parser.add_argument("--student", metavar="NAME", help="whose session it is")
     parser.add_argument("--json", action="store_true", help="print the report as one JSON document; in the terminal")
+    add_sound_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Practise."""
     settings = _wanted(arguments, load_settings())
+    backing = backing_of(arguments)
     if arguments.no_click and arguments.adapt:
         raise BadInput("--no-click", "--adapt", "the tempo follows you either within a pass or from pass to pass")
-    lesson, wishes = _lesson(arguments.lesson), _wishes(arguments)
+    lesson = _lesson(arguments.lesson)
+    if arguments.tempo == TAP:
+        arguments.tempo = tapped_tempo(lesson.beat_ticks / PPQ)
+    wishes = _wishes(arguments, settings)
     plan = plan_practice(lesson, wishes)
     if arguments.virtual_student is not None:
         return _virtual(plan, wishes, arguments.virtual_student, arguments, settings)
@@ -73,13 +83,13 @@ def run(arguments: argparse.Namespace) -> int:
     if not in_terminal and has_screen():
         from station.app.commands.window import open_window
 
-        by_default = arguments.tempo is None and not arguments.no_click
+        by_default = arguments.tempo is None and not arguments.no_click and backing is None
         adapt = by_default if arguments.adapt is None else arguments.adapt
-        return open_window(settings, plan, adapt)
+        return open_window(settings, plan, adapt, backing)
     if not in_terminal and arguments.kit is None and not _is_kit_there(settings.kit):
         say("no screen and no kit here: a virtual student practises instead")
         return _virtual(plan, wishes, STAND_IN, arguments, settings)
-    return _live(plan, wishes, arguments, settings)
+    return _live(plan, wishes, arguments, settings, backing)
 
 
 # --- ways to practise ------------------------------------------------------------------------------------------------
@@ -104,12 +114,16 @@ def _virtual(plan: Plan, wishes: Wishes, spec: str, arguments: argparse.Namespac
     return 0
 
 
-def _live(plan: Plan, wishes: Wishes, arguments: argparse.Namespace, settings: Settings) -> int:
+def _live(
+    plan: Plan, wishes: Wishes, arguments: argparse.Namespace, settings: Settings, backing: BackingWish | None
+) -> int:
     from station.app.commands.terminal import practise_in_terminal
 
     remembered = _remembered(plan, wishes, settings, keeps=True) if arguments.adapt else None
     with SessionFolder(arguments.report, settings, plan) as folder:
-        outcome = practise_in_terminal(plan if remembered is None else remembered.adaptation, settings, folder.capture)
+        outcome = practise_in_terminal(
+            plan if remembered is None else remembered.adaptation, settings, folder.capture, backing
+        )
         _leave(folder, outcome.result, practice_document(outcome.result, settings), arguments, remembered)
     if outcome.fault is not None:
         raise outcome.fault
@@ -174,17 +188,31 @@ def _lesson(name: str | None) -> Lesson:
     return find_lesson(FIRST_LESSON if name is None else name)
 
 
-def _wishes(arguments: argparse.Namespace) -> Wishes:
+def _wishes(arguments: argparse.Namespace, settings: Settings) -> Wishes:
     demonstrations = 0 if arguments.no_demonstration else None
-    click = None if arguments.no_click else replace(PLAIN, gap=arguments.gap)
-    return Wishes(arguments.tempo, arguments.loops, arguments.bars, demonstrations, click)
+    pattern = parse_click(settings.click_pattern, "settings: click_pattern")
+    click = None if arguments.no_click else replace(pattern, gap=arguments.gap)
+    return Wishes(arguments.tempo, arguments.loops, arguments.bars, demonstrations, click, settings.guide)
 
 
 def _wanted(arguments: argparse.Namespace, settings: Settings) -> Settings:
-    """The settings with what the command line says instead."""
-    said = {name: getattr(arguments, name) for name in ("output", "block_frames", "student")}
-    said["kit"] = wanted_kits(arguments.kit, settings.kit)
-    return with_said(settings, {name: value for name, value in said.items() if value is not None}, "practice")
+    """The settings with what the command line says instead, kept where that is asked for."""
+    said = {**said_of(arguments), "kit": wanted_kits(arguments.kit, settings.kit)}
+    if arguments.student is not None:
+        said["student"] = arguments.student
+    wanted = with_said(settings, said, "practice")
+    if arguments.remember:
+        say(f"remembered in {save_settings(wanted)}")
+    return wanted
+
+
+def _tempo(text: str) -> float | str:
+    if text == TAP:
+        return text
+    try:
+        return float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"expected a number, found {text!r} (or {TAP}, to tap it)") from None
 
 
 def _bars(text: str) -> tuple[int, int]:

@@ -12,11 +12,13 @@ from station.engine.config import EngineConfig
 from station.engine.lasting import LastingEngine
 from station.music.judgement import Judgement, Label
 from station.practice.adaptation import Adaptation
+from station.practice.backing import Backing, BackingWish
 from station.practice.latency import latency_of
 from station.practice.live import LiveOutcome, practise_live, practise_rounds, wait_for_kits
 from station.practice.plan import Plan, Segment
 from station.practice.session import Session
 from station.scoring.windows import Windows
+from station.sound.track import PreparedTrack
 
 KIT_WAIT_S = 5.0
 """How long to look for a kit before giving up: a USB kit announces itself within two seconds; our choice."""
@@ -68,10 +70,13 @@ def _mark(verdict: Judgement, windows: Windows) -> str:
     return _LEANS[windows.lean(verdict.asynchrony_ns / NS_PER_MS)]
 
 
-def practise_in_terminal(asked: Plan | Adaptation, settings: Settings, capture: Path) -> LiveOutcome:
-    """Practise a plan, or what an adaptation asks for pass by pass.
+def practise_in_terminal(
+    asked: Plan | Adaptation, settings: Settings, capture: Path, wish: BackingWish | None = None
+) -> LiveOutcome:
+    """Practise a plan, along to a track if one is wished for, or what an adaptation asks for pass by pass.
 
-    Raises `DeviceError` where there is no kit, or where the engine dies before it began.
+    Raises `BadInput` for a track that cannot be had, `DeviceError` where there is no kit, or where the engine dies
+    before it began.
     """
     latency = latency_of(settings, load_calibration())
     session = Session(asked, latency) if isinstance(asked, Plan) else asked.session(latency)
@@ -87,12 +92,21 @@ def practise_in_terminal(asked: Plan | Adaptation, settings: Settings, capture: 
             if len(session.devices) < len(config.kits):
                 sys.stderr.write(f"\n{len(session.devices)} of {len(config.kits)} kits are here; the others may come")
             sys.stderr.write(f"\n{LEGEND}\n")
+            if wish is not None:
+                session.backing = _track(wish, session, settings)
             if isinstance(asked, Plan):
                 return practise_live(engine, session, clock, capture, display.tell)
             return practise_rounds(engine, asked, session, clock, capture, display.tell)
     finally:
         display.last_words(session)
         sys.stderr.write("\n")
+
+
+def _track(wish: BackingWish, session: Session, settings: Settings) -> PreparedTrack | None:
+    sys.stderr.write("\nmaking the track ready …\n")
+    backing = Backing(wish)
+    backing.ask(session.plan, session.rate_hz or settings.rate_hz)
+    return backing.take(wait_s=None)
 
 
 def _no_kit(wanted: str) -> str:

@@ -7,6 +7,7 @@ from station.app.health import has_screen
 from station.core.calibration import load_calibration
 from station.core.errors import DeviceError
 from station.core.settings import Settings, load_settings
+from station.practice.backing import BackingWish
 from station.practice.plan import Plan, Wishes, plan_practice
 
 
@@ -21,10 +22,11 @@ def run(_: argparse.Namespace) -> int:
     return open_window(load_settings(), plan_practice(find_lesson(FIRST_LESSON), Wishes()), adapt=True)
 
 
-def open_window(settings: Settings, first: Plan, adapt: bool) -> int:
+def open_window(settings: Settings, first: Plan, adapt: bool, backing: BackingWish | None = None) -> int:
     """Show the practice room until it is closed; what was played until then is kept.
 
-    `adapt` whether the tempo follows the student, until another choice is made in the window.
+    `adapt` whether the tempo follows the student, until another choice is made in the window; `backing` a track to
+    play along to in every session whose tempo stays.
     """
     if not has_screen():
         raise DeviceError("no screen: `station practice --headless` practises in the terminal")
@@ -37,7 +39,7 @@ def open_window(settings: Settings, first: Plan, adapt: bool) -> int:
     latency = latency_of(settings, load_calibration())
     with ExitStack() as engines:
         wake = lambda: engines.enter_context(LastingEngine(EngineConfig.from_settings(settings)))  # noqa: E731
-        room = PracticeRoom(wake, settings, first, adapt, latency)
+        room = PracticeRoom(wake, settings, first, adapt, latency, backing)
         try:
             run_window(room)
         finally:

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from station.cli import main
+from station.core.settings import load_settings
 
 
 @pytest.fixture(autouse=True)
@@ -285,3 +286,31 @@ def test_animate_takes_the_style_that_the_score_suggests(tmp_path: Path) -> None
         assert main(["animate", "jazz-ride-1", "--end-bar", "1", "--fps", "10", "--out", str(out), *words]) == 0
     with np.load(first) as proposed, np.load(second) as natural:
         assert np.abs(proposed["points_m"] - natural["points_m"]).max() > 0.005
+
+
+def test_what_sounds_is_chosen_checked_and_remembered(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
+    practice = (
+        "practice",
+        "rock-1",
+        "--virtual-student",
+        "pro",
+        "--no-pictures",
+        "--report",
+        str(tmp_path / "session"),
+    )
+    for words, named in (
+        (("--click", "on=3"), "on=3"),
+        (("--levels", "drums=1"), "drums=1"),
+        (("--track-speed", "80"), "--track-speed"),
+        (("--track", "song.mp3", "--adapt"), "--track"),
+        (("--block-frames", "8"), "16 to 8192"),
+    ):
+        assert named in refused(capsys, *practice, *words)
+    chosen = ("--click", "parts=2,count", "--levels", "click=0.5", "--sounds", "brushes", "--guide", "--no-own-sound")
+    assert main([*practice, *chosen, "--midi-out", "TD", "--remember"]) == 0
+    kept = load_settings(tmp_path / "drum-station" / "settings.toml")
+    assert (kept.click_pattern, kept.levels, kept.drums) == ("parts=2,count", "click=0.5", "brushes")
+    assert (kept.guide, kept.own_sound, kept.midi_out) == (True, False, "TD")

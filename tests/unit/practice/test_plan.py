@@ -79,6 +79,14 @@ def test_only_demonstrations_sound_strokes() -> None:
     assert strokes["at_ns"].max() < 3 * BAR_NS
 
 
+def test_a_guide_plays_every_stroke_of_every_pass() -> None:
+    plain = plan_practice(lesson(), Wishes(demonstrations=1, loops=3))
+    guided = plan_practice(lesson(), Wishes(demonstrations=1, loops=3, guide=True))
+    strokes, more = (plan.cues[plan.cues["bus"] == Bus.DEMONSTRATION]["at_ns"] for plan in (plain, guided))
+    assert len(more) == len(strokes) + len(plain.score)
+    assert more[len(strokes) :].tolist() == (plain.passes_start_ns + plain.score.onset_ns).tolist()
+
+
 def test_a_grabbed_cymbal_is_a_cue_of_velocity_0() -> None:
     crash = Note(0, Piece.CRASH_1, Zone.EDGE, velocity=100, choke_ticks=PPQ)
     one_bar = lesson(Score.from_notes([crash], TempoMap.constant(120)))
