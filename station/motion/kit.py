@@ -13,6 +13,8 @@ from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
 
+import numpy as np
+
 from station.core.errors import BadInput
 from station.core.pieces import Limb, Piece, Zone, word
 from station.core.toml_table import Table, find_shipped, located, read_toml, shipped
@@ -95,6 +97,8 @@ _PIECE_KEYS = {
     "wrist_height_m": "wrist_height_m",
 }
 _MAX_TILT_DEG = 80.0
+_LEAST_APART_M, _MOST_INSIDE_M = 0.04, 0.03
+"""Nearer centres, or a surface deeper in another's shell, are no kit that stands (our choice; hoops may touch)."""
 _LEAST_BOARD_M = 0.1
 """A shorter footboard points nowhere (our choice; real ones are 25–33 cm long)."""
 
@@ -128,6 +132,7 @@ def _kit(raw: Mapping[str, object], source: Path) -> Kit:
     for needed in ("kick", "snare"):
         if needed not in named:
             raise BadInput(source, "", f"a kit needs a {needed}")
+    _apart(list(named.values()), source)
     return Kit(
         name=source.stem,
         title=str(raw.get("title", source.stem)),
@@ -141,6 +146,29 @@ def _kit(raw: Mapping[str, object], source: Path) -> Kit:
             }
         ),
     )
+
+
+def _apart(pieces: list[KitPiece], source: Path) -> None:
+    """Refuse pieces in one place, or of which one's head or bow is inside another's shell."""
+    for k, one in enumerate(pieces):
+        for other in pieces[:k]:
+            apart_m = math.dist(one.centre_m, other.centre_m)
+            deep_m = max(_inside_m(one, other), _inside_m(other, one))
+            if apart_m < _LEAST_APART_M or deep_m > _MOST_INSIDE_M:
+                how = f"{100 * deep_m:.0f} cm deep" if deep_m > _MOST_INSIDE_M else "their centres are in one place"
+                fault = f"overlaps the {word(other.piece)}: {how}"
+                raise BadInput(source, f"{word(one.piece)}.centre_m", fault)
+
+
+def _inside_m(one: KitPiece, other: KitPiece) -> float:
+    """How deep the struck surface of `one` is in the shell of `other`, negative outside."""
+    around = np.linspace(0.0, 2 * math.pi, 24, endpoint=False)
+    right, away, _ = one.axes
+    edge = one.centre + one.radius_m * (np.cos(around)[:, None] * right + np.sin(around)[:, None] * away)
+    off = np.vstack((one.centre, edge)) - other.centre
+    height = off @ other.normal
+    radial = np.sqrt(np.maximum((off**2).sum(1) - height**2, 0.0))
+    return float(np.minimum(np.minimum(-height, height + other.depth_m), other.radius_m - radial).max())
 
 
 def _piece(table: "Table", name: str) -> KitPiece:
