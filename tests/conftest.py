@@ -1,10 +1,13 @@
 """Settings for all tests."""
 
+import os
+
 import pytest
 from hypothesis import settings
 
 # On a shared machine a stall of any length may fall into any example: time belongs in benchmarks, not in properties.
-settings.register_profile("station", deadline=None)
+# The same examples in every run, so that a red test means a change; `SEARCH=1` looks for new ones.
+settings.register_profile("station", deadline=None, derandomize=not os.environ.get("SEARCH"))
 settings.load_profile("station")
 
 
