@@ -1,8 +1,9 @@
 """The habits that can be planted in a virtual student, as changes to what it would have played.
 
-Each habit of `student_spec.FAULTS` changes one of three things of a stroke: when it comes (`shift_ms`, negative is
-early), how far a grace stroke leads (`lead_ms`), or how loud it is (`level_db`, in the scale of HUMANS:
-40·log10(velocity/127)). Which strokes a habit concerns is read from the score by `music.passages`.
+Each habit of `student_spec.FAULTS` changes one thing of a stroke: when it comes (`shift_ms`, negative is early), how
+far a grace stroke leads (`lead_ms`), how loud it is (`level_db`, in the scale of HUMANS: 40·log10(velocity/127)), how
+far the hi-hat is open (`openness`), how much longer a cymbal rings (`ring_ms`), or by how much a buzz ends early
+(`short_ms`). Which strokes a habit concerns is read from the score by `music.passages`.
 """
 
 from collections.abc import Callable, Iterable
@@ -11,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Dynamic, Limb, Piece
+from station.core.pieces import Articulation, Dynamic, Limb, Piece
 from station.core.units import NS_PER_MS, PPQ
 from station.music import passages
 from station.music.score import Score
@@ -25,18 +26,24 @@ DB_PER_VELOCITY_DECADE = 40.0
 
 @dataclass(frozen=True, eq=False)
 class Habits:
-    """What all planted habits together do to each row: `shift_ms`, `lead_ms`, `level_db`, all of shape (n,)."""
+    """What all planted habits together do to each row, all of shape (n,): see the module's head."""
 
     shift_ms: Floats
     lead_ms: Floats
     level_db: Floats
+    openness: Floats
+    ring_ms: Floats
+    short_ms: Floats
     strokes: dict[str, int]
     """How many strokes each habit concerns."""
 
 
+CHANGES = ("shift_ms", "lead_ms", "level_db", "openness", "ring_ms", "short_ms")
+
+
 def habits_of(score: Score, limbs: NDArray[np.int8], faults: Iterable[Fault]) -> Habits:
     """All of `faults` applied to `score`, whose rows are played by `limbs` (n,)."""
-    changes = {name: np.zeros(len(score)) for name in ("shift_ms", "lead_ms", "level_db")}
+    changes = {name: np.zeros(len(score)) for name in CHANGES}
     strokes: dict[str, int] = {}
     for fault in faults:
         what, effect = _EFFECTS[fault.name]
@@ -116,6 +123,18 @@ def _flat_accents(score: Score, limbs: NDArray[np.int8], size: float) -> Floats:
     return _on(score.notes["dynamic"] == Dynamic.ACCENT, -size)
 
 
+def _open_hats(score: Score, limbs: NDArray[np.int8], size: float) -> Floats:
+    return _on((score.notes["piece"] == Piece.HIHAT) & (score.notes["openness"] == 0.0), size)
+
+
+def _late_grabs(score: Score, limbs: NDArray[np.int8], size: float) -> Floats:
+    return _on(score.notes["choke_ticks"] > 0, size)
+
+
+def _short_buzz(score: Score, limbs: NDArray[np.int8], size: float) -> Floats:
+    return _on((score.notes["articulation"] == Articulation.BUZZ) & ~score.is_grace, size)
+
+
 _EFFECTS: dict[str, tuple[str, Effect]] = {
     "late_kick": ("shift_ms", _late_kick),
     "rush_fills": ("shift_ms", _rush_fills),
@@ -127,4 +146,7 @@ _EFFECTS: dict[str, tuple[str, Effect]] = {
     "weak_left": ("level_db", _weak_left),
     "loud_ghosts": ("level_db", _loud_ghosts),
     "flat_accents": ("level_db", _flat_accents),
+    "open_hats": ("openness", _open_hats),
+    "late_grabs": ("ring_ms", _late_grabs),
+    "short_buzz": ("short_ms", _short_buzz),
 }

@@ -32,6 +32,9 @@ _LARGEST_SHIFT_MS = 150.0
 _LARGEST_DB = 24.0
 """Our choice: a stroke further off, or softer than a tenth of the written velocity's level, is another stroke."""
 
+_LARGEST_GRAB_MS = 1000.0
+"""Our choice: what is grabbed so late was let ring."""
+
 FAULTS: dict[str, FaultKind] = {
     "late_kick": FaultKind("ms", _LARGEST_SHIFT_MS, "every kick comes SIZE later"),
     "rush_fills": FaultKind("ms", _LARGEST_SHIFT_MS, "each fill runs ahead, more and more, by SIZE on average"),
@@ -43,6 +46,9 @@ FAULTS: dict[str, FaultKind] = {
     "uneven_doubles": FaultKind("ms", _LARGEST_SHIFT_MS, "the second stroke of a double comes SIZE early"),
     "wide_flams": FaultKind("ms", _LARGEST_SHIFT_MS, "grace strokes come SIZE earlier before their main stroke"),
     "slow_hihat_foot": FaultKind("ms", _LARGEST_SHIFT_MS, "every chick of the hi-hat foot comes SIZE later"),
+    "open_hats": FaultKind("openness", 1.0, "the hi-hat is SIZE open where it is written closed"),
+    "late_grabs": FaultKind("ms", _LARGEST_GRAB_MS, "cymbals ring SIZE longer than written before they are grabbed"),
+    "short_buzz": FaultKind("ms", _LARGEST_SHIFT_MS, "buzz rolls are played bounce by bounce, and end SIZE early"),
 }
 
 

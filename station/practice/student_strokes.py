@@ -1,4 +1,4 @@
-"""How a virtual student's strokes are struck: piece, zone, loudness, and the cymbals that are grabbed.
+"""How a virtual student's strokes are struck: piece, zone, loudness, bounces, and the cymbals that are grabbed.
 
 Velocities scatter about the written ones, changed by planted habits, and are clipped to 1–127, so that the mean of
 accents near the top comes out a little lower than written.
@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import CYMBALS, Articulation, Dynamic, Limb, Piece, Zone
+from station.core.units import NS_PER_MS
 from station.music.judgement import Label
 from station.music.performance import CHOKE_DTYPE, HIT_DTYPE
 from station.music.score import Score
@@ -39,6 +40,8 @@ class Strokes:
         _make_plain(hits, slips.label == Label.WRONG_PIECE)
         mean = louder(sheet.score.notes["velocity"].astype(np.float64), habits.level_db)
         hits["velocity"] = _velocities(mean, form.velocity_sd, self.written)
+        opened = (habits.openness > 0.0) & (hits["piece"] == Piece.HIHAT)
+        hits["openness"][opened] = np.minimum(hits["openness"][opened] + habits.openness[opened], 1.0)
         return hits
 
     def of_extras(self, sheet: Sheet, form: Form, slips: Slips) -> NDArray[np.void]:
@@ -60,14 +63,35 @@ def _velocities(mean: Floats, sd: Floats, rng: np.random.Generator) -> NDArray[n
     return np.clip(drawn, 1, GREATEST_VELOCITY).astype(np.uint8)
 
 
-def chokes_of(score: Score, slips: Slips, onset_ns: NDArray[np.int64]) -> NDArray[np.void]:
-    """The grabs (`CHOKE_DTYPE`) of cymbals that were struck, as long after their `onset_ns` (n,) as written."""
+def bounces_of(score: Score, habits: Habits, slips: Slips, notes: NDArray[np.void]) -> NDArray[np.void]:
+    """The bounces (`HIT_DTYPE`) after the presses of buzz rolls that are played bounce by bounce, softer than these."""
+    rows = np.flatnonzero((habits.short_ms > 0.0) & (slips.label == Label.MATCH))
+    bounces = [np.empty(0, HIT_DTYPE)]
+    for row in rows.tolist():
+        tick = score.notes["tick"][row]
+        start_ns, end_ns = score.tempo_map.ns_at([tick, tick + score.notes["duration_ticks"][row]]).tolist()
+        length_ns = end_ns - start_ns - round(habits.short_ms[row] * NS_PER_MS)
+        press = notes[row : row + 1]
+        own = np.repeat(press, max(length_ns // BOUNCE_NS, 1) - 1)  # the next bounce would be the end
+        own["at_ns"] += BOUNCE_NS * np.arange(1, len(own) + 1)
+        own["velocity"] = np.maximum(BOUNCE_SOFTER * own["velocity"], 1)
+        bounces.append(own)
+    return np.concatenate(bounces)
+
+
+BOUNCE_NS, BOUNCE_SOFTER = 30 * NS_PER_MS, 0.7
+"""Our choice: a pressed stick bounces some 30 times a second, each bounce a few dB softer than the press."""
+
+
+def chokes_of(score: Score, habits: Habits, slips: Slips, onset_ns: NDArray[np.int64]) -> NDArray[np.void]:
+    """The grabs (`CHOKE_DTYPE`) of cymbals that were struck, after their `onset_ns` (n,) as written and as is habit."""
     notes = score.notes
     rows = (notes["choke_ticks"] > 0) & (slips.label == Label.MATCH)
     ticks = notes["tick"][rows]
     rings_ns = score.tempo_map.ns_at(ticks + notes["choke_ticks"][rows]) - score.tempo_map.ns_at(ticks)
     chokes = np.zeros(int(rows.sum()), CHOKE_DTYPE)
-    chokes["at_ns"], chokes["piece"] = onset_ns[rows] + rings_ns, notes["piece"][rows]
+    longer_ns = np.rint(habits.ring_ms[rows] * NS_PER_MS).astype(np.int64)
+    chokes["at_ns"], chokes["piece"] = onset_ns[rows] + rings_ns + longer_ns, notes["piece"][rows]
     return chokes
 
 

@@ -32,7 +32,7 @@ from station.practice.student_onsets import OnsetPlayer, Streams
 from station.practice.student_sheet import Sheet
 from station.practice.student_slips import Slipper, Slips
 from station.practice.student_spec import FAULTS, StudentSpec
-from station.practice.student_strokes import Strokes, chokes_of
+from station.practice.student_strokes import Strokes, bounces_of, chokes_of
 from station.scoring.document import Json
 
 NOBODY = -1
@@ -131,15 +131,16 @@ class VirtualStudent:
         self._onsets.finish(sheet)
 
         played = np.flatnonzero(slips.label != Label.MISS)
-        hits = np.concatenate([notes[played], extras])
+        bounces = bounces_of(score, habits, slips, notes)
+        hits = np.concatenate([notes[played], extras, bounces])
         order = np.argsort(hits["at_ns"], kind="stable")
-        chokes = chokes_of(score, slips, notes["at_ns"])
+        chokes = chokes_of(score, habits, slips, notes["at_ns"])
         sent = as_sent(Performance.from_array(hits[order], chokes), self.preset)
         return VirtualPerformance(
             score=score,
             spec=self.spec,
             performance=sent,
-            truth=_truth(slips, played, order),
+            truth=_truth(slips, played, len(bounces), order),
             preset=self.preset,
             habit_strokes=habits.strokes,
         )
@@ -177,11 +178,11 @@ def play(score: Score, spec: StudentSpec, preset: KitPreset = GENERAL_MIDI_PRESE
     return VirtualStudent(spec, preset).play(score)
 
 
-def _truth(slips: Slips, played: NDArray[np.int64], order: NDArray[np.int64]) -> Matching:
-    """The matching of rows and hits: hit `j` is `order[j]` in the list of the rows `played` and then the extras."""
-    extras = len(slips.extra_tick)
-    note_of_hit = np.concatenate([played, np.full(extras, NOBODY)])[order]
-    hit_label = np.concatenate([slips.label[played], np.full(extras, Label.EXTRA)])[order].astype(np.uint8)
+def _truth(slips: Slips, played: NDArray[np.int64], bounces: int, order: NDArray[np.int64]) -> Matching:
+    """The matching of rows and hits: hit `j` is `order[j]` in the list of rows `played`, extras and bounces."""
+    others = [Label.EXTRA] * len(slips.extra_tick) + [Label.IGNORED] * bounces
+    note_of_hit = np.concatenate([played, np.full(len(others), NOBODY)])[order]
+    hit_label = np.concatenate([slips.label[played], np.array(others, np.uint8)])[order].astype(np.uint8)
     hit_of_note = np.full(len(slips.label), NOBODY, np.int64)
     answers = np.flatnonzero(note_of_hit != NOBODY)
     hit_of_note[note_of_hit[answers]] = answers

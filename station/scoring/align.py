@@ -20,6 +20,7 @@ from station.scoring.graces import with_far_graces
 from station.scoring.ignored import Unwritten
 from station.scoring.own_clock import align_unclocked
 from station.scoring.pairing import Indices
+from station.scoring.presses import with_presses
 from station.scoring.settle import MOST_CLASSES, Side, Start, note_kinds, settle, spots
 
 
@@ -44,11 +45,14 @@ def _share_a_class(note_class: Indices, hit_class: Indices) -> bool:
 def align_clocked(score: Score, performance: Performance, note_class: Indices, hit_class: Indices) -> Alignment:
     """The alignment of hits whose times are score time."""
     at_ns: NDArray[np.int64] = np.asarray(performance.hits["at_ns"])
-    bias_ns = common_bias_ns(score.onset_ns, note_class, at_ns, hit_class)
-    unwritten = Unwritten(score).masks(performance, at_ns - bias_ns)
+    rules = Unwritten(score)
+    bounces = rules.surely_bounces(performance)
+    led = ~bounces  # bounces would say that all presses came early
+    bias_ns = common_bias_ns(score.onset_ns, note_class, at_ns[led], hit_class[led])
+    unwritten = rules.masks(performance, at_ns - bias_ns)
     one = np.zeros(len(at_ns), np.int64)
     notes = Side(score.onset_ns, note_class, np.zeros(len(score), np.int64), spots(score.notes))
     hits = Side(at_ns, hit_class, one, spots(performance.hits))
     settled = settle(notes, hits, note_kinds(score), unwritten.own_only, Start(bias_ns))
-    settled = with_far_graces(score, settled, hits)
+    settled = with_presses(score, with_far_graces(score, settled, hits), hits, bounces)
     return labelled(settled, Timed(at_ns, score.onset_ns, at_ns, one, Reference.CLICK), unwritten.quiet)

@@ -14,6 +14,7 @@ from station.scoring.drift import local_trend, robust_sd
 from station.scoring.graces import with_far_graces
 from station.scoring.ignored import Unwritten
 from station.scoring.pairing import Indices, Times
+from station.scoring.presses import with_presses
 from station.scoring.settle import Settled, Side, Start, note_kinds, settle, spots
 from station.scoring.stretches import owners
 from station.scoring.warp import Warp, Written, find_warp
@@ -43,14 +44,15 @@ def align_unclocked(score: Score, performance: Performance, note_class: Indices,
     beats = np.arange(0, max(score.end_tick, PPQ) + 1, PPQ)
     written = Written(score.onset_s, note_class, score.tempo_map.seconds_at(beats))
     rules = Unwritten(score)
-    led_class = np.where(rules.surely_bounces(performance), _NO_CLASS, hit_class)
+    bounces = rules.surely_bounces(performance)
+    led_class = np.where(bounces, _NO_CLASS, hit_class)
     warp = find_warp(written, at_ns / NS_PER_S, led_class)
     hit_ns = np.rint(warp.score_s * NS_PER_S).astype(np.int64)
     unwritten = rules.masks(performance, hit_ns)
     notes = Side(score.onset_ns, note_class, owners(score.onset_s, note_class, warp, hit_class), spots(score.notes))
     hits = Side(hit_ns, hit_class, warp.stretch, spots(performance.hits))
     settled = settle(notes, hits, note_kinds(score), unwritten.own_only, _START)
-    settled = with_far_graces(score, settled, hits)
+    settled = with_presses(score, with_far_graces(score, settled, hits), hits, bounces)
     return labelled(settled, _timed(score, at_ns, warp, settled), unwritten.quiet)
 
 

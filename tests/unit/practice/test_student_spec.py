@@ -41,9 +41,11 @@ def test_several_faults() -> None:
 
 
 def test_every_fault_of_the_design_is_there() -> None:
+    """And those of craft, beyond the single stroke."""
     assert set(FAULTS) == {
         "late_kick", "rush_fills", "drag_slow", "weak_left", "loud_ghosts", "flat_accents", "straight_swing",
         "uneven_doubles", "wide_flams", "slow_hihat_foot",
+        "open_hats", "late_grabs", "short_buzz",
     }  # fmt: skip
 
 
