@@ -22,7 +22,16 @@ class Check:
 
 def all_checks() -> tuple[Callable[[], Check], ...]:
     """Every check, in the order in which a user meets what it checks."""
-    return (check_python, check_settings, check_midi, check_serial, check_sound, check_picture, check_screen)
+    return (
+        check_python,
+        check_settings,
+        check_midi,
+        check_serial,
+        check_own_kits,
+        check_sound,
+        check_picture,
+        check_screen,
+    )
 
 
 def check_python() -> Check:
@@ -53,6 +62,25 @@ def check_midi() -> Check:
     if not ports:
         return Check("kit (MIDI)", False, f"{directory.driver} works, no kit is plugged in", "plug in a kit by USB")
     return Check("kit (MIDI)", True, f"{directory.driver}: {', '.join(ports)}")
+
+
+def check_own_kits() -> Check:
+    """The kits that the user has taught the station."""
+    from station.devices.kit_file import kits_folder, read_kit
+
+    files, faults = sorted(kits_folder().glob("*.toml")), list[str]()
+    for path in files:
+        try:
+            read_kit(path)
+        except BadInput as fault:
+            faults.append(str(fault))
+    if faults:
+        return Check(
+            "own kits", False, "; ".join(faults), "mend the line, or teach the kit anew: station devices learn"
+        )
+    if not files:
+        return Check("own kits", True, f"none in {kits_folder()}; station devices learn makes them")
+    return Check("own kits", True, f"{', '.join(path.stem for path in files)} in {kits_folder()}")
 
 
 def check_serial() -> Check:

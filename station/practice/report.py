@@ -5,14 +5,17 @@ virtual student its own account under `truth`. docs/report.md describes it.
 """
 
 from collections.abc import Iterable
+from contextlib import suppress
 from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.errors import BadInput
 from station.core.names import name_of
 from station.core.settings import Settings
-from station.core.units import NS_PER_MS
+from station.core.units import NS_PER_MS, ms_from_ns
+from station.devices.kit_file import own_kit
 from station.drills.lesson import Goals
 from station.engine.engine import KEYBOARD
 from station.practice.headless import VirtualSession
@@ -28,9 +31,18 @@ from station.scoring.points import FREE_LEAN_MS, Feel
 from station.scoring.summary import View, summarise
 
 
-def kit_facts(settings: Settings) -> KitFacts:
-    """What this user has measured of the kit."""
-    return KitFacts(MappingProxyType(settings.threshold_of), settings.mask_ms)
+def kit_facts(settings: Settings, device: str | None = None) -> KitFacts:
+    """What this user has measured of the kit called `device`: its own file goes before the settings."""
+    kit = None
+    if device is not None:
+        with suppress(BadInput):  # the engine has said so when the kit was found
+            kit = own_kit(device)
+    if kit is None:
+        return KitFacts(MappingProxyType(settings.threshold_of), settings.mask_ms)
+    least = {piece: max(pad.threshold, pad.least_velocity or 1) for piece, pad in kit.pads.items()}
+    deaf_ms = max((ms_from_ns(pad.mask_ns) for pad in kit.pads.values()), default=0.0)
+    thresholds = settings.threshold_of | {piece: velocity for piece, velocity in least.items() if velocity > 1}
+    return KitFacts(MappingProxyType(thresholds), max(settings.mask_ms, deaf_ms))
 
 
 def practice_document(result: SessionResult, settings: Settings) -> dict[str, Json]:
@@ -84,7 +96,7 @@ def _view(result: SessionResult, settings: Settings) -> View:
         first_bar=plan.first_bar,
         hears_velocity=result.device != KEYBOARD,
         feel=feel_of(plan.lesson.goals),
-        kit=kit_facts(settings),
+        kit=kit_facts(settings, result.device),
         silences=plan.silences,
         bar_names=None if plan.rounds is None else plan.rounds.bars,
         beat_ticks=plan.lesson.beat_ticks,

@@ -12,7 +12,7 @@ from station.app.commands.listening import event_line, listening, polls
 from station.app.commands.monitor import monitor
 from station.app.commands.output import print_json, say
 from station.core.clock import monotonic_ns
-from station.core.errors import DeviceError
+from station.core.errors import BadInput, DeviceError
 from station.core.events import DeviceEvent, DeviceFound, DeviceLost, Hit
 from station.core.pieces import word
 from station.devices.watch import Findings
@@ -80,6 +80,7 @@ def _list(arguments: argparse.Namespace) -> int:
 
 def _ports() -> tuple[list[dict[str, str]], list[str]]:
     """A row a port, MIDI before serial, and why some cannot be listed or opened."""
+    from station.devices.kit_file import own_kit
     from station.devices.midi_ports import MidiDirectory
     from station.devices.presets import preset_for
     from station.devices.serial_ports import SerialDirectory, no_access
@@ -94,7 +95,16 @@ def _ports() -> tuple[list[dict[str, str]], list[str]]:
         names.append((address.port, "serial"))
         if (denied := no_access(address.path)) is not None:
             faults.append(f"{address.port}: {denied}")
-    return [{"port": port, "preset": preset_for(port).title, "wire": wire} for port, wire in names], faults
+    rows = []
+    for port, wire in names:
+        try:
+            own = own_kit(port)
+        except BadInput as fault:
+            faults.append(str(fault))
+            own = None
+        title = preset_for(port).title if own is None else f"{own.title}, as you taught it"
+        rows.append({"port": port, "preset": title, "wire": wire})
+    return rows, faults
 
 
 # --- record ----------------------------------------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 """`station devices learn`: the kit wizard in the terminal; a line typed is a key, for a drummer's hands are busy."""
 
 import argparse
+from collections.abc import Callable
 from pathlib import Path
 
 from station.app.commands.listening import TypedLines, event_line, listening, polls
@@ -20,11 +21,12 @@ DONE_KEYS = "Play, and see whether it is right. Enter keeps it, b goes back, q k
 
 def learn(arguments: argparse.Namespace) -> int:
     """Teach the station one kit."""
-    page = LearnPage()
+    typed = TypedLines()
+    page = LearnPage(lambda: not typed.ended)
     with listening(arguments) as kits:
         for findings in polls(kits, arguments.seconds):
             page.take(findings)
-            for line in page.typed.take():
+            for line in typed.take():
                 page.key(line)
             page.advance(monotonic_ns())
             if page.over:
@@ -39,8 +41,8 @@ def learn(arguments: argparse.Namespace) -> int:
 class LearnPage:
     """The first kit that is found, its wizard, and what of it is on the screen."""
 
-    def __init__(self) -> None:
-        self.typed = TypedLines()
+    def __init__(self, is_attended: Callable[[], bool]) -> None:
+        self._is_attended = is_attended  # whether somebody can still press a key
         self.kept: Path | None = None
         self.over = False
         self._wizard: Wizard | None = None
@@ -116,7 +118,7 @@ class LearnPage:
         print("", *learned.findings, "", sep="\n")
         self._trial = DecoderBank()
         self._trial.add(wizard.port, learned.kit)
-        if self.typed.ended:  # nobody is there to say yes or no
+        if not self._is_attended():
             self._keep(wizard)
         else:
             say(DONE_KEYS)

@@ -59,9 +59,10 @@ class MonitorPage:
                 continue
             self._raw[device, packet.at_ns] = f"{self._raw.get((device, packet.at_ns), '')} {raw}"
             told = self._bank.feed(device, packet.data, packet.at_ns).told
-            lines += self._lines(told)
-            if not told and not self._bank.waits(device):
-                lines.append(self._bare(device, packet.at_ns))
+            shown = self._lines(told)
+            if not shown and not self._bank.waits(device):
+                shown = [self._bare(device, packet.at_ns)]
+            lines += shown
         if findings.lost:
             lines += self._lines(self._bank.lost(device, now_ns))
         return lines
