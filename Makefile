@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 EXTRAS := $(wildcard benchmarks examples)
 
-.PHONY: practice test check format lint types imports unit setup setup-test bench clean help
+.PHONY: practice test check format lint types imports unit setup setup-test bench soak clean help
 
 help:  ## list the targets
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -44,6 +44,9 @@ unit: $(READY)
 
 bench: $(READY)  ## the benchmarks, at most five minutes
 	@$(BIN)/station bench
+
+soak: $(READY)  ## the benchmarks and the long ones: floods, plug cycles, a million hostile inputs; half an hour
+	@$(BIN)/station bench --soak
 
 clean:  ## remove the virtual environment and caches
 	rm -rf $(VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache

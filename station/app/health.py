@@ -29,6 +29,7 @@ def all_checks() -> tuple[Callable[[], Check], ...]:
         check_serial,
         check_own_kits,
         check_sound,
+        check_real_time,
         check_picture,
         check_screen,
     )
@@ -108,6 +109,24 @@ def check_sound() -> Check:
     if not outputs:
         return Check("sound", False, "no sound output", "connect one; until then the station runs silent")
     return Check("sound", True, ", ".join(output.name for output in outputs))
+
+
+def check_real_time() -> Check:
+    """Whether the engine may come before other programs, so that strokes are stamped and sound in time."""
+    from station.engine.priority import real_time_is_granted
+
+    granted = real_time_is_granted()
+    if granted is None:
+        return Check("real time", True, "left to the system")
+    if granted:
+        return Check("real time", True, "granted")
+    remedy = (
+        "echo '@audio - rtprio 95' | sudo tee /etc/security/limits.d/audio.conf; sudo usermod -aG audio $USER; "
+        "then log in again"
+    )
+    return Check(
+        "real time", False, "not granted: on a busy computer sound may drop out and strokes be heard late", remedy
+    )
 
 
 def check_picture() -> Check:

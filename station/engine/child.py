@@ -6,12 +6,11 @@ begins at once.
 """
 
 import gc
-import os
 import signal
 import sys
 import time
 import traceback
-from contextlib import nullcontext, suppress
+from contextlib import nullcontext
 from multiprocessing.connection import Connection
 
 from station.core.clock import monotonic_ns
@@ -26,6 +25,7 @@ from station.engine.engine import Engine
 from station.engine.lookout import Lookout
 from station.engine.messages import Command, EngineEvent, Notice, Ready
 from station.engine.pipes import Inbox, Outbox
+from station.engine.priority import be_less_nice, be_real_time
 from station.engine.process import WORN_OUT
 from station.engine.runner import Runner
 from station.sound.buses import ClickVoice
@@ -39,8 +39,6 @@ POLL_S = 0.0004
 """Pause between two looks at the kits; with the work itself and the system's timer slack about half a millisecond."""
 SWITCH_INTERVAL_S = 0.0002
 """How soon the audio callback gets the interpreter lock; 5 ms, Python's own choice, is four blocks of sound."""
-NICENESS = -11
-"""What desktop sound servers run at; granted only to those whom the system lets."""
 
 
 def run_engine(commands: "Connection[None, Command]", events: "Connection[list[EngineEvent], None]") -> None:
@@ -51,9 +49,7 @@ def run_engine(commands: "Connection[None, Command]", events: "Connection[list[E
     except (EOFError, OSError):  # a spare whose parent needs it no more
         return
     assert isinstance(config, EngineConfig), "an engine is told what to open before anything else"
-    if hasattr(os, "nice"):
-        with suppress(OSError):
-            os.nice(NICENESS)
+    be_less_nice()
     outbox = Outbox(events)
     try:
         is_worn = _live(config, Inbox(commands), outbox)
@@ -80,6 +76,7 @@ def _live(config: EngineConfig, inbox: Inbox, outbox: Outbox) -> bool:
         sys.setswitchinterval(SWITCH_INTERVAL_S)  # not before: making the drum kit takes long turns
         gc.collect()
         gc.freeze()
+        be_real_time()
         gc.disable()  # a collection in the audio thread is a late block; what runs from here on makes no cycles
         outbox.put([Ready(card.name, card.rate_hz) if card is not None else Ready(None)])
         while not (engine.quitting or inbox.is_closed or runner.is_worn_out):

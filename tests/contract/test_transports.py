@@ -12,6 +12,7 @@ from typing import Protocol
 
 import pytest
 
+from station.bench.serial_kit import SerialKit
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.devices.midi_ports import SILENT_SERVER_NS, MidiDirectory
@@ -21,7 +22,6 @@ from tests.fakes.jack_server import JackServer, jackd_is_installed, joined
 from tests.fakes.kit_player import KitPlayer, Stroke
 from tests.fakes.port_reader import PortReader
 from tests.fakes.ports import FakeDriver
-from tests.fakes.serial_kit import SerialKit
 
 MESSAGES = [bytes.fromhex(text) for text in ("99 24 50", "b9 04 7f", "99 2a 01", "89 24 40", "a9 31 7f", "99 24 7f")]
 EVERY_NS = 5 * NS_PER_MS

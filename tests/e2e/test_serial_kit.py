@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from station.bench.serial_kit import SerialKit
 from station.core.events import DeviceFound, DeviceLost, Hit
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.devices.capture import read_capture
@@ -18,7 +19,6 @@ from station.engine.config import EngineConfig
 from station.engine.messages import Ready, Record, Recorded
 from station.engine.process import EngineProcess
 from tests.fakes.engine_listener import EngineListener
-from tests.fakes.serial_kit import SerialKit
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="ptys that speak as serial ports are Linux's")
 

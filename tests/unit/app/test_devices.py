@@ -6,12 +6,12 @@ from pathlib import Path
 
 import pytest
 
+from station.bench.serial_kit import SerialKit
 from station.cli import main
 from station.core.errors import DeviceError
 from station.devices.capture import read_capture
 from station.devices.midi_ports import MidiDirectory
 from tests.fakes.ports import FakeDriver
-from tests.fakes.serial_kit import SerialKit
 
 
 @pytest.fixture(autouse=True)

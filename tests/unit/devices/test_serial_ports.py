@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from station.bench.serial_kit import SerialKit
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_S
 from station.devices.kit_ports import KitPorts, parse_kit, ports_for
@@ -14,7 +15,6 @@ from station.devices.serial_ports import SerialDirectory, no_access
 from station.devices.transport import Packet, Transport
 from station.devices.watch import KitWatch
 from tests.fakes.ports import FakeDriver
-from tests.fakes.serial_kit import SerialKit
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="ptys that speak as serial ports are Linux's")
 

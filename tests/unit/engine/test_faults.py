@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from station.bench.serial_kit import SerialKit
 from station.core.events import DeviceEvent, DeviceFound, DeviceLost, Hit
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.devices.capture import read_capture
@@ -23,7 +24,6 @@ from station.engine.messages import EngineEvent, Play, Record, Started
 from station.engine.runner import Runner
 from tests.fakes.cues import clicks
 from tests.fakes.ports import FakeDriver
-from tests.fakes.serial_kit import SerialKit
 
 PORT = "TD-17 20:0"
 SNARE = bytes.fromhex("99 26 64")

@@ -1,4 +1,4 @@
-"""A fake home-built module on a serial line: a pty that is plugged in and out at one path and speaks bytes.
+"""A home-built module on a serial line, played by a pty: plugged in and out at one path, it speaks bytes.
 
 The path is a link to the pty, as /dev/serial/by-id links to /dev/ttyUSB0, so that it stays over plug cycles. A pty
 passes bytes on at once, whatever its rate; `play_at_wire_speed` waits for each as a UART would.
