@@ -38,7 +38,7 @@ def main_notes(takes: Takes) -> dict[Step, int]:
     for step, take in takes.items():
         foot = step in (STOMP, SPLASH)
         hats = frozenset(n for s, n in mains.items() if foot and s.piece is Piece.HIHAT)
-        number = main_note(take.strokes()[: step.firm], hats) if step.ask is Ask.STRIKE else None
+        number = main_note(take.strokes(), hats) if step.ask is Ask.STRIKE else None
         if number is not None:
             mains[step] = number
     return mains

@@ -17,6 +17,8 @@ from station.devices.wizard.takes import ONE_STROKE_NS, Said, Take, groups
 PEDAL_RESTS_NS = 800 * NS_PER_MS
 """A pedal that was moved and then said nothing for so long is held; our choice."""
 GRABS_APART_NS = 200 * NS_PER_MS
+READING_NS = 700 * NS_PER_MS
+"""Whoever has just been asked something new is still reading: notes so soon belong to what was asked before."""
 SURE_OF = 5
 """So many numbers as expected and none otherwise, and the rest may be left to the preset; our choice."""
 
@@ -51,6 +53,7 @@ class Wizard:
         self._tokens = MidiTokenizer()
         self._take = Take()
         self._hint = ""
+        self._asked_ns = -READING_NS
 
     # --- in ----------------------------------------------------------------------------------------------------------
 
@@ -59,6 +62,9 @@ class Wizard:
         self.advance(at_ns)
         for message in self._tokens.feed(data):
             self._take.add(message, at_ns)
+        if at_ns < self._asked_ns + READING_NS:
+            self._take.notes.clear()
+            self._take.touches.clear()
 
     def advance(self, now_ns: int) -> None:
         """The time; ends the step that is answered."""
@@ -140,7 +146,9 @@ class Wizard:
             return max(len(groups(self._take.touches, GRABS_APART_NS)), self._grab_notes())
         if step is STOMP and not self._take.notes:
             return presses(self._take, learned_pedal(self._takes, self._guess().preset.pedal))
-        return len(self._take.strokes())
+        strokes = self._take.strokes()
+        main = main_notes({**self._takes, step: self._take}).get(step)
+        return sum(any(note.number == main for note in stroke) for stroke in strokes)  # slips do not count
 
     def _grab_notes(self) -> int:
         """Notes that tell of a grab, where the kit sends such: after the stroke, and not the pad's own."""
@@ -176,4 +184,4 @@ class Wizard:
 
     def _go(self, step: int) -> None:
         self._at = min(step, len(self._steps))
-        self._take, self._hint = Take(), ""
+        self._take, self._hint, self._asked_ns = Take(), "", self._now_ns

@@ -50,10 +50,11 @@ def taught(page: LearnPage, capsys: pytest.CaptureFixture[str]) -> list[str]:
         shown = capsys.readouterr().out
         if not shown.startswith("\n"):
             page.key("")
-            now_ms += 100
+            now_ms += 1000
             page.advance(round(now_ms) * NS_PER_MS)
             shown = capsys.readouterr().out
         asked[-1] += shown
+        now_ms += 1000
     return asked
 
 

@@ -48,5 +48,5 @@ def teach(module: FakeModule, port: str = "USB Kit", steps: tuple[Step, ...] = S
         wizard.advance(round(ms) * NS_PER_MS)
         if wizard.view().step == before and not wizard.over:
             wizard.skip()
-        ms += 500
+        ms += 800
     return wizard

@@ -227,7 +227,7 @@ def strike(wizard: Wizard, number: int, ms: int, times: int = 6) -> int:
     for stroke in range(times):
         wizard.feed(bytes((0x99, number, 100 - 10 * stroke)), (ms + 300 * stroke) * NS_PER_MS)
     wizard.advance((ms + 300 * times) * NS_PER_MS)
-    return ms + 300 * times + 100
+    return ms + 300 * times + 1000
 
 
 def test_a_step_asks_for_firm_strokes_then_for_soft_ones() -> None:
@@ -270,6 +270,7 @@ def test_when_all_agrees_the_rest_may_be_left_to_the_preset() -> None:
             wizard.feed(data, ns_from_ms(at_ms))
         ms += 4000
         wizard.advance(ns_from_ms(ms))
+        ms += 1000
     assert wizard.view().hint == "all is as on a Roland TD-17: the rest can be left to that (finish)"
 
 
