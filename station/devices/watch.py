@@ -109,6 +109,15 @@ class KitWatch:
         except DeviceError:
             return self._lose([])
 
+    def hear(self) -> Findings:
+        """What came since the last poll, and nothing else: no port is looked for, opened or given up."""
+        if self._transport is None:
+            return _NOTHING
+        try:
+            return Findings(self._device, self._transport.read())
+        except DeviceError:  # the next poll finds out the same, and says so
+            return _NOTHING
+
     def close(self) -> None:
         """End the connection."""
         if self._transport is not None:

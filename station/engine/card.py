@@ -40,6 +40,8 @@ class Card:
     ) -> None:
         self.is_worn_out = False
         """Whether sound can be had again, but only by a new process."""
+        self.before_block: Callable[[], None] = _nothing
+        """What to do at the last moment before a block is mixed, in the card's thread."""
         self._engine = engine
         self._open_output = open_output
         self._build_mixer = build_mixer
@@ -193,4 +195,9 @@ class Card:
 
     def _render(self, frames: int, dac_ns: int) -> Frames:
         self._blocks += 1
+        self.before_block()
         return self._engine.render(frames, dac_ns)
+
+
+def _nothing() -> None:
+    pass

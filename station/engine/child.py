@@ -85,7 +85,7 @@ def _live(config: EngineConfig, inbox: Inbox, outbox: Outbox) -> bool:
             if happened:
                 outbox.put(happened)
             for command in commands:
-                engine.handle(command)
+                runner.handle(command)
             time.sleep(POLL_S)
     finally:
         runner.close()

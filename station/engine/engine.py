@@ -2,7 +2,8 @@
 
 It owns no thread, clock, port or card. Whoever runs it (the engine process, a headless session, a test) feeds it the
 bytes of the devices with their times, hands it commands, advances it to the present and, where there is a sound card,
-asks it for blocks. One thread may call everything but `render` while another calls `render`.
+asks it for blocks. One thread may call `render` while another calls anything else; all else takes turns
+(`station.engine.runner`).
 
 Times are session time (monotonic ns). With a mixer the transport starts with the block that the card asks for next;
 without one it runs on the times that `advance` is told.

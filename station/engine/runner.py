@@ -1,14 +1,17 @@
 """One step of the engine's life: look at the kits, feed what they sent, look after the card, move on."""
 
+import threading
 from collections.abc import Sequence
 
 from station.core.units import NS_PER_MS
 from station.devices.watch import KitWatch
 from station.engine.card import Card
 from station.engine.engine import Engine
-from station.engine.messages import EngineEvent
+from station.engine.messages import Command, EngineEvent
 
 SUPERVISE_EVERY_NS = 100 * NS_PER_MS
+LATCH_WITHIN_S = 0.0002
+"""A poll takes less; whoever holds the engine longer (a port is opened) shall not hold up the sound (our choice)."""
 
 
 class Runner:
@@ -19,6 +22,9 @@ class Runner:
         self._kits = kits
         self._card = card
         self._next_supervision_ns = 0
+        self._engine_lock = threading.Lock()
+        if card is not None:
+            card.before_block = self.latch
 
     @property
     def is_worn_out(self) -> bool:
@@ -34,12 +40,32 @@ class Runner:
 
     def step(self, now_ns: int) -> list[EngineEvent]:
         """Do all that is to do at `now_ns`; returns what happened."""
-        for kit in self._kits:
-            self._poll(kit, now_ns)
-        if self._card is not None and now_ns >= self._next_supervision_ns:
-            self._next_supervision_ns = now_ns + SUPERVISE_EVERY_NS
-            self._card.supervise(now_ns)
-        return self.engine.advance(now_ns)
+        with self._engine_lock:
+            for kit in self._kits:
+                self._poll(kit, now_ns)
+            if self._card is not None and now_ns >= self._next_supervision_ns:
+                self._next_supervision_ns = now_ns + SUPERVISE_EVERY_NS
+                self._card.supervise(now_ns)
+            return self.engine.advance(now_ns)
+
+    def handle(self, command: Command) -> None:
+        """Obey the app."""
+        with self._engine_lock:
+            self.engine.handle(command)
+
+    def latch(self) -> None:
+        """Take in what has come by now, for the block that is about to be mixed; called by the card's thread.
+
+        Where the other thread is at it the block waits for it a moment, never long.
+        """
+        if self._engine_lock.acquire(timeout=LATCH_WITHIN_S):
+            try:
+                for kit in self._kits:
+                    findings = kit.hear()
+                    for packet in findings.packets:
+                        self.engine.feed(findings.device, packet.data, packet.at_ns)
+            finally:
+                self._engine_lock.release()
 
     def _poll(self, kit: KitWatch, now_ns: int) -> None:
         findings = kit.poll(now_ns)

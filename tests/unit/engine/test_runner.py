@@ -1,5 +1,6 @@
 """One step after another, with a fake driver and a fake card."""
 
+import time
 from pathlib import Path
 
 from station.core.events import DeviceFound, DeviceLost, Hit
@@ -10,7 +11,7 @@ from station.devices.watch import KitWatch
 from station.engine.card import Card
 from station.engine.engine import Engine
 from station.engine.messages import EngineEvent, Record
-from station.engine.runner import Runner
+from station.engine.runner import LATCH_WITHIN_S, Runner
 from tests.fakes.impulse_kit import impulse_mixer
 from tests.fakes.output import FakeOutput
 from tests.fakes.ports import FakeDriver
@@ -76,3 +77,33 @@ def test_the_kits_are_opened_before_the_card_and_left_after_it() -> None:
     assert (driver.open_connections, output.calls) == (1, ["start"])
     runner.close()
     assert (driver.open_connections, output.calls) == (0, ["start", "close"])
+
+
+def test_a_stroke_that_has_just_come_sounds_in_the_block_that_is_being_mixed() -> None:
+    driver, output = FakeDriver(PORT), FakeOutput()
+    runner = runner_of(driver, "td", output=output)
+    runner.start(0)
+    runner.step(NS_PER_MS)
+    assert not output.ask(64, 0).any()
+    driver.play(PORT, SNARE, 77)
+    block = output.ask(64, NS_PER_MS)
+    assert block[0].any()
+    (hit,) = [event for event in run(runner, 2, 4) if isinstance(event, Hit)]
+    assert hit.at_ns == 77
+    assert not output.ask(64, 2 * NS_PER_MS).any()  # once
+
+
+def test_a_block_waits_for_nobody_who_holds_the_engine_long() -> None:
+    """As where a port is being opened; a kit that is pulled out meanwhile is found out by the next step."""
+    driver, output = FakeDriver(PORT), FakeOutput()
+    runner = runner_of(driver, "td", output=output)
+    runner.start(0)
+    driver.play(PORT, SNARE, 77)
+    with runner._engine_lock:
+        began_s = time.perf_counter()
+        assert not output.ask(64, 0).any()
+        assert time.perf_counter() - began_s < 100 * LATCH_WITHIN_S
+    driver.unplug(PORT)
+    output.ask(64, NS_PER_MS)
+    events = run(runner, 1, 1000)
+    assert [type(event) for event in events if isinstance(event, Hit | DeviceLost)] == [Hit, DeviceLost]
