@@ -6,8 +6,9 @@ import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from station.core.errors import BadInput, DeviceError
-from station.core.settings import load_settings, settings_path
+from station.core.calibration import load_calibration
+from station.core.errors import BadInput, DeviceError, StationError
+from station.core.settings import Settings, load_settings, settings_path
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +31,7 @@ def all_checks() -> tuple[Callable[[], Check], ...]:
         check_own_kits,
         check_sound,
         check_real_time,
+        check_calibration,
         check_picture,
         check_screen,
     )
@@ -127,6 +129,52 @@ def check_real_time() -> Check:
     return Check(
         "real time", False, "not granted: on a busy computer sound may drop out and strokes be heard late", remedy
     )
+
+
+def check_calibration() -> Check:
+    """Whether the latency of the kits and of the output that are in use was measured, and can be trusted."""
+    try:
+        settings, known = load_settings(), load_calibration()
+    except BadInput as fault:
+        return Check("latency", False, str(fault), "mend the line, or delete the file and measure again")
+    output, kits = _output_in_use(settings), _kits_in_use(settings)
+    if output is None and not kits:
+        return Check("latency", True, "neither kit nor sound output is here to be measured")
+    ways = dict.fromkeys(kits, "strike") | ({output: "loopback"} if output is not None else {})
+    measured = {name: kit.kit for name, kit in known.kits.items() if name in kits}
+    if output is not None and output in known.outputs:
+        measured[output] = known.outputs[output]
+    faults = [f"{name} is not measured" for name in ways if name not in measured]
+    faults += [f"{name}: {each.doubts}" for name, each in measured.items() if each.doubts]
+    if not faults:
+        words = (f"{name} {each.latency_ms:+.1f} ms ({each.by}, {each.on})" for name, each in measured.items())
+        return Check("latency", True, ", ".join(words))
+    missing = dict.fromkeys(way for name, way in ways.items() if name not in measured or measured[name].doubts)
+    remedy = " and ".join(f"station devices calibrate --by {way}" for way in missing)
+    return Check("latency", False, "; ".join(faults), remedy)
+
+
+def _output_in_use(settings: Settings) -> str | None:
+    from station.sound.output import choose_output, list_outputs
+
+    try:
+        return choose_output(list_outputs(), settings.output).name
+    except DeviceError:
+        return None
+
+
+def _kits_in_use(settings: Settings) -> list[str]:
+    from station.devices.kit_ports import parse_kits
+    from station.devices.midi_ports import MidiDirectory
+    from station.devices.presets import stable_name
+    from station.devices.watch import choose_port
+
+    try:
+        ports = MidiDirectory().names()
+        chosen = [choose_port(ports, wish.part) for wish in parse_kits(settings.kit)]
+    except StationError:
+        return []
+    return [stable_name(port) for port in chosen if port is not None]
 
 
 def check_picture() -> Check:

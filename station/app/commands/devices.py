@@ -6,6 +6,7 @@ from enum import IntEnum
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from station.app.commands import calibrate
 from station.app.commands.kit_option import KIT_HELP
 from station.app.commands.learn import learn
 from station.app.commands.listening import event_line, listening, polls
@@ -40,6 +41,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     for verb in (watch, teach, record):
         verb.add_argument("--kit", metavar="PORT", action="append", help=KIT_HELP)
         verb.add_argument("--seconds", type=_seconds, metavar="S", help="end by itself after so long")
+    calibrate.add_options(verbs.add_parser("calibrate", help="measure the latency of a kit or a sound output"))
     replay = verbs.add_parser("replay", help="the hits of a capture, as they were")
     replay.add_argument("file", metavar="FILE", type=Path, help="a capture")
     replay.add_argument("--json", action="store_true", help="print one JSON document")
@@ -54,7 +56,14 @@ def _seconds(text: str) -> float:
 
 def run(arguments: argparse.Namespace) -> int:
     """Do what the verb says."""
-    verbs = {"list": _list, "monitor": monitor, "learn": learn, "record": _record, "replay": _replay}
+    verbs = {
+        "list": _list,
+        "monitor": monitor,
+        "learn": learn,
+        "calibrate": calibrate.run,
+        "record": _record,
+        "replay": _replay,
+    }
     return verbs[arguments.verb](arguments)
 
 

@@ -53,6 +53,15 @@ class Estimate:
         """The same with further doubts."""
         return replace(self, doubts=self.doubts + doubts)
 
+    def less(self, known_ms: float) -> Self:
+        """What is left of it when `known_ms` belong to something else."""
+        return replace(
+            self,
+            value_ms=self.value_ms - known_ms,
+            low_ms=self.low_ms - known_ms,
+            high_ms=self.high_ms - known_ms,
+        )
+
     def remarked(self, *remarks: str) -> Self:
         """The same with further remarks."""
         return replace(self, remarks=self.remarks + remarks)

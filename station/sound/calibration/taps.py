@@ -39,10 +39,7 @@ class Taps:
 
     def habit(self, equipment_ms: float) -> Estimate:
         """The player's own lean, early negative, where the equipment's latency is known."""
-        total, known = self.total, equipment_ms
-        return Estimate(
-            total.value_ms - known, total.low_ms - known, total.high_ms - known, total.sd_ms, total.count, total.doubts
-        )
+        return self.total.less(equipment_ms)
 
 
 def taps(stamps_ns: NDArray[np.int64], clicks_ns: NDArray[np.int64]) -> Taps:

@@ -1,0 +1,143 @@
+"""What a measurement of latency told: as text, as a document, and as what is stored.
+
+A row is one result: of an output, a kit, a pad, of equipment and habit together, of the equipment's share, or of the
+habit. docs/calibration.md describes the document.
+"""
+
+from dataclasses import asdict, dataclass, replace
+from datetime import date
+from types import MappingProxyType
+
+from station.core.calibration import Calibration, KitMeasured, Measured
+from station.core.pieces import Piece, word
+from station.engine.calibrating import Devices
+from station.sound.calibration.estimate import Estimate
+from station.sound.calibration.stream_report import StreamReport
+
+SCHEMA = "drum-station/calibrate/1"
+TAPPED = "tap"
+"""The way of measuring in whose result kit, output and habit are one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One result: `what` it is of (output, kit, pad, together, equipment, habit), its device, and the estimate."""
+
+    what: str
+    device: str
+    estimate: Estimate
+    piece: Piece | None = None
+
+    @property
+    def storable(self) -> bool:
+        """Whether judgement could subtract it."""
+        return self.what in ("output", "kit", "pad", "equipment")
+
+
+@dataclass(frozen=True, slots=True)
+class Findings:
+    """All that one measurement told."""
+
+    devices: Devices
+    rows: tuple[Row, ...] = ()
+    stream: StreamReport | None = None
+
+
+def with_rows(before: Calibration, rows: list[Row], by: str, on: date) -> Calibration:
+    """What was known `before`, with `rows` as measured `by` a way `on` a day; pads go with their kit alone."""
+    outputs = {name: known for name, known in before.outputs.items() if name not in outdated(before, rows)}
+    after = replace(before, outputs=MappingProxyType(outputs))
+    pads = {row.piece: _measured(row, by, on) for row in rows if row.piece is not None}
+    for row in rows:
+        if row.what in ("output", "equipment"):
+            after = after.with_output(row.device, _measured(row, by, on))
+        elif row.what == "kit":
+            after = after.with_kit(row.device, KitMeasured(_measured(row, by, on), MappingProxyType(pads)))
+    return after
+
+
+def outdated(before: Calibration, rows: list[Row]) -> list[str]:
+    """The outputs whose latency was tapped, once a kit is measured: what they have was partly the kit's."""
+    if not any(row.what == "kit" for row in rows):
+        return []
+    return [name for name, known in before.outputs.items() if known.by == TAPPED]
+
+
+def _measured(row: Row, by: str, on: date) -> Measured:
+    estimate = row.estimate
+    doubts = "; ".join(estimate.doubts)
+    return Measured(round(estimate.value_ms, 3), round(estimate.half_ms, 3), by, on, doubts)
+
+
+# --- telling ---------------------------------------------------------------------------------------------------------
+
+
+def document(by: str, findings: Findings, stored: bool) -> dict[str, object]:
+    """What `--json` prints."""
+    rows = [
+        {
+            "what": row.what,
+            "device": row.device,
+            "piece": None if row.piece is None else word(row.piece),
+            "latency_ms": row.estimate.value_ms,
+            "low_ms": row.estimate.low_ms,
+            "high_ms": row.estimate.high_ms,
+            "sd_ms": row.estimate.sd_ms,
+            "count": row.estimate.count,
+            "trusted": row.estimate.trusted,
+            "doubts": list(row.estimate.doubts),
+            "remarks": list(row.estimate.remarks),
+        }
+        for row in findings.rows
+    ]
+    stream = None if findings.stream is None else asdict(findings.stream)
+    devices = asdict(findings.devices)
+    return {"schema": SCHEMA, "by": by, **devices, "results": rows, "stream": stream, "stored": stored}
+
+
+_NAMES = {
+    "output": "sounds later than it reports by",
+    "kit": "stamps strokes late by",
+    "together": "equipment and your habit together",
+    "equipment": "of that, the equipment's share may be",
+    "habit": "of that, your own habit is",
+}
+
+
+def text(findings: Findings, before: Calibration) -> str:
+    """What a person reads; `before` is what was known of the devices."""
+    lines = [_line(row) for row in findings.rows]
+    if findings.stream is not None:
+        lines.append(_stream_line(findings, before))
+    return "".join(lines)
+
+
+def _line(row: Row) -> str:
+    estimate = row.estimate
+    name = _NAMES.get(row.what, "")
+    head = f"{row.device}: {name}" if row.what in ("output", "kit") else name
+    if row.piece is not None:
+        head = f"  {word(row.piece)}"
+    figures = (
+        f"{estimate.value_ms:+.1f} ms ({estimate.low_ms:+.1f} to {estimate.high_ms:+.1f}, {estimate.count} counted)"
+    )
+    doubts = "".join(f"\n    don't trust this: {doubt}" for doubt in estimate.doubts)
+    remarks = "".join(f"\n    note: {remark}" for remark in estimate.remarks)
+    return f"{head} {figures}{doubts}{remarks}\n"
+
+
+def _stream_line(findings: Findings, before: Calibration) -> str:
+    stream, output = findings.stream, findings.devices.output or ""
+    assert stream is not None, "asked for only where there is one"
+    latency = "no latency" if not stream.latency_ms else f"a latency of {stream.latency_ms:.1f} ms"
+    drift = "its drift is not known"
+    if stream.drift_ppm is not None:
+        drift = f"its clock runs {stream.drift_ppm:+.0f} ± {stream.drift_half_ppm:.0f} parts in a million fast"
+    known = before.outputs.get(output)
+    more = (
+        f"measured {known.latency_ms:+.1f} ms more by {known.by}"
+        if known is not None
+        else "what it hides, --by loopback finds"
+    )
+    doubts = "".join(f"\n    don't trust this: {doubt}" for doubt in stream.doubts)
+    return f"{output}: reports {latency}; {drift}; both are corrected already; {more}{doubts}\n"

@@ -1,0 +1,150 @@
+"""`station devices calibrate`: measure the latency of outputs and kits, tell it, and store it only when asked to.
+
+What is stored is subtracted by practice: of an output what its driver does not report, of a kit and its pads how much
+later than played a stroke is stamped. docs/calibration.md says how to set up each way of measuring.
+"""
+
+import argparse
+import sys
+from datetime import date
+from typing import TYPE_CHECKING
+
+from station.app.commands.kit_option import KIT_HELP
+from station.app.commands.output import print_json, say
+from station.core.calibration import Calibration, load_calibration, save_calibration
+from station.core.settings import Settings, load_settings
+
+if TYPE_CHECKING:
+    from station.app.calibration_findings import Findings, Row
+    from station.devices.kit_ports import KitWish
+    from station.engine.calibrating import SoundWish
+
+WAYS = ("report", "loopback", "strike", "tap")
+MOST_DISTANCE_M = 10.0
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add this verb's words."""
+    parser.add_argument("--by", choices=WAYS, default=WAYS[0], help="how to measure (%(default)s)")
+    parser.add_argument("--kit", metavar="PORT", help=KIT_HELP.replace("; once a kit", ""))
+    parser.add_argument("--output", metavar="DEVICE", help="part of the sound output's name (the settings')")
+    parser.add_argument("--input", metavar="DEVICE", default="", help="part of the sound input's name (the default)")
+    parser.add_argument(
+        "--distance", type=_distance, default=0.0, metavar="M", help="metres from the pads to the microphone (0)"
+    )
+    store = parser.add_mutually_exclusive_group()
+    store.add_argument("--store", action="store_true", help="store what can be trusted without asking")
+    store.add_argument("--store-anyway", action="store_true", help="store also what cannot be trusted")
+    parser.add_argument("--json", action="store_true", help="print one JSON document; stores only when told to")
+
+
+def _distance(text: str) -> float:
+    metres = float(text)
+    if not 0.0 <= metres <= MOST_DISTANCE_M:
+        raise argparse.ArgumentTypeError(f"{text}: expected 0 to {MOST_DISTANCE_M:g} metres")
+    return metres
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Measure, tell, and store what the user wants stored."""
+    from station.app.calibration_findings import document, outdated, text, with_rows
+
+    settings, before = load_settings(), load_calibration()
+    findings = _WAYS[arguments.by](arguments, settings, before)
+    worth = [row for row in findings.rows if row.storable and (row.estimate.trusted or _insists(arguments, row))]
+    if not arguments.json:
+        sys.stdout.write(text(findings, before))
+    stores = bool(worth) and _wants(arguments, worth)
+    if stores:
+        path = save_calibration(with_rows(before, worth, arguments.by, date.today()))
+        say(f"stored in {path}")
+        for name in outdated(before, worth):
+            say(f"what was tapped on {name} is forgotten, for the kit's latency was in it: tap again")
+    elif arguments.store and findings.rows:
+        say("nothing is stored, for it cannot be trusted (--store-anyway stores it)")
+    if arguments.json:
+        print_json(document(arguments.by, findings, stores))
+    return 0
+
+
+# --- measuring -------------------------------------------------------------------------------------------------------
+
+
+def _by_report(arguments: argparse.Namespace, settings: Settings, _: Calibration) -> "Findings":
+    from station.app.calibration_findings import Findings
+    from station.engine.calibrating import stream_report
+
+    say("listening to the output's clock for ten seconds")
+    devices, stream = stream_report(_wish(arguments, settings))
+    return Findings(devices, stream=stream)
+
+
+def _by_loopback(arguments: argparse.Namespace, settings: Settings, _: Calibration) -> "Findings":
+    from station.app.calibration_findings import Findings, Row
+    from station.engine.calibrating import loopback_rounds
+
+    devices, estimate = loopback_rounds(_wish(arguments, settings), say)
+    return Findings(devices, (Row("output", devices.output or "", estimate),))
+
+
+def _by_strikes(arguments: argparse.Namespace, settings: Settings, _: Calibration) -> "Findings":
+    from station.app.calibration_findings import Findings, Row
+    from station.engine.calibrating import struck
+
+    devices, found = struck(_wish(arguments, settings), _kit(arguments, settings), say, arguments.distance)
+    kit = devices.kit or ""
+    pads = (Row("pad", kit, estimate, piece) for piece, estimate in found.pads.items())
+    return Findings(devices, (Row("kit", kit, found.kit), *pads))
+
+
+def _by_taps(arguments: argparse.Namespace, settings: Settings, before: Calibration) -> "Findings":
+    """What of the taps the kit is known to have is not the output's; what both are known to have is not the habit."""
+    from station.app.calibration_findings import TAPPED, Findings, Row
+    from station.engine.calibrating import tapped
+
+    devices, found = tapped(_wish(arguments, settings), _kit(arguments, settings), say)
+    kit, output = before.kits.get(devices.kit or ""), before.outputs.get(devices.output or "")
+    known_ms = kit.kit.latency_ms if kit is not None else 0.0
+    rows = [Row("together", devices.kit or "", found.total)]
+    if kit is not None and output is not None and output.by != TAPPED:
+        habit = found.habit(known_ms + output.latency_ms)
+        return Findings(devices, (*rows, Row("habit", devices.kit or "", habit)))
+    return Findings(devices, (*rows, Row("equipment", devices.output or "", found.equipment.less(known_ms))))
+
+
+_WAYS = {"report": _by_report, "loopback": _by_loopback, "strike": _by_strikes, "tap": _by_taps}
+
+
+def _wish(arguments: argparse.Namespace, settings: Settings) -> "SoundWish":
+    from station.engine.calibrating import SoundWish
+
+    output = settings.output if arguments.output is None else arguments.output
+    return SoundWish(output, arguments.input, settings.block_frames, settings.rate_hz)
+
+
+def _kit(arguments: argparse.Namespace, settings: Settings) -> "KitWish":
+    """The kit that is asked for, else the first of the settings."""
+    from station.devices.kit_ports import parse_kit, parse_kits
+
+    return parse_kits(settings.kit)[0] if arguments.kit is None else parse_kit(arguments.kit)
+
+
+# --- storing ---------------------------------------------------------------------------------------------------------
+
+
+def _insists(arguments: argparse.Namespace, row: "Row") -> bool:
+    """Whether a doubtful result is worth a question, or is to be stored unasked."""
+    return bool(arguments.store_anyway or not (arguments.store or arguments.json or row.what == "pad"))
+
+
+def _wants(arguments: argparse.Namespace, rows: "list[Row]") -> bool:
+    """Whether the user wants `rows` stored: said on the command line, or asked now; nobody there is a no."""
+    if arguments.store or arguments.store_anyway:
+        return True
+    if arguments.json or not sys.stdin.isatty():
+        say("nothing is stored; say --store to have it subtracted from now on")
+        return False
+    doubtful = "" if all(row.estimate.trusted for row in rows) else ", although it cannot be trusted"
+    sys.stderr.write(f"subtract it from now on{doubtful}? [y/N] ")
+    sys.stderr.flush()
+    return sys.stdin.readline().strip().casefold() in ("y", "yes")

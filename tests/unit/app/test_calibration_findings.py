@@ -1,0 +1,97 @@
+from datetime import date
+from types import MappingProxyType
+
+import numpy as np
+import pytest
+
+from station.app.calibration_findings import Findings, Row, document, outdated, text, with_rows
+from station.core.calibration import Calibration, KitMeasured, Measured
+from station.core.pieces import Piece
+from station.engine.calibrating import Devices
+from station.sound.calibration.estimate import Estimate
+from station.sound.calibration.stream_report import report_of
+from station.sound.calibration.timeline import Timeline
+
+DAY = date(2026, 1, 31)
+GOOD = Estimate(4.0, 3.5, 4.5, 0.8, 20)
+POOR = GOOD.doubted("it scatters")
+OUTPUT, KIT = Row("output", "card", GOOD), Row("kit", "TD-17", GOOD)
+PAD = Row("pad", "TD-17", Estimate(6.0, 5.8, 6.2, 0.3, 10), Piece.SNARE)
+
+
+def test_what_is_stored_goes_by_device_and_pad() -> None:
+    after = with_rows(with_rows(Calibration(), [OUTPUT], "loopback", DAY), [KIT, PAD], "strike", DAY)
+    assert after.outputs["card"] == Measured(4.0, 0.5, "loopback", DAY)
+    assert after.kits["TD-17"].kit == Measured(4.0, 0.5, "strike", DAY)
+    assert after.kits["TD-17"].pads[Piece.SNARE] == Measured(6.0, 0.2, "strike", DAY)
+
+
+def test_doubts_are_stored_with_what_is_doubtful() -> None:
+    assert (
+        with_rows(Calibration(), [Row("output", "card", POOR)], "loopback", DAY).outputs["card"].doubts == "it scatters"
+    )
+
+
+def test_a_kit_that_is_measured_outdates_what_was_tapped() -> None:
+    """The tapped latency of an output had the kit's in it; subtracting both would count the kit twice."""
+    tapped, looped = Measured(60.0, 30.0, "tap", DAY, "habit"), Measured(2.0, 0.1, "loopback", DAY)
+    before = Calibration(MappingProxyType({"phones": tapped, "card": looped}))
+    assert outdated(before, [KIT]) == ["phones"]
+    assert dict(with_rows(before, [KIT], "strike", DAY).outputs) == {"card": looped}
+    assert outdated(before, [OUTPUT]) == []
+
+
+def test_habit_is_never_stored() -> None:
+    whats = ("output", "kit", "pad", "equipment", "together", "habit")
+    assert [what for what in whats if Row(what, "x", GOOD).storable] == ["output", "kit", "pad", "equipment"]
+
+
+def test_the_text_is_signed_and_says_what_not_to_trust() -> None:
+    said = text(Findings(Devices(kit="TD-17"), (Row("kit", "TD-17", POOR), PAD)), Calibration())
+    assert "TD-17: stamps strokes late by +4.0 ms (+3.5 to +4.5, 20 counted)" in said
+    assert "don't trust this: it scatters" in said
+    assert "snare +6.0 ms" in said
+
+
+def test_the_streams_report_is_told_with_its_drift() -> None:
+    frames = list(range(0, 480_000, 480))
+    fast = [round(frame / 48_000 / 1.0001 * 1e9) for frame in frames]
+    report = report_of(5.3, Timeline(np.array(frames), np.array(fast), 48_000), 0)
+    assert report.drift_ppm == pytest.approx(100.0, abs=0.5)
+    assert not report.doubts
+    said = text(Findings(Devices(output="card"), stream=report), Calibration())
+    assert "card: reports a latency of 5.3 ms; its clock runs +100 ± 0 parts in a million fast" in said
+    known = Calibration(MappingProxyType({"card": Measured(-3.0, 0.1, "loopback", DAY)}))
+    assert "measured -3.0 ms more by loopback" in text(Findings(Devices(output="card"), stream=report), known)
+
+
+@pytest.mark.parametrize(("latency_ms", "word"), [(None, "no latency"), (0.0, "no latency"), (250.0, "too long")])
+def test_a_report_that_cannot_be_right_is_doubted(latency_ms: float | None, word: str) -> None:
+    assert word in report_of(latency_ms, None, 0).doubts[0]
+
+
+def test_the_document_has_every_figure() -> None:
+    made = document("strike", Findings(Devices(kit="TD-17", input="mic"), (KIT, PAD)), stored=True)
+    assert (made["schema"], made["by"], made["stored"]) == ("drum-station/calibrate/1", "strike", True)
+    assert (made["kit"], made["output"], made["input"]) == ("TD-17", None, "mic")
+    rows = made["results"]
+    assert isinstance(rows, list)
+    assert rows[1] == {
+        "what": "pad",
+        "device": "TD-17",
+        "piece": "snare",
+        "latency_ms": 6.0,
+        "low_ms": 5.8,
+        "high_ms": 6.2,
+        "sd_ms": 0.3,
+        "count": 10,
+        "trusted": True,
+        "doubts": [],
+        "remarks": [],
+    }
+
+
+def test_a_kit_keeps_pads_that_were_measured_before() -> None:
+    before = Calibration(kits=MappingProxyType({"TD-17": KitMeasured(Measured(1.0, 1.0, "strike", DAY))}))
+    after = with_rows(with_rows(before, [KIT, PAD], "strike", DAY), [KIT], "strike", DAY)
+    assert set(after.kits["TD-17"].pads) == {Piece.SNARE}
