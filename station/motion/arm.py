@@ -31,6 +31,8 @@ class Contact(NamedTuple):
     along the hand from there to the wrist. `stick_yaw` and `hand_yaw`: by how much those two are turned in plan, to
     the left positive, from the direction towards the shoulder. `ahead_m` from the fulcrum to the part of the stick
     that touches. `wing`: how far the elbow is swung to the drummer's right about the line from shoulder to wrist.
+    `turns`: 1 where the wrist's part of a stroke bends the hand, 0 where the forearm's roll swings the stick alone (a
+    traditional left hand), between them where both do (thumb up).
     """
 
     x: Number
@@ -42,6 +44,7 @@ class Contact(NamedTuple):
     hand_yaw: Number
     ahead_m: Number
     wing: Number
+    turns: Number = 1.0
 
 
 class Offsets(NamedTuple):
@@ -81,9 +84,8 @@ class Arm(NamedTuple):
 class ArmLengths:
     """Upper arm, forearm, hand to the fulcrum, fulcrum to the tip and to the butt, in metres.
 
-    `turns_hand`: 1 where the wrist's part of a stroke bends the hand, 0 where the forearm's roll swings the stick alone
-    (a traditional left hand), between them where both do; then `rolls_hand` is 1 for a right and −1 for a left hand,
-    else 0. `roll_sine` and `roll_cosine` of the hand's roll from palm down, to the drummer's right.
+    `rolls_hand` is 1 for a right and −1 for a left hand. `roll_sine` and `roll_cosine` of the hand's roll from palm
+    down, to the drummer's right.
     `most_bend` is the elbow's limit: a hand that travels close past the shoulder keeps farther off instead.
     """
 
@@ -92,10 +94,9 @@ class ArmLengths:
     hand: float
     ahead: float
     behind: float
-    turns_hand: float = 1.0
     roll_sine: float = 0.0
     roll_cosine: float = 1.0
-    rolls_hand: float = 0.0
+    rolls_hand: float = 1.0
     most_bend: float = math.pi
 
     def nearest_m(self, m: Maths, bend: Number) -> Number:
@@ -133,7 +134,7 @@ def chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a 
     """
     sin, cos, sqrt, atan2, acos, most = m.sin, m.cos, m.sqrt, m.atan2, m.acos, m.most
     sx, sy, sz = shoulder
-    cx, cy, cz, stick_rise, hand_rise, stick_yaw, hand_yaw, touching, wing = contact
+    cx, cy, cz, stick_rise, hand_rise, stick_yaw, hand_yaw, touching, wing, turns = contact
     raised_shoulder, raised_elbow, raised_wrist, raised_stick = offsets
     hand_rise = hand_rise + more[1]
     upper, fore, h = lengths.upper, lengths.fore, lengths.hand
@@ -182,7 +183,7 @@ def chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a 
     jy = sy + a_k * ky + a_e * ey + a_n * (kz * ex - kx * ez)
     jz = sz + a_k * kz + a_e * ez + a_n * (kx * ey - ky * ex)
     # hand and stick, by their slopes up towards the player
-    hand = hand_rise - lifted - lengths.turns_hand * raised_wrist
+    hand = hand_rise - lifted - turns * raised_wrist
     stick = stick_rise - lifted - raised_wrist - raised_stick
     cos_h, sin_h, cos_s, sin_s = cos(hand), sin(hand), cos(stick), sin(stick)
     a = h * cos_h
@@ -192,11 +193,9 @@ def chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a 
     # the wrist's angles: the forearm seen from the hand's own axes, and the hand's rolled back
     bx, by, bz = wx - jx, wy - jy, wz - jz
     b = bx * vx + by * vy
-    across, upward, rolled = lengths.roll_sine, lengths.roll_cosine, 0.0
-    if lengths.rolls_hand:
-        rolled = (1 - lengths.turns_hand) * raised_wrist
-        c, s = cos(rolled), lengths.rolls_hand * sin(rolled)
-        across, upward = across * c + upward * s, upward * c - across * s
+    across, upward, rolled = lengths.roll_sine, lengths.roll_cosine, (1 - turns) * raised_wrist
+    c, s = cos(rolled), lengths.rolls_hand * sin(rolled)
+    across, upward = across * c + upward * s, upward * c - across * s
     tilted = sin_h * upward
     return (
         (sx, sy, sz, jx, jy, jz, wx, wy, wz, hx, hy, hz),

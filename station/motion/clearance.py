@@ -57,7 +57,7 @@ def _highest(own: HandPart, lie: Lie, other: HandPart, others: Lie, figure: Figu
     lengths = own.hold.lengths(figure)
     n = len(_HEIGHTS_M)
     angles = np.repeat(np.array(lie.angles)[:, None], n, 1)
-    raised = top(amplitudes(_HEIGHTS_M, angles, lengths, parts(own.hold)))
+    raised = top(amplitudes(_HEIGHTS_M, angles, lengths, parts(own.hold), np.array([lie.contact.turns])))
     arm = solve(MANY, lengths, lie.root, Contact(*(np.full(n, c) for c in lie.contact)), Offsets(*raised))
     clear = _clear(arm, _still(other, others, figure), n)
     return float(_HEIGHTS_M[max(int(np.argmin(clear)) - 1, 0)]) if not clear.all() else np.inf

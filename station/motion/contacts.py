@@ -48,6 +48,11 @@ first of these directions from straight ahead in which its end is not under anot
 little higher than the fingers, else it would be bent to its limit (our choice)."""
 
 
+_RIDES = (Piece.RIDE, Piece.RIDE_2)
+THUMB_UP_TURNS = 0.5
+"""On a ride the thumb comes up: half of the wrist's part of a stroke is the forearm's roll (our choice)."""
+
+
 @dataclass(frozen=True, slots=True)
 class Strike:
     """One way of striking: what, where, how and with which hand."""
@@ -139,6 +144,8 @@ def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike) -> Lie:
     if strike.articulation == WAIT and not hold.held.rest_m:  # a brush waits on the head
         strike = replace(strike, articulation=Articulation.NORMAL)
     target = target_of(kit, strike)
+    if kit.stand_in(strike.piece) in _RIDES and hold.held.name == "stick":
+        hold = replace(hold, grip=replace(hold.grip, turns_hand=min(hold.grip.turns_hand, THUMB_UP_TURNS)))
     right = strike.limb == Limb.RIGHT_HAND
     side = 1.0 if right else -1.0
     lengths = hold.lengths(figure, right)
@@ -211,7 +218,7 @@ def _easiest(
     stick_yaw = side * grip.yaw if slopes.azimuth is None else _turn(root, target, slopes.azimuth)
     stick_rise = _over_the_piece(target, root, stick_yaw, slopes)
     hand_rise = stick_rise + slopes.palm
-    trial = Contact(x, y, z, stick_rise, hand_rise, stick_yaw, stick_yaw + yaw, slopes.ahead_m, wing)
+    trial = Contact(x, y, z, stick_rise, hand_rise, stick_yaw, stick_yaw + yaw, slopes.ahead_m, wing, grip.turns_hand)
     arm = solve(MANY, lengths, root, trial, Offsets(0.0, 0.0, 0.0, 0.0))
     price = (
         (arm.extension / _EXTENSION_EASE) ** 2

@@ -22,8 +22,8 @@ class Grip:
 
     `yaw` by which the stick is turned in from the line between shoulder and struck point; `palm` the stick's angle μ in
     the hand at the contact; `crossing` by which the hand points outward of the stick; `roll` of the hand's back from
-    facing up, thumb upward; `turns_hand` as in `ArmLengths`; `wrist` and `fingers` their parts of a stroke, 1 as in the
-    measured stroke.
+    facing up, thumb upward; `turns_hand` as `turns` in `Contact`; `wrist` and `fingers` their parts of a stroke, 1
+    as in the measured stroke.
     """
 
     name: str
@@ -107,8 +107,7 @@ class Hold:
             hand=hand,
             ahead=ahead,
             behind=length * pivot,
-            turns_hand=self.grip.turns_hand,
-            rolls_hand=0.0 if self.grip.turns_hand == 1.0 else 1.0 if right else -1.0,
+            rolls_hand=1.0 if right else -1.0,
             roll_sine=math.sin(self.grip.roll) * (1 if right else -1),
             roll_cosine=math.cos(self.grip.roll),
             most_bend=figure.limits.elbow_flexion,

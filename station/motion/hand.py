@@ -28,7 +28,7 @@ _EASINGS = 4
 _LEAST_HUMP, _MOST_TURN_RAD = 0.3, radians(60)
 """Moments at which so little of a detour is left are not helped by turning the hand; nor is it turned more than this
 (our choice)."""
-_HAND_YAW = Contact._fields.index("hand_yaw")
+_HAND_YAW, _TURNS = Contact._fields.index("hand_yaw"), Contact._fields.index("turns")
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,11 +69,13 @@ class HandPart:
         contacts = np.array([lie.contact for lie in lies])[which]
         lengths = hold.lengths(figure)
         height = events.height_m * hold.held.height
-        amplitude = amplitudes(height, np.array([lie.angles for lie in lies])[which].T, lengths, parts(hold))
+        turns = contacts[:, _TURNS]
+        amplitude = amplitudes(height, np.array([lie.angles for lie in lies])[which].T, lengths, parts(hold), turns)
+        levers = lengths.ahead, lengths.hand * turns + lengths.ahead
         plan = StrokePlan(
             strike_s=events.time_s,
             height_m=height,
-            amplitude=rebounds(amplitude, height, events.rebounds, events.bounces, lengths),
+            amplitude=rebounds(amplitude, height, events.rebounds, events.bounces, levers),
             rebounds=events.rebounds | events.bounces,
             ceiling=np.array([lie.ceiling for lie in lies])[which].T,
             most=np.full(len(height), np.inf),

@@ -76,17 +76,17 @@ class Way:
         strikes, rows = self._fast
         i = max(bisect_right(strikes, time_s) - 1, 0)
         row = _ROW.unpack_from(rows, i * _ROW.size)
-        t0, rate, bx, by, bz, turn, x, y, z, sr, hr, sy, hy, ahead, wing, *steps = row
+        t0, rate, bx, by, bz, turn, x, y, z, sr, hr, sy, hy, ahead, wing, turns, *steps = row
         u = (time_s - t0) * rate
         if u <= 0.0:
-            return x, y, z, sr, hr, sy, hy, ahead, wing
+            return x, y, z, sr, hr, sy, hy, ahead, wing, turns
         u = min(u, 1.0)
         s = u * u * u * (10 + u * (6 * u - 15))
-        dx, dy, dz, dsr, dhr, dsy, dhy, d_ahead, d_wing = steps
+        dx, dy, dz, dsr, dhr, dsy, dhy, d_ahead, d_wing, d_turns = steps
         h = (4 * u * (1 - u)) ** 2
         x, y, z = x + s * dx + h * bx, y + s * dy + h * by, z + s * dz + h * bz
         sr, hr, sy, hy = sr + s * dsr, hr + s * dhr, sy + s * dsy, hy + s * dhy + h * turn
-        return x, y, z, sr, hr, sy, hy, ahead + s * d_ahead, wing + s * d_wing
+        return x, y, z, sr, hr, sy, hy, ahead + s * d_ahead, wing + s * d_wing, turns + s * d_turns
 
     def many(self, time_s: Array) -> Contact:
         """The contact at each time."""
@@ -94,9 +94,9 @@ class Way:
         t0, rate, bx, by, bz, turn, *way = self.rows[i].T
         u = np.clip((time_s - t0) * rate, 0.0, 1.0)
         s = u * u * u * (10 + u * (6 * u - 15))
-        x, y, z, sr, hr, sy, hy, ahead, wing = (a + s * d for a, d in zip(way[:FIELDS], way[FIELDS:], strict=True))
+        x, y, z, sr, hr, sy, hy, *rest = (a + s * d for a, d in zip(way[:FIELDS], way[FIELDS:], strict=True))
         h = (4 * u * (1 - u)) ** 2
-        return Contact(x + h * bx, y + h * by, z + h * bz, sr, hr, sy, hy + h * turn, ahead, wing)
+        return Contact(x + h * bx, y + h * by, z + h * bz, sr, hr, sy, hy + h * turn, *rest)
 
     def nearest(self, time_s: Array) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
         """The contact that the hand is at, or nearer to on its way, at each time; and whether it stays there."""

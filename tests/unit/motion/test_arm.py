@@ -81,8 +81,8 @@ def test_out_of_reach_the_shoulder_comes_along_and_the_lack_is_told() -> None:
 
 
 def test_a_crossed_hand_still_touches() -> None:
-    crossed = SNARE._replace(hand_yaw=-1.0)
-    lengths = ArmLengths(upper=0.33, fore=0.26, hand=0.15, ahead=0.27, behind=0.135, turns_hand=0.0)
+    crossed = SNARE._replace(hand_yaw=-1.0, turns=0.0)
+    lengths = ArmLengths(upper=0.33, fore=0.26, hand=0.15, ahead=0.27, behind=0.135)
     arm = solve(ONE, lengths, SHOULDER, crossed, STILL)
     assert math.dist(arm.tip, (-0.05, 0.45, 0.66)) < 1e-12
     rolled = solve(ONE, lengths, SHOULDER, crossed, Offsets(0.0, 0.0, 0.4, 0.0))

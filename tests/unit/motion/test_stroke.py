@@ -22,7 +22,7 @@ DATA = Path("../shared/data/stroke")
 def plan_of(times: list[float], heights: list[float], most: float = np.inf) -> StrokePlan:
     n = len(times)
     height = np.array(heights)
-    amplitude = amplitudes(height, np.repeat(CONTACT[:, None], n, 1), LENGTHS, np.ones((4, 1)))
+    amplitude = amplitudes(height, np.repeat(CONTACT[:, None], n, 1), LENGTHS, np.ones((4, 1)), np.ones(1))
     alone = np.zeros(n, bool)
     return StrokePlan(np.array(times), height, amplitude, alone, np.full((4, n), 3.0), np.full(n, most), 0.43, 0.045)
 

@@ -141,6 +141,13 @@ def test_traditional_and_thumb_up_strokes_rotate_the_forearm(grip: str, limb: Li
     assert np.linalg.norm(back, axis=1) == pytest.approx(np.ones(len(back)))
 
 
+@pytest.mark.parametrize("zone", [Zone.BOW, Zone.BELL])
+def test_on_a_ride_the_thumb_comes_up_and_the_forearm_rolls(zone: Zone) -> None:
+    drummer = drummer_of([Note(i * PPQ, Piece.RIDE, zone, 96, limb=R) for i in range(4)])
+    at = np.arange(0.6, 1.2, 0.005)
+    assert 3.0 < np.degrees(np.ptp(angle(drummer, "right_forearm", at))) < 30.0
+
+
 def test_a_matched_palm_down_hand_does_not_roll() -> None:
     drummer = drummer_of([Note(i * PPQ, Piece.SNARE, velocity=96, limb=R) for i in range(4)])
     assert np.ptp(angle(drummer, "right_forearm", np.arange(0.5, 1.5, 0.01))) == 0.0
