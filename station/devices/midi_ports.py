@@ -186,15 +186,19 @@ class MidiPort:
 
     def read(self) -> list[Packet]:
         """The messages since the last call, each with the driver's own time moved to session time."""
-        packets: list[Packet] = []
+        messages: list[bytes] = []
+        found: list[tuple[float, int]] = []
         emptied_ns, self._polled_ns = self._polled_ns, self._now_ns()
         while self._connection is not None:
             item = self._connection.get_message()
             if item is None:
                 break
             message, delta_s = item
-            packets.append(Packet(bytes(message), self._clock.stamp(delta_s, self._now_ns(), emptied_ns)))
-        return packets
+            messages.append(bytes(message))
+            found.append((delta_s, self._now_ns()))
+        if not messages:
+            return []
+        return [Packet(*pair) for pair in zip(messages, self._clock.stamps(found, emptied_ns), strict=True)]
 
     def close(self) -> None:
         """End the connection; a closed port reads as empty."""

@@ -11,7 +11,9 @@ wire. `WireClock` makes the best of both.
 Times are integer nanoseconds; rtmidi's differences are seconds in floating point.
 """
 
-from station.core.units import NS_PER_S
+from collections.abc import Sequence
+
+from station.core.units import NS_PER_MS, NS_PER_S
 
 CREEP_NS_PER_S = 100_000
 """How fast the offset may grow: 100 parts in a million, twice what an ordinary crystal strays (our choice)."""
@@ -21,6 +23,15 @@ _RESTART_AFTER_NS = 2 * NS_PER_S
 driver dropped messages, and their differences with them (our choice: no driver holds a message back nearly so long)."""
 
 
+_PROMPT_NS = 5 * NS_PER_MS
+"""Between two polls so near each other a message did not wait."""
+_APART_NS = 3 * NS_PER_MS
+_APART_MESSAGES = 16
+"""So many messages in a row that were found promptly, and yet all seem to have come `_APART_NS` before we last looked:
+the driver dropped one before them, and its difference with it (our choice: a stall of the driver's own thread, which
+holds messages back likewise, ends sooner)."""
+
+
 class DriverClock:
     """Turns the delta times of one connection into session time."""
 
@@ -28,24 +39,42 @@ class DriverClock:
         self._driver_ns = 0
         self._offset_ns: int | None = None
         self._last_ns = 0
+        self._apart_ns: list[int] = []  # the offsets that messages asked for that lie apart
 
-    def stamp(self, delta_s: float, polled_ns: int, emptied_ns: int) -> int:
-        """Session time of a message `delta_s` after the one before it, read at `polled_ns`; never goes back.
+    def stamps(self, found: Sequence[tuple[float, int]], emptied_ns: int) -> list[int]:
+        """Session times of the messages that one poll `found`, in order; they never go back.
 
-        `emptied_ns` is when the poll before began, which left no message behind: what came since may have waited.
-        Never later than `polled_ns` unless an earlier message was already stamped later.
+        Of each the time in s since the one before it, by the driver, and when we read it. `emptied_ns` is when the poll
+        before began, which left no message behind: what came since may have waited. Never later than it was read unless
+        an earlier message was already stamped later. All that a poll found says when the first of it came: a message
+        that waited, even the first of a connection, is as well known as the last.
         """
-        delta_ns = round(max(delta_s, 0.0) * NS_PER_S)
-        self._driver_ns += delta_ns
-        seen_ns = polled_ns - self._driver_ns
-        may_have_waited_ns = polled_ns - emptied_ns
+        driver_ns = []
+        for delta_s, read_ns in found:
+            delta_ns = round(max(delta_s, 0.0) * NS_PER_S)
+            self._driver_ns += delta_ns
+            driver_ns.append(self._driver_ns)
+            self._learn(read_ns - self._driver_ns, delta_ns, read_ns - emptied_ns)
+        assert self._offset_ns is not None or not found, "learnt from the first message"
+        times_ns = []
+        for at_ns in driver_ns:
+            self._last_ns = max(self._last_ns, at_ns + (self._offset_ns or 0))
+            times_ns.append(self._last_ns)
+        return times_ns
+
+    def _learn(self, seen_ns: int, delta_ns: int, may_have_waited_ns: int) -> None:
+        """Take in the offset that a message asks for at the most."""
         if self._offset_ns is None or seen_ns - self._offset_ns > may_have_waited_ns + _RESTART_AFTER_NS:
             self._offset_ns = seen_ns
-        else:
-            crept_ns = self._offset_ns + delta_ns * CREEP_NS_PER_S // NS_PER_S
-            self._offset_ns = min(seen_ns, crept_ns)
-        self._last_ns = max(self._last_ns, self._driver_ns + self._offset_ns)
-        return self._last_ns
+            return
+        if may_have_waited_ns < _PROMPT_NS:
+            is_apart = seen_ns - self._offset_ns > may_have_waited_ns + _APART_NS
+            self._apart_ns = [*self._apart_ns, seen_ns] if is_apart else []
+        if len(self._apart_ns) == _APART_MESSAGES:
+            self._offset_ns, self._apart_ns = min(self._apart_ns), []
+            return
+        crept_ns = self._offset_ns + delta_ns * CREEP_NS_PER_S // NS_PER_S
+        self._offset_ns = min(seen_ns, crept_ns)
 
 
 BITS_A_BYTE = 10

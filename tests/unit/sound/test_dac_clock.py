@@ -111,3 +111,16 @@ def test_resync_starts_from_the_next_report() -> None:
     Card().errors_ns(1.0, clock)
     clock.resync()
     assert clock.block(64, START_NS + 77 * NS_PER_S) == START_NS + 77 * NS_PER_S
+
+
+@pytest.mark.parametrize("off_ns", [144_000_000, -144_000_000])
+@pytest.mark.parametrize("frames", [32, 64, 256, 1024])
+def test_one_wrong_report_after_an_underflow_is_over_with_the_blocks_of_a_jump(frames: int, off_ns: int) -> None:
+    clock, step_ns = DacClock(48_000), frames * NS_PER_S / 48_000
+    true_ns = [START_NS + round(block * step_ns) for block in range(100)]
+    for at_ns in true_ns[:50]:
+        clock.block(frames, at_ns)
+    clock.resync()
+    said = [clock.block(frames, true_ns[50] + off_ns)] + [clock.block(frames, at_ns) for at_ns in true_ns[51:]]
+    errors_ns = np.abs(np.array(said) - np.array(true_ns[50:]))
+    assert errors_ns[JUMP_BLOCKS:].max() < JUMP_NS
