@@ -99,7 +99,7 @@ class Session:
         self.devices: list[str] = []
         """The kits that are connected, as far as the engine has said, the newest last."""
         self.output: str | None = None
-        """What the click is heard on, as the engine said when the transport started."""
+        """What the click is heard on, or was last, as far as the engine has said."""
         self.capture_fault: str | None = None
         """Why the capture lacks what came after, if it does."""
         self.rate_hz: int | None = None
@@ -134,8 +134,9 @@ class Session:
             case Recorded(_, fault) if fault is not None:
                 self.capture_fault = fault
                 self.notices.append(f"nothing more is recorded: {fault}")
-            case Ready(_, rate_hz) | Sounding(_, rate_hz):
+            case Ready(output, rate_hz) | Sounding(output, rate_hz):
                 self.rate_hz = rate_hz
+                self.output = output or self.output  # whoever plays on in silence keeps the beat that he heard
             case Notice(text):
                 self.notices.append(text)
             case _:

@@ -11,7 +11,7 @@ from station.core.settings import Settings
 from station.core.units import NS_PER_MS, NS_PER_S, PPQ
 from station.drills.lesson import Lesson
 from station.engine.engine import KEYBOARD
-from station.engine.messages import Play, Started
+from station.engine.messages import Play, Sounding, Started
 from station.music.judgement import Label
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
@@ -229,3 +229,13 @@ def test_each_device_and_pad_has_its_own_latency(device: str, piece: Piece, outp
     practice.handle(Started(ZERO_NS, output))
     (verdict,) = practice.handle(Hit(ZERO_NS + BAR_NS + late_ms * NS_PER_MS, piece, Zone.HEAD, 90, device=device))
     assert verdict.asynchrony_ns == 0
+
+
+def test_an_output_that_changes_within_the_session_brings_its_own_latency() -> None:
+    practice = session(MEASURED)
+    for beat, (output, late_ms) in enumerate([(None, 2), ("card", -3), (None, -3), ("headphones", 2)]):
+        practice.handle(Sounding(output))
+        due_ns = ZERO_NS + BAR_NS + beat * BEAT_NS
+        (verdict,) = practice.handle(Hit(due_ns + (6 + late_ms) * NS_PER_MS, Piece.SNARE, Zone.HEAD, 90, device=KIT))
+        assert verdict.asynchrony_ns == 0
+    assert practice.output == "headphones"
