@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Limb
+from station.motion.amplitudes import amplitudes, top
 from station.motion.arm import Arm, Contact, Offsets, solve
 from station.motion.collisions import segments_apart
 from station.motion.contacts import Lie
 from station.motion.figure import Figure
 from station.motion.hand import HandPart, parts
 from station.motion.maths import MANY, ONE
-from station.motion.stroke import amplitudes, top
 
 Array = NDArray[np.float64]
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from station.core.errors import BadInput
 from station.core.pieces import Limb, Piece, Zone, word
+from station.motion.amplitudes import amplitudes, rebounds
 from station.motion.arm import Contact, Offsets, solve
 from station.motion.contacts import PROTRACTION_M, Lie, Strike, lie_of
 from station.motion.events import SHOW, HandEvents
@@ -16,7 +17,7 @@ from station.motion.figure import Figure
 from station.motion.grip import Hold
 from station.motion.kit import Kit
 from station.motion.maths import MANY, Point
-from station.motion.stroke import NATURALLY, StrokePlan, Strokes, amplitudes, rebounds
+from station.motion.stroke import NATURALLY, StrokePlan, Strokes
 from station.motion.travel import DETOUR, Way, lifts
 from station.music.score import Score
 

@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from station.core.pieces import Piece
 from station.motion.events import HandEvents
 from station.motion.maths import Number
-from station.motion.stroke import KEYS, Strokes
+from station.motion.stroke import Strokes
+from station.motion.whip import KEYS
 
 Array = NDArray[np.float64]
 
