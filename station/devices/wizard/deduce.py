@@ -141,6 +141,9 @@ def _positions(takes: Takes, mains: Mains, kit: KitPreset) -> Mapping[int, froze
 
 
 def _findings(mains: Mains, kit: KitPreset, found: Guess) -> Iterable[str]:
+    if not mains:
+        yield f"nothing was struck: all is as on a {found.preset.title}"
+        return
     yield f"{found.preset.title}: {found.agreeing} of {found.agreeing + found.differing} sounds are as expected"
     for step, number in mains.items():
         same = [s for s, n in mains.items() if n == number and s is not step and s.piece is step.piece]

@@ -73,10 +73,13 @@ class Wizard:
             self._accept()
 
     def skip(self) -> None:
-        """On to the next step: what was played of this one does not count, unless it tells that nothing is sent."""
+        """On to the next step: what was played of this one does not count, unless only the soft strokes are lacking."""
         step = self._step
         if step is STOMP and self._take.controllers and not self._take.notes:
             self._takes[step] = self._take
+        elif step is not None and step.ask is Ask.STRIKE and self._done() >= step.firm:
+            self._accept()
+            return
         self._go(self._at + 1)
 
     def back(self) -> None:

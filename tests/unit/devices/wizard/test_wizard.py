@@ -255,6 +255,14 @@ def test_skip_leaves_a_step_and_back_asks_the_last_one_anew() -> None:
     assert wizard.view().text == ""
 
 
+def test_a_pad_that_sends_nothing_soft_is_learned_all_the_same() -> None:
+    wizard = Wizard("kit")
+    strike(wizard, 61, 0, 3)
+    wizard.skip()
+    assert wizard.view().step == 2
+    assert wizard.learned().kit.notes[61] == Strike(Piece.KICK)
+
+
 def test_a_pad_that_was_another_before_is_told_and_asked_again() -> None:
     wizard = Wizard("kit")
     strike(wizard, 36, strike(wizard, 36, 0))
