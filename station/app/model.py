@@ -10,6 +10,7 @@ from enum import IntEnum
 from typing import Protocol
 
 from station.engine.messages import KeyHit
+from station.practice.own_ear import Guess
 from station.render.results import ResultFacts
 from station.render.snapshot import Snapshot
 
@@ -70,7 +71,7 @@ class RoomState:
     """What surrounds the picture: `stage`, the kit and the sound in words, `notices` newest last, `progress` 0–1.
 
     `progress` None while nothing plays. `why` is the reason for the pass that is counted in, and `can_veto` whether the
-    student may still refuse it.
+    student may still refuse it. `question` is to be answered before the result is shown, empty where none is open.
     """
 
     stage: Stage = Stage.IDLE
@@ -80,6 +81,7 @@ class RoomState:
     progress: float | None = None
     why: str = ""
     can_veto: bool = False
+    question: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,7 +133,11 @@ class PracticeModel(Protocol):
         ...
 
     def report(self) -> Report | None:
-        """The result of the session that ended last, None before the first."""
+        """The result of the session that ended last, None before the first and while a question is open."""
+        ...
+
+    def answer(self, guess: Guess) -> None:
+        """What the student believes, where a question is open."""
         ...
 
     def dismiss(self) -> None:

@@ -13,6 +13,7 @@ from station.app.backdrop import Look
 from station.app.choice import MAX_LOOPS, MAX_TEMPO_BPM, MIN_TEMPO_BPM, Choice
 from station.app.keyboard import KEYS
 from station.app.model import LessonCard, RoomState, Stage
+from station.practice.own_ear import Guess
 from station.render.camera import VIEW_NAMES, View
 
 START_LABEL = "Start##start"
@@ -125,6 +126,8 @@ def transport_bar(room: RoomState, look: Look, actions: "dict[str, Callable[[], 
             if imgui.button(VETO_LABEL, imgui.ImVec2(theme.points(110), height)):
                 actions["veto"]()
             tooltip(f"{room.why} Press to play the last pass once more instead")
+    elif room.question:
+        _asked(room.question, actions)
     elif room.stage is Stage.RESULT:
         if theme.main_button(AGAIN_LABEL, (theme.points(150), height)):
             actions["again"]()
@@ -153,6 +156,17 @@ def transport_bar(room: RoomState, look: Look, actions: "dict[str, Callable[[], 
     changed, index = imgui.combo("##view", int(look.view), list(VIEW_NAMES.values()))
     tooltip("Where you look from; drag in the picture to turn, right drag to shift, wheel to come nearer")
     return Look(View(index) if changed else look.view, bool(mirrored))
+
+
+def _asked(question: str, actions: "dict[str, Callable[[], None]]") -> None:
+    """A button for each answer, and the question."""
+    for guess in Guess:
+        if imgui.button(guess.value, imgui.ImVec2(theme.points(96), theme.points(38))):
+            actions[guess.value]()
+        tooltip(question)
+        imgui.same_line()
+    imgui.align_text_to_frame_padding()
+    imgui.text(question)
 
 
 def keys_help(frame_ms: float) -> None:

@@ -15,7 +15,7 @@ from station.app.session_folder import SessionFolder, rescued
 from station.app.session_view import SessionView
 from station.core.calibration import Calibration
 from station.core.errors import DeviceError, StationError
-from station.core.events import DeviceFound, DeviceLost
+from station.core.events import DeviceFound, DeviceLost, Hit
 from station.core.settings import Settings
 from station.core.units import PPQ
 from station.drills.lesson import LEVELS, Lesson
@@ -29,6 +29,7 @@ from station.practice.latency import Latency, latency_of
 from station.practice.live import EngineLink, begin, end, next_session
 from station.practice.mastery_report import with_mastery
 from station.practice.memory import Memory, Remembered
+from station.practice.own_ear import GUESS_OF, QUESTION, Guess, answered, is_worth_asking
 from station.practice.plan import Phase, Plan, Wishes, plan_practice
 from station.practice.report import practice_document
 from station.practice.session import Session, SessionResult
@@ -74,6 +75,8 @@ class PracticeRoom:
         self._session = self._new_session(first)
         self._folder: SessionFolder | None = None
         self._report: Report | None = None
+        self._asked: set[str] = set()
+        self._is_asking = False
         self._stage = Stage.IDLE
         self._kits: list[str] = []
         self._sound = "the engine is waking"
@@ -105,15 +108,16 @@ class PracticeRoom:
         can_veto = adaptation is not None and bool(adaptation.rounds) and state.segment.phase is Phase.COUNT_IN
         notices = tuple(self._notices[-NOTICES_KEPT:])
         kits = ", ".join(self._kits)
-        return RoomState(self._stage, kits, self._sound, notices, progress, self._session.message, can_veto)
+        question = QUESTION if self._is_asking else ""
+        return RoomState(self._stage, kits, self._sound, notices, progress, self._session.message, can_veto, question)
 
     def lessons(self) -> Sequence[LessonCard]:
         """Every shipped lesson, and the one that was named when the window was opened."""
         return [_card(lesson) for lesson in self._lessons.values()]
 
     def report(self) -> Report | None:
-        """The result of the session that ended last."""
-        return self._report
+        """The result of the session that ended last, once the question before it was answered."""
+        return None if self._is_asking else self._report
 
     def first(self) -> Start:
         """The lesson that the window was opened on, as it was asked for."""
@@ -146,7 +150,13 @@ class PracticeRoom:
             folder.discard()
             raise
         self._plan, self._view, self._session, self._folder = plan, view, session, folder
-        self._followed, self._stage = followed, Stage.PLAYING
+        self._followed, self._stage, self._is_asking = followed, Stage.PLAYING, False
+
+    def answer(self, guess: Guess) -> None:
+        """What the student believes of the session that ended: now its result is shown beside it."""
+        if self._is_asking and self._report is not None:
+            self._notices.append(answered(guess, self._report.document))
+            self._is_asking = False
 
     def veto(self) -> None:
         """Refuse what the next pass would change, while it is counted in: the last one once more."""
@@ -174,7 +184,7 @@ class PracticeRoom:
     def dismiss(self) -> None:
         """Back to the lessons."""
         if self._stage is Stage.RESULT:
-            self._stage = Stage.IDLE
+            self._stage, self._is_asking = Stage.IDLE, False
             self._session = self._new_session(self._plan)
             self._view = SessionView(self._plan, self._plan.lesson.kit)
 
@@ -255,6 +265,8 @@ class PracticeRoom:
         self._judged(verdicts, now_ns)
         self._notices += self._session.notices[told:]
         match event:
+            case Hit(piece=piece) if self._is_asking and piece in GUESS_OF:
+                self.answer(GUESS_OF[piece])
             case DeviceFound(_, device):
                 self._kits = [*(kit for kit in self._kits if kit != device), device]
             case DeviceLost(_, device):
@@ -286,7 +298,15 @@ class PracticeRoom:
         if self._fault is not None:
             self._notices.append(str(self._fault))
         self._report = Report(session_facts(result, document), document, path)
-        self._stage = Stage.RESULT
+        self._stage, self._is_asking = Stage.RESULT, self._may_ask(document)
+
+    def _may_ask(self, document: dict[str, Json]) -> bool:
+        """Whether to ask before the result: at most once a lesson, and only what it can answer."""
+        name = self._plan.lesson.name
+        if not self._settings.ask_first or name in self._asked or not is_worth_asking(document):
+            return False
+        self._asked.add(name)
+        return True
 
     def _told_whole(self) -> tuple[SessionResult, dict[str, Json]]:
         """The session's result and report, over all passes where there were several sessions."""

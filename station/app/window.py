@@ -6,6 +6,7 @@ No thread is started, and nothing that happens here can change a judgement.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 from imgui_bundle import hello_imgui, imgui
 
@@ -16,6 +17,7 @@ from station.app.keyboard import pressed
 from station.app.model import PracticeModel, Stage
 from station.core.clock import Clock, MonotonicClock
 from station.core.errors import DeviceError, StationError
+from station.practice.own_ear import Guess
 
 TITLE = "Drum station"
 _DOCK = "MainDockSpace"
@@ -227,6 +229,7 @@ class Window:
             "again": self._start,
             "veto": lambda: self._tried(self._model.veto),
             "back": self._model.dismiss,
+            **{guess.value: partial(self._model.answer, guess) for guess in Guess},
         }
         self.backdrop.look_from(panels.transport_bar(self._model.room(), self.backdrop.look, actions))
 

@@ -44,7 +44,7 @@ class Settings:
     milliseconds, subtracted from every hit (input) and added to every written time (output) on devices that nobody has
     measured (`core.calibration`). `thresholds` says of pads
     the least velocity that they send, as measured (`snare=20 tom_1=15`), `mask_ms` how long after a stroke a pad hears
-    no other.
+    no other. `ask_first` whether the window asks what the student believes before it shows a result.
     """
 
     student: str = "student"
@@ -64,6 +64,7 @@ class Settings:
     sessions: str = ""
     thresholds: str = ""
     mask_ms: float = 9.0
+    ask_first: bool = True
 
     @property
     def threshold_of(self) -> dict[Piece, int]:

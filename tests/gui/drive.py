@@ -87,13 +87,17 @@ def practise(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.item_click("Start##start")
     drive.seen["started"] = drive.room.room().stage.name
     drive.seen["frames"] = drive.wait_for(ctx, Stage.RESULT)
+    drive.seen["asked"] = drive.room.room().question
+    drive.seen["told before"] = drive.room.report() is not None
+    ctx.yield_(3)
+    ctx.set_ref("//Transport")
+    ctx.item_click("on")
+    ctx.yield_(2)
     report = drive.room.report()
     assert report is not None
     drive.seen["points"] = report.facts.words.points
     drive.seen["notes"] = len(report.facts.label)
     drive.seen["title"] = report.facts.words.title
-    ctx.yield_(3)
-    ctx.set_ref("//Transport")
     ctx.item_click("Back to the lessons##back")
     ctx.yield_(2)
     drive.seen["after"] = drive.room.room().stage.name

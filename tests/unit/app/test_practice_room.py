@@ -10,7 +10,7 @@ from station.core.errors import DeviceError
 from station.core.events import Hit
 from station.core.pieces import Piece, Zone
 from station.core.settings import Settings
-from station.core.units import NS_PER_S
+from station.core.units import NS_PER_MS, NS_PER_S
 from station.drills.library import find_lesson
 from station.engine.messages import Command, EngineEvent, Play, Record, Recorded, Started
 from station.practice.plan import Wishes, plan_practice
@@ -141,3 +141,49 @@ def test_a_change_may_be_refused_while_the_next_pass_is_counted_in(tmp_path: Pat
     assert "down to" in room.room().why
     room.veto()
     assert room.room().why == "As you wish: all stays as it was."
+
+
+def played_early(room: PracticeRoom, line: Line, from_ns: int) -> None:
+    """A whole session of rock 1, every stroke 15 ms early."""
+    room.start(WISH)
+    zero_ns = from_ns + PLAN.passes_start_ns
+    line.says.append(Started(from_ns))
+    room.snapshot(from_ns + 1)
+    for at_ns, piece in zip(PLAN.score.onset_ns.tolist(), PLAN.score.notes["piece"].tolist(), strict=True):
+        line.says.append(Hit(zero_ns + at_ns - 15 * NS_PER_MS, Piece(piece), Zone.HEAD, 90))
+    room.snapshot(from_ns + PLAN.end_ns + 2 * NS_PER_S)
+    assert room.room().stage is Stage.RESULT
+
+
+def test_the_student_is_asked_before_the_result_and_answers_with_a_pad(tmp_path: Path) -> None:
+    """24 strokes to a click: once a lesson."""
+    line = Line()
+    room = room_on([line], tmp_path)
+    played_early(room, line, NS_PER_S)
+    assert "did you rush" in room.room().question
+    assert room.report() is None
+    line.says.append(Hit(90 * NS_PER_S, Piece.HIHAT, Zone.BOW, 90))
+    room.snapshot(90 * NS_PER_S)
+    assert room.room().question == ""
+    assert room.report() is not None
+    assert room.room().notices[-1] == "You said rushed, and you were 15 ms early on average: your ear is right."
+    room.dismiss()
+    played_early(room, line, 100 * NS_PER_S)
+    assert room.room().question == ""
+    assert room.report() is not None
+
+
+def test_who_does_not_want_to_be_asked_is_not(tmp_path: Path) -> None:
+    line = Line()
+    room = PracticeRoom(lambda: line, Settings(sessions=str(tmp_path), ask_first=False), PLAN)
+    played_early(room, line, NS_PER_S)
+    assert room.room().question == ""
+    assert room.report() is not None
+
+
+def test_a_question_may_be_left_open(tmp_path: Path) -> None:
+    line = Line()
+    room = room_on([line], tmp_path)
+    played_early(room, line, NS_PER_S)
+    room.dismiss()
+    assert (room.room().stage, room.room().question) == (Stage.IDLE, "")

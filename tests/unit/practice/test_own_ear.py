@@ -1,0 +1,41 @@
+"""Rushed, dragged or on: what is asked, and what is said of the answer; by hand."""
+
+import pytest
+
+from station.core.pieces import Piece
+from station.practice.own_ear import GUESS_OF, Guess, answered, is_worth_asking
+
+
+def report(mean_ms: float | None = 0.0, strokes: int = 100, **session: bool) -> dict[str, object]:
+    return {
+        "session": {"complete": True, "click": True, **session},
+        "timing": {"mean_signed_asynchrony_ms": mean_ms, "strokes": strokes},
+    }
+
+
+@pytest.mark.parametrize(
+    ("guess", "mean_ms", "said"),
+    [
+        (Guess.RUSHED, -14.2, "You said rushed, and you were 14 ms early on average: your ear is right."),
+        (Guess.RUSHED, 14.2, "You said rushed, and you were 14 ms late on average."),
+        (Guess.DRAGGED, 22.0, "You said dragged, and you were 22 ms late on average: your ear is right."),
+        (Guess.ON, -10.0, "You said on, and you were on the click on average: your ear is right."),
+        (Guess.DRAGGED, 10.0, "You said dragged, and you were on the click on average."),
+        (Guess.ON, 10.1, "You said on, and you were 10 ms late on average."),
+    ],
+)
+def test_an_answer_is_held_against_the_mean(guess: Guess, mean_ms: float, said: str) -> None:
+    assert answered(guess, report(mean_ms)) == said
+
+
+def test_only_what_can_be_answered_is_asked() -> None:
+    assert is_worth_asking(report(strokes=16))
+    assert not is_worth_asking(report(strokes=15))
+    assert not is_worth_asking(report(None, strokes=0))
+    assert not is_worth_asking(report(complete=False))
+    assert not is_worth_asking(report(click=False))
+
+
+def test_every_answer_has_a_pad() -> None:
+    assert set(GUESS_OF.values()) == set(Guess)
+    assert GUESS_OF[Piece.SNARE] is Guess.ON
