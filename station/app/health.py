@@ -164,17 +164,12 @@ def _output_in_use(settings: Settings) -> str | None:
 
 
 def _kits_in_use(settings: Settings) -> list[str]:
-    from station.devices.kit_ports import parse_kits
-    from station.devices.midi_ports import MidiDirectory
-    from station.devices.presets import stable_name
-    from station.devices.watch import choose_port
+    from station.devices.kit_ports import devices_there, parse_kits
 
     try:
-        ports = MidiDirectory().names()
-        chosen = [choose_port(ports, wish.part) for wish in parse_kits(settings.kit)]
+        return devices_there(parse_kits(settings.kit))
     except StationError:
         return []
-    return [stable_name(port) for port in chosen if port is not None]
 
 
 def check_picture() -> Check:

@@ -14,7 +14,8 @@ from dataclasses import dataclass
 from station.core.clock import monotonic_ns
 from station.core.errors import BadInput, DeviceError
 from station.devices.midi_ports import MidiDirectory
-from station.devices.serial_names import SERIAL
+from station.devices.presets import stable_name
+from station.devices.serial_names import SERIAL, device_of_port
 from station.devices.serial_ports import FASTEST_BAUD, MIDI_BAUD, SLOWEST_BAUD, SerialDirectory
 from station.devices.transport import PortDirectory, Transport
 from station.devices.watch import Claims, KitWatch, choose_port
@@ -114,16 +115,15 @@ def watch_kits(
     return Watches(tuple(KitWatch(ports_for(wish, midi), wish.part, claims) for wish in heard), fault)
 
 
-def are_there(wishes: tuple[KitWish, ...]) -> list[bool]:
-    """Whether each kit could be opened now, as far as the lists of ports tell."""
+def devices_there(wishes: tuple[KitWish, ...]) -> list[str]:
+    """The names of the kits that would be opened now, as far as the lists of ports tell."""
     try:
         midi = MidiDirectory()
     except DeviceError:
         midi = None
-    return [
-        (wish.part != "" or midi is not None) and choose_port(ports_for(wish, midi).names(), wish.part) is not None
-        for wish in wishes
-    ]
+    wanted = [wish for wish in wishes if wish.part or midi is not None]
+    chosen = [choose_port(ports_for(wish, midi).names(), wish.part) for wish in wanted]
+    return [device_of_port(stable_name(port)) for port in chosen if port is not None]
 
 
 def all_names() -> list[str]:

@@ -7,6 +7,7 @@ are closed first, for whatever changes JACK's graph waits for every sound callba
 
 import sys
 import time
+from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
@@ -18,6 +19,7 @@ from numpy.typing import NDArray
 from station.core.clock import monotonic_ns
 from station.core.errors import DeviceError
 from station.core.events import DeviceEvent, Hit
+from station.core.pieces import Piece
 from station.core.units import NS_PER_S
 from station.devices.decoders import DecoderBank
 from station.devices.kit import KitPreset
@@ -144,8 +146,8 @@ def _has_paused(begun_ns: int, hits: list[Hit]) -> bool:
     return since_s > (PAUSE_ENDS_S if len(hits) >= PAD_STROKES else FIRST_STROKE_WITHIN_S)
 
 
-def tapped(wish: SoundWish, kit: KitWish, tell: Tell, clicks: int = CLICKS) -> tuple[Devices, Taps]:
-    """Equipment and habit together by strokes along with a click."""
+def tapped(wish: SoundWish, kit: KitWish, tell: Tell, clicks: int = CLICKS) -> tuple[Devices, Piece, Taps]:
+    """Equipment and habit together by strokes along with a click; with the piece that was struck most often."""
     with _ear(kit, tell) as ear:
         output = _output(wish, ear.streams)
         sound, starts = _clicks(output.rate_hz, clicks)
@@ -155,8 +157,10 @@ def tapped(wish: SoundWish, kit: KitWish, tell: Tell, clicks: int = CLICKS) -> t
             output.start(player)
             hits = ear.listen(lambda _: player.is_over, output)
         clicks_ns = player.heard_ns(starts)
-    stamps = np.array([hit.at_ns for hit in hits], np.int64)
-    return Devices(kit=ear.device, output=output.name), taps(stamps, clicks_ns)
+    struck_most = Counter(hit.piece for hit in hits).most_common(1)
+    piece = struck_most[0][0] if struck_most else Piece.SNARE
+    stamps = np.array([hit.at_ns for hit in hits if hit.piece == piece], np.int64)
+    return Devices(kit=ear.device, output=output.name), piece, taps(stamps, clicks_ns)
 
 
 def _clicks(rate_hz: int, count: int) -> tuple[NDArray[np.float32], NDArray[np.int64]]:

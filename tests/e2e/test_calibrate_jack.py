@@ -93,7 +93,7 @@ def test_a_drummer_who_follows_the_click_is_measured() -> None:
         from dataclasses import asdict
         from station.devices.kit_ports import KitWish
         from station.engine.calibrating import SoundWish, tapped
-        devices, found = tapped(SoundWish(), KitWish("room"), lambda text: None, clicks=18)
+        devices, _, found = tapped(SoundWish(), KitWish("room"), lambda text: None, clicks=18)
         print(json.dumps({**asdict(devices), "total": asdict(found.total), "equipment": asdict(found.equipment)}))
     """
     with JackServer(48_000, PERIOD_FRAMES) as server, JackRoom(server, "drummer", 4 * DELAY_FRAMES):

@@ -102,9 +102,9 @@ def _by_taps(arguments: argparse.Namespace, settings: Settings, before: Calibrat
     from station.app.calibration_findings import TAPPED, Findings, Row
     from station.engine.calibrating import tapped
 
-    devices, found = tapped(_wish(arguments, settings), _kit(arguments, settings), say)
+    devices, piece, found = tapped(_wish(arguments, settings), _kit(arguments, settings), say)
     kit, output = before.kits.get(devices.kit or ""), before.outputs.get(devices.output or "")
-    known_ms = kit.kit.latency_ms if kit is not None else 0.0
+    known_ms = kit.of_pad(piece).latency_ms if kit is not None else 0.0
     rows = [Row("together", devices.kit or "", found.total)]
     if kit is not None and output is not None and output.by != TAPPED:
         habit = found.habit(known_ms + output.latency_ms)

@@ -140,9 +140,9 @@ def _remembered(plan: Plan, wishes: Wishes, settings: Settings, keeps: bool) -> 
 
 
 def _is_kit_there(wanted: str) -> bool:
-    from station.devices.kit_ports import are_there, parse_kits
+    from station.devices.kit_ports import devices_there, parse_kits
 
-    return any(are_there(parse_kits(wanted)))
+    return bool(devices_there(parse_kits(wanted)))
 
 
 def _leave(

@@ -79,4 +79,5 @@ def _swap_words(swap: Swap, undone: bool) -> str:
 
 def _latency_words(lean_ms: float) -> str:
     side = "late" if lean_ms > 0 else "early"
-    return f"All strokes are {abs(lean_ms):.0f} ms {side}, too evenly for a habit: measure the latency once."
+    how = "measure the latency once (station devices calibrate)"
+    return f"All strokes are {abs(lean_ms):.0f} ms {side}, too evenly for a habit: {how}."
