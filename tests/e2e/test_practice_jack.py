@@ -42,10 +42,29 @@ SOUND_WITHIN_NS = 60 * NS_PER_MS
 """A kick's low end must begin so soon after the stroke was sent: two periods, the filter's blur, a stalled machine."""
 
 
+MEASURED = """
+[kits."Fake Kit:out"]
+latency_ms = 12
+half_ms = 0.5
+by = "strike"
+on = 2026-01-31
+[outputs.system]
+latency_ms = -4
+half_ms = 0.5
+by = "loopback"
+on = 2026-01-31
+"""
+LATENCY_MS = 12.0 - 4.0
+"""What practice must take out of every hit's time: the kit is late by so much, the sound early."""
+
+
 def start_station(server: JackServer, folder: Path) -> "subprocess.Popen[str]":
     command = ["practice", LESSON, "--headless", "--json", "--no-demonstration", "--kit", "fake kit", "--loops", "1"]
     command += ["--tempo", str(TEMPO_BPM), "--report", str(folder), "--student", "somebody"]
-    env = {**server.env, "XDG_CONFIG_HOME": str(folder / "config")}
+    config = folder.parent / "config"
+    (config / "drum-station").mkdir(parents=True)
+    (config / "drum-station" / "calibration.toml").write_text(MEASURED)
+    env = {**server.env, "XDG_CONFIG_HOME": str(config)}
     return subprocess.Popen(
         [sys.executable, "-m", "station.cli", *command],
         env=env,
@@ -106,9 +125,10 @@ def test_a_fake_kit_is_heard_judged_and_sounded(tmp_path: Path) -> None:
     assert abs(document["counts"]["misses"] - truth.count(Label.MISS)) <= 1
     assert abs(document["counts"]["extras"] - truth.count(Label.EXTRA)) <= 1
     assert document["session"]["device"].startswith("Fake Kit")
+    assert document["session"]["latency"] == "12 ms input (measured), -4 ms output (measured)"
 
     late_ns = np.median([was.at_ns - start_ns - planned.at_ns for was, planned in zip(sent, strokes, strict=True)])
-    expected_ms = float(student.asynchrony_ms().mean() + late_ns / NS_PER_MS)
+    expected_ms = float(student.asynchrony_ms().mean() + late_ns / NS_PER_MS) - LATENCY_MS
     assert document["timing"]["mean_signed_asynchrony_ms"] == pytest.approx(expected_ms, abs=TIMING_TOLERANCE_MS)
 
     onsets_ns = low_onsets_ns(heard, 48_000)
