@@ -23,6 +23,7 @@ class _Kit:
     def __init__(self, preset: KitPreset, device: str) -> None:
         self.decoder = MidiDecoder(preset, device)
         self.guard = Guard(preset)
+        self.is_guarded = preset.has_rules
 
     def reset(self) -> list[DeviceEvent]:
         """Start afresh; returns what still waited."""
@@ -50,7 +51,10 @@ class DecoderBank:
     def feed(self, device: str, data: bytes, at_ns: int) -> Heard:
         """What `data` from `device`, come at `at_ns`, brings."""
         kit = self._kit(device)
-        sounding = [event for event in kit.decoder.feed(data, at_ns) if kit.guard.feed(event)]
+        events = kit.decoder.feed(data, at_ns)
+        if not kit.is_guarded:
+            return Heard(events, events)
+        sounding = [event for event in events if kit.guard.feed(event)]
         return Heard(sounding, kit.guard.told())
 
     def settle(self, now_ns: int) -> list[DeviceEvent]:

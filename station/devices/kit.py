@@ -128,6 +128,12 @@ class KitPreset:
     crosstalk: tuple[Crosstalk, ...] = ()
     base: str = ""
 
+    @property
+    def has_rules(self) -> bool:
+        """Whether some of what it sends may be no stroke."""
+        foot = self.foot.least_travel or self.foot.splash_ns
+        return bool(self.pads or self.crosstalk or self.grab_velocity or foot)
+
     def pad(self, piece: Piece) -> Pad:
         """What is known of the pad of `piece`."""
         return self.pads.get(piece, PLAIN_PAD)

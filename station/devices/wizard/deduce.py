@@ -14,7 +14,7 @@ from station.devices.wizard.ghosts import Mains, Takes, learned_crosstalk, learn
 from station.devices.wizard.guess import Guess, guess, knows
 from station.devices.wizard.pedal import learned_pedal
 from station.devices.wizard.steps import SPLASH, STOMP, Ask, Step
-from station.devices.wizard.takes import Said, Take, main_note
+from station.devices.wizard.takes import ONE_STROKE_NS, Said, Take, groups, main_note
 
 GENERAL_PURPOSE = range(16, 20)
 """The controllers that modules send a stroke's position with (Roland MIDI implementations)."""
@@ -38,7 +38,8 @@ def main_notes(takes: Takes) -> dict[Step, int]:
     for step, take in takes.items():
         foot = step in (STOMP, SPLASH)
         hats = frozenset(n for s, n in mains.items() if foot and s.piece is Piece.HIHAT)
-        number = main_note(take.strokes(), hats) if step.ask is Ask.STRIKE else None
+        own = [note for note in take.notes if note.number not in hats]
+        number = main_note(groups(own, ONE_STROKE_NS)) if step.ask is Ask.STRIKE else None
         if number is not None:
             mains[step] = number
     return mains

@@ -20,6 +20,9 @@ _EARLIER_NS = 2 * NS_PER_MS
 """Ghosts may come by so much earlier than they were seen to."""
 LONGEST_MASK_NS = 40 * NS_PER_MS
 """No drummer strikes a pad twice within less on purpose, but in a flam (our choice)."""
+_TWICE = 2
+_SHUT_AFTER_NS = 15 * NS_PER_MS
+"""By so much the note that a stomp fires may come before the pedal says that it is shut; our choice."""
 _LEAST_TRAVEL = 0.3
 """What the pedal closes by when a foot stamps, and not when a stick makes the cymbals swing; our choice."""
 _SPLASH_OPENS_BY = 0.3
@@ -61,13 +64,20 @@ def learned_crosstalk(takes: Takes, mains: Mains, notes: KitMap) -> tuple[Crosst
                 if victim is None or victim is step.piece or share > most or _is_foots(step, victim):
                     continue
                 seen.setdefault((step.piece, victim), []).append((share, note.at_ns - first.at_ns))
-    return tuple(_rule(source, victim, ghosts) for (source, victim), ghosts in sorted(seen.items()))
+    rules = [_rule(source, victim, ghosts) for (source, victim), ghosts in sorted(seen.items())]
+    return (*rules, *_stomps_on_hats(takes, mains))
+
+
+def _stomps_on_hats(takes: Takes, mains: Mains) -> Iterable[Crosstalk]:
+    """For stomps without a note that fire the hi-hat all the same; how hard they are, the pedal hardly tells."""
+    if STOMP in takes and STOMP not in mains and len(takes[STOMP].strokes()) >= _TWICE:
+        yield Crosstalk(Piece.HIHAT_PEDAL, Piece.HIHAT, 1.0, before_ns=_SHUT_AFTER_NS)
 
 
 def learned_foot(takes: Takes, mains: Mains, kit: KitPreset) -> Foot:
     """What the hi-hat foot does: stomps without a note, false ones while half open, splashes that sound like stomps."""
     usual, stomp = kit.foot, takes.get(STOMP)
-    by_controller = usual.by_controller if stomp is None else not stomp.notes and bool(stomp.controllers)
+    by_controller = usual.by_controller if stomp is None else STOMP not in mains and bool(stomp.controllers)
     false = [n for n in takes.get(HALF_BOW, Take()).notes if _piece(kit.notes, n) is Piece.HIHAT_PEDAL]
     least_travel = _LEAST_TRAVEL if false and kit.pedal is not None else usual.least_travel
     return Foot(least_travel, _splash_ns(takes, mains, kit) or usual.splash_ns, by_controller)

@@ -64,13 +64,12 @@ def groups(said: Iterable[Said], gap_ns: int) -> list[Stroke]:
     return [tuple(group) for group in found]
 
 
-def loudest(stroke: Stroke, apart_from: frozenset[int] = frozenset()) -> Said:
-    """The note of a stroke that is no ghost: the loudest, the first of equals; not of `apart_from` if others came."""
-    notes = [note for note in stroke if note.number not in apart_from] or list(stroke)
-    return max(notes, key=lambda note: note.value)
+def loudest(stroke: Stroke) -> Said:
+    """The note of a stroke that is no ghost: the loudest, the first of equals."""
+    return max(stroke, key=lambda note: note.value)
 
 
-def main_note(strokes: Iterable[Stroke], apart_from: frozenset[int] = frozenset()) -> int | None:
+def main_note(strokes: Iterable[Stroke]) -> int | None:
     """The number that most of the strokes have for their loudest note, None where there are none."""
-    numbers = Counter(loudest(stroke, apart_from).number for stroke in strokes)
+    numbers = Counter(loudest(stroke).number for stroke in strokes)
     return numbers.most_common(1)[0][0] if numbers else None

@@ -147,10 +147,10 @@ class Wizard:
             return 0
         if step.ask is Ask.GRAB:
             return max(len(groups(self._take.touches, GRABS_APART_NS)), self._grab_notes())
-        if step is STOMP and not self._take.notes:
-            return presses(self._take, learned_pedal(self._takes, self._guess().preset.pedal))
         strokes = self._take.strokes()
         main = main_notes({**self._takes, step: self._take}).get(step)
+        if step is STOMP and main is None:
+            return presses(self._take, learned_pedal(self._takes, self._guess().preset.pedal))
         return sum(any(note.number == main for note in stroke) for stroke in strokes)  # slips do not count
 
     def _grab_notes(self) -> int:
@@ -182,7 +182,7 @@ class Wizard:
         """The step of another piece whose note most of these strokes had."""
         if step.ask is not Ask.STRIKE or not self._take.notes:
             return None
-        own = main_notes({**self._takes, step: self._take})[step]
+        own = main_notes({**self._takes, step: self._take}).get(step)
         return next((s for s, n in main_notes(self._takes).items() if n == own and s.piece is not step.piece), None)
 
     def _go(self, step: int) -> None:

@@ -63,6 +63,9 @@ def test_a_stable_name_lacks_what_replugging_changes(port: str, name: str) -> No
         ("yamaha-dtx502", 49, Piece.CRASH_1, Zone.EDGE),
         ("yamaha-dtxplorer", 33, Piece.KICK, Zone.HEAD),
         ("yamaha-dtxplorer", 47, Piece.TOM_2, Zone.HEAD),
+        ("alesis-dm10", 46, Piece.HIHAT, Zone.BOW),
+        ("edrumulus", 22, Piece.HIHAT, Zone.EDGE),
+        ("edrumulus", 55, Piece.CRASH_1, Zone.EDGE),
     ],
 )
 def test_the_tables_say_what_the_manuals_say(preset: str, note: int, piece: Piece, zone: Zone) -> None:
@@ -91,3 +94,28 @@ def test_a_pedal_range_is_linear_and_clipped(value: int, openness: float) -> Non
 
 def test_a_pedal_range_may_run_the_other_way() -> None:
     assert PedalRange(wide_open=127, shut=0).openness(127) == 1.0
+
+
+def test_the_words_of_a_port_lead_to_one_preset_alone() -> None:
+    for preset in PRESETS.values():
+        for words in preset.port_words:
+            assert preset_for(f"2- {words.upper()} MIDI 1 20:0") is preset
+
+
+@pytest.mark.parametrize(
+    ("name", "values"),
+    [
+        ("roland-td-17", {0: 1.0, 127: 0.0}),
+        ("roland-td-11", {0: 1.0, 45: 0.5, 90: 0.0, 120: 0.0}),
+        ("roland-vqd106", {0: 1.0, 90: 0.0}),
+        ("yamaha-dtxplorer", {0: 1.0, 54: 0.5, 58: 0.5, 127: 0.0}),
+    ],
+)
+def test_pedals_are_as_their_makers_and_players_say(name: str, values: dict[int, float]) -> None:
+    pedal = preset_named(name).pedal
+    assert pedal is not None
+    assert {value: pedal.openness(value) for value in values} == values
+
+
+def test_a_module_of_which_nothing_else_is_known_has_no_rules() -> None:
+    assert not any(preset.has_rules for preset in PRESETS.values())

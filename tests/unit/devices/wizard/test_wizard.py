@@ -152,6 +152,16 @@ def test_hats_that_a_stomp_fires_do_not_count() -> None:
     assert hits(kit, module.strike("open", 80, 500, 1.0)) == [(Piece.HIHAT, 80)]
 
 
+def test_stomps_that_fire_the_hat_and_have_no_note_are_read_off_the_pedal() -> None:
+    notes = {name: number for name, number in TD17.items() if name not in ("splash", "half")}
+    module = FakeModule({**notes, "stomp": 42})
+    kit = learned(module)
+    assert kit.foot.by_controller
+    assert kit.notes[42].piece is Piece.HIHAT
+    assert [piece for piece, _ in hits(kit, module.stomp(60, 500))] == [Piece.HIHAT_PEDAL]
+    assert hits(kit, module.strike("closed", 60, 500, 0.0)) == [(Piece.HIHAT, 60)]
+
+
 def test_stomps_that_half_open_playing_fires_do_not_count() -> None:
     module = FakeModule(TD17, crosstalk={"half": [(44, 0.3, 15)]})
     kit = learned(module)
