@@ -318,7 +318,7 @@ class PracticeRoom:
             adaptation.take(self._session.result())
             self._taken = self._session
         result = adaptation.result()
-        return result, with_mastery(practice_document(result, self._settings), adaptation)
+        return result, with_mastery(practice_document(result, self._settings), adaptation, self._followed.next_turn())
 
 
 def _wish_of(plan: Plan) -> Start:

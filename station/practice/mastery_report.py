@@ -1,5 +1,6 @@
 """What a session that followed the student tells of its passes, and what comes next; keys are added to the report."""
 
+from station.drills.mastery.agenda import Turn
 from station.drills.mastery.rules import Rules
 from station.drills.mastery.state import ItemState
 from station.drills.mastery.steps import Item, Step
@@ -11,8 +12,11 @@ MOST_STEPS = 3
 """So many sentences on what to do next (part of every report): the policy's first, then the advice's first."""
 
 
-def with_mastery(document: dict[str, Json], adaptation: Adaptation) -> dict[str, Json]:
-    """The report with every pass and its reason, the state of mastery, and what comes next as the first step."""
+def with_mastery(document: dict[str, Json], adaptation: Adaptation, turn: Turn | None = None) -> dict[str, Json]:
+    """The report with every pass and its reason, the state of mastery, and what comes next as the first step.
+
+    `turn` is what to practise next of all that the student knows, None where nothing is remembered.
+    """
     session, state = document["session"], adaptation.state
     assert isinstance(session, dict), "the report is ours"
     counts, said = document["counts"], session["next"]
@@ -31,8 +35,14 @@ def with_mastery(document: dict[str, Json], adaptation: Adaptation) -> dict[str,
             "words": mastery_words(state, adaptation.rules),
             "passes": [_pass(one, state.item) for one in adaptation.rounds],
             "next": _step(adaptation.step, state.item),
+            "turn": None if turn is None else _turn(turn),
         },
     }
+
+
+def _turn(turn: Turn) -> dict[str, Json]:
+    first, last = turn.item.bars
+    return {"lesson": turn.item.name, "bars": [first + 1, last + 1], "why": turn.why}
 
 
 def passes_text(mastery: dict[str, Json]) -> str:
@@ -40,7 +50,9 @@ def passes_text(mastery: dict[str, Json]) -> str:
     passes = mastery["passes"]
     assert isinstance(passes, list), "the report is ours"
     rows = [_pass_words(number, one) for number, one in enumerate(passes, 1) if isinstance(one, dict)]
-    return "\n".join(["Passes", *rows, str(mastery["words"]), ""])
+    turn = mastery["turn"]
+    then = [f"Next time {turn['lesson']}: {turn['why']}."] if isinstance(turn, dict) else []
+    return "\n".join(["Passes", *rows, str(mastery["words"]), *then, ""])
 
 
 def _pass_words(number: int, one: dict[str, Json]) -> str:

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from station.core.errors import BadInput, DeviceError
 from station.drills.lesson import Lesson
+from station.drills.mastery.agenda import Turn, next_turn
 from station.drills.mastery.document import document_of, state_from
 from station.drills.mastery.state import ItemState
 from station.practice.adaptation import Adaptation
@@ -80,7 +81,28 @@ class Remembered:
         known, fault = memory.recall() if memory is not None else (None, None)
         return cls(Adaptation(lesson, wishes, today, known), memory, fault)
 
+    def next_turn(self) -> Turn | None:
+        """What the student should practise next of all that is remembered; None where nothing is.
+
+        A file that cannot be read is told of when its own lesson is practised.
+        """
+        if self.memory is None:
+            return None
+        here = self.adaptation.state
+        known = [
+            state for path in sorted(self.memory.path.parent.glob("*.json")) if (state := _known(path)) is not None
+        ]
+        others = [state for state in known if (state.item.name, state.item.bars) != (here.item.name, here.item.bars)]
+        return next_turn(here, others, self.adaptation.today, self.adaptation.rules)
+
     def keep(self) -> None:
         """Remember what was learnt; raises `DeviceError`."""
         if self.memory is not None:
             self.memory.keep(self.adaptation.state)
+
+
+def _known(path: Path) -> ItemState | None:
+    try:
+        return state_from(json.loads(path.read_text(encoding="utf-8")), str(path))
+    except (OSError, ValueError, RecursionError, BadInput):
+        return None

@@ -155,7 +155,7 @@ def _leave(
     """Write everything, then print the report; what the disk refused is said after the report was printed."""
     fault = None
     if remembered is not None:
-        document = with_mastery(document, remembered.adaptation)
+        document = with_mastery(document, remembered.adaptation, remembered.next_turn())
     try:
         folder.write(result, document)
         if remembered is not None:

@@ -36,7 +36,7 @@ def state_from(document: object, source: str) -> ItemState:
 
 
 def to_json(value: object) -> Plain:
-    """Any value of the policy (state, result, rules, agenda) as JSON values."""
+    """Any value of the policy (state, result, rules) as JSON values."""
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
         return {field.name: to_json(getattr(value, field.name)) for field in dataclasses.fields(value)}
     if isinstance(value, tuple):

@@ -89,13 +89,8 @@ class Rules:
     passes_a_run: int = 8
     runs_to_leave: int = 5
     """So many runs without a step forward, and the item is left for the day."""
-    rotate_items: int = 3
-    turn_s: float = 180.0
     vary_pct: float = 10.0
     """Stable items vary in tempo by so much about the target."""
-    block_s: float = 300.0
-    session_s: float = 1500.0
-    """A breath after every block, an end after 25 minutes."""
 
     # --- reviews (TEACHING) ---
     review_days: tuple[int, ...] = (1, 3, 7, 21)
@@ -163,16 +158,12 @@ _COUNTS = (
         "passes_a_run",
         "runs_to_leave",
         "broken_drops",
-        "rotate_items",
         "calibrate_passes",
         "swap_strokes",
     ),
 )
 _SHARES = ("min_right", "broken_right", "loose_share", "sd_interval_share", "weak_share", "tally_kept", "swap_share")
-_SIZES = (
-    *("sd_floor_ms", "sd_ceiling_ms", "up_pct", "down_pct", "weak_faults", "weak_contrast", "turn_s", "block_s"),
-    *("session_s", "calibrate_ms"),
-)
+_SIZES = (*("sd_floor_ms", "sd_ceiling_ms", "up_pct", "down_pct", "weak_faults", "weak_contrast", "calibrate_ms"),)
 
 
 def _checks(rules: Rules) -> list[tuple[str, bool, str]]:

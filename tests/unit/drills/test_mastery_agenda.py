@@ -1,85 +1,69 @@
-"""A session over several items: block until stable, then rotate. Who plays all clean needs 14 passes an item."""
+"""What to practise next among all that a student knows: by hand, from states that passes made."""
 
 from dataclasses import replace
-from datetime import timedelta
-from itertools import pairwise
+from datetime import date, timedelta
 
-from station.drills.mastery.agenda import Agenda, Break, Turn, advance, open_session
-from station.drills.mastery.passes import PassResult
-from station.drills.mastery.policy import fix_tempo, new_item
-from station.drills.mastery.rules import Rules
+import pytest
+
+from station.drills.mastery.agenda import next_turn
+from station.drills.mastery.rules import DEFAULT_RULES
+from station.drills.mastery.state import ItemState
 from station.drills.mastery.steps import Kind
-from tests.unit.drills.mastering import BAD, BROKEN, CLEAN, DAY, ITEM, played
+from tests.unit.drills.mastering import CLEAN, DAY, played
 
-LONG = Rules(session_s=10_000.0, gaps=())
-"""No end by the clock, and no longer passes for a silent click. A pass of the item takes 8 s at its target tempo."""
-
-
-def session(count: int, rules: Rules = LONG) -> Agenda:
-    fresh = tuple(new_item(replace(ITEM, name=str(i)), DAY, rules) for i in range(count))
-    return open_session(fresh, DAY, rules)
+FRESH = played([CLEAN] * 2)
+STABLE = played([CLEAN] * 20)
 
 
-def turns(agenda: Agenda, passes: list[PassResult], rules: Rules = LONG) -> list[Turn]:
-    said = []
-    for one in passes:
-        agenda, turn = advance(agenda, one, rules)
-        said.append(turn)
-    return said
+def named(state: ItemState, name: str, day: date = DAY) -> ItemState:
+    return replace(state, item=replace(state.item, name=name), today=day)
 
 
-def test_each_item_is_blocked_until_it_is_stable() -> None:
-    said = turns(session(3), [CLEAN] * 42)
-    assert [turn.item for turn in said] == [0] * 13 + [1] * 14 + [2] * 14 + [0]
-    assert [i for i, turn in enumerate(said) if turn.why] == [13, 27, 41]
+def left(state: ItemState) -> ItemState:
+    return replace(state, step=replace(state.step, kind=Kind.LEAVE))
 
 
-def test_three_stable_items_rotate_by_three_minutes() -> None:
-    """A turn is the first pass that ends at 180 s or later: 23 passes of about 8 s."""
-    said = turns(session(3), [CLEAN] * 160)[41:]
-    order = [turn.item for i, turn in enumerate(said) if i == 0 or turn.why]
-    assert order[:6] == [0, 1, 2, 0, 1, 2]
-    changes = [i for i, turn in enumerate(said) if turn.why]
-    assert all(20 <= b - a <= 25 for a, b in pairwise(changes))
+def test_the_states_are_what_they_are_called() -> None:
+    assert not FRESH.is_stable(DEFAULT_RULES)
+    assert STABLE.is_stable(DEFAULT_RULES)
 
 
-def test_the_next_group_follows_once_each_has_had_its_turn() -> None:
-    order = [turn.item for turn in turns(session(4), [CLEAN] * 160) if turn.why]
-    assert order[:6] == [1, 2, 0, 1, 2, 3]
+def test_what_is_due_comes_first() -> None:
+    """Mastered on the first day, due after one."""
+    turn = next_turn(named(FRESH, "now"), [named(FRESH, "a"), named(STABLE, "old")], DAY + timedelta(days=1))
+    assert (turn.item.name, turn.why) == ("old", "it is due for review")
 
 
-def test_an_item_that_is_left_makes_room() -> None:
-    """Two passes to the floor, five that break down there."""
-    said = turns(session(2), [BROKEN] * 7)
-    assert [turn.item for turn in said] == [0] * 6 + [1]
+def test_one_item_is_blocked_until_it_is_stable() -> None:
+    assert next_turn(named(FRESH, "now"), [named(FRESH, "a"), named(STABLE, "b")], DAY).item.name == "now"
+    assert next_turn(named(STABLE, "now"), [named(FRESH, "a"), named(STABLE, "b")], DAY).item.name == "a"
+    assert next_turn(left(named(FRESH, "now")), [named(FRESH, "a")], DAY).item.name == "a"
 
 
-def test_a_session_ends_when_all_are_left() -> None:
-    said = turns(session(1), [BROKEN] * 7)
-    assert [turn.pause for turn in said] == [Break.NONE] * 6 + [Break.END]
+def test_stable_items_take_turns() -> None:
+    """Three that were all played today: a session each, round and round."""
+    items = {name: named(STABLE, name) for name in "abc"}
+    order, now = [], "a"
+    for _ in range(6):
+        now = next_turn(items[now], [state for name, state in items.items() if name != now], DAY).item.name
+        order.append(now)
+    assert order == ["b", "c", "a", "b", "c", "a"]
 
 
-def test_a_breath_after_five_minutes_and_an_end_after_twenty_five() -> None:
-    """Passes at 70 % last 8/0.7 = 11.43 s: the 27th ends at 308.6 s; the session of 1500 s ends with the 132nd.
-
-    The tempo is fixed, and clean and bad in turn.
-    """
-    rules = Rules(runs_to_leave=100)
-    state, _ = fix_tempo(new_item(ITEM, DAY, rules), 84.0, rules)
-    said = turns(open_session((state,), DAY, rules), [CLEAN, BAD] * 66, rules)
-    assert [i + 1 for i, turn in enumerate(said) if turn.pause is Break.BREATH] == [27, 54, 81, 108]
-    assert [i + 1 for i, turn in enumerate(said) if turn.pause is Break.END] == [132]
+def test_who_waited_longest_comes_first() -> None:
+    others = [named(STABLE, "b"), named(STABLE, "c", DAY - timedelta(days=3))]
+    later = [replace(state, review=replace(state.review, due=None)) for state in others]
+    assert next_turn(named(STABLE, "a"), later, DAY).item.name == "c"
 
 
-def test_reviews_come_first() -> None:
-    mastered = played([CLEAN] * 14)
-    agenda = open_session((new_item(ITEM, DAY), mastered), DAY + timedelta(days=1), LONG)
-    assert (agenda.current, agenda.step.kind) == (1, Kind.REVIEW)
-    agenda, turn = advance(agenda, CLEAN, LONG)
-    assert (turn.item, turn.step.kind) == (0, Kind.WHOLE)
+@pytest.mark.parametrize(("state", "says"), [(STABLE, "begin another lesson"), (left(FRESH), "enough of it for today")])
+def test_where_there_is_nothing_else(state: ItemState, says: str) -> None:
+    turn = next_turn(named(state, "a"), [], DAY)
+    assert turn.item.name == "a"
+    assert says in turn.why
 
 
-def test_a_failed_review_is_learnt_again_today() -> None:
-    agenda = open_session((played([CLEAN] * 14),), DAY + timedelta(days=1), LONG)
-    agenda, turn = advance(agenda, BAD, LONG)
-    assert (turn.item, turn.step.kind, turn.step.pct) == (0, Kind.WHOLE, 92.0)
+def test_what_was_left_today_is_taken_up_again_tomorrow() -> None:
+    others = [left(named(FRESH, "b"))]
+    assert next_turn(left(named(FRESH, "a")), others, DAY).item.name == "a"
+    assert next_turn(left(named(FRESH, "a", DAY)), others, DAY + timedelta(days=1)).item.name == "b"

@@ -1,6 +1,7 @@
 """What is remembered between sessions: read back as it was, set aside where it cannot be read, refused by the disk."""
 
 import json
+from dataclasses import replace
 from datetime import date
 from pathlib import Path
 
@@ -10,6 +11,7 @@ from station.core.errors import DeviceError
 from station.drills.library import find_lesson
 from station.drills.mastery.document import SCHEMA
 from station.drills.mastery.policy import new_item
+from station.drills.mastery.reviews import Review
 from station.drills.mastery.steps import item_of
 from station.practice.memory import Memory, Remembered
 from station.practice.plan import Wishes
@@ -73,3 +75,19 @@ def test_a_folder_in_the_file_s_place_is_the_disk_s_fault(tmp_path: Path) -> Non
     memory(tmp_path).path.mkdir(parents=True)
     with pytest.raises(DeviceError, match=r"rock-1_1-2\.json"):
         memory(tmp_path).recall()
+
+
+def test_what_comes_next_is_chosen_among_all_that_is_remembered(tmp_path: Path) -> None:
+    """Rock 1 is new and gone on with; rock 2, mastered and due, comes before it; a broken file is no reason to fall."""
+    remembered = Remembered.of(LESSON, Wishes(), TODAY, memory(tmp_path))
+    assert Remembered.of(LESSON, Wishes(), TODAY, None).next_turn() is None
+    remembered.keep()
+    turn = remembered.next_turn()
+    assert turn is not None
+    assert (turn.item.name, turn.why) == ("rock-1", "it is not stable yet, so stay with it")
+    other = new_item(item_of(find_lesson("rock-2")), TODAY)
+    Memory.of(tmp_path, "Anna B.", "rock-2", (0, 1)).keep(replace(other, review=Review(TODAY, 0, TODAY)))
+    Memory.of(tmp_path, "Anna B.", "rock-3", (0, 1)).path.write_text("{")
+    turn = remembered.next_turn()
+    assert turn is not None
+    assert (turn.item.name, turn.why) == ("rock-2", "it is due for review")
