@@ -17,12 +17,10 @@ from station.core.clock import monotonic_ns
 from station.core.errors import DeviceError
 from station.core.units import ns_from_s
 from station.sound.calibration.timeline import Recording, Timeline
-from station.sound.card_output import CLOSE_WITHIN_S, MAX_LATENCY_S, MAX_PAST_S, SoundDevice
+from station.sound.card_output import CLOSE_WITHIN_S, MAX_LATENCY_S, MAX_PAST_S, SoundDevice, accepted_settings
 from station.sound.dac_clock import DacClock
 from station.sound.output import USUAL_RATE_HZ, choose_device, list_devices
 from station.sound.portaudio import PORTAUDIO
-
-MOST_CHANNELS = 2
 
 
 class DriverTimes(Protocol):
@@ -53,7 +51,7 @@ class CardInput:
         self._blocks: list[_Block] = []
         self._error: type[Exception] = sd.PortAudioError
         self._is_open = True
-        channels, self.rate_hz = _accepted(sd, device, rate_hz)
+        channels, self.rate_hz = accepted_settings(sd, device, rate_hz, "input")
         try:
             self._stream = sd.InputStream(
                 device=device.index,
@@ -123,18 +121,6 @@ def reported_adc_ns(now_ns: int, stream_s: float, times: DriverTimes, latency_s:
         if clock_s and times.inputBufferAdcTime and -MAX_PAST_S < ago_s < MAX_LATENCY_S:
             return now_ns - ns_from_s(ago_s)
     return now_ns - ns_from_s(latency_s)
-
-
-def _accepted(sd: ModuleType, device: SoundDevice, rate_hz: int) -> tuple[int, int]:
-    """Channels and rate to open `device` with: the rate that is wished for, else the device's own."""
-    few = min(MOST_CHANNELS, device.channels)
-    for channels, rate in [(few, rate_hz), (few, device.rate_hz), (device.channels, device.rate_hz)]:
-        try:
-            sd.check_input_settings(device=device.index, channels=channels, dtype="float32", samplerate=rate)
-        except sd.PortAudioError:
-            continue
-        return channels, rate
-    return few, device.rate_hz
 
 
 def open_input(part: str = "", block_frames: int = 0, rate_hz: int = USUAL_RATE_HZ) -> CardInput:

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from threading import Thread
 from types import ModuleType
-from typing import Protocol
+from typing import Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -141,17 +141,20 @@ class CardOutput:
         self.load += LOAD_SMOOTHING * (used - self.load)
 
 
-def accepted_settings(sd: ModuleType, device: SoundDevice, rate_hz: int) -> tuple[int, int]:
+def accepted_settings(
+    sd: ModuleType, device: SoundDevice, rate_hz: int, direction: Literal["input", "output"] = "output"
+) -> tuple[int, int]:
     """Channels and rate to open `device` with: those wished for, else the nearest that it takes.
 
     Two channels are enough; a device that insists on all of its own gets them. The device's own rate stands in for one
     that it refuses. Where it takes nothing the wish is returned, and opening it tells why.
     """
     stereo = min(2, device.channels)
+    check = sd.check_output_settings if direction == "output" else sd.check_input_settings
     choices = [(channels, rate) for channels in (stereo, device.channels) for rate in (rate_hz, device.rate_hz)]
     for channels, rate in choices:
         try:
-            sd.check_output_settings(device=device.index, channels=channels, dtype="float32", samplerate=rate)
+            check(device=device.index, channels=channels, dtype="float32", samplerate=rate)
         except sd.PortAudioError:
             continue
         return channels, rate

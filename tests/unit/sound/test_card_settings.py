@@ -1,6 +1,7 @@
 """Which channels and rate a device is opened with, by a PortAudio that refuses as real ones do."""
 
 from types import ModuleType
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -21,7 +22,7 @@ def portaudio(channels: set[int], rates_hz: set[int]) -> ModuleType:
 
     allowed = channels
     module = ModuleType("sounddevice")
-    vars(module).update(PortAudioError=PortAudioError, check_output_settings=check)
+    vars(module).update(PortAudioError=PortAudioError, check_output_settings=check, check_input_settings=check)
     return module
 
 
@@ -43,7 +44,9 @@ def device(channels: int, rate_hz: int) -> SoundDevice:
 def test_a_device_is_opened_as_it_can_be(
     has: int, own_hz: int, takes: set[int], rates_hz: set[int], opened: tuple[int, int]
 ) -> None:
-    assert accepted_settings(portaudio(takes, rates_hz), device(has, own_hz), 48_000) == opened
+    directions: tuple[Literal["output", "input"], ...] = ("output", "input")
+    for direction in directions:
+        assert accepted_settings(portaudio(takes, rates_hz), device(has, own_hz), 48_000, direction) == opened
 
 
 @pytest.mark.parametrize("channels", [1, 2, 3, 8])
