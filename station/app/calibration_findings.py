@@ -13,6 +13,7 @@ from station.core.pieces import Piece, word
 from station.engine.calibrating import Devices
 from station.sound.calibration.estimate import Estimate
 from station.sound.calibration.stream_report import StreamReport
+from station.sound.calibration.taps import Taps
 
 SCHEMA = "drum-station/calibrate/1"
 TAPPED = "tap"
@@ -67,6 +68,16 @@ def _measured(row: Row, by: str, on: date) -> Measured:
     estimate = row.estimate
     doubts = "; ".join(estimate.doubts)
     return Measured(round(estimate.value_ms, 3), round(estimate.half_ms, 3), by, on, doubts)
+
+
+def rows_of_taps(found: Taps, piece: Piece, devices: Devices, before: Calibration) -> tuple[Row, ...]:
+    """What taps on `piece` told: what the kit is known to have is not the output's, what both have not the habit."""
+    kit, output = before.kits.get(devices.kit or ""), before.outputs.get(devices.output or "")
+    known_ms = kit.of_pad(piece).latency_ms if kit is not None else 0.0
+    together = Row("together", devices.kit or "", found.total)
+    if kit is not None and output is not None and output.by != TAPPED:
+        return together, Row("habit", devices.kit or "", found.habit(known_ms + output.latency_ms))
+    return together, Row("equipment", devices.output or "", found.equipment.less(known_ms))
 
 
 # --- telling ---------------------------------------------------------------------------------------------------------

@@ -98,18 +98,11 @@ def _by_strikes(arguments: argparse.Namespace, settings: Settings, _: Calibratio
 
 
 def _by_taps(arguments: argparse.Namespace, settings: Settings, before: Calibration) -> "Findings":
-    """What of the taps the kit is known to have is not the output's; what both are known to have is not the habit."""
-    from station.app.calibration_findings import TAPPED, Findings, Row
+    from station.app.calibration_findings import Findings, rows_of_taps
     from station.engine.calibrating import tapped
 
     devices, piece, found = tapped(_wish(arguments, settings), _kit(arguments, settings), say)
-    kit, output = before.kits.get(devices.kit or ""), before.outputs.get(devices.output or "")
-    known_ms = kit.of_pad(piece).latency_ms if kit is not None else 0.0
-    rows = [Row("together", devices.kit or "", found.total)]
-    if kit is not None and output is not None and output.by != TAPPED:
-        habit = found.habit(known_ms + output.latency_ms)
-        return Findings(devices, (*rows, Row("habit", devices.kit or "", habit)))
-    return Findings(devices, (*rows, Row("equipment", devices.output or "", found.equipment.less(known_ms))))
+    return Findings(devices, rows_of_taps(found, piece, devices, before))
 
 
 _WAYS = {"report": _by_report, "loopback": _by_loopback, "strike": _by_strikes, "tap": _by_taps}

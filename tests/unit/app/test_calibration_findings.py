@@ -4,12 +4,13 @@ from types import MappingProxyType
 import numpy as np
 import pytest
 
-from station.app.calibration_findings import Findings, Row, document, outdated, text, with_rows
+from station.app.calibration_findings import Findings, Row, document, outdated, rows_of_taps, text, with_rows
 from station.core.calibration import Calibration, KitMeasured, Measured
 from station.core.pieces import Piece
 from station.engine.calibrating import Devices
 from station.sound.calibration.estimate import Estimate
 from station.sound.calibration.stream_report import report_of
+from station.sound.calibration.taps import Taps, taps
 from station.sound.calibration.timeline import Timeline
 
 DAY = date(2026, 1, 31)
@@ -39,6 +40,37 @@ def test_a_kit_that_is_measured_outdates_what_was_tapped() -> None:
     assert outdated(before, [KIT]) == ["phones"]
     assert dict(with_rows(before, [KIT], "strike", DAY).outputs) == {"card": looped}
     assert outdated(before, [OUTPUT]) == []
+
+
+def followed(late_ms: float) -> Taps:
+    """A player who follows the click, all his taps late by so much and a little uneven."""
+    clicks = 10**13 + np.arange(36) * 600_000_000
+    off_ms = late_ms + 5.0 * np.random.default_rng(3).standard_normal(36)
+    return taps(clicks + np.round(off_ms * 1e6).astype(np.int64), clicks)
+
+
+HERE = Devices(kit="TD-17", output="card")
+KIT_KNOWN = Calibration().with_kit(
+    "TD-17",
+    KitMeasured(Measured(4.0, 0.5, "strike", DAY), MappingProxyType({Piece.SNARE: Measured(6.0, 0.5, "strike", DAY)})),
+)
+
+
+@pytest.mark.parametrize(
+    ("before", "what", "of_total_ms"),
+    [
+        (Calibration(), "equipment", 15.0),  # the middle of the habits, 40 ms early to 10 ms late, is taken off
+        (KIT_KNOWN, "equipment", 15.0 - 6.0),  # and what the pad is known to have
+        (KIT_KNOWN.with_output("card", Measured(-3.0, 0.1, "loopback", DAY)), "habit", -6.0 + 3.0),
+        (KIT_KNOWN.with_output("card", Measured(50.0, 25.0, "tap", DAY)), "equipment", 15.0 - 6.0),
+    ],
+)
+def test_taps_are_shared_out_by_what_is_known(before: Calibration, what: str, of_total_ms: float) -> None:
+    found = followed(60.0)
+    together, rest = rows_of_taps(found, Piece.SNARE, HERE, before)
+    assert (together.what, rest.what) == ("together", what)
+    assert rest.estimate.value_ms == pytest.approx(found.total.value_ms + of_total_ms)
+    assert rest.device == ("TD-17" if what == "habit" else "card")
 
 
 def test_habit_is_never_stored() -> None:
