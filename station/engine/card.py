@@ -114,6 +114,7 @@ class Card:
         mixer = self._mixers.get(output.rate_hz)
         if mixer is None:
             mixer = self._mixers[output.rate_hz] = self._build_mixer(output.rate_hz)
+        mixer.silence()  # what rang when the last card went is long over
         self._engine.attach(mixer)
         try:
             output.start(self._render)

@@ -7,6 +7,7 @@ reports no time, the present plus the stream's latency stands in.
 """
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from threading import Thread
 from types import ModuleType
@@ -20,6 +21,7 @@ from station.core.errors import DeviceError
 from station.core.units import NS_PER_S, ns_from_s
 from station.sound.dac_clock import DacClock
 from station.sound.drum_kit import Frames
+from station.sound.gate import Gate
 from station.sound.portaudio import PORTAUDIO
 
 Renderer = Callable[[int, int], Frames]
@@ -30,6 +32,8 @@ MAX_LATENCY_S = 2.0
 MAX_PAST_S = 0.1
 LOAD_SMOOTHING = 0.02
 """Share of a new block in the running mean of the load."""
+SHUT_WITHIN_S = 0.4
+"""A stream that fades no sooner has stopped asking (our choice: twice the longest block)."""
 CLOSE_WITHIN_S = 1.0
 """A driver that takes longer to close its stream has lost its server and would wait for minutes (our choice)."""
 
@@ -74,6 +78,7 @@ class CardOutput:
         except sd.PortAudioError as fault:
             raise DeviceError(f"sound output {device.name!r} cannot be opened: {fault}; choose another") from fault
         self._clock = DacClock(self.rate_hz)
+        self._gate = Gate(self.rate_hz)
         self._latency_s = float(self._stream.latency)
 
     @property
@@ -97,6 +102,7 @@ class CardOutput:
         """Ask for no blocks until `resume`: nothing of the driver's then waits for the interpreter lock."""
         if self.fault is not None:  # to stop a stream whose server is gone would take minutes
             raise self.fault
+        self._fade_out()
         self._is_asking = False
         try:
             self._stream.stop()
@@ -106,6 +112,7 @@ class CardOutput:
     def resume(self) -> None:
         """Go on asking after `pause`; raises `DeviceError`."""
         self._clock.resync()
+        self._gate.open()
         try:
             self._stream.start()
         except self._error as fault:
@@ -116,13 +123,26 @@ class CardOutput:
         """Stop and give the device back; harmless when closed already."""
         if not self._is_open:
             return
+        self._fade_out()
         self._is_open = self._is_asking = False
-        closing = Thread(target=self._stream.close, name="close sound output", daemon=True)
+        closing = Thread(target=self._end, name="close sound output", daemon=True)
         closing.start()
         closing.join(CLOSE_WITHIN_S)
         if closing.is_alive():
             PORTAUDIO.abandon()
         PORTAUDIO.release()
+
+    def _fade_out(self) -> None:
+        """Let what sounds fade, so that the end of the stream is no click."""
+        if self._is_asking and self.fault is None:
+            self._gate.shut()
+            self._gate.wait_until_shut(SHUT_WITHIN_S)
+
+    def _end(self) -> None:
+        if self._fault is None:
+            with suppress(self._error):
+                self._stream.stop()  # closing alone would throw away what was faded and not yet played
+        self._stream.close()
 
     def _callback(self, out: NDArray[np.float32], frames: int, times: "DriverTimes", status: "DriverStatus") -> None:
         begun_ns = monotonic_ns()
@@ -132,7 +152,7 @@ class CardOutput:
         reported_ns = reported_dac_ns(begun_ns, self._stream.time, times, self._latency_s)
         try:
             assert self._render is not None, "the stream was started with a renderer"
-            fit_channels(self._render(frames, self._clock.block(frames, reported_ns)), out)
+            fit_channels(self._gate.through(self._render(frames, self._clock.block(frames, reported_ns))), out)
         except Exception as fault:
             out.fill(0.0)
             self._fault = DeviceError(f"the sound stopped: {fault!r}")

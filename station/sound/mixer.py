@@ -132,9 +132,14 @@ class Mixer:
         self._slew_left = max(1, self._frames(LEVEL_SLEW_S))
         self._level_steps = (self._level_targets - self._levels) / np.float32(self._slew_left)
 
-    def drop_pending(self) -> None:
-        """Forget what was asked for and has not begun; what rings, rings out."""
+    def silence(self) -> None:
+        """Forget all that rings and all that was asked for, at once: for a mixer that nobody has listened to."""
         self._pending.clear()
+        for voice in list(self._voices):
+            self._release(voice)
+        self._tail[:] = 0.0
+        self._tail_left = 0
+        self._tracks.clear()
 
     @property
     def ringing(self) -> int:

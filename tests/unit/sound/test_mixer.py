@@ -392,13 +392,6 @@ def test_long_blocks_are_mixed_in_short_pieces() -> None:
     assert 2 * PIECE_FRAMES <= 500  # beyond this numpy gives up the interpreter lock
 
 
-def test_dropping_what_is_pending_leaves_what_rings() -> None:
-    mixer = ringing(CRASH)
-    mixer.trigger(Bus.STUDENT, KICK, 127, 50)
-    mixer.drop_pending()
-    assert left(mixer.render(100)) == pytest.approx([0.1] * 100)
-
-
 def test_playing_on_holds_no_more_memory() -> None:
     mixer = mixer_of(default=constant(0.01, 3000))
 

@@ -12,6 +12,7 @@ from station.core.pieces import Articulation, Piece, Zone
 from station.sound.buses import Bus, ClickVoice
 from station.sound.click import click_sounds
 from station.sound.drum_kit import DrumKit, Layer, Sound
+from station.sound.kit_synth import synth_kit
 from station.sound.mixer import CHOKE_S, LEVEL_SLEW_S, STEAL_S, Mixer
 from station.sound.sounds import SoundName
 from station.sound.track import EDGE_S, Track
@@ -122,3 +123,17 @@ def test_a_track_comes_and_goes_without_a_click(rate_hz: int) -> None:
     assert steps(mixer, 3000) <= 1.05 * 0.5 / (EDGE_S * rate_hz)
     mixer.stop_track()
     assert steps(mixer, 3000) <= 1.05 * 0.5 / (EDGE_S * rate_hz)
+
+
+def test_a_mixer_that_is_listened_to_again_goes_on_with_nothing_old() -> None:
+    """A card that is lost while a crash rings comes back into silence, not into the middle of the crash."""
+    mixer = Mixer(synth_kit(48_000), click_sounds(48_000))
+    for _ in range(40):  # some voices are stolen, some wait
+        mixer.trigger(Bus.STUDENT, Strike(Piece.CRASH_1), 127)
+        mixer.trigger(Bus.STUDENT, Strike(Piece.RIDE), 127)
+    mixer.click(ClickVoice.ACCENT, at_frame=100)
+    assert mixer.render(64).any()
+    mixer.silence()
+    assert not mixer.render(4800).any()
+    mixer.trigger(Bus.STUDENT, Strike(Piece.SNARE), 127)
+    assert mixer.render(480).any()

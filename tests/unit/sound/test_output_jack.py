@@ -7,11 +7,15 @@ import sys
 import textwrap
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import IO
 
+import numpy as np
 import pytest
 
-from tests.fakes.jack_server import JackServer, jackd_is_installed
+from station.sound.gate import FADE_S
+from tests.fakes.jack_recorder import JackRecorder
+from tests.fakes.jack_server import JackServer, jackd_is_installed, joined
 
 pytestmark = [
     pytest.mark.jack,
@@ -139,3 +143,34 @@ def test_a_server_that_starts_later_is_found() -> None:
             child.says(server.name)
             assert child.hears() == "True"
             child.ends_well()
+
+
+def test_a_stream_that_pauses_does_not_click(tmp_path: Path) -> None:
+    """A constant is played and stopped (which parts JACK's connection): without a fade that is a step of a half."""
+    program = """
+        import sys, time
+        import numpy as np
+        from station.sound.output import open_output
+        output = open_output("system", 0, 48_000)
+        output.start(lambda frames, dac_ns: np.full((frames, 2), 0.5, np.float32))
+        print("plays", flush=True)
+        sys.stdin.readline()
+        time.sleep(0.5)
+        output.pause()
+        time.sleep(0.1)
+        output.close()
+        print("ended", output.underflows, flush=True)
+    """
+    with JackServer(48_000, 256) as server, running(program, server.env) as child:
+        assert child.hears() == "plays"
+        with joined(server), JackRecorder(server, tmp_path) as recorder:
+            recorder.connect("PortAudio:.*")
+            child.says("go on")
+            child.hears()
+            child.ends_well()
+            heard = recorder.stop()
+    mono = heard.sound[:, 0]
+    assert mono.max() == 0.5
+    last = int(np.flatnonzero(mono)[-1])
+    assert mono[last] <= 1.01 * 0.5 / (FADE_S * 48_000)
+    assert np.all(np.diff(mono[last - round(0.8 * FADE_S * 48_000) : last]) < 0.0)
