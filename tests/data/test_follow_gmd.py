@@ -37,8 +37,7 @@ def test_people_are_followed_without_a_click(path: Path) -> None:
 
 @pytest.mark.parametrize("path", FILES)
 def test_people_are_followed_at_other_tempi_than_counted_in(path: Path) -> None:
-    """15 % slower and faster; one groove is left out, see its reason."""
-    if path.match("drummer7/eval_session/2_*"):
-        pytest.skip("a known limit: this groove is followed, but in another of its repeated bars")
-    for rate in (0.85, 1.15):
+    """15 % slower and faster; one groove, which rushes in its first bar, 10 % (docs/gmd-cross.md says why)."""
+    rates = (0.9, 1.1) if path.match("drummer7/eval_session/2_*") else (0.85, 1.15)
+    for rate in rates:
         assert live_f1(path, rate) >= 0.96
