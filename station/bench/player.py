@@ -5,8 +5,8 @@ JACK server. It says `ready`, then obeys lines on its standard input:
 
     play START_NS STEP_NS COUNT    strokes from monotonic START_NS on; says the JSON list of when each was sent
     flood START_NS STEP_NS COUNT   the same with messages of all kinds, of which every fourth is a stroke
-    unplug, plug                   take the cable out, put it in; says when, in monotonic ns
 
+The end of its input is the plug that is pulled.
 A stroke on a serial line is sent when its last byte would have come. A real kit waits for no processor, so this one
 asks for the first place in the queue. Times are monotonic ns.
 """
@@ -30,7 +30,6 @@ _SPIN_NS = 400_000
 
 
 class _Cable(Protocol):
-    def plug(self) -> None: ...
     def unplug(self) -> None: ...
     def send(self, message: bytes) -> int:
         """Send, and say when."""
@@ -40,7 +39,7 @@ class _Cable(Protocol):
 class _Serial:
     def __init__(self, path: str, baud: str) -> None:
         self._kit, self._baud = SerialKit(Path(path)), int(baud)
-        self.plug, self.unplug = self._kit.plug, self._kit.unplug
+        self.unplug = self._kit.unplug
 
     def send(self, message: bytes) -> int:
         return self._kit.play_at_wire_speed(message, self._baud)[-1]
@@ -48,12 +47,8 @@ class _Serial:
 
 class _Jack:
     def __init__(self, name: str) -> None:
-        self._name = name
-        self._backend = mido.Backend("mido.backends.rtmidi/UNIX_JACK")
-        self.plug()
-
-    def plug(self) -> None:
-        self._port = self._backend.open_output(self._name, virtual=True, client_name=self._name)
+        backend = mido.Backend("mido.backends.rtmidi/UNIX_JACK")
+        self._port = backend.open_output(name, virtual=True, client_name=name)
 
     def unplug(self) -> None:
         self._port.close()
@@ -104,10 +99,6 @@ def main(kind: str, *words: str) -> None:
     _say("ready")
     for line in sys.stdin:
         verb, *numbers = line.split()
-        if verb in ("plug", "unplug"):
-            (cable.plug if verb == "plug" else cable.unplug)()
-            _say(str(time.monotonic_ns()))
-            continue
         start_ns, step_ns, count = map(int, numbers)
         sent = []
         for index in range(count):
@@ -121,37 +112,49 @@ class Player:
     """The program as a benchmark sees it; use it as a context manager."""
 
     def __init__(self, *words: str) -> None:
+        self._words = words
+        self._process: subprocess.Popen[str] | None = None
+        self.plug()
+
+    def plug(self) -> int:
+        """Have the kit come; returns when it had, in monotonic ns."""
         self._process = subprocess.Popen(
-            [sys.executable, "-m", __name__, *words],
+            [sys.executable, "-m", __name__, *self._words],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,
             bufsize=1,
         )
         self.hear()
+        return time.monotonic_ns()
+
+    def unplug(self) -> int:
+        """Have the kit go, if it is there; returns when it had, in monotonic ns."""
+        if self._process is not None:
+            self._process.communicate()
+            self._process = None
+        return time.monotonic_ns()
 
     def tell(self, line: str) -> None:
         """Have it do what `line` says."""
+        assert self._process is not None, "a kit that is unplugged does nothing"
         assert self._process.stdin is not None
         self._process.stdin.write(line + "\n")
 
     def hear(self) -> str:
         """The next thing that it says; raises `RuntimeError` where it has ended."""
+        assert self._process is not None, "a kit that is unplugged says nothing"
         assert self._process.stdout is not None
         said = self._process.stdout.readline()
         if not said:
-            raise RuntimeError("the playing kit has ended")
+            raise RuntimeError(f"the playing kit has ended (exit status {self._process.wait()})")
         return said.strip()
 
     def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:
-        assert self._process.stdin is not None
-        assert self._process.stdout is not None
-        self._process.stdin.close()
-        self._process.wait()
-        self._process.stdout.close()
+        self.unplug()
 
 
 if __name__ == "__main__":

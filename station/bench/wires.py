@@ -110,8 +110,7 @@ def _plug_cycles(wire: Wire) -> tuple[list[float], list[float], int]:
         _unplug(at)
         held = _held(at)
         for _ in range(_PLUGS):
-            at.player.tell("plug")
-            plugged_ns = int(at.player.hear())
+            plugged_ns = at.player.plug()
             told = at.until(lambda event: isinstance(event, DeviceFound), FOUND_WITHIN_S)
             found_s += [(event.at_ns - plugged_ns) / NS_PER_S for event in told if isinstance(event, DeviceFound)]
             lost_s.append(_unplug(at))
@@ -119,8 +118,7 @@ def _plug_cycles(wire: Wire) -> tuple[list[float], list[float], int]:
 
 
 def _unplug(at: Stage) -> float:
-    at.player.tell("unplug")
-    unplugged_ns = int(at.player.hear())
+    unplugged_ns = at.player.unplug()
     told = at.until(lambda event: isinstance(event, DeviceLost), FOUND_WITHIN_S)
     return max(event.at_ns - unplugged_ns for event in told if isinstance(event, DeviceLost)) / NS_PER_S
 
