@@ -4,7 +4,7 @@ MIDI is 31,250 baud (MIDI 1.0 Electrical Specification), no standard rate of ser
 ports: pyserial sets it through the system's own call. USB adapters hold bytes back for up to 16 ms to fill a packet
 (FTDI's latency timer) unless they are told not to, so they are, where the system lets us.
 
-Reading never waits. A byte is stamped when it is read, those that came with it a byte's time earlier each.
+Reading never waits. Bytes are stamped by the moment of reading and by what the wire allows (`stamps.WireClock`).
 """
 
 import errno
@@ -97,7 +97,7 @@ class SerialPort:
         self._name = name
         self._line: serial.Serial | None = line
         self._now_ns = now_ns
-        self._clock = WireClock(baud)
+        self._clock = WireClock(baud, now_ns())
 
     @property
     def name(self) -> str:
@@ -108,12 +108,13 @@ class SerialPort:
         """The bytes since the last call, each with its own time; raises `DeviceError` where the port has gone."""
         if self._line is None:
             return []
+        polled_ns = self._now_ns()
         try:
             waiting = self._line.in_waiting
             data = self._line.read(waiting) if waiting else b""
         except OSError as fault:
             raise DeviceError(f"{self._name}: the serial port has gone: {fault}") from fault
-        times_ns = self._clock.stamp(len(data), self._now_ns())
+        times_ns = self._clock.stamp(len(data), polled_ns, self._now_ns())
         return [Packet(data[index : index + 1], at_ns) for index, at_ns in enumerate(times_ns)]
 
     def close(self) -> None:

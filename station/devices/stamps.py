@@ -82,19 +82,33 @@ BITS_A_BYTE = 10
 
 
 class WireClock:
-    """Session time of every byte that was read at once from a line of `baud` bits a second.
+    """Session time of bytes from a line of `baud` bits a second, read now and then.
 
-    The last byte may have come just now; each before it came at least a byte's time earlier. The error left is the time
-    between two polls, always late, never early.
+    A byte came after the poll that did not find it, and before the one that did, and those read after it came a byte's
+    time later each. Between these bounds it came right after the byte before it, if it can have: modules send the
+    bytes of a message without a pause, so each tells more of when all of them came. Else it began something new, and
+    its stamp is the latest possible: late by at most the time between two polls, never early.
     """
 
-    def __init__(self, baud: int) -> None:
+    def __init__(self, baud: int, opened_ns: int) -> None:
         self._byte_ns = BITS_A_BYTE * NS_PER_S // baud
         self._last_ns: int | None = None
+        self._emptied_ns = opened_ns
 
-    def stamp(self, count: int, read_ns: int) -> list[int]:
-        """The times of `count` bytes read at `read_ns`, in order; they never go back."""
-        floor_ns = read_ns - count * self._byte_ns if self._last_ns is None else self._last_ns
-        times_ns = [max(floor_ns, read_ns - left * self._byte_ns) for left in reversed(range(count))]
-        self._last_ns = times_ns[-1] if times_ns else self._last_ns
+    def stamp(self, count: int, polled_ns: int, read_ns: int) -> list[int]:
+        """The times of `count` bytes, in order; they never go back, and are never later than `read_ns`.
+
+        At `polled_ns` the poll began, and at `read_ns` it had them; bytes that came before it would be among them.
+        """
+        times_ns = []
+        for left in reversed(range(count)):
+            latest_ns = read_ns - left * self._byte_ns
+            self._last_ns = latest_ns if self._last_ns is None else self._next_ns(self._last_ns, latest_ns)
+            times_ns.append(self._last_ns)
+        self._emptied_ns = polled_ns
         return times_ns
+
+    def _next_ns(self, last_ns: int, latest_ns: int) -> int:
+        follows_ns = last_ns + self._byte_ns
+        is_new = follows_ns < self._emptied_ns  # it would have been found by the poll before
+        return max(last_ns, latest_ns if is_new else min(follows_ns, latest_ns))

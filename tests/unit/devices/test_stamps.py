@@ -1,12 +1,16 @@
 """A simulated driver with known true times is the expected value."""
 
+import random
+import statistics
+
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from station.core.units import NS_PER_MS, NS_PER_S, NS_PER_US
-from station.devices.stamps import CREEP_NS_PER_S, DriverClock
+from station.devices.stamps import CREEP_NS_PER_S, DriverClock, WireClock
 
 Times = NDArray[np.int64]
 
@@ -130,3 +134,45 @@ def test_no_stamp_is_later_than_the_best_known_message_waited(gaps_ms: list[int]
                 assert -1_000 <= stamp - at_ns <= least_ns + creep_ns
         sent += len(came)
         emptied_ns = now_ns
+
+
+# --- a serial line: times by hand, from a byte's 0.32 ms at MIDI's rate ----------------------------------------------
+
+US = 1_000
+
+
+def wire_stamps(*polls: tuple[int, int, int]) -> list[list[int]]:
+    """The stamps in µs of polls (count, begun, read) in µs on a line that was opened at 0."""
+    clock = WireClock(31_250, 0)
+    return [[at // US for at in clock.stamp(count, begun * US, read * US)] for count, begun, read in polls]
+
+
+@pytest.mark.parametrize(
+    ("polls", "expected"),
+    [
+        pytest.param([(3, 5_000, 5_010)], [[4_370, 4_690, 5_010]], id="read at once"),
+        pytest.param([(1, 400, 410), (1, 800, 800), (1, 1_200, 1_200)], [[410], [730], [1_050]], id="right after each"),
+        pytest.param([(1, 400, 410), (2, 5_000, 5_000)], [[410], [730, 1_050]], id="we were held up in mid-message"),
+        pytest.param([(1, 400, 400), (0, 1_000, 1_000), (2, 1_400, 1_400)], [[400], [], [1_080, 1_400]], id="a pause"),
+        pytest.param([(1, 800, 800), (2, 1_100, 1_100)], [[800], [800, 1_100]], id="sooner than the first was found"),
+        pytest.param([(0, 400, 400)], [[]], id="nothing"),
+    ],
+)
+def test_bytes_of_a_wire_are_stamped_by_polls_and_by_the_wire(
+    polls: list[tuple[int, int, int]], expected: list[list[int]]
+) -> None:
+    assert wire_stamps(*polls) == expected
+
+
+def test_the_bytes_of_a_message_tell_more_than_the_poll_that_ends_it() -> None:
+    """Messages at random times, polled every 0.45 ms: closer than a poll alone, whose error is uniform (SD 0.13 ms)."""
+    chance, clock = random.Random(1), WireClock(31_250, 0)
+    begun_ns = [k * 20_000_000 + chance.randrange(450_000) for k in range(1, 400)]
+    came_ns = [at + byte * 320_000 for at in begun_ns for byte in range(3)]
+    stamps: list[int] = []
+    for poll in range(450_000, came_ns[-1] + 1_000_000, 450_000):
+        found = sum(at <= poll for at in came_ns[len(stamps) : len(stamps) + 8])
+        stamps += clock.stamp(found, poll, poll)
+    late_ns = [stamp - at for stamp, at in zip(stamps[2::3], came_ns[2::3], strict=True)]
+    assert min(late_ns) >= 0
+    assert statistics.pstdev(late_ns) < 0.6 * 450_000 / 12**0.5
