@@ -4,7 +4,7 @@ The quality is measured: the first frames are drawn at the lowest, and where the
 next level is tried. While somebody plays nothing is rebuilt.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from statistics import median
 from time import perf_counter
 
@@ -13,6 +13,7 @@ import numpy as np
 from imgui_bundle import imgui
 from numpy.typing import NDArray
 
+from station.app.look import Look
 from station.app.model import Report
 from station.core.errors import DeviceError
 from station.render.camera import Camera, View, named
@@ -29,34 +30,52 @@ _FAST_MS, _VERY_FAST_MS = 6.0, 2.0
 _ORBIT_PER_PIXEL, _PAN_PER_PIXEL, _ZOOM_PER_STEP = 0.006, 0.0022, 1.12
 
 
-@dataclass(frozen=True, slots=True)
-class Look:
-    """Where the user looks from, and whether left and right are swapped."""
-
-    view: View = View.SHOULDER
-    mirrored: bool = False
-
-
 class Backdrop:
     """Draws with the window's own OpenGL context, which it takes over at the first frame."""
 
-    def __init__(self, quality: int | None) -> None:
+    def __init__(self, quality: int | None, look: Look) -> None:
         self._wanted = quality
         self._painter: Painter | None = None
         self._ctx: moderngl.Context | None = None
         self._target: Target | None = None
         self._times_ms: list[float] = []
         self._page: tuple[Report, NDArray[np.void]] | None = None
-        self.look = Look()
+        self.look = look
         self._left_handed = False
-        self.camera: Camera = named(self.look.view)
+        self.camera: Camera = replace(named(look.view), mirrored=look.mirrored)
 
     def look_from(self, look: Look) -> None:
-        """Go to a named viewpoint, and swap the sides or not; what is so already stays as it was turned."""
+        """Go to a named viewpoint, swap the sides or not, choose the second picture; what is so already stays turned.
+
+        The viewpoints that are kept stay as they are: `keep` alone changes them.
+        """
         if look.view is not self.look.view:
             self.camera = named(look.view, self._left_handed)
-        self.look = look
+        self.look = replace(look, viewpoints=self.look.viewpoints)
         self.camera = replace(self.camera, mirrored=look.mirrored)
+
+    def keep(self, slot: int) -> None:
+        """Keep where the user looks from as the viewpoint `slot`, from 0."""
+        self.look = self.look.keeping(slot, self.camera)
+
+    def go(self, slot: int) -> bool:
+        """Look from the viewpoint `slot`, from 0; returns whether it was kept."""
+        camera = self.look.viewpoints[slot]
+        if camera is not None:
+            self.camera = replace(camera, mirrored=self.look.mirrored)
+        return camera is not None
+
+    def back_to(self, view: View) -> None:
+        """Go to a named view, even where it was turned."""
+        self.look = replace(self.look, view=view)
+        self._back_to_the_view()
+
+    @property
+    def _inset(self) -> Camera | None:
+        """The camera of the second picture."""
+        if self.look.inset is None:
+            return None
+        return replace(named(self.look.inset, self._left_handed), mirrored=self.look.mirrored)
 
     def _back_to_the_view(self) -> None:
         self.camera = replace(named(self.look.view, self._left_handed), mirrored=self.look.mirrored)
@@ -124,7 +143,7 @@ class Backdrop:
         into = screen if target is None else target.framebuffer
         if target is not None:
             into.clear(*NIGHT, depth=1.0)
-        painter.draw(snapshot, into, area, self.camera)
+        painter.draw(snapshot, into, area, self.camera, inset=self._inset)
         if target is not None and self._ctx is not None:
             self._ctx.copy_framebuffer(screen, into)
         self._measure(began)

@@ -10,9 +10,11 @@ from types import MappingProxyType
 
 from imgui_bundle import imgui
 
+from station.app.look import SLOTS
 from station.core.names import piece_name
 from station.core.pieces import Articulation, Piece, Zone
 from station.engine.messages import KeyHit
+from station.render.camera import View
 
 VELOCITY = 90
 """A plain stroke (HUMANS: normal 60–95); keys cannot tell more."""
@@ -58,6 +60,37 @@ KEYS: Mapping[imgui.Key, KeyStroke] = MappingProxyType(
     }
 )
 """Hands rest on F and J; the feet are the thumbs."""
+
+
+COMMANDS: tuple[tuple[str, str], ...] = (
+    ("Enter", "start, or once more"),
+    ("Esc", "stop, or back to the lessons"),
+    ("F1", "this page"),
+    ("F2 to F9", "the named views, in the list's order"),
+    ("M", "mirror"),
+    ("P", "second picture: hands, feet, none"),
+    ("1 to 8", "your own viewpoints"),
+    ("Ctrl+1 to 8", "keep where you look from"),
+    ("Tab, arrows", "from control to control"),
+)
+"""What the other keys do, as the help shows it."""
+
+VIEW_KEYS: Mapping[imgui.Key, View] = MappingProxyType(
+    dict(zip((imgui.Key(imgui.Key.f2 + i) for i in range(len(View))), View, strict=True))
+)
+"""F2 and the keys after it take the named views in order."""
+SLOT_KEYS = tuple(imgui.Key(imgui.Key._1 + i) for i in range(SLOTS))
+"""The viewpoints' digits."""
+
+
+def slot_pressed() -> int | None:
+    """The viewpoint (from 0) whose digit went down since the last frame, None for none."""
+    return next((slot for slot, key in enumerate(SLOT_KEYS) if imgui.is_key_pressed(key, repeat=False)), None)
+
+
+def view_pressed() -> View | None:
+    """The named view whose key went down since the last frame, None for none."""
+    return next((view for key, view in VIEW_KEYS.items() if imgui.is_key_pressed(key, repeat=False)), None)
 
 
 def pressed(now_ns: int) -> list[KeyHit]:

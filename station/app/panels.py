@@ -4,14 +4,16 @@ Every control has a tooltip, and every one is reached by the keyboard (Tab, arro
 """
 
 from collections.abc import Callable
-from itertools import groupby
+from dataclasses import replace
+from itertools import groupby, zip_longest
 
 from imgui_bundle import imgui
 
 from station.app import theme
-from station.app.backdrop import Look
 from station.app.choice import MAX_LOOPS, MAX_TEMPO_BPM, MIN_TEMPO_BPM, Choice
-from station.app.keyboard import KEYS
+from station.app.keyboard import COMMANDS, KEYS
+from station.app.look import Look
+from station.app.look_panel import LOOK_LABEL, POPUP, LookActions, look_popup
 from station.app.model import LessonCard, RoomState, Stage
 from station.practice.own_ear import Guess
 from station.render.camera import VIEW_NAMES, View
@@ -22,12 +24,6 @@ VETO_LABEL = "As it was##veto"
 STOP_LABEL = "Stop##stop"
 AGAIN_LABEL = "Once more##again"
 BACK_LABEL = "Back to the lessons##back"
-
-
-def tooltip(text: str) -> None:
-    """Explain the control that was drawn last."""
-    if imgui.is_item_hovered(imgui.HoveredFlags_.delay_normal):
-        imgui.set_tooltip(text)
 
 
 class LessonsPanel:
@@ -46,7 +42,7 @@ class LessonsPanel:
         _, choice.search = imgui.input_text_with_hint(
             "##search", "Search: a word of title, level or tag", choice.search
         )
-        tooltip("Shows the lessons that contain every word")
+        theme.tooltip("Shows the lessons that contain every word")
         room = imgui.get_content_region_avail().y - (self._below or theme.points(280))
         imgui.begin_child("##list", imgui.ImVec2(0, max(room, theme.points(110))))
         self._list()
@@ -71,7 +67,7 @@ class LessonsPanel:
         pressed, _ = imgui.selectable(f"{card.title}##{card.name}", chosen)
         if pressed:
             self._choice.choose(card)
-        tooltip(f"{card.about}\n{card.bars} bars, {card.meter}, {card.beats_a_minute:g} bpm")
+        theme.tooltip(f"{card.about}\n{card.bars} bars, {card.meter}, {card.beats_a_minute:g} bpm")
 
     def _chosen(self, card: LessonCard) -> None:
         choice = self._choice
@@ -81,17 +77,19 @@ class LessonsPanel:
         if card.about:
             theme.soft(card.about)
         _, choice.adapt = imgui.checkbox(ADAPT_LABEL, choice.adapt)
-        tooltip("Each pass begins where the last one led: faster when it is clean, slower when it is not, and says why")
+        theme.tooltip(
+            "Each pass begins where the last one led: faster when it is clean, slower when it is not, and says why"
+        )
         if not choice.adapt:
             self._tempo(card)
         imgui.set_next_item_width(-theme.points(84))
         _, choice.loops = imgui.slider_int("passes", choice.loops, 1, MAX_LOOPS)
-        tooltip("How often the loop is played")
+        theme.tooltip("How often the loop is played")
         _, choice.click = imgui.checkbox("click", choice.click)
-        tooltip("Without it you are counted in, then the score follows your own tempo and waits when you stop")
+        theme.tooltip("Without it you are counted in, then the score follows your own tempo and waits when you stop")
         if theme.main_button(START_LABEL, (-1, theme.points(46))):
             self._start()
-        tooltip("Count-in, demonstration, then you (Enter)")
+        theme.tooltip("Count-in, demonstration, then you (Enter)")
 
     def _tempo(self, card: LessonCard) -> None:
         choice = self._choice
@@ -102,10 +100,10 @@ class LessonsPanel:
         moved, beats = imgui.slider_float("tempo", beats, low, high, "%.0f bpm")
         if moved:
             choice.tempo_bpm = beats * card.beat_quarters
-        tooltip("How fast to practise; the lesson's own tempo is set when you choose it. Ctrl+click to type")
+        theme.tooltip("How fast to practise; the lesson's own tempo is set when you choose it. Ctrl+click to type")
 
 
-_RIGHT_PART = 330
+_RIGHT_PART = 430
 """Design pixels that the viewpoint's controls take."""
 
 
@@ -114,48 +112,61 @@ def found(room: RoomState) -> str:
     return " · ".join(part for part in (room.kit or "no kit: the computer's keys play (F1)", room.sound) if part)
 
 
-def transport_bar(room: RoomState, look: Look, actions: "dict[str, Callable[[], None]]") -> Look:
+def transport_bar(
+    room: RoomState, look: Look, actions: "dict[str, Callable[[], None]]", viewpoints: LookActions
+) -> Look:
     """Stop or go on, progress, the viewpoint; returns the look that was chosen."""
     height = theme.points(38)
     if room.stage is Stage.PLAYING:
         if imgui.button(STOP_LABEL, imgui.ImVec2(theme.points(96), height)):
             actions["stop"]()
-        tooltip("End the session here; what was played is kept (Esc)")
+        theme.tooltip("End the session here; what was played is kept (Esc)")
         if room.can_veto:
             imgui.same_line()
             if imgui.button(VETO_LABEL, imgui.ImVec2(theme.points(110), height)):
                 actions["veto"]()
-            tooltip(f"{room.why} Press to play the last pass once more instead")
+            theme.tooltip(f"{room.why} Press to play the last pass once more instead")
     elif room.question:
         _asked(room.question, actions)
     elif room.stage is Stage.RESULT:
         if theme.main_button(AGAIN_LABEL, (theme.points(150), height)):
             actions["again"]()
-        tooltip("The same lesson, the same tempo (Enter)")
+        theme.tooltip("The same lesson, the same tempo (Enter)")
         imgui.same_line()
         if imgui.button(BACK_LABEL, imgui.ImVec2(theme.points(190), height)):
             actions["back"]()
-        tooltip("Choose another lesson (Esc)")
+        theme.tooltip("Choose another lesson (Esc)")
     if room.stage is not Stage.IDLE:
         imgui.same_line()
     if room.progress is not None:
         room_left = imgui.get_content_region_avail().x - theme.points(_RIGHT_PART)
         imgui.progress_bar(room.progress, imgui.ImVec2(max(room_left, 1.0), height), "")
-        tooltip("How much of the session is over")
+        theme.tooltip("How much of the session is over")
         imgui.same_line()
     elif room.stage is Stage.IDLE:
         imgui.align_text_to_frame_padding()
         imgui.text_disabled(found(room))
-        tooltip("The kit and the sound card that were found")
+        theme.tooltip("The kit and the sound card that were found")
         imgui.same_line()
     imgui.set_cursor_pos_x(imgui.get_window_width() - theme.points(_RIGHT_PART))
+    return _view_part(look, viewpoints)
+
+
+def _view_part(look: Look, actions: LookActions) -> Look:
     _, mirrored = imgui.checkbox("mirror", look.mirrored)
-    tooltip("Left and right swapped, to learn face to face as from a mirror")
+    theme.tooltip("Left and right swapped, to learn face to face as from a mirror (M)")
+    imgui.same_line()
+    if imgui.button(LOOK_LABEL, imgui.ImVec2(theme.points(70), 0)):
+        imgui.open_popup(POPUP)
+    theme.tooltip("A second picture of hands or feet, and viewpoints of your own")
+    chosen = look_popup(look, actions)
     imgui.same_line()
     imgui.set_next_item_width(-1)
     changed, index = imgui.combo("##view", int(look.view), list(VIEW_NAMES.values()))
-    tooltip("Where you look from; drag in the picture to turn, right drag to shift, wheel to come nearer")
-    return Look(View(index) if changed else look.view, bool(mirrored))
+    theme.tooltip(
+        "Where you look from (F2 to F9); drag in the picture to turn, right drag to shift, wheel to come nearer"
+    )
+    return replace(chosen, view=View(index) if changed else look.view, mirrored=bool(mirrored))
 
 
 def _asked(question: str, actions: "dict[str, Callable[[], None]]") -> None:
@@ -163,7 +174,7 @@ def _asked(question: str, actions: "dict[str, Callable[[], None]]") -> None:
     for guess in Guess:
         if imgui.button(guess.value, imgui.ImVec2(theme.points(96), theme.points(38))):
             actions[guess.value]()
-        tooltip(question)
+        theme.tooltip(question)
         imgui.same_line()
     imgui.align_text_to_frame_padding()
     imgui.text(question)
@@ -176,13 +187,13 @@ def keys_help(frame_ms: float) -> None:
         f"Without a kit, play on these keys. They are looked at once a frame, now every {frame_ms:.0f} ms,"
         " so their timing is that coarse: a kit is measured far better."
     )
-    if imgui.begin_table("##keys", 2):
-        for stroke in KEYS.values():
+    strokes = [(stroke.cap, stroke.words) for stroke in KEYS.values()]
+    if imgui.begin_table("##keys", 4, imgui.TableFlags_.sizing_fixed_fit):
+        for played, done in zip_longest(strokes, COMMANDS, fillvalue=("", "")):
             imgui.table_next_row()
-            imgui.table_next_column()
-            imgui.text(stroke.cap)
-            imgui.table_next_column()
-            imgui.text_disabled(stroke.words)
+            for cap, words in (played, done):
+                imgui.table_next_column()
+                imgui.text(cap)
+                imgui.table_next_column()
+                imgui.text_disabled(words)
         imgui.end_table()
-    imgui.separator()
-    theme.soft("Enter starts, Esc stops, F1 shows and hides this page.")

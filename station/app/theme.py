@@ -89,6 +89,12 @@ def soft(text: str) -> None:
     imgui.pop_style_color()
 
 
+def tooltip(text: str) -> None:
+    """Explain the control that was drawn last."""
+    if imgui.is_item_hovered(imgui.HoveredFlags_.delay_normal):
+        imgui.set_tooltip(text)
+
+
 def points(pixels: float) -> float:
     """Design pixels in the window's own, which grow with the screen's density."""
     return pixels * float(hello_imgui.dpi_window_size_factor())

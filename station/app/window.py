@@ -5,18 +5,22 @@ No thread is started, and nothing that happens here can change a judgement.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
+from pathlib import Path
 
 from imgui_bundle import hello_imgui, imgui
 
 from station.app import panels, theme
 from station.app.backdrop import Backdrop
 from station.app.choice import Choice
-from station.app.keyboard import pressed
+from station.app.keyboard import pressed, slot_pressed, view_pressed
+from station.app.look import look_of, with_look
+from station.app.look_panel import LookActions
 from station.app.model import PracticeModel, Stage
 from station.core.clock import Clock, MonotonicClock
 from station.core.errors import DeviceError, StationError
+from station.core.settings import load_settings, save_settings
 from station.practice.own_ear import Guess
 
 TITLE = "Drum station"
@@ -31,17 +35,19 @@ _NEWS_SHOWN_S = 8.0
 class WindowOptions:
     """How the window opens: `size` in pixels, `quality` 0–2 or None to measure, whether the layout is remembered.
 
-    `tests` registers tests with imgui's test engine and makes it run.
+    `settings` is the file that keeps the look, None for this user's. `tests` registers tests with imgui's test engine
+    and makes it run.
     """
 
     size: tuple[int, int] = (1280, 720)
     quality: int | None = None
     remember_layout: bool = True
+    settings: Path | None = None
     tests: Callable[[], None] | None = None
 
 
 class Window:
-    """One window over one model."""
+    """One window over one model; raises `BadInput` for a look in the settings that is none."""
 
     def __init__(self, model: PracticeModel, options: WindowOptions, clock: Clock | None = None) -> None:
         self._model = model
@@ -50,7 +56,9 @@ class Window:
         self.choice = Choice(model.lessons(), model.first())
         self._previewed = self.choice.card.name if self.choice.card is not None else ""
         self._panel = panels.LessonsPanel(self.choice, self._start)
-        self.backdrop = Backdrop(options.quality)
+        self.backdrop = Backdrop(options.quality, look_of(load_settings(options.settings)))
+        self._kept = self.backdrop.look
+        self._viewpoints = LookActions(self._keep_viewpoint, self._go_to_viewpoint)
         self.news, self._news_left_s = "", 0.0
         self._told: tuple[str, ...] = ()
         self._show_keys = False
@@ -90,7 +98,7 @@ class Window:
         callbacks.custom_background = self._background
         callbacks.pre_new_frame = self._before_frame
         callbacks.show_gui = self._over_all
-        callbacks.before_exit = self.backdrop.release
+        callbacks.before_exit = self._leaving
         self._dock(params)
         if self._options.tests is not None:
             params.use_imgui_test_engine = True
@@ -132,6 +140,21 @@ class Window:
         io = imgui.get_io()
         nav = imgui.ConfigFlags_.nav_enable_keyboard
         io.config_flags = io.config_flags & ~nav if stage is Stage.PLAYING else io.config_flags | nav
+
+        if stage is not Stage.PLAYING:
+            self._keep_look()
+
+    def _leaving(self) -> None:
+        self._keep_look()
+        self.backdrop.release()
+
+    def _keep_look(self) -> None:
+        """Write the look to the settings when it has changed; never while somebody plays."""
+        look = self.backdrop.look
+        if look != self._kept:
+            self._kept = look
+            path = self._options.settings
+            self._tried(lambda: save_settings(with_look(load_settings(path), look), path))
 
     def _background(self) -> None:
         """Draw the picture behind the panels."""
@@ -187,10 +210,36 @@ class Window:
                 self._model.key(hit)
         if imgui.get_io().want_text_input:
             return
+        self._view_keys()
         if imgui.is_key_pressed(imgui.Key.escape, repeat=False):
             self._leave(room.stage)
         elif imgui.is_key_pressed(imgui.Key.enter, repeat=False) and self._enter_starts(room.stage):
             self._start()
+
+    def _view_keys(self) -> None:
+        """The keys that change where the user looks from."""
+        io, backdrop = imgui.get_io(), self.backdrop
+        slot, view = slot_pressed(), view_pressed()
+        if slot is not None and io.key_ctrl:
+            self._keep_viewpoint(slot)
+        elif io.key_ctrl or io.key_alt or io.key_super:
+            return
+        elif slot is not None:
+            self._go_to_viewpoint(slot)
+        elif view is not None:
+            backdrop.back_to(view)
+        elif imgui.is_key_pressed(imgui.Key.m, repeat=False):
+            backdrop.look_from(replace(backdrop.look, mirrored=not backdrop.look.mirrored))
+        elif imgui.is_key_pressed(imgui.Key.p, repeat=False):
+            backdrop.look_from(backdrop.look.next_inset())
+
+    def _keep_viewpoint(self, slot: int) -> None:
+        self.backdrop.keep(slot)
+        self._tell(f"viewpoint {slot + 1} is kept: {slot + 1} comes back to it")
+
+    def _go_to_viewpoint(self, slot: int) -> None:
+        if not self.backdrop.go(slot):
+            self._tell(f"no viewpoint {slot + 1} is kept yet: Ctrl+{slot + 1} keeps where you look from")
 
     @staticmethod
     def _enter_starts(stage: Stage) -> bool:
@@ -211,7 +260,7 @@ class Window:
     def _tell(self, text: str) -> None:
         self.news, self._news_left_s = text, _NEWS_SHOWN_S
 
-    def _tried(self, action: Callable[[], None]) -> None:
+    def _tried(self, action: Callable[[], object]) -> None:
         """Do it, or say in one line why it could not be done."""
         try:
             action()
@@ -231,10 +280,10 @@ class Window:
             "back": self._model.dismiss,
             **{guess.value: partial(self._model.answer, guess) for guess in Guess},
         }
-        self.backdrop.look_from(panels.transport_bar(self._model.room(), self.backdrop.look, actions))
+        self.backdrop.look_from(panels.transport_bar(self._model.room(), self.backdrop.look, actions, self._viewpoints))
 
     def _keys_window(self) -> None:
-        imgui.set_next_window_size(imgui.ImVec2(theme.points(380), 0), imgui.Cond_.appearing)
+        imgui.set_next_window_size(imgui.ImVec2(theme.points(640), 0), imgui.Cond_.appearing)
         imgui.set_next_window_pos(imgui.get_main_viewport().get_center(), imgui.Cond_.appearing, imgui.ImVec2(0.5, 0.5))
         _, stays = imgui.begin(KEYS, True, imgui.WindowFlags_.no_collapse | imgui.WindowFlags_.no_docking)
         panels.keys_help(self._frame_ms)
@@ -245,7 +294,8 @@ class Window:
         centre = imgui.get_main_viewport().get_center()
         imgui.set_next_window_pos(imgui.ImVec2(centre.x, theme.points(150)), imgui.Cond_.always, imgui.ImVec2(0.5, 0))
         flags = imgui.WindowFlags_.no_decoration | imgui.WindowFlags_.always_auto_resize | imgui.WindowFlags_.no_inputs
-        imgui.begin("##news", None, flags | imgui.WindowFlags_.no_docking)
+        flags |= imgui.WindowFlags_.no_focus_on_appearing | imgui.WindowFlags_.no_docking
+        imgui.begin("##news", None, flags)
         imgui.text(self.news)
         imgui.end()
 

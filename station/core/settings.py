@@ -45,6 +45,7 @@ class Settings:
     measured (`core.calibration`). `thresholds` says of pads
     the least velocity that they send, as measured (`snare=20 tom_1=15`), `mask_ms` how long after a stroke a pad hears
     no other. `ask_first` whether the window asks what the student believes before it shows a result.
+    `view`, `mirrored`, `inset` and `viewpoints` are where the window looks from (`app.look`).
     """
 
     student: str = "student"
@@ -65,6 +66,10 @@ class Settings:
     thresholds: str = ""
     mask_ms: float = 9.0
     ask_first: bool = True
+    view: str = "shoulder"
+    mirrored: bool = False
+    inset: str = ""
+    viewpoints: str = ""
 
     @property
     def threshold_of(self) -> dict[Piece, int]:

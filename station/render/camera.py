@@ -22,6 +22,8 @@ class View(IntEnum):
     TOP = 3
     HANDS = 4
     FEET = 5
+    LEFT_HAND = 6
+    RIGHT_HAND = 7
 
 
 VIEW_NAMES = {
@@ -31,6 +33,8 @@ VIEW_NAMES = {
     View.TOP: "Top",
     View.HANDS: "Hands",
     View.FEET: "Feet",
+    View.LEFT_HAND: "Left hand",
+    View.RIGHT_HAND: "Right hand",
 }
 
 
@@ -87,7 +91,7 @@ _DEG = np.pi / 180
 
 def named(view: View, left_handed: bool = False) -> Camera:
     """The camera of a named view, on the other side for a kit that leads with the left hand."""
-    camera = _CAMERAS[view]
+    camera = _CAMERAS[_OTHER_HAND.get(view, view) if left_handed else view]
     if not left_handed:
         return camera
     x, y, z = camera.target
@@ -101,4 +105,8 @@ _CAMERAS = {
     View.TOP: Camera((0.08, 0.48, 0.6), -90 * _DEG, 88 * _DEG, 2.1, 0.80),
     View.HANDS: Camera((-0.03, 0.42, 0.78), 60 * _DEG, 26 * _DEG, 1.15, 0.62),
     View.FEET: Camera((-0.04, 0.50, 0.20), 196 * _DEG, 14 * _DEG, 1.45, 0.62),
+    View.LEFT_HAND: Camera((-0.05, 0.40, 0.74), 142 * _DEG, 30 * _DEG, 0.82, 0.60),
+    View.RIGHT_HAND: Camera((0.00, 0.42, 0.82), 38 * _DEG, 34 * _DEG, 0.86, 0.66),
 }
+_OTHER_HAND = {View.LEFT_HAND: View.RIGHT_HAND, View.RIGHT_HAND: View.LEFT_HAND}
+"""A kit that leads with the left hand is the other one in a mirror: so are its hands."""

@@ -13,7 +13,7 @@ from station.render import hud
 from station.render.atlas import Atlas
 from station.render.camera import Camera, View, named
 from station.render.ink_printer import InkPrinter, Sheet
-from station.render.palette import BRAND, GOOD, NIGHT
+from station.render.palette import BRAND, GOOD, INK_FAINT, NIGHT
 from station.render.scene import QUALITIES, Glow, Quality, Scene
 from station.render.score_view import Place, ScoreView
 from station.render.snapshot import Snapshot, Strike
@@ -23,9 +23,23 @@ Area = tuple[int, int, int, int]
 
 SCORE_SHARE = 0.30
 """The score's share of the picture's height."""
+INSET_SHARE = 0.36
+"""The second picture's share of the scene's width or height, whichever is less (our choice: hands at arm's length)."""
+_INSET_MARGIN = 0.03
+_INSET_EDGE = 2
+"""Pixels of the line round the second picture."""
 _GLOW_FADE_S = 0.16
 """How fast a struck piece stops glowing (our choice)."""
 _DEMONSTRATOR_GLOW, _STUDENT_GLOW = 0.35, 1.1
+
+
+def inset_area(scene: Area) -> Area:
+    """Where the second picture lies: the lower right corner of the scene."""
+    left, low, width, height = scene
+    inset_width = round(min(width * INSET_SHARE, height * INSET_SHARE * 16 / 9))
+    inset_height = round(inset_width * 9 / 16)
+    margin = round(height * _INSET_MARGIN)
+    return left + width - inset_width - margin, low + margin, inset_width, inset_height
 
 
 class Painter:
@@ -48,14 +62,18 @@ class Painter:
         area: Area,
         camera: Camera | None = None,
         with_score: bool = True,
+        inset: Camera | None = None,
     ) -> None:
-        """Draw `snapshot` into `area` of `target`, over what is there."""
+        """Draw `snapshot` into `area` of `target`, over it; `inset` sees the second picture in its corner."""
         left, low, width, height = area
         score_height = round(height * SCORE_SHARE) if with_score else 0
         scene_area = (left, low + score_height, width, height - score_height)
-        self._scene_of(snapshot).draw(
+        scene = self._scene_of(snapshot)
+        scene.draw(
             target, camera or named(View.SHOULDER, snapshot.kit.left_handed), snapshot.pose, scene_area, _glow(snapshot)
         )
+        if inset is not None:
+            self._draw_inset(scene, target, inset, snapshot.pose is not None, scene_area)
         self._ctx.viewport = area
         if with_score:
             place = Place(0.0, float(height - score_height), float(width), float(score_height))
@@ -64,6 +82,17 @@ class Painter:
         veil = (0.0, 0.0, float(width), hud.VEIL_HEIGHT * hud.scale(height - score_height))
         self.printer.fill(veil, hud.VEIL, Sheet((width, height)))
         self.printer.draw(words, Sheet((width, height)))
+
+    def _draw_inset(
+        self, scene: Scene, target: moderngl.Framebuffer, camera: Camera, with_figure: bool, scene_area: Area
+    ) -> None:
+        place = inset_area(scene_area)
+        left, low, width, height = place
+        edge = _INSET_EDGE
+        self._ctx.viewport = (left - edge, low - edge, width + 2 * edge, height + 2 * edge)
+        frame = (width + 2 * edge, height + 2 * edge)
+        self.printer.fill((0.0, 0.0, float(frame[0]), float(frame[1])), (INK_FAINT, INK_FAINT), Sheet(frame))
+        scene.draw_again(target, camera, with_figure, place)
 
     def _scene_of(self, snapshot: Snapshot) -> Scene:
         """The scene of the snapshot's kit and figure; the same ones, even if read anew, are not built anew."""

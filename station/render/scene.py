@@ -210,6 +210,16 @@ class Scene:
         ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         ctx.front_face = "ccw"
         self.draw_shadows(pose is not None)
+        self.draw_again(target, camera, pose is not None, viewport)
+
+    def draw_again(
+        self, target: moderngl.Framebuffer, camera: Camera, with_figure: bool, viewport: tuple[int, int, int, int]
+    ) -> None:
+        """Draw what was drawn last once more, from another camera into another viewport: no shadow is cast anew."""
+        ctx = self._ctx
+        ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
+        ctx.front_face = "ccw"
+        self._palette.bind_to_uniform_block(0)
         target.use()
         ctx.viewport = viewport
         ctx.scissor = viewport
@@ -224,7 +234,7 @@ class Scene:
             _write(program, "view_projection", projection)
             if "eye" in program:
                 program["eye"] = camera.eye
-        for part in self.picture_parts[0 if pose is not None else 1 :]:
+        for part in self.picture_parts[0 if with_figure else 1 :]:
             part.render()
         ctx.scissor = None
         ctx.front_face = "ccw"

@@ -1,5 +1,7 @@
 """Runs one scenario in a window of its own and writes what was seen to a JSON file: `drive.py SCENARIO SESSIONS OUT`.
 
+With a fourth argument `FILE.png` the window's last frame is kept there.
+
 A process of its own, because imgui and OpenGL keep state for as long as a process lives. imgui's test engine moves the
 mouse and presses the keys; nothing here reaches past the window but to look.
 """
@@ -10,17 +12,21 @@ import traceback
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 from imgui_bundle import hello_imgui, imgui
 
+from station.app.look import look_of
 from station.app.model import Stage
 from station.app.practice_room import PracticeRoom
 from station.app.window import Window, WindowOptions
 from station.core.errors import BadInput
+from station.core.settings import load_settings
 from station.core.units import ns_from_ms
 from station.drills.library import find_lesson
 from station.practice.plan import Wishes, plan_practice
 from station.practice.student_spec import parse_spec
 from station.render.camera import VIEW_NAMES, View
+from station.render.png import write_png
 from tests.gui.room import DirectEngine, practice_room
 
 STEP_NS = ns_from_ms(100)
@@ -36,7 +42,8 @@ class Drive:
     def __init__(self, sessions: Path, student: str | None) -> None:
         spec = None if student is None else parse_spec(student)
         self.room, self.engine, self.clock = practice_room("rock-1", Wishes(), sessions, spec, STEP_NS)
-        options = WindowOptions(SIZE, quality=0, remember_layout=False, tests=self._register)
+        self.settings = sessions / "settings.toml"
+        options = WindowOptions(SIZE, quality=0, remember_layout=False, settings=self.settings, tests=self._register)
         self.window = Window(self.room, options, self.clock)
         self.seen: dict[str, object] = {}
         self._scenario: Callable[[Drive, imgui.test_engine.TestContext], None] | None = None
@@ -139,9 +146,48 @@ def look(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.yield_(2)
     drive.seen["mirrored"] = drive.window.backdrop.camera.mirrored
     before = drive.window.backdrop.camera.azimuth_rad
+    turn(ctx)
+    drive.seen["turned"] = drive.window.backdrop.camera.azimuth_rad - before
+
+
+def turn(ctx: imgui.test_engine.TestContext) -> None:
+    """Drag in the picture."""
     ctx.mouse_move_to_pos(imgui.ImVec2(600, 200))
     ctx.mouse_drag_with_delta(imgui.ImVec2(60, 0))
-    drive.seen["turned"] = drive.window.backdrop.camera.azimuth_rad - before
+
+
+def viewpoints(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """Views, mirror, second picture and own viewpoints by keys and in the popup; all is kept in the settings."""
+    backdrop = drive.window.backdrop
+    ctx.mouse_move_to_pos(imgui.ImVec2(600, 200))
+    for key, name in ((imgui.Key.f2, "FRONT"), (imgui.Key.f8, "LEFT_HAND"), (imgui.Key.f9, "RIGHT_HAND")):
+        ctx.key_press(key)
+        ctx.yield_(2)
+        drive.seen[name] = backdrop.look.view.name
+    ctx.key_press(imgui.Key.m)
+    ctx.key_press(imgui.Key.p)
+    turn(ctx)
+    turned = backdrop.camera
+    ctx.key_press(imgui.Key._3 | imgui.Key.mod_ctrl)
+    ctx.yield_(2)
+    drive.seen["told"] = drive.window.news
+    ctx.key_press(imgui.Key.f5)
+    ctx.yield_(2)
+    drive.seen["left"] = backdrop.camera != turned
+    ctx.set_ref("//Transport")
+    ctx.item_click("Look##look")
+    ctx.yield_(2)
+    ctx.item_click("//$FOCUSED/3##go3")
+    ctx.yield_(2)
+    drive.seen["back"] = backdrop.camera == turned
+    ctx.item_click("//$FOCUSED/8##keep8")
+    ctx.item_click("//$FOCUSED/Feet##inset")
+    ctx.yield_(2)
+    drive.seen["slots"] = [slot for slot, camera in enumerate(backdrop.look.viewpoints, 1) if camera is not None]
+    kept = look_of(load_settings(drive.settings))
+    drive.seen["kept"] = [kept.view.name, kept.mirrored, kept.inset is View.FEET]
+    there = kept.viewpoints[2]
+    drive.seen["kept_there"] = there is not None and abs(there.azimuth_rad - turned.azimuth_rad) < 1e-5
 
 
 def closes(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
@@ -167,12 +213,22 @@ def fault(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.seen["after"] = drive.room.room().stage.name
 
 
-SCENARIOS = {"practise": practise, "keys": keys, "search": search, "look": look, "closes": closes, "fault": fault}
+SCENARIOS = {
+    "practise": practise,
+    "keys": keys,
+    "search": search,
+    "look": look,
+    "viewpoints": viewpoints,
+    "closes": closes,
+    "fault": fault,
+}
 
 
-def main(name: str, sessions: str, out: str) -> None:
+def main(name: str, sessions: str, out: str, picture: str | None = None) -> None:
     drive = Drive(Path(sessions), "pro,seed=4" if name == "practise" else None)
     drive.run(SCENARIOS[name])
+    if picture is not None:
+        write_png(np.ascontiguousarray(hello_imgui.final_app_window_screenshot()), Path(picture))
     room: PracticeRoom = drive.room
     engine: DirectEngine = drive.engine
     room.stop()

@@ -70,10 +70,22 @@ def test_typing_into_the_search_plays_nothing(environment: dict[str, str], tmp_p
 
 def test_every_viewpoint_can_be_chosen_and_turned(environment: dict[str, str], tmp_path: Path) -> None:
     seen = run("look", environment, tmp_path)
-    for view in ("FRONT", "SHOULDER", "EYES", "TOP", "HANDS", "FEET"):
+    for view in ("FRONT", "SHOULDER", "EYES", "TOP", "HANDS", "FEET", "LEFT_HAND", "RIGHT_HAND"):
         assert seen[view] == view
     assert seen["mirrored"]
     assert abs(seen["turned"]) > 0.1
+
+
+def test_viewpoints_are_kept_by_keys_and_in_the_popup(environment: dict[str, str], tmp_path: Path) -> None:
+    seen = run("viewpoints", environment, tmp_path)
+    for view in ("FRONT", "LEFT_HAND", "RIGHT_HAND"):
+        assert seen[view] == view
+    assert seen["told"] == "viewpoint 3 is kept: 3 comes back to it"
+    assert seen["left"]
+    assert seen["back"], "viewpoint 3 is where it was kept"
+    assert seen["slots"] == [3, 8]
+    assert seen["kept"] == ["TOP", True, True], "the settings hold the view, the mirror and the second picture"
+    assert seen["kept_there"]
 
 
 def test_a_session_is_kept_when_the_window_is_closed_in_its_middle(environment: dict[str, str], tmp_path: Path) -> None:

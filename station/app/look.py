@@ -1,0 +1,102 @@
+"""Where the user looks from: a named view, mirrored or not, a second picture, and eight viewpoints of his own.
+
+It is kept in the settings as words: `view` and `inset` by name, `viewpoints` as `1=x,y,z,azimuth,height,distance,angle`
+for each that is kept (metres and degrees), apart by spaces.
+"""
+
+from dataclasses import dataclass, replace
+from math import degrees, isfinite, radians
+
+from station.core.errors import BadInput
+from station.core.settings import Settings, settings_path
+from station.render.camera import Camera, View
+
+SLOTS = 8
+"""How many viewpoints a user may keep (as many as SMED's Viewer keeps)."""
+INSETS = (None, View.HANDS, View.FEET)
+"""What the second picture may show; None for no second picture."""
+_FARTHEST_M = 10.0
+"""No viewpoint in the settings lies farther out: the room is smaller (`camera`)."""
+
+Viewpoints = tuple[Camera | None, ...]
+"""`SLOTS` cameras, None where none is kept."""
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """The view, whether left and right are swapped, what the `inset` shows, and the viewpoints that were kept."""
+
+    view: View = View.SHOULDER
+    mirrored: bool = False
+    inset: View | None = None
+    viewpoints: Viewpoints = (None,) * SLOTS
+
+    def keeping(self, slot: int, camera: Camera) -> "Look":
+        """With `camera` as the viewpoint `slot`, from 0."""
+        kept = (*self.viewpoints[:slot], replace(camera, mirrored=False), *self.viewpoints[slot + 1 :])
+        return replace(self, viewpoints=kept)
+
+    def next_inset(self) -> "Look":
+        """With what the second picture shows next."""
+        return replace(self, inset=INSETS[(INSETS.index(self.inset) + 1) % len(INSETS)])
+
+
+def look_of(settings: Settings) -> Look:
+    """The look that the settings speak of; raises `BadInput` that names the setting."""
+    return Look(
+        View[_known("view", settings.view, [view.name.lower() for view in View]).upper()],
+        settings.mirrored,
+        View[_known("inset", settings.inset, _INSET_WORDS).upper()] if settings.inset else None,
+        _viewpoints(settings.viewpoints),
+    )
+
+
+def with_look(settings: Settings, look: Look) -> Settings:
+    """The settings with `look` in them."""
+    return replace(
+        settings,
+        view=look.view.name.lower(),
+        mirrored=look.mirrored,
+        inset="" if look.inset is None else look.inset.name.lower(),
+        viewpoints=" ".join(f"{slot}={_text(c)}" for slot, c in enumerate(look.viewpoints, 1) if c is not None),
+    )
+
+
+_INSET_WORDS = [view.name.lower() for view in INSETS if view is not None]
+
+
+def _known(key: str, word: str, words: list[str]) -> str:
+    if word not in words:
+        raise BadInput(settings_path(), key, f"expected one of {', '.join(words)}, found {word!r}")
+    return word
+
+
+def _viewpoints(text: str) -> Viewpoints:
+    found: list[Camera | None] = [None] * SLOTS
+    for entry in text.split():
+        slot, _, numbers = entry.partition("=")
+        camera = _camera(numbers)
+        if not slot.isdecimal() or not 1 <= int(slot) <= SLOTS or camera is None:
+            expected = f"expected 1…{SLOTS}=x,y,z,azimuth,height,distance,angle"
+            raise BadInput(settings_path(), "viewpoints", f"{expected}, found {entry!r}")
+        found[int(slot) - 1] = camera
+    return tuple(found)
+
+
+def _camera(text: str) -> Camera | None:
+    """The camera that seven numbers mean; None for anything else."""
+    try:
+        x, y, z, azimuth, height, distance, angle = map(float, text.split(","))
+    except ValueError:
+        return None
+    if not all(map(isfinite, (x, y, z, azimuth))) or max(map(abs, (x, y, z))) > _FARTHEST_M:
+        return None
+    if not (-90 < height < 90 and 0 < distance <= _FARTHEST_M and 0 < angle < 180):
+        return None
+    return Camera((x, y, z), radians(azimuth), radians(height), distance, radians(angle))
+
+
+def _text(camera: Camera) -> str:
+    angles = degrees(camera.azimuth_rad), degrees(camera.height_rad)
+    numbers = (*camera.target, *angles, camera.distance_m, degrees(camera.fov_rad))
+    return ",".join(f"{number:.4f}".rstrip("0").rstrip(".") for number in numbers)

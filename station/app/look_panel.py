@@ -1,0 +1,60 @@
+"""What the Look button opens: the second picture, and the viewpoints that the user keeps."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from imgui_bundle import imgui
+
+from station.app import theme
+from station.app.look import INSETS, Look
+from station.render.camera import VIEW_NAMES
+
+LOOK_LABEL = "Look##look"
+POPUP = "##look-popup"
+_NO_INSET = "None"
+
+
+@dataclass(frozen=True, slots=True)
+class LookActions:
+    """What the user does with viewpoints: `keep` the present one as a slot (from 0), `go` to a slot's."""
+
+    keep: Callable[[int], None]
+    go: Callable[[int], None]
+
+
+def look_popup(look: Look, actions: LookActions) -> Look:
+    """Draw the popup where it is open; returns the look that was chosen."""
+    if not imgui.begin_popup(POPUP):
+        return look
+    theme.heading("Look", 20)
+    theme.soft("Second picture")
+    for view in INSETS:
+        name = _NO_INSET if view is None else VIEW_NAMES[view]
+        if imgui.radio_button(f"{name}##inset", look.inset is view):
+            look = replace(look, inset=view)
+        theme.tooltip("Hands or feet in a corner of the picture, whatever the picture itself shows (P)")
+        imgui.same_line()
+    imgui.new_line()
+    theme.soft("Your own viewpoints")
+    _slots(look, actions)
+    imgui.end_popup()
+    return look
+
+
+def _slots(look: Look, actions: LookActions) -> None:
+    for words, word in (("Go to", "go"), ("Keep as", "keep")):
+        imgui.align_text_to_frame_padding()
+        imgui.text_disabled(words)
+        for slot, camera in enumerate(look.viewpoints):
+            imgui.same_line(theme.points(90) if slot == 0 else 0)
+            imgui.begin_disabled(word == "go" and camera is None)
+            if imgui.button(f"{slot + 1}##{word}{slot + 1}", imgui.ImVec2(theme.points(34), 0)):
+                actions.go(slot) if word == "go" else actions.keep(slot)
+            imgui.end_disabled()
+            theme.tooltip(_told(word, slot, camera is not None))
+
+
+def _told(word: str, slot: int, there: bool) -> str:
+    if word == "keep":
+        return f"Keeps where you look from now as viewpoint {slot + 1} (Ctrl+{slot + 1})"
+    return f"Viewpoint {slot + 1} ({slot + 1})" if there else f"Viewpoint {slot + 1} is not kept yet"
