@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from station.core.kitmap import Strike
 from station.core.pieces import Articulation, Zone, word
 from station.core.units import ms_from_ns
-from station.devices.kit import Crosstalk, Foot, KitPreset, Pad, PedalRange
+from station.devices.kit import PLAIN_PAD, Crosstalk, Foot, KitPreset, Pad, PedalRange
 from station.devices.presets import GENERAL_MIDI_PRESET, PRESETS
 
 
@@ -82,8 +82,12 @@ def _positions(kit: KitPreset) -> Iterator[str]:
 
 
 def _pad(pad: Pad) -> str:
-    least = "" if pad.least_velocity is None else f", least_velocity = {pad.least_velocity}"
-    return f"{{ threshold = {pad.threshold}, mask_ms = {ms_from_ns(pad.mask_ns)!r}{least} }}"
+    said = {
+        "threshold": pad.threshold if pad.threshold != PLAIN_PAD.threshold else None,
+        "mask_ms": ms_from_ns(pad.mask_ns) if pad.mask_ns else None,
+        "least_velocity": pad.least_velocity,
+    }
+    return f"{{ {', '.join(f'{key} = {value!r}' for key, value in said.items() if value is not None)} }}"
 
 
 def _crosstalk(rule: Crosstalk) -> Iterator[str]:

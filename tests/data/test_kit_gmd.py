@@ -15,7 +15,7 @@ from station.devices.presets import preset_named
 from tests.real_data import DATA
 
 _ALL = sorted((DATA / "gmd").rglob("*.mid"))
-TAKES = [*_ALL[::10], *(take for take in _ALL if take.stem == "1_rock_130_beat_4-4")]  # the last tells positions
+TAKES = [*_ALL[::20], *(take for take in _ALL if take.stem == "1_rock_130_beat_4-4")]  # the last tells positions
 TD_11 = preset_named("roland-td-11")
 RULES = replace(
     TD_11,

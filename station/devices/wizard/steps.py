@@ -54,7 +54,10 @@ _HAT, _FOOT = Piece.HIHAT, Piece.HIHAT_PEDAL
 _RIDE = _cymbal("ride", Piece.RIDE)
 
 PEDAL_SWEEP = Step(
-    "hi-hat pedal: take your foot off, then press it slowly all the way down and hold", _FOOT, Zone.PEDAL, ask=Ask.SWEEP
+    "hi-hat pedal: take your foot off, then press it slowly all the way down and hold (skip if nothing happens)",
+    _FOOT,
+    Zone.PEDAL,
+    ask=Ask.SWEEP,
 )
 OPEN_BOW = Step("open hi-hat (foot off), on the bow", _HAT, Zone.BOW, openness=1.0, soft=SOFT)
 OPEN_EDGE = Step("open hi-hat (foot off), on the edge", _HAT, Zone.EDGE, openness=1.0)

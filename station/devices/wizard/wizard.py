@@ -19,6 +19,8 @@ PEDAL_RESTS_NS = 800 * NS_PER_MS
 GRABS_APART_NS = 200 * NS_PER_MS
 READING_NS = 700 * NS_PER_MS
 """Whoever has just been asked something new is still reading: notes so soon belong to what was asked before."""
+SLIPS = 2
+"""So many strokes on another pad than was asked for, and none on it, are no slip; our choice."""
 SURE_OF = 5
 """So many numbers as expected and none otherwise, and the rest may be left to the preset; our choice."""
 
@@ -54,6 +56,7 @@ class Wizard:
         self._take = Take()
         self._hint = ""
         self._asked_ns = -READING_NS
+        self._weighed: list[Said] = []
 
     # --- in ----------------------------------------------------------------------------------------------------------
 
@@ -162,9 +165,14 @@ class Wizard:
         assert step is not None, "asked only while there is one"
         said: list[Said] = [*self._take.notes[-1:], *self._take.touches[-1:], *self._take.controllers[-1:]]
         quiet_ns = self._now_ns - max((one.at_ns for one in said), default=self._now_ns)
+        if quiet_ns <= (PEDAL_RESTS_NS if step.ask is Ask.SWEEP else ONE_STROKE_NS) or said == self._weighed:
+            return False
+        self._weighed = said  # once is enough until something more comes
         if step.ask is Ask.SWEEP:
-            return moved_controller(self._take) is not None and quiet_ns > PEDAL_RESTS_NS
-        return self._done() >= step.firm + step.soft and quiet_ns > ONE_STROKE_NS
+            return moved_controller(self._take) is not None
+        return self._done() >= step.firm + step.soft or (
+            self._done() >= SLIPS and self._struck_instead(step) is not None
+        )
 
     def _accept(self) -> None:
         """Keep the answer, unless another pad was struck than was asked for."""
@@ -175,7 +183,7 @@ class Wizard:
             self._takes[step] = self._take
             self._go(self._at + 1)
         else:
-            self._take = Take()
+            self._take, self._weighed = Take(), []
             self._hint = f"that was the pad of: {other.text}; once more, or skip if the kit lacks this one"
 
     def _struck_instead(self, step: Step) -> Step | None:
@@ -187,4 +195,4 @@ class Wizard:
 
     def _go(self, step: int) -> None:
         self._at = min(step, len(self._steps))
-        self._take, self._hint, self._asked_ns = Take(), "", self._now_ns
+        self._take, self._hint, self._asked_ns, self._weighed = Take(), "", self._now_ns, []

@@ -275,7 +275,7 @@ def test_a_pad_that_sends_nothing_soft_is_learned_all_the_same() -> None:
 
 def test_a_pad_that_was_another_before_is_told_and_asked_again() -> None:
     wizard = Wizard("kit")
-    strike(wizard, 36, strike(wizard, 36, 0))
+    strike(wizard, 36, strike(wizard, 36, 0), 2)
     assert wizard.view().step == 2
     assert "pad of: kick" in wizard.view().hint
 
