@@ -14,13 +14,6 @@ from station.render.picture import draw_png
 from station.render.snapshot import Extra, Hud, Snapshot, mark, no_marks
 from station.scoring.alignment import judgements
 
-SIZE = (1280, 720)
-
-
-def draw_drummer(drummer: Drummer, at_s: float, path: Path, size: tuple[int, int] = SIZE) -> None:
-    """The drummer at `at_s` seconds of the score, as a PNG; raises `DeviceError` without OpenGL or disk."""
-    draw_png(_picture_of(drummer, at_s), path, size)
-
 
 def draw_session(result: SessionResult, path: Path) -> None:
     """The last pass of a session, half into its first bar, every note with its judgement; raises `DeviceError`."""
@@ -28,7 +21,7 @@ def draw_session(result: SessionResult, path: Path) -> None:
     last_pass_s = (result.score.length_ns - plan.section.length_ns) / NS_PER_S
     bar_s = plan.section.length_ns / NS_PER_S / plan.section.bar_count
     drummer = Drummer(result.score, load_kit(plan.lesson.kit or DEFAULT_KIT), figure_of())
-    snapshot = _picture_of(drummer, last_pass_s + bar_s / 2)
+    snapshot = picture_of(drummer, last_pass_s + bar_s / 2)
     marks = no_marks(result.score)
     extras = []
     for judgement in judgements(result.score, result.performance, result.alignment):
@@ -45,12 +38,15 @@ def draw_session(result: SessionResult, path: Path) -> None:
         judged=len(result.score),
     )
     shown = replace(snapshot, marks=marks, extras=tuple(extras), hud=hud, bar_numbers=bar_numbers(plan))
-    draw_png(shown, path, SIZE)
+    draw_png(shown, path)
 
 
-def _picture_of(drummer: Drummer, at_s: float) -> Snapshot:
+def picture_of(drummer: Drummer, at_s: float) -> Snapshot:
+    """The drummer at `at_s` seconds of the score; bar and beat are told while it is played."""
     score = drummer.score
-    place = score.tempo_map.position_at(int(score.tempo_map.ticks_at(at_s)))
-    hud = Hud(title=score.title, bar=place.bar + 1, beat=place.beat + 1, bar_count=score.bar_count)
+    hud = Hud(title=score.title, bar_count=score.bar_count)
+    if 0 <= at_s * NS_PER_S < score.length_ns:
+        place = score.tempo_map.position_at(int(score.tempo_map.ticks_at(at_s)))
+        hud = replace(hud, bar=place.bar + 1, beat=place.beat + 1)
     pose, limbs = drummer.pose(at_s), drummer.assignment.limbs
     return Snapshot(score, at_s, drummer.kit, drummer.figure, pose, limbs, hud=hud)

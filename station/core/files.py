@@ -3,7 +3,8 @@
 import os
 import secrets
 import stat
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from station.core.errors import DeviceError
@@ -17,26 +18,51 @@ def write_whole(path: Path, data: bytes) -> None:
     """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        old_mode = path.stat().st_mode if path.exists() else None
-        if old_mode is None or stat.S_ISREG(old_mode):
-            _replace(path.resolve(), data, old_mode)
-        else:
+        if path.exists() and not path.is_file():
             path.write_bytes(data)
-    except OSError as fault:
-        raise DeviceError(f"{path}: cannot be written: {fault.strerror or fault}") from fault
-
-
-def _replace(target: Path, data: bytes, old_mode: int | None) -> None:
-    """Write a hidden file beside `target`, then give it that name; the hidden file never stays."""
-    part = target.with_name(f".{secrets.token_hex(8)}.part")
-    try:
-        with part.open("xb") as file:
+            return
+        with _part_of(path.resolve()) as part, part.open("wb") as file:
             file.write(data)
             file.flush()
             os.fsync(file.fileno())
+    except OSError as fault:
+        raise _not_written(path, fault) from fault
+
+
+@contextmanager
+def growing(path: Path) -> Iterator[Path]:
+    """A hidden file beside `path` to write to bit by bit; it becomes `path` where the block ends, never where it fails.
+
+    Links are followed and an old file keeps its mode. Raises `DeviceError` (disk full, no permission, `path` is no
+    plain file) and leaves the old file as it was.
+    """
+    try:
+        if path.exists() and not path.is_file():
+            raise DeviceError(f"{path}: cannot be written: it is no plain file")
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with _part_of(path.resolve()) as part:
+            yield part
+            with part.open("rb+") as file:
+                os.fsync(file.fileno())
+    except OSError as fault:
+        raise _not_written(path, fault) from fault
+
+
+@contextmanager
+def _part_of(target: Path) -> Iterator[Path]:
+    """A new hidden file beside `target`, which takes that name if all went well; the hidden file never stays."""
+    old_mode = target.stat().st_mode if target.exists() else None
+    part = target.with_name(f".{secrets.token_hex(8)}.part")
+    try:
+        part.touch(exist_ok=False)
+        yield part
         if old_mode is not None:
             part.chmod(stat.S_IMODE(old_mode))
         part.replace(target)
     finally:
         with suppress(OSError):
             part.unlink(missing_ok=True)
+
+
+def _not_written(path: Path, fault: OSError) -> DeviceError:
+    return DeviceError(f"{path}: cannot be written: {fault.strerror or fault}")

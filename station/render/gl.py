@@ -47,10 +47,17 @@ class Target:
             )
         self._ctx = ctx
 
-    def read(self) -> NDArray[np.uint8]:
-        """The picture, shape (height, width, 3), top row first."""
+    def resolved(self) -> moderngl.Texture:
+        """The picture as a texture with one sample a pixel, bottom row first."""
         if self.framebuffer is not self._plain:
             self._ctx.copy_framebuffer(self._plain, self.framebuffer)
+        texture = self._plain.color_attachments[0]
+        assert isinstance(texture, moderngl.Texture)
+        return texture
+
+    def read(self) -> NDArray[np.uint8]:
+        """The picture, shape (height, width, 3), top row first."""
+        self.resolved()
         width, height = self.size
         rgba = np.frombuffer(self._plain.read(components=4, alignment=1), np.uint8).reshape(height, width, 4)
         return np.ascontiguousarray(rgba[::-1, :, :3])

@@ -1,5 +1,7 @@
 """Pictures without a window: a snapshot as pixels or as a PNG file."""
 
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
 import moderngl
@@ -9,9 +11,20 @@ from numpy.typing import NDArray
 from station.render.camera import Camera
 from station.render.gl import Target, standalone_context
 from station.render.painter import Painter
+from station.render.planes import Planes, PlanesReader
 from station.render.png import write_png
 from station.render.scene import QUALITIES, Quality
 from station.render.snapshot import Snapshot
+
+
+@dataclass(frozen=True, slots=True)
+class Shot:
+    """How a snapshot is pictured: `size` (width, height) in pixels, from `camera` (None: over the shoulder)."""
+
+    size: tuple[int, int] = (1280, 720)
+    quality: Quality = QUALITIES[1]
+    camera: Camera | None = None
+    with_score: bool = True
 
 
 class PictureMaker:
@@ -29,9 +42,40 @@ class PictureMaker:
     def draw(self, snapshot: Snapshot, camera: Camera | None = None, with_score: bool = True) -> NDArray[np.uint8]:
         """The picture, shape (height, width, 3), top row first."""
         with self._ctx:
-            self._target.framebuffer.use()
-            self._painter.draw(snapshot, self._target.framebuffer, (0, 0, *self.size), camera, with_score)
+            self._paint(snapshot, camera, with_score)
             return self._target.read()
+
+    def film(
+        self, snapshots: Iterable[Snapshot], camera: Camera | None = None, with_score: bool = True
+    ) -> Iterator[Planes]:
+        """The pictures of consecutive `snapshots` as planes for video; each is read back while later ones are drawn.
+
+        The size must be even.
+        """
+        with self._ctx:
+            reader = PlanesReader(self._ctx, self._target.resolved())
+        try:
+            for snapshot in snapshots:
+                with self._ctx:
+                    ready = reader.take() if reader.is_full else None
+                    self._paint(snapshot, camera, with_score)
+                    self._target.resolved()
+                    reader.put()
+                if ready is not None:
+                    yield ready
+            while (last := self._taken(reader)) is not None:
+                yield last
+        finally:
+            with self._ctx:
+                reader.release()
+
+    def _taken(self, reader: PlanesReader) -> Planes | None:
+        with self._ctx:
+            return reader.take()
+
+    def _paint(self, snapshot: Snapshot, camera: Camera | None, with_score: bool) -> None:
+        self._target.framebuffer.use()
+        self._painter.draw(snapshot, self._target.framebuffer, (0, 0, *self.size), camera, with_score)
 
     def release(self) -> None:
         """Give the driver its memory back."""
@@ -40,13 +84,23 @@ class PictureMaker:
         self._ctx.release()
 
 
-def draw_png(snapshot: Snapshot, path: Path, size: tuple[int, int] = (1280, 720), camera: Camera | None = None) -> None:
-    """Write the picture of `snapshot` to `path`; raises `DeviceError` without OpenGL or if the disk refuses."""
-    maker = PictureMaker(size)
+_USUAL = Shot()
+
+
+def draw_pngs(snapshots: Iterable[Snapshot], paths: Iterable[Path], shot: Shot) -> Iterator[Path]:
+    """Write the picture of each snapshot to its path, and tell it; raises `DeviceError` without OpenGL or disk."""
+    maker = PictureMaker(shot.size, shot.quality)
     try:
-        write_png(maker.draw(snapshot, camera), path)
+        for snapshot, path in zip(snapshots, paths, strict=True):
+            write_png(maker.draw(snapshot, shot.camera, shot.with_score), path)
+            yield path
     finally:
         maker.release()
+
+
+def draw_png(snapshot: Snapshot, path: Path, shot: Shot = _USUAL) -> None:
+    """Write the picture of `snapshot` to `path`; raises `DeviceError` without OpenGL or if the disk refuses."""
+    list(draw_pngs([snapshot], [path], shot))
 
 
 def renderer_name() -> str:

@@ -21,7 +21,7 @@ from station.music.score import Note
 from station.render.camera import Camera, View, named
 from station.render.painter import SCORE_SHARE
 from station.render.palette import BRAND, MISSED
-from station.render.picture import PictureMaker, draw_png
+from station.render.picture import PictureMaker, Shot, draw_png
 from station.render.report_picture import draw_report_png
 from station.render.results import Words, result_facts
 from station.render.scene import QUALITIES
@@ -195,7 +195,7 @@ def test_words_stand_in_their_places(draw: Draw, hud: Hud, box: tuple[slice, sli
 
 
 def test_a_picture_is_written_as_png(tmp_path: Path) -> None:
-    draw_png(at(0.5), tmp_path / "drummer.png", (320, 180))
+    draw_png(at(0.5), tmp_path / "drummer.png", Shot((320, 180)))
     picture = decode((tmp_path / "drummer.png").read_bytes())
     assert picture.shape == (180, 320, 3)
     assert picture.std() > 20

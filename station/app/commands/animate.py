@@ -1,7 +1,8 @@
-"""`station animate SCORE --out FILE`: the drummer who plays a score, as a picture or as motion for other programs."""
+"""`station animate SCORE --out FILE`: the drummer who plays a score, as video, pictures or motion for others."""
 
 import argparse
 from collections.abc import Callable
+from math import inf
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 from station.app.commands.drums import add_drums_options, led_score, planned
 from station.app.commands.output import say, say_beyond
 from station.core.errors import BadInput
+from station.core.units import NS_PER_S
 from station.motion.drummer import Drummer
 from station.motion.figure import (
     GREATEST_STATURE_M,
@@ -22,12 +24,17 @@ from station.motion.figure import (
 from station.motion.propose import PROPOSED, propose_style
 from station.motion.style_file import load_style, style_names
 from station.music.score import Score
+from station.render.camera import View
 
 MAX_PIXELS = 7680
 """No side of a picture is longer: what common drivers draw into at once is twice that; our choice."""
 MIN_FPS, MAX_FPS = 1.0, 1000.0
 LEAD_S = 1.0
 """Motion begins so long before its first bar, so that the first preparation is there; our choice."""
+RING_S = 1.0
+"""A video goes on so long after the score's end, so that what rings is heard; our choice."""
+LEVELS = ("low", "middle", "high")
+"""The levels of `station.render.scene.QUALITIES`."""
 
 Times = NDArray[np.float64]
 
@@ -35,39 +42,70 @@ Times = NDArray[np.float64]
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add this command's words."""
     parser.add_argument("score", metavar="SCORE", help="a lesson, a MIDI file or a text score")
-    parser.add_argument("--out", metavar="FILE", type=Path, required=True, help=f"the file to write: {_ENDINGS}")
+    parser.add_argument("--out", metavar="FILE", type=Path, required=True, help=_OUT)
     styles = f"{', '.join(style_names())}, {PROPOSED} (what the score itself suggests), or a file"
     parser.add_argument("--style", metavar="NAME", default="natural", help=styles)
     add_drums_options(parser)
     body = parser.add_mutually_exclusive_group()
     body.add_argument("--figure", metavar="NAME", default="", help=f"{', '.join(figure_names())}, or a file")
     body.add_argument("--stature", type=float, metavar="M", help="the drummer's height in metres, usual proportions")
-    parser.add_argument("--fps", type=float, metavar="N", default=60.0, help="poses a second of motion (%(default)g)")
-    parser.add_argument("--size", metavar="WxH", type=_size, default=(1280, 720), help="of a picture (1280x720)")
+    parser.add_argument("--fps", type=float, metavar="N", default=60.0, help="pictures or poses a second (%(default)g)")
     parser.add_argument("--start-bar", type=int, metavar="A", default=1, help="the first bar, from 1 (%(default)s)")
     parser.add_argument("--end-bar", type=int, metavar="B", help="the last bar (the score's)")
-    parser.add_argument("--beat", type=float, metavar="T", default=1.0, help="the beat that a picture shows, from 1")
+    parser.add_argument("--seconds", type=float, metavar="S", help="no more than so many seconds")
+    _add_picture_options(parser)
+
+
+def _add_picture_options(parser: argparse.ArgumentParser) -> None:
+    pictures = parser.add_argument_group("video and pictures")
+    pictures.add_argument("--size", metavar="WxH", type=_size, default=(1280, 720), help="in pixels (1280x720)")
+    pictures.add_argument("--quality", choices=LEVELS, default=LEVELS[1], help="how fine (%(default)s)")
+    pictures.add_argument("--view", choices=_VIEWS, default=_VIEWS[View.SHOULDER], help="from where (%(default)s)")
+    pictures.add_argument("--mirror", action="store_true", help="left and right swapped, to learn face to face")
+    pictures.add_argument("--no-score", action="store_true", help="the drummer alone, without the score below")
+    pictures.add_argument("--click", action="store_true", help="a video with a click under the drums")
+    moment = pictures.add_mutually_exclusive_group()
+    moment.add_argument("--beat", type=float, metavar="T", default=1.0, help="the beat that a picture shows, from 1")
+    moment.add_argument("--time", type=float, metavar="S", help="the second of the score that a picture shows")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Draw one instant, or write the motion of some bars."""
+    """Draw an instant or some bars, or write the motion of some bars."""
     out: Path = arguments.out
     ending = out.suffix.lower()
-    if ending not in (".png", *_WRITERS):
+    if ending not in (_STILL, _FILM, *_WRITERS):
         raise BadInput(out, "", f"expected a name that ends in {_ENDINGS}")
+    if ending == _FILM:
+        _check_even(arguments.size)
     score = led_score(arguments)
     style = propose_style(score) if arguments.style == PROPOSED else load_style(arguments.style)
     plan = planned(score, _figure(arguments), arguments)
     drummer = Drummer(score, plan.kit, plan.figure, style, plan)
-    if ending == ".png":
-        from station.app.pictures import draw_drummer
-
-        draw_drummer(drummer, _moment_s(drummer.score, arguments), out, arguments.size)
+    if ending in _WRITERS:
+        start_s, length_s = _stretch(drummer.score, arguments, 0.0)
+        times_s = start_s + np.arange(round(length_s * arguments.fps) + 1) / arguments.fps
+        _WRITERS[ending]()(drummer, out, times_s)
+        kind = "motion "
     else:
-        _WRITERS[ending]()(drummer, out, _times(drummer.score, arguments))
+        kind = _draw(drummer, arguments)
     say_beyond(drummer.assignment.warnings)
-    say(f"{'picture' if ending == '.png' else 'motion '}  {out}")
+    say(f"{kind}  {out}")
     return 0
+
+
+def _draw(drummer: Drummer, arguments: argparse.Namespace) -> str:
+    """Draw what the name asks for; returns what it is, for people."""
+    from station.app.commands import animate_pictures as pictures
+
+    if arguments.out.suffix.lower() == _STILL and not pictures.is_sequence(arguments.out):
+        pictures.draw_still(drummer, _moment_s(drummer.score, arguments), arguments)
+        return "picture"
+    stretch = _stretch(drummer.score, arguments, RING_S)
+    if arguments.out.suffix.lower() == _STILL:
+        pictures.draw_sequence(drummer, stretch, arguments)
+        return "pictures"
+    pictures.draw_film(drummer, stretch, arguments)
+    return "video  "
 
 
 def _figure(arguments: argparse.Namespace) -> Figure:
@@ -81,7 +119,12 @@ def _figure(arguments: argparse.Namespace) -> Figure:
 
 
 def _moment_s(score: Score, arguments: argparse.Namespace) -> float:
-    """The time of the beat that a picture shows."""
+    """The time that a picture shows."""
+    if arguments.time is not None:
+        length_s = score.length_ns / NS_PER_S
+        if not 0 <= arguments.time <= length_s:
+            raise BadInput("--time", f"{arguments.time:g}", f"the score has seconds 0 to {length_s:.3f}")
+        return float(arguments.time)
     start, _ = _ticks(score, arguments)
     meter = score.tempo_map.meter_at(start)
     if not 1 <= arguments.beat < meter.beats + 1:
@@ -89,13 +132,20 @@ def _moment_s(score: Score, arguments: argparse.Namespace) -> float:
     return float(score.tempo_map.seconds_at(start + round((arguments.beat - 1) * meter.beat_ticks)))
 
 
-def _times(score: Score, arguments: argparse.Namespace) -> Times:
-    """The times of the poses, `--fps` a second, from a little before the first bar to the end of the last."""
-    fps = arguments.fps
+def _stretch(score: Score, arguments: argparse.Namespace, ring_s: float) -> tuple[float, float]:
+    """Where it begins, a little before the first bar, and how long it lasts: to the last bar's end, in seconds.
+
+    Where that is the score's end, `ring_s` more.
+    """
+    fps, most_s = arguments.fps, arguments.seconds
     if not MIN_FPS <= fps <= MAX_FPS:
-        raise BadInput("--fps", f"{fps:g}", f"expected {MIN_FPS:g} to {MAX_FPS:g} poses a second")
-    start_s, end_s = score.tempo_map.seconds_at(_ticks(score, arguments)).tolist()
-    return np.asarray(start_s - LEAD_S + np.arange(round((end_s - start_s + LEAD_S) * fps) + 1) / fps)
+        raise BadInput("--fps", f"{fps:g}", f"expected {MIN_FPS:g} to {MAX_FPS:g} a second")
+    if most_s is not None and not 0 < most_s < inf:
+        raise BadInput("--seconds", f"{most_s:g}", "expected a number above 0")
+    first, last = _ticks(score, arguments)
+    start_s, end_s = score.tempo_map.seconds_at([first, last]).tolist()
+    length_s = end_s - start_s + LEAD_S + (ring_s if last >= score.end_tick else 0.0)
+    return start_s - LEAD_S, length_s if most_s is None else min(length_s, most_s)
 
 
 def _ticks(score: Score, arguments: argparse.Namespace) -> tuple[int, int]:
@@ -131,7 +181,15 @@ def _glb() -> Writer:
 
 
 _WRITERS: dict[str, Callable[[], Writer]] = {".npz": _npz, ".bvh": _bvh, ".glb": _glb}
-_ENDINGS = ".png, .npz, .bvh or .glb"
+_STILL, _FILM = ".png", ".mp4"
+_VIEWS = tuple(view.name.lower() for view in View)
+_ENDINGS = ".mp4, .png, .npz, .bvh or .glb"
+_OUT = f"the file to write: {_ENDINGS}; %%05d.png in a name numbers the pictures of all bars"
+
+
+def _check_even(size: tuple[int, int]) -> None:
+    if any(side % 2 for side in size):
+        raise BadInput("--size", "{}x{}".format(*size), "a video's width and height are even numbers of pixels")
 
 
 def _size(text: str) -> tuple[int, int]:

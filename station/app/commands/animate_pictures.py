@@ -1,0 +1,79 @@
+"""What `station animate` draws: one picture, numbered pictures, or a video with the drums and, if wished, a click."""
+
+import argparse
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+from station.app.commands.animate import LEVELS
+from station.app.commands.progress import Progress
+from station.app.film import Take, write_film, write_pictures
+from station.app.soundtrack import Sounds
+from station.core.settings import load_settings
+from station.motion.drummer import Drummer
+from station.render.camera import View, named
+from station.render.picture import Shot
+from station.render.scene import QUALITIES
+from station.sound.kits.load import load_kit
+
+RATE_HZ = 48_000
+"""Of a video's sound: what players and sites take as it is."""
+_NUMBER = re.compile(r"(%0?\d*d)")
+_MOST_DENOMINATOR = 1001
+"""Of pictures a second: 30000/1001 is what televisions call 29.97."""
+
+Stretch = tuple[float, float]
+"""From which second of the score on, and for how many seconds."""
+
+
+def is_sequence(out: Path) -> bool:
+    """Whether the name asks for numbered pictures: `%05d.png`."""
+    return _NUMBER.search(out.name) is not None
+
+
+def draw_still(drummer: Drummer, at_s: float, arguments: argparse.Namespace) -> None:
+    """The picture of one instant."""
+    write_pictures(drummer, Take(at_s, 1, Fraction(1)), _shot(drummer, arguments), [arguments.out], lambda _: None)
+
+
+def draw_sequence(drummer: Drummer, stretch: Stretch, arguments: argparse.Namespace) -> None:
+    """Numbered pictures, from 1."""
+    take = _take(stretch, arguments.fps)
+    shot = _shot(drummer, arguments)
+    _with_progress(take, lambda tell: write_pictures(drummer, take, shot, _numbered(arguments.out, take), tell))
+
+
+def draw_film(drummer: Drummer, stretch: Stretch, arguments: argparse.Namespace) -> None:
+    """A video with sound."""
+    take = _take(stretch, arguments.fps)
+    settings = load_settings()
+    sounds = Sounds(load_kit(settings.drums, RATE_HZ), settings.click if arguments.click else None)
+    shot = _shot(drummer, arguments)
+    _with_progress(take, lambda tell: write_film(drummer, take, shot, sounds, arguments.out, tell))
+
+
+def _with_progress(take: Take, work: Callable[[Callable[[int], None]], None]) -> None:
+    progress = Progress(take.pictures)
+    try:
+        work(progress.tell)
+    finally:
+        progress.close()
+
+
+def _take(stretch: Stretch, fps: float) -> Take:
+    start_s, length_s = stretch
+    exact = Fraction(fps).limit_denominator(_MOST_DENOMINATOR)
+    return Take(start_s, max(1, round(length_s * exact)), exact)
+
+
+def _numbered(out: Path, take: Take) -> Iterator[Path]:
+    before, number, after = _NUMBER.split(out.name, maxsplit=1)
+    return (out.with_name(f"{before}{number % k}{after}") for k in range(1, take.pictures + 1))
+
+
+def _shot(drummer: Drummer, arguments: argparse.Namespace) -> Shot:
+    camera = named(View[arguments.view.upper()], drummer.kit.left_handed)
+    camera = replace(camera, mirrored=arguments.mirror)
+    return Shot(arguments.size, QUALITIES[LEVELS.index(arguments.quality)], camera, not arguments.no_score)

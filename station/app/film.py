@@ -1,0 +1,60 @@
+"""The drummer who plays a score as a video with sound, as numbered pictures, or as one picture."""
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.app.pictures import picture_of
+from station.app.soundtrack import Sounds, Soundtrack
+from station.motion.drummer import Drummer
+from station.render.picture import PictureMaker, Shot, draw_pngs
+from station.render.scene import QUALITIES
+from station.render.snapshot import Snapshot
+
+Tell = Callable[[int], None]
+"""Is told how many pictures are done."""
+
+
+@dataclass(frozen=True, slots=True)
+class Take:
+    """Which stretch is filmed: `pictures` of them, `fps` a second, the first at `start_s` of the score."""
+
+    start_s: float
+    pictures: int
+    fps: Fraction
+
+    @property
+    def times_s(self) -> NDArray[np.float64]:
+        """The score's time of every picture, shape (pictures,)."""
+        return self.start_s + np.arange(self.pictures) / float(self.fps)
+
+
+def write_film(drummer: Drummer, take: Take, shot: Shot, sounds: Sounds, path: Path, tell: Tell) -> None:
+    """A video at `path`, whole or not at all; raises `DeviceError` without OpenGL, disk or encoder."""
+    from station.render.video_file import EFFORTS, VideoFormat, video_file
+
+    soundtrack = Soundtrack(drummer.score, take.start_s, sounds)
+    effort = EFFORTS[QUALITIES.index(shot.quality)]
+    maker = PictureMaker(shot.size, shot.quality)
+    try:
+        with video_file(path, VideoFormat(shot.size, take.fps, soundtrack.rate_hz, effort)) as sink:
+            for done, planes in enumerate(maker.film(_snapshots(drummer, take), shot.camera, shot.with_score), 1):
+                sink.add_picture(planes)
+                sink.add_sound(soundtrack.until(float(done / take.fps)))
+                tell(done)
+    finally:
+        maker.release()
+
+
+def write_pictures(drummer: Drummer, take: Take, shot: Shot, paths: Iterable[Path], tell: Tell) -> None:
+    """A PNG a picture, each whole or not at all; raises `DeviceError` without OpenGL or disk."""
+    for done, _ in enumerate(draw_pngs(_snapshots(drummer, take), paths, shot), 1):
+        tell(done)
+
+
+def _snapshots(drummer: Drummer, take: Take) -> Iterator[Snapshot]:
+    return (picture_of(drummer, float(at_s)) for at_s in take.times_s)

@@ -1,0 +1,108 @@
+"""Pictures as planes of luma and chroma, which video is made of: converted by a shader and read back a frame later.
+
+ITU-R BT.709-6, narrow range (luma 16 … 235, chroma 16 … 240 about 128), 4:2:0 as NV12: rows of luma, then rows that
+hold Cb and Cr in turn for every second row and column. A chroma sample lies on the left of its two columns and between
+its two rows, as H.264 (Annex E, chroma_sample_loc_type 0) takes for granted. The picture's colours are encoded already.
+"""
+
+from collections import deque
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+Planes = NDArray[np.uint8]
+"""A picture in NV12: shape (height · 3/2, width), top row first; width and height are even."""
+
+_LUMA_RED, _LUMA_BLUE = 0.2126, 0.0722
+"""BT.709-6, item 3.2."""
+_PARTS = 3
+"""Even rows of luma, odd rows, chroma."""
+_AHEAD = 2
+"""So many frames are on their way from the graphics card while the next is drawn: double buffering."""
+
+_VERTEX = """
+#version 330 core
+void main() { gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0, 0.0, 1.0); }
+"""
+
+_FRAGMENT = f"""
+#version 330 core
+uniform sampler2D picture;
+uniform int last_row;
+layout(location = 0) out vec2 upper;        // two pixels' luma
+layout(location = 1) out vec2 lower;        // of the row below
+layout(location = 2) out vec2 chroma;
+
+float luma(vec3 c) {{ return dot(c, vec3({_LUMA_RED}, {1 - _LUMA_RED - _LUMA_BLUE}, {_LUMA_BLUE})); }}
+
+void main() {{
+    ivec2 at = 2 * ivec2(gl_FragCoord.xy);
+    at.y = last_row - at.y;                 // OpenGL counts rows from below
+    ivec2 before = ivec2(max(at.x - 1, 0), at.y);
+    vec3 a = texelFetch(picture, at, 0).rgb, b = texelFetch(picture, at + ivec2(1, 0), 0).rgb;
+    vec3 c = texelFetch(picture, at - ivec2(0, 1), 0).rgb, d = texelFetch(picture, at + ivec2(1, -1), 0).rgb;
+    vec3 left = texelFetch(picture, before, 0).rgb + texelFetch(picture, before - ivec2(0, 1), 0).rgb;
+    vec3 mean = 0.25 * (a + c) + 0.125 * (b + d + left);
+    upper = (16.0 + 219.0 * vec2(luma(a), luma(b))) / 255.0;
+    lower = (16.0 + 219.0 * vec2(luma(c), luma(d))) / 255.0;
+    vec2 reach = vec2({2 * (1 - _LUMA_BLUE)}, {2 * (1 - _LUMA_RED)});
+    chroma = (128.0 + 224.0 * (mean.br - luma(mean)) / reach) / 255.0;
+}}
+"""
+
+
+class PlanesReader:
+    """Converts one picture after another; all calls are made while its context is the current one.
+
+    A fragment makes four pixels, which takes a software driver a quarter of the time: luma of even and of odd rows go
+    to pictures of their own, and come together as they are taken.
+    """
+
+    def __init__(self, ctx: moderngl.Context, picture: moderngl.Texture) -> None:
+        width, height = picture.size
+        assert width % 2 == height % 2 == 0, "chroma has half the columns and half the rows"
+        self._ctx = ctx
+        self._picture = picture
+        program = ctx.program(_VERTEX, _FRAGMENT)
+        program["last_row"] = height - 1
+        self._triangle = ctx.vertex_array(program, [])
+        self._half = width // 2, height // 2
+        self._parts = ctx.framebuffer([ctx.texture(self._half, 2) for _ in range(_PARTS)])
+        self._part_bytes = width * height // 2
+        self._free = [ctx.buffer(reserve=_PARTS * self._part_bytes) for _ in range(_AHEAD)]
+        self._waiting: deque[moderngl.Buffer] = deque()
+
+    @property
+    def is_full(self) -> bool:
+        """Whether the oldest picture must be taken before the next is put in."""
+        return not self._free
+
+    def put(self) -> None:
+        """Convert the picture as it is now, and begin to read it back."""
+        buffer = self._free.pop()
+        self._ctx.disable(moderngl.DEPTH_TEST | moderngl.CULL_FACE | moderngl.BLEND)
+        self._parts.use()
+        self._picture.use(0)
+        self._triangle.render(vertices=3)
+        for part in range(_PARTS):
+            offset = part * self._part_bytes
+            self._parts.read_into(buffer, components=2, attachment=part, alignment=1, write_offset=offset)
+        self._waiting.append(buffer)
+
+    def take(self) -> Planes | None:
+        """The oldest picture that was put in and not taken yet; None where there is none."""
+        if not self._waiting:
+            return None
+        buffer = self._waiting.popleft()
+        width, height = self._picture.size
+        upper, lower, chroma = np.frombuffer(buffer.read(), np.uint8).reshape(_PARTS, height // 2, width)
+        self._free.append(buffer)
+        planes = np.empty((height * 3 // 2, width), np.uint8)
+        planes[0:height:2], planes[1:height:2], planes[height:] = upper, lower, chroma
+        return planes
+
+    def release(self) -> None:
+        """Give the driver its memory back."""
+        for part in (*self._free, *self._waiting, *self._parts.color_attachments, self._parts, self._triangle):
+            part.release()
