@@ -3,8 +3,8 @@
 Both hands play the whole score at the body's natural posture, looked at `RATE_HZ` times a second. Every stretch on
 which the sticks come too near to each other or to the other forearm is tried with detours, over, back towards the
 player, aside and under, of either hand; the one that stays farthest clear for the least way is taken. Where neither
-hand travels, the lower one's stroke is held lower. What is found once for a figure of the score is kept for its
-repetitions.
+hand travels, the upper one's stick is held steeper, or the lower one's stroke lower. What is found once for a figure of
+the score is kept for its repetitions.
 """
 
 from dataclasses import dataclass, replace
@@ -13,11 +13,11 @@ from math import pi, radians
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Limb
+from station.core.pieces import Articulation, Limb
 from station.motion.arm import Arm, Contact, Offsets, solve
 from station.motion.clearance import ARM_M, STICKS_M
 from station.motion.collisions import ALONG, ARM_RADIUS_M, STICK_RADIUS_M, depth, segments_apart
-from station.motion.events import LONG_AGO_S
+from station.motion.events import LONG_AGO_S, WAIT
 from station.motion.figure import Figure
 from station.motion.hand import HandPart
 from station.motion.kit import Kit
@@ -37,9 +37,13 @@ _LOW = 0.4
 """A style may make strokes this much lower, and the way must be free then too (our choice)."""
 _LEAST_HUMP = 0.08
 """Moments at which less than this of a detour is left cannot be helped by it (our choice)."""
+_SLOPES = [Contact._fields.index("stick_rise"), Contact._fields.index("hand_rise")]
+_RISES, _MOST_RISE = np.radians([4.0, 8.0, 12.0, 16.0, 20.0]), radians(20.5)
+"""Where neither hand travels and the sticks cross, the upper one is so much steeper (our choice)."""
+_FREE = (Articulation.NORMAL, Articulation.BUZZ, WAIT)
 _LOWER = 0.6
 _LEAST_HEIGHT_M = 0.04
-"""Where neither hand travels, a stroke in the way is lowered by this factor a round, not under this (our choice)."""
+"""Where that is no use either, a stroke in the way is lowered by this factor a round, not under this (our choice)."""
 
 _WAYS = np.array(
     [
@@ -82,6 +86,7 @@ def detoured(
             break
         bumps = [hand.bump.copy() for hand in hands]
         most = [hand.strokes.most.copy() for hand in hands]
+        contacts = [hand.contacts.copy() for hand in hands]
         changed: set[tuple[int, int]] = set()
         for k, pair in enumerate(pairs.tolist()):
             if changed & set(enumerate(pair)):
@@ -92,8 +97,12 @@ def detoured(
             if key not in known:
                 known[key] = scene.way_round(pair, moments)
             found = known[key]
+            steeper = scene.steeper(moments) if found is None else None
             if found is not None:
                 bumps[found[0]][pair[found[0]], :3] += found[1]
+            elif steeper is not None:
+                side, events, rise = steeper
+                contacts[side][np.ix_(events, _SLOPES)] += rise
             else:
                 side = scene.lower(moments)
                 near = slice(pair[side], pair[side] + 2)
@@ -101,7 +110,7 @@ def detoured(
                 most[side][near] = np.minimum(
                     most[side][near], np.maximum(_LOWER * np.minimum(most[side][near], 1.0), least)
                 )
-        hands = (hands[0].led(bumps[0], most[0]), hands[1].led(bumps[1], most[1]))
+        hands = (hands[0].led(bumps[0], most[0], contacts[0]), hands[1].led(bumps[1], most[1], contacts[1]))
     return hands
 
 
@@ -159,6 +168,36 @@ class _Scene:
         """Whose stick's middle is lower."""
         heights = [0.5 * (arm.butt[2] + arm.tip[2])[moments].mean() for arm in self.arms]
         return int(heights[1] < heights[0])
+
+    def steeper(self, moments: NDArray[np.int64]) -> tuple[int, NDArray[np.int64], float] | None:
+        """The hand whose stick, over the other's, is to be steeper, at which events, by how much; None if it is no use.
+
+        Only a tip's blow leaves its slope free: a stick's shoulder and shaft lie as the piece does.
+        """
+        side = 1 - self.lower(moments)
+        hand, times = self.hands[side], self.grid[moments]
+        events = np.unique(hand.way.nearest(times)[0])
+        free = np.isin(hand.events.key[events, 2], _FREE) & ~np.isin(hand.which[events], hand.on_the_shoulder)
+        lies = np.array([hand.lies[k].contact.stick_rise for k in hand.which[events].tolist()])
+        left = _MOST_RISE - float((hand.contacts[events, _SLOPES[0]] - lies).max())
+        if not free.all():
+            return None
+        strokes = Strokes.of(hand.strokes, NATURALLY).many(times)
+        lengths = hand.hold.lengths(self.figure, hand.limb == Limb.RIGHT_HAND)
+        x, y, z = (np.broadcast_to(r, self.grid.shape)[moments] for r in self.roots[side])
+        other = [np.broadcast_to(p, (len(self.grid), 3))[moments] for p in _limbs(self.arms[1 - side])]
+        contact = hand.way.many(times)
+        for rise in _RISES[left >= _RISES].tolist():
+            steep = contact._replace(stick_rise=contact.stick_rise + rise, hand_rise=contact.hand_rise + rise)
+            arms = [solve(MANY, lengths, (x, y, z), steep, Offsets(*(low * o for o in strokes))) for low in (1.0, _LOW)]
+            if all(self._is_free(side, arm, other) for arm in arms):
+                return side, events, rise
+        return None
+
+    def _is_free(self, side: int, arm: Arm, other: list[Array]) -> bool:
+        """Whether `arm` of a hand is not too near to the other's limbs and within its joints' limits."""
+        near = _lack(_limbs(arm), other, *_TOO_NEAR_M)
+        return float(near.max()) <= 0.0 and float(np.max(self._beyond(side, arm))) <= 0.0
 
     def way_round(self, pair: list[int], moments: NDArray[np.int64]) -> tuple[int, Array] | None:
         """The hand (0 right, 1 left) and its detour (3,) on its stretch of `pair`; None where nothing is better."""

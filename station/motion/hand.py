@@ -148,9 +148,14 @@ class HandPart:
         most = height_m / np.maximum(self.strokes.height_m, 1e-6)
         return replace(self, strokes=replace(self.strokes, most=most))
 
-    def led(self, bump: Array, most: Array) -> "HandPart":
-        """The same on the ways of `bump` (n − 1, 4), no stroke more than `most` (n,) times its height."""
-        return replace(self, bump=bump, strokes=replace(self.strokes, most=most))
+    def led(self, bump: Array, most: Array, contacts: Array) -> "HandPart":
+        """The same on the ways of `bump` (n − 1, 4) between `contacts`, no stroke over `most` (n,) times its height."""
+        return replace(self, bump=bump, contacts=contacts, strokes=replace(self.strokes, most=most))
+
+    @cached_property
+    def on_the_shoulder(self) -> NDArray[np.int64]:
+        """Which of `lies` have the stick's shoulder on an edge or a rim."""
+        return np.flatnonzero([lie.shoulder_of_stick for lie in self.lies])
 
 
 def parts(hold: Hold) -> Array:

@@ -56,6 +56,16 @@ def test_hands_on_one_piece_stay_apart(kit: str, right: list[Struck], left: list
     assert found.kit_m.value <= 0.003, found.kit_m
 
 
+def test_crossed_hands_hold_one_stick_steeper() -> None:
+    """Right on the left tom, left on the right one, as a lesson may write it: neither hand travels out of the way."""
+    crossed = alternating([(Piece.TOM_1, *HEAD[1:])], [(Piece.TOM_2, *HEAD[1:])])
+    drummer = Drummer(crossed, load_kit("seven_piece"))
+    found = audit(drummer)
+    assert found.hands_m.value <= 0.003, found.hands_m
+    assert found.limit_rad.value <= 0.02, found.limit_rad
+    assert found.strike_m.value <= 1e-6
+
+
 @pytest.mark.parametrize("limb", [R, L])
 def test_a_hand_that_has_laid_its_stick_comes_up_past_the_hat(limb: Limb) -> None:
     """The end of a right hand's cross-stick would lie under the hi-hat."""
