@@ -37,7 +37,7 @@ _LOW = 0.4
 """A style may make strokes this much lower, and the way must be free then too (our choice)."""
 _LEAST_HUMP = 0.08
 """Moments at which less than this of a detour is left cannot be helped by it (our choice)."""
-_SLOPES = [Contact._fields.index("stick_rise"), Contact._fields.index("hand_rise")]
+_SLOPES = np.array([Contact._fields.index("stick_rise"), Contact._fields.index("hand_rise")])
 _RISES, _MOST_RISE = np.radians([4.0, 8.0, 12.0, 16.0, 20.0]), radians(20.5)
 """Where neither hand travels and the sticks cross, the upper one is so much steeper (our choice)."""
 _FREE = (Articulation.NORMAL, Articulation.BUZZ, WAIT)
