@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from station.app.model import LessonCard, Start
+from station.practice.tap_tempo import TapTempo
 
 MIN_TEMPO_BPM, MAX_TEMPO_BPM = 30, 260
 """The tempo slider's ends (our choice); a lesson outside widens them."""
@@ -17,6 +18,7 @@ class Choice:
         """Begin with `first` where it is there, else with the first lesson."""
         self._lessons = tuple(lessons)
         self._first = first
+        self._taps = TapTempo()
         self.search = ""
         self.card: LessonCard | None = None
         self.tempo_bpm = 100.0
@@ -32,6 +34,12 @@ class Choice:
     def choose(self, card: LessonCard) -> None:
         """Take a lesson at the tempo and with the passes that its author wants."""
         self.card, self.tempo_bpm, self.loops = card, card.tempo_bpm, min(card.passes, MAX_LOOPS)
+
+    def tap(self, at_ns: int, within: tuple[float, float]) -> None:
+        """Take a tap of the tempo, in beats of the lesson; a tempo outside `within` beats a minute is the nearest."""
+        beats = self._taps.tap(at_ns)
+        if beats is not None and self.card is not None:
+            self.tempo_bpm = min(within[1], max(within[0], beats)) * self.card.beat_quarters
 
     def visible(self) -> list[LessonCard]:
         """The lessons whose title, name, author, level or tags contain every word of the search."""

@@ -15,11 +15,13 @@ from station.app.keyboard import COMMANDS, KEYS
 from station.app.look import Look
 from station.app.look_panel import LOOK_LABEL, POPUP, LookActions, look_popup
 from station.app.model import LessonCard, RoomState, Stage
+from station.core.clock import monotonic_ns
 from station.practice.own_ear import Guess
 from station.render.camera import VIEW_NAMES, View
 
 START_LABEL = "Start##start"
 ADAPT_LABEL = "the tempo follows me"
+TAP_LABEL = "Tap the tempo##tap"
 VETO_LABEL = "As it was##veto"
 STOP_LABEL = "Stop##stop"
 AGAIN_LABEL = "Once more##again"
@@ -101,6 +103,9 @@ class LessonsPanel:
         if moved:
             choice.tempo_bpm = beats * card.beat_quarters
         theme.tooltip("How fast to practise; the lesson's own tempo is set when you choose it. Ctrl+click to type")
+        if imgui.button(TAP_LABEL):
+            choice.tap(monotonic_ns(), (low, high))
+        theme.tooltip("Click on every beat, twice or more: the tempo follows")
 
 
 _RIGHT_PART = 430

@@ -31,6 +31,8 @@ from station.engine.runner import Runner
 from station.sound.buses import ClickVoice
 from station.sound.click import DEFAULT_TIMBRE, click_sounds
 from station.sound.drum_kit import DrumKit, Frames
+from station.sound.kit_cache import is_made
+from station.sound.kit_synth import MODELS
 from station.sound.kits.load import DEFAULT_KIT, load_kit
 from station.sound.mixer import Mixer
 from station.sound.output import open_output
@@ -66,7 +68,7 @@ def run_engine(commands: "Connection[None, Command]", events: "Connection[list[E
 def _live(config: EngineConfig, inbox: Inbox, outbox: Outbox) -> bool:
     """Runs until told to quit, or the parent is gone; returns whether it ended because it is worn out."""
     engine = Engine(open_midi_out=lambda port: open_midi_output(config.midi_driver, port, undisturbed), own_kit=own_kit)
-    card = _card(engine, config) if config.sound else None
+    card = _card(engine, config, outbox) if config.sound else None
     undisturbed = card.paused if card is not None else nullcontext
     runner = Runner(engine, _kits(engine, config, card), card)
     for command in config.first_commands:
@@ -101,11 +103,16 @@ def _kits(engine: Engine, config: EngineConfig, card: Card | None) -> tuple[KitW
     return watches.kits
 
 
-def _card(engine: Engine, config: EngineConfig) -> Card:
+def _card(engine: Engine, config: EngineConfig, outbox: Outbox) -> Card:
+    def mixer(rate_hz: int) -> Mixer:
+        if config.drums in MODELS and not is_made(config.drums, rate_hz):
+            outbox.put([Notice(f"the {config.drums} kit is being made for {rate_hz} Hz, this once; a few seconds")])
+        return Mixer(_drums(engine, config.drums, rate_hz), _clicks(engine, config.click, rate_hz))
+
     return Card(
         engine,
         lambda: open_output(config.output, config.block_frames, config.rate_hz),
-        lambda rate_hz: Mixer(_drums(engine, config.drums, rate_hz), _clicks(engine, config.click, rate_hz)),
+        mixer,
         Lookout(config.output),
     )
 

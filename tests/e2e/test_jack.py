@@ -18,7 +18,7 @@ from station.devices.capture import read_capture
 from station.devices.kit_ports import KitWish
 from station.devices.replay import replay, transport_zeros_ns
 from station.engine.config import EngineConfig
-from station.engine.messages import KeyHit, Notice, Play, Ready, Record, Started
+from station.engine.messages import EngineEvent, KeyHit, Notice, Play, Ready, Record, Started
 from station.engine.process import EngineProcess
 from tests.fakes.cues import clicks
 from tests.fakes.engine_listener import EngineListener
@@ -45,6 +45,11 @@ NOTES = [  # a TD-17's numbers, and the least and greatest spectral centroid tha
     (42, Piece.HIHAT, 4_000.0, 20_000.0),
     (43, Piece.FLOOR_TOM_1, 50.0, 450.0),
 ]
+
+
+def is_trouble(event: EngineEvent) -> bool:
+    """A notice of anything but that the kit is made, as on a computer's first day."""
+    return isinstance(event, Notice) and "is being made" not in event.text
 
 
 def notes(strokes: list[Stroke]) -> list[Stroke]:
@@ -89,7 +94,7 @@ def test_a_kit_in_another_process_is_heard_and_sounds(jack_server: JackServer, t
         listener.until_after(sent[-1].at_ns + NS_PER_S // 2)
         heard = recorder.stop()
 
-    assert not [event for event in listener.events if isinstance(event, Notice | DeviceLost)]
+    assert not [event for event in listener.events if isinstance(event, DeviceLost) or is_trouble(event)]
     period_ns = NS_PER_S * jack_server.period_frames / jack_server.rate_hz
     check_hits(listener.hits(), notes(sent), period_ns)
     click_onsets = [frame for frame in heard.onsets() if heard.at_ns[frame] < started.zero_ns + 1_250 * NS_PER_MS]

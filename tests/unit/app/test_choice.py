@@ -9,6 +9,7 @@ from station.app.choice import MAX_LOOPS, Choice
 from station.app.keyboard import KEYS
 from station.app.model import LessonCard, Start
 from station.core.pieces import HAND_PIECES, Piece, Zone
+from station.core.units import NS_PER_S
 
 ROCK = LessonCard(
     "rock-1", "Rock 1: eighths", 1, "first steps", "The first groove", "Ada", 80.0, 2, 8, "4/4", ("rock",)
@@ -81,3 +82,13 @@ def test_the_window_opens_on_what_was_asked_for() -> None:
     wish = choice.wish()
     assert wish is not None
     assert (wish.lesson, wish.bars) == ("rock-1", None)
+
+
+def test_tapped_beats_set_the_tempo_in_the_lesson_s_own_beat() -> None:
+    choice = Choice([replace(ROCK, beat_quarters=1.5)])
+    for tap in range(4):
+        choice.tap(round((10 + 0.5 * tap) * NS_PER_S), (30.0, 260.0))
+    assert choice.tempo_bpm == pytest.approx(180.0)  # 120 dotted quarters a minute
+    for tap in range(9):
+        choice.tap(round((30 + 0.1 * tap) * NS_PER_S), (30.0, 260.0))
+    assert choice.tempo_bpm == pytest.approx(1.5 * 260.0)  # 600 is beyond the slider

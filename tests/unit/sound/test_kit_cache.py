@@ -5,7 +5,7 @@ import pytest
 
 from station.sound import kit_cache, kit_synth
 from station.sound.drum_kit import DrumKit
-from station.sound.kit_cache import cached_kit
+from station.sound.kit_cache import cached_kit, is_made
 from station.sound.kits.load import load_kit
 
 RATE_HZ = 44_100
@@ -93,3 +93,9 @@ def test_synthesised_kits_are_loaded_by_name(tmp_path: Path, monkeypatch: pytest
     monkeypatch.setattr(kit_cache, "cache_folder", lambda: tmp_path)
     assert load_kit(MODEL, RATE_HZ).name == MODEL
     assert len(files(tmp_path)) == 1
+
+
+def test_whether_a_kit_was_made_is_known_before_it_is_asked_for(made: tuple[Path, DrumKit], tmp_path: Path) -> None:
+    assert is_made(MODEL, RATE_HZ, made[0])
+    assert not is_made(MODEL, RATE_HZ, tmp_path)
+    assert not is_made(MODEL, 96_000, made[0])
