@@ -48,6 +48,7 @@ TRACK_SLACK = 2
 """Frames by which a track may be off its place: the clock's own noise (our choice)."""
 TRACK_JUMP_S = 0.03
 """Further away than this a track is moved at once, for the stream has jumped (our choice: a flam's width)."""
+_BUSES = len(Bus)
 LEVEL_SLEW_S = 0.01
 """A bus takes so long to a new level: no zipper noise."""
 
@@ -66,12 +67,12 @@ class Mixer:
         self._pending: list[tuple[int, int, Callable[[], None]]] = []
         self._order = 0
         self._rows = np.zeros((max_voices, 2 * PIECE_FRAMES), np.float32)
-        self._gains = np.zeros((max_voices, 2 * len(Bus)), np.float32)
-        self._tail = np.zeros((len(Bus), 2 * max(1, self._frames(STEAL_S))), np.float32)
+        self._gains = np.zeros((max_voices, 2 * _BUSES), np.float32)
+        self._tail = np.zeros((_BUSES, 2 * max(1, self._frames(STEAL_S))), np.float32)
         self._ramp = np.repeat(np.arange(max(PIECE_FRAMES, self._tail.shape[1] // 2), dtype=np.float32), 2)
         self._tail_left = 0
-        self._levels = np.ones((len(Bus), 2), np.float32)
-        self._level_steps = np.zeros((len(Bus), 2), np.float32)
+        self._levels = np.ones((_BUSES, 2), np.float32)
+        self._level_steps = np.zeros((_BUSES, 2), np.float32)
         self._level_targets = self._levels.copy()
         self._slew_left = 0
         self._tracks: list[TrackVoice] = []  # the last plays, those before it fade out
@@ -176,7 +177,7 @@ class Mixer:
             self._add_tail(buses, size)
         if self._tracks:
             self._add_tracks(buses, count)
-        stereo = buses.reshape(len(Bus), count, 2)
+        stereo = buses.reshape(_BUSES, count, 2)
         if self._slew_left:
             ramp = np.arange(count, dtype=np.float32)[None, :, None]
             np.einsum("bnc,bnc->nc", stereo, self._levels[:, None] + ramp * self._level_steps[:, None], out=out)
@@ -187,17 +188,17 @@ class Mixer:
     def _sum_voices(self, size: int) -> NDArray[np.float32]:
         """The buses, (buses, size) interleaved, of the next `size`/2 frames; voices that end are let go."""
         if not self._voices:
-            return np.zeros((len(Bus), size), np.float32)
+            return np.zeros((_BUSES, size), np.float32)
         rows = self._rows[:, :size]
         fading = [voice for voice in self._voices if voice.fading]
         for voice in fading:
             self._gains[voice.row, voice.bus] = voice.gain
-            self._gains[voice.row, len(Bus) + voice.bus] = voice.slope
+            self._gains[voice.row, _BUSES + voice.bus] = voice.slope
         ended = [voice for voice in self._voices if not voice.copy_to(rows[voice.row])]
         sums = self._gains.T.dot(rows)
-        buses: NDArray[np.float32] = sums[: len(Bus)]
+        buses: NDArray[np.float32] = sums[:_BUSES]
         if fading:
-            buses += sums[len(Bus) :] * self._ramp[:size]
+            buses += sums[_BUSES:] * self._ramp[:size]
         for voice in ended:
             self._release(voice)
         return buses
@@ -291,9 +292,9 @@ class Mixer:
 
     def _quietest(self) -> Voice:
         """The voice that was quietest when it was last mixed; one that has yet to begin goes only where all have."""
-        peaks = np.abs(self._rows[:, :HEARD]).max(axis=1) * self._gains[:, : len(Bus)].max(axis=1)
-        loudness = peaks.tolist()
-        return min(self._voices, key=lambda voice: (voice.position == 0, loudness[voice.row]))
+        loudness = np.abs(self._rows[:, :HEARD]).max(axis=1) * self._gains[:, :_BUSES].max(axis=1)
+        begun = [voice for voice in self._voices if voice.position] or self._voices
+        return begun[int(loudness[[voice.row for voice in begun]].argmin())]
 
     def _choke(self, bus: Bus, piece: Piece) -> None:
         self._fade(lambda voice: voice.bus is bus and voice.piece is piece, CHOKE_S)
