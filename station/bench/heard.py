@@ -114,6 +114,19 @@ def stage(wire: Wire, draws: bool = True) -> Iterator[Stage]:
         yield Stage(player, engine, device)
 
 
+def read_barely(baud: int, step_ns: int, count: int) -> tuple[list[int], list[int]]:
+    """When a kit on a line of `baud` sent each of `count` strokes, and when the plainest reader had each."""
+    with TemporaryDirectory() as folder, Player("serial", f"{folder}/kit", str(baud)) as player, _drawing():
+        words = [sys.executable, "-m", "station.bench.bare_reader", f"{folder}/kit", str(count), "3"]
+        with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as reader:
+            assert reader.stdout is not None
+            reader.stdout.readline()
+            player.tell(f"play {time.monotonic_ns() + LEAD_NS} {step_ns} {count}")
+            sent: list[int] = json.loads(player.hear())
+            read: list[int] = json.loads(reader.stdout.readline())
+    return sent, read
+
+
 @contextlib.contextmanager
 def _drawing() -> Iterator[None]:
     with subprocess.Popen([sys.executable, "-c", _DRAW], stdout=subprocess.PIPE, text=True) as drawer:

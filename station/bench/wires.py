@@ -5,15 +5,16 @@ import os
 import random
 import statistics
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
+from numpy.typing import NDArray
 
 from station.bench.benchmark import Benchmark, Measured
-from station.bench.heard import Stage, Wire, stage
+from station.bench.heard import Stage, Wire, read_barely, stage
 from station.bench.player import velocity_of
 from station.core.clock import monotonic_ns
 from station.core.events import DeviceFound, DeviceLost
@@ -27,9 +28,12 @@ _FLOOD_STEP_NS, _FLOOD_S = NS_PER_MS, 60
 _PLUGS = 100
 _RECORDS, _RECORDS_A_S = 400, 60
 FOUND_WITHIN_S = 10.0
+_BARE = "bare read"
+
+Errors = NDArray[np.float64]
 
 
-def _late_ms(wire: Wire) -> tuple[np.ndarray[tuple[int], np.dtype[np.float64]], str]:
+def _late_ms(wire: Wire) -> tuple[Errors, str]:
     """By how much each stamp is later than the median stamp, and the account of all."""
     with stage(wire) as at:
         sent_ns, hits = at.played("play", _STEP_NS, _STROKES)
@@ -61,6 +65,29 @@ def _stamp_sd(wire: Wire) -> Measured:
 def _stamp_p99(wire: Wire) -> Measured:
     late_ms, note = _late_ms(wire)
     return Measured(float(np.percentile(np.abs(late_ms), 99)), note=note)
+
+
+def _bare_ms(wire: Wire) -> Errors | None:
+    """The same of the plainest reader of a serial line; there is none of JACK."""
+    if wire.jack_frames:
+        return None
+    sent_ns, read_ns = read_barely(wire.baud, _STEP_NS, _STROKES)
+    late_ms: Errors = (np.array(read_ns) - np.array(sent_ns)) / NS_PER_MS
+    return late_ms - np.median(late_ms)
+
+
+def _stamps(of: Callable[[Errors], float], wire: Wire) -> Measured:
+    late_ms, note = _late_ms(wire)
+    bare_ms = _bare_ms(wire)
+    return Measured(of(late_ms), None if bare_ms is None else of(bare_ms), note)
+
+
+def _sd(late_ms: Errors) -> float:
+    return float(np.std(late_ms))
+
+
+def _p99(late_ms: Errors) -> float:
+    return float(np.percentile(np.abs(late_ms), 99))
 
 
 def _capture_ms() -> Measured:
@@ -143,12 +170,12 @@ _SERIAL, _JACK_16, _JACK_32, _JACK_128 = Wire(), Wire(16), Wire(32), Wire(128, p
 _FAST_SERIAL = Wire(baud=115_200)
 
 BENCHMARKS = (
-    Benchmark("stamps_serial_sd", "ms", 0.3, "lower", None, partial(_stamp_sd, _SERIAL)),
-    Benchmark("stamps_serial_p99", "ms", 1.0, "lower", None, partial(_stamp_p99, _SERIAL)),
-    Benchmark("stamps_jack_16_frames_sd", "ms", 0.3, "lower", None, partial(_stamp_sd, _JACK_16)),
-    Benchmark("stamps_jack_16_frames_p99", "ms", 1.0, "lower", None, partial(_stamp_p99, _JACK_16)),
-    Benchmark("stamps_jack_32_frames_sd", "ms", 0.3, "lower", None, partial(_stamp_sd, _JACK_32)),
-    Benchmark("stamps_jack_32_frames_p99", "ms", 1.0, "lower", None, partial(_stamp_p99, _JACK_32)),
+    Benchmark("stamps_serial_sd", "ms", 0.3, "lower", _BARE, partial(_stamps, _sd, _SERIAL)),
+    Benchmark("stamps_serial_p99", "ms", 1.0, "lower", _BARE, partial(_stamps, _p99, _SERIAL)),
+    Benchmark("stamps_jack_16_frames_sd", "ms", 0.3, "lower", None, partial(_stamps, _sd, _JACK_16)),
+    Benchmark("stamps_jack_16_frames_p99", "ms", 1.0, "lower", None, partial(_stamps, _p99, _JACK_16)),
+    Benchmark("stamps_jack_32_frames_sd", "ms", 0.3, "lower", None, partial(_stamps, _sd, _JACK_32)),
+    Benchmark("stamps_jack_32_frames_p99", "ms", 1.0, "lower", None, partial(_stamps, _p99, _JACK_32)),
     Benchmark("capture_on_the_disk_worst", "ms", 100.0, "lower", None, _capture_ms),
     Benchmark("flood_serial_hits_lost", "hits", 0.0, "lower", None, partial(_flood_lost, _FAST_SERIAL), True, 180.0),
     Benchmark("flood_jack_hits_lost", "hits", 0.0, "lower", None, partial(_flood_lost, _JACK_128), True, 180.0),
