@@ -57,16 +57,6 @@ def paired(sent: Sequence[int], heard: Sequence[int]) -> list[tuple[int, int]]:
     return pairs
 
 
-def _stamp_sd(wire: Wire) -> Measured:
-    late_ms, note = _late_ms(wire)
-    return Measured(float(np.std(late_ms)), note=note)
-
-
-def _stamp_p99(wire: Wire) -> Measured:
-    late_ms, note = _late_ms(wire)
-    return Measured(float(np.percentile(np.abs(late_ms), 99)), note=note)
-
-
 def _bare_ms(wire: Wire) -> Errors | None:
     """The same of the plainest reader of a serial line; there is none of JACK."""
     if wire.jack_frames:
