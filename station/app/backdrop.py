@@ -18,7 +18,7 @@ from station.app.model import Report
 from station.core.errors import DeviceError
 from station.render.camera import Camera, View, named
 from station.render.gl import GL_VERSION, Target
-from station.render.painter import Area, Painter
+from station.render.painter import Area, Arrangement, Painter
 from station.render.palette import NIGHT
 from station.render.report_picture import report_shapes, report_sheet
 from station.render.scene import QUALITIES
@@ -143,7 +143,7 @@ class Backdrop:
         into = screen if target is None else target.framebuffer
         if target is not None:
             into.clear(*NIGHT, depth=1.0)
-        painter.draw(snapshot, into, area, self.camera, inset=self._inset)
+        painter.draw(snapshot, into, area, self.camera, arrangement=Arrangement(self._inset, self.look.score))
         if target is not None and self._ctx is not None:
             self._ctx.copy_framebuffer(screen, into)
         self._measure(began)

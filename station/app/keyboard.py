@@ -69,6 +69,7 @@ COMMANDS: tuple[tuple[str, str], ...] = (
     ("F2 to F9", "the named views, in the list's order"),
     ("M", "mirror"),
     ("P", "second picture: hands, feet, none"),
+    ("N", "score: scrolling, pages, highway"),
     ("1 to 8", "your own viewpoints"),
     ("Ctrl+1 to 8", "keep where you look from"),
     ("Tab, arrows", "from control to control"),

@@ -1,7 +1,7 @@
-"""Where the user looks from: a named view, mirrored or not, a second picture, and eight viewpoints of his own.
+"""Where the user looks from: a named view, mirrored or not, a second picture, eight viewpoints; and the score's form.
 
-It is kept in the settings as words: `view` and `inset` by name, `viewpoints` as `1=x,y,z,azimuth,height,distance,angle`
-for each that is kept (metres and degrees), apart by spaces.
+It is kept in the settings as words: `view`, `inset` and `score` by name, `viewpoints` as
+`1=x,y,z,azimuth,height,distance,angle` for each that is kept (metres and degrees), apart by spaces.
 """
 
 from dataclasses import dataclass, replace
@@ -10,6 +10,7 @@ from math import degrees, isfinite, radians
 from station.core.errors import BadInput
 from station.core.settings import Settings, settings_path
 from station.render.camera import Camera, View
+from station.render.score_view import ScoreForm
 
 SLOTS = 8
 """How many viewpoints a user may keep (as many as SMED's Viewer keeps)."""
@@ -24,17 +25,22 @@ Viewpoints = tuple[Camera | None, ...]
 
 @dataclass(frozen=True, slots=True)
 class Look:
-    """The view, whether left and right are swapped, what the `inset` shows, and the viewpoints that were kept."""
+    """The view, whether left and right are swapped, what the `inset` shows, the score's form, the viewpoints kept."""
 
     view: View = View.SHOULDER
     mirrored: bool = False
     inset: View | None = None
+    score: ScoreForm = ScoreForm.SCROLLING
     viewpoints: Viewpoints = (None,) * SLOTS
 
     def keeping(self, slot: int, camera: Camera) -> "Look":
         """With `camera` as the viewpoint `slot`, from 0."""
         kept = (*self.viewpoints[:slot], replace(camera, mirrored=False), *self.viewpoints[slot + 1 :])
         return replace(self, viewpoints=kept)
+
+    def next_score(self) -> "Look":
+        """With the score in its next form."""
+        return replace(self, score=ScoreForm((self.score + 1) % len(ScoreForm)))
 
     def next_inset(self) -> "Look":
         """With what the second picture shows next."""
@@ -47,6 +53,7 @@ def look_of(settings: Settings) -> Look:
         View[_known("view", settings.view, [view.name.lower() for view in View]).upper()],
         settings.mirrored,
         View[_known("inset", settings.inset, _INSET_WORDS).upper()] if settings.inset else None,
+        ScoreForm[_known("score", settings.score, [form.name.lower() for form in ScoreForm]).upper()],
         _viewpoints(settings.viewpoints),
     )
 
@@ -58,6 +65,7 @@ def with_look(settings: Settings, look: Look) -> Settings:
         view=look.view.name.lower(),
         mirrored=look.mirrored,
         inset="" if look.inset is None else look.inset.name.lower(),
+        score=look.score.name.lower(),
         viewpoints=" ".join(f"{slot}={_text(c)}" for slot, c in enumerate(look.viewpoints, 1) if c is not None),
     )
 

@@ -1,4 +1,4 @@
-"""What the Look button opens: the second picture, and the viewpoints that the user keeps."""
+"""What the Look button opens: the second picture, the score's form, the user's viewpoints."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -8,10 +8,16 @@ from imgui_bundle import imgui
 from station.app import theme
 from station.app.look import INSETS, Look
 from station.render.camera import VIEW_NAMES
+from station.render.score_view import ScoreForm
 
 LOOK_LABEL = "Look##look"
 POPUP = "##look-popup"
 _NO_INSET = "None"
+_FORMS = {
+    ScoreForm.SCROLLING: ("Scrolling", "The notes pass a line that stands still"),
+    ScoreForm.PAGED: ("Pages", "The line crosses bars that stand still"),
+    ScoreForm.HIGHWAY: ("Highway", "A lane for every piece, for those who do not read music"),
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,6 +39,13 @@ def look_popup(look: Look, actions: LookActions) -> Look:
         if imgui.radio_button(f"{name}##inset", look.inset is view):
             look = replace(look, inset=view)
         theme.tooltip("Hands or feet in a corner of the picture, whatever the picture itself shows (P)")
+        imgui.same_line()
+    imgui.new_line()
+    theme.soft("Score")
+    for form, (name, words) in _FORMS.items():
+        if imgui.radio_button(f"{name}##score", look.score is form):
+            look = replace(look, score=form)
+        theme.tooltip(f"{words} (N)")
         imgui.same_line()
     imgui.new_line()
     theme.soft("Your own viewpoints")

@@ -163,7 +163,7 @@ def _view_part(look: Look, actions: LookActions) -> Look:
     imgui.same_line()
     if imgui.button(LOOK_LABEL, imgui.ImVec2(theme.points(70), 0)):
         imgui.open_popup(POPUP)
-    theme.tooltip("A second picture of hands or feet, and viewpoints of your own")
+    theme.tooltip("A second picture, pages or a highway for the score, viewpoints of your own")
     chosen = look_popup(look, actions)
     imgui.same_line()
     imgui.set_next_item_width(-1)

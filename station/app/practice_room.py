@@ -220,7 +220,8 @@ class PracticeRoom:
 
     def _judged(self, verdicts: tuple[Judgement, ...], now_ns: int) -> None:
         """Show what the student is to see of `verdicts`."""
-        self._view.judged(self._session.told(verdicts), now_ns, self._session.windows)
+        session = self._session
+        self._view.judged(session.told(verdicts), session.hits, now_ns, session.windows)
 
     def _pass_over(self) -> None:
         """On to the next pass where the tempo follows the student and there is one, else to the result."""

@@ -3,13 +3,16 @@
 The drummer demonstrates, then plays along. The score shown is the demonstration's, then that of all passes in a row.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.events import Hit
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.drills.mastery.fading import Feedback
+from station.engine.engine import KEYBOARD
 from station.motion.drummer import Drummer
 from station.motion.figure import Figure, figure_of
 from station.motion.kit import DEFAULT_KIT, Kit, load_kit
@@ -62,13 +65,13 @@ class SessionView:
     def _part(self, score: Score, start_ns: int) -> _Part:
         return _Part(score, Drummer(score, self._kit, self._figure), start_ns)
 
-    def judged(self, verdicts: tuple[Judgement, ...], now_ns: int, windows: Windows) -> None:
-        """Take in new judgements that the student may see; the marks that older snapshots hold stay as they were."""
+    def judged(self, verdicts: tuple[Judgement, ...], hits: Sequence[Hit], now_ns: int, windows: Windows) -> None:
+        """Take in judgements of `hits` that the student may see; marks that older snapshots hold stay as they were."""
         if not verdicts:
             return
         self._marks = self._marks.copy()
         for verdict in verdicts:
-            mark(self._marks, verdict)
+            mark(self._marks, verdict, loudness=not _by_key(verdict, hits))
             cue = cue_of(verdict, windows)
             if cue is not Cue.NONE:
                 self._cue, self._cue_ns = cue, now_ns
@@ -145,6 +148,11 @@ class SessionView:
         per_pass = len(self.plan.section)
         labels: NDArray[np.int8] = self._marks["label"][pass_index * per_pass : (pass_index + 1) * per_pass]
         return int((labels == Label.MATCH).sum()), int((labels >= 0).sum())
+
+
+def _by_key(verdict: Judgement, hits: Sequence[Hit]) -> bool:
+    """Whether a key of the computer was struck: it cannot tell how hard."""
+    return verdict.hit_index is not None and hits[verdict.hit_index].device == KEYBOARD
 
 
 def _why(session: Session) -> str:

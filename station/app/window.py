@@ -232,6 +232,8 @@ class Window:
             backdrop.look_from(replace(backdrop.look, mirrored=not backdrop.look.mirrored))
         elif imgui.is_key_pressed(imgui.Key.p, repeat=False):
             backdrop.look_from(backdrop.look.next_inset())
+        elif imgui.is_key_pressed(imgui.Key.n, repeat=False):
+            backdrop.look_from(backdrop.look.next_score())
 
     def _keep_viewpoint(self, slot: int) -> None:
         self.backdrop.keep(slot)

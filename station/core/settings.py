@@ -45,7 +45,8 @@ class Settings:
     measured (`core.calibration`). `thresholds` says of pads
     the least velocity that they send, as measured (`snare=20 tom_1=15`), `mask_ms` how long after a stroke a pad hears
     no other. `ask_first` whether the window asks what the student believes before it shows a result.
-    `view`, `mirrored`, `inset` and `viewpoints` are where the window looks from (`app.look`).
+    `view`, `mirrored`, `inset` and `viewpoints` are where the window looks from, `score` how it shows the score
+    (`app.look`).
     """
 
     student: str = "student"
@@ -69,6 +70,7 @@ class Settings:
     view: str = "shoulder"
     mirrored: bool = False
     inset: str = ""
+    score: str = "scrolling"
     viewpoints: str = ""
 
     @property

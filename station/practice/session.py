@@ -204,12 +204,13 @@ class Session:
         return self._recent
 
     def told(self, verdicts: Iterable[Judgement]) -> tuple[Judgement, ...]:
-        """What the student is shown of `verdicts`: all; what was right and wrong, without its time; nothing."""
+        """What the student is shown of `verdicts`: all; right and wrong, without time and strength; nothing."""
         if self.feedback is Feedback.NONE:
             return ()
         if self.feedback is Feedback.TIMING:
             return tuple(verdicts)
-        return tuple(replace(v, asynchrony_ns=None) if v.label is Label.MATCH else v for v in verdicts)
+        matched = Label.MATCH
+        return tuple(replace(v, asynchrony_ns=None, velocity_error=None) if v.label is matched else v for v in verdicts)
 
     def extras(self) -> list[int]:
         """Indices of the hits that answer no note, as far as is known."""

@@ -1,6 +1,7 @@
 """Paints a snapshot: scene above, score below, words over the scene. The window and the off-screen picture share it."""
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 
 import moderngl
 import numpy as np
@@ -15,7 +16,7 @@ from station.render.camera import Camera, View, named
 from station.render.ink_printer import InkPrinter, Sheet
 from station.render.palette import BRAND, GOOD, INK_FAINT, NIGHT
 from station.render.scene import QUALITIES, Glow, Quality, Scene
-from station.render.score_view import Place, ScoreView
+from station.render.score_view import Place, ScoreForm, ScoreView
 from station.render.snapshot import Snapshot, Strike
 
 Area = tuple[int, int, int, int]
@@ -42,6 +43,14 @@ def inset_area(scene: Area) -> Area:
     return left + width - inset_width - margin, low + margin, inset_width, inset_height
 
 
+@dataclass(frozen=True, slots=True)
+class Arrangement:
+    """What else a picture has: the camera of a second, small picture in its corner, and the score's form."""
+
+    inset: Camera | None = None
+    form: ScoreForm = ScoreForm.SCROLLING
+
+
 class Painter:
     """Draws snapshots with one OpenGL context; keeps what consecutive snapshots share."""
 
@@ -62,9 +71,9 @@ class Painter:
         area: Area,
         camera: Camera | None = None,
         with_score: bool = True,
-        inset: Camera | None = None,
+        arrangement: Arrangement = Arrangement(),
     ) -> None:
-        """Draw `snapshot` into `area` of `target`, over it; `inset` sees the second picture in its corner."""
+        """Draw `snapshot` into `area` of `target`, over what is there."""
         left, low, width, height = area
         score_height = round(height * SCORE_SHARE) if with_score else 0
         scene_area = (left, low + score_height, width, height - score_height)
@@ -72,12 +81,12 @@ class Painter:
         scene.draw(
             target, camera or named(View.SHOULDER, snapshot.kit.left_handed), snapshot.pose, scene_area, _glow(snapshot)
         )
-        if inset is not None:
-            self._draw_inset(scene, target, inset, snapshot.pose is not None, scene_area)
+        if arrangement.inset is not None:
+            self._draw_inset(scene, target, arrangement.inset, snapshot.pose is not None, scene_area)
         self._ctx.viewport = area
         if with_score:
             place = Place(0.0, float(height - score_height), float(width), float(score_height))
-            self._score.draw(snapshot, place, (width, height))
+            self._score.draw(snapshot, place, (width, height), arrangement.form)
         words = hud.hud_shapes(snapshot.hud, self.atlas, (float(width), float(height - score_height)))
         veil = (0.0, 0.0, float(width), hud.VEIL_HEIGHT * hud.scale(height - score_height))
         self.printer.fill(veil, hud.VEIL, Sheet((width, height)))

@@ -15,6 +15,7 @@ from station.render.fonts import Face
 from station.render.gl import Target, standalone_context
 from station.render.ink import LINE_HEIGHT, Ink, Type
 from station.render.ink_printer import InkPrinter, Sheet
+from station.render.judgement_marks import ON_TIME_MS, timing_colour
 from station.render.palette import (
     BRAND,
     EXTRA,
@@ -31,7 +32,6 @@ from station.render.palette import (
 )
 from station.render.png import write_png
 from station.render.results import Lean, ResultFacts, headline, in_words, leans, ticks
-from station.render.score_view import ON_TIME_MS, timing_colour
 
 _WIDTH, _HEIGHT = 1280.0, 800.0
 """The page is designed in these units and scaled to fit."""

@@ -1,48 +1,36 @@
-"""The scrolling score: engraved bars pass a fixed play line, and judgements appear on the notes.
+"""The score below the picture: engraved bars pass a fixed play line, or the line crosses pages that stand still.
 
-A judged note bears a shape as well as a colour: a ring on time, an arrow that points left when early and right when
-late, a hollow cross when missed, a question mark's square when the wrong piece was struck. The tick or arrow stands
-where the hit fell, stretched by `TICK_ZOOM` so that a few milliseconds can be seen across a room.
+A third form, the highway of lanes, is for those who do not read music. Judgements appear on the notes
+(`judgement_marks`).
 """
 
+from bisect import bisect_right
 from dataclasses import dataclass
+from enum import IntEnum
 
 import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Piece
-from station.music.judgement import Label
 from station.music.score import Score
 from station.render import engraving, note_shapes
 from station.render.atlas import Atlas
 from station.render.engraving import Engraver
-from station.render.ink import SHAPE_DTYPE, Colour, Ink
+from station.render.highway import LINE_SHARE, NAMES_SHARE, SHOWN_S, Highway, lane_height, lanes
+from station.render.ink import SHAPE_DTYPE, Ink
 from station.render.ink_printer import InkPrinter, Sheet
-from station.render.palette import (
-    BRAND,
-    EARLY,
-    EXTRA,
-    GOOD,
-    LATE,
-    MISSED,
-    PANEL_EDGE,
-    PAPER,
-    PAPER_LOW,
-    WRONG,
-    with_opacity,
-)
+from station.render.judgement_marks import draw_dynamics, draw_mark, off_db
+from station.render.palette import BRAND, EXTRA, PANEL_EDGE, PAPER, PAPER_LOW, with_opacity
 from station.render.snapshot import PENDING, Snapshot
 from station.render.staff import PLACES, height
 
 BEFORE_S = AFTER_S = 4.0
 """Seconds of music to the left and right of the play line (SMED, figure 4.4: the line stands in the middle)."""
-ON_TIME_MS = 25.0
-"""Within this a stroke counts as on time in the picture (HUMANS: mild to 25 ms)."""
-TICK_ZOOM = 5.0
-"""The tick's distance from its head is the asynchrony stretched so much (our choice: 10 ms is half a head)."""
 _MARGIN_S = 1.5
-_NEAREST_ARROW, _FARTHEST_ARROW = 1.65, 2.1
-"""Spaces: beside the head, and still nearer to it than to the next."""
+_CLEF_SPACES = 7.0
+"""What the clef and the time signature take; our choice."""
+PAGE_S = 8.0
+"""A page holds whole bars of at most so many seconds, at least one bar; our choice, what scrolling shows too."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +53,22 @@ class Place:
         return self.top - engraving.TOP_Y * self.space
 
 
+class ScoreForm(IntEnum):
+    """How the score is shown."""
+
+    SCROLLING = 0
+    PAGED = 1
+    HIGHWAY = 2
+
+
+@dataclass(frozen=True, slots=True)
+class Page:
+    """Bars that stand still together: from when on the page is up, and what it shows: them and the bar after them."""
+
+    start_s: float
+    shown_s: tuple[float, float]
+
+
 class ScoreView:
     """Keeps the engraved bars of the score that it drew last."""
 
@@ -74,27 +78,65 @@ class ScoreView:
         self._engraver: Engraver | None = None
         self._bars: dict[int, NDArray[np.void]] = {}
         self._limbs: NDArray[np.int8] | None = None
+        self._paged: Score | None = None
+        self._pages: list[Page] = []
 
-    def draw(self, snapshot: Snapshot, place: Place, size: tuple[int, int]) -> None:
+    def draw(
+        self, snapshot: Snapshot, place: Place, size: tuple[int, int], form: ScoreForm = ScoreForm.SCROLLING
+    ) -> None:
         """Draw the score of `snapshot` at `place` in a picture of `size`."""
-        engraver = self._engraved(snapshot)
-        space = place.space
-        clef_width = 7.0 * space
-        line_x = place.left + clef_width + (place.width - clef_width) * BEFORE_S / (BEFORE_S + AFTER_S)
-        per_s = (place.width - clef_width) / (BEFORE_S + AFTER_S)
-        right = place.left + place.width
-        plain = Sheet(size, (place.left, place.middle_line), space)
-        fade = (place.left + clef_width - 1.2 * space, place.left + clef_width + space, right - 3 * space, right)
-        rolling = Sheet(size, (line_x, place.middle_line), space, snapshot.position_s, per_s, fade)
+        plain = Sheet(size, (place.left, place.middle_line), place.space)
         self._printer.fill((place.left, place.top, place.width, place.height), (PAPER, PAPER_LOW), plain)
         self._printer.fill((place.left, place.top, place.width, 1.2), (PANEL_EDGE, PANEL_EDGE), plain)
+        if form is ScoreForm.HIGHWAY:
+            self._draw_highway(snapshot, place, size)
+            return
+        engraver, space = self._engraved(snapshot), place.space
+        clef_x = place.left + _CLEF_SPACES * space
+        across, right = place.left + place.width - clef_x, place.left + place.width
+        if form is ScoreForm.PAGED:
+            page = self._page(snapshot)
+            per_s = (across - 2 * space) / (page.shown_s[1] - page.shown_s[0])
+            line_x = clef_x + 2 * space + (max(snapshot.position_s, page.shown_s[0]) - page.shown_s[0]) * per_s
+            fade = (place.left, place.left + 1.0, right - space, right)
+            rolling = Sheet(size, (clef_x + 2 * space, place.middle_line), space, page.shown_s[0], per_s, fade)
+            window_s = page.shown_s
+        else:
+            per_s = across / (BEFORE_S + AFTER_S)
+            line_x = clef_x + BEFORE_S * per_s
+            fade = (clef_x - 1.2 * space, clef_x + space, right - 3 * space, right)
+            rolling = Sheet(size, (line_x, place.middle_line), space, snapshot.position_s, per_s, fade)
+            window_s = snapshot.position_s - BEFORE_S - _MARGIN_S, snapshot.position_s + AFTER_S + _MARGIN_S
         glow = with_opacity(BRAND, 0.07)
         self._printer.fill((line_x - 1.6 * space, place.top, 3.2 * space, place.height), (glow, glow), plain)
         self._printer.draw(self._paper(snapshot, place, line_x), plain)
-        first_s = snapshot.position_s - BEFORE_S - _MARGIN_S
-        last_s = snapshot.position_s + AFTER_S + _MARGIN_S
-        self._printer.draw(self._visible_bars(engraver, first_s, last_s), rolling)
-        self._printer.draw(self._judgements(snapshot, (first_s, last_s), per_s / space), rolling)
+        self._printer.draw(self._visible_bars(engraver, *window_s), rolling)
+        self._printer.draw(self._judgements(snapshot, window_s, per_s / space), rolling)
+
+    def _page(self, snapshot: Snapshot) -> Page:
+        """The page that holds the snapshot's place; the first before the score, the last after it."""
+        if self._paged is not snapshot.score:
+            self._paged, self._pages = snapshot.score, pages(snapshot.score)
+        starts = [page.start_s for page in self._pages]
+        return self._pages[max(bisect_right(starts, snapshot.position_s) - 1, 0)]
+
+    def _draw_highway(self, snapshot: Snapshot, place: Place, size: tuple[int, int]) -> None:
+        count = len(lanes(snapshot.score))
+        lane_px = lane_height(place.height, count)
+        top = place.top + (place.height - count * lane_px) / 2
+        per_s = place.width / SHOWN_S
+        line_x = place.left + place.width * LINE_SHARE
+        right = place.left + place.width
+        highway = Highway(snapshot, self._atlas, lane_px)
+        plain = Sheet(size, (place.left, top), lane_px)
+        self._printer.draw(highway.paper(place.width), plain)
+        names_x = place.left + place.width * NAMES_SHARE
+        fade = (names_x, names_x + lane_px, right - lane_px, right)
+        rolling = Sheet(size, (line_x, top), lane_px, snapshot.position_s, per_s, fade)
+        window_s = snapshot.position_s - LINE_SHARE * SHOWN_S, snapshot.position_s + SHOWN_S
+        self._printer.draw(highway.rolling(window_s), rolling)
+        line = with_opacity(BRAND, 0.95)
+        self._printer.fill((line_x - 2.0, place.top, 4.0, place.height), (line, line), plain)
 
     def _engraved(self, snapshot: Snapshot) -> Engraver:
         engraver = self._engraver
@@ -134,6 +176,7 @@ class ScoreView:
                     ink.time_s = float(score.tempo_map.seconds_at(score.notes["tick"][i]))
                     y = height(PLACES[Piece(int(score.notes["piece"][i]))].step)
                     draw_mark(ink, marks[i], y, spaces_per_s)
+                    draw_dynamics(ink, off_db(int(score.notes["velocity"][i]), float(marks["velocity_error"][i])), y)
         for extra in snapshot.extras:
             if window_s[0] <= extra.time_s <= window_s[1]:
                 ink.time_s = extra.time_s
@@ -141,36 +184,18 @@ class ScoreView:
         return ink.shapes()
 
 
-def draw_mark(ink: Ink, row: np.void, y: float, spaces_per_s: float) -> None:
-    """The judgement of one note whose head stands at height `y`."""
-    label = Label(int(row["label"]))
-    if label is Label.MISS:
-        ink.ellipse((0.0, y), (1.05, 1.05), MISSED, 0.0, (0.0, 0.2, 0.0))
-        ink.line((-0.75, y + 0.75), (0.75, y - 0.75), 0.2, MISSED)
-    elif label is Label.WRONG_PIECE:
-        ink.box((-1.0, y - 1.0), (2.0, 2.0), WRONG, None, (0.3, 0.2, 0.0))
-    else:
-        _draw_timing(ink, float(row["asynchrony_ms"]), y, spaces_per_s)
-
-
-def _draw_timing(ink: Ink, asynchrony_ms: float, y: float, spaces_per_s: float) -> None:
-    colour = timing_colour(asynchrony_ms)
-    shift = asynchrony_ms / 1000 * spaces_per_s * TICK_ZOOM
-    if abs(asynchrony_ms) <= ON_TIME_MS:
-        ink.ellipse((0.0, y), (1.0, 0.86), colour, 0.0, (0.0, 0.22, 0.0))
-        ink.line((shift, y - 0.95), (shift, y + 0.95), 0.24, colour)
-    else:
-        way = 1.0 if asynchrony_ms > 0 else -1.0
-        tip = way * min(max(abs(shift), _NEAREST_ARROW), _FARTHEST_ARROW)
-        ink.ellipse((0.0, y), (1.0, 0.86), with_opacity(colour, 0.5), 0.0, (0.0, 0.16, 0.0))
-        ink.triangle((tip, y), (0.52, 0.66), colour, 0.0 if way > 0 else np.pi)
-
-
-def timing_colour(asynchrony_ms: float) -> Colour:
-    """The signal colour of an asynchrony."""
-    if abs(asynchrony_ms) <= ON_TIME_MS:
-        return GOOD
-    return EARLY if asynchrony_ms < 0 else LATE
+def pages(score: Score) -> list[Page]:
+    """The score's pages in order, at least one."""
+    starts = score.tempo_map.seconds_at([score.tempo_map.bar_start(bar) for bar in range(score.bar_count + 1)]).tolist()
+    found: list[Page] = []
+    first = 0
+    while first < score.bar_count:
+        after = first + 1
+        while after < score.bar_count and starts[after + 1] - starts[first] <= PAGE_S:
+            after += 1
+        found.append(Page(starts[first], (starts[first], starts[min(after + 1, score.bar_count)])))
+        first = after
+    return found or [Page(0.0, (0.0, PAGE_S))]
 
 
 def visible_bars(score: Score, first_s: float, last_s: float) -> range:

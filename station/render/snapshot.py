@@ -85,14 +85,17 @@ def no_marks(score: Score) -> NDArray[np.void]:
     return marks
 
 
-def mark(marks: NDArray[np.void], judgement: Judgement) -> None:
-    """Write one judgement of a note into `marks`; extras and ignored hits have no note and change nothing."""
+def mark(marks: NDArray[np.void], judgement: Judgement, loudness: bool = True) -> None:
+    """Write one judgement of a note into `marks`; extras and ignored hits have no note and change nothing.
+
+    Without `loudness` nothing is said of how hard the hit was.
+    """
     if judgement.note_index is None or judgement.label in (Label.EXTRA, Label.IGNORED):
         return
     row = marks[judgement.note_index : judgement.note_index + 1]
     row["label"] = judgement.label
     row["asynchrony_ms"] = np.nan if judgement.asynchrony_ns is None else judgement.asynchrony_ns / 1e6
-    row["velocity_error"] = np.nan if judgement.velocity_error is None else judgement.velocity_error
+    row["velocity_error"] = np.nan if judgement.velocity_error is None or not loudness else judgement.velocity_error
 
 
 @dataclass(frozen=True, slots=True)

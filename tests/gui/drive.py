@@ -10,6 +10,7 @@ import json
 import sys
 import traceback
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -27,12 +28,14 @@ from station.practice.plan import Wishes, plan_practice
 from station.practice.student_spec import parse_spec
 from station.render.camera import VIEW_NAMES, View
 from station.render.png import write_png
+from station.render.score_view import ScoreForm
 from tests.gui.room import DirectEngine, practice_room
 
 STEP_NS = ns_from_ms(100)
 SIZE = (760, 480)
 LESSON = "rock-2"
 MOST_FRAMES = 1000
+STUDENTS = {"practise": "pro,seed=4", "highway": "intermediate,seed=2,velocity_sd=30"}
 PATIENCE_S = 600.0  # the parent's own limit is what ends a run that hangs
 
 
@@ -190,6 +193,37 @@ def viewpoints(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.seen["kept_there"] = there is not None and abs(there.azimuth_rad - turned.azimuth_rad) < 1e-5
 
 
+def score(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """The score's three forms by key and in the popup."""
+    ctx.mouse_move_to_pos(imgui.ImVec2(600, 200))
+    forms = []
+    for _ in range(3):
+        ctx.key_press(imgui.Key.n)
+        ctx.yield_(2)
+        forms.append(drive.window.backdrop.look.score.name)
+    drive.seen["by_key"] = forms
+    ctx.set_ref("//Transport")
+    ctx.item_click("Look##look")
+    ctx.yield_(2)
+    ctx.item_click("//$FOCUSED/Pages##score")
+    ctx.yield_(2)
+    drive.seen["chosen"] = drive.window.backdrop.look.score.name
+    drive.seen["kept"] = load_settings(drive.settings).score
+
+
+def highway(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """The highway while a virtual student plays: the last frame is looked at."""
+    drive.choose(ctx, passes=4)
+    ctx.key_press(imgui.Key.escape)
+    drive.window.backdrop.look_from(replace(drive.window.backdrop.look, score=ScoreForm.HIGHWAY))
+    ctx.item_click("Start##start")
+    for _ in range(MOST_FRAMES):
+        ctx.yield_()
+        if drive.room.snapshot(drive.clock.now_ns()).hud.judged > 15:
+            break
+    drive.seen["stage"] = drive.room.room().stage.name
+
+
 def closes(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """The window is closed in mid-session."""
     drive.choose(ctx, passes=4)
@@ -219,13 +253,15 @@ SCENARIOS = {
     "search": search,
     "look": look,
     "viewpoints": viewpoints,
+    "score": score,
+    "highway": highway,
     "closes": closes,
     "fault": fault,
 }
 
 
 def main(name: str, sessions: str, out: str, picture: str | None = None) -> None:
-    drive = Drive(Path(sessions), "pro,seed=4" if name == "practise" else None)
+    drive = Drive(Path(sessions), STUDENTS.get(name))
     drive.run(SCENARIOS[name])
     if picture is not None:
         write_png(np.ascontiguousarray(hello_imgui.final_app_window_screenshot()), Path(picture))

@@ -88,6 +88,17 @@ def test_viewpoints_are_kept_by_keys_and_in_the_popup(environment: dict[str, str
     assert seen["kept_there"]
 
 
+def test_the_score_s_three_forms(environment: dict[str, str], tmp_path: Path) -> None:
+    seen = run("score", environment, tmp_path)
+    assert seen["by_key"] == ["PAGED", "HIGHWAY", "SCROLLING"]
+    assert seen["chosen"] == "PAGED"
+    assert seen["kept"] == "paged"
+
+
+def test_a_session_is_played_on_the_highway(environment: dict[str, str], tmp_path: Path) -> None:
+    assert run("highway", environment, tmp_path)["stage"] == "PLAYING"
+
+
 def test_a_session_is_kept_when_the_window_is_closed_in_its_middle(environment: dict[str, str], tmp_path: Path) -> None:
     seen = run("closes", environment, tmp_path)
     assert seen["at_the_end"] == "PLAYING"

@@ -4,12 +4,16 @@ import numpy as np
 import pytest
 
 from station.core.pieces import Piece
+from station.motion.figure import figure_of
+from station.motion.kit import load_kit
 from station.music.judgement import Judgement, Label
 from station.render.atlas import Atlas
+from station.render.highway import Highway, lanes
 from station.render.ink import Ink, Kind
+from station.render.judgement_marks import draw_dynamics, draw_mark, off_db, timing_colour
 from station.render.palette import EARLY, GOOD, LATE
-from station.render.score_view import Place, draw_mark, timing_colour, visible_bars
-from station.render.snapshot import MARK_DTYPE, PENDING, mark, no_marks
+from station.render.score_view import Place, pages, visible_bars
+from station.render.snapshot import MARK_DTYPE, PENDING, Snapshot, mark, no_marks
 from tests.unit.render.scores import rock
 
 
@@ -77,3 +81,58 @@ def test_every_piece_has_a_name_of_its_own() -> None:
 
     assert len({piece_name(piece) for piece in Piece}) == len(Piece)
     assert piece_name(Piece.HIHAT) == "hi-hat"
+
+
+def test_a_right_note_whose_time_is_not_told_is_neither_early_nor_late() -> None:
+    assert timing_colour(np.nan) == GOOD
+    assert marked(Label.MATCH) == {Kind.ELLIPSE}
+
+
+@pytest.mark.parametrize(
+    ("written", "error", "expected_db"),
+    [(64, 63.0, 11.9), (80, 16.0, 8.0 - 4.9), (96, -48.0, 4.9 - 16.9), (127, -15.0, -2.2)],  # HUMANS' table of levels
+)
+def test_how_much_louder_than_written(written: int, error: float, expected_db: float) -> None:
+    assert off_db(written, error) == pytest.approx(expected_db, abs=0.1)
+
+
+def test_no_strength_is_no_wedge() -> None:
+    assert off_db(80, float("nan")) is None
+    for nothing in (None, 3.0, -3.0):
+        ink = Ink(Atlas())
+        draw_dynamics(ink, nothing, 0.0)
+        assert len(ink) == 0
+
+
+@pytest.mark.parametrize(("louder_db", "way"), [(9.0, -1), (-9.0, 1)])
+def test_the_wedge_points_up_when_too_loud_and_down_when_too_soft(louder_db: float, way: int) -> None:
+    """Heights run downwards: above the head is negative."""
+    ink = Ink(Atlas())
+    draw_dynamics(ink, louder_db, 0.0)
+    wedge = ink.shapes()[0]
+    assert wedge["kind"] == Kind.TRIANGLE
+    assert np.sign(wedge["centre"][1]) == way
+    assert np.sign(wedge["axis"][1]) == way
+
+
+def test_pages_hold_whole_bars_and_show_the_next() -> None:
+    """At 120 bpm a bar lasts two seconds: four to a page of eight."""
+    found = pages(rock(6))
+    assert [page.start_s for page in found] == [0.0, 8.0]
+    assert [page.shown_s for page in found] == [(0.0, 10.0), (8.0, 12.0)]
+    assert pages(rock(1))[0].shown_s == (0.0, 2.0)
+
+
+def test_the_highway_has_a_lane_for_every_piece_the_highest_first() -> None:
+    assert lanes(rock(1)) == [Piece.HIHAT, Piece.SNARE, Piece.KICK]
+
+
+def test_the_highway_s_notes_roll_at_their_times_in_their_lanes() -> None:
+    """A snare on two at 120 bpm lies half a second after the start, in the middle of the second lane."""
+    score = rock(1)
+    kit, figure = load_kit(), figure_of()
+    shapes = Highway(Snapshot(score, 0.0, kit, figure), Atlas(), 40.0).rolling((-1.0, 3.0))
+    notes = shapes[(shapes["kind"] == Kind.BOX) & (shapes["half"][:, 0] > 0.1)]
+    assert len(notes) == len(score)
+    snares = notes[np.isclose(notes["centre"][:, 1], 1.5)]
+    assert snares["time_s"][:, 0].tolist() == pytest.approx([0.5, 1.5])
