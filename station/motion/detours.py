@@ -88,6 +88,7 @@ def detoured(
         most = [hand.strokes.most.copy() for hand in hands]
         contacts = [hand.contacts.copy() for hand in hands]
         changed: set[tuple[int, int]] = set()
+        rises: dict[tuple[object, ...], tuple[int, float] | None] = {}
         for k, pair in enumerate(pairs.tolist()):
             if changed & set(enumerate(pair)):
                 continue  # what helped its neighbour may have helped it too
@@ -97,12 +98,14 @@ def detoured(
             if key not in known:
                 known[key] = scene.way_round(pair, moments)
             found = known[key]
-            steeper = scene.steeper(moments) if found is None else None
+            if found is None and key not in rises:
+                rises[key] = scene.steeper(moments)
+            steeper = rises.get(key)
             if found is not None:
                 bumps[found[0]][pair[found[0]], :3] += found[1]
             elif steeper is not None:
-                side, events, rise = steeper
-                contacts[side][np.ix_(events, _SLOPES)] += rise
+                side, rise = steeper
+                contacts[side][np.ix_(scene.at(side, moments), _SLOPES)] += rise
             else:
                 side = scene.lower(moments)
                 near = slice(pair[side], pair[side] + 2)
@@ -116,13 +119,14 @@ def detoured(
 
 @dataclass(frozen=True, eq=False)
 class _Scene:
-    """Both hands at the times of a grid: their arms, and the stretch that each is on."""
+    """Both hands at the times of a grid (n,): their strokes (4, n), their arms, and the stretch that each is on."""
 
     hands: tuple[HandPart, HandPart]
     figure: Figure
     kit: Kit
     grid: Array
     roots: tuple[Point, Point]
+    strokes: tuple[Array, Array]
     arms: tuple[Arm, Arm]
     stretch: tuple[NDArray[np.int64], NDArray[np.int64]]
     hump: tuple[Array, Array]
@@ -131,18 +135,14 @@ class _Scene:
     def of(
         cls, hands: tuple[HandPart, HandPart], figure: Figure, kit: Kit, grid: Array, roots: tuple[Point, Point]
     ) -> "_Scene":
+        raised, other_raised = (Strokes.of(hand.strokes, NATURALLY).many(grid) for hand in hands)
         right, left = (
-            solve(
-                MANY,
-                hand.hold.lengths(figure, hand.limb == Limb.RIGHT_HAND),
-                root,
-                hand.way.many(grid),
-                Strokes.of(hand.strokes, NATURALLY).many(grid),
-            )
-            for hand, root in zip(hands, roots, strict=True)
+            solve(MANY, hand.hold.lengths(figure, hand.limb == Limb.RIGHT_HAND), root, hand.way.many(grid), strokes)
+            for hand, root, strokes in zip(hands, roots, (raised, other_raised), strict=True)
         )
         (k, hump), (other_k, other_hump) = (hand.way.humps(grid) for hand in hands)
-        return cls(hands, figure, kit, grid, roots, (right, left), (k, other_k), (hump, other_hump))
+        strokes = np.array(raised), np.array(other_raised)
+        return cls(hands, figure, kit, grid, roots, strokes, (right, left), (k, other_k), (hump, other_hump))
 
     def tangled(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """The pairs (p, 2) of stretches on which the hands come too near, and of each moment which, −1 none."""
@@ -169,29 +169,33 @@ class _Scene:
         heights = [0.5 * (arm.butt[2] + arm.tip[2])[moments].mean() for arm in self.arms]
         return int(heights[1] < heights[0])
 
-    def steeper(self, moments: NDArray[np.int64]) -> tuple[int, NDArray[np.int64], float] | None:
-        """The hand whose stick, over the other's, is to be steeper, at which events, by how much; None if it is no use.
+    def at(self, side: int, moments: NDArray[np.int64]) -> NDArray[np.int64]:
+        """The events of one hand that it is at, or nearer to, at `moments`."""
+        return np.unique(self.hands[side].way.nearest(self.grid[moments])[0])
+
+    def steeper(self, moments: NDArray[np.int64]) -> tuple[int, float] | None:
+        """The hand whose stick, over the other's, is to be steeper, and by how much; None if it is no use.
 
         Only a tip's blow leaves its slope free: a stick's shoulder and shaft lie as the piece does.
         """
         side = 1 - self.lower(moments)
         hand, times = self.hands[side], self.grid[moments]
-        events = np.unique(hand.way.nearest(times)[0])
+        events = self.at(side, moments)
         free = np.isin(hand.events.key[events, 2], _FREE) & ~np.isin(hand.which[events], hand.on_the_shoulder)
         lies = np.array([hand.lies[k].contact.stick_rise for k in hand.which[events].tolist()])
         left = _MOST_RISE - float((hand.contacts[events, _SLOPES[0]] - lies).max())
         if not free.all():
             return None
-        strokes = Strokes.of(hand.strokes, NATURALLY).many(times)
+        strokes = self.strokes[side][:, moments]
         lengths = hand.hold.lengths(self.figure, hand.limb == Limb.RIGHT_HAND)
         x, y, z = (np.broadcast_to(r, self.grid.shape)[moments] for r in self.roots[side])
         other = [np.broadcast_to(p, (len(self.grid), 3))[moments] for p in _limbs(self.arms[1 - side])]
         contact = hand.way.many(times)
         for rise in _RISES[left >= _RISES].tolist():
             steep = contact._replace(stick_rise=contact.stick_rise + rise, hand_rise=contact.hand_rise + rise)
-            arms = [solve(MANY, lengths, (x, y, z), steep, Offsets(*(low * o for o in strokes))) for low in (1.0, _LOW)]
+            arms = [solve(MANY, lengths, (x, y, z), steep, Offsets(*(low * strokes))) for low in (1.0, _LOW)]
             if all(self._is_free(side, arm, other) for arm in arms):
-                return side, events, rise
+                return side, rise
         return None
 
     def _is_free(self, side: int, arm: Arm, other: list[Array]) -> bool:
@@ -221,7 +225,7 @@ class _Scene:
         contact = hand.way.many(times)
         x, y, z = (c + hump * w[:, None] for c, w in zip(contact[:3], ways.T, strict=True))
         every = Contact(x, y, z, *(np.broadcast_to(c, x.shape) for c in contact[3:]))
-        strokes = Strokes.of(hand.strokes, NATURALLY).many(times)
+        strokes = Offsets(*self.strokes[side][:, on])
         lengths = replace(hand.hold.lengths(self.figure, hand.limb == Limb.RIGHT_HAND), most_bend=pi)
         rx, ry, rz = (np.broadcast_to(r, self.grid.shape)[on] for r in self.roots[side])
         arm = solve(MANY, lengths, (rx, ry, rz), every, strokes)
