@@ -110,9 +110,10 @@ def _track(wish: BackingWish, session: Session, settings: Settings) -> PreparedT
 
 
 def _no_kit(wanted: str) -> str:
-    from station.devices.kit_ports import all_names
+    from station.devices.kit_ports import all_names, parse_kits
 
     ports = all_names()
-    looked_for = f"no port's name contains {wanted!r}" if wanted else "no kit is plugged in"
+    names = " or ".join(repr(wish.part) for wish in parse_kits(wanted))
+    looked_for = f"no port's name contains {names}" if wanted else "no kit is plugged in"
     there = f"the ports are {', '.join(ports)}" if ports else "there is neither a MIDI nor a serial port"
     return f"{looked_for}; {there} (station practice --virtual-student intermediate needs none)"
