@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from station.app.pictures import picture_of
 from station.app.soundtrack import Sounds, Soundtrack
+from station.core.errors import DeviceError
 from station.motion.drummer import Drummer
 from station.render.picture import PictureMaker, Shot, draw_pngs
 from station.render.scene import QUALITIES
@@ -33,8 +34,18 @@ class Take:
         return self.start_s + np.arange(self.pictures) / float(self.fps)
 
 
+def encoder() -> str:
+    """What encodes videos here; raises `DeviceError` that says what to do where nothing does."""
+    try:
+        from station.render.video_file import encoder_name
+    except ImportError as fault:
+        raise DeviceError(f"videos need FFmpeg's libraries ({fault}): pip install av") from fault
+    return encoder_name()
+
+
 def write_film(drummer: Drummer, take: Take, shot: Shot, sounds: Sounds, path: Path, tell: Tell) -> None:
     """A video at `path`, whole or not at all; raises `DeviceError` without OpenGL, disk or encoder."""
+    encoder()
     from station.render.video_file import EFFORTS, VideoFormat, video_file
 
     soundtrack = Soundtrack(drummer.score, take.start_s, sounds)

@@ -33,6 +33,7 @@ def all_checks() -> tuple[Callable[[], Check], ...]:
         check_real_time,
         check_calibration,
         check_picture,
+        check_video,
         check_screen,
     )
 
@@ -180,6 +181,16 @@ def check_picture() -> Check:
         return Check("pictures", True, renderer_name())
     except DeviceError as fault:
         return Check("pictures", False, str(fault))
+
+
+def check_video() -> Check:
+    """What encodes videos."""
+    from station.app.film import encoder
+
+    try:
+        return Check("videos", True, encoder())
+    except DeviceError as fault:
+        return Check("videos", False, str(fault))
 
 
 def has_screen() -> bool:

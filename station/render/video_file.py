@@ -55,6 +55,13 @@ class VideoFormat:
     effort: Effort = EFFORTS[0]
 
 
+def encoder_name() -> str:
+    """What encodes on this computer; raises `DeviceError` where nothing does."""
+    if _ENCODER not in av.codecs_available:
+        raise DeviceError("the installed FFmpeg cannot encode H.264: install the wheel of av (pip install av)")
+    return f"H.264 by x264, FFmpeg {av.ffmpeg_version_info}"
+
+
 @contextmanager
 def video_file(path: Path, video: VideoFormat) -> Iterator["VideoSink"]:
     """Where the pictures and the sound of the file at `path` go; it is there when the block has ended, or never.
@@ -129,8 +136,6 @@ class _Encoder:
     """Two streams and the file that they go to; after its making used by one thread alone."""
 
     def __init__(self, path: Path, video: VideoFormat) -> None:
-        if _ENCODER not in av.codecs_available:
-            raise DeviceError("the installed FFmpeg cannot encode H.264: install the wheel of av (pip install av)")
         self._container = av.open(str(path), "w", format="mp4", options={"movflags": "+faststart"})
         self._time_base = 1 / video.fps
         self._pictures = self._container.add_stream(_ENCODER, rate=video.fps, options=_options(video))

@@ -1,11 +1,13 @@
 """`station animate` to video and pictures: names, options, what is refused; small, but drawn and encoded in earnest."""
 
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from station.app.commands.progress import progress_line
+from station.app.health import check_video
 from station.cli import main
 from tests.fakes.sound_files import stroke
 from tests.unit.app.test_cli import refused
@@ -61,6 +63,18 @@ def test_what_cannot_be_is_refused_in_one_line(tmp_path: Path, capsys: pytest.Ca
     assert "expected a number above 0" in said("x.mp4", "--seconds", "0")
     assert "expected 1 to 1000 a second" in said("x.mp4", "--fps", "0")
     assert [p.name for p in tmp_path.iterdir() if p.suffix in (".mp4", ".png")] == []
+
+
+def test_without_the_encoder_a_video_is_refused_with_what_to_do(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "av", None)  # Python's own way to say that a module cannot be imported
+    monkeypatch.delitem(sys.modules, "station.render.video_file", raising=False)
+    said = refused(capsys, "animate", "rock-1", "--out", str(tmp_path / "x.mp4"))
+    assert "videos need FFmpeg's libraries" in said
+    assert "pip install av" in said
+    assert not (tmp_path / "x.mp4").exists()
+    assert check_video().works is False
 
 
 def test_progress_tells_how_much_is_left() -> None:
