@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import Protocol
 
+from station.app.heat_map import HeatMap
 from station.engine.messages import KeyHit
 from station.practice.own_ear import Guess
 from station.render.results import ResultFacts
@@ -86,11 +87,12 @@ class RoomState:
 
 @dataclass(frozen=True, eq=False)
 class Report:
-    """The last session's result: the page's `facts`, the JSON `document`, and the `folder` where both were kept."""
+    """The result of the last session: the page's `facts`, the JSON `document`, the `folder` of both, `heat` by bar."""
 
     facts: ResultFacts
     document: Mapping[str, object] = field(default_factory=dict)
     folder: str = ""
+    heat: HeatMap = field(default_factory=lambda: HeatMap({}))
 
 
 class PracticeModel(Protocol):

@@ -9,6 +9,7 @@ from contextlib import suppress
 from dataclasses import replace
 from datetime import date
 
+from station.app.heat_map import heat_map
 from station.app.model import LessonCard, Report, RoomState, Stage, Start
 from station.app.results import session_facts
 from station.app.session_folder import SessionFolder, rescued
@@ -298,7 +299,7 @@ class PracticeRoom:
                 self._fault = rescued(fault, result, document)
         if self._fault is not None:
             self._notices.append(str(self._fault))
-        self._report = Report(session_facts(result, document), document, path)
+        self._report = Report(session_facts(result, document), document, path, heat_map(result))
         self._stage, self._is_asking = Stage.RESULT, self._may_ask(document)
 
     def _may_ask(self, document: dict[str, Json]) -> bool:

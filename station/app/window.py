@@ -14,6 +14,7 @@ from imgui_bundle import hello_imgui, imgui
 from station.app import panels, theme
 from station.app.backdrop import Backdrop
 from station.app.choice import Choice
+from station.app.heat_panel import heat_panel
 from station.app.keyboard import pressed, slot_pressed, view_pressed
 from station.app.look import look_of, with_look
 from station.app.look_panel import LookActions
@@ -26,7 +27,7 @@ from station.practice.own_ear import Guess
 TITLE = "Drum station"
 _DOCK = "MainDockSpace"
 _NO_WINDOW = "no window can be opened: is there a screen, and OpenGL? `station practice --headless` needs neither"
-LESSONS, TRANSPORT, KEYS = "Lessons", "Transport", "Keys"
+LESSONS, TRANSPORT, KEYS, BARS = "Lessons", "Transport", "Keys", "Bars"
 _NEWS_SHOWN_S = 8.0
 """How long a fault or a notice stays on the screen (our choice: twice the time to read it)."""
 
@@ -124,18 +125,20 @@ class Window:
             split.node_flags = imgui.DockNodeFlags_.auto_hide_tab_bar
         self._lessons = hello_imgui.DockableWindow(LESSONS, "Beside", self._lessons_gui)
         self._transport = hello_imgui.DockableWindow(TRANSPORT, "Below", self._transport_gui)
-        for window in (self._lessons, self._transport):
+        self._bars = hello_imgui.DockableWindow(BARS, "Beside", self._bars_gui)
+        for window in (self._lessons, self._transport, self._bars):
             window.remember_is_visible = False
             window.can_be_closed = False
         self._transport.imgui_window_flags = imgui.WindowFlags_.no_scrollbar
-        docking.dockable_windows = [self._lessons, self._transport]
+        docking.dockable_windows = [self._lessons, self._bars, self._transport]
 
     # --- frame by frame -----------------------------------------------------------------------------------------------
 
     def _before_frame(self) -> None:
         stage = self._model.room().stage
-        window = self.params.docking_params.dockable_window_of_name(LESSONS)
-        window.is_visible = stage is Stage.IDLE
+        docking = self.params.docking_params
+        docking.dockable_window_of_name(LESSONS).is_visible = stage is Stage.IDLE
+        docking.dockable_window_of_name(BARS).is_visible = stage is Stage.RESULT and self._model.report() is not None
         self.params.fps_idling.enable_idling = stage is not Stage.PLAYING
         io = imgui.get_io()
         nav = imgui.ConfigFlags_.nav_enable_keyboard
@@ -259,6 +262,12 @@ class Window:
         if wish is not None:
             self._tried(lambda: self._model.start(wish))
 
+    def _drill(self, bar: int) -> None:
+        """Practise one bar (from 1) of the lesson alone."""
+        wish = self.choice.wish()
+        if wish is not None:
+            self._tried(lambda: self._model.start(replace(wish, bars=(bar, bar), adapt=False)))
+
     def _tell(self, text: str) -> None:
         self.news, self._news_left_s = text, _NEWS_SHOWN_S
 
@@ -273,6 +282,12 @@ class Window:
 
     def _lessons_gui(self) -> None:
         self._panel.gui()
+
+    def _bars_gui(self) -> None:
+        report = self._model.report()
+        bar = None if report is None else heat_panel(report.heat)
+        if bar is not None:
+            self._drill(bar)
 
     def _transport_gui(self) -> None:
         actions: dict[str, Callable[[], None]] = {

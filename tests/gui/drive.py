@@ -18,12 +18,14 @@ from imgui_bundle import hello_imgui, imgui
 
 from station.app.look import look_of
 from station.app.model import Stage
+from station.app.panels import ADAPT_LABEL
 from station.app.practice_room import PracticeRoom
 from station.app.window import Window, WindowOptions
 from station.core.errors import BadInput
 from station.core.settings import load_settings
 from station.core.units import ns_from_ms
 from station.drills.library import find_lesson
+from station.practice.own_ear import Guess
 from station.practice.plan import Wishes, plan_practice
 from station.practice.student_spec import parse_spec
 from station.render.camera import VIEW_NAMES, View
@@ -35,7 +37,7 @@ STEP_NS = ns_from_ms(100)
 SIZE = (760, 480)
 LESSON = "rock-2"
 MOST_FRAMES = 1000
-STUDENTS = {"practise": "pro,seed=4", "highway": "intermediate,seed=2,velocity_sd=30"}
+STUDENTS = {"drill": "beginner,seed=3", "practise": "pro,seed=4", "highway": "intermediate,seed=2,velocity_sd=30"}
 PATIENCE_S = 600.0  # the parent's own limit is what ends a run that hangs
 
 
@@ -224,6 +226,30 @@ def highway(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.seen["stage"] = drive.room.room().stage.name
 
 
+def drill(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """A bar of the result's heat map is clicked, and practised alone."""
+    drive.choose(ctx, passes=1)
+    ctx.item_uncheck(ADAPT_LABEL)
+    ctx.item_click("Start##start")
+    drive.wait_for(ctx, Stage.RESULT)
+    ctx.yield_(2)
+    for guess in Guess:
+        if drive.room.room().question:
+            ctx.item_click(f"//Transport/{guess.value}")
+            ctx.yield_(2)
+    report = drive.room.report()
+    assert report is not None
+    drive.seen["cells"] = {f"{bar} {limb.name}": cell.notes for (bar, limb), cell in report.heat.cells.items()}
+    ctx.yield_(3)
+    ctx.set_ref("//Bars")
+    ctx.item_click("**/2##bar2")
+    ctx.yield_(3)
+    drive.seen["stage"] = drive.room.room().stage.name
+    drive.room.stop()
+    drilled = drive.room.report()
+    drive.seen["subtitle"] = None if drilled is None else drilled.facts.words.subtitle
+
+
 def closes(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """The window is closed in mid-session."""
     drive.choose(ctx, passes=4)
@@ -255,6 +281,7 @@ SCENARIOS = {
     "viewpoints": viewpoints,
     "score": score,
     "highway": highway,
+    "drill": drill,
     "closes": closes,
     "fault": fault,
 }

@@ -99,6 +99,14 @@ def test_a_session_is_played_on_the_highway(environment: dict[str, str], tmp_pat
     assert run("highway", environment, tmp_path)["stage"] == "PLAYING"
 
 
+def test_a_click_on_a_bar_of_the_result_drills_it(environment: dict[str, str], tmp_path: Path) -> None:
+    seen = run("drill", environment, tmp_path)
+    assert sum(seen["cells"].values()) == 26, "every note of both bars: 16 on the hi-hat, 4 snare, 6 kick"
+    assert sum(notes for cell, notes in seen["cells"].items() if cell.endswith("FOOT")) == 6
+    assert seen["stage"] == "PLAYING"
+    assert seen["subtitle"].startswith("1 pass of bar 2 at")
+
+
 def test_a_session_is_kept_when_the_window_is_closed_in_its_middle(environment: dict[str, str], tmp_path: Path) -> None:
     seen = run("closes", environment, tmp_path)
     assert seen["at_the_end"] == "PLAYING"
