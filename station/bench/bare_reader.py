@@ -7,9 +7,9 @@ it says `ready`, and after so many messages of SIZE bytes the JSON list of when 
 import json
 import os
 import sys
-import time
 import tty
 
+from station.core.clock import monotonic_ns
 from station.engine.priority import be_real_time
 
 _MOST = 4_096
@@ -24,7 +24,7 @@ def main(path: str, messages: str, size: str) -> None:
     read_ns: list[int] = []
     while len(read_ns) < int(messages) * int(size):
         data = os.read(line, _MOST)
-        read_ns += [time.monotonic_ns()] * len(data)
+        read_ns += [monotonic_ns()] * len(data)
     _say(json.dumps(read_ns[int(size) - 1 :: int(size)]))
 
 

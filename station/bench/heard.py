@@ -16,6 +16,7 @@ from tempfile import TemporaryDirectory
 
 from station.bench.jack_server import JackServer
 from station.bench.player import Player
+from station.core.clock import monotonic_ns
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound, Hit
 from station.core.units import NS_PER_S
@@ -79,7 +80,7 @@ class Stage:
 
     def played(self, verb: str, step_ns: int, count: int) -> tuple[list[int], list[Hit]]:
         """When the kit sent each message, and the hits that the engine told of it."""
-        start_ns = time.monotonic_ns() + LEAD_NS
+        start_ns = monotonic_ns() + LEAD_NS
         self.player.tell(f"{verb} {start_ns} {step_ns} {count}")
         end_ns = start_ns + step_ns * count + AFTER_NS
         told = self.until(
@@ -121,7 +122,7 @@ def read_barely(baud: int, step_ns: int, count: int) -> tuple[list[int], list[in
         with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as reader:
             assert reader.stdout is not None
             reader.stdout.readline()
-            player.tell(f"play {time.monotonic_ns() + LEAD_NS} {step_ns} {count}")
+            player.tell(f"play {monotonic_ns() + LEAD_NS} {step_ns} {count}")
             sent: list[int] = json.loads(player.hear())
             read: list[int] = json.loads(reader.stdout.readline())
     return sent, read

@@ -23,6 +23,7 @@ from typing import Protocol, Self
 import mido
 
 from station.bench.serial_kit import SerialKit
+from station.core.clock import monotonic_ns
 
 _NOTES = (36, 38, 48, 45)
 _SPIN_NS = 400_000
@@ -54,7 +55,7 @@ class _Jack:
         self._port.close()
 
     def send(self, message: bytes) -> int:
-        sent_ns = time.monotonic_ns()
+        sent_ns = monotonic_ns()
         self._port.send(mido.Message.from_bytes(message))
         return sent_ns
 
@@ -85,10 +86,10 @@ def _hurry() -> None:
 
 
 def _wait_until(at_ns: int) -> None:
-    left_ns = at_ns - time.monotonic_ns()
+    left_ns = at_ns - monotonic_ns()
     if left_ns > _SPIN_NS:
         time.sleep((left_ns - _SPIN_NS) / 1e9)
-    while time.monotonic_ns() < at_ns:
+    while monotonic_ns() < at_ns:
         pass
 
 
@@ -126,14 +127,14 @@ class Player:
             bufsize=1,
         )
         self.hear()
-        return time.monotonic_ns()
+        return monotonic_ns()
 
     def unplug(self) -> int:
         """Have the kit go, if it is there; returns when it had, in monotonic ns."""
         if self._process is not None:
             self._process.communicate()
             self._process = None
-        return time.monotonic_ns()
+        return monotonic_ns()
 
     def tell(self, line: str) -> None:
         """Have it do what `line` says."""

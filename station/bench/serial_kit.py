@@ -8,8 +8,9 @@ import fcntl
 import os
 import pty
 import struct
-import time
 from pathlib import Path
+
+from station.core.clock import monotonic_ns
 
 _TCGETS2 = 0x802C542A  # asm-generic/ioctls.h: read struct termios2, whose last two words are the speeds
 _TERMIOS2 = struct.Struct("=4I B 19s 2I")
@@ -50,12 +51,12 @@ class SerialKit:
     def play_at_wire_speed(self, data: bytes, baud: int) -> list[int]:
         """Send each byte when it would have come over a wire; the monotonic times at which they were sent."""
         sent_ns = []
-        due_ns = time.monotonic_ns()
+        due_ns = monotonic_ns()
         for index in range(len(data)):
             due_ns += 10_000_000_000 // baud
-            while time.monotonic_ns() < due_ns:
+            while monotonic_ns() < due_ns:
                 pass
-            sent_ns.append(time.monotonic_ns())
+            sent_ns.append(monotonic_ns())
             os.write(self._master, data[index : index + 1])
         return sent_ns
 
