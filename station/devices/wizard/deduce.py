@@ -32,15 +32,20 @@ class Learned:
     findings: tuple[str, ...]
 
 
+def main_of(step: Step, take: Take, mains: Mains) -> int | None:
+    """The number that a struck step sends; stomps are not what of the hi-hat, known from `mains`, they fire."""
+    if step.ask is not Ask.STRIKE:
+        return None
+    foot = step in (STOMP, SPLASH)
+    hats = {n for s, n in mains.items() if foot and s.piece is Piece.HIHAT}
+    return main_note(groups((note for note in take.notes if note.number not in hats), ONE_STROKE_NS))
+
+
 def main_notes(takes: Takes) -> dict[Step, int]:
-    """The number that each struck step sends; stomps are not what of the hi-hat they fire."""
+    """The number that each struck step sends."""
     mains: dict[Step, int] = {}
     for step, take in takes.items():
-        foot = step in (STOMP, SPLASH)
-        hats = frozenset(n for s, n in mains.items() if foot and s.piece is Piece.HIHAT)
-        own = [note for note in take.notes if note.number not in hats]
-        number = main_note(groups(own, ONE_STROKE_NS)) if step.ask is Ask.STRIKE else None
-        if number is not None:
+        if (number := main_of(step, take, mains)) is not None:
             mains[step] = number
     return mains
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from station.core.units import NS_PER_MS
 from station.devices.midi_tokens import MidiTokenizer
-from station.devices.wizard.deduce import Learned, grab_notes, learn, main_notes
+from station.devices.wizard.deduce import Learned, grab_notes, learn, main_notes, main_of
 from station.devices.wizard.guess import Guess, guess
 from station.devices.wizard.pedal import learned_pedal, moved_controller, presses
 from station.devices.wizard.steps import SPLASH, STEPS, STOMP, Ask, Step
@@ -57,6 +57,7 @@ class Wizard:
         self._hint = ""
         self._asked_ns = -READING_NS
         self._weighed: list[Said] = []
+        self._mains: dict[Step, int] = {}  # the main note of each answered step
 
     # --- in ----------------------------------------------------------------------------------------------------------
 
@@ -87,9 +88,9 @@ class Wizard:
 
     def back(self) -> None:
         """To the step before, which is asked anew."""
-        self._go(max(0, self._at - 1))
-        if self._step is not None:
-            self._takes.pop(self._step, None)
+        at = max(0, self._at - 1)
+        self._takes.pop(self._steps[at], None)
+        self._go(at)
 
     def finish(self) -> None:
         """Ask nothing more; what was not asked is as the preset says."""
@@ -138,7 +139,7 @@ class Wizard:
         return ""
 
     def _guess(self) -> Guess:
-        numbers = {s: n for s, n in main_notes(self._takes).items() if s is not SPLASH}
+        numbers = {s: n for s, n in self._mains.items() if s is not SPLASH}
         return guess(numbers, self.port, learned_pedal(self._takes, None))
 
     # --- inside ------------------------------------------------------------------------------------------------------
@@ -151,14 +152,14 @@ class Wizard:
         if step.ask is Ask.GRAB:
             return max(len(groups(self._take.touches, GRABS_APART_NS)), self._grab_notes())
         strokes = self._take.strokes()
-        main = main_notes({**self._takes, step: self._take}).get(step)
+        main = main_of(step, self._take, self._mains)
         if step is STOMP and main is None:
             return presses(self._take, learned_pedal(self._takes, self._guess().preset.pedal))
         return sum(any(note.number == main for note in stroke) for stroke in strokes)  # slips do not count
 
     def _grab_notes(self) -> int:
         """Notes that tell of a grab, where the kit sends such: after the stroke, and not the pad's own."""
-        return 0 if self._take.touches else len(grab_notes(self._take, main_notes(self._takes).values()))
+        return 0 if self._take.touches else len(grab_notes(self._take, self._mains.values()))
 
     def _is_answered(self) -> bool:
         step = self._step
@@ -190,9 +191,10 @@ class Wizard:
         """The step of another piece whose note most of these strokes had."""
         if step.ask is not Ask.STRIKE or not self._take.notes:
             return None
-        own = main_notes({**self._takes, step: self._take}).get(step)
-        return next((s for s, n in main_notes(self._takes).items() if n == own and s.piece is not step.piece), None)
+        own = main_of(step, self._take, self._mains)
+        return next((s for s, n in self._mains.items() if n == own and s.piece is not step.piece), None)
 
     def _go(self, step: int) -> None:
         self._at = min(step, len(self._steps))
+        self._mains = main_notes(self._takes)
         self._take, self._hint, self._asked_ns, self._weighed = Take(), "", self._now_ns, []
