@@ -11,14 +11,18 @@ from pathlib import Path
 
 from imgui_bundle import hello_imgui, imgui
 
-from station.app import panels, theme
+from station.app import theme
 from station.app.backdrop import Backdrop
 from station.app.choice import Choice
-from station.app.heat_panel import heat_panel
 from station.app.keyboard import pressed, slot_pressed, view_pressed
 from station.app.look import look_of, with_look
-from station.app.look_panel import LookActions
 from station.app.model import PracticeModel, Stage
+from station.app.panels.bars import heat_panel
+from station.app.panels.keys import keys_help
+from station.app.panels.lessons import LessonsPanel
+from station.app.panels.look_popup import LookActions
+from station.app.panels.page import Page, Side, panels_popup
+from station.app.panels.transport import transport_bar
 from station.core.clock import Clock, MonotonicClock
 from station.core.errors import DeviceError, StationError
 from station.core.settings import load_settings, save_settings
@@ -56,7 +60,7 @@ class Window:
         self._clock = clock or MonotonicClock()
         self.choice = Choice(model.lessons(), model.first())
         self._previewed = self.choice.card.name if self.choice.card is not None else ""
-        self._panel = panels.LessonsPanel(self.choice, self._start)
+        self._panel = LessonsPanel(self.choice, self._start)
         self.backdrop = Backdrop(options.quality, look_of(load_settings(options.settings)))
         self._kept = self.backdrop.look
         self._viewpoints = LookActions(self._keep_viewpoint, self._go_to_viewpoint)
@@ -65,6 +69,7 @@ class Window:
         self._show_keys = False
         self._frame_ms = 0.0
         self.frames = 0
+        self._pages = self._table_of_pages()
         self.params = self._runner()
 
     def run(self) -> None:
@@ -118,27 +123,34 @@ class Window:
         docking = params.docking_params
         docking.layout_condition = hello_imgui.DockingLayoutCondition.application_start
         docking.docking_splits = [
-            hello_imgui.DockingSplit(_DOCK, "Below", imgui.Dir.down, 0.085),
-            hello_imgui.DockingSplit(_DOCK, "Beside", imgui.Dir.left, 0.26),
+            hello_imgui.DockingSplit(_DOCK, str(Side.BELOW), imgui.Dir.down, 0.085),
+            hello_imgui.DockingSplit(_DOCK, str(Side.BESIDE), imgui.Dir.left, 0.26),
+            hello_imgui.DockingSplit(_DOCK, str(Side.RIGHT), imgui.Dir.right, 0.36),
+            hello_imgui.DockingSplit(_DOCK, str(Side.STRIP), imgui.Dir.down, 0.36),
         ]
-        for split in docking.docking_splits:
+        for split in docking.docking_splits[:2]:
             split.node_flags = imgui.DockNodeFlags_.auto_hide_tab_bar
-        self._lessons = hello_imgui.DockableWindow(LESSONS, "Beside", self._lessons_gui)
-        self._transport = hello_imgui.DockableWindow(TRANSPORT, "Below", self._transport_gui)
-        self._bars = hello_imgui.DockableWindow(BARS, "Beside", self._bars_gui)
-        for window in (self._lessons, self._transport, self._bars):
-            window.remember_is_visible = False
-            window.can_be_closed = False
-        self._transport.imgui_window_flags = imgui.WindowFlags_.no_scrollbar
-        docking.dockable_windows = [self._lessons, self._bars, self._transport]
+        docking.dockable_windows = [page.window() for page in self._pages]
+
+    def _table_of_pages(self) -> tuple[Page, ...]:
+        """Every panel; those without `shown` are tools that the user opens."""
+        return (
+            Page(LESSONS, Side.BESIDE, self._lessons_gui, shown=lambda stage: stage is Stage.IDLE),
+            Page(BARS, Side.BESIDE, self._bars_gui, shown=self._has_bars),
+            Page(TRANSPORT, Side.BELOW, self._transport_gui, shown=lambda stage: True),
+        )
+
+    def _has_bars(self, stage: Stage) -> bool:
+        return stage is Stage.RESULT and self._model.report() is not None
 
     # --- frame by frame -----------------------------------------------------------------------------------------------
 
     def _before_frame(self) -> None:
         stage = self._model.room().stage
         docking = self.params.docking_params
-        docking.dockable_window_of_name(LESSONS).is_visible = stage is Stage.IDLE
-        docking.dockable_window_of_name(BARS).is_visible = stage is Stage.RESULT and self._model.report() is not None
+        for page in self._pages:
+            if page.shown is not None:
+                docking.dockable_window_of_name(page.name).is_visible = page.shown(stage)
         self.params.fps_idling.enable_idling = stage is not Stage.PLAYING
         io = imgui.get_io()
         nav = imgui.ConfigFlags_.nav_enable_keyboard
@@ -297,13 +309,18 @@ class Window:
             "back": self._model.dismiss,
             **{guess.value: partial(self._model.answer, guess) for guess in Guess},
         }
-        self.backdrop.look_from(panels.transport_bar(self._model.room(), self.backdrop.look, actions, self._viewpoints))
+        room, look = self._model.room(), self.backdrop.look
+        self.backdrop.look_from(transport_bar(room, look, actions, self._viewpoints, self._tools))
+
+    def _tools(self) -> None:
+        tools = [page for page in self._pages if page.shown is None]
+        panels_popup(tools, self.params.docking_params)
 
     def _keys_window(self) -> None:
         imgui.set_next_window_size(imgui.ImVec2(theme.points(640), 0), imgui.Cond_.appearing)
         imgui.set_next_window_pos(imgui.get_main_viewport().get_center(), imgui.Cond_.appearing, imgui.ImVec2(0.5, 0.5))
         _, stays = imgui.begin(KEYS, True, imgui.WindowFlags_.no_collapse | imgui.WindowFlags_.no_docking)
-        panels.keys_help(self._frame_ms)
+        keys_help(self._frame_ms)
         imgui.end()
         self._show_keys = bool(stays)
 

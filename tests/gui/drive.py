@@ -18,7 +18,7 @@ from imgui_bundle import hello_imgui, imgui
 
 from station.app.look import look_of
 from station.app.model import Stage
-from station.app.panels import ADAPT_LABEL
+from station.app.panels.lessons import ADAPT_LABEL
 from station.app.practice_room import PracticeRoom
 from station.app.window import Window, WindowOptions
 from station.core.errors import BadInput

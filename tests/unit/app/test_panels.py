@@ -3,7 +3,7 @@
 import pytest
 
 from station.app.model import RoomState
-from station.app.panels import found
+from station.app.panels.transport import found
 
 
 @pytest.mark.parametrize(

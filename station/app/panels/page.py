@@ -1,0 +1,64 @@
+"""A dockable panel as the window sees it: what it is called, where it docks, when it is shown, who draws it.
+
+A panel either belongs to what is going on (the lessons before a session, the bars after it), or it is a tool that the
+user opens and closes. Whoever adds a panel writes a module here and a line in the window's table.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+from imgui_bundle import hello_imgui, imgui
+
+from station.app import theme
+from station.app.model import Stage
+
+PANELS_LABEL = "Panels##panels"
+_POPUP = "##panels-popup"
+
+
+class Side(StrEnum):
+    """Where a panel docks first; tools can be dragged elsewhere."""
+
+    BESIDE = "Beside"
+    RIGHT = "Right"
+    BELOW = "Below"
+    STRIP = "Strip"
+
+
+@dataclass(frozen=True, slots=True)
+class Page:
+    """One panel: `about` explains it in its tooltip, `gui` draws it; a tool's `shown` is None: the user opens it."""
+
+    name: str
+    side: Side
+    gui: Callable[[], None]
+    about: str = ""
+    shown: Callable[[Stage], bool] | None = None
+
+    def window(self) -> hello_imgui.DockableWindow:
+        """The panel for hello_imgui."""
+        window = hello_imgui.DockableWindow(self.name, str(self.side), self.gui)
+        window.is_visible = False
+        window.can_be_closed = self.shown is None
+        window.remember_is_visible = self.shown is None
+        if self.side is Side.BELOW:
+            window.imgui_window_flags = imgui.WindowFlags_.no_scrollbar
+        return window
+
+
+def panels_popup(tools: Sequence[Page], docking: hello_imgui.DockingParams) -> None:
+    """A button that opens the list of tools, each with a tick where it is open."""
+    if not tools:
+        return
+    if imgui.button(PANELS_LABEL, imgui.ImVec2(theme.points(84), 0)):
+        imgui.open_popup(_POPUP)
+    theme.tooltip("Panels to open beside the picture")
+    imgui.same_line()
+    if not imgui.begin_popup(_POPUP):
+        return
+    for page in tools:
+        window = docking.dockable_window_of_name(page.name)
+        _, window.is_visible = imgui.checkbox(page.name, window.is_visible)
+        theme.tooltip(page.about)
+    imgui.end_popup()
