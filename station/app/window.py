@@ -31,9 +31,11 @@ from station.practice.own_ear import Guess
 TITLE = "Drum station"
 _DOCK = "MainDockSpace"
 _NO_WINDOW = "no window can be opened: is there a screen, and OpenGL? `station practice --headless` needs neither"
-LESSONS, TRANSPORT, KEYS, BARS = "Lessons", "Transport", "Keys", "Bars"
+LESSONS, TRANSPORT, KEYS, BARS, NEWS = "Lessons", "Transport", "Keys", "Bars", "##news"
 _NEWS_SHOWN_S = 8.0
 """How long a fault or a notice stays on the screen (our choice: twice the time to read it)."""
+_NEWS_TOP, _NEWS_BAND = 150.0, 58.0
+"""Design pixels from the picture's top: where news stands over the room, and what a result leaves free for it above."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -175,8 +177,11 @@ class Window:
         """Draw the picture behind the panels."""
         now_ns = self._clock.now_ns()
         self._preview()
+        snapshot, left, low, width, height = self._model.snapshot(now_ns), *self._central_area()
         report = self._model.report() if self._model.room().stage is Stage.RESULT else None
-        self.backdrop.draw(self._model.snapshot(now_ns), report, self._central_area())
+        if report is not None:
+            height -= round(theme.points(_NEWS_BAND) * imgui.get_io().display_framebuffer_scale.y)
+        self.backdrop.draw(snapshot, report, (left, low, width, height))
         self.frames += 1
 
     def _preview(self) -> None:
@@ -325,13 +330,24 @@ class Window:
         self._show_keys = bool(stays)
 
     def _news_line(self) -> None:
-        centre = imgui.get_main_viewport().get_center()
-        imgui.set_next_window_pos(imgui.ImVec2(centre.x, theme.points(150)), imgui.Cond_.always, imgui.ImVec2(0.5, 0))
+        """One or two lines at the picture's top; above a result, never over it."""
+        io = imgui.get_io()
+        left, low, width, height = self._central_area()
+        scale_x, scale_y = io.display_framebuffer_scale
+        top = io.display_size.y - (low + height) / scale_y
+        is_result = self._model.room().stage is Stage.RESULT and self._model.report() is not None
+        middle, wide = (left + width / 2) / scale_x, width / scale_x - theme.points(40)
+        at = imgui.ImVec2(middle, top + theme.points(4.0 if is_result else _NEWS_TOP))
+        imgui.set_next_window_pos(at, imgui.Cond_.always, imgui.ImVec2(0.5, 0))
         flags = imgui.WindowFlags_.no_decoration | imgui.WindowFlags_.always_auto_resize | imgui.WindowFlags_.no_inputs
         flags |= imgui.WindowFlags_.no_focus_on_appearing | imgui.WindowFlags_.no_docking
-        imgui.begin("##news", None, flags)
+        imgui.push_style_var(imgui.StyleVar_.window_padding, imgui.ImVec2(theme.points(14), theme.points(6)))
+        imgui.begin(NEWS, None, flags)
+        imgui.push_text_wrap_pos(min(wide, imgui.calc_text_size(self.news).x + theme.points(16)))
         imgui.text(self.news)
+        imgui.pop_text_wrap_pos()
         imgui.end()
+        imgui.pop_style_var()
 
 
 def run_window(model: PracticeModel, options: WindowOptions | None = None) -> None:

@@ -273,7 +273,8 @@ class _Page:
         at = centre + scale * float(np.clip(lean.mean_ms, -_LEAN_REACH_MS, _LEAN_REACH_MS))
         colour = timing_colour(lean.mean_ms)
         if lean.sd_ms is not None:
-            half = min(lean.sd_ms, _LEAN_REACH_MS) * scale
-            self._ink.box((at - half, y - 6), (2 * half, 12), with_opacity(colour, 0.30), None, (6.0, 0.0, 0.0))
+            reach = _LEAN_REACH_MS * scale  # what spreads farther ends there: beyond stand the counts and the words
+            left, right = max(at - lean.sd_ms * scale, centre - reach), min(at + lean.sd_ms * scale, centre + reach)
+            self._ink.box((left, y - 6), (right - left, 12), with_opacity(colour, 0.30), None, (6.0, 0.0, 0.0))
         self._ink.ellipse((at, y), (6.5, 6.5), colour)
         self._ink.text(in_words(lean), (centre + 218, y + 6), Type(16, INK_SOFT))

@@ -119,3 +119,17 @@ def test_hits_outside_the_bars_stay_on_the_plot() -> None:
     assert len(crosses) == 3  # with that of the legend
     assert crosses["centre"][:, 0].min() > 0
     assert crosses["centre"][:, 0].max() < 1240  # the card's right edge, of 1280
+
+
+def test_a_wide_spread_ends_before_the_counts_and_the_words() -> None:
+    """Kicks 170 ms apart, early in the mean: the count ends 216 right of the card's edge, the words begin at 648."""
+    score = rock()
+    label = np.full(len(score), Label.MATCH, np.uint8)
+    played = np.zeros(len(score), np.int64)
+    played[np.flatnonzero(score.notes["piece"] == Piece.KICK)] = [-145 * MS, 25 * MS]
+    shapes = report_shapes(result_facts(score, label, played, np.empty(0), Words("", "", None)), Atlas())
+    spreads = shapes[(shapes["kind"] == Kind.BOX) & (shapes["half"][:, 1] == 6.0) & (shapes["style"][:, 0] == 6.0)]
+    edges = spreads["centre"][:, :1] + spreads["half"][:, :1] * np.array([-1.0, 1.0])
+    widest = edges[np.argmax(edges[:, 1] - edges[:, 0])]
+    assert widest[0] > 356 + 216 + 10
+    assert widest[1] < 356 + 648 - 10
