@@ -10,7 +10,10 @@ from enum import IntEnum
 from typing import Protocol
 
 from station.app.heat_map import HeatMap
+from station.app.session_view import Demonstrator
 from station.engine.messages import KeyHit
+from station.motion.hand_notes import Hands
+from station.motion.style import Style
 from station.practice.own_ear import Guess
 from station.render.results import ResultFacts
 from station.render.snapshot import Snapshot
@@ -140,6 +143,22 @@ class PracticeModel(Protocol):
 
     def answer(self, guess: Guess) -> None:
         """What the student believes, where a question is open."""
+        ...
+
+    def demonstrator(self) -> Demonstrator:
+        """Who demonstrates."""
+        ...
+
+    def move_as(self, style: Style) -> None:
+        """Let the demonstrator move in another style, from this frame on."""
+        ...
+
+    def hands(self) -> Hands | None:
+        """Whose hand leads; None as a lesson's kit is built."""
+        ...
+
+    def lead_with(self, hands: Hands) -> None:
+        """Let another hand lead from the next preview or session on."""
         ...
 
     def dismiss(self) -> None:

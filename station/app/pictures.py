@@ -7,7 +7,6 @@ from station.app.session_view import bar_numbers
 from station.core.units import NS_PER_S
 from station.motion.drummer import Drummer
 from station.motion.figure import figure_of
-from station.motion.kit import DEFAULT_KIT, load_kit
 from station.music.judgement import Label
 from station.practice.session import SessionResult
 from station.render.picture import draw_png
@@ -20,7 +19,7 @@ def draw_session(result: SessionResult, path: Path) -> None:
     plan = result.plan
     last_pass_s = (result.score.length_ns - plan.section.length_ns) / NS_PER_S
     bar_s = plan.section.length_ns / NS_PER_S / plan.section.bar_count
-    drummer = Drummer(result.score, load_kit(plan.lesson.kit or DEFAULT_KIT), figure_of())
+    drummer = Drummer(result.score, plan.kit, figure_of())
     snapshot = picture_of(drummer, last_pass_s + bar_s / 2)
     marks = no_marks(result.score)
     extras = []

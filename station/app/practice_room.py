@@ -13,20 +13,24 @@ from station.app.heat_map import heat_map
 from station.app.model import LessonCard, Report, RoomState, Stage, Start
 from station.app.results import session_facts
 from station.app.session_folder import SessionFolder, rescued
-from station.app.session_view import SessionView
+from station.app.session_view import Demonstrator, SessionView
 from station.core.calibration import Calibration
-from station.core.errors import DeviceError, StationError
+from station.core.errors import BadInput, DeviceError, StationError
 from station.core.events import DeviceFound, DeviceLost, Hit
 from station.core.settings import Settings
 from station.core.units import PPQ
 from station.drills.lesson import LEVELS, Lesson
 from station.drills.library import find_lesson, shipped_lessons
 from station.engine.messages import EngineEvent, KeyHit, Ready, SetBacking, Sounding
+from station.motion.hand_notes import Hands
+from station.motion.style import Style
+from station.motion.style_file import load_style
 from station.music.judgement import Judgement
 from station.practice.adaptation import Adaptation
 from station.practice.backing import Backing, BackingWish
 from station.practice.click_word import parse_click
 from station.practice.latency import Latency, latency_of
+from station.practice.lead import hands_of
 from station.practice.live import EngineLink, begin, end, next_session
 from station.practice.mastery_report import with_mastery
 from station.practice.memory import Memory, Remembered
@@ -72,7 +76,9 @@ class PracticeRoom:
         self._followed: Remembered | None = None
         self._taken: Session | None = None
         self._plan = first
-        self._view = SessionView(first, first.lesson.kit)
+        self._notices: list[str] = []
+        self._who = Demonstrator(style=self._kept_style())
+        self._view = SessionView(first, self._who)
         self._session = self._new_session(first)
         self._folder: SessionFolder | None = None
         self._report: Report | None = None
@@ -81,7 +87,6 @@ class PracticeRoom:
         self._stage = Stage.IDLE
         self._kits: list[str] = []
         self._sound = "the engine is waking"
-        self._notices: list[str] = []
         self._alive = True
         self._fault: StationError | None = None
 
@@ -153,6 +158,23 @@ class PracticeRoom:
         self._plan, self._view, self._session, self._folder = plan, view, session, folder
         self._followed, self._stage, self._is_asking = followed, Stage.PLAYING, False
 
+    def demonstrator(self) -> Demonstrator:
+        """Who demonstrates."""
+        return self._who
+
+    def move_as(self, style: Style) -> None:
+        """Let the demonstrator move in another style, from this frame on."""
+        self._who = replace(self._who, style=style)
+        self._view.move_as(style)
+
+    def hands(self) -> Hands | None:
+        """Whose hand leads; None as a lesson's kit is built."""
+        return hands_of(self._settings)
+
+    def lead_with(self, hands: Hands) -> None:
+        """Let another hand lead from the next preview or session on."""
+        self._settings = replace(self._settings, hands=hands.value)
+
     def answer(self, guess: Guess) -> None:
         """What the student believes of the session that ended: now its result is shown beside it."""
         if self._is_asking and self._report is not None:
@@ -187,15 +209,24 @@ class PracticeRoom:
         if self._stage is Stage.RESULT:
             self._stage, self._is_asking = Stage.IDLE, False
             self._session = self._new_session(self._plan)
-            self._view = SessionView(self._plan, self._plan.lesson.kit)
+            self._view = SessionView(self._plan, self._who)
 
     # --- inside ------------------------------------------------------------------------------------------------------
+
+    def _kept_style(self) -> Style:
+        """The style of the settings; the natural one, and a notice, where it cannot be had."""
+        try:
+            return load_style(self._settings.style)
+        except BadInput as fault:
+            self._notices.append(str(fault))
+            return Style()
 
     def _laid_out(self, wish: Start) -> tuple[Plan, SessionView, Remembered | None]:
         lesson = self._lessons.get(wish.lesson) or find_lesson(wish.lesson)
         tempo_bpm = None if wish.adapt else wish.tempo_bpm
         click = parse_click(self._settings.click_pattern, "settings: click_pattern") if wish.click else None
-        wishes = Wishes(tempo_bpm, wish.loops, wish.bars, wish.demonstrations, click, self._settings.guide)
+        hands = hands_of(self._settings)
+        wishes = Wishes(tempo_bpm, wish.loops, wish.bars, wish.demonstrations, click, self._settings.guide, hands)
         plan, followed = plan_practice(lesson, wishes), None
         if wish.adapt:
             settings = self._settings
@@ -204,7 +235,7 @@ class PracticeRoom:
             plan = followed.adaptation.plan
             if followed.fault is not None:
                 self._notices.append(followed.fault)
-        return plan, SessionView(plan, lesson.kit), followed
+        return plan, SessionView(plan, self._who), followed
 
     def _track(self, plan: Plan) -> PreparedTrack | None:
         """The track to play along to; raises `DeviceError` while it is being made ready, `BadInput` if it cannot be."""
@@ -246,7 +277,7 @@ class PracticeRoom:
             self._finish()
             return
         self._plan = adaptation.plan
-        self._view = SessionView(self._plan, self._plan.lesson.kit)
+        self._view = SessionView(self._plan, self._who)
 
     def _heard(self) -> list[EngineEvent]:
         if not self._alive:

@@ -4,7 +4,7 @@ The drummer demonstrates, then plays along. The score shown is the demonstration
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,8 @@ from station.drills.mastery.fading import Feedback
 from station.engine.engine import KEYBOARD
 from station.motion.drummer import Drummer
 from station.motion.figure import Figure, figure_of
-from station.motion.kit import DEFAULT_KIT, Kit, load_kit
+from station.motion.lanes import in_passes
+from station.motion.style import Style
 from station.music.judgement import Judgement, Label
 from station.music.score import Score
 from station.practice.plan import Phase, Plan
@@ -34,26 +35,41 @@ _CUE_OF_LEAN = {-1: Cue.EARLY, 0: Cue.ON_TIME, 1: Cue.LATE}
 _CUE_OF = {Label.MISS: Cue.MISSED, Label.WRONG_PIECE: Cue.WRONG_PIECE}
 
 
-@dataclass(frozen=True, eq=False)
-class _Part:
-    """A drummer who plays `score`, which begins at `start_ns` of the transport."""
+@dataclass(frozen=True, slots=True)
+class Demonstrator:
+    """Who demonstrates: a body, and how it moves; the lanes of `style` count the lesson's bars."""
 
-    score: Score
-    drummer: Drummer
-    start_ns: int
+    figure: Figure = field(default_factory=figure_of)
+    style: Style = field(default_factory=Style)
+
+
+class _Part:
+    """A drummer who plays `score`, the plan's section once or more, which begins at `start_ns` of the transport."""
+
+    def __init__(self, plan: Plan, score: Score, start_ns: int, who: Demonstrator) -> None:
+        self.score = score
+        self.start_ns = start_ns
+        self._bars = plan.first_bar, plan.section.bar_count, score.bar_count // plan.section.bar_count
+        self._style = who.style
+        self._drummer = Drummer(score, plan.kit, who.figure, in_passes(who.style, *self._bars))
+
+    def drummer(self, style: Style) -> Drummer:
+        """The drummer in that style; what the change does not touch is not made again."""
+        if style is not self._style:
+            self._style, self._drummer = style, self._drummer.with_style(in_passes(style, *self._bars))
+        return self._drummer
 
 
 class SessionView:
-    """One session's pictures. `kit` is the drummer's, by name or file; empty for the default."""
+    """One session's pictures: the demonstrator, `who`, on the plan's kit."""
 
-    def __init__(self, plan: Plan, kit: str = "", figure: Figure | None = None) -> None:
+    def __init__(self, plan: Plan, who: Demonstrator | None = None) -> None:
         self.plan = plan
-        self._kit: Kit = load_kit(kit or DEFAULT_KIT)
-        self._figure = figure or figure_of()
+        self._who = who or Demonstrator()
         demonstrations = [s for s in plan.segments if s.phase is Phase.DEMONSTRATION]
-        self._passes = self._part(plan.score, plan.passes_start_ns)
+        self._passes = _Part(plan, plan.score, plan.passes_start_ns, self._who)
         self._demonstration = (
-            self._part(plan.section.repeated(len(demonstrations)), demonstrations[0].start_ns)
+            _Part(plan, plan.section.repeated(len(demonstrations)), demonstrations[0].start_ns, self._who)
             if demonstrations
             else self._passes
         )
@@ -62,8 +78,9 @@ class SessionView:
         self._cue: Cue = Cue.NONE
         self._cue_ns = 0
 
-    def _part(self, score: Score, start_ns: int) -> _Part:
-        return _Part(score, Drummer(score, self._kit, self._figure), start_ns)
+    def move_as(self, style: Style) -> None:
+        """Let the demonstrator move in another style from now on."""
+        self._who = replace(self._who, style=style)
 
     def judged(self, verdicts: tuple[Judgement, ...], hits: Sequence[Hit], now_ns: int, windows: Windows) -> None:
         """Take in judgements of `hits` that the student may see; marks that older snapshots hold stay as they were."""
@@ -83,13 +100,14 @@ class SessionView:
             return self._ready(message)
         part = self._passes if state.transport_ns >= self.plan.demonstrations_end_ns else self._demonstration
         position_s = (state.transport_ns - part.start_ns) / NS_PER_S
+        drummer = part.drummer(self._who.style)
         return Snapshot(
             score=part.score,
             position_s=position_s,
-            kit=self._kit,
-            figure=self._figure,
-            pose=part.drummer.pose(position_s),
-            limbs=part.drummer.assignment.limbs,
+            kit=drummer.kit,
+            figure=drummer.figure,
+            pose=drummer.pose(position_s),
+            limbs=drummer.assignment.limbs,
             marks=self._marks if part is self._passes else None,
             extras=self._extras(session) if part is self._passes and session.feedback is not Feedback.NONE else (),
             strikes=self._strikes(session, now_ns),
@@ -100,10 +118,12 @@ class SessionView:
     def _ready(self, message: str) -> Snapshot:
         """The picture before anything runs: the drummer waits, the score stands at its first bar."""
         part, plan = self._demonstration, self.plan
-        drummer = part.drummer
+        drummer = part.drummer(self._who.style)
         hud = Hud(plan.lesson.title, "Ready", beats_a_minute=plan.beats_a_minute, message=message)
         pose, limbs = drummer.pose(WAITING_S), drummer.assignment.limbs
-        return Snapshot(part.score, 0.0, self._kit, self._figure, pose, limbs, hud=hud, bar_numbers=self.bar_numbers)
+        return Snapshot(
+            part.score, 0.0, drummer.kit, drummer.figure, pose, limbs, hud=hud, bar_numbers=self.bar_numbers
+        )
 
     def _extras(self, session: Session) -> tuple[Extra, ...]:
         hits = [session.hits[index] for index in session.extras()]

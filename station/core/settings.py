@@ -45,6 +45,8 @@ class Settings:
     measured (`core.calibration`). `thresholds` says of pads
     the least velocity that they send, as measured (`snare=20 tom_1=15`), `mask_ms` how long after a stroke a pad hears
     no other. `ask_first` whether the window asks what the student believes before it shows a result.
+    `style` names how the demonstrator moves, a shipped style or a style file, and `hands` whose hand leads: `right`,
+    `left`, `open`, empty for as a lesson's kit is built (`practice.lead`).
     `view`, `mirrored`, `inset` and `viewpoints` are where the window looks from, `score` how it shows the score
     (`app.look`).
     """
@@ -67,6 +69,8 @@ class Settings:
     thresholds: str = ""
     mask_ms: float = 9.0
     ask_first: bool = True
+    style: str = "natural"
+    hands: str = ""
     view: str = "shoulder"
     mirrored: bool = False
     inset: str = ""

@@ -32,6 +32,12 @@ class Pedal:
     toe_m: tuple[float, float, float]
     raised_rad: float
 
+    @property
+    def mirrored(self) -> "Pedal":
+        """The pedal on the other side."""
+        (heel_x, *heel), (toe_x, *toe) = self.heel_m, self.toe_m
+        return replace(self, heel_m=(-heel_x, heel[0], heel[1]), toe_m=(-toe_x, toe[0], toe[1]))
+
 
 _SUBSTITUTES: Mapping[Piece, tuple[Piece, ...]] = MappingProxyType(
     {
@@ -80,6 +86,18 @@ class Kit:
     def stand_in_table(self) -> tuple[Piece, ...]:
         """`stand_in` of every piece, by its number."""
         return tuple(self.stand_in(p) for p in sorted(Piece))
+
+    @property
+    def mirrored(self) -> "Kit":
+        """The same kit built for the other hand: left and right change places."""
+        x, y, z = self.seat_m
+        return replace(
+            self,
+            left_handed=not self.left_handed,
+            seat_m=(-x, y, z),
+            pieces=MappingProxyType({name: piece.mirrored for name, piece in self.pieces.items()}),
+            pedals=MappingProxyType({name: pedal.mirrored for name, pedal in self.pedals.items()}),
+        )
 
     def target(self, piece: Piece, zone: Zone, limb: Limb) -> Target:
         """The point that `limb` aims at for `zone` of `piece`, on the piece that stands in for it if need be."""

@@ -11,7 +11,7 @@ it, so that any figure with any stick touches the very point (docs/motion.md).
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from types import MappingProxyType
 
@@ -121,6 +121,13 @@ class KitPiece:
     wrist_radius_m: float = 0.40
     wrist_height_m: float = 0.06
     spots: Mapping[Zone, Spot] = field(default_factory=dict)
+
+    @property
+    def mirrored(self) -> "KitPiece":
+        """The piece on the other side, leaning and struck the other way."""
+        x, y, z = self.centre_m
+        spots = {zone: replace(spot, right=-spot.right) for zone, spot in self.spots.items()}
+        return replace(self, centre_m=(-x, y, z), tilt_y_rad=-self.tilt_y_rad, spots=MappingProxyType(spots))
 
     @cached_property
     def centre(self) -> Vector:

@@ -15,10 +15,12 @@ from station.core.errors import BadInput
 from station.core.units import NS_PER_S, PPQ
 from station.drills.lesson import Lesson
 from station.engine.messages import CUE_DTYPE, Bus
-from station.motion.kit import DEFAULT_KIT, load_kit
+from station.motion.hand_notes import Hands
+from station.motion.kit import Kit
 from station.motion.limbs import as_led, assign_limbs
 from station.music.score import Score
 from station.practice.click import PLAIN, ClickPattern, click_cues, count_in, counting, pickup_of, silences
+from station.practice.lead import drummers_kit
 
 MIN_TEMPO_BPM, MAX_TEMPO_BPM = 20.0, 400.0
 """The range of GrooveScribe (PEERS); beyond it neither a click nor a drummer makes sense."""
@@ -50,7 +52,8 @@ class Wishes:
     """What a student asks of a lesson; None leaves the choice to the lesson. `bars` (first, last) counts from 1.
 
     `click` is for the demonstrations and passes; the count-in clicks, or counts, every beat. With None the passes have
-    no click, and the score follows the student. With `guide` the demonstration plays along in the passes.
+    no click, and the score follows the student. With `guide` the demonstration plays along in the passes. `hands` says
+    whose hand leads, None as the lesson's kit is built.
     """
 
     tempo_bpm: float | None = None
@@ -59,6 +62,7 @@ class Wishes:
     demonstrations: int | None = None
     click: ClickPattern | None = PLAIN
     guide: bool = False
+    hands: Hands | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,14 +82,15 @@ class Rounds:
 class Plan:
     """A session laid out.
 
-    `section` is one pass at the practice tempo, `score` all passes in a row (what is judged), `first_bar` the lesson's
-    bar (from 0) where the section begins, `passes_start_ns` where tick 0 of `score` lies on the transport, `end_ns`
-    where the last pass ends, `cues` (n,) of `CUE_DTYPE` everything that sounds, `click` the pattern under the passes,
-    None where the score follows the student.
+    `kit` is the drummer's, `section` one pass at the practice tempo, `score` all passes in a row (what is judged),
+    `first_bar` the lesson's bar (from 0) where the section begins, `passes_start_ns` where tick 0 of `score` lies on
+    the transport, `end_ns` where the last pass ends, `cues` (n,) of `CUE_DTYPE` everything that sounds, `click` the
+    pattern under the passes, None where the score follows the student.
     `rounds` is there where passes differ in bars or tempo: then `section` is all of them in a row.
     """
 
     lesson: Lesson
+    kit: Kit
     tempo_bpm: float
     section: Score
     score: Score
@@ -147,7 +152,9 @@ def plan_practice(lesson: Lesson, wishes: Wishes) -> Plan:
     tempo_bpm = _checked_tempo(wishes.tempo_bpm, lesson)
     passes = _checked_loops(wishes.loops, lesson)
     first, last = _checked_bars(wishes.bars, lesson)
-    section = _with_sticking(lesson.score.bars(first, last).at_speed(tempo_bpm / lesson.tempo_bpm), lesson)
+    kit = drummers_kit(lesson, wishes.hands)
+    section = lesson.score.bars(first, last).at_speed(tempo_bpm / lesson.tempo_bpm)
+    section = _with_sticking(section, kit, wishes.hands)
     demonstrations = lesson.demonstrations if wishes.demonstrations is None else wishes.demonstrations
 
     segments: list[Segment] = []
@@ -182,6 +189,7 @@ def plan_practice(lesson: Lesson, wishes: Wishes) -> Plan:
         now_ns += whole.length_ns
     return Plan(
         lesson=lesson,
+        kit=kit,
         tempo_bpm=tempo_bpm,
         section=section,
         score=section.repeated(passes),
@@ -209,14 +217,13 @@ def demonstration_cues(score: Score) -> NDArray[np.void]:
     return np.concatenate([strokes, chokes])
 
 
-def _with_sticking(section: Score, lesson: Lesson) -> Score:
+def _with_sticking(section: Score, kit: Kit, hands: Hands | None) -> Score:
     """The section with a limb for every stroke: the written one, else the one that the drummer takes.
 
     So the demonstration, the per-limb figures and the advice all speak of the same hands.
     """
-    kit = load_kit(lesson.kit or DEFAULT_KIT)
     led = as_led(section, kit)
-    return led.with_limbs(assign_limbs(led, kit).limbs)
+    return led.with_limbs(assign_limbs(led, kit, hands=hands).limbs)
 
 
 def _count_in(section: Score, bars: int) -> Score:

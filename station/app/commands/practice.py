@@ -19,6 +19,7 @@ from station.drills.lesson import Lesson
 from station.practice.backing import BackingWish
 from station.practice.click_word import parse_click
 from station.practice.folder import TEXT_NAME
+from station.practice.lead import hands_of
 from station.practice.mastery_report import with_mastery
 from station.practice.memory import Memory, Remembered
 from station.practice.plan import Plan, Wishes, plan_practice
@@ -192,7 +193,8 @@ def _wishes(arguments: argparse.Namespace, settings: Settings) -> Wishes:
     demonstrations = 0 if arguments.no_demonstration else None
     pattern = parse_click(settings.click_pattern, "settings: click_pattern")
     click = None if arguments.no_click else replace(pattern, gap=arguments.gap)
-    return Wishes(arguments.tempo, arguments.loops, arguments.bars, demonstrations, click, settings.guide)
+    hands = hands_of(settings)
+    return Wishes(arguments.tempo, arguments.loops, arguments.bars, demonstrations, click, settings.guide, hands)
 
 
 def _wanted(arguments: argparse.Namespace, settings: Settings) -> Settings:

@@ -8,6 +8,7 @@ from station.core.calibration import load_calibration
 from station.core.errors import DeviceError
 from station.core.settings import Settings, load_settings
 from station.practice.backing import BackingWish
+from station.practice.lead import hands_of
 from station.practice.plan import Plan, Wishes, plan_practice
 
 
@@ -19,7 +20,9 @@ def run(_: argparse.Namespace) -> int:
     """Open the window on the first lesson."""
     from station.drills.library import FIRST_LESSON, find_lesson
 
-    return open_window(load_settings(), plan_practice(find_lesson(FIRST_LESSON), Wishes()), adapt=True)
+    settings = load_settings()
+    first = plan_practice(find_lesson(FIRST_LESSON), Wishes(hands=hands_of(settings)))
+    return open_window(settings, first, adapt=True)
 
 
 def open_window(settings: Settings, first: Plan, adapt: bool, backing: BackingWish | None = None) -> int:

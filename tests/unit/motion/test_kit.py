@@ -117,3 +117,20 @@ def test_a_faulty_kit_names_the_place(tmp_path: Path, old: str, new: str, place:
 def test_an_unknown_kit_names_those_there_are() -> None:
     with pytest.raises(BadInput, match="four_piece"):
         load_kit("four_pieces")
+
+
+def test_the_mirrored_kit_is_the_left_handed_one_and_mirrored_again_itself() -> None:
+    """`left_handed.toml` was written by hand, number by number."""
+    right, left = load_kit("four_piece"), load_kit("left_handed")
+    assert right.mirrored.left_handed
+    assert right.mirrored.seat_m == left.seat_m
+    for piece, there in left.pieces.items():
+        here = right.mirrored.pieces[piece]
+        assert here.centre_m == there.centre_m
+        assert here.tilt_y_rad == there.tilt_y_rad
+        for zone in there.spots:
+            for limb in (Limb.RIGHT_HAND, Limb.LEFT_HAND):
+                assert here.target(zone, limb).point_m == pytest.approx(there.target(zone, limb).point_m, abs=1e-12)
+    assert right.mirrored.pedals == left.pedals
+    seven = load_kit("seven_piece")
+    assert seven.mirrored.mirrored == seven

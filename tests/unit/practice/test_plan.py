@@ -6,13 +6,17 @@ import numpy as np
 import pytest
 
 from station.core.errors import BadInput
-from station.core.pieces import Piece, Zone
+from station.core.pieces import Limb, Piece, Zone
+from station.core.settings import Settings
 from station.core.units import NS_PER_S, PPQ
 from station.drills.lesson import Lesson
 from station.engine.messages import Bus, ClickVoice
+from station.motion.hand_notes import Hands
+from station.motion.kit import load_kit
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 from station.practice.click import ClickBeats, ClickPattern, Gap
+from station.practice.lead import hands_of
 from station.practice.plan import Phase, Wishes, plan_practice
 from tests.fakes.scores import rock_beat
 
@@ -126,3 +130,32 @@ def test_segment_at_any_time() -> None:
 def test_what_cannot_be_is_refused(wishes: Wishes, named: str) -> None:
     with pytest.raises(BadInput, match=named):
         plan_practice(lesson(), wishes)
+
+
+def test_a_left_handed_student_plays_the_kit_mirrored_and_an_open_handed_one_uncrossed() -> None:
+    """Hi-hat and snare of a rock beat: who leads has the hat; open, the other hand."""
+    expected = {
+        Hands.RIGHT: (False, Limb.RIGHT_HAND, Limb.RIGHT_FOOT),
+        Hands.LEFT: (True, Limb.LEFT_HAND, Limb.LEFT_FOOT),
+        Hands.OPEN: (False, Limb.LEFT_HAND, Limb.RIGHT_FOOT),
+    }
+    for hands, (mirrored, hat, kick) in expected.items():
+        plan = plan_practice(lesson(), Wishes(hands=hands))
+        notes = plan.section.notes
+        assert plan.kit.left_handed is mirrored
+        assert set(notes["limb"][notes["piece"] == Piece.HIHAT].tolist()) == {hat}
+        assert set(notes["limb"][notes["piece"] == Piece.KICK].tolist()) == {kick}
+
+
+def test_a_kit_that_is_built_for_the_student_s_hand_is_not_mirrored() -> None:
+    left = replace(lesson(), kit="left_handed")
+    assert plan_practice(left, Wishes()).kit.left_handed
+    assert plan_practice(left, Wishes(hands=Hands.LEFT)).kit == load_kit("left_handed")
+    assert not plan_practice(left, Wishes(hands=Hands.RIGHT)).kit.left_handed
+
+
+def test_a_word_that_is_no_hand_is_named() -> None:
+    assert hands_of(Settings()) is None
+    assert hands_of(Settings(hands="open")) is Hands.OPEN
+    with pytest.raises(BadInput, match="hands: expected one of right, left, open"):
+        hands_of(Settings(hands="both"))

@@ -1,0 +1,58 @@
+"""Lanes as a user draws them; the expected values are read off straight lines by hand."""
+
+import numpy as np
+import pytest
+
+from station.motion.lanes import drawn, in_passes, value_at, with_moved, with_point, without_point
+from station.motion.style import Style
+
+RAMP = ((1.0, 20.0), (5.0, 60.0))
+
+
+def test_a_lane_is_straight_between_points_and_level_beyond_them() -> None:
+    assert [value_at(RAMP, bar) for bar in (0.0, 1.0, 2.0, 4.5, 9.0)] == pytest.approx([20, 20, 30, 55, 60])
+
+
+def test_points_come_go_and_keep_their_order() -> None:
+    three = with_point(RAMP, 3.0, 90.0)
+    assert three == ((1.0, 20.0), (3.0, 90.0), (5.0, 60.0))
+    assert with_point(three, 3.001, 10.0) == ((1.0, 20.0), (3.001, 10.0), (5.0, 60.0)), "it takes the near one's place"
+    assert without_point(three, 1) == RAMP
+
+
+def test_a_point_moves_up_to_its_neighbours_and_no_further() -> None:
+    three = with_point(RAMP, 3.0, 90.0)
+    for wanted, found in ((4.0, 4.0), (99.0, 4.98), (-3.0, 1.02)):
+        moved = with_moved(three, 1, wanted, 50.0)
+        assert moved[1] == pytest.approx((found, 50.0))
+        assert moved[0] == RAMP[0]
+        assert moved[2] == RAMP[1]
+    assert with_moved(three, 0, -3.0, 50.0)[0] == (1.0, 50.0), "there is nothing before the first bar"
+
+
+def test_what_is_drawn_takes_the_place_of_what_lay_under_it() -> None:
+    lane = ((1.0, 1.0), (2.0, 2.0), (3.0, 3.0), (4.0, 4.0))
+    assert drawn(lane, [(3.25, 80.0), (1.75, 70.0), (2.5, 75.0)]) == (
+        (1.0, 1.0),
+        (1.75, 70.0),
+        (2.5, 75.0),
+        (3.25, 80.0),
+        (4.0, 4.0),
+    )
+    assert drawn(lane, []) == lane
+
+
+def test_every_pass_has_the_lessons_own_bars() -> None:
+    """Bars 3 and 4 of a lesson, three times: 40 where bar 3 begins, 50 where bar 4 begins, 60 where it ends."""
+    style = in_passes(Style(automation={"amplitude_gain": RAMP}), 2, 2, 3)
+    assert style.value("amplitude_gain", np.array([1.0, 2.0, 2.99])) == pytest.approx([40, 50, 60], abs=0.2)
+    for passes in (2.0, 4.0):
+        places = np.array([1.0, 1.5, 2.0, 2.5])
+        assert style.value("amplitude_gain", places + passes) == pytest.approx([40, 45, 50, 55])
+    bars = [bar for bar, _ in style.automation["amplitude_gain"]]
+    assert bars == sorted(set(bars))
+
+
+def test_a_style_without_lanes_stays_as_it_is() -> None:
+    style = Style(amplitude_gain=30.0)
+    assert in_passes(style, 2, 2, 3) is style
