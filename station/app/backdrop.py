@@ -96,6 +96,18 @@ class Backdrop:
     def draw(self, snapshot: Snapshot, report: Report | None, area: Area) -> None:
         """Fill the window's framebuffer; `area` is what the panels leave free."""
         ctx, painter = self._ready()
+        screen, whole = self.clear()
+        if min(area[2:]) < 16:
+            return
+        if report is not None:
+            self._draw_report(report, painter, ctx, area)
+        else:
+            self._draw_room(snapshot, painter, screen, whole, area)
+        ctx.viewport = (0, 0, *whole)
+
+    def clear(self) -> tuple[moderngl.Framebuffer, tuple[int, int]]:
+        """Make the window's framebuffer dark; returns it and its size in pixels."""
+        ctx, _ = self._ready()
         screen = ctx.detect_framebuffer(0)
         screen.use()
         size = imgui.get_io().display_size
@@ -104,13 +116,7 @@ class Backdrop:
         ctx.viewport = (0, 0, *whole)
         ctx.scissor = None
         screen.clear(*NIGHT, depth=1.0)
-        if min(area[2:]) < 16:
-            return
-        if report is not None:
-            self._draw_report(report, painter, ctx, area)
-        else:
-            self._draw_room(snapshot, painter, screen, whole, area)
-        ctx.viewport = (0, 0, *whole)
+        return screen, whole
 
     def release(self) -> None:
         """Give the driver its memory back before the window goes."""

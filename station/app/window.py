@@ -43,7 +43,8 @@ class WindowOptions:
     """How the window opens: `size` in pixels, `quality` 0–2 or None to measure, whether the layout is remembered.
 
     `settings` is the file that keeps the look, None for this user's. `tests` registers tests with imgui's test engine
-    and makes it run.
+    and makes it run, without a pause between frames; `picture_every` draws the picture in every so manieth frame alone
+    and leaves it dark between them, for whoever watches the panels.
     """
 
     size: tuple[int, int] = (1280, 720)
@@ -51,6 +52,7 @@ class WindowOptions:
     remember_layout: bool = True
     settings: Path | None = None
     tests: Callable[[], None] | None = None
+    picture_every: int = 1
 
 
 class Window:
@@ -110,6 +112,7 @@ class Window:
         self._dock(params)
         if self._options.tests is not None:
             params.use_imgui_test_engine = True
+            params.fps_idling.fps_idle = 0.0
             callbacks.register_tests = self._options.tests
         return params
 
@@ -181,7 +184,10 @@ class Window:
         report = self._model.report() if self._model.room().stage is Stage.RESULT else None
         if report is not None:
             height -= round(theme.points(_NEWS_BAND) * imgui.get_io().display_framebuffer_scale.y)
-        self.backdrop.draw(snapshot, report, (left, low, width, height))
+        if self.frames % self._options.picture_every:
+            self.backdrop.clear()
+        else:
+            self.backdrop.draw(snapshot, report, (left, low, width, height))
         self.frames += 1
 
     def _preview(self) -> None:

@@ -1,4 +1,6 @@
-"""Runs one scenario in a window of its own and writes what was seen to a JSON file: `drive.py SCENARIO SESSIONS OUT`.
+"""Runs scenarios in one window and writes what was seen to a JSON file: `drive.py SCENARIO[+SCENARIO…] SESSIONS OUT`.
+
+A window takes seconds to open: scenarios that leave nothing behind share one.
 
 With a fourth argument `FILE.png` the window's last frame is kept there.
 
@@ -9,7 +11,7 @@ mouse and presses the keys; nothing here reaches past the window but to look.
 import json
 import sys
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -19,7 +21,6 @@ from imgui_bundle import hello_imgui, imgui
 from station.app.look import look_of
 from station.app.model import Stage
 from station.app.panels.lessons import ADAPT_LABEL
-from station.app.practice_room import PracticeRoom
 from station.app.window import Window, WindowOptions
 from station.core.errors import BadInput
 from station.core.settings import load_settings
@@ -31,30 +32,41 @@ from station.practice.student_spec import parse_spec
 from station.render.camera import VIEW_NAMES, View
 from station.render.png import write_png
 from station.render.score_view import ScoreForm
-from tests.gui.room import DirectEngine, practice_room
+from tests.gui.room import practice_room
 
 STEP_NS = ns_from_ms(100)
 SIZE = (760, 480)
 LESSON = "rock-2"
 MOST_FRAMES = 1000
+PICTURE_EVERY = 25
+"""Without a graphics card the picture takes nine tenths of a frame; a test of the panels sees it now and then."""
 STUDENTS = {"drill": "beginner,seed=3", "practise": "pro,seed=4", "highway": "intermediate,seed=2,velocity_sd=30"}
 PATIENCE_S = 600.0  # the parent's own limit is what ends a run that hangs
+
+Scenario = Callable[["Drive", imgui.test_engine.TestContext], None]
 
 
 class Drive:
     """What a scenario works with: the test context, the window, what is behind it, and `seen` for the parent."""
 
-    def __init__(self, sessions: Path, student: str | None) -> None:
+    def __init__(self, sessions: Path, student: str | None, picture_every: int = PICTURE_EVERY) -> None:
         spec = None if student is None else parse_spec(student)
         self.room, self.engine, self.clock = practice_room("rock-1", Wishes(), sessions, spec, STEP_NS)
         self.settings = sessions / "settings.toml"
         options = WindowOptions(SIZE, quality=0, remember_layout=False, settings=self.settings, tests=self._register)
+        options = replace(options, picture_every=picture_every)
         self.window = Window(self.room, options, self.clock)
-        self.seen: dict[str, object] = {}
-        self._scenario: Callable[[Drive, imgui.test_engine.TestContext], None] | None = None
+        self.all_seen: list[dict[str, object]] = []
+        self._scenarios: Sequence[Scenario] = ()
 
-    def run(self, scenario: "Callable[[Drive, imgui.test_engine.TestContext], None]") -> None:
-        self._scenario = scenario
+    @property
+    def seen(self) -> dict[str, object]:
+        """What the scenario that runs has seen."""
+        return self.all_seen[-1]
+
+    def run(self, scenarios: "Sequence[Scenario]") -> None:
+        """Open the window and play them in turn, each from the lessons page with no popup open."""
+        self._scenarios = scenarios
         self.window.run()
 
     def _register(self) -> None:
@@ -68,11 +80,18 @@ class Drive:
         imgui.test_engine.queue_test(engine, test)
 
     def _test(self, ctx: imgui.test_engine.TestContext) -> None:
-        assert self._scenario is not None
-        try:
-            self._scenario(self, ctx)
-        except Exception:
-            self.seen["fault"] = traceback.format_exc()
+        for scenario in self._scenarios:
+            self.all_seen.append({})
+            try:
+                ctx.popup_close_all()
+                self.room.stop()
+                self.room.dismiss()
+                ctx.yield_(2)
+                scenario(self, ctx)
+            except Exception:
+                self.seen["traceback"] = traceback.format_exc()
+                break
+            self.seen["commands"] = [type(command).__name__ for command in self.engine.sent]
         hello_imgui.get_runner_params().app_shall_exit = True
 
     def wait_for(self, ctx: imgui.test_engine.TestContext, stage: Stage) -> int:
@@ -147,9 +166,10 @@ def look(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
         ctx.combo_click(f"##view/{VIEW_NAMES[view]}")
         ctx.yield_(2)
         drive.seen[view.name] = drive.window.backdrop.look.view.name
+    mirrored = drive.window.backdrop.camera.mirrored
     ctx.item_click("mirror")
     ctx.yield_(2)
-    drive.seen["mirrored"] = drive.window.backdrop.camera.mirrored
+    drive.seen["mirrored"] = drive.window.backdrop.camera.mirrored is not mirrored
     before = drive.window.backdrop.camera.azimuth_rad
     turn(ctx)
     drive.seen["turned"] = drive.window.backdrop.camera.azimuth_rad - before
@@ -245,7 +265,8 @@ def drill(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.item_click("**/2##bar2")
     ctx.yield_(3)
     drive.seen["stage"] = drive.room.room().stage.name
-    drive.room.stop()
+    kept = drive.room.close()
+    assert kept is None, kept
     drilled = drive.room.report()
     drive.seen["subtitle"] = None if drilled is None else drilled.facts.words.subtitle
 
@@ -271,6 +292,7 @@ def fault(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.yield_(2)
     drive.seen["news"] = drive.window.news
     drive.seen["after"] = drive.room.room().stage.name
+    del room.start
 
 
 SCENARIOS = {
@@ -287,17 +309,15 @@ SCENARIOS = {
 }
 
 
-def main(name: str, sessions: str, out: str, picture: str | None = None) -> None:
-    drive = Drive(Path(sessions), STUDENTS.get(name))
-    drive.run(SCENARIOS[name])
+def main(names: str, sessions: str, out: str, picture: str | None = None) -> None:
+    scenarios = names.split("+")
+    drive = Drive(Path(sessions), STUDENTS.get(scenarios[0]), PICTURE_EVERY if picture is None else 1)
+    drive.run([SCENARIOS[name] for name in scenarios])
     if picture is not None:
         write_png(np.ascontiguousarray(hello_imgui.final_app_window_screenshot()), Path(picture))
-    room: PracticeRoom = drive.room
-    engine: DirectEngine = drive.engine
-    room.stop()
-    drive.seen["drawn"] = drive.window.frames
-    drive.seen["commands"] = [type(command).__name__ for command in engine.sent]
-    Path(out).write_text(json.dumps(drive.seen))
+    kept = drive.room.close()
+    assert kept is None, kept
+    Path(out).write_text(json.dumps(dict(zip(scenarios, drive.all_seen, strict=False))))
 
 
 if __name__ == "__main__":
