@@ -4,24 +4,24 @@
 it when it is over. The hits carry their own times, so that the frame rate decides nothing.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 from datetime import date
 
+from station.app.engine_line import EngineLine, WakeEngine
 from station.app.heat_map import heat_map
+from station.app.lesson_cards import all_lessons, card, wish_of
 from station.app.model import LessonCard, Report, RoomState, Stage, Start
 from station.app.results import session_facts
 from station.app.session_folder import SessionFolder, rescued
 from station.app.session_view import Demonstrator, SessionView
 from station.core.calibration import Calibration
 from station.core.errors import BadInput, DeviceError, StationError
-from station.core.events import DeviceFound, DeviceLost, Hit
+from station.core.events import Hit
 from station.core.settings import Settings
-from station.core.units import PPQ
-from station.drills.lesson import LEVELS, Lesson
-from station.drills.library import find_lesson, shipped_lessons
-from station.engine.messages import EngineEvent, KeyHit, Ready, SetBacking, Sounding
+from station.drills.library import find_lesson
+from station.engine.messages import EngineEvent, KeyHit, SetBacking
 from station.motion.hand_notes import Hands
 from station.motion.style import Style
 from station.motion.style_file import load_style
@@ -31,7 +31,7 @@ from station.practice.backing import Backing, BackingWish
 from station.practice.click_word import parse_click
 from station.practice.latency import Latency, latency_of
 from station.practice.lead import hands_of
-from station.practice.live import EngineLink, begin, end, next_session
+from station.practice.live import begin, end, next_session
 from station.practice.mastery_report import with_mastery
 from station.practice.memory import Memory, Remembered
 from station.practice.own_ear import GUESS_OF, QUESTION, Guess, answered, is_worth_asking
@@ -44,9 +44,6 @@ from station.sound.track import PreparedTrack
 
 NOTICES_KEPT = 5
 """How many notices the window may show at once; our choice."""
-
-
-WakeEngine = Callable[[], EngineLink]
 
 
 class PracticeRoom:
@@ -65,14 +62,12 @@ class PracticeRoom:
         latency: Latency | None = None,
         backing: BackingWish | None = None,
     ) -> None:
-        self._wake = wake
-        self._engine = wake()
+        self._engine = EngineLine(wake, settings.rate_hz)
         self._settings = settings
         self._backing = None if backing is None else Backing(backing)
-        self._rate_hz = settings.rate_hz
         self._latency = latency or latency_of(settings, Calibration())
-        self._lessons = _all_lessons(first.lesson)
-        self._first = replace(_wish_of(first), adapt=adapt)
+        self._lessons = all_lessons(first.lesson)
+        self._first = replace(wish_of(first), adapt=adapt)
         self._followed: Remembered | None = None
         self._taken: Session | None = None
         self._plan = first
@@ -85,9 +80,6 @@ class PracticeRoom:
         self._asked: set[str] = set()
         self._is_asking = False
         self._stage = Stage.IDLE
-        self._kits: list[str] = []
-        self._sound = "the engine is waking"
-        self._alive = True
         self._fault: StationError | None = None
 
     # --- what the window shows ---------------------------------------------------------------------------------------
@@ -113,13 +105,13 @@ class PracticeRoom:
             progress = (len(adaptation.rounds) + progress) / adaptation.loops
         can_veto = adaptation is not None and bool(adaptation.rounds) and state.segment.phase is Phase.COUNT_IN
         notices = tuple(self._notices[-NOTICES_KEPT:])
-        kits = ", ".join(self._kits)
+        kits, sound = self._engine.kits, self._engine.sound
         question = QUESTION if self._is_asking else ""
-        return RoomState(self._stage, kits, self._sound, notices, progress, self._session.message, can_veto, question)
+        return RoomState(self._stage, kits, sound, notices, progress, self._session.message, can_veto, question)
 
     def lessons(self) -> Sequence[LessonCard]:
         """Every shipped lesson, and the one that was named when the window was opened."""
-        return [_card(lesson) for lesson in self._lessons.values()]
+        return [card(lesson) for lesson in self._lessons.values()]
 
     def report(self) -> Report | None:
         """The result of the session that ended last, once the question before it was answered."""
@@ -142,8 +134,7 @@ class PracticeRoom:
         plan, view, followed = self._laid_out(wish)
         if self._stage is Stage.PLAYING:
             self.stop()
-        if not self._alive:
-            self._engine, self._alive = self._wake(), True
+        self._engine.wake()
         track = None if wish.adapt else self._track(plan)
         folder = SessionFolder(None, self._settings, plan)
         session = self._new_session(plan) if followed is None else followed.adaptation.session(self._latency)
@@ -241,7 +232,7 @@ class PracticeRoom:
         """The track to play along to; raises `DeviceError` while it is being made ready, `BadInput` if it cannot be."""
         if self._backing is None:
             return None
-        self._backing.ask(plan, self._rate_hz)
+        self._backing.ask(plan, self._engine.rate_hz)
         track = self._backing.take()
         if track is None:
             raise DeviceError("the track is being made ready for this tempo: start again in a moment")
@@ -272,7 +263,6 @@ class PracticeRoom:
         try:
             self._session = next_session(self._engine, adaptation, self._session)
         except DeviceError as fault:
-            self._alive = False
             self._notices.append(str(fault))
             self._finish()
             return
@@ -280,44 +270,30 @@ class PracticeRoom:
         self._view = SessionView(self._plan, self._who)
 
     def _heard(self) -> list[EngineEvent]:
-        if not self._alive:
-            return []
         try:
             return self._engine.events()
         except DeviceError as fault:
-            self._alive = False
             self._notices.append(str(fault))
-            self._sound = "the engine has ended"
             if self._stage is Stage.PLAYING:
                 self._finish()
             return []
 
     def _take(self, event: EngineEvent, now_ns: int) -> None:
-        told = len(self._session.notices)
+        told = len(self._session.heard.notices)
         verdicts = self._session.handle(event)
         self._judged(verdicts, now_ns)
-        self._notices += self._session.notices[told:]
-        match event:
-            case Hit(piece=piece) if self._is_asking and piece in GUESS_OF:
-                self.answer(GUESS_OF[piece])
-            case DeviceFound(_, device):
-                self._kits = [*(kit for kit in self._kits if kit != device), device]
-            case DeviceLost(_, device):
-                self._kits = [kit for kit in self._kits if kit != device]
-            case Ready(output, rate_hz) | Sounding(output, rate_hz):
-                self._sound = output or "silent"
-                self._rate_hz = rate_hz or self._rate_hz
-            case _:
-                pass
+        self._notices += self._session.heard.notices[told:]
+        if isinstance(event, Hit) and self._is_asking and event.piece in GUESS_OF:
+            self.answer(GUESS_OF[event.piece])
 
     def _finish(self) -> None:
         """End the session, judge what was played and keep it."""
         self._fault = None
-        if self._alive:
+        if self._engine.alive:
             try:
                 self._fault = end(self._engine, self._session)
             except DeviceError as fault:
-                self._alive, self._fault = False, fault
+                self._fault = fault
         result, document = self._told_whole()
         path = ""
         if self._folder is not None:
@@ -352,32 +328,3 @@ class PracticeRoom:
             self._taken = self._session
         result = adaptation.result()
         return result, with_mastery(practice_document(result, self._settings), adaptation, self._followed.next_turn())
-
-
-def _wish_of(plan: Plan) -> Start:
-    last_bar = plan.first_bar + plan.section.bar_count
-    demonstrations = sum(segment.phase is Phase.DEMONSTRATION for segment in plan.segments)
-    bars = plan.first_bar + 1, last_bar
-    return Start(plan.lesson.name, plan.tempo_bpm, plan.passes, bars, demonstrations, click=plan.click is not None)
-
-
-def _all_lessons(first: Lesson) -> dict[str, Lesson]:
-    return {lesson.name: lesson for lesson in shipped_lessons()} | {first.name: first}
-
-
-def _card(lesson: Lesson) -> LessonCard:
-    meter = lesson.score.tempo_map.meters[0]
-    return LessonCard(
-        name=lesson.name,
-        title=lesson.title,
-        level=lesson.level,
-        level_words=LEVELS[lesson.level],
-        about=lesson.about,
-        author=lesson.author,
-        tempo_bpm=lesson.tempo_bpm,
-        bars=lesson.loop[1] - lesson.loop[0] + 1,
-        passes=lesson.passes,
-        meter=f"{meter.beats}/{meter.unit}",
-        tags=lesson.tags,
-        beat_quarters=lesson.beat_ticks / PPQ,
-    )

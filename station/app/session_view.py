@@ -131,7 +131,7 @@ class SessionView:
 
     @staticmethod
     def _strikes(session: Session, now_ns: int) -> tuple[Strike, ...]:
-        ages = ((hit, now_ns - hit.at_ns) for hit in session.recent)
+        ages = ((hit, now_ns - hit.at_ns) for hit in session.heard.recent)
         return tuple(Strike(h.piece, h.velocity, age / NS_PER_S) for h, age in ages if 0 <= age < STRIKE_SHOWN_NS)
 
     # --- words -------------------------------------------------------------------------------------------------------

@@ -67,8 +67,8 @@ class _Room:
             self._engine.handle(command)
         zero_ns = self._clock.now_ns() + LEAD_IN_NS
         self._step(zero_ns)
-        if session.capture_fault is not None:
-            raise DeviceError(session.capture_fault)
+        if session.heard.capture_fault is not None:
+            raise DeviceError(session.heard.capture_fault)
         for at_ns, data in student.midi:
             now_ns = zero_ns + plan.passes_start_ns + at_ns
             self._engine.feed(DEVICE, data, now_ns)
@@ -82,7 +82,7 @@ class _Room:
         assert self._session is not None, "something was practised"
         self._engine.handle(Record(None))
         self._step(self._clock.now_ns())
-        fault = self._session.capture_fault
+        fault = self._session.heard.capture_fault
         return None if fault is None else DeviceError(fault)
 
     def _step(self, now_ns: int) -> None:

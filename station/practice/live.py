@@ -65,7 +65,7 @@ def practise_live(engine: EngineLink, session: Session, clock: Clock, capture: P
         if not session.started:
             raise
         fault = error
-    if fault is None and not session.devices:
+    if fault is None and not session.heard.devices:
         fault = DeviceError("the kit was unplugged and did not come back; what was played until then is kept")
     return LiveOutcome(session.result(), fault)
 
@@ -97,7 +97,7 @@ def practise_rounds(
         fault = error
     if not adaptation.over:
         adaptation.take(session.result())
-    if fault is None and not session.devices:
+    if fault is None and not session.heard.devices:
         fault = DeviceError("the kit was unplugged and did not come back; what was played until then is kept")
     return LiveOutcome(adaptation.result(), fault)
 
@@ -105,7 +105,7 @@ def practise_rounds(
 def next_session(engine: EngineLink, adaptation: Adaptation, before: Session) -> Session:
     """Start the pass that `adaptation` asks for, on what the session `before` knows of the kit."""
     session = adaptation.session(before.latency)
-    session.devices, session.capture_fault, session.rate_hz = before.devices, before.capture_fault, before.rate_hz
+    session.heard.go_on_from(before.heard)
     for command in session.start():
         engine.send(command)
     return session
@@ -133,7 +133,7 @@ def end(engine: EngineLink, session: Session) -> StationError | None:
             session.handle(event)
         if any(isinstance(event, Recorded) and event.path is None for event in events):
             break
-    return None if session.capture_fault is None else DeviceError(session.capture_fault)
+    return None if session.heard.capture_fault is None else DeviceError(session.heard.capture_fault)
 
 
 @contextmanager
@@ -153,7 +153,7 @@ def _ctrl_c() -> Iterator[threading.Event]:
 def wait_for_kits(engine: EngineLink, session: Session, clock: Clock, wait_s: float, tell: Tell, kits: int = 1) -> None:
     """Let the engine wake and find so many `kits`, for at most `wait_s` after it is ready."""
     until_ns: int | None = None
-    while len(session.devices) < kits and (until_ns is None or clock.now_ns() < until_ns):
+    while len(session.heard.devices) < kits and (until_ns is None or clock.now_ns() < until_ns):
         for event in engine.events(POLL_S):
             session.handle(event)
             if isinstance(event, Ready):

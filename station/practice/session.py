@@ -12,18 +12,19 @@ A hit's score time = its stamp − its pad's latency − (the transport's zero +
 what the student heard and played, compared where both are known (`practice.latency`).
 """
 
-from collections import Counter, deque
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TypeVar
 
-from station.core.events import Choke, DeviceFound, DeviceLost, Hit
+from station.core.events import Choke, Hit
 from station.core.units import NS_PER_MS
 from station.drills.mastery.fading import Feedback
-from station.engine.messages import Command, EngineEvent, Notice, Play, Ready, Recorded, SetBacking, Sounding, Started
+from station.engine.messages import Command, EngineEvent, Play, SetBacking
 from station.music.judgement import Judgement, Label
 from station.music.performance import Performance
 from station.music.score import Score
+from station.practice.hearing import Hearing
 from station.practice.latency import Latency
 from station.practice.plan import TAIL_NS, Plan, Segment
 from station.scoring.align import align
@@ -36,8 +37,6 @@ _Played = TypeVar("_Played", Hit, Choke)
 
 LEAD_IN_NS = 300 * NS_PER_MS
 """How long after `start` the first click is heard: time for the engine to wake; our choice."""
-RECENT_HITS = 32
-"""How many hits a window may look back on to show what was struck just now; our choice."""
 EARLIEST_NS = 250 * NS_PER_MS
 """A hit so long before the first bar is still judged, an earlier one belongs to the count-in; our choice."""
 
@@ -89,23 +88,13 @@ class Session:
 
     def __post_init__(self) -> None:
         self._follower = Follower(self.plan.score, self.windows, clocked=self.plan.click is not None)
-        self._zero_ns: int | None = None
+        self.heard = Hearing(self.latency)
+        """What the engine has said."""
         self._now_ns = 0
         self._hits: list[Hit] = []
         self._chokes: list[Choke] = []
         self._verdict_of_note: dict[int, Judgement] = {}
-        self._recent: deque[Hit] = deque(maxlen=RECENT_HITS)
         self._verdict_of_hit: dict[int, Judgement] = {}
-        self.devices: list[str] = []
-        """The kits that are connected, as far as the engine has said, the newest last."""
-        self.output: str | None = None
-        """What the click is heard on, or was last, as far as the engine has said."""
-        self.capture_fault: str | None = None
-        """Why the capture lacks what came after, if it does."""
-        self.rate_hz: int | None = None
-        """The sound card's rate, None where there is none."""
-        self.notices: list[str] = []
-        """What a user should read once, in order."""
 
     def start(self) -> tuple[Command, ...]:
         """The commands that set the engine going."""
@@ -116,29 +105,13 @@ class Session:
 
     def handle(self, event: EngineEvent) -> tuple[Judgement, ...]:
         """Take one event; returns what was judged because of it."""
+        self.heard.take(event)
         match event:
             case Hit():
                 return self._take_hit(event)
             case Choke():
-                played_ns = event.at_ns - self.latency.of_stroke(event.device, event.piece)
-                if (score_ns := self._score_ns(played_ns)) is not None:
+                if (score_ns := self._score_of(event)) is not None:
                     self._chokes.append(replace(event, at_ns=score_ns))
-            case Started(zero_ns, output):
-                self._zero_ns, self.output = zero_ns, output
-            case DeviceLost(_, device):
-                self.devices = [other for other in self.devices if other != device]
-                self.notices.append(f"{device} is gone; plug it in again, the session goes on")
-            case DeviceFound(_, device):
-                self.devices = [*(other for other in self.devices if other != device), device]
-                self.notices.append(f"{device} is here")
-            case Recorded(_, fault) if fault is not None:
-                self.capture_fault = fault
-                self.notices.append(f"nothing more is recorded: {fault}")
-            case Ready(output, rate_hz) | Sounding(output, rate_hz):
-                self.rate_hz = rate_hz
-                self.output = output or self.output  # whoever plays on in silence keeps the beat that he heard
-            case Notice(text):
-                self.notices.append(text)
             case _:
                 pass
         return ()
@@ -150,8 +123,7 @@ class Session:
         return self._keep(self._follower.advance(score_ns)) if score_ns is not None else ()
 
     def _take_hit(self, hit: Hit) -> tuple[Judgement, ...]:
-        self._recent.append(hit)
-        score_ns = self._score_ns(hit.at_ns - self.latency.of_stroke(hit.device, hit.piece))
+        score_ns = self._score_of(hit)
         if score_ns is None or not self._is_judged(score_ns):
             return ()
         self._hits.append(replace(hit, at_ns=score_ns))
@@ -171,7 +143,7 @@ class Session:
     @property
     def started(self) -> bool:
         """Whether the transport runs or ran."""
-        return self._zero_ns is not None
+        return self.heard.zero_ns is not None
 
     @property
     def over(self) -> bool:
@@ -198,11 +170,6 @@ class Session:
         """The hits that are judged, in score time, in the order in which they came: `hit_index` counts them."""
         return self._hits
 
-    @property
-    def recent(self) -> Iterable[Hit]:
-        """The last hits, judged or not, the newest last."""
-        return self._recent
-
     def told(self, verdicts: Iterable[Judgement]) -> tuple[Judgement, ...]:
         """What the student is shown of `verdicts`: all; right and wrong, without time and strength; nothing."""
         if self.feedback is Feedback.NONE:
@@ -224,7 +191,7 @@ class Session:
         score = self.plan.score if complete else self.plan.score.until_ns(heard_until_ns or 0)
         alignment = align(score, performance, clocked=self.plan.click is not None)
         return SessionResult(
-            self.plan, score, performance, alignment, self.latency, complete, self._played_on(), self.output
+            self.plan, score, performance, alignment, self.latency, complete, self._played_on(), self.heard.output
         )
 
     def _performance(self) -> Performance:
@@ -243,16 +210,18 @@ class Session:
 
     # --- time -------------------------------------------------------------------------------------------------------
 
-    def _transport_ns(self, at_ns: int) -> int | None:
-        return None if self._zero_ns is None else at_ns - self._zero_ns - self.latency.of_output(self.output)
-
     def _score_ns(self, at_ns: int) -> int | None:
-        transport_ns = self._transport_ns(at_ns)
+        transport_ns = self.heard.transport_ns(at_ns)
         return None if transport_ns is None else transport_ns - self.plan.passes_start_ns
+
+    def _score_of(self, stroke: Hit | Choke) -> int | None:
+        """When in the score `stroke` was played."""
+        played_ns = self.heard.played_ns(stroke)
+        return None if played_ns is None else played_ns - self.plan.passes_start_ns
 
     def _plan_ns(self) -> int | None:
         """The place on the plan's timeline now: the transport's, or the student's where no click rules the passes."""
-        transport_ns, start_ns = self._transport_ns(self._now_ns), self.plan.passes_start_ns
+        transport_ns, start_ns = self.heard.transport_ns(self._now_ns), self.plan.passes_start_ns
         if transport_ns is None or self.plan.click is not None or transport_ns < start_ns:
             return transport_ns
         return start_ns + self._follower.place_ns(transport_ns - start_ns)

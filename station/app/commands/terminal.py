@@ -41,9 +41,9 @@ class _Display:
         """Show what is new."""
         if session is not self._session:
             self._session, self._segment, self._told = session, None, 0
-        for notice in session.notices[self._told :]:
+        for notice in session.heard.notices[self._told :]:
             self._line(f"\n{notice}")
-        self._told = len(session.notices)
+        self._told = len(session.heard.notices)
         state = session.state()
         if state.transport_ns is not None and state.segment != self._segment:
             if self._segment is None and session.message:
@@ -87,10 +87,10 @@ def practise_in_terminal(
         config = EngineConfig.from_settings(settings)
         with LastingEngine(config) as engine:
             wait_for_kits(engine, session, clock, KIT_WAIT_S, display.tell, len(config.kits))
-            if not session.devices:
+            if not session.heard.devices:
                 raise DeviceError(_no_kit(settings.kit))
-            if len(session.devices) < len(config.kits):
-                sys.stderr.write(f"\n{len(session.devices)} of {len(config.kits)} kits are here; the others may come")
+            if (here := len(session.heard.devices)) < len(config.kits):
+                sys.stderr.write(f"\n{here} of {len(config.kits)} kits are here; the others may come")
             sys.stderr.write(f"\n{LEGEND}\n")
             if wish is not None:
                 session.backing = _track(wish, session, settings)
@@ -105,7 +105,7 @@ def practise_in_terminal(
 def _track(wish: BackingWish, session: Session, settings: Settings) -> PreparedTrack | None:
     sys.stderr.write("\nmaking the track ready …\n")
     backing = Backing(wish)
-    backing.ask(session.plan, session.rate_hz or settings.rate_hz)
+    backing.ask(session.plan, session.heard.rate_hz or settings.rate_hz)
     return backing.take(wait_s=None)
 
 

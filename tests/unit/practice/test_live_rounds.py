@@ -61,5 +61,5 @@ def test_passes_follow_each_other_in_one_capture_and_come_down(tmp_path: Path) -
     assert link.records == [tmp_path / "x", None]
     assert [one.step.pct for one in adaptation.rounds] == [70.0, 54.0, 40.0]
     assert len(outcome.result.performance) == 3
-    assert all(session.devices == ["kit"] for session in heard)
+    assert all(session.heard.devices == ["kit"] for session in heard)
     assert heard[1].message == adaptation.rounds[1].step.why

@@ -189,7 +189,7 @@ def test_of_two_kits_the_other_stays_when_one_goes() -> None:
     practice = session()
     for event in (DeviceFound(0, "TD-17"), DeviceFound(0, "Nitro"), DeviceLost(1, "TD-17")):
         practice.handle(event)
-    assert practice.devices == ["Nitro"]
+    assert practice.heard.devices == ["Nitro"]
 
 
 def test_a_kit_that_goes_and_comes_is_told() -> None:
@@ -197,9 +197,9 @@ def test_a_kit_that_goes_and_comes_is_told() -> None:
     there = []
     for event in (DeviceFound(0, "TD-17"), DeviceLost(1, "TD-17")):
         practice.handle(event)
-        there.append(tuple(practice.devices))
+        there.append(tuple(practice.heard.devices))
     assert there == [("TD-17",), ()]
-    assert [("gone" in text, "here" in text) for text in practice.notices] == [(False, True), (True, False)]
+    assert [("gone" in text, "here" in text) for text in practice.heard.notices] == [(False, True), (True, False)]
 
 
 KIT, OTHER, DAY = "TD-17", "Nitro", date(2026, 1, 2)
@@ -238,4 +238,4 @@ def test_an_output_that_changes_within_the_session_brings_its_own_latency() -> N
         due_ns = ZERO_NS + BAR_NS + beat * BEAT_NS
         (verdict,) = practice.handle(Hit(due_ns + (6 + late_ms) * NS_PER_MS, Piece.SNARE, Zone.HEAD, 90, device=KIT))
         assert verdict.asynchrony_ns == 0
-    assert practice.output == "headphones"
+    assert practice.heard.output == "headphones"

@@ -1,0 +1,69 @@
+"""The engine as the room holds it: woken when it is needed, and what it says of kits and sound, in words.
+
+It is an `EngineLink` that remembers its own death: after the `DeviceError` that tells of it nothing more is heard, and
+`wake` starts another engine.
+"""
+
+from collections.abc import Callable
+
+from station.core.errors import DeviceError
+from station.core.events import DeviceFound, DeviceLost
+from station.engine.messages import Command, EngineEvent, Ready, Sounding
+from station.practice.live import EngineLink
+
+WakeEngine = Callable[[], EngineLink]
+
+
+class EngineLine:
+    """One engine after the other; `rate_hz` is the card's as far as is known."""
+
+    def __init__(self, wake: WakeEngine, rate_hz: int) -> None:
+        self._wake = wake
+        self._engine = wake()
+        self.rate_hz = rate_hz
+        self.alive = True
+        self.sound = "the engine is waking"
+        self._kits: list[str] = []
+
+    @property
+    def kits(self) -> str:
+        """The kits that are connected, in words."""
+        return ", ".join(self._kits)
+
+    def wake(self) -> None:
+        """Have an engine: another one where the last has died. Raises `DeviceError`."""
+        if not self.alive:
+            self._engine, self.alive = self._wake(), True
+
+    def send(self, command: Command) -> None:
+        """Hand the engine a command; raises `DeviceError` where it has ended."""
+        try:
+            self._engine.send(command)
+        except DeviceError:
+            self.alive = False
+            raise
+
+    def events(self, wait_s: float = 0.0) -> list[EngineEvent]:
+        """What has happened since the last call, nothing from a dead engine; its death is raised once."""
+        if not self.alive:
+            return []
+        try:
+            events = self._engine.events(wait_s)
+        except DeviceError:
+            self.alive, self.sound = False, "the engine has ended"
+            raise
+        for event in events:
+            self._take(event)
+        return events
+
+    def _take(self, event: EngineEvent) -> None:
+        match event:
+            case DeviceFound(_, device):
+                self._kits = [*(kit for kit in self._kits if kit != device), device]
+            case DeviceLost(_, device):
+                self._kits = [kit for kit in self._kits if kit != device]
+            case Ready(output, rate_hz) | Sounding(output, rate_hz):
+                self.sound = output or "silent"
+                self.rate_hz = rate_hz or self.rate_hz
+            case _:
+                pass
