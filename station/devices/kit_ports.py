@@ -8,12 +8,11 @@ unless it is asked for: there may be a motion sensor, a modem or a robot behind 
 
 import re
 from collections.abc import Callable
-from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 
 from station.core.clock import monotonic_ns
 from station.core.errors import BadInput, DeviceError
-from station.devices.midi_ports import MidiDirectory
+from station.devices.midi_ports import MidiDirectory, Sound
 from station.devices.presets import stable_name
 from station.devices.serial_names import SERIAL, device_of_port
 from station.devices.serial_ports import FASTEST_BAUD, MIDI_BAUD, SLOWEST_BAUD, SerialDirectory
@@ -98,7 +97,7 @@ def watch_kits(
     wishes: tuple[KitWish, ...],
     driver: str = "auto",
     now_ns: Callable[[], int] = monotonic_ns,
-    undisturbed: Callable[[], AbstractContextManager[None]] = nullcontext,
+    sound: Sound | None = None,
 ) -> Watches:
     """A watch a wish, none of which takes another's port; without a MIDI driver serial ports are heard all the same.
 
@@ -107,7 +106,7 @@ def watch_kits(
     midi, fault = None, None
     if any(not wish.path for wish in wishes):
         try:
-            midi = MidiDirectory(driver, now_ns, undisturbed)
+            midi = MidiDirectory(driver, now_ns, sound)
         except DeviceError as error:
             fault = str(error)
     claims = Claims()

@@ -6,7 +6,12 @@ it, be that active sensing or clock, and a capture holds every byte.
 
 rtmidi keeps Python's interpreter lock while it opens or closes. JACK then waits until every client has finished a
 period, and a sound callback in this process cannot finish one without that lock: so whatever changes JACK's graph
-happens inside `undisturbed`, in which the caller keeps its sound still.
+happens while the process's own `Sound` is paused.
+
+Each rtmidi object is a client of its own on JACK's server, and when a process is killed the server waits out its
+time-limit (½ s by default) for each of its clients, and lets nobody join meanwhile. So there are as few as can be: the
+client that lists the ports hears the first kit as well, and one that tells whether the server lives is there only where
+no sound tells it.
 
 Without a sequencer device (a container, a kernel without ALSA) rtmidi's ALSA fails; then JACK is tried where this
 rtmidi has it. Drivers write to standard error of their own accord; it is closed to them while they start.
@@ -14,9 +19,10 @@ rtmidi has it. Drivers write to standard error of their own accord; it is closed
 
 import os
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from itertools import count
+from typing import Protocol
 
 import rtmidi
 
@@ -53,6 +59,30 @@ MonotonicNs = Callable[[], int]
 Undisturbed = Callable[[], AbstractContextManager[None]]
 
 
+class Sound(Protocol):
+    """What this process sounds by, maybe on the server that its MIDI ports are on."""
+
+    def paused(self) -> AbstractContextManager[None]:
+        """Keeps still every callback that could wait for the interpreter lock."""
+        ...
+
+    def server_lives(self) -> bool | None:
+        """Whether the JACK server that plays the sound runs; None where none plays it."""
+        ...
+
+
+class NoSound:
+    """For a process that makes none."""
+
+    def paused(self) -> AbstractContextManager[None]:
+        """There is nothing to keep still."""
+        return nullcontext()
+
+    def server_lives(self) -> bool | None:
+        """Nothing tells."""
+        return None
+
+
 def compiled_drivers() -> tuple[str, ...]:
     """The drivers that this rtmidi was built with, in the order in which they are tried."""
     compiled = rtmidi.get_compiled_api()
@@ -62,19 +92,16 @@ def compiled_drivers() -> tuple[str, ...]:
 class MidiDirectory:
     """The MIDI inputs of this computer, by the first driver that works or by the one that is asked for.
 
-    Raises `BadInput` for a driver that there is not, `DeviceError` where none works. `undisturbed` is entered around
-    all that a sound callback in this process could hold up.
+    Raises `BadInput` for a driver that there is not, `DeviceError` where none works.
     """
 
-    def __init__(
-        self, driver: str = "auto", now_ns: MonotonicNs = monotonic_ns, undisturbed: Undisturbed = nullcontext
-    ) -> None:
+    def __init__(self, driver: str = "auto", now_ns: MonotonicNs = monotonic_ns, sound: Sound | None = None) -> None:
         compiled = compiled_drivers()
         if driver not in ("auto", *compiled):
             raise BadInput(driver, "", f"no such MIDI driver here; there are auto, {', '.join(compiled)}")
         self._now_ns = now_ns
-        self._undisturbed = undisturbed
-        self._client = _first_client(compiled if driver == "auto" else (driver,))
+        self._sound: Sound = NoSound() if sound is None else sound
+        self._client = _first_client(compiled if driver == "auto" else (driver,), now_ns(), self._sound)
 
     @property
     def driver(self) -> str:
@@ -82,85 +109,144 @@ class MidiDirectory:
         return self._client.driver
 
     def names(self) -> list[str]:
-        """The inputs that are there now; none where the driver's server has gone."""
-        return self._client.ports() if self._client.is_alive(self._now_ns()) else []
+        """The inputs that are there now, our own left out; none where the driver's server has gone."""
+        if not self._client.is_alive(self._now_ns()):
+            return []
+        return [port for port in self._client.ports() if CLIENT_NAME not in port]
 
     def open(self, port: str) -> "MidiPort":
         """Open the input called `port`; raises `DeviceError` where it has gone or is taken."""
         with self._disturbing():
             try:
-                connection = _new_input(self.driver, "kit")
-                connection.open_port(connection.get_ports().index(port), "in")
+                connection = self._client.connect(port)
             except (rtmidi.RtMidiError, OSError, RuntimeError, ValueError) as fault:
                 raise DeviceError(f"{port}: this MIDI port cannot be opened: {fault}") from fault
-        return MidiPort(stable_name(port), connection, self._now_ns, self._disturbing)
+        return MidiPort(stable_name(port), connection, self._now_ns, self._leave)
 
     def close(self) -> None:
         """Leave the driver; ports that were opened stay open."""
         with self._disturbing():
             self._client.close()
 
+    def _leave(self, connection: rtmidi.MidiIn) -> None:
+        with self._disturbing():
+            self._client.disconnect(connection)
+
     def _disturbing(self) -> AbstractContextManager[None]:
-        return self._undisturbed() if self.driver == "jack" else nullcontext()
+        return self._sound.paused() if self.driver == "jack" else nullcontext()
 
 
 class _Client:
-    """What lists the ports of one driver.
+    """What lists the ports of one driver and connects to them.
 
-    A JACK client goes on seeing its old ports when its server has ended. So it sends itself a message through the
-    server, one at a time: while they come back, the server lives. It listens to no heart but its own: another station's
-    stops when that station leaves. A process that has lost its server cannot safely join
-    another (the library keeps one server's memory a process), so a lost server stays lost for this process.
+    A JACK client goes on seeing its old ports when its server has ended. A process that has lost its server cannot
+    safely join another (the library keeps one server's memory a process), so a lost server stays lost for it.
     """
 
-    def __init__(self, driver: str) -> None:
+    def __init__(self, driver: str, now_ns: int, sound: Sound) -> None:
         self.driver = driver
-        self._scanner = _new_input(driver, "scan")
-        self._heart: rtmidi.MidiOut | None = None
-        self._beat_ns: int | None = None
-        if driver == "jack":
-            with _quiet_drivers():
-                name = f"{CLIENT_NAME} {os.getpid()}.{next(_HEARTS)}"
-                self._heart = rtmidi.MidiOut(_APIS[driver], name)
-                self._heart.open_virtual_port("out")
-                self._scanner.open_port(self._scanner.get_ports().index(f"{name}:out"), "presence")
+        self._joined_ns = now_ns
+        self._sound = sound
+        self._lister = _new_input(driver)
+        self._lister_is_free = driver == "jack"
+        self._is_closed = False
+        self._heart = _Heart() if driver == "jack" and isinstance(sound, NoSound) else None
 
     def is_alive(self, now_ns: int) -> bool:
         """Whether the server that was joined still runs; drivers without one always live."""
-        if self._heart is None:
+        if self.driver != "jack":
             return True
-        while self._scanner.get_message() is not None:
-            self._beat_ns = None
-        if self._beat_ns is None:
-            self._heart.send_message(_ACTIVE_SENSING)
-            self._beat_ns = now_ns
-        return now_ns - self._beat_ns < SILENT_SERVER_NS
+        if self._heart is None:
+            lives = self._sound.server_lives()
+            if lives is not None or now_ns - self._joined_ns < SILENT_SERVER_NS:  # the sound begins after the kits
+                return lives is not False
+            with self._sound.paused():
+                self._heart = _Heart()
+        return self._heart.beats(now_ns)
 
     def ports(self) -> list[str]:
-        """The inputs, our own left out."""
-        return [port for port in self._all_ports() if CLIENT_NAME not in port]
-
-    def _all_ports(self) -> list[str]:
+        """The inputs, each with a name of its own, in the driver's order."""
         try:
-            ports: list[str] = self._scanner.get_ports()
-        except (rtmidi.RtMidiError, UnicodeDecodeError):
+            return numbered(self._lister.get_ports())
+        except rtmidi.RtMidiError:  # one has gone since they were counted
             return []
-        return ports
+
+    def connect(self, port: str) -> rtmidi.MidiIn:
+        """An input that hears `port`; raises what rtmidi raises, `ValueError` where there is none of that name."""
+        number = self.ports().index(port)
+        connection = self._lister if self._lister_is_free else _new_input(self.driver)
+        while connection.get_message() is not None:  # what the port before it had still to say
+            pass
+        connection.open_port(number, "in")
+        if connection is self._lister:
+            self._lister_is_free = False
+        return connection
+
+    def disconnect(self, connection: rtmidi.MidiIn) -> None:
+        """Hear it no more."""
+        connection.close_port()
+        if connection is self._lister and not self._is_closed:
+            self._lister_is_free = True
+        else:
+            connection.delete()
 
     def close(self) -> None:
         """Leave the driver."""
-        self._scanner.close_port()
-        self._scanner.delete()
+        self._is_closed = True
+        if self._lister_is_free or self.driver != "jack":
+            self._lister.delete()
         if self._heart is not None:
-            self._heart.close_port()
-            self._heart.delete()
+            self._heart.close()
 
 
-def _first_client(drivers: tuple[str, ...]) -> _Client:
+class _Heart:
+    """Tells whether the JACK server that was joined still runs: a message to itself through it, one at a time.
+
+    It listens to no heart but its own: another station's stops when that station leaves.
+    """
+
+    def __init__(self) -> None:
+        with _quiet_drivers():
+            name = f"{CLIENT_NAME} {os.getpid()}.{next(_HEARTS)}"
+            self._out = rtmidi.MidiOut(_APIS["jack"], name)
+        self._out.open_virtual_port("out")
+        self._in = _new_input("jack")
+        self._in.open_port(self._in.get_ports().index(f"{name}:out"), "presence")
+        self._beat_ns: int | None = None
+
+    def beats(self, now_ns: int) -> bool:
+        """Whether the last message came back, or may still."""
+        while self._in.get_message() is not None:
+            self._beat_ns = None
+        if self._beat_ns is None:
+            self._out.send_message(_ACTIVE_SENSING)
+            self._beat_ns = now_ns
+        return now_ns - self._beat_ns < SILENT_SERVER_NS
+
+    def close(self) -> None:
+        """Leave the server."""
+        for end in (self._in, self._out):
+            end.close_port()
+            end.delete()
+
+
+def numbered(names: Iterable[str]) -> list[str]:
+    """`names`, of which each that has come before bears its count: not every driver tells two alike devices apart."""
+    given: list[str] = []
+    for name in names:
+        own, count = name, 1
+        while own in given:
+            count += 1
+            own = f"{name} ({count})"
+        given.append(own)
+    return given
+
+
+def _first_client(drivers: tuple[str, ...], now_ns: int, sound: Sound) -> _Client:
     faults: list[str] = []
     for driver in drivers:
         try:
-            return _Client(driver)
+            return _Client(driver, now_ns, sound)
         except (rtmidi.RtMidiError, OSError, RuntimeError, ValueError) as fault:
             faults.append(f"{_TITLES[driver]}: {_REMEDIES.get(driver, fault)}")
     raise DeviceError("no MIDI driver works. " + ". ".join(faults or ["rtmidi was built without any"]))
@@ -170,12 +256,12 @@ class MidiPort:
     """One open MIDI input."""
 
     def __init__(
-        self, name: str, connection: rtmidi.MidiIn, now_ns: MonotonicNs, disturbing: Undisturbed = nullcontext
+        self, name: str, connection: rtmidi.MidiIn, now_ns: MonotonicNs, leave: Callable[[rtmidi.MidiIn], None]
     ) -> None:
         self._name = name
         self._connection: rtmidi.MidiIn | None = connection
         self._now_ns = now_ns
-        self._disturbing = disturbing
+        self._leave = leave
         self._clock = DriverClock()
         self._polled_ns = now_ns()
 
@@ -203,15 +289,13 @@ class MidiPort:
     def close(self) -> None:
         """End the connection; a closed port reads as empty."""
         if self._connection is not None:
-            with self._disturbing():
-                self._connection.close_port()
-                self._connection.delete()
+            self._leave(self._connection)
             self._connection = None
 
 
-def _new_input(driver: str, role: str) -> rtmidi.MidiIn:
+def _new_input(driver: str) -> rtmidi.MidiIn:
     with _quiet_drivers():
-        connection = rtmidi.MidiIn(_APIS[driver], f"{CLIENT_NAME} {role}", QUEUE_MESSAGES)
+        connection = rtmidi.MidiIn(_APIS[driver], f"{CLIENT_NAME} kit", QUEUE_MESSAGES)
     connection.ignore_types(sysex=False, timing=False, active_sense=False)
     return connection
 

@@ -219,17 +219,28 @@ def _understood(device: str) -> KitPreset:
     return own_kit(device) or preset_for(device)
 
 
+class _Streams:
+    """The sound that is measured, as the kit's driver sees it: streams that are closed before a port is opened."""
+
+    def __init__(self, streams: ExitStack) -> None:
+        self._streams = streams
+
+    @contextmanager
+    def paused(self) -> Iterator[None]:
+        """Close them; whoever measures opens the next ones."""
+        self._streams.close()
+        yield
+
+    def server_lives(self) -> bool | None:
+        """A stream whose server ends says so itself, and ends the measurement."""
+        return True
+
+
 @contextmanager
 def _ear(kit: KitWish, tell: Tell) -> Iterator[_Ear]:
     """The kit that is wished for, opened; streams that are put onto its stack are closed before it."""
     with ExitStack() as streams:
-
-        @contextmanager
-        def undisturbed() -> Iterator[None]:
-            streams.close()
-            yield
-
-        watches = watch_kits((kit,), undisturbed=undisturbed)
+        watches = watch_kits((kit,), sound=_Streams(streams))
         if not watches.kits:
             raise DeviceError(watches.fault or "no kit can be heard")
         watch = watches.kits[0]

@@ -25,7 +25,7 @@ STALLED_NS = 2 * NS_PER_S
 RETRY_NS = 3 * NS_PER_S
 LOOK_EVERY_NS = 10 * NS_PER_S
 """How often the system's default is looked up while nothing plays (our choice: a look costs a quarter of a second)."""
-_ONE_DEFAULT = "JACK"
+_JACK = "JACK"
 """The host whose default stays what it is, and whose graph a look would disturb."""
 
 OpenOutput = Callable[[], Output]
@@ -50,6 +50,7 @@ class Card:
         self._next_look_ns = 0
         self._mixers: dict[int, Mixer] = {}
         self._output: Output | None = None
+        self._is_on_jack = False
         self._underflows = 0
         self._blocks = 0
         self._blocks_seen = 0
@@ -100,6 +101,12 @@ class Card:
             if self._output is output:
                 self._resume(output)
 
+    def server_lives(self) -> bool | None:
+        """Whether the JACK server that the sound was opened on still plays it; None where it is on none."""
+        if not self._is_on_jack:
+            return None
+        return self._output is not None and self._output.fault is None
+
     def close(self) -> None:
         """Give the card back; the engine runs silent from now on."""
         if self._output is not None:
@@ -123,6 +130,7 @@ class Card:
             self._engine.attach(None)
             raise
         self._output, self._alive_ns, self._retry_ns = output, now_ns, None
+        self._is_on_jack = _JACK in output.host
         self._engine.output = OutputState(output.name, self._underflows, output.latency_ms)
 
     def _reopen(self, now_ns: int) -> None:
@@ -147,7 +155,7 @@ class Card:
 
     def _follow_default(self, now_ns: int) -> None:
         output, lookout = self._output, self._lookout
-        if output is None or lookout is None or not lookout.follows_default or _ONE_DEFAULT in output.host:
+        if output is None or lookout is None or not lookout.follows_default or _JACK in output.host:
             return
         if self._engine.is_playing:
             return

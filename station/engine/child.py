@@ -1,8 +1,8 @@
 """The engine's process from inside: ready to begin as soon as it is told what to open, ended with its parent.
 
 It polls the kits every half millisecond in its main thread; the sound card's driver asks for blocks in a thread of its
-own. Whatever takes long to import is imported before it is told to begin, so that a process that waits as a spare
-begins at once.
+own. Whatever takes long to import is imported before it is told to begin, and the sounds that will be wanted are made,
+so that a process that waits as a spare begins at once.
 """
 
 import gc
@@ -10,7 +10,8 @@ import signal
 import sys
 import time
 import traceback
-from contextlib import nullcontext
+from contextlib import nullcontext, suppress
+from functools import lru_cache
 from multiprocessing.connection import Connection
 
 from station.core.clock import monotonic_ns
@@ -20,7 +21,7 @@ from station.devices.kit_ports import watch_kits
 from station.devices.midi_out import open_midi_output
 from station.devices.watch import KitWatch
 from station.engine.card import Card
-from station.engine.config import EngineConfig
+from station.engine.config import EngineConfig, Prepare
 from station.engine.engine import Engine
 from station.engine.lookout import Lookout
 from station.engine.messages import Command, EngineEvent, Notice, Ready
@@ -44,10 +45,13 @@ SWITCH_INTERVAL_S = 0.0002
 
 
 def run_engine(commands: "Connection[None, Command]", events: "Connection[list[EngineEvent], None]") -> None:
-    """The child's whole life: the first thing that it is sent is its configuration."""
+    """The child's whole life: before any command it is sent its configuration, and before that what to make ready."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches both; the parent asks the child to quit
     try:
         config: object = commands.recv()
+        if isinstance(config, Prepare):
+            _make_ready(config)
+            config = commands.recv()
     except (EOFError, OSError):  # a spare whose parent needs it no more
         return
     assert isinstance(config, EngineConfig), "an engine is told what to open before anything else"
@@ -63,6 +67,16 @@ def run_engine(commands: "Connection[None, Command]", events: "Connection[list[E
         outbox.close()
     if is_worn:
         raise SystemExit(WORN_OUT)
+
+
+def _make_ready(sounds: Prepare) -> None:
+    """Make what the engine will ask for; only of kits that all processes share, for memory's sake."""
+    with suppress(StationError):  # told when it is wanted
+        if sounds.drums in MODELS:
+            _kit(sounds.drums, sounds.rate_hz)
+        _click(sounds.click, sounds.rate_hz)
+    gc.collect()
+    gc.freeze()
 
 
 def _live(config: EngineConfig, inbox: Inbox, outbox: Outbox) -> bool:
@@ -96,8 +110,7 @@ def _live(config: EngineConfig, inbox: Inbox, outbox: Outbox) -> bool:
 
 
 def _kits(engine: Engine, config: EngineConfig, card: Card | None) -> tuple[KitWatch, ...]:
-    undisturbed = card.paused if card is not None else nullcontext
-    watches = watch_kits(config.kits, config.midi_driver, monotonic_ns, undisturbed)
+    watches = watch_kits(config.kits, config.midi_driver, monotonic_ns, card)
     if watches.fault is not None:
         engine.notify(f"no MIDI kit can be heard: {watches.fault}")
     return watches.kits
@@ -117,10 +130,20 @@ def _card(engine: Engine, config: EngineConfig, outbox: Outbox) -> Card:
     )
 
 
+@lru_cache(maxsize=1)
+def _kit(name: str, rate_hz: int) -> DrumKit:
+    return load_kit(name, rate_hz)
+
+
+@lru_cache(maxsize=1)
+def _click(timbre: str, rate_hz: int) -> dict[ClickVoice, Frames]:
+    return click_sounds(rate_hz, timbre)
+
+
 def _drums(engine: Engine, name: str, rate_hz: int) -> DrumKit:
     """The kit called `name`; where it cannot be had the user is told, and the default one plays."""
     try:
-        return load_kit(name, rate_hz)
+        return _kit(name, rate_hz)
     except StationError as fault:
         engine.notify(f"{fault}; the {DEFAULT_KIT} kit plays instead")
         return load_kit(DEFAULT_KIT, rate_hz)
@@ -129,7 +152,7 @@ def _drums(engine: Engine, name: str, rate_hz: int) -> DrumKit:
 def _clicks(engine: Engine, timbre: str, rate_hz: int) -> dict[ClickVoice, Frames]:
     """The clicks of `timbre`, likewise."""
     try:
-        return click_sounds(rate_hz, timbre)
+        return _click(timbre, rate_hz)
     except StationError as fault:
         engine.notify(f"{fault}; the click called {DEFAULT_TIMBRE} plays instead")
         return click_sounds(rate_hz)

@@ -12,6 +12,15 @@ _CHOSEN = Settings()
 
 
 @dataclass(frozen=True, slots=True)
+class Prepare:
+    """What a process that waits as a spare makes ready meanwhile: the drums and the click of that name at a rate."""
+
+    drums: str
+    click: str
+    rate_hz: int
+
+
+@dataclass(frozen=True, slots=True)
 class EngineConfig:
     """What the engine process opens.
 

@@ -1,10 +1,10 @@
 """An engine that goes on when its process does not: whoever uses it sees one engine, however many there were.
 
-A spare process waits beside the one that works, everything imported and nothing opened. When the working one ends
-unasked (killed, crashed, or worn out: its sound library went with the sound server) the spare takes its place within
-tenths of a second. It is told what still holds: levels, MIDI output, track, the capture, which it continues, and the
-transport, whose zero stays where it was, for session time is the same in every process. What was heard until then has
-been told; strokes of the moment between are lost, and the user is told once what happened.
+A spare process waits beside the one that works, everything imported, the sounds ready, and nothing opened. When the
+working one ends unasked (killed, crashed, or worn out: its sound library went with the sound server) the spare takes
+its place within tenths of a second. It is told what still holds: levels, MIDI output, track, the capture, which it
+continues, and the transport, whose zero stays where it was, for session time is the same in every process. What was
+heard until then has been told; strokes of the moment between are lost, and the user is told once what happened.
 """
 
 import threading
@@ -18,7 +18,7 @@ from station.core.clock import monotonic_ns
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound, DeviceLost
 from station.core.units import NS_PER_S
-from station.engine.config import EngineConfig
+from station.engine.config import EngineConfig, Prepare
 from station.engine.messages import (
     Bus,
     Command,
@@ -48,6 +48,10 @@ SERVER_BACK = "sound can be had again: the engine was started anew; the session 
 
 class Process(Protocol):
     """What is needed of an engine's process."""
+
+    def prepare(self, sounds: Prepare) -> None:
+        """Make `sounds` ready for the time when it begins."""
+        ...
 
     def begin(self, config: EngineConfig) -> None:
         """Open what `config` says."""
@@ -120,8 +124,10 @@ class LastingEngine:
         """Keep in mind what happened; whether it is news."""
         self._holds.heard(event)
         match event:
-            case Ready() if self._spare is None:  # not sooner: it would compete with the one that is awaited
+            case Ready(_, rate_hz) if self._spare is None:  # not sooner: it would compete with the one that is awaited
                 self._spare = self._start()
+                if rate_hz is not None:
+                    self._spare.prepare(Prepare(self._config.drums, self._config.click, rate_hz))
             case DeviceFound(_, device):
                 self._kits.add(device)
                 if device in self._kits_before:

@@ -14,7 +14,7 @@ from types import TracebackType
 from typing import Self
 
 from station.core.errors import DeviceError
-from station.engine.config import EngineConfig
+from station.engine.config import EngineConfig, Prepare
 from station.engine.messages import Command, EngineEvent, Quit
 
 QUIT_WITHIN_S = 3.0
@@ -42,6 +42,12 @@ class EngineProcess:
         self._begun = self._closed = False
         if config is not None:
             self.begin(config)
+
+    def prepare(self, sounds: Prepare) -> None:
+        """Let a spare make `sounds` ready for the time when it begins; one that has ended says so when it is needed."""
+        assert not self._begun, "what plays has its sounds"
+        with suppress(OSError):
+            self._commands.send(sounds)
 
     def begin(self, config: EngineConfig) -> None:
         """Let a spare open what `config` says; one that has ended meanwhile says so at the next call."""

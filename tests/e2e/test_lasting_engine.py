@@ -30,7 +30,8 @@ from tests.fakes.kit_player import KitPlayer
 KEY = KeyHit(123, Piece.SNARE, Zone.HEAD, 99)
 KIT = "TD-17 fake kit"
 BACK_WITHIN_S = 1.0
-JACK_WAITS_MS = 200
+JACK_WAITS_MS = 500
+"""JACK's own choice (jackd's manual, option -t)."""
 BUSY_S = 2.0
 """What a machine that others use may add."""
 
@@ -51,6 +52,16 @@ def kill(engine: LastingEngine) -> float:
     assert pid is not None
     os.kill(pid, signal.SIGKILL)
     return time.monotonic()
+
+
+def jack_clients(server: JackServer) -> set[str]:
+    """The station's clients on the server."""
+    import jack  # needs JACK's library, which a machine may lack
+
+    client = jack.Client("asks", servername=server.name, no_start_server=True)
+    names = {port.name.partition(":")[0] for port in client.get_ports()}
+    client.close()
+    return names - {"system", KIT}
 
 
 @pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="this system cannot kill outright")
@@ -82,7 +93,7 @@ def test_an_engine_that_is_killed_is_back_within_a_second_and_the_capture_goes_o
 @pytest.mark.jack
 @pytest.mark.skipif(not jackd_is_installed(), reason="jackd is not installed")
 def test_a_killed_engine_clicks_on_where_the_click_would_be(tmp_path: Path) -> None:
-    """JACK itself waits for every client of the dead process in turn, and lets nobody join until then."""
+    """JACK itself waits for the clients of the dead process in turn, and lets nobody join until then: few, at best."""
     config = EngineConfig(kits=(KitWish(KIT),), midi_driver="jack", output="jack")
     every_ns = 125 * NS_PER_MS
     with (
@@ -95,6 +106,7 @@ def test_a_killed_engine_clicks_on_where_the_click_would_be(tmp_path: Path) -> N
         listener.until(lambda event: isinstance(event, Ready))
         listener.until(lambda event: isinstance(event, DeviceFound))
         spare_is_ready(engine)
+        assert len(jack_clients(jack_server)) == 2  # one that sounds, one that hears the kit
         engine.send(Play(clicks(np.arange(200) * every_ns), 100 * NS_PER_MS))
         started = listener.until(lambda event: isinstance(event, Started))
         assert isinstance(started, Started)
@@ -105,7 +117,7 @@ def test_a_killed_engine_clicks_on_where_the_click_would_be(tmp_path: Path) -> N
             recorder.connect("PortAudio:.*")
             time.sleep(1.5)
             heard = recorder.stop()
-    assert ready_s < BACK_WITHIN_S + 5 * JACK_WAITS_MS / 1000 + BUSY_S
+    assert ready_s < BACK_WITHIN_S + BUSY_S
     offset_ms = ((heard.at_ns[heard.onsets()] - started.zero_ns) % every_ns) / NS_PER_MS
     around_ms = (offset_ms + 62.5) % 125.0 - 62.5
     assert len(around_ms) >= 8

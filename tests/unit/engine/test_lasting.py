@@ -9,7 +9,7 @@ from station.core.errors import DeviceError
 from station.core.events import DeviceFound, DeviceLost
 from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_MS, NS_PER_S
-from station.engine.config import EngineConfig
+from station.engine.config import EngineConfig, Prepare
 from station.engine.lasting import MOST_RESTARTS, RESTARTS_WITHIN_NS, LastingEngine
 from station.engine.messages import (
     Bus,
@@ -42,9 +42,13 @@ class HandPlayed:
 
     says: list[EngineEvent] = field(default_factory=list)
     told: list[Command] = field(default_factory=list)
+    prepared: Prepare | None = None
     config: EngineConfig | None = None
     exit_code: int | None = None
     is_closed: bool = False
+
+    def prepare(self, sounds: Prepare) -> None:
+        self.prepared = sounds
 
     def begin(self, config: EngineConfig) -> None:
         self.config = config
@@ -96,6 +100,12 @@ def test_a_spare_waits_once_the_engine_is_ready() -> None:
     assert [process.config is not None for process in house.processes] == [True, False]
     house.engine.close()
     assert all(process.is_closed for process in house.processes)
+
+
+def test_a_spare_makes_the_sounds_ready_that_the_card_plays() -> None:
+    house = House()
+    house.hears(Ready("card", 44_100))
+    assert house.processes[1].prepared == Prepare("acoustic", "bar", 44_100)  # the settings' defaults
 
 
 def test_the_session_goes_on_in_the_spare() -> None:

@@ -64,6 +64,14 @@ def test_a_damaged_file_is_made_anew(made: tuple[Path, DrumKit], tmp_path: Path,
     assert path.stat().st_size == files(made[0])[0].stat().st_size
 
 
+def test_a_kit_from_disk_is_mapped_and_not_copied(made: tuple[Path, DrumKit], tmp_path: Path) -> None:
+    """So a spare engine with the same kit costs no memory; and nobody can write into what others play."""
+    copy_of(made, tmp_path)
+    takes = [take for sound in cached_kit(MODEL, RATE_HZ, tmp_path).sounds.values() for take in sound.layers[0].takes]
+    assert not any(take.flags.owndata or take.flags.writeable for take in takes)
+    assert all(type(take) is np.ndarray for take in takes), "a memmap's own class costs microseconds a block"
+
+
 def test_a_folder_that_cannot_be_written_costs_time_alone(tmp_path: Path) -> None:
     (tmp_path / "file").write_bytes(b"")
     assert cached_kit(MODEL, RATE_HZ, tmp_path / "file" / "folder").name == MODEL
@@ -73,7 +81,7 @@ def test_only_the_latest_files_are_kept(
     made: tuple[Path, DrumKit], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for index in range(6):
-        (tmp_path / f"old-{index}.kit.npz").write_bytes(b"old")
+        (tmp_path / f"old-{index}.kit").write_bytes(b"old")
     (tmp_path / "else.txt").write_bytes(b"not ours")
     monkeypatch.setattr(kit_synth.synth_kit, "__wrapped__", lambda *_: made[1])
     cached_kit(MODEL, RATE_HZ, tmp_path)
