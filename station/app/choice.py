@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-from station.app.model import LessonCard, Start
+from station.app.model import FreeWish, LessonCard, Start
 from station.practice.tap_tempo import TapTempo
 
 MIN_TEMPO_BPM, MAX_TEMPO_BPM = 30, 260
@@ -20,6 +20,8 @@ class Choice:
         self._first = first
         self._taps = TapTempo()
         self.search = ""
+        self.free = False
+        """Whether just playing is chosen, in place of a lesson."""
         self.card: LessonCard | None = None
         self.tempo_bpm = 100.0
         self.loops = 4
@@ -33,13 +35,23 @@ class Choice:
 
     def choose(self, card: LessonCard) -> None:
         """Take a lesson at the tempo and with the passes that its author wants."""
+        self.free = False
         self.card, self.tempo_bpm, self.loops = card, card.tempo_bpm, min(card.passes, MAX_LOOPS)
 
     def tap(self, at_ns: int, within: tuple[float, float]) -> None:
         """Take a tap of the tempo, in beats of the lesson; a tempo outside `within` beats a minute is the nearest."""
         beats = self._taps.tap(at_ns)
-        if beats is not None and self.card is not None:
-            self.tempo_bpm = min(within[1], max(within[0], beats)) * self.card.beat_quarters
+        if beats is not None:
+            self.tempo_bpm = min(within[1], max(within[0], beats)) * self.beat_quarters
+
+    @property
+    def beat_quarters(self) -> float:
+        """How many quarter notes make the beat that is counted."""
+        return 1.0 if self.free or self.card is None else self.card.beat_quarters
+
+    def free_wish(self) -> FreeWish | None:
+        """What to begin where just playing is chosen."""
+        return FreeWish(float(self.tempo_bpm), self.click) if self.free else None
 
     def visible(self) -> list[LessonCard]:
         """The lessons whose title, name, author, level or tags contain every word of the search."""
@@ -47,8 +59,8 @@ class Choice:
         return [card for card in self._lessons if all(word in _text(card) for word in words)]
 
     def wish(self) -> Start | None:
-        """What to start; None where there is no lesson."""
-        if self.card is None:
+        """What to start; None where no lesson is chosen."""
+        if self.card is None or self.free:
             return None
         adapt = self.adapt and self.click
         wish = Start(self.card.name, float(self.tempo_bpm), self.loops, adapt=adapt, click=self.click)

@@ -62,6 +62,14 @@ class Start:
     click: bool = True
 
 
+@dataclass(frozen=True, slots=True)
+class FreeWish:
+    """Just play: beats a minute, and whether they click."""
+
+    tempo_bpm: float
+    click: bool = True
+
+
 class Stage(IntEnum):
     """What the practice is doing."""
 
@@ -75,7 +83,8 @@ class RoomState:
     """What surrounds the picture: `stage`, the kit and the sound in words, `notices` newest last, `progress` 0–1.
 
     `progress` None while nothing plays. `why` is the reason for the pass that is counted in, and `can_veto` whether the
-    student may still refuse it. `question` is to be answered before the result is shown, empty where none is open.
+    student may still refuse it. `has_take` where the last free take can be heard, `listening` while something sounds
+    that was played or is written. `question` is to be answered before the result is shown, empty where none is open.
     """
 
     stage: Stage = Stage.IDLE
@@ -86,6 +95,8 @@ class RoomState:
     why: str = ""
     can_veto: bool = False
     question: str = ""
+    has_take: bool = False
+    listening: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,12 +128,20 @@ class PracticeModel(Protocol):
         """What is chosen when the window opens; None leaves it to the list."""
         ...
 
-    def preview(self, wish: Start) -> None:
-        """Show what is chosen, before it begins; raises `StationError`."""
+    def preview(self, wish: Start | None) -> None:
+        """Show what is chosen, before it begins, None the kit alone for just playing; raises `StationError`."""
         ...
 
     def start(self, wish: Start) -> None:
         """Begin a session; raises `StationError`."""
+        ...
+
+    def just_play(self, wish: FreeWish) -> None:
+        """Begin a free take; raises `StationError`."""
+        ...
+
+    def listen(self) -> None:
+        """Hear the last free take, or end what is heard; raises `StationError`."""
         ...
 
     def veto(self) -> None:

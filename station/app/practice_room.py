@@ -11,8 +11,9 @@ from datetime import date
 
 from station.app.engine_line import EngineLine, WakeEngine
 from station.app.heat_map import heat_map
+from station.app.just_play import JustPlay
 from station.app.lesson_cards import all_lessons, card, wish_of
-from station.app.model import LessonCard, Report, RoomState, Stage, Start
+from station.app.model import FreeWish, LessonCard, Report, RoomState, Stage, Start
 from station.app.results import session_facts
 from station.app.session_folder import SessionFolder, rescued
 from station.app.session_view import Demonstrator, SessionView
@@ -31,6 +32,7 @@ from station.practice.backing import Backing, BackingWish
 from station.practice.click_word import parse_click
 from station.practice.latency import Latency, latency_of
 from station.practice.lead import hands_of
+from station.practice.listening import Listening
 from station.practice.live import begin, end, next_session
 from station.practice.mastery_report import with_mastery
 from station.practice.memory import Memory, Remembered
@@ -80,6 +82,9 @@ class PracticeRoom:
         self._asked: set[str] = set()
         self._is_asking = False
         self._stage = Stage.IDLE
+        self._free = JustPlay(settings, self._latency)
+        self._is_free = False
+        self._listening: Listening | None = None
         self._fault: StationError | None = None
 
     # --- what the window shows ---------------------------------------------------------------------------------------
@@ -88,6 +93,14 @@ class PracticeRoom:
         """Take in what has happened, then the picture at `now_ns`."""
         for event in self._heard():
             self._take(event, now_ns)
+        if self._listening is not None and self._listening.is_over(now_ns):
+            self._listening = None
+        if self._is_free:
+            self._free.advance(now_ns)
+            if self._free.runs and self._free.over:
+                self.stop()
+            heard_ns = None if self._listening is None else self._listening.at_ns(now_ns)
+            return self._free.snapshot(self._plan.kit, now_ns, heard_ns)
         if self._stage is Stage.PLAYING:
             self._judged(self._session.advance(now_ns), now_ns)
             if self._session.over:
@@ -96,18 +109,28 @@ class PracticeRoom:
 
     def room(self) -> RoomState:
         """What surrounds the picture."""
-        state = self._session.state()
-        progress = None
-        if self._stage is Stage.PLAYING and state.transport_ns is not None:
-            progress = min(max(state.transport_ns / self._plan.end_ns, 0.0), 1.0)
-        adaptation = None if self._followed is None or self._stage is not Stage.PLAYING else self._followed.adaptation
+        state = RoomState(
+            self._stage,
+            self._engine.kits,
+            self._engine.sound,
+            tuple(self._notices[-NOTICES_KEPT:]),
+            has_take=self._free.has_take,
+            listening=self._listening is not None,
+        )
+        return state if self._is_free else self._with_session(state)
+
+    def _with_session(self, room: RoomState) -> RoomState:
+        """The room, and how far its session is."""
+        state, adaptation, progress = self._session.state(), None, None
+        if room.stage is Stage.PLAYING:
+            adaptation = None if self._followed is None else self._followed.adaptation
+            if state.transport_ns is not None:
+                progress = min(max(state.transport_ns / self._plan.end_ns, 0.0), 1.0)
         if adaptation is not None and progress is not None:
             progress = (len(adaptation.rounds) + progress) / adaptation.loops
         can_veto = adaptation is not None and bool(adaptation.rounds) and state.segment.phase is Phase.COUNT_IN
-        notices = tuple(self._notices[-NOTICES_KEPT:])
-        kits, sound = self._engine.kits, self._engine.sound
         question = QUESTION if self._is_asking else ""
-        return RoomState(self._stage, kits, sound, notices, progress, self._session.message, can_veto, question)
+        return replace(room, progress=progress, why=self._session.message, can_veto=can_veto, question=question)
 
     def lessons(self) -> Sequence[LessonCard]:
         """Every shipped lesson, and the one that was named when the window was opened."""
@@ -123,20 +146,21 @@ class PracticeRoom:
 
     # --- what the user does ------------------------------------------------------------------------------------------
 
-    def preview(self, wish: Start) -> None:
-        """Show the chosen lesson, ready to begin; raises `StationError`."""
+    def preview(self, wish: Start | None) -> None:
+        """Show the chosen lesson, ready to begin, or the kit alone, to just play; raises `StationError`."""
         if self._stage is Stage.IDLE:
+            self._quiet()
+            self._is_free = wish is None
+        if self._stage is Stage.IDLE and wish is not None:
             self._plan, self._view, _ = self._laid_out(wish)
             self._session = self._new_session(self._plan)
 
     def start(self, wish: Start) -> None:
         """Begin a session, ending the one that runs; wakes a new engine if the old has ended. Raises `StationError`."""
         plan, view, followed = self._laid_out(wish)
-        if self._stage is Stage.PLAYING:
-            self.stop()
-        self._engine.wake()
+        self._make_room()
         track = None if wish.adapt else self._track(plan)
-        folder = SessionFolder(None, self._settings, plan)
+        folder = SessionFolder(None, self._settings, plan.lesson.name)
         session = self._new_session(plan) if followed is None else followed.adaptation.session(self._latency)
         session.backing = track
         try:
@@ -147,7 +171,20 @@ class PracticeRoom:
             folder.discard()
             raise
         self._plan, self._view, self._session, self._folder = plan, view, session, folder
-        self._followed, self._stage, self._is_asking = followed, Stage.PLAYING, False
+        self._followed, self._stage, self._is_asking, self._is_free = followed, Stage.PLAYING, False, False
+
+    def just_play(self, wish: FreeWish) -> None:
+        """Begin a free take, ending what runs; raises `StationError`."""
+        self._make_room()
+        self._free.begin(self._engine, wish)
+        self._stage, self._is_asking, self._is_free = Stage.PLAYING, False, True
+
+    def listen(self) -> None:
+        """Hear the last free take from its capture, or end what is heard; raises `StationError`."""
+        if self._listening is not None:
+            self._quiet()
+        elif self._stage is not Stage.PLAYING:
+            self._hear(self._free.listening())
 
     def demonstrator(self) -> Demonstrator:
         """Who demonstrates."""
@@ -181,13 +218,13 @@ class PracticeRoom:
     def stop(self) -> None:
         """End the session early; what was played is judged and kept."""
         if self._stage is Stage.PLAYING:
-            self._finish()
+            self._end()
 
     def close(self) -> StationError | None:
         """Keep a session that still runs; returns what the window can no longer tell of it."""
         if self._stage is not Stage.PLAYING:
             return None
-        self._finish()
+        self._end()
         return self._fault
 
     def key(self, hit: KeyHit) -> None:
@@ -203,6 +240,37 @@ class PracticeRoom:
             self._view = SessionView(self._plan, self._who)
 
     # --- inside ------------------------------------------------------------------------------------------------------
+
+    def _make_room(self) -> None:
+        """End what runs or sounds, and have an engine; raises `DeviceError`."""
+        self._quiet()
+        self.stop()
+        self._engine.wake()
+
+    def _hear(self, listening: Listening | None) -> None:
+        """Let something sound once; raises `DeviceError`."""
+        self._quiet()
+        if listening is not None:
+            for command in listening.start():
+                self._engine.send(command)
+            self._listening = listening
+
+    def _quiet(self) -> None:
+        """End what is heard."""
+        if self._listening is not None:
+            for command in self._listening.stop():
+                with suppress(DeviceError):  # a dead engine is quiet
+                    self._engine.send(command)
+            self._listening = None
+
+    def _end(self) -> None:
+        """End the session or the take that runs, and keep it."""
+        if not self._free.runs:
+            self._finish()
+            return
+        self._fault = self._free.finish(self._engine)
+        self._notices.append(f"{self._fault}" if self._fault is not None else f"kept in {self._free.folder}")
+        self._stage = Stage.IDLE
 
     def _kept_style(self) -> Style:
         """The style of the settings; the natural one, and a notice, where it cannot be had."""
@@ -274,11 +342,19 @@ class PracticeRoom:
             return self._engine.events()
         except DeviceError as fault:
             self._notices.append(str(fault))
+            self._listening = None
             if self._stage is Stage.PLAYING:
-                self._finish()
+                self._end()
             return []
 
     def _take(self, event: EngineEvent, now_ns: int) -> None:
+        if self._listening is not None:
+            self._listening.handle(event)
+        if self._is_free:
+            told = len(self._free.notices)
+            self._free.handle(event)
+            self._notices += self._free.notices[told:]
+            return
         told = len(self._session.heard.notices)
         verdicts = self._session.handle(event)
         self._judged(verdicts, now_ns)

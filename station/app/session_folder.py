@@ -13,11 +13,11 @@ from station.practice.folder import (
     DRUMMER_NAME,
     PAIRS_NAME,
     PICTURE_NAME,
+    TAKE_NAME,
     TEXT_NAME,
     session_folder,
     write_document,
 )
-from station.practice.plan import Plan
 from station.practice.report import report_text
 from station.practice.session import SessionResult
 from station.scoring.document import Json
@@ -27,14 +27,15 @@ from station.scoring.pairs import pairs_csv, write_pairs
 class SessionFolder:
     """One session's folder, made at the start, so that a disk that refuses shows before anybody plays.
 
-    `wanted` is a folder that the user named, None for a new one of the student's. Raises `BadInput` or `DeviceError`
-    where it cannot be made. As a context manager it takes a folder away again in which nothing was left.
+    `name` says what was practised, `wanted` is a folder that the user named, None for a new one of the student's.
+    Raises `BadInput` or `DeviceError` where it cannot be made. As a context manager it takes a folder away again in
+    which nothing was left.
     """
 
-    def __init__(self, wanted: Path | None, settings: Settings, plan: Plan) -> None:
+    def __init__(self, wanted: Path | None, settings: Settings, name: str) -> None:
         self._made = wanted is None or not wanted.exists()
         if wanted is None:
-            self.path = session_folder(settings.sessions_dir, settings.student, plan.lesson.name, datetime.now())
+            self.path = session_folder(settings.sessions_dir, settings.student, name, datetime.now())
         else:
             self.path = _made(wanted)
 
@@ -59,6 +60,10 @@ class SessionFolder:
         write_document(self.path / DOCUMENT_NAME, document)
         write_whole(self.path / TEXT_NAME, report_text(document).encode())
         write_pairs(self.path / PAIRS_NAME, result.score, result.performance, result.alignment)
+
+    def keep_take(self, document: dict[str, object]) -> None:
+        """Write what is kept of a free take beside its capture; raises `DeviceError`."""
+        write_document(self.path / TAKE_NAME, document)
 
     def draw(self, result: SessionResult, document: dict[str, Json]) -> Path:
         """Draw the report and the drummer; returns the report's picture. Raises `DeviceError`."""

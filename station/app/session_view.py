@@ -3,7 +3,7 @@
 The drummer demonstrates, then plays along. The score shown is the demonstration's, then that of all passes in a row.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -110,7 +110,7 @@ class SessionView:
             limbs=drummer.assignment.limbs,
             marks=self._marks if part is self._passes else None,
             extras=self._extras(session) if part is self._passes and session.feedback is not Feedback.NONE else (),
-            strikes=self._strikes(session, now_ns),
+            strikes=strikes(session.heard.recent, now_ns),
             hud=self._hud(session, now_ns, message or _why(session)),
             bar_numbers=self.bar_numbers,
         )
@@ -128,11 +128,6 @@ class SessionView:
     def _extras(self, session: Session) -> tuple[Extra, ...]:
         hits = [session.hits[index] for index in session.extras()]
         return tuple(Extra(hit.at_ns / NS_PER_S, hit.piece) for hit in hits)
-
-    @staticmethod
-    def _strikes(session: Session, now_ns: int) -> tuple[Strike, ...]:
-        ages = ((hit, now_ns - hit.at_ns) for hit in session.heard.recent)
-        return tuple(Strike(h.piece, h.velocity, age / NS_PER_S) for h, age in ages if 0 <= age < STRIKE_SHOWN_NS)
 
     # --- words -------------------------------------------------------------------------------------------------------
 
@@ -168,6 +163,12 @@ class SessionView:
         per_pass = len(self.plan.section)
         labels: NDArray[np.int8] = self._marks["label"][pass_index * per_pass : (pass_index + 1) * per_pass]
         return int((labels == Label.MATCH).sum()), int((labels >= 0).sum())
+
+
+def strikes(hits: Iterable[Hit], now_ns: int) -> tuple[Strike, ...]:
+    """What of `hits` still shows on the kit at `now_ns`."""
+    ages = ((hit, now_ns - hit.at_ns) for hit in hits)
+    return tuple(Strike(h.piece, h.velocity, age / NS_PER_S) for h, age in ages if 0 <= age < STRIKE_SHOWN_NS)
 
 
 def _by_key(verdict: Judgement, hits: Sequence[Hit]) -> bool:

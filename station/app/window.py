@@ -19,7 +19,7 @@ from station.app.look import look_of, with_look
 from station.app.model import PracticeModel, Stage
 from station.app.panels.bars import heat_panel
 from station.app.panels.keys import keys_help
-from station.app.panels.lessons import LessonsPanel
+from station.app.panels.lessons import LessonActions, LessonsPanel
 from station.app.panels.look_popup import LookActions
 from station.app.panels.page import Page, Side, panels_popup
 from station.app.panels.transport import transport_bar
@@ -64,7 +64,9 @@ class Window:
         self._clock = clock or MonotonicClock()
         self.choice = Choice(model.lessons(), model.first())
         self._previewed = self.choice.card.name if self.choice.card is not None else ""
-        self._panel = LessonsPanel(self.choice, self._start)
+        self._panel = LessonsPanel(
+            self.choice, LessonActions(self._start, lambda: self._tried(model.listen), model.room)
+        )
         self.backdrop = Backdrop(options.quality, look_of(load_settings(options.settings)))
         self._kept = self.backdrop.look
         self._viewpoints = LookActions(self._keep_viewpoint, self._go_to_viewpoint)
@@ -156,7 +158,7 @@ class Window:
         for page in self._pages:
             if page.shown is not None:
                 docking.dockable_window_of_name(page.name).is_visible = page.shown(stage)
-        self.params.fps_idling.enable_idling = stage is not Stage.PLAYING
+        self.params.fps_idling.enable_idling = stage is not Stage.PLAYING and not self._model.room().listening
         io = imgui.get_io()
         nav = imgui.ConfigFlags_.nav_enable_keyboard
         io.config_flags = io.config_flags & ~nav if stage is Stage.PLAYING else io.config_flags | nav
@@ -193,8 +195,9 @@ class Window:
     def _preview(self) -> None:
         """Show the lesson that was chosen in the list."""
         wish = self.choice.wish()
-        if wish is not None and wish.lesson != self._previewed and self._model.room().stage is Stage.IDLE:
-            self._previewed = wish.lesson
+        shown = "" if wish is None else wish.lesson
+        if shown != self._previewed and self._model.room().stage is Stage.IDLE and (wish or self.choice.free):
+            self._previewed = shown
             self._tried(lambda: self._model.preview(wish))
 
     def _central_area(self) -> tuple[int, int, int, int]:
@@ -281,9 +284,11 @@ class Window:
             self._model.dismiss()
 
     def _start(self) -> None:
-        wish = self.choice.wish()
+        wish, free = self.choice.wish(), self.choice.free_wish()
         if wish is not None:
             self._tried(lambda: self._model.start(wish))
+        elif free is not None:
+            self._tried(lambda: self._model.just_play(free))
 
     def _drill(self, bar: int) -> None:
         """Practise one bar (from 1) of the lesson alone."""

@@ -15,6 +15,7 @@ from station.core.files import write_whole
 CAPTURE_NAME = "session.capture"
 DOCUMENT_NAME = "report.json"
 TEXT_NAME = "report.txt"
+TAKE_NAME = "take.json"
 PAIRS_NAME = "pairs.csv"
 PICTURE_NAME = "report.png"
 DRUMMER_NAME = "drummer.png"

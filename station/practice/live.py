@@ -17,6 +17,7 @@ from station.core.units import ns_from_s
 from station.engine.messages import Command, EngineEvent, Ready, Record, Recorded, Stop
 from station.music.judgement import Judgement
 from station.practice.adaptation import Adaptation
+from station.practice.hearing import Hearing
 from station.practice.session import Session, SessionResult
 
 POLL_S = 0.02
@@ -37,6 +38,20 @@ class EngineLink(Protocol):
 
     def events(self, wait_s: float = 0.0) -> list[EngineEvent]:
         """What has happened since the last call."""
+        ...
+
+
+class Listener(Protocol):
+    """What is recorded: a session, or a free take."""
+
+    heard: Hearing
+
+    def start(self) -> tuple[Command, ...]:
+        """The commands that set the engine going."""
+        ...
+
+    def handle(self, event: EngineEvent) -> object:
+        """Take one event of the engine."""
         ...
 
 
@@ -111,7 +126,7 @@ def next_session(engine: EngineLink, adaptation: Adaptation, before: Session) ->
     return session
 
 
-def begin(engine: EngineLink, session: Session, capture: Path) -> None:
+def begin(engine: EngineLink, session: Listener, capture: Path) -> None:
     """Have everything recorded, and start the transport."""
     engine.send(Record(capture))
     for command in session.start():
@@ -123,7 +138,7 @@ def take_in(engine: EngineLink, session: Session, wait_s: float = 0.0) -> tuple[
     return tuple(judgement for event in engine.events(wait_s) for judgement in session.handle(event))
 
 
-def end(engine: EngineLink, session: Session) -> StationError | None:
+def end(engine: EngineLink, session: Listener) -> StationError | None:
     """Stop, close the capture and take in every hit that was still on its way; returns why the capture lacks some."""
     engine.send(Stop())
     engine.send(Record(None))

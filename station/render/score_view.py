@@ -21,8 +21,9 @@ from station.render.ink import SHAPE_DTYPE, Ink
 from station.render.ink_printer import InkPrinter, Sheet
 from station.render.judgement_marks import draw_dynamics, draw_mark, off_db
 from station.render.palette import BRAND, EXTRA, PANEL_EDGE, PAPER, PAPER_LOW, with_opacity
-from station.render.snapshot import PENDING, Snapshot
+from station.render.snapshot import PENDING, Snapshot, Strip
 from station.render.staff import PLACES, height
+from station.render.strip import strip_paper, strip_shapes
 
 BEFORE_S = AFTER_S = 4.0
 """Seconds of music to the left and right of the play line (SMED, figure 4.4: the line stands in the middle)."""
@@ -88,6 +89,9 @@ class ScoreView:
         plain = Sheet(size, (place.left, place.middle_line), place.space)
         self._printer.fill((place.left, place.top, place.width, place.height), (PAPER, PAPER_LOW), plain)
         self._printer.fill((place.left, place.top, place.width, 1.2), (PANEL_EDGE, PANEL_EDGE), plain)
+        if snapshot.strip is not None:
+            self._draw_strip(snapshot.strip, snapshot.position_s, place, size)
+            return
         if form is ScoreForm.HIGHWAY:
             self._draw_highway(snapshot, place, size)
             return
@@ -112,6 +116,17 @@ class ScoreView:
         self._printer.draw(self._paper(snapshot, place, line_x), plain)
         self._printer.draw(self._visible_bars(engraver, *window_s), rolling)
         self._printer.draw(self._judgements(snapshot, window_s, per_s / space), rolling)
+
+    def _draw_strip(self, strip: Strip, position_s: float, place: Place, size: tuple[int, int]) -> None:
+        """What was played passes the line, as the score does when it scrolls."""
+        space = place.space
+        per_s, line_x = place.width / (BEFORE_S + AFTER_S), place.left + place.width / 2
+        plain = Sheet(size, (place.left, place.middle_line), space)
+        self._printer.draw(strip_paper(self._atlas, place.width / space, place.height / space), plain)
+        fade = (place.left, place.left + 3 * space, place.left + place.width - 3 * space, place.left + place.width)
+        rolling = Sheet(size, (line_x, place.middle_line), space, position_s, per_s, fade)
+        window_s = position_s - BEFORE_S - _MARGIN_S, position_s + AFTER_S + _MARGIN_S
+        self._printer.draw(strip_shapes(strip, window_s, self._atlas), rolling)
 
     def _page(self, snapshot: Snapshot) -> Page:
         """The page that holds the snapshot's place; the first before the score, the last after it."""

@@ -15,6 +15,7 @@ from station.motion.figure import Figure
 from station.motion.kit import Kit
 from station.motion.pose import Pose
 from station.music.judgement import Judgement, Label
+from station.music.performance import Performance
 from station.music.score import Score
 
 PENDING = -1
@@ -111,12 +112,24 @@ class BarNumbers:
 
 
 @dataclass(frozen=True, eq=False)
+class Strip:
+    """Strokes that nobody has written or judges: what was `played`, in the snapshot's time, and how long a beat lasts.
+
+    `beat_s` None where there is no click; a bar has `beats`.
+    """
+
+    played: Performance
+    beat_s: float | None = None
+    beats: int = 4
+
+
+@dataclass(frozen=True, eq=False)
 class Snapshot:
     """One instant of the practice room.
 
     `position_s` is the score's time at the play line, negative in a count-in. `marks` (n,) of `MARK_DTYPE` belongs to
     the rows of `score`; nobody writes to it after it was put here. `limbs` (n,) of `Limb` shows the sticking, None what
-    the score says. `pose` None draws the kit alone.
+    the score says. `pose` None draws the kit alone. Where there is a `strip`, it stands in place of the score.
     """
 
     score: Score
@@ -130,3 +143,4 @@ class Snapshot:
     strikes: tuple[Strike, ...] = ()
     hud: Hud = field(default_factory=Hud)
     bar_numbers: BarNumbers = BarNumbers()
+    strip: Strip | None = None

@@ -20,7 +20,7 @@ from imgui_bundle import hello_imgui, imgui
 
 from station.app.look import look_of
 from station.app.model import Stage
-from station.app.panels.lessons import ADAPT_LABEL
+from station.app.panels.lessons import ADAPT_LABEL, FREE_LABEL, LISTEN_LABEL
 from station.app.window import Window, WindowOptions
 from station.core.errors import BadInput
 from station.core.settings import load_settings
@@ -147,6 +147,33 @@ def keys(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.key_press(imgui.Key.escape)
     ctx.yield_(3)
     drive.seen["after"] = drive.room.room().stage.name
+
+
+def just_play(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """A free take on the keys, and the take heard again."""
+    ctx.set_ref("//Lessons")
+    ctx.item_click(f"**/{FREE_LABEL}")
+    ctx.item_click("Start##start")
+    ctx.yield_(8)
+    for key in (imgui.Key.f, imgui.Key.space, imgui.Key.d):
+        ctx.key_press(key)
+        ctx.yield_(3)
+    drive.seen["stage"] = drive.room.room().stage.name
+    strip = drive.room.snapshot(drive.clock.now_ns()).strip
+    assert strip is not None
+    drive.seen["pieces"] = [hit.piece.name for hit in strip.played]
+    ctx.key_press(imgui.Key.escape)
+    ctx.yield_(3)
+    drive.seen["after"] = drive.room.room().stage.name
+    ctx.item_click(LISTEN_LABEL)
+    ctx.yield_(8)
+    drive.seen["listening"] = drive.room.room().listening
+    drive.seen["lit"] = [strike.piece.name for strike in drive.room.snapshot(drive.clock.now_ns()).strikes]
+    for _ in range(MOST_FRAMES):
+        if not drive.room.room().listening:
+            break
+        ctx.yield_()
+    drive.seen["ended"] = not drive.room.room().listening
 
 
 def search(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
@@ -298,6 +325,7 @@ def fault(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
 SCENARIOS = {
     "practise": practise,
     "keys": keys,
+    "just_play": just_play,
     "search": search,
     "look": look,
     "viewpoints": viewpoints,

@@ -63,10 +63,11 @@ def test_a_lesson_is_chosen_played_and_judged(environment: dict[str, str], tmp_p
 
 
 def test_search_keys_and_faults_in_one_window(environment: dict[str, str], tmp_path: Path) -> None:
-    seen = run_in_turn(["search", "fault", "keys"], environment, tmp_path)
+    seen = run_in_turn(["search", "fault", "keys", "just_play"], environment, tmp_path)
     typing_into_the_search_plays_nothing(seen["search"])
     a_fault_is_said_in_one_line(seen["fault"])
     keys_play_the_kit_and_escape_stops(seen["keys"])
+    a_free_take_is_recorded_and_heard_again(seen["just_play"])
 
 
 def test_views_and_score_in_one_window(environment: dict[str, str], tmp_path: Path) -> None:
@@ -74,6 +75,15 @@ def test_views_and_score_in_one_window(environment: dict[str, str], tmp_path: Pa
     viewpoints_are_kept_by_keys_and_in_the_popup(seen["viewpoints"])
     every_viewpoint_can_be_chosen_and_turned(seen["look"])
     the_score_s_three_forms(seen["score"])
+
+
+def a_free_take_is_recorded_and_heard_again(seen: dict[str, Any]) -> None:
+    assert seen["stage"] == "PLAYING"
+    assert seen["pieces"] == ["SNARE", "KICK", "HIHAT"]
+    assert seen["after"] == "IDLE", "there is no result"
+    assert seen["listening"]
+    assert set(seen["lit"]) & {"SNARE", "KICK", "HIHAT"}, "what sounds lights the kit"
+    assert seen["ended"], "it ends by itself"
 
 
 def keys_play_the_kit_and_escape_stops(seen: dict[str, Any]) -> None:

@@ -103,7 +103,7 @@ def _virtual(plan: Plan, wishes: Wishes, spec: str, arguments: argparse.Namespac
 
     student = parse_spec(spec)
     remembered = _remembered(plan, wishes, settings, arguments.student is not None) if arguments.adapt else None
-    with SessionFolder(arguments.report, settings, plan) as folder:
+    with SessionFolder(arguments.report, settings, plan.lesson.name) as folder:
         if remembered is None:
             virtual = practise_virtually(plan, student, folder.capture)
         else:
@@ -121,7 +121,7 @@ def _live(
     from station.app.commands.terminal import practise_in_terminal
 
     remembered = _remembered(plan, wishes, settings, keeps=True) if arguments.adapt else None
-    with SessionFolder(arguments.report, settings, plan) as folder:
+    with SessionFolder(arguments.report, settings, plan.lesson.name) as folder:
         outcome = practise_in_terminal(
             plan if remembered is None else remembered.adaptation, settings, folder.capture, backing
         )

@@ -4,26 +4,38 @@ Every control has a tooltip, and every one is reached by the keyboard (Tab, arro
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from itertools import groupby
 
 from imgui_bundle import imgui
 
 from station.app import theme
 from station.app.choice import MAX_LOOPS, MAX_TEMPO_BPM, MIN_TEMPO_BPM, Choice
-from station.app.model import LessonCard
+from station.app.model import LessonCard, RoomState
 from station.core.clock import monotonic_ns
 
 START_LABEL = "Start##start"
 ADAPT_LABEL = "the tempo follows me"
+FREE_LABEL = "Just play##free"
+LISTEN_LABEL, STOP_LISTENING = "Listen back##listen", "Stop listening##listen"
 TAP_LABEL = "Tap the tempo##tap"
+
+
+@dataclass(frozen=True, slots=True)
+class LessonActions:
+    """What the user does: `start` what is chosen, `listen` back to the last take, or end it; `room` is asked."""
+
+    start: Callable[[], None]
+    listen: Callable[[], None]
+    room: Callable[[], RoomState]
 
 
 class LessonsPanel:
     """The list, the chosen lesson's words, its tempo and passes, and the button that starts it."""
 
-    def __init__(self, choice: Choice, start: Callable[[], None]) -> None:
+    def __init__(self, choice: Choice, actions: LessonActions) -> None:
         self._choice = choice
-        self._start = start
+        self._actions = actions
         self._below = 0.0  # pixels that the part under the list took in the last frame
 
     def gui(self) -> None:
@@ -41,11 +53,17 @@ class LessonsPanel:
         imgui.end_child()
         top = imgui.get_cursor_pos_y()
         imgui.separator()
-        if choice.card is not None:
+        if choice.free:
+            self._just_play()
+        elif choice.card is not None:
             self._chosen(choice.card)
         self._below = imgui.get_cursor_pos_y() - top + imgui.get_style().item_spacing.y
 
     def _list(self) -> None:
+        pressed, _ = imgui.selectable(FREE_LABEL, self._choice.free)
+        if pressed:
+            self._choice.free = True
+        theme.tooltip("A click if you like, everything recorded, nothing judged")
         visible = self._choice.visible()
         for level, cards in groupby(visible, key=lambda card: card.level_words):
             imgui.separator_text(level)
@@ -55,7 +73,7 @@ class LessonsPanel:
             theme.soft("No lesson has these words.")
 
     def _row(self, card: LessonCard) -> None:
-        chosen = self._choice.card is not None and self._choice.card.name == card.name
+        chosen = not self._choice.free and self._choice.card is not None and self._choice.card.name == card.name
         pressed, _ = imgui.selectable(f"{card.title}##{card.name}", chosen)
         if pressed:
             self._choice.choose(card)
@@ -73,25 +91,43 @@ class LessonsPanel:
             "Each pass begins where the last one led: faster when it is clean, slower when it is not, and says why"
         )
         if not choice.adapt:
-            self._tempo(card)
+            self._tempo()
         imgui.set_next_item_width(-theme.points(84))
         _, choice.loops = imgui.slider_int("passes", choice.loops, 1, MAX_LOOPS)
         theme.tooltip("How often the loop is played")
         _, choice.click = imgui.checkbox("click", choice.click)
         theme.tooltip("Without it you are counted in, then the score follows your own tempo and waits when you stop")
         if theme.main_button(START_LABEL, (-1, theme.points(46))):
-            self._start()
+            self._actions.start()
         theme.tooltip("Count-in, demonstration, then you (Enter)")
 
-    def _tempo(self, card: LessonCard) -> None:
+    def _just_play(self) -> None:
         choice = self._choice
-        low = min(MIN_TEMPO_BPM, int(card.beats_a_minute))
-        high = max(MAX_TEMPO_BPM, int(card.beats_a_minute) + 1)
+        theme.heading("Just play", 20)
+        theme.soft("Nothing is judged. Every stroke is recorded and kept, and you can listen back.")
+        _, choice.click = imgui.checkbox("click", choice.click)
+        theme.tooltip("As the settings say; without it there is silence")
+        if choice.click:
+            self._tempo()
+        if theme.main_button(START_LABEL, (-1, theme.points(46))):
+            self._actions.start()
+        theme.tooltip("Record from now on (Enter)")
+        room = self._actions.room()
+        imgui.begin_disabled(not (room.has_take or room.listening))
+        if imgui.button(STOP_LISTENING if room.listening else LISTEN_LABEL, imgui.ImVec2(-1, theme.points(38))):
+            self._actions.listen()
+        imgui.end_disabled()
+        theme.tooltip("The last take from its recording, through the station's own drums")
+
+    def _tempo(self) -> None:
+        choice = self._choice
+        beats = 100.0 if choice.free or choice.card is None else choice.card.beats_a_minute
+        low, high = min(MIN_TEMPO_BPM, int(beats)), max(MAX_TEMPO_BPM, int(beats) + 1)
         imgui.set_next_item_width(-theme.points(84))
-        beats = choice.tempo_bpm / card.beat_quarters
+        beats = choice.tempo_bpm / choice.beat_quarters
         moved, beats = imgui.slider_float("tempo", beats, low, high, "%.0f bpm")
         if moved:
-            choice.tempo_bpm = beats * card.beat_quarters
+            choice.tempo_bpm = beats * choice.beat_quarters
         theme.tooltip("How fast to practise; the lesson's own tempo is set when you choose it. Ctrl+click to type")
         if imgui.button(TAP_LABEL):
             choice.tap(monotonic_ns(), (low, high))

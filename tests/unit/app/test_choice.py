@@ -92,3 +92,18 @@ def test_tapped_beats_set_the_tempo_in_the_lesson_s_own_beat() -> None:
     for tap in range(9):
         choice.tap(round((30 + 0.1 * tap) * NS_PER_S), (30.0, 260.0))
     assert choice.tempo_bpm == pytest.approx(1.5 * 260.0)  # 600 is beyond the slider
+
+
+def test_just_playing_takes_the_place_of_a_lesson_and_taps_quarters() -> None:
+    """Taps half a second apart are 120; a lesson in 6/8 would make 180 quarters of them."""
+    choice = Choice([replace(ROCK, beat_quarters=1.5)])
+    choice.free = True
+    for tap in range(3):
+        choice.tap(tap * NS_PER_S // 2, (30, 260))
+    assert choice.wish() is None
+    wish = choice.free_wish()
+    assert wish is not None
+    assert (wish.tempo_bpm, wish.click) == (pytest.approx(120.0), True)
+    choice.choose(ROCK)
+    assert choice.free_wish() is None
+    assert choice.wish() is not None

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from station.app.model import Stage, Start
+from station.app.model import FreeWish, Stage, Start
 from station.app.practice_room import PracticeRoom
 from station.core.errors import DeviceError
 from station.core.events import Hit
@@ -187,3 +187,50 @@ def test_a_question_may_be_left_open(tmp_path: Path) -> None:
     played_early(room, line, NS_PER_S)
     room.dismiss()
     assert (room.room().stage, room.room().question) == (Stage.IDLE, "")
+
+
+def test_a_free_take_is_kept_with_its_capture_and_judges_nothing(tmp_path: Path) -> None:
+    line = Line()
+    room = room_on([line], tmp_path)
+    room.preview(None)
+    room.just_play(FreeWish(100.0))
+    assert room.room().stage is Stage.PLAYING
+    line.says.append(Started(NS_PER_S))
+    room.snapshot(NS_PER_S + 1)
+    line.says.append(Hit(2 * NS_PER_S, Piece.SNARE, Zone.HEAD, 90))
+    picture = room.snapshot(2 * NS_PER_S + 1)
+    assert picture.strip is not None
+    assert picture.strip.played.hits["at_ns"].tolist() == [NS_PER_S]
+    assert [strike.piece for strike in picture.strikes] == [Piece.SNARE]
+    assert picture.hud.judged == 0
+    room.stop()
+    assert (room.room().stage, room.report()) == (Stage.IDLE, None)
+    assert room.room().has_take
+    assert len(list(tmp_path.glob("*/*_just-play/take.json"))) == 1
+    assert [command.path.name for command in line.heard if isinstance(command, Record) and command.path] == [
+        "session.capture"
+    ]
+
+
+def test_strokes_light_the_kit_before_a_take_and_are_not_kept(tmp_path: Path) -> None:
+    line = Line()
+    room = room_on([line], tmp_path)
+    room.preview(None)
+    line.says.append(Hit(NS_PER_S, Piece.RIDE, Zone.BOW, 90))
+    picture = room.snapshot(NS_PER_S)
+    assert [strike.piece for strike in picture.strikes] == [Piece.RIDE]
+    assert picture.strip is not None
+    assert len(picture.strip.played) == 0
+
+
+def test_an_engine_that_dies_in_a_take_loses_none_of_it(tmp_path: Path) -> None:
+    line = Line()
+    room = room_on([line], tmp_path)
+    room.just_play(FreeWish(100.0))
+    line.says += [Started(NS_PER_S), Hit(2 * NS_PER_S, Piece.SNARE, Zone.HEAD, 90)]
+    room.snapshot(2 * NS_PER_S + 1)
+    line.dead = True
+    room.snapshot(3 * NS_PER_S)
+    assert room.room().stage is Stage.IDLE
+    assert room.room().has_take
+    assert len(list(tmp_path.glob("*/*_just-play/take.json"))) == 1
