@@ -19,7 +19,7 @@ from station.core.errors import DeviceError
 from station.render.camera import Camera, View, named
 from station.render.gl import GL_VERSION, Target
 from station.render.painter import Area, Arrangement, Painter
-from station.render.palette import NIGHT
+from station.render.palette import NIGHT, dyed
 from station.render.report_picture import report_shapes, report_sheet
 from station.render.scene import QUALITIES
 from station.render.snapshot import Snapshot
@@ -97,6 +97,7 @@ class Backdrop:
         """Fill the window's framebuffer; `area` is what the panels leave free."""
         ctx, painter = self._ready()
         screen, whole = self.clear()
+        painter.theme = self.look.theme
         if min(area[2:]) < 16:
             return
         if report is not None:
@@ -115,7 +116,7 @@ class Backdrop:
         whole = (round(size.x * scale.x), round(size.y * scale.y))
         ctx.viewport = (0, 0, *whole)
         ctx.scissor = None
-        screen.clear(*NIGHT, depth=1.0)
+        screen.clear(*dyed(NIGHT, self.look.theme), depth=1.0)
         return screen, whole
 
     def release(self) -> None:
@@ -148,7 +149,7 @@ class Backdrop:
         target = self._smooth_target(painter, whole)
         into = screen if target is None else target.framebuffer
         if target is not None:
-            into.clear(*NIGHT, depth=1.0)
+            into.clear(*dyed(NIGHT, self.look.theme), depth=1.0)
         painter.draw(snapshot, into, area, self.camera, arrangement=Arrangement(self._inset, self.look.score))
         if target is not None and self._ctx is not None:
             self._ctx.copy_framebuffer(screen, into)
@@ -177,6 +178,7 @@ class Backdrop:
         if self._page is None or self._page[0] is not report:
             self._page = report, report_shapes(report.facts, painter.atlas)
         ctx.viewport = area
+        painter.printer.theme = painter.theme
         painter.printer.draw(self._page[1], report_sheet(area[2:]))
 
 

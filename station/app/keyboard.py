@@ -72,6 +72,7 @@ COMMANDS: tuple[tuple[str, str], ...] = (
     ("N", "score: scrolling, pages, highway"),
     ("1 to 8", "your own viewpoints"),
     ("Ctrl+1 to 8", "keep where you look from"),
+    ("Ctrl+= and Ctrl+-", "larger and smaller panels"),
     ("Tab, arrows", "from control to control"),
 )
 """What the other keys do, as the help shows it."""

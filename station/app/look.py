@@ -1,15 +1,18 @@
-"""Where the user looks from: a named view, mirrored or not, a second picture, eight viewpoints; and the score's form.
+"""Where the user looks from: a named view, mirrored or not, a second picture, eight viewpoints; and how it is shown.
 
-It is kept in the settings as words: `view`, `inset` and `score` by name, `viewpoints` as
-`1=x,y,z,azimuth,height,distance,angle` for each that is kept (metres and degrees), apart by spaces.
+That is the score's form, the colours, and how large the panels are. It is kept in the settings as words: `view`,
+`inset`, `score` and `theme` by name, `viewpoints` as `1=x,y,z,azimuth,height,distance,angle` for each that is kept
+(metres and degrees), apart by spaces.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import degrees, isfinite, radians
 
 from station.core.errors import BadInput
-from station.core.settings import Settings, settings_path
+from station.core.settings import LARGEST_PANELS, SMALLEST_PANELS, Settings, settings_path
 from station.render.camera import Camera, View
+from station.render.palette import Theme
 from station.render.score_view import ScoreForm
 
 SLOTS = 8
@@ -19,19 +22,27 @@ INSETS = (None, View.HANDS, View.FEET)
 _FARTHEST_M = 10.0
 """No viewpoint in the settings lies farther out: the room is smaller (`camera`)."""
 
+SCALE_STEP = 0.25
+"""How much larger or smaller the panels grow at a time (our choice: a step can be seen, and 1 is one of them)."""
+
 Viewpoints = tuple[Camera | None, ...]
 """`SLOTS` cameras, None where none is kept."""
 
 
 @dataclass(frozen=True, slots=True)
 class Look:
-    """The view, whether left and right are swapped, what the `inset` shows, the score's form, the viewpoints kept."""
+    """The view, whether left and right are swapped, what the `inset` shows, the score's form, the viewpoints kept.
+
+    `theme` is the colours, `scale` how many times as large as designed the panels are.
+    """
 
     view: View = View.SHOULDER
     mirrored: bool = False
     inset: View | None = None
     score: ScoreForm = ScoreForm.SCROLLING
     viewpoints: Viewpoints = (None,) * SLOTS
+    theme: Theme = Theme.NIGHT
+    scale: float = 1.0
 
     def keeping(self, slot: int, camera: Camera) -> "Look":
         """With `camera` as the viewpoint `slot`, from 0."""
@@ -41,6 +52,11 @@ class Look:
     def next_score(self) -> "Look":
         """With the score in its next form."""
         return replace(self, score=ScoreForm((self.score + 1) % len(ScoreForm)))
+
+    def scaled(self, steps: int) -> "Look":
+        """With larger panels by so many steps, smaller where negative, within what the settings allow."""
+        scale = round(self.scale / SCALE_STEP) * SCALE_STEP + steps * SCALE_STEP
+        return replace(self, scale=min(max(scale, SMALLEST_PANELS), LARGEST_PANELS))
 
     def next_inset(self) -> "Look":
         """With what the second picture shows next."""
@@ -55,6 +71,8 @@ def look_of(settings: Settings) -> Look:
         View[_known("inset", settings.inset, _INSET_WORDS).upper()] if settings.inset else None,
         ScoreForm[_known("score", settings.score, [form.name.lower() for form in ScoreForm]).upper()],
         _viewpoints(settings.viewpoints),
+        Theme(_known("theme", settings.theme, list(Theme))),
+        settings.panel_scale,
     )
 
 
@@ -66,6 +84,8 @@ def with_look(settings: Settings, look: Look) -> Settings:
         mirrored=look.mirrored,
         inset="" if look.inset is None else look.inset.name.lower(),
         score=look.score.name.lower(),
+        theme=str(look.theme),
+        panel_scale=look.scale,
         viewpoints=" ".join(f"{slot}={_text(c)}" for slot, c in enumerate(look.viewpoints, 1) if c is not None),
     )
 
@@ -73,7 +93,7 @@ def with_look(settings: Settings, look: Look) -> Settings:
 _INSET_WORDS = [view.name.lower() for view in INSETS if view is not None]
 
 
-def _known(key: str, word: str, words: list[str]) -> str:
+def _known(key: str, word: str, words: Sequence[str]) -> str:
     if word not in words:
         raise BadInput(settings_path(), key, f"expected one of {', '.join(words)}, found {word!r}")
     return word

@@ -1,14 +1,20 @@
-"""The look of the panels: the same night, ink and orange as the pictures, in the same typeface."""
+"""The look of the panels: the same night, ink and orange as the pictures, in the same typeface.
+
+A theme dyes them as it dyes the pictures (`render.palette`); sizes are design pixels, grown by the screen's density and
+by the user's own scale.
+"""
 
 from imgui_bundle import hello_imgui, imgui
 
 from station.render import palette
 from station.render.fonts import Face, font_path
 from station.render.ink import Colour
+from station.render.palette import Theme
 
 FONT_SIZE = 17.0
 LARGE_FONT_SIZE = 26.0
 _ROUND, _LESS_ROUND = 10.0, 7.0
+_PANEL = palette.PAPER
 
 
 def load_fonts() -> None:
@@ -16,55 +22,91 @@ def load_fonts() -> None:
     imgui.get_io().fonts.add_font_from_file_ttf(str(font_path(Face.REGULAR)), FONT_SIZE)
 
 
+class _Worn:
+    """What the panels wear now; one for the process, as imgui's own style is."""
+
+    theme = Theme.NIGHT
+    scale = 1.0
+
+
+def choose(theme: Theme, scale: float) -> None:
+    """What `apply` shall show: the colours of `theme`, panels `scale` times as large as designed."""
+    _Worn.theme, _Worn.scale = theme, scale
+
+
+def dyed(colour: Colour) -> Colour:
+    """What the present theme shows for a colour of the night."""
+    return palette.dyed(colour, _Worn.theme)
+
+
 def _vec(colour: Colour) -> imgui.ImVec4:
     return imgui.ImVec4(*colour)
 
 
 def apply() -> None:
-    """Set colours and roundings; hello_imgui calls this once, when the style may be set."""
+    """Set colours, roundings and sizes as chosen; hello_imgui calls this when the style may first be set."""
     style = imgui.get_style()
-    style.window_rounding = style.child_rounding = style.popup_rounding = _ROUND
-    style.frame_rounding = style.grab_rounding = style.tab_rounding = style.scrollbar_rounding = _LESS_ROUND
-    style.window_padding = imgui.ImVec2(16, 14)
-    style.frame_padding = imgui.ImVec2(12, 7)
-    style.item_spacing = imgui.ImVec2(10, 9)
+    style.font_scale_main = _Worn.scale
+    style.window_rounding = style.child_rounding = style.popup_rounding = points(_ROUND)
+    style.frame_rounding = style.grab_rounding = style.tab_rounding = style.scrollbar_rounding = points(_LESS_ROUND)
+    style.window_padding = imgui.ImVec2(points(16), points(14))
+    style.frame_padding = imgui.ImVec2(points(12), points(7))
+    style.item_spacing = imgui.ImVec2(points(10), points(9))
+    style.item_inner_spacing = imgui.ImVec2(points(6), points(5))
     style.window_border_size = 0.0
-    style.scrollbar_size = 12.0
-    brand, ink = palette.BRAND, palette.INK
-    panel = (0.058, 0.066, 0.090, 0.97)
-    colours: dict[imgui.Col_, Colour] = {
+    style.scrollbar_size = points(12)
+    style.grab_min_size = points(12)
+    for slot, colour in _colours().items():
+        style.set_color_(slot, _vec(colour))
+
+
+def _colours() -> dict[imgui.Col_, Colour]:
+    """The colour of each part of a panel."""
+    brand, ink, panel = dyed(palette.BRAND), dyed(palette.INK), palette.with_opacity(dyed(_PANEL), 0.97)
+    return {
         imgui.Col_.text: ink,
-        imgui.Col_.text_disabled: palette.INK_SOFT,
+        imgui.Col_.text_disabled: dyed(palette.INK_SOFT),
         imgui.Col_.window_bg: panel,
         imgui.Col_.child_bg: (0.0, 0.0, 0.0, 0.0),
-        imgui.Col_.popup_bg: panel,
-        imgui.Col_.border: palette.PANEL_EDGE,
-        imgui.Col_.frame_bg: (1.0, 1.0, 1.0, 0.06),
-        imgui.Col_.frame_bg_hovered: (1.0, 1.0, 1.0, 0.11),
-        imgui.Col_.frame_bg_active: (1.0, 1.0, 1.0, 0.15),
+        imgui.Col_.popup_bg: dyed(_PANEL),
+        imgui.Col_.border: dyed(palette.PANEL_EDGE),
+        imgui.Col_.frame_bg: palette.with_opacity(ink, 0.07),
+        imgui.Col_.frame_bg_hovered: palette.with_opacity(ink, 0.12),
+        imgui.Col_.frame_bg_active: palette.with_opacity(ink, 0.16),
         imgui.Col_.title_bg: panel,
         imgui.Col_.title_bg_active: panel,
+        imgui.Col_.title_bg_collapsed: panel,
+        imgui.Col_.tab: panel,
+        imgui.Col_.tab_hovered: palette.with_opacity(brand, 0.30),
+        imgui.Col_.tab_selected: palette.with_opacity(brand, 0.22),
+        imgui.Col_.tab_dimmed: panel,
+        imgui.Col_.tab_dimmed_selected: palette.with_opacity(ink, 0.10),
+        imgui.Col_.scrollbar_bg: (0.0, 0.0, 0.0, 0.0),
+        imgui.Col_.scrollbar_grab: palette.with_opacity(ink, 0.25),
+        imgui.Col_.table_header_bg: palette.with_opacity(ink, 0.07),
         imgui.Col_.check_mark: brand,
+        imgui.Col_.checkbox_selected_bg: palette.with_opacity(ink, 0.07),
+        imgui.Col_.input_text_cursor: ink,
+        imgui.Col_.text_selected_bg: palette.with_opacity(brand, 0.35),
         imgui.Col_.slider_grab: brand,
         imgui.Col_.slider_grab_active: palette.mixed(brand, ink, 0.4),
-        imgui.Col_.button: (1.0, 1.0, 1.0, 0.08),
-        imgui.Col_.button_hovered: (1.0, 1.0, 1.0, 0.15),
-        imgui.Col_.button_active: (1.0, 1.0, 1.0, 0.22),
+        imgui.Col_.button: palette.with_opacity(ink, 0.09),
+        imgui.Col_.button_hovered: palette.with_opacity(ink, 0.16),
+        imgui.Col_.button_active: palette.with_opacity(ink, 0.23),
         imgui.Col_.header: palette.with_opacity(brand, 0.22),
         imgui.Col_.header_hovered: palette.with_opacity(brand, 0.30),
         imgui.Col_.header_active: palette.with_opacity(brand, 0.38),
-        imgui.Col_.separator: palette.PANEL_EDGE,
+        imgui.Col_.separator: dyed(palette.PANEL_EDGE),
         imgui.Col_.plot_histogram: brand,
         imgui.Col_.nav_cursor: brand,
+        imgui.Col_.docking_empty_bg: dyed(palette.NIGHT),
     }
-    for slot, colour in colours.items():
-        style.set_color_(slot, _vec(colour))
 
 
 def main_button(label: str, size: tuple[float, float], enabled: bool = True) -> bool:
     """The one button of a page that matters; returns whether it was pressed."""
-    brand, night = palette.BRAND, palette.NIGHT
-    lit = palette.mixed(brand, palette.INK, 0.25)
+    brand, night = dyed(palette.BRAND), dyed(palette.NIGHT)
+    lit = palette.mixed(brand, dyed(palette.INK), 0.25)
     slots = (imgui.Col_.button, imgui.Col_.button_hovered, imgui.Col_.button_active, imgui.Col_.text)
     for slot, colour in zip(slots, (brand, lit, lit, night), strict=True):
         imgui.push_style_color(slot, _vec(colour))
@@ -84,7 +126,7 @@ def heading(text: str, size: float = LARGE_FONT_SIZE) -> None:
 
 def soft(text: str) -> None:
     """A line of quiet text, broken where the panel ends."""
-    imgui.push_style_color(imgui.Col_.text, _vec(palette.INK_SOFT))
+    imgui.push_style_color(imgui.Col_.text, _vec(dyed(palette.INK_SOFT)))
     imgui.text_wrapped(text)
     imgui.pop_style_color()
 
@@ -96,5 +138,5 @@ def tooltip(text: str) -> None:
 
 
 def points(pixels: float) -> float:
-    """Design pixels in the window's own, which grow with the screen's density."""
-    return pixels * float(hello_imgui.dpi_window_size_factor())
+    """Design pixels in the window's own, which grow with the screen's density and the user's scale."""
+    return pixels * float(hello_imgui.dpi_window_size_factor()) * _Worn.scale

@@ -32,6 +32,13 @@ TITLE = "Drum station"
 _DOCK = "MainDockSpace"
 _NO_WINDOW = "no window can be opened: is there a screen, and OpenGL? `station practice --headless` needs neither"
 LESSONS, TRANSPORT, KEYS, BARS, NEWS = "Lessons", "Transport", "Keys", "Bars", "##news"
+_SPLITS = (
+    (Side.BELOW, imgui.Dir.down, 0.085, 0.21),
+    (Side.BESIDE, imgui.Dir.left, 0.26, 0.45),
+    (Side.RIGHT, imgui.Dir.right, 0.36, 0.5),
+    (Side.STRIP, imgui.Dir.down, 0.36, 0.5),
+)
+"""Where panels dock, in this order: side, way, their share of what is left, and the most of it when they are large."""
 _NEWS_SHOWN_S = 8.0
 """How long a fault or a notice stays on the screen (our choice: twice the time to read it)."""
 _NEWS_TOP, _NEWS_BAND = 150.0, 58.0
@@ -69,6 +76,7 @@ class Window:
         )
         self.backdrop = Backdrop(options.quality, look_of(load_settings(options.settings)))
         self._kept = self.backdrop.look
+        self._worn = self._kept.theme, self._kept.scale
         self._viewpoints = LookActions(self._keep_viewpoint, self._go_to_viewpoint)
         self.news, self._news_left_s = "", 0.0
         self._told: tuple[str, ...] = ()
@@ -77,6 +85,7 @@ class Window:
         self.frames = 0
         self._pages = self._table_of_pages()
         self.params = self._runner()
+        theme.choose(*self._worn)
 
     def run(self) -> None:
         """Show the window until it is closed; raises `DeviceError` where no window can be had."""
@@ -129,15 +138,19 @@ class Window:
     def _dock(self, params: hello_imgui.RunnerParams) -> None:
         docking = params.docking_params
         docking.layout_condition = hello_imgui.DockingLayoutCondition.application_start
-        docking.docking_splits = [
-            hello_imgui.DockingSplit(_DOCK, str(Side.BELOW), imgui.Dir.down, 0.085),
-            hello_imgui.DockingSplit(_DOCK, str(Side.BESIDE), imgui.Dir.left, 0.26),
-            hello_imgui.DockingSplit(_DOCK, str(Side.RIGHT), imgui.Dir.right, 0.36),
-            hello_imgui.DockingSplit(_DOCK, str(Side.STRIP), imgui.Dir.down, 0.36),
-        ]
-        for split in docking.docking_splits[:2]:
-            split.node_flags = imgui.DockNodeFlags_.auto_hide_tab_bar
+        docking.docking_splits = self._splits()
         docking.dockable_windows = [page.window() for page in self._pages]
+
+    def _splits(self) -> list[hello_imgui.DockingSplit]:
+        """Where panels dock; the larger they are, the more of the window they take."""
+        scale = self.backdrop.look.scale
+        splits = [
+            hello_imgui.DockingSplit(_DOCK, str(side), way, min(share * scale, most))
+            for side, way, share, most in _SPLITS
+        ]
+        for split in splits[:2]:
+            split.node_flags = imgui.DockNodeFlags_.auto_hide_tab_bar
+        return splits
 
     def _table_of_pages(self) -> tuple[Page, ...]:
         """Every panel; those without `shown` are tools that the user opens."""
@@ -155,6 +168,7 @@ class Window:
     def _before_frame(self) -> None:
         stage = self._model.room().stage
         docking = self.params.docking_params
+        self._wear()
         for page in self._pages:
             if page.shown is not None:
                 docking.dockable_window_of_name(page.name).is_visible = page.shown(stage)
@@ -165,6 +179,17 @@ class Window:
 
         if stage is not Stage.PLAYING:
             self._keep_look()
+
+    def _wear(self) -> None:
+        """Show the panels in the colours and the size that were chosen; larger ones dock anew."""
+        look = self.backdrop.look
+        if (look.theme, look.scale) != self._worn:
+            if look.scale != self._worn[1]:
+                self.params.docking_params.docking_splits = self._splits()
+                self.params.docking_params.layout_reset = True
+            self._worn = look.theme, look.scale
+            theme.choose(*self._worn)
+            theme.apply()
 
     def _leaving(self) -> None:
         self._keep_look()
@@ -251,6 +276,10 @@ class Window:
         slot, view = slot_pressed(), view_pressed()
         if slot is not None and io.key_ctrl:
             self._keep_viewpoint(slot)
+        elif io.key_ctrl and imgui.is_key_pressed(imgui.Key.equal):
+            backdrop.look_from(backdrop.look.scaled(1))
+        elif io.key_ctrl and imgui.is_key_pressed(imgui.Key.minus):
+            backdrop.look_from(backdrop.look.scaled(-1))
         elif io.key_ctrl or io.key_alt or io.key_super:
             return
         elif slot is not None:

@@ -19,7 +19,10 @@ from station.core.toml_write import toml_value
 APP_NAME = "drum-station"
 
 
-_RANGES: dict[str, tuple[int, int]] = {
+SMALLEST_PANELS, LARGEST_PANELS = 0.75, 2.5
+"""How small and how large the window's panels may be (our choice: read at arm's length, and from across the room)."""
+_RANGES: dict[str, tuple[float, float]] = {
+    "panel_scale": (SMALLEST_PANELS, LARGEST_PANELS),
     "block_frames": (0, 8192),
     "rate_hz": (8_000, 384_000),
     "input_latency_ms": (-1000, 1000),
@@ -47,8 +50,8 @@ class Settings:
     no other. `ask_first` whether the window asks what the student believes before it shows a result.
     `style` names how the demonstrator moves, a shipped style or a style file, and `hands` whose hand leads: `right`,
     `left`, `open`, empty for as a lesson's kit is built (`practice.lead`).
-    `view`, `mirrored`, `inset` and `viewpoints` are where the window looks from, `score` how it shows the score
-    (`app.look`).
+    `view`, `mirrored`, `inset` and `viewpoints` are where the window looks from, `score` how it shows the score,
+    `theme` its colours (`app.look`), `panel_scale` how many times as large as designed its panels are.
     """
 
     student: str = "student"
@@ -76,6 +79,8 @@ class Settings:
     inset: str = ""
     score: str = "scrolling"
     viewpoints: str = ""
+    theme: str = "night"
+    panel_scale: float = 1.0
 
     @property
     def threshold_of(self) -> dict[Piece, int]:

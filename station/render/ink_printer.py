@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from station.render.atlas import ATLAS_SIZE, SPREAD, Atlas
 from station.render.ink import SHAPE_DTYPE, Colour
+from station.render.palette import Theme, dyed, dyed_bytes
 
 _VERTEX = f"""
 #version 330 core
@@ -149,9 +150,10 @@ class Sheet:
 
 
 class InkPrinter:
-    """The program, the letter texture and a growing instance buffer."""
+    """The program, the letter texture and a growing instance buffer; prints in the colours of `theme`."""
 
     def __init__(self, ctx: moderngl.Context, atlas: Atlas) -> None:
+        self.theme = Theme.NIGHT
         self._ctx = ctx
         self._atlas = atlas
         self._program = ctx.program(vertex_shader=_VERTEX, fragment_shader=_FRAGMENT)
@@ -180,7 +182,7 @@ class InkPrinter:
             2 * (left + across) / width - 1,
             1 - 2 * (top + down) / height,
         )
-        program["top"], program["bottom"] = colours
+        program["top"], program["bottom"] = (dyed(colour, self.theme) for colour in colours)
         self._blend()
         self._fill.render(moderngl.TRIANGLE_STRIP, vertices=4)
 
@@ -198,11 +200,19 @@ class InkPrinter:
             self._buffer.release()
             self._allocate(2 * len(shapes))
         self._buffer.orphan()
-        self._buffer.write(np.ascontiguousarray(shapes).tobytes())
+        self._buffer.write(np.ascontiguousarray(self._dyed(shapes)).tobytes())
         self._upload()
         self._set(sheet)
         self._blend()
         self._vertices.render(moderngl.TRIANGLE_STRIP, vertices=4, instances=len(shapes))
+
+    def _dyed(self, shapes: NDArray[np.void]) -> NDArray[np.void]:
+        if self.theme is Theme.NIGHT:
+            return shapes
+        worn = shapes.copy()
+        for field in ("colour", "colour_2"):
+            worn[field][:, :3] = dyed_bytes(shapes[field][:, :3], self.theme)
+        return worn
 
     def _upload(self) -> None:
         if self._version != self._atlas.version:

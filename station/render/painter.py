@@ -14,7 +14,7 @@ from station.render import hud
 from station.render.atlas import Atlas
 from station.render.camera import Camera, View, named
 from station.render.ink_printer import InkPrinter, Sheet
-from station.render.palette import BRAND, GOOD, INK_FAINT, NIGHT
+from station.render.palette import BRAND, GOOD, INK_FAINT, NIGHT, Theme, over_picture
 from station.render.scene import QUALITIES, Glow, Quality, Scene
 from station.render.score_view import Place, ScoreForm, ScoreView
 from station.render.snapshot import Snapshot, Strike
@@ -52,12 +52,13 @@ class Arrangement:
 
 
 class Painter:
-    """Draws snapshots with one OpenGL context; keeps what consecutive snapshots share."""
+    """Draws snapshots with one OpenGL context, in the colours of `theme`; keeps what consecutive snapshots share."""
 
     def __init__(self, ctx: moderngl.Context, quality: Quality = QUALITIES[1]) -> None:
         self._ctx = ctx
         ctx.gc_mode = "context_gc"  # what is dropped is given back by `gc`, while this context is the current one
         self.quality = quality
+        self.theme = Theme.NIGHT
         self.atlas = Atlas()
         self.printer = InkPrinter(ctx, self.atlas)
         self._score = ScoreView(self.printer, self.atlas)
@@ -74,6 +75,7 @@ class Painter:
         arrangement: Arrangement = Arrangement(),
     ) -> None:
         """Draw `snapshot` into `area` of `target`, over what is there."""
+        self.printer.theme = self.theme
         left, low, width, height = area
         score_height = round(height * SCORE_SHARE) if with_score else 0
         scene_area = (left, low + score_height, width, height - score_height)
@@ -87,6 +89,7 @@ class Painter:
         if with_score:
             place = Place(0.0, float(height - score_height), float(width), float(score_height))
             self._score.draw(snapshot, place, (width, height), arrangement.form)
+        self.printer.theme = over_picture(self.theme)
         words = hud.hud_shapes(snapshot.hud, self.atlas, (float(width), float(height - score_height)))
         veil = (0.0, 0.0, float(width), hud.VEIL_HEIGHT * hud.scale(height - score_height))
         self.printer.fill(veil, hud.VEIL, Sheet((width, height)))

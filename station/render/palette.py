@@ -2,7 +2,19 @@
 
 Signals are those of Okabe and Ito, "Color Universal Design" (2008); each also has a shape of its own.
 Values are as on a screen (sRGB, 0–1).
+
+Whatever draws names the night's colours; a `Theme` is a table that says what stands for each of them, looked up when
+they reach the screen. The themes' signals were sought for the greatest least distance (CIELAB) of any two of them as
+seen with normal sight and by protanopes, deuteranopes and tritanopes (Machado 2009), each at 4.6 : 1 or more on the
+theme's paper.
 """
+
+from collections.abc import Mapping
+from enum import StrEnum
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import NDArray
 
 from station.render.ink import Colour
 
@@ -41,3 +53,68 @@ def mixed(a: Colour, b: Colour, share: float) -> Colour:
     """`a` at share 0, `b` at share 1."""
     r, g, bl, o = (x + (y - x) * share for x, y in zip(a, b, strict=True))
     return r, g, bl, o
+
+
+class Theme(StrEnum):
+    """Which colours are worn."""
+
+    NIGHT = "night"
+    DAY = "day"
+    CONTRAST = "contrast"
+    APART = "apart"
+
+
+THEME_NAMES: Mapping[Theme, str] = MappingProxyType(
+    {Theme.NIGHT: "Night", Theme.DAY: "Day", Theme.CONTRAST: "High contrast", Theme.APART: "Colour-blind"}
+)
+
+_INSTEAD: tuple[tuple[Colour, str, str, str], ...] = (
+    # of the night, by day, in high contrast, for the colour-blind
+    (INK, "1B1E26", "FFFFFF", "F2EDE4"),
+    (NIGHT, "F4F1EA", "000000", "0B0D12"),
+    (PANEL, "FFFFFF", "000000", "12151D"),
+    (PAPER, "F6F3EC", "000000", "11141B"),
+    (PAPER_LOW, "F4F1EA", "000000", "0A0C11"),
+    (PANEL_EDGE, "000000", "FFFFFF", "FFFFFF"),
+    (BRAND, "9A4A00", "FFB000", "FF9A3C"),
+    (GOOD, "0067E5", "189BFA", "6070FC"),
+    (EARLY, "2B2E00", "CEFF10", "B2FFD3"),
+    (LATE, "A45C00", "C58B06", "FF9E00"),
+    (MISSED, "CF2459", "FF5B76", "F22D51"),
+    (WRONG, "87569D", "FFC9F4", "CDAAED"),
+)
+"""What stands for each colour of the night."""
+_COLUMNS = {Theme.DAY: 1, Theme.CONTRAST: 2, Theme.APART: 3}
+
+
+def _key(colour: Colour) -> int:
+    r, g, b = (round(255 * x) for x in colour[:3])
+    return r << 16 | g << 8 | b
+
+
+_ROWS = sorted(_INSTEAD, key=lambda row: _key(row[0]))
+_KEYS = np.array([_key(row[0]) for row in _ROWS])
+_RGB = {
+    theme: np.array([[*bytes.fromhex(str(row[column]))] for row in _ROWS], np.uint8)
+    for theme, column in _COLUMNS.items()
+}
+
+
+def over_picture(theme: Theme) -> Theme:
+    """What words over the room are printed in: the room is dark by day too."""
+    return Theme.NIGHT if theme is Theme.DAY else theme
+
+
+def dyed(colour: Colour, theme: Theme) -> Colour:
+    """What `theme` shows for a colour of the night, as opaque; one that is not the night's stays."""
+    r, g, b = dyed_bytes(np.array([[round(255 * x) for x in colour[:3]]], np.uint8), theme)[0] / 255
+    return float(r), float(g), float(b), colour[3]
+
+
+def dyed_bytes(rgb: NDArray[np.uint8], theme: Theme) -> NDArray[np.uint8]:
+    """The same of many: rows of red, green, blue 0–255, shape (n, 3)."""
+    if theme is Theme.NIGHT:
+        return rgb
+    keys = rgb.astype(np.int64) @ np.array([1 << 16, 1 << 8, 1])
+    at = np.minimum(np.searchsorted(_KEYS, keys), len(_KEYS) - 1)
+    return np.where((_KEYS[at] == keys)[:, None], _RGB[theme][at], rgb)

@@ -260,6 +260,32 @@ def score(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.seen["kept"] = load_settings(drive.settings).score
 
 
+def worn(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """The panels' colours in the popup and their size by keys; both are kept."""
+    ctx.set_ref("//Transport")
+    ctx.item_click("Look##look")
+    ctx.yield_(2)
+    ctx.item_click("//$FOCUSED/Day##theme")
+    ctx.yield_(2)
+    paper = imgui.get_style().color_(imgui.Col_.window_bg)
+    drive.seen["light"] = min(paper.x, paper.y, paper.z) > 0.8
+    ctx.popup_close_all()
+    ctx.key_press(imgui.Key.equal | imgui.Key.mod_ctrl)
+    ctx.key_press(imgui.Key.equal | imgui.Key.mod_ctrl)
+    ctx.key_press(imgui.Key.minus | imgui.Key.mod_ctrl)
+    ctx.yield_(3)
+    drive.seen["letters"] = imgui.get_style().font_scale_main
+    kept = load_settings(drive.settings)
+    drive.seen["kept"] = [kept.theme, kept.panel_scale]
+    drive.seen["panels"] = round(_width_of(ctx, "//Lessons") / imgui.get_io().display_size.x, 2)
+
+
+def _width_of(ctx: imgui.test_engine.TestContext, panel: str) -> float:
+    window = ctx.window_info(panel).window
+    assert window is not None, panel
+    return float(window.size.x)
+
+
 def highway(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """The highway while a virtual student plays: the last frame is looked at."""
     drive.choose(ctx, passes=4)
@@ -330,6 +356,7 @@ SCENARIOS = {
     "look": look,
     "viewpoints": viewpoints,
     "score": score,
+    "worn": worn,
     "highway": highway,
     "drill": drill,
     "closes": closes,

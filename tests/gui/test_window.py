@@ -71,10 +71,11 @@ def test_search_keys_and_faults_in_one_window(environment: dict[str, str], tmp_p
 
 
 def test_views_and_score_in_one_window(environment: dict[str, str], tmp_path: Path) -> None:
-    seen = run_in_turn(["viewpoints", "look", "score"], environment, tmp_path)
+    seen = run_in_turn(["viewpoints", "look", "score", "worn"], environment, tmp_path)
     viewpoints_are_kept_by_keys_and_in_the_popup(seen["viewpoints"])
     every_viewpoint_can_be_chosen_and_turned(seen["look"])
     the_score_s_three_forms(seen["score"])
+    colours_and_sizes_are_worn_and_kept(seen["worn"])
 
 
 def a_free_take_is_recorded_and_heard_again(seen: dict[str, Any]) -> None:
@@ -115,6 +116,13 @@ def viewpoints_are_kept_by_keys_and_in_the_popup(seen: dict[str, Any]) -> None:
     assert seen["slots"] == [3, 8]
     assert seen["kept"] == ["TOP", True, True], "the settings hold the view, the mirror and the second picture"
     assert seen["kept_there"]
+
+
+def colours_and_sizes_are_worn_and_kept(seen: dict[str, Any]) -> None:
+    assert seen["light"]
+    assert seen["letters"] == 1.25, "two steps of a quarter up, and one down"
+    assert seen["kept"] == ["day", 1.25]
+    assert 0.3 < seen["panels"] < 0.36, "1.25 times 26 percent of the window"
 
 
 def the_score_s_three_forms(seen: dict[str, Any]) -> None:

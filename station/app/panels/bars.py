@@ -14,6 +14,7 @@ _NAMES = {
     Limb.RIGHT_FOOT: ("RF", "right foot"),
 }
 _BEST, _WORST = palette.with_opacity(palette.GOOD, 0.16), palette.with_opacity(palette.MISSED, 0.75)
+"""Of the night; the theme dyes them."""
 
 
 def heat_panel(heat: HeatMap) -> int | None:
@@ -47,7 +48,7 @@ def _row(heat: HeatMap, bar: int, limbs: list[Limb]) -> bool:
         cell = heat.cells.get((bar, limb))
         if cell is None:
             continue
-        colour = palette.mixed(_WORST, _BEST, cell.share)
+        colour = palette.mixed(theme.dyed(_WORST), theme.dyed(_BEST), cell.share)
         imgui.push_style_color(imgui.Col_.button, imgui.ImVec4(*colour))
         pressed |= imgui.button(f"{100 * cell.share:.0f}##{bar}-{limb.name}", imgui.ImVec2(-1, 0))
         imgui.pop_style_color()

@@ -1,4 +1,4 @@
-"""What the Look button opens: the second picture, the score's form, the user's viewpoints."""
+"""What the Look button opens: the second picture, the score's form, the user's viewpoints, colours and size."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -8,6 +8,7 @@ from imgui_bundle import imgui
 from station.app import theme
 from station.app.look import INSETS, Look
 from station.render.camera import VIEW_NAMES
+from station.render.palette import THEME_NAMES, Theme
 from station.render.score_view import ScoreForm
 
 LOOK_LABEL = "Look##look"
@@ -17,6 +18,12 @@ _FORMS = {
     ScoreForm.SCROLLING: ("Scrolling", "The notes pass a line that stands still"),
     ScoreForm.PAGED: ("Pages", "The line crosses bars that stand still"),
     ScoreForm.HIGHWAY: ("Highway", "A lane for every piece, for those who do not read music"),
+}
+_THEMES_TOLD = {
+    Theme.NIGHT: "Light on dark, for a dim room",
+    Theme.DAY: "Dark on light, for a bright room",
+    Theme.CONTRAST: "White on black, and the strongest colours",
+    Theme.APART: "Judgements in colours that everybody tells apart; each has a shape of its own besides",
 }
 
 
@@ -50,7 +57,30 @@ def look_popup(look: Look, actions: LookActions) -> Look:
     imgui.new_line()
     theme.soft("Your own viewpoints")
     _slots(look, actions)
+    look = _worn(look)
     imgui.end_popup()
+    return look
+
+
+def _worn(look: Look) -> Look:
+    """The colours and the size of the panels."""
+    theme.soft("Colours")
+    for worn, name in THEME_NAMES.items():
+        if imgui.radio_button(f"{name}##theme", look.theme is worn):
+            look = replace(look, theme=worn)
+        theme.tooltip(_THEMES_TOLD[worn])
+        imgui.same_line()
+    imgui.new_line()
+    theme.soft("Size of the panels")
+    for label, steps, told in (("Smaller##scale", -1, "Ctrl+−"), ("Larger##scale", 1, "Ctrl+=")):
+        imgui.begin_disabled(look.scaled(steps) == look)
+        if imgui.button(label, imgui.ImVec2(theme.points(96), 0)):
+            look = look.scaled(steps)
+        imgui.end_disabled()
+        theme.tooltip(f"Letters, buttons and lists ({told}); the picture keeps its size")
+        imgui.same_line()
+    imgui.align_text_to_frame_padding()
+    imgui.text(f"{look.scale:.0%}")
     return look
 
 

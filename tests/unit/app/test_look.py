@@ -10,6 +10,7 @@ from station.core.errors import BadInput
 from station.core.settings import Settings, load_settings, save_settings
 from station.render.camera import View, named
 from station.render.painter import inset_area
+from station.render.palette import Theme
 
 
 def test_a_look_comes_back_from_the_settings_file(tmp_path: Path) -> None:
@@ -25,6 +26,20 @@ def test_a_look_comes_back_from_the_settings_file(tmp_path: Path) -> None:
     assert not last.mirrored, "the mirror is a switch of its own"
 
 
+def test_colours_and_size_come_back_too(tmp_path: Path) -> None:
+    look = replace(Look(), theme=Theme.APART).scaled(3)
+    path = save_settings(with_look(Settings(), look), tmp_path / "settings.toml")
+    found = look_of(load_settings(path))
+    assert (found.theme, found.scale) == (Theme.APART, 1.75)
+
+
+def test_panels_grow_and_shrink_by_quarters_and_have_their_limits() -> None:
+    assert Look().scaled(-1).scale == 0.75
+    assert Look().scaled(-5).scale == 0.75
+    assert Look().scaled(9).scale == 2.5
+    assert replace(Look(), scale=1.1).scaled(1).scale == 1.25, "from a size of one's own to the next quarter"
+
+
 def test_the_second_picture_goes_round() -> None:
     looks = [Look()]
     for _ in range(3):
@@ -36,6 +51,7 @@ def test_the_second_picture_goes_round() -> None:
     ("settings", "fault"),
     [
         (Settings(view="moon"), "view: expected one of front, shoulder"),
+        (Settings(theme="pink"), "theme: expected one of night, day, contrast, apart"),
         (Settings(inset="top"), "inset: expected one of hands, feet"),
         (Settings(viewpoints="9=0,0,1,0,0,1,40"), "viewpoints: expected 1…8="),
         (Settings(viewpoints="1=0,0,1,0,0,1"), "found '1=0,0,1,0,0,1'"),
