@@ -23,12 +23,15 @@ WINDOW_HITS, WINDOW_S = 48, 6.0
 COST_PER_S, MOST_COST = 1.0, 6.0
 """Nats against a place for each second that it lies off the expected one, up to so many (our choice)."""
 
+_NEXT_NOTE_S = 0.05
+"""Notes so soon after a place are still those of the place (our choice: 1.7 SD of `evidence`)."""
+
 _BIN_S = 0.02
 _SPOTS = 12
 """Spots that are played through; repeated bars give many alike (our choice)."""
 
 _APART_S = 0.06
-_MISS_COST = 2.0
+MISS_COST = 2.0
 """Nats against a note that nobody hit, about log(0.97/0.1): a seventh of the notes may be missing (our choice)."""
 
 _FIT_GATES_S = (0.08, GATE_S)
@@ -46,6 +49,12 @@ class Notes:
     classes: Indices
     rates: Floats
     tracker: Tracker
+
+    def next_of(self, match_class: int, place_s: float) -> float | None:
+        """The time of the first note of a class behind `place_s` and what sounds there; None where none is left."""
+        first = int(np.searchsorted(self.at_s, place_s + _NEXT_NOTE_S))
+        after = self.classes[first:] == match_class
+        return float(self.at_s[first + int(after.argmax())]) if after.any() else None
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,7 +130,7 @@ def nats_for(notes: Notes, hits: Hits, place: Place) -> float:
     near = np.abs(off) < GATE_S
     first, last = np.searchsorted(notes.at_s, (min(places) - GATE_S, max(places) + GATE_S))
     unheard = max(int(last - first) - int(near.sum()), 0)
-    return float(evidence(off, notes.rates[hits.classes]).sum()) - _MISS_COST * unheard
+    return float(evidence(off, notes.rates[hits.classes]).sum()) - MISS_COST * unheard
 
 
 def _best_spots(notes: Notes, search: Search, hits: Hits) -> list[Place]:

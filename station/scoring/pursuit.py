@@ -5,6 +5,7 @@ be elsewhere: the place is found anew by voting (`locate`), and if that is worth
 the one that leaves most evidence on both sides. Times are seconds.
 """
 
+from bisect import bisect_right
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,6 +16,7 @@ from station.scoring.locate import COST_PER_S, MOST_COST, Hits, Notes, Search, c
 from station.scoring.tracker import Place
 
 Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
 
 JUMP_COST = 15.0
 """Nats against a jump (our choice: chance differences over `_HORIZON` hits are about 6 nats, 2.5 SD)."""
@@ -41,10 +43,14 @@ _NEAR_S = 60.0
 
 
 class Pursuit:
-    """Follows all hits and fills their `places` in the score and `distances` to the nearest note, both (m,)."""
+    """Follows all hits and fills their `places` in the score and `distances` to the nearest note, both (m,).
 
-    def __init__(self, notes: Notes, hits: Hits) -> None:
+    `resumes`: after a silence that is not written the player is where he stopped, not where he would be by now.
+    """
+
+    def __init__(self, notes: Notes, hits: Hits, resumes: bool = False) -> None:
         self._notes, self._hits = notes, hits
+        self._resumed: list[int] = silences(hits.at_s).tolist() if resumes else []
         self._times, self._classes = hits.at_s.tolist(), hits.classes.tolist()
         self._rates = notes.rates[hits.classes]
         self.places, self.distances = np.zeros(len(hits.at_s)), np.zeros(len(hits.at_s))
@@ -56,11 +62,25 @@ class Pursuit:
         """Follow from `start` to the end."""
         here, i, total = start, 0, len(self._times)
         while i < total:
-            end = min(i + _BLOCK, total)
+            end = self._until(i, i + _BLOCK)
+            if i in self._resumed:
+                here = self._after_silence(i, here)
+                self._trusted = i
             self._marks.append((i, here))
             after = self._follow(i, end, here)
             suspect = self._first_suspect(i, end)
             here, i = (after, end) if suspect is None else self._settle_doubt(suspect)
+
+    def _until(self, hit: int, end: int) -> int:
+        """How far the loop may follow from `hit`: to `end`, but not over a silence after which it is set anew."""
+        silence = bisect_right(self._resumed, hit)
+        return min(end, len(self._times), *self._resumed[silence : silence + 1])
+
+    def _after_silence(self, hit: int, here: Place) -> Place:
+        """The first note of the class of `hit` behind the last place, or `here` where that is no farther."""
+        after_s = self._notes.next_of(self._classes[hit], float(self.places[hit - 1]))
+        now_s = here.score_s + here.rate * (self._times[hit] - here.at_s)
+        return here if after_s is None or now_s - after_s < SILENCE_S else Place(self._times[hit], after_s, here.rate)
 
     def _follow(self, start: int, end: int, place: Place) -> Place:
         times, classes = self._times[start:end], self._classes[start:end]
@@ -79,7 +99,7 @@ class Pursuit:
     def _settle_doubt(self, suspect: int) -> tuple[Place, int]:
         """Decide at hit `suspect` whether the player is elsewhere; returns the place and the hit to go on from."""
         back = max(self._trusted, suspect - 2 * _SUSPECT_HITS)
-        end = min(suspect + _HORIZON, len(self._times))
+        end = self._until(suspect, suspect + _HORIZON)
         base = self._place_before(back)
         after = self._follow(back, end, base)
         moves = [self._move(place, back, suspect, end) for place in self._elsewhere(suspect, base)]
@@ -130,6 +150,15 @@ class Pursuit:
         moved = slice(move.split, suspect)
         self.places[moved], self.distances[moved] = move.before[move.split - back :], move.early[move.split - back :]
         return move.place, suspect
+
+
+SILENCE_S = 1.0
+"""Longer is no wait that a groove has (our choice)."""
+
+
+def silences(at_s: Floats) -> Indices:
+    """The first hits after silences."""
+    return np.flatnonzero(np.diff(at_s) > SILENCE_S) + 1
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.scoring.evidence import evidence
-from station.scoring.locate import Hits, Notes
-from station.scoring.pursuit import JUMP_COST_PER_S, MOST_JUMP_COST_MORE, SURE_JUMP_COST
+from station.scoring.locate import MISS_COST, Hits, Notes
+from station.scoring.pursuit import JUMP_COST_PER_S, MOST_JUMP_COST_MORE, SILENCE_S, SURE_JUMP_COST, silences
+from station.scoring.tracker import GATE_S
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -35,6 +36,18 @@ _MOST_JUMPS = 64
 
 LEAST_JUMP_S = 0.25
 """A smaller jump is a stumble and no change of place (our choice: an eighth at 120 bpm)."""
+
+JUMP_COST_PER_S_MORE = 0.2
+"""Nats for each second of a jump beyond that (our choice: it decides between places that are alike)."""
+
+_RESUME_HITS = 16
+"""Hits after a silence that say how exactly the player goes on (our choice: a bar of 16ths)."""
+
+_MOST_UNHEARD_COST = 12.0
+"""Nats against a performance that ends before the score, at most (our choice: it buys no jump)."""
+
+START_S = 2.0
+"""A jump to the beginning counts as one of so many seconds, however far it is: who gives up begins again."""
 
 _SLACK = 0.1
 """Share of a rest by which the place may move without a jump: the tempo may have changed meanwhile."""
@@ -71,16 +84,21 @@ def best_shifts(notes: Notes, hits: Hits, places: Floats, beats: Beats) -> Float
 
     Jumps that `places` already make are reconsidered too: there, going on at the old place is free and the jump costs.
     """
-    made = _made(hits.at_s, places, beats)
-    tried = _with(SHIFTS_BEATS, list(made.values()))
-    distance_s = float(np.median(np.diff(beats.at_s))) * np.abs(tried)
-    more = np.minimum(JUMP_COST_PER_S * distance_s, MOST_JUMP_COST_MORE)
-    total = np.where(tried == 0.0, 0.0, -SURE_JUMP_COST - more)
+    made, resumed = _made(hits.at_s, places, beats), resumes(notes, hits, places, beats)
+    tried = _with(SHIFTS_BEATS, [*made.values(), *resumed.values()])
+    to_start = _index_of(beats.beat(notes.at_s[:1]) - beats.beat(places), tried).tolist()
+    beat_s = float(np.median(np.diff(beats.at_s)))
+    total = np.where(tried == 0.0, 0.0, -_jump_cost(beat_s * np.abs(tried)))
     came_from = np.empty((len(places), len(tried)), np.int16)
     straight = np.arange(len(tried), dtype=np.int16)
     for i, said in enumerate(_evidence(notes, hits, places, beats, tried)):
         best = int(total.argmax())
-        jumped = total[best] - SURE_JUMP_COST
+        far_s = beat_s * np.abs(tried - tried[best] + made.get(i, 0.0))
+        if i in resumed:
+            far_s = np.minimum(far_s, beat_s * np.abs(tried - tried[best] - resumed[i]))
+        if to_start[i] >= 0:
+            far_s[to_start[i]] = min(far_s[to_start[i]], START_S)
+        jumped = total[best] - _jump_cost(far_s)
         came_from[i] = straight
         if i in made:
             came_from[i] = _index_of(tried + made[i], tried)
@@ -88,8 +106,40 @@ def best_shifts(notes: Notes, hits: Hits, places: Floats, beats: Beats) -> Float
         here = total < jumped
         came_from[i, here] = best
         total = np.where(here, jumped, total) + said
+    total -= _unheard_cost(notes, beats.moved(places[-1], tried))
     row: Floats = tried[_walk_back(came_from, int(total.argmax()))]
     return row
+
+
+def _jump_cost(far_s: Floats) -> Floats:
+    """Nats against a jump by so many s of the score, any shape; of places that are alike the nearest is believed."""
+    return SURE_JUMP_COST + np.minimum(JUMP_COST_PER_S * far_s, MOST_JUMP_COST_MORE) + JUMP_COST_PER_S_MORE * far_s
+
+
+def _unheard_cost(notes: Notes, last_s: Floats) -> Floats:
+    """Nats against a performance that ends at these places, any shape: most end where the score does."""
+    unheard = len(notes.at_s) - np.searchsorted(notes.at_s, last_s + GATE_S)
+    return np.asarray(np.minimum(MISS_COST * unheard, _MOST_UNHEARD_COST))
+
+
+def resumes(notes: Notes, hits: Hits, places: Floats, beats: Beats) -> dict[int, float]:
+    """The first hits after silences that are not written, and by how many beats to move who then goes on where he was.
+
+    He goes on with the first note of the hit's class behind the last place, as exactly as the next hits show.
+    """
+    found: dict[int, float] = {}
+    for hit in silences(hits.at_s).tolist():
+        after_s = notes.next_of(int(hits.classes[hit]), float(places[hit - 1]))
+        if after_s is None or places[hit] - after_s < SILENCE_S:
+            continue
+        next_hits = slice(hit, hit + _RESUME_HITS)
+        moved = places[next_hits] - (places[hit] - after_s)
+        off = np.array(notes.tracker.distances(moved.tolist(), hits.classes[next_hits].tolist()))
+        place = after_s + np.median(off[np.abs(off) < GATE_S])
+        found[hit] = float(np.subtract(*beats.beat(np.array([place, places[hit]]))))
+        if len(found) == _MOST_JUMPS:
+            break
+    return found
 
 
 def fits_elsewhere(notes: Notes, hits: Hits, places: Floats, beats: Beats, part: slice) -> bool:
@@ -146,11 +196,11 @@ def _evidence(notes: Notes, hits: Hits, places: Floats, beats: Beats, shifts: Fl
         distance = np.empty_like(moved)
         for c, own in by_class.items():
             here = part.classes == c
-            distance[here] = _to_nearest(own, moved[here])
+            distance[here] = to_nearest(own, moved[here])
         yield from evidence(distance, notes.rates[part.classes][:, None])
 
 
-def _to_nearest(note_s: Floats, at_s: Floats) -> Floats:
+def to_nearest(note_s: Floats, at_s: Floats) -> Floats:
     """Distance to the nearest note, any shape."""
     right = np.minimum(np.searchsorted(note_s, at_s), len(note_s) - 1)
     left = np.maximum(right - 1, 0)

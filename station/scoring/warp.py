@@ -1,8 +1,8 @@
 """From performance time to score time when tempo and place are unknown: the whole way of a performance through a score.
 
-The beginning is found (`beginning`), the tempo followed from there, pauses and restarts included (`pursuit`), and where
-the hits fit less well than elsewhere, bars that were left out or played again are looked for (`shifts`). What is played
-without a break is a *stretch*; within it the way is smoothed (`drift`). Times are seconds.
+The beginning is found (`beginning`) and the tempo followed from there, through pauses, restarts and bars that are left
+out or played again (`ways`). What is played without a break is a *stretch*; within it the way is smoothed (`drift`).
+Times are seconds.
 """
 
 from dataclasses import dataclass
@@ -12,18 +12,14 @@ from numpy.typing import NDArray
 
 from station.scoring.beginning import find_beginning
 from station.scoring.drift import half_width, local_trend, robust_sd
-from station.scoring.evidence import best_evidence, class_rates, evidence
+from station.scoring.evidence import class_rates
 from station.scoring.locate import Hits, Notes
-from station.scoring.pursuit import Pursuit
-from station.scoring.shifts import Beats, best_shifts, fits_elsewhere, jumps
+from station.scoring.shifts import Beats, jumps
 from station.scoring.tracker import GATE_S, Place, Tracker
+from station.scoring.ways import best_way
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
-
-_DOUBT_HITS, _DOUBT_SHARE = 32, 0.4
-"""So many hits in a row that bring less than so much of the usual share of the possible evidence are held against the
-score moved by whole beats (our choice: about every 3000 hits by chance)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,32 +54,14 @@ def find_warp(written: Written, hit_s: Floats, hit_classes: Indices) -> Warp:
     tempo = beginning.rate
     if tempo != 1.0:
         notes = _prepared(note_s / tempo, classes)
-    pursuit = Pursuit(notes, hits)
-    pursuit.run(Place(beginning.at_s, beginning.score_s / tempo, 1.0))
-    places, distances = pursuit.places, pursuit.distances
     beats = Beats(written.beat_s / tempo)
-    doubtful = _doubtful(distances, notes.rates[hits.classes])
-    if len(jumps(hits.at_s, places)) or any(fits_elsewhere(notes, hits, places, beats, part) for part in doubtful):
-        places = beats.moved(places, best_shifts(notes, hits, places, beats))
-        distances = np.array(notes.tracker.distances(places.tolist(), hits.classes.tolist()))
-    stretch = _stretches(hits.at_s, places)
-    return _filled(_smoothed(hits.at_s, places, distances, stretch) * tempo, stretch, hit_s, known)
+    way = best_way(notes, hits, Place(beginning.at_s, beginning.score_s / tempo, 1.0), beats)
+    stretch = _stretches(hits.at_s, way.places)
+    return _filled(_smoothed(hits.at_s, way.places, way.distances, stretch) * tempo, stretch, hit_s, known)
 
 
 def _prepared(note_s: Floats, classes: Indices) -> Notes:
     return Notes(note_s, classes, class_rates(note_s, classes), Tracker(note_s, classes))
-
-
-def _doubtful(distances: Floats, rates: Floats) -> list[slice]:
-    """Runs of `_DOUBT_HITS` hits that fit much less well than most, the worst of each neighbourhood."""
-    if len(distances) < 2 * _DOUBT_HITS:
-        return []
-    said, possible = (np.concatenate(([0.0], np.cumsum(v))) for v in (evidence(distances, rates), best_evidence(rates)))
-    share = (said[_DOUBT_HITS:] - said[:-_DOUBT_HITS]) / (possible[_DOUBT_HITS:] - possible[:-_DOUBT_HITS])
-    low = np.flatnonzero(share < _DOUBT_SHARE * np.median(share))
-    groups = np.split(low, np.flatnonzero(np.diff(low) > _DOUBT_HITS) + 1) if len(low) else []
-    worst = [int(group[np.argmin(share[group])]) for group in groups]
-    return [slice(start, start + _DOUBT_HITS) for start in worst]
 
 
 def _stretches(at_s: Floats, places: Floats) -> Indices:

@@ -1,0 +1,75 @@
+"""The ways that a performance may have gone through a score, and which of them is believed.
+
+The tempo is followed hit by hit (`pursuit`), once for a player who plays on in time whatever happens and, where there
+are silences, once for one who goes on where he stopped. Where hits fit less well than elsewhere, bars that were left
+out or played again are looked for (`shifts`). Hits alone cannot decide between bars that are alike; but who plays a
+score plays its notes, so that way is believed which leaves few notes unanswered and few hits astray. Times are seconds.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.scoring.evidence import SD_S, best_evidence, evidence
+from station.scoring.locate import Hits, Notes
+from station.scoring.pursuit import JUMP_COST, Pursuit, silences
+from station.scoring.shifts import Beats, best_shifts, fits_elsewhere, jumps, to_nearest
+from station.scoring.tracker import Place
+
+Floats = NDArray[np.float64]
+
+_DOUBT_HITS, _DOUBT_SHARE = 32, 0.4
+"""So many hits in a row that bring less than so much of the usual share of the possible evidence are held against the
+score moved by whole beats (our choice: about every 3000 hits by chance)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Way:
+    """Score time of each hit, `places` (m,), and from there to the nearest note of its class, `distances` (m,)."""
+
+    places: Floats
+    distances: Floats
+
+
+def best_way(notes: Notes, hits: Hits, start: Place, beats: Beats) -> Way:
+    """The likeliest way from `start`."""
+    ways = _ways(notes, hits, start, beats, resumes=False)
+    if len(silences(hits.at_s)):
+        ways += _ways(notes, hits, start, beats, resumes=True)
+    return ways[0] if len(ways) == 1 else max(ways, key=lambda way: _worth(notes, hits, way))
+
+
+def _ways(notes: Notes, hits: Hits, start: Place, beats: Beats, resumes: bool) -> list[Way]:
+    """What the pursuit found, and that with its shifts corrected where there is a doubt."""
+    pursuit = Pursuit(notes, hits, resumes)
+    pursuit.run(start)
+    places, followed = pursuit.places, Way(pursuit.places, pursuit.distances)
+    doubtful = _doubtful(pursuit.distances, notes.rates[hits.classes])
+    if len(jumps(hits.at_s, places)) or any(fits_elsewhere(notes, hits, places, beats, part) for part in doubtful):
+        moved = beats.moved(places, best_shifts(notes, hits, places, beats))
+        return [followed, Way(moved, np.array(notes.tracker.distances(moved.tolist(), hits.classes.tolist())))]
+    return [followed]
+
+
+def _worth(notes: Notes, hits: Hits, way: Way) -> float:
+    """What the hits that answer a note and the notes that a hit answers say for a way, less what its jumps cost."""
+    said = evidence(way.distances, notes.rates[hits.classes])
+    total = float(said.sum()) - JUMP_COST * len(jumps(hits.at_s, way.places))
+    weights = best_evidence(notes.rates)
+    for c in np.unique(hits.classes).tolist():
+        off = to_nearest(np.sort(way.places[hits.classes == c]), notes.at_s[notes.classes == c])
+        total += float(weights[c]) * float(np.exp(-0.5 * np.square(off / SD_S)).sum())
+    return total
+
+
+def _doubtful(distances: Floats, rates: Floats) -> list[slice]:
+    """Runs of `_DOUBT_HITS` hits that fit much less well than most, the worst of each neighbourhood."""
+    if len(distances) < 2 * _DOUBT_HITS:
+        return []
+    said, possible = (np.concatenate(([0.0], np.cumsum(v))) for v in (evidence(distances, rates), best_evidence(rates)))
+    share = (said[_DOUBT_HITS:] - said[:-_DOUBT_HITS]) / (possible[_DOUBT_HITS:] - possible[:-_DOUBT_HITS])
+    low = np.flatnonzero(share < _DOUBT_SHARE * np.median(share))
+    groups = np.split(low, np.flatnonzero(np.diff(low) > _DOUBT_HITS) + 1) if len(low) else []
+    worst = [int(group[np.argmin(share[group])]) for group in groups]
+    return [slice(start, start + _DOUBT_HITS) for start in worst]
