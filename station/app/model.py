@@ -14,6 +14,7 @@ from station.app.session_view import Demonstrator
 from station.engine.messages import KeyHit
 from station.motion.hand_notes import Hands
 from station.motion.style import Style
+from station.music.score import Score
 from station.practice.own_ear import Guess
 from station.render.results import ResultFacts
 from station.render.snapshot import Snapshot
@@ -164,6 +165,10 @@ class PracticeModel(Protocol):
         """What the student believes, where a question is open."""
         ...
 
+    def score(self) -> Score:
+        """The whole score of the lesson that is shown, at its own tempo."""
+        ...
+
     def demonstrator(self) -> Demonstrator:
         """Who demonstrates."""
         ...
@@ -172,8 +177,8 @@ class PracticeModel(Protocol):
         """Let the demonstrator move in another style, from this frame on."""
         ...
 
-    def hands(self) -> Hands | None:
-        """Whose hand leads; None as a lesson's kit is built."""
+    def hands(self) -> Hands:
+        """Whose hand leads."""
         ...
 
     def lead_with(self, hands: Hands) -> None:

@@ -27,6 +27,7 @@ from station.motion.hand_notes import Hands
 from station.motion.style import Style
 from station.motion.style_file import load_style
 from station.music.judgement import Judgement
+from station.music.score import Score
 from station.practice.adaptation import Adaptation
 from station.practice.backing import Backing, BackingWish
 from station.practice.click_word import parse_click
@@ -186,6 +187,10 @@ class PracticeRoom:
         elif self._stage is not Stage.PLAYING:
             self._hear(self._free.listening())
 
+    def score(self) -> Score:
+        """The whole score of the lesson that is shown, at its own tempo."""
+        return self._plan.lesson.score
+
     def demonstrator(self) -> Demonstrator:
         """Who demonstrates."""
         return self._who
@@ -195,9 +200,9 @@ class PracticeRoom:
         self._who = replace(self._who, style=style)
         self._view.move_as(style)
 
-    def hands(self) -> Hands | None:
-        """Whose hand leads; None as a lesson's kit is built."""
-        return hands_of(self._settings)
+    def hands(self) -> Hands:
+        """Whose hand leads: as it was chosen, else as the lesson's kit is built."""
+        return hands_of(self._settings) or (Hands.LEFT if self._plan.kit.left_handed else Hands.RIGHT)
 
     def lead_with(self, hands: Hands) -> None:
         """Let another hand lead from the next preview or session on."""

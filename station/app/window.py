@@ -18,6 +18,7 @@ from station.app.keyboard import pressed, slot_pressed, view_pressed
 from station.app.look import look_of, with_look
 from station.app.model import PracticeModel, Stage
 from station.app.panels.bars import heat_panel
+from station.app.panels.figure import ABOUT, FIGURE, FigurePanel
 from station.app.panels.keys import keys_help
 from station.app.panels.lessons import LessonActions, LessonsPanel
 from station.app.panels.look_popup import LookActions
@@ -35,7 +36,7 @@ LESSONS, TRANSPORT, KEYS, BARS, NEWS = "Lessons", "Transport", "Keys", "Bars", "
 _SPLITS = (
     (Side.BELOW, imgui.Dir.down, 0.085, 0.21),
     (Side.BESIDE, imgui.Dir.left, 0.26, 0.45),
-    (Side.RIGHT, imgui.Dir.right, 0.36, 0.5),
+    (Side.RIGHT, imgui.Dir.right, 0.42, 0.5),
     (Side.STRIP, imgui.Dir.down, 0.36, 0.5),
 )
 """Where panels dock, in this order: side, way, their share of what is left, and the most of it when they are large."""
@@ -83,6 +84,7 @@ class Window:
         self._show_keys = False
         self._frame_ms = 0.0
         self.frames = 0
+        self.figure = FigurePanel(model, options.settings, self._tried, self._preview_anew)
         self._pages = self._table_of_pages()
         self.params = self._runner()
         theme.choose(*self._worn)
@@ -157,6 +159,7 @@ class Window:
         return (
             Page(LESSONS, Side.BESIDE, self._lessons_gui, shown=lambda stage: stage is Stage.IDLE),
             Page(BARS, Side.BESIDE, self._bars_gui, shown=self._has_bars),
+            Page(FIGURE, Side.RIGHT, self.figure.gui, ABOUT),
             Page(TRANSPORT, Side.BELOW, self._transport_gui, shown=lambda stage: True),
         )
 
@@ -179,6 +182,7 @@ class Window:
 
         if stage is not Stage.PLAYING:
             self._keep_look()
+            self.figure.keep()
 
     def _wear(self) -> None:
         """Show the panels in the colours and the size that were chosen; larger ones dock anew."""
@@ -193,6 +197,7 @@ class Window:
 
     def _leaving(self) -> None:
         self._keep_look()
+        self.figure.keep()
         self.backdrop.release()
 
     def _keep_look(self) -> None:
@@ -224,6 +229,12 @@ class Window:
         if shown != self._previewed and self._model.room().stage is Stage.IDLE and (wish or self.choice.free):
             self._previewed = shown
             self._tried(lambda: self._model.preview(wish))
+
+    def _preview_anew(self) -> None:
+        """Show the chosen lesson as it is to be played now."""
+        wish = self.choice.wish()
+        if wish is not None:
+            self._model.preview(wish)
 
     def _central_area(self) -> tuple[int, int, int, int]:
         """The free middle of the window in pixels from the lower left corner."""

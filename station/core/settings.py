@@ -92,6 +92,11 @@ class Settings:
         """Where sessions are kept: `sessions`, or a folder of ours in the user's documents."""
         return Path(self.sessions).expanduser() if self.sessions else user_documents_path() / "Drum station"
 
+    @property
+    def styles_dir(self) -> Path:
+        """Where the user's own styles are kept."""
+        return self.sessions_dir / "styles"
+
 
 def settings_path() -> Path:
     """Where this user's settings live on this system."""

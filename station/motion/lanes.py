@@ -43,7 +43,7 @@ def with_moved(lane: Automation, index: int, bar: float, value: float) -> Automa
 
 def drawn(lane: Automation, stroke: Iterable[tuple[float, float]]) -> Automation:
     """The lane with `stroke`, points that were drawn by hand in any order, instead of what it had from end to end."""
-    points = dict(sorted(stroke))
+    points = dict(stroke)  # what was drawn last on a place counts
     if not points:
         return lane
     first, last = min(points) - NEAREST_BARS, max(points) + NEAREST_BARS

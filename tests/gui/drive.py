@@ -23,7 +23,7 @@ from station.app.model import Stage
 from station.app.panels.lessons import ADAPT_LABEL, FREE_LABEL, LISTEN_LABEL
 from station.app.window import Window, WindowOptions
 from station.core.errors import BadInput
-from station.core.settings import load_settings
+from station.core.settings import Settings, load_settings, save_settings
 from station.core.units import ns_from_ms
 from station.drills.library import find_lesson
 from station.practice.own_ear import Guess
@@ -32,6 +32,7 @@ from station.practice.student_spec import parse_spec
 from station.render.camera import VIEW_NAMES, View
 from station.render.png import write_png
 from station.render.score_view import ScoreForm
+from tests.gui.figure import figure
 from tests.gui.room import practice_room
 
 STEP_NS = ns_from_ms(100)
@@ -52,7 +53,7 @@ class Drive:
     def __init__(self, sessions: Path, student: str | None, picture_every: int = PICTURE_EVERY) -> None:
         spec = None if student is None else parse_spec(student)
         self.room, self.engine, self.clock = practice_room("rock-1", Wishes(), sessions, spec, STEP_NS)
-        self.settings = sessions / "settings.toml"
+        self.settings = save_settings(Settings(sessions=str(sessions)), sessions / "settings.toml")
         options = WindowOptions(SIZE, quality=0, remember_layout=False, settings=self.settings, tests=self._register)
         options = replace(options, picture_every=picture_every)
         self.window = Window(self.room, options, self.clock)
@@ -361,6 +362,7 @@ SCENARIOS = {
     "drill": drill,
     "closes": closes,
     "fault": fault,
+    "figure": figure,
 }
 
 

@@ -154,6 +154,21 @@ def test_a_session_is_kept_when_the_window_is_closed_in_its_middle(environment: 
     assert list((tmp_path / "sessions").rglob("*.json")), "the session is kept"
 
 
+def test_the_demonstrator_is_made_to_move_otherwise(environment: dict[str, str], tmp_path: Path) -> None:
+    seen = run("figure", environment, tmp_path)
+    assert seen["gain"] == 90.0
+    assert seen["moves so"] == 90.0, "at once"
+    assert seen["chosen"] == ["jazz", False]
+    assert seen["kept"] == "jazz"
+    assert seen["slot"] == 90.0
+    bars, values = zip(*seen["lane"], strict=True)
+    assert bars == (1.5, 1.75, 2.0), "a point on every beat from a quarter to the middle of two bars"
+    assert values == pytest.approx((25, 50, 75), abs=3)
+    assert seen["kept lane"] == seen["lane"]
+    assert seen["hands"] == ["left", True]
+    assert (tmp_path / "sessions" / "styles" / "slots.toml").exists()
+
+
 def test_without_a_screen_one_line_says_so(tmp_path: Path) -> None:
     bare = {name: value for name, value in os.environ.items() if name not in {"DISPLAY", "WAYLAND_DISPLAY"}}
     command = [sys.executable, str(DRIVE), "look", str(tmp_path / "sessions"), str(tmp_path / "seen.json")]

@@ -40,6 +40,7 @@ def test_what_is_drawn_takes_the_place_of_what_lay_under_it() -> None:
         (4.0, 4.0),
     )
     assert drawn(lane, []) == lane
+    assert drawn((), [(2.0, 90.0), (2.0, 30.0)]) == ((2.0, 30.0),), "what was drawn last counts"
 
 
 def test_every_pass_has_the_lessons_own_bars() -> None:

@@ -1,0 +1,62 @@
+"""The figure panel as a user has it: values typed, a style chosen, slots, a lane drawn, another hand that leads."""
+
+from typing import TYPE_CHECKING
+
+from imgui_bundle import imgui
+
+from station.core.settings import load_settings
+from station.motion.style_file import load_style
+
+if TYPE_CHECKING:
+    from tests.gui.drive import Drive
+
+
+def figure(drive: "Drive", ctx: imgui.test_engine.TestContext) -> None:
+    """Everything in one window; what was set last is what the settings keep."""
+    options, seen = drive.window.figure.options, drive.seen
+    ctx.set_ref("//Transport")
+    ctx.item_click("Panels##panels")
+    ctx.yield_(2)
+    ctx.item_click("//$FOCUSED/Figure")
+    ctx.key_press(imgui.Key.escape)
+    ctx.yield_(2)
+    ctx.set_ref("//Figure")
+    ctx.item_input_value("##figure/Arms/##amplitude_gain", 90.0)
+    ctx.yield_(2)
+    seen["gain"] = options.value("amplitude_gain")
+    seen["moves so"] = drive.room.demonstrator().style.amplitude_gain
+    ctx.item_click("1##keep1")
+    ctx.item_click("##style")
+    ctx.yield_(2)
+    ctx.item_click("//$FOCUSED/jazz##jazz")
+    ctx.yield_(2)
+    seen["chosen"] = [options.style.name, options.is_changed]
+    seen["kept"] = load_settings(drive.settings).style
+    ctx.item_click("1##take1")
+    ctx.yield_(2)
+    seen["slot"] = options.value("amplitude_gain")
+    ctx.item_click("##figure/Arms/~##bars-amplitude_gain")
+    ctx.yield_(3)
+    draw(ctx, "##figure/Bars/##lane")
+    seen["lane"] = options.lane("amplitude_gain")
+    ctx.item_click("##figure/Hands")
+    ctx.yield_(2)
+    ctx.item_click("##figure/Hands/Left-handed##lead")
+    ctx.yield_(2)
+    kept = load_settings(drive.settings)
+    seen["hands"] = [kept.hands, drive.room.snapshot(drive.clock.now_ns()).kit.left_handed]
+    seen["kept lane"] = load_style(kept.style).automation["amplitude_gain"]
+
+
+def draw(ctx: imgui.test_engine.TestContext, canvas: str) -> None:
+    """Draw in the lane's picture, from a quarter of its width up to the middle."""
+    ctx.mouse_move(canvas)
+    ctx.yield_(3)
+    info = ctx.item_info(canvas)
+    low, high = info.rect_full.min, info.rect_full.max
+    width, height = high.x - low.x, high.y - low.y
+    ctx.mouse_move_to_pos(imgui.ImVec2(low.x + 0.25 * width, low.y + 0.75 * height))
+    ctx.mouse_down(0)
+    ctx.mouse_move_to_pos(imgui.ImVec2(low.x + 0.5 * width, low.y + 0.25 * height))
+    ctx.mouse_up(0)
+    ctx.yield_(2)
