@@ -105,12 +105,14 @@ class LanesEditor:
     def _draw(self, frame: LaneFrame, lane: Automation | None) -> None:
         ink = imgui.get_window_draw_list()
         left, top, right, low = frame.left, frame.top, frame.left + frame.width, frame.top + frame.height
-        ink.add_rect_filled(imgui.ImVec2(left, top), imgui.ImVec2(right, low), _ink((1.0, 1.0, 1.0, 0.05)), 6.0)
+        ink.add_rect_filled(
+            imgui.ImVec2(left, top), imgui.ImVec2(right, low), _ink(palette.with_opacity(palette.INK, 0.06)), 6.0
+        )
         every = -(-frame.bars // _MOST_BAR_LINES)
         ink.push_clip_rect(imgui.ImVec2(left, top), imgui.ImVec2(right, low), True)
         for bar in range(0, frame.bars, every):
             x, _ = frame.pixel(bar + 1, frame.low)
-            ink.add_line(imgui.ImVec2(x, top), imgui.ImVec2(x, low), _ink((1.0, 1.0, 1.0, 0.14)))
+            ink.add_line(imgui.ImVec2(x, top), imgui.ImVec2(x, low), _ink(palette.with_opacity(palette.INK, 0.16)))
             ink.add_text(imgui.ImVec2(x + 4, top + 2), _ink(palette.INK_SOFT), str(bar + 1))
         points = lane or ((1.0, self._options.value(self.control)),)
         edges = [(1.0, value_at(points, 1.0)), *points, (frame.bars + 1.0, value_at(points, frame.bars + 1.0))]
@@ -167,4 +169,4 @@ _HELP = "Press beside a point and draw, drag a point, right click takes it away"
 
 
 def _ink(colour: Colour) -> int:
-    return int(imgui.get_color_u32(imgui.ImVec4(*colour)))
+    return int(imgui.get_color_u32(imgui.ImVec4(*theme.dyed(colour))))
