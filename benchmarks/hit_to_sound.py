@@ -47,7 +47,7 @@ _DRAW = """
 import time
 from station.bench.drawing import SIZE, snapshots
 from station.render.picture import PictureMaker
-from station.render.scene import QUALITIES
+from station.render.quality import QUALITIES
 maker, frames = PictureMaker(SIZE, QUALITIES[0]), snapshots(60)
 print("draws", flush=True)
 count, begun = 0, time.monotonic()

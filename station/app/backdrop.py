@@ -20,13 +20,15 @@ from station.render.camera import Camera, View, named
 from station.render.gl import GL_VERSION, Target
 from station.render.painter import Area, Arrangement, Painter
 from station.render.palette import NIGHT, dyed
+from station.render.quality import QUALITIES
 from station.render.report_picture import report_shapes, report_sheet
-from station.render.scene import QUALITIES
 from station.render.snapshot import Snapshot
 
 _MEASURED_FRAMES = 12
 _FAST_MS, _VERY_FAST_MS = 6.0, 2.0
 """A machine that draws the lowest level so fast can afford the middle and the highest at 60 Hz (our choice)."""
+_MEASURED = replace(QUALITIES[0], is_layered=False)
+"""What is measured draws everything anew, as the higher levels do."""
 _ORBIT_PER_PIXEL, _PAN_PER_PIXEL, _ZOOM_PER_STEP = 0.006, 0.0022, 1.12
 
 
@@ -38,11 +40,13 @@ class Backdrop:
         self._painter: Painter | None = None
         self._ctx: moderngl.Context | None = None
         self._target: Target | None = None
+        self._samples = 0
         self._times_ms: list[float] = []
         self._page: tuple[Report, NDArray[np.void]] | None = None
         self.look = look
         self._left_handed = False
         self.camera: Camera = replace(named(look.view), mirrored=look.mirrored)
+        self._seen_from = self.camera
 
     def look_from(self, look: Look) -> None:
         """Go to a named viewpoint, swap the sides or not, choose the second picture; what is so already stays turned.
@@ -103,7 +107,7 @@ class Backdrop:
         if report is not None:
             self._draw_report(report, painter, ctx, area)
         else:
-            self._draw_room(snapshot, painter, screen, whole, area)
+            self._draw_room(snapshot, painter, ctx, screen, whole, area)
         ctx.viewport = (0, 0, *whole)
 
     def clear(self) -> tuple[moderngl.Framebuffer, tuple[int, int]]:
@@ -131,13 +135,14 @@ class Backdrop:
                 self._ctx = moderngl.create_context(require=GL_VERSION)
             except Exception as fault:
                 raise DeviceError(f"the window has no OpenGL 3.3: {fault}") from fault
-            self._painter = Painter(self._ctx, QUALITIES[self._wanted or 0])
+            self._painter = Painter(self._ctx, _MEASURED if self._wanted is None else QUALITIES[self._wanted])
         return self._ctx, self._painter
 
     def _draw_room(
         self,
         snapshot: Snapshot,
         painter: Painter,
+        ctx: moderngl.Context,
         screen: moderngl.Framebuffer,
         whole: tuple[int, int],
         area: Area,
@@ -146,22 +151,21 @@ class Backdrop:
             self._left_handed = snapshot.kit.left_handed
             self._back_to_the_view()
         began = perf_counter()
-        target = self._smooth_target(painter, whole)
-        into = screen if target is None else target.framebuffer
-        if target is not None:
-            into.clear(*dyed(NIGHT, self.look.theme), depth=1.0)
-        painter.draw(snapshot, into, area, self.camera, arrangement=Arrangement(self._inset, self.look.score))
-        if target is not None and self._ctx is not None:
-            self._ctx.copy_framebuffer(screen, into)
+        target = self._target_for(painter, ctx, whole)
+        arrangement = Arrangement(self._inset, self.look.score, is_rough=self.camera != self._seen_from)
+        self._seen_from = self.camera
+        painter.draw(snapshot, target.framebuffer, area, self.camera, arrangement=arrangement)
+        target.show(screen)
         self._measure(began)
 
-    def _smooth_target(self, painter: Painter, whole: tuple[int, int]) -> Target | None:
-        """An off-screen picture with several samples a pixel, where the quality asks for it."""
-        if painter.quality.samples < 2 or self._ctx is None:
-            return None
-        if self._target is None or self._target.size != whole:
+    def _target_for(self, painter: Painter, ctx: moderngl.Context, whole: tuple[int, int]) -> Target:
+        """Where the picture is made: off the screen, with as many samples a pixel as the quality asks for."""
+        if self._target is None or self._target.size != whole or self._samples != painter.quality.samples:
             self.release()
-            self._target = Target(self._ctx, whole, painter.quality.samples)
+            self._samples = painter.quality.samples
+            self._target = Target(ctx, whole, self._samples)
+        if not painter.quality.is_layered:
+            self._target.framebuffer.clear(*dyed(NIGHT, painter.theme), depth=1.0)
         return self._target
 
     def _measure(self, began: float) -> None:
@@ -171,8 +175,10 @@ class Backdrop:
         self._times_ms.append((perf_counter() - began) * 1000)
         if len(self._times_ms) == _MEASURED_FRAMES:
             level = quality_for(median(self._times_ms[2:]))
-            if level:
+            if level or self._painter is None:
                 self._painter = Painter(self._ctx, QUALITIES[level])
+            else:
+                self._painter.quality = QUALITIES[0]
 
     def _draw_report(self, report: Report, painter: Painter, ctx: moderngl.Context, area: Area) -> None:
         if self._page is None or self._page[0] is not report:

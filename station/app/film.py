@@ -13,7 +13,7 @@ from station.app.soundtrack import Sounds, Soundtrack
 from station.core.errors import DeviceError
 from station.motion.drummer import Drummer
 from station.render.picture import PictureMaker, Shot, draw_pngs
-from station.render.scene import QUALITIES
+from station.render.quality import QUALITIES
 from station.render.snapshot import Snapshot
 
 Tell = Callable[[int], None]

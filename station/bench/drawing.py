@@ -17,7 +17,7 @@ from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.render.bare import BareScene
 from station.render.picture import PictureMaker
-from station.render.scene import QUALITIES
+from station.render.quality import QUALITIES
 from station.render.snapshot import Hud, Snapshot
 
 SIZE = (1280, 720)
@@ -26,7 +26,7 @@ _ROUNDS = 3
 _FIRST = (
     "from station.bench.drawing import snapshots, SIZE\n"
     "from station.render.picture import PictureMaker\n"
-    "from station.render.scene import QUALITIES\n"
+    "from station.render.quality import QUALITIES\n"
     "PictureMaker(SIZE, QUALITIES[0]).draw(snapshots(1)[0])\n"
 )
 

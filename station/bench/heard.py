@@ -35,7 +35,7 @@ _DRAW = (
     "import time\n"
     "from station.bench.drawing import SIZE, snapshots\n"
     "from station.render.picture import PictureMaker\n"
-    "from station.render.scene import QUALITIES\n"
+    "from station.render.quality import QUALITIES\n"
     "frames, maker = snapshots(12), PictureMaker(SIZE, QUALITIES[0])\n"
     "maker.draw(frames[0])\n"
     "print('draws', flush=True)\n"

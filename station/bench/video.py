@@ -14,7 +14,7 @@ from station.bench.benchmark import Benchmark, Measured, median_s
 from station.bench.drawing import SIZE, snapshots
 from station.render.picture import PictureMaker
 from station.render.planes import Planes
-from station.render.scene import QUALITIES
+from station.render.quality import QUALITIES
 from station.render.video_file import VideoFormat, video_file
 
 _FRAMES = 60

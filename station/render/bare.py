@@ -5,15 +5,16 @@ has its scene, and reads the picture back. What `painter` costs beyond this is w
 words.
 """
 
-import moderngl
 import numpy as np
 
 from station.motion.figure import Figure
 from station.motion.kit import Kit
+from station.render.bone_palette import Frame
 from station.render.camera import View, named
 from station.render.gl import Target, standalone_context
 from station.render.painter import SCORE_SHARE
-from station.render.scene import Quality, Scene
+from station.render.quality import Quality
+from station.render.scene import Scene
 from station.render.snapshot import Snapshot
 
 
@@ -36,13 +37,13 @@ class BareScene:
     def pose(self, snapshot: Snapshot) -> None:
         """Draw once as the station does, which sets every uniform and bone."""
         with self._ctx:
-            self._scene.draw(self._target.framebuffer, named(View.SHOULDER), snapshot.pose, self._area)
+            self._scene.set(Frame(snapshot.pose))
+            self._scene.draw(self._target.framebuffer, named(View.SHOULDER), self._area)
 
     def draw(self) -> int:
         """One frame; returns the sum of a few of its bytes, so that it is really there."""
         with self._ctx:
-            self._ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
-            self._scene.draw_shadows(with_figure=True)
+            self._scene.draw_shadows()
             self._target.framebuffer.use()
             self._ctx.viewport = self._area
             self._target.framebuffer.clear(depth=1.0)

@@ -40,6 +40,7 @@ class Target:
         self.size = size
         samples = min(samples, ctx.max_samples)
         self._plain = ctx.framebuffer([ctx.texture(size, 4)], ctx.depth_renderbuffer(size))
+        self._colours = ctx.framebuffer(self._plain.color_attachments)
         self.framebuffer = self._plain
         if samples > 1:
             self.framebuffer = ctx.framebuffer(
@@ -55,15 +56,21 @@ class Target:
         assert isinstance(texture, moderngl.Texture)
         return texture
 
+    def show(self, screen: moderngl.Framebuffer) -> None:
+        """Copy the picture to a framebuffer of the same size, its colours alone: screens have depths of many kinds."""
+        self.resolved()
+        self._ctx.copy_framebuffer(screen, self._colours)
+
     def read(self) -> NDArray[np.uint8]:
-        """The picture, shape (height, width, 3), top row first."""
+        """The picture, shape (height, width, 3), top row first, read only."""
         self.resolved()
         width, height = self.size
         rgba = np.frombuffer(self._plain.read(components=4, alignment=1), np.uint8).reshape(height, width, 4)
-        return np.ascontiguousarray(rgba[::-1, :, :3])
+        return rgba[::-1, :, :3]  # a view: to pack the bytes takes as long as to draw half of them
 
     def release(self) -> None:
         """Give the memory back."""
+        self._colours.release()
         for buffer in {id(b): b for b in (self.framebuffer, self._plain)}.values():
             for attachment in (*buffer.color_attachments, buffer.depth_attachment):
                 attachment.release()

@@ -113,7 +113,7 @@ _FILL_VERTEX = """
 uniform vec4 area;            // left, top, right, bottom in clip space
 uniform vec4 top;
 uniform vec4 bottom;
-out vec4 v_colour;
+out vec4 v_colour;            // the picture's program has none
 void main() {
     vec2 at = vec2(gl_VertexID & 1, gl_VertexID >> 1);
     v_colour = mix(top, bottom, at.y);
@@ -126,6 +126,14 @@ _FILL_FRAGMENT = """
 in vec4 v_colour;
 out vec4 shade;
 void main() { shade = vec4(v_colour.rgb * v_colour.a, v_colour.a); }
+"""
+
+_PICTURE_FRAGMENT = """
+#version 330 core
+uniform sampler2D picture;
+uniform ivec2 corner;
+out vec4 shade;
+void main() { shade = vec4(texelFetch(picture, ivec2(gl_FragCoord.xy) - corner, 0).rgb, 1.0); }
 """
 
 _LAYOUT = "2f 2f 2f 4f 3f 2f 1f 4f1 4f1/i"
@@ -161,6 +169,9 @@ class InkPrinter:
         self._version = -1
         self._fill_program = ctx.program(vertex_shader=_FILL_VERTEX, fragment_shader=_FILL_FRAGMENT)
         self._fill = ctx.vertex_array(self._fill_program, [])
+        self._picture_program = ctx.program(vertex_shader=_FILL_VERTEX, fragment_shader=_PICTURE_FRAGMENT)
+        self._picture_program["area"] = -1.0, 1.0, 1.0, -1.0
+        self._picture = ctx.vertex_array(self._picture_program, [])
         self._allocate(1024)
 
     def _allocate(self, capacity: int) -> None:
@@ -185,6 +196,13 @@ class InkPrinter:
         program["top"], program["bottom"] = (dyed(colour, self.theme) for colour in colours)
         self._blend()
         self._fill.render(moderngl.TRIANGLE_STRIP, vertices=4)
+
+    def picture(self, texture: moderngl.Texture) -> None:
+        """Fill the viewport, which is as large, with a picture."""
+        self._ctx.disable(moderngl.DEPTH_TEST | moderngl.CULL_FACE | moderngl.BLEND)
+        texture.use(0)
+        self._picture_program["corner"] = self._ctx.viewport[:2]
+        self._picture.render(moderngl.TRIANGLE_STRIP, vertices=4)
 
     def _blend(self) -> None:
         self._ctx.disable(moderngl.DEPTH_TEST | moderngl.CULL_FACE)

@@ -4,7 +4,8 @@
 pedal frames, throne) the hardware follows from where the pieces are.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import cos, sin
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,13 +13,13 @@ from numpy.typing import NDArray
 from station.core.pieces import Piece
 from station.motion.kit import Kit
 from station.motion.piece import KitPiece
-from station.motion.pose import LEFT, RIGHT, Pose
+from station.motion.pose import Pose
 from station.render import drums, hardware
 from station.render.drums import Detail
 from station.render.mesh import Mesh, joined
 from station.render.pedals import axle_of, pedal_meshes, pedals_by_foot, raised
 from station.render.room import Disc
-from station.render.space import Matrix, frame, rotation_at, translation
+from station.render.space import Matrix, frames, rotation_at, translation
 
 WORLD = 0
 _LUGS = {Piece.SNARE: 10, Piece.FLOOR_TOM_1: 8, Piece.FLOOR_TOM_2: 8}
@@ -27,7 +28,11 @@ _RACK_LUGS = 6
 
 @dataclass(frozen=True)
 class KitRig:
-    """`mesh` in the pose of rest, and the bone of each moving part."""
+    """`mesh` in the pose of rest, and the bone of each moving part.
+
+    The mesh's faces lie bone by bone, `faces_of` tells where; the first `still_faces` hardly ever move: hardware and
+    drums, which shake by less than a degree.
+    """
 
     kit: Kit
     mesh: Mesh
@@ -37,6 +42,8 @@ class KitRig:
     sticks: tuple[int, int]
     axle_m: NDArray[np.float64]
     bone_count: int
+    faces_of: dict[int, slice]
+    still_faces: int
 
 
 def build_kit(kit: Kit, detail: Detail) -> KitRig:
@@ -50,7 +57,25 @@ def build_kit(kit: Kit, detail: Detail) -> KitRig:
     parts += pedal_meshes(kit, boards, beater, axle)
     parts.append(hardware.throne(kit.seat_m, detail))
     parts += [drums.stick(drums.STICK_M).on_bone(bone) for bone in sticks]
-    return KitRig(kit, joined(parts), bones, boards, beater, sticks, axle, first + 5)
+    still = [WORLD, *(bones[p.piece] for p in kit.pieces.values() if p.kind not in _SWINGING)]
+    mesh, faces_of = _bone_by_bone(joined(parts), still)
+    still_faces = max(faces_of[bone].stop for bone in still)
+    return KitRig(kit, mesh, bones, boards, beater, sticks, axle, first + 5, faces_of, still_faces)
+
+
+_SWINGING = ("cymbal", "hihat")
+
+
+def _bone_by_bone(mesh: Mesh, first: list[int]) -> tuple[Mesh, dict[int, slice]]:
+    """The mesh with the faces of each bone together, those of the bones `first` before all others; and where they lie.
+
+    Among a bone's faces those with near corners are neighbours: a software driver shades fewer corners twice.
+    """
+    bone = mesh.bone[mesh.faces[:, 0]]
+    order = np.lexsort((mesh.faces.min(axis=1), bone, ~np.isin(bone, first)))
+    bones, starts, counts = np.unique(bone[order], return_index=True, return_counts=True)
+    rows = zip(bones.tolist(), starts.tolist(), counts.tolist(), strict=True)
+    return replace(mesh, faces=mesh.faces[order]), {b: slice(start, start + count) for b, start, count in rows}
 
 
 def _place(piece: KitPiece) -> Matrix:
@@ -82,17 +107,31 @@ def bone_matrices(rig: KitRig, pose: Pose | None) -> Matrix:
     for (piece, bone), swing in zip(rig.piece_bones.items(), pose.swing_rad, strict=True):
         part = rig.kit.pieces[piece]
         if swing[0] or swing[1]:
-            right, away, _ = part.axes
-            m[bone] = rotation_at(part.centre, right, swing[0]) @ rotation_at(part.centre, away, swing[1])
+            m[bone] = _tipped(part, float(swing[0]), float(swing[1]))
         if part.kind == "hihat":
             m[bone] = translation(part.normal * pose.hat_gap_m) @ m[bone]
     for bone, pedal, angle in zip(rig.boards, pedals_by_foot(rig.kit), pose.footboard_rad, strict=True):
         m[bone] = raised(pedal, angle)
     m[rig.beater] = rotation_at(rig.axle_m, [1, 0, 0], pose.beater_rad)
-    for side in (RIGHT, LEFT):
-        along = pose.tip_m[side] - pose.butt_m[side]
-        m[rig.sticks[side]] = frame(pose.butt_m[side], along, [1, 0, 0])
-        m[rig.sticks[side]][:3, 2] *= np.linalg.norm(along) / drums.STICK_M
+    m[list(rig.sticks)] = stick_matrices(pose)
+    return m
+
+
+def _tipped(piece: KitPiece, back_rad: float, side_rad: float) -> Matrix:
+    """A turn about the piece's away axis, then about its right axis, its centre staying where it is."""
+    (ca, sa), (cb, sb) = ((cos(angle), sin(angle)) for angle in (back_rad, side_rad))
+    own = np.array([[cb, 0.0, sb], [sa * sb, ca, -sa * cb], [-ca * sb, sa, ca * cb]])
+    m = np.eye(4)
+    m[:3, :3] = piece.axes.T @ own @ piece.axes
+    m[:3, 3] = piece.centre - m[:3, :3] @ piece.centre
+    return m
+
+
+def stick_matrices(pose: Pose) -> Matrix:
+    """The matrices of the right and the left stick, (2, 4, 4)."""
+    along = pose.tip_m - pose.butt_m
+    m = frames(pose.butt_m, along, np.tile([1.0, 0.0, 0.0], (2, 1)))
+    m[:, :3, 2] *= np.linalg.norm(along, axis=1, keepdims=True) / drums.STICK_M
     return m
 
 

@@ -1,10 +1,12 @@
 """Paints a snapshot: scene above, score below, words over the scene. The window and the off-screen picture share it."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import partial
 
 import moderngl
 import numpy as np
+from numpy.typing import NDArray
 
 from station.core.pieces import Piece
 from station.motion.figure import Figure
@@ -12,12 +14,17 @@ from station.motion.kit import Kit
 from station.motion.pose import Pose
 from station.render import hud
 from station.render.atlas import Atlas
+from station.render.bone_palette import Colour, Frame
 from station.render.camera import Camera, View, named
+from station.render.gl import Target
+from station.render.ink import SHAPE_DTYPE
 from station.render.ink_printer import InkPrinter, Sheet
-from station.render.palette import BRAND, GOOD, INK_FAINT, NIGHT, Theme, over_picture
-from station.render.scene import QUALITIES, Glow, Quality, Scene
+from station.render.palette import BRAND, GOOD, INK_FAINT, NIGHT, Theme, dyed, over_picture
+from station.render.quality import QUALITIES, Quality
+from station.render.scene import Scene
 from station.render.score_view import Place, ScoreForm, ScoreView
-from station.render.snapshot import Snapshot, Strike
+from station.render.snapshot import Hud, Snapshot, Strike
+from station.render.still import Still
 
 Area = tuple[int, int, int, int]
 """Left, lower, width, height in pixels from the lower left corner, as OpenGL counts."""
@@ -45,10 +52,14 @@ def inset_area(scene: Area) -> Area:
 
 @dataclass(frozen=True, slots=True)
 class Arrangement:
-    """What else a picture has: the camera of a second, small picture in its corner, and the score's form."""
+    """What else a picture has: the camera of a second, small picture in its corner, and the score's form.
+
+    `is_rough`: the camera moves, so that at the lowest quality the room may be drawn more simply.
+    """
 
     inset: Camera | None = None
     form: ScoreForm = ScoreForm.SCROLLING
+    is_rough: bool = False
 
 
 class Painter:
@@ -63,6 +74,9 @@ class Painter:
         self.printer = InkPrinter(ctx, self.atlas)
         self._score = ScoreView(self.printer, self.atlas)
         self._scene: Scene | None = None
+        self._still, self._inset_still = Still(ctx), Still(ctx)
+        self._inset: Target | None = None
+        self._written = (Hud(), (0, 0)), np.empty(0, SHAPE_DTYPE)
         self._played: tuple[Kit, Figure] | None = None
 
     def draw(
@@ -79,47 +93,85 @@ class Painter:
         left, low, width, height = area
         score_height = round(height * SCORE_SHARE) if with_score else 0
         scene_area = (left, low + score_height, width, height - score_height)
+        place = Place(0.0, float(height - score_height), float(width), float(score_height))
         scene = self._scene_of(snapshot)
-        scene.draw(
-            target, camera or named(View.SHOULDER, snapshot.kit.left_handed), snapshot.pose, scene_area, _glow(snapshot)
-        )
+        scene.set(Frame(snapshot.pose, _glow(snapshot)))
+        camera = camera or named(View.SHOULDER, snapshot.kit.left_handed)
+
+        def lay(into: moderngl.Framebuffer, draw: Callable[[moderngl.Framebuffer, Camera, Area], None]) -> None:
+            draw(into, camera, scene_area)
+            self._ctx.viewport = area
+            if with_score:
+                self._score.draw_paper(place, (width, height))
+            self.printer.theme = over_picture(self.theme)
+            veil = (0.0, 0.0, float(width), hud.VEIL_HEIGHT * hud.scale(height - score_height))
+            self.printer.fill(veil, hud.VEIL, Sheet((width, height)))
+
+        def lay_still(into: moderngl.Framebuffer) -> None:
+            into.clear(*dyed(NIGHT, self.theme), depth=1.0)
+            lay(into, partial(scene.draw_still, is_rough=arrangement.is_rough))
+
+        if self.quality.is_layered:
+            key = (scene, camera, area, with_score, scene.shows_figure, self.theme, arrangement.is_rough)
+            self._still.under(target, key, lay_still)
+            scene.draw_moving(target, camera, scene_area)
+        else:
+            lay(target, scene.draw)
         if arrangement.inset is not None:
-            self._draw_inset(scene, target, arrangement.inset, snapshot.pose is not None, scene_area)
+            self._draw_inset(scene, target, arrangement.inset, scene_area)
         self._ctx.viewport = area
         if with_score:
-            place = Place(0.0, float(height - score_height), float(width), float(score_height))
+            self.printer.theme = self.theme
             self._score.draw(snapshot, place, (width, height), arrangement.form)
         self.printer.theme = over_picture(self.theme)
-        words = hud.hud_shapes(snapshot.hud, self.atlas, (float(width), float(height - score_height)))
-        veil = (0.0, 0.0, float(width), hud.VEIL_HEIGHT * hud.scale(height - score_height))
-        self.printer.fill(veil, hud.VEIL, Sheet((width, height)))
-        self.printer.draw(words, Sheet((width, height)))
+        self.printer.draw(self._words(snapshot.hud, (width, height - score_height)), Sheet((width, height)))
 
-    def _draw_inset(
-        self, scene: Scene, target: moderngl.Framebuffer, camera: Camera, with_figure: bool, scene_area: Area
-    ) -> None:
+    def _words(self, words: Hud, size: tuple[int, int]) -> NDArray[np.void]:
+        """The shapes of what is written over the scene of `size`."""
+        if (words, size) != self._written[0]:
+            self._written = (words, size), hud.hud_shapes(words, self.atlas, (float(size[0]), float(size[1])))
+        return self._written[1]
+
+    def _draw_inset(self, scene: Scene, target: moderngl.Framebuffer, camera: Camera, scene_area: Area) -> None:
+        """A second, small picture over the scene, and a line round it."""
         place = inset_area(scene_area)
         left, low, width, height = place
         edge = _INSET_EDGE
+        if self.quality.is_layered:
+            picture = self._small_picture(scene, camera, (width, height))
+            target.use()
         self._ctx.viewport = (left - edge, low - edge, width + 2 * edge, height + 2 * edge)
         frame = (width + 2 * edge, height + 2 * edge)
         self.printer.fill((0.0, 0.0, float(frame[0]), float(frame[1])), (INK_FAINT, INK_FAINT), Sheet(frame))
-        scene.draw_again(target, camera, with_figure, place)
+        if self.quality.is_layered:
+            self._ctx.viewport = place
+            self.printer.picture(picture)
+        else:
+            scene.draw(target, camera, place)
+
+    def _small_picture(self, scene: Scene, camera: Camera, size: tuple[int, int]) -> moderngl.Texture:
+        """The scene in layers of its own."""
+        if self._inset is None or self._inset.size != size:
+            if self._inset is not None:
+                self._inset.release()
+            self._inset = Target(self._ctx, size)
+        whole, into = (0, 0, *size), self._inset.framebuffer
+        key = (scene, camera, scene.shows_figure)
+        self._inset_still.under(into, key, lambda still: scene.draw_still(still, camera, whole))
+        scene.draw_moving(into, camera, whole)
+        return self._inset.resolved()
 
     def _scene_of(self, snapshot: Snapshot) -> Scene:
         """The scene of the snapshot's kit and figure; the same ones, even if read anew, are not built anew."""
         wanted = (snapshot.kit, snapshot.figure)
         if self._scene is None or self._played is None or not _same(wanted, self._played):
             self._scene = None
+            self._still.release()
+            self._inset_still.release()
             self._ctx.gc()
             self._scene = Scene(self._ctx, *wanted, self.quality)
         self._played = wanted
         return self._scene
-
-    @property
-    def background(self) -> tuple[float, float, float, float]:
-        """The colour of what no picture covers."""
-        return NIGHT
 
 
 def _same(one: tuple[Kit, Figure], other: tuple[Kit, Figure]) -> bool:
@@ -127,10 +179,10 @@ def _same(one: tuple[Kit, Figure], other: tuple[Kit, Figure]) -> bool:
     return (one[0] is other[0] and one[1] is other[1]) or one == other
 
 
-def _glow(snapshot: Snapshot) -> Glow:
+def _glow(snapshot: Snapshot) -> dict[Piece, Colour]:
     """How brightly each piece glows, in linear light: the demonstrator's strokes warm, the student's blue."""
     warm, blue = np.square(BRAND[:3]), np.square(GOOD[:3])
-    glow: Glow = {}
+    glow: dict[Piece, Colour] = {}
     for piece, light in _demonstrated(snapshot.kit, snapshot.pose):
         glow[piece] = glow.get(piece, np.zeros(3)) + _DEMONSTRATOR_GLOW * light * warm
     for piece, light in _struck(snapshot.kit, snapshot.strikes):

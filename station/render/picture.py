@@ -13,7 +13,7 @@ from station.render.gl import Target, standalone_context
 from station.render.painter import Painter
 from station.render.planes import Planes, PlanesReader
 from station.render.png import write_png
-from station.render.scene import QUALITIES, Quality
+from station.render.quality import QUALITIES, Quality
 from station.render.snapshot import Snapshot
 
 

@@ -24,7 +24,7 @@ def png_bytes(picture: NDArray[np.uint8]) -> bytes:
     assert channels == 3, "the writer knows RGB alone"
     rows = np.empty((height, 1 + 3 * width), np.uint8)
     rows[:, 0] = _FILTER_UP
-    flat = picture.reshape(height, -1)
+    flat = np.ascontiguousarray(picture).reshape(height, -1)
     rows[0, 1:] = flat[0]
     rows[1:, 1:] = flat[1:] - flat[:-1]
     header = struct.pack(">IIBBBBB", width, height, 8, _RGB, 0, 0, 0)

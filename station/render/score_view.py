@@ -82,13 +82,17 @@ class ScoreView:
         self._paged: Score | None = None
         self._pages: list[Page] = []
 
+    def draw_paper(self, place: Place, size: tuple[int, int]) -> None:
+        """Draw what every score lies on at `place` in a picture of `size`."""
+        sheet = Sheet(size)
+        self._printer.fill((place.left, place.top, place.width, place.height), (PAPER, PAPER_LOW), sheet)
+        self._printer.fill((place.left, place.top, place.width, 1.2), (PANEL_EDGE, PANEL_EDGE), sheet)
+
     def draw(
         self, snapshot: Snapshot, place: Place, size: tuple[int, int], form: ScoreForm = ScoreForm.SCROLLING
     ) -> None:
-        """Draw the score of `snapshot` at `place` in a picture of `size`."""
+        """Draw the score of `snapshot` over its paper at `place` in a picture of `size`."""
         plain = Sheet(size, (place.left, place.middle_line), place.space)
-        self._printer.fill((place.left, place.top, place.width, place.height), (PAPER, PAPER_LOW), plain)
-        self._printer.fill((place.left, place.top, place.width, 1.2), (PANEL_EDGE, PANEL_EDGE), plain)
         if snapshot.strip is not None:
             self._draw_strip(snapshot.strip, snapshot.position_s, place, size)
             return

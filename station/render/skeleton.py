@@ -8,9 +8,10 @@ from enum import IntEnum
 
 import numpy as np
 
+from station.core.pieces import Limb
 from station.motion.figure import Figure, Joint
 from station.motion.pose import Pose
-from station.render.space import Matrix, Vector, frames, unit
+from station.render.space import Matrix, Vector, cross, frames, unit
 
 
 class Bone(IntEnum):
@@ -36,6 +37,13 @@ class Bone(IntEnum):
     LEFT_FOOT = 17
     EYES = 18  # the head, squeezed upright as the lids close
 
+
+LIMB_BONES = {
+    Limb.RIGHT_HAND: (Bone.RIGHT_UPPER_ARM, Bone.RIGHT_FOREARM, Bone.RIGHT_TWIST, Bone.RIGHT_HAND),
+    Limb.LEFT_HAND: (Bone.LEFT_UPPER_ARM, Bone.LEFT_FOREARM, Bone.LEFT_TWIST, Bone.LEFT_HAND),
+    Limb.RIGHT_FOOT: (Bone.RIGHT_THIGH, Bone.RIGHT_SHANK, Bone.RIGHT_FOOT),
+    Limb.LEFT_FOOT: (Bone.LEFT_THIGH, Bone.LEFT_SHANK, Bone.LEFT_FOOT),
+}
 
 _ARMS = (
     (Bone.RIGHT_UPPER_ARM, Joint.RIGHT_SHOULDER, Joint.RIGHT_ELBOW, Joint.RIGHT_WRIST, Joint.RIGHT_HAND),
@@ -104,15 +112,15 @@ def bone_frames(stance: Stance) -> Matrix:
     origin, along, side = np.empty((3, len(Bone) - 1, 3))
     shoulders = j[Joint.RIGHT_SHOULDER] - j[Joint.LEFT_SHOULDER]
     hips = j[Joint.RIGHT_HIP] - j[Joint.LEFT_HIP]
-    right = np.cross(stance.facing, stance.head_up)
+    right = cross(stance.facing, stance.head_up)
     origin[_TRUNK] = j[_TRUNK_FROM]
     along[_TRUNK] = j[_TRUNK_TO] - j[_TRUNK_FROM]
     along[Bone.HEAD] = stance.head_up
     side[_TRUNK] = (unit(hips) + 0.5 * unit(shoulders), shoulders, unit(shoulders) + right, right)
     a, b, c, d = (j[column] for column in _LIMB_JOINTS.T)  # each (4, 3): arms, then legs
     first, second, third = b - a, c - b, d - c
-    hinge = np.cross(first, second)
-    palm = np.cross(stance.palm, second[:2]), np.cross(stance.palm, third[:2])
+    hinge = cross(first, second)
+    palm = cross(stance.palm, second[:2]), cross(stance.palm, third[:2])
     origin[_FIRST], along[_FIRST], side[_FIRST] = a, first, hinge
     origin[_SECOND], along[_SECOND], side[_SECOND] = b, second, hinge
     origin[_TWIST], along[_TWIST], side[_TWIST] = b[:2], second[:2], palm[0]

@@ -18,7 +18,7 @@ from station.motion.figure import figure_of
 from station.motion.kit import load_kit
 from station.render.camera import View, named
 from station.render.picture import PictureMaker, Shot
-from station.render.scene import QUALITIES
+from station.render.quality import QUALITIES
 from tests.fakes.impulse_kit import impulse_mixer
 from tests.unit.render.scores import rock
 from tests.unit.render.test_png import decode

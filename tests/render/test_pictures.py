@@ -22,9 +22,9 @@ from station.render.camera import Camera, View, named
 from station.render.painter import SCORE_SHARE
 from station.render.palette import BRAND, MISSED
 from station.render.picture import PictureMaker, Shot, draw_png
+from station.render.quality import QUALITIES
 from station.render.report_picture import draw_report_png
 from station.render.results import Words, result_facts
-from station.render.scene import QUALITIES
 from station.render.score_view import AFTER_S, BEFORE_S, Place
 from station.render.snapshot import Cue, Hud, Snapshot, Strike, no_marks
 from station.render.staff import PLACES, height

@@ -15,7 +15,7 @@ from station.core.settings import load_settings
 from station.motion.drummer import Drummer
 from station.render.camera import View, named
 from station.render.picture import Shot
-from station.render.scene import QUALITIES
+from station.render.quality import QUALITIES
 from station.sound.kits.load import load_kit
 
 RATE_HZ = 48_000

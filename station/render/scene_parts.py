@@ -1,0 +1,160 @@
+"""What a scene is drawn from: textures, corners and programs, uploaded once.
+
+Every solid can be drawn in several ways, each a program of its own over the same corners.
+"""
+
+from dataclasses import dataclass
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.pieces import Limb
+from station.motion.figure import Figure
+from station.motion.kit import Kit
+from station.render import quick_shaders, room, shaders
+from station.render.body import Skin, build_body
+from station.render.kit_rig import KitRig, floor_discs
+from station.render.light import Light
+from station.render.materials import shader_table
+from station.render.mesh import Mesh
+from station.render.palette import GOOD
+from station.render.quality import Quality
+from station.render.skeleton import LIMB_BONES
+from station.render.solids import RIGID, RIGID_PLACES, SKIN, SKIN_PLACES, rigid_rows, skin_rows
+from station.render.space import gl_bytes, unit
+
+_KEY = Light()
+_TO_TEXTURE = np.array([[0.5, 0, 0, 0.5], [0, 0.5, 0, 0.5], [0, 0, 0.5, 0.5], [0, 0, 0, 1.0]])
+"""From clip space −1 … 1 to texture space 0 … 1."""
+_RIM_WAY = unit([-0.55, -0.65, 0.52])
+_RIM_COLOUR = (0.20, 0.34, 0.52)
+_GROUND = (0.060, 0.045, 0.040)
+_GHOST_OPACITY = 0.42
+"""How opaque the student's double is where one looks straight at it (our choice: the demonstrator shows through)."""
+ANISOTROPY = 8.0
+_ARM_BONES = [*LIMB_BONES[Limb.RIGHT_HAND], *LIMB_BONES[Limb.LEFT_HAND]]
+
+
+@dataclass(frozen=True, slots=True)
+class Pair:
+    """Kit and figure by one kind of program."""
+
+    rigid: moderngl.VertexArray
+    skin: moderngl.VertexArray
+
+
+class SceneParts:
+    """`solid`, `quick`, `ghost`: kit and figure pixel by pixel, corner by corner, and as the student's double.
+
+    `glow` lays light over the kit; `floor`, `wall` are the room; `rigid_depth`, `skin_depth` and, without the arms,
+    `resting_depth` cast shadows into `shadow_buffer`.
+    """
+
+    def __init__(self, ctx: moderngl.Context, rig: KitRig, figure: Figure, quality: Quality) -> None:
+        self._ctx = ctx
+        self._quality = quality
+        self._textures(rig.kit)
+        self._upload(rig.mesh, build_body(figure, quality.figure_cell))
+        fragment = shaders.solid_fragment(quality.level)
+        self.solid = self._pair(shaders.RIGID_VERTEX, shaders.SKIN_VERTEX, fragment)
+        self.quick = self._pair(quick_shaders.RIGID_QUICK, quick_shaders.SKIN_QUICK, quick_shaders.QUICK_FRAGMENT)
+        self.ghost = self._pair(quick_shaders.RIGID_GHOST, quick_shaders.SKIN_GHOST, quick_shaders.QUICK_FRAGMENT)
+        self.glow = self._rigid_part(quick_shaders.RIGID_GLOW, quick_shaders.QUICK_FRAGMENT)
+        self.floor = self._room_part(shaders.floor_fragment(quality.level), room.floor_mesh())
+        self.wall = self._room_part(shaders.WALL_FRAGMENT, room.wall_mesh())
+        for part in (self.solid.skin, self.quick.skin, self.skin_depth):
+            part.program["first_bone"] = rig.bone_count
+
+    def use_textures(self) -> None:
+        """Let the shaders read the room's pictures and the shadow map."""
+        self.floor_map.use(0)
+        self._wall_map.use(1)
+        self._shadow.use(2)
+
+    def _textures(self, kit: Kit) -> None:
+        ctx = self._ctx
+        floor, wall = room.floor_picture(floor_discs(kit), _KEY, self._quality.floor_texels), room.wall_picture()
+        self.floor_map = ctx.texture(floor.shape[1::-1], 4, floor.tobytes())
+        self.floor_map.build_mipmaps()
+        self.floor_map.filter = moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR
+        self.floor_map.anisotropy = ANISOTROPY
+        self._wall_map = ctx.texture(wall.shape[1::-1], 3, wall.tobytes())
+        self._wall_map.repeat_y = False
+        size = (self._quality.shadow_texels,) * 2
+        self._shadow = ctx.depth_texture(size)
+        self._shadow.compare_func = "<="
+        self._shadow.repeat_x = self._shadow.repeat_y = False
+        self.shadow_buffer = ctx.framebuffer(depth_attachment=self._shadow)
+
+    def _upload(self, mesh: Mesh, skin: Skin) -> None:
+        ctx = self._ctx
+        self._rigid_data = ctx.buffer(rigid_rows(mesh).tobytes()), ctx.buffer(mesh.faces.tobytes())
+        self._skin_data = ctx.buffer(skin_rows(skin).tobytes()), ctx.buffer(skin.faces.tobytes())
+        rigid, skinned = (
+            self._program(vertex, shaders.SHADOW_FRAGMENT) for vertex in (shaders.RIGID_SHADOW, shaders.SKIN_SHADOW)
+        )
+        for program in (rigid, skinned):
+            write(program, "light_projection", gl_bytes(_KEY.matrix()))
+        places = [(self._skin_data[0], *SKIN_PLACES)]
+        self.rigid_depth = ctx.vertex_array(rigid, [(self._rigid_data[0], *RIGID_PLACES)], self._rigid_data[1])
+        self.skin_depth = ctx.vertex_array(skinned, places, self._skin_data[1])
+        self.resting_depth = ctx.vertex_array(skinned, places, ctx.buffer(skin.faces[_rests(skin)].tobytes()))
+        self.triangles = len(mesh.faces) + len(skin.faces)
+
+    def _pair(self, rigid: str, skin: str, fragment: str) -> Pair:
+        corners, faces = self._skin_data
+        program = self._program(skin, fragment)
+        skinned = self._ctx.vertex_array(program, [(corners, *SKIN)], faces, skip_errors=True)
+        return Pair(self._rigid_part(rigid, fragment), skinned)
+
+    def _rigid_part(self, vertex: str, fragment: str) -> moderngl.VertexArray:
+        corners, faces = self._rigid_data
+        return self._ctx.vertex_array(self._program(vertex, fragment), [(corners, *RIGID)], faces, skip_errors=True)
+
+    def _room_part(self, fragment: str, mesh: Mesh) -> moderngl.VertexArray:
+        rows = np.concatenate([mesh.position, mesh.uv], axis=1).astype(np.float32)
+        content = [(self._ctx.buffer(rows.tobytes()), "3f 2f", "position", "uv")]
+        faces = self._ctx.buffer(mesh.faces.tobytes())
+        return self._ctx.vertex_array(self._program(shaders.ROOM_VERTEX, fragment), content, faces, skip_errors=True)
+
+    def _program(self, vertex: str, fragment: str) -> moderngl.Program:
+        program = self._ctx.program(vertex, fragment)
+        self._constants(program)
+        return program
+
+    def _constants(self, program: moderngl.Program) -> None:
+        first, second = shader_table()
+        values: dict[str, object] = {
+            "look_a": first,
+            "look_b": second,
+            "key_at": _KEY.at,
+            "key_axis": _KEY.axis,
+            "key_colour": _KEY.colour,
+            "rim_way": _RIM_WAY,
+            "rim_colour": _RIM_COLOUR,
+            "sky": _KEY.sky,
+            "ground": _GROUND,
+            "light_projection": (_TO_TEXTURE @ _KEY.matrix()).T,
+            "tint": GOOD[:3],
+            "opacity": _GHOST_OPACITY,
+        }
+        for name, value in values.items():
+            if name in program:
+                write(program, name, np.ascontiguousarray(value, np.float32).tobytes())
+        for unit_index, name in enumerate(("floor_map", "wall_map", "shadow_map")):
+            if name in program:
+                program[name] = unit_index
+
+
+def _rests(skin: Skin) -> NDArray[np.bool_]:
+    """Which faces belong to no arm: their shadow hardly moves."""
+    strongest: NDArray[np.uint8] = skin.bones[:, 0]
+    return ~np.isin(strongest[skin.faces[:, 0]], _ARM_BONES)
+
+
+def write(program: moderngl.Program, name: str, data: bytes) -> None:
+    """Set a uniform from its bytes."""
+    uniform = program[name]
+    assert isinstance(uniform, moderngl.Uniform), f"{name} is no uniform"
+    uniform.write(data)

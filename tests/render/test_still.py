@@ -1,0 +1,85 @@
+"""Pictures in two layers, the still one kept: they show what a picture drawn whole shows, and follow every change."""
+
+from dataclasses import dataclass
+
+import moderngl
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from station.core.pieces import Piece
+from station.motion.drummer import Drummer
+from station.motion.figure import figure_of
+from station.motion.kit import load_kit
+from station.render.bone_palette import Frame
+from station.render.camera import View, named
+from station.render.gl import Target, standalone_context
+from station.render.quality import QUALITIES
+from station.render.scene import Scene
+from station.render.still import Still
+from tests.unit.render.scores import rock
+
+pytestmark = pytest.mark.gl
+
+SIZE = (320, 180)
+WHOLE = (0, 0, *SIZE)
+DRUMMER = Drummer(rock(2), load_kit(), figure_of())
+
+
+def test_a_still_is_drawn_anew_when_its_key_or_its_size_changes_and_only_then() -> None:
+    ctx = standalone_context()
+    with ctx:
+        still, drawn = Still(ctx), list[int]()
+
+        def shade(into: moderngl.Framebuffer) -> None:
+            drawn.append(len(drawn))
+            into.clear(red=0.2 * len(drawn))
+
+        def red(key: str, target: Target) -> int:
+            still.under(target.framebuffer, (key,), shade)
+            return int(target.read()[0, 0, 0])
+
+        one, other = Target(ctx, SIZE), Target(ctx, (64, 32))
+        assert [red("a", one), red("a", one), red("b", one), red("b", other)] == [51, 51, 102, 153]
+        assert drawn == [0, 1, 2]
+
+
+@dataclass
+class Both:
+    """A scene, and where its pictures go: drawn whole and in layers."""
+
+    ctx: moderngl.Context
+    scene: Scene
+    whole: Target
+    layered: Target
+
+    def apart(self) -> NDArray[np.int64]:
+        """By how many of 255 steps the pixels of the two pictures differ."""
+        return np.abs(self.whole.read().astype(np.int64) - self.layered.read()).max(axis=2)
+
+
+@pytest.fixture(scope="module")
+def both() -> Both:
+    ctx = standalone_context()
+    with ctx:
+        scene = Scene(ctx, DRUMMER.kit, DRUMMER.figure, QUALITIES[0])
+        return Both(ctx, scene, Target(ctx, SIZE), Target(ctx, SIZE))
+
+
+@pytest.mark.parametrize("view", [View.SHOULDER, View.FRONT, View.EYES])
+@pytest.mark.parametrize("is_rough", [False, True])
+def test_two_layers_show_what_one_picture_shows(both: Both, view: View, is_rough: bool) -> None:
+    """All but shadows and fine light agree: most pixels within a few steps of 255, hardly one far off."""
+    scene, camera, layered = both.scene, named(view), both.layered.framebuffer
+    with both.ctx:
+        scene.set(Frame(DRUMMER.pose(1.3), {Piece.SNARE: np.array([0.2, 0.1, 0.0])}))
+        scene.draw(both.whole.framebuffer, camera, WHOLE)
+        scene.draw_still(layered, camera, WHOLE, is_rough)
+        scene.draw_moving(layered, camera, WHOLE)
+        assert both.whole.read().max() > 200
+        assert np.median(both.apart()) <= 2
+        assert (both.apart() > 60).mean() < 0.06, "shadows on and of the arms are left out"
+        scene.set(Frame(None))
+        scene.draw_still(layered, camera, WHOLE, is_rough)
+        scene.draw_moving(layered, camera, WHOLE)
+        assert (both.apart() > 60).mean() > 0.02, "the figure is gone"
