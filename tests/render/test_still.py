@@ -55,7 +55,7 @@ class Both:
 
     def apart(self) -> NDArray[np.int64]:
         """By how many of 255 steps the pixels of the two pictures differ."""
-        return np.abs(self.whole.read().astype(np.int64) - self.layered.read()).max(axis=2)
+        return np.asarray(np.abs(self.whole.read().astype(np.int64) - self.layered.read()).max(axis=2))
 
 
 @pytest.fixture(scope="module")
