@@ -12,7 +12,7 @@ MAX_LOOPS = 32
 
 
 class Choice:
-    """The state of the lessons page."""
+    """The state of the lessons page; `bars` (first, last, from 1) are to be practised, None for the lesson's own."""
 
     def __init__(self, lessons: Sequence[LessonCard], first: Start | None = None) -> None:
         """Begin with `first` where it is there, else with the first lesson."""
@@ -25,6 +25,7 @@ class Choice:
         self.card: LessonCard | None = None
         self.tempo_bpm = 100.0
         self.loops = 4
+        self.bars: tuple[int, int] | None = None
         self.adapt = True
         self.click = first is None or first.click
         if self._lessons:
@@ -32,11 +33,13 @@ class Choice:
             self.choose(named[0] if named else self._lessons[0])
             if first is not None and named:
                 self.tempo_bpm, self.loops, self.adapt = first.tempo_bpm, first.loops, first.adapt
+                self.bars = first.bars
 
     def choose(self, card: LessonCard) -> None:
-        """Take a lesson at the tempo and with the passes that its author wants."""
+        """Take a lesson at the tempo, with the passes and the bars that its author wants."""
         self.free = False
         self.card, self.tempo_bpm, self.loops = card, card.tempo_bpm, min(card.passes, MAX_LOOPS)
+        self.bars = None
 
     def tap(self, at_ns: int, within: tuple[float, float]) -> None:
         """Take a tap of the tempo, in beats of the lesson; a tempo outside `within` beats a minute is the nearest."""
@@ -63,9 +66,9 @@ class Choice:
         if self.card is None or self.free:
             return None
         adapt = self.adapt and self.click
-        wish = Start(self.card.name, float(self.tempo_bpm), self.loops, adapt=adapt, click=self.click)
+        wish = Start(self.card.name, float(self.tempo_bpm), self.loops, self.bars, adapt=adapt, click=self.click)
         if self._first is not None and self._first.lesson == self.card.name:
-            return replace(wish, bars=self._first.bars, demonstrations=self._first.demonstrations)
+            return replace(wish, demonstrations=self._first.demonstrations)
         return wish
 
 

@@ -73,6 +73,16 @@ COMMANDS: tuple[tuple[str, str], ...] = (
     ("1 to 8", "your own viewpoints"),
     ("Ctrl+1 to 8", "keep where you look from"),
     ("Ctrl+= and Ctrl+-", "larger and smaller panels"),
+    ("W", "watch the demonstration, or stop it"),
+    ("R, C", "backwards; its click"),
+    (", and .", "a step back, a step on"),
+    ("X", "how far a step goes"),
+    ("[ and ]", "rewind, forward while held"),
+    ("Home, End", "to its start, to its end"),
+    ("- and =", "slower, faster"),
+    ("I, O, U", "repeat from this bar, to it, all bars"),
+    ("Shift+1 to 8", "its flags"),
+    ("Ctrl+Shift+1 to 8", "keep this place as a flag"),
     ("Tab, arrows", "from control to control"),
 )
 """What the other keys do, as the help shows it."""

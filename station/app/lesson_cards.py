@@ -9,9 +9,9 @@ from station.practice.plan import Phase, Plan
 
 def wish_of(plan: Plan) -> Start:
     """What would lay out `plan` again."""
-    last_bar = plan.first_bar + plan.section.bar_count
+    first, last = plan.bars
     demonstrations = sum(segment.phase is Phase.DEMONSTRATION for segment in plan.segments)
-    bars = plan.first_bar + 1, last_bar
+    bars = None if plan.bars == plan.lesson.loop else (first + 1, last + 1)
     return Start(plan.lesson.name, plan.tempo_bpm, plan.passes, bars, demonstrations, click=plan.click is not None)
 
 

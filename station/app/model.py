@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import Protocol
 
+from station.app.deck import Deck
 from station.app.heat_map import HeatMap
 from station.app.session_view import Demonstrator
 from station.engine.messages import KeyHit
@@ -80,12 +81,22 @@ class Stage(IntEnum):
 
 
 @dataclass(frozen=True, slots=True)
+class PlaceNow:
+    """Where a session is: `time_s` since its count-in began, `bar` and `beat` from 1, None where none is played."""
+
+    time_s: float
+    bar: int | None
+    beat: int | None
+
+
+@dataclass(frozen=True, slots=True)
 class RoomState:
     """What surrounds the picture: `stage`, the kit and the sound in words, `notices` newest last, `progress` 0–1.
 
     `progress` None while nothing plays. `why` is the reason for the pass that is counted in, and `can_veto` whether the
     student may still refuse it. `has_take` where the last free take can be heard, `listening` while something sounds
     that was played or is written. `question` is to be answered before the result is shown, empty where none is open.
+    `clock` is where a session is, None outside; `free` where no lesson is chosen, to just play.
     """
 
     stage: Stage = Stage.IDLE
@@ -98,6 +109,8 @@ class RoomState:
     question: str = ""
     has_take: bool = False
     listening: bool = False
+    clock: PlaceNow | None = None
+    free: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,7 +124,9 @@ class Report:
 
 
 class PracticeModel(Protocol):
-    """What practises behind the window."""
+    """What practises behind the window; `deck` plays the chosen lesson's demonstration between sessions."""
+
+    deck: Deck
 
     def snapshot(self, now_ns: int) -> Snapshot:
         """What is to be seen at monotonic time `now_ns`."""

@@ -9,11 +9,12 @@ from contextlib import suppress
 from dataclasses import replace
 from datetime import date
 
+from station.app.deck import Deck, Watched
 from station.app.engine_line import EngineLine, WakeEngine
 from station.app.heat_map import heat_map
 from station.app.just_play import JustPlay
 from station.app.lesson_cards import all_lessons, card, wish_of
-from station.app.model import FreeWish, LessonCard, Report, RoomState, Stage, Start
+from station.app.model import FreeWish, LessonCard, PlaceNow, Report, RoomState, Stage, Start
 from station.app.results import session_facts
 from station.app.session_folder import SessionFolder, rescued
 from station.app.session_view import Demonstrator, SessionView
@@ -21,8 +22,10 @@ from station.core.calibration import Calibration
 from station.core.errors import BadInput, DeviceError, StationError
 from station.core.events import Hit
 from station.core.settings import Settings
+from station.core.units import NS_PER_S
+from station.drills.lesson import Lesson
 from station.drills.library import find_lesson
-from station.engine.messages import EngineEvent, KeyHit, SetBacking
+from station.engine.messages import Command, EngineEvent, KeyHit, Play, SetBacking, Started
 from station.motion.hand_notes import Hands
 from station.motion.style import Style
 from station.motion.style_file import load_style
@@ -41,7 +44,7 @@ from station.practice.own_ear import GUESS_OF, QUESTION, Guess, answered, is_wor
 from station.practice.plan import Phase, Plan, Wishes, plan_practice
 from station.practice.report import practice_document
 from station.practice.session import Session, SessionResult
-from station.render.snapshot import Snapshot
+from station.render.snapshot import Hud, Snapshot
 from station.scoring.document import Json
 from station.sound.track import PreparedTrack
 
@@ -87,6 +90,8 @@ class PracticeRoom:
         self._is_free = False
         self._listening: Listening | None = None
         self._fault: StationError | None = None
+        self.deck = Deck(self._let_sound, Watched(first.lesson, first.kit, hands_of(settings)), self._who)
+        self._hud = Hud()
 
     # --- what the window shows ---------------------------------------------------------------------------------------
 
@@ -106,7 +111,12 @@ class PracticeRoom:
             self._judged(self._session.advance(now_ns), now_ns)
             if self._session.over:
                 self._pass_over()
-        return self._view.snapshot(self._session, now_ns)
+        self.deck.advance(now_ns)
+        if self._stage is Stage.IDLE and self.deck.is_shown:
+            return self.deck.snapshot()
+        shown = self._view.snapshot(self._session, now_ns)
+        self._hud = shown.hud
+        return shown
 
     def room(self) -> RoomState:
         """What surrounds the picture."""
@@ -117,6 +127,7 @@ class PracticeRoom:
             tuple(self._notices[-NOTICES_KEPT:]),
             has_take=self._free.has_take,
             listening=self._listening is not None,
+            free=self._is_free,
         )
         return state if self._is_free else self._with_session(state)
 
@@ -131,7 +142,11 @@ class PracticeRoom:
             progress = (len(adaptation.rounds) + progress) / adaptation.loops
         can_veto = adaptation is not None and bool(adaptation.rounds) and state.segment.phase is Phase.COUNT_IN
         question = QUESTION if self._is_asking else ""
-        return replace(room, progress=progress, why=self._session.message, can_veto=can_veto, question=question)
+        clock = None
+        if progress is not None and state.transport_ns is not None:
+            clock = PlaceNow(max(state.transport_ns, 0) / NS_PER_S, self._hud.bar, self._hud.beat)
+        told = replace(room, why=self._session.message, can_veto=can_veto, question=question)
+        return replace(told, progress=progress, clock=clock)
 
     def lessons(self) -> Sequence[LessonCard]:
         """Every shipped lesson, and the one that was named when the window was opened."""
@@ -148,13 +163,19 @@ class PracticeRoom:
     # --- what the user does ------------------------------------------------------------------------------------------
 
     def preview(self, wish: Start | None) -> None:
-        """Show the chosen lesson, ready to begin, or the kit alone, to just play; raises `StationError`."""
+        """Show the chosen lesson, its bars on the player, or the kit alone, to just play; raises `StationError`."""
         if self._stage is Stage.IDLE:
             self._quiet()
             self._is_free = wish is None
+            if self._is_free:
+                self.deck.halt()
         if self._stage is Stage.IDLE and wish is not None:
             self._plan, self._view, _ = self._laid_out(wish)
             self._session = self._new_session(self._plan)
+            bars = None if wish.bars is None else (wish.bars[0] - 1, wish.bars[1] - 1)
+            click = parse_click(self._settings.click_pattern, "settings: click_pattern")
+            lesson = self._lesson(wish.lesson)
+            self.deck.load(Watched(lesson, self._plan.kit, hands_of(self._settings), click), bars)
 
     def start(self, wish: Start) -> None:
         """Begin a session, ending the one that runs; wakes a new engine if the old has ended. Raises `StationError`."""
@@ -199,6 +220,7 @@ class PracticeRoom:
         """Let the demonstrator move in another style, from this frame on."""
         self._who = replace(self._who, style=style)
         self._view.move_as(style)
+        self.deck.move_as(style)
 
     def hands(self) -> Hands:
         """Whose hand leads: as it was chosen, else as the lesson's kit is built."""
@@ -249,12 +271,14 @@ class PracticeRoom:
     def _make_room(self) -> None:
         """End what runs or sounds, and have an engine; raises `DeviceError`."""
         self._quiet()
+        self.deck.halt()
         self.stop()
         self._engine.wake()
 
     def _hear(self, listening: Listening | None) -> None:
         """Let something sound once; raises `DeviceError`."""
         self._quiet()
+        self.deck.halt()
         if listening is not None:
             for command in listening.start():
                 self._engine.send(command)
@@ -285,8 +309,11 @@ class PracticeRoom:
             self._notices.append(str(fault))
             return Style()
 
+    def _lesson(self, name: str) -> Lesson:
+        return self._lessons.get(name) or find_lesson(name)
+
     def _laid_out(self, wish: Start) -> tuple[Plan, SessionView, Remembered | None]:
-        lesson = self._lessons.get(wish.lesson) or find_lesson(wish.lesson)
+        lesson = self._lesson(wish.lesson)
         tempo_bpm = None if wish.adapt else wish.tempo_bpm
         click = parse_click(self._settings.click_pattern, "settings: click_pattern") if wish.click else None
         hands = hands_of(self._settings)
@@ -300,6 +327,15 @@ class PracticeRoom:
             if followed.fault is not None:
                 self._notices.append(followed.fault)
         return plan, SessionView(plan, self._who), followed
+
+    def _let_sound(self, command: Command) -> None:
+        """Tell the engine what the demonstration needs, without a track; a dead one plays none, and has said so."""
+        with suppress(DeviceError):
+            if isinstance(command, Play):
+                self._quiet()
+            if isinstance(command, Play) and self._backing is not None:
+                self._engine.send(SetBacking(None))
+            self._engine.send(command)
 
     def _track(self, plan: Plan) -> PreparedTrack | None:
         """The track to play along to; raises `DeviceError` while it is being made ready, `BadInput` if it cannot be."""
@@ -355,6 +391,9 @@ class PracticeRoom:
     def _take(self, event: EngineEvent, now_ns: int) -> None:
         if self._listening is not None:
             self._listening.handle(event)
+        elif isinstance(event, Started) and self._stage is not Stage.PLAYING:
+            self.deck.started(event.zero_ns)
+            return
         if self._is_free:
             told = len(self._free.notices)
             self._free.handle(event)

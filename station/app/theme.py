@@ -13,6 +13,8 @@ from station.render.palette import Theme
 
 FONT_SIZE = 17.0
 LARGE_FONT_SIZE = 26.0
+_TOOLTIP_WIDTH = 420.0
+"""Design pixels; our choice: some sixty letters, a good line to read."""
 _ROUND, _LESS_ROUND = 10.0, 7.0
 _PANEL = palette.PAPER
 
@@ -133,8 +135,18 @@ def soft(text: str) -> None:
 
 def tooltip(text: str) -> None:
     """Explain the control that was drawn last."""
-    if imgui.is_item_hovered(imgui.HoveredFlags_.delay_normal):
-        imgui.set_tooltip(text)
+    if imgui.is_item_hovered(imgui.HoveredFlags_.delay_normal) and imgui.begin_tooltip():
+        imgui.push_text_wrap_pos(points(_TOOLTIP_WIDTH))
+        imgui.text(text)
+        imgui.pop_text_wrap_pos()
+        imgui.end_tooltip()
+
+
+def fit_height(height: float) -> None:
+    """Make the docked panel that is being drawn as high as it needs to be."""
+    node = imgui.internal.dock_builder_get_node(imgui.get_window_dock_id()) if imgui.is_window_docked() else None
+    if node is not None and abs(node.size.y - height) > 1.0:
+        imgui.internal.dock_builder_set_node_size(node.id_, imgui.ImVec2(node.size.x, height))
 
 
 def points(pixels: float) -> float:

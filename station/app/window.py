@@ -23,7 +23,10 @@ from station.app.panels.keys import keys_help
 from station.app.panels.lessons import LessonActions, LessonsPanel
 from station.app.panels.look_popup import LookActions
 from station.app.panels.page import Page, Side, panels_popup
-from station.app.panels.transport import transport_bar
+from station.app.panels.player_controls import PlayerControls
+from station.app.panels.ruler import Bars, Ruler
+from station.app.panels.transport import TransportBar, TransportParts
+from station.app.player_keys import player_keys
 from station.core.clock import Clock, MonotonicClock
 from station.core.errors import DeviceError, StationError
 from station.core.settings import load_settings, save_settings
@@ -78,7 +81,8 @@ class Window:
         self.backdrop = Backdrop(options.quality, look_of(load_settings(options.settings)))
         self._kept = self.backdrop.look
         self._worn = self._kept.theme, self._kept.scale
-        self._viewpoints = LookActions(self._keep_viewpoint, self._go_to_viewpoint)
+        self._controls = PlayerControls(self._choose_bars)
+        self._transport = self._strip()
         self.news, self._news_left_s = "", 0.0
         self._told: tuple[str, ...] = ()
         self._show_keys = False
@@ -275,6 +279,8 @@ class Window:
                 self._model.key(hit)
         if imgui.get_io().want_text_input:
             return
+        if room.stage is Stage.IDLE and not room.free:
+            player_keys(self._model.deck, self._controls, self._choose_bars)
         self._view_keys()
         if imgui.is_key_pressed(imgui.Key.escape, repeat=False):
             self._leave(room.stage)
@@ -285,13 +291,13 @@ class Window:
         """The keys that change where the user looks from."""
         io, backdrop = imgui.get_io(), self.backdrop
         slot, view = slot_pressed(), view_pressed()
-        if slot is not None and io.key_ctrl:
+        if slot is not None and io.key_ctrl and not io.key_shift:
             self._keep_viewpoint(slot)
         elif io.key_ctrl and imgui.is_key_pressed(imgui.Key.equal):
             backdrop.look_from(backdrop.look.scaled(1))
         elif io.key_ctrl and imgui.is_key_pressed(imgui.Key.minus):
             backdrop.look_from(backdrop.look.scaled(-1))
-        elif io.key_ctrl or io.key_alt or io.key_super:
+        elif io.key_ctrl or io.key_shift or io.key_alt or io.key_super:
             return
         elif slot is not None:
             self._go_to_viewpoint(slot)
@@ -346,6 +352,11 @@ class Window:
         except StationError as fault:
             self._tell(str(fault))
 
+    def _choose_bars(self, bars: Bars) -> None:
+        """Repeat these bars (first, last, from 0) on the player, and practise them; None for the lesson's own."""
+        self.choice.bars = None if bars is None else (bars[0] + 1, bars[1] + 1)
+        self._previewed = ""
+
     # --- panels -------------------------------------------------------------------------------------------------------
 
     def _lessons_gui(self) -> None:
@@ -357,7 +368,13 @@ class Window:
         if bar is not None:
             self._drill(bar)
 
-    def _transport_gui(self) -> None:
+    def _strip(self) -> TransportBar:
+        deck = self._model.deck
+        ruler = Ruler(
+            seek=lambda at_ns: deck.do(lambda player, now_ns: player.sought(now_ns, at_ns)),
+            choose=self._choose_bars,
+            flag=lambda slot: deck.do(lambda player, now_ns: player.at_flag(now_ns, slot)),
+        )
         actions: dict[str, Callable[[], None]] = {
             "stop": lambda: self._tried(self._model.stop),
             "again": self._start,
@@ -365,8 +382,13 @@ class Window:
             "back": self._model.dismiss,
             **{guess.value: partial(self._model.answer, guess) for guess in Guess},
         }
-        room, look = self._model.room(), self.backdrop.look
-        self.backdrop.look_from(transport_bar(room, look, actions, self._viewpoints, self._tools))
+        viewpoints = LookActions(self._keep_viewpoint, self._go_to_viewpoint)
+        return TransportBar(TransportParts(actions, viewpoints, self._tools, ruler, self._controls))
+
+    def _transport_gui(self) -> None:
+        look = self._transport.gui(self._model.room(), self._model.deck, self.backdrop.look)
+        self.backdrop.look_from(look)
+        theme.fit_height(self._transport.height)
 
     def _tools(self) -> None:
         tools = [page for page in self._pages if page.shown is None]

@@ -154,7 +154,7 @@ def plan_practice(lesson: Lesson, wishes: Wishes) -> Plan:
     first, last = _checked_bars(wishes.bars, lesson)
     kit = drummers_kit(lesson, wishes.hands)
     section = lesson.score.bars(first, last).at_speed(tempo_bpm / lesson.tempo_bpm)
-    section = _with_sticking(section, kit, wishes.hands)
+    section = with_sticking(section, kit, wishes.hands)
     demonstrations = lesson.demonstrations if wishes.demonstrations is None else wishes.demonstrations
 
     segments: list[Segment] = []
@@ -217,7 +217,7 @@ def demonstration_cues(score: Score) -> NDArray[np.void]:
     return np.concatenate([strokes, chokes])
 
 
-def _with_sticking(section: Score, kit: Kit, hands: Hands | None) -> Score:
+def with_sticking(section: Score, kit: Kit, hands: Hands | None) -> Score:
     """The section with a limb for every stroke: the written one, else the one that the drummer takes.
 
     So the demonstration, the per-limb figures and the advice all speak of the same hands.

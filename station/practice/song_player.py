@@ -1,8 +1,9 @@
 """The player of a demonstration: where in the song it is at any time, and what its controls do (SMED, figure 4.2).
 
-Pure and exact: a value that is asked for its position at a session time. It anchors the song at one instant and computes
-every position from there in whole nanoseconds, so that it never drifts, however seldom or often it is asked. Every
-control gives a new value. Song time is nanoseconds from the score's tick 0 at its written tempo, `now_ns` session time.
+Pure and exact: a value that is asked for its position at a session time. It anchors the song at one instant and
+computes every position from there in whole nanoseconds, so that it never drifts, however seldom or often it is asked.
+Every control gives a new value. Song time is nanoseconds from the score's tick 0 at its written tempo, `now_ns` session
+time.
 """
 
 from dataclasses import dataclass, replace

@@ -26,6 +26,7 @@ from station.core.errors import BadInput
 from station.core.settings import Settings, load_settings, save_settings
 from station.core.units import ns_from_ms
 from station.drills.library import find_lesson
+from station.engine.messages import Play
 from station.practice.own_ear import Guess
 from station.practice.plan import Wishes, plan_practice
 from station.practice.student_spec import parse_spec
@@ -37,6 +38,7 @@ from tests.gui.room import practice_room
 
 STEP_NS = ns_from_ms(100)
 SIZE = (760, 480)
+SIZES = {"player": (1280, 720)}
 LESSON = "rock-2"
 MOST_FRAMES = 1000
 PICTURE_EVERY = 25
@@ -50,11 +52,13 @@ Scenario = Callable[["Drive", imgui.test_engine.TestContext], None]
 class Drive:
     """What a scenario works with: the test context, the window, what is behind it, and `seen` for the parent."""
 
-    def __init__(self, sessions: Path, student: str | None, picture_every: int = PICTURE_EVERY) -> None:
+    def __init__(
+        self, sessions: Path, student: str | None, picture_every: int = PICTURE_EVERY, size: tuple[int, int] = SIZE
+    ) -> None:
         spec = None if student is None else parse_spec(student)
         self.room, self.engine, self.clock = practice_room("rock-1", Wishes(), sessions, spec, STEP_NS)
         self.settings = save_settings(Settings(sessions=str(sessions)), sessions / "settings.toml")
-        options = WindowOptions(SIZE, quality=0, remember_layout=False, settings=self.settings, tests=self._register)
+        options = WindowOptions(size, quality=0, remember_layout=False, settings=self.settings, tests=self._register)
         options = replace(options, picture_every=picture_every)
         self.window = Window(self.room, options, self.clock)
         self.all_seen: list[dict[str, object]] = []
@@ -109,7 +113,7 @@ class Drive:
         ctx.set_ref("//Lessons")
         ctx.item_input_value("##search", lesson.title.split(":")[0])
         ctx.item_click(f"**/{lesson.title}##{LESSON}".replace("/4", "\\/4"))
-        ctx.item_input_value("passes", passes)
+        ctx.item_input_value("##passes", passes)
         self.engine.plan = plan_practice(lesson, Wishes(lesson.tempo_bpm, passes))
 
 
@@ -333,6 +337,57 @@ def closes(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.seen["at_the_end"] = drive.room.room().stage.name
 
 
+def player(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """The demonstration is watched, stepped through, reversed, slowed down and looped; Start practises the loop."""
+    deck, engine, seen = drive.room.deck, drive.engine, drive.seen
+
+    def at_ms() -> int:
+        return round(deck.player.position_ns(deck.now_ns) / 1e6)
+
+    ctx.set_ref("//Transport")
+    ctx.item_click("##play")
+    ctx.yield_(6)
+    seen["plays"], seen["moves"] = deck.player.playing, at_ms() > 300
+    ctx.key_press(imgui.Key.w)
+    ctx.yield_(2)
+    seen["stands"] = not deck.player.playing
+    stepped = []
+    for button in ("##start", "##step", "##step", "##back", "##end"):
+        ctx.item_click(button)
+        ctx.yield_(1)
+        stepped.append(at_ms())
+    seen["stepped"] = stepped
+    ctx.key_press(imgui.Key._3 | imgui.Key.mod_ctrl | imgui.Key.mod_shift)
+    ctx.item_click("##reverse")
+    ctx.key_press(imgui.Key.w)
+    ctx.yield_(4)
+    seen["back"] = at_ms() < stepped[-1]
+    ctx.key_press(imgui.Key.r)
+    ctx.key_press(imgui.Key.w)
+    ctx.item_input_value("##speed", 50)
+    ctx.yield_(1)
+    ctx.key_press(imgui.Key._3 | imgui.Key.mod_shift)
+    ctx.yield_(1)
+    seen["flag"], seen["speed"] = at_ms(), deck.player.speed_percent
+    low, high = ctx.item_info("##ruler").rect_full.min, ctx.item_info("##ruler").rect_full.max
+    y, width = (low.y + high.y) / 2, high.x - low.x
+    ctx.mouse_move_to_pos(imgui.ImVec2(low.x + 0.6 * width, y))
+    ctx.mouse_drag_with_delta(imgui.ImVec2(0.3 * width, 0))
+    ctx.yield_(3)
+    seen["loop"] = deck.player.loop
+    wish = drive.window.choice.wish()
+    seen["bars"] = None if wish is None else wish.bars
+    ctx.mouse_move_to_pos(imgui.ImVec2(low.x + 0.75 * width, y))
+    ctx.mouse_click(0)
+    ctx.yield_(2)
+    seen["sought"] = at_ms()
+    plays = [command for command in engine.sent if isinstance(command, Play)]
+    seen["cues"] = len(plays[0].cues)
+    ctx.key_press(imgui.Key.w)
+    ctx.mouse_move_to_pos(imgui.ImVec2(900, 30))
+    ctx.yield_(8)
+
+
 def fault(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """A session that cannot begin is said in one line, and nothing else happens."""
     room = drive.room
@@ -361,6 +416,7 @@ SCENARIOS = {
     "highway": highway,
     "drill": drill,
     "closes": closes,
+    "player": player,
     "fault": fault,
     "figure": figure,
 }
@@ -368,7 +424,8 @@ SCENARIOS = {
 
 def main(names: str, sessions: str, out: str, picture: str | None = None) -> None:
     scenarios = names.split("+")
-    drive = Drive(Path(sessions), STUDENTS.get(scenarios[0]), PICTURE_EVERY if picture is None else 1)
+    every, size = PICTURE_EVERY if picture is None else 1, SIZES.get(scenarios[0], SIZE)
+    drive = Drive(Path(sessions), STUDENTS.get(scenarios[0]), every, size)
     drive.run([SCENARIOS[name] for name in scenarios])
     if picture is not None:
         write_png(np.ascontiguousarray(hello_imgui.final_app_window_screenshot()), Path(picture))

@@ -12,13 +12,14 @@ from imgui_bundle import imgui
 from station.app import theme
 from station.app.choice import MAX_LOOPS, MAX_TEMPO_BPM, MIN_TEMPO_BPM, Choice
 from station.app.model import LessonCard, RoomState
+from station.app.row import Row
 from station.core.clock import monotonic_ns
 
 START_LABEL = "Start##start"
 ADAPT_LABEL = "the tempo follows me"
 FREE_LABEL = "Just play##free"
 LISTEN_LABEL, STOP_LISTENING = "Listen back##listen", "Stop listening##listen"
-TAP_LABEL = "Tap the tempo##tap"
+TAP_LABEL = "Tap##tap"
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,17 +87,20 @@ class LessonsPanel:
         theme.soft(f"{card.bars} bars · {card.meter} · {card.beats_a_minute:g} bpm{author}")
         if card.about:
             theme.soft(card.about)
+        row = Row()
+        row.place(0)
         _, choice.adapt = imgui.checkbox(ADAPT_LABEL, choice.adapt)
         theme.tooltip(
             "Each pass begins where the last one led: faster when it is clean, slower when it is not, and says why"
         )
-        if not choice.adapt:
-            self._tempo()
-        imgui.set_next_item_width(-theme.points(84))
-        _, choice.loops = imgui.slider_int("passes", choice.loops, 1, MAX_LOOPS)
-        theme.tooltip("How often the loop is played")
+        row.place(imgui.get_frame_height() + imgui.calc_text_size("click").x + theme.points(8))
         _, choice.click = imgui.checkbox("click", choice.click)
         theme.tooltip("Without it you are counted in, then the score follows your own tempo and waits when you stop")
+        if not choice.adapt:
+            self._tempo()
+        imgui.set_next_item_width(-1)
+        _, choice.loops = imgui.slider_int("##passes", choice.loops, 1, MAX_LOOPS, "passes %d")
+        theme.tooltip("How often the loop is played")
         if theme.main_button(START_LABEL, (-1, theme.points(46))):
             self._actions.start()
         theme.tooltip("Count-in, demonstration, then you (Enter)")
@@ -123,12 +127,14 @@ class LessonsPanel:
         choice = self._choice
         beats = 100.0 if choice.free or choice.card is None else choice.card.beats_a_minute
         low, high = min(MIN_TEMPO_BPM, int(beats)), max(MAX_TEMPO_BPM, int(beats) + 1)
-        imgui.set_next_item_width(-theme.points(84))
+        tap = theme.points(58)
+        imgui.set_next_item_width(-(tap + imgui.get_style().item_spacing.x))
         beats = choice.tempo_bpm / choice.beat_quarters
-        moved, beats = imgui.slider_float("tempo", beats, low, high, "%.0f bpm")
+        moved, beats = imgui.slider_float("##tempo", beats, low, high, "tempo %.0f bpm")
         if moved:
             choice.tempo_bpm = beats * choice.beat_quarters
         theme.tooltip("How fast to practise; the lesson's own tempo is set when you choose it. Ctrl+click to type")
-        if imgui.button(TAP_LABEL):
+        imgui.same_line()
+        if imgui.button(TAP_LABEL, imgui.ImVec2(tap, 0)):
             choice.tap(monotonic_ns(), (low, high))
         theme.tooltip("Click on every beat, twice or more: the tempo follows")

@@ -1,0 +1,178 @@
+"""The demonstration of the chosen lesson on its player: its picture at any time, and its sound through the engine.
+
+Whatever the user does gives a new `SongPlayer`; where that one is heard, the engine gets its cues and the player waits
+for the moment at which the engine says that they sound, so that picture and sound stay together. Backwards, wound and
+stepped through, it is silent: drums cannot sound backwards.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from station.app.session_view import Demonstrator
+from station.core.units import NS_PER_MS, NS_PER_S, PPQ
+from station.drills.lesson import Lesson
+from station.engine.messages import Command, Play, Stop
+from station.motion.drummer import Drummer
+from station.motion.hand_notes import Hands
+from station.motion.kit import Kit
+from station.motion.style import Style
+from station.music.score import Score
+from station.practice.click import PLAIN, ClickPattern
+from station.practice.plan import with_sticking
+from station.practice.song_cues import SOUNDED_NS, song_cues
+from station.practice.song_player import FLAGS, Song, SongPlayer, Step
+from station.render.snapshot import Hud, Snapshot
+
+LEAD_NS = 50 * NS_PER_MS
+"""How long after a change the sound begins: the engine's way and a block of sound fit in (our choice)."""
+
+Control = Callable[[SongPlayer, int], SongPlayer]
+"""What a control does with a player at a session time."""
+
+
+@dataclass(frozen=True, eq=False)
+class Watched:
+    """What is demonstrated: a lesson, on which kit and by whose leading hand, and what clicks."""
+
+    lesson: Lesson
+    kit: Kit
+    hands: Hands | None = None
+    click: ClickPattern = PLAIN
+
+
+class Deck:
+    """One lesson's demonstration by `who`; commands for the engine go through `send`, which may not raise.
+
+    `step` and `click` are what the user has chosen for steps and sound; flags are kept for every lesson.
+    """
+
+    def __init__(self, send: Callable[[Command], None], watched: Watched, who: Demonstrator | None = None) -> None:
+        self._send = send
+        self._watched = watched
+        self._who = who or Demonstrator()
+        self._drummer: Drummer | None = None
+        self._flags: dict[str, tuple[int | None, ...]] = {}
+        self._sounding_until_ns: int | None = None
+        self.now_ns = 0
+        self.step, self.click = Step.BEAT, True
+        self.player = SongPlayer(Song.of(self.score))
+
+    # --- what it plays -----------------------------------------------------------------------------------------------
+
+    @property
+    def lesson(self) -> Lesson:
+        """What is demonstrated."""
+        return self._watched.lesson
+
+    @property
+    def score(self) -> Score:
+        """The whole lesson at its own tempo."""
+        return self._watched.lesson.score
+
+    def load(self, watched: Watched, bars: tuple[int, int] | None) -> None:
+        """Take a lesson, its `bars` (first, last, from 0) as the loop; the same lesson stays where it is."""
+        before, self._watched = self._watched, watched
+        if (watched.lesson, watched.kit, watched.hands) != (before.lesson, before.kit, before.hands):
+            self._drummer = None
+        if watched.lesson is not before.lesson:
+            self.halt()
+            self._flags[before.lesson.name] = self.player.flags
+            flags = self._flags.get(watched.lesson.name, (None,) * FLAGS)
+            self.player = SongPlayer(Song.of(self.score), speed_percent=self.player.speed_percent, flags=flags)
+        if bars != self.player.loop:
+            self.do(lambda player, now_ns: player.looped(now_ns, bars))
+
+    def move_as(self, style: Style) -> None:
+        """Let the demonstrator move in another style from now on."""
+        self._who = replace(self._who, style=style)
+        if self._drummer is not None:
+            self._drummer = self._drummer.with_style(style)
+
+    @property
+    def drummer(self) -> Drummer:
+        """Who plays the whole lesson; made when first asked for."""
+        if self._drummer is None:
+            watched, who = self._watched, self._who
+            score = with_sticking(self.score, watched.kit, watched.hands)
+            self._drummer = Drummer(score, watched.kit, who.figure, who.style)
+        return self._drummer
+
+    # --- what the user does ------------------------------------------------------------------------------------------
+
+    def do(self, control: Control, held: bool = False) -> None:
+        """Use a control; while it is `held` (a slider that is dragged), nothing sounds."""
+        self.player = control(self.player, self.now_ns)
+        self._sound(held)
+
+    def set_click(self, click: bool) -> None:
+        """Let the click sound with the strokes, or the strokes alone."""
+        self.click = click
+        self._sound(held=False)
+
+    def halt(self) -> None:
+        """Stop, where the user turns to something else."""
+        if self.player.playing or self.player.wind:
+            self.do(lambda player, now_ns: player.stopped(now_ns))
+
+    # --- as time goes by ---------------------------------------------------------------------------------------------
+
+    def advance(self, now_ns: int) -> None:
+        """Move to `now_ns`; once a frame."""
+        self.now_ns = now_ns
+        self.player = self.player.settled(now_ns)
+        if not self.player.playing:
+            self._sounding_until_ns = None
+        elif self._sounding_until_ns is not None and now_ns >= self._sounding_until_ns:
+            self._sound(held=False)
+
+    def started(self, zero_ns: int) -> None:
+        """The engine's transport runs from `zero_ns`: what was asked for sounds from then on."""
+        if self._sounding_until_ns is not None:
+            self.player = self.player.started(zero_ns)
+
+    def _sound(self, held: bool) -> None:
+        """Let sound what the player plays from where it is, or nothing."""
+        if self._sounding_until_ns is not None:
+            self._sounding_until_ns = None
+            self._send(Stop())
+        if not self.player.is_heard or held:
+            return
+        now_ns = self.now_ns
+        self.player = replace(self.player, at_ns=self.player.position_ns(now_ns), since_ns=now_ns + LEAD_NS)
+        self._sounding_until_ns = now_ns + SOUNDED_NS
+        self._send(Play(song_cues(self.score, self.player, self._watched.click if self.click else None), LEAD_NS))
+
+    # --- the picture -------------------------------------------------------------------------------------------------
+
+    @property
+    def is_shown(self) -> bool:
+        """Whether the player has been used: it runs, or stands elsewhere than at the start."""
+        return bool(self.player.rate_percent) or self.player.position_ns(self.now_ns) > 0
+
+    def snapshot(self) -> Snapshot:
+        """The picture of the demonstration."""
+        drummer, position_s = self.drummer, self.player.position_ns(self.now_ns) / NS_PER_S
+        return Snapshot(
+            score=self.score,
+            position_s=position_s,
+            kit=drummer.kit,
+            figure=drummer.figure,
+            pose=drummer.pose(position_s),
+            limbs=drummer.assignment.limbs,
+            hud=self._hud(),
+        )
+
+    def _hud(self) -> Hud:
+        player, place = self.player, self.player.place(self.now_ns)
+        start = self.score.tempo_map.bar_start(place.bar)
+        speed = "" if player.speed_percent == 100 else f" at {player.speed_percent} %"
+        quarters = self.score.tempo_map.bpm_at(player.song.tick_at(player.position_ns(self.now_ns)))
+        return Hud(
+            title=self.lesson.title,
+            phase=f"Demonstration{speed}",
+            bar=place.bar + 1,
+            beat=place.beat + 1,
+            beats=self.score.tempo_map.meter_at(start).beats,
+            bar_count=self.score.bar_count,
+            beats_a_minute=quarters * PPQ / self.lesson.beat_ticks * player.speed_percent / 100,
+        )

@@ -1,0 +1,207 @@
+"""The controls of the demonstration's player, as SMED's transport has them (thesis, 4.1.1), in a line that wraps."""
+
+from collections.abc import Callable
+
+from imgui_bundle import imgui
+
+from station.app import theme
+from station.app.deck import Control, Deck
+from station.app.panels.icon_button import Sign, icon_button
+from station.app.panels.ruler import Bars
+from station.app.row import Row
+from station.core.units import NS_PER_S
+from station.practice.song_player import FLAGS, MAX_SPEED_PERCENT, MIN_SPEED_PERCENT, SongPlayer, Step
+
+PLAY_LABEL = "##play"
+FLAGS_LABEL = "Flags##flags"
+_POPUP = "##flags-popup"
+_SILENT = "silent, as drums cannot sound backwards or by steps"
+BUTTON = (36.0, 38.0)
+
+
+def to_start(player: SongPlayer, now_ns: int) -> SongPlayer:
+    """At the song's start, or the loop's where one is played."""
+    return player.sought(now_ns, 0)
+
+
+def to_end(player: SongPlayer, now_ns: int) -> SongPlayer:
+    """At the song's end."""
+    return player.sought(now_ns, player.song.length_ns)
+
+
+def play_or_stop(player: SongPlayer, now_ns: int) -> SongPlayer:
+    """Playing where it stands, standing where it plays."""
+    return player.stopped(now_ns) if player.playing else player.played(now_ns)
+
+
+class PlayerControls:
+    """The buttons; `choose` takes the bars that are repeated and practised.
+
+    `key_wind` is 1 or −1 while a key winds: the window says so every frame.
+    """
+
+    def __init__(self, choose: Callable[[Bars], None]) -> None:
+        self._choose = choose
+        self.key_wind = 0
+        self._bars: list[int] = []
+
+    def gui(self, deck: Deck, row: Row) -> None:
+        """Draw them into `row` and do what the user does."""
+        self._buttons(deck, row)
+        row.place(theme.points(150))
+        _counter(deck)
+        self._speed(deck, row)
+        self._steps_and_sound(deck, row)
+        self._loop(deck, row)
+        row.place(theme.points(64))
+        if imgui.button(FLAGS_LABEL, imgui.ImVec2(theme.points(64), theme.points(BUTTON[1]))):
+            imgui.open_popup(_POPUP)
+        theme.tooltip(f"Up to {FLAGS} places to come back to (Shift+1 to {FLAGS}; Ctrl+Shift+1 to {FLAGS} keeps one)")
+        _flags_popup(deck)
+
+    def _buttons(self, deck: Deck, row: Row) -> None:
+        row.place(theme.points(8 * BUTTON[0] + 7 * 4))
+        imgui.begin_group()
+        imgui.push_style_var(imgui.StyleVar_.item_spacing, imgui.ImVec2(theme.points(4), 0))
+        player, step = deck.player, deck.step
+        _button(deck, "##start", Sign.START, to_start, "To the start (Home)")
+        back = self._wind_button("##rewind", Sign.REWIND, f"Rewind while it is held ([); {_SILENT}")
+        words = f"{step.words} {{}} ({{}}); {_SILENT}"
+        _button(deck, "##back", Sign.STEP_BACK, _stepping(step, -1), words.format("back", ","))
+        sign, told = (Sign.STOP, "Stop here (W)") if player.playing else (Sign.PLAY, "Watch the demonstration (W)")
+        _button(deck, PLAY_LABEL, sign, play_or_stop, told)
+        _button(deck, "##step", Sign.STEP, _stepping(step, 1), words.format("on", "."))
+        on = self._wind_button("##forward", Sign.FORWARD, f"Forward while it is held (]); {_SILENT}")
+        _button(deck, "##end", Sign.END, to_end, "To the end (End)")
+        told = f"Backwards (R); {_SILENT}"
+        turned = not player.reverse
+        _button(deck, "##reverse", Sign.REVERSE, lambda p, now_ns: p.reversed(now_ns, turned), told, lit=player.reverse)
+        imgui.pop_style_var()
+        imgui.end_group()
+        wind = self.key_wind or on - back
+        if wind != player.wind:
+            deck.do(lambda p, now_ns: p.wound(now_ns, wind))
+
+    @staticmethod
+    def _wind_button(label: str, sign: Sign, told: str) -> int:
+        """Whether it is held."""
+        icon_button(label, sign, (theme.points(BUTTON[0]), theme.points(BUTTON[1])))
+        held = imgui.is_item_active()
+        theme.tooltip(told)
+        imgui.same_line()
+        return int(held)
+
+    @staticmethod
+    def _speed(deck: Deck, row: Row) -> None:
+        width = theme.points(118)
+        row.place(width)
+        imgui.set_next_item_width(width)
+        moved, percent = imgui.slider_int(
+            "##speed", deck.player.speed_percent, MIN_SPEED_PERCENT, MAX_SPEED_PERCENT, "speed %d %%"
+        )
+        if moved:
+            deck.do(lambda player, now_ns: player.at_speed(now_ns, percent), held=True)
+        if imgui.is_item_deactivated_after_edit():
+            deck.do(lambda player, _: player)
+        theme.tooltip("How fast the demonstration goes, of the lesson's own tempo (- and =). Ctrl+click to type")
+
+    @staticmethod
+    def _steps_and_sound(deck: Deck, row: Row) -> None:
+        width = theme.points(92)
+        row.place(width)
+        imgui.set_next_item_width(width)
+        steps = list(Step)
+        changed, index = imgui.combo("##step size", steps.index(deck.step), [step.words for step in steps])
+        if changed:
+            deck.step = steps[index]
+        theme.tooltip("How far a step goes (X for the next)")
+        row.place(theme.points(84))
+        changed, click = imgui.checkbox("click##demo", deck.click)
+        if changed:
+            deck.set_click(click)
+        theme.tooltip("Whether the click sounds with the demonstration (C)")
+
+    def _loop(self, deck: Deck, row: Row) -> None:
+        """The bars that are repeated and practised, as two numbers."""
+        player, width = deck.player, theme.points(96)
+        count = player.song.bar_count
+        first, last = player.loop or (0, count - 1)
+        row.place(width + theme.points(10) + imgui.calc_text_size("bars").x)
+        imgui.align_text_to_frame_padding()
+        imgui.text_disabled("bars") if player.loop is None else imgui.text("bars")
+        imgui.same_line()
+        imgui.set_next_item_width(width)
+        shown = self._bars or [first + 1, last + 1]
+        moved, bars = imgui.drag_int2("##bars", shown, 0.1, 1, count)
+        if moved:
+            self._bars = bars
+        if imgui.is_item_deactivated_after_edit() and self._bars:
+            low, high = sorted(min(max(bar, 1), count) - 1 for bar in self._bars)
+            self._choose(None if (low, high) == (0, count - 1) and count > 1 else (low, high))
+        if not imgui.is_item_active():
+            self._bars = []
+        theme.tooltip("The bars that are repeated and that Start practises (I, O; U for all). Ctrl+click to type")
+
+
+def _stepping(step: Step, way: int) -> Control:
+    return lambda player, now_ns: player.stepped(now_ns, step, way)
+
+
+def _button(deck: Deck, label: str, sign: Sign, control: Control, told: str, *, lit: bool = False) -> None:
+    if icon_button(label, sign, (theme.points(BUTTON[0]), theme.points(BUTTON[1])), lit):
+        deck.do(control)
+    theme.tooltip(told)
+    imgui.same_line()
+
+
+def time_words(seconds: float) -> str:
+    """Minutes and seconds as a counter shows them: 1:04.3."""
+    tenths = int(seconds * 10)
+    return f"{tenths // 600}:{tenths // 10 % 60:02d}.{tenths % 10}"
+
+
+def counter(seconds: float, bar: int | None, beat: int | None) -> None:
+    """Time, bar and beat in large figures."""
+    place = "–" if bar is None else f"{bar}" if beat is None else f"{bar}.{beat}"
+    imgui.push_font(None, theme.LARGE_FONT_SIZE)
+    imgui.text(f"{time_words(seconds)}  {place}")
+    imgui.pop_font()
+    theme.tooltip("Time; bar and beat")
+
+
+def _counter(deck: Deck) -> None:
+    place = deck.player.place(deck.now_ns)
+    counter(deck.player.position_ns(deck.now_ns) / NS_PER_S, place.bar + 1, place.beat + 1)
+
+
+def _flags_popup(deck: Deck) -> None:
+    """Go to and keep, for each flag."""
+    if not imgui.begin_popup(_POPUP):
+        return
+    theme.heading("Flags", 20)
+    player = deck.player
+    for words, word in (("Go to", "go"), ("Keep as", "keep")):
+        imgui.align_text_to_frame_padding()
+        imgui.text_disabled(words)
+        for slot, at_ns in enumerate(player.flags):
+            imgui.same_line(theme.points(90) if slot == 0 else 0)
+            imgui.begin_disabled(word == "go" and at_ns is None)
+            if imgui.button(f"{slot + 1}##{word}{slot + 1}", imgui.ImVec2(theme.points(34), 0)):
+                deck.do(_going(slot) if word == "go" else _keeping(slot))
+            imgui.end_disabled()
+            theme.tooltip(_told(word, slot, at_ns))
+    imgui.end_popup()
+
+
+def _going(slot: int) -> Control:
+    return lambda player, now_ns: player.at_flag(now_ns, slot)
+
+
+def _keeping(slot: int) -> Control:
+    return lambda player, now_ns: player.flagged(now_ns, slot)
+
+
+def _told(word: str, slot: int, at_ns: int | None) -> str:
+    if word == "keep":
+        return f"Keeps this place as flag {slot + 1} (Ctrl+Shift+{slot + 1})"
+    return f"Flag {slot + 1} (Shift+{slot + 1})" if at_ns is not None else f"Flag {slot + 1} is not kept yet"

@@ -1,0 +1,93 @@
+"""The demonstration on its player: what the engine is told, and that the picture waits for the sound.
+
+Rock 1 is two bars of 4/4 at 80 beats a minute: 0.75 s a beat, 3 s a bar (its file says so).
+"""
+
+import numpy as np
+
+from station.app.deck import LEAD_NS, Deck, Watched
+from station.core.units import NS_PER_MS, NS_PER_S
+from station.drills.library import find_lesson
+from station.engine.messages import Bus, Command, Play, Stop
+from station.motion.kit import load_kit
+from station.practice.song_player import SongPlayer
+
+BAR_NS = 3 * NS_PER_S
+KIT = load_kit()
+ROCK, PARADIDDLE = find_lesson("rock-1"), find_lesson("single-paradiddle")
+
+
+def deck() -> tuple[Deck, list[Command]]:
+    sent: list[Command] = []
+    made = Deck(sent.append, Watched(ROCK, KIT))
+    made.advance(NS_PER_S)
+    return made, sent
+
+
+def plays(sent: list[Command]) -> list[Play]:
+    return [command for command in sent if isinstance(command, Play)]
+
+
+def test_played_forward_it_sounds_and_moves_with_its_sound() -> None:
+    made, sent = deck()
+    made.do(SongPlayer.played)
+    [play] = plays(sent)
+    assert play.start_in_ns == LEAD_NS
+    assert np.count_nonzero(play.cues["bus"] == Bus.DEMONSTRATION) == 24
+    assert np.count_nonzero(play.cues["bus"] == Bus.CLICK) == 8
+    made.started(NS_PER_S + 80 * NS_PER_MS)
+    made.advance(NS_PER_S + 380 * NS_PER_MS)
+    assert made.player.position_ns(made.now_ns) == 300 * NS_PER_MS
+    assert made.snapshot().position_s == 0.3
+
+
+def test_without_the_click_the_strokes_sound_on_from_where_it_is() -> None:
+    made, sent = deck()
+    made.do(SongPlayer.played)
+    made.started(NS_PER_S)
+    made.advance(NS_PER_S + BAR_NS)
+    made.set_click(click=False)
+    assert [type(command) for command in sent] == [Play, Stop, Play]
+    assert set(plays(sent)[1].cues["bus"].tolist()) == {Bus.DEMONSTRATION}
+    assert len(plays(sent)[1].cues) == 12, "the second bar"
+
+
+def test_backwards_wound_stepped_or_held_it_is_silent() -> None:
+    made, sent = deck()
+    made.do(lambda player, now_ns: player.sought(now_ns, BAR_NS).reversed(now_ns, True).played(now_ns))
+    made.do(lambda player, now_ns: player.wound(now_ns, 1))
+    made.do(lambda player, now_ns: player.stepped(now_ns, made.step, 1))
+    assert sent == []
+    made.do(lambda player, now_ns: player.reversed(now_ns, False).played(now_ns))
+    made.do(lambda player, now_ns: player.at_speed(now_ns, 50), held=True)
+    assert [type(command) for command in sent] == [Play, Stop]
+    made.do(lambda player, now_ns: player.at_speed(now_ns, 60))
+    assert [type(command) for command in sent] == [Play, Stop, Play]
+
+
+def test_a_loop_that_is_played_longer_than_was_sounded_sounds_on() -> None:
+    made, sent = deck()
+    made.do(lambda player, now_ns: player.looped(now_ns, (1, 1)).played(now_ns))
+    made.advance(made.now_ns + 601 * NS_PER_S)
+    assert [type(command) for command in sent] == [Play, Stop, Play]
+
+
+def test_another_lesson_stops_it_and_flags_are_kept_for_each() -> None:
+    made, sent = deck()
+    made.do(lambda player, now_ns: player.sought(now_ns, BAR_NS).flagged(now_ns, 2).at_speed(now_ns, 50).played(now_ns))
+    made.load(Watched(PARADIDDLE, KIT), None)
+    assert isinstance(sent[-1], Stop)
+    assert (made.player.playing, made.player.position_ns(made.now_ns), made.player.speed_percent) == (False, 0, 50)
+    assert made.player.flags == (None,) * 8
+    made.load(Watched(ROCK, KIT), (0, 1))
+    back = made.player
+    assert (back.flags[2], back.loop) == (BAR_NS, (0, 1))
+
+
+def test_the_picture_is_the_demonstration_s_once_the_player_is_used() -> None:
+    made, _ = deck()
+    before = made.is_shown
+    made.do(lambda player, now_ns: player.sought(now_ns, BAR_NS + 1600 * NS_PER_MS).at_speed(now_ns, 50))
+    assert (before, made.is_shown) == (False, True)
+    hud = made.snapshot().hud
+    assert (hud.bar, hud.beat, hud.phase, hud.beats_a_minute) == (2, 3, "Demonstration at 50 %", 40.0)
