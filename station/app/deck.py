@@ -72,7 +72,7 @@ class Deck:
     def load(self, watched: Watched, bars: tuple[int, int] | None) -> None:
         """Take a lesson, its `bars` (first, last, from 0) as the loop; the same lesson stays where it is."""
         before, self._watched = self._watched, watched
-        if (watched.lesson, watched.kit, watched.hands) != (before.lesson, before.kit, before.hands):
+        if watched.lesson is not before.lesson or watched.hands != before.hands:
             self._drummer = None
         if watched.lesson is not before.lesson:
             self.halt()

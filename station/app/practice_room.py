@@ -91,6 +91,7 @@ class PracticeRoom:
         self._listening: Listening | None = None
         self._fault: StationError | None = None
         self.deck = Deck(self._let_sound, Watched(first.lesson, first.kit, hands_of(settings)), self._who)
+        self.deck.do(lambda player, now_ns: player.looped(now_ns, _from_0(self._first.bars)))
         self._hud = Hud()
 
     # --- what the window shows ---------------------------------------------------------------------------------------
@@ -172,10 +173,9 @@ class PracticeRoom:
         if self._stage is Stage.IDLE and wish is not None:
             self._plan, self._view, _ = self._laid_out(wish)
             self._session = self._new_session(self._plan)
-            bars = None if wish.bars is None else (wish.bars[0] - 1, wish.bars[1] - 1)
             click = parse_click(self._settings.click_pattern, "settings: click_pattern")
             lesson = self._lesson(wish.lesson)
-            self.deck.load(Watched(lesson, self._plan.kit, hands_of(self._settings), click), bars)
+            self.deck.load(Watched(lesson, self._plan.kit, hands_of(self._settings), click), _from_0(wish.bars))
 
     def start(self, wish: Start) -> None:
         """Begin a session, ending the one that runs; wakes a new engine if the old has ended. Raises `StationError`."""
@@ -448,3 +448,7 @@ class PracticeRoom:
             self._taken = self._session
         result = adaptation.result()
         return result, with_mastery(practice_document(result, self._settings), adaptation, self._followed.next_turn())
+
+
+def _from_0(bars: tuple[int, int] | None) -> tuple[int, int] | None:
+    return None if bars is None else (bars[0] - 1, bars[1] - 1)

@@ -87,6 +87,21 @@ def a_free_take_is_recorded_and_heard_again(seen: dict[str, Any]) -> None:
     assert seen["ended"], "it ends by itself"
 
 
+def test_the_demonstration_is_watched_as_in_a_player(environment: dict[str, str], tmp_path: Path) -> None:
+    """Rock 1: two bars at 80 beats a minute, 750 ms a beat."""
+    seen = run("player", environment, tmp_path)
+    assert seen["plays"]
+    assert seen["moves"]
+    assert seen["stands"]
+    assert seen["stepped"] == [0, 750, 1500, 750, 6000], "start, a beat on, a beat on, a beat back, end"
+    assert seen["back"]
+    assert (seen["flag"], seen["speed"]) == (6000, 50)
+    assert (seen["loop"], seen["bars"]) == ([1, 1], [2, 2]), "the bar that was dragged over is practised too"
+    assert seen["sought"] == 4500, "in the middle of the second bar"
+    assert seen["cues"] == 32, "24 strokes and 8 clicks"
+    assert seen["commands"] == ["Play", "Stop", "Play", "Stop", "Play"], "silent by steps and backwards"
+
+
 def keys_play_the_kit_and_escape_stops(seen: dict[str, Any]) -> None:
     assert seen["pieces"] == ["SNARE", "KICK", "HIHAT", "CRASH_1"]
     assert seen["rising"], "each key has the time of its own frame"

@@ -6,6 +6,7 @@ from types import MappingProxyType
 
 from imgui_bundle import imgui
 
+from station.app import theme
 from station.render import palette
 
 
@@ -65,7 +66,7 @@ SHAPES: Mapping[Sign, tuple[_Polygon, ...]] = MappingProxyType(
 def icon_button(label: str, sign: Sign, size: tuple[float, float], lit: bool = False) -> bool:
     """A button of `size` pixels that bears `sign`; returns whether it was pressed. `lit` shows that it is on."""
     if lit:
-        imgui.push_style_color(imgui.Col_.button, imgui.ImVec4(*palette.with_opacity(palette.BRAND, 0.55)))
+        imgui.push_style_color(imgui.Col_.button, imgui.ImVec4(*palette.with_opacity(theme.dyed(palette.BRAND), 0.55)))
     pressed = imgui.button(label, imgui.ImVec2(*size))
     if lit:
         imgui.pop_style_color()

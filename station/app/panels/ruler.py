@@ -81,7 +81,10 @@ class Ruler:
         size = imgui.get_font_size() * 0.8
         brush.push_clip_rect(imgui.ImVec2(left, top), imgui.ImVec2(right, bottom), True)
         brush.add_rect_filled(
-            imgui.ImVec2(left, top), imgui.ImVec2(right, bottom), _packed((1.0, 1.0, 1.0, 0.06)), 6 * unit
+            imgui.ImVec2(left, top),
+            imgui.ImVec2(right, bottom),
+            _packed(palette.with_opacity(palette.INK, 0.07)),
+            6 * unit,
         )
         bars = dragged or player.loop
         if bars is not None:
@@ -119,4 +122,4 @@ def _under(corner: imgui.ImVec2, width: float, height: float) -> imgui.ImVec2:
 
 
 def _packed(colour: Colour) -> int:
-    return int(imgui.color_convert_float4_to_u32(imgui.ImVec4(*colour)))
+    return int(imgui.color_convert_float4_to_u32(imgui.ImVec4(*theme.dyed(colour))))
