@@ -9,6 +9,7 @@ with the system's default, while no transport runs.
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_S
@@ -40,8 +41,8 @@ class Card:
     ) -> None:
         self.is_worn_out = False
         """Whether sound can be had again, but only by a new process."""
-        self.before_block: Callable[[], None] = _nothing
-        """What to do at the last moment before a block is mixed, in the card's thread."""
+        self.before_block: Callable[[int], None] = _nothing
+        """What to do at the last moment before a block of so many nanoseconds is mixed, in the card's thread."""
         self._engine = engine
         self._open_output = open_output
         self._build_mixer = build_mixer
@@ -124,7 +125,7 @@ class Card:
         mixer.silence()  # what rang when the last card went is long over
         self._engine.attach(mixer)
         try:
-            output.start(self._render)
+            output.start(partial(self._render, output.rate_hz))
         except DeviceError:
             output.close()
             self._engine.attach(None)
@@ -202,11 +203,11 @@ class Card:
         self._engine.notify(f"{fault}; the session goes on, silent, and looks for it again")
         self._engine.tell(Sounding(None))
 
-    def _render(self, frames: int, dac_ns: int) -> Frames:
+    def _render(self, rate_hz: int, frames: int, dac_ns: int) -> Frames:
         self._blocks += 1
-        self.before_block()
+        self.before_block(frames * NS_PER_S // rate_hz)
         return self._engine.render(frames, dac_ns)
 
 
-def _nothing() -> None:
+def _nothing(_: int) -> None:
     pass

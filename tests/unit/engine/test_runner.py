@@ -1,6 +1,7 @@
 """One step after another, with a fake driver and a fake card."""
 
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 from station.core.events import DeviceFound, DeviceLost, Hit
@@ -11,7 +12,7 @@ from station.devices.watch import KitWatch
 from station.engine.card import Card
 from station.engine.engine import Engine
 from station.engine.messages import EngineEvent, Record
-from station.engine.runner import LATCH_WITHIN_S, Runner
+from station.engine.runner import LATCH_WITHIN_S, LET_IN_S, Runner
 from tests.fakes.impulse_kit import impulse_mixer
 from tests.fakes.output import FakeOutput
 from tests.fakes.ports import FakeDriver
@@ -20,10 +21,19 @@ SNARE = bytes.fromhex("99 26 64")
 PORT, DEVICE = "TD-17 20:0", "TD-17"
 
 
-def runner_of(driver: FakeDriver, *parts: str, output: FakeOutput | None = None) -> Runner:
+def no_pause(_: float) -> None:
+    pass
+
+
+def runner_of(
+    driver: FakeDriver,
+    *parts: str,
+    output: FakeOutput | None = None,
+    pause: Callable[[float], None] = no_pause,
+) -> Runner:
     engine = Engine()
     card = Card(engine, lambda: output, impulse_mixer) if output is not None else None
-    return Runner(engine, [KitWatch(driver, part) for part in parts], card)
+    return Runner(engine, [KitWatch(driver, part) for part in parts], card, pause)
 
 
 def run(runner: Runner, from_ms: int, to_ms: int) -> list[EngineEvent]:
@@ -68,6 +78,21 @@ def test_a_port_that_vanishes_in_mid_bar_costs_no_earlier_hit(tmp_path: Path) ->
     kinds = [type(event) for event in events if isinstance(event, Hit | DeviceLost | DeviceFound)]
     assert kinds == [Hit, DeviceLost, DeviceFound, Hit]
     assert [type(event) for event in replay(read_capture(tmp_path / "take.cap"))] == kinds
+
+
+def test_a_stroke_that_comes_just_after_its_block_was_asked_for_sounds_in_it() -> None:
+    """JACK hands out MIDI and asks for sound at one moment, in either order."""
+    driver, output, pauses_s = FakeDriver(PORT), FakeOutput(), []
+
+    def other_thread(pause_s: float) -> None:
+        pauses_s.append(pause_s)
+        driver.play(PORT, SNARE, 1)
+
+    runner = runner_of(driver, "td", output=output, pause=other_thread)
+    runner.start(0)
+    assert not output.ask(32, 0).any()  # two thirds of a millisecond: no time to wait
+    assert output.ask(128, 1).any()
+    assert pauses_s == [LET_IN_S]
 
 
 def test_the_kits_are_opened_before_the_card_and_left_after_it() -> None:
