@@ -9,6 +9,7 @@ from datetime import date
 from types import MappingProxyType
 
 from station.core.calibration import Calibration, KitMeasured, Measured
+from station.core.names import piece_name
 from station.core.pieces import Piece, word
 from station.engine.calibrating import Devices
 from station.sound.calibration.estimate import Estimate
@@ -128,7 +129,7 @@ def _line(row: Row) -> str:
     name = _NAMES.get(row.what, "")
     head = f"{row.device}: {name}" if row.what in ("output", "kit") else name
     if row.piece is not None:
-        head = f"  {word(row.piece)}"
+        head = f"  {piece_name(row.piece)}"
     figures = (
         f"{estimate.value_ms:+.1f} ms ({estimate.low_ms:+.1f} to {estimate.high_ms:+.1f}, {estimate.count} counted)"
     )

@@ -1,9 +1,9 @@
-"""What people call the pieces."""
+"""What people call the pieces and their own limbs."""
 
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from station.core.pieces import Piece, word
+from station.core.pieces import Limb, Piece, word
 
 _NAMES: Mapping[Piece, str] = MappingProxyType(
     {
@@ -25,6 +25,11 @@ _NAMES: Mapping[Piece, str] = MappingProxyType(
 def piece_name(piece: Piece) -> str:
     """The piece as a drummer says it."""
     return _NAMES.get(piece, word(piece))
+
+
+def limb_name(limb: Limb) -> str:
+    """The limb as a drummer says it."""
+    return word(limb).replace("_", " ")
 
 
 _OF_WORD: Mapping[str, str] = MappingProxyType({word(piece): piece_name(piece) for piece in Piece})

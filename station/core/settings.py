@@ -47,7 +47,7 @@ class Settings:
     milliseconds, subtracted from every hit (input) and added to every written time (output) on devices that nobody has
     measured (`core.calibration`). `thresholds` says of pads
     the least velocity that they send, as measured (`snare=20 tom_1=15`), `mask_ms` how long after a stroke a pad hears
-    no other. `ask_first` whether the window asks what the student believes before it shows a result.
+    no other. `ask_first` whether the student is asked for an opinion before a result is shown.
     `style` names how the demonstrator moves, a shipped style or a style file, and `hands` whose hand leads: `right`,
     `left`, `open`, empty for as a lesson's kit is built (`practice.lead`).
     `view`, `mirrored`, `inset` and `viewpoints` are where the window looks from, `score` how it shows the score,

@@ -12,6 +12,7 @@ from itertools import groupby
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.names import limb_name
 from station.core.pieces import HAND_PIECES, Articulation, Limb, Ornament, Piece, word
 from station.drills.letters import HALF_OPEN
 from station.music.score import Score
@@ -66,7 +67,7 @@ def _crowded_moments(score: Score) -> list[Impossible]:
         for i, row in enumerate(rows):
             earlier = [r for r in rows[:i] if limbs[r] == limbs[row] != Limb.UNKNOWN]
             if earlier:
-                who = word(Limb(limbs[row])).replace("_", " ")
+                who = limb_name(Limb(limbs[row]))
                 found.append(Impossible(row, f"one {who}, two places: {_pieces(score, [*earlier, row])}"))
     return found
 

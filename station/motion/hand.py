@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.errors import BadInput
+from station.core.names import limb_name
 from station.core.pieces import Limb, Piece, Zone, word
 from station.motion.amplitudes import amplitudes, rebounds
 from station.motion.arm import Contact, Offsets, solve
@@ -166,6 +167,6 @@ def parts(hold: Hold) -> Array:
 def _out_of_reach(score: Score, kit: Kit, strike: Strike, row: int, missing_m: float) -> None:
     where = score.tempo_map.position_at(int(score.notes["tick"][row]))
     place = f"note {row + 1}, bar {where.bar + 1}, beat {where.beat + 1}"
-    hand, piece = word(strike.limb).replace("_", " "), word(kit.stand_in(strike.piece))
+    hand, piece = limb_name(strike.limb), word(kit.stand_in(strike.piece))
     lack = (missing_m - PROTRACTION_M) * 100
     raise BadInput(kit.name, place, f"the {hand} cannot reach {piece}: {max(lack, 1):.0f} cm are missing")

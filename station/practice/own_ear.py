@@ -1,8 +1,9 @@
 """Rushed, dragged or on? What a student believes of the own playing, asked before the result says it.
 
 Who first judges the own error learns more of the same feedback (docs/sources.md), so the question comes before the
-page: only after a session that was played to its end to a click, and once a lesson until the window closes. It is
-answered with a pad; left of the snare is ahead of the time, right of it behind. Pure: a report in, sentences out.
+page: only after a session that was played to its end to a click, and once a lesson until the program ends. In the
+window it is answered with a pad; left of the snare is ahead of the time, right of it behind. In the terminal, where the
+kit is no longer heard then, with a letter. Pure: a report in, sentences out.
 """
 
 from collections.abc import Mapping
@@ -18,6 +19,9 @@ LEAST_STROKES = 16
 """Fewer strokes have no tendency worth a question (our choice: two bars of eighths)."""
 
 QUESTION = "Before you look: did you rush (hi-hat), drag (ride or floor tom), or were you on (snare)?"
+
+
+TYPED_QUESTION = "Before you look: did you rush (r), drag (d), or were you on (o)? Enter alone: no answer. "
 
 
 class Guess(StrEnum):
@@ -37,6 +41,12 @@ GUESS_OF: Mapping[Piece, Guess] = MappingProxyType(
     }
 )
 """The pads that answer."""
+
+
+def typed_guess(line: str) -> Guess | None:
+    """What a line that was typed means: the letter or the word; None for anything else."""
+    said = line.strip().lower()
+    return next((guess for guess in Guess if said and guess.value.startswith(said)), None)
 
 
 def is_worth_asking(document: Mapping[str, object]) -> bool:

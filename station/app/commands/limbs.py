@@ -7,6 +7,7 @@ from station.app.commands.drums import add_drums_options, assigned, drums_of, le
 from station.app.commands.output import print_json, say, say_beyond
 from station.app.commands.scores import TEXT_ENDING
 from station.core.errors import BadInput
+from station.core.names import limb_name, piece_name
 from station.core.pieces import Limb, Piece, word
 from station.motion.limbs import Assignment
 from station.motion.text_score import write_text_score
@@ -62,8 +63,8 @@ def _print(score: Score, who: Assignment) -> None:
     """A line a note: bar:beat, time, piece, limb and reason."""
     for i, why in enumerate(who.why):
         place = f"{score.bar[i] + 1}:{_beat(score, i):.2f}"
-        piece, limb = word(Piece(score.notes["piece"][i])), word(Limb(who.limbs[i]))
-        print(f"{place:>9} {score.onset_s[i]:9.3f} s  {piece:13} {limb:11} {why}")
+        piece, limb = piece_name(Piece(score.notes["piece"][i])), limb_name(Limb(who.limbs[i]))
+        print(f"{place:>9} {score.onset_s[i]:9.3f} s  {piece:16} {limb:11} {why}")
 
 
 def _beat(score: Score, row: int) -> float:

@@ -13,6 +13,7 @@ from station.app.commands.output import say
 from station.core.clock import monotonic_ns
 from station.core.errors import DeviceError
 from station.core.events import Choke, DeviceEvent, DeviceFound, DeviceLost, Hit, PedalMoved
+from station.core.names import piece_name
 from station.core.pieces import word
 from station.core.settings import load_settings
 from station.core.units import NS_PER_S, ns_from_s
@@ -85,9 +86,9 @@ def _words(event: DeviceEvent) -> str:
             openness = "" if event.openness is None else f"  openness {event.openness:.2f}"
             how = f"{word(event.zone)}, {word(event.articulation)}"
             fraction = f"{event.velocity_fraction:.2f}"[1:] if event.velocity_fraction else ""
-            return f"{word(event.piece):13} {how:18} velocity {event.velocity:3}{fraction}{openness}"
+            return f"{piece_name(event.piece):16} {how:18} velocity {event.velocity:3}{fraction}{openness}"
         case Choke():
-            return f"{word(event.piece):13} choked"
+            return f"{piece_name(event.piece):16} choked"
         case PedalMoved():
             return f"hi-hat pedal  openness {event.openness:.2f}"
         case DeviceLost():

@@ -10,6 +10,7 @@ from station.app.commands.listening import TypedLines, event_line, listening, po
 from station.core.clock import monotonic_ns
 from station.core.errors import BadInput, StationError
 from station.core.events import DeviceEvent, Hit
+from station.core.names import piece_name
 from station.core.pieces import word
 from station.core.units import NS_PER_MS, ms_from_ns, s_from_ns
 from station.devices.decoders import DecoderBank
@@ -109,7 +110,7 @@ class MonitorPage:
         return lines
 
     def _held_back(self, ghost: Ghost) -> str:
-        source = "" if ghost.source is None else f" of {word(ghost.source)}"
+        source = "" if ghost.source is None else f" of {piece_name(ghost.source)}"
         raw = self._raw.pop((ghost.hit.device, ghost.hit.at_ns), "")
         return f"{event_line(ghost.hit, self._start_ns)}  - no stroke: {ghost.why.value}{source} {raw}".rstrip()
 
@@ -128,7 +129,7 @@ def _words(suspicion: Suspicion) -> str:
     """What is suspected, and the rule that would hold it back."""
     hit, cause, gap_ms = suspicion.hit, suspicion.cause, ms_from_ns(abs(suspicion.after_ns))
     when = "after" if suspicion.after_ns >= 0 else "before"
-    seen = f"{word(hit.piece)} {gap_ms:.1f} ms {when} {word(cause.piece)}, {suspicion.share:.0%} as loud"
+    seen = f"{piece_name(hit.piece)} {gap_ms:.1f} ms {when} {piece_name(cause.piece)}, {suspicion.share:.0%} as loud"
     match suspicion.why:
         case Why.DOUBLE:
             rule = f"mask {word(hit.piece)} {_WIDER * suspicion.after_ns / NS_PER_MS:.0f}"

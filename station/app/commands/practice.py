@@ -5,6 +5,7 @@ from dataclasses import replace
 from datetime import date
 from pathlib import Path
 
+from station.app.commands.asking import ask_first
 from station.app.commands.kit_option import KIT_HELP, wanted_kits
 from station.app.commands.output import print_json, say
 from station.app.commands.scores import bars_of_gap
@@ -125,7 +126,8 @@ def _live(
         outcome = practise_in_terminal(
             plan if remembered is None else remembered.adaptation, settings, folder.capture, backing
         )
-        _leave(folder, outcome.result, practice_document(outcome.result, settings), arguments, remembered)
+        may_ask = settings.ask_first and not arguments.json
+        _leave(folder, outcome.result, practice_document(outcome.result, settings), arguments, remembered, may_ask)
     if outcome.fault is not None:
         raise outcome.fault
     return 0
@@ -152,8 +154,12 @@ def _leave(
     document: dict[str, Json],
     arguments: argparse.Namespace,
     remembered: Remembered | None,
+    may_ask: bool = False,
 ) -> None:
-    """Write everything, then print the report; what the disk refused is said after the report was printed."""
+    """Write everything, then print the report; what the disk refused is said after the report was printed.
+
+    `may_ask`: a person played, who may be asked for an opinion before the report is there.
+    """
     fault = None
     if remembered is not None:
         document = with_mastery(document, remembered.adaptation, remembered.next_turn())
@@ -163,6 +169,8 @@ def _leave(
             remembered.keep()
     except StationError as error:
         fault = rescued(error, result, document)
+    if may_ask:
+        ask_first(document)
     if arguments.json:
         print_json(document)
     else:

@@ -9,7 +9,8 @@ all is as before.
 from collections import Counter
 from dataclasses import dataclass, replace
 
-from station.core.pieces import Piece, word
+from station.core.names import piece_name
+from station.core.pieces import Piece
 from station.drills.mastery.passes import Answers, PassResult
 from station.drills.mastery.rules import Rules
 from station.music.performance import Performance
@@ -71,7 +72,7 @@ def _swap(answers: tuple[Answers, ...], rules: Rules) -> Swap | None:
 
 
 def _swap_words(swap: Swap, undone: bool) -> str:
-    first, second = (word(piece).replace("_", " ") for piece in swap)
+    first, second = (piece_name(piece) for piece in swap)
     if undone:
         return f"{first.capitalize()} and {second} are as they should be again."
     return f"{first.capitalize()} and {second} answer for each other: look at their cables; they are judged as swapped."

@@ -96,6 +96,14 @@ def test_limbs_say_who_plays_every_note(capsys: pytest.CaptureFixture[str]) -> N
     }
 
 
+def test_limbs_are_told_in_the_drummers_words(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["limbs", "rock-1"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) == 24
+    assert any(" hi-hat " in line and " right hand " in line for line in lines)
+    assert not any("hihat" in line or "_" in line for line in lines)
+
+
 def test_a_lesson_goes_to_midi_and_back(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     midi, toml = tmp_path / "rock.mid", tmp_path / "rock.toml"
     assert main(["lesson", "export", "rock-1", "--out", str(midi)]) == 0

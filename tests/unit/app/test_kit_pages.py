@@ -99,7 +99,19 @@ def test_a_hit_is_shown_with_all_that_it_tells() -> None:
     page.take(Findings("TD-11", [], found=True))
     (moved, hit) = page.take(Findings("TD-11", [Packet(bytes.fromhex("b9 04 2d"), 0), Packet(b"\x99\x2e\x64", 0)]))
     assert "openness 0.50" in moved
-    assert hit.split() == ["0.0000", "hihat", "bow,", "normal", "velocity", "100", "openness", "0.50", "99", "2e", "64"]
+    assert hit.split() == [
+        "0.0000",
+        "hi-hat",
+        "bow,",
+        "normal",
+        "velocity",
+        "100",
+        "openness",
+        "0.50",
+        "99",
+        "2e",
+        "64",
+    ]
     (hit,) = page.take(Findings("TD-11", [Packet(bytes.fromhex("b9 10 7f 99 26 50"), 5)]))
     assert "position 1.00" in hit
 

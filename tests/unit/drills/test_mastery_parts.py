@@ -206,7 +206,7 @@ def test_cables_that_were_put_right_are_noticed() -> None:
     swapped, _ = Equipment().after(replace(CLEAN, answers=CROSSED), DEFAULT_RULES)
     mended, notice = swapped.after(replace(CLEAN, answers=CROSSED), DEFAULT_RULES)
     assert mended.swap is None
-    assert notice == "Tom 1 and tom 2 are as they should be again."
+    assert notice == "High tom and middle tom are as they should be again."
 
 
 def test_hits_on_swapped_pads_are_put_right() -> None:

@@ -234,7 +234,7 @@ def test_swapped_pads_are_told_and_the_pass_is_not_held_against_the_student() ->
     assert step.notice is None
     state, step = next_step(state, mixed)
     assert step.notice is not None
-    assert "Tom 1 and tom 2" in step.notice
+    assert "High tom and middle tom" in step.notice
     assert step.pct == 70.0
     assert state.equipment.swap == (Piece.TOM_1, Piece.TOM_2)
 

@@ -3,7 +3,7 @@
 import pytest
 
 from station.core.pieces import Piece
-from station.practice.own_ear import GUESS_OF, Guess, answered, is_worth_asking
+from station.practice.own_ear import GUESS_OF, Guess, answered, is_worth_asking, typed_guess
 
 
 def report(mean_ms: float | None = 0.0, strokes: int = 100, **session: bool) -> dict[str, object]:
@@ -34,6 +34,24 @@ def test_only_what_can_be_answered_is_asked() -> None:
     assert not is_worth_asking(report(None, strokes=0))
     assert not is_worth_asking(report(complete=False))
     assert not is_worth_asking(report(click=False))
+
+
+@pytest.mark.parametrize(
+    ("line", "guess"),
+    [
+        ("r\n", Guess.RUSHED),
+        ("D\n", Guess.DRAGGED),
+        (" o \n", Guess.ON),
+        ("on\n", Guess.ON),
+        ("dragged\n", Guess.DRAGGED),
+        ("\n", None),
+        ("", None),
+        ("x\n", None),
+        ("rash\n", None),
+    ],
+)
+def test_an_answer_can_be_typed(line: str, guess: Guess | None) -> None:
+    assert typed_guess(line) is guess
 
 
 def test_every_answer_has_a_pad() -> None:
