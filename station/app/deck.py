@@ -85,16 +85,16 @@ class Deck:
     def move_as(self, style: Style) -> None:
         """Let the demonstrator move in another style from now on."""
         self._who = replace(self._who, style=style)
-        if self._drummer is not None:
-            self._drummer = self._drummer.with_style(style)
 
     @property
     def drummer(self) -> Drummer:
-        """Who plays the whole lesson; made when first asked for."""
+        """Who plays the whole lesson, in the present style; made, and made anew, when asked for."""
         if self._drummer is None:
             watched, who = self._watched, self._who
             score = with_sticking(self.score, watched.kit, watched.hands)
             self._drummer = Drummer(score, watched.kit, who.figure, who.style)
+        if self._drummer.style is not self._who.style:
+            self._drummer = self._drummer.with_style(self._who.style)
         return self._drummer
 
     # --- what the user does ------------------------------------------------------------------------------------------

@@ -143,5 +143,3 @@ WORD_LABELS: Mapping[str, tuple[str, str]] = MappingProxyType(
     }
 )
 """Every control that is a word: its label and what it does."""
-HOLDS = frozenset({"grip_right", "grip_left", "held"})
-"""What changes the hands' whole way through the score, so that it takes longer than a frame."""

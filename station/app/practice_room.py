@@ -217,9 +217,9 @@ class PracticeRoom:
         return self._who
 
     def move_as(self, style: Style) -> None:
-        """Let the demonstrator move in another style, from this frame on."""
+        """Let the demonstrator move in another style, from this frame on; what the hands hold, from the next pass on."""
         self._who = replace(self._who, style=style)
-        self._view.move_as(style)
+        self._view.move_as(style, hands_stay=self._stage is Stage.PLAYING)
         self.deck.move_as(style)
 
     def hands(self) -> Hands:

@@ -78,9 +78,14 @@ class SessionView:
         self._cue: Cue = Cue.NONE
         self._cue_ns = 0
 
-    def move_as(self, style: Style) -> None:
-        """Let the demonstrator move in another style from now on."""
-        self._who = replace(self._who, style=style)
+    @property
+    def style(self) -> Style:
+        """How the demonstrator moves."""
+        return self._who.style
+
+    def move_as(self, style: Style, hands_stay: bool = False) -> None:
+        """Let the demonstrator move in another style from now on; with `hands_stay` they hold what they held."""
+        self._who = replace(self._who, style=style.holding_as(self.style) if hands_stay else style)
 
     def judged(self, verdicts: tuple[Judgement, ...], hits: Sequence[Hit], now_ns: int, windows: Windows) -> None:
         """Take in judgements of `hits` that the student may see; marks that older snapshots hold stay as they were."""

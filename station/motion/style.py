@@ -26,6 +26,8 @@ MOST = 2.5
 """No control more than this multiplies what a natural drummer does (our choice)."""
 
 JOINTS = ("wrist", "elbow", "shoulder")
+HOLDS = ("grip_right", "grip_left", "held")
+"""What changes the hands' whole way through a score, and takes longer to make anew than a picture lasts."""
 _NATURAL_SHARES = MappingProxyType(
     {
         "amplitude_wrist": 40.0,
@@ -129,6 +131,10 @@ class Style:
         parts = [left * (h / total if total else 0.5) for h in had]
         values = {f"{kind}_{j}": p for j, p in zip(others, parts, strict=True)}
         return replace(self, **{f"{kind}_{joint}": 100.0 - left}, **values)  # type: ignore[arg-type] # floats only
+
+    def holding_as(self, other: "Style") -> "Style":
+        """The same with hands that hold what they hold in `other`: all that is left is renewed at once."""
+        return replace(self, **{name: getattr(other, name) for name in HOLDS})
 
 
 def bent(x: ArrayLike) -> Array:

@@ -11,7 +11,7 @@ from pathlib import Path
 from imgui_bundle import imgui
 
 from station.app import theme
-from station.app.figure_controls import HOLDS, TABS, WORD_LABELS, Control, Group
+from station.app.figure_controls import TABS, WORD_LABELS, Control, Group
 from station.app.figure_options import PIECES, FigureOptions
 from station.app.model import PracticeModel, Stage
 from station.app.panels.lanes import LanesEditor
@@ -20,7 +20,7 @@ from station.core.names import name_of
 from station.core.settings import load_settings, save_settings
 from station.motion.hand_notes import Hands
 from station.motion.propose import propose_style
-from station.motion.style import WORDS, Style, range_of
+from station.motion.style import HOLDS, WORDS, Style, range_of
 from station.motion.style_file import SLOTS
 
 FIGURE = "Figure"

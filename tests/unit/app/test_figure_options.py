@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from station.app.figure_controls import CONTROLS, HOLDS, TABS, WORD_LABELS
+from station.app.figure_controls import CONTROLS, TABS, WORD_LABELS
 from station.app.figure_options import FigureOptions
 from station.app.lane_frame import LaneFrame
 from station.app.style_shelf import StyleShelf
@@ -27,7 +27,6 @@ def test_every_control_of_a_style_is_on_the_page_once() -> None:
     assert sorted(shown) == sorted(NUMBERS)
     assert len(CONTROLS) == len(shown)
     assert set(WORD_LABELS) == set(WORDS)
-    assert set(WORDS) >= HOLDS
     elsewhere = {"name", "seed", "pieces", "automation"}
     assert {f.name for f in fields(Style)} == {*shown, *WORDS, *elsewhere}
     assert all(control.about for control in CONTROLS.values())

@@ -81,3 +81,12 @@ def test_the_kit_is_the_plan_s_for_the_hand_that_leads() -> None:
     left = tips(view, plan, start_of(plan, Phase.DEMONSTRATION))
     mirrored = right[:, ::-1] * np.array([-1.0, 1.0, 1.0])
     assert left == pytest.approx(mirrored, abs=0.02)
+
+
+def test_hands_that_stay_hold_what_they_held_while_sliders_move_on() -> None:
+    view = SessionView(PLAN)
+    for gain in (80.0, 90.0):
+        view.move_as(Style(amplitude_gain=gain, grip_left="traditional", held="brush"), hands_stay=True)
+        assert (view.style.amplitude_gain, view.style.grip_left, view.style.held) == (gain, "american", "stick")
+    view.move_as(Style(held="brush"))
+    assert view.style.held == "brush"
