@@ -189,7 +189,7 @@ class PracticeModel(Protocol):
         ...
 
     def move_as(self, style: Style) -> None:
-        """Let the demonstrator move in another style, from this frame on."""
+        """Let the demonstrator move in another style at once; hands hold as before while a pass is played."""
         ...
 
     def hands(self) -> Hands:

@@ -217,7 +217,7 @@ class PracticeRoom:
         return self._who
 
     def move_as(self, style: Style) -> None:
-        """Let the demonstrator move in another style, from this frame on; what the hands hold, from the next pass on."""
+        """Let the demonstrator move in another style at once; hands hold as before while a pass is played."""
         self._who = replace(self._who, style=style)
         self._view.move_as(style, hands_stay=self._stage is Stage.PLAYING)
         self.deck.move_as(style)
