@@ -219,7 +219,7 @@ class PracticeRoom:
     def move_as(self, style: Style) -> None:
         """Let the demonstrator move in another style at once; hands hold as before while a pass is played."""
         self._who = replace(self._who, style=style)
-        self._view.move_as(style, hands_stay=self._stage is Stage.PLAYING)
+        self._view.move_as(style, hands_stay=self._stage is Stage.PLAYING and not self._is_free)
         self.deck.move_as(style)
 
     def hands(self) -> Hands:
