@@ -24,6 +24,7 @@ class EngineLine:
         self.alive = True
         self.sound = "the engine is waking"
         self._kits: list[str] = []
+        self._standing: list[Command] = []
 
     @property
     def kits(self) -> str:
@@ -34,6 +35,14 @@ class EngineLine:
         """Have an engine: another one where the last has died. Raises `DeviceError`."""
         if not self.alive:
             self._engine, self.alive = self._wake(), True
+            for command in self._standing:
+                self.send(command)
+
+    def stand(self, command: Command) -> None:
+        """What this engine and every later one is told; a dead engine is told when it has been woken."""
+        self._standing.append(command)
+        if self.alive:
+            self.send(command)
 
     def send(self, command: Command) -> None:
         """Hand the engine a command; raises `DeviceError` where it has ended."""

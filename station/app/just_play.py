@@ -43,6 +43,10 @@ class JustPlay:
         self._end_ns = 0
         self.runs = False
 
+    def meet(self, settings: Settings) -> None:
+        """Keep the takes that follow by other settings."""
+        self._settings = settings
+
     @property
     def has_take(self) -> bool:
         """Whether there is something to listen back to."""

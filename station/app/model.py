@@ -12,6 +12,7 @@ from typing import Protocol
 from station.app.deck import Deck
 from station.app.heat_map import HeatMap
 from station.app.session_view import Demonstrator
+from station.app.welcome import Answers
 from station.engine.messages import KeyHit
 from station.motion.hand_notes import Hands
 from station.motion.style import Style
@@ -198,6 +199,10 @@ class PracticeModel(Protocol):
 
     def lead_with(self, hands: Hands) -> None:
         """Let another hand lead from the next preview or session on."""
+        ...
+
+    def meet(self, answers: Answers) -> None:
+        """Who plays, what is heard and whose hand leads, from now on; raises `StationError`."""
         ...
 
     def dismiss(self) -> None:

@@ -18,6 +18,8 @@ from station.app.model import FreeWish, LessonCard, PlaceNow, Report, RoomState,
 from station.app.results import session_facts
 from station.app.session_folder import SessionFolder, rescued
 from station.app.session_view import Demonstrator, SessionView
+from station.app.welcome import Answers, student_level
+from station.app.welcome import answered as met
 from station.core.calibration import Calibration
 from station.core.errors import BadInput, DeviceError, StationError
 from station.core.events import Hit
@@ -229,6 +231,12 @@ class PracticeRoom:
     def lead_with(self, hands: Hands) -> None:
         """Let another hand lead from the next preview or session on."""
         self._settings = replace(self._settings, hands=hands.value)
+
+    def meet(self, answers: Answers) -> None:
+        """Who plays, what is heard and whose hand leads, from now on; raises `DeviceError` for a dead engine."""
+        self._settings = met(self._settings, answers)
+        self._free.meet(self._settings)
+        self._engine.stand(student_level(self._settings))
 
     def answer(self, guess: Guess) -> None:
         """What the student believes of the session that ended: now its result is shown beside it."""

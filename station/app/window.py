@@ -14,19 +14,22 @@ from imgui_bundle import hello_imgui, imgui
 from station.app import theme
 from station.app.backdrop import Backdrop
 from station.app.choice import Choice
+from station.app.help_pages import topic_of
 from station.app.keyboard import pressed, slot_pressed, view_pressed
 from station.app.look import look_of, with_look
 from station.app.model import PracticeModel, Stage
 from station.app.panels.bars import heat_panel
 from station.app.panels.figure import ABOUT, FIGURE, FigurePanel
-from station.app.panels.keys import keys_help
+from station.app.panels.help import help_window
 from station.app.panels.lessons import LessonActions, LessonsPanel
 from station.app.panels.look_popup import LookActions
 from station.app.panels.page import Page, Side, panels_popup
 from station.app.panels.player_controls import PlayerControls
 from station.app.panels.ruler import Bars, Ruler
 from station.app.panels.transport import TransportBar, TransportParts
+from station.app.panels.welcome import WelcomePage
 from station.app.player_keys import player_keys
+from station.app.welcome import Answers, answered
 from station.core.clock import Clock, MonotonicClock
 from station.core.errors import DeviceError, StationError
 from station.core.settings import load_settings, save_settings
@@ -35,7 +38,7 @@ from station.practice.own_ear import Guess
 TITLE = "Drum station"
 _DOCK = "MainDockSpace"
 _NO_WINDOW = "no window can be opened: is there a screen, and OpenGL? `station practice --headless` needs neither"
-LESSONS, TRANSPORT, KEYS, BARS, NEWS = "Lessons", "Transport", "Keys", "Bars", "##news"
+LESSONS, TRANSPORT, BARS, NEWS = "Lessons", "Transport", "Bars", "##news"
 _SPLITS = (
     (Side.BELOW, imgui.Dir.down, 0.085, 0.21),
     (Side.BESIDE, imgui.Dir.left, 0.26, 0.45),
@@ -78,14 +81,16 @@ class Window:
         self._panel = LessonsPanel(
             self.choice, LessonActions(self._start, lambda: self._tried(model.listen), model.room)
         )
-        self.backdrop = Backdrop(options.quality, look_of(load_settings(options.settings)))
+        settings = load_settings(options.settings)
+        self.backdrop = Backdrop(options.quality, look_of(settings))
+        self.welcome = None if settings.welcomed else WelcomePage(Answers.of(settings))
         self._kept = self.backdrop.look
         self._worn = self._kept.theme, self._kept.scale
         self._controls = PlayerControls(self._choose_bars)
         self._transport = self._strip()
         self.news, self._news_left_s = "", 0.0
         self._told: tuple[str, ...] = ()
-        self._show_keys = False
+        self._show_help = False
         self._frame_ms = 0.0
         self.frames = 0
         self.figure = FigurePanel(model, options.settings, self._tried, self._preview_anew)
@@ -178,7 +183,7 @@ class Window:
         self._wear()
         for page in self._pages:
             if page.shown is not None:
-                docking.dockable_window_of_name(page.name).is_visible = page.shown(stage)
+                docking.dockable_window_of_name(page.name).is_visible = self.welcome is None and page.shown(stage)
         self.params.fps_idling.enable_idling = stage is not Stage.PLAYING and not self._model.room().listening
         io = imgui.get_io()
         nav = imgui.ConfigFlags_.nav_enable_keyboard
@@ -257,6 +262,9 @@ class Window:
         io = imgui.get_io()
         self._frame_ms += 0.1 * (io.delta_time * 1000 - self._frame_ms)
         self._news_left_s -= io.delta_time
+        if self.welcome is not None:
+            self._ask(self.welcome)
+            return
         notices = self._model.room().notices
         if notices != self._told:
             self._told = notices
@@ -265,15 +273,27 @@ class Window:
         self._keys()
         if not io.want_capture_mouse:
             self.backdrop.steer(io)
-        if self._show_keys:
-            self._keys_window()
+        if self._show_help:
+            self._help()
         elif self._news_left_s > 0:
             self._news_line()
+
+    def _ask(self, page: WelcomePage) -> None:
+        """The questions of the first start, until they are answered or put aside."""
+        begun = page.gui()
+        if begun is None:
+            return
+        path, answers = self._options.settings, page.answers if begun else None
+        self._tried(lambda: save_settings(answered(load_settings(path), answers), path))
+        if answers is not None:
+            self._tried(lambda: self._model.meet(answers))
+            self._preview_anew()
+        self.welcome = None
 
     def _keys(self) -> None:
         room = self._model.room()
         if imgui.is_key_pressed(imgui.Key.f1, repeat=False):
-            self._show_keys = not self._show_keys
+            self._show_help = not self._show_help
         if room.stage is Stage.PLAYING or not imgui.get_io().nav_visible:
             for hit in pressed(self._clock.now_ns()):
                 self._model.key(hit)
@@ -394,13 +414,12 @@ class Window:
         tools = [page for page in self._pages if page.shown is None]
         panels_popup(tools, self.params.docking_params)
 
-    def _keys_window(self) -> None:
-        imgui.set_next_window_size(imgui.ImVec2(theme.points(640), 0), imgui.Cond_.appearing)
-        imgui.set_next_window_pos(imgui.get_main_viewport().get_center(), imgui.Cond_.appearing, imgui.ImVec2(0.5, 0.5))
-        _, stays = imgui.begin(KEYS, True, imgui.WindowFlags_.no_collapse | imgui.WindowFlags_.no_docking)
-        keys_help(self._frame_ms)
-        imgui.end()
-        self._show_keys = bool(stays)
+    def _help(self) -> None:
+        docking = self.params.docking_params
+        tools = [page for page in self._pages if page.shown is None]
+        is_open = [page for page in tools if docking.dockable_window_of_name(page.name).is_visible]
+        topic = topic_of(self._model.room(), self.choice.free)
+        self._show_help = help_window(topic, is_open, self._frame_ms)
 
     def _news_line(self) -> None:
         """One or two lines at the picture's top; above a result, never over it."""

@@ -51,7 +51,8 @@ class Settings:
     `style` names how the demonstrator moves, a shipped style or a style file, and `hands` whose hand leads: `right`,
     `left`, `open`, empty for as a lesson's kit is built (`practice.lead`).
     `view`, `mirrored`, `inset` and `viewpoints` are where the window looks from, `score` how it shows the score,
-    `theme` its colours (`app.look`), `panel_scale` how many times as large as designed its panels are.
+    `theme` its colours (`app.look`), `panel_scale` how many times as large as designed its panels are,
+    `welcomed` whether the questions of the first start were asked (`app.welcome`).
     """
 
     student: str = "student"
@@ -81,6 +82,7 @@ class Settings:
     viewpoints: str = ""
     theme: str = "night"
     panel_scale: float = 1.0
+    welcomed: bool = False
 
     @property
     def threshold_of(self) -> dict[Piece, int]:

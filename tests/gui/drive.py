@@ -18,6 +18,7 @@ from pathlib import Path
 import numpy as np
 from imgui_bundle import hello_imgui, imgui
 
+from station.app.help_pages import topic_of
 from station.app.look import look_of
 from station.app.model import Stage
 from station.app.panels.lessons import ADAPT_LABEL, FREE_LABEL, LISTEN_LABEL
@@ -26,7 +27,7 @@ from station.core.errors import BadInput
 from station.core.settings import Settings, load_settings, save_settings
 from station.core.units import ns_from_ms
 from station.drills.library import find_lesson
-from station.engine.messages import Play
+from station.engine.messages import Play, SetLevel
 from station.practice.own_ear import Guess
 from station.practice.plan import Wishes, plan_practice
 from station.practice.student_spec import parse_spec
@@ -43,7 +44,14 @@ LESSON = "rock-2"
 MOST_FRAMES = 1000
 PICTURE_EVERY = 25
 """Without a graphics card the picture takes nine tenths of a frame; a test of the panels sees it now and then."""
-STUDENTS = {"drill": "beginner,seed=3", "practise": "pro,seed=4", "highway": "intermediate,seed=2,velocity_sd=30"}
+NEWCOMER = "newcomer"
+"""Not a student's spec: nobody has answered the questions of the first start yet."""
+STUDENTS = {
+    "newcomer": NEWCOMER,
+    "drill": "beginner,seed=3",
+    "practise": "pro,seed=4",
+    "highway": "intermediate,seed=2,velocity_sd=30",
+}
 PATIENCE_S = 600.0  # the parent's own limit is what ends a run that hangs
 
 Scenario = Callable[["Drive", imgui.test_engine.TestContext], None]
@@ -55,9 +63,10 @@ class Drive:
     def __init__(
         self, sessions: Path, student: str | None, picture_every: int = PICTURE_EVERY, size: tuple[int, int] = SIZE
     ) -> None:
-        spec = None if student is None else parse_spec(student)
+        spec = None if student in (None, NEWCOMER) else parse_spec(str(student))
         self.room, self.engine, self.clock = practice_room("rock-1", Wishes(), sessions, spec, STEP_NS)
-        self.settings = save_settings(Settings(sessions=str(sessions)), sessions / "settings.toml")
+        settings = Settings(sessions=str(sessions), welcomed=student != NEWCOMER)
+        self.settings = save_settings(settings, sessions / "settings.toml")
         options = WindowOptions(size, quality=0, remember_layout=False, settings=self.settings, tests=self._register)
         options = replace(options, picture_every=picture_every)
         self.window = Window(self.room, options, self.clock)
@@ -265,6 +274,46 @@ def score(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.seen["kept"] = load_settings(drive.settings).score
 
 
+def newcomer(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """The questions of the first start, answered by the keyboard alone; then a session is one Enter away."""
+    drive.seen["asked"] = drive.window.welcome is not None
+    ctx.yield_(2)
+    ctx.key_chars(" Ann  Lee ")
+    for key in (imgui.Key.enter, imgui.Key.space, imgui.Key.down_arrow, imgui.Key.down_arrow, imgui.Key.right_arrow):
+        ctx.key_press(key)
+        ctx.yield_(2)
+    ctx.key_press(imgui.Key.space)
+    ctx.yield_(2)
+    answers = drive.window.welcome.answers if drive.window.welcome is not None else None
+    drive.seen["answers"] = str(answers)
+    ctx.key_press(imgui.Key.down_arrow)
+    ctx.key_press(imgui.Key.enter)
+    ctx.yield_(3)
+    drive.seen["gone"] = drive.window.welcome is None
+    kept = load_settings(drive.settings)
+    drive.seen["kept"] = [kept.student, kept.own_sound, kept.hands, kept.welcomed]
+    drive.seen["levels"] = [[c.bus.name, c.level] for c in drive.engine.sent if isinstance(c, SetLevel)]
+    drive.seen["keys"] = len(drive.engine.keys)
+    drive.seen["left-handed"] = drive.room.snapshot(drive.clock.now_ns()).kit.left_handed
+    drive.seen["helped"] = helped(drive, ctx)
+    ctx.set_ref("//Lessons")
+    ctx.item_click("Start##start")
+    ctx.yield_(2)
+    drive.seen["stage"] = drive.room.room().stage.name
+    drive.seen["helped playing"] = helped(drive, ctx)
+
+
+def helped(drive: Drive, ctx: imgui.test_engine.TestContext) -> str:
+    """Which page F1 explains; it is closed again."""
+    ctx.key_press(imgui.Key.f1)
+    ctx.yield_(3)
+    shown = ctx.window_info("//Help").window
+    topic = topic_of(drive.room.room(), drive.window.choice.free).value if shown is not None else ""
+    ctx.key_press(imgui.Key.f1)
+    ctx.yield_(2)
+    return topic
+
+
 def worn(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """The panels' colours in the popup and their size by keys; both are kept."""
     ctx.set_ref("//Transport")
@@ -413,6 +462,7 @@ SCENARIOS = {
     "viewpoints": viewpoints,
     "score": score,
     "worn": worn,
+    "newcomer": newcomer,
     "highway": highway,
     "drill": drill,
     "closes": closes,

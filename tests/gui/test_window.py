@@ -70,6 +70,18 @@ def test_search_keys_and_faults_in_one_window(environment: dict[str, str], tmp_p
     a_free_take_is_recorded_and_heard_again(seen["just_play"])
 
 
+def test_a_newcomer_answers_three_questions_by_keyboard_and_plays(environment: dict[str, str], tmp_path: Path) -> None:
+    seen = run("newcomer", environment, tmp_path)
+    assert seen["asked"]
+    assert seen["gone"], seen["answers"]
+    assert seen["kept"] == ["Ann Lee", False, "left", True], "and never asked again"
+    assert seen["levels"] == [["STUDENT", 0.0]], "the module sounds, so we do not"
+    assert seen["keys"] == 0, "the letters of a name strike nothing"
+    assert seen["left-handed"], "the drummer leads with the student's hand"
+    assert seen["stage"] == "PLAYING"
+    assert [seen["helped"], seen["helped playing"]] == ["Lessons", "Playing"]
+
+
 def test_views_and_score_in_one_window(environment: dict[str, str], tmp_path: Path) -> None:
     seen = run_in_turn(["viewpoints", "look", "score", "worn"], environment, tmp_path)
     viewpoints_are_kept_by_keys_and_in_the_popup(seen["viewpoints"])

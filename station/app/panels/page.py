@@ -28,13 +28,17 @@ class Side(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Page:
-    """One panel: `about` explains it in its tooltip, `gui` draws it; a tool's `shown` is None: the user opens it."""
+    """One panel: `about` explains it in its tooltip, `gui` draws it; a tool's `shown` is None: the user opens it.
+
+    `help` is what F1 says of a tool at length, `about` where there is none.
+    """
 
     name: str
     side: Side
     gui: Callable[[], None]
     about: str = ""
     shown: Callable[[Stage], bool] | None = None
+    help: str = ""
 
     def window(self) -> hello_imgui.DockableWindow:
         """The panel for hello_imgui."""

@@ -6,13 +6,15 @@ import pytest
 
 from station.app.model import FreeWish, Stage, Start
 from station.app.practice_room import PracticeRoom
+from station.app.welcome import Answers
 from station.core.errors import DeviceError
 from station.core.events import Hit
 from station.core.pieces import Piece, Zone
 from station.core.settings import Settings
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.drills.library import find_lesson
-from station.engine.messages import Command, EngineEvent, Play, Record, Recorded, Started
+from station.engine.messages import Bus, Command, EngineEvent, Play, Record, Recorded, SetLevel, Started
+from station.motion.hand_notes import Hands
 from station.practice.plan import Wishes, plan_practice
 
 TARGET_BPM = find_lesson("rock-1").target_tempo_bpm
@@ -234,3 +236,18 @@ def test_an_engine_that_dies_in_a_take_loses_none_of_it(tmp_path: Path) -> None:
     assert room.room().stage is Stage.IDLE
     assert room.room().has_take
     assert len(list(tmp_path.glob("*/*_just-play/take.json"))) == 1
+
+
+def test_whoever_was_met_is_kept_through_a_new_engine(tmp_path: Path) -> None:
+    first, second = Line(), Line()
+    room = room_on([first, second], tmp_path)
+    room.meet(Answers("Ann", module_sounds=True, hands=Hands.LEFT))
+    assert first.heard == [SetLevel(Bus.STUDENT, 0.0)]
+    room.preview(WISH)
+    assert room.snapshot(0).kit.left_handed
+    first.dead = True
+    room.snapshot(1)
+    room.start(WISH)
+    assert second.heard[0] == SetLevel(Bus.STUDENT, 0.0), "the new engine keeps silent too"
+    room.close()
+    assert list((tmp_path / "Ann").rglob("*.json")), "her sessions are hers"

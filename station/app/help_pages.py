@@ -1,0 +1,91 @@
+"""What F1 says about the page that is open: what is to be seen there, what to do, what comes next."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import Enum
+from types import MappingProxyType
+
+from station.app.model import RoomState, Stage
+
+
+class Topic(Enum):
+    """What a user may be looking at."""
+
+    LESSONS = "Lessons"
+    JUST_PLAY = "Just play"
+    PLAYING = "Playing"
+    QUESTION = "The question before the result"
+    RESULT = "The result"
+
+
+@dataclass(frozen=True, slots=True)
+class Help:
+    """A short `head`, then what is where: (its name, what it says or does)."""
+
+    head: str
+    parts: tuple[tuple[str, str], ...]
+
+
+HELP: Mapping[Topic, Help] = MappingProxyType(
+    {
+        Topic.LESSONS: Help(
+            "Choose what to practise; the drummer and the score show it at once. Start counts in, demonstrates, and"
+            " then it is your turn.",
+            (
+                ("The list", "from first steps to hard; the search finds words of title, level, author and tags"),
+                ("the tempo follows me", "each pass begins where the last one led, and says why"),
+                ("passes", "how often the loop is played"),
+                ("click", "without it you are counted in, and the score then follows your own tempo"),
+                ("Start", "or Enter; Esc stops, and what was played is kept and judged"),
+            ),
+        ),
+        Topic.JUST_PLAY: Help(
+            "Play what you like. Every stroke is recorded and shown on the kit and on the strip; nothing is judged.",
+            (
+                ("Tempo, click", "drag, type or tap a tempo, or play without a click"),
+                ("Listen back", "plays the take once more; it is kept in your sessions folder"),
+            ),
+        ),
+        Topic.PLAYING: Help(
+            "Listen, look at the drummer, and play along. Marks on the notes say what was heard.",
+            (
+                ("Ring", "on time, within 25 ms; its tick is where your stroke fell"),
+                ("Arrow to the left", "early; to the right: late"),
+                ("Barred ring", "missed; a square: the right time on a wrong pad; a cross: not written"),
+                ("Wedge", "above the note: far too loud; below: far too soft"),
+                ("Fewer marks", "they fade as passes get clean, and every fifth pass shows none"),
+                ("As it was", "while a changed tempo is counted in: the last one once more"),
+                ("Stop", "or Esc: the session ends here and is kept"),
+            ),
+        ),
+        Topic.QUESTION: Help(
+            "Say first what you believe: rushed, dragged or on. Whoever guesses before looking learns to hear it.",
+            (
+                ("Answer", "with a button, or a pad: hi-hat rushed, ride or floor tom dragged, snare on"),
+                ("ask_first = false", "in the settings: no question any more"),
+            ),
+        ),
+        Topic.RESULT: Help(
+            "One number, what it is made of, and what to do next.",
+            (
+                ("Every stroke", "signed milliseconds over the bars: above the line late, below it early"),
+                ("Piece by piece", "the dot is where you lean, the band how far you spread; a lean is a habit or a"
+                 " latency, a spread is practice"),
+                ("What to do next", "the one thing that helps most, where the numbers are sure of it"),
+                ("Bar by bar", "a click on a bar practises it alone"),
+                ("Once more", "or Enter; Esc goes back to the lessons"),
+            ),
+        ),
+    }
+)  # fmt: skip
+
+
+def topic_of(room: RoomState, free: bool) -> Topic:
+    """What the page is about; `free` where Just play is chosen or runs."""
+    if room.question:
+        return Topic.QUESTION
+    if room.stage is Stage.RESULT:
+        return Topic.RESULT
+    if free:
+        return Topic.JUST_PLAY
+    return Topic.PLAYING if room.stage is Stage.PLAYING else Topic.LESSONS
