@@ -33,6 +33,14 @@ def standalone_context() -> moderngl.Context:
     raise DeviceError(f"OpenGL 3.3 cannot be had ({'; '.join(faults)}): {_HELP.get(sys.platform, 'install a driver')}")
 
 
+def give_back(ctx: moderngl.Context) -> None:
+    """Release what was dropped and not yet released; moderngl's own `gc` stumbles over what was released by hand."""
+    while ctx.objects:
+        dropped = ctx.objects.popleft()
+        if not isinstance(dropped, moderngl.InvalidObject):
+            dropped.release()
+
+
 class Target:
     """An off-screen picture of `size` (width, height) with depth, `samples` a pixel where the driver can."""
 

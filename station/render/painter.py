@@ -16,7 +16,7 @@ from station.render import hud
 from station.render.atlas import Atlas
 from station.render.bone_palette import Colour, Frame
 from station.render.camera import Camera, View, named
-from station.render.gl import Target
+from station.render.gl import Target, give_back
 from station.render.ink import SHAPE_DTYPE
 from station.render.ink_printer import InkPrinter, Sheet
 from station.render.palette import BRAND, GOOD, INK_FAINT, NIGHT, Theme, dyed, over_picture
@@ -67,7 +67,7 @@ class Painter:
 
     def __init__(self, ctx: moderngl.Context, quality: Quality = QUALITIES[1]) -> None:
         self._ctx = ctx
-        ctx.gc_mode = "context_gc"  # what is dropped is given back by `gc`, while this context is the current one
+        ctx.gc_mode = "context_gc"  # `give_back` releases what is dropped, while this context is the current one
         self.quality = quality
         self.theme = Theme.NIGHT
         self.atlas = Atlas()
@@ -168,7 +168,7 @@ class Painter:
             self._scene = None
             self._still.release()
             self._inset_still.release()
-            self._ctx.gc()
+            give_back(self._ctx)
             self._scene = Scene(self._ctx, *wanted, self.quality)
         self._played = wanted
         return self._scene

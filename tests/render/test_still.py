@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from station.app.pictures import picture_of
 from station.core.pieces import Piece
 from station.motion.drummer import Drummer
 from station.motion.figure import figure_of
@@ -14,6 +15,7 @@ from station.motion.kit import load_kit
 from station.render.bone_palette import Frame
 from station.render.camera import View, named
 from station.render.gl import Target, standalone_context
+from station.render.painter import Painter
 from station.render.quality import QUALITIES
 from station.render.scene import Scene
 from station.render.still import Still
@@ -83,3 +85,15 @@ def test_two_layers_show_what_one_picture_shows(both: Both, view: View, is_rough
         scene.draw_still(layered, camera, WHOLE, is_rough)
         scene.draw_moving(layered, camera, WHOLE)
         assert (both.apart() > 60).mean() > 0.02, "the figure is gone"
+
+
+def test_a_painter_goes_from_one_kit_to_another() -> None:
+    ctx = standalone_context()
+    with ctx:
+        painter, target = Painter(ctx, QUALITIES[0]), Target(ctx, SIZE)
+        pictures = []
+        for drummer in (DRUMMER, Drummer(rock(2), load_kit().mirrored, figure_of())):
+            for _ in range(2):  # the second is drawn over what the first kept
+                painter.draw(picture_of(drummer, 0.5), target.framebuffer, WHOLE, named(View.FRONT))
+            pictures.append(target.read().astype(np.int64))
+        assert np.abs(pictures[0] - pictures[1]).mean() > 1.0, "the kit is another"
