@@ -65,6 +65,7 @@ KEYS: Mapping[imgui.Key, KeyStroke] = MappingProxyType(
 COMMANDS: tuple[tuple[str, str], ...] = (
     ("Enter", "start, or once more"),
     ("Esc", "stop, or back to the lessons"),
+    ("Backspace", "pause, or go on"),
     ("F1", "this page"),
     ("F2 to F9", "the named views, in the list's order"),
     ("M", "mirror"),

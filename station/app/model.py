@@ -95,9 +95,10 @@ class RoomState:
     """What surrounds the picture: `stage`, the kit and the sound in words, `notices` newest last, `progress` 0–1.
 
     `progress` None while nothing plays. `why` is the reason for the pass that is counted in, and `can_veto` whether the
-    student may still refuse it. `has_take` where the last free take can be heard, `listening` while something sounds
-    that was played or is written. `question` is to be answered before the result is shown, empty where none is open.
-    `clock` is where a session is, None outside; `free` where no lesson is chosen, to just play.
+    student may still refuse it. `question` is to be answered before the result is shown, empty where none is open.
+    `has_take` where the last free take can be heard, `listening` while something sounds that was played or is written;
+    `paused` while a session stands still, `can_pause` where it may. `clock` is where a session is, None outside;
+    `free` where no lesson is chosen, to just play.
     """
 
     stage: Stage = Stage.IDLE
@@ -112,6 +113,8 @@ class RoomState:
     listening: bool = False
     clock: PlaceNow | None = None
     free: bool = False
+    can_pause: bool = False
+    paused: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,6 +162,14 @@ class PracticeModel(Protocol):
 
     def listen(self) -> None:
         """Hear the last free take, or end what is heard; raises `StationError`."""
+        ...
+
+    def pause(self) -> None:
+        """Pause the session, or go on."""
+        ...
+
+    def wants_start(self) -> bool:
+        """Whether the kit has asked for what Enter starts; said once."""
         ...
 
     def veto(self) -> None:

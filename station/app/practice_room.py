@@ -4,7 +4,7 @@
 it when it is over. The hits carry their own times, so that the frame rate decides nothing.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from datetime import date
@@ -43,6 +43,7 @@ from station.practice.live import begin, end, next_session
 from station.practice.mastery_report import with_mastery
 from station.practice.memory import Memory, Remembered
 from station.practice.own_ear import GUESS_OF, QUESTION, Guess, answered, is_worth_asking
+from station.practice.pad_commands import PadCommands
 from station.practice.plan import Phase, Plan, Wishes, plan_practice
 from station.practice.report import practice_document
 from station.practice.session import Session, SessionResult
@@ -50,6 +51,7 @@ from station.render.snapshot import Hud, Snapshot
 from station.scoring.document import Json
 from station.sound.track import PreparedTrack
 
+PAUSED = "Paused: two kicks, or Go on"
 NOTICES_KEPT = 5
 """How many notices the window may show at once; our choice."""
 
@@ -91,6 +93,8 @@ class PracticeRoom:
         self._free = JustPlay(settings, self._latency)
         self._is_free = False
         self._listening: Listening | None = None
+        self._pads = PadCommands(settings, first.score)
+        self._is_wanted = self._was_asked = False
         self._fault: StationError | None = None
         self.deck = Deck(self._let_sound, Watched(first.lesson, first.kit, hands_of(settings)), self._who)
         self.deck.do(lambda player, now_ns: player.looped(now_ns, _from_0(self._first.bars)))
@@ -112,12 +116,14 @@ class PracticeRoom:
             return self._free.snapshot(self._plan.kit, now_ns, heard_ns)
         if self._stage is Stage.PLAYING:
             self._judged(self._session.advance(now_ns), now_ns)
-            if self._session.over:
+            if self._settings.auto_pause and self._session.is_left:
+                self._hold(asked=False)
+            elif self._session.over:
                 self._pass_over()
         self.deck.advance(now_ns)
         if self._stage is Stage.IDLE and self.deck.is_shown:
             return self.deck.snapshot()
-        shown = self._view.snapshot(self._session, now_ns)
+        shown = self._view.snapshot(self._session, now_ns, PAUSED if self._session.paused else "")
         self._hud = shown.hud
         return shown
 
@@ -144,12 +150,19 @@ class PracticeRoom:
         if adaptation is not None and progress is not None:
             progress = (len(adaptation.rounds) + progress) / adaptation.loops
         can_veto = adaptation is not None and bool(adaptation.rounds) and state.segment.phase is Phase.COUNT_IN
-        question = QUESTION if self._is_asking else ""
         clock = None
         if progress is not None and state.transport_ns is not None:
             clock = PlaceNow(max(state.transport_ns, 0) / NS_PER_S, self._hud.bar, self._hud.beat)
-        told = replace(room, why=self._session.message, can_veto=can_veto, question=question)
-        return replace(told, progress=progress, clock=clock)
+        return replace(
+            room,
+            progress=progress,
+            why=self._session.message,
+            can_veto=can_veto,
+            question=QUESTION if self._is_asking else "",
+            can_pause=room.stage is Stage.PLAYING and self._session.can_pause,
+            paused=self._session.paused,
+            clock=clock,
+        )
 
     def lessons(self) -> Sequence[LessonCard]:
         """Every shipped lesson, and the one that was named when the window was opened."""
@@ -196,6 +209,7 @@ class PracticeRoom:
             raise
         self._plan, self._view, self._session, self._folder = plan, view, session, folder
         self._followed, self._stage, self._is_asking, self._is_free = followed, Stage.PLAYING, False, False
+        self._pads.practise(plan.score)
 
     def just_play(self, wish: FreeWish) -> None:
         """Begin a free take, ending what runs; raises `StationError`."""
@@ -250,6 +264,16 @@ class PracticeRoom:
             self._followed.adaptation.veto()
             self._next_pass(self._followed.adaptation)
 
+    def pause(self) -> None:
+        """Pause the session, or go on; nothing where there is none, or where the score waits by itself."""
+        if self._stage is Stage.PLAYING and not self._is_free:
+            self._go_on() if self._session.paused else self._hold()
+
+    def wants_start(self) -> bool:
+        """Whether two kicks have asked for what Enter starts; said once."""
+        wanted, self._is_wanted = self._is_wanted, False
+        return wanted
+
     def stop(self) -> None:
         """End the session early; what was played is judged and kept."""
         if self._stage is Stage.PLAYING:
@@ -276,6 +300,41 @@ class PracticeRoom:
 
     # --- inside ------------------------------------------------------------------------------------------------------
 
+    def _hold(self, command: Sequence[Hit] = (), asked: bool = True) -> None:
+        """Pause; `command` are the strokes that asked for it, where some did."""
+        self._was_asked = asked
+        self._pads.forget()
+        self._send(self._session.pause(command))
+        self._view.judged_anew(self._session)
+
+    def _go_on(self) -> None:
+        """Out of a pause: a pass that moves the tempo is taken whole, else from the bar of the last stroke."""
+        self._pads.forget()
+        self._send(self._session.resume(self._was_asked, whole=self._followed is not None))
+        self._view.judged_anew(self._session)
+
+    def _send(self, commands: Iterable[Command]) -> None:
+        """Tell the engine; a dead one says so itself."""
+        for command in commands:
+            with suppress(DeviceError):
+                self._engine.send(command)
+
+    def _command(self, event: EngineEvent) -> None:
+        """Do what pads and foot switches ask for; a question has the pads for itself."""
+        if self._is_asking:
+            self._pads.forget()
+            return
+        is_paused = self._stage is Stage.PLAYING and not self._is_free and self._session.paused
+        if (is_paused or self._stage is not Stage.PLAYING) and self._pads.starts(event):
+            self._is_wanted = not is_paused
+            if is_paused:
+                self._go_on()
+            return
+        command = self._pads.pauses(event)
+        if command is None or self._stage is not Stage.PLAYING or self._is_free:
+            return
+        self._go_on() if is_paused else self._hold(command)
+
     def _make_room(self) -> None:
         """End what runs or sounds, and have an engine; raises `DeviceError`."""
         self._quiet()
@@ -295,9 +354,7 @@ class PracticeRoom:
     def _quiet(self) -> None:
         """End what is heard."""
         if self._listening is not None:
-            for command in self._listening.stop():
-                with suppress(DeviceError):  # a dead engine is quiet
-                    self._engine.send(command)
+            self._send(self._listening.stop())
             self._listening = None
 
     def _end(self) -> None:
@@ -384,6 +441,7 @@ class PracticeRoom:
             self._finish()
             return
         self._plan = adaptation.plan
+        self._pads.practise(self._plan.score)
         self._view = SessionView(self._plan, self._who)
 
     def _heard(self) -> list[EngineEvent]:
@@ -406,11 +464,13 @@ class PracticeRoom:
             told = len(self._free.notices)
             self._free.handle(event)
             self._notices += self._free.notices[told:]
+            self._command(event)
             return
         told = len(self._session.heard.notices)
         verdicts = self._session.handle(event)
         self._judged(verdicts, now_ns)
         self._notices += self._session.heard.notices[told:]
+        self._command(event)
         if isinstance(event, Hit) and self._is_asking and event.piece in GUESS_OF:
             self.answer(GUESS_OF[event.piece])
 

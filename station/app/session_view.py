@@ -98,6 +98,12 @@ class SessionView:
             if cue is not Cue.NONE:
                 self._cue, self._cue_ns = cue, now_ns
 
+    def judged_anew(self, session: Session) -> None:
+        """Some of the session was taken back: show what is left of its judgements."""
+        self._marks, self._cue = no_marks(self.plan.score), Cue.NONE
+        for verdict in session.told(session.verdicts.values()):
+            mark(self._marks, verdict, loudness=not _by_key(verdict, session.hits))
+
     def snapshot(self, session: Session, now_ns: int, message: str = "") -> Snapshot:
         """The picture at session time `now_ns`."""
         state = session.state()

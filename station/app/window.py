@@ -225,6 +225,8 @@ class Window:
         report = self._model.report() if self._model.room().stage is Stage.RESULT else None
         if report is not None:
             height -= round(theme.points(_NEWS_BAND) * imgui.get_io().display_framebuffer_scale.y)
+        if self._model.wants_start():
+            self._start()
         if self.frames % self._options.picture_every:
             self.backdrop.clear()
         else:
@@ -304,6 +306,8 @@ class Window:
         self._view_keys()
         if imgui.is_key_pressed(imgui.Key.escape, repeat=False):
             self._leave(room.stage)
+        elif imgui.is_key_pressed(imgui.Key.backspace, repeat=False):
+            self._model.pause()
         elif imgui.is_key_pressed(imgui.Key.enter, repeat=False) and self._enter_starts(room.stage):
             self._start()
 
@@ -398,6 +402,7 @@ class Window:
         actions: dict[str, Callable[[], None]] = {
             "stop": lambda: self._tried(self._model.stop),
             "again": self._start,
+            "pause": self._model.pause,
             "veto": lambda: self._tried(self._model.veto),
             "back": self._model.dismiss,
             **{guess.value: partial(self._model.answer, guess) for guess in Guess},

@@ -46,6 +46,18 @@ class PedalMoved:
 
 
 @dataclass(frozen=True, slots=True)
+class Switched:
+    """A switch that plays nothing is pressed, told again while it moves.
+
+    `switch` is `cc=64` for a controller, `program=5` for a program.
+    """
+
+    at_ns: int
+    switch: str
+    device: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class DeviceLost:
     """A device vanished; what it played until `at_ns` is safe."""
 
@@ -61,4 +73,4 @@ class DeviceFound:
     device: str
 
 
-DeviceEvent = Hit | Choke | PedalMoved | DeviceLost | DeviceFound
+DeviceEvent = Hit | Choke | PedalMoved | Switched | DeviceLost | DeviceFound

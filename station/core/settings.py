@@ -48,6 +48,8 @@ class Settings:
     measured (`core.calibration`). `thresholds` says of pads
     the least velocity that they send, as measured (`snare=20 tom_1=15`), `mask_ms` how long after a stroke a pad hears
     no other. `ask_first` whether the student is asked for an opinion before a result is shown.
+    `kicks_start` whether two kicks start the count-in, `auto_pause` whether a session waits for a student who has
+    stopped, `pause` what pauses it: two pads at once, switches (`practice.pause_word`).
     `style` names how the demonstrator moves, a shipped style or a style file, and `hands` whose hand leads: `right`,
     `left`, `open`, empty for as a lesson's kit is built (`practice.lead`).
     `view`, `mirrored`, `inset` and `viewpoints` are where the window looks from, `score` how it shows the score,
@@ -73,6 +75,9 @@ class Settings:
     thresholds: str = ""
     mask_ms: float = 9.0
     ask_first: bool = True
+    kicks_start: bool = True
+    auto_pause: bool = True
+    pause: str = "crash_1+crash_2 cc=64"
     style: str = "natural"
     hands: str = ""
     view: str = "shoulder"

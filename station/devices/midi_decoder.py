@@ -3,8 +3,9 @@
 A message bears the time of the piece of bytes that completed it. The pedal's controller, the position controllers
 and the high-resolution velocity prefix (controller 88: what the velocity is above its whole number, in 128ths) come
 before the note that they describe. A position is that of the next stroke on its piece alone, the prefix holds for the
-next note on or off of its channel and no longer. Note off, note on with velocity 0, clock, active sensing and program
-changes are no hits. All channels count: modules differ in the one they use, and many drum pads can each have their own.
+next note on or off of its channel and no longer. Note off, note on with velocity 0, clock and active sensing are
+nothing. A program, and a controller of no other meaning at 64 or more, is a switch that is pressed. All channels
+count: modules differ in the one they use, and many drum pads can each have their own.
 
 Sources: MIDI 1.0 Detailed Specification 4.2; MMA CA-031 (high-resolution velocity prefix); Roland MIDI implementations:
 polyphonic aftertouch `An note 7F` while a cymbal is held and `00` on release, sent for bow and edge alike; VQD106 sends
@@ -12,7 +13,7 @@ aftertouch 0 before every hi-hat note, so only a value above 0 is a choke. Posit
 Groove MIDI Dataset has its own, just before it.
 """
 
-from station.core.events import Choke, DeviceEvent, Hit
+from station.core.events import Choke, DeviceEvent, Hit, Switched
 from station.core.kitmap import strike_of
 from station.core.pieces import Piece
 from station.devices.hihat import Hihat
@@ -23,8 +24,11 @@ _NOTE_OFF = 0x8
 _NOTE_ON = 0x9
 _POLY_AFTERTOUCH = 0xA
 _CONTROL_CHANGE = 0xB
+_PROGRAM_CHANGE = 0xC
 _FIRST_SYSTEM = 0xF0
 _VELOCITY_PREFIX = 88
+_ON = 64
+"""From here on a switch is on (MIDI 1.0 Detailed Specification: 0 to 63 off, 64 to 127 on)."""
 _CHANNEL = 0x0F
 
 _GREATEST = 127
@@ -74,6 +78,8 @@ class MidiDecoder:
                     events.append(self._note(message, at_ns, 0.0 if prefix is None else prefix[2] / _STEPS))
             elif kind == _CONTROL_CHANGE:
                 self._take_controller(message, at_ns, events)
+            elif kind == _PROGRAM_CHANGE:
+                events.append(Switched(at_ns, f"program={message[1]}", self.device))
             elif kind == _POLY_AFTERTOUCH:
                 self._take_aftertouch(message[1], message[2], at_ns, events)
         return events
@@ -117,6 +123,8 @@ class MidiDecoder:
             events += moved
         elif number in self.preset.position_controllers:
             self._positions[number] = message
+        elif value >= _ON:
+            events.append(Switched(at_ns, f"cc={number}", self.device))
 
     def _take_aftertouch(self, note: int, value: int, at_ns: int, events: list[DeviceEvent]) -> None:
         piece = strike_of(note, self.preset.notes).piece

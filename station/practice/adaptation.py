@@ -218,6 +218,11 @@ def whole(results: list[SessionResult], item: Item) -> SessionResult:
         complete=last.complete,
         device=_played_on(results),
         output=last.output,
+        pauses=tuple(
+            replace(pause, bar=start + pause.bar)
+            for start, result in zip(row.start_bars, results, strict=True)
+            for pause in result.pauses
+        ),
     )
 
 

@@ -120,8 +120,14 @@ def click_cues(tempo_map: TempoMap, end_tick: int, pattern: ClickPattern = PLAIN
     cues["piece"] = [click.voice for click in clicks]
     cues["velocity"] = [click.velocity for click in clicks]
     cues["openness"] = np.nan
-    cues["at_ns"][np.isin(cues["piece"], _SPOKEN)] -= SPOKEN_LEAD_NS
+    cues["at_ns"] -= leads_ns(cues)
     return cues[np.argsort(cues["at_ns"], kind="stable")]
+
+
+def leads_ns(cues: NDArray[np.void]) -> NDArray[np.int64]:
+    """How long before its beat each cue sounds, shape (n,)."""
+    spoken = (cues["bus"] == Bus.CLICK) & np.isin(cues["piece"], _SPOKEN)
+    return np.where(spoken, SPOKEN_LEAD_NS, 0)
 
 
 def silences(tempo_map: TempoMap, end_tick: int, gap: Gap | None) -> tuple[tuple[int, int], ...]:

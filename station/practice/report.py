@@ -18,6 +18,7 @@ from station.core.units import NS_PER_MS, ms_from_ns
 from station.devices.kit_file import own_kit
 from station.drills.lesson import Goals
 from station.engine.engine import KEYBOARD
+from station.practice.adaptation import lesson_bars
 from station.practice.headless import VirtualSession
 from station.practice.mastery_report import passes_text
 from station.practice.session import SessionResult
@@ -64,6 +65,10 @@ def practice_document(result: SessionResult, settings: Settings) -> dict[str, Js
         "input_latency_ms": result.latency.of_kit(result.device) / NS_PER_MS,
         "output_latency_ms": result.latency.of_output(result.output) / NS_PER_MS,
         "latency": result.latency.words(result.device, result.output),
+        "pauses": [
+            {"bar": lesson_bars(plan)[pause.bar] + 1, "asked": pause.asked, "strokes_again": pause.strokes}
+            for pause in result.pauses
+        ],
         "next": [*what_next(document, plan.lesson, plan.tempo_bpm)],
     }
     return document
@@ -137,9 +142,19 @@ def report_text(document: dict[str, Json]) -> str:
     head = f"{session['title']} at {tempo}, {which}, {passes}"
     return (
         f"{head}{'' if session['complete'] else ' (stopped early)'}\n\n"
-        f"{_figures_text(document)}{_passes(document)}{_steps_text(map(str, steps))}"
+        f"{_figures_text(document)}{_passes(document)}{_steps_text(map(str, steps))}{_paused(session)}"
         f"\nLatency taken out: {session['latency']}.\n"
     )
+
+
+def _paused(session: dict[str, Json]) -> str:
+    """What pauses did to the figures, nothing where there were none."""
+    pauses = session["pauses"]
+    assert isinstance(pauses, list), "the report is ours"
+    if not pauses:
+        return ""
+    often = {1: "once", 2: "twice"}.get(len(pauses), f"{len(pauses)} times")
+    return f"\nPaused {often}; what was played again after a pause counts as it was played last.\n"
 
 
 def _passes(document: dict[str, Json]) -> str:

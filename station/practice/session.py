@@ -20,13 +20,14 @@ from typing import TypeVar
 from station.core.events import Choke, Hit
 from station.core.units import NS_PER_MS
 from station.drills.mastery.fading import Feedback
-from station.engine.messages import Command, EngineEvent, Play, SetBacking
+from station.engine.messages import Command, EngineEvent, Play, SetBacking, Started, Stop
 from station.music.judgement import Judgement, Label
 from station.music.performance import Performance
 from station.music.score import Score
 from station.practice.hearing import Hearing
 from station.practice.latency import Latency
-from station.practice.plan import TAIL_NS, Plan, Segment
+from station.practice.pausing import NEAR_NS, SILENT_BARS, Pause, Silence, Stretch, bar_of, from_bar
+from station.practice.plan import TAIL_NS, Phase, Plan, Segment
 from station.scoring.align import align
 from station.scoring.alignment import Alignment
 from station.scoring.follower import Follower
@@ -59,6 +60,7 @@ class SessionResult:
 
     `score` is what is judged: the plan's, or, when the session was stopped early (`complete` False), its strokes up to
     there. `device` is what most hits were played on, `output` what the click was heard on; None where there was none.
+    `pauses` are those after which it went on, each by its bar of `score`.
     """
 
     plan: Plan
@@ -69,6 +71,7 @@ class SessionResult:
     complete: bool
     device: str | None
     output: str | None = None
+    pauses: tuple[Pause, ...] = ()
 
 
 @dataclass(eq=False)
@@ -91,15 +94,91 @@ class Session:
         self.heard = Hearing(self.latency)
         """What the engine has said."""
         self._now_ns = 0
+        self._silence = Silence(self.plan.score)
+        self._run = Stretch(0, 0, self.plan.cues)
+        self._held_ns: int | None = None  # the place on the plan's timeline, while nothing moves
         self._hits: list[Hit] = []
+        self._last_ns: int | None = None  # when in the score the last stroke that is judged was played
         self._chokes: list[Choke] = []
         self._verdict_of_note: dict[int, Judgement] = {}
         self._verdict_of_hit: dict[int, Judgement] = {}
+        self.paused = False
+        """Whether the transport stands and waits for `resume`."""
+        self.pauses: list[Pause] = []
+        """The pauses after which the session went on, in order."""
 
     def start(self) -> tuple[Command, ...]:
         """The commands that set the engine going."""
-        play = Play(self.plan.cues, LEAD_IN_NS)
-        return (play,) if self.backing is None else (SetBacking(self.backing, self.plan.passes_start_ns), play)
+        play = Play(self._run.cues, LEAD_IN_NS)
+        if self.backing is None:
+            return (play,)
+        return (SetBacking(self.backing, self.plan.passes_start_ns - self._run.jump_ns), play)
+
+    # --- pauses -----------------------------------------------------------------------------------------------------
+
+    @property
+    def can_pause(self) -> bool:
+        """Whether it may pause now: a session without a click waits for the student by itself."""
+        return self.plan.click is not None and self.started and self._held_ns is None and not self.over
+
+    @property
+    def is_left(self) -> bool:
+        """Whether the student has stopped: bars with notes went by without a stroke."""
+        score_ns = self.state().score_ns
+        if not self.can_pause or score_ns is None:
+            return False
+        return self._silence.bars(self._last_ns, self._run.from_ns, score_ns) >= SILENT_BARS
+
+    def pause(self, command: Sequence[Hit] = ()) -> tuple[Command, ...]:
+        """Stand still until `resume`; the commands for it, none where it may not pause.
+
+        The strokes of the `command` itself were not played to the score.
+        """
+        if not self.can_pause:
+            return ()
+        meant = [replace(hit, at_ns=at_ns) for hit in command if (at_ns := self._score_of(hit)) is not None]
+        if meant:
+            self._judge_anew([hit for hit in self._hits if hit not in meant])
+        self._held_ns, self.paused = self._plan_ns(), True
+        return (Stop(),)
+
+    def resume(self, asked: bool = True, whole: bool = False) -> tuple[Command, ...]:
+        """Go on from the bar of the last stroke, or from the beginning where the `whole` is to be judged.
+
+        What was played from there on is taken back; `asked` is kept with the pause. The commands for it.
+        """
+        if not self.paused:
+            return ()
+        bar = 0 if whole else bar_of(self.plan.score, self._last_ns)
+        self._run = from_bar(self.plan, bar)
+        self._take_back(bar, asked)
+        self.heard.zero_ns, self.paused = None, False
+        self._held_ns = self.plan.passes_start_ns + self._run.from_ns
+        return self.start()
+
+    def _take_back(self, bar: int, asked: bool) -> None:
+        """Forget what was played from the start of this pass's `bar` on, and judge the rest anew."""
+        from_ns = self._run.from_ns
+        kept = [hit for index, hit in enumerate(self._hits) if self._belongs_ns(index) < from_ns]
+        self.pauses.append(Pause(bar, asked, len(self._hits) - len(kept)))
+        self._chokes = [choke for choke in self._chokes if choke.at_ns < from_ns]
+        self._judge_anew(kept)
+
+    def _judge_anew(self, kept: Sequence[Hit]) -> None:
+        """Let only the `kept` hits have been played."""
+        self._hits, self._verdict_of_note, self._verdict_of_hit = [], {}, {}
+        self._last_ns = max((hit.at_ns for hit in kept), default=None)
+        self._follower = Follower(self.plan.score, self.windows)
+        for hit in kept:
+            self._hits.append(hit)
+            self._keep(self._follower.hit(hit, hit.at_ns))
+
+    def _belongs_ns(self, index: int) -> int:
+        """The time of the note that a hit answers, else its own."""
+        verdict = self._verdict_of_hit.get(index)
+        if verdict is None or verdict.note_index is None:
+            return self._hits[index].at_ns
+        return int(self.plan.score.onset_ns[verdict.note_index])
 
     # --- input ------------------------------------------------------------------------------------------------------
 
@@ -109,6 +188,8 @@ class Session:
         match event:
             case Hit():
                 return self._take_hit(event)
+            case Started() if not self.paused:
+                self._held_ns = None
             case Choke():
                 if (score_ns := self._score_of(event)) is not None:
                     self._chokes.append(replace(event, at_ns=score_ns))
@@ -120,13 +201,16 @@ class Session:
         """Tell the session time; returns the misses that it makes certain."""
         self._now_ns = max(now_ns, self._now_ns)
         score_ns = self._score_ns(self._now_ns)
-        return self._keep(self._follower.advance(score_ns)) if score_ns is not None else ()
+        if score_ns is None or self._held_ns is not None:
+            return ()
+        return self._keep(self._follower.advance(score_ns))
 
     def _take_hit(self, hit: Hit) -> tuple[Judgement, ...]:
         score_ns = self._score_of(hit)
-        if score_ns is None or not self._is_judged(score_ns):
+        if score_ns is None or self._held_ns is not None or not self._is_judged(score_ns):
             return ()
         self._hits.append(replace(hit, at_ns=score_ns))
+        self._last_ns = score_ns if self._last_ns is None else max(score_ns, self._last_ns)
         return self._keep(self._follower.hit(hit, score_ns))
 
     def _keep(self, verdicts: Iterable[Judgement]) -> tuple[Judgement, ...]:
@@ -143,7 +227,7 @@ class Session:
     @property
     def started(self) -> bool:
         """Whether the transport runs or ran."""
-        return self.heard.zero_ns is not None
+        return self.heard.zero_ns is not None or self._held_ns is not None
 
     @property
     def over(self) -> bool:
@@ -155,10 +239,17 @@ class Session:
         """What is going on, as of the last `advance`."""
         plan_ns = self._plan_ns()
         return SessionState(
-            segment=self.plan.segment_at(plan_ns if plan_ns is not None else -1),
+            segment=self._segment(plan_ns),
             transport_ns=plan_ns,
             score_ns=None if plan_ns is None else plan_ns - self.plan.passes_start_ns,
         )
+
+    def _segment(self, plan_ns: int | None) -> Segment:
+        """What goes on at a place of the plan's timeline; after a pause a bar of count-in comes first."""
+        begins_ns = self.plan.passes_start_ns + self._run.from_ns
+        if self.pauses and plan_ns is not None and plan_ns < begins_ns:
+            return Segment(Phase.COUNT_IN, 0, self._run.jump_ns, begins_ns)
+        return self.plan.segment_at(plan_ns if plan_ns is not None else -1)
 
     @property
     def verdicts(self) -> Mapping[int, Judgement]:
@@ -187,11 +278,21 @@ class Session:
         """The final alignment of all that was heard so far."""
         performance = self._performance()
         heard_until_ns = self.state().score_ns
+        if self.paused:  # what came after the last stroke is nobody's
+            heard_until_ns = 0 if self._last_ns is None else self._last_ns + NEAR_NS
         complete = heard_until_ns is not None and heard_until_ns >= self.plan.score.length_ns
         score = self.plan.score if complete else self.plan.score.until_ns(heard_until_ns or 0)
         alignment = align(score, performance, clocked=self.plan.click is not None)
         return SessionResult(
-            self.plan, score, performance, alignment, self.latency, complete, self._played_on(), self.heard.output
+            self.plan,
+            score,
+            performance,
+            alignment,
+            self.latency,
+            complete,
+            self._played_on(),
+            self.heard.output,
+            tuple(self.pauses),
         )
 
     def _performance(self) -> Performance:
@@ -212,21 +313,23 @@ class Session:
 
     def _score_ns(self, at_ns: int) -> int | None:
         transport_ns = self.heard.transport_ns(at_ns)
-        return None if transport_ns is None else transport_ns - self.plan.passes_start_ns
+        return None if transport_ns is None else transport_ns + self._run.jump_ns - self.plan.passes_start_ns
 
     def _score_of(self, stroke: Hit | Choke) -> int | None:
         """When in the score `stroke` was played."""
         played_ns = self.heard.played_ns(stroke)
-        return None if played_ns is None else played_ns - self.plan.passes_start_ns
+        return None if played_ns is None else played_ns + self._run.jump_ns - self.plan.passes_start_ns
 
     def _plan_ns(self) -> int | None:
         """The place on the plan's timeline now: the transport's, or the student's where no click rules the passes."""
+        if self._held_ns is not None:
+            return self._held_ns
         transport_ns, start_ns = self.heard.transport_ns(self._now_ns), self.plan.passes_start_ns
         if transport_ns is None or self.plan.click is not None or transport_ns < start_ns:
-            return transport_ns
+            return None if transport_ns is None else transport_ns + self._run.jump_ns
         return start_ns + self._follower.place_ns(transport_ns - start_ns)
 
     def _is_judged(self, score_ns: int) -> bool:
         if self.plan.click is None:
             return score_ns >= -EARLIEST_NS
-        return -EARLIEST_NS <= score_ns <= self.plan.score.length_ns + TAIL_NS
+        return self._run.from_ns - EARLIEST_NS <= score_ns <= self.plan.score.length_ns + TAIL_NS

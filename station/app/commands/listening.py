@@ -12,7 +12,7 @@ from station.app.commands.kit_option import wanted_kits
 from station.app.commands.output import say
 from station.core.clock import monotonic_ns
 from station.core.errors import DeviceError
-from station.core.events import Choke, DeviceEvent, DeviceFound, DeviceLost, Hit, PedalMoved
+from station.core.events import Choke, DeviceEvent, DeviceFound, DeviceLost, Hit, PedalMoved, Switched
 from station.core.names import piece_name
 from station.core.pieces import word
 from station.core.settings import load_settings
@@ -91,6 +91,8 @@ def _words(event: DeviceEvent) -> str:
             return f"{piece_name(event.piece):16} choked"
         case PedalMoved():
             return f"hi-hat pedal  openness {event.openness:.2f}"
+        case Switched():
+            return f"switch           {event.switch}"
         case DeviceLost():
             return f"{event.device} is gone"
         case DeviceFound():

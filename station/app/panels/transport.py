@@ -19,11 +19,14 @@ from station.app.row import Row
 from station.practice.own_ear import Guess
 from station.render.camera import VIEW_NAMES, View
 
+PAUSE_LABEL, GO_ON_LABEL = "Pause##hold", "Go on##hold"
 VETO_LABEL = "As it was##veto"
 STOP_LABEL = "Stop##stop"
 AGAIN_LABEL = "Once more##again"
 BACK_LABEL = "Back to the lessons##back"
 
+_PAUSE = "The score waits (Backspace; both crashes at once or a foot switch, as the settings say)"
+_GO_ON = "A bar of count-in, then on from the bar of your last stroke (Backspace, or two kicks)"
 NO_KIT = "no kit: the keys play (F1)"
 _LEAST_LEFT = 300.0
 """Design pixels below which the ruler takes a line of its own."""
@@ -109,6 +112,12 @@ class TransportBar:
         if room.clock is not None:
             row.place(theme.points(150))
             counter(room.clock.time_s, room.clock.bar, room.clock.beat)
+        if room.can_pause or room.paused:
+            row.place(theme.points(96))
+            label = GO_ON_LABEL if room.paused else PAUSE_LABEL
+            if imgui.button(label, imgui.ImVec2(theme.points(96), theme.points(HEIGHT))):
+                self._parts.actions["pause"]()
+            theme.tooltip(_GO_ON if room.paused else _PAUSE)
         if room.can_veto:
             row.place(theme.points(110))
             if imgui.button(VETO_LABEL, imgui.ImVec2(theme.points(110), theme.points(HEIGHT))):

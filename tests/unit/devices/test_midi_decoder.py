@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from station.core.events import Choke, DeviceEvent, Hit, PedalMoved
+from station.core.events import Choke, DeviceEvent, Hit, PedalMoved, Switched
 from station.core.pieces import Articulation, Piece, Zone
 from station.devices.midi_decoder import MidiDecoder
 from station.devices.presets import GENERAL_MIDI_PRESET, preset_named
@@ -35,7 +35,6 @@ def test_every_channel_counts() -> None:
     [
         pytest.param("99 26 00", id="velocity 0 is note off"),
         pytest.param("89 26 40", id="note off"),
-        pytest.param("c9 05", id="program change"),
         pytest.param("b9 58 40", id="high-resolution velocity prefix"),
         pytest.param("fe f8 fe", id="active sensing and clock"),
         pytest.param("f0 41 10 26 64 f7", id="system exclusive with note-like data"),
@@ -46,6 +45,22 @@ def test_every_channel_counts() -> None:
 )
 def test_what_is_no_stroke_makes_no_event(data: str) -> None:
     assert decode(data) == []
+
+
+@pytest.mark.parametrize(
+    ("data", "switches"),
+    [
+        ("b9 40 7f", ["cc=64"]),
+        ("b9 40 40", ["cc=64"]),
+        ("b9 40 3f", []),  # 0 to 63 is off
+        ("c9 05", ["program=5"]),
+        ("b9 04 7f", []),  # the pedal of the hi-hat is none
+    ],
+)
+def test_a_switch_on_the_floor(data: str, switches: list[str]) -> None:
+    """MIDI 1.0 Detailed Specification: switches are off at 0 to 63, on at 64 to 127."""
+    told = [event for event in decode(data) if isinstance(event, Switched)]
+    assert told == [Switched(AT_NS, switch, "kit") for switch in switches]
 
 
 @pytest.mark.parametrize(

@@ -1,11 +1,15 @@
-"""Two kicks: which strokes ask for the count-in. Times in ms, by hand."""
+"""What strokes and switches command. Times in ms, by hand."""
 
 import pytest
 
-from station.core.events import Hit
+from station.core.errors import BadInput
+from station.core.events import Hit, Switched
 from station.core.pieces import Piece, Zone
-from station.core.units import NS_PER_MS
-from station.practice.pad_gestures import TwoKicks
+from station.core.units import NS_PER_MS, PPQ
+from station.music.score import Note, Score
+from station.music.tempo import TempoMap
+from station.practice.pad_gestures import FootSwitch, Together, TwoKicks, is_written
+from station.practice.pause_word import PauseWish, parse_pause
 
 K, S = Piece.KICK, Piece.SNARE
 
@@ -36,3 +40,59 @@ def test_what_was_forgotten_counts_no_more() -> None:
     kicks.take(Hit(0, K, Zone.HEAD, 90))
     kicks.forget()
     assert not kicks.take(Hit(300 * NS_PER_MS, K, Zone.HEAD, 90))
+
+
+CRASHES = frozenset({Piece.CRASH_1, Piece.CRASH_2})
+
+
+def score(*notes: Note) -> Score:
+    return Score.from_notes(notes, TempoMap.constant(120))
+
+
+@pytest.mark.parametrize(
+    ("strokes", "pauses_at"),
+    [
+        ([(0, Piece.CRASH_1), (20, Piece.CRASH_2)], [20]),
+        ([(0, Piece.CRASH_2), (0, Piece.CRASH_1)], [0]),
+        ([(0, Piece.CRASH_1), (20, Piece.KICK), (50, Piece.CRASH_2)], [50]),
+        ([(0, Piece.CRASH_1), (51, Piece.CRASH_2)], []),
+        ([(0, Piece.CRASH_1), (20, Piece.CRASH_1)], []),
+        ([(0, Piece.CRASH_1), (30, Piece.RIDE)], []),
+        ([(0, Piece.CRASH_1), (40, Piece.CRASH_2), (45, Piece.KICK)], [40]),
+    ],
+)
+def test_two_pads_at_once(strokes: list[tuple[int, Piece]], pauses_at: list[int]) -> None:
+    together = Together([CRASHES], score(Note(0, K)))
+    assert [at for at, piece in strokes if together.take(Hit(at * NS_PER_MS, piece, Zone.EDGE, 90))] == pauses_at
+
+
+def test_what_the_score_asks_for_commands_nothing() -> None:
+    """A 16th at 120 is 125 ms: too near to be told apart in an uneven hand; an eighth is not."""
+    at_once = score(Note(0, Piece.CRASH_1), Note(0, Piece.CRASH_2))
+    assert is_written(CRASHES, at_once)
+    assert is_written(CRASHES, score(Note(0, Piece.CRASH_1), Note(PPQ // 4, Piece.CRASH_2)))
+    assert not is_written(CRASHES, score(Note(0, Piece.CRASH_1), Note(PPQ // 2, Piece.CRASH_2)))
+    assert not is_written(CRASHES, score(Note(0, Piece.CRASH_1)))
+    together = Together([CRASHES], at_once)
+    assert not any(together.take(Hit(0, piece, Zone.EDGE, 90)) for piece in CRASHES)
+
+
+def test_a_pedal_that_moves_is_pressed_once() -> None:
+    switch = FootSwitch({"cc=64"})
+    told = [(0, "cc=64"), (20, "cc=64"), (310, "cc=64"), (700, "cc=64"), (800, "program=1")]
+    assert [at for at, name in told if switch.take(Switched(at * NS_PER_MS, name))] == [0, 700]
+
+
+def test_what_pauses_in_words() -> None:
+    wish = parse_pause("crash_1+crash_2 ride+snare cc=064 program=5")
+    assert wish.pairs == (CRASHES, frozenset({Piece.RIDE, S}))
+    assert wish.switches == {"cc=64", "program=5"}
+    assert parse_pause("") == PauseWish()
+
+
+@pytest.mark.parametrize(
+    "text", ["snare", "snare+snare", "snare+cowbells", "cc=128", "cc=", "cc=-1", "a+b+c", "note=3"]
+)
+def test_a_word_that_pauses_nothing_is_named(text: str) -> None:
+    with pytest.raises(BadInput, match="expected two pads such as"):
+        parse_pause(f"cc=64 {text}", "settings: pause")
