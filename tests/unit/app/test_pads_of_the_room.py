@@ -1,4 +1,4 @@
-"""What the kit commands: two kicks start, two crashes or a foot switch pause, silence does. A room on a line by hand."""
+"""What the kit commands: two kicks start, two crashes or a foot switch pause, silence too. A room on a line by hand."""
 
 from collections.abc import Iterator
 from pathlib import Path
