@@ -16,6 +16,8 @@ LARGE_FONT_SIZE = 26.0
 _TOOLTIP_WIDTH = 420.0
 """Design pixels; our choice: some sixty letters, a good line to read."""
 _ROUND, _LESS_ROUND = 10.0, 7.0
+_NARROW = 300.0
+"""Design pixels: a slider beside a label and two buttons would have less than a hundred (our choice)."""
 _PANEL = palette.PAPER
 
 
@@ -152,3 +154,8 @@ def fit_height(height: float) -> None:
 def points(pixels: float) -> float:
     """Design pixels in the window's own, which grow with the screen's density and the user's scale."""
     return pixels * float(hello_imgui.dpi_window_size_factor()) * _Worn.scale
+
+
+def is_narrow() -> bool:
+    """Whether the panel is too narrow for a label, a slider and buttons in one line."""
+    return bool(imgui.get_content_region_avail().x < points(_NARROW))

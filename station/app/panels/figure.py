@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 from imgui_bundle import imgui
 
 from station.app import theme
@@ -19,6 +20,7 @@ from station.app.style_shelf import Entry, StyleShelf
 from station.core.names import name_of
 from station.core.settings import load_settings, save_settings
 from station.motion.hand_notes import Hands
+from station.motion.plan import bar_places
 from station.motion.propose import propose_style
 from station.motion.style import HOLDS, WORDS, Style, range_of
 from station.motion.style_file import SLOTS
@@ -27,9 +29,9 @@ FIGURE = "Figure"
 ABOUT = "How the demonstrator moves: arms, head, body, hands, over the bars; styles of your own"
 PROPOSE_LABEL = "From the score##propose"
 SAVE_LABEL = "Save##save-style"
-FREE_LABEL = "each joint for itself"
+FREE_LABEL = "each for itself"
 BARS_TAB = "Bars"
-_LABEL_WIDTH, _VALUE_WIDTH, _SMALL, _SLOTS_FROM, _SLOT_GAP = 112, 50, 28, 72, 4
+_LABEL_WIDTH, _VALUE_WIDTH, _SMALL, _BESIDE, _SLOTS_FROM, _SLOT_GAP = 112, 38, 28, 150, 60, 4
 """Design pixels."""
 _LEADS = {
     Hands.RIGHT: ("Right-handed", "The right hand leads, over the left on the hi-hat"),
@@ -81,11 +83,21 @@ class FigurePanel:
                 imgui.end_tab_item()
             opens, self._opens_bars = self._opens_bars, False
             if _tab(BARS_TAB, opens):
-                self._lanes.gui(self._model.score())
+                self._lanes.gui(self._model.score(), self._place())
                 imgui.end_tab_item()
             imgui.end_tab_bar()
         if self.options.style is not before:
             self._model.move_as(self.options.style)
+
+    def _place(self) -> float | None:
+        """Where the music is, in bars from 1; None where none is played or shown."""
+        clock, deck, score = self._model.room().clock, self._model.deck, self._model.score()
+        if clock is not None and clock.bar is not None and clock.beat is not None:
+            return clock.bar + (clock.beat - 1) / score.tempo_map.meters[0].beats
+        if clock is not None or not deck.is_shown:
+            return None
+        tick = deck.player.song.tick_at(deck.player.position_ns(deck.now_ns))
+        return float(bar_places(score, np.array([tick]))[0])
 
     def keep(self) -> None:
         """Write to the settings what was changed since the last time, unless a control is being moved."""
@@ -104,28 +116,26 @@ class FigurePanel:
     # --- styles and slots ---------------------------------------------------------------------------------------------
 
     def _styles(self) -> None:
-        options = self.options
-        imgui.set_next_item_width(-theme.points(150))
+        options, narrow = self.options, theme.is_narrow()
+        beside = -1.0 if narrow else -theme.points(_BESIDE)
+        imgui.set_next_item_width(beside)
         shown = f"{options.style.name}, changed" if options.is_changed else options.style.name
         if imgui.begin_combo("##style", shown):
-            if imgui.is_window_appearing():
-                self._entries = self._shelf.entries()
-            for entry in self._entries:
-                label = f"{entry.label}##{entry.source}"
-                if imgui.selectable(f"your own: {label}" if entry.is_own else label, entry.source == self._source)[0]:
-                    self._tried(lambda entry=entry: self._take(entry))  # type: ignore[misc] # mypy knows no such default
+            self._list()
             imgui.end_combo()
         theme.tooltip("Styles: five settings of the thesis, five of its users' genres, the natural one, and your own")
-        imgui.same_line()
+        if not narrow:
+            imgui.same_line()
         if imgui.button(PROPOSE_LABEL, imgui.ImVec2(-1, 0)):
             self._choose(propose_style(self._model.score()), None)
         theme.tooltip("A style that the lesson's tempo, density and dynamics ask for")
-        imgui.set_next_item_width(-theme.points(150))
+        imgui.set_next_item_width(beside)
         _, self._name = imgui.input_text_with_hint("##style-name", "a name of your own", self._name)
         theme.tooltip(f"Saved styles are files in {self._shelf.folder}")
-        imgui.same_line()
-        half = imgui.ImVec2(theme.points(68), 0)
-        if imgui.button(SAVE_LABEL, half):
+        if not narrow:
+            imgui.same_line()
+        half = (imgui.get_content_region_avail().x - imgui.get_style().item_spacing.x) / 2
+        if imgui.button(SAVE_LABEL, imgui.ImVec2(half, 0)):
             self._tried(self._save)
         theme.tooltip("Save what is set as a style of your own: `station animate --style FILE` takes it too")
         imgui.same_line()
@@ -134,6 +144,14 @@ class FigurePanel:
             self._choose(options.base, self._source)
         imgui.end_disabled()
         theme.tooltip("Every control back to the style that was chosen")
+
+    def _list(self) -> None:
+        if imgui.is_window_appearing():
+            self._entries = self._shelf.entries()
+        for entry in self._entries:
+            label = f"{entry.label}##{entry.source}"
+            if imgui.selectable(f"your own: {label}" if entry.is_own else label, entry.source == self._source)[0]:
+                self._tried(lambda entry=entry: self._take(entry))  # type: ignore[misc] # mypy knows no such default
 
     def _take(self, entry: Entry) -> None:
         self._choose(self._shelf.load(entry.source), entry.source)
@@ -150,15 +168,19 @@ class FigurePanel:
         self.options.slots = self._shelf.slots()
 
     def _slots(self) -> None:
-        slots, gap = self.options.slots.styles, theme.points(_SLOT_GAP)
-        room = imgui.get_content_region_avail().x - theme.points(_SLOTS_FROM) - (SLOTS - 1) * gap
-        width = max(room / SLOTS + theme.points(1.5), 1.0)
+        slots, gap, narrow = self.options.slots.styles, theme.points(_SLOT_GAP), theme.is_narrow()
+        a_row = SLOTS // 2 if narrow else SLOTS
+        left = 0.0 if narrow else theme.points(_SLOTS_FROM)
+        width = max((imgui.get_content_region_avail().x - left - (a_row - 1) * gap) / a_row, 1.0)
+        edge = imgui.get_cursor_pos_x()
         for words, does in (("Take", "take"), ("Keep as", "keep")):
             imgui.align_text_to_frame_padding()
             imgui.text_disabled(words)
-            for slot in range(SLOTS):
-                style = slots[slot]
-                imgui.same_line(theme.points(_SLOTS_FROM) if slot == 0 else 0, gap)
+            for slot, style in enumerate(slots):
+                if slot % a_row:
+                    imgui.same_line(0, gap)
+                elif not narrow:
+                    imgui.same_line(edge + left)
                 imgui.begin_disabled(does == "take" and style is None)
                 if imgui.button(f"{slot + 1}##{does}{slot + 1}", imgui.ImVec2(width, 0)):
                     self._use_slot(does, slot)
@@ -190,32 +212,42 @@ class FigurePanel:
     def _number(self, control: Control) -> None:
         """A slider between its label and its value, what resets it, and what lets it change over the bars."""
         options, name = self.options, control.name
-        factor, has_lane = options.factor(name), options.lane(name) is not None
+        factor, has_lane, narrow = options.factor(name), options.lane(name) is not None, theme.is_narrow()
         gap, small = imgui.get_style().item_spacing.x, theme.points(_SMALL)
+        label = control.label if factor is None or has_lane else f"{control.label} ×{factor:.1f}"
+        value = "in bars" if has_lane else control.form % options.value(name)
         imgui.align_text_to_frame_padding()
-        imgui.text(control.label if factor is None or has_lane else f"{control.label} ×{factor:.1f}")
-        imgui.same_line(theme.points(_LABEL_WIDTH))
-        imgui.set_next_item_width(-theme.points(_VALUE_WIDTH) - 2 * small - 3 * gap)
+        imgui.text(label)
+        imgui.same_line(0 if narrow else theme.points(_LABEL_WIDTH))
+        if narrow:
+            imgui.text_disabled(value)
+        value_width = 0.0 if narrow else theme.points(_VALUE_WIDTH) + gap
+        imgui.set_next_item_width(-value_width - 2 * (small + gap))
         flags = imgui.SliderFlags_.always_clamp | imgui.SliderFlags_.no_round_to_format
         if control.is_curved:
             flags |= imgui.SliderFlags_.logarithmic
         imgui.begin_disabled(has_lane)
-        moved, value = imgui.slider_float(f"##{name}", options.value(name), *range_of(name), "", flags)
+        moved, wanted = imgui.slider_float(f"##{name}", options.value(name), *range_of(name), "", flags)
         imgui.end_disabled()
         if moved:
-            options.put(name, round(value, 2))
+            options.put(name, round(wanted, 2))
         theme.tooltip(f"{control.about}. Ctrl+click to type")
         imgui.same_line()
-        edge = imgui.get_cursor_pos_x()
-        imgui.text_disabled("in bars" if has_lane else control.form % options.value(name))
-        imgui.same_line(edge + theme.points(_VALUE_WIDTH))
-        imgui.begin_disabled(not options.can_reset(name))
-        if imgui.button(f"×##reset-{name}", imgui.ImVec2(small, 0)):
-            options.reset(name)
+        if not narrow:
+            edge = imgui.get_cursor_pos_x()
+            imgui.text_disabled(value)
+            imgui.same_line(edge + value_width)
+        self._beside(name, small)
+
+    def _beside(self, name: str, width: float) -> None:
+        """What sets a control back, and what lets it change over the bars."""
+        imgui.begin_disabled(not self.options.can_reset(name))
+        if imgui.button(f"×##reset-{name}", imgui.ImVec2(width, 0)):
+            self.options.reset(name)
         imgui.end_disabled()
         theme.tooltip("Back to the style that was chosen")
         imgui.same_line()
-        if imgui.button(f"~##bars-{name}", imgui.ImVec2(small, 0)):
+        if imgui.button(f"~##bars-{name}", imgui.ImVec2(width, 0)):
             self._lanes.control = name
             self._opens_bars = True
         theme.tooltip("Let it change over the bars")
@@ -263,7 +295,9 @@ class FigurePanel:
 def _tabs() -> bool:
     """Begin the bar of narrow tabs; returns whether it is seen."""
     imgui.push_style_var(imgui.StyleVar_.frame_padding, _narrow())
-    seen = imgui.begin_tab_bar("##figure", imgui.TabBarFlags_.fitting_policy_shrink)
+    narrow = imgui.TabBarFlags_.fitting_policy_scroll | imgui.TabBarFlags_.tab_list_popup_button
+    flags = narrow if theme.is_narrow() else imgui.TabBarFlags_.fitting_policy_shrink
+    seen = imgui.begin_tab_bar("##figure", flags)
     imgui.pop_style_var()
     return bool(seen)
 

@@ -45,12 +45,12 @@ class LanesEditor:
         self._stroke: list[tuple[float, float]] = []
         self._last = (0.0, 0.0)
 
-    def gui(self, score: Score) -> None:
-        """Draw the editor for the bars of `score` and do what the user does in it."""
+    def gui(self, score: Score, place: float | None) -> None:
+        """Draw the editor for the bars of `score` and do what the user does in it; `place` is where the music is."""
         self._choose()
         beats = score.tempo_map.meters[0].beats
         bars = max(score.bar_count, 1)
-        self._canvas(bars, beats)
+        self._canvas(bars, beats, place)
         self._points(bars, beats)
 
     def _choose(self) -> None:
@@ -66,7 +66,7 @@ class LanesEditor:
 
     # --- the picture --------------------------------------------------------------------------------------------------
 
-    def _canvas(self, bars: int, beats: int) -> None:
+    def _canvas(self, bars: int, beats: int, place: float | None) -> None:
         corner, width = imgui.get_cursor_screen_pos(), max(imgui.get_content_region_avail().x, 50.0)
         height = theme.points(_HEIGHT)
         frame = LaneFrame(corner.x, corner.y, width, height, bars, beats, *range_of(self.control))
@@ -74,6 +74,10 @@ class LanesEditor:
         self._mouse(frame)
         lane = self._options.lane(self.control)
         self._draw(frame, lane)
+        if place is not None:
+            x, _ = frame.pixel(place, frame.low)
+            low = imgui.ImVec2(x, frame.top + height)
+            imgui.get_window_draw_list().add_line(imgui.ImVec2(x, frame.top), low, _ink(palette.INK), 1.5)
         if imgui.is_item_hovered() and not imgui.is_item_active():
             bar, value = frame.point(*imgui.get_mouse_pos())
             imgui.set_tooltip(f"bar {int(bar)}, beat {1 + round((bar % 1) * beats)}: {value:.1f}\n{_HELP}")
@@ -134,7 +138,8 @@ class LanesEditor:
             value = lane[-1][1] if lane else options.value(control)
             options.draw_lane(control, with_point(lane, min(after, bars + 1.0), value))
         theme.tooltip("A point a bar after the last one")
-        imgui.same_line()
+        if not theme.is_narrow():
+            imgui.same_line()
         imgui.begin_disabled(not lane)
         if imgui.button("The same in all bars##end-lane"):
             options.end_lane(control)
@@ -150,10 +155,12 @@ class LanesEditor:
 
     def _point(self, lane: Automation, index: int, point: tuple[float, float], beats: int) -> None:
         options, control = self._options, self.control
-        imgui.set_next_item_width(theme.points(140))
+        narrow = theme.is_narrow()
+        imgui.set_next_item_width(-1 if narrow else theme.points(140))
         moved, bar = imgui.input_float(f"##bar-of-{index}", point[0], 1 / beats, 1.0, "%.2f")
         theme.tooltip("Where the point is: bars from 1, a fraction is a place within the bar")
-        imgui.same_line()
+        if not narrow:
+            imgui.same_line()
         imgui.set_next_item_width(-theme.points(28) - imgui.get_style().item_spacing.x)
         set_to, value = imgui.slider_float(f"##value-of-{index}", point[1], *range_of(control), "%.1f")
         theme.tooltip("What the control is there")
