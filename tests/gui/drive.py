@@ -39,7 +39,7 @@ from tests.gui.room import practice_room
 
 STEP_NS = ns_from_ms(100)
 SIZE = (760, 480)
-SIZES = {"player": (1280, 720), "figure": (1280, 720)}
+SIZES = {"player": (1280, 720)}
 LESSON = "rock-2"
 MOST_FRAMES = 1000
 PICTURE_EVERY = 25
@@ -64,6 +64,7 @@ class Drive:
         self, sessions: Path, student: str | None, picture_every: int = PICTURE_EVERY, size: tuple[int, int] = SIZE
     ) -> None:
         spec = None if student in (None, NEWCOMER) else parse_spec(str(student))
+        self.picture_every = picture_every
         self.room, self.engine, self.clock = practice_room("rock-1", Wishes(), sessions, spec, STEP_NS)
         settings = Settings(sessions=str(sessions), welcomed=student != NEWCOMER)
         self.settings = save_settings(settings, sessions / "settings.toml")

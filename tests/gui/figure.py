@@ -43,6 +43,7 @@ def figure(drive: "Drive", ctx: imgui.test_engine.TestContext) -> None:
     ctx.yield_(2)
     ctx.item_click("##figure/Hands/Left-handed##lead")
     ctx.yield_(2)
+    ctx.yield_(drive.picture_every)  # the other kit is drawn meanwhile
     kept = load_settings(drive.settings)
     seen["hands"] = [kept.hands, drive.room.snapshot(drive.clock.now_ns()).kit.left_handed]
     seen["kept lane"] = load_style(kept.style).automation["amplitude_gain"]

@@ -99,9 +99,15 @@ def a_free_take_is_recorded_and_heard_again(seen: dict[str, Any]) -> None:
     assert seen["ended"], "it ends by itself"
 
 
-def test_the_demonstration_is_watched_as_in_a_player(environment: dict[str, str], tmp_path: Path) -> None:
+def test_player_and_figure_in_one_window(environment: dict[str, str], tmp_path: Path) -> None:
+    seen = run_in_turn(["player", "figure"], environment, tmp_path)
+    the_demonstration_is_watched_as_in_a_player(seen["player"])
+    the_demonstrator_is_made_to_move_otherwise(seen["figure"])
+    assert (tmp_path / "sessions" / "styles" / "slots.toml").exists()
+
+
+def the_demonstration_is_watched_as_in_a_player(seen: dict[str, Any]) -> None:
     """Rock 1: two bars at 80 beats a minute, 750 ms a beat."""
-    seen = run("player", environment, tmp_path)
     assert seen["plays"]
     assert seen["moves"]
     assert seen["stands"]
@@ -112,6 +118,19 @@ def test_the_demonstration_is_watched_as_in_a_player(environment: dict[str, str]
     assert seen["sought"] == 4500, "in the middle of the second bar"
     assert seen["cues"] == 32, "24 strokes and 8 clicks"
     assert seen["commands"] == ["Play", "Stop", "Play", "Stop", "Play"], "silent by steps and backwards"
+
+
+def the_demonstrator_is_made_to_move_otherwise(seen: dict[str, Any]) -> None:
+    assert seen["gain"] == 90.0
+    assert seen["moves so"] == 90.0, "at once"
+    assert seen["chosen"] == ["jazz", False]
+    assert seen["kept"] == "jazz"
+    assert seen["slot"] == 90.0
+    bars, values = zip(*seen["lane"], strict=True)
+    assert bars == (1.5, 1.75, 2.0), "a point on every beat from a quarter to the middle of two bars"
+    assert values == pytest.approx((25, 50, 75), abs=3)
+    assert seen["kept lane"] == seen["lane"]
+    assert seen["hands"] == ["left", True]
 
 
 def keys_play_the_kit_and_escape_stops(seen: dict[str, Any]) -> None:
@@ -179,21 +198,6 @@ def test_a_session_is_kept_when_the_window_is_closed_in_its_middle(environment: 
     seen = run("closes", environment, tmp_path)
     assert seen["at_the_end"] == "PLAYING"
     assert list((tmp_path / "sessions").rglob("*.json")), "the session is kept"
-
-
-def test_the_demonstrator_is_made_to_move_otherwise(environment: dict[str, str], tmp_path: Path) -> None:
-    seen = run("figure", environment, tmp_path)
-    assert seen["gain"] == 90.0
-    assert seen["moves so"] == 90.0, "at once"
-    assert seen["chosen"] == ["jazz", False]
-    assert seen["kept"] == "jazz"
-    assert seen["slot"] == 90.0
-    bars, values = zip(*seen["lane"], strict=True)
-    assert bars == (1.5, 1.75, 2.0), "a point on every beat from a quarter to the middle of two bars"
-    assert values == pytest.approx((25, 50, 75), abs=3)
-    assert seen["kept lane"] == seen["lane"]
-    assert seen["hands"] == ["left", True]
-    assert (tmp_path / "sessions" / "styles" / "slots.toml").exists()
 
 
 def test_without_a_screen_one_line_says_so(tmp_path: Path) -> None:
