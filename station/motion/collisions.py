@@ -59,6 +59,21 @@ def collisions(rows: Array, kit: Kit) -> Collisions:
     return Collisions(through, np.maximum(2 * STICK_RADIUS_M - gap, 0.0), np.stack(arms, 1))
 
 
+def depth_in_kit(kit: Kit, butt: Array, tip: Array) -> Array:
+    """How deep sticks from `butt` to `tip` (n, 3), at n moments in order, are in the deepest of the kit's pieces, (n,).
+
+    The kick is left out: no stick comes to it.
+    """
+    middle, reach = 0.5 * (butt + tip), 0.5 * np.linalg.norm(tip - butt, axis=1)
+    points = butt[:, None] + ALONG[:, None] * (tip - butt)[:, None]
+    deepest = np.zeros(len(butt))
+    for piece in kit.pieces.values():
+        size = np.hypot(piece.radius_m, piece.depth_m)
+        if piece.kind != "kick" and np.any(((middle - piece.centre) ** 2).sum(1) < (reach + size) ** 2):
+            deepest = np.maximum(deepest, depth(piece, points))
+    return deepest
+
+
 def depth(piece: KitPiece, points: Array) -> Array:
     """How deep the sticks' points (n, k, 3), of n moments in order, are in `piece`, (n,).
 
@@ -67,7 +82,7 @@ def depth(piece: KitPiece, points: Array) -> Array:
     """
     away = points - piece.centre
     height = away @ piece.normal
-    radial = np.sqrt(np.maximum((away**2).sum(-1) - height**2, 0.0))
+    radial = np.sqrt(np.maximum(_dot(away, away) - height**2, 0.0))
     if piece.kind in ("drum", "block"):
         inside = np.minimum(np.minimum(-height, piece.radius_m - radial), height + piece.depth_m)
         return np.asarray(np.maximum(inside.max(-1), 0.0))
@@ -88,10 +103,15 @@ def depth(piece: KitPiece, points: Array) -> Array:
 def segments_apart(a: Array, b: Array, c: Array, d: Array) -> Array:
     """The least distance between segments ab and cd, all (n, 3) (Ericson, Real-Time Collision Detection, § 5.1.9)."""
     u, v, w = b - a, d - c, a - c
-    uu, vv, uv = (u * u).sum(1), (v * v).sum(1), (u * v).sum(1)
-    uw, vw = (u * w).sum(1), (v * w).sum(1)
+    uu, vv, uv, uw, vw = _dot(u, u), _dot(v, v), _dot(u, v), _dot(u, w), _dot(v, w)
     denominator = np.maximum(uu * vv - uv * uv, 1e-12)
     s = np.clip((uv * vw - vv * uw) / denominator, 0.0, 1.0)
     t = np.clip((uv * s + vw) / vv, 0.0, 1.0)
     s = np.clip((uv * t - uw) / uu, 0.0, 1.0)
-    return np.asarray(np.linalg.norm(w + s[:, None] * u - t[:, None] * v, axis=1))
+    apart = w + s[:, None] * u - t[:, None] * v
+    return np.sqrt(_dot(apart, apart))
+
+
+def _dot(a: Array, b: Array) -> Array:
+    """The scalar products of vectors (…, 3); a sum over so short an axis is slow."""
+    return np.asarray(np.einsum("...i,...i->...", a, b))

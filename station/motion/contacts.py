@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Articulation, Limb, Piece, Zone
 from station.motion.arm import Arm, ArmLengths, Contact, Offsets, solve
-from station.motion.collisions import ALONG, depth
+from station.motion.collisions import depth_in_kit
 from station.motion.events import GRAB, SHOW, WAIT
 from station.motion.figure import Figure
 from station.motion.grip import Grip, Hold
@@ -187,10 +187,7 @@ def _caught(kit: Kit, lengths: ArmLengths, root: Point, touch: Contact) -> bool:
     """Whether the stick meets any piece of the kit while it is raised from `touch`: its butt goes down meanwhile."""
     raised = Offsets(*(_RAISING * part for part in _RAISED))
     arm = solve(MANY, lengths, root, Contact(*(np.full(len(_RAISING), c) for c in touch)), raised)
-    butt, tip = np.stack(arm.butt, 1), np.stack(arm.tip, 1)
-    stick = butt[:, None] + ALONG[:, None] * (tip - butt)[:, None]
-    pieces = (piece for piece in kit.pieces.values() if piece.kind != "kick")
-    return any(float(depth(piece, stick).max()) > _TOUCHING_M for piece in pieces)
+    return float(depth_in_kit(kit, np.stack(arm.butt, 1), np.stack(arm.tip, 1)).max()) > _TOUCHING_M
 
 
 _STRAIGHTER = (0.7, 0.4, 0.1, -0.2, -0.5)

@@ -22,7 +22,7 @@ from station.motion.leg import HEEL_RAD, Footing
 from station.motion.life import BREATH_M, BREATH_RATE, Blinks
 from station.motion.maths import MANY, ONE, Number, Point
 from station.motion.plan import Plan, holds
-from station.motion.reach import leans
+from station.motion.reach import reaching
 from station.motion.splines import Curves
 from station.motion.stroke import Sliders, Strokes
 from station.motion.style import Style
@@ -99,7 +99,9 @@ class Keys:
             style=style,
             parts=parts,
             hands=(_hand(plan, right, style, hands[0], same), _hand(plan, left, style, hands[1], same)),
-            body=old.body if old is not None and "body" in same else _body(plan, parts, style),
+            body=old.body
+            if old is not None and "body" in same
+            else reaching(ground, style, parts, plan.figure, plan.pelvis),
             head=old.head if old is not None and "head" in same else body.head_curve(ground, style),
             gaze=old.gaze if old is not None and "gaze" in same else plan.gaze(style),
             blinks=old.blinks if old is not None and "blinks" in same else plan.blinks(style.seed),
@@ -159,17 +161,6 @@ def _alike(one: Style, other: Style, controls: tuple[str, ...]) -> bool:
         getattr(one, c, None) == getattr(other, c, None) and one.automation.get(c) == other.automation.get(c)
         for c in controls
     )
-
-
-def _body(plan: Plan, parts: tuple[HandPart, HandPart], style: Style) -> Curves:
-    """The body's curves, leaning to what is out of the arms' reach."""
-    values = body.keys(plan.ground, style)
-    curves = body.curves(plan.ground, style, values)
-    needed = leans(curves, parts, plan.figure, plan.pelvis)
-    if not needed.any():
-        return curves
-    values[1] += needed
-    return body.curves(plan.ground, style, values)
 
 
 def _hand(plan: Plan, part: HandPart, style: Style, old: HandKeys | None, same: set[str]) -> HandKeys:

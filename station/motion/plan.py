@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Limb, Piece
-from station.motion import body
 from station.motion.beats import Beats, bob_cofactors, restarts
 from station.motion.body import Ground, mean_bearing
 from station.motion.clearance import cleared
@@ -25,6 +24,7 @@ from station.motion.limbs import Assignment, assign_limbs
 from station.motion.maths import MANY, Point
 from station.motion.pedals import hat_board, kick_board
 from station.motion.posture import pelvis_of
+from station.motion.reach import reaching
 from station.motion.shoulders import past_the_shoulder
 from station.motion.splines import Curves
 from station.motion.style import Style
@@ -89,20 +89,20 @@ class Plan:
         if not (len(right.events.row) or len(left.events.row)):
             return right, left
         grid = looks(right.events.time_s, left.events.time_s)
-        roots = self._roots(grid, Style())
+        roots = self._roots(grid, Style(), (right, left))
         right, left = (
             past_the_shoulder(hand, self.figure, self.kit, grid, root)
             for hand, root in zip((right, left), roots, strict=True)
         )
-        shoulders = list(zip(roots, self._roots(grid, LIVELY), strict=True))
+        shoulders = list(zip(roots, self._roots(grid, LIVELY, (right, left)), strict=True))
         right, left = (hand.eased(self.figure, grid, r) for hand, r in zip((right, left), shoulders, strict=True))
         right, left = detoured((right, left), self.figure, self.kit, grid, roots)
         right, left = (hand.eased(self.figure, grid, r) for hand, r in zip((right, left), shoulders, strict=True))
         return right, left
 
-    def _roots(self, time_s: Array, style: Style) -> tuple[Point, Point]:
-        """Where the right and the left shoulder are at each time under `style`."""
-        curves = body.curves(self.ground, style, body.keys(self.ground, style))
+    def _roots(self, time_s: Array, style: Style, hands: tuple[HandPart, HandPart]) -> tuple[Point, Point]:
+        """Where the right and the left shoulder are at each time under `style`, when `hands` play."""
+        curves = reaching(self.ground, style, hands, self.figure, self.pelvis)
         twist, lean, side, shrug, *_ = curves.many(time_s)
         frame = trunk(MANY, self.figure, self.pelvis, TrunkAngles(twist, lean, side, 0.0, 0.0, 0.0, shrug))
         return frame.right_shoulder, frame.left_shoulder

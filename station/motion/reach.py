@@ -3,10 +3,13 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from station.motion import body
+from station.motion.body import Ground
 from station.motion.figure import Figure
 from station.motion.hand import HandPart
 from station.motion.maths import MANY, Point
 from station.motion.splines import Curves
+from station.motion.style import Style
 from station.motion.trunk import TrunkAngles, trunk
 
 Array = NDArray[np.float64]
@@ -16,6 +19,17 @@ EASY_SHARE = 0.95
 MOST_RAD = np.radians(30.0)
 _ARM_OF_LEAN = 0.85
 """Of the trunk's length times the lean, this much brings the shoulder nearer to the target (our choice)."""
+
+
+def reaching(ground: Ground, style: Style, hands: tuple[HandPart, HandPart], figure: Figure, pelvis: Point) -> Curves:
+    """The body's curves under `style`, leaning to what is out of the arms' reach."""
+    values = body.keys(ground, style)
+    curves = body.curves(ground, style, values)
+    needed = leans(curves, hands, figure, pelvis)
+    if not needed.any():
+        return curves
+    values[1] += needed
+    return body.curves(ground, style, values)
 
 
 def leans(curves: Curves, hands: tuple[HandPart, HandPart], figure: Figure, pelvis: Point) -> Array:

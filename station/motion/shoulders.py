@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Limb
 from station.motion.arm import Arm, ArmLengths, Offsets, solve
-from station.motion.collisions import ALONG, depth
+from station.motion.collisions import depth_in_kit
 from station.motion.figure import Figure
 from station.motion.hand import HandPart
 from station.motion.kit import Kit
@@ -114,10 +114,7 @@ class _Scene:
     def _depth(self, part: HandPart, share: float) -> Array:
         """How deep the stick is in the kit, (n,)."""
         arm = self._arm(part, share)
-        butt, tip = np.stack(arm.butt, 1)[:, None], np.stack(arm.tip, 1)[:, None]
-        stick = butt + ALONG[:, None] * (tip - butt)
-        pieces = [p for p in self.kit.pieces.values() if p.kind != "kick"]
-        return np.asarray(np.max([depth(p, stick) for p in pieces], axis=0))
+        return depth_in_kit(self.kit, np.stack(arm.butt, 1), np.stack(arm.tip, 1))
 
 
 def _worst(stretch: NDArray[np.int64], value: Array, count: int) -> Array:

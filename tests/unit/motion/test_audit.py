@@ -59,6 +59,20 @@ def test_styles_change_nothing_of_that(lesson: str, style: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("lesson", "kit", "style"),
+    [
+        ("linear-fill-1", "seven_piece", "natural"),  # out from under the other stick, downwards
+        ("shuffle-fill-1", "four_piece", "jazz"),  # past the other stick with a lower stroke
+        ("bossa-fill-1", "seven_piece", "subdued"),  # clear in high strokes is not yet clear in low ones
+    ],
+)
+def test_hands_that_cross_in_fills_find_a_way(lesson: str, kit: str, style: str) -> None:
+    found = audit(drummer_of(lesson, kit, style), WITHIN_S)
+    assert found.hands_m.value <= 0.003, found.hands_m
+    assert found.kit_m.value <= 0.003, found.kit_m
+
+
+@pytest.mark.parametrize(
     "style",
     [Style(stand=1.0), Style(stand=0.5), Style(posture_deg=12.0), Style(posture_deg=-10.0), Style(wing_deg=20.0)],
     ids=["standing", "half up", "bent forward", "leaning back", "elbows out"],
