@@ -152,7 +152,7 @@ class Backdrop:
             self._back_to_the_view()
         began = perf_counter()
         target = self._target_for(painter, ctx, whole)
-        arrangement = Arrangement(self._inset, self.look.score, is_rough=self.camera != self._seen_from)
+        arrangement = Arrangement(self._inset, self.look.score, self.camera != self._seen_from, self.look.double)
         self._seen_from = self.camera
         painter.draw(snapshot, target.framebuffer, area, self.camera, arrangement=arrangement)
         target.show(screen)

@@ -33,7 +33,8 @@ Viewpoints = tuple[Camera | None, ...]
 class Look:
     """The view, whether left and right are swapped, what the `inset` shows, the score's form, the viewpoints kept.
 
-    `theme` is the colours, `scale` how many times as large as designed the panels are.
+    `theme` is the colours, `scale` how many times as large as designed the panels are, `double` whether the student's
+    double is shown.
     """
 
     view: View = View.SHOULDER
@@ -43,6 +44,7 @@ class Look:
     viewpoints: Viewpoints = (None,) * SLOTS
     theme: Theme = Theme.NIGHT
     scale: float = 1.0
+    double: bool = False
 
     def keeping(self, slot: int, camera: Camera) -> "Look":
         """With `camera` as the viewpoint `slot`, from 0."""
@@ -73,6 +75,7 @@ def look_of(settings: Settings) -> Look:
         _viewpoints(settings.viewpoints),
         Theme(_known("theme", settings.theme, list(Theme))),
         settings.panel_scale,
+        settings.double,
     )
 
 
@@ -86,6 +89,7 @@ def with_look(settings: Settings, look: Look) -> Settings:
         score=look.score.name.lower(),
         theme=str(look.theme),
         panel_scale=look.scale,
+        double=look.double,
         viewpoints=" ".join(f"{slot}={_text(c)}" for slot, c in enumerate(look.viewpoints, 1) if c is not None),
     )
 

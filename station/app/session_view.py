@@ -9,7 +9,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from station.app.student_double import StudentDouble
 from station.core.events import Hit
+from station.core.pieces import Limb
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.drills.mastery.fading import Feedback
 from station.engine.engine import KEYBOARD
@@ -77,6 +79,7 @@ class SessionView:
         self._marks = no_marks(plan.score)
         self._cue: Cue = Cue.NONE
         self._cue_ns = 0
+        self._double = StudentDouble()
 
     @property
     def style(self) -> Style:
@@ -92,7 +95,10 @@ class SessionView:
         if not verdicts:
             return
         self._marks = self._marks.copy()
+        limbs = self._passes.drummer(self._who.style).assignment.limbs
         for verdict in verdicts:
+            if verdict.note_index is not None:
+                self._double.parted(Limb(limbs[verdict.note_index]), cue_of(verdict, windows), now_ns)
             mark(self._marks, verdict, loudness=not _by_key(verdict, hits))
             cue = cue_of(verdict, windows)
             if cue is not Cue.NONE:
@@ -112,6 +118,10 @@ class SessionView:
         part = self._passes if state.transport_ns >= self.plan.demonstrations_end_ns else self._demonstration
         position_s = (state.transport_ns - part.start_ns) / NS_PER_S
         drummer = part.drummer(self._who.style)
+        double = None
+        if part is self._passes:
+            self._double.heard(session.heard.recent, drummer, position_s, now_ns)
+            double = self._double.double(drummer, position_s, now_ns)
         return Snapshot(
             score=part.score,
             position_s=position_s,
@@ -124,6 +134,7 @@ class SessionView:
             strikes=strikes(session.heard.recent, now_ns),
             hud=self._hud(session, now_ns, message or _why(session)),
             bar_numbers=self.bar_numbers,
+            double=double,
         )
 
     def _ready(self, message: str) -> Snapshot:

@@ -333,6 +333,8 @@ class Window:
             backdrop.look_from(backdrop.look.next_inset())
         elif imgui.is_key_pressed(imgui.Key.n, repeat=False):
             backdrop.look_from(backdrop.look.next_score())
+        elif imgui.is_key_pressed(imgui.Key.e, repeat=False):
+            backdrop.look_from(replace(backdrop.look, double=not backdrop.look.double))
 
     def _keep_viewpoint(self, slot: int) -> None:
         self.backdrop.keep(slot)

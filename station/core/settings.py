@@ -55,6 +55,8 @@ class Settings:
     `view`, `mirrored`, `inset` and `viewpoints` are where the window looks from, `score` how it shows the score,
     `theme` its colours (`app.look`), `panel_scale` how many times as large as designed its panels are,
     `welcomed` whether the questions of the first start were asked (`app.welcome`).
+    `theme` its colours (`app.look`), `panel_scale` how many times as large as designed its panels are; `double`
+    whether the student is shown as a second drummer.
     """
 
     student: str = "student"
@@ -88,6 +90,7 @@ class Settings:
     theme: str = "night"
     panel_scale: float = 1.0
     welcomed: bool = False
+    double: bool = False
 
     @property
     def threshold_of(self) -> dict[Piece, int]:

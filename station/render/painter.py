@@ -19,11 +19,11 @@ from station.render.camera import Camera, View, named
 from station.render.gl import Target, give_back
 from station.render.ink import SHAPE_DTYPE
 from station.render.ink_printer import InkPrinter, Sheet
-from station.render.palette import BRAND, GOOD, INK_FAINT, NIGHT, Theme, dyed, over_picture
+from station.render.palette import BRAND, EARLY, GOOD, INK_FAINT, LATE, MISSED, NIGHT, WRONG, Theme, dyed, over_picture
 from station.render.quality import QUALITIES, Quality
 from station.render.scene import Scene
 from station.render.score_view import Place, ScoreForm, ScoreView
-from station.render.snapshot import Hud, Snapshot, Strike
+from station.render.snapshot import Cue, Double, Hud, Snapshot, Strike
 from station.render.still import Still
 
 Area = tuple[int, int, int, int]
@@ -54,12 +54,14 @@ def inset_area(scene: Area) -> Area:
 class Arrangement:
     """What else a picture has: the camera of a second, small picture in its corner, and the score's form.
 
-    `is_rough`: the camera moves, so that at the lowest quality the room may be drawn more simply.
+    `is_rough`: the camera moves, so that at the lowest quality the room may be drawn more simply. `double`: the
+    student's double is shown where the snapshot has one.
     """
 
     inset: Camera | None = None
     form: ScoreForm = ScoreForm.SCROLLING
     is_rough: bool = False
+    double: bool = False
 
 
 class Painter:
@@ -95,7 +97,8 @@ class Painter:
         scene_area = (left, low + score_height, width, height - score_height)
         place = Place(0.0, float(height - score_height), float(width), float(score_height))
         scene = self._scene_of(snapshot)
-        scene.set(Frame(snapshot.pose, _glow(snapshot)))
+        double = snapshot.double if arrangement.double else None
+        scene.set(_frame(snapshot, double, self.theme))
         camera = camera or named(View.SHOULDER, snapshot.kit.left_handed)
 
         def lay(into: moderngl.Framebuffer, draw: Callable[[moderngl.Framebuffer, Camera, Area], None]) -> None:
@@ -103,9 +106,6 @@ class Painter:
             self._ctx.viewport = area
             if with_score:
                 self._score.draw_paper(place, (width, height))
-            self.printer.theme = over_picture(self.theme)
-            veil = (0.0, 0.0, float(width), hud.VEIL_HEIGHT * hud.scale(height - score_height))
-            self.printer.fill(veil, hud.VEIL, Sheet((width, height)))
 
         def lay_still(into: moderngl.Framebuffer) -> None:
             into.clear(*dyed(NIGHT, self.theme), depth=1.0)
@@ -124,6 +124,8 @@ class Painter:
             self.printer.theme = self.theme
             self._score.draw(snapshot, place, (width, height), arrangement.form)
         self.printer.theme = over_picture(self.theme)
+        veil = (0.0, 0.0, float(width), hud.VEIL_HEIGHT * hud.scale(height - score_height))
+        self.printer.fill(veil, hud.VEIL, Sheet((width, height)))
         self.printer.draw(self._words(snapshot.hud, (width, height - score_height)), Sheet((width, height)))
 
     def _words(self, words: Hud, size: tuple[int, int]) -> NDArray[np.void]:
@@ -177,6 +179,21 @@ class Painter:
 def _same(one: tuple[Kit, Figure], other: tuple[Kit, Figure]) -> bool:
     """Whether both are the very same, or alike in all that is drawn."""
     return (one[0] is other[0] and one[1] is other[1]) or one == other
+
+
+def _frame(snapshot: Snapshot, double: Double | None, theme: Theme) -> Frame:
+    """What of the snapshot moves or glows in the scene."""
+    if double is None:
+        return Frame(snapshot.pose, _glow(snapshot))
+    parted = {
+        limb: parting.strength * np.array(dyed(_PARTED[parting.cue], over_picture(theme))[:3])
+        for limb, parting in double.partings.items()
+    }
+    return Frame(snapshot.pose, _glow(snapshot), double.pose, parted)
+
+
+_PARTED = {Cue.EARLY: EARLY, Cue.LATE: LATE, Cue.MISSED: MISSED, Cue.WRONG_PIECE: WRONG}
+"""The colour of a limb of the student's double that parts from the demonstrator's: its judgement's in the score."""
 
 
 def _glow(snapshot: Snapshot) -> dict[Piece, Colour]:

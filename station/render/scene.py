@@ -136,7 +136,7 @@ class Scene:
         return parts if self.shows_figure else parts[1:]
 
     def _draw_double(self, target: moderngl.Framebuffer, camera: Camera, viewport: Viewport) -> None:
-        """Draw the student's double over all: first its depth alone, so that its outside alone is seen."""
+        """Draw the limbs and sticks of the student's double: first their depth, so that their outside alone is seen."""
         if self._frame.double is None:
             return
         skin, rigid = self._parts.ghost.skin, self._parts.ghost.rigid

@@ -3,6 +3,7 @@
 Every solid can be drawn in several ways, each a program of its own over the same corners.
 """
 
+from collections.abc import Collection
 from dataclasses import dataclass
 
 import moderngl
@@ -20,7 +21,7 @@ from station.render.materials import shader_table
 from station.render.mesh import Mesh
 from station.render.palette import GOOD
 from station.render.quality import Quality
-from station.render.skeleton import LIMB_BONES
+from station.render.skeleton import LIMB_BONES, Bone
 from station.render.solids import RIGID, RIGID_PLACES, SKIN, SKIN_PLACES, rigid_rows, skin_rows
 from station.render.space import gl_bytes, unit
 
@@ -33,7 +34,8 @@ _GROUND = (0.060, 0.045, 0.040)
 _GHOST_OPACITY = 0.42
 """How opaque the student's double is where one looks straight at it (our choice: the demonstrator shows through)."""
 ANISOTROPY = 8.0
-_ARM_BONES = [*LIMB_BONES[Limb.RIGHT_HAND], *LIMB_BONES[Limb.LEFT_HAND]]
+_LIMBS = frozenset(bone for bones in LIMB_BONES.values() for bone in bones)
+_BUT_ARMS = frozenset(Bone) - {*LIMB_BONES[Limb.RIGHT_HAND], *LIMB_BONES[Limb.LEFT_HAND]}
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +47,7 @@ class Pair:
 
 
 class SceneParts:
-    """`solid`, `quick`, `ghost`: kit and figure pixel by pixel, corner by corner, and as the student's double.
+    """`solid`, `quick`, `ghost`: kit and figure pixel by pixel, corner by corner, and the student's double's limbs.
 
     `glow` lays light over the kit; `floor`, `wall` are the room; `rigid_depth`, `skin_depth` and, without the arms,
     `resting_depth` cast shadows into `shadow_buffer`.
@@ -59,7 +61,10 @@ class SceneParts:
         fragment = shaders.solid_fragment(quality.level)
         self.solid = self._pair(shaders.RIGID_VERTEX, shaders.SKIN_VERTEX, fragment)
         self.quick = self._pair(quick_shaders.RIGID_QUICK, quick_shaders.SKIN_QUICK, quick_shaders.QUICK_FRAGMENT)
-        self.ghost = self._pair(quick_shaders.RIGID_GHOST, quick_shaders.SKIN_GHOST, quick_shaders.QUICK_FRAGMENT)
+        self.ghost = Pair(
+            self._rigid_part(quick_shaders.RIGID_GHOST, quick_shaders.QUICK_FRAGMENT),
+            self._skin_part(quick_shaders.SKIN_GHOST, quick_shaders.QUICK_FRAGMENT, self._limb_faces),
+        )
         self.glow = self._rigid_part(quick_shaders.RIGID_GLOW, quick_shaders.QUICK_FRAGMENT)
         self.floor = self._room_part(shaders.floor_fragment(quality.level), room.floor_mesh())
         self.wall = self._room_part(shaders.WALL_FRAGMENT, room.wall_mesh())
@@ -99,14 +104,16 @@ class SceneParts:
         places = [(self._skin_data[0], *SKIN_PLACES)]
         self.rigid_depth = ctx.vertex_array(rigid, [(self._rigid_data[0], *RIGID_PLACES)], self._rigid_data[1])
         self.skin_depth = ctx.vertex_array(skinned, places, self._skin_data[1])
-        self.resting_depth = ctx.vertex_array(skinned, places, ctx.buffer(skin.faces[_rests(skin)].tobytes()))
+        self.resting_depth = ctx.vertex_array(skinned, places, _some(ctx, skin, _BUT_ARMS))
+        self._limb_faces = _some(ctx, skin, _LIMBS)
         self.triangles = len(mesh.faces) + len(skin.faces)
 
     def _pair(self, rigid: str, skin: str, fragment: str) -> Pair:
-        corners, faces = self._skin_data
-        program = self._program(skin, fragment)
-        skinned = self._ctx.vertex_array(program, [(corners, *SKIN)], faces, skip_errors=True)
-        return Pair(self._rigid_part(rigid, fragment), skinned)
+        return Pair(self._rigid_part(rigid, fragment), self._skin_part(skin, fragment, self._skin_data[1]))
+
+    def _skin_part(self, vertex: str, fragment: str, faces: moderngl.Buffer) -> moderngl.VertexArray:
+        content = [(self._skin_data[0], *SKIN)]
+        return self._ctx.vertex_array(self._program(vertex, fragment), content, faces, skip_errors=True)
 
     def _rigid_part(self, vertex: str, fragment: str) -> moderngl.VertexArray:
         corners, faces = self._rigid_data
@@ -147,10 +154,10 @@ class SceneParts:
                 program[name] = unit_index
 
 
-def _rests(skin: Skin) -> NDArray[np.bool_]:
-    """Which faces belong to no arm: their shadow hardly moves."""
+def _some(ctx: moderngl.Context, skin: Skin, bones: Collection[Bone]) -> moderngl.Buffer:
+    """The faces that hang on some bones above all."""
     strongest: NDArray[np.uint8] = skin.bones[:, 0]
-    return ~np.isin(strongest[skin.faces[:, 0]], _ARM_BONES)
+    return ctx.buffer(skin.faces[np.isin(strongest[skin.faces[:, 0]], list(bones))].tobytes())
 
 
 def write(program: moderngl.Program, name: str, data: bytes) -> None:

@@ -4,13 +4,14 @@ The practice session fills snapshots; the window and the off-screen picture draw
 from the score's tick 0; asynchronies are played − written, negative is early.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import IntEnum
 
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Piece
+from station.core.pieces import Limb, Piece
 from station.motion.figure import Figure
 from station.motion.kit import Kit
 from station.motion.pose import Pose
@@ -44,6 +45,22 @@ class Strike:
     velocity: int
     age_s: float
     student: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Parting:
+    """How a limb of the student parted from the demonstrator's; `strength` falls from 1 to 0 as it fades."""
+
+    cue: Cue
+    strength: float
+
+
+@dataclass(frozen=True, eq=False)
+class Double:
+    """The student as a second, translucent drummer, and the limbs that glow for they part from the demonstrator's."""
+
+    pose: Pose
+    partings: Mapping[Limb, Parting] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,6 +147,7 @@ class Snapshot:
     `position_s` is the score's time at the play line, negative in a count-in. `marks` (n,) of `MARK_DTYPE` belongs to
     the rows of `score`; nobody writes to it after it was put here. `limbs` (n,) of `Limb` shows the sticking, None what
     the score says. `pose` None draws the kit alone. Where there is a `strip`, it stands in place of the score.
+    `double` is the student beside the demonstrator, for those who want to see it.
     """
 
     score: Score
@@ -144,3 +162,4 @@ class Snapshot:
     hud: Hud = field(default_factory=Hud)
     bar_numbers: BarNumbers = BarNumbers()
     strip: Strip | None = None
+    double: Double | None = None

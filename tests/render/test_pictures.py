@@ -19,14 +19,15 @@ from station.motion.pose import RIGHT
 from station.music.judgement import Label
 from station.music.score import Note
 from station.render.camera import Camera, View, named
-from station.render.painter import SCORE_SHARE
+from station.render.gl import Target, standalone_context
+from station.render.painter import SCORE_SHARE, Arrangement, Painter
 from station.render.palette import BRAND, MISSED
 from station.render.picture import PictureMaker, Shot, draw_png
-from station.render.quality import QUALITIES
+from station.render.quality import QUALITIES, Quality
 from station.render.report_picture import draw_report_png
 from station.render.results import Words, result_facts
 from station.render.score_view import AFTER_S, BEFORE_S, Place
-from station.render.snapshot import Cue, Hud, Snapshot, Strike, no_marks
+from station.render.snapshot import Cue, Double, Hud, Parting, Snapshot, Strike, no_marks
 from station.render.staff import PLACES, height
 from tests.unit.render.scores import rock, score_of
 from tests.unit.render.test_png import decode
@@ -115,6 +116,36 @@ def test_a_missing_piece_s_stroke_glows_on_its_stand_in(draw: Draw) -> None:
     still = replace(at(-2.0), pose=None)
     lit = replace(still, strikes=(Strike(Piece.SPLASH, 110, 0.0),))
     assert not np.array_equal(draw(still), draw(lit))
+
+
+@pytest.mark.parametrize("quality", QUALITIES[:2])
+def test_the_student_s_double_is_seen_where_his_limbs_are_and_glows_where_they_part(quality: Quality) -> None:
+    """His right arm is where the demonstrator's was a moment ago; missed, it has the colour of a miss."""
+    camera, area = named(View.SHOULDER), (0, 0, *SIZE)
+    away = DRUMMER.pose(0.63)
+    ctx = standalone_context()
+    with ctx:
+        painter, target = Painter(ctx, quality), Target(ctx, SIZE, quality.samples)
+
+        def drawn(double: Double | None, shown: bool) -> Picture:
+            arrangement = Arrangement(double=shown)
+            painter.draw(at(0.75, double=double), target.framebuffer, area, camera, arrangement=arrangement)
+            return target.read()
+
+        parted = Double(away, {Limb.RIGHT_HAND: Parting(Cue.MISSED, 1.0)})
+        alone, hidden, seen, red = (
+            drawn(None, True),
+            drawn(parted, False),
+            drawn(Double(away), True),
+            drawn(parted, True),
+        )
+    assert np.array_equal(alone, hidden), "only for those who want to see it"
+    elbow, head = (pixel_of(away.joints_m[joint], camera) for joint in (Joint.RIGHT_ELBOW, Joint.HEAD))
+    assert differs(alone, seen, elbow, 2)
+    assert not differs(alone, seen, head, 1), "the trunk is the demonstrator's"
+    expected = np.array(MISSED[:3])
+    reds = [float(picture[elbow].astype(float) @ expected / np.linalg.norm(picture[elbow])) for picture in (seen, red)]
+    assert reds[1] > 0.95 * np.linalg.norm(expected) > reds[0]
 
 
 # --- the score --------------------------------------------------------------------------------------------------------

@@ -13,6 +13,7 @@ from station.render.score_view import ScoreForm
 
 LOOK_LABEL = "Look##look"
 POPUP = "##look-popup"
+DOUBLE_LABEL = "Your double"
 _NO_INSET = "None"
 _FORMS = {
     ScoreForm.SCROLLING: ("Scrolling", "The notes pass a line that stands still"),
@@ -55,6 +56,9 @@ def look_popup(look: Look, actions: LookActions) -> Look:
         theme.tooltip(f"{words} (N)")
         imgui.same_line()
     imgui.new_line()
+    _, double = imgui.checkbox(DOUBLE_LABEL, look.double)
+    theme.tooltip("You, translucent, over the demonstrator: a limb glows where it parts from his (E)")
+    look = replace(look, double=bool(double))
     theme.soft("Your own viewpoints")
     _slots(look, actions)
     look = _worn(look)

@@ -27,10 +27,10 @@ def test_a_look_comes_back_from_the_settings_file(tmp_path: Path) -> None:
 
 
 def test_colours_and_size_come_back_too(tmp_path: Path) -> None:
-    look = replace(Look(), theme=Theme.APART).scaled(3)
+    look = replace(Look(), theme=Theme.APART, double=True).scaled(3)
     path = save_settings(with_look(Settings(), look), tmp_path / "settings.toml")
     found = look_of(load_settings(path))
-    assert (found.theme, found.scale) == (Theme.APART, 1.75)
+    assert (found.theme, found.scale, found.double) == (Theme.APART, 1.75, True)
 
 
 def test_panels_grow_and_shrink_by_quarters_and_have_their_limits() -> None:
