@@ -53,10 +53,9 @@ class Settings:
     `style` names how the demonstrator moves, a shipped style or a style file, and `hands` whose hand leads: `right`,
     `left`, `open`, empty for as a lesson's kit is built (`practice.lead`).
     `view`, `mirrored`, `inset` and `viewpoints` are where the window looks from, `score` how it shows the score,
-    `theme` its colours (`app.look`), `panel_scale` how many times as large as designed its panels are,
-    `welcomed` whether the questions of the first start were asked (`app.welcome`).
-    `theme` its colours (`app.look`), `panel_scale` how many times as large as designed its panels are; `double`
-    whether the student is shown as a second drummer.
+    `theme` its colours (`app.look`), `panel_scale` how many times as large as designed its panels are, `double` whether
+    the student is shown as a second drummer, `welcomed` whether the questions of the first start were asked
+    (`app.welcome`).
     """
 
     student: str = "student"
