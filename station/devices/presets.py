@@ -1,10 +1,11 @@
 """Which note number and controller of a drum module means what: one table a module, and General MIDI for the rest.
 
 Only modules with a map that its maker or several independent users published are here; another kit starts from General
-MIDI, and its owner teaches the station the rest. Each table lists what differs from its base.
+MIDI, and its owner teaches the station the rest. Each table lists what differs from its base. Of two Roland modules
+only the pedal's way is known; their notes are General MIDI's until their owner says otherwise.
 
-Sources: Roland TD-17 default factory MIDI note map (TD-11 and TD-27 send the same numbers), Roland VQD106 MIDI
-implementation, Alesis Nitro and Nitro Max user guides, Alesis Crimson II user guide, Yamaha DTX502 and DTXplorer
+Sources: Roland TD-17 default factory MIDI note map (TD-11 and TD-27 send the same numbers), Roland VQD106 and TD-07
+(the pedal), Alesis Nitro and Nitro Max user guides, Alesis Crimson II user guide, Yamaha DTX502 and DTXplorer
 owner's manuals (MIDI data format), Alesis DM10 MkII user guide, edrumulus.ino of corrados/edrumulus; the Groove MIDI
 Dataset (a TD-11) for the pieces of the position controllers, which its implementation leaves to the owner.
 """
@@ -22,23 +23,18 @@ _HALF_OPEN = 0.5
 _SHUT = 0.0
 _OPEN = 1.0
 
-_FOUR_TOM_RIMS = {
-    39: Strike(Piece.FLOOR_TOM_2, Zone.RIM),
-    41: Strike(Piece.FLOOR_TOM_2),
-}
-
 _ROLAND: KitMap = MappingProxyType(
     {**V_DRUMS, 27: Strike(Piece.PERCUSSION, Zone.HEAD), 28: Strike(Piece.PERCUSSION, Zone.RIM)}
 )
 
 _ALESIS_NITRO: KitMap = MappingProxyType(
     {
-        **V_DRUMS,
-        **_FOUR_TOM_RIMS,
+        **GENERAL_MIDI,
+        **{number: V_DRUMS[number] for number in (48, 50, 45, 47, 43, 58)},  # three toms and their rims
+        41: Strike(Piece.FLOOR_TOM_2),
+        39: Strike(Piece.FLOOR_TOM_2, Zone.RIM),
         21: Strike(Piece.HIHAT_PEDAL, Zone.PEDAL, Articulation.SPLASH, _OPEN),
         23: Strike(Piece.HIHAT, Zone.BOW, openness=_HALF_OPEN),
-        49: Strike(Piece.CRASH_1, Zone.EDGE),
-        57: Strike(Piece.CRASH_2, Zone.EDGE),
     }
 )
 
@@ -83,6 +79,8 @@ _YAMAHA_DTX502: KitMap = MappingProxyType(
         79: Strike(Piece.HIHAT, Zone.EDGE, openness=_SHUT),
         86: Strike(Piece.HIHAT, Zone.BELL, openness=_SHUT),
         83: Strike(Piece.HIHAT_PEDAL, Zone.PEDAL, Articulation.SPLASH, _OPEN),
+        15: Strike(Piece.PERCUSSION),  # 15 and 16, beside 56 and 57: pads that their owner adds
+        16: Strike(Piece.PERCUSSION),
     }
 )
 
@@ -109,6 +107,8 @@ _EDRUMULUS: KitMap = MappingProxyType({**V_DRUMS, 66: Strike(Piece.RIDE, Zone.ED
 
 _UP_TO_90 = PedalRange(wide_open=0, shut=90)
 """The TD-11 too: whoever plays its closed notes in the Groove MIDI Dataset has the pedal at 90."""
+_UP_TO_100 = PedalRange(wide_open=0, shut=100)
+"""From 100 on edrumulus sends the notes of the closed hi-hat."""
 _THREE_PLACES = PedalRange(steps=(0, 56, 127))
 """A DTXplorer's pedal may be an on-off one, or one with a middle."""
 
@@ -124,13 +124,14 @@ _TABLE = (
     KitPreset("roland-td-11", "Roland TD-11", V_DRUMS, ("td-11",), _UP_TO_90, position_controllers=_TD11_POSITIONS),
     KitPreset("roland-td-17", "Roland TD-17", _ROLAND, ("td-17",)),
     KitPreset("roland-td-27", "Roland TD-27", _ROLAND, ("td-27",), position_controllers=_SNARE_POSITION),
-    KitPreset("roland-vqd106", "Roland VQD106", V_DRUMS, ("vqd106",), _UP_TO_90),
+    KitPreset("roland-td-07", "Roland TD-07 (pedal only)", GENERAL_MIDI, ("td-07",), _UP_TO_90),
+    KitPreset("roland-vqd106", "Roland VQD106 (pedal only)", GENERAL_MIDI, ("vqd106",), _UP_TO_90),
     KitPreset("alesis-nitro", "Alesis Nitro, Nitro Mesh, Nitro Max", _ALESIS_NITRO, ("nitro",), None),
     KitPreset("alesis-crimson-2", "Alesis Crimson II", _ALESIS_CRIMSON, ("crimson",)),
     KitPreset("alesis-dm10", "Alesis DM10 MkII", _ALESIS_DM10, ("dm10",)),
     KitPreset("yamaha-dtx502", "Yamaha DTX502", _YAMAHA_DTX502, ("dtx502",)),
     KitPreset("yamaha-dtxplorer", "Yamaha DTXplorer", _YAMAHA_DTXPLORER, ("dtxplorer",), _THREE_PLACES),
-    KitPreset("edrumulus", "edrumulus", _EDRUMULUS, ("edrumulus",), position_controllers=_SNARE_POSITION),
+    KitPreset("edrumulus", "edrumulus", _EDRUMULUS, ("edrumulus",), _UP_TO_100, position_controllers=_SNARE_POSITION),
 )
 
 PRESETS: Mapping[str, KitPreset] = MappingProxyType({preset.name: preset for preset in _TABLE})

@@ -66,6 +66,13 @@ def test_a_stable_name_lacks_what_replugging_changes(port: str, name: str) -> No
         ("alesis-dm10", 46, Piece.HIHAT, Zone.BOW),
         ("edrumulus", 22, Piece.HIHAT, Zone.EDGE),
         ("edrumulus", 55, Piece.CRASH_1, Zone.EDGE),
+        ("edrumulus", 66, Piece.RIDE, Zone.EDGE),
+        ("alesis-nitro", 50, Piece.TOM_1, Zone.RIM),
+        ("alesis-nitro", 58, Piece.FLOOR_TOM_1, Zone.RIM),
+        ("alesis-nitro", 49, Piece.CRASH_1, Zone.EDGE),
+        ("alesis-nitro", 55, Piece.SPLASH, Zone.EDGE),  # no guide says otherwise: General MIDI
+        ("yamaha-dtx502", 16, Piece.PERCUSSION, Zone.HEAD),
+        ("roland-vqd106", 48, Piece.TOM_2, Zone.HEAD),  # General MIDI: no map of it was found
     ],
 )
 def test_the_tables_say_what_the_manuals_say(preset: str, note: int, piece: Piece, zone: Zone) -> None:
@@ -108,6 +115,8 @@ def test_the_words_of_a_port_lead_to_one_preset_alone() -> None:
         ("roland-td-17", {0: 1.0, 127: 0.0}),
         ("roland-td-11", {0: 1.0, 45: 0.5, 90: 0.0, 120: 0.0}),
         ("roland-vqd106", {0: 1.0, 90: 0.0}),
+        ("roland-td-07", {0: 1.0, 90: 0.0}),
+        ("edrumulus", {0: 1.0, 50: 0.5, 100: 0.0, 127: 0.0}),
         ("yamaha-dtxplorer", {0: 1.0, 54: 0.5, 58: 0.5, 127: 0.0}),
     ],
 )
