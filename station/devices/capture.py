@@ -110,8 +110,13 @@ def read_capture(path: Path) -> Capture:
 
 
 def parse_capture(data: bytes, source: str | Path = "capture") -> Capture:
-    """The capture in `data`, up to the first fault; raises `BadInput` where it does not even begin as one."""
+    """The capture in `data`, up to the first fault; raises `BadInput` where it does not even begin as one.
+
+    What was cut within its first eight bytes, even before the first, is a capture with nothing in it.
+    """
     if not data.startswith(MAGIC):
+        if MAGIC.startswith(data):
+            return Capture((), 0, len(data), zlib.crc32(MAGIC))
         raise BadInput(source, "byte 0", "no capture of a drum kit: it does not begin with DRUMCAP1")
     records: list[Record] = []
     check = zlib.crc32(MAGIC)

@@ -73,16 +73,14 @@ class CaptureFile:
             self._pending.append(MAGIC)
             return None
         try:
-            data = self.path.read_bytes()
-            is_new = MAGIC.startswith(data)  # empty, or cut short within the first eight bytes
-            good_bytes, check = (0, None) if is_new else _sound_part(data, self.path)
-            os.ftruncate(self._file, good_bytes)
-            os.lseek(self._file, good_bytes, os.SEEK_SET)
+            sound = parse_capture(self.path.read_bytes(), self.path)
+            os.ftruncate(self._file, sound.good_bytes)
+            os.lseek(self._file, sound.good_bytes, os.SEEK_SET)
         except OSError as fault:
             raise DeviceError(f"{self.path}: cannot be continued: {fault.strerror or fault}") from fault
-        if is_new:
+        if not sound.good_bytes:  # empty, or cut short within the first eight bytes
             self._pending.append(MAGIC)
-        return check
+        return sound.check
 
     @property
     def fault(self) -> str | None:
@@ -128,8 +126,3 @@ class CaptureFile:
             return False
         self._fault = None
         return True
-
-
-def _sound_part(data: bytes, path: Path) -> tuple[int, int]:
-    capture = parse_capture(data, path)
-    return capture.good_bytes, capture.check

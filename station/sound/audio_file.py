@@ -22,6 +22,10 @@ from station.sound.drum_kit import Frames
 MIN_RATE_HZ, MAX_RATE_HZ = 4_000, 768_000
 """Beyond these a file's rate is a mistake (our choice: telephone sound halved, the highest converters)."""
 MAX_CHANNELS = 64
+LOUDEST = 16.0
+"""Floating-point files may exceed full scale; by more than a kit's levels are ever lowered (24 dB) it is a mistake."""
+_PIECE_FRAMES = 65_536
+"""What is read at once: a file of many channels is never in memory as a whole."""
 ENDINGS = frozenset({".wav", ".flac", ".ogg", ".oga", ".opus", ".mp3", ".aif", ".aiff", ".au", ".w64", ".caf"})
 """The endings, in small letters, that count as sound files where a folder is searched."""
 
@@ -46,13 +50,21 @@ def read_audio(source: Path | bytes, name: str, rate_hz: float, max_s: float, pi
     Returns float32 (n, 2), n ≥ 1. Raises `BadInput` for what is no sound, is empty, or holds numbers that are none.
     """
     with opened(source, name) as file:
-        raw = file.read(min(file.frames, round(max_s * file.samplerate)), dtype="float32", always_2d=True)
+        left = min(file.frames, round(max_s * file.samplerate))
+        pieces = [_checked(piece, name) for piece in file.blocks(_PIECE_FRAMES, 0, left, "float32", always_2d=True)]
         from_hz = file.samplerate * 2.0 ** (pitch / 12.0)
-    if not len(raw):
+    if not pieces:
         raise BadInput(name, "", "holds no sound")
+    return resampled(np.concatenate(pieces), from_hz, rate_hz)
+
+
+def _checked(raw: NDArray[np.float32], name: str) -> Frames:
     if not np.isfinite(raw).all():
         raise BadInput(name, "", "holds numbers that are no sound (infinite, or none at all)")
-    return resampled(to_stereo(raw), from_hz, rate_hz)
+    loudest = float(np.abs(raw).max(initial=0.0))
+    if loudest > LOUDEST:
+        raise BadInput(name, "", f"holds numbers up to {loudest:g}, and full scale is 1: no sound")
+    return to_stereo(raw)
 
 
 def to_stereo(raw: NDArray[np.float32]) -> Frames:

@@ -9,9 +9,7 @@ Level: music is mastered up to full scale, a drum kit is not; a track is set to 
 """
 
 import hashlib
-import secrets
 from concurrent.futures import Future, ProcessPoolExecutor
-from contextlib import suppress
 from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
@@ -20,6 +18,7 @@ import numpy as np
 from platformdirs import user_cache_path
 
 from station.core.errors import BadInput, DeviceError
+from station.core.files import write_whole
 from station.core.settings import APP_NAME
 from station.sound.audio_file import opened, read_audio
 from station.sound.drum_kit import Frames
@@ -73,7 +72,7 @@ def prepare(wish: TrackWish, folder: Path | None = None) -> PreparedTrack:
     home = folder or tracks_folder()
     file = home / f"{_digest(wish)}{_ENDING}"
     if not file.exists():
-        _write(file, pcm_of(stretched(_read(wish), wish.rate_hz, wish.speed)))
+        write_whole(file, pcm_of(stretched(_read(wish), wish.rate_hz, wish.speed)).tobytes())
         _forget_oldest(home)
     scale = wish.rate_hz / wish.speed
     frames = file.stat().st_size // 4
@@ -132,19 +131,6 @@ def _digest(wish: TrackWish) -> str:
     stat = wish.path.stat()
     facts = (str(wish.path.resolve()), stat.st_size, stat.st_mtime_ns, wish.rate_hz, wish.speed, TRACK_DB)
     return hashlib.sha256(repr(facts).encode()).hexdigest()[:24]
-
-
-def _write(file: Path, pcm: Pcm) -> None:
-    part = file.with_name(f".{secrets.token_hex(8)}.part")
-    try:
-        file.parent.mkdir(parents=True, exist_ok=True)
-        pcm.tofile(part)
-        part.replace(file)
-    except OSError as fault:
-        raise DeviceError(f"{file}: the play-along track cannot be kept: {fault.strerror or fault}") from fault
-    finally:
-        with suppress(OSError):
-            part.unlink(missing_ok=True)
 
 
 def _forget_oldest(folder: Path) -> None:

@@ -18,7 +18,7 @@ from station.sound.kits.folder import TABLE_NAME, folder_kit
 from station.sound.kits.hydrogen import ARCHIVE_ENDING, KIT_FILE, hydrogen_archive, hydrogen_folder
 
 DEFAULT_KIT = KIT_NAME
-MIN_RATE_HZ, MAX_RATE_HZ = 8_000, 192_000
+MIN_RATE_HZ, MAX_RATE_HZ = 8_000, 384_000
 
 
 def kits_folder() -> Path:
@@ -40,7 +40,7 @@ def load_kit(name_or_path: str = DEFAULT_KIT, rate_hz: int = 48_000, folder: Pat
         return cached_kit(name_or_path, rate_hz)
     home = folder or kits_folder()
     for path in (home / name_or_path, home / f"{name_or_path}{ARCHIVE_ENDING}", Path(name_or_path)):
-        if path.exists():
+        if name_or_path and _exists(path):
             return read_kit(path, rate_hz)
     names = kit_names(folder)
     near = get_close_matches(name_or_path, names) or names
@@ -56,6 +56,13 @@ def read_kit(path: Path, rate_hz: int) -> DrumKit:
     if path.suffix.lower() == ARCHIVE_ENDING:
         return hydrogen_archive(path, rate_hz)
     raise BadInput(path, "", f"is no drum kit: expected a folder of sound files or a {ARCHIVE_ENDING}")
+
+
+def _exists(path: Path) -> bool:
+    try:
+        return path.exists()
+    except OSError:  # no name that a file can have
+        return False
 
 
 def _is_kit(path: Path) -> bool:

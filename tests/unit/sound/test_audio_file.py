@@ -72,3 +72,33 @@ def test_a_header_that_promises_hours_takes_no_memory_for_them() -> None:
     data = bytearray(steady(0.1, 0.01))
     data[40:44] = (0xFFFFFF00).to_bytes(4, "little")  # the length of the data chunk: 4 GB
     assert len(read_audio(bytes(data), "liar", 48_000, 12.0)) <= 12 * 48_000
+
+
+@pytest.mark.parametrize("peak", [17.0, 32_768.0, 1e38])
+def test_floats_far_over_full_scale_are_refused(tmp_path: Path, peak: float) -> None:
+    """Whole numbers that somebody called floats, or rubbish: they would sound as a burst."""
+    path = tmp_path / "loud.wav"
+    soundfile.write(path, np.array([[0.1], [peak]]), 48_000, subtype="FLOAT")
+    with pytest.raises(BadInput, match="full scale is 1"):
+        read_audio(path, "loud.wav", 48_000, 1.0)
+
+
+def test_a_long_file_is_read_whole_piece_by_piece(tmp_path: Path) -> None:
+    path, ramp = tmp_path / "ramp.wav", np.linspace(-1.0, 1.0, 150_001)
+    soundfile.write(path, ramp, 48_000, subtype="FLOAT")
+    frames = read_audio(path, "ramp.wav", 48_000, 10.0)
+    assert np.array_equal(frames[:, 0], ramp.astype(np.float32))
+
+
+@pytest.mark.parametrize("ending", ["flac", "ogg", "mp3"])
+def test_a_file_cut_anywhere_is_read_up_to_there_or_refused(tmp_path: Path, ending: str) -> None:
+    path = tmp_path / f"cut.{ending}"
+    soundfile.write(path, 0.3 * np.sin(np.arange(40_000) / 9.0), 48_000)
+    data = path.read_bytes()
+    for length in range(0, len(data), len(data) // 23):
+        try:
+            frames = read_audio(data[:length], "cut", 48_000, 2.0)
+        except BadInput:
+            continue
+        assert 1 <= len(frames) <= 50_000
+        assert np.abs(frames).max() < 1.0

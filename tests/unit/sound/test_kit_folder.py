@@ -172,3 +172,9 @@ def test_kits_have_names_in_the_users_folder(tmp_path: Path) -> None:
     assert load_kit("Shed", RATE_HZ, tmp_path).name == "Shed"
     with pytest.raises(BadInput, match="Shad: no such drum kit; there are Shed"):
         load_kit("Shad", RATE_HZ, tmp_path)
+
+
+@pytest.mark.parametrize("name", ["", "a" * 5_000, "a\0b", "../none"])
+def test_a_name_that_no_kit_can_have_is_one_line(tmp_path: Path, name: str) -> None:
+    with pytest.raises(BadInput, match="no such drum kit"):
+        load_kit(name, RATE_HZ, tmp_path)

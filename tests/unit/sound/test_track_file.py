@@ -109,7 +109,7 @@ def test_what_is_no_music_is_refused_by_name(tmp_path: Path) -> None:
 
 def test_a_disk_that_refuses_is_told(tmp_path: Path) -> None:
     (tmp_path / "file").write_bytes(b"")
-    with pytest.raises(DeviceError, match="cannot be kept"):
+    with pytest.raises(DeviceError, match="folder"):
         prepare(TrackWish(file_of(tmp_path), RATE_HZ), tmp_path / "file" / "folder")
 
 
