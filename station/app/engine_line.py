@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound, DeviceLost
-from station.engine.messages import Command, EngineEvent, Ready, Sounding
+from station.engine.messages import Command, EngineEvent, Ready, SetLevel, Sounding
 from station.practice.live import EngineLink
 
 WakeEngine = Callable[[], EngineLink]
@@ -24,7 +24,7 @@ class EngineLine:
         self.alive = True
         self.sound = "the engine is waking"
         self._kits: list[str] = []
-        self._standing: list[Command] = []
+        self._standing: dict[object, Command] = {}
 
     @property
     def kits(self) -> str:
@@ -35,12 +35,12 @@ class EngineLine:
         """Have an engine: another one where the last has died. Raises `DeviceError`."""
         if not self.alive:
             self._engine, self.alive = self._wake(), True
-            for command in self._standing:
+            for command in self._standing.values():
                 self.send(command)
 
     def stand(self, command: Command) -> None:
         """What this engine and every later one is told; a dead engine is told when it has been woken."""
-        self._standing.append(command)
+        self._standing[command.bus if isinstance(command, SetLevel) else type(command)] = command
         if self.alive:
             self.send(command)
 

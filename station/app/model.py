@@ -11,6 +11,7 @@ from typing import Protocol
 
 from station.app.deck import Deck
 from station.app.heat_map import HeatMap
+from station.app.kit_desk import KitDesk
 from station.app.session_view import Demonstrator
 from station.app.welcome import Answers
 from station.engine.messages import KeyHit
@@ -214,6 +215,11 @@ class PracticeModel(Protocol):
 
     def meet(self, answers: Answers) -> None:
         """Who plays, what is heard and whose hand leads, from now on; raises `StationError`."""
+        ...
+
+    @property
+    def desk(self) -> KitDesk:
+        """The kits that are here, as the devices page shows and sets them."""
         ...
 
     def dismiss(self) -> None:

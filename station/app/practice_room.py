@@ -13,6 +13,7 @@ from station.app.deck import Deck, Watched
 from station.app.engine_line import EngineLine, WakeEngine
 from station.app.heat_map import heat_map
 from station.app.just_play import JustPlay
+from station.app.kit_desk import KitDesk
 from station.app.lesson_cards import all_lessons, card, wish_of
 from station.app.model import FreeWish, LessonCard, PlaceNow, Report, RoomState, Stage, Start
 from station.app.results import session_facts
@@ -27,7 +28,7 @@ from station.core.settings import Settings
 from station.core.units import NS_PER_S
 from station.drills.lesson import Lesson
 from station.drills.library import find_lesson
-from station.engine.messages import Command, EngineEvent, KeyHit, Play, SetBacking, Started
+from station.engine.messages import Command, Eavesdrop, EngineEvent, KeyHit, Play, SetBacking, Started
 from station.motion.hand_notes import Hands
 from station.motion.style import Style
 from station.motion.style_file import load_style
@@ -91,6 +92,7 @@ class PracticeRoom:
         self._is_asking = False
         self._stage = Stage.IDLE
         self._free = JustPlay(settings, self._latency)
+        self.desk = KitDesk(self._tell_engine)
         self._is_free = False
         self._listening: Listening | None = None
         self._pads = PadCommands(settings, first.score)
@@ -105,7 +107,9 @@ class PracticeRoom:
     def snapshot(self, now_ns: int) -> Snapshot:
         """Take in what has happened, then the picture at `now_ns`."""
         for event in self._heard():
+            self.desk.take(event)
             self._take(event, now_ns)
+        self.desk.advance(now_ns)
         if self._listening is not None and self._listening.is_over(now_ns):
             self._listening = None
         if self._is_free:
@@ -245,6 +249,13 @@ class PracticeRoom:
     def lead_with(self, hands: Hands) -> None:
         """Let another hand lead from the next preview or session on."""
         self._settings = replace(self._settings, hands=hands.value)
+
+    def _tell_engine(self, command: Command) -> None:
+        """For this engine, and where it asks for something lasting, for every later one."""
+        if isinstance(command, Eavesdrop):
+            self._engine.stand(command)
+        else:
+            self._engine.send(command)
 
     def meet(self, answers: Answers) -> None:
         """Who plays, what is heard and whose hand leads, from now on; raises `DeviceError` for a dead engine."""

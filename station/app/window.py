@@ -19,6 +19,9 @@ from station.app.keyboard import pressed, slot_pressed, view_pressed
 from station.app.look import look_of, with_look
 from station.app.model import PracticeModel, Stage
 from station.app.panels.bars import heat_panel
+from station.app.panels.devices import ABOUT as DEVICES_ABOUT
+from station.app.panels.devices import DEVICES, DevicesPanel
+from station.app.panels.devices import HELP as DEVICES_HELP
 from station.app.panels.figure import ABOUT, FIGURE, FigurePanel
 from station.app.panels.help import help_window
 from station.app.panels.lessons import LessonActions, LessonsPanel
@@ -93,6 +96,7 @@ class Window:
         self._show_help = False
         self._frame_ms = 0.0
         self.frames = 0
+        self._devices = DevicesPanel(model.desk, self._tried, self._tell)
         self.figure = FigurePanel(model, options.settings, self._tried, self._preview_anew)
         self._pages = self._table_of_pages()
         self.params = self._runner()
@@ -169,6 +173,7 @@ class Window:
             Page(LESSONS, Side.BESIDE, self._lessons_gui, shown=lambda stage: stage is Stage.IDLE),
             Page(BARS, Side.BESIDE, self._bars_gui, shown=self._has_bars),
             Page(FIGURE, Side.RIGHT, self.figure.gui, ABOUT),
+            Page(DEVICES, Side.RIGHT, self._devices.gui, DEVICES_ABOUT, help=DEVICES_HELP),
             Page(TRANSPORT, Side.BELOW, self._transport_gui, shown=lambda stage: True),
         )
 
@@ -185,6 +190,7 @@ class Window:
             if page.shown is not None:
                 docking.dockable_window_of_name(page.name).is_visible = self.welcome is None and page.shown(stage)
         self.params.fps_idling.enable_idling = stage is not Stage.PLAYING and not self._model.room().listening
+        self._model.desk.listen(docking.dockable_window_of_name(DEVICES).is_visible)
         io = imgui.get_io()
         nav = imgui.ConfigFlags_.nav_enable_keyboard
         io.config_flags = io.config_flags & ~nav if stage is Stage.PLAYING else io.config_flags | nav

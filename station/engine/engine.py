@@ -25,9 +25,11 @@ from station.devices.decoders import DecoderBank
 from station.devices.kit import KitPreset
 from station.engine.messages import (
     Command,
+    Eavesdrop,
     EngineEvent,
     KeyHit,
     Notice,
+    Overheard,
     Play,
     Quit,
     Record,
@@ -39,6 +41,7 @@ from station.engine.messages import (
     Started,
     Status,
     Stop,
+    TakeKit,
 )
 from station.engine.midi_player import MidiPlayer, MidiSink
 from station.engine.playback import CueRun
@@ -99,6 +102,7 @@ class Engine:
         self._midi_fault: DeviceError | None = None
         self._decoders = DecoderBank()
         self._devices: list[str] = []
+        self._eavesdrops = False
         self._recorder: Recorder | None = None
         self._capture_fault: str | None = None
         self._zero_ns: int | None = None
@@ -122,6 +126,8 @@ class Engine:
             if overtaken_ns is not None:
                 self._recorder.settled(device, overtaken_ns)
             self._recorder.bytes_came(device, data, at_ns)
+        if self._eavesdrops:
+            self._events.append(Overheard(at_ns, device, data))
         heard = self._decoders.feed(device, data, at_ns)
         for event in heard.sounding:
             self._sound(event)
@@ -185,18 +191,27 @@ class Engine:
                 self._player.stop()
                 if self._midi is not None:
                     self._midi.stop()
+            case SetLevel() | SetBacking() | SetMidiOut():
+                self._set(command)
+            case KeyHit():
+                self._take_key(command)
+            case Record():
+                self._record(command.path)
+            case Eavesdrop(on):
+                self._eavesdrops = on
+            case TakeKit(device):
+                self._take_own_kit(device)
+            case Quit():
+                self.quitting = True
+
+    def _set(self, command: SetLevel | SetBacking | SetMidiOut) -> None:
+        match command:
             case SetLevel():
                 self._player.set_level(command.bus, command.level, command.pan)
             case SetBacking():
                 self._set_backing(command)
             case SetMidiOut():
                 self._set_midi_out(command.port)
-            case KeyHit():
-                self._take_key(command)
-            case Record():
-                self._record(command.path)
-            case Quit():
-                self.quitting = True
 
     def _set_midi_out(self, port: str | None) -> None:
         if self._midi is not None:

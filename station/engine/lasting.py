@@ -22,6 +22,7 @@ from station.engine.config import EngineConfig, Prepare
 from station.engine.messages import (
     Bus,
     Command,
+    Eavesdrop,
     EngineEvent,
     Notice,
     Play,
@@ -210,7 +211,7 @@ class _Standing:
                 self._play = None
             case SetLevel():
                 self._levels[command.bus] = command
-            case SetBacking() | SetMidiOut():
+            case SetBacking() | SetMidiOut() | Eavesdrop():
                 self._others[type(command)] = command
             case Record():
                 self._others[Record] = command
@@ -220,7 +221,7 @@ class _Standing:
 
     def misses(self, command: Command) -> bool:
         """Whether `commands` leaves `command` out."""
-        return not isinstance(command, Play | Stop | SetLevel | SetBacking | SetMidiOut | Record)
+        return not isinstance(command, Play | Stop | SetLevel | SetBacking | SetMidiOut | Eavesdrop | Record)
 
     def heard(self, event: EngineEvent) -> None:
         """The engine said `event`."""
@@ -235,7 +236,7 @@ class _Standing:
     def commands(self, now_ns: int) -> Iterable[Command]:
         """What a new engine is told at `now_ns`, in order."""
         yield from self._levels.values()
-        for kind in (SetBacking, SetMidiOut):
+        for kind in (SetBacking, SetMidiOut, Eavesdrop):
             if kind in self._others:
                 yield self._others[kind]
         record = self._others.get(Record)

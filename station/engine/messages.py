@@ -20,9 +20,11 @@ __all__ = [
     "Bus",
     "ClickVoice",
     "Command",
+    "Eavesdrop",
     "EngineEvent",
     "KeyHit",
     "Notice",
+    "Overheard",
     "Play",
     "Quit",
     "Ready",
@@ -36,6 +38,7 @@ __all__ = [
     "Started",
     "Status",
     "Stop",
+    "TakeKit",
 ]
 
 CUE_DTYPE = np.dtype(
@@ -126,11 +129,25 @@ class Record:
 
 
 @dataclass(frozen=True, slots=True)
+class Eavesdrop:
+    """Tell every byte that comes from a kit as `Overheard` from now on, for a page that shows them; or no longer."""
+
+    on: bool
+
+
+@dataclass(frozen=True, slots=True)
+class TakeKit:
+    """Read the user's own kit for `device` anew: it was changed."""
+
+    device: str
+
+
+@dataclass(frozen=True, slots=True)
 class Quit:
     """End the engine process."""
 
 
-Command = Play | Resume | Stop | SetLevel | SetBacking | SetMidiOut | KeyHit | Record | Quit
+Command = Play | Resume | Stop | SetLevel | SetBacking | SetMidiOut | KeyHit | Record | Eavesdrop | TakeKit | Quit
 
 
 # --- from the engine -------------------------------------------------------------------------------------------------
@@ -196,4 +213,13 @@ class Status:
     load: float
 
 
-EngineEvent = DeviceEvent | Ready | Sounding | Recorded | Started | Notice | Status
+@dataclass(frozen=True, slots=True)
+class Overheard:
+    """Bytes of `device` that came at `at_ns`, as they are; the events that they bring are told besides."""
+
+    at_ns: int
+    device: str
+    data: bytes
+
+
+EngineEvent = DeviceEvent | Overheard | Ready | Sounding | Recorded | Started | Notice | Status

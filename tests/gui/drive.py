@@ -21,13 +21,17 @@ from imgui_bundle import hello_imgui, imgui
 from station.app.help_pages import topic_of
 from station.app.look import look_of
 from station.app.model import Stage
+from station.app.panels.devices import DEVICES
 from station.app.panels.lessons import ADAPT_LABEL, FREE_LABEL, LISTEN_LABEL
+from station.app.panels.page import PANELS_LABEL
 from station.app.window import Window, WindowOptions
 from station.core.errors import BadInput
+from station.core.pieces import Piece
 from station.core.settings import Settings, load_settings, save_settings
 from station.core.units import ns_from_ms
+from station.devices.kit_file import own_kit
 from station.drills.library import find_lesson
-from station.engine.messages import Play, SetLevel
+from station.engine.messages import Eavesdrop, Play, SetLevel
 from station.practice.own_ear import Guess
 from station.practice.plan import Wishes, plan_practice
 from station.practice.student_spec import parse_spec
@@ -35,7 +39,7 @@ from station.render.camera import VIEW_NAMES, View
 from station.render.png import write_png
 from station.render.score_view import ScoreForm
 from tests.gui.figure import figure
-from tests.gui.room import practice_room
+from tests.gui.room import KIT, practice_room
 
 STEP_NS = ns_from_ms(100)
 SIZE = (760, 480)
@@ -284,6 +288,42 @@ def score(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.seen["kept"] = load_settings(drive.settings).score
 
 
+def devices(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """The devices page: live lines, a threshold and a rule set by looking, kept and taken by the engine."""
+    open_panel(ctx, DEVICES)
+    desk = drive.room.desk
+    for text in ("99 26 50", "99 24 64", "99 26 0a", "99 2e 40"):
+        drive.engine.play_bytes(text)
+        ctx.yield_(2)
+    drive.seen["pads"] = [piece.name for piece in desk.pads]
+    ctx.set_ref(f"//{DEVICES}")
+    ctx.item_input_value("##pads/##threshold-snare", 30)
+    ctx.yield_(2)
+    drive.engine.play_bytes("99 26 0a")
+    ctx.yield_(3)
+    drive.seen["raw"] = desk.seen.lines[-1].raw
+    drive.seen["held back"] = [stroke.why is not None for stroke in desk.seen.strokes[Piece.SNARE]]
+    ctx.item_click("Save##save-kit")
+    ctx.yield_(2)
+    kept = own_kit(KIT)
+    drive.seen["kept"] = None if kept is None else kept.pad(Piece.SNARE).threshold
+    drive.seen["taken"] = [type(command).__name__ for command in drive.engine.sent]
+    drive.seen["told"] = drive.window.news
+    open_panel(ctx, DEVICES)  # and close it again
+    ctx.yield_(2)
+    drive.seen["still listens"] = [command.on for command in drive.engine.sent if isinstance(command, Eavesdrop)]
+
+
+def open_panel(ctx: imgui.test_engine.TestContext, name: str) -> None:
+    """Tick a tool in the list of panels."""
+    ctx.set_ref("//Transport")
+    ctx.item_click(f"**/{PANELS_LABEL}")
+    ctx.yield_(2)
+    ctx.item_click(f"//$FOCUSED/{name}")
+    ctx.popup_close_all()
+    ctx.yield_(2)
+
+
 def newcomer(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """The questions of the first start, answered by the keyboard alone; then a session is one Enter away."""
     drive.seen["asked"] = drive.window.welcome is not None
@@ -473,6 +513,7 @@ SCENARIOS = {
     "score": score,
     "worn": worn,
     "newcomer": newcomer,
+    "devices": devices,
     "highway": highway,
     "drill": drill,
     "closes": closes,

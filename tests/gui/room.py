@@ -8,6 +8,7 @@ from pathlib import Path
 
 from station.app.practice_room import PracticeRoom
 from station.core.settings import Settings
+from station.devices.kit_file import own_kit
 from station.devices.presets import GENERAL_MIDI_PRESET
 from station.drills.library import find_lesson
 from station.engine.engine import Engine
@@ -37,7 +38,7 @@ class DirectEngine:
     """The engine without its process; a student may be set to play the passes of a plan."""
 
     def __init__(self, clock: FrameClock, student: StudentSpec | None) -> None:
-        self._engine = Engine()
+        self._engine = Engine(own_kit=own_kit)
         self._clock = clock
         self._student = student
         self._waiting: list[tuple[int, bytes]] = []
@@ -61,6 +62,10 @@ class DirectEngine:
         for at_ns, data in due:
             self._engine.feed(KIT, data, at_ns)
         return self._engine.advance(self._clock.now_ns())
+
+    def play_bytes(self, text: str) -> None:
+        """The kit sends bytes (hex) now."""
+        self._engine.feed(KIT, bytes.fromhex(text), self._clock.now_ns())
 
     @property
     def keys(self) -> list[KeyHit]:

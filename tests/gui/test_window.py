@@ -23,9 +23,10 @@ PATIENCE_S = 360.0  # everything is drawn without a graphics card, on a machine 
 
 
 @pytest.fixture(scope="module")
-def environment() -> Iterator[dict[str, str]]:
+def environment(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, str]]:
     for found in screen():
-        yield {**found, "PYTHONPATH": str(ROOT)}
+        home = tmp_path_factory.mktemp("config")  # nobody's own settings and kits are read or written
+        yield {**found, "PYTHONPATH": str(ROOT), "XDG_CONFIG_HOME": str(home)}
 
 
 def run(scenario: str, environment: dict[str, str], folder: Path) -> dict[str, Any]:
@@ -63,7 +64,8 @@ def test_a_lesson_is_chosen_played_and_judged(environment: dict[str, str], tmp_p
 
 
 def test_search_keys_and_faults_in_one_window(environment: dict[str, str], tmp_path: Path) -> None:
-    seen = run_in_turn(["search", "fault", "keys", "just_play"], environment, tmp_path)
+    seen = run_in_turn(["devices", "search", "fault", "keys", "just_play"], environment, tmp_path)
+    the_kit_is_seen_and_set_by_looking(seen["devices"])
     typing_into_the_search_plays_nothing(seen["search"])
     a_fault_is_said_in_one_line(seen["fault"])
     keys_play_the_kit_and_escape_stops(seen["keys"])
@@ -138,6 +140,16 @@ def keys_play_the_kit_and_escape_stops(seen: dict[str, Any]) -> None:
     assert seen["rising"], "each key has the time of its own frame"
     assert "Stop" in seen["commands"]
     assert seen["after"] == "RESULT"
+
+
+def the_kit_is_seen_and_set_by_looking(seen: dict[str, Any]) -> None:
+    assert seen["pads"] == ["KICK", "SNARE", "HIHAT"]
+    assert seen["raw"] == "99 26 0a"
+    assert seen["held back"] == [False, False, True], "10 is softer than the threshold of 30, once that is set"
+    assert seen["kept"] == 30
+    assert "TakeKit" in seen["taken"]
+    assert seen["told"], "where it is kept, or that the engine took it"
+    assert seen["still listens"] == [True, False]
 
 
 def typing_into_the_search_plays_nothing(seen: dict[str, Any]) -> None:

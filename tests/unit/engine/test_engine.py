@@ -1,6 +1,6 @@
 """The engine with a fake card and a clock moved by hand; expected frames and times are worked out beside each test."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TypeVar
 
@@ -12,14 +12,17 @@ from station.core.events import Choke, DeviceFound, DeviceLost, Hit, PedalMoved
 from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.devices.capture import read_capture
+from station.devices.kit import Pad
 from station.devices.presets import preset_named
 from station.devices.replay import replay, transport_zeros_ns
 from station.engine.engine import KEYBOARD, Engine, OutputState
 from station.engine.messages import (
     Bus,
+    Eavesdrop,
     EngineEvent,
     KeyHit,
     Notice,
+    Overheard,
     Play,
     Quit,
     Record,
@@ -29,6 +32,7 @@ from station.engine.messages import (
     Started,
     Status,
     Stop,
+    TakeKit,
 )
 from tests.fakes.audio_sink import AudioSink
 from tests.fakes.cues import clicks, stroke_cue
@@ -378,3 +382,30 @@ def test_quit_is_remembered() -> None:
     engine = Engine()
     engine.handle(Quit())
     assert engine.quitting
+
+
+def test_every_byte_is_told_besides_while_somebody_looks() -> None:
+    rig = Rig()
+    rig.engine.device_found(KIT, rig.clock.now_ns())
+    rig.engine.handle(Eavesdrop(True))
+    rig.engine.feed(KIT, b"\xfe", 7)
+    rig.engine.feed(KIT, SNARE, 8)
+    told = [event for event in rig.engine.advance(rig.clock.now_ns()) if isinstance(event, Overheard | Hit)]
+    assert told[:2] == [Overheard(7, KIT, b"\xfe"), Overheard(8, KIT, SNARE)]
+    assert isinstance(told[2], Hit)
+    rig.engine.handle(Eavesdrop(False))
+    rig.engine.feed(KIT, SNARE, 9)
+    assert not [event for event in rig.engine.advance(rig.clock.now_ns()) if isinstance(event, Overheard)]
+
+
+def test_a_kit_that_was_changed_is_taken_at_once() -> None:
+    plain = preset_named("roland-td-17")
+    kits = [plain]
+    engine = Engine(own_kit=lambda _: kits[-1])
+    engine.device_found(KIT, 0)
+    kits.append(replace(plain, pads={Piece.SNARE: Pad(threshold=100)}))
+    engine.feed(KIT, bytes.fromhex("99 26 40"), 1)
+    engine.handle(TakeKit(KIT))
+    engine.feed(KIT, bytes.fromhex("99 26 40"), 1_000_000_000)
+    hits = [event.at_ns for event in engine.advance(2_000_000_000) if isinstance(event, Hit)]
+    assert hits == [1], "64 is softer than 100"

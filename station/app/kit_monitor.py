@@ -1,0 +1,126 @@
+"""What the kits send, understood beside the engine for a page that shows it: hits, what is held back, what is suspect.
+
+Bytes and times in, lines out, whoever brings them: the terminal's `monitor` from ports of its own, the window's page
+from the engine. Each kit is understood by the user's own file where there is one; `trial` sets other rules, which hold
+here at once, and `save` keeps them. Times are monotonic ns.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from station.core.errors import BadInput
+from station.core.events import DeviceEvent, Hit
+from station.core.pieces import word
+from station.core.units import NS_PER_MS, ms_from_ns
+from station.devices.decoders import DecoderBank
+from station.devices.guard import Ghost, Why
+from station.devices.kit import KitPreset
+from station.devices.kit_file import own_kit, save_kit
+from station.devices.suspects import Suspects, Suspicion
+
+_CHATTER = (b"\xf8", b"\xfe")
+"""MIDI clock and active sensing: several a second, and nothing that a drummer did."""
+_WIDER = 1.25
+"""A rule is proposed so much wider than what was seen (our choice: the next ghost may be louder)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """One line of the page: an event or a ghost, or bytes that make neither; `raw` is what was sent, in hex."""
+
+    at_ns: int
+    device: str
+    raw: str
+    event: DeviceEvent | None = None
+    ghost: Ghost | None = None
+    suspicions: tuple[Suspicion, ...] = ()
+
+
+class KitMonitor:
+    """The kits as they are set on the page."""
+
+    def __init__(self, folder: Path | None = None) -> None:
+        """`folder` holds the user's own kits, None for this user's."""
+        self._folder = folder
+        self._bank = DecoderBank()
+        self._suspects: dict[str, Suspects] = {}
+        self._raw: dict[tuple[str, int], str] = {}
+
+    def found(self, device: str, now_ns: int) -> tuple[list[Line], str]:
+        """A kit is here; its lines, and what is wrong with the user's file for it: the preset holds then."""
+        self._suspects[device] = Suspects()
+        fault = ""
+        try:
+            self.reread(device)
+        except BadInput as wrong:
+            fault = str(wrong)
+        return self._lines(self._bank.found(device, now_ns)), fault
+
+    def reread(self, device: str) -> None:
+        """Understand `device` as its file says; raises `BadInput`."""
+        kit = own_kit(device, self._folder)
+        if kit is not None:
+            self._bank.add(device, kit)
+
+    def lost(self, device: str, now_ns: int) -> list[Line]:
+        """A kit is gone."""
+        return self._lines(self._bank.lost(device, now_ns))
+
+    def bytes_came(self, device: str, data: bytes, at_ns: int) -> list[Line]:
+        """What was sent."""
+        if data[:1] in _CHATTER:
+            return []
+        self._raw[device, at_ns] = f"{self._raw.get((device, at_ns), '')} {data.hex(' ')}".strip()
+        lines = self._lines(self._bank.feed(device, data, at_ns).told)
+        if not lines and not self._bank.waits(device):
+            lines = [Line(at_ns, device, self._raw.pop((device, at_ns), ""))]
+        return lines
+
+    def settle(self, now_ns: int) -> list[Line]:
+        """What the clock has made certain."""
+        return self._lines(self._bank.settle(now_ns))
+
+    def kit(self, device: str) -> KitPreset:
+        """The kit as it stands."""
+        return self._bank.preset_of(device)
+
+    def trial(self, device: str, kit: KitPreset) -> None:
+        """Understand `device` by other rules from now on."""
+        self._bank.add(device, kit)
+
+    def save(self, device: str) -> Path:
+        """Keep the kit as it stands; returns where. Raises `DeviceError` if the disk refuses."""
+        return save_kit(self.kit(device), device, self._folder)
+
+    def _lines(self, told: list[DeviceEvent]) -> list[Line]:
+        lines = []
+        for ghost in self._bank.take_ghosts():
+            hit = ghost.hit
+            lines.append(Line(hit.at_ns, hit.device, self._raw.pop((hit.device, hit.at_ns), ""), ghost=ghost))
+        for event in told:
+            raw = self._raw.pop((event.device, event.at_ns), "")
+            suspicions: tuple[Suspicion, ...] = ()
+            if isinstance(event, Hit):
+                suspicions = tuple(self._suspects.setdefault(event.device, Suspects()).look(event))
+            lines.append(Line(event.at_ns, event.device, raw, event, None, suspicions))
+        return lines
+
+
+def suspected(suspicion: Suspicion) -> str:
+    """What is suspected, in words."""
+    hit, cause, gap_ms = suspicion.hit, suspicion.cause, ms_from_ns(abs(suspicion.after_ns))
+    when = "after" if suspicion.after_ns >= 0 else "before"
+    seen = f"{word(hit.piece)} {gap_ms:.1f} ms {when} {word(cause.piece)}, {suspicion.share:.0%} as loud"
+    return f"{suspicion.why.value}? {seen}"
+
+
+def rule_against(suspicion: Suspicion) -> str:
+    """The rule, in the words of `devices.desk`, that would hold such a hit back."""
+    hit, cause = suspicion.hit, suspicion.cause
+    match suspicion.why:
+        case Why.DOUBLE:
+            return f"mask {word(hit.piece)} {_WIDER * suspicion.after_ns / NS_PER_MS:.0f}"
+        case Why.FALSE_STOMP:
+            return "travel 0.3"
+        case _:
+            return f"ghost {word(cause.piece)} {word(hit.piece)} {min(1.0, _WIDER * suspicion.share):.2f}"
