@@ -10,10 +10,11 @@ from imgui_bundle import imgui
 from station.app import theme
 from station.app.kit_desk import STROKES_SHOWN, KitDesk, Stroke
 from station.app.kit_monitor import Line, suspected
-from station.core.events import Choke, Hit, PedalMoved
+from station.core.events import Choke, Hit, PedalMoved, Switched
 from station.core.names import piece_name
 from station.core.pieces import Piece, word
 from station.core.units import NS_PER_MS
+from station.devices.guard import Why
 from station.render import palette
 
 DEVICES = "Devices"
@@ -26,6 +27,13 @@ HELP = (
 )
 SAVE_LABEL = "Save##save-kit"
 BACK_LABEL = "As it was##back-kit"
+_WHY = {
+    Why.TOO_SOFT: "too soft",
+    Why.DOUBLE: "double",
+    Why.CROSSTALK: "crosstalk",
+    Why.FALSE_STOMP: "false stomp",
+    Why.GRAB: "a grab",
+}
 _MOST_THRESHOLD, _MOST_MASK_MS = 60, 60
 """The sliders' ends; our choice, twice what any pad needed that was read of."""
 _BARS_HIGH, _BAR_LEAST = 40, 3
@@ -165,7 +173,7 @@ def cells(line: Line) -> tuple[str, str, str, str]:
     event = line.ghost.hit if line.ghost is not None else line.event
     match event:
         case Hit():
-            told = [line.ghost.why.value] if line.ghost is not None else []
+            told = [_WHY[line.ghost.why]] if line.ghost is not None else []
             told += [] if event.openness is None else [f"open {event.openness:.2f}"]
             told += [] if event.position is None else [f"at {event.position:.2f}"]
             return f"{piece_name(event.piece)}, {word(event.zone)}", str(event.velocity), ", ".join(told), line.raw
@@ -173,6 +181,8 @@ def cells(line: Line) -> tuple[str, str, str, str]:
             return f"{piece_name(event.piece)} choked", "", "", line.raw
         case PedalMoved():
             return "hi-hat pedal", "", f"open {event.openness:.2f}", line.raw
+        case Switched():
+            return "switch", "", event.switch, line.raw
         case None:
             return "no event", "", "", line.raw
         case _:

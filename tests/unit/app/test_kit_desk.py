@@ -53,6 +53,9 @@ def test_what_is_softer_than_the_threshold_is_hollow(bench: Bench) -> None:
     bench.strike(100, f"{SNARE} 13")
     bench.strike(900, f"{SNARE} 14")
     assert list(bench.desk.seen.strokes[Piece.SNARE]) == [Stroke(19, Why.TOO_SOFT), Stroke(20)]
+    assert cells(bench.desk.seen.lines[-2]) == ("snare, head", "19", "too soft", "99 26 13")
+    bench.strike(950, "c9 05")
+    assert cells(bench.desk.seen.lines[-1]) == ("switch", "", "program=5", "c9 05")
 
 
 def test_a_mask_holds_the_second_of_two_back(bench: Bench) -> None:
