@@ -120,7 +120,7 @@ def test_bytes_that_make_no_event_are_shown_and_chatter_is_not() -> None:
     page = MonitorPage(0)
     page.take(found())
     assert page.take(packets((1, "fe"), (2, "f8"))) == []
-    assert [line.split() for line in page.take(packets((3, "c9 05")))] == [["0.0030", "c9", "05"]]
+    assert [line.split() for line in page.take(packets((3, "d9 05")))] == [["0.0030", "d9", "05"]]
 
 
 def test_a_suspect_is_marked_with_the_rule_that_holds_it_back_and_the_rule_is_kept() -> None:
