@@ -9,7 +9,10 @@ from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import Protocol
 
+import numpy as np
+
 from station.app.deck import Deck
+from station.app.every_hit import DOT_DTYPE, EveryHit
 from station.app.heat_map import HeatMap
 from station.app.kit_desk import KitDesk
 from station.app.session_view import Demonstrator
@@ -18,6 +21,7 @@ from station.engine.messages import KeyHit
 from station.motion.hand_notes import Hands
 from station.motion.style import Style
 from station.music.score import Score
+from station.practice.by_ear import Whose
 from station.practice.own_ear import Guess
 from station.render.results import ResultFacts
 from station.render.snapshot import Snapshot
@@ -120,12 +124,16 @@ class RoomState:
 
 @dataclass(frozen=True, eq=False)
 class Report:
-    """The result of the last session: the page's `facts`, the JSON `document`, the `folder` of both, `heat` by bar."""
+    """The result of the last session: the page's `facts`, the JSON `document`, the `folder` of both.
+
+    `heat` says how right each bar was, `hits` has every stroke.
+    """
 
     facts: ResultFacts
     document: Mapping[str, object] = field(default_factory=dict)
     folder: str = ""
     heat: HeatMap = field(default_factory=lambda: HeatMap({}))
+    hits: EveryHit = field(default_factory=lambda: EveryHit(np.empty(0, DOT_DTYPE)))
 
 
 class PracticeModel(Protocol):
@@ -163,6 +171,10 @@ class PracticeModel(Protocol):
 
     def listen(self) -> None:
         """Hear the last free take, or end what is heard; raises `StationError`."""
+        ...
+
+    def hear_bar(self, bar: int, whose: Whose) -> None:
+        """Hear a bar (from 0) of the result's score, as it was written or played; raises `StationError`."""
         ...
 
     def pause(self) -> None:

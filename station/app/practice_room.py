@@ -11,6 +11,7 @@ from datetime import date
 
 from station.app.deck import Deck, Watched
 from station.app.engine_line import EngineLine, WakeEngine
+from station.app.every_hit import every_hit
 from station.app.heat_map import heat_map
 from station.app.just_play import JustPlay
 from station.app.kit_desk import KitDesk
@@ -36,6 +37,7 @@ from station.music.judgement import Judgement
 from station.music.score import Score
 from station.practice.adaptation import Adaptation
 from station.practice.backing import Backing, BackingWish
+from station.practice.by_ear import Whose, bar_by_ear
 from station.practice.click_word import parse_click
 from station.practice.latency import Latency, latency_of
 from station.practice.lead import hands_of
@@ -88,6 +90,7 @@ class PracticeRoom:
         self._session = self._new_session(first)
         self._folder: SessionFolder | None = None
         self._report: Report | None = None
+        self._result: SessionResult | None = None
         self._asked: set[str] = set()
         self._is_asking = False
         self._stage = Stage.IDLE
@@ -228,6 +231,11 @@ class PracticeRoom:
         elif self._stage is not Stage.PLAYING:
             self._hear(self._free.listening())
 
+    def hear_bar(self, bar: int, whose: Whose) -> None:
+        """Hear a bar (from 0) of the result's score, as it was written or played; raises `StationError`."""
+        if self._stage is Stage.RESULT and self._result is not None:
+            self._hear(bar_by_ear(self._result, bar, whose))
+
     def score(self) -> Score:
         """The whole score of the lesson that is shown, at its own tempo."""
         return self._plan.lesson.score
@@ -305,6 +313,7 @@ class PracticeRoom:
     def dismiss(self) -> None:
         """Back to the lessons."""
         if self._stage is Stage.RESULT:
+            self._quiet()
             self._stage, self._is_asking = Stage.IDLE, False
             self._session = self._new_session(self._plan)
             self._view = SessionView(self._plan, self._who)
@@ -505,7 +514,8 @@ class PracticeRoom:
                 self._fault = rescued(fault, result, document)
         if self._fault is not None:
             self._notices.append(str(self._fault))
-        self._report = Report(session_facts(result, document), document, path, heat_map(result))
+        self._result = result
+        self._report = Report(session_facts(result, document), document, path, heat_map(result), every_hit(result))
         self._stage, self._is_asking = Stage.RESULT, self._may_ask(document)
 
     def _may_ask(self, document: dict[str, Json]) -> bool:

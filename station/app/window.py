@@ -24,6 +24,8 @@ from station.app.panels.devices import DEVICES, DevicesPanel
 from station.app.panels.devices import HELP as DEVICES_HELP
 from station.app.panels.figure import ABOUT, FIGURE, FigurePanel
 from station.app.panels.help import help_window
+from station.app.panels.hits import ABOUT as ABOUT_HITS
+from station.app.panels.hits import HITS, EarActions, HitsPanel
 from station.app.panels.lessons import LessonActions, LessonsPanel
 from station.app.panels.look_popup import LookActions
 from station.app.panels.page import Page, Side, panels_popup
@@ -98,6 +100,13 @@ class Window:
         self.frames = 0
         self._devices = DevicesPanel(model.desk, self._tried, self._tell)
         self.figure = FigurePanel(model, options.settings, self._tried, self._preview_anew)
+        self.hits = HitsPanel(
+            EarActions(
+                lambda bar, whose: self._tried(lambda: model.hear_bar(bar, whose)),
+                lambda: self._tried(model.listen),
+                lambda: model.room().listening,
+            )
+        )
         self._pages = self._table_of_pages()
         self.params = self._runner()
         theme.choose(*self._worn)
@@ -172,6 +181,7 @@ class Window:
         return (
             Page(LESSONS, Side.BESIDE, self._lessons_gui, shown=lambda stage: stage is Stage.IDLE),
             Page(BARS, Side.BESIDE, self._bars_gui, shown=self._has_bars),
+            Page(HITS, Side.STRIP, self._hits_gui, ABOUT_HITS),
             Page(FIGURE, Side.RIGHT, self.figure.gui, ABOUT),
             Page(DEVICES, Side.RIGHT, self._devices.gui, DEVICES_ABOUT, help=DEVICES_HELP),
             Page(TRANSPORT, Side.BELOW, self._transport_gui, shown=lambda stage: True),
@@ -417,6 +427,10 @@ class Window:
         }
         viewpoints = LookActions(self._keep_viewpoint, self._go_to_viewpoint)
         return TransportBar(TransportParts(actions, viewpoints, self._tools, ruler, self._controls))
+
+    def _hits_gui(self) -> None:
+        report = self._model.report() if self._model.room().stage is Stage.RESULT else None
+        self.hits.gui(None if report is None else report.hits)
 
     def _transport_gui(self) -> None:
         look = self._transport.gui(self._model.room(), self._model.deck, self.backdrop.look)

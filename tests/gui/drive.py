@@ -22,6 +22,8 @@ from station.app.help_pages import topic_of
 from station.app.look import look_of
 from station.app.model import Stage
 from station.app.panels.devices import DEVICES
+from station.app.panels.hits import STOP_LABEL as HITS_STOP
+from station.app.panels.hits import STUDENT_LABEL, TEACHER_LABEL
 from station.app.panels.lessons import ADAPT_LABEL, FREE_LABEL, LISTEN_LABEL
 from station.app.panels.page import PANELS_LABEL
 from station.app.window import Window, WindowOptions
@@ -418,6 +420,7 @@ def drill(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     assert report is not None
     drive.seen["cells"] = {f"{bar} {limb.name}": cell.notes for (bar, limb), cell in report.heat.cells.items()}
     ctx.yield_(3)
+    by_ear(drive, ctx)
     ctx.set_ref("//Bars")
     ctx.item_click("**/2##bar2")
     ctx.yield_(3)
@@ -426,6 +429,26 @@ def drill(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     assert kept is None, kept
     drilled = drive.room.report()
     drive.seen["subtitle"] = None if drilled is None else drilled.facts.words.subtitle
+
+
+def by_ear(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """The panel of every hit: its dots answer the mouse, and a bar of the teacher's and one's own is heard."""
+    ctx.item_click("//Transport/Panels##panels")
+    ctx.item_click("//$FOCUSED/Every hit")
+    ctx.popup_close_all()
+    ctx.yield_(3)
+    ctx.set_ref("//Every hit")
+    for label in (TEACHER_LABEL, STUDENT_LABEL):
+        ctx.item_click(label)
+        ctx.yield_(2)
+        drive.seen[f"heard {label.split('#')[0]}"] = drive.room.room().listening
+        ctx.item_click(HITS_STOP)
+        ctx.yield_(2)
+    drive.seen["quiet"] = not drive.room.room().listening
+    x, y = drive.window.hits.at[0].tolist()
+    ctx.mouse_move_to_pos(imgui.ImVec2(x, y))
+    ctx.yield_(2)
+    drive.seen["pointed"] = drive.window.hits.pointed
 
 
 def closes(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:

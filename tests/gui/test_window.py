@@ -203,6 +203,10 @@ def test_a_click_on_a_bar_of_the_result_drills_it(environment: dict[str, str], t
     seen = run("drill", environment, tmp_path)
     assert sum(seen["cells"].values()) == 26, "every note of both bars: 16 on the hi-hat, 4 snare, 6 kick"
     assert sum(notes for cell, notes in seen["cells"].items() if cell.endswith("FOOT")) == 6
+    assert seen["heard Teacher"]
+    assert seen["heard You"]
+    assert seen["quiet"]
+    assert seen["pointed"].startswith("Bar 1, beat 1, ")
     assert seen["stage"] == "PLAYING"
     assert seen["subtitle"].startswith("1 pass of bar 2 at")
 
