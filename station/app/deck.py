@@ -8,14 +8,13 @@ stepped through, it is silent: drums cannot sound backwards.
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from station.app.session_view import Demonstrator
+from station.app.demonstrator import Demonstrator
 from station.core.units import NS_PER_MS, NS_PER_S, PPQ
 from station.drills.lesson import Lesson
 from station.engine.messages import Command, Play, Stop
 from station.motion.drummer import Drummer
 from station.motion.hand_notes import Hands
 from station.motion.kit import Kit
-from station.motion.style import Style
 from station.music.score import Score
 from station.practice.click import PLAIN, ClickPattern
 from station.practice.plan import with_sticking
@@ -82,9 +81,11 @@ class Deck:
         if bars != self.player.loop:
             self.do(lambda player, now_ns: player.looped(now_ns, bars))
 
-    def move_as(self, style: Style) -> None:
-        """Let the demonstrator move in another style from now on."""
-        self._who = replace(self._who, style=style)
+    def perform_as(self, who: Demonstrator) -> None:
+        """Let another body or manner demonstrate from now on."""
+        if who.figure is not self._who.figure:
+            self._drummer = None
+        self._who = who
 
     @property
     def drummer(self) -> Drummer:

@@ -12,10 +12,10 @@ from typing import Protocol
 import numpy as np
 
 from station.app.deck import Deck
+from station.app.demonstrator import Demonstrator
 from station.app.every_hit import DOT_DTYPE, EveryHit
 from station.app.heat_map import HeatMap
 from station.app.kit_desk import KitDesk
-from station.app.session_view import Demonstrator
 from station.app.welcome import Answers
 from station.engine.messages import KeyHit
 from station.motion.hand_notes import Hands
@@ -215,6 +215,10 @@ class PracticeModel(Protocol):
 
     def move_as(self, style: Style) -> None:
         """Let the demonstrator move in another style at once; hands hold as before while a pass is played."""
+        ...
+
+    def embody(self, figure: str) -> None:
+        """Let another body demonstrate from the next preview or session on: a name or file; raises `BadInput`."""
         ...
 
     def hands(self) -> Hands:

@@ -10,6 +10,7 @@ from dataclasses import replace
 from datetime import date
 
 from station.app.deck import Deck, Watched
+from station.app.demonstrator import Demonstrator, kept_demonstrator
 from station.app.engine_line import EngineLine, WakeEngine
 from station.app.every_hit import every_hit
 from station.app.heat_map import heat_map
@@ -19,20 +20,20 @@ from station.app.lesson_cards import all_lessons, card, wish_of
 from station.app.model import FreeWish, LessonCard, PlaceNow, Report, RoomState, Stage, Start
 from station.app.results import session_facts
 from station.app.session_folder import SessionFolder, rescued
-from station.app.session_view import Demonstrator, SessionView
+from station.app.session_view import SessionView
 from station.app.welcome import Answers, student_level
 from station.app.welcome import answered as met
 from station.core.calibration import Calibration
-from station.core.errors import BadInput, DeviceError, StationError
+from station.core.errors import DeviceError, StationError
 from station.core.events import Hit
 from station.core.settings import Settings
 from station.core.units import NS_PER_S
 from station.drills.lesson import Lesson
 from station.drills.library import find_lesson
 from station.engine.messages import Command, Eavesdrop, EngineEvent, KeyHit, Play, SetBacking, Started
+from station.motion.figure import load_figure
 from station.motion.hand_notes import Hands
 from station.motion.style import Style
-from station.motion.style_file import load_style
 from station.music.judgement import Judgement
 from station.music.score import Score
 from station.practice.adaptation import Adaptation
@@ -85,7 +86,7 @@ class PracticeRoom:
         self._taken: Session | None = None
         self._plan = first
         self._notices: list[str] = []
-        self._who = Demonstrator(style=self._kept_style())
+        self._who = kept_demonstrator(settings, self._notices.append)
         self._view = SessionView(first, self._who)
         self._session = self._new_session(first)
         self._folder: SessionFolder | None = None
@@ -248,7 +249,12 @@ class PracticeRoom:
         """Let the demonstrator move in another style at once; hands hold as before while a pass is played."""
         self._who = replace(self._who, style=style)
         self._view.move_as(style, hands_stay=self._stage is Stage.PLAYING and not self._is_free)
-        self.deck.move_as(style)
+        self.deck.perform_as(self._who)
+
+    def embody(self, figure: str) -> None:
+        """Let another body demonstrate from the next preview or session on: a name or file; raises `BadInput`."""
+        self._who = replace(self._who, figure=load_figure(figure))
+        self.deck.perform_as(self._who)
 
     def hands(self) -> Hands:
         """Whose hand leads: as it was chosen, else as the lesson's kit is built."""
@@ -385,14 +391,6 @@ class PracticeRoom:
         self._fault = self._free.finish(self._engine)
         self._notices.append(f"{self._fault}" if self._fault is not None else f"kept in {self._free.folder}")
         self._stage = Stage.IDLE
-
-    def _kept_style(self) -> Style:
-        """The style of the settings; the natural one, and a notice, where it cannot be had."""
-        try:
-            return load_style(self._settings.style)
-        except BadInput as fault:
-            self._notices.append(str(fault))
-            return Style()
 
     def _lesson(self, name: str) -> Lesson:
         return self._lessons.get(name) or find_lesson(name)

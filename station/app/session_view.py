@@ -4,11 +4,12 @@ The drummer demonstrates, then plays along. The score shown is the demonstration
 """
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from station.app.demonstrator import Demonstrator
 from station.app.student_double import StudentDouble
 from station.core.events import Hit
 from station.core.pieces import Limb
@@ -16,7 +17,6 @@ from station.core.units import NS_PER_MS, NS_PER_S
 from station.drills.mastery.fading import Feedback
 from station.engine.engine import KEYBOARD
 from station.motion.drummer import Drummer
-from station.motion.figure import Figure, figure_of
 from station.motion.lanes import in_passes
 from station.motion.style import Style
 from station.music.judgement import Judgement, Label
@@ -35,14 +35,6 @@ CUE_SHOWN_NS = 1200 * NS_PER_MS
 
 _CUE_OF_LEAN = {-1: Cue.EARLY, 0: Cue.ON_TIME, 1: Cue.LATE}
 _CUE_OF = {Label.MISS: Cue.MISSED, Label.WRONG_PIECE: Cue.WRONG_PIECE}
-
-
-@dataclass(frozen=True, slots=True)
-class Demonstrator:
-    """Who demonstrates: a body, and how it moves; the lanes of `style` count the lesson's bars."""
-
-    figure: Figure = field(default_factory=figure_of)
-    style: Style = field(default_factory=Style)
 
 
 class _Part:

@@ -137,7 +137,8 @@ def soft(text: str) -> None:
 
 def tooltip(text: str) -> None:
     """Explain the control that was drawn last."""
-    if imgui.is_item_hovered(imgui.HoveredFlags_.delay_normal) and imgui.begin_tooltip():
+    hovered = imgui.HoveredFlags_.delay_normal | imgui.HoveredFlags_.allow_when_disabled
+    if imgui.is_item_hovered(hovered) and imgui.begin_tooltip():
         imgui.push_text_wrap_pos(points(_TOOLTIP_WIDTH))
         imgui.text(text)
         imgui.pop_text_wrap_pos()

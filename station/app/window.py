@@ -22,7 +22,7 @@ from station.app.panels.bars import heat_panel
 from station.app.panels.devices import ABOUT as DEVICES_ABOUT
 from station.app.panels.devices import DEVICES, DevicesPanel
 from station.app.panels.devices import HELP as DEVICES_HELP
-from station.app.panels.figure import ABOUT, FIGURE, FigurePanel
+from station.app.panels.figure import ABOUT, FIGURE, HELP, FigurePanel
 from station.app.panels.help import help_window
 from station.app.panels.hits import ABOUT as ABOUT_HITS
 from station.app.panels.hits import HITS, EarActions, HitsPanel
@@ -182,7 +182,7 @@ class Window:
             Page(LESSONS, Side.BESIDE, self._lessons_gui, shown=lambda stage: stage is Stage.IDLE),
             Page(BARS, Side.BESIDE, self._bars_gui, shown=self._has_bars),
             Page(HITS, Side.STRIP, self._hits_gui, ABOUT_HITS),
-            Page(FIGURE, Side.RIGHT, self.figure.gui, ABOUT),
+            Page(FIGURE, Side.RIGHT, self.figure.gui, ABOUT, help=HELP),
             Page(DEVICES, Side.RIGHT, self._devices.gui, DEVICES_ABOUT, help=DEVICES_HELP),
             Page(TRANSPORT, Side.BELOW, self._transport_gui, shown=lambda stage: True),
         )

@@ -50,8 +50,9 @@ class Settings:
     no other. `ask_first` whether the student is asked for an opinion before a result is shown.
     `kicks_start` whether two kicks start the count-in, `auto_pause` whether a session waits for a student who has
     stopped, `pause` what pauses it: two pads at once, switches (`practice.pause_word`).
-    `style` names how the demonstrator moves, a shipped style or a style file, and `hands` whose hand leads: `right`,
-    `left`, `open`, empty for as a lesson's kit is built (`practice.lead`).
+    `style` names how the demonstrator moves, a shipped style or a style file, `figure` the body, a shipped one or a
+    figure file, and `hands` whose hand leads: `right`, `left`, `open`, empty for as a lesson's kit is built
+    (`practice.lead`).
     `view`, `mirrored`, `inset` and `viewpoints` are where the window looks from, `score` how it shows the score,
     `theme` its colours (`app.look`), `panel_scale` how many times as large as designed its panels are, `double` whether
     the student is shown as a second drummer, `welcomed` whether the questions of the first start were asked
@@ -80,6 +81,7 @@ class Settings:
     auto_pause: bool = True
     pause: str = "crash_1+crash_2 cc=64"
     style: str = "natural"
+    figure: str = "median"
     hands: str = ""
     view: str = "shoulder"
     mirrored: bool = False

@@ -16,31 +16,34 @@ from station.app.figure_controls import TABS, WORD_LABELS, Control, Group
 from station.app.figure_options import PIECES, FigureOptions
 from station.app.model import PracticeModel, Stage
 from station.app.panels.lanes import LanesEditor
-from station.app.style_shelf import Entry, StyleShelf
+from station.app.panels.styles import StylesHead, Tried
+from station.core.errors import StationError
 from station.core.names import name_of
 from station.core.settings import load_settings, save_settings
+from station.motion.figure import figure_names, load_figure
 from station.motion.hand_notes import Hands
 from station.motion.plan import bar_places
-from station.motion.propose import propose_style
-from station.motion.style import HOLDS, WORDS, Style, range_of
-from station.motion.style_file import SLOTS
+from station.motion.style import HOLDS, WORDS, range_of
 
 FIGURE = "Figure"
 ABOUT = "How the demonstrator moves: arms, head, body, hands, over the bars; styles of your own"
-PROPOSE_LABEL = "From the score##propose"
-SAVE_LABEL = "Save##save-style"
+HELP = (
+    "Sliders change how the drummer moves at once: let the demonstration play meanwhile (W). × beside a control goes"
+    " back to the style that was chosen, ~ lets it change over the bars, where its line can be drawn. The gain moves"
+    " wrist, elbow and shoulder together; each has a share, and one's gain is the others' loss unless each is set for"
+    " itself. Save makes a style of your own, a file; eight slots keep what you want at hand. Whose hand leads holds"
+    " for what you are asked to play too."
+)
 FREE_LABEL = "each for itself"
 BARS_TAB = "Bars"
-_LABEL_WIDTH, _VALUE_WIDTH, _SMALL, _BESIDE, _SLOTS_FROM, _SLOT_GAP = 112, 38, 28, 150, 60, 4
+_LABEL_WIDTH, _VALUE_WIDTH, _WORD_WIDTH, _SMALL = 112, 38, 180, 28
 """Design pixels."""
 _LEADS = {
     Hands.RIGHT: ("Right-handed", "The right hand leads, over the left on the hi-hat"),
     Hands.LEFT: ("Left-handed", "The kit stands mirrored and the left hand leads; stickings change sides"),
     Hands.OPEN: ("Open-handed", "A right-handed kit whose hi-hat the left hand plays, uncrossed"),
 }
-
-Tried = Callable[[Callable[[], object]], None]
-"""Does something, or says in one line why it could not be done."""
+_STATURES = {name: f"{name}, {100 * load_figure(name).stature_m:.0f} cm" for name in figure_names()}
 
 
 class FigurePanel:
@@ -51,22 +54,16 @@ class FigurePanel:
         self._settings = settings
         self._tried = tried
         self._preview = preview
-        kept = load_settings(settings)
-        self._shelf = StyleShelf(kept.styles_dir)
-        self._source: str | None = kept.style
         self.options = FigureOptions(model.demonstrator().style)
-        self._kept = self.options.style
+        self._head = StylesHead(self.options, settings, tried)
         self._lanes = LanesEditor(self.options)
-        self._entries: list[Entry] = []
-        self._name = ""
         self._opens_bars = False
-        tried(self._load_slots)
+        self._figure = load_settings(settings).figure
 
     def gui(self) -> None:
         """Draw the panel and do what the user does in it."""
         before = self.options.style
-        self._styles()
-        self._slots()
+        self._head.gui(self._model.score())
         if _tabs():
             for tab in TABS:
                 if _tab(tab.title):
@@ -89,6 +86,10 @@ class FigurePanel:
         if self.options.style is not before:
             self._model.move_as(self.options.style)
 
+    def keep(self) -> None:
+        """Write to the settings what was changed since the last time."""
+        self._head.keep()
+
     def _place(self) -> float | None:
         """Where the music is, in bars from 1; None where none is played or shown."""
         clock, deck, score = self._model.room().clock, self._model.deck, self._model.score()
@@ -98,103 +99,6 @@ class FigurePanel:
             return None
         tick = deck.player.song.tick_at(deck.player.position_ns(deck.now_ns))
         return float(bar_places(score, np.array([tick]))[0])
-
-    def keep(self) -> None:
-        """Write to the settings what was changed since the last time, unless a control is being moved."""
-        style = self.options.style
-        if style is self._kept or imgui.is_any_item_active():
-            return
-        self._kept = style
-        self._tried(lambda: self._write(style))
-
-    def _write(self, style: Style) -> None:
-        source = self._source
-        if source is None or self.options.is_changed:
-            source = self._shelf.keep(style)
-        save_settings(replace(load_settings(self._settings), style=source), self._settings)
-
-    # --- styles and slots ---------------------------------------------------------------------------------------------
-
-    def _styles(self) -> None:
-        options, narrow = self.options, theme.is_narrow()
-        beside = -1.0 if narrow else -theme.points(_BESIDE)
-        imgui.set_next_item_width(beside)
-        shown = f"{options.style.name}, changed" if options.is_changed else options.style.name
-        if imgui.begin_combo("##style", shown):
-            self._list()
-            imgui.end_combo()
-        theme.tooltip("Styles: five settings of the thesis, five of its users' genres, the natural one, and your own")
-        if not narrow:
-            imgui.same_line()
-        if imgui.button(PROPOSE_LABEL, imgui.ImVec2(-1, 0)):
-            self._choose(propose_style(self._model.score()), None)
-        theme.tooltip("A style that the lesson's tempo, density and dynamics ask for")
-        imgui.set_next_item_width(beside)
-        _, self._name = imgui.input_text_with_hint("##style-name", "a name of your own", self._name)
-        theme.tooltip(f"Saved styles are files in {self._shelf.folder}")
-        if not narrow:
-            imgui.same_line()
-        half = (imgui.get_content_region_avail().x - imgui.get_style().item_spacing.x) / 2
-        if imgui.button(SAVE_LABEL, imgui.ImVec2(half, 0)):
-            self._tried(self._save)
-        theme.tooltip("Save what is set as a style of your own: `station animate --style FILE` takes it too")
-        imgui.same_line()
-        imgui.begin_disabled(not options.is_changed)
-        if imgui.button("Reset##all", imgui.ImVec2(-1, 0)):
-            self._choose(options.base, self._source)
-        imgui.end_disabled()
-        theme.tooltip("Every control back to the style that was chosen")
-
-    def _list(self) -> None:
-        if imgui.is_window_appearing():
-            self._entries = self._shelf.entries()
-        for entry in self._entries:
-            label = f"{entry.label}##{entry.source}"
-            if imgui.selectable(f"your own: {label}" if entry.is_own else label, entry.source == self._source)[0]:
-                self._tried(lambda entry=entry: self._take(entry))  # type: ignore[misc] # mypy knows no such default
-
-    def _take(self, entry: Entry) -> None:
-        self._choose(self._shelf.load(entry.source), entry.source)
-
-    def _choose(self, style: Style, source: str | None) -> None:
-        self.options.choose(style)
-        self._source = source
-
-    def _save(self) -> None:
-        entry = self._shelf.save(self.options.style, self._name)
-        self._choose(replace(self.options.style, name=entry.label), entry.source)
-
-    def _load_slots(self) -> None:
-        self.options.slots = self._shelf.slots()
-
-    def _slots(self) -> None:
-        slots, gap, narrow = self.options.slots.styles, theme.points(_SLOT_GAP), theme.is_narrow()
-        a_row = SLOTS // 2 if narrow else SLOTS
-        left = 0.0 if narrow else theme.points(_SLOTS_FROM)
-        width = max((imgui.get_content_region_avail().x - left - (a_row - 1) * gap) / a_row, 1.0)
-        edge = imgui.get_cursor_pos_x()
-        for words, does in (("Take", "take"), ("Keep as", "keep")):
-            imgui.align_text_to_frame_padding()
-            imgui.text_disabled(words)
-            for slot, style in enumerate(slots):
-                if slot % a_row:
-                    imgui.same_line(0, gap)
-                elif not narrow:
-                    imgui.same_line(edge + left)
-                imgui.begin_disabled(does == "take" and style is None)
-                if imgui.button(f"{slot + 1}##{does}{slot + 1}", imgui.ImVec2(width, 0)):
-                    self._use_slot(does, slot)
-                imgui.end_disabled()
-                kept = "is empty" if style is None else f"holds {style.name}"
-                theme.tooltip(f"{words} slot {slot + 1}, which {kept}")
-
-    def _use_slot(self, does: str, slot: int) -> None:
-        if does == "take":
-            self.options.recall(slot)
-            self._source = None
-            return
-        self.options.store(slot, self._name.strip())
-        self._tried(lambda: self._shelf.keep_slots(self.options.slots))
 
     # --- controls -----------------------------------------------------------------------------------------------------
 
@@ -260,26 +164,37 @@ class FigurePanel:
 
     def _hands(self) -> None:
         playing = self._model.room().stage is Stage.PLAYING
-        imgui.separator_text("Who leads")
+        waits = "; not while a pass is played" if playing else ""
+        imgui.separator_text("Who plays")
         imgui.begin_disabled(playing)
         for hands, (words, about) in _LEADS.items():
             if imgui.radio_button(f"{words}##lead", self._model.hands() is hands):
                 self._tried(lambda hands=hands: self._lead(hands))  # type: ignore[misc] # mypy knows no such default
-            theme.tooltip(f"{about}. It holds for what you are asked to play too")
+            theme.tooltip(f"{about}. It holds for what you are asked to play too{waits}")
+        self._body(waits)
         imgui.end_disabled()
         imgui.separator_text("Hands and feet")
         for name, (label, about) in WORD_LABELS.items():
             imgui.begin_disabled(playing and name in HOLDS)
-            self._word(name, label, about)
+            self._word(name, label, about + (waits if name in HOLDS else ""))
             imgui.end_disabled()
-        imgui.set_next_item_width(theme.points(180))
+        imgui.set_next_item_width(theme.points(_WORD_WIDTH))
         sown, seed = imgui.input_int("chance##seed", self.options.style.seed)
         if sown:
             self.options.sow(seed)
         theme.tooltip("Another number, other blinks, looks and spun sticks; the same number, the same ones")
 
+    def _body(self, waits: str) -> None:
+        imgui.set_next_item_width(theme.points(_WORD_WIDTH))
+        if imgui.begin_combo("figure##body", _STATURES.get(self._figure, self._figure)):
+            for name, words in _STATURES.items():
+                if imgui.selectable(f"{words}##{name}", name == self._figure)[0]:
+                    self._tried(lambda name=name: self._embody(name))  # type: ignore[misc] # mypy knows no such default
+            imgui.end_combo()
+        theme.tooltip(f"How tall the drummer is{waits}")
+
     def _word(self, name: str, label: str, about: str) -> None:
-        imgui.set_next_item_width(theme.points(180))
+        imgui.set_next_item_width(theme.points(_WORD_WIDTH))
         words = list(WORDS[name])
         changed, index = imgui.combo(f"{label}##{name}", words.index(getattr(self.options.style, name)), words)
         if changed:
@@ -290,6 +205,16 @@ class FigurePanel:
         self._model.lead_with(hands)
         save_settings(replace(load_settings(self._settings), hands=hands.value), self._settings)
         self._preview()
+
+    def _embody(self, name: str) -> None:
+        self._model.embody(name)
+        try:
+            self._preview()
+        except StationError:  # out of reach
+            self._model.embody(self._figure)
+            raise
+        self._figure = name
+        save_settings(replace(load_settings(self._settings), figure=name), self._settings)
 
 
 def _tabs() -> bool:

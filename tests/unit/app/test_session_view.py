@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from station.app.session_view import Demonstrator, SessionView
+from station.app.demonstrator import Demonstrator, kept_demonstrator
+from station.app.session_view import SessionView
+from station.core.settings import Settings
 from station.core.units import NS_PER_S
 from station.drills.library import find_lesson
 from station.engine.messages import Started
@@ -90,3 +92,12 @@ def test_hands_that_stay_hold_what_they_held_while_sliders_move_on() -> None:
         assert (view.style.amplitude_gain, view.style.grip_left, view.style.held) == (gain, "american", "stick")
     view.move_as(Style(held="brush"))
     assert view.style.held == "brush"
+
+
+def test_a_style_that_is_gone_is_told_and_the_rest_is_kept() -> None:
+    told: list[str] = []
+    who = kept_demonstrator(Settings(style="/gone/mine.toml", figure="tall", hands="left"), told.append)
+    assert who.style == Style()
+    assert who.figure.stature_m == 1.90
+    assert len(told) == 1
+    assert "mine.toml" in told[0]
