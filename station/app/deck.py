@@ -9,6 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from station.app.demonstrator import Demonstrator
+from station.app.graphed import Graphed
 from station.core.units import NS_PER_MS, NS_PER_S, PPQ
 from station.drills.lesson import Lesson
 from station.engine.messages import Command, Play, Stop
@@ -20,7 +21,7 @@ from station.practice.click import PLAIN, ClickPattern
 from station.practice.plan import with_sticking
 from station.practice.song_cues import SOUNDED_NS, song_cues
 from station.practice.song_player import FLAGS, Song, SongPlayer, Step
-from station.render.snapshot import Hud, Snapshot
+from station.render.snapshot import BarNumbers, Hud, Snapshot
 
 LEAD_NS = 50 * NS_PER_MS
 """How long after a change the sound begins: the engine's way and a block of sound fit in (our choice)."""
@@ -162,6 +163,10 @@ class Deck:
             limbs=drummer.assignment.limbs,
             hud=self._hud(),
         )
+
+    def graphed(self) -> Graphed:
+        """The same for the graph."""
+        return Graphed(self.drummer, self.player.position_ns(self.now_ns) / NS_PER_S, BarNumbers())
 
     def _hud(self) -> Hud:
         player, place = self.player, self.player.place(self.now_ns)

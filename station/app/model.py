@@ -14,6 +14,7 @@ import numpy as np
 from station.app.deck import Deck
 from station.app.demonstrator import Demonstrator
 from station.app.every_hit import DOT_DTYPE, EveryHit
+from station.app.graphed import Graphed
 from station.app.heat_map import HeatMap
 from station.app.kit_desk import KitDesk
 from station.app.welcome import Answers
@@ -199,6 +200,10 @@ class PracticeModel(Protocol):
 
     def report(self) -> Report | None:
         """The result of the session that ended last, None before the first and while a question is open."""
+        ...
+
+    def graphed(self) -> Graphed | None:
+        """What the graph shows, None for nothing."""
         ...
 
     def answer(self, guess: Guess) -> None:

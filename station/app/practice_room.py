@@ -13,6 +13,7 @@ from station.app.deck import Deck, Watched
 from station.app.demonstrator import Demonstrator, kept_demonstrator
 from station.app.engine_line import EngineLine, WakeEngine
 from station.app.every_hit import every_hit
+from station.app.graphed import Graphed
 from station.app.heat_map import heat_map
 from station.app.just_play import JustPlay
 from station.app.kit_desk import KitDesk
@@ -20,7 +21,7 @@ from station.app.lesson_cards import all_lessons, card, wish_of
 from station.app.model import FreeWish, LessonCard, PlaceNow, Report, RoomState, Stage, Start
 from station.app.results import session_facts
 from station.app.session_folder import SessionFolder, rescued
-from station.app.session_view import SessionView
+from station.app.session_view import SessionView, graphed_result
 from station.app.welcome import Answers, student_level
 from station.app.welcome import answered as met
 from station.core.calibration import Calibration
@@ -105,6 +106,7 @@ class PracticeRoom:
         self.deck = Deck(self._let_sound, Watched(first.lesson, first.kit, hands_of(settings)), self._who)
         self.deck.do(lambda player, now_ns: player.looped(now_ns, _from_0(self._first.bars)))
         self._hud = Hud()
+        self._graphed: Graphed | None = None
 
     # --- what the window shows ---------------------------------------------------------------------------------------
 
@@ -179,6 +181,18 @@ class PracticeRoom:
     def report(self) -> Report | None:
         """The result of the session that ended last, once the question before it was answered."""
         return None if self._is_asking else self._report
+
+    def graphed(self) -> Graphed | None:
+        """What the graph shows: the demonstration, the session, or its whole result once it may be seen."""
+        if self._is_free:
+            return None
+        if self._stage is Stage.PLAYING:
+            return self._view.graphed(self._session)
+        if self._stage is Stage.IDLE:
+            return self.deck.graphed()
+        if self._graphed is None and self._result is not None and not self._is_asking:
+            self._graphed = graphed_result(self._result, self._who)
+        return self._graphed
 
     def first(self) -> Start:
         """The lesson that the window was opened on, as it was asked for."""
@@ -501,6 +515,7 @@ class PracticeRoom:
             except DeviceError as fault:
                 self._fault = fault
         result, document = self._told_whole()
+        self._result, self._graphed = result, None
         path = ""
         if self._folder is not None:
             path = str(self._folder.path)

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.app.demonstrator import Demonstrator
+from station.app.graphed import Graphed, played_of_marks, played_of_result
 from station.app.student_double import StudentDouble
 from station.core.events import Hit
 from station.core.pieces import Limb
@@ -22,7 +23,7 @@ from station.motion.style import Style
 from station.music.judgement import Judgement, Label
 from station.music.score import Score
 from station.practice.plan import Phase, Plan
-from station.practice.session import Session
+from station.practice.session import Session, SessionResult
 from station.render.snapshot import BarNumbers, Cue, Extra, Hud, Snapshot, Strike, mark, no_marks
 from station.scoring.windows import Windows
 
@@ -107,8 +108,7 @@ class SessionView:
         state = session.state()
         if state.transport_ns is None:
             return self._ready(message)
-        part = self._passes if state.transport_ns >= self.plan.demonstrations_end_ns else self._demonstration
-        position_s = (state.transport_ns - part.start_ns) / NS_PER_S
+        part, position_s = self._part_at(state.transport_ns)
         drummer = part.drummer(self._who.style)
         double = None
         if part is self._passes:
@@ -128,6 +128,18 @@ class SessionView:
             bar_numbers=self.bar_numbers,
             double=double,
         )
+
+    def graphed(self, session: Session) -> Graphed:
+        """The drummer who is seen, and what the student is shown of his own strokes."""
+        transport_ns = session.state().transport_ns
+        part, position_s = (self._demonstration, 0.0) if transport_ns is None else self._part_at(transport_ns)
+        played = played_of_marks(part.score, self._marks) if part is self._passes else None
+        return Graphed(part.drummer(self._who.style), position_s, self.bar_numbers, played)
+
+    def _part_at(self, transport_ns: int) -> tuple[_Part, float]:
+        """Who plays at a transport time, and where in his score he is."""
+        part = self._passes if transport_ns >= self.plan.demonstrations_end_ns else self._demonstration
+        return part, (transport_ns - part.start_ns) / NS_PER_S
 
     def _ready(self, message: str) -> Snapshot:
         """The picture before anything runs: the drummer waits, the score stands at its first bar."""
@@ -177,6 +189,13 @@ class SessionView:
         per_pass = len(self.plan.section)
         labels: NDArray[np.int8] = self._marks["label"][pass_index * per_pass : (pass_index + 1) * per_pass]
         return int((labels == Label.MATCH).sum()), int((labels >= 0).sum())
+
+
+def graphed_result(result: SessionResult, who: Demonstrator) -> Graphed:
+    """The whole of a session that is over: who demonstrated it, and every stroke of the student."""
+    plan = result.plan
+    part = _Part(plan, result.score, 0, who)
+    return Graphed(part.drummer(who.style), None, bar_numbers(plan), played_of_result(result))
 
 
 def strikes(hits: Iterable[Hit], now_ns: int) -> tuple[Strike, ...]:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
-from imgui_bundle import hello_imgui, imgui
+from imgui_bundle import hello_imgui, imgui, implot
 
 from station.app import theme
 from station.app.backdrop import Backdrop
@@ -23,6 +23,8 @@ from station.app.panels.devices import ABOUT as DEVICES_ABOUT
 from station.app.panels.devices import DEVICES, DevicesPanel
 from station.app.panels.devices import HELP as DEVICES_HELP
 from station.app.panels.figure import ABOUT, FIGURE, HELP, FigurePanel
+from station.app.panels.graph import ABOUT as GRAPH_ABOUT
+from station.app.panels.graph import GraphPanel
 from station.app.panels.help import help_window
 from station.app.panels.hits import ABOUT as ABOUT_HITS
 from station.app.panels.hits import HITS, EarActions, HitsPanel
@@ -38,17 +40,18 @@ from station.app.welcome import Answers, answered
 from station.core.clock import Clock, MonotonicClock
 from station.core.errors import DeviceError, StationError
 from station.core.settings import load_settings, save_settings
+from station.core.units import ns_from_s
 from station.practice.own_ear import Guess
 
 TITLE = "Drum station"
 _DOCK = "MainDockSpace"
 _NO_WINDOW = "no window can be opened: is there a screen, and OpenGL? `station practice --headless` needs neither"
-LESSONS, TRANSPORT, BARS, NEWS = "Lessons", "Transport", "Bars", "##news"
+LESSONS, TRANSPORT, BARS, GRAPH, NEWS = "Lessons", "Transport", "Bars", "Graph", "##news"
 _SPLITS = (
     (Side.BELOW, imgui.Dir.down, 0.085, 0.21),
     (Side.BESIDE, imgui.Dir.left, 0.26, 0.45),
     (Side.RIGHT, imgui.Dir.right, 0.42, 0.5),
-    (Side.STRIP, imgui.Dir.down, 0.36, 0.5),
+    (Side.STRIP, imgui.Dir.down, 0.42, 0.5),
 )
 """Where panels dock, in this order: side, way, their share of what is left, and the most of it when they are large."""
 _NEWS_SHOWN_S = 8.0
@@ -93,6 +96,7 @@ class Window:
         self._worn = self._kept.theme, self._kept.scale
         self._controls = PlayerControls(self._choose_bars)
         self._transport = self._strip()
+        self.graph = GraphPanel(self._seek_s)
         self.news, self._news_left_s = "", 0.0
         self._told: tuple[str, ...] = ()
         self._show_help = False
@@ -113,12 +117,15 @@ class Window:
 
     def run(self) -> None:
         """Show the window until it is closed; raises `DeviceError` where no window can be had."""
+        implot.create_context()
         try:
             hello_imgui.run(self.params)
         except RuntimeError as fault:
             if self.frames:
                 raise
             raise DeviceError(_NO_WINDOW) from fault
+        finally:
+            implot.destroy_context()
         if self.frames == 0:
             raise DeviceError(_NO_WINDOW)
 
@@ -184,6 +191,7 @@ class Window:
             Page(HITS, Side.STRIP, self._hits_gui, ABOUT_HITS),
             Page(FIGURE, Side.RIGHT, self.figure.gui, ABOUT, help=HELP),
             Page(DEVICES, Side.RIGHT, self._devices.gui, DEVICES_ABOUT, help=DEVICES_HELP),
+            Page(GRAPH, Side.STRIP, self._graph_gui, GRAPH_ABOUT),
             Page(TRANSPORT, Side.BELOW, self._transport_gui, shown=lambda stage: True),
         )
 
@@ -199,7 +207,8 @@ class Window:
         for page in self._pages:
             if page.shown is not None:
                 docking.dockable_window_of_name(page.name).is_visible = self.welcome is None and page.shown(stage)
-        self.params.fps_idling.enable_idling = stage is not Stage.PLAYING and not self._model.room().listening
+        runs = self._model.room().listening or self._model.deck.player.rate_percent != 0
+        self.params.fps_idling.enable_idling = stage is not Stage.PLAYING and not runs
         self._model.desk.listen(docking.dockable_window_of_name(DEVICES).is_visible)
         io = imgui.get_io()
         nav = imgui.ConfigFlags_.nav_enable_keyboard
@@ -431,6 +440,12 @@ class Window:
     def _hits_gui(self) -> None:
         report = self._model.report() if self._model.room().stage is Stage.RESULT else None
         self.hits.gui(None if report is None else report.hits)
+
+    def _seek_s(self, to_s: float) -> None:
+        self._model.deck.do(lambda player, now_ns: player.sought(now_ns, ns_from_s(to_s)))
+
+    def _graph_gui(self) -> None:
+        self.graph.gui(self._model.graphed(), can_seek=self._model.room().stage is Stage.IDLE)
 
     def _transport_gui(self) -> None:
         look = self._transport.gui(self._model.room(), self._model.deck, self.backdrop.look)

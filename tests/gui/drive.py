@@ -510,6 +510,40 @@ def player(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.yield_(8)
 
 
+def graph(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """The graph is opened, follows the play line, is zoomed by wheel, its line dragged; a result shows there."""
+    panel, deck, seen = drive.window.graph, drive.room.deck, drive.seen
+    ctx.set_ref("//Transport")
+    ctx.item_click("Panels##panels")
+    ctx.item_click("//$FOCUSED/Graph")
+    ctx.popup_close_all()
+    ctx.yield_(3)
+    ctx.item_click("##start")
+    low, high = panel.span_s
+    ctx.item_click("##step")
+    ctx.yield_(2)
+    seen["middle"] = sum(panel.span_s) / 2
+    place = imgui.internal.find_window_by_name("Graph").inner_rect
+    middle = (place.min.x + place.max.x) / 2
+    ctx.mouse_move_to_pos(imgui.ImVec2(middle, (place.min.y + place.max.y) / 2))
+    ctx.mouse_wheel_y(3.0)
+    ctx.yield_(2)
+    seen["zoomed"] = (panel.span_s[1] - panel.span_s[0]) / (high - low)
+    before = deck.player.at_ns
+    ctx.mouse_move_to_pos(imgui.ImVec2(panel.line_x, (place.min.y + place.max.y) / 2))
+    ctx.mouse_drag_with_delta(imgui.ImVec2(60, 0))
+    ctx.yield_(2)
+    seen["dragged"] = deck.player.at_ns - before
+    drive.choose(ctx, passes=1)
+    ctx.item_click("Start##start")
+    ctx.yield_(4)
+    seen["during"] = drive.room.room().stage.name
+    drive.room.stop()
+    ctx.yield_(4)
+    graphed = drive.room.graphed()
+    seen["result"] = graphed is not None and graphed.played is not None
+
+
 def fault(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """A session that cannot begin is said in one line, and nothing else happens."""
     room = drive.room
@@ -541,6 +575,7 @@ SCENARIOS = {
     "drill": drill,
     "closes": closes,
     "player": player,
+    "graph": graph,
     "fault": fault,
     "figure": figure,
 }

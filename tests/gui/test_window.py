@@ -101,10 +101,11 @@ def a_free_take_is_recorded_and_heard_again(seen: dict[str, Any]) -> None:
     assert seen["ended"], "it ends by itself"
 
 
-def test_player_and_figure_in_one_window(environment: dict[str, str], tmp_path: Path) -> None:
-    seen = run_in_turn(["player", "figure"], environment, tmp_path)
+def test_player_graph_and_figure_in_one_window(environment: dict[str, str], tmp_path: Path) -> None:
+    seen = run_in_turn(["player", "figure", "graph"], environment, tmp_path)
     the_demonstration_is_watched_as_in_a_player(seen["player"])
     the_demonstrator_is_made_to_move_otherwise(seen["figure"])
+    the_graph_follows_and_is_zoomed(seen["graph"])
     assert (tmp_path / "sessions" / "styles" / "slots.toml").exists()
 
 
@@ -133,6 +134,14 @@ def the_demonstrator_is_made_to_move_otherwise(seen: dict[str, Any]) -> None:
     assert values == pytest.approx((25, 50, 75), abs=3)
     assert seen["kept lane"] == seen["lane"]
     assert seen["hands"] == ["left", True]
+
+
+def the_graph_follows_and_is_zoomed(seen: dict[str, Any]) -> None:
+    assert seen["middle"] == pytest.approx(3.75), "a beat after the loop's start"
+    assert seen["zoomed"] < 0.95
+    assert seen["dragged"] > 0
+    assert seen["during"] == "PLAYING"
+    assert seen["result"]
 
 
 def keys_play_the_kit_and_escape_stops(seen: dict[str, Any]) -> None:
