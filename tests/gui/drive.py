@@ -533,7 +533,8 @@ def graph(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.mouse_move_to_pos(imgui.ImVec2(panel.line_x, (place.min.y + place.max.y) / 2))
     ctx.mouse_drag_with_delta(imgui.ImVec2(60, 0))
     ctx.yield_(2)
-    seen["dragged"] = deck.player.at_ns - before
+    width = ctx.item_info("//Graph/##angles").rect_full.get_width()
+    seen["dragged"] = (deck.player.at_ns - before) / 1e9 / (panel.span_s[1] - panel.span_s[0]) * width
     drive.choose(ctx, passes=1)
     ctx.item_click("Start##start")
     ctx.yield_(4)

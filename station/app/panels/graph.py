@@ -21,6 +21,8 @@ ABOUT = "Joint angles of both arms over the music, your timing and loudness belo
 PLOT, STRIP = "##angles", "##strokes"
 _BEHIND_S = 4.0
 """What is seen before and after the play line at first, as in the score (SMED)."""
+_STANDS_S = 1e-6
+"""A play line that moves less stands: it is where it was dragged to, but for rounding."""
 _MARGIN_S, _RESULT_S = 0.3, 24.0
 """Of a result so much is seen at first (our choice: three passes of a two-bar loop)."""
 _COLOUR_OF_JOINT = {"shoulder": palette.WRONG, "elbow": palette.GOOD, "wrist": palette.BRAND}
@@ -84,7 +86,7 @@ class GraphPanel:
         if position_s is None and before_s is not None:
             end_s = graphed.score.length_ns / NS_PER_S
             self._low.value, self._high.value = -_MARGIN_S, min(end_s + _MARGIN_S, _RESULT_S)
-        elif position_s is not None and before_s not in (position_s, None):
+        elif position_s is not None and before_s is not None and abs(position_s - before_s) > _STANDS_S:
             half = (self._high.value - self._low.value) / 2
             self._low.value, self._high.value = position_s - half, position_s + half
 
