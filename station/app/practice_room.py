@@ -515,7 +515,7 @@ class PracticeRoom:
             except DeviceError as fault:
                 self._fault = fault
         result, document = self._told_whole()
-        self._result, self._graphed = result, None
+        self._graphed = None
         path = ""
         if self._folder is not None:
             path = str(self._folder.path)
