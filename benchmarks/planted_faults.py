@@ -107,7 +107,7 @@ _HEAD = """# How surely advice names what is wrong
 Written by `benchmarks/planted_faults.py`; {seeds} seeds a lesson and fault, 20 at most for pairs.
 
 A virtual student (`{student}`) plays every shipped lesson
-that exercises a fault. The fault's size is six standard errors: six times the scatter of its effect over 24 sessions
+that exercises a fault. The fault's size is six standard errors: six times the scatter of its effect over 96 sessions
 without a fault; where feel is free, at least three standard errors beyond that. *Right* is the share of sessions whose
 first sentence names the fault.
 

@@ -197,15 +197,15 @@ def _leans(summary: Summary) -> list[Finding]:
 
 
 def _common_lean(summary: Summary) -> list[Finding]:
-    """Everything early or late against the click."""
-    if summary.alignment.reference is Reference.PLAYER:
+    """Everything early or late against the click: with habits taken out, and as it was heard."""
+    effect, mean_ms = summary.habits.effects.get(CONSTANT), summary.timing.mean_ms
+    if summary.alignment.reference is Reference.PLAYER or effect is None or mean_ms is None:
         return []
-    effect = summary.habits.effects.get(CONSTANT)
-    if effect is None or abs(effect.value) <= FREE_BIAS_MS or not _is_sure(effect):
+    side = np.sign(effect.value)
+    if min(side * effect.value, side * mean_ms) <= FREE_BIAS_MS or not _is_sure(effect):
         return []
     timed = timed_notes(summary.score, summary.alignment)
     off = asynchrony_ms(summary.alignment)[timed]
-    side = np.sign(effect.value)
     bars = tuple(worst_bars(summary, off * side - (off * side).min(), timed))
     fault = "late" if effect.value > 0 else "early"
     return [Finding(fault, "", effect.value, effect.ci, "ms", abs(effect.value) / _CLEAR_BIAS_MS, bars)]
