@@ -10,8 +10,9 @@ import statistics
 import time
 
 from station.bench.benchmark import Benchmark, Measured
-from station.bench.heard import KIT, WITHIN_S, Player
+from station.bench.heard import KIT, WITHIN_S
 from station.bench.jack_server import JackServer
+from station.bench.player import Player
 from station.core.errors import DeviceError
 from station.devices.kit_ports import KitWish
 from station.engine.config import EngineConfig
