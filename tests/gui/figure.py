@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from imgui_bundle import imgui
 
 from station.core.settings import load_settings
+from station.motion.style import JOINTS
 from station.motion.style_file import load_style
 
 if TYPE_CHECKING:
@@ -39,6 +40,7 @@ def figure(drive: "Drive", ctx: imgui.test_engine.TestContext) -> None:
     ctx.yield_(3)
     draw(ctx, "##figure/Bars/##lane")
     seen["lane"] = options.lane("amplitude_gain")
+    own_styles(drive, ctx)
     ctx.item_click("##figure/Hands")
     ctx.yield_(2)
     ctx.item_click("##figure/Hands/Left-handed##lead")
@@ -47,6 +49,41 @@ def figure(drive: "Drive", ctx: imgui.test_engine.TestContext) -> None:
     kept = load_settings(drive.settings)
     seen["hands"] = [kept.hands, drive.room.snapshot(drive.clock.now_ns()).kit.left_handed]
     seen["kept lane"] = load_style(kept.style).automation["amplitude_gain"]
+
+
+def own_styles(drive: "Drive", ctx: imgui.test_engine.TestContext) -> None:
+    """A style is saved by name, left for others and taken again from the list."""
+    options, seen = drive.window.figure.options, drive.seen
+    ctx.item_input_value("##style-name", "My own")
+    ctx.item_click("Save##save-style")
+    ctx.yield_(2)
+    seen["saved"] = [load_settings(drive.settings).style, options.style.name, options.is_changed]
+    ctx.item_click("##figure/Arms")
+    ctx.item_check("##figure/Arms/each for itself")
+    ctx.item_input_value("##figure/Arms/##amplitude_wrist", 80.0)
+    ctx.yield_(2)
+    seen["unconstrained"] = [options.value(f"amplitude_{joint}") for joint in JOINTS]
+    ctx.item_uncheck("##figure/Arms/each for itself")
+    ctx.yield_(2)
+    seen["shared"] = [round(options.value(f"amplitude_{joint}"), 3) for joint in JOINTS]
+    ctx.item_click("Reset##all")
+    ctx.yield_(2)
+    seen["reset"] = options.is_changed
+    ctx.item_click("From the score##propose")
+    ctx.yield_(2)
+    seen["proposed"] = options.style.name
+    ctx.item_click("##style")
+    ctx.yield_(2)
+    ctx.item_click(f"//$FOCUSED/your own: My own##{seen_path(drive)}")
+    ctx.yield_(2)
+    seen["again"] = options.style.name
+
+
+def seen_path(drive: "Drive") -> str:
+    """The file of the style that was saved, as imgui's paths write it."""
+    saved = drive.seen["saved"]
+    assert isinstance(saved, list)
+    return str(saved[0]).replace("/", "\\/")
 
 
 def draw(ctx: imgui.test_engine.TestContext, canvas: str) -> None:

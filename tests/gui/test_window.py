@@ -133,6 +133,13 @@ def the_demonstrator_is_made_to_move_otherwise(seen: dict[str, Any]) -> None:
     assert bars == (1.5, 1.75, 2.0), "a point on every beat from a quarter to the middle of two bars"
     assert values == pytest.approx((25, 50, 75), abs=3)
     assert seen["kept lane"] == seen["lane"]
+    assert seen["saved"][0].endswith("styles/My own.toml")
+    assert seen["saved"][1:] == ["My own", False]
+    assert seen["unconstrained"] == [80.0, 30.0, 30.0]
+    assert seen["shared"] == [57.143, 21.429, 21.429], "80, 30 and 30 of 140"
+    assert not seen["reset"]
+    assert seen["proposed"] == "proposed"
+    assert seen["again"] == "My own"
     assert seen["hands"] == ["left", True]
 
 

@@ -6,10 +6,15 @@ Rock 1 is two bars of 4/4 at 80 beats a minute: 0.75 s a beat, 3 s a bar (its fi
 import numpy as np
 
 from station.app.deck import LEAD_NS, Deck, Watched
+from station.app.demonstrator import Demonstrator
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.drills.library import find_lesson
 from station.engine.messages import Bus, Command, Play, Stop
+from station.motion.drummer import Drummer
+from station.motion.figure import figure_of
 from station.motion.kit import load_kit
+from station.motion.style import Style
+from station.practice.plan import with_sticking
 from station.practice.song_player import SongPlayer
 
 BAR_NS = 3 * NS_PER_S
@@ -91,3 +96,17 @@ def test_the_picture_is_the_demonstration_s_once_the_player_is_used() -> None:
     assert (before, made.is_shown) == (False, True)
     hud = made.snapshot().hud
     assert (hud.bar, hud.beat, hud.phase, hud.beats_a_minute) == (2, 3, "Demonstration at 50 %", 40.0)
+
+
+def test_another_manner_or_body_is_in_the_next_picture() -> None:
+    """A drummer made from nothing says where the sticks must be."""
+    made, _ = deck()
+    made.do(lambda player, now_ns: player.sought(now_ns, BAR_NS + 200 * NS_PER_MS))
+    large = Demonstrator(style=Style(amplitude_gain=95.0, posture_deg=-5.0))
+    for who in (Demonstrator(), large, Demonstrator(figure_of(1.9), large.style)):
+        made.perform_as(who)
+        shown = made.snapshot()
+        expected = Drummer(with_sticking(ROCK.score, KIT, None), KIT, who.figure, who.style).pose(shown.position_s)
+        assert shown.pose is not None
+        assert np.allclose(shown.pose.row, expected.row)
+        assert shown.figure == who.figure
