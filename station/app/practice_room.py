@@ -4,7 +4,7 @@
 it when it is over. The hits carry their own times, so that the frame rate decides nothing.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from datetime import date
@@ -12,51 +12,40 @@ from datetime import date
 from station.app.deck import Deck, Watched
 from station.app.demonstrator import Demonstrator, kept_demonstrator
 from station.app.engine_line import EngineLine, WakeEngine
-from station.app.every_hit import every_hit
 from station.app.graphed import Graphed
-from station.app.heat_map import heat_map
 from station.app.just_play import JustPlay
 from station.app.kit_desk import KitDesk
 from station.app.lesson_cards import all_lessons, card, wish_of
-from station.app.model import FreeWish, LessonCard, PlaceNow, Report, RoomState, Stage, Start
-from station.app.results import session_facts
-from station.app.session_folder import SessionFolder, rescued
-from station.app.session_view import SessionView, graphed_result
+from station.app.lesson_run import LessonRun
+from station.app.model import FreeWish, LessonCard, Report, RoomState, Stage, Start
+from station.app.session_view import graphed_result
 from station.app.welcome import Answers, student_level
 from station.app.welcome import answered as met
 from station.core.calibration import Calibration
 from station.core.errors import DeviceError, StationError
 from station.core.events import Hit
 from station.core.settings import Settings
-from station.core.units import NS_PER_S
 from station.drills.lesson import Lesson
 from station.drills.library import find_lesson
 from station.engine.messages import Command, Eavesdrop, EngineEvent, KeyHit, Play, SetBacking, Started
 from station.motion.figure import load_figure
 from station.motion.hand_notes import Hands
 from station.motion.style import Style
-from station.music.judgement import Judgement
 from station.music.score import Score
-from station.practice.adaptation import Adaptation
 from station.practice.backing import Backing, BackingWish
 from station.practice.by_ear import Whose, bar_by_ear
 from station.practice.click_word import parse_click
 from station.practice.latency import Latency, latency_of
 from station.practice.lead import hands_of
 from station.practice.listening import Listening
-from station.practice.live import begin, end, next_session
-from station.practice.mastery_report import with_mastery
 from station.practice.memory import Memory, Remembered
 from station.practice.own_ear import GUESS_OF, QUESTION, Guess, answered, is_worth_asking
 from station.practice.pad_commands import PadCommands
-from station.practice.plan import Phase, Plan, Wishes, plan_practice
-from station.practice.report import practice_document
-from station.practice.session import Session, SessionResult
-from station.render.snapshot import Hud, Snapshot
-from station.scoring.document import Json
+from station.practice.plan import Plan, Wishes, plan_practice
+from station.practice.session import SessionResult
+from station.render.snapshot import Snapshot
 from station.sound.track import PreparedTrack
 
-PAUSED = "Paused: two kicks, or Go on"
 NOTICES_KEPT = 5
 """How many notices the window may show at once; our choice."""
 
@@ -83,14 +72,9 @@ class PracticeRoom:
         self._latency = latency or latency_of(settings, Calibration())
         self._lessons = all_lessons(first.lesson)
         self._first = replace(wish_of(first), adapt=adapt)
-        self._followed: Remembered | None = None
-        self._taken: Session | None = None
-        self._plan = first
         self._notices: list[str] = []
         self._who = kept_demonstrator(settings, self._notices.append)
-        self._view = SessionView(first, self._who)
-        self._session = self._new_session(first)
-        self._folder: SessionFolder | None = None
+        self._run = self._new_run(first)
         self._report: Report | None = None
         self._result: SessionResult | None = None
         self._asked: set[str] = set()
@@ -101,11 +85,10 @@ class PracticeRoom:
         self._is_free = False
         self._listening: Listening | None = None
         self._pads = PadCommands(settings, first.score)
-        self._is_wanted = self._was_asked = False
+        self._is_wanted = False
         self._fault: StationError | None = None
         self.deck = Deck(self._let_sound, Watched(first.lesson, first.kit, hands_of(settings)), self._who)
         self.deck.do(lambda player, now_ns: player.looped(now_ns, _from_0(self._first.bars)))
-        self._hud = Hud()
         self._graphed: Graphed | None = None
 
     # --- what the window shows ---------------------------------------------------------------------------------------
@@ -123,19 +106,13 @@ class PracticeRoom:
             if self._free.runs and self._free.over:
                 self.stop()
             heard_ns = None if self._listening is None else self._listening.at_ns(now_ns)
-            return self._free.snapshot(self._plan.kit, now_ns, heard_ns)
-        if self._stage is Stage.PLAYING:
-            self._judged(self._session.advance(now_ns), now_ns)
-            if self._settings.auto_pause and self._session.is_left:
-                self._hold(asked=False)
-            elif self._session.over:
-                self._pass_over()
+            return self._free.snapshot(self._run.plan.kit, now_ns, heard_ns)
+        if self._stage is Stage.PLAYING and self._run.advance(now_ns, self._settings.auto_pause):
+            self._finish()
         self.deck.advance(now_ns)
         if self._stage is Stage.IDLE and self.deck.is_shown:
             return self.deck.snapshot()
-        shown = self._view.snapshot(self._session, now_ns, PAUSED if self._session.paused else "")
-        self._hud = shown.hud
-        return shown
+        return self._run.snapshot(now_ns)
 
     def room(self) -> RoomState:
         """What surrounds the picture."""
@@ -147,32 +124,9 @@ class PracticeRoom:
             has_take=self._free.has_take,
             listening=self._listening is not None,
             free=self._is_free,
-        )
-        return state if self._is_free else self._with_session(state)
-
-    def _with_session(self, room: RoomState) -> RoomState:
-        """The room, and how far its session is."""
-        state, adaptation, progress = self._session.state(), None, None
-        if room.stage is Stage.PLAYING:
-            adaptation = None if self._followed is None else self._followed.adaptation
-            if state.transport_ns is not None:
-                progress = min(max(state.transport_ns / self._plan.end_ns, 0.0), 1.0)
-        if adaptation is not None and progress is not None:
-            progress = (len(adaptation.rounds) + progress) / adaptation.loops
-        can_veto = adaptation is not None and bool(adaptation.rounds) and state.segment.phase is Phase.COUNT_IN
-        clock = None
-        if progress is not None and state.transport_ns is not None:
-            clock = PlaceNow(max(state.transport_ns, 0) / NS_PER_S, self._hud.bar, self._hud.beat)
-        return replace(
-            room,
-            progress=progress,
-            why=self._session.message,
-            can_veto=can_veto,
             question=QUESTION if self._is_asking else "",
-            can_pause=room.stage is Stage.PLAYING and self._session.can_pause,
-            paused=self._session.paused,
-            clock=clock,
         )
+        return state if self._is_free else self._run.told(state)
 
     def lessons(self) -> Sequence[LessonCard]:
         """Every shipped lesson, and the one that was named when the window was opened."""
@@ -187,7 +141,7 @@ class PracticeRoom:
         if self._is_free:
             return None
         if self._stage is Stage.PLAYING:
-            return self._view.graphed(self._session)
+            return self._run.graphed()
         if self._stage is Stage.IDLE:
             return self.deck.graphed()
         if self._graphed is None and self._result is not None and not self._is_asking:
@@ -208,30 +162,20 @@ class PracticeRoom:
             if self._is_free:
                 self.deck.halt()
         if self._stage is Stage.IDLE and wish is not None:
-            self._plan, self._view, _ = self._laid_out(wish)
-            self._session = self._new_session(self._plan)
+            self._run = self._laid_out(wish)
             click = parse_click(self._settings.click_pattern, "settings: click_pattern")
             lesson = self._lesson(wish.lesson)
-            self.deck.load(Watched(lesson, self._plan.kit, hands_of(self._settings), click), _from_0(wish.bars))
+            self.deck.load(Watched(lesson, self._run.plan.kit, hands_of(self._settings), click), _from_0(wish.bars))
 
     def start(self, wish: Start) -> None:
         """Begin a session, ending the one that runs; wakes a new engine if the old has ended. Raises `StationError`."""
-        plan, view, followed = self._laid_out(wish)
+        run = self._laid_out(wish)
         self._make_room()
-        track = None if wish.adapt else self._track(plan)
-        folder = SessionFolder(None, self._settings, plan.lesson.name)
-        session = self._new_session(plan) if followed is None else followed.adaptation.session(self._latency)
-        session.backing = track
-        try:
-            if self._backing is not None and track is None:
-                self._engine.send(SetBacking(None))
-            begin(self._engine, session, folder.capture)
-        except StationError:
-            folder.discard()
-            raise
-        self._plan, self._view, self._session, self._folder = plan, view, session, folder
-        self._followed, self._stage, self._is_asking, self._is_free = followed, Stage.PLAYING, False, False
-        self._pads.practise(plan.score)
+        track = None if wish.adapt else self._track(run.plan)
+        if self._backing is not None and track is None:
+            self._engine.send(SetBacking(None))
+        run.begin(self._settings, track)
+        self._run, self._stage, self._is_asking, self._is_free = run, Stage.PLAYING, False, False
 
     def just_play(self, wish: FreeWish) -> None:
         """Begin a free take, ending what runs; raises `StationError`."""
@@ -253,7 +197,7 @@ class PracticeRoom:
 
     def score(self) -> Score:
         """The whole score of the lesson that is shown, at its own tempo."""
-        return self._plan.lesson.score
+        return self._run.plan.lesson.score
 
     def demonstrator(self) -> Demonstrator:
         """Who demonstrates."""
@@ -262,7 +206,7 @@ class PracticeRoom:
     def move_as(self, style: Style) -> None:
         """Let the demonstrator move in another style at once; hands hold as before while a pass is played."""
         self._who = replace(self._who, style=style)
-        self._view.move_as(style, hands_stay=self._stage is Stage.PLAYING and not self._is_free)
+        self._run.move_as(self._who, hands_stay=self._stage is Stage.PLAYING and not self._is_free)
         self.deck.perform_as(self._who)
 
     def embody(self, figure: str) -> None:
@@ -272,7 +216,7 @@ class PracticeRoom:
 
     def hands(self) -> Hands:
         """Whose hand leads: as it was chosen, else as the lesson's kit is built."""
-        return hands_of(self._settings) or (Hands.LEFT if self._plan.kit.left_handed else Hands.RIGHT)
+        return hands_of(self._settings) or (Hands.LEFT if self._run.plan.kit.left_handed else Hands.RIGHT)
 
     def lead_with(self, hands: Hands) -> None:
         """Let another hand lead from the next preview or session on."""
@@ -299,14 +243,14 @@ class PracticeRoom:
 
     def veto(self) -> None:
         """Refuse what the next pass would change, while it is counted in: the last one once more."""
-        if self._followed is not None and self.room().can_veto:
-            self._followed.adaptation.veto()
-            self._next_pass(self._followed.adaptation)
+        if self.room().can_veto and not self._run.veto():
+            self._finish()
 
     def pause(self) -> None:
         """Pause the session, or go on; nothing where there is none, or where the score waits by itself."""
         if self._stage is Stage.PLAYING and not self._is_free:
-            self._go_on() if self._session.paused else self._hold()
+            self._pads.forget()
+            self._run.go_on() if self._run.paused else self._run.hold()
 
     def wants_start(self) -> bool:
         """Whether two kicks have asked for what Enter starts; said once."""
@@ -335,23 +279,9 @@ class PracticeRoom:
         if self._stage is Stage.RESULT:
             self._quiet()
             self._stage, self._is_asking = Stage.IDLE, False
-            self._session = self._new_session(self._plan)
-            self._view = SessionView(self._plan, self._who)
+            self._run = self._new_run(self._run.plan)
 
     # --- inside ------------------------------------------------------------------------------------------------------
-
-    def _hold(self, command: Sequence[Hit] = (), asked: bool = True) -> None:
-        """Pause; `command` are the strokes that asked for it, where some did."""
-        self._was_asked = asked
-        self._pads.forget()
-        self._send(self._session.pause(command))
-        self._view.judged_anew(self._session)
-
-    def _go_on(self) -> None:
-        """Out of a pause: a pass that moves the tempo is taken whole, else from the bar of the last stroke."""
-        self._pads.forget()
-        self._send(self._session.resume(self._was_asked, whole=self._followed is not None))
-        self._view.judged_anew(self._session)
 
     def _send(self, commands: Iterable[Command]) -> None:
         """Tell the engine; a dead one says so itself."""
@@ -364,16 +294,18 @@ class PracticeRoom:
         if self._is_asking:
             self._pads.forget()
             return
-        is_paused = self._stage is Stage.PLAYING and not self._is_free and self._session.paused
-        if (is_paused or self._stage is not Stage.PLAYING) and self._pads.starts(event):
-            self._is_wanted = not is_paused
-            if is_paused:
-                self._go_on()
+        self._pads.practise(self._run.plan.score)
+        is_running = self._stage is Stage.PLAYING and not self._is_free
+        is_quiet = self._stage is not Stage.PLAYING or (is_running and self._run.paused)
+        if is_quiet and self._pads.starts(event):
+            self._is_wanted = not is_running
+            if is_running:
+                self.pause()
             return
         command = self._pads.pauses(event)
-        if command is None or self._stage is not Stage.PLAYING or self._is_free:
-            return
-        self._go_on() if is_paused else self._hold(command)
+        if command is not None and is_running:
+            self._pads.forget()
+            self._run.go_on() if self._run.paused else self._run.hold(command)
 
     def _make_room(self) -> None:
         """End what runs or sounds, and have an engine; raises `DeviceError`."""
@@ -409,21 +341,23 @@ class PracticeRoom:
     def _lesson(self, name: str) -> Lesson:
         return self._lessons.get(name) or find_lesson(name)
 
-    def _laid_out(self, wish: Start) -> tuple[Plan, SessionView, Remembered | None]:
-        lesson = self._lesson(wish.lesson)
+    def _laid_out(self, wish: Start) -> LessonRun:
+        lesson, settings, followed = self._lesson(wish.lesson), self._settings, None
         tempo_bpm = None if wish.adapt else wish.tempo_bpm
-        click = parse_click(self._settings.click_pattern, "settings: click_pattern") if wish.click else None
-        hands = hands_of(self._settings)
-        wishes = Wishes(tempo_bpm, wish.loops, wish.bars, wish.demonstrations, click, self._settings.guide, hands)
-        plan, followed = plan_practice(lesson, wishes), None
+        click = parse_click(settings.click_pattern, "settings: click_pattern") if wish.click else None
+        hands = hands_of(settings)
+        wishes = Wishes(tempo_bpm, wish.loops, wish.bars, wish.demonstrations, click, settings.guide, hands)
+        plan = plan_practice(lesson, wishes)
         if wish.adapt:
-            settings = self._settings
             memory = Memory.of(settings.sessions_dir, settings.student, lesson.name, plan.bars)
             followed = Remembered.of(lesson, wishes, date.today(), memory)
             plan = followed.adaptation.plan
             if followed.fault is not None:
                 self._notices.append(followed.fault)
-        return plan, SessionView(plan, self._who), followed
+        return self._new_run(plan, followed)
+
+    def _new_run(self, plan: Plan, followed: Remembered | None = None) -> LessonRun:
+        return LessonRun(self._engine, plan, self._who, self._latency, self._notices.append, followed)
 
     def _let_sound(self, command: Command) -> None:
         """Tell the engine what the demonstration needs, without a track; a dead one plays none, and has said so."""
@@ -443,38 +377,6 @@ class PracticeRoom:
         if track is None:
             raise DeviceError("the track is being made ready for this tempo: start again in a moment")
         return track
-
-    def _new_session(self, plan: Plan) -> Session:
-        return Session(plan, self._latency)
-
-    def _judged(self, verdicts: tuple[Judgement, ...], now_ns: int) -> None:
-        """Show what the student is to see of `verdicts`."""
-        session = self._session
-        self._view.judged(session.told(verdicts), session.hits, now_ns, session.windows)
-
-    def _pass_over(self) -> None:
-        """On to the next pass where the tempo follows the student and there is one, else to the result."""
-        if self._followed is not None:
-            adaptation = self._followed.adaptation
-            step = adaptation.take(self._session.result())
-            self._taken = self._session
-            if step.notice is not None:
-                self._notices.append(step.notice)
-            if not adaptation.over:
-                self._next_pass(adaptation)
-                return
-        self._finish()
-
-    def _next_pass(self, adaptation: Adaptation) -> None:
-        try:
-            self._session = next_session(self._engine, adaptation, self._session)
-        except DeviceError as fault:
-            self._notices.append(str(fault))
-            self._finish()
-            return
-        self._plan = adaptation.plan
-        self._pads.practise(self._plan.score)
-        self._view = SessionView(self._plan, self._who)
 
     def _heard(self) -> list[EngineEvent]:
         try:
@@ -498,58 +400,27 @@ class PracticeRoom:
             self._notices += self._free.notices[told:]
             self._command(event)
             return
-        told = len(self._session.heard.notices)
-        verdicts = self._session.handle(event)
-        self._judged(verdicts, now_ns)
-        self._notices += self._session.heard.notices[told:]
+        self._run.take(event, now_ns)
         self._command(event)
         if isinstance(event, Hit) and self._is_asking and event.piece in GUESS_OF:
             self.answer(GUESS_OF[event.piece])
 
     def _finish(self) -> None:
         """End the session, judge what was played and keep it."""
-        self._fault = None
-        if self._engine.alive:
-            try:
-                self._fault = end(self._engine, self._session)
-            except DeviceError as fault:
-                self._fault = fault
-        result, document = self._told_whole()
+        kept = self._run.finish(self._settings)
+        self._fault, self._result, self._report = kept.fault, kept.result, kept.report
         self._graphed = None
-        path = ""
-        if self._folder is not None:
-            path = str(self._folder.path)
-            try:
-                self._folder.write(result, document)
-                if self._followed is not None:
-                    self._followed.keep()
-            except StationError as fault:
-                self._fault = rescued(fault, result, document)
         if self._fault is not None:
             self._notices.append(str(self._fault))
-        self._result = result
-        self._report = Report(session_facts(result, document), document, path, heat_map(result), every_hit(result))
-        self._stage, self._is_asking = Stage.RESULT, self._may_ask(document)
+        self._stage, self._is_asking = Stage.RESULT, self._may_ask(self._report.document)
 
-    def _may_ask(self, document: dict[str, Json]) -> bool:
+    def _may_ask(self, document: Mapping[str, object]) -> bool:
         """Whether to ask before the result: at most once a lesson, and only what it can answer."""
-        name = self._plan.lesson.name
+        name = self._run.plan.lesson.name
         if not self._settings.ask_first or name in self._asked or not is_worth_asking(document):
             return False
         self._asked.add(name)
         return True
-
-    def _told_whole(self) -> tuple[SessionResult, dict[str, Json]]:
-        """The session's result and report, over all passes where there were several sessions."""
-        if self._followed is None:
-            result = self._session.result()
-            return result, practice_document(result, self._settings)
-        adaptation = self._followed.adaptation
-        if self._taken is not self._session:
-            adaptation.take(self._session.result())
-            self._taken = self._session
-        result = adaptation.result()
-        return result, with_mastery(practice_document(result, self._settings), adaptation, self._followed.next_turn())
 
 
 def _from_0(bars: tuple[int, int] | None) -> tuple[int, int] | None:

@@ -17,10 +17,15 @@ class PadCommands:
         self._wish = parse_pause(settings.pause, "settings: pause")
         self._kicks_start = settings.kicks_start
         self._foot = FootSwitch(self._wish.switches)
+        self._score: Score | None = None
+        self._kicks, self._together = TwoKicks(), Together((), score)
         self.practise(score)
 
     def practise(self, score: Score) -> None:
         """From now on `score` is played: what it asks for commands nothing."""
+        if score is self._score:
+            return
+        self._score = score
         self._kicks, self._together = TwoKicks(), Together(self._wish.pairs, score)
 
     def forget(self) -> None:
