@@ -1,11 +1,15 @@
-"""Benchmarks of drawing off screen at the lowest quality: whole pictures, and the first one.
+"""Benchmarks of drawing off screen at the lowest quality: whole pictures, turned ones, the first one, and memory.
 
-The peer is bare moderngl: the same triangles by the same shaders, with the same read-back, but nothing posed, no score
-and no words. Without a graphics card everything here is the processor's work.
+The peer is bare moderngl: the same triangles by shaders that light every pixel, with the same read-back, but nothing
+posed, no score and no words, and nothing kept from one picture to the next. Without a graphics card everything here is
+the processor's work.
 """
 
+import mmap
 import subprocess
 import sys
+from dataclasses import replace
+from pathlib import Path
 
 from station.bench.benchmark import Benchmark, Measured, median_s
 from station.core.pieces import Limb, Piece, Zone
@@ -13,14 +17,21 @@ from station.core.units import PPQ
 from station.motion.drummer import Drummer
 from station.motion.figure import figure_of
 from station.motion.kit import load_kit
+from station.music.judgement import Label
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.render.bare import BareScene
+from station.render.camera import View, named
+from station.render.gl import Target, standalone_context
+from station.render.painter import Arrangement, Painter
 from station.render.picture import PictureMaker
 from station.render.quality import QUALITIES
-from station.render.snapshot import Hud, Snapshot
+from station.render.snapshot import Hud, Snapshot, no_marks
 
 SIZE = (1280, 720)
+_SETTLES, _GROWS_FOR = 200, 800
+_MEMORY = Path("/proc/self/statm")
+"""Linux's account of this process: its second number counts the resident pages."""
 _FRAMES = 12
 _ROUNDS = 3
 _FIRST = (
@@ -51,7 +62,45 @@ def _pictures() -> Measured:
     bare.pose(frames[0])
     ours_s = median_s(lambda: [maker.draw(frame) for frame in frames], _ROUNDS) / _FRAMES
     theirs_s = median_s(lambda: [bare.draw() for _ in frames], _ROUNDS) / _FRAMES
-    return Measured(1 / ours_s, 1 / theirs_s, f"{bare.triangles} triangles")
+    return Measured(1 / ours_s, 1 / theirs_s, f"{bare.triangles} triangles, of which the peer draws all every time")
+
+
+def _turned() -> Measured:
+    """The camera moves from picture to picture, as while the user drags it: nothing can be kept."""
+    frames = snapshots(_FRAMES)
+    ctx = standalone_context()
+    with ctx:
+        painter, target = Painter(ctx, QUALITIES[0]), Target(ctx, SIZE)
+        cameras = [named(View.SHOULDER).orbited(0.01 * k, 0.0) for k in range(_FRAMES)]
+
+        def draw() -> None:
+            for frame, camera in zip(frames, cameras, strict=True):
+                arrangement = Arrangement(is_rough=True)
+                painter.draw(frame, target.framebuffer, (0, 0, *SIZE), camera, arrangement=arrangement)
+                target.read()
+
+        return Measured(_FRAMES / median_s(draw, _ROUNDS))
+
+
+def _growth() -> Measured:
+    """The process's memory after many pictures with ever new words and marks, less that after the first few hundred."""
+    if not _MEMORY.exists():
+        return Measured(None, note=f"memory is read from {_MEMORY}")
+    frames, maker = snapshots(_GROWS_FOR // 20), PictureMaker((320, 180), QUALITIES[0])
+    settled = 0
+    for k in range(_SETTLES + _GROWS_FOR):
+        frame = frames[k % len(frames)]
+        marks = no_marks(frame.score)
+        marks["label"][: k % len(marks)] = Label.MATCH
+        words = replace(frame.hud, bar=k // 60 + 1, right=k, judged=k + 1, message=f"picture {k}")
+        maker.draw(replace(frame, marks=marks, hud=words))
+        if k == _SETTLES:
+            settled = _memory_bytes()
+    return Measured((_memory_bytes() - settled) / 1e6, note=f"{_GROWS_FOR} pictures")
+
+
+def _memory_bytes() -> int:
+    return int(_MEMORY.read_text(encoding="ascii").split()[1]) * mmap.PAGESIZE
 
 
 def _first_picture() -> Measured:
@@ -61,5 +110,7 @@ def _first_picture() -> Measured:
 
 BENCHMARKS = (
     Benchmark("pictures_lowest_quality_1280x720", "pictures/s", 60.0, "higher", "bare moderngl", _pictures),
+    Benchmark("pictures_camera_turns_1280x720", "pictures/s", 30.0, "higher", None, _turned),
+    Benchmark("pictures_memory_growth", "MB", 0.5, "lower", None, _growth),
     Benchmark("first_picture", "s", 2.0, "lower", None, _first_picture),
 )

@@ -7,6 +7,7 @@ Metres. A mesh carries for each corner: where it is, which way the surface looks
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -140,6 +141,15 @@ def ball(centre: ArrayLike, radius: float, material: int, segments: int = 12) ->
 def box(size: Sequence[float], material: int, bevel: float = 0.0) -> Mesh:
     """A box about the origin with chamfered edges, flatly shaded."""
     half = np.asarray(size, np.float64) / 2
+    model = _model_box(bevel > 0)
+    out = np.where(np.abs(model.position) < 1, half - bevel, half)
+    return replace(model, position=np.sign(model.position) * out, material=np.full_like(model.material, material))
+
+
+@cache
+def _model_box(chamfered: bool) -> Mesh:
+    """The box from −1 to +1, of which all others are made: what is not at ±1 is drawn in by the bevel."""
+    half, bevel = np.ones(3), 0.5 if chamfered else 0.0
     faces: list[Mesh] = []
     for axis in range(3):
         u, v = (axis + 1) % 3, (axis + 2) % 3
@@ -148,19 +158,17 @@ def box(size: Sequence[float], material: int, bevel: float = 0.0) -> Mesh:
             corners[:, axis] = way * half[axis]
             corners[:, u] = np.array([-1, 1, 1, -1]) * (half[u] - bevel)
             corners[:, v] = np.array([-1, -1, 1, 1]) * (half[v] - bevel)
-            faces.append(_flat(corners if way > 0 else corners[::-1], material))
-    if bevel > 0:
-        faces += _chamfers(half, bevel, material)
-    return joined(faces)
+            faces.append(_flat(corners if way > 0 else corners[::-1]))
+    return joined([*faces, *_chamfers(half, bevel)] if chamfered else faces)
 
 
-def _flat(corners: Points, material: int) -> Mesh:
+def _flat(corners: Points) -> Mesh:
     normal = unit(np.cross(corners[1] - corners[0], corners[2] - corners[0]))
     triangles = np.array([[0, k, k + 1] for k in range(1, len(corners) - 1)], np.uint32)
-    return new_mesh(corners, np.repeat(normal[None], len(corners), axis=0), triangles, material)
+    return new_mesh(corners, np.repeat(normal[None], len(corners), axis=0), triangles, 0)
 
 
-def _chamfers(half: Points, bevel: float, material: int) -> list[Mesh]:
+def _chamfers(half: Points, bevel: float) -> list[Mesh]:
     """The twelve slanting edges and eight corners of a chamfered box."""
     meshes: list[Mesh] = []
     for axis in range(3):
@@ -171,16 +179,16 @@ def _chamfers(half: Points, bevel: float, material: int) -> list[Mesh]:
                 corners[:, axis] = np.array([-1, 1, 1, -1]) * (half[axis] - bevel)
                 corners[:, u] = su * np.array([half[u], half[u], half[u] - bevel, half[u] - bevel])
                 corners[:, v] = sv * np.array([half[v] - bevel, half[v] - bevel, half[v], half[v]])
-                meshes.append(_outward(corners, material))
+                meshes.append(_outward(corners))
     for signs in np.array(np.meshgrid([-1, 1], [-1, 1], [-1, 1])).T.reshape(-1, 3):
         corners = np.array([[half[k] - (0 if k == axis else bevel) for k in range(3)] for axis in range(3)])
-        meshes.append(_outward(signs * corners, material))
+        meshes.append(_outward(signs * corners))
     return meshes
 
 
-def _outward(corners: Points, material: int) -> Mesh:
+def _outward(corners: Points) -> Mesh:
     normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
-    return _flat(corners if np.dot(normal, corners.mean(axis=0)) > 0 else corners[::-1], material)
+    return _flat(corners if np.dot(normal, corners.mean(axis=0)) > 0 else corners[::-1])
 
 
 def tube(path: ArrayLike, radius: float, material: int, segments: int = 8) -> Mesh:
