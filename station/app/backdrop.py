@@ -24,6 +24,9 @@ from station.render.quality import QUALITIES
 from station.render.report_picture import report_shapes, report_sheet
 from station.render.snapshot import Snapshot
 
+_GONE = "GL_UNKNOWN_ERROR"
+"""What moderngl calls GL_CONTEXT_LOST (KHR_robustness), which OpenGL 3.3 has no number for yet."""
+_LOST = "the graphics driver has lost the window: start the station again; what was played is kept"
 _MEASURED_FRAMES = 12
 _FAST_MS, _VERY_FAST_MS = 6.0, 2.0
 """A machine that draws the lowest level so fast can afford the middle and the highest at 60 Hz (our choice)."""
@@ -98,17 +101,22 @@ class Backdrop:
             self._back_to_the_view()
 
     def draw(self, snapshot: Snapshot, report: Report | None, area: Area) -> None:
-        """Fill the window's framebuffer; `area` is what the panels leave free."""
+        """Fill the window's framebuffer; `area` is what the panels leave free. Raises `DeviceError` if OpenGL fails."""
         ctx, painter = self._ready()
         screen, whole = self.clear()
         painter.theme = self.look.theme
         if min(area[2:]) < 16:
             return
-        if report is not None:
-            self._draw_report(report, painter, ctx, area)
-        else:
-            self._draw_room(snapshot, painter, ctx, screen, whole, area)
+        try:
+            if report is not None:
+                self._draw_report(report, painter, ctx, area)
+            else:
+                self._draw_room(snapshot, painter, ctx, screen, whole, area)
+        except moderngl.Error as fault:
+            raise DeviceError(f"{_LOST} ({fault})") from fault
         ctx.viewport = (0, 0, *whole)
+        if ctx.error == _GONE:
+            raise DeviceError(_LOST)
 
     def clear(self) -> tuple[moderngl.Framebuffer, tuple[int, int]]:
         """Make the window's framebuffer dark; returns it and its size in pixels."""

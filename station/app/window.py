@@ -102,6 +102,7 @@ class Window:
         self._show_help = False
         self._frame_ms = 0.0
         self.frames = 0
+        self._fault: DeviceError | None = None
         self._devices = DevicesPanel(model.desk, self._tried, self._tell)
         self.figure = FigurePanel(model, options.settings, self._tried, self._preview_anew)
         self.hits = HitsPanel(
@@ -116,7 +117,7 @@ class Window:
         theme.choose(*self._worn)
 
     def run(self) -> None:
-        """Show the window until it is closed; raises `DeviceError` where no window can be had."""
+        """Show the window until it is closed; raises `DeviceError` where no window can be had, or OpenGL ends."""
         implot.create_context()
         try:
             hello_imgui.run(self.params)
@@ -128,6 +129,8 @@ class Window:
             implot.destroy_context()
         if self.frames == 0:
             raise DeviceError(_NO_WINDOW)
+        if self._fault is not None:
+            raise self._fault
 
     # --- how hello_imgui is told ----------------------------------------------------------------------------------
 
@@ -255,7 +258,10 @@ class Window:
         if self.frames % self._options.picture_every:
             self.backdrop.clear()
         else:
-            self.backdrop.draw(snapshot, report, (left, low, width, height))
+            try:
+                self.backdrop.draw(snapshot, report, (left, low, width, height))
+            except DeviceError as fault:
+                self._fault, self.params.app_shall_exit = fault, True
         self.frames += 1
 
     def _preview(self) -> None:

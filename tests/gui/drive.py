@@ -459,6 +459,28 @@ def closes(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.seen["at_the_end"] = drive.room.room().stage.name
 
 
+class LostContext:
+    """An OpenGL context that has been lost: it does what it is told, which has no effect, and says so when asked."""
+
+    error = "GL_UNKNOWN_ERROR"
+
+    def __init__(self, ctx: object) -> None:
+        self._ctx = ctx
+
+    def __getattr__(self, name: str) -> object:
+        return getattr(self._ctx, name)
+
+
+def lost(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """The driver loses the window's context in mid-session."""
+    drive.choose(ctx, passes=4)
+    ctx.item_click("Start##start")
+    ctx.yield_(30)
+    backdrop = drive.window.backdrop
+    backdrop._ctx = LostContext(backdrop._ctx)  # type: ignore[assignment] # a driver that fails, at our border to it
+    ctx.yield_(MOST_FRAMES)
+
+
 def player(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """The demonstration is watched, stepped through, reversed, slowed down and looped; Start practises the loop."""
     deck, engine, seen = drive.room.deck, drive.engine, drive.seen
@@ -573,6 +595,7 @@ SCENARIOS = {
     "newcomer": newcomer,
     "devices": devices,
     "highway": highway,
+    "lost": lost,
     "drill": drill,
     "closes": closes,
     "player": player,
@@ -586,10 +609,12 @@ def main(names: str, sessions: str, out: str, picture: str | None = None) -> Non
     scenarios = names.split("+")
     every, size = PICTURE_EVERY if picture is None else 1, SIZES.get(scenarios[0], SIZE)
     drive = Drive(Path(sessions), STUDENTS.get(scenarios[0]), every, size)
-    drive.run([SCENARIOS[name] for name in scenarios])
+    try:
+        drive.run([SCENARIOS[name] for name in scenarios])
+    finally:
+        kept = drive.room.close()
     if picture is not None:
         write_png(np.ascontiguousarray(hello_imgui.final_app_window_screenshot()), Path(picture))
-    kept = drive.room.close()
     assert kept is None, kept
     Path(out).write_text(json.dumps(dict(zip(scenarios, drive.all_seen, strict=False))))
 

@@ -233,10 +233,29 @@ def test_a_session_is_kept_when_the_window_is_closed_in_its_middle(environment: 
     assert list((tmp_path / "sessions").rglob("*.json")), "the session is kept"
 
 
+def fault_of(scenario: str, environment: dict[str, str], folder: Path) -> str:
+    """The last line that a window says which cannot go on."""
+    command = [sys.executable, str(DRIVE), scenario, str(folder / "sessions"), str(folder / "seen.json")]
+    done = subprocess.run(
+        command, env=environment, cwd=folder, capture_output=True, text=True, timeout=PATIENCE_S, check=False
+    )
+    assert done.returncode == 1, (done.returncode, done.stderr[-3000:])
+    return done.stderr.strip().splitlines()[-1]
+
+
+def test_a_session_is_kept_when_the_driver_loses_the_window(environment: dict[str, str], tmp_path: Path) -> None:
+    fault = fault_of("lost", environment, tmp_path)
+    assert "DeviceError: the graphics driver has lost the window: start the station again" in fault
+    assert list((tmp_path / "sessions").rglob("*.json")), "the session is kept"
+
+
+def test_without_opengl_one_line_says_so(environment: dict[str, str], tmp_path: Path) -> None:
+    """A screen there is, but no driver of OpenGL: Mesa looks for its drivers where there are none."""
+    fault = fault_of("look", {**environment, "LIBGL_DRIVERS_PATH": str(tmp_path)}, tmp_path)
+    assert "DeviceError: no window can be opened: is there a screen, and OpenGL?" in fault
+
+
 def test_without_a_screen_one_line_says_so(tmp_path: Path) -> None:
     bare = {name: value for name, value in os.environ.items() if name not in {"DISPLAY", "WAYLAND_DISPLAY"}}
-    command = [sys.executable, str(DRIVE), "look", str(tmp_path / "sessions"), str(tmp_path / "seen.json")]
-    done = subprocess.run(
-        command, env={**bare, "PYTHONPATH": str(ROOT)}, capture_output=True, text=True, timeout=PATIENCE_S, check=False
-    )
-    assert "DeviceError: no window can be opened: is there a screen" in done.stderr
+    fault = fault_of("look", {**bare, "PYTHONPATH": str(ROOT)}, tmp_path)
+    assert "DeviceError: no window can be opened: is there a screen" in fault
