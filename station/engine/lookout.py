@@ -8,7 +8,7 @@ from collections.abc import Callable
 from contextlib import suppress
 
 from station.core.errors import DeviceError
-from station.sound.card_output import SoundDevice
+from station.sound.card_stream import SoundDevice
 from station.sound.output import choose_output
 from station.sound.outputs_now import outputs_now
 

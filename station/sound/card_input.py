@@ -6,7 +6,6 @@ are kept as they come, the callback does nothing else.
 """
 
 from dataclasses import dataclass
-from threading import Thread
 from types import ModuleType
 from typing import Protocol
 
@@ -17,8 +16,7 @@ from station.core.clock import monotonic_ns
 from station.core.errors import DeviceError
 from station.core.units import ns_from_s
 from station.sound.calibration.timeline import Recording, Timeline
-from station.sound.card_output import CLOSE_WITHIN_S, MAX_LATENCY_S, MAX_PAST_S, SoundDevice, accepted_settings
-from station.sound.dac_clock import DacClock
+from station.sound.card_stream import MAX_LATENCY_S, MAX_PAST_S, CardStream, SoundDevice
 from station.sound.output import USUAL_RATE_HZ, choose_device, list_devices
 from station.sound.portaudio import PORTAUDIO
 
@@ -42,48 +40,23 @@ class _Block:
     sound: NDArray[np.float32]
 
 
-class CardInput:
+class CardInput(CardStream):
     """A stream from a real device, one user of PortAudio; it records from `start` to `close`."""
 
     def __init__(self, sd: ModuleType, device: SoundDevice, block_frames: int, rate_hz: int) -> None:
-        self.name = device.name
+        super().__init__(sd, device, block_frames, rate_hz, "input")
         self.lost_blocks = 0
         self._blocks: list[_Block] = []
-        self._error: type[Exception] = sd.PortAudioError
-        self._is_open = True
-        channels, self.rate_hz = accepted_settings(sd, device, rate_hz, "input")
-        try:
-            self._stream = sd.InputStream(
-                device=device.index,
-                channels=channels,
-                dtype="float32",
-                samplerate=self.rate_hz,
-                blocksize=block_frames,
-                latency="low",
-                callback=self._callback,
-            )
-        except sd.PortAudioError as fault:
-            raise DeviceError(f"sound input {device.name!r} cannot be opened: {fault}; choose another") from fault
-        self._clock = DacClock(self.rate_hz)
-        self._latency_s = float(self._stream.latency)
-
-    @property
-    def latency_ms(self) -> float:
-        """From the converter to the callback as the stream reports it."""
-        return 1000.0 * self._latency_s
 
     def start(self) -> None:
         """Begin to record; raises `DeviceError`."""
-        try:
-            self._stream.start()
-        except self._error as fault:
-            raise DeviceError(f"sound input {self.name!r} does not start: {fault}; choose another") from fault
+        self._begin()
 
     def recording(self) -> Recording:
         """All that was recorded so far; raises `DeviceError` where nothing came."""
         blocks = list(self._blocks)
         if not blocks:
-            raise DeviceError(f"sound input {self.name!r} brings nothing: is it the right one, may it be used?")
+            raise DeviceError(f"{self._title} brings nothing: is it the right one, may it be used?")
         lengths = np.array([len(block.sound) for block in blocks])
         first = np.concatenate([[0], np.cumsum(lengths)[:-1]]).astype(np.int64)
         times = np.array([block.first_ns for block in blocks], np.int64)
@@ -92,15 +65,8 @@ class CardInput:
 
     def close(self) -> None:
         """Stop and give the device back; harmless when closed already."""
-        if not self._is_open:
-            return
-        self._is_open = False
-        closing = Thread(target=self._stream.close, name="close sound input", daemon=True)
-        closing.start()
-        closing.join(CLOSE_WITHIN_S)
-        if closing.is_alive():
-            PORTAUDIO.abandon()
-        PORTAUDIO.release()
+        if self._is_open:
+            self._give_back(self._stream.close)
 
     def _callback(self, heard: NDArray[np.float32], frames: int, times: DriverTimes, status: DriverStatus) -> None:
         begun_ns = monotonic_ns()

@@ -8,10 +8,8 @@ reports no time, the present plus the stream's latency stands in.
 
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
-from threading import Thread
 from types import ModuleType
-from typing import Literal, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,78 +17,38 @@ from numpy.typing import NDArray
 from station.core.clock import monotonic_ns
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_S, ns_from_s
-from station.sound.dac_clock import DacClock
+from station.sound.card_stream import MAX_LATENCY_S, MAX_PAST_S, CardStream, SoundDevice
 from station.sound.drum_kit import Frames
 from station.sound.gate import Gate
-from station.sound.portaudio import PORTAUDIO
 
 Renderer = Callable[[int, int], Frames]
 """`render(frames, dac_ns)`: the next float32 (frames, 2), whose first frame is heard at monotonic `dac_ns`."""
 
-MAX_LATENCY_S = 2.0
-"""A reported time further ahead than this, or before the present by more than `MAX_PAST_S`, is no report at all."""
-MAX_PAST_S = 0.1
 LOAD_SMOOTHING = 0.02
 """Share of a new block in the running mean of the load."""
 SHUT_WITHIN_S = 0.4
 """A stream that fades no sooner has stopped asking (our choice: twice the longest block)."""
-CLOSE_WITHIN_S = 1.0
-"""A driver that takes longer to close its stream has lost its server and would wait for minutes (our choice)."""
 
 
-@dataclass(frozen=True, slots=True)
-class SoundDevice:
-    """A device that can play or record: its PortAudio number and name, the system behind it, what it prefers."""
-
-    index: int
-    name: str
-    host: str
-    channels: int
-    rate_hz: int
-    is_default: bool
-
-
-class CardOutput:
+class CardOutput(CardStream):
     """A stream on a real device, one user of PortAudio; `start` makes it play."""
 
     def __init__(self, sd: ModuleType, device: SoundDevice, block_frames: int, rate_hz: int) -> None:
-        self.name = device.name
+        super().__init__(sd, device, block_frames, rate_hz, "output")
         self.host = device.host
         self.underflows = 0
         self.load = 0.0
         self._fault: DeviceError | None = None
         self._abort: type[Exception] = sd.CallbackAbort
-        self._error: type[Exception] = sd.PortAudioError
         self._render: Renderer | None = None
         self._is_asking = False
-        self._is_open = True
-        channels, self.rate_hz = accepted_settings(sd, device, rate_hz)
-        try:
-            self._stream = sd.OutputStream(
-                device=device.index,
-                channels=channels,
-                dtype="float32",
-                samplerate=self.rate_hz,
-                blocksize=block_frames,
-                latency="low",
-                callback=self._callback,
-            )
-        except sd.PortAudioError as fault:
-            raise DeviceError(f"sound output {device.name!r} cannot be opened: {fault}; choose another") from fault
-        self._clock = DacClock(self.rate_hz)
         self._gate = Gate(self.rate_hz)
-        self._latency_s = float(self._stream.latency)
-
-    @property
-    def latency_ms(self) -> float | None:
-        """From the callback to the converter as the stream reports it."""
-        return 1000.0 * self._latency_s
 
     @property
     def fault(self) -> DeviceError | None:
         """Why the stream ended by itself; None while it runs, or was stopped by us."""
         if self._fault is None and self._is_asking and not self._stream.active:
-            self._fault = DeviceError(f"sound output {self.name!r} stopped: it was unplugged, or its server ended")
+            self._fault = DeviceError(f"{self._title} stopped: it was unplugged, or its server ended")
         return self._fault
 
     def start(self, render: Renderer) -> None:
@@ -107,16 +65,13 @@ class CardOutput:
         try:
             self._stream.stop()
         except self._error as fault:
-            raise DeviceError(f"sound output {self.name!r} does not pause: {fault}") from fault
+            raise DeviceError(f"{self._title} does not pause: {fault}") from fault
 
     def resume(self) -> None:
         """Go on asking after `pause`; raises `DeviceError`."""
         self._clock.resync()
         self._gate.open()
-        try:
-            self._stream.start()
-        except self._error as fault:
-            raise DeviceError(f"sound output {self.name!r} does not start: {fault}; choose another") from fault
+        self._begin()
         self._is_asking = True
 
     def close(self) -> None:
@@ -124,13 +79,8 @@ class CardOutput:
         if not self._is_open:
             return
         self._fade_out()
-        self._is_open = self._is_asking = False
-        closing = Thread(target=self._end, name="close sound output", daemon=True)
-        closing.start()
-        closing.join(CLOSE_WITHIN_S)
-        if closing.is_alive():
-            PORTAUDIO.abandon()
-        PORTAUDIO.release()
+        self._is_asking = False
+        self._give_back(self._end)
 
     def _fade_out(self) -> None:
         """Let what sounds fade, so that the end of the stream is no click."""
@@ -159,26 +109,6 @@ class CardOutput:
             raise self._abort from fault
         used = (monotonic_ns() - begun_ns) * self.rate_hz / (NS_PER_S * frames)
         self.load += LOAD_SMOOTHING * (used - self.load)
-
-
-def accepted_settings(
-    sd: ModuleType, device: SoundDevice, rate_hz: int, direction: Literal["input", "output"] = "output"
-) -> tuple[int, int]:
-    """Channels and rate to open `device` with: those wished for, else the nearest that it takes.
-
-    Two channels are enough; a device that insists on all of its own gets them. The device's own rate stands in for one
-    that it refuses. Where it takes nothing the wish is returned, and opening it tells why.
-    """
-    stereo = min(2, device.channels)
-    check = sd.check_output_settings if direction == "output" else sd.check_input_settings
-    choices = [(channels, rate) for channels in (stereo, device.channels) for rate in (rate_hz, device.rate_hz)]
-    for channels, rate in choices:
-        try:
-            check(device=device.index, channels=channels, dtype="float32", samplerate=rate)
-        except sd.PortAudioError:
-            continue
-        return channels, rate
-    return stereo, device.rate_hz
 
 
 class DriverTimes(Protocol):

@@ -5,7 +5,8 @@ from typing import Any, Literal, Protocol
 
 from station.core.errors import DeviceError
 from station.core.settings import LEAST_BLOCK_FRAMES
-from station.sound.card_output import CardOutput, Renderer, SoundDevice
+from station.sound.card_output import CardOutput, Renderer
+from station.sound.card_stream import SoundDevice
 from station.sound.portaudio import PORTAUDIO
 
 USUAL_RATE_HZ = 48_000

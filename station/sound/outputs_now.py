@@ -11,7 +11,7 @@ import sys
 from dataclasses import asdict
 
 from station.core.errors import DeviceError
-from station.sound.card_output import SoundDevice
+from station.sound.card_stream import SoundDevice
 from station.sound.output import list_outputs
 
 PATIENCE_S = 10.0

@@ -10,7 +10,7 @@ from station.engine.card import RETRY_NS, STALLED_NS, Card
 from station.engine.engine import Engine
 from station.engine.lookout import Lookout
 from station.engine.messages import Notice, Play, Sounding, Started, Status, Stop
-from station.sound.card_output import SoundDevice
+from station.sound.card_stream import SoundDevice
 from station.sound.mixer import Mixer
 from station.sound.portaudio import SoundServerGone
 from tests.fakes.cues import clicks

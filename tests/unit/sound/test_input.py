@@ -4,7 +4,7 @@ import pytest
 
 from station.core.errors import DeviceError
 from station.sound.card_input import reported_adc_ns
-from station.sound.card_output import SoundDevice
+from station.sound.card_stream import SoundDevice
 from station.sound.output import choose_device
 
 NOW_NS = 1_000_000_000_000

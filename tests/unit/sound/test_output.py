@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from station.core.errors import DeviceError
-from station.sound.card_output import SoundDevice, fit_channels, reported_dac_ns
+from station.sound.card_output import fit_channels, reported_dac_ns
+from station.sound.card_stream import SoundDevice
 from station.sound.output import choose_output, open_output
 
 
