@@ -36,7 +36,7 @@ HELP: Mapping[Topic, Help] = MappingProxyType(
                 ("the tempo follows me", "each pass begins where the last one led, and says why"),
                 ("passes", "how often the loop is played"),
                 ("click", "without it you are counted in, and the score then follows your own tempo"),
-                ("Start", "or Enter; Esc stops, and what was played is kept and judged"),
+                ("Start", "or Enter, or two kicks; Esc stops, and what was played is kept and judged"),
             ),
         ),
         Topic.JUST_PLAY: Help(
@@ -55,6 +55,8 @@ HELP: Mapping[Topic, Help] = MappingProxyType(
                 ("Wedge", "above the note: far too loud; below: far too soft"),
                 ("Fewer marks", "they fade as passes get clean, and every fifth pass shows none"),
                 ("As it was", "while a changed tempo is counted in: the last one once more"),
+                ("Pause", "or Backspace, both crashes at once, a foot switch; by itself when you stop for two bars"),
+                ("Go on", "or two kicks: a bar of count-in, then from the bar of your last stroke"),
                 ("Stop", "or Esc: the session ends here and is kept"),
             ),
         ),
@@ -73,7 +75,8 @@ HELP: Mapping[Topic, Help] = MappingProxyType(
                  " latency, a spread is practice"),
                 ("What to do next", "the one thing that helps most, where the numbers are sure of it"),
                 ("Bar by bar", "a click on a bar practises it alone"),
-                ("Once more", "or Enter; Esc goes back to the lessons"),
+                ("Panels, Every hit", "each stroke over the bars; a bar to hear, the teacher's and yours"),
+                ("Once more", "or Enter, or two kicks; Esc goes back to the lessons"),
             ),
         ),
     }

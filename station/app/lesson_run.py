@@ -72,7 +72,7 @@ class LessonRun:
     def begin(self, settings: Settings, track: PreparedTrack | None) -> None:
         """Start the transport and the capture; raises `StationError`, and leaves nothing behind then."""
         folder = SessionFolder(None, settings, self.plan.lesson.name)
-        self.session.backing = track
+        self.session.backing, self.session.waits = track, settings.auto_pause
         try:
             begin(self._engine, self.session, folder.capture)
         except StationError:
@@ -90,10 +90,10 @@ class LessonRun:
         for notice in self.session.heard.notices[told:]:
             self._tell(notice)
 
-    def advance(self, now_ns: int, waits: bool) -> bool:
-        """Move on; a student who has stopped is waited for where it `waits`. Returns whether the session is over."""
+    def advance(self, now_ns: int) -> bool:
+        """Move on, or wait for a student who has stopped; returns whether the session is over."""
         self._judged(self.session.advance(now_ns), now_ns)
-        if waits and self.session.is_left:
+        if self.session.waits and self.session.is_left:
             self.hold(asked=False)
         return self.session.over and self._is_last()
 

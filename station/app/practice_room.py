@@ -107,7 +107,7 @@ class PracticeRoom:
                 self.stop()
             heard_ns = None if self._listening is None else self._listening.at_ns(now_ns)
             return self._free.snapshot(self._run.plan.kit, now_ns, heard_ns)
-        if self._stage is Stage.PLAYING and self._run.advance(now_ns, self._settings.auto_pause):
+        if self._stage is Stage.PLAYING and self._run.advance(now_ns):
             self._finish()
         self.deck.advance(now_ns)
         if self._stage is Stage.IDLE and self.deck.is_shown:

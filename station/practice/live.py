@@ -121,6 +121,7 @@ def next_session(engine: EngineLink, adaptation: Adaptation, before: Session) ->
     """Start the pass that `adaptation` asks for, on what the session `before` knows of the kit."""
     session = adaptation.session(before.latency)
     session.heard.go_on_from(before.heard)
+    session.waits = before.waits
     for command in session.start():
         engine.send(command)
     return session

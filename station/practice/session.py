@@ -15,7 +15,6 @@ what the student heard and played, compared where both are known (`practice.late
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TypeVar
 
 from station.core.events import Choke, Hit
 from station.core.units import NS_PER_MS
@@ -25,16 +24,14 @@ from station.music.judgement import Judgement, Label
 from station.music.performance import Performance
 from station.music.score import Score
 from station.practice.hearing import Hearing
+from station.practice.judging import Judging
 from station.practice.latency import Latency
 from station.practice.pausing import NEAR_NS, SILENT_BARS, Pause, Silence, Stretch, bar_of, from_bar
 from station.practice.plan import TAIL_NS, Phase, Plan, Segment
 from station.scoring.align import align
 from station.scoring.alignment import Alignment
-from station.scoring.follower import Follower
 from station.scoring.windows import DEFAULT_LEVEL, Windows
 from station.sound.track import PreparedTrack
-
-_Played = TypeVar("_Played", Hit, Choke)
 
 LEAD_IN_NS = 300 * NS_PER_MS
 """How long after `start` the first click is heard: time for the engine to wake; our choice."""
@@ -79,7 +76,8 @@ class Session:
     """One practice session; call `start`, then `handle` every event and `advance` the time, until `over`.
 
     `feedback` is what the student is shown while playing (judgement is the same); `message` what to say before it;
-    `backing` a track to play along to in the passes.
+    `backing` a track to play along to in the passes. One that `waits` judges no stroke that comes after a silence in
+    which the student has stopped: whoever runs it sees that he `is_left` and pauses.
     """
 
     plan: Plan
@@ -88,20 +86,17 @@ class Session:
     feedback: Feedback = Feedback.TIMING
     message: str = ""
     backing: PreparedTrack | None = None
+    waits: bool = False
 
     def __post_init__(self) -> None:
-        self._follower = Follower(self.plan.score, self.windows, clocked=self.plan.click is not None)
+        self._judging = Judging(self.plan.score, self.windows, clocked=self.plan.click is not None)
         self.heard = Hearing(self.latency)
         """What the engine has said."""
         self._now_ns = 0
         self._silence = Silence(self.plan.score)
         self._run = Stretch(0, 0, self.plan.cues)
         self._held_ns: int | None = None  # the place on the plan's timeline, while nothing moves
-        self._hits: list[Hit] = []
-        self._last_ns: int | None = None  # when in the score the last stroke that is judged was played
-        self._chokes: list[Choke] = []
-        self._verdict_of_note: dict[int, Judgement] = {}
-        self._verdict_of_hit: dict[int, Judgement] = {}
+        self._has_left = False  # a stroke has come after so long a silence
         self.paused = False
         """Whether the transport stands and waits for `resume`."""
         self.pauses: list[Pause] = []
@@ -125,9 +120,10 @@ class Session:
     def is_left(self) -> bool:
         """Whether the student has stopped: bars with notes went by without a stroke."""
         score_ns = self.state().score_ns
-        if not self.can_pause or score_ns is None:
-            return False
-        return self._silence.bars(self._last_ns, self._run.from_ns, score_ns) >= SILENT_BARS
+        return self.can_pause and score_ns is not None and (self._has_left or self._is_silent_at(score_ns))
+
+    def _is_silent_at(self, score_ns: int) -> bool:
+        return self._silence.bars(self._judging.last_ns, self._run.from_ns, score_ns) >= SILENT_BARS
 
     def pause(self, command: Sequence[Hit] = ()) -> tuple[Command, ...]:
         """Stand still until `resume`; the commands for it, none where it may not pause.
@@ -137,9 +133,8 @@ class Session:
         if not self.can_pause:
             return ()
         meant = [replace(hit, at_ns=at_ns) for hit in command if (at_ns := self._score_of(hit)) is not None]
-        if meant:
-            self._judge_anew([hit for hit in self._hits if hit not in meant])
-        self._held_ns, self.paused = self._plan_ns(), True
+        self._judging.leave_out(meant)
+        self._held_ns, self.paused, self._has_left = self._plan_ns(), True, False
         return (Stop(),)
 
     def resume(self, asked: bool = True, whole: bool = False) -> tuple[Command, ...]:
@@ -149,36 +144,12 @@ class Session:
         """
         if not self.paused:
             return ()
-        bar = 0 if whole else bar_of(self.plan.score, self._last_ns)
+        bar = 0 if whole else bar_of(self.plan.score, self._judging.last_ns)
         self._run = from_bar(self.plan, bar)
-        self._take_back(bar, asked)
+        self.pauses.append(Pause(bar, asked, self._judging.take_back(self._run.from_ns)))
         self.heard.zero_ns, self.paused = None, False
         self._held_ns = self.plan.passes_start_ns + self._run.from_ns
         return self.start()
-
-    def _take_back(self, bar: int, asked: bool) -> None:
-        """Forget what was played from the start of this pass's `bar` on, and judge the rest anew."""
-        from_ns = self._run.from_ns
-        kept = [hit for index, hit in enumerate(self._hits) if self._belongs_ns(index) < from_ns]
-        self.pauses.append(Pause(bar, asked, len(self._hits) - len(kept)))
-        self._chokes = [choke for choke in self._chokes if choke.at_ns < from_ns]
-        self._judge_anew(kept)
-
-    def _judge_anew(self, kept: Sequence[Hit]) -> None:
-        """Let only the `kept` hits have been played."""
-        self._hits, self._verdict_of_note, self._verdict_of_hit = [], {}, {}
-        self._last_ns = max((hit.at_ns for hit in kept), default=None)
-        self._follower = Follower(self.plan.score, self.windows)
-        for hit in kept:
-            self._hits.append(hit)
-            self._keep(self._follower.hit(hit, hit.at_ns))
-
-    def _belongs_ns(self, index: int) -> int:
-        """The time of the note that a hit answers, else its own."""
-        verdict = self._verdict_of_hit.get(index)
-        if verdict is None or verdict.note_index is None:
-            return self._hits[index].at_ns
-        return int(self.plan.score.onset_ns[verdict.note_index])
 
     # --- input ------------------------------------------------------------------------------------------------------
 
@@ -191,8 +162,8 @@ class Session:
             case Started() if not self.paused:
                 self._held_ns = None
             case Choke():
-                if (score_ns := self._score_of(event)) is not None:
-                    self._chokes.append(replace(event, at_ns=score_ns))
+                if self._held_ns is None and (score_ns := self._score_of(event)) is not None:
+                    self._judging.chokes.append(replace(event, at_ns=score_ns))
             case _:
                 pass
         return ()
@@ -203,24 +174,16 @@ class Session:
         score_ns = self._score_ns(self._now_ns)
         if score_ns is None or self._held_ns is not None:
             return ()
-        return self._keep(self._follower.advance(score_ns))
+        return self._judging.advance(score_ns)
 
     def _take_hit(self, hit: Hit) -> tuple[Judgement, ...]:
         score_ns = self._score_of(hit)
         if score_ns is None or self._held_ns is not None or not self._is_judged(score_ns):
             return ()
-        self._hits.append(replace(hit, at_ns=score_ns))
-        self._last_ns = score_ns if self._last_ns is None else max(score_ns, self._last_ns)
-        return self._keep(self._follower.hit(hit, score_ns))
-
-    def _keep(self, verdicts: Iterable[Judgement]) -> tuple[Judgement, ...]:
-        kept = tuple(verdicts)
-        for verdict in kept:
-            if verdict.note_index is not None:
-                self._verdict_of_note[verdict.note_index] = verdict
-            if verdict.hit_index is not None:
-                self._verdict_of_hit[verdict.hit_index] = verdict
-        return kept
+        if self.waits and self.plan.click is not None and (self._has_left or self._is_silent_at(score_ns)):
+            self._has_left = True  # he comes back: however rarely anybody looks, the silence before it counts
+            return ()
+        return self._judging.hit(replace(hit, at_ns=score_ns))
 
     # --- output -----------------------------------------------------------------------------------------------------
 
@@ -254,12 +217,12 @@ class Session:
     @property
     def verdicts(self) -> Mapping[int, Judgement]:
         """The newest verdict on every note that has one, by the note's index in the plan's score."""
-        return self._verdict_of_note
+        return self._judging.of_note
 
     @property
     def hits(self) -> Sequence[Hit]:
         """The hits that are judged, in score time, in the order in which they came: `hit_index` counts them."""
-        return self._hits
+        return self._judging.hits
 
     def told(self, verdicts: Iterable[Judgement]) -> tuple[Judgement, ...]:
         """What the student is shown of `verdicts`: all; right and wrong, without time and strength; nothing."""
@@ -272,14 +235,14 @@ class Session:
 
     def extras(self) -> list[int]:
         """Indices of the hits that answer no note, as far as is known."""
-        return [hit for hit, verdict in self._verdict_of_hit.items() if verdict.label is Label.EXTRA]
+        return self._judging.extras()
 
     def result(self) -> SessionResult:
         """The final alignment of all that was heard so far."""
-        performance = self._performance()
+        performance, last_ns = self._judging.performance(), self._judging.last_ns
         heard_until_ns = self.state().score_ns
         if self.paused:  # what came after the last stroke is nobody's
-            heard_until_ns = 0 if self._last_ns is None else self._last_ns + NEAR_NS
+            heard_until_ns = 0 if last_ns is None else last_ns + NEAR_NS
         complete = heard_until_ns is not None and heard_until_ns >= self.plan.score.length_ns
         score = self.plan.score if complete else self.plan.score.until_ns(heard_until_ns or 0)
         alignment = align(score, performance, clocked=self.plan.click is not None)
@@ -295,19 +258,8 @@ class Session:
             tuple(self.pauses),
         )
 
-    def _performance(self) -> Performance:
-        """What was played; where the score waited for the student, so does the time of what came after."""
-        waited = [(self._hits[hit].at_ns, by_ns) for hit, by_ns in self._follower.waited]
-
-        def moved(event: _Played) -> _Played:
-            return replace(event, at_ns=event.at_ns - sum(by_ns for from_ns, by_ns in waited if event.at_ns >= from_ns))
-
-        if not waited:
-            return Performance.from_hits(self._hits, self._chokes)
-        return Performance.from_hits(map(moved, self._hits), map(moved, self._chokes))
-
     def _played_on(self) -> str | None:
-        return Counter(hit.device for hit in self._hits).most_common(1)[0][0] if self._hits else None
+        return Counter(hit.device for hit in self.hits).most_common(1)[0][0] if self.hits else None
 
     # --- time -------------------------------------------------------------------------------------------------------
 
@@ -327,7 +279,7 @@ class Session:
         transport_ns, start_ns = self.heard.transport_ns(self._now_ns), self.plan.passes_start_ns
         if transport_ns is None or self.plan.click is not None or transport_ns < start_ns:
             return None if transport_ns is None else transport_ns + self._run.jump_ns
-        return start_ns + self._follower.place_ns(transport_ns - start_ns)
+        return start_ns + self._judging.place_ns(transport_ns - start_ns)
 
     def _is_judged(self, score_ns: int) -> bool:
         if self.plan.click is None:

@@ -80,6 +80,27 @@ def test_who_stops_is_noticed_and_nothing_of_the_silence_is_scored() -> None:
     assert (len(result.score), len(result.performance)) == (8, 8)
 
 
+@pytest.mark.parametrize("looks", [1, 60])
+def test_however_often_anybody_looks_the_silence_is_the_same(looks: int) -> None:
+    """Bar 1 is played, bars 2 and 3 are not, and a beat into bar 4 the student comes back."""
+    session = started()
+    session.waits = True
+    play_bars(session, 0, 1)
+    if looks > 1:
+        for look in range(looks):
+            session.advance(at(BAR_NS + 3 * BAR_NS * look // looks))
+            if session.is_left:
+                session.pause()
+    session.handle(snare(at(3 * BAR_NS + BEAT_NS)))
+    session.handle(snare(at(3 * BAR_NS + 2 * BEAT_NS)))
+    session.advance(at(3 * BAR_NS + 3 * BEAT_NS))
+    assert session.is_left or session.paused
+    session.pause()
+    assert len(session.result().performance) == 4
+    session.resume()
+    assert session.pauses[0].bar == 0
+
+
 def test_it_goes_on_from_the_bar_of_the_last_stroke_behind_a_bar_of_count_in() -> None:
     session = started()
     play_bars(session, 0, 1)
@@ -172,6 +193,10 @@ def test_without_a_click_the_score_waits_by_itself() -> None:
     session.handle(Started(ZERO_NS))
     session.advance(at(20 * BAR_NS))
     assert (session.can_pause, session.is_left, session.pause()) == (False, False, ())
+    session.waits = True
+    for at_ns in (0, 20 * BAR_NS):
+        session.handle(snare(at(at_ns)))
+    assert len(session.hits) == 2
 
 
 def test_no_pause_before_the_transport_runs_nor_in_a_pause() -> None:
