@@ -273,9 +273,11 @@ class Window:
             self._tried(lambda: self._model.preview(wish))
 
     def _preview_anew(self) -> None:
-        """Show the chosen lesson as it is to be played now."""
+        """Show the chosen lesson as it is to be played now, or when the result is left; raises `StationError`."""
         wish = self.choice.wish()
-        if wish is not None:
+        if self._model.room().stage is not Stage.IDLE:
+            self._previewed = ""
+        elif wish is not None:
             self._model.preview(wish)
 
     def _central_area(self) -> tuple[int, int, int, int]:
