@@ -26,6 +26,9 @@ from station.render.snapshot import BarNumbers, Hud, Snapshot
 LEAD_NS = 50 * NS_PER_MS
 """How long after a change the sound begins: the engine's way and a block of sound fit in (our choice)."""
 
+_WAITING_NS = 1 << 62
+"""A session time that never comes: until its sound is asked for, the player stands."""
+
 Control = Callable[[SongPlayer, int], SongPlayer]
 """What a control does with a player at a session time."""
 
@@ -53,6 +56,7 @@ class Deck:
         self._drummer: Drummer | None = None
         self._flags: dict[str, tuple[int | None, ...]] = {}
         self._sounding_until_ns: int | None = None
+        self._due = False
         self.now_ns = 0
         self.step, self.click = Step.BEAT, True
         self.player = SongPlayer(Song.of(self.score))
@@ -70,7 +74,7 @@ class Deck:
         return self._watched.lesson.score
 
     def load(self, watched: Watched, bars: tuple[int, int] | None) -> None:
-        """Take a lesson, its `bars` (first, last, from 0) as the loop; the same lesson stays where it is."""
+        """Take a lesson, its `bars` (first, last, from 1) as the loop; the same lesson stays where it is."""
         before, self._watched = self._watched, watched
         if watched.lesson is not before.lesson or watched.hands != before.hands:
             self._drummer = None
@@ -79,8 +83,13 @@ class Deck:
             self._flags[before.lesson.name] = self.player.flags
             flags = self._flags.get(watched.lesson.name, (None,) * FLAGS)
             self.player = SongPlayer(Song.of(self.score), speed_percent=self.player.speed_percent, flags=flags)
-        if bars != self.player.loop:
-            self.do(lambda player, now_ns: player.looped(now_ns, bars))
+        self.repeat(bars)
+
+    def repeat(self, bars: tuple[int, int] | None) -> None:
+        """Repeat these bars (first, last, from 1), None for the whole lesson once."""
+        loop = None if bars is None else (bars[0] - 1, bars[1] - 1)
+        if loop != self.player.loop:
+            self.do(lambda player, now_ns: player.looped(now_ns, loop))
 
     def perform_as(self, who: Demonstrator) -> None:
         """Let another body or manner demonstrate from now on."""
@@ -103,8 +112,9 @@ class Deck:
 
     def do(self, control: Control, held: bool = False) -> None:
         """Use a control; while it is `held` (a slider that is dragged), nothing sounds."""
-        self.player = control(self.player, self.now_ns)
-        self._sound(held)
+        before, self.player = self.player, control(self.player, self.now_ns)
+        if held or self._sounding_until_ns is None or _course(self.player) != _course(before):
+            self._sound(held)
 
     def set_click(self, click: bool) -> None:
         """Let the click sound with the strokes, or the strokes alone."""
@@ -121,6 +131,8 @@ class Deck:
     def advance(self, now_ns: int) -> None:
         """Move to `now_ns`; once a frame."""
         self.now_ns = now_ns
+        if self._due:
+            self._begin_sound()
         self.player = self.player.settled(now_ns)
         if not self.player.playing:
             self._sounding_until_ns = None
@@ -133,15 +145,20 @@ class Deck:
             self.player = self.player.started(zero_ns)
 
     def _sound(self, held: bool) -> None:
-        """Let sound what the player plays from where it is, or nothing."""
+        """Let sound what the player plays from where it is, from the next frame on, or nothing."""
         if self._sounding_until_ns is not None:
             self._sounding_until_ns = None
             self._send(Stop())
-        if not self.player.is_heard or held:
-            return
-        now_ns = self.now_ns
-        self.player = replace(self.player, at_ns=self.player.position_ns(now_ns), since_ns=now_ns + LEAD_NS)
-        self._sounding_until_ns = now_ns + SOUNDED_NS
+        self._due = self.player.is_heard and not held
+        if self._due:
+            at_ns = self.player.position_ns(self.now_ns)
+            self.player = replace(self.player, at_ns=at_ns, since_ns=_WAITING_NS)
+            self._drummer = self.drummer  # who may have to be made: then sound and picture begin together
+
+    def _begin_sound(self) -> None:
+        self._due = False
+        self.player = self.player.started(self.now_ns + LEAD_NS)
+        self._sounding_until_ns = self.now_ns + SOUNDED_NS
         self._send(Play(song_cues(self.score, self.player, self._watched.click if self.click else None), LEAD_NS))
 
     # --- the picture -------------------------------------------------------------------------------------------------
@@ -182,3 +199,8 @@ class Deck:
             bar_count=self.score.bar_count,
             beats_a_minute=quarters * PPQ / self.lesson.beat_ticks * player.speed_percent / 100,
         )
+
+
+def _course(player: SongPlayer) -> tuple[object, ...]:
+    """What makes up the sound; a flag does not."""
+    return player.at_ns, player.since_ns, player.rate_percent, player.loop

@@ -37,6 +37,9 @@ HELP: Mapping[Topic, Help] = MappingProxyType(
                 ("passes", "how often the loop is played"),
                 ("click", "without it you are counted in, and the score then follows your own tempo"),
                 ("Start", "or Enter, or two kicks; Esc stops, and what was played is kept and judged"),
+                ("The strip", "plays the demonstration: step by step, backwards, at 10 to 200 %; its keys are on the"
+                 " next leaf"),
+                ("The ruler", "a drag over bars repeats them, and Start practises them; a double click takes all"),
             ),
         ),
         Topic.JUST_PLAY: Help(

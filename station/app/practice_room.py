@@ -88,7 +88,7 @@ class PracticeRoom:
         self._is_wanted = False
         self._fault: StationError | None = None
         self.deck = Deck(self._let_sound, Watched(first.lesson, first.kit, hands_of(settings)), self._who)
-        self.deck.do(lambda player, now_ns: player.looped(now_ns, _from_0(self._first.bars)))
+        self.deck.repeat(self._first.bars)
         self._graphed: Graphed | None = None
 
     # --- what the window shows ---------------------------------------------------------------------------------------
@@ -165,7 +165,7 @@ class PracticeRoom:
             self._run = self._laid_out(wish)
             click = parse_click(self._settings.click_pattern, "settings: click_pattern")
             lesson = self._lesson(wish.lesson)
-            self.deck.load(Watched(lesson, self._run.plan.kit, hands_of(self._settings), click), _from_0(wish.bars))
+            self.deck.load(Watched(lesson, self._run.plan.kit, hands_of(self._settings), click), wish.bars)
 
     def start(self, wish: Start) -> None:
         """Begin a session, ending the one that runs; wakes a new engine if the old has ended. Raises `StationError`."""
@@ -421,7 +421,3 @@ class PracticeRoom:
             return False
         self._asked.add(name)
         return True
-
-
-def _from_0(bars: tuple[int, int] | None) -> tuple[int, int] | None:
-    return None if bars is None else (bars[0] - 1, bars[1] - 1)

@@ -24,6 +24,7 @@ from station.app.panels.devices import DEVICES, DevicesPanel
 from station.app.panels.devices import HELP as DEVICES_HELP
 from station.app.panels.figure import ABOUT, FIGURE, HELP, FigurePanel
 from station.app.panels.graph import ABOUT as GRAPH_ABOUT
+from station.app.panels.graph import HELP as GRAPH_HELP
 from station.app.panels.graph import GraphPanel
 from station.app.panels.help import help_window
 from station.app.panels.hits import ABOUT as ABOUT_HITS
@@ -85,7 +86,8 @@ class Window:
         self._options = options
         self._clock = clock or MonotonicClock()
         self.choice = Choice(model.lessons(), model.first())
-        self._previewed = self.choice.card.name if self.choice.card is not None else ""
+        first = self.choice.wish()
+        self._previewed = None if first is None else (first.lesson, first.bars)
         self._panel = LessonsPanel(
             self.choice, LessonActions(self._start, lambda: self._tried(model.listen), model.room)
         )
@@ -194,7 +196,7 @@ class Window:
             Page(HITS, Side.STRIP, self._hits_gui, ABOUT_HITS),
             Page(FIGURE, Side.RIGHT, self.figure.gui, ABOUT, help=HELP),
             Page(DEVICES, Side.RIGHT, self._devices.gui, DEVICES_ABOUT, help=DEVICES_HELP),
-            Page(GRAPH, Side.STRIP, self._graph_gui, GRAPH_ABOUT),
+            Page(GRAPH, Side.STRIP, self._graph_gui, GRAPH_ABOUT, help=GRAPH_HELP),
             Page(TRANSPORT, Side.BELOW, self._transport_gui, shown=lambda stage: True),
         )
 
@@ -267,10 +269,15 @@ class Window:
     def _preview(self) -> None:
         """Show the lesson that was chosen in the list."""
         wish = self.choice.wish()
-        shown = "" if wish is None else wish.lesson
-        if shown != self._previewed and self._model.room().stage is Stage.IDLE and (wish or self.choice.free):
-            self._previewed = shown
-            self._tried(lambda: self._model.preview(wish))
+        shown = None if wish is None else (wish.lesson, wish.bars)
+        if shown == self._previewed or self._model.room().stage is not Stage.IDLE or not (wish or self.choice.free):
+            return
+        if wish is not None and self._previewed is not None and wish.lesson == self._previewed[0]:
+            self._model.deck.repeat(wish.bars)
+            if self._model.deck.player.playing:  # the rest can wait: nothing of it is seen
+                return
+        self._previewed = shown
+        self._tried(lambda: self._model.preview(wish))
 
     def _preview_anew(self) -> None:
         """Show the chosen lesson as it is to be played now, or when the result is left; raises `StationError`."""
@@ -387,6 +394,8 @@ class Window:
             self._tried(self._model.stop)
         elif stage is Stage.RESULT:
             self._model.dismiss()
+        else:
+            self._model.deck.halt()
 
     def _start(self) -> None:
         wish, free = self.choice.wish(), self.choice.free_wish()
@@ -414,7 +423,6 @@ class Window:
     def _choose_bars(self, bars: Bars) -> None:
         """Repeat these bars (first, last, from 0) on the player, and practise them; None for the lesson's own."""
         self.choice.bars = None if bars is None else (bars[0] + 1, bars[1] + 1)
-        self._previewed = ""
 
     # --- panels -------------------------------------------------------------------------------------------------------
 

@@ -544,7 +544,8 @@ def graph(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     low, high = panel.span_s
     ctx.item_click("##step")
     ctx.yield_(2)
-    seen["middle"] = sum(panel.span_s) / 2
+    seen["beat"] = deck.player.at_ns % 1_500_000_000
+    seen["middle"] = sum(panel.span_s) / 2 - deck.player.at_ns / 1e9
     place = imgui.internal.find_window_by_name("Graph").inner_rect
     middle = (place.min.x + place.max.x) / 2
     ctx.mouse_move_to_pos(imgui.ImVec2(middle, (place.min.y + place.max.y) / 2))

@@ -144,7 +144,8 @@ def the_demonstrator_is_made_to_move_otherwise(seen: dict[str, Any]) -> None:
 
 
 def the_graph_follows_and_is_zoomed(seen: dict[str, Any]) -> None:
-    assert seen["middle"] == pytest.approx(3.75), "a beat after the loop's start"
+    assert seen["beat"] == 750_000_000, "a beat after the start of the song or of the loop"
+    assert seen["middle"] == pytest.approx(0.0, abs=1e-6), "the play line stands in the middle"
     assert seen["zoomed"] < 0.95
     assert 50 < seen["dragged"] < 80, "the line stays under the mouse, which moved by 60 pixels"
     assert seen["during"] == "PLAYING"

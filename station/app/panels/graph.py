@@ -18,6 +18,11 @@ from station.render import palette
 from station.render.ink import Colour
 
 ABOUT = "Joint angles of both arms over the music, your timing and loudness below"
+HELP = (
+    "How far shoulder, elbow and wrist of both arms are turned over the beats and bars; the left arm is paler. It"
+    " follows the play line; the wheel zooms, a drag shifts, and between sessions the line itself can be dragged. In a"
+    " session and beside a result every stroke of yours stands below: its timing, early below the line, and how hard it was."
+)
 PLOT, STRIP = "##angles", "##strokes"
 _BEHIND_S = 4.0
 """What is seen before and after the play line at first, as in the score (SMED)."""
@@ -30,7 +35,7 @@ _LEFT_OPACITY = 0.5
 _STRIP_SHARE = 0.42
 _MOST_EARLY_MS, _MOST_LATE_MS = -70.0, 130.0
 """The strip's edges at first; our choice: three times what is just noticed, and above it room for the legend."""
-_HELP = (
+_TOLD = (
     "Wheel: nearer. Drag: to and fro. Double click: all of it. Drag the orange line to go there. A click on a name"
     " hides its curve"
 )
@@ -69,7 +74,7 @@ class GraphPanel:
             if implot.begin_plot(PLOT, imgui.ImVec2(-1, room.y - strip - gap), implot.Flags_.no_mouse_text):
                 self._angles(graphed, self._curves, can_seek, bare=strip > 0)
                 implot.end_plot()
-            theme.tooltip(_HELP)
+            theme.tooltip(_TOLD)
             if graphed.played is not None:
                 if implot.begin_plot(STRIP, imgui.ImVec2(-1, -1), implot.Flags_.no_mouse_text):
                     self._strokes(graphed, graphed.played)

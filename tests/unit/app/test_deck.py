@@ -5,7 +5,7 @@ Rock 1 is two bars of 4/4 at 80 beats a minute: 0.75 s a beat, 3 s a bar (its fi
 
 import numpy as np
 
-from station.app.deck import LEAD_NS, Deck, Watched
+from station.app.deck import LEAD_NS, Control, Deck, Watched
 from station.app.demonstrator import Demonstrator
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.drills.library import find_lesson
@@ -29,13 +29,19 @@ def deck() -> tuple[Deck, list[Command]]:
     return made, sent
 
 
+def use(made: Deck, control: Control, held: bool = False) -> None:
+    """A control, and the next frame, which comes at once."""
+    made.do(control, held)
+    made.advance(made.now_ns)
+
+
 def plays(sent: list[Command]) -> list[Play]:
     return [command for command in sent if isinstance(command, Play)]
 
 
 def test_played_forward_it_sounds_and_moves_with_its_sound() -> None:
     made, sent = deck()
-    made.do(SongPlayer.played)
+    use(made, SongPlayer.played)
     [play] = plays(sent)
     assert play.start_in_ns == LEAD_NS
     assert np.count_nonzero(play.cues["bus"] == Bus.DEMONSTRATION) == 24
@@ -48,10 +54,11 @@ def test_played_forward_it_sounds_and_moves_with_its_sound() -> None:
 
 def test_without_the_click_the_strokes_sound_on_from_where_it_is() -> None:
     made, sent = deck()
-    made.do(SongPlayer.played)
+    use(made, SongPlayer.played)
     made.started(NS_PER_S)
     made.advance(NS_PER_S + BAR_NS)
     made.set_click(click=False)
+    made.advance(made.now_ns)
     assert [type(command) for command in sent] == [Play, Stop, Play]
     assert set(plays(sent)[1].cues["bus"].tolist()) == {Bus.DEMONSTRATION}
     assert len(plays(sent)[1].cues) == 12, "the second bar"
@@ -59,32 +66,55 @@ def test_without_the_click_the_strokes_sound_on_from_where_it_is() -> None:
 
 def test_backwards_wound_stepped_or_held_it_is_silent() -> None:
     made, sent = deck()
-    made.do(lambda player, now_ns: player.sought(now_ns, BAR_NS).reversed(now_ns, True).played(now_ns))
-    made.do(lambda player, now_ns: player.wound(now_ns, 1))
-    made.do(lambda player, now_ns: player.stepped(now_ns, made.step, 1))
+    use(made, lambda player, now_ns: player.sought(now_ns, BAR_NS).reversed(now_ns, True).played(now_ns))
+    use(made, lambda player, now_ns: player.wound(now_ns, 1))
+    use(made, lambda player, now_ns: player.stepped(now_ns, made.step, 1))
     assert sent == []
-    made.do(lambda player, now_ns: player.reversed(now_ns, False).played(now_ns))
-    made.do(lambda player, now_ns: player.at_speed(now_ns, 50), held=True)
+    use(made, lambda player, now_ns: player.reversed(now_ns, False).played(now_ns))
+    use(made, lambda player, now_ns: player.at_speed(now_ns, 50), held=True)
     assert [type(command) for command in sent] == [Play, Stop]
-    made.do(lambda player, now_ns: player.at_speed(now_ns, 60))
+    use(made, lambda player, now_ns: player.at_speed(now_ns, 60))
     assert [type(command) for command in sent] == [Play, Stop, Play]
 
 
 def test_a_loop_that_is_played_longer_than_was_sounded_sounds_on() -> None:
     made, sent = deck()
-    made.do(lambda player, now_ns: player.looped(now_ns, (1, 1)).played(now_ns))
+    use(made, lambda player, now_ns: player.looped(now_ns, (1, 1)).played(now_ns))
     made.advance(made.now_ns + 601 * NS_PER_S)
+    made.advance(made.now_ns)
     assert [type(command) for command in sent] == [Play, Stop, Play]
+
+
+def test_until_the_next_frame_it_waits_where_it_is_however_long_that_takes() -> None:
+    """The drummer may have to be made first."""
+    made, sent = deck()
+    made.do(SongPlayer.played)
+    assert sent == []
+    made.advance(made.now_ns + 2 * NS_PER_S)
+    assert (len(plays(sent)), made.player.position_ns(made.now_ns)) == (1, 0)
+
+
+def test_a_flag_that_is_kept_does_not_break_the_sound() -> None:
+    made, sent = deck()
+    use(made, SongPlayer.played)
+    made.started(made.now_ns)
+    made.advance(made.now_ns + NS_PER_S)
+    use(made, lambda player, now_ns: player.flagged(now_ns, 0))
+    assert [type(command) for command in sent] == [Play]
+    assert made.player.flags[0] == NS_PER_S
 
 
 def test_another_lesson_stops_it_and_flags_are_kept_for_each() -> None:
     made, sent = deck()
-    made.do(lambda player, now_ns: player.sought(now_ns, BAR_NS).flagged(now_ns, 2).at_speed(now_ns, 50).played(now_ns))
+    use(
+        made,
+        lambda player, now_ns: player.sought(now_ns, BAR_NS).flagged(now_ns, 2).at_speed(now_ns, 50).played(now_ns),
+    )
     made.load(Watched(PARADIDDLE, KIT), None)
     assert isinstance(sent[-1], Stop)
     assert (made.player.playing, made.player.position_ns(made.now_ns), made.player.speed_percent) == (False, 0, 50)
     assert made.player.flags == (None,) * 8
-    made.load(Watched(ROCK, KIT), (0, 1))
+    made.load(Watched(ROCK, KIT), (1, 2))
     back = made.player
     assert (back.flags[2], back.loop) == (BAR_NS, (0, 1))
 
@@ -92,7 +122,7 @@ def test_another_lesson_stops_it_and_flags_are_kept_for_each() -> None:
 def test_the_picture_is_the_demonstration_s_once_the_player_is_used() -> None:
     made, _ = deck()
     before = made.is_shown
-    made.do(lambda player, now_ns: player.sought(now_ns, BAR_NS + 1600 * NS_PER_MS).at_speed(now_ns, 50))
+    use(made, lambda player, now_ns: player.sought(now_ns, BAR_NS + 1600 * NS_PER_MS).at_speed(now_ns, 50))
     assert (before, made.is_shown) == (False, True)
     hud = made.snapshot().hud
     assert (hud.bar, hud.beat, hud.phase, hud.beats_a_minute) == (2, 3, "Demonstration at 50 %", 40.0)
