@@ -21,7 +21,8 @@ ABOUT = "Joint angles of both arms over the music, your timing and loudness belo
 HELP = (
     "How far shoulder, elbow and wrist of both arms are turned over the beats and bars; the left arm is paler. It"
     " follows the play line; the wheel zooms, a drag shifts, and between sessions the line itself can be dragged. In a"
-    " session and beside a result every stroke of yours stands below: its timing, early below the line, and how hard it was."
+    " session and beside a result every stroke of yours stands below: its timing, early below the line,"
+    " and how hard it was."
 )
 PLOT, STRIP = "##angles", "##strokes"
 _BEHIND_S = 4.0
