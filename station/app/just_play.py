@@ -5,6 +5,8 @@ Strokes light the kit before, in and after a take; only a take's are kept.
 
 from pathlib import Path
 
+import numpy as np
+
 from station.app.model import FreeWish
 from station.app.session_folder import SessionFolder
 from station.app.session_view import STRIKE_SHOWN_NS, strikes
@@ -25,6 +27,8 @@ from station.practice.listening import Listening
 from station.practice.live import EngineLink, begin, end
 from station.render.snapshot import Hud, Snapshot, Strike, Strip
 
+IN_SIGHT = 256
+"""The last strokes that the strip may show while a take runs: eight seconds of 32 a second; our choice."""
 TITLE = "Just play"
 FOLDER = "just-play"
 _NO_SCORE = Score.from_notes([], TempoMap())
@@ -39,7 +43,7 @@ class JustPlay:
         self._play = FreePlay(FreeClick(100.0, None), latency)
         self._folder: SessionFolder | None = None
         self._take: Performance | None = None
-        self._shown = Performance.from_hits([])
+        self._shown = 0, Performance.from_hits([])
         self._end_ns = 0
         self.runs = False
 
@@ -146,16 +150,20 @@ class JustPlay:
         """What the strip shows."""
         if self._take is not None:
             return self._take
-        if len(self._shown) != len(self._play.hits):
-            self._shown = Performance.from_hits(self._play.hits)
-        return self._shown
+        count = len(self._play.hits)
+        if count != self._shown[0]:
+            self._shown = count, Performance.from_hits(self._play.hits[-IN_SIGHT:])
+        return self._shown[1]
 
     def _sounding(self, heard_ns: int) -> tuple[Strike, ...]:
-        ages = ((hit, heard_ns - hit.at_ns) for hit in self._take or ())
-        return tuple(Strike(h.piece, h.velocity, age / NS_PER_S) for h, age in ages if 0 <= age < STRIKE_SHOWN_NS)
+        if self._take is None:
+            return ()
+        first, last = np.searchsorted(self._take.hits["at_ns"], (heard_ns - STRIKE_SHOWN_NS, heard_ns + 1)).tolist()
+        struck = (self._take[index] for index in range(first, last))
+        return tuple(Strike(hit.piece, hit.velocity, (heard_ns - hit.at_ns) / NS_PER_S) for hit in struck)
 
     def _hud(self, at_ns: int | None, is_heard: bool) -> Hud:
-        click, strokes = self._play.click, len(self._strokes())
+        click, strokes = self._play.click, len(self._play.hits if self._take is None else self._take)
         counted = f"{strokes} stroke{'' if strokes == 1 else 's'}"
         words = f"Listening back to {counted}" if is_heard else f"Recording: {counted}"
         if not self.runs and not is_heard:

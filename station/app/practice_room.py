@@ -172,14 +172,15 @@ class PracticeRoom:
         run = self._laid_out(wish)
         self._make_room()
         track = None if wish.adapt else self._track(run.plan)
-        if self._backing is not None and track is None:
-            self._engine.send(SetBacking(None))
+        if track is None:
+            self._without_track()
         run.begin(self._settings, track)
         self._run, self._stage, self._is_asking, self._is_free = run, Stage.PLAYING, False, False
 
     def just_play(self, wish: FreeWish) -> None:
         """Begin a free take, ending what runs; raises `StationError`."""
         self._make_room()
+        self._without_track()
         self._free.begin(self._engine, wish)
         self._stage, self._is_asking, self._is_free = Stage.PLAYING, False, True
 
@@ -319,6 +320,7 @@ class PracticeRoom:
         self._quiet()
         self.deck.halt()
         if listening is not None:
+            self._without_track()
             for command in listening.start():
                 self._engine.send(command)
             self._listening = listening
@@ -364,9 +366,13 @@ class PracticeRoom:
         with suppress(DeviceError):
             if isinstance(command, Play):
                 self._quiet()
-            if isinstance(command, Play) and self._backing is not None:
-                self._engine.send(SetBacking(None))
+                self._without_track()
             self._engine.send(command)
+
+    def _without_track(self) -> None:
+        """Let no track sound with what comes, for one does whenever the transport runs; raises `DeviceError`."""
+        if self._backing is not None:
+            self._engine.send(SetBacking(None))
 
     def _track(self, plan: Plan) -> PreparedTrack | None:
         """The track to play along to; raises `DeviceError` while it is being made ready, `BadInput` if it cannot be."""

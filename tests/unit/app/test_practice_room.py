@@ -13,8 +13,10 @@ from station.core.pieces import Piece, Zone
 from station.core.settings import Settings
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.drills.library import find_lesson
-from station.engine.messages import Bus, Command, EngineEvent, Play, Record, Recorded, SetLevel, Started
+from station.engine.messages import Bus, Command, EngineEvent, Play, Record, Recorded, SetBacking, SetLevel, Started
 from station.motion.hand_notes import Hands
+from station.practice.backing import BackingWish
+from station.practice.by_ear import Whose
 from station.practice.plan import Wishes, plan_practice
 
 TARGET_BPM = find_lesson("rock-1").target_tempo_bpm
@@ -251,3 +253,31 @@ def test_whoever_was_met_is_kept_through_a_new_engine(tmp_path: Path) -> None:
     assert second.heard[0] == SetLevel(Bus.STUDENT, 0.0), "the new engine keeps silent too"
     room.close()
     assert list((tmp_path / "Ann").rglob("*.json")), "her sessions are hers"
+
+
+def test_a_free_take_has_no_track_of_a_lesson(tmp_path: Path) -> None:
+    """A track sounds whenever the transport runs, so it is taken away first."""
+    line = Line()
+    wish = BackingWish(tmp_path / "song.mp3")
+    room = PracticeRoom(lambda: line, Settings(sessions=str(tmp_path)), PLAN, backing=wish)
+    room.just_play(FreeWish(100.0))
+    line.says += [Started(NS_PER_S), Hit(2 * NS_PER_S, Piece.SNARE, Zone.HEAD, 90)]
+    room.snapshot(2 * NS_PER_S + 1)
+    room.stop()
+    before_play = [line.heard[i - 1] for i, command in enumerate(line.heard) if isinstance(command, Record | Play)]
+    assert isinstance(before_play[0], SetBacking)
+    assert before_play[0].track is None
+
+
+def test_a_bar_is_heard_and_ends_by_itself(tmp_path: Path) -> None:
+    line = Line()
+    room = PracticeRoom(lambda: line, Settings(sessions=str(tmp_path), ask_first=False), PLAN)
+    played_early(room, line, NS_PER_S)
+    for whose in Whose:
+        room.hear_bar(1, whose)
+        assert isinstance(line.heard[-1], Play)
+        assert room.room().listening
+    line.says.append(Started(100 * NS_PER_S))
+    room.snapshot(100 * NS_PER_S + 1)
+    room.snapshot(160 * NS_PER_S)
+    assert not room.room().listening, "it ends by itself"
