@@ -141,5 +141,9 @@ class StylesHead:
         self._source = None
 
     def _store(self, slot: int) -> None:
-        self._options.store(slot, self._name.strip())
-        self._tried(lambda: self._shelf.keep_slots(self._options.slots))
+        def keep() -> None:
+            self._load_slots()  # a file that cannot be read is told, and not written over
+            self._options.store(slot, self._name.strip())
+            self._shelf.keep_slots(self._options.slots)
+
+        self._tried(keep)
