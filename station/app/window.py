@@ -283,7 +283,7 @@ class Window:
         """Show the chosen lesson as it is to be played now, or when the result is left; raises `StationError`."""
         wish = self.choice.wish()
         if self._model.room().stage is not Stage.IDLE:
-            self._previewed = ""
+            self._previewed = None
         elif wish is not None:
             self._model.preview(wish)
 
