@@ -4,13 +4,14 @@
 it when it is over. The hits carry their own times, so that the frame rate decides nothing.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from datetime import date
 
 from station.app.deck import Deck, Watched
 from station.app.demonstrator import Demonstrator, kept_demonstrator
+from station.app.ear import Ear
 from station.app.engine_line import EngineLine, WakeEngine
 from station.app.graphed import Graphed
 from station.app.just_play import JustPlay
@@ -27,7 +28,7 @@ from station.core.events import Hit
 from station.core.settings import Settings
 from station.drills.lesson import Lesson
 from station.drills.library import find_lesson
-from station.engine.messages import Command, Eavesdrop, EngineEvent, KeyHit, Play, SetBacking, Started
+from station.engine.messages import Command, Eavesdrop, EngineEvent, KeyHit, Started
 from station.motion.figure import load_figure
 from station.motion.hand_notes import Hands
 from station.motion.style import Style
@@ -83,11 +84,11 @@ class PracticeRoom:
         self._free = JustPlay(settings, self._latency)
         self.desk = KitDesk(self._tell_engine)
         self._is_free = False
-        self._listening: Listening | None = None
+        self._ear = Ear(self._engine, self._backing is not None)
         self._pads = PadCommands(settings, first.score)
         self._is_wanted = False
         self._fault: StationError | None = None
-        self.deck = Deck(self._let_sound, Watched(first.lesson, first.kit, hands_of(settings)), self._who)
+        self.deck = Deck(self._ear.demonstrate, Watched(first.lesson, first.kit, hands_of(settings)), self._who)
         self.deck.repeat(self._first.bars)
         self._graphed: Graphed | None = None
 
@@ -99,13 +100,11 @@ class PracticeRoom:
             self.desk.take(event)
             self._take(event, now_ns)
         self.desk.advance(now_ns)
-        if self._listening is not None and self._listening.is_over(now_ns):
-            self._listening = None
+        heard_ns = self._ear.advance(now_ns)
         if self._is_free:
             self._free.advance(now_ns)
             if self._free.runs and self._free.over:
                 self.stop()
-            heard_ns = None if self._listening is None else self._listening.at_ns(now_ns)
             return self._free.snapshot(self._run.plan.kit, now_ns, heard_ns)
         if self._stage is Stage.PLAYING and self._run.advance(now_ns):
             self._finish()
@@ -122,7 +121,7 @@ class PracticeRoom:
             self._engine.sound,
             tuple(self._notices[-NOTICES_KEPT:]),
             has_take=self._free.has_take,
-            listening=self._listening is not None,
+            listening=self._ear.hears,
             free=self._is_free,
             question=QUESTION if self._is_asking else "",
         )
@@ -157,7 +156,7 @@ class PracticeRoom:
     def preview(self, wish: Start | None) -> None:
         """Show the chosen lesson, its bars on the player, or the kit alone, to just play; raises `StationError`."""
         if self._stage is Stage.IDLE:
-            self._quiet()
+            self._ear.quiet()
             self._is_free = wish is None
             if self._is_free:
                 self.deck.halt()
@@ -173,21 +172,21 @@ class PracticeRoom:
         self._make_room()
         track = None if wish.adapt else self._track(run.plan)
         if track is None:
-            self._without_track()
+            self._ear.without_track()
         run.begin(self._settings, track)
         self._run, self._stage, self._is_asking, self._is_free = run, Stage.PLAYING, False, False
 
     def just_play(self, wish: FreeWish) -> None:
         """Begin a free take, ending what runs; raises `StationError`."""
         self._make_room()
-        self._without_track()
+        self._ear.without_track()
         self._free.begin(self._engine, wish)
         self._stage, self._is_asking, self._is_free = Stage.PLAYING, False, True
 
     def listen(self) -> None:
         """Hear the last free take from its capture, or end what is heard; raises `StationError`."""
-        if self._listening is not None:
-            self._quiet()
+        if self._ear.hears:
+            self._ear.quiet()
         elif self._stage is not Stage.PLAYING:
             self._hear(self._free.listening())
 
@@ -278,17 +277,11 @@ class PracticeRoom:
     def dismiss(self) -> None:
         """Back to the lessons."""
         if self._stage is Stage.RESULT:
-            self._quiet()
+            self._ear.quiet()
             self._stage, self._is_asking = Stage.IDLE, False
             self._run = self._new_run(self._run.plan)
 
     # --- inside ------------------------------------------------------------------------------------------------------
-
-    def _send(self, commands: Iterable[Command]) -> None:
-        """Tell the engine; a dead one says so itself."""
-        for command in commands:
-            with suppress(DeviceError):
-                self._engine.send(command)
 
     def _command(self, event: EngineEvent) -> None:
         """Do what pads and foot switches ask for; a question has the pads for itself."""
@@ -310,26 +303,16 @@ class PracticeRoom:
 
     def _make_room(self) -> None:
         """End what runs or sounds, and have an engine; raises `DeviceError`."""
-        self._quiet()
+        self._ear.quiet()
         self.deck.halt()
         self.stop()
         self._engine.wake()
 
     def _hear(self, listening: Listening | None) -> None:
-        """Let something sound once; raises `DeviceError`."""
-        self._quiet()
+        """Let something sound once in place of the demonstration; raises `DeviceError`."""
         self.deck.halt()
         if listening is not None:
-            self._without_track()
-            for command in listening.start():
-                self._engine.send(command)
-            self._listening = listening
-
-    def _quiet(self) -> None:
-        """End what is heard."""
-        if self._listening is not None:
-            self._send(self._listening.stop())
-            self._listening = None
+            self._ear.hear(listening)
 
     def _end(self) -> None:
         """End the session or the take that runs, and keep it."""
@@ -361,19 +344,6 @@ class PracticeRoom:
     def _new_run(self, plan: Plan, followed: Remembered | None = None) -> LessonRun:
         return LessonRun(self._engine, plan, self._who, self._latency, self._notices.append, followed)
 
-    def _let_sound(self, command: Command) -> None:
-        """Tell the engine what the demonstration needs, without a track; a dead one plays none, and has said so."""
-        with suppress(DeviceError):
-            if isinstance(command, Play):
-                self._quiet()
-                self._without_track()
-            self._engine.send(command)
-
-    def _without_track(self) -> None:
-        """Let no track sound with what comes, for one does whenever the transport runs; raises `DeviceError`."""
-        if self._backing is not None:
-            self._engine.send(SetBacking(None))
-
     def _track(self, plan: Plan) -> PreparedTrack | None:
         """The track to play along to; raises `DeviceError` while it is being made ready, `BadInput` if it cannot be."""
         if self._backing is None:
@@ -389,14 +359,14 @@ class PracticeRoom:
             return self._engine.events()
         except DeviceError as fault:
             self._notices.append(str(fault))
-            self._listening = None
+            self._ear.forget()
             if self._stage is Stage.PLAYING:
                 self._end()
             return []
 
     def _take(self, event: EngineEvent, now_ns: int) -> None:
-        if self._listening is not None:
-            self._listening.handle(event)
+        if self._ear.hears:
+            self._ear.take(event)
         elif isinstance(event, Started) and self._stage is not Stage.PLAYING:
             self.deck.started(event.zero_ns)
             return
