@@ -127,6 +127,10 @@ def _claw(radius: float, depth: float, angle: float) -> Mesh:
     return joined(parts).moved(rotation([0, 0, 1], angle))
 
 
+_UNDER = [0, 1, 4, 7, 10, 13]
+"""The rings of a cymbal's underside where small things are left out: it is rarely seen."""
+
+
 def cymbal(radius: float, detail: Detail, bell: float = 0.19) -> Mesh:
     """A cymbal whose bow lies in the plane z = 0 at 0.6 of its radius; the bell rises above, the edge falls below."""
     rise = 0.055 * radius
@@ -138,7 +142,7 @@ def cymbal(radius: float, detail: Detail, bell: float = 0.19) -> Mesh:
     bow = rise * (1 - (r / 0.98) ** 2) - rise * (1 - (0.6 / 0.98) ** 2)
     dome = np.where(r < bell, (BELL_ABOVE_BOW_M - 0.4 * rise) * np.sqrt(np.clip(1 - (r / bell) ** 2, 0, 1)), 0)
     top = np.stack([r * radius, bow + dome], axis=1)
-    under = top[::-1] - [0.0, 0.0015]
+    under = (top if detail.hardware else top[_UNDER])[::-1] - [0.0, 0.0015]
     mesh = joined(
         [
             _grooved(lathe(top, detail.segments, Material.BRONZE), detail),

@@ -22,7 +22,7 @@ from station.render.ink_printer import InkPrinter, Sheet
 from station.render.palette import BRAND, EARLY, GOOD, INK_FAINT, LATE, MISSED, NIGHT, WRONG, Theme, dyed, over_picture
 from station.render.quality import QUALITIES, Quality
 from station.render.scene import Scene
-from station.render.score_view import Place, ScoreForm, ScoreView
+from station.render.score_view import Place, ScoreForm, ScoreView, shows_staff
 from station.render.snapshot import Cue, Double, Hud, Snapshot, Strike
 from station.render.still import Still
 
@@ -101,18 +101,20 @@ class Painter:
         scene.set(_frame(snapshot, double, self.theme))
         camera = camera or named(View.SHOULDER, snapshot.kit.left_handed)
 
+        is_staff = shows_staff(snapshot, arrangement.form)
+
         def lay(into: moderngl.Framebuffer, draw: Callable[[moderngl.Framebuffer, Camera, Area], None]) -> None:
             draw(into, camera, scene_area)
             self._ctx.viewport = area
             if with_score:
-                self._score.draw_paper(place, (width, height))
+                self._score.draw_paper(place, (width, height), is_staff)
 
         def lay_still(into: moderngl.Framebuffer) -> None:
             into.clear(*dyed(NIGHT, self.theme), depth=1.0)
             lay(into, partial(scene.draw_still, is_rough=arrangement.is_rough))
 
         if self.quality.is_layered:
-            key = (scene, camera, area, with_score, scene.shows_figure, self.theme, arrangement.is_rough)
+            key = (scene, camera, area, with_score, is_staff, scene.shows_figure, self.theme, arrangement.is_rough)
             self._still.under(target, key, lay_still)
             scene.draw_moving(target, camera, scene_area)
         else:

@@ -10,7 +10,7 @@ from station.core.pieces import Piece
 from station.motion.kit import Kit, Pedal
 from station.render.materials import Material
 from station.render.mesh import Mesh, box, joined, lathe, rod
-from station.render.space import Matrix, frame, rotation, translation, unit
+from station.render.space import Matrix, frame, rotation_at, unit
 
 _BEATER_LENGTH_M = 0.20
 """From the pedal's axle to the middle of the beater; common pedals set it to 19–22 cm."""
@@ -83,5 +83,4 @@ def raised(pedal: Pedal, angle_rad: float) -> Matrix:
     """A footboard turned up about its heel."""
     heel = np.array(pedal.heel_m)
     along = unit(np.array(pedal.toe_m) - heel)
-    axis = np.cross(along, [0.0, 0.0, 1.0])
-    return translation(heel) @ rotation(axis, angle_rad) @ translation(-heel)
+    return rotation_at(heel, (along[1], -along[0], 0.0), angle_rad)

@@ -8,6 +8,8 @@ moves is drawn once for each camera with the figure's resting shadow (`draw_stil
 with its depth, and each frame adds what moves, lit corner by corner (`draw_moving`).
 """
 
+from functools import lru_cache
+
 import moderngl
 import numpy as np
 
@@ -179,11 +181,17 @@ class Scene:
         self._ctx.front_face = "ccw"
 
     def _aim(self, camera: Camera, viewport: Viewport, *parts: moderngl.VertexArray) -> None:
-        projection = gl_bytes(camera.matrix(viewport[2] / viewport[3]))
+        projection = _projection(camera, viewport[2] / viewport[3])
         for part in parts:
             write(part.program, "view_projection", projection)
             if "eye" in part.program:
                 part.program["eye"] = camera.eye
+
+
+@lru_cache(maxsize=4)
+def _projection(camera: Camera, aspect: float) -> bytes:
+    """World to clip as the shaders want it; a camera mostly stands still."""
+    return gl_bytes(camera.matrix(aspect))
 
 
 def _render(part: moderngl.VertexArray, faces: slice) -> None:

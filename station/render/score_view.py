@@ -82,11 +82,19 @@ class ScoreView:
         self._paged: Score | None = None
         self._pages: list[Page] = []
 
-    def draw_paper(self, place: Place, size: tuple[int, int]) -> None:
-        """Draw what every score lies on at `place` in a picture of `size`."""
+    def draw_paper(self, place: Place, size: tuple[int, int], is_staff: bool) -> None:
+        """Draw what a score lies on and what of it never moves, at `place` in a picture of `size`.
+
+        `is_staff`: a staff is what the score shows (`shows_staff`).
+        """
         sheet = Sheet(size)
         self._printer.fill((place.left, place.top, place.width, place.height), (PAPER, PAPER_LOW), sheet)
         self._printer.fill((place.left, place.top, place.width, 1.2), (PANEL_EDGE, PANEL_EDGE), sheet)
+        if is_staff:
+            ink = Ink(self._atlas)
+            note_shapes.staff_lines(ink, place.width / place.space)
+            note_shapes.clef(ink, 1.4)
+            self._printer.draw(ink.shapes(), Sheet(size, (place.left, place.middle_line), place.space))
 
     def draw(
         self, snapshot: Snapshot, place: Place, size: tuple[int, int], form: ScoreForm = ScoreForm.SCROLLING
@@ -174,10 +182,8 @@ class ScoreView:
 
     def _paper(self, snapshot: Snapshot, place: Place, line_x: float) -> NDArray[np.void]:
         ink, space = Ink(self._atlas), place.space
-        width, line = place.width / space, (line_x - place.left) / space
-        note_shapes.staff_lines(ink, width)
+        line = (line_x - place.left) / space
         ink.box((line - 0.14, engraving.TOP_Y), (0.28, place.height / space), with_opacity(BRAND, 0.95))
-        note_shapes.clef(ink, 1.4)
         tick = max(int(snapshot.score.tempo_map.ticks_at(snapshot.position_s)), 0)
         note_shapes.time_signature(ink, snapshot.score.tempo_map.meter_at(tick), 4.6)
         return ink.shapes()
@@ -201,6 +207,11 @@ class ScoreView:
                 ink.time_s = extra.time_s
                 ink.cross((0.0, height(PLACES[extra.piece].step)), (0.42, 0.42), 0.2, EXTRA)
         return ink.shapes()
+
+
+def shows_staff(snapshot: Snapshot, form: ScoreForm) -> bool:
+    """Whether `form` shows the snapshot's score on a staff."""
+    return snapshot.strip is None and form is not ScoreForm.HIGHWAY
 
 
 def pages(score: Score) -> list[Page]:

@@ -70,16 +70,18 @@ def rotation(axis: ArrayLike, angle_rad: float) -> Matrix:
 def rotation_at(point: ArrayLike, axis: ArrayLike, angle_rad: float) -> Matrix:
     """A turn about an axis through `point`."""
     p = np.asarray(point, np.float64)
-    return translation(p) @ rotation(axis, angle_rad) @ translation(-p)
+    m = rotation(axis, angle_rad)
+    m[:3, 3] = p - m[:3, :3] @ p
+    return m
 
 
 def look_at(eye: ArrayLike, target: ArrayLike, up: ArrayLike = (0.0, 0.0, 1.0)) -> Matrix:
     """World to view: the camera at `eye` looks along −z."""
     e = np.asarray(eye, np.float64)
     back = unit(e - np.asarray(target, np.float64))
-    right = unit(np.cross(np.asarray(up, np.float64), back))
+    right = unit(cross(np.asarray(up, np.float64), back))
     m = np.eye(4)
-    m[0, :3], m[1, :3], m[2, :3] = right, np.cross(back, right), back
+    m[0, :3], m[1, :3], m[2, :3] = right, cross(back, right), back
     m[:3, 3] = -m[:3, :3] @ e
     return m
 

@@ -21,12 +21,12 @@ from station.music.score import Note
 from station.render.camera import Camera, View, named
 from station.render.gl import Target, standalone_context
 from station.render.painter import SCORE_SHARE, Arrangement, Painter
-from station.render.palette import BRAND, MISSED
+from station.render.palette import BRAND, MISSED, Theme
 from station.render.picture import PictureMaker, Shot, draw_png
 from station.render.quality import QUALITIES, Quality
 from station.render.report_picture import draw_report_png
 from station.render.results import Words, result_facts
-from station.render.score_view import AFTER_S, BEFORE_S, Place
+from station.render.score_view import AFTER_S, BEFORE_S, Place, ScoreForm
 from station.render.snapshot import Cue, Double, Hud, Parting, Snapshot, Strike, no_marks
 from station.render.staff import PLACES, height
 from tests.unit.render.scores import rock, score_of
@@ -146,6 +146,28 @@ def test_the_student_s_double_is_seen_where_his_limbs_are_and_glows_where_they_p
     expected = np.array(MISSED[:3])
     reds = [float(picture[elbow].astype(float) @ expected / np.linalg.norm(picture[elbow])) for picture in (seen, red)]
     assert reds[1] > 0.95 * np.linalg.norm(expected) > reds[0]
+
+
+def test_what_is_kept_follows_the_colours_and_the_form_of_the_score() -> None:
+    """By day the paper is light (F6F3EC), the highway has no staff: also where the room is drawn once."""
+    ctx = standalone_context()
+    with ctx:
+        painter, target = Painter(ctx, QUALITIES[0]), Target(ctx, SIZE)
+
+        def drawn(theme: Theme, form: ScoreForm) -> Picture:
+            painter.theme = theme
+            painter.draw(at(1.0), target.framebuffer, (0, 0, *SIZE), arrangement=Arrangement(form=form))
+            return target.read()[SCORE_TOP + 2 :]
+
+        night, day = drawn(Theme.NIGHT, ScoreForm.SCROLLING), drawn(Theme.DAY, ScoreForm.SCROLLING)
+        highway, again = drawn(Theme.NIGHT, ScoreForm.HIGHWAY), drawn(Theme.NIGHT, ScoreForm.SCROLLING)
+    assert np.median(day[..., 0]) == pytest.approx(0xF6, abs=2)
+    assert np.median(night[..., 0]) < 0x20
+    assert np.array_equal(night, again)
+    place = Place(0.0, 0.0, float(SIZE[0]), float(SIZE[1] - SCORE_TOP))
+    line = round(place.middle_line) - 2
+    between = np.s_[line - 1 : line + 2, 8:20]  # left of the clef
+    assert night[between].max() > highway[between].max() + 30
 
 
 # --- the score --------------------------------------------------------------------------------------------------------
