@@ -104,6 +104,7 @@ class Window:
         self._show_help = False
         self._frame_ms = 0.0
         self.frames = 0
+        self.picture_every = options.picture_every
         self._fault: DeviceError | None = None
         self._devices = DevicesPanel(model.desk, self._tried, self._tell)
         self.figure = FigurePanel(model, options.settings, self._tried, self._preview_anew)
@@ -257,7 +258,7 @@ class Window:
             height -= round(theme.points(_NEWS_BAND) * imgui.get_io().display_framebuffer_scale.y)
         if self._model.wants_start():
             self._start()
-        if self.frames % self._options.picture_every:
+        if self.frames % self.picture_every:
             self.backdrop.clear()
         else:
             try:

@@ -10,13 +10,13 @@ import pytest
 START_WITHIN_S = 20.0
 
 
-def screen() -> Iterator[dict[str, str]]:
-    """The environment of a child that shall draw on a new screen."""
+def screen(size: str = "1400x900") -> Iterator[dict[str, str]]:
+    """The environment of a child that shall draw on a new screen of so many pixels."""
     if shutil.which("Xvfb") is None:
         pytest.skip("Xvfb is not installed")
     read, write = os.pipe()
     server = subprocess.Popen(
-        ["Xvfb", "-displayfd", str(write), "-screen", "0", "1400x900x24", "+extension", "GLX", "-nolisten", "tcp"],
+        ["Xvfb", "-displayfd", str(write), "-screen", "0", f"{size}x24", "+extension", "GLX", "-nolisten", "tcp"],
         pass_fds=[write],
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,

@@ -10,6 +10,8 @@ from imgui_bundle import imgui
 from station.app import theme
 from station.app.kit_desk import STROKES_SHOWN, KitDesk, Stroke
 from station.app.kit_monitor import Line, suspected
+from station.app.latency_lines import latency_lines
+from station.core.calibration import Calibration, load_calibration
 from station.core.events import Choke, Hit, PedalMoved, Switched
 from station.core.names import piece_name
 from station.core.pieces import Piece, word
@@ -53,6 +55,7 @@ class DevicesPanel:
         self._desk = desk
         self._tried = tried
         self._tell = tell
+        self._known: Calibration | None = None
 
     def gui(self) -> None:
         """Draw the panel and do what the user does in it."""
@@ -69,6 +72,21 @@ class DevicesPanel:
         self._pads()
         self._crosstalk()
         self._keeping()
+        self._latency()
+
+    def _latency(self) -> None:
+        """How late the devices are, as far as was measured; the file is read when the panel opens."""
+        if imgui.is_window_appearing() or self._known is None:
+            self._known = Calibration()
+            self._tried(self._read_calibration)
+        imgui.separator_text("How late they are")
+        for line in latency_lines(self._known, self._desk.devices):
+            imgui.text_wrapped(f"{line.what}: {line.words}")
+            theme.soft(line.trust)
+        theme.tooltip("Judgement subtracts these; what is not measured has the settings' word")
+
+    def _read_calibration(self) -> None:
+        self._known = load_calibration()
 
     def _kits(self) -> None:
         desk = self._desk

@@ -31,18 +31,27 @@ class LessonActions:
     room: Callable[[], RoomState]
 
 
+_HIGH_ENOUGH = 430
+"""Design pixels: in a lower panel Start comes first, so that it need not be scrolled to."""
+
+
 class LessonsPanel:
     """The list, the chosen lesson's words, its tempo and passes, and the button that starts it."""
 
     def __init__(self, choice: Choice, actions: LessonActions) -> None:
         self._choice = choice
         self._actions = actions
+        self._is_low = False
         self._below = 0.0  # pixels that the part under the list took in the last frame
 
     def gui(self) -> None:
         """Draw the panel and do what the user does in it."""
         choice = self._choice
-        theme.heading("Lessons")
+        self._is_low = imgui.get_window_height() < theme.points(_HIGH_ENOUGH)
+        if self._is_low:
+            self._start_button()
+        else:
+            theme.heading("Lessons")
         imgui.set_next_item_width(-1)
         _, choice.search = imgui.input_text_with_hint(
             "##search", "Search: a word of title, level or tag", choice.search
@@ -85,7 +94,7 @@ class LessonsPanel:
         theme.heading(card.title, 20)
         author = f" · {card.author}" if card.author else ""
         theme.soft(f"{card.bars} bars · {card.meter} · {card.beats_a_minute:g} bpm{author}")
-        if card.about:
+        if card.about and not self._is_low:  # the list's tooltip has it too
             theme.soft(card.about)
         row = Row()
         row.place(0)
@@ -101,9 +110,14 @@ class LessonsPanel:
         imgui.set_next_item_width(-1)
         _, choice.loops = imgui.slider_int("##passes", choice.loops, 1, MAX_LOOPS, "passes %d")
         theme.tooltip("How often the loop is played")
+        if not self._is_low:
+            self._start_button()
+
+    def _start_button(self) -> None:
         if theme.main_button(START_LABEL, (-1, theme.points(46))):
             self._actions.start()
-        theme.tooltip("Count-in, demonstration, then you (Enter)")
+        free = self._choice.free
+        theme.tooltip("Record from now on (Enter)" if free else "Count-in, demonstration, then you (Enter)")
 
     def _just_play(self) -> None:
         choice = self._choice
@@ -113,9 +127,8 @@ class LessonsPanel:
         theme.tooltip("As the settings say; without it there is silence")
         if choice.click:
             self._tempo()
-        if theme.main_button(START_LABEL, (-1, theme.points(46))):
-            self._actions.start()
-        theme.tooltip("Record from now on (Enter)")
+        if not self._is_low:
+            self._start_button()
         room = self._actions.room()
         imgui.begin_disabled(not (room.has_take or room.listening))
         if imgui.button(STOP_LISTENING if room.listening else LISTEN_LABEL, imgui.ImVec2(-1, theme.points(38))):

@@ -30,6 +30,8 @@ from station.render.palette import (
     with_opacity,
 )
 
+GRAB = 0.55
+"""Opacity of a slider's grab (`app.theme`)."""
 SIGNALS = (GOOD, EARLY, LATE, MISSED, WRONG)
 SIGHT = {
     "normal": np.eye(3),
@@ -89,6 +91,12 @@ def test_signals_are_told_apart_by_everybody(theme: Theme, sight: str) -> None:
 @pytest.mark.parametrize("theme", Theme)
 def test_a_button_s_letters_read_on_it(theme: Theme) -> None:
     assert contrast(dyed(NIGHT, theme), dyed(BRAND, theme)) >= 4.5
+
+
+@pytest.mark.parametrize("theme", Theme)
+def test_a_slider_s_number_reads_on_its_grab(theme: Theme) -> None:
+    grab = over(with_opacity(dyed(BRAND, theme), GRAB), dyed(PAPER, theme))
+    assert contrast(dyed(INK, theme), grab) >= 4.5
 
 
 def test_opacity_stays_and_a_colour_of_no_theme_too() -> None:

@@ -1,0 +1,160 @@
+"""Keeps a screenshot of every page of the window: `python docs/pictures/pages.py [--size WxH] [--scale N] [--to DIR]`.
+
+Run from the project's root; it needs Xvfb and takes half a minute a page without a graphics card. Every page is a
+process with a window of its own, driven by imgui's test engine as in `tests/gui`. Look at each: nothing cut off,
+nothing overlapping. 1280x720 at scale 1 is what `docs/window.md` shows; look at 1920x1080 and at scale 2 too.
+"""
+
+import argparse
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from imgui_bundle import hello_imgui, imgui
+
+ROOT = Path(__file__).parents[2]
+sys.path.insert(0, str(ROOT))
+
+from station.app.model import Stage  # noqa: E402
+from station.app.panels.devices import DEVICES  # noqa: E402
+from station.app.panels.figure import FIGURE  # noqa: E402
+from station.app.panels.hits import HITS  # noqa: E402
+from station.app.panels.lessons import FREE_LABEL  # noqa: E402
+from station.core.settings import load_settings, save_settings  # noqa: E402
+from station.render.png import write_png  # noqa: E402
+from tests.gui.drive import NEWCOMER, Drive, open_panel  # noqa: E402
+from tests.gui.x_server import screen  # noqa: E402
+
+Context = imgui.test_engine.TestContext
+STUDENT = "intermediate,seed=4"
+ENOUGH_JUDGED = 20
+STROKES = ("99 26 50", "99 24 64", "99 26 0c", "99 2e 40", "99 33 5a", "99 24 58", "99 26 09", "99 31 6e", "99 26 61")
+
+
+def _lessons(drive: Drive, ctx: Context) -> None:
+    ctx.yield_(2)
+
+
+def _look(drive: Drive, ctx: Context) -> None:
+    ctx.set_ref("//Transport")
+    ctx.item_click("**/Look##look")
+    ctx.yield_(3)
+
+
+def _help(drive: Drive, ctx: Context) -> None:
+    ctx.key_press(imgui.Key.f1)
+    ctx.yield_(3)
+
+
+def _playing(drive: Drive, ctx: Context) -> None:
+    drive.choose(ctx, passes=4)
+    ctx.item_click("Start##start")
+    for _ in range(1000):
+        ctx.yield_()
+        if drive.room.snapshot(drive.clock.now_ns()).hud.judged > ENOUGH_JUDGED:
+            break
+
+
+def _result(drive: Drive, ctx: Context) -> None:
+    drive.choose(ctx, passes=1)
+    ctx.item_click("Start##start")
+    drive.wait_for(ctx, Stage.RESULT)
+    ctx.yield_(2)
+    ctx.set_ref("//Transport")
+    if drive.room.room().question:
+        ctx.item_click("**/on")
+    ctx.yield_(3)
+
+
+def _just_play(drive: Drive, ctx: Context) -> None:
+    ctx.set_ref("//Lessons")
+    ctx.item_click(f"**/{FREE_LABEL}")
+    ctx.yield_(3)
+
+
+def _devices(drive: Drive, ctx: Context) -> None:
+    open_panel(ctx, DEVICES)
+    for text in STROKES:
+        ctx.yield_(8)
+        drive.engine.play_bytes(text)
+    ctx.yield_(3)
+
+
+def _tool(name: str) -> Callable[[Drive, Context], None]:
+    return lambda drive, ctx: open_panel(ctx, name)
+
+
+def _beside_a_result(name: str) -> Callable[[Drive, Context], None]:
+    def prepare(drive: Drive, ctx: Context) -> None:
+        _result(drive, ctx)
+        open_panel(ctx, name)
+
+    return prepare
+
+
+PAGES: Mapping[str, Callable[[Drive, Context], None]] = {
+    "welcome": _lessons,
+    "lessons": _lessons,
+    "just-play": _just_play,
+    "playing": _playing,
+    "result": _result,
+    "hits": _beside_a_result(HITS),
+    "look": _look,
+    "help": _help,
+    "figure": _tool(FIGURE),
+    "graph": _tool("Graph"),
+    "devices": _devices,
+}
+"""What is done before each picture is taken."""
+_WITH_STUDENT = ("playing", "result", "hits")
+
+
+def draw(page: str, size: tuple[int, int], scale: float, path: Path) -> None:
+    """Open a window of `size`, go to `page` and keep its last frame at `path`."""
+    student = NEWCOMER if page == "welcome" else STUDENT if page in _WITH_STUDENT else None
+    with tempfile.TemporaryDirectory() as folder:
+        drive = Drive(Path(folder), student, size=size)
+        drive.window.backdrop.look_from(replace(drive.window.backdrop.look, scale=scale))
+        save_settings(replace(load_settings(drive.settings), panel_scale=scale), drive.settings)
+
+        def shown(drive: Drive, ctx: Context) -> None:
+            PAGES[page](drive, ctx)
+            ctx.mouse_move_to_pos(imgui.ImVec2(size[0] - 3, 3))
+            drive.window.picture_every = 1
+            ctx.yield_(3)
+
+        drive.run([shown])
+        drive.room.close()
+        if "traceback" in drive.seen:
+            raise SystemExit(f"{page}: {drive.seen['traceback']}")
+        write_png(np.ascontiguousarray(hello_imgui.final_app_window_screenshot()), path)
+
+
+def main() -> None:
+    """Draw the pages that were named, all by default, one process after the other."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("pages", nargs="*", default=[*PAGES], metavar="PAGE", help=f"of {', '.join(PAGES)}")
+    parser.add_argument("--size", default="1280x720")
+    parser.add_argument("--scale", type=float, default=1.0)
+    parser.add_argument("--to", type=Path, default=Path(__file__).with_name("pages"))
+    wish = parser.parse_args()
+    width, height = map(int, wish.size.split("x"))
+    wish.to.mkdir(parents=True, exist_ok=True)
+    if "DISPLAY" in os.environ and len(wish.pages) == 1:
+        draw(wish.pages[0], (width, height), wish.scale, wish.to / f"{wish.pages[0]}.png")
+        return
+    for environment in screen(wish.size):
+        with tempfile.TemporaryDirectory() as config:
+            for page in wish.pages:
+                asked = [sys.executable, __file__, page, "--size", wish.size, "--scale", str(wish.scale), "--to"]
+                inside = {**environment, "XDG_CONFIG_HOME": config}
+                subprocess.run([*asked, str(wish.to.absolute())], env=inside, check=True, stdout=subprocess.DEVNULL)
+
+
+if __name__ == "__main__":
+    main()

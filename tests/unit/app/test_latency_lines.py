@@ -1,0 +1,35 @@
+"""What the devices panel says of latency: numbers, intervals and doubts as the file has them."""
+
+from datetime import date
+from types import MappingProxyType
+
+from station.app.latency_lines import LatencyLine, latency_lines
+from station.core.calibration import Calibration, KitMeasured, Measured
+from station.core.pieces import Piece
+
+DAY = date(2026, 11, 21)
+ROUGH = "a rough number: measure once more"
+
+
+def test_what_nobody_measured_says_how_to() -> None:
+    assert latency_lines(Calibration(), ["TD-17"]) == [
+        LatencyLine("sound output", "not measured", "station devices calibrate --by loopback", False),
+        LatencyLine("TD-17", "not measured", "station devices calibrate --by strike", False),
+    ]
+
+
+def test_a_number_comes_with_its_interval_and_with_whether_to_trust_it() -> None:
+    pads = MappingProxyType({Piece.SNARE: Measured(5.0, 3.1, "strike", DAY)})
+    kit = KitMeasured(Measured(4.24, 0.3, "strike", DAY), pads)
+    output = Measured(-1.0, 0.2, "loopback", DAY, doubts="the chirp was heard in half of the tries")
+    known = Calibration().with_output("USB Audio", output).with_kit("TD-17", kit)
+    assert latency_lines(known, ["TD-17"]) == [
+        LatencyLine(
+            "USB Audio",
+            "-1.0 ± 0.2 ms, by loopback on 2026-11-21",
+            "don't trust this: the chirp was heard in half of the tries",
+            False,
+        ),
+        LatencyLine("TD-17", "+4.2 ± 0.3 ms, by strike on 2026-11-21", "sure", True),
+        LatencyLine("TD-17, snare", "+5.0 ± 3.1 ms, by strike on 2026-11-21", ROUGH, False),
+    ]
