@@ -36,7 +36,7 @@ class StyleShelf:
         own = sorted(path for path in self.folder.glob("*.toml") if path.stem != _SLOTS)
         return [
             *(Entry(name, name, is_own=False) for name in style_names()),
-            *(Entry("as you left it" if path == self._latest else path.stem, str(path), is_own=True) for path in own),
+            *(Entry(path.stem, str(path), is_own=True) for path in own),
         ]
 
     def load(self, source: str) -> Style:

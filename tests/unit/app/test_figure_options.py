@@ -130,7 +130,7 @@ def test_saved_styles_are_files_that_are_listed_and_read_again(tmp_path: Path) -
     read = load_style(saved.source)
     assert replace(read, name=mine.name) == mine
     latest = shelf.keep(mine)
-    assert [e.label for e in shelf.entries() if e.is_own] == ["My swing", "as you left it"]
+    assert [e.label for e in shelf.entries() if e.is_own] == ["My swing", "latest"]
     assert shelf.load(latest).amplitude_neck == 12.0
 
 
