@@ -1,8 +1,8 @@
 """The final alignment of a performance with a score: hits to notes one to one by least cost.
 
-With a click the hits come in score time already and only the player's lean must be found (`bias`). Without one the
-tempo, its drift, the place where the recording begins and the bars that were skipped or played again are unknown;
-`warp` finds them and `own_clock` says what was due. Both ways end in `settle`, which pairs.
+With a click the hits come in score time already; the player's lean must be found (`bias`), and the bars that were
+skipped or played again (`warp`). Without one tempo, drift and the place where the recording begins are unknown as well,
+and `own_clock` says what was due. Both ways end in `settle`, which pairs.
 """
 
 from collections.abc import Collection
@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Piece
+from station.core.units import NS_PER_S
 from station.music.performance import Performance
 from station.music.score import Score
 from station.scoring.alignment import Alignment, Reference, Timed, labelled
@@ -18,10 +19,12 @@ from station.scoring.bias import common_bias_ns
 from station.scoring.classes import match_classes
 from station.scoring.graces import with_far_graces
 from station.scoring.ignored import Unwritten
-from station.scoring.own_clock import align_unclocked
+from station.scoring.own_clock import NO_CLASS, align_unclocked
 from station.scoring.pairing import Indices
 from station.scoring.presses import with_presses
 from station.scoring.settle import MOST_CLASSES, Side, Start, note_kinds, settle, spots
+from station.scoring.stretches import owners
+from station.scoring.warp import click_warp, written_of
 
 
 def align(score: Score, performance: Performance, clocked: bool, kit: Collection[Piece] | None = None) -> Alignment:
@@ -49,10 +52,14 @@ def align_clocked(score: Score, performance: Performance, note_class: Indices, h
     bounces = rules.surely_bounces(performance)
     led = ~bounces  # bounces would say that all presses came early
     bias_ns = common_bias_ns(score.onset_ns, note_class, at_ns[led], hit_class[led])
+    warp = click_warp(written_of(score, note_class), (at_ns - bias_ns) / NS_PER_S, np.where(led, hit_class, NO_CLASS))
+    strand, attempt = np.zeros(len(score), np.int64), np.zeros(len(at_ns), np.int64)
+    if warp is not None:
+        at_ns = np.rint(warp.score_s * NS_PER_S).astype(np.int64) + bias_ns
+        strand, attempt = owners(score.onset_s, note_class, warp, hit_class), warp.stretch
     unwritten = rules.masks(performance, at_ns - bias_ns)
-    one = np.zeros(len(at_ns), np.int64)
-    notes = Side(score.onset_ns, note_class, np.zeros(len(score), np.int64), spots(score.notes))
-    hits = Side(at_ns, hit_class, one, spots(performance.hits))
+    notes = Side(score.onset_ns, note_class, strand, spots(score.notes))
+    hits = Side(at_ns, hit_class, attempt, spots(performance.hits))
     settled = settle(notes, hits, note_kinds(score), unwritten.own_only, Start(bias_ns))
     settled = with_presses(score, with_far_graces(score, settled, hits), hits, bounces)
-    return labelled(settled, Timed(at_ns, score.onset_ns, at_ns, one, Reference.CLICK), unwritten.quiet)
+    return labelled(settled, Timed(at_ns, score.onset_ns, at_ns, attempt, Reference.CLICK), unwritten.quiet)

@@ -2,8 +2,8 @@
 
 The click is the ruler: a stop, a rush or a drag moves nothing. Whoever skips a bar or begins again plays on in time, in
 another bar; then the hits speak against the place (`doubt`), and the last ones are held against the score moved by
-every number of beats up to `_MOST_BEATS`, until one fits so much better that it is worth a jump. Times are seconds
-unless a name says otherwise.
+every number of beats up to `_MOST_BEATS`, and near its beginning, until one fits so much better that it is worth a
+jump. Times are seconds unless a name says otherwise.
 """
 
 import numpy as np
@@ -22,6 +22,9 @@ Indices = NDArray[np.int64]
 
 _MOST_BEATS = 64
 """As far as the final alignment looks: 16 bars of 4/4 (`shifts`)."""
+
+_START_BEATS = 8
+"""However far he has come, who begins again is found within so many beats of the beginning (our choice: two bars)."""
 
 _MOST_MOVED, _LEAST_HITS = 48, 6
 """Hits that a move may judge anew, and that it must at least (our choice, as in `chase`)."""
@@ -82,7 +85,7 @@ class ClickChase:
         known = [k for k in range(first, index + 1) if self._classes[k] in self._rate_of]
         if len(known) < _LEAST_HITS:
             return None
-        shifts = np.arange(-_MOST_BEATS, _MOST_BEATS + 1.0)
+        shifts = self._shifts(known[0])
         worth = self._worth(known, shifts)
         beat_s = float(np.diff(self._beats.at_s[:2])[0])
         cost = JUMP_COST + np.minimum(JUMP_COST_PER_S * beat_s * np.abs(shifts - self._shift), MOST_JUMP_COST_MORE)
@@ -94,6 +97,12 @@ class ClickChase:
         self._looks, self._look_at = 0, index + _LEAST_HITS
         places = self._moved(range(first, index + 1), shifts[best : best + 1])[:, 0]
         return Moved(first, np.rint(places * NS_PER_S).astype(np.int64).tolist())
+
+    def _shifts(self, hit: int) -> Floats:
+        """The shifts that are tried, rising: those near the present one, and those with `hit` near the beginning."""
+        beat = self._beats.beat(np.array([self._note_s[0], self._at_ns[hit] / NS_PER_S]))
+        to_start = np.rint(beat[0] - beat[1]) + np.arange(-_START_BEATS, _START_BEATS + 1.0)
+        return np.unique(np.concatenate([self._shift + np.arange(-_MOST_BEATS, _MOST_BEATS + 1.0), to_start]))
 
     def _moved(self, hits: range | list[int], shifts: Floats) -> Floats:
         """Score times (hits, shifts)."""

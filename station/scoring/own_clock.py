@@ -6,7 +6,7 @@ A passage that was played more than once is paired with one attempt (`stretches`
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.units import NS_PER_MS, NS_PER_S, PPQ
+from station.core.units import NS_PER_MS, NS_PER_S
 from station.music.performance import Performance
 from station.music.score import Score
 from station.scoring.alignment import Alignment, Reference, Timed, labelled
@@ -17,14 +17,14 @@ from station.scoring.pairing import Indices, Times
 from station.scoring.presses import with_presses
 from station.scoring.settle import Settled, Side, Start, note_kinds, settle, spots
 from station.scoring.stretches import owners
-from station.scoring.warp import Warp, Written, find_warp
+from station.scoring.warp import Warp, find_warp, written_of
 
 Floats = NDArray[np.float64]
 
 _START = Start(reach_ms=90.0, rounds=2)
 """The way through the score is known to about 20 ms, so that the first reach is narrower than with a click."""
 
-_NO_CLASS = -1
+NO_CLASS = -1
 """Of hits that no note has the class of: they lie between their neighbours."""
 
 SAME_BASE_MS, SAME_BASE_WANDER_MS = 100.0, 60.0
@@ -41,11 +41,10 @@ _CURVE_HALF_WIDTH = 16
 def align_unclocked(score: Score, performance: Performance, note_class: Indices, hit_class: Indices) -> Alignment:
     """The alignment of hits of unknown tempo and offset; some hit has a class that some note has."""
     at_ns: Times = np.asarray(performance.hits["at_ns"])
-    beats = np.arange(0, max(score.end_tick, PPQ) + 1, PPQ)
-    written = Written(score.onset_s, note_class, score.tempo_map.seconds_at(beats))
+    written = written_of(score, note_class)
     rules = Unwritten(score)
     bounces = rules.surely_bounces(performance)
-    led_class = np.where(bounces, _NO_CLASS, hit_class)
+    led_class = np.where(bounces, NO_CLASS, hit_class)
     warp = find_warp(written, at_ns / NS_PER_S, led_class)
     hit_ns = np.rint(warp.score_s * NS_PER_S).astype(np.int64)
     unwritten = rules.masks(performance, hit_ns)

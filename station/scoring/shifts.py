@@ -49,6 +49,9 @@ _MOST_UNHEARD_COST = 12.0
 START_S = 2.0
 """A jump to the beginning counts as one of so many seconds, however far it is: who gives up begins again."""
 
+START_BEATS = 16
+"""Who begins again with the click is looked for so many beats around a place of doubt (our choice: 32 eighths)."""
+
 _SLACK = 0.1
 """Share of a rest by which the place may move without a jump: the tempo may have changed meanwhile."""
 
@@ -79,13 +82,15 @@ class Beats:
         return np.asarray(self.at_s[i] + (beat - i) * (self.at_s[i + 1] - self.at_s[i]))
 
 
-def best_shifts(notes: Notes, hits: Hits, places: Floats, beats: Beats) -> Floats:
+def best_shifts(notes: Notes, hits: Hits, places: Floats, beats: Beats, only: Floats | None = None) -> Floats:
     """By how many beats each hit (m,) at `places` (m,) must be moved, shape (m,).
 
+    `only` these shifts, rising, 0 among them, are tried of a player who keeps to a click, and comes in again with it.
     Jumps that `places` already make are reconsidered too: there, going on at the old place is free and the jump costs.
     """
-    made, resumed = _made(hits.at_s, places, beats), resumes(notes, hits, places, beats)
-    tried = _with(SHIFTS_BEATS, [*made.values(), *resumed.values()])
+    made = _made(hits.at_s, places, beats) if only is None else {}
+    resumed = resumes(notes, hits, places, beats) if only is None else {}
+    tried = _with(SHIFTS_BEATS, [*made.values(), *resumed.values()]) if only is None else only
     to_start = _index_of(beats.beat(notes.at_s[:1]) - beats.beat(places), tried).tolist()
     beat_s = float(np.median(np.diff(beats.at_s)))
     total = np.where(tried == 0.0, 0.0, -_jump_cost(beat_s * np.abs(tried)))
@@ -116,6 +121,14 @@ def _jump_cost(far_s: Floats) -> Floats:
     return SURE_JUMP_COST + np.minimum(JUMP_COST_PER_S * far_s, MOST_JUMP_COST_MORE) + JUMP_COST_PER_S_MORE * far_s
 
 
+def whole_beats(notes: Notes, hits: Hits, beats: Beats, restarts: Indices) -> Floats:
+    """Shifts by whole beats, rising: near ones, and those with one of the hits `restarts` (k,) near the beginning."""
+    near = np.arange(-_FAR_BEATS, _FAR_BEATS + 1.0)
+    to_start = np.rint(beats.beat(notes.at_s[:1]) - beats.beat(hits.at_s[restarts[:_MOST_JUMPS]]))
+    around = np.arange(-START_BEATS, START_BEATS + 1.0)
+    return np.unique(np.concatenate([near, (to_start[:, None] + around[None, :]).ravel()]))
+
+
 def _unheard_cost(notes: Notes, last_s: Floats) -> Floats:
     """Nats against a performance that ends at these places, any shape: most end where the score does."""
     unheard = len(notes.at_s) - np.searchsorted(notes.at_s, last_s + GATE_S)
@@ -142,11 +155,10 @@ def resumes(notes: Notes, hits: Hits, places: Floats, beats: Beats) -> dict[int,
     return found
 
 
-def fits_elsewhere(notes: Notes, hits: Hits, places: Floats, beats: Beats, part: slice) -> bool:
-    """Whether the hits of `part`, moved together by some shift, fit better by more than a jump costs."""
-    some = hits.part(part.start, part.stop)
-    said = sum(_evidence(notes, some, places[part], beats, SHIFTS_BEATS), np.zeros(len(SHIFTS_BEATS)))
-    return bool(said.max() - said[SHIFTS_BEATS == 0.0][0] > SURE_JUMP_COST)
+def fits_elsewhere(notes: Notes, hits: Hits, places: Floats, beats: Beats, tried: Floats = SHIFTS_BEATS) -> bool:
+    """Whether `hits` (m,), moved together by one of the shifts, fit better by more than a jump costs."""
+    said = sum(_evidence(notes, hits, places, beats, tried), np.zeros(len(tried)))
+    return bool(said.max() - said[tried == 0.0][0] > SURE_JUMP_COST)
 
 
 def jumps(at_s: Floats, places: Floats) -> Indices:

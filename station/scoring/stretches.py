@@ -2,7 +2,7 @@
 
 A student who stops and begins again means the later attempt, one who by mistake goes back for a few strokes does not.
 So the notes that a stretch shares with an earlier one are divided at one place: before it the earlier attempt counts,
-after it the later one, and it lies where most notes are answered; of equal places the earliest is taken.
+after it the later one, and it lies where most notes are answered; of places that are about equal the earliest is taken.
 """
 
 import numpy as np
@@ -14,6 +14,10 @@ from station.scoring.warp import Warp
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Flags = NDArray[np.bool_]
+
+_CHANCE_SHARE = 0.05
+"""By so much of the shared notes one attempt may have more than the other by chance alone (our choice: two of fifty
+left out)."""
 
 _EDGE_S, _FRINGE_S = 0.03, 0.15
 """A stretch covers the notes between its first and last hit and the first around; and, where none does, the second."""
@@ -41,7 +45,8 @@ def owners(note_s: Floats, note_class: Indices, warp: Warp, hit_class: Indices) 
 def _divide(old: Flags, new: Flags) -> int:
     """Where to go over from the old attempt to the new so that most notes (k,), in order, are answered."""
     before, after = np.concatenate(([0], np.cumsum(old))), np.concatenate((np.cumsum(new[::-1])[::-1], [0]))
-    return int(np.argmax(before + after))
+    answered = before + after
+    return int(np.argmax(answered >= answered.max() - _CHANCE_SHARE * len(old)))
 
 
 def _answered(note_s: Floats, note_class: Indices, hit_s: Floats, hit_class: Indices) -> Flags:

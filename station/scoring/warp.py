@@ -10,13 +10,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.units import PPQ
+from station.music.score import Score
 from station.scoring.beginning import find_beginning
 from station.scoring.drift import half_width, local_trend, robust_sd
 from station.scoring.evidence import class_rates
 from station.scoring.locate import Hits, Notes
 from station.scoring.shifts import Beats, jumps
 from station.scoring.tracker import GATE_S, Place, Tracker
-from station.scoring.ways import best_way
+from station.scoring.ways import best_way, clicked_way
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -32,6 +34,12 @@ class Written:
     at_s: Floats
     classes: Indices
     beat_s: Floats
+
+
+def written_of(score: Score, note_class: Indices) -> Written:
+    """`score`, whose notes are of `note_class` (n,), as it is looked for."""
+    beats = np.arange(0, max(score.end_tick, PPQ) + 1, PPQ)
+    return Written(score.onset_s, note_class, score.tempo_map.seconds_at(beats))
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,6 +66,24 @@ def find_warp(written: Written, hit_s: Floats, hit_classes: Indices) -> Warp:
     way = best_way(notes, hits, Place(beginning.at_s, beginning.score_s / tempo, 1.0), beats)
     stretch = _stretches(hits.at_s, way.places)
     return _filled(_smoothed(hits.at_s, way.places, way.distances, stretch) * tempo, stretch, hit_s, known)
+
+
+def click_warp(written: Written, hit_s: Floats, hit_classes: Indices) -> Warp | None:
+    """The way of hits (m,), sorted, whose times are score time but for bars that were left out or played again.
+
+    None where there are none.
+    """
+    known = np.flatnonzero(np.isin(hit_classes, written.classes))
+    if not len(known):
+        return None
+    order = np.argsort(written.at_s, kind="stable")
+    notes = _prepared(written.at_s[order], written.classes[order])
+    hits = Hits(hit_s[known], hit_classes[known])
+    places = clicked_way(notes, hits, Beats(written.beat_s))
+    if places is None:
+        return None
+    stretch = _stretches(hits.at_s, places)
+    return _filled(places, stretch, hit_s, known)
 
 
 def _prepared(note_s: Floats, classes: Indices) -> Notes:

@@ -2,8 +2,9 @@
 
 The tempo is followed hit by hit (`pursuit`), once for a player who plays on in time whatever happens and, where there
 are silences, once for one who goes on where he stopped. Where hits fit less well than elsewhere, bars that were left
-out or played again are looked for (`shifts`). Hits alone cannot decide between bars that are alike; but who plays a
-score plays its notes, so that way is believed which leaves few notes unanswered and few hits astray. Times are seconds.
+out or played again are looked for (`shifts`); with a click nothing else can be amiss. Hits alone cannot decide between
+bars that are alike; but who plays a score plays its notes, so that way is believed which leaves few notes unanswered
+and few hits astray. Times are seconds.
 """
 
 from dataclasses import dataclass
@@ -14,7 +15,7 @@ from numpy.typing import NDArray
 from station.scoring.evidence import SD_S, best_evidence, evidence
 from station.scoring.locate import Hits, Notes
 from station.scoring.pursuit import JUMP_COST, Pursuit, silences
-from station.scoring.shifts import Beats, best_shifts, fits_elsewhere, jumps, to_nearest
+from station.scoring.shifts import Beats, best_shifts, fits_elsewhere, jumps, to_nearest, whole_beats
 from station.scoring.tracker import Place
 
 Floats = NDArray[np.float64]
@@ -46,10 +47,28 @@ def _ways(notes: Notes, hits: Hits, start: Place, beats: Beats, resumes: bool) -
     pursuit.run(start)
     places, followed = pursuit.places, Way(pursuit.places, pursuit.distances)
     doubtful = _doubtful(pursuit.distances, notes.rates[hits.classes])
-    if len(jumps(hits.at_s, places)) or any(fits_elsewhere(notes, hits, places, beats, part) for part in doubtful):
+    if len(jumps(hits.at_s, places)) or any(
+        fits_elsewhere(notes, hits.part(part.start, part.stop), places[part], beats) for part in doubtful
+    ):
         moved = beats.moved(places, best_shifts(notes, hits, places, beats))
         return [followed, Way(moved, np.array(notes.tracker.distances(moved.tolist(), hits.classes.tolist())))]
     return [followed]
+
+
+def clicked_way(notes: Notes, hits: Hits, beats: Beats) -> Floats | None:
+    """Score time of each hit (m,) of a player who keeps to a click and left bars out or played them again, else None.
+
+    The hits' times are the click's.
+    """
+    distances = np.array(notes.tracker.distances(hits.at_s.tolist(), hits.classes.tolist()))
+    doubtful = _doubtful(distances, notes.rates[hits.classes])
+    parts = [hits.part(part.start, part.stop) for part in doubtful]
+    restarts = np.array([*(part.start for part in doubtful), *silences(hits.at_s).tolist()], np.int64)
+    tried = whole_beats(notes, hits, beats, restarts)
+    if not any(fits_elsewhere(notes, part, part.at_s, beats, tried) for part in parts):
+        return None
+    shifts = best_shifts(notes, hits, hits.at_s, beats, tried)
+    return beats.moved(hits.at_s, shifts) if shifts.any() else None
 
 
 def _worth(notes: Notes, hits: Hits, way: Way) -> float:

@@ -3,9 +3,13 @@
 The truth is the journeys' own (tests/fakes/journeys.py): which note each stroke was meant for.
 """
 
+import numpy as np
 import pytest
 
+from station.core.units import NS_PER_MS
 from station.music.judgement import Judgement, Label
+from station.music.performance import Performance
+from station.scoring.align import align
 from station.scoring.follower import Follower
 from tests.fakes.journeys import Journey, Leg, Slips, through_composed, travel
 
@@ -40,6 +44,7 @@ CLICKED = {
     "skips five beats": [Leg(0, 6), Leg(7.25, 20)],
     "goes back a bar": [Leg(0, 8), Leg(7, 20)],
     "begins again": [Leg(0, 9), Leg(0, 12)],
+    "begins again after twenty bars": [Leg(0, 20), Leg(0, 6)],
 }
 
 
@@ -85,6 +90,19 @@ def test_with_a_click_whoever_plays_other_bars_is_found_within_two(score: str, l
             assert share_right(journey, first, journey.after(leg, 2.0)) >= 0.95
         assert share_right(journey, [last[i] for i in range(len(first))], journey.not_played_again()) >= 0.92
         assert most <= 4 * 48
+
+
+@pytest.mark.parametrize("score", SCORES)
+@pytest.mark.parametrize("legs", CLICKED)
+def test_the_report_finds_with_a_click_what_was_found_live(score: str, legs: str) -> None:
+    journey = travel(SCORES[score], CLICKED[legs], SEEDS[0])
+    performance = Performance.from_hits(stroke.hit for stroke in journey.strokes)
+    alignment = align(journey.score, performance, clocked=True)
+    own = np.where(alignment.hit_label == Label.MATCH, alignment.note_of_hit, -1)
+    counted = journey.not_played_again()
+    meant = [i for i in counted if journey.strokes[i].note is not None]
+    assert sum(own[i] == journey.strokes[i].note for i in meant) / len(meant) >= 0.9
+    assert abs(float(np.mean(alignment.asynchrony_ns[alignment.note_label == Label.MATCH]))) < 5 * NS_PER_MS
 
 
 def test_with_a_click_a_stop_does_not_move_the_score() -> None:
