@@ -10,6 +10,9 @@ import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
+from time import perf_counter
+
+import numpy as np
 
 from station.bench.benchmark import Benchmark, Measured, median_s
 from station.core.pieces import Limb, Piece, Zone
@@ -26,9 +29,10 @@ from station.render.gl import Target, standalone_context
 from station.render.painter import Arrangement, Painter
 from station.render.picture import PictureMaker
 from station.render.quality import QUALITIES
-from station.render.snapshot import Hud, Snapshot, no_marks
+from station.render.snapshot import Hud, Snapshot, Strike, no_marks
 
 SIZE = (1280, 720)
+_HITS = 120
 _SETTLES, _GROWS_FOR = 200, 800
 _MEMORY = Path("/proc/self/statm")
 """Linux's account of this process: its second number counts the resident pages."""
@@ -82,6 +86,19 @@ def _turned() -> Measured:
         return Measured(_FRAMES / median_s(draw, _ROUNDS))
 
 
+def _hit_to_picture() -> Measured:
+    """From a snapshot that holds a new stroke to the pixels that show it: a stroke waits at most a frame before."""
+    maker = PictureMaker(SIZE, QUALITIES[0])
+    frames = [replace(frame, strikes=(Strike(Piece.SNARE, 100, 0.0),)) for frame in snapshots(_HITS)]
+    maker.draw(frames[0])
+    taken = []
+    for frame in frames:
+        start = perf_counter()
+        maker.draw(frame)
+        taken.append(perf_counter() - start)
+    return Measured(float(np.percentile(taken, 99)) * 1000, note="with a graphics card it is its driver's time")
+
+
 def _growth() -> Measured:
     """The process's memory after many pictures with ever new words and marks, less that after the first few hundred."""
     if not _MEMORY.exists():
@@ -111,6 +128,7 @@ def _first_picture() -> Measured:
 BENCHMARKS = (
     Benchmark("pictures_lowest_quality_1280x720", "pictures/s", 60.0, "higher", "bare moderngl", _pictures),
     Benchmark("pictures_camera_turns_1280x720", "pictures/s", 30.0, "higher", None, _turned),
+    Benchmark("hit_to_picture_beyond_a_frame_p99", "ms", 5.0, "lower", None, _hit_to_picture),
     Benchmark("pictures_memory_growth", "MB", 0.5, "lower", None, _growth),
     Benchmark("first_picture", "s", 2.0, "lower", None, _first_picture),
 )
