@@ -85,6 +85,13 @@ def _devices(drive: Drive, ctx: Context) -> None:
     ctx.yield_(3)
 
 
+def _lanes(drive: Drive, ctx: Context) -> None:
+    open_panel(ctx, FIGURE)
+    drive.window.figure.options.draw_lane("amplitude_gain", ((1.0, 30.0), (1.75, 45.0), (2.0, 85.0), (3.0, 60.0)))
+    ctx.set_ref(f"//{FIGURE}")
+    ctx.item_click("##figure/Bars")
+
+
 def _tool(name: str) -> Callable[[Drive, Context], None]:
     return lambda drive, ctx: open_panel(ctx, name)
 
@@ -107,6 +114,7 @@ PAGES: Mapping[str, Callable[[Drive, Context], None]] = {
     "look": _look,
     "help": _help,
     "figure": _tool(FIGURE),
+    "figure-bars": _lanes,
     "graph": _tool("Graph"),
     "devices": _devices,
 }
