@@ -28,8 +28,8 @@ BACK_LABEL = "Back to the lessons##back"
 _PAUSE = "The score waits (Backspace; both crashes at once or a foot switch, as the settings say)"
 _GO_ON = "A bar of count-in, then on from the bar of your last stroke (Backspace, or two kicks)"
 NO_KIT = "no kit: the keys play (F1)"
-_LEAST_LEFT = 300.0
-"""Design pixels below which the ruler takes a line of its own."""
+_LEAST_LEFT = 360.0
+"""Design pixels below which the ruler, or the two buttons beside a result, take a line of their own."""
 _SMALL_FONT_SIZE = 14.0
 
 
