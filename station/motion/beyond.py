@@ -13,7 +13,7 @@ from station.core.pieces import Limb
 from station.motion.contacts import strike_points
 from station.motion.events import SAME_STROKE_S
 from station.motion.kit import Kit
-from station.motion.travel import MINIMUM_JERK_PEAK
+from station.motion.travel import MINIMUM_JERK_PEAK, MOST_TRAVEL
 from station.music.score import Score
 
 Array = NDArray[np.float64]
@@ -83,9 +83,12 @@ def _repeated(limb: Limb, times: Array, bars: NDArray[np.int64]) -> list[Beyond]
 
 
 def _sundered(limb: Limb, times: Array, bars: NDArray[np.int64], points: Array) -> list[Beyond]:
-    """Bars in which the hand must be at places too far from each other for the time between."""
+    """Bars in which the hand must be at places too far from each other for the time between.
+
+    Of that time a stroke's rebound and the next one's whip have their share: only the rest is for the way.
+    """
     gap, way = np.diff(times), np.linalg.norm(np.diff(points, axis=0), axis=1)
-    quickest = MINIMUM_JERK_PEAK * way / FASTEST_HAND_M_S
+    quickest = MINIMUM_JERK_PEAK * way / FASTEST_HAND_M_S / MOST_TRAVEL
     late = np.flatnonzero((way > _NEAR_M) & (gap < np.maximum(quickest, BOUNCE_S)))
     result = []
     for bar in np.unique(bars[late + 1]).tolist():

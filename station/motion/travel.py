@@ -26,6 +26,8 @@ MINIMUM_JERK_PEAK, HAND_M_S = 1.875, 3.0
 """The peak of a minimum-jerk movement over its mean speed, and the hand's speed that it should not pass (HUMANS)."""
 _LEAST_STAY = 0.4
 """Where the way is far for its time, the stays are shortened down to this share (our choice)."""
+MOST_TRAVEL = 1.0 - _LEAST_STAY * (_LEAVE_SHARE + _ARRIVE_SHARE)
+"""The greatest share of a gap that is travelled."""
 _TRAVEL_S = 0.45
 """Long gaps leave this long for the travel; HUMANS has 0.25 s for 40 cm at full speed."""
 

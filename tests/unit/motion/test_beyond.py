@@ -49,6 +49,18 @@ def test_a_hand_in_two_far_places_is_named_with_the_way_and_the_time() -> None:
         assert words in text
 
 
+def test_rebound_and_whip_have_their_share_of_the_time_for_a_way() -> None:
+    """Ride to snare, 78 cm: a fist that starts and ends at rest, twice its mean speed at its peak, takes 0.16 s.
+
+    A recording that two hands played asks 176 ms of one; nobody strikes and is under way at once.
+    """
+    tick = 4 * PPQ
+    for gap_ms, named in ((176, True), (240, False)):
+        far = tick + round(gap_ms / 600 * PPQ)
+        notes = [Note(tick, Piece.RIDE, Zone.BOW, limb=HAND), Note(far, Piece.SNARE, limb=HAND)]
+        assert bool(said(Score.from_notes(notes, TempoMap.constant(100)))) is named
+
+
 def test_the_span_holds_the_strokes_that_ask_it() -> None:
     score = repeated(6, PPQ // 2, 420)
     (found,) = beyond_human(score, KIT, score.notes["limb"])
