@@ -53,7 +53,7 @@ class StylesHead:
             self._choose(propose_style(score), None)
         theme.tooltip("A style that the lesson's tempo, density and dynamics ask for")
         imgui.set_next_item_width(-1.0 if narrow else -theme.points(_BESIDE))
-        _, self._name = imgui.input_text_with_hint("##style-name", "a name of your own", self._name)
+        _, self._name = imgui.input_text_with_hint("##style-name", "a new name", self._name)
         theme.tooltip(f"Saved styles are files in {self._shelf.folder}")
         if not narrow:
             imgui.same_line()
