@@ -12,7 +12,8 @@ from dataclasses import dataclass
 
 from station.core.clock import monotonic_ns
 from station.core.errors import BadInput, DeviceError
-from station.devices.midi_ports import MidiDirectory, Sound
+from station.devices.midi_clients import Sound
+from station.devices.midi_ports import MidiDirectory
 from station.devices.presets import stable_name
 from station.devices.serial_names import SERIAL, device_of_port
 from station.devices.serial_ports import FASTEST_BAUD, MIDI_BAUD, SLOWEST_BAUD, SerialDirectory

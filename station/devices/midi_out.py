@@ -1,6 +1,6 @@
 """MIDI ports that we play to: the score and the demonstration on the student's own module, or any synthesiser.
 
-The second module beside `midi_ports` that knows rtmidi. Opening and closing are kept from a sound callback as there;
+Opening and closing are kept from a sound callback as there;
 sending is not, for it neither waits nor changes a driver's graph.
 """
 
@@ -10,7 +10,7 @@ from contextlib import AbstractContextManager, nullcontext
 import rtmidi
 
 from station.core.errors import BadInput, DeviceError
-from station.devices.midi_ports import _APIS, CLIENT_NAME, _quiet_drivers, compiled_drivers
+from station.devices.midi_clients import APIS, CLIENT_NAME, compiled_drivers, quiet_drivers
 
 Undisturbed = Callable[[], AbstractContextManager[None]]
 
@@ -41,23 +41,6 @@ class MidiOutPort:
             self._connection = None
 
 
-def output_names(driver: str = "auto") -> list[str]:
-    """The ports that can be played to, our own left out; raises `BadInput`, and `DeviceError` where no driver works.
-
-    `driver` is "auto" for all of them in turn, or one of `compiled_drivers()`.
-    """
-    names: list[str] = []
-    faults: list[str] = []
-    for one in _drivers(driver):
-        try:
-            names += _names(one)
-        except DeviceError as fault:
-            faults.append(str(fault))
-    if len(faults) == len(_drivers(driver)):
-        raise DeviceError(". ".join(faults) or "MIDI cannot be sent: rtmidi was built without any driver")
-    return names
-
-
 def open_midi_output(driver: str, part: str, undisturbed: Undisturbed = nullcontext) -> MidiOutPort:
     """Open the output whose name contains `part`, letter case aside; an exact name comes first.
 
@@ -77,16 +60,6 @@ def _drivers(driver: str) -> tuple[str, ...]:
     if driver not in ("auto", *compiled):
         raise BadInput(driver, "", f"no such MIDI driver here; there are auto, {', '.join(compiled)}")
     return compiled if driver == "auto" else (driver,)
-
-
-def _names(driver: str) -> list[str]:
-    connection = _new_output(driver)
-    try:
-        return [port for port in connection.get_ports() if CLIENT_NAME not in port]
-    except (rtmidi.RtMidiError, UnicodeDecodeError) as fault:
-        raise DeviceError(f"the MIDI outputs cannot be listed: {fault}") from fault
-    finally:
-        connection.delete()
 
 
 def _open(driver: str, part: str, undisturbed: Undisturbed) -> MidiOutPort:
@@ -117,7 +90,7 @@ def _choose(ports: list[str], part: str) -> str:
 
 def _new_output(driver: str) -> rtmidi.MidiOut:
     try:
-        with _quiet_drivers():
-            return rtmidi.MidiOut(_APIS[driver], f"{CLIENT_NAME} out")
+        with quiet_drivers():
+            return rtmidi.MidiOut(APIS[driver], f"{CLIENT_NAME} out")
     except (rtmidi.RtMidiError, OSError, RuntimeError, ValueError, SystemError) as fault:
         raise DeviceError(f"MIDI cannot be sent: {fault}") from fault

@@ -33,11 +33,6 @@ class PortAudio:
         self._users = 0
         self._abandoned = False
 
-    @property
-    def is_abandoned(self) -> bool:
-        """Whether the library was lost with its server: whoever wants sound starts a new process."""
-        return self._abandoned
-
     def acquire(self) -> ModuleType:
         """The running library (the module sounddevice), until `release`.
 

@@ -15,7 +15,8 @@ import pytest
 from station.bench.serial_kit import SerialKit
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_MS, NS_PER_S
-from station.devices.midi_ports import SILENT_SERVER_NS, MidiDirectory
+from station.devices.midi_clients import SILENT_SERVER_NS
+from station.devices.midi_ports import MidiDirectory
 from station.devices.serial_ports import SerialDirectory
 from station.devices.transport import Packet, Transport
 from tests.fakes.jack_server import JackServer, jackd_is_installed, joined

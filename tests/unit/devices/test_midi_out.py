@@ -7,13 +7,13 @@ import textwrap
 import pytest
 
 from station.core.errors import BadInput
-from station.devices.midi_out import output_names
+from station.devices.midi_out import open_midi_output
 from tests.fakes.jack_server import JackServer, jackd_is_installed
 
 
 def test_an_unknown_driver_is_refused() -> None:
     with pytest.raises(BadInput, match="no such MIDI driver"):
-        output_names("carrier pigeon")
+        open_midi_output("carrier pigeon", "module")
 
 
 @pytest.mark.jack
@@ -22,11 +22,9 @@ def test_what_is_sent_arrives() -> None:
     program = """
         import time, rtmidi
         from station.core.errors import DeviceError
-        from station.devices.midi_out import open_midi_output, output_names
+        from station.devices.midi_out import open_midi_output
         module = rtmidi.MidiIn(rtmidi.API_UNIX_JACK, "module")
         module.open_virtual_port("in")
-        names = output_names()
-        assert any("module" in name for name in names), names
         try:
             open_midi_output("jack", "nobody")
         except DeviceError as fault:
