@@ -49,10 +49,10 @@ _DOCK = "MainDockSpace"
 _NO_WINDOW = "no window can be opened: is there a screen, and OpenGL? `station practice --headless` needs neither"
 LESSONS, TRANSPORT, BARS, GRAPH, NEWS = "Lessons", "Transport", "Bars", "Graph", "##news"
 _SPLITS = (
-    (Side.BELOW, imgui.Dir.down, 0.085, 0.21),
+    (Side.BELOW, imgui.Dir.down, 0.28, 0.56),
     (Side.BESIDE, imgui.Dir.left, 0.26, 0.45),
     (Side.RIGHT, imgui.Dir.right, 0.42, 0.5),
-    (Side.STRIP, imgui.Dir.down, 0.42, 0.5),
+    (Side.STRIP, imgui.Dir.down, 0.5, 0.5),
 )
 """Where panels dock, in this order: side, way, their share of what is left, and the most of it when they are large."""
 _NEWS_SHOWN_S = 8.0

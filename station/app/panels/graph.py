@@ -13,6 +13,7 @@ from station.app import theme
 from station.app.graphed import Graphed, Played
 from station.app.joint_curves import CURVES, JointCurves
 from station.app.music_ticks import music_ticks
+from station.app.row import Row
 from station.core.units import NS_PER_S
 from station.render import palette
 from station.render.ink import Colour
@@ -29,6 +30,12 @@ _BEHIND_S = 4.0
 """What is seen before and after the play line at first, as in the score (SMED)."""
 _STANDS_S = 1e-6
 """A play line that moves less stands: it is where it was dragged to, but for rounding."""
+_DEGREES = ([-90.0, 0.0, 90.0, 180.0], ["-90°", "0°", "90°", "180°"])
+_MILLISECONDS = ([-100.0, -50.0, 0.0, 50.0, 100.0], ["-100", "-50 ms", "0", "50 ms", "100"])
+_LEGEND = (640.0, 170.0)
+"""Design pixels, wide and high, that a panel needs for a legend of every curve."""
+_LEAST = 84.0
+"""Design pixels below which a plot does not go: the panel scrolls."""
 _MARGIN_S, _RESULT_S = 0.3, 24.0
 """Of a result so much is seen at first (our choice: three passes of a two-bar loop)."""
 _COLOUR_OF_JOINT = {"shoulder": palette.WRONG, "elbow": palette.GOOD, "wrist": palette.BRAND}
@@ -68,16 +75,22 @@ class GraphPanel:
             self._curves, self._degrees = JointCurves(graphed.drummer), (np.inf, -np.inf)
         self._follow(graphed)
         room = imgui.get_content_region_avail()
-        strip = 0.0 if graphed.played is None else room.y * _STRIP_SHARE
+        has_legend = room.x >= theme.points(_LEGEND[0]) and room.y >= theme.points(_LEGEND[1])
+        if not has_legend:
+            _short_legend()
+            room = imgui.get_content_region_avail()
+        strip = 0.0 if graphed.played is None else max(room.y * _STRIP_SHARE, theme.points(_LEAST))
         gap = imgui.get_style().item_spacing.y if strip else 0.0
+        high = max(room.y - strip - gap, theme.points(_LEAST))
+        flags = implot.Flags_.no_mouse_text | (0 if has_legend else implot.Flags_.no_legend)
         _push_style()
         if implot.begin_aligned_plots("##graphs"):
-            if implot.begin_plot(PLOT, imgui.ImVec2(-1, room.y - strip - gap), implot.Flags_.no_mouse_text):
+            if implot.begin_plot(PLOT, imgui.ImVec2(-1, high), flags):
                 self._angles(graphed, self._curves, can_seek, bare=strip > 0)
                 implot.end_plot()
             theme.tooltip(_TOLD)
             if graphed.played is not None:
-                if implot.begin_plot(STRIP, imgui.ImVec2(-1, -1), implot.Flags_.no_mouse_text):
+                if implot.begin_plot(STRIP, imgui.ImVec2(-1, strip), flags):
                     self._strokes(graphed, graphed.played)
                     implot.end_plot()
                 theme.tooltip("Dots: how early (below) or late (above) you were. Bars: how hard you struck")
@@ -113,7 +126,7 @@ class GraphPanel:
         grown, self._degrees = (low, high) != self._degrees, (low, high)
         self._time_axis(graphed, bare)
         implot.setup_axis(implot.ImAxis_.y1, "", implot.AxisFlags_.no_label | implot.AxisFlags_.no_menus)
-        implot.setup_axis_format(implot.ImAxis_.y1, "%g°")
+        implot.setup_axis_ticks(implot.ImAxis_.y1, *_DEGREES)
         cond = implot.Cond_.always if grown else implot.Cond_.once
         implot.setup_axis_limits(implot.ImAxis_.y1, low - 5.0, high + 5.0, cond)
         implot.setup_legend(implot.Location_.north, implot.LegendFlags_.horizontal | implot.LegendFlags_.outside)
@@ -141,7 +154,7 @@ class GraphPanel:
     def _strokes(self, graphed: Graphed, played: Played) -> None:
         self._time_axis(graphed, bare=False)
         implot.setup_axis(implot.ImAxis_.y1, "", implot.AxisFlags_.no_label | implot.AxisFlags_.no_menus)
-        implot.setup_axis_format(implot.ImAxis_.y1, "%g ms")
+        implot.setup_axis_ticks(implot.ImAxis_.y1, *_MILLISECONDS)
         implot.setup_axis_limits(implot.ImAxis_.y1, _MOST_EARLY_MS, _MOST_LATE_MS, implot.Cond_.once)
         hidden = implot.AxisFlags_.opposite | implot.AxisFlags_.no_decorations | implot.AxisFlags_.lock
         implot.setup_axis(implot.ImAxis_.y2, "", hidden)
@@ -162,6 +175,16 @@ class GraphPanel:
         spec = _spec(theme.dyed(palette.MISSED), size=theme.points(4.5), marker=implot.Marker_.cross)
         implot.plot_scatter("missed", played.time_s[~hit], np.zeros(int((~hit).sum())), spec)
         self._play_line(graphed.position_s, can_seek=False)
+
+
+def _short_legend() -> None:
+    """The joints in their colours, where there is no room for every curve."""
+    row = Row()
+    for joint, colour in _COLOUR_OF_JOINT.items():
+        row.place(imgui.calc_text_size(joint).x)
+        imgui.text_colored(_vec(colour), joint)
+    row.place(imgui.calc_text_size("(left: paler)").x)
+    imgui.text_disabled("(left: paler)")
 
 
 def _spec(colour: Colour, weight: float = 1.0, size: float = 4.0, marker: int = implot.Marker_.none) -> implot.Spec:
