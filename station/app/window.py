@@ -55,6 +55,8 @@ _SPLITS = (
     (Side.STRIP, imgui.Dir.down, 0.5, 0.5),
 )
 """Where panels dock, in this order: side, way, their share of what is left, and the most of it when they are large."""
+_NEWS_LOWEST = 0.3
+"""Share of the picture's height above the news, where large panels leave little of it."""
 _NEWS_SHOWN_S = 8.0
 """How long a fault or a notice stays on the screen (our choice: twice the time to read it)."""
 _NEWS_TOP, _NEWS_BAND = 150.0, 58.0
@@ -488,7 +490,8 @@ class Window:
         top = io.display_size.y - (low + height) / scale_y
         is_result = self._model.room().stage is Stage.RESULT and self._model.report() is not None
         middle, wide = (left + width / 2) / scale_x, width / scale_x - theme.points(40)
-        at = imgui.ImVec2(middle, top + theme.points(4.0 if is_result else _NEWS_TOP))
+        below = theme.points(4.0) if is_result else min(theme.points(_NEWS_TOP), _NEWS_LOWEST * height / scale_y)
+        at = imgui.ImVec2(middle, top + below)
         imgui.set_next_window_pos(at, imgui.Cond_.always, imgui.ImVec2(0.5, 0))
         flags = imgui.WindowFlags_.no_decoration | imgui.WindowFlags_.always_auto_resize | imgui.WindowFlags_.no_inputs
         flags |= imgui.WindowFlags_.no_focus_on_appearing | imgui.WindowFlags_.no_docking
