@@ -105,7 +105,7 @@ _CAMERAS = {
     View.TOP: Camera((0.08, 0.48, 0.6), -90 * _DEG, 88 * _DEG, 2.1, 0.80),
     View.HANDS: Camera((-0.03, 0.42, 0.78), 60 * _DEG, 26 * _DEG, 1.15, 0.62),
     View.FEET: Camera((-0.04, 0.50, 0.20), 196 * _DEG, 14 * _DEG, 1.45, 0.62),
-    View.LEFT_HAND: Camera((-0.05, 0.40, 0.74), 142 * _DEG, 30 * _DEG, 0.82, 0.60),
+    View.LEFT_HAND: Camera((-0.12, 0.33, 0.74), 176 * _DEG, 46 * _DEG, 0.86, 0.60),
     View.RIGHT_HAND: Camera((0.00, 0.42, 0.82), 38 * _DEG, 34 * _DEG, 0.86, 0.66),
 }
 _OTHER_HAND = {View.LEFT_HAND: View.RIGHT_HAND, View.RIGHT_HAND: View.LEFT_HAND}

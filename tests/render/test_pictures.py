@@ -99,6 +99,18 @@ def test_the_body_is_where_its_joints_are(draw: Draw, joint: Joint) -> None:
     assert differs(draw(snapshot, camera), empty, place, 1)
 
 
+@pytest.mark.parametrize(("view", "hand"), [(View.LEFT_HAND, Joint.LEFT_HAND), (View.RIGHT_HAND, Joint.RIGHT_HAND)])
+def test_nothing_of_the_kit_hides_the_hand_that_a_close_up_shows(draw: Draw, view: View, hand: Joint) -> None:
+    for at_s in (0.0, 0.37, 0.5, 1.1):
+        snapshot = at(at_s)
+        assert snapshot.pose is not None
+        row, column = pixel_of(snapshot.pose.joints_m[hand], named(view))
+        assert 0 < row < SCORE_TOP
+        assert SIZE[0] * 0.2 < column < SIZE[0] * 0.9
+        empty = draw(replace(snapshot, pose=None), named(view))
+        assert differs(draw(snapshot, named(view)), empty, (row, column), 1)
+
+
 def test_a_struck_piece_glows_and_no_other(draw: Draw) -> None:
     camera = named(View.EYES)
     still = replace(at(-2.0), pose=None)
