@@ -332,7 +332,7 @@ class Window:
         self._tried(lambda: save_settings(answered(load_settings(path), answers), path))
         if answers is not None:
             self._tried(lambda: self._model.meet(answers))
-            self._preview_anew()
+            self._tried(self._preview_anew)
         self.welcome = None
 
     def _keys(self) -> None:
