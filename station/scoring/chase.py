@@ -24,8 +24,9 @@ from station.scoring.doubt import DOUBT, SLACK_S, Doubt
 from station.scoring.elsewhere import FASTEST, SLOWEST, Elsewhere
 from station.scoring.evidence import class_rates
 from station.scoring.judge import Moved
-from station.scoring.line import MISS_COST, Line, Scales, jump_cost
-from station.scoring.locate import Hits, Notes
+from station.scoring.line import Line, Scales, jump_cost
+from station.scoring.locate import MISS_COST, Hits, Notes
+from station.scoring.shifts import START_S
 from station.scoring.tracker import Place, Tracker
 
 Floats = NDArray[np.float64]
@@ -45,9 +46,6 @@ _LEAST_HITS = 6
 
 _WAITS = (4, 6, 8, 12, 16, 24, 32, 64, 128)
 """Hits from one look that found nothing to the next: whoever does not play the score costs little (our choice)."""
-
-_START_S = 2.0
-"""A jump to the beginning counts as one of so many seconds, however far it is: who gives up begins again."""
 
 _CONTEST_HITS = 4
 """Hits between two contests of the lead with its rivals (our choice: a beat of 16ths)."""
@@ -211,7 +209,7 @@ class Chase:
     def _cost(self, split: int, place_s: float, rate: float) -> float:
         """Nats against being at `place_s` with hit `split`, and playing on at `rate`."""
         since_stop = split in (0, self._stopped_at)
-        jump_s = min(abs(place_s - self._places[split]), _START_S + abs(place_s - self._note_s[0]))
+        jump_s = min(abs(place_s - self._places[split]), START_S + abs(place_s - self._note_s[0]))
         if since_stop:
             jump_s = min(jump_s, abs(place_s - (self._stop_s if split else self._note_s[0])))
         return jump_cost(jump_s, log(rate / self._place.rate), since_stop)

@@ -13,8 +13,9 @@ from station.core.units import NS_PER_S
 from station.scoring.doubt import DOUBT, Doubt
 from station.scoring.evidence import class_rates, evidence, nats
 from station.scoring.judge import Moved
+from station.scoring.locate import MISS_COST
 from station.scoring.pursuit import JUMP_COST, JUMP_COST_PER_S, MOST_JUMP_COST_MORE
-from station.scoring.shifts import Beats
+from station.scoring.shifts import Beats, to_nearest
 from station.scoring.tracker import Tracker
 
 Floats = NDArray[np.float64]
@@ -31,9 +32,6 @@ _MOST_MOVED, _LEAST_HITS = 48, 6
 
 _WAITS = (4, 6, 8, 12, 16, 24, 32, 64, 128)
 """Hits from one look that found nothing to the next (our choice): whoever does not play the score costs little."""
-
-_MISS_COST = 2.0
-"""Nats against a note that nobody hit (`locate`)."""
 
 
 class ClickChase:
@@ -116,14 +114,7 @@ class ClickChase:
         said = np.empty_like(places)
         for c in np.unique(classes).tolist():
             here = classes == c
-            said[here] = evidence(_to_nearest(self._by_class[c], places[here]), self._rates[c : c + 1])
+            said[here] = evidence(to_nearest(self._by_class[c], places[here]), self._rates[c : c + 1])
         passed = np.searchsorted(self._note_s, places[-1]) - np.searchsorted(self._note_s, places[0])
         unheard = np.maximum(passed - (said > 0.0).sum(0), 0)
-        return np.asarray(said.sum(0) - _MISS_COST * unheard)
-
-
-def _to_nearest(note_s: Floats, at_s: Floats) -> Floats:
-    """Distance to the nearest note, any shape."""
-    right = np.minimum(np.searchsorted(note_s, at_s), len(note_s) - 1)
-    left = np.maximum(right - 1, 0)
-    return np.asarray(np.minimum(np.abs(note_s[right] - at_s), np.abs(at_s - note_s[left])))
+        return np.asarray(said.sum(0) - MISS_COST * unheard)

@@ -9,12 +9,9 @@ from dataclasses import dataclass
 
 from station.scoring.doubt import SLACK_S
 from station.scoring.evidence import nats
-from station.scoring.locate import Notes
+from station.scoring.locate import MISS_COST, Notes
 from station.scoring.shifts import LEAST_JUMP_S
 from station.scoring.tracker import Place
-
-MISS_COST = 2.0
-"""Nats against a note that nobody hit (`locate`)."""
 
 _NEW_TEMPO, _SAME_TEMPO = 0.2, 0.06
 """SD of log tempo at the beginning and after a stop, and against the tempo so far (our choice)."""

@@ -1,6 +1,6 @@
 """`station assess SCORE PERFORMANCE`: aligns and scores a recorded performance.
 
-A lesson is a loop: it is taken to have been played as often as the number of hits suggests.
+A lesson is a loop: it is taken to have been played as often as its pieces were struck for each stroke that is written.
 """
 
 import argparse
@@ -33,6 +33,7 @@ def run(arguments: argparse.Namespace) -> int:
     from station.practice.report import assessment_text, feel_of, kit_facts
     from station.scoring.align import align
     from station.scoring.document import assessment
+    from station.scoring.loops import times_played
     from station.scoring.pairs import write_pairs
     from station.scoring.summary import View, summarise
     from station.scoring.windows import find_windows
@@ -42,7 +43,7 @@ def run(arguments: argparse.Namespace) -> int:
     if is_lesson(arguments.score):
         lesson = find_lesson(arguments.score)
         view = replace(view, pass_bars=score.bar_count, feel=feel_of(lesson.goals), beat_ticks=lesson.beat_ticks)
-        score = score.repeated(max(1, round(len(performance) / max(len(score), 1))))
+        score = score.repeated(times_played(score, performance))
     if arguments.gap is not None:
         view = replace(view, silences=silences(score.tempo_map, score.end_tick, arguments.gap))
     alignment = align(score, performance, clocked=False)
