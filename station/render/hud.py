@@ -17,7 +17,6 @@ from station.render.palette import (
     GOOD,
     INK,
     INK_FAINT,
-    INK_SOFT,
     LATE,
     MISSED,
     NIGHT,
@@ -29,7 +28,9 @@ from station.render.snapshot import Cue, Hud
 
 _DESIGN_HEIGHT = 720.0
 _EDGE = 26.0
-_HALO = with_opacity(NIGHT, 0.75)
+_HALO = with_opacity(NIGHT, 0.95)
+_LINE = with_opacity(INK, 0.90)
+"""The small lines: fainter than the title, and still read over a cymbal."""
 _CUE_HOLD_S, _CUE_FADE_S = 0.45, 0.55
 """A cue stands and then fades (our choice: gone before the next bar at usual tempos)."""
 
@@ -89,14 +90,14 @@ class _HudPage:
         self._ink.text(self._ink.fitted(hud.title, title, room), (_EDGE * k, 46 * k), title)
         if hud.phase:
             self._ink.ellipse(((_EDGE + 6) * k, 71 * k), (6 * k, 6 * k), BRAND)
-            phase = Type(20 * k, INK_SOFT, Face.REGULAR, 0.0, _HALO)
+            phase = Type(20 * k, _LINE, Face.REGULAR, 0.0, _HALO)
             self._ink.text(self._ink.fitted(hud.phase, phase, room), ((_EDGE + 20) * k, 78 * k), phase)
 
     def _tempo(self) -> None:
         k, hud = self._k, self._hud
         right = self._width - _EDGE * k
         if hud.beats_a_minute is not None:
-            width = self._ink.text("bpm", (right, 46 * k), Type(17 * k, INK_SOFT, Face.REGULAR, 1.0, _HALO))
+            width = self._ink.text("bpm", (right, 46 * k), Type(17 * k, _LINE, Face.REGULAR, 1.0, _HALO))
             tempo = Type(34 * k, INK, Face.BOLD, 1.0, _HALO)
             self._ink.text(f"{hud.beats_a_minute:.0f}", (right - width - 6 * k, 46 * k), tempo)
         if hud.bar is None or hud.beat is None:
@@ -108,10 +109,10 @@ class _HudPage:
             self._ink.ellipse((x, 72 * k), (size, size), (BRAND if now else INK_FAINT))
             x -= 21 * k
         where = f"bar {hud.bar}" + (f" of {hud.bar_count}" if hud.bar_count else "")
-        width = self._ink.text(where, (x - 6 * k, 78 * k), Type(18 * k, INK_SOFT, Face.REGULAR, 1.0, _HALO))
+        width = self._ink.text(where, (x - 6 * k, 78 * k), Type(18 * k, _LINE, Face.REGULAR, 1.0, _HALO))
         if hud.judged:
             text = f"{hud.right} of {hud.judged} right"
-            self._ink.text(text, (right, 104 * k), Type(18 * k, INK_SOFT, Face.REGULAR, 1.0, _HALO))
+            self._ink.text(text, (right, 104 * k), Type(18 * k, _LINE, Face.REGULAR, 1.0, _HALO))
 
     def _count_in(self, number: int) -> None:
         k, centre = self._k, (self._width / 2, self._height * 0.52)
