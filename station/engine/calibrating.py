@@ -2,7 +2,7 @@
 
 Nothing is stored here. The kit is opened before the sound and closed after it, and where it goes meanwhile the streams
 are closed first, for whatever changes JACK's graph waits for every sound callback in this process
-(`station.devices.midi_ports`). Every function raises `DeviceError` where a device fails or nothing was heard.
+(`station.devices.midi_clients`). Every function raises `DeviceError` where a device fails or nothing was heard.
 """
 
 import sys

@@ -72,7 +72,7 @@ def run_engine(commands: "Connection[None, Command]", events: "Connection[list[E
 def _make_ready(sounds: Prepare) -> None:
     """Make what the engine will ask for; only of kits that all processes share, for memory's sake."""
     with suppress(StationError):  # told when it is wanted
-        if sounds.drums in MODELS:
+        if sounds.drums in MODELS and is_made(sounds.drums, sounds.rate_hz):
             _kit(sounds.drums, sounds.rate_hz)
         _click(sounds.click, sounds.rate_hz)
     gc.collect()
