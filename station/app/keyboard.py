@@ -66,7 +66,7 @@ COMMANDS: tuple[tuple[str, str], ...] = (
     ("Enter", "start, or once more"),
     ("Esc", "stop, or back to the lessons"),
     ("Backspace", "pause, or go on"),
-    ("F1", "this page"),
+    ("F1", "help: the page that is open, and these keys"),
     ("F2 to F9", "the named views, in the list's order"),
     ("M", "mirror"),
     ("P", "second picture: hands, feet, none"),
