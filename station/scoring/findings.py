@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.names import name_of, piece_name
-from station.core.pieces import Piece
+from station.core.pieces import Limb, Piece
 from station.music import passages
 from station.music.judgement import Label
 from station.scoring.alignment import Reference
@@ -48,6 +48,10 @@ class Kind:
 _FREE_MS, _CLEAR_MS = 3.0, 25.0
 """HUMANS: 6 ms are just heard in fast strokes, 25 ms by anyone; half of what is just heard is worth no sentence."""
 
+_FREE_FLAM_MS, _CLEAR_FLAM_MS = 1.2, 20.0
+"""Our choice: a lead is one drop of both hands, a third as scattered as strokes are, so that less is free of it; 20 ms
+more make 50 of a flam's 30 ms, wider than flams are played (HUMANS: 15–40 ms)."""
+
 _FREE_DB, _CLEAR_DB = 1.5, 4.0
 """HUMANS: 1 dB is just noticeable to the skilled, 2–3 to others."""
 
@@ -62,8 +66,8 @@ KINDS = (
     Kind("rush_slow", "long_waits", -1, _FREE_MS, _CLEAR_MS, "ms"),
     Kind("uneven_doubles", "doubles", -1, _FREE_MS, _CLEAR_MS, "ms"),
     Kind("lazy_doubles", "doubles", 1, _FREE_MS, _CLEAR_MS, "ms"),
-    Kind("wide_flams", "flams", 1, 1.2, 20.0, "ms"),
-    Kind("tight_flams", "flams", -1, 1.2, 20.0, "ms"),
+    Kind("wide_flams", "flams", 1, _FREE_FLAM_MS, _CLEAR_FLAM_MS, "ms"),
+    Kind("tight_flams", "flams", -1, _FREE_FLAM_MS, _CLEAR_FLAM_MS, "ms"),
     Kind("weak_left", "left_level", -1, _FREE_DB, _CLEAR_DB, "dB"),
     Kind("weak_right", "left_level", 1, _FREE_DB, _CLEAR_DB, "dB"),
     Kind("loud_ghosts", "ghost_level", 1, _FREE_DB, _CLEAR_DB, "dB"),
@@ -140,13 +144,23 @@ def _is_sure(effect: Effect) -> bool:
 
 
 def _bars_of_habit(summary: Summary, kind: Kind) -> tuple[int, ...]:
-    """Where the strokes concerned are farthest to the fault's side; every bar that has them where time says nothing."""
-    strokes = summary.habits.strokes[kind.effect] & timed_notes(summary.score, summary.alignment)
-    if kind.unit == "ms" and strokes.any():
-        off = asynchrony_ms(summary.alignment)[strokes] * kind.sign
-        return tuple(worst_bars(summary, off - off.min(), strokes))
-    concerned = summary.habits.strokes[kind.effect]
-    return tuple(worst_bars(summary, np.ones(int(concerned.sum())), concerned))
+    """Where the strokes concerned are farthest to the fault's side."""
+    off = summary.habits.off_db if kind.unit == "dB" else asynchrony_ms(summary.alignment)
+    sign = kind.sign
+    if kind.effect == "flams":  # a grace stroke that comes early leads too far
+        sign = -sign
+    elif kind.effect == "left_level" and kind.sign > 0:  # then it is the right hand that is soft
+        right = summary.score.notes["limb"] == Limb.RIGHT_HAND
+        return _farthest(summary, right & ~summary.score.is_grace, -off)
+    return _farthest(summary, summary.habits.strokes[kind.effect], sign * off)
+
+
+def _farthest(summary: Summary, strokes: Flags, off: Floats) -> tuple[int, ...]:
+    """The bars in which the strokes (n,) that were played lie farthest up in `off` (n,)."""
+    told = strokes & (summary.alignment.note_label == Label.MATCH) & ~np.isnan(off)
+    if not told.any():
+        return ()
+    return tuple(worst_bars(summary, off[told] - off[told].min(), told))
 
 
 def _swing(summary: Summary) -> list[Finding]:
@@ -160,7 +174,7 @@ def _swing(summary: Summary) -> list[Finding]:
     if summary.view.feel.allows(held, ratio_of_place(written)):
         return []
     fault = "straight_swing" if held < ratio_of_place(written) else "hard_swing"
-    bars = tuple(worst_bars(summary, np.ones(int(flags.sum())), flags))
+    bars = _farthest(summary, flags, np.sign(effect.value) * asynchrony_ms(summary.alignment))
     asked = ratio_of_place(written)
     severity = abs(held - asked) / _CLEAR_SWING
     return [

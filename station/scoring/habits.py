@@ -53,24 +53,27 @@ class Habits:
     Names: `all` the common lean with habits apart, `kick`, `hihat_pedal`, `fills`, `long_waits`, `doubles` in ms,
     `swing` in fractions of the unit that swings, `lean_PIECE` of a hand's piece against the other hand pieces in ms,
     `flams` in ms (positive: wider than written), `left_level`, `ghost_level`, `accent_level` in dB. `timing_sd_ms` is
-    the spread of the main strokes with all that taken out; None where too little was played.
+    the spread of the main strokes with all that taken out; None where too little was played. `off_db` (n,) played less
+    written loudness, NaN where nothing was matched or heard.
     """
 
     effects: dict[str, Effect]
     strokes: dict[str, Flags]
     timing_sd_ms: float | None
+    off_db: Floats
 
 
 def habits(score: Score, performance: Performance, alignment: Alignment, hears_velocity: bool) -> Habits:
     """What `performance` shows of each habit that `score` has places for."""
     strokes = _places(score)
     timing, sd_ms = _timing(score, alignment, strokes)
+    off_db = _off_db(score, performance, alignment) if hears_velocity else np.full(len(score), np.nan)
     effects = {
         **timing,
         **_flams(score, alignment),
-        **(_levels(score, performance, alignment, strokes) if hears_velocity else {}),
+        **_levels(score, off_db, strokes),
     }
-    return Habits(effects, {name: strokes[name] for name in effects}, sd_ms)
+    return Habits(effects, {name: strokes[name] for name in effects}, sd_ms, off_db)
 
 
 def _places(score: Score) -> dict[str, Flags]:
@@ -187,12 +190,18 @@ def _mean(values: Floats, slots: NDArray[np.int64]) -> Effect | None:
 # --- loudness ---------------------------------------------------------------------------------------------------------
 
 
-def _levels(
-    score: Score, performance: Performance, alignment: Alignment, places: dict[str, Flags]
-) -> dict[str, Effect]:
-    rows = np.flatnonzero((alignment.note_label == Label.MATCH) & ~score.is_grace)
+def _off_db(score: Score, performance: Performance, alignment: Alignment) -> Floats:
+    """How much louder than written each note (n,) was struck, NaN where it was not."""
+    off = np.full(len(score), np.nan)
+    rows = np.flatnonzero(alignment.note_label == Label.MATCH)
     played = performance.hits["velocity"][alignment.hit_of_note[rows]]
-    off = level_db(played) - level_db(score.notes["velocity"][rows])
+    off[rows] = level_db(played) - level_db(score.notes["velocity"][rows])
+    return off
+
+
+def _levels(score: Score, off_db: Floats, places: dict[str, Flags]) -> dict[str, Effect]:
+    rows = np.flatnonzero(~np.isnan(off_db) & ~score.is_grace)
+    off = off_db[rows]
     pieces = score.notes["piece"][rows]
     pads = [Column(f"pad_{p}", (pieces == p).astype(np.float64), PIECE_LEVEL_DB) for p in np.unique(pieces).tolist()]
     suspects = [Column(name, places[name][rows].astype(np.float64)) for name in _IN_LEVEL]

@@ -247,8 +247,24 @@ def test_a_prior_widens_what_it_could_explain() -> None:
 def test_too_little_is_nothing() -> None:
     assert fit(np.zeros(0), [], np.zeros(0, np.int64)) is None
     assert fit(np.ones(5), [Column("a", np.arange(5.0))], np.arange(5)) is None
-    nothing = Habits({}, {}, None)
+    nothing = Habits({}, {}, None, np.zeros(0))
     empty = Score.from_notes([], ROCK.tempo_map)
     silence = Performance.from_hits([])
     found = habits(empty, silence, align(empty, silence, clocked=True), hears_velocity=True)
     assert (found.effects, found.timing_sd_ms) == (nothing.effects, nothing.timing_sd_ms)
+
+
+def test_a_fault_of_loudness_names_the_bars_where_it_is_heard() -> None:
+    """Accents soft in the last eight bars of sixteen only: no bar before is named."""
+    score = rock_beat(16)
+    accents = (score.notes["dynamic"] == Dynamic.ACCENT) & (score.bar >= 8)
+    said = advise(performed(score, level_db=np.where(accents, -9.0, 0.0)))
+    assert said
+    assert all(bar > 8 for bar in said[0].bars)
+
+
+def test_wide_flams_name_the_bars_where_they_are_wide() -> None:
+    wide = FLAMS.is_grace & (FLAMS.bar >= 12)
+    said = advise(performed(FLAMS, shift_ms=np.where(wide, -25.0, 0.0)))
+    assert first(said) == "wide_flams"
+    assert all(bar > 12 for bar in said[0].bars)
