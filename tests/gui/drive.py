@@ -19,6 +19,7 @@ import numpy as np
 from imgui_bundle import hello_imgui, imgui
 
 from station.app.help_pages import topic_of
+from station.app.keyboard import VIEW_KEYS
 from station.app.look import look_of
 from station.app.model import Stage
 from station.app.panels.devices import DEVICES
@@ -208,10 +209,14 @@ def search(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
 
 
 def look(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
-    """Every viewpoint can be chosen, and the mouse turns it."""
+    """Every viewpoint can be chosen, two from the list and the others by their keys, and the mouse turns it."""
     ctx.set_ref("//Transport")
+    keys = {view: key for key, view in VIEW_KEYS.items()}
     for view in View:
-        ctx.combo_click(f"##view/{VIEW_NAMES[view]}")
+        if view in (View.TOP, View.FEET):
+            ctx.combo_click(f"##view/{VIEW_NAMES[view]}")
+        else:
+            ctx.key_press(keys[view])
         ctx.yield_(2)
         drive.seen[view.name] = drive.window.backdrop.look.view.name
     mirrored = drive.window.backdrop.camera.mirrored
