@@ -51,7 +51,7 @@ class HandEvents:
 
     `time_s` (n,) rising; `row` (n,) of the score that each comes from; `key` (n, 3) piece, zone and articulation or
     `GRAB`; `height_m` (n,). `bounces` (n,) of a pressed stick, and `rebounds` (n,), the second strokes of doubles, are
-    not struck by the wrist. An idle hand has one event long ago, over the snare, and `row` is empty.
+    not struck by the wrist. An idle hand has waited since long ago, and `row` is empty.
     """
 
     time_s: Array
@@ -164,7 +164,7 @@ def _grab(score: Score, row: int, limbs: NDArray[np.int8], found: list[list[Even
 
 def _events(notes: NDArray[np.void], found: list[Event]) -> HandEvents:
     if not found:
-        key = np.array([[Piece.SNARE, Zone.HEAD, Articulation.NORMAL]], np.int64)
+        key = np.array([[Piece.SNARE, Zone.HEAD, WAIT]], np.int64)
         ago, height, none = np.array([LONG_AGO_S]), np.array([_IDLE_HEIGHT_M]), np.zeros(1, bool)
         return HandEvents(ago, np.zeros(0, np.int64), key, height, none, none)
     time, row, articulation, height, bounces = (np.array(column) for column in zip(*found, strict=True))

@@ -13,7 +13,7 @@ from station.core.pieces import Limb, Piece, Zone, word
 from station.motion.amplitudes import amplitudes, rebounds
 from station.motion.arm import Contact, Offsets, solve
 from station.motion.contacts import PROTRACTION_M, Lie, Strike, lie_of
-from station.motion.events import SHOW, HandEvents
+from station.motion.events import SHOW, WAIT, HandEvents
 from station.motion.figure import Figure
 from station.motion.grip import Hold
 from station.motion.kit import Kit
@@ -30,7 +30,9 @@ _EASINGS = 4
 _LEAST_HUMP, _MOST_TURN_RAD = 0.3, radians(60)
 """Moments at which so little of a detour is left are not helped by turning the hand; nor is it turned more than this
 (our choice)."""
-_HAND_YAW, _TURNS = Contact._fields.index("hand_yaw"), Contact._fields.index("turns")
+_MOST_AHEAD_M = 0.12
+"""A hand waits so much farther forward at most: it stays over the snare (our choice)."""
+_Y, _HAND_YAW, _TURNS = Contact._fields.index("y"), Contact._fields.index("hand_yaw"), Contact._fields.index("turns")
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,6 +145,18 @@ class HandPart:
         bump = self.bump.copy()
         bump[:, 3] -= side * np.clip(turn.sum(0), -_MOST_TURN_RAD, _MOST_TURN_RAD)
         return replace(self, bump=bump)
+
+    def waiting_before(self, time_s: Array, root: Point) -> "HandPart":
+        """The same, waiting farther forward where the shoulder, at `root` at `time_s` (k,), comes forward meanwhile."""
+        nearest, _ = self.way.nearest(time_s)
+        comes = np.zeros(len(self.contacts))
+        ahead = (
+            np.broadcast_to(root[1], time_s.shape) - np.array([lie.root[1] for lie in self.lies])[self.which][nearest]
+        )
+        np.maximum.at(comes, nearest, ahead)
+        contacts = self.contacts.copy()
+        contacts[:, _Y] += np.where(self.events.key[:, 2] == WAIT, np.minimum(comes, _MOST_AHEAD_M), 0.0)
+        return replace(self, contacts=contacts)
 
     def held_under(self, height_m: Array) -> "HandPart":
         """The same, no stroke higher than `height_m` (n,), whatever the sliders say."""

@@ -91,7 +91,7 @@ class Plan:
         grid = looks(right.events.time_s, left.events.time_s)
         roots = self._roots(grid, Style(), (right, left))
         right, left = (
-            past_the_shoulder(hand, self.figure, self.kit, grid, root)
+            past_the_shoulder(hand.waiting_before(grid, root), self.figure, self.kit, grid, root)
             for hand, root in zip((right, left), roots, strict=True)
         )
         shoulders = list(zip(roots, self._roots(grid, LIVELY, (right, left)), strict=True))

@@ -1,5 +1,7 @@
 """Both hands on neighbouring spots, one under a cymbal, one at rest: they and the kit stay apart (3 mm)."""
 
+from math import radians
+
 import numpy as np
 import pytest
 
@@ -8,6 +10,7 @@ from station.core.units import PPQ
 from station.motion.audit import audit
 from station.motion.drummer import Drummer
 from station.motion.events import WAIT, hand_events
+from station.motion.figure import load_figure
 from station.motion.kit import load_kit
 from station.motion.limbs import as_led, assign_limbs
 from station.music.score import Note, Score
@@ -94,3 +97,19 @@ def test_a_hand_does_not_go_home_past_the_other() -> None:
         score = Score.from_notes(notes, TempoMap.constant(100))
         right, _ = hand_events(score, score.notes["limb"])
         assert bool(np.any(right.key[:-1, 2] == WAIT)) is waits
+
+
+@pytest.mark.parametrize("idle", [False, True], ids=["rests", "never plays"])
+@pytest.mark.parametrize("kit", ["seven_piece", "left_handed", "four_piece"])
+def test_a_waiting_hand_comes_along_when_a_small_drummer_leans(kit: str, idle: bool) -> None:
+    """At 1.62 m the far cymbals are struck leaning: the other shoulder comes over where its hand waits."""
+    played, figure = load_kit(kit), load_figure("small")
+    far = Piece.CRASH_2 if Piece.CRASH_2 in played.pieces else Piece.RIDE
+    zone = Zone.EDGE if far is Piece.CRASH_2 else Zone.BOW
+    lead, other = (L, R) if played.left_handed else (R, L)
+    notes = [] if idle else [Note(2 * PPQ, *EDGE[:2], 80, limb=other), Note(16 * PPQ, *HEAD[:2], 80, limb=other)]
+    notes += [Note(4 * PPQ + i * PPQ, far, zone, 100, limb=lead) for i in range(8)]
+    found = audit(Drummer(Score.from_notes(notes, TempoMap.constant(100)), played, figure))
+    assert found.limit_rad.value <= radians(1), found.limit_rad
+    assert found.kit_m.value <= 0.003, found.kit_m
+    assert found.hands_m.value <= 0.003, found.hands_m
