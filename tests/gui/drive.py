@@ -18,6 +18,7 @@ from pathlib import Path
 import numpy as np
 from imgui_bundle import hello_imgui, imgui
 
+from station.app.frame import WindowOptions
 from station.app.help_pages import topic_of
 from station.app.keyboard import VIEW_KEYS
 from station.app.look import look_of
@@ -27,7 +28,7 @@ from station.app.panels.hits import STOP_LABEL as HITS_STOP
 from station.app.panels.hits import STUDENT_LABEL, TEACHER_LABEL
 from station.app.panels.lessons import ADAPT_LABEL, FREE_LABEL, LISTEN_LABEL
 from station.app.panels.page import PANELS_LABEL
-from station.app.window import Window, WindowOptions
+from station.app.window import Window
 from station.core.errors import BadInput
 from station.core.pieces import Piece
 from station.core.settings import Settings, load_settings, save_settings
@@ -248,7 +249,7 @@ def viewpoints(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     turned = backdrop.camera
     ctx.key_press(imgui.Key._3 | imgui.Key.mod_ctrl)
     ctx.yield_(2)
-    drive.seen["told"] = drive.window.news
+    drive.seen["told"] = drive.window.news.text
     ctx.key_press(imgui.Key.f5)
     ctx.yield_(2)
     drive.seen["left"] = backdrop.camera != turned
@@ -315,7 +316,7 @@ def devices(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     kept = own_kit(KIT)
     drive.seen["kept"] = None if kept is None else kept.pad(Piece.SNARE).threshold
     drive.seen["taken"] = [type(command).__name__ for command in drive.engine.sent]
-    drive.seen["told"] = drive.window.news
+    drive.seen["told"] = drive.window.news.text
     open_panel(ctx, DEVICES)  # and close it again
     ctx.yield_(2)
     drive.seen["still listens"] = [command.on for command in drive.engine.sent if isinstance(command, Eavesdrop)]
@@ -584,7 +585,7 @@ def fault(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.set_ref("//Lessons")
     ctx.item_click("Start##start")
     ctx.yield_(2)
-    drive.seen["news"] = drive.window.news
+    drive.seen["news"] = drive.window.news.text
     drive.seen["after"] = drive.room.room().stage.name
     del room.start
 
