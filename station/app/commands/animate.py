@@ -1,7 +1,8 @@
 """`station animate SCORE --out FILE`: the drummer who plays a score, as video, pictures or motion for others."""
 
 import argparse
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Sequence
 from math import inf
 from pathlib import Path
 
@@ -36,6 +37,29 @@ RING_S = 1.0
 LEVELS = ("low", "middle", "high")
 """The levels of `station.render.scene.QUALITIES`."""
 
+NUMBER = re.compile(r"(%0?\d*d)")
+"""What numbers pictures in a name."""
+_DRAWN = ("picture", "pictures", "video")
+_MEANT_FOR = {
+    **dict.fromkeys(("beat", "time"), ("picture",)),
+    **dict.fromkeys(("size", "quality", "view", "mirror", "no_score"), _DRAWN),
+    **dict.fromkeys(("fps", "seconds"), ("pictures", "video", "motion")),
+    "click": ("video",),
+}
+"""Which options say something of what."""
+_VIEWS = tuple(view.name.lower() for view in View)
+_USUAL = {
+    "beat": 1.0,
+    "size": (1280, 720),
+    "quality": LEVELS[1],
+    "view": _VIEWS[View.SHOULDER],
+    "mirror": False,
+    "no_score": False,
+    "fps": 60.0,
+    "click": False,
+}
+_WORDS = {"picture": "a picture", "pictures": "numbered pictures", "video": "a video", "motion": "motion"}
+
 Times = NDArray[np.float64]
 
 
@@ -49,7 +73,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     body = parser.add_mutually_exclusive_group()
     body.add_argument("--figure", metavar="NAME", default="", help=f"{', '.join(figure_names())}, or a file")
     body.add_argument("--stature", type=float, metavar="M", help="the drummer's height in metres, usual proportions")
-    parser.add_argument("--fps", type=float, metavar="N", default=60.0, help="pictures or poses a second (%(default)g)")
+    parser.add_argument("--fps", type=float, metavar="N", help="pictures or poses a second (60)")
     parser.add_argument("--start-bar", type=int, metavar="A", default=1, help="the first bar, from 1 (%(default)s)")
     parser.add_argument("--end-bar", type=int, metavar="B", help="the last bar (the score's)")
     parser.add_argument("--seconds", type=float, metavar="S", help="no more than so many seconds")
@@ -58,14 +82,18 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def _add_picture_options(parser: argparse.ArgumentParser) -> None:
     pictures = parser.add_argument_group("video and pictures")
-    pictures.add_argument("--size", metavar="WxH", type=_size, default=(1280, 720), help="in pixels (1280x720)")
-    pictures.add_argument("--quality", choices=LEVELS, default=LEVELS[1], help="how fine (%(default)s)")
-    pictures.add_argument("--view", choices=_VIEWS, default=_VIEWS[View.SHOULDER], help="from where (%(default)s)")
-    pictures.add_argument("--mirror", action="store_true", help="left and right swapped, to learn face to face")
-    pictures.add_argument("--no-score", action="store_true", help="the drummer alone, without the score below")
-    pictures.add_argument("--click", action="store_true", help="a video with a click under the drums")
+    pictures.add_argument("--size", metavar="WxH", type=_size, help="in pixels (1280x720)")
+    pictures.add_argument("--quality", choices=LEVELS, help=f"how fine ({_USUAL['quality']})")
+    pictures.add_argument("--view", choices=_VIEWS, help=f"from where ({_USUAL['view']})")
+    pictures.add_argument(
+        "--mirror", action="store_true", default=None, help="left and right swapped, to learn face to face"
+    )
+    pictures.add_argument(
+        "--no-score", action="store_true", default=None, help="the drummer alone, without the score below"
+    )
+    pictures.add_argument("--click", action="store_true", default=None, help="a video with a click under the drums")
     moment = pictures.add_mutually_exclusive_group()
-    moment.add_argument("--beat", type=float, metavar="T", default=1.0, help="the beat that a picture shows, from 1")
+    moment.add_argument("--beat", type=float, metavar="T", help="the beat that a picture shows (1)")
     moment.add_argument("--time", type=float, metavar="S", help="the second of the score that a picture shows")
 
 
@@ -75,6 +103,7 @@ def run(arguments: argparse.Namespace) -> int:
     ending = out.suffix.lower()
     if ending not in (_STILL, _FILM, *_WRITERS):
         raise BadInput(out, "", f"expected a name that ends in {_ENDINGS}")
+    _check_meant(arguments, _made(out))
     if ending == _FILM:
         _check_even(arguments.size)
     score = led_score(arguments)
@@ -93,15 +122,45 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
+def _made(out: Path) -> str:
+    """What a name asks for."""
+    ending = out.suffix.lower()
+    if ending == _FILM:
+        return "video"
+    if ending != _STILL:
+        return "motion"
+    numbers = out.name.count("%")
+    if numbers == 0:
+        return "picture"
+    if numbers > 1 or not NUMBER.search(out.name):
+        raise BadInput(out, "", "expected one number such as %05d in the name, and no other %")
+    return "pictures"
+
+
+def _check_meant(arguments: argparse.Namespace, made: str) -> None:
+    """Refuse what says nothing of what is made, and fill in the usual where nothing was said."""
+    for name, kinds in _MEANT_FOR.items():
+        if getattr(arguments, name) is None:
+            setattr(arguments, name, _USUAL.get(name))
+        elif made not in kinds:
+            option = f"--{name.replace('_', '-')}"
+            raise BadInput(option, "", f"{arguments.out.name} makes {_WORDS[made]}; this is for {_listed(kinds)}")
+
+
+def _listed(kinds: Sequence[str]) -> str:
+    return ", ".join(_WORDS[kind] for kind in kinds)
+
+
 def _draw(drummer: Drummer, arguments: argparse.Namespace) -> str:
     """Draw what the name asks for; returns what it is, for people."""
     from station.app.commands import animate_pictures as pictures
 
-    if arguments.out.suffix.lower() == _STILL and not pictures.is_sequence(arguments.out):
+    made = _made(arguments.out)
+    if made == "picture":
         pictures.draw_still(drummer, _moment_s(drummer.score, arguments), arguments)
         return "picture"
     stretch = _stretch(drummer.score, arguments, RING_S)
-    if arguments.out.suffix.lower() == _STILL:
+    if made == "pictures":
         pictures.draw_sequence(drummer, stretch, arguments)
         return "pictures"
     pictures.draw_film(drummer, stretch, arguments)
@@ -152,8 +211,11 @@ def _ticks(score: Score, arguments: argparse.Namespace) -> tuple[int, int]:
     """First tick of the first bar, last of the last."""
     first = arguments.start_bar
     last = score.bar_count if arguments.end_bar is None else arguments.end_bar
-    if not 1 <= first <= last <= score.bar_count:
-        raise BadInput("--start-bar, --end-bar", f"{first}-{last}", f"the score has bars 1 to {score.bar_count}")
+    named = "--start-bar, --end-bar", f"{first}-{last}"
+    if not (1 <= first <= score.bar_count and 1 <= last <= score.bar_count):
+        raise BadInput(*named, f"the score has bars 1 to {score.bar_count}")
+    if last < first:
+        raise BadInput(*named, "the last bar is before the first")
     return score.tempo_map.bar_start(first - 1), score.tempo_map.bar_start(last)
 
 
@@ -182,7 +244,6 @@ def _glb() -> Writer:
 
 _WRITERS: dict[str, Callable[[], Writer]] = {".npz": _npz, ".bvh": _bvh, ".glb": _glb}
 _STILL, _FILM = ".png", ".mp4"
-_VIEWS = tuple(view.name.lower() for view in View)
 _ENDINGS = ".mp4, .png, .npz, .bvh or .glb"
 _OUT = f"the file to write: {_ENDINGS}; %%05d.png in a name numbers the pictures of all bars"
 

@@ -1,13 +1,12 @@
 """What `station animate` draws: one picture, numbered pictures, or a video with the drums and, if wished, a click."""
 
 import argparse
-import re
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
-from station.app.commands.animate import LEVELS
+from station.app.commands.animate import LEVELS, NUMBER
 from station.app.commands.progress import Progress
 from station.app.film import Take, write_film, write_pictures
 from station.app.soundtrack import Sounds
@@ -20,17 +19,11 @@ from station.sound.kits.load import load_kit
 
 RATE_HZ = 48_000
 """Of a video's sound: what players and sites take as it is."""
-_NUMBER = re.compile(r"(%0?\d*d)")
 _MOST_DENOMINATOR = 1001
 """Of pictures a second: 30000/1001 is what televisions call 29.97."""
 
 Stretch = tuple[float, float]
 """From which second of the score on, and for how many seconds."""
-
-
-def is_sequence(out: Path) -> bool:
-    """Whether the name asks for numbered pictures: `%05d.png`."""
-    return _NUMBER.search(out.name) is not None
 
 
 def draw_still(drummer: Drummer, at_s: float, arguments: argparse.Namespace) -> None:
@@ -69,7 +62,7 @@ def _take(stretch: Stretch, fps: float) -> Take:
 
 
 def _numbered(out: Path, take: Take) -> Iterator[Path]:
-    before, number, after = _NUMBER.split(out.name, maxsplit=1)
+    before, number, after = NUMBER.split(out.name, maxsplit=1)
     return (out.with_name(f"{before}{number % k}{after}") for k in range(1, take.pictures + 1))
 
 

@@ -39,9 +39,13 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def _distance(text: str) -> float:
-    metres = float(text)
+    fault = argparse.ArgumentTypeError(f"{text}: expected 0 to {MOST_DISTANCE_M:g} metres")
+    try:
+        metres = float(text)
+    except ValueError:
+        raise fault from None
     if not 0.0 <= metres <= MOST_DISTANCE_M:
-        raise argparse.ArgumentTypeError(f"{text}: expected 0 to {MOST_DISTANCE_M:g} metres")
+        raise fault
     return metres
 
 

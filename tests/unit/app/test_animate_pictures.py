@@ -29,13 +29,15 @@ def own_settings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def animate(out: Path, *words: str) -> int:
-    return main(["animate", "rock-1", "--out", str(out), "--quality", "low", "--fps", "5", *words])
+    return main(["animate", "rock-1", "--out", str(out), "--quality", "low", *words])
 
 
 @pytest.mark.gl
 def test_a_video_lasts_from_a_second_before_its_bars_until_the_score_has_rung_out(tmp_path: Path) -> None:
     av = pytest.importorskip("av", reason="av is not installed: pip install av")
-    assert animate(tmp_path / "x.mp4", "--start-bar", "2", "--size", "48x32", "--click", "--no-score") == 0
+    assert (
+        animate(tmp_path / "x.mp4", "--fps", "5", "--start-bar", "2", "--size", "48x32", "--click", "--no-score") == 0
+    )
     with av.open(str(tmp_path / "x.mp4")) as container:
         assert container.streams.video[0].frames == 25  # 1 s, a bar of 3 s (80 bpm) and 1 s, 5 pictures a second
         assert container.streams.audio[0].rate == 48_000
@@ -44,7 +46,7 @@ def test_a_video_lasts_from_a_second_before_its_bars_until_the_score_has_rung_ou
 @pytest.mark.gl
 def test_a_name_with_a_number_is_a_sequence_and_one_without_an_instant(tmp_path: Path) -> None:
     words = ("--size", "63x31", "--view", "feet", "--mirror")
-    assert animate(tmp_path / "f" / "a%03d.png", "--start-bar", "2", "--seconds", "0.4", *words) == 0
+    assert animate(tmp_path / "f" / "a%03d.png", "--fps", "5", "--start-bar", "2", "--seconds", "0.4", *words) == 0
     assert sorted(p.name for p in (tmp_path / "f").iterdir()) == ["a001.png", "a002.png"]
     assert animate(tmp_path / "still.png", "--time", "2.2", *words) == 0  # the bar begins at 3 s, its pictures at 2 s
     still, second = (decode((tmp_path / name).read_bytes()) for name in ("still.png", "f/a002.png"))
@@ -62,6 +64,11 @@ def test_what_cannot_be_is_refused_in_one_line(tmp_path: Path, capsys: pytest.Ca
     assert "the score has seconds 0 to 6.000" in said("x.png", "--time", "6.1")
     assert "expected a number above 0" in said("x.mp4", "--seconds", "0")
     assert "expected 1 to 1000 a second" in said("x.mp4", "--fps", "0")
+    assert "expected one number such as %05d" in said("a%d%d.png")
+    assert "--beat: x.mp4 makes a video; this is for a picture" in said("x.mp4", "--beat", "2")
+    assert "--size: x.npz makes motion" in said("x.npz", "--size", "64x64")
+    assert "--click: x.glb makes motion; this is for a video" in said("x.glb", "--click")
+    assert "the last bar is before the first" in said("x.npz", "--start-bar", "2", "--end-bar", "1")
     assert [p.name for p in tmp_path.iterdir() if p.suffix in (".mp4", ".png")] == []
 
 

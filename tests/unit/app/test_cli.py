@@ -322,3 +322,8 @@ def test_what_sounds_is_chosen_checked_and_remembered(
     kept = load_settings(tmp_path / "drum-station" / "settings.toml")
     assert (kept.click_pattern, kept.levels, kept.drums) == ("parts=2,count", "click=0.5", "brushes")
     assert (kept.guide, kept.own_sound, kept.midi_out) == (True, False, "TD")
+
+
+def test_a_distance_that_is_none_is_refused_by_its_own_name(capsys: pytest.CaptureFixture[str]) -> None:
+    said = refused(capsys, "devices", "calibrate", "--by", "strike", "--distance", "x")
+    assert "--distance: x: expected 0 to 10 metres" in said
