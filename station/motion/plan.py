@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Limb, Piece
+from station.motion import body
 from station.motion.beats import Beats, bob_cofactors, restarts
 from station.motion.body import Ground, mean_bearing
 from station.motion.clearance import cleared
@@ -89,20 +90,20 @@ class Plan:
         if not (len(right.events.row) or len(left.events.row)):
             return right, left
         grid = looks(right.events.time_s, left.events.time_s)
-        roots = self._roots(grid, Style(), (right, left))
+        roots = self._roots(grid, reaching(self.ground, Style(), (right, left), self.figure, self.pelvis))
         right, left = (
             past_the_shoulder(hand.waiting_before(grid, root), self.figure, self.kit, grid, root)
             for hand, root in zip((right, left), roots, strict=True)
         )
-        shoulders = list(zip(roots, self._roots(grid, LIVELY, (right, left)), strict=True))
+        lively = body.curves(self.ground, LIVELY, body.keys(self.ground, LIVELY))  # leaning too would bend wrists
+        shoulders = list(zip(roots, self._roots(grid, lively), strict=True))
         right, left = (hand.eased(self.figure, grid, r) for hand, r in zip((right, left), shoulders, strict=True))
         right, left = detoured((right, left), self.figure, self.kit, grid, roots)
         right, left = (hand.eased(self.figure, grid, r) for hand, r in zip((right, left), shoulders, strict=True))
         return right, left
 
-    def _roots(self, time_s: Array, style: Style, hands: tuple[HandPart, HandPart]) -> tuple[Point, Point]:
-        """Where the right and the left shoulder are at each time under `style`, when `hands` play."""
-        curves = reaching(self.ground, style, hands, self.figure, self.pelvis)
+    def _roots(self, time_s: Array, curves: Curves) -> tuple[Point, Point]:
+        """Where the right and the left shoulder are at each time in a body that moves by `curves`."""
         twist, lean, side, shrug, *_ = curves.many(time_s)
         frame = trunk(MANY, self.figure, self.pelvis, TrunkAngles(twist, lean, side, 0.0, 0.0, 0.0, shrug))
         return frame.right_shoulder, frame.left_shoulder

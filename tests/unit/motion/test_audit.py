@@ -47,6 +47,12 @@ def test_fills_go_through_nothing_on_any_kit(lesson: str, kit: str) -> None:
     assert found.strike_m.value <= 1e-6, found.strike_m
 
 
+@pytest.mark.parametrize("style", ["natural", "sweeping", "jazz"])
+def test_wrists_keep_within_their_limits_at_the_bell_of_a_mirrored_kit(style: str) -> None:
+    found = audit(drummer_of("ride-bell-1", "left_handed", style), WITHIN_S)
+    assert found.limit_rad.value <= ALL_BUT_HELD, found.limit_rad
+
+
 @pytest.mark.parametrize("style", ["sweeping", "funk", "subdued", "jazz"])
 @pytest.mark.parametrize("lesson", ["rock-fill-2", "jazz-fill-1", "stops-1", "linear-fill-1", "quintuplet-1"])
 def test_styles_change_nothing_of_that(lesson: str, style: str) -> None:
