@@ -5,7 +5,6 @@ forget a measurement one deletes its table. Latencies are milliseconds, positive
 reports. A file that does not exist says nothing; a fault in it is named with its place.
 """
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from datetime import date, datetime
@@ -16,6 +15,7 @@ from station.core.errors import BadInput
 from station.core.files import write_whole
 from station.core.pieces import Piece, word
 from station.core.settings import settings_path
+from station.core.toml_table import parse_toml
 from station.core.toml_write import toml_text, toml_value
 
 FILE_NAME = "calibration.toml"
@@ -76,13 +76,12 @@ def load_calibration(path: Path | None = None) -> Calibration:
     """What was measured, from `path` (this user's by default); raises `BadInput` for a file that is not ours."""
     source = path or calibration_path()
     try:
-        raw = tomllib.loads(source.read_text(encoding="utf-8"))
+        data = source.read_bytes()
     except FileNotFoundError:
         return Calibration()
     except OSError as fault:
         raise BadInput(source, "", fault.strerror or str(fault)) from fault
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as fault:
-        raise BadInput(source, "", str(fault)) from fault
+    raw = parse_toml(data, source)
     for key in raw:
         if key not in ("outputs", "kits"):
             raise BadInput(source, key, "no such table; there are outputs, kits")

@@ -4,7 +4,6 @@ An unknown key or a value of another type is the file's fault and named with its
 defaults. Writing goes through a temporary file beside it, so that a full disk never leaves half a file.
 """
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
@@ -14,6 +13,7 @@ from platformdirs import user_config_path, user_documents_path
 from station.core.errors import BadInput
 from station.core.files import write_whole
 from station.core.pieces import Piece, word
+from station.core.toml_table import parse_toml
 from station.core.toml_write import toml_value
 
 APP_NAME = "drum-station"
@@ -118,14 +118,12 @@ def load_settings(path: Path | None = None) -> Settings:
     """Settings from `path` (this user's by default); raises `BadInput` for a file that is not ours."""
     source = path or settings_path()
     try:
-        raw = tomllib.loads(source.read_text(encoding="utf-8"))
+        data = source.read_bytes()
     except FileNotFoundError:
         return Settings()
     except OSError as fault:
         raise BadInput(source, "", fault.strerror or str(fault)) from fault
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as fault:
-        raise BadInput(source, "", str(fault)) from fault
-    return _checked(raw, source)
+    return _checked(parse_toml(data, source), source)
 
 
 _WORDS: dict[type, str] = {str: "a text in quotes", int: "a whole number", float: "a number", bool: "true or false"}

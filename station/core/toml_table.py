@@ -9,9 +9,11 @@ import tomllib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from station.core.errors import BadInput
 from station.core.toml_places import KeyPath, Places
+from station.core.utf8 import utf8_text
 
 _MAX_LENGTH_M = 3.0
 
@@ -22,13 +24,27 @@ _AT = re.compile(r" \(at (line \d+, column \d+)\)$")
 
 def read_toml(path: Path) -> dict[str, object]:
     """The whole file; raises `BadInput` if it cannot be read or is not TOML."""
+    return parse_toml(_bytes(path), path)
+
+
+def parse_toml(data: bytes, source: str | Path) -> dict[str, Any]:
+    """What a file's bytes say; raises `BadInput` that names `source` if they are not TOML."""
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
+        return tomllib.loads(utf8_text(data, source, "a TOML file"))
     except tomllib.TOMLDecodeError as fault:
         at = _AT.search(str(fault))
-        raise BadInput(path, at[1] if at else "", _AT.sub("", str(fault))) from fault
-    except (OSError, UnicodeDecodeError) as fault:
-        raise BadInput(path, "", str(fault)) from fault
+        raise BadInput(source, at[1] if at else "", _AT.sub("", str(fault))) from fault
+    except RecursionError as fault:
+        raise BadInput(source, "", "lists or tables nested too deeply") from fault
+
+
+def _bytes(path: Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except FileNotFoundError as fault:
+        raise BadInput(path, "", "no such file") from fault
+    except OSError as fault:
+        raise BadInput(path, "", f"cannot be read: {fault.strerror or fault}") from fault
 
 
 @contextmanager
@@ -39,7 +55,7 @@ def located(path: Path) -> Iterator[None]:
     except BadInput as fault:
         if fault.source != str(path) or not fault.place or fault.place.startswith("line "):
             raise
-        places = Places.of(path.read_text(encoding="utf-8"))
+        places = Places.of(utf8_text(_bytes(path), path, "a TOML file"))
         line, column = places.find(_key_path(fault.place, places))
         raise BadInput(path, f"line {line}, column {column}, {fault.place}", fault.fault) from fault
 

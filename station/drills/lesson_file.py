@@ -16,6 +16,7 @@ from station.core.errors import BadInput
 from station.core.pieces import Piece
 from station.core.toml_places import KeyPath
 from station.core.units import PPQ
+from station.core.utf8 import utf8_text
 from station.drills.faults import Fault, Faults, raise_first
 from station.drills.grid_table import GridSection, Timing, note_length, read_grid, read_timing
 from station.drills.lesson import (
@@ -42,6 +43,8 @@ KEYS = (
 )
 """Every key of the top table, in the order in which a message lists them."""
 MAX_FILE_BYTES = 1_000_000
+_MIDI = b"MThd"
+"""How a MIDI file begins."""
 MAX_PASSES = 1000
 MAX_COUNT_IN_BARS = 8
 MAX_DEMONSTRATIONS = 20
@@ -70,15 +73,16 @@ def lesson_text(path: Path) -> str:
     try:
         with path.open("rb") as file:
             data = file.read(MAX_FILE_BYTES + 1)
+    except (FileNotFoundError, ValueError):  # or a name that no file can have
+        raise BadInput(path, "", "no such file") from None
     except OSError as fault:
         raise BadInput(path, "", f"cannot be read: {fault.strerror or fault}") from fault
+    if data.startswith(_MIDI):
+        way = f"`station lesson import {path} --out {path.stem}.toml`"
+        raise BadInput(path, "", f"a MIDI file, not a lesson; {way} makes a lesson of it")
     if len(data) > MAX_FILE_BYTES:
         raise BadInput(path, "", f"longer than {MAX_FILE_BYTES} bytes; no lesson is")
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError as fault:
-        line = data[: fault.start].count(b"\n") + 1
-        raise BadInput(path, f"line {line}", "not UTF-8 text; expected a lesson, saved as UTF-8") from fault
+    return utf8_text(data, path, "a lesson")
 
 
 def parse_lesson(text: str, source: str, name: str) -> Reading:

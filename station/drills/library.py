@@ -30,6 +30,7 @@ __all__ = [
 ]
 
 _ENDING = ".toml"
+_MIDI_ENDINGS = (".mid", ".midi")
 _NAMES_SHOWN = 5
 
 
@@ -66,15 +67,20 @@ def lesson_names() -> list[str]:
 def find_lesson(name_or_path: str) -> Lesson:
     """The shipped lesson of that name, or the lesson in the file at that path.
 
-    Raises `BadInput`: the file's fault, or for an unknown name the shipped names nearest to it.
+    Raises `BadInput`: the file's fault, that there is none, or for an unknown name the shipped names nearest to it.
     """
     files = _files(lessons_dir())
     if name_or_path in files:
         return read_lesson(files[name_or_path])
     path = Path(name_or_path)
-    if _is_file(path) or path.suffix == _ENDING:
+    if _is_file(path) or _is_path(path):
         return read_lesson(path)
     raise BadInput(name_or_path, "", f"no such lesson{_like(name_or_path, list(files))}")
+
+
+def _is_path(path: Path) -> bool:
+    """Whether it is written as a file, there or not, rather than as a name."""
+    return len(path.parts) > 1 or path.suffix.lower() in (_ENDING, *_MIDI_ENDINGS)
 
 
 def _is_file(path: Path) -> bool:

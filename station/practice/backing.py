@@ -11,7 +11,7 @@ from pathlib import Path
 from station.core.errors import BadInput, DeviceError
 from station.practice.plan import Plan
 from station.sound.track import PreparedTrack
-from station.sound.track_file import MAX_SPEED, MIN_SPEED, TrackWish, prepare_in_background
+from station.sound.track_file import MAX_SPEED, MIN_SPEED, TrackWish, checked_length_s, prepare_in_background
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,6 +33,10 @@ class BackingWish:
             limits = f"expected {MIN_SPEED:.0%} to {MAX_SPEED:.0%} of its own speed, found {speed:.0%}"
             raise BadInput(self.path, "speed", limits)
         return TrackWish(self.path, rate_hz, speed, self.start_s, self.loop_s)
+
+    def check(self, plan: Plan, rate_hz: int) -> None:
+        """Raise `BadInput` for what could never be made ready, as far as the head of its file tells."""
+        checked_length_s(self.track(plan, rate_hz))
 
 
 class Backing:

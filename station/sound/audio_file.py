@@ -33,6 +33,8 @@ ENDINGS = frozenset({".wav", ".flac", ".ogg", ".oga", ".opus", ".mp3", ".aif", "
 @contextmanager
 def opened(source: Path | bytes, name: str) -> Iterator[soundfile.SoundFile]:
     """The file, or the file's bytes, open for reading and found sane; raises `BadInput` that names it `name`."""
+    if isinstance(source, Path) and not source.is_file():  # libsndfile would speak of a "System error"
+        raise BadInput(name, "", "is a folder; expected a sound file" if source.is_dir() else "no such file")
     try:
         with soundfile.SoundFile(BytesIO(source) if isinstance(source, bytes) else source) as file:
             if not (MIN_RATE_HZ <= file.samplerate <= MAX_RATE_HZ and 1 <= file.channels <= MAX_CHANNELS):

@@ -76,9 +76,14 @@ def click_sounds(rate_hz: int, timbre: str = DEFAULT_TIMBRE) -> dict[ClickVoice,
 
     Raises `BadInput` for a timbre that there is not.
     """
+    return {voice: _frames(blip, rate_hz) for voice, blip in blips_of(timbre).items()} | word_sounds(rate_hz)
+
+
+def blips_of(timbre: str) -> Mapping[ClickVoice, Blip]:
+    """What the click of that name is made of; raises `BadInput` for a name that is none."""
     if timbre not in TIMBRES:
         raise BadInput(timbre, "", f"no such click; there are {', '.join(TIMBRES)}")
-    return {voice: _frames(blip, rate_hz) for voice, blip in TIMBRES[timbre].items()} | word_sounds(rate_hz)
+    return TIMBRES[timbre]
 
 
 def _frames(blip: Blip, rate_hz: int) -> Frames:

@@ -68,7 +68,7 @@ def prepare_in_background(wish: TrackWish, folder: Path | None = None) -> "Futur
 
 def prepare(wish: TrackWish, folder: Path | None = None) -> PreparedTrack:
     """Make the track ready; raises `BadInput` for the wish's or the file's fault, `DeviceError` for the disk's."""
-    length_s = _checked_length_s(wish)
+    length_s = checked_length_s(wish)
     home = folder or tracks_folder()
     file = home / f"{_digest(wish)}{_ENDING}"
     if not file.exists():
@@ -106,7 +106,8 @@ def pcm_of(frames: Frames) -> Pcm:
     return pcm
 
 
-def _checked_length_s(wish: TrackWish) -> float:
+def checked_length_s(wish: TrackWish) -> float:
+    """How long the file is, at most `MAX_TRACK_S`; raises `BadInput` for no sound file, or a part that it lacks."""
     name = str(wish.path)
     if not MIN_SPEED <= wish.speed <= MAX_SPEED:
         raise BadInput(name, "speed", f"expected {MIN_SPEED:g} to {MAX_SPEED:g}, found {wish.speed:g}")

@@ -177,6 +177,8 @@ def _replay(arguments: argparse.Namespace) -> int:
     from station.devices.replay import replay
 
     capture = read_capture(arguments.file)
+    if capture.good_bytes == capture.lost_bytes == 0:
+        raise BadInput(arguments.file, "", "the file is empty")
     events = list(replay(capture))
     start_ns = capture.records[0].at_ns if capture.records else 0
     if not capture.complete:

@@ -6,6 +6,7 @@ from datetime import date
 from pathlib import Path
 
 from station.app.commands.asking import ask_first
+from station.app.commands.checking import check_settings
 from station.app.commands.kit_option import KIT_HELP, wanted_kits
 from station.app.commands.output import print_json, say
 from station.app.commands.scores import bars_of_gap
@@ -79,6 +80,8 @@ def run(arguments: argparse.Namespace) -> int:
         arguments.tempo = tapped_tempo(lesson.beat_ticks / PPQ)
     wishes = _wishes(arguments, settings)
     plan = plan_practice(lesson, wishes)
+    if backing is not None:
+        backing.check(plan, settings.rate_hz)
     if arguments.virtual_student is not None:
         return _virtual(plan, wishes, arguments.virtual_student, arguments, settings)
     in_terminal = arguments.headless or arguments.json or arguments.report is not None
@@ -211,6 +214,7 @@ def _wanted(arguments: argparse.Namespace, settings: Settings) -> Settings:
     if arguments.student is not None:
         said["student"] = arguments.student
     wanted = with_said(settings, said, "practice")
+    check_settings(wanted)
     if arguments.remember:
         say(f"remembered in {save_settings(wanted)}")
     return wanted

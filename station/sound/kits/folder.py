@@ -12,7 +12,6 @@ layers is no more than `MOST_RANKS`, they are ranks and share the velocities eve
     layers = [{ to_velocity = 60, takes = ["a.wav", "b.wav"] }, { to_velocity = 127, takes = ["c.wav"], pitch = -1.0 }]
 """
 
-import tomllib
 from collections.abc import Mapping
 from itertools import groupby
 from pathlib import Path
@@ -21,6 +20,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from station.core.errors import BadInput
+from station.core.toml_table import parse_toml
 from station.sound.audio_file import ENDINGS
 from station.sound.drum_kit import LEVEL_LAW, MAX_VELOCITY, DrumKit, Frames, Layer, Sound, level_of
 from station.sound.kits.naming import FileName, file_named
@@ -132,11 +132,9 @@ class _Table:
             data = self._path.read_bytes()
             if len(data) > MAX_TABLE_BYTES:
                 raise self._fault("", f"larger than {MAX_TABLE_BYTES} bytes is no table of a kit")
-            return tomllib.loads(data.decode())
+            return parse_toml(data, self._path)
         except OSError as fault:
             raise self._fault("", fault.strerror or str(fault)) from fault
-        except (UnicodeDecodeError, tomllib.TOMLDecodeError, RecursionError) as fault:
-            raise self._fault("", str(fault)) from fault
 
     def _sound_name(self, key: str) -> SoundName:
         if key not in set(SoundName):

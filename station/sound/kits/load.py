@@ -36,12 +36,18 @@ def kit_names(folder: Path | None = None) -> list[str]:
 def load_kit(name_or_path: str = DEFAULT_KIT, rate_hz: int = 48_000, folder: Path | None = None) -> DrumKit:
     """The kit at `rate_hz`; raises `BadInput` that names the file and the fault, or the nearest names there are."""
     assert MIN_RATE_HZ <= rate_hz <= MAX_RATE_HZ, "a sound card's rate"
+    path = find_kit(name_or_path, folder)
+    return cached_kit(name_or_path, rate_hz) if path is None else read_kit(path, rate_hz)
+
+
+def find_kit(name_or_path: str, folder: Path | None = None) -> Path | None:
+    """Where the kit lies, None for a synthesised one; raises `BadInput` as `load_kit`, but no sound is read."""
     if name_or_path in MODELS:
-        return cached_kit(name_or_path, rate_hz)
+        return None
     home = folder or kits_folder()
     for path in (home / name_or_path, home / f"{name_or_path}{ARCHIVE_ENDING}", Path(name_or_path)):
         if name_or_path and _exists(path):
-            return read_kit(path, rate_hz)
+            return _home_of(path)
     names = kit_names(folder)
     near = get_close_matches(name_or_path, names) or names
     raise BadInput(name_or_path, "", f"no such drum kit; there are {', '.join(near)}")
@@ -49,13 +55,18 @@ def load_kit(name_or_path: str = DEFAULT_KIT, rate_hz: int = 48_000, folder: Pat
 
 def read_kit(path: Path, rate_hz: int) -> DrumKit:
     """The kit at `path`; raises `BadInput`."""
-    if path.name in (TABLE_NAME, KIT_FILE):
-        path = path.parent
-    if path.is_dir():
-        return hydrogen_folder(path, rate_hz) if (path / KIT_FILE).exists() else folder_kit(path, rate_hz)
-    if path.suffix.lower() == ARCHIVE_ENDING:
-        return hydrogen_archive(path, rate_hz)
-    raise BadInput(path, "", f"is no drum kit: expected a folder of sound files or a {ARCHIVE_ENDING}")
+    home = _home_of(path)
+    if home.is_dir():
+        return hydrogen_folder(home, rate_hz) if (home / KIT_FILE).exists() else folder_kit(home, rate_hz)
+    return hydrogen_archive(home, rate_hz)
+
+
+def _home_of(path: Path) -> Path:
+    """The kit's folder or archive; raises `BadInput` for a file that is neither, nor the table of a kit."""
+    home = path.parent if path.name in (TABLE_NAME, KIT_FILE) else path
+    if not _is_kit(home):
+        raise BadInput(home, "", f"is no drum kit: expected a folder of sound files or a {ARCHIVE_ENDING}")
+    return home
 
 
 def _exists(path: Path) -> bool:

@@ -1,6 +1,7 @@
 """The command line: documents on standard output, bad input as one line on standard error and exit status 2."""
 
 import json
+import wave
 from pathlib import Path
 
 import numpy as np
@@ -327,3 +328,82 @@ def test_what_sounds_is_chosen_checked_and_remembered(
 def test_a_distance_that_is_none_is_refused_by_its_own_name(capsys: pytest.CaptureFixture[str]) -> None:
     said = refused(capsys, "devices", "calibrate", "--by", "strike", "--distance", "x")
     assert "--distance: x: expected 0 to 10 metres" in said
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [
+        (("--track", "nothere.mp3"), "nothere.mp3: no such file"),
+        (("--track", "pyproject.toml"), "pyproject.toml: cannot be read as sound"),
+        (("--track", "examples"), "examples: is a folder"),
+        (("--sounds", "nokit"), "nokit: no such drum kit; there are"),
+        (("--sounds", "pyproject.toml"), "pyproject.toml: is no drum kit"),
+    ],
+)
+def test_a_virtual_session_too_refuses_what_cannot_sound(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, words: tuple[str, ...], named: str
+) -> None:
+    """And nothing is remembered of what is refused."""
+    practice = ("practice", "rock-1", "--headless", "--virtual-student", "pro", "--remember", *words)
+    assert main(practice) == 2
+    assert named in capsys.readouterr().err
+    assert load_settings().drums == "acoustic"
+    assert not list(tmp_path.rglob("*.capture"))
+
+
+def test_a_virtual_session_too_refuses_a_part_that_its_track_lacks(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    track = tmp_path / "eight.wav"
+    with wave.open(str(track), "wb") as file:
+        file.setparams((1, 2, 8000, 0, "NONE", ""))
+        file.writeframes(bytes(2 * 8 * 8000))  # eight seconds of silence
+    practice = ("practice", "rock-1", "--headless", "--virtual-student", "pro", "--track", str(track))
+    assert "eight.wav: loop 5-3: a loop lies within 8.0 s" in refused(capsys, *practice, "--track-loop", "5-3")
+    assert "eight.wav: start: expected 0 to 8.0 s" in refused(capsys, *practice, "--track-start", "9")
+    assert "eight.wav: speed: expected 50% to 150%" in refused(capsys, *practice, "--track-speed", "500")
+
+
+@pytest.mark.parametrize(
+    ("line", "named"),
+    [
+        ('drums = "nokit"', "nokit: no such drum kit"),
+        ('levels = "x"', "settings: levels"),
+        ('pause = "banana+ride"', "settings: pause: banana+ride: expected two pads"),
+        ('theme = "pink"', "theme: expected one of"),
+        ('click = "banana"', "banana: no such click; there are"),
+    ],
+)
+def test_a_virtual_session_too_refuses_settings_that_mean_nothing(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, line: str, named: str
+) -> None:
+    settings = tmp_path / "config" / "drum-station" / "settings.toml"
+    settings.parent.mkdir(parents=True)
+    settings.write_text(f"{line}\n")
+    assert named in refused(capsys, "practice", "rock-1", "--headless", "--virtual-student", "pro")
+
+
+def test_an_empty_file_is_no_capture(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    empty = tmp_path / "empty.mid"
+    empty.touch()
+    assert "empty.mid: the file is empty" in refused(capsys, "devices", "replay", str(empty))
+
+
+@pytest.mark.parametrize("option", ["--style", "--drums"])
+def test_a_file_that_is_no_text_is_told_in_a_teachers_words(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, option: str
+) -> None:
+    binary = tmp_path / "binary.toml"
+    binary.write_bytes(b"\n\xff\xfe")
+    words = ("animate", "rock-1", option, str(binary), "--out", str(tmp_path / "x.npz"))
+    assert "binary.toml: line 2: not UTF-8 text" in refused(capsys, *words)
+
+
+@pytest.mark.parametrize("command", [("practice",), ("lesson", "show")])
+def test_a_midi_file_is_shown_the_way_to_a_lesson(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, command: tuple[str, ...]
+) -> None:
+    midi = tmp_path / "beat.mid"
+    assert main(["lesson", "export", "rock-1", "--out", str(midi)]) == 0
+    capsys.readouterr()
+    assert f"`station lesson import {midi} --out beat.toml`" in refused(capsys, *command, str(midi))

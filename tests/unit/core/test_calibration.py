@@ -68,7 +68,7 @@ GOOD = 'latency_ms = 1\nhalf_ms = 1\nby = "tap"\non = 2026-01-31\n'
         ("[kits.x.pads.snaer]\n" + GOOD, "kits.x.pads.snaer: no such piece"),
         ("[kits.x.pads.snare]\n" + GOOD, "kits.x.latency_ms: expected -1000 to 1000, found None"),
         ("[kits.x]\n" + GOOD + "pads = 1", "kits.x.pads: expected a table"),
-        ("[outputs.x] 7\n", "at line 1, column 13"),
+        ("[outputs.x] 7\n", "line 1, column 13: "),
     ],
 )
 def test_a_fault_is_named_with_its_place(tmp_path: Path, text: str, fault: str) -> None:

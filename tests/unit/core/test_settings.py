@@ -48,7 +48,7 @@ def test_a_whole_number_does_where_a_fraction_is_expected(tmp_path: Path) -> Non
         ('thresholds = "snaer=20"', "thresholds: expected PIECE=1…127, such as snare=20, found 'snaer=20'"),
         ('thresholds = "snare=128"', "thresholds: expected PIECE=1…127, such as snare=20, found 'snare=128'"),
         ('thresholds = "snare"', "thresholds: expected PIECE=1…127, such as snare=20, found 'snare'"),
-        ("kit = 7x\nrate_hz = 48000\n", "at line 1, column 8"),
+        ("kit = 7x\nrate_hz = 48000\n", "line 1, column 8: "),
     ],
 )
 def test_a_fault_names_the_file_the_key_and_what_was_expected(tmp_path: Path, text: str, fault: str) -> None:

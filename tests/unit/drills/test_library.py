@@ -44,7 +44,9 @@ def test_a_name_goes_before_a_file_of_the_working_folder(tmp_path: Path, monkeyp
         ("bossa", "bossa-1"),
         ("zzzzzz", "`station lesson list` shows all"),
         ("", "no such lesson"),
-        ("none.toml", "cannot be read: No such file"),
+        ("none.toml", "none.toml: no such file"),
+        ("rock-1.mid", "rock-1.mid: no such file"),
+        ("grooves/rock-1", "grooves/rock-1: no such file"),
         ("a\x00b", "no such lesson"),
     ],
 )

@@ -1,0 +1,24 @@
+"""What is asked of a session is checked before it begins, alike for the window, the terminal and a virtual student.
+
+Each word goes through the parser of whoever uses it later, so that nothing is refused here that would have worked.
+"""
+
+from station.app.look import look_of
+from station.core.settings import Settings
+from station.engine.config import EngineConfig
+from station.practice.click_word import parse_click
+from station.practice.lead import hands_of
+from station.practice.pause_word import parse_pause
+from station.sound.click import blips_of
+from station.sound.kits.load import find_kit
+
+
+def check_settings(settings: Settings) -> None:
+    """Raise `BadInput` for the first setting that nobody understands; no device is asked, no sound read."""
+    EngineConfig.from_settings(settings)
+    find_kit(settings.drums)
+    blips_of(settings.click)
+    parse_click(settings.click_pattern, "settings: click_pattern")
+    parse_pause(settings.pause, "settings: pause")
+    hands_of(settings)
+    look_of(settings)
