@@ -88,10 +88,21 @@ def ports_for(wish: KitWish, midi: PortDirectory | None) -> PortDirectory:
 
 @dataclass(frozen=True, slots=True)
 class Watches:
-    """The watches over the kits that were asked for, and the `fault` of a MIDI driver that one of them would need."""
+    """The watches over the kits that were asked for, and the `fault` of a MIDI driver that one of them would need.
+
+    `midi` are the MIDI ports among which they look, None where there are none.
+    """
 
     kits: tuple[KitWatch, ...]
     fault: str | None = None
+    midi: MidiDirectory | None = None
+
+    def close(self) -> None:
+        """Leave every kit, then the driver: JACK's server waits for a client that ends without a word."""
+        for kit in self.kits:
+            kit.close()
+        if self.midi is not None:
+            self.midi.close()
 
 
 def watch_kits(
@@ -112,7 +123,7 @@ def watch_kits(
             fault = str(error)
     claims = Claims()
     heard = [wish for wish in wishes if midi is not None or wish.path or _is_serial(wish)]
-    return Watches(tuple(KitWatch(ports_for(wish, midi), wish.part, claims) for wish in heard), fault)
+    return Watches(tuple(KitWatch(ports_for(wish, midi), wish.part, claims) for wish in heard), fault, midi)
 
 
 def devices_there(wishes: tuple[KitWish, ...]) -> list[str]:

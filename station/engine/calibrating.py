@@ -252,7 +252,7 @@ def _ear(kit: KitWish, tell: Tell) -> Iterator[_Ear]:
             yield ear
         finally:
             streams.close()
-            watch.close()
+            watches.close()
 
 
 # --- streams ---------------------------------------------------------------------------------------------------------

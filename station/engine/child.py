@@ -17,9 +17,8 @@ from multiprocessing.connection import Connection
 from station.core.clock import monotonic_ns
 from station.core.errors import StationError
 from station.devices.kit_file import own_kit
-from station.devices.kit_ports import watch_kits
+from station.devices.kit_ports import Watches, watch_kits
 from station.devices.midi_out import open_midi_output
-from station.devices.watch import KitWatch
 from station.engine.card import Card
 from station.engine.config import EngineConfig, Prepare
 from station.engine.engine import Engine
@@ -84,7 +83,8 @@ def _live(config: EngineConfig, inbox: Inbox, outbox: Outbox) -> bool:
     engine = Engine(open_midi_out=lambda port: open_midi_output(config.midi_driver, port, undisturbed), own_kit=own_kit)
     card = _card(engine, config, outbox) if config.sound else None
     undisturbed = card.paused if card is not None else nullcontext
-    runner = Runner(engine, _kits(engine, config, card), card)
+    watches = _watches(engine, config, card)
+    runner = Runner(engine, watches.kits, card)
     for command in config.first_commands:
         engine.handle(command)
     try:
@@ -105,15 +105,16 @@ def _live(config: EngineConfig, inbox: Inbox, outbox: Outbox) -> bool:
             time.sleep(POLL_S)
     finally:
         runner.close()
+        watches.close()
         outbox.put(engine.advance(monotonic_ns()))
     return runner.is_worn_out and not engine.quitting
 
 
-def _kits(engine: Engine, config: EngineConfig, card: Card | None) -> tuple[KitWatch, ...]:
+def _watches(engine: Engine, config: EngineConfig, card: Card | None) -> Watches:
     watches = watch_kits(config.kits, config.midi_driver, monotonic_ns, card)
     if watches.fault is not None:
         engine.notify(f"no MIDI kit can be heard: {watches.fault}")
-    return watches.kits
+    return watches
 
 
 def _card(engine: Engine, config: EngineConfig, outbox: Outbox) -> Card:

@@ -57,8 +57,7 @@ def listening(arguments: argparse.Namespace) -> Iterator[tuple[KitWatch, ...]]:
     except KeyboardInterrupt:
         pass
     finally:
-        for kit in watches.kits:
-            kit.close()
+        watches.close()
 
 
 def polls(kits: tuple[KitWatch, ...], seconds: float | None) -> Iterator[Findings]:
