@@ -57,15 +57,22 @@ def taps(stamps_ns: NDArray[np.int64], clicks_ns: NDArray[np.int64]) -> Taps:
 
 
 def _offsets_ms(stamps_ns: NDArray[np.int64], clicks_ns: NDArray[np.int64], interval_ns: float) -> tuple[Floats, float]:
-    """Each tap's distance from its click, all about one common delay; and how well they agree (0 to 1)."""
-    since = (stamps_ns - clicks_ns[0]).astype(np.float64)
-    since = since[(since > -interval_ns) & (since < float(clicks_ns[-1] - clicks_ns[0]) + interval_ns)]
-    if len(since) == 0:
+    """Each tap's distance from its own click, all about one common delay; and how well they agree (0 to 1).
+
+    A card that stalls shifts the clicks after it: what a tap is measured by is the click it belongs to, and no grid.
+    """
+    step = round(interval_ns)
+    clicks = np.concatenate([[clicks_ns[0] - step], clicks_ns, [clicks_ns[-1] + step]])
+    stamps = stamps_ns[(stamps_ns > clicks[0]) & (stamps_ns < clicks[-1])]
+    if len(stamps) == 0:
         return np.empty(0), 0.0
-    mean = np.exp(2j * np.pi * since / interval_ns).mean()
+    before = np.searchsorted(clicks, stamps, side="right") - 1
+    phase = (stamps - clicks[before]) / interval_ns
+    mean = np.exp(2j * np.pi * phase).mean()
     common = (np.angle(mean) / (2 * np.pi) + EARLIEST) % 1.0 - EARLIEST
-    off = (since / interval_ns - common + 0.5) % 1.0 - 0.5 + common
-    found: Floats = off * interval_ns / NS_PER_MS
+    off = (phase - common + 0.5) % 1.0 - 0.5 + common
+    own = np.clip(before + np.round(phase - off).astype(np.int64), 0, len(clicks) - 1)
+    found: Floats = (stamps - clicks[own]) / NS_PER_MS
     return found, float(abs(mean))
 
 

@@ -29,6 +29,16 @@ def test_missed_and_double_taps_do_not_matter() -> None:
     assert taps(stamps, CLICKS_NS).total.value_ms == pytest.approx(30.0, abs=5.0)
 
 
+@pytest.mark.parametrize("late_ms", [-30.0, 80.0, 420.0])
+@pytest.mark.parametrize(("first", "stalled_ms"), [(1, 15.0), (9, 70.0), (1, -40.0)])
+def test_a_card_that_stalls_moves_its_clicks_and_nothing_else(late_ms: float, first: int, stalled_ms: float) -> None:
+    clicks = CLICKS_NS.copy()
+    clicks[first:] += round(stalled_ms * 1e6)
+    found = taps(tapped(late_ms, 2.0) + clicks - CLICKS_NS, clicks).total
+    assert found.value_ms == pytest.approx(late_ms, abs=3 * 2.0 / 32**0.5)
+    assert found.trusted
+
+
 def test_the_equipments_share_is_never_free_of_doubt() -> None:
     found = taps(tapped(150.0, 12.0), CLICKS_NS)
     assert found.equipment.low_ms == pytest.approx(found.total.low_ms - HABIT_MS[1])
