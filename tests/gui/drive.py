@@ -229,6 +229,11 @@ def look(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.seen["turned"] = drive.window.backdrop.camera.azimuth_rad - before
 
 
+def chord(*keys: imgui.Key) -> int:
+    """These keys at once; a sum, for Python 3.11.2 cannot unite members of this enumeration."""
+    return sum(key.value for key in keys)
+
+
 def turn(ctx: imgui.test_engine.TestContext) -> None:
     """Drag in the picture."""
     ctx.mouse_move_to_pos(imgui.ImVec2(600, 200))
@@ -247,7 +252,7 @@ def viewpoints(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.key_press(imgui.Key.p)
     turn(ctx)
     turned = backdrop.camera
-    ctx.key_press(imgui.Key._3 | imgui.Key.mod_ctrl)
+    ctx.key_press(chord(imgui.Key._3, imgui.Key.mod_ctrl))
     ctx.yield_(2)
     drive.seen["told"] = drive.window.news.text
     ctx.key_press(imgui.Key.f5)
@@ -382,9 +387,9 @@ def worn(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     paper = imgui.get_style().color_(imgui.Col_.window_bg)
     drive.seen["light"] = min(paper.x, paper.y, paper.z) > 0.8
     ctx.popup_close_all()
-    ctx.key_press(imgui.Key.equal | imgui.Key.mod_ctrl)
-    ctx.key_press(imgui.Key.equal | imgui.Key.mod_ctrl)
-    ctx.key_press(imgui.Key.minus | imgui.Key.mod_ctrl)
+    ctx.key_press(chord(imgui.Key.equal, imgui.Key.mod_ctrl))
+    ctx.key_press(chord(imgui.Key.equal, imgui.Key.mod_ctrl))
+    ctx.key_press(chord(imgui.Key.minus, imgui.Key.mod_ctrl))
     ctx.yield_(3)
     drive.seen["letters"] = imgui.get_style().font_scale_main
     kept = load_settings(drive.settings)
@@ -507,7 +512,7 @@ def player(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
         ctx.yield_(1)
         stepped.append(at_ms())
     seen["stepped"] = stepped
-    ctx.key_press(imgui.Key._3 | imgui.Key.mod_ctrl | imgui.Key.mod_shift)
+    ctx.key_press(chord(imgui.Key._3, imgui.Key.mod_ctrl, imgui.Key.mod_shift))
     ctx.item_click("##reverse")
     ctx.key_press(imgui.Key.w)
     ctx.yield_(4)
@@ -516,7 +521,7 @@ def player(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.key_press(imgui.Key.w)
     ctx.item_input_value("##speed", 50)
     ctx.yield_(1)
-    ctx.key_press(imgui.Key._3 | imgui.Key.mod_shift)
+    ctx.key_press(chord(imgui.Key._3, imgui.Key.mod_shift))
     ctx.yield_(1)
     seen["flag"], seen["speed"] = at_ms(), deck.player.speed_percent
     low, high = ctx.item_info("##ruler").rect_full.min, ctx.item_info("##ruler").rect_full.max
