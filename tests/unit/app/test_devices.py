@@ -52,6 +52,7 @@ def test_ctrl_c_at_any_moment_leaves_a_whole_capture(tmp_path: Path, monkeypatch
     assert main(["devices", "record", str(tmp_path / "take.cap"), "--seconds", "20"]) == 0
     assert read_capture(tmp_path / "take.cap").complete
     assert driver.open_connections == 0
+    assert driver.left
     assert "0 hits in" in console.getvalue()
 
 
