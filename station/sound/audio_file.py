@@ -52,12 +52,21 @@ def read_audio(source: Path | bytes, name: str, rate_hz: float, max_s: float, pi
     Returns float32 (n, 2), n ≥ 1. Raises `BadInput` for what is no sound, is empty, or holds numbers that are none.
     """
     with opened(source, name) as file:
-        left = min(file.frames, round(max_s * file.samplerate))
-        pieces = [_checked(piece, name) for piece in file.blocks(_PIECE_FRAMES, 0, left, "float32", always_2d=True)]
+        pieces = [_checked(piece, name) for piece in _pieces(file, round(max_s * file.samplerate))]
         from_hz = file.samplerate * 2.0 ** (pitch / 12.0)
     if not pieces:
         raise BadInput(name, "", "holds no sound")
     return resampled(np.concatenate(pieces), from_hz, rate_hz)
+
+
+def _pieces(file: soundfile.SoundFile, most: int) -> Iterator[NDArray[np.float32]]:
+    """Up to `most` frames, piece by piece, to where the file really ends: a header may promise more than follows."""
+    while most > 0:
+        piece = file.read(min(_PIECE_FRAMES, most), "float32", always_2d=True)
+        if not len(piece):
+            return
+        yield piece
+        most -= len(piece)
 
 
 def _checked(raw: NDArray[np.float32], name: str) -> Frames:
