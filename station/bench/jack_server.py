@@ -28,6 +28,8 @@ STOP_WITHIN_S = 2.0
 ATTEMPTS = 3
 _DIES_WITH_US = ["setpriv", "--pdeathsig", "KILL"] if shutil.which("setpriv") else []
 _SHARED_MEMORY = Path("/dev/shm")  # where JACK keeps what its clients share
+_LOCKS = _SHARED_MEMORY if _SHARED_MEMORY.is_dir() else Path(tempfile.gettempdir())
+"""Where names are guarded: beside what they guard, which a container may share when its /tmp is its own."""
 _CLIENT_PATIENCE_MS = 2_000  # a client that stalls on a shared machine is not thrown out
 
 
@@ -60,41 +62,24 @@ class JackServer:
         return {**os.environ, "JACK_DEFAULT_SERVER": self.name, "JACK_NO_START_SERVER": "1"}
 
     def start(self) -> None:
-        """Start; tries again where a server dies young, and without real-time priority where that is not granted."""
-        self._take_name()
+        """Start, under the name it had if it only halted.
+
+        Tries again where a server dies young, and without real-time priority where that is not granted.
+        """
+        if self._lock is None:
+            self._take_name()
         faults = []
         for attempt in range(ATTEMPTS):
             self._launch(realtime=attempt == 0)
             if self._answers():
                 return
             faults.append(self._read_log())
-            self._end()
+            self.halt()
         self.stop()
         raise RuntimeError("jackd did not start:\n" + "\n".join(faults))
 
-    def stop(self) -> None:
-        """End the server, by force if it hangs."""
-        self._end()
-        if self._lock is not None:
-            self._lock.close()
-            self._lock = None
-
-    def _take_name(self) -> None:
-        give_up_s = time.monotonic() + NAME_WITHIN_S
-        while time.monotonic() < give_up_s:
-            for number in range(POOL):
-                lock = (Path(tempfile.gettempdir()) / f"drum-test-jack-{number}.lock").open("wb")
-                try:
-                    fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                except BlockingIOError:
-                    lock.close()
-                    continue
-                self._lock, self.name = lock, f"drum-test-{number}"
-                return
-            time.sleep(0.2)
-        raise RuntimeError(f"all {POOL} names for JACK servers have been taken for {NAME_WITHIN_S} s")
-
-    def _end(self) -> None:
+    def halt(self) -> None:
+        """End the server, by force if it hangs, and keep its name for the next start."""
         if self._process is not None:
             self._process.terminate()
             try:
@@ -108,6 +93,24 @@ class JackServer:
         if self._log is not None:
             self._log.unlink(missing_ok=True)
             self._log = None
+
+    def stop(self) -> None:
+        """End the server and give its name to others."""
+        self.halt()
+        if self._lock is not None:
+            self._lock.close()
+            self._lock = None
+
+    def _take_name(self) -> None:
+        give_up_s = time.monotonic() + NAME_WITHIN_S
+        while time.monotonic() < give_up_s:
+            for number in range(POOL):
+                self._lock = _locked(_LOCKS / f"drum-test-{number}.lock")
+                if self._lock is not None:
+                    self.name = f"drum-test-{number}"
+                    return
+            time.sleep(0.2)
+        raise RuntimeError(f"all {POOL} names for JACK servers have been taken for {NAME_WITHIN_S} s")
 
     def _launch(self, realtime: bool) -> None:
         handle, path = tempfile.mkstemp(prefix="jackd-", suffix=".log")
@@ -151,6 +154,20 @@ class JackServer:
         self, kind: type[BaseException] | None, fault: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.stop()
+
+
+def _locked(path: Path) -> IO[bytes] | None:
+    """The file, locked until it is closed; None where somebody has it, maybe another user."""
+    try:
+        lock = path.open("wb")
+    except PermissionError:
+        return None
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        lock.close()
+        return None
+    return lock
 
 
 def _say_nothing(_: str) -> None:
