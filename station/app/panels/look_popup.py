@@ -7,6 +7,7 @@ from imgui_bundle import imgui
 
 from station.app import theme
 from station.app.look import INSETS, Look
+from station.app.panels.slots import Use, popup_grid, slot_rows
 from station.render.camera import VIEW_NAMES
 from station.render.palette import THEME_NAMES, Theme
 from station.render.score_view import ScoreForm
@@ -89,19 +90,17 @@ def _worn(look: Look) -> Look:
 
 
 def _slots(look: Look, actions: LookActions) -> None:
-    for words, word in (("Go to", "go"), ("Keep as", "keep")):
-        imgui.align_text_to_frame_padding()
-        imgui.text_disabled(words)
-        for slot, camera in enumerate(look.viewpoints):
-            imgui.same_line(theme.points(90) if slot == 0 else 0)
-            imgui.begin_disabled(word == "go" and camera is None)
-            if imgui.button(f"{slot + 1}##{word}{slot + 1}", imgui.ImVec2(theme.points(34), 0)):
-                actions.go(slot) if word == "go" else actions.keep(slot)
-            imgui.end_disabled()
-            theme.tooltip(_told(word, slot, camera is not None))
+    cameras = look.viewpoints
 
+    def told(slot: int) -> str:
+        is_there = cameras[slot] is not None
+        return f"Viewpoint {slot + 1} ({slot + 1})" if is_there else f"Viewpoint {slot + 1} is not kept yet"
 
-def _told(word: str, slot: int, there: bool) -> str:
-    if word == "keep":
+    def told_of_keeping(slot: int) -> str:
         return f"Keeps where you look from now as viewpoint {slot + 1} (Ctrl+{slot + 1})"
-    return f"Viewpoint {slot + 1} ({slot + 1})" if there else f"Viewpoint {slot + 1} is not kept yet"
+
+    uses = (
+        Use("Go to", "go", actions.go, told, needs_filled=True),
+        Use("Keep as", "keep", actions.keep, told_of_keeping),
+    )
+    slot_rows(uses, [camera is not None for camera in cameras], popup_grid(len(cameras)))

@@ -1,6 +1,7 @@
 """The controls of the demonstration's player, as SMED's transport has them (thesis, 4.1.1), in a line that wraps."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from functools import partial
 
 from imgui_bundle import imgui
 
@@ -8,6 +9,7 @@ from station.app import theme
 from station.app.deck import Control, Deck
 from station.app.panels.icon_button import Sign, icon_button
 from station.app.panels.ruler import Bars
+from station.app.panels.slots import Use, popup_grid, slot_rows
 from station.app.row import Row
 from station.core.units import NS_PER_S
 from station.practice.song_player import FLAGS, MAX_SPEED_PERCENT, MIN_SPEED_PERCENT, SongPlayer, Step
@@ -180,16 +182,11 @@ def _flags_popup(deck: Deck) -> None:
         return
     theme.heading("Flags", 20)
     player = deck.player
-    for words, word in (("Go to", "go"), ("Keep as", "keep")):
-        imgui.align_text_to_frame_padding()
-        imgui.text_disabled(words)
-        for slot, at_ns in enumerate(player.flags):
-            imgui.same_line(theme.points(90) if slot == 0 else 0)
-            imgui.begin_disabled(word == "go" and at_ns is None)
-            if imgui.button(f"{slot + 1}##{word}{slot + 1}", imgui.ImVec2(theme.points(34), 0)):
-                deck.do(_going(slot) if word == "go" else _keeping(slot))
-            imgui.end_disabled()
-            theme.tooltip(_told(word, slot, at_ns))
+    uses = (
+        Use("Go to", "go", lambda slot: deck.do(_going(slot)), partial(_told, player.flags), needs_filled=True),
+        Use("Keep as", "keep", lambda slot: deck.do(_keeping(slot)), _told_of_keeping),
+    )
+    slot_rows(uses, [at_ns is not None for at_ns in player.flags], popup_grid(len(player.flags)))
     imgui.end_popup()
 
 
@@ -201,7 +198,9 @@ def _keeping(slot: int) -> Control:
     return lambda player, now_ns: player.flagged(now_ns, slot)
 
 
-def _told(word: str, slot: int, at_ns: int | None) -> str:
-    if word == "keep":
-        return f"Keeps this place as flag {slot + 1} (Ctrl+Shift+{slot + 1})"
-    return f"Flag {slot + 1} (Shift+{slot + 1})" if at_ns is not None else f"Flag {slot + 1} is not kept yet"
+def _told(flags: Sequence[int | None], slot: int) -> str:
+    return f"Flag {slot + 1} (Shift+{slot + 1})" if flags[slot] is not None else f"Flag {slot + 1} is not kept yet"
+
+
+def _told_of_keeping(slot: int) -> str:
+    return f"Keeps this place as flag {slot + 1} (Ctrl+Shift+{slot + 1})"

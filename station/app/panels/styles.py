@@ -5,12 +5,14 @@ It also knows where the style that is set came from, and keeps it: in the settin
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from imgui_bundle import imgui
 
 from station.app import theme
 from station.app.figure_options import FigureOptions
+from station.app.panels.slots import Grid, Use, slot_rows
 from station.app.style_shelf import Entry, StyleShelf
 from station.core.settings import load_settings, save_settings
 from station.motion.propose import propose_style
@@ -120,21 +122,17 @@ class StylesHead:
         gap, a_row = theme.points(_SLOT_GAP), SLOTS // 2 if narrow else SLOTS
         left = 0.0 if narrow else theme.points(_SLOTS_FROM)
         width = max((imgui.get_content_region_avail().x - left - (a_row - 1) * gap) / a_row, 1.0)
-        edge = imgui.get_cursor_pos_x()
-        for words, use in (("Take", self._recall), ("Keep as", self._store)):
-            imgui.align_text_to_frame_padding()
-            imgui.text_disabled(words)
-            for slot, style in enumerate(self._options.slots.styles):
-                if slot % a_row:
-                    imgui.same_line(0, gap)
-                elif not narrow:
-                    imgui.same_line(edge + left)
-                imgui.begin_disabled(style is None and use == self._recall)
-                if imgui.button(f"{slot + 1}##{words.split(maxsplit=1)[0].lower()}{slot + 1}", imgui.ImVec2(width, 0)):
-                    use(slot)
-                imgui.end_disabled()
-                kept = "is empty" if style is None else f"holds {style.name}"
-                theme.tooltip(f"{words} slot {slot + 1}, which {kept}")
+        styles = self._options.slots.styles
+
+        def told(words: str, slot: int) -> str:
+            held = styles[slot]
+            return f"{words} slot {slot + 1}, which {'is empty' if held is None else f'holds {held.name}'}"
+
+        uses = (
+            Use("Take", "take", self._recall, partial(told, "Take"), needs_filled=True),
+            Use("Keep as", "keep", self._store, partial(told, "Keep as")),
+        )
+        slot_rows(uses, [style is not None for style in styles], Grid(left, width, a_row, gap))
 
     def _recall(self, slot: int) -> None:
         self._options.recall(slot)
