@@ -8,12 +8,16 @@ second or as often as it can. Time is measured from the moment before the kit ha
 moment at which JACK begins the period in which the sound's first frame lies: the driver's own wait for its next
 period is within. The soak of ten minutes: --periods 128 --seconds 600 --a-second 33.4 (20,000 strokes).
 
+A server of its own has one client beside all this that does nothing at all: the underflows that even it has, and the
+time that a host took from this machine (`stolen`, Linux), tell what of ours is ours.
+
 Targets (one period of P ms): median ≤ P + 0.7, 99th percentile ≤ P + 2, no stroke lost, none without a sound, at most
 one underflow a minute. Stamps: their scatter within the driver's own period is its quantisation, what is beyond is
 ours.
 """
 
 import argparse
+import os
 import subprocess
 import sys
 import tempfile
@@ -22,6 +26,7 @@ import wave
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,6 +62,68 @@ while True:
     time.sleep(max(0.0, begun + count / 60 - time.monotonic()))
     begun = max(begun, time.monotonic() - count / 60)
 """
+_BARE = """
+import sys, jack
+client, late = jack.Client("bare", no_start_server=True), []
+client.set_xrun_callback(late.append)
+client.inports.register("in")
+client.activate()
+print("waits", flush=True)
+sys.stdin.readline()
+del late[:]
+sys.stdin.readline()
+print(len(late), flush=True)
+"""
+
+
+class BareClient:
+    """A JACK client that does nothing, with a server to itself; use it as a context manager."""
+
+    def __init__(self, period: int) -> None:
+        self._server = JackServer(RATE_HZ, period)
+
+    def begin(self) -> None:
+        """Count from now on."""
+        self._say()
+
+    def underflows(self) -> int:
+        """How often the server went on without it."""
+        self._say()
+        return int(self._hear())
+
+    def _say(self) -> None:
+        assert self._process.stdin is not None
+        self._process.stdin.write("\n")
+        self._process.stdin.flush()
+
+    def _hear(self) -> str:
+        assert self._process.stdout is not None
+        return self._process.stdout.readline()
+
+    def __enter__(self) -> Self:
+        self._server.start()
+        self._process = subprocess.Popen(
+            [sys.executable, "-c", _BARE],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+            env=self._server.env,
+        )
+        self._hear()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._process.kill()
+        self._process.communicate()
+        self._server.stop()
+
+
+def stolen_s() -> float:
+    """For how long, over all processors, a host gave this machine's turns to others; 0 where nobody says."""
+    try:
+        return int(Path("/proc/stat").read_text().split()[8]) / os.sysconf("SC_CLK_TCK")
+    except (OSError, ValueError, IndexError):
+        return 0.0
 
 
 def pulse_kit(folder: Path) -> Path:
@@ -115,22 +182,29 @@ def measure(period: int, plan: list[Stroke], draws: bool) -> None:
             KitPlayer(server, KIT, plan, folder) as kit,
             EngineProcess(config) as engine,
             JackRecorder(server, folder) as recorder,
+            BareClient(period) as bare,
         ):
             listener = EngineListener(engine)
             listener.until(lambda event: isinstance(event, Ready))
             listener.until(lambda event: isinstance(event, DeviceFound))
             recorder.connect("PortAudio:.*")
             before = listener.until(lambda event: isinstance(event, Status))
+            bare.begin()
+            stolen_before_s = stolen_s()
             kit.play(time.monotonic_ns() + NS_PER_S // 2)
             sent_ns = np.array([stroke.at_ns for stroke in kit.truth()])
             listener.until_after(int(sent_ns[-1]) + NS_PER_S)
+            beside = f"{bare.underflows()} of a client that does nothing, {stolen_s() - stolen_before_s:.1f} s stolen"
             heard = recorder.stop()
     assert isinstance(before, Status)
     status = [event for event in listener.events if isinstance(event, Status)][-1]
-    tell(period, sent_ns, listener.hits(), onsets_ns(heard), status.underflows - before.underflows)
+    underflows = f"{status.underflows - before.underflows} ({beside})"
+    tell(period, sent_ns, listener.hits(), onsets_ns(heard), underflows)
 
 
-def tell(period: int, sent_ns: NDArray[np.int64], hits: list[Hit], sounds_ns: NDArray[np.int64], late: int) -> None:
+def tell(
+    period: int, sent_ns: NDArray[np.int64], hits: list[Hit], sounds_ns: NDArray[np.int64], underflows: str
+) -> None:
     """Print what was measured."""
     place = np.minimum(np.searchsorted(sounds_ns, sent_ns), len(sounds_ns) - 1)
     wait_ns = sounds_ns[place] - sent_ns
@@ -142,7 +216,7 @@ def tell(period: int, sent_ns: NDArray[np.int64], hits: list[Hit], sounds_ns: ND
     print(f"                 p99    {np.percentile(wait_ms, 99):.2f} ms (≤ {period_ms + 2.0:.2f})")
     print(f"  without sound  {np.count_nonzero(~sounded)}, strokes lost {len(sent_ns) - len(hits)}")
     minutes = (sent_ns[-1] - sent_ns[0]) / NS_PER_S / 60.0
-    print(f"  underflows     {late} in {minutes:.1f} min")
+    print(f"  underflows     in {minutes:.1f} min {underflows}")
     if len(hits) == len(sent_ns):
         stamp_ms = (np.array([hit.at_ns for hit in hits]) - sent_ns) / NS_PER_MS
         print(f"  stamps late    median {np.median(stamp_ms):.2f} ms, SD {stamp_ms.std():.2f}", end=" ")
