@@ -4,48 +4,42 @@
 it when it is over. The hits carry their own times, so that the frame rate decides nothing.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
-from datetime import date
 
-from station.app.deck import Deck, Watched
+from station.app.deck import Deck
 from station.app.demonstrator import Demonstrator, kept_demonstrator
 from station.app.ear import Ear
 from station.app.engine_line import EngineLine, WakeEngine
 from station.app.graphed import Graphed
 from station.app.just_play import JustPlay
 from station.app.kit_desk import KitDesk
-from station.app.lesson_cards import all_lessons, card, wish_of
+from station.app.lesson_cards import wish_of
 from station.app.lesson_run import LessonRun
 from station.app.model import FreeWish, LessonCard, Report, RoomState, Stage, Start
-from station.app.session_view import graphed_result
+from station.app.outcome import Outcome
+from station.app.preparation import Preparation
 from station.app.welcome import Answers, student_level
 from station.app.welcome import answered as met
 from station.core.calibration import Calibration
 from station.core.errors import DeviceError, StationError
-from station.core.events import Hit
 from station.core.settings import Settings
-from station.drills.lesson import Lesson
-from station.drills.library import find_lesson
 from station.engine.messages import Command, Eavesdrop, EngineEvent, KeyHit, Started
 from station.motion.figure import load_figure
 from station.motion.hand_notes import Hands
 from station.motion.style import Style
 from station.music.score import Score
-from station.practice.backing import Backing, BackingWish
-from station.practice.by_ear import Whose, bar_by_ear
-from station.practice.click_word import parse_click
+from station.practice.backing import BackingWish
+from station.practice.by_ear import Whose
 from station.practice.latency import Latency, latency_of
 from station.practice.lead import hands_of
 from station.practice.listening import Listening
-from station.practice.memory import Memory, Remembered
-from station.practice.own_ear import GUESS_OF, QUESTION, Guess, answered, is_worth_asking
+from station.practice.memory import Remembered
+from station.practice.own_ear import Guess
 from station.practice.pad_commands import PadCommands
-from station.practice.plan import Plan, Wishes, plan_practice
-from station.practice.session import SessionResult
+from station.practice.plan import Plan
 from station.render.snapshot import Snapshot
-from station.sound.track import PreparedTrack
 
 NOTICES_KEPT = 5
 """How many notices the window may show at once; our choice."""
@@ -68,29 +62,23 @@ class PracticeRoom:
         backing: BackingWish | None = None,
     ) -> None:
         self._engine = EngineLine(wake, settings.rate_hz)
-        self._settings = settings
-        self._backing = None if backing is None else Backing(backing)
+        self._prepared = Preparation(settings, first.lesson, backing)
         self._latency = latency or latency_of(settings, Calibration())
-        self._lessons = all_lessons(first.lesson)
         self._first = replace(wish_of(first), adapt=adapt)
         self._notices: list[str] = []
         self._who = kept_demonstrator(settings, self._notices.append)
         self._run = self._new_run(first)
-        self._report: Report | None = None
-        self._result: SessionResult | None = None
-        self._asked: set[str] = set()
-        self._is_asking = False
+        self._outcome = Outcome()
         self._stage = Stage.IDLE
         self._free = JustPlay(settings, self._latency)
         self.desk = KitDesk(self._tell_engine)
         self._is_free = False
-        self._ear = Ear(self._engine, self._backing is not None)
+        self._ear = Ear(self._engine, self._prepared.has_tracks)
         self._pads = PadCommands(settings, first.score)
         self._is_wanted = False
         self._fault: StationError | None = None
-        self.deck = Deck(self._ear.demonstrate, Watched(first.lesson, first.kit, hands_of(settings)), self._who)
+        self.deck = Deck(self._ear.demonstrate, self._prepared.watched(first.lesson, first.kit), self._who)
         self.deck.repeat(self._first.bars)
-        self._graphed: Graphed | None = None
 
     # --- what the window shows ---------------------------------------------------------------------------------------
 
@@ -123,17 +111,17 @@ class PracticeRoom:
             has_take=self._free.has_take,
             listening=self._ear.hears,
             free=self._is_free,
-            question=QUESTION if self._is_asking else "",
+            question=self._outcome.question,
         )
         return state if self._is_free else self._run.told(state)
 
     def lessons(self) -> Sequence[LessonCard]:
         """Every shipped lesson, and the one that was named when the window was opened."""
-        return [card(lesson) for lesson in self._lessons.values()]
+        return self._prepared.cards()
 
     def report(self) -> Report | None:
         """The result of the session that ended last, once the question before it was answered."""
-        return None if self._is_asking else self._report
+        return self._outcome.report
 
     def graphed(self) -> Graphed | None:
         """What the graph shows: the demonstration, the session, or its whole result once it may be seen."""
@@ -143,9 +131,7 @@ class PracticeRoom:
             return self._run.graphed()
         if self._stage is Stage.IDLE:
             return self.deck.graphed()
-        if self._graphed is None and self._result is not None and not self._is_asking:
-            self._graphed = graphed_result(self._result, self._who)
-        return self._graphed
+        return self._outcome.graphed(self._who)
 
     def first(self) -> Start:
         """The lesson that the window was opened on, as it was asked for."""
@@ -162,26 +148,27 @@ class PracticeRoom:
                 self.deck.halt()
         if self._stage is Stage.IDLE and wish is not None:
             self._run = self._laid_out(wish)
-            click = parse_click(self._settings.click_pattern, "settings: click_pattern")
-            lesson = self._lesson(wish.lesson)
-            self.deck.load(Watched(lesson, self._run.plan.kit, hands_of(self._settings), click), wish.bars)
+            lesson = self._prepared.lesson(wish.lesson)
+            self.deck.load(self._prepared.watched(lesson, self._run.plan.kit), wish.bars)
 
     def start(self, wish: Start) -> None:
         """Begin a session, ending the one that runs; wakes a new engine if the old has ended. Raises `StationError`."""
         run = self._laid_out(wish)
         self._make_room()
-        track = None if wish.adapt else self._track(run.plan)
+        track = None if wish.adapt else self._prepared.track(run.plan, self._engine.rate_hz)
         if track is None:
             self._ear.without_track()
-        run.begin(self._settings, track)
-        self._run, self._stage, self._is_asking, self._is_free = run, Stage.PLAYING, False, False
+        run.begin(self._prepared.settings, track)
+        self._outcome.leave()
+        self._run, self._stage, self._is_free = run, Stage.PLAYING, False
 
     def just_play(self, wish: FreeWish) -> None:
         """Begin a free take, ending what runs; raises `StationError`."""
         self._make_room()
         self._ear.without_track()
         self._free.begin(self._engine, wish)
-        self._stage, self._is_asking, self._is_free = Stage.PLAYING, False, True
+        self._outcome.leave()
+        self._stage, self._is_free = Stage.PLAYING, True
 
     def listen(self) -> None:
         """Hear the last free take from its capture, or end what is heard; raises `StationError`."""
@@ -192,8 +179,8 @@ class PracticeRoom:
 
     def hear_bar(self, bar: int, whose: Whose) -> None:
         """Hear a bar (from 0) of the result's score, as it was written or played; raises `StationError`."""
-        if self._stage is Stage.RESULT and self._result is not None:
-            self._hear(bar_by_ear(self._result, bar, whose))
+        if self._stage is Stage.RESULT:
+            self._hear(self._outcome.bar(bar, whose))
 
     def score(self) -> Score:
         """The whole score of the lesson that is shown, at its own tempo."""
@@ -216,11 +203,11 @@ class PracticeRoom:
 
     def hands(self) -> Hands:
         """Whose hand leads: as it was chosen, else as the lesson's kit is built."""
-        return hands_of(self._settings) or (Hands.LEFT if self._run.plan.kit.left_handed else Hands.RIGHT)
+        return hands_of(self._prepared.settings) or (Hands.LEFT if self._run.plan.kit.left_handed else Hands.RIGHT)
 
     def lead_with(self, hands: Hands) -> None:
         """Let another hand lead from the next preview or session on."""
-        self._settings = replace(self._settings, hands=hands.value)
+        self._prepared.settings = replace(self._prepared.settings, hands=hands.value)
 
     def _tell_engine(self, command: Command) -> None:
         """For this engine, and where it asks for something lasting, for every later one."""
@@ -231,15 +218,15 @@ class PracticeRoom:
 
     def meet(self, answers: Answers) -> None:
         """Who plays, what is heard and whose hand leads, from now on; raises `DeviceError` for a dead engine."""
-        self._settings = met(self._settings, answers)
-        self._free.meet(self._settings)
-        self._engine.stand(student_level(self._settings))
+        settings = self._prepared.settings = met(self._prepared.settings, answers)
+        self._free.meet(settings)
+        self._engine.stand(student_level(settings))
 
     def answer(self, guess: Guess) -> None:
         """What the student believes of the session that ended: now its result is shown beside it."""
-        if self._is_asking and self._report is not None:
-            self._notices.append(answered(guess, self._report.document))
-            self._is_asking = False
+        told = self._outcome.answer(guess)
+        if told is not None:
+            self._notices.append(told)
 
     def veto(self) -> None:
         """Refuse what the next pass would change, while it is counted in: the last one once more."""
@@ -278,14 +265,15 @@ class PracticeRoom:
         """Back to the lessons."""
         if self._stage is Stage.RESULT:
             self._ear.quiet()
-            self._stage, self._is_asking = Stage.IDLE, False
+            self._outcome.leave()
+            self._stage = Stage.IDLE
             self._run = self._new_run(self._run.plan)
 
     # --- inside ------------------------------------------------------------------------------------------------------
 
     def _command(self, event: EngineEvent) -> None:
         """Do what pads and foot switches ask for; a question has the pads for itself."""
-        if self._is_asking:
+        if self._outcome.is_asking:
             self._pads.forget()
             return
         self._pads.practise(self._run.plan.score)
@@ -323,36 +311,14 @@ class PracticeRoom:
         self._notices.append(f"{self._fault}" if self._fault is not None else f"kept in {self._free.folder}")
         self._stage = Stage.IDLE
 
-    def _lesson(self, name: str) -> Lesson:
-        return self._lessons.get(name) or find_lesson(name)
-
     def _laid_out(self, wish: Start) -> LessonRun:
-        lesson, settings, followed = self._lesson(wish.lesson), self._settings, None
-        tempo_bpm = None if wish.adapt else wish.tempo_bpm
-        click = parse_click(settings.click_pattern, "settings: click_pattern") if wish.click else None
-        hands = hands_of(settings)
-        wishes = Wishes(tempo_bpm, wish.loops, wish.bars, wish.demonstrations, click, settings.guide, hands)
-        plan = plan_practice(lesson, wishes)
-        if wish.adapt:
-            memory = Memory.of(settings.sessions_dir, settings.student, lesson.name, plan.bars)
-            followed = Remembered.of(lesson, wishes, date.today(), memory)
-            plan = followed.adaptation.plan
-            if followed.fault is not None:
-                self._notices.append(followed.fault)
+        plan, followed = self._prepared.laid_out(wish)
+        if followed is not None and followed.fault is not None:
+            self._notices.append(followed.fault)
         return self._new_run(plan, followed)
 
     def _new_run(self, plan: Plan, followed: Remembered | None = None) -> LessonRun:
         return LessonRun(self._engine, plan, self._who, self._latency, self._notices.append, followed)
-
-    def _track(self, plan: Plan) -> PreparedTrack | None:
-        """The track to play along to; raises `DeviceError` while it is being made ready, `BadInput` if it cannot be."""
-        if self._backing is None:
-            return None
-        self._backing.ask(plan, self._engine.rate_hz)
-        track = self._backing.take()
-        if track is None:
-            raise DeviceError("the track is being made ready for this tempo: start again in a moment")
-        return track
 
     def _heard(self) -> list[EngineEvent]:
         try:
@@ -378,22 +344,16 @@ class PracticeRoom:
             return
         self._run.take(event, now_ns)
         self._command(event)
-        if isinstance(event, Hit) and self._is_asking and event.piece in GUESS_OF:
-            self.answer(GUESS_OF[event.piece])
+        guess = self._outcome.guess_of(event)
+        if guess is not None:
+            self.answer(guess)
 
     def _finish(self) -> None:
         """End the session, judge what was played and keep it."""
-        kept = self._run.finish(self._settings)
-        self._fault, self._result, self._report = kept.fault, kept.result, kept.report
-        self._graphed = None
-        if self._fault is not None:
-            self._notices.append(str(self._fault))
-        self._stage, self._is_asking = Stage.RESULT, self._may_ask(self._report.document)
-
-    def _may_ask(self, document: Mapping[str, object]) -> bool:
-        """Whether to ask before the result: at most once a lesson, and only what it can answer."""
-        name = self._run.plan.lesson.name
-        if not self._settings.ask_first or name in self._asked or not is_worth_asking(document):
-            return False
-        self._asked.add(name)
-        return True
+        settings = self._prepared.settings
+        kept = self._run.finish(settings)
+        self._fault = kept.fault
+        if kept.fault is not None:
+            self._notices.append(str(kept.fault))
+        self._outcome.keep(kept, settings.ask_first)
+        self._stage = Stage.RESULT

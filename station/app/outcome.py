@@ -1,0 +1,75 @@
+"""What the last session left: its report, the question before it, what the graph and the ear take from it.
+
+A student who first judges the own error learns more (`practice.own_ear`): while the question is open nothing of the
+result is shown.
+"""
+
+from collections.abc import Mapping
+
+from station.app.demonstrator import Demonstrator
+from station.app.graphed import Graphed
+from station.app.lesson_run import Kept
+from station.app.model import Report
+from station.app.session_view import graphed_result
+from station.core.events import Hit
+from station.engine.messages import EngineEvent
+from station.practice.by_ear import Whose, bar_by_ear
+from station.practice.listening import Listening
+from station.practice.own_ear import GUESS_OF, QUESTION, Guess, answered, is_worth_asking
+
+
+class Outcome:
+    """The session that ended last, none at first; `is_asking` while its question is open."""
+
+    def __init__(self) -> None:
+        self._kept: Kept | None = None
+        self._graphed: Graphed | None = None
+        self._asked: set[str] = set()
+        self.is_asking = False
+
+    def keep(self, kept: Kept, may_ask: bool) -> None:
+        """From now on this is the last one; a question is opened where the student `may` be asked one."""
+        self._kept, self._graphed = kept, None
+        self.is_asking = may_ask and self._is_new(kept.result.plan.lesson.name, kept.report.document)
+
+    def _is_new(self, lesson: str, document: Mapping[str, object]) -> bool:
+        """Whether to ask: at most once a lesson, and only what the report can answer."""
+        if lesson in self._asked or not is_worth_asking(document):
+            return False
+        self._asked.add(lesson)
+        return True
+
+    @property
+    def question(self) -> str:
+        """What is to be answered first, empty where nothing is."""
+        return QUESTION if self.is_asking else ""
+
+    @property
+    def report(self) -> Report | None:
+        """What may be shown of it now."""
+        return None if self.is_asking or self._kept is None else self._kept.report
+
+    def answer(self, guess: Guess) -> str | None:
+        """Close the question; returns the guess beside what was measured, None where nothing was asked."""
+        if not self.is_asking or self._kept is None:
+            return None
+        self.is_asking = False
+        return answered(guess, self._kept.report.document)
+
+    def guess_of(self, event: EngineEvent) -> Guess | None:
+        """What a stroke answers while the question is open."""
+        return GUESS_OF.get(event.piece) if self.is_asking and isinstance(event, Hit) else None
+
+    def leave(self) -> None:
+        """The student turns to something else: a question stays unanswered."""
+        self.is_asking = False
+
+    def graphed(self, who: Demonstrator) -> Graphed | None:
+        """The whole of it as the graph shows it, demonstrated by `who`, once it may be seen."""
+        if self._graphed is None and self._kept is not None and not self.is_asking:
+            self._graphed = graphed_result(self._kept.result, who)
+        return self._graphed
+
+    def bar(self, bar: int, whose: Whose) -> Listening | None:
+        """A bar (from 0) of its score, as it was written or played."""
+        return None if self._kept is None else bar_by_ear(self._kept.result, bar, whose)

@@ -1,0 +1,76 @@
+"""What is made ready before a session: its lesson, the plan as the settings ask for it, what is remembered, the track.
+
+It holds the settings that sessions go by; whoever changes them sets `settings` anew, and what follows goes by those.
+"""
+
+from collections.abc import Sequence
+from datetime import date
+
+from station.app.deck import Watched
+from station.app.lesson_cards import all_lessons, card
+from station.app.model import LessonCard, Start
+from station.core.errors import DeviceError
+from station.core.settings import Settings
+from station.drills.lesson import Lesson
+from station.drills.library import find_lesson
+from station.motion.kit import Kit
+from station.practice.backing import Backing, BackingWish
+from station.practice.click import ClickPattern
+from station.practice.click_word import parse_click
+from station.practice.lead import hands_of
+from station.practice.memory import Memory, Remembered
+from station.practice.plan import Plan, Wishes, plan_practice
+from station.sound.track import PreparedTrack
+
+
+class Preparation:
+    """Lays out what is wished for by `settings`; sessions whose tempo stays play along to `backing`."""
+
+    def __init__(self, settings: Settings, first: Lesson, backing: BackingWish | None) -> None:
+        self.settings = settings
+        self._lessons = all_lessons(first)
+        self._backing = None if backing is None else Backing(backing)
+
+    @property
+    def has_tracks(self) -> bool:
+        """Whether sessions may play along to a track."""
+        return self._backing is not None
+
+    def cards(self) -> Sequence[LessonCard]:
+        """Every shipped lesson, and the one that the window was opened on."""
+        return [card(lesson) for lesson in self._lessons.values()]
+
+    def lesson(self, name: str) -> Lesson:
+        """The lesson of a name or a file; raises `BadInput`."""
+        return self._lessons.get(name) or find_lesson(name)
+
+    def laid_out(self, wish: Start) -> tuple[Plan, Remembered | None]:
+        """The plan of what is wished for, and what is remembered where the tempo follows; raises `StationError`."""
+        lesson, settings = self.lesson(wish.lesson), self.settings
+        tempo_bpm = None if wish.adapt else wish.tempo_bpm
+        click = self._click() if wish.click else None
+        hands = hands_of(settings)
+        wishes = Wishes(tempo_bpm, wish.loops, wish.bars, wish.demonstrations, click, settings.guide, hands)
+        plan = plan_practice(lesson, wishes)
+        if not wish.adapt:
+            return plan, None
+        memory = Memory.of(settings.sessions_dir, settings.student, lesson.name, plan.bars)
+        followed = Remembered.of(lesson, wishes, date.today(), memory)
+        return followed.adaptation.plan, followed
+
+    def watched(self, lesson: Lesson, kit: Kit) -> Watched:
+        """The lesson as its demonstration is played; raises `BadInput` for a click that is none."""
+        return Watched(lesson, kit, hands_of(self.settings), self._click())
+
+    def track(self, plan: Plan, rate_hz: int) -> PreparedTrack | None:
+        """The track to play along to; raises `DeviceError` while it is being made ready, `BadInput` if it cannot be."""
+        if self._backing is None:
+            return None
+        self._backing.ask(plan, rate_hz)
+        track = self._backing.take()
+        if track is None:
+            raise DeviceError("the track is being made ready for this tempo: start again in a moment")
+        return track
+
+    def _click(self) -> ClickPattern:
+        return parse_click(self.settings.click_pattern, "settings: click_pattern")
