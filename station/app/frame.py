@@ -40,8 +40,9 @@ class WindowOptions:
 
 @dataclass(frozen=True, slots=True)
 class Calls:
-    """What is done in every frame, in this order (`before`, the `picture`, the gui `over` all), and at the end."""
+    """What is done when the window has `opened`, in every frame (`before`, `picture`, gui `over`), and at the end."""
 
+    opened: Callable[[], None]
     before: Callable[[], None]
     picture: Callable[[], None]
     over: Callable[[], None]
@@ -65,6 +66,7 @@ def runner(options: WindowOptions, calls: Calls, pages: Sequence[Page], scale: f
     callbacks = params.callbacks
     callbacks.load_additional_fonts = theme.load_fonts
     callbacks.setup_imgui_style = theme.apply
+    callbacks.post_init = calls.opened
     callbacks.custom_background = calls.picture
     callbacks.pre_new_frame = calls.before
     callbacks.show_gui = calls.over

@@ -14,10 +14,12 @@ from station.app import theme
 from station.app.backdrop import Backdrop
 from station.app.choice import Choice
 from station.app.frame import Calls, WindowOptions, central_area, runner, splits
+from station.app.glfw_screen import glfw_screen
 from station.app.help_pages import topic_of
 from station.app.keyboard import pressed
 from station.app.look import look_of, with_look
 from station.app.model import PracticeModel, Stage
+from station.app.monitors import MonitorWatch
 from station.app.news import ABOVE_RESULT, News
 from station.app.panels.bars import heat_panel
 from station.app.panels.devices import ABOUT as DEVICES_ABOUT
@@ -78,6 +80,7 @@ class Window:
         self.frames = 0
         self.picture_every = options.picture_every
         self._fault: DeviceError | None = None
+        self.monitors: MonitorWatch | None = None
         self._devices = DevicesPanel(model.desk, self._tried, self.news.tell)
         self.figure = FigurePanel(model, options.settings, self._tried, self._preview_anew)
         self.hits = HitsPanel(
@@ -88,7 +91,7 @@ class Window:
             )
         )
         self._pages = self._table_of_pages()
-        calls = Calls(self._before_frame, self._background, self._over_all, self._leaving)
+        calls = Calls(self._opened, self._before_frame, self._background, self._over_all, self._leaving)
         self.params = runner(options, calls, self._pages, self.backdrop.look.scale)
         theme.choose(*self._worn)
 
@@ -121,6 +124,11 @@ class Window:
         )
 
     # --- frame by frame -----------------------------------------------------------------------------------------------
+
+    def _opened(self) -> None:
+        """The window is there, and nothing drawn yet."""
+        screen = glfw_screen()
+        self.monitors = None if screen is None else MonitorWatch(screen)
 
     def _before_frame(self) -> None:
         stage = self._model.room().stage
@@ -215,6 +223,9 @@ class Window:
             self._ask(self.welcome)
             return
         self.news.follow(self._model.room().notices, io.delta_time)
+        moved = "" if self.monitors is None else self.monitors.check(self._clock.now_ns())
+        if moved:
+            self.news.tell(moved)
         self._keys()
         if not io.want_capture_mouse:
             self.backdrop.steer(io)

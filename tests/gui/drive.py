@@ -23,6 +23,7 @@ from station.app.help_pages import topic_of
 from station.app.keyboard import VIEW_KEYS
 from station.app.look import look_of
 from station.app.model import Stage
+from station.app.monitors import GONE, Rectangle, Screen, home_for
 from station.app.panels.devices import DEVICES
 from station.app.panels.hits import STOP_LABEL as HITS_STOP
 from station.app.panels.hits import STUDENT_LABEL, TEACHER_LABEL
@@ -470,6 +471,48 @@ def closes(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.seen["at_the_end"] = drive.room.room().stage.name
 
 
+class SecondMonitor:
+    """The screen, and a monitor to the right of it that may be unplugged: at our border to the system."""
+
+    NAME, AREA = 2, Rectangle(3000, 0, 1920, 1080)
+
+    def __init__(self, screen: Screen) -> None:
+        self._screen, self.is_plugged = screen, True
+
+    def monitors(self) -> Sequence[int]:
+        return [*self._screen.monitors(), *([self.NAME] if self.is_plugged else [])]
+
+    def area(self, monitor: int) -> Rectangle:
+        return self.AREA if monitor == self.NAME else self._screen.area(monitor)
+
+    def window(self) -> Rectangle:
+        return self._screen.window()
+
+    def move(self, place: Rectangle) -> None:
+        self._screen.move(place)
+
+
+def unplugged(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """A second monitor is unplugged in mid-session, and the window is on it."""
+    drive.choose(ctx, passes=4)
+    ctx.item_click("Start##start")
+    watch = drive.window.monitors
+    assert watch is not None, "an X server can be asked for windows and monitors"
+    screen = watch.screen
+    second = watch.screen = SecondMonitor(screen)
+    screen.move(Rectangle(3100, 100, *SIZE))
+    ctx.yield_(12)
+    drive.seen["outside"] = home_for(screen.window(), [screen.area(name) for name in screen.monitors()]) is not None
+    drive.seen["told before"] = drive.window.news.text == GONE
+    second.is_plugged = False
+    ctx.yield_(3)
+    seen = [screen.window().shared(screen.area(name)) for name in screen.monitors()]
+    drive.seen["shown"] = max(seen) / (SIZE[0] * SIZE[1])
+    drive.seen["told"] = drive.window.news.text
+    drive.seen["stage"] = drive.room.room().stage.name
+    watch.screen = screen
+
+
 class LostContext:
     """An OpenGL context that has been lost: it does what it is told, which has no effect, and says so when asked."""
 
@@ -610,6 +653,7 @@ SCENARIOS = {
     "lost": lost,
     "drill": drill,
     "closes": closes,
+    "unplugged": unplugged,
     "player": player,
     "graph": graph,
     "fault": fault,

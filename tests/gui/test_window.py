@@ -229,9 +229,21 @@ def test_a_click_on_a_bar_of_the_result_drills_it(environment: dict[str, str], t
 
 
 def test_a_session_is_kept_when_the_window_is_closed_in_its_middle(environment: dict[str, str], tmp_path: Path) -> None:
-    seen = run("closes", environment, tmp_path)
-    assert seen["at_the_end"] == "PLAYING"
+    seen = run_in_turn(["unplugged", "closes"], environment, tmp_path)
+    without_its_monitor_the_window_comes_back(seen["unplugged"])
+    assert seen["closes"]["at_the_end"] == "PLAYING"
     assert list((tmp_path / "sessions").rglob("*.json")), "the session is kept"
+
+
+def without_its_monitor_the_window_comes_back(seen: dict[str, Any]) -> None:
+    assert seen["outside"], "the screen does not show it"
+    assert not seen["told before"]
+    assert seen["shown"] == 1.0, "the whole of it"
+    assert (
+        seen["told"]
+        == "the monitor that showed the window has gone: here it is again, and nothing that was played is lost"
+    )
+    assert seen["stage"] == "PLAYING", "the session goes on"
 
 
 def fault_of(scenario: str, environment: dict[str, str], folder: Path) -> str:
