@@ -13,6 +13,7 @@ from types import MappingProxyType
 
 from station.core.errors import BadInput
 from station.core.files import write_whole
+from station.core.meant import meant
 from station.core.pieces import Piece, word
 from station.core.settings import settings_path
 from station.core.toml_table import parse_toml
@@ -111,7 +112,7 @@ class _Tables:
         pads = {}
         for name, pad in self.of(table, "pads", place).items():
             if name not in _PIECES:
-                raise BadInput(self.source, f"{place}.pads.{name}", f"no such piece; there are {', '.join(_PIECES)}")
+                raise BadInput(self.source, f"{place}.pads.{name}", f"no such piece{meant(name, _PIECES)}")
             pads[_PIECES[name]] = self.measured(pad, f"{place}.pads.{name}")
         rest = {key: value for key, value in table.items() if key != "pads"}
         return KitMeasured(self.measured(rest, place), MappingProxyType(pads))
@@ -119,7 +120,7 @@ class _Tables:
     def measured(self, table: Mapping[str, object], place: str) -> Measured:
         for key in table:
             if key not in _KEYS:
-                raise BadInput(self.source, f"{place}.{key}", f"no such key; there are {', '.join(_KEYS)}")
+                raise BadInput(self.source, f"{place}.{key}", f"no such key{meant(key, _KEYS)}")
         return Measured(
             self._number(table, "latency_ms", place, -MOST_MS),
             self._number(table, "half_ms", place, 0.0),

@@ -12,6 +12,7 @@ from dataclasses import replace
 from types import MappingProxyType
 
 from station.core.errors import BadInput
+from station.core.meant import meant
 from station.core.pieces import Piece, word
 from station.core.units import ns_from_ms
 from station.devices.kit import Crosstalk, KitPreset, Pad
@@ -73,7 +74,7 @@ def _with_pad(kit: KitPreset, piece: Piece, pad: Pad) -> KitPreset:
 
 def _piece(text: str) -> Piece:
     if text not in _PIECES:
-        raise BadInput(text, "", f"no such piece; there are {', '.join(_PIECES)}")
+        raise BadInput(text, "", f"no such piece{meant(text, _PIECES)}")
     return _PIECES[text]
 
 

@@ -7,7 +7,8 @@ unless it is asked for: there may be a motion sensor, a modem or a robot behind 
 """
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 from station.core.clock import monotonic_ns
@@ -128,22 +129,37 @@ def watch_kits(
 
 def devices_there(wishes: tuple[KitWish, ...]) -> list[str]:
     """The names of the kits that would be opened now, as far as the lists of ports tell."""
-    try:
-        midi = MidiDirectory()
-    except DeviceError:
-        midi = None
-    wanted = [wish for wish in wishes if wish.part or midi is not None]
-    chosen = [choose_port(ports_for(wish, midi).names(), wish.part) for wish in wanted]
+    with _midi_now() as (midi, _):
+        wanted = [wish for wish in wishes if wish.part or midi is not None]
+        chosen = [choose_port(ports_for(wish, midi).names(), wish.part) for wish in wanted]
     return [device_of_port(stable_name(port)) for port in chosen if port is not None]
 
 
-def all_names() -> list[str]:
-    """Every port of this computer, MIDI before serial."""
+def no_kit(wishes: tuple[KitWish, ...]) -> str:
+    """What to tell a user none of whose `wishes` is there: what was looked for, and which ports there are."""
+    with _midi_now() as (midi, fault):
+        ports = KitPorts(midi, SerialDirectory()).names()
+    named = " or ".join(repr(wish.part) for wish in wishes if wish.part)
+    if not named and fault is not None:
+        return f"no kit can be heard: {fault}"
+    there = f"these are there: {', '.join(ports)}" if ports else "there is neither a MIDI nor a serial port"
+    needs_midi = any(not wish.path for wish in wishes)
+    driverless = " (no MIDI driver works: station doctor says why)" if fault is not None and needs_midi else ""
+    return f"{f'no port is called {named}' if named else 'no MIDI kit is plugged in'}; {there}{driverless}"
+
+
+@contextmanager
+def _midi_now() -> Iterator[tuple[MidiDirectory | None, str | None]]:
+    """The MIDI ports for a look at them, or why there are none; JACK's server waits for clients that never leave."""
     try:
         midi = MidiDirectory()
-    except DeviceError:
-        midi = None
-    return KitPorts(midi, SerialDirectory()).names()
+    except DeviceError as fault:
+        yield None, str(fault)
+        return
+    try:
+        yield midi, None
+    finally:
+        midi.close()
 
 
 def _is_serial(wish: KitWish) -> bool:

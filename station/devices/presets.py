@@ -16,6 +16,7 @@ from types import MappingProxyType
 
 from station.core.errors import BadInput
 from station.core.kitmap import GENERAL_MIDI, V_DRUMS, KitMap, Strike
+from station.core.meant import meant
 from station.core.pieces import TOMS, Articulation, Piece, Zone
 from station.devices.kit import KitPreset, PedalRange
 
@@ -159,4 +160,4 @@ def preset_named(name: str) -> KitPreset:
     try:
         return PRESETS[name]
     except KeyError:
-        raise BadInput(name, "", f"no such kit preset; there are {', '.join(PRESETS)}") from None
+        raise BadInput(name, "", f"no such kit preset{meant(name, PRESETS)}") from None

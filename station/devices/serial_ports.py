@@ -145,6 +145,8 @@ def _why_not(path: str, fault: Exception) -> str:
         return "another program has this serial port open"
     if not Path(path).exists() and sys.platform != "win32":
         return "there is no such serial port"
+    if getattr(fault.__context__, "args", ())[:1] == (errno.ENOTTY,):  # how pyserial says it
+        return "this is no serial port"
     return f"this serial port cannot be opened: {fault}"
 
 

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from itertools import chain
 
+from station.core.meant import nearest
 from station.core.pieces import Limb, Piece, word
 from station.core.toml_places import KeyPath
 from station.core.units import PPQ
@@ -11,7 +12,7 @@ from station.drills.grid import Bar, Frame, Report, parse_line
 from station.drills.letters import FOOT_OF, LIMB_TABLES, LINE_PIECES
 from station.drills.sticking import STICKING, apply_sticking
 from station.drills.strokes import Line, Written, line_strokes
-from station.drills.table import Table, fraction, nearest, number, title, whole
+from station.drills.table import Table, fraction, number, title, whole
 from station.music.tempo import MAX_BPM, MIN_BPM, MeterChange
 
 MAX_TIMES = 100

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from functools import cache
 
 from station.core.errors import BadInput
+from station.core.meant import nearest
 from station.drills.lesson import Lesson
 from station.drills.lesson_file import parse_lesson
-from station.drills.table import nearest
 
 ROLLS, DIDDLES, FLAMS, DRAGS = "rolls", "diddles", "flams", "drags"
 SIX_EIGHT, THREE_FOUR = "6/8", "3/4"

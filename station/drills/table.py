@@ -4,9 +4,9 @@ A reader takes a raw value and gives the value that it means, or raises `ValueEr
 """
 
 from collections.abc import Callable, Iterable
-from difflib import get_close_matches
 from typing import TypeVar
 
+from station.core.meant import meant
 from station.core.toml_places import KeyPath
 from station.drills.faults import Faults
 
@@ -66,12 +66,6 @@ def fraction(value: object) -> tuple[int, int]:
     return int(top), int(bottom)
 
 
-def nearest(word: str, known: Iterable[str]) -> str:
-    """The known word that looks most like `word`, as a question; empty if none does."""
-    found = get_close_matches(word, list(known), 1, 0.6)
-    return f"; did you mean {found[0]}?" if found else ""
-
-
 class Table:
     """A TOML table at `path`, whose keys are taken one by one."""
 
@@ -119,5 +113,5 @@ class Table:
         """Note every key that nobody took, with the known one nearest to it."""
         for key in self.raw:
             if key not in self._taken:
-                hint = nearest(key, self._taken) or f"; there are {', '.join(dict.fromkeys(self._taken))}"
+                hint = meant(key, self._taken)
                 self.faults.add((*self.path, key), f"no such key: {key}{hint}", at_key=True)

@@ -24,7 +24,7 @@ from station.core.units import NS_PER_S
 from station.devices.decoders import DecoderBank
 from station.devices.kit import KitPreset
 from station.devices.kit_file import own_kit
-from station.devices.kit_ports import KitWish, watch_kits
+from station.devices.kit_ports import KitWish, no_kit, watch_kits
 from station.devices.presets import preset_for
 from station.devices.watch import KitWatch
 from station.engine.child import SWITCH_INTERVAL_S
@@ -84,10 +84,11 @@ class Devices:
 # --- the output alone ------------------------------------------------------------------------------------------------
 
 
-def stream_report(wish: SoundWish, seconds: float = REPORT_S) -> tuple[Devices, StreamReport]:
+def stream_report(wish: SoundWish, tell: Tell, seconds: float = REPORT_S) -> tuple[Devices, StreamReport]:
     """What the output's stream says of itself, and how its clock runs."""
     with ExitStack() as streams:
         output = _output(wish, streams)
+        tell(f"listening to the clock of {output.name} for {seconds:g} seconds")
         player = SoundPlayer(np.zeros(round(seconds * output.rate_hz), np.float32), output.rate_hz)
         with _prompt():
             output.start(player)
@@ -101,10 +102,10 @@ def loopback_rounds(wish: SoundWish, tell: Tell, rounds: int = ROUNDS) -> tuple[
     heard = []
     devices = Devices()
     for number in range(rounds):
-        tell(f"chirps, {number + 1} of {rounds}")
         with ExitStack() as streams:
             output = _output(wish, streams)
             sound_in = _input(wish, output.rate_hz, streams)
+            tell(f"chirps, {number + 1} of {rounds}")
             devices = Devices(output=output.name, input=sound_in.name)
             heard.append(_one_round(output, sound_in))
     return devices, loopback(heard)
@@ -190,9 +191,8 @@ class _Ear:
             findings = self._watch.poll(monotonic_ns())
             if findings.found:
                 self.device = findings.device
-            elif monotonic_ns() > give_up_ns:
-                named = f" whose name contains {self._watch.wanted!r}" if self._watch.wanted else ""
-                raise DeviceError(f"no kit{named} is plugged in (station devices list shows what there is)")
+            elif findings.fault or monotonic_ns() > give_up_ns:
+                raise DeviceError(findings.fault or no_kit((KitWish(self._watch.wanted),)))
             time.sleep(POLL_S)
 
     def listen(self, is_over: Callable[[list[Hit]], bool], output: CardOutput | None) -> list[Hit]:
@@ -242,7 +242,7 @@ def _ear(kit: KitWish, tell: Tell) -> Iterator[_Ear]:
     with ExitStack() as streams:
         watches = watch_kits((kit,), sound=_Streams(streams))
         if not watches.kits:
-            raise DeviceError(watches.fault or "no kit can be heard")
+            raise DeviceError(no_kit((kit,)))
         watch = watches.kits[0]
         try:
             ear = _Ear(watch, streams)

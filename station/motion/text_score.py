@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from station.core.errors import BadInput
 from station.core.files import write_whole
 from station.core.pieces import HAND_PIECES, Articulation, Dynamic, Limb, Ornament, Piece, Zone, word
+from station.core.utf8 import utf8_text
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 
@@ -64,10 +65,10 @@ def write_text_score(score: Score, limbs: NDArray[np.int8], path: Path) -> None:
 def read_text_score(path: Path) -> Score:
     """The score in a file; raises `BadInput` with the line of the first fault."""
     try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as fault:
-        raise BadInput(path, "", str(fault)) from fault
-    return parse_text_score(text, str(path))
+        data = path.read_bytes()
+    except OSError as fault:
+        raise BadInput(path, "", fault.strerror or str(fault)) from fault
+    return parse_text_score(utf8_text(data, path, "a text score"), str(path))
 
 
 # --- writing ----------------------------------------------------------------------------------------------------------

@@ -166,12 +166,11 @@ def _ctrl_c() -> Iterator[threading.Event]:
         signal.signal(signal.SIGINT, before)
 
 
-def wait_for_kits(engine: EngineLink, session: Session, clock: Clock, wait_s: float, tell: Tell, kits: int = 1) -> None:
-    """Let the engine wake and find so many `kits`, for at most `wait_s` after it is ready."""
+def wait_for_kits(engine: EngineLink, session: Session, clock: Clock, wait_s: float, kits: int = 1) -> None:
+    """Let the engine wake and find so many `kits`, for at most `wait_s` after it is ready; `session` hears of it."""
     until_ns: int | None = None
     while len(session.heard.devices) < kits and (until_ns is None or clock.now_ns() < until_ns):
         for event in engine.events(POLL_S):
             session.handle(event)
             if isinstance(event, Ready):
                 until_ns = clock.now_ns() + ns_from_s(wait_s)
-        tell(session, ())

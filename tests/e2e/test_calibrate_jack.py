@@ -146,5 +146,5 @@ def test_silence_is_told_in_one_line() -> None:
             check=False,
         )
     assert done.returncode == 2
-    assert "no kit whose name contains 'no such kit' is plugged in" in done.stderr
+    assert "no port is called 'no such kit'" in done.stderr
     assert "Traceback" not in done.stderr

@@ -78,8 +78,7 @@ def _by_report(arguments: argparse.Namespace, settings: Settings, _: Calibration
     from station.app.calibration_findings import Findings
     from station.engine.calibrating import stream_report
 
-    say("listening to the output's clock for ten seconds")
-    devices, stream = stream_report(_wish(arguments, settings))
+    devices, stream = stream_report(_wish(arguments, settings), say)
     return Findings(devices, stream=stream)
 
 

@@ -124,19 +124,20 @@ def _record(arguments: argparse.Namespace) -> int:
     from station.engine.engine import Engine
     from station.engine.messages import Record
 
-    engine, hits = Engine(own_kit=own_kit), 0
-    with listening(arguments) as kits:  # before the file: where nothing can be heard, none is left behind
-        engine.advance(monotonic_ns())
-        engine.handle(Record(arguments.file))
+    engine, hits, records = Engine(own_kit=own_kit), 0, False
+    with listening(arguments) as kits:
         try:
-            hits += _tell(engine)
             for findings in polls(kits, arguments.seconds):
+                if findings.found and not records:  # no sooner: where nothing can be heard, no file is left behind
+                    engine.advance(monotonic_ns())
+                    engine.handle(Record(arguments.file))
+                    records = True
                 _feed(engine, findings)
                 hits += _tell(engine)
         finally:
             engine.handle(Record(None))
     hits += _tell(engine)
-    say(f"{hits} hits in {arguments.file}")
+    say(f"{hits} hits in {arguments.file}" if records else "no kit came: nothing was recorded")
     return 0
 
 

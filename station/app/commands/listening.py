@@ -21,6 +21,8 @@ from station.devices.watch import Findings, KitWatch
 
 POLL_S = 0.0005
 """Pause between two looks at the kit: the engine's own pace."""
+NAMED_WITHIN_S = 3.0
+"""So long a kit is awaited that is asked for by name: a USB kit announces itself within two seconds (our choice)."""
 
 
 class TypedLines:
@@ -45,12 +47,13 @@ class TypedLines:
 @contextmanager
 def listening(arguments: argparse.Namespace) -> Iterator[tuple[KitWatch, ...]]:
     """The chosen kits; raises `DeviceError` where none can be heard. Ctrl-C, wherever it falls, ends the block."""
-    from station.devices.kit_ports import parse_kits, watch_kits
+    from station.devices.kit_ports import no_kit, parse_kits, watch_kits
 
-    watches = watch_kits(parse_kits(wanted_kits(arguments.kit, load_settings().kit)))
+    wishes = parse_kits(wanted_kits(arguments.kit, load_settings().kit))
+    watches = watch_kits(wishes)
+    if not watches.kits:
+        raise DeviceError(no_kit(wishes))
     if watches.fault is not None:
-        if not watches.kits:
-            raise DeviceError(watches.fault)
         say(f"station: {watches.fault}")
     try:
         yield watches.kits
@@ -61,17 +64,31 @@ def listening(arguments: argparse.Namespace) -> Iterator[tuple[KitWatch, ...]]:
 
 
 def polls(kits: tuple[KitWatch, ...], seconds: float | None) -> Iterator[Findings]:
-    """What the kits bring, poll by poll, until the time is up."""
-    end_ns = None if seconds is None else monotonic_ns() + ns_from_s(seconds)
+    """What the kits bring, poll by poll, until the time is up.
+
+    Raises `DeviceError` where no kit comes: any kit is awaited to the end, a kit with a name not long.
+    """
+    from station.devices.kit_ports import KitWish, no_kit
+
+    begun_ns, found = monotonic_ns(), False
+    end_ns = None if seconds is None else begun_ns + ns_from_s(seconds)
     names = " and ".join(f"a kit called {kit.wanted!r}" if kit.wanted else "a kit" for kit in kits)
     say(f"waiting for {names}; Ctrl-C ends")
+    is_named = all(kit.wanted for kit in kits)
     while end_ns is None or monotonic_ns() < end_ns:
         for kit in kits:
             findings = kit.poll(monotonic_ns())
+            found = found or findings.found
+            if findings.fault and not found and is_named and len(kits) == 1:
+                raise DeviceError(findings.fault)
             if findings.fault:
                 say(f"station: {findings.fault}")
             yield findings
+        if not found and is_named and monotonic_ns() - begun_ns > ns_from_s(NAMED_WITHIN_S):
+            break
         time.sleep(POLL_S)
+    if not found:
+        raise DeviceError(no_kit(tuple(KitWish(kit.wanted) for kit in kits)))
 
 
 def event_line(event: DeviceEvent, start_ns: int) -> str:

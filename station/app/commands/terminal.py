@@ -8,6 +8,7 @@ from station.core.clock import MonotonicClock
 from station.core.errors import DeviceError
 from station.core.settings import Settings
 from station.core.units import NS_PER_MS
+from station.devices.kit_ports import no_kit
 from station.engine.config import EngineConfig
 from station.engine.lasting import LastingEngine
 from station.music.judgement import Judgement, Label
@@ -82,13 +83,13 @@ def practise_in_terminal(
     session = Session(asked, latency) if isinstance(asked, Plan) else asked.session(latency)
     display = _Display()
     clock = MonotonicClock()
+    config = EngineConfig.from_settings(settings)
     sys.stderr.write("looking for a kit and a sound output …\n")
-    try:
-        config = EngineConfig.from_settings(settings)
-        with LastingEngine(config) as engine:
-            wait_for_kits(engine, session, clock, KIT_WAIT_S, display.tell, len(config.kits))
-            if not session.heard.devices:
-                raise DeviceError(_no_kit(settings.kit))
+    with LastingEngine(config) as engine:
+        wait_for_kits(engine, session, clock, KIT_WAIT_S, len(config.kits))
+        if not session.heard.devices:
+            raise DeviceError(f"{no_kit(config.kits)}; station practice --virtual-student intermediate needs none")
+        try:
             if (here := len(session.heard.devices)) < len(config.kits):
                 sys.stderr.write(f"\n{here} of {len(config.kits)} kits are here; the others may come")
             sys.stderr.write(f"\n{LEGEND}\n")
@@ -97,9 +98,9 @@ def practise_in_terminal(
             if isinstance(asked, Plan):
                 return practise_live(engine, session, clock, capture, display.tell)
             return practise_rounds(engine, asked, session, clock, capture, display.tell)
-    finally:
-        display.last_words(session)
-        sys.stderr.write("\n")
+        finally:
+            display.last_words(session)
+            sys.stderr.write("\n")
 
 
 def _track(wish: BackingWish, session: Session, settings: Settings) -> PreparedTrack | None:
@@ -107,13 +108,3 @@ def _track(wish: BackingWish, session: Session, settings: Settings) -> PreparedT
     backing = Backing(wish)
     backing.ask(session.plan, session.heard.rate_hz or settings.rate_hz)
     return backing.take(wait_s=None)
-
-
-def _no_kit(wanted: str) -> str:
-    from station.devices.kit_ports import all_names, parse_kits
-
-    ports = all_names()
-    names = " or ".join(repr(wish.part) for wish in parse_kits(wanted))
-    looked_for = f"no port's name contains {names}" if wanted else "no kit is plugged in"
-    there = f"the ports are {', '.join(ports)}" if ports else "there is neither a MIDI nor a serial port"
-    return f"{looked_for}; {there} (station practice --virtual-student intermediate needs none)"

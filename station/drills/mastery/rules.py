@@ -10,6 +10,7 @@ from dataclasses import dataclass, fields, replace
 from typing import Any
 
 from station.core.errors import BadInput
+from station.core.meant import meant
 from station.drills.lesson import Lesson
 from station.drills.swing import STRAIGHT
 
@@ -127,7 +128,7 @@ class Rules:
         known = {field.name for field in fields(self)}
         for name, value in changes.items():
             if name not in known:
-                raise BadInput("mastery rules", name, f"no such rule; there are {', '.join(sorted(known))}")
+                raise BadInput("mastery rules", name, f"no such rule{meant(name, sorted(known))}")
             if not _fits(value, getattr(DEFAULT_RULES, name)):
                 raise BadInput("mastery rules", name, f"{value!r} is not like {getattr(DEFAULT_RULES, name)!r}")
         values: dict[str, Any] = {name: _tuples(value) for name, value in changes.items()}

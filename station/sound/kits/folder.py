@@ -20,6 +20,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from station.core.errors import BadInput
+from station.core.meant import meant
 from station.core.toml_table import parse_toml
 from station.sound.audio_file import ENDINGS
 from station.sound.drum_kit import LEVEL_LAW, MAX_VELOCITY, DrumKit, Frames, Layer, Sound, level_of
@@ -84,10 +85,10 @@ def _evened(layers: list[tuple[int, list[Frames]]], rate_hz: int) -> Sound:
 
 def _layers(named: list[tuple[FileName, str]], recordings: Recordings) -> list[tuple[int, list[Frames]]]:
     """Each layer's reach and takes, soft to hard; the hardest reaches `MAX_VELOCITY`."""
-    reach_of = _reaches(sorted({meant.layer for meant, _ in named}))
+    reach_of = _reaches(sorted({name.layer for name, _ in named}))
     takes: dict[int, list[Frames]] = {}
-    for meant, path in named:
-        takes.setdefault(reach_of[meant.layer], []).append(recordings.take(path))
+    for name, path in named:
+        takes.setdefault(reach_of[name.layer], []).append(recordings.take(path))
     return sorted(takes.items())
 
 
@@ -138,7 +139,7 @@ class _Table:
 
     def _sound_name(self, key: str) -> SoundName:
         if key not in set(SoundName):
-            raise self._fault(f"sounds.{key}", f"no such sound; there are {', '.join(SoundName)}")
+            raise self._fault(f"sounds.{key}", f"no such sound{meant(key, SoundName)}")
         return SoundName(key)
 
     def _sound(self, key: str, raw: object) -> Sound:
@@ -200,7 +201,7 @@ class _Table:
     def _check_keys(self, table: Mapping[str, object], known: frozenset[str], place: str) -> None:
         for key in table:
             if key not in known:
-                raise self._fault(f"{place}.{key}".lstrip("."), f"no such key; there are {', '.join(sorted(known))}")
+                raise self._fault(f"{place}.{key}".lstrip("."), f"no such key{meant(key, sorted(known))}")
 
     def _fault(self, place: str, fault: str) -> BadInput:
         return BadInput(self._path, place, fault)

@@ -4,12 +4,12 @@ A path may be a folder of sound files, a folder with a `kit.toml` or a `drumkit.
 `.h2drumkit`. A name is sought among the synthesised kits first, then in the user's folder of kits.
 """
 
-from difflib import get_close_matches
 from pathlib import Path
 
 from platformdirs import user_data_path
 
 from station.core.errors import BadInput
+from station.core.meant import meant
 from station.core.settings import APP_NAME
 from station.sound.drum_kit import DrumKit
 from station.sound.kit_cache import cached_kit
@@ -48,9 +48,7 @@ def find_kit(name_or_path: str, folder: Path | None = None) -> Path | None:
     for path in (home / name_or_path, home / f"{name_or_path}{ARCHIVE_ENDING}", Path(name_or_path)):
         if name_or_path and _exists(path):
             return _home_of(path)
-    names = kit_names(folder)
-    near = get_close_matches(name_or_path, names) or names
-    raise BadInput(name_or_path, "", f"no such drum kit; there are {', '.join(near)}")
+    raise BadInput(name_or_path, "", f"no such drum kit{meant(name_or_path, kit_names(folder))}")
 
 
 def read_kit(path: Path, rate_hz: int) -> DrumKit:

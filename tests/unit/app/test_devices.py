@@ -60,7 +60,7 @@ def test_ctrl_c_at_any_moment_leaves_a_whole_capture(tmp_path: Path, monkeypatch
 def test_a_capture_that_is_not_on_the_disk_is_no_success(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("station.devices.kit_ports.MidiDirectory", lambda *_: FakeDriver())
+    monkeypatch.setattr("station.devices.kit_ports.MidiDirectory", lambda *_: FakeDriver("TD-17 20:0"))
     assert main(["devices", "record", "/dev/full", "--seconds", "0.01"]) == 2
     assert "No space left" in capsys.readouterr().err
 
@@ -123,6 +123,36 @@ def test_a_serial_kit_is_heard_where_no_midi_driver_works(
         assert f"{kit.wish} is here" in capsys.readouterr().err
         assert main([*words, "--kit", "TD-17"]) == 2
         assert "no MIDI driver works" in capsys.readouterr().err
+
+
+@on_linux
+def test_a_kit_that_is_not_there_is_one_line_and_no_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("station.devices.kit_ports.MidiDirectory", lambda *_: FakeDriver("TD-17 20:0"))
+    words = ["devices", "record", str(tmp_path / "take.cap"), "--seconds", "0.01"]
+    for kit in ("nothere", f"serial:{tmp_path}/ttyUSB9"):
+        assert main([*words, "--kit", kit]) == 2
+        waiting, fault = capsys.readouterr().err.splitlines()
+        assert waiting.startswith("waiting for")
+        assert fault.startswith(f"station: no port is called {kit!r}; these are there: TD-17 20:0")
+    assert not (tmp_path / "take.cap").exists()
+
+
+def test_a_kit_with_a_name_is_not_awaited_for_ever(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("station.devices.kit_ports.MidiDirectory", lambda *_: FakeDriver("TD-17 20:0"))
+    monkeypatch.setattr("station.app.commands.listening.NAMED_WITHIN_S", 0.01)
+    assert main(["devices", "monitor", "--kit", "nothere"]) == 2
+    assert "no port is called 'nothere'" in capsys.readouterr().err
+
+
+@on_linux
+@pytest.mark.parametrize("path", ["/etc/passwd", "/dev/null"])
+def test_what_is_no_serial_port_is_said_to_be_none(path: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["devices", "monitor", "--kit", f"serial:{path}"]) == 2
+    assert capsys.readouterr().err.splitlines()[1:] == [f"station: serial:{path}: this is no serial port"]
 
 
 def test_a_rate_that_no_port_has_is_refused(capsys: pytest.CaptureFixture[str]) -> None:

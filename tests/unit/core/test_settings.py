@@ -33,7 +33,7 @@ def test_a_whole_number_does_where_a_fraction_is_expected(tmp_path: Path) -> Non
 @pytest.mark.parametrize(
     ("text", "fault"),
     [
-        ("kti = 1", "kti: no such setting; there are student, kit"),
+        ("kti = 1", "kti: no such setting; did you mean kit?"),
         ("rate_hz = true", "rate_hz: expected a whole number, found True"),
         ('block_frames = "64"', "block_frames: expected a whole number, found '64'"),
         ("student = 3", "student: expected a text in quotes, found 3"),

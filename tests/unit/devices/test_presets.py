@@ -89,8 +89,8 @@ def test_presets_are_found_by_their_own_names() -> None:
     assert all(preset_named(name).name == name for name in PRESETS)
 
 
-def test_an_unknown_preset_is_refused_with_those_there_are() -> None:
-    with pytest.raises(BadInput, match="roland-td-17"):
+def test_an_unknown_preset_is_refused_with_the_nearest() -> None:
+    with pytest.raises(BadInput, match="did you mean roland-td-"):
         preset_named("roland-td-99")
 
 

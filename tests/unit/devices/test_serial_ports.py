@@ -125,7 +125,7 @@ def test_a_port_that_another_program_holds_is_told_once_it_lasts(path: Path) -> 
 
 def test_a_path_that_is_no_serial_port_is_said(tmp_path: Path) -> None:
     (tmp_path / "notes.txt").touch()
-    with pytest.raises(DeviceError, match="cannot be opened"):
+    with pytest.raises(DeviceError, match="this is no serial port"):
         SerialDirectory().open(f"serial:{tmp_path / 'notes.txt'}")
     with pytest.raises(DeviceError, match="no such serial port"):
         SerialDirectory().open(f"serial:{tmp_path / 'ttyUSB7'}")

@@ -112,7 +112,7 @@ GRID = '\n[grid]\nsnare = "oooo"\n'
         ('title = "T"\nloop = [2, 1]\n[grid]\nsnare = "o|o"', 2, 8, "bar 1 comes before bar 2"),
         ('title = "T"\npasses = 0' + GRID, 2, 10, "expected a whole number from 1 to 1000"),
         ('title = "T"\ntempobpm = 80' + GRID, 2, 1, "no such key: tempobpm; did you mean tempo_bpm?"),
-        ('title = "T"\ncolour = "red"' + GRID, 2, 1, "no such key: colour; there are"),
+        ('title = "T"\ncolour = "red"' + GRID, 2, 1, "no such key: colour; the nearest are"),
         ('title = "T"\n[goals]\nmax_sd = 3' + GRID, 3, 1, "no such key: max_sd; did you mean max_sd_ms?"),
         ('title = "T"\n[goals]\nmin_accuracy = 90' + GRID, 3, 16, "expected a number from 0 to 1"),
         ('title = "T"\ngoals = 3' + GRID, 2, 9, "expected a table: [goals]"),

@@ -112,6 +112,9 @@ def test_a_meter_that_changes_in_mid_bar_reads_back() -> None:
     assert same(parse_text_score(text), score.with_limbs(np.array([Limb.RIGHT_FOOT], np.int8)))
 
 
-def test_a_file_that_is_not_there_is_bad_input(tmp_path: Path) -> None:
-    with pytest.raises(BadInput):
+def test_a_file_that_cannot_be_read_is_bad_input(tmp_path: Path) -> None:
+    with pytest.raises(BadInput, match=r"none.txt: No such file or directory$"):
         read_text_score(tmp_path / "none.txt")
+    (tmp_path / "bytes.txt").write_bytes(b"a\nb\n\xff\xfe")
+    with pytest.raises(BadInput, match=r"bytes.txt: line 3: not UTF-8 text; expected a text score, saved as UTF-8$"):
+        read_text_score(tmp_path / "bytes.txt")

@@ -170,7 +170,7 @@ def test_kits_have_names_in_the_users_folder(tmp_path: Path) -> None:
     folder_of(tmp_path / "Shed", {"snare.wav": stroke()})
     assert "Shed" in kit_names(tmp_path)
     assert load_kit("Shed", RATE_HZ, tmp_path).name == "Shed"
-    with pytest.raises(BadInput, match="Shad: no such drum kit; there are Shed"):
+    with pytest.raises(BadInput, match="Shad: no such drum kit; did you mean Shed"):
         load_kit("Shad", RATE_HZ, tmp_path)
 
 
