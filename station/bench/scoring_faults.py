@@ -30,6 +30,8 @@ _BEYOND_FEEL = 3.0
 """Standard errors by which a fault lies beyond what is free, where anything is."""
 
 _FREE_DB = 2.0
+"""What most hear (HUMANS: 2–3 dB; the skilled hear 1)."""
+
 EFFECTS = MappingProxyType(
     {
         "late_kick": ("kick", FREE_LEAN_MS),
@@ -96,8 +98,7 @@ def fault_size(lesson: str, fault: str) -> float | None:
 
 def _swing_size(lesson: str, error: float) -> float | None:
     """The loss of ratio that is six errors of the offbeats' place, and ends straighter than feel allows."""
-    flags, _, places = passages.swung(_plan(lesson).score)
-    place = float(np.median(places[flags]))
+    place = passages.swung(_plan(lesson).score).written_place
     written = place / (1 - place)
     straight = place - SIZE_IN_ERRORS * error
     size = max(written - straight / (1 - straight), written - FREE_SWING[0] + _BEYOND_FEEL * error / (1 - place) ** 2)

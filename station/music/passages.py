@@ -1,8 +1,11 @@
 """Where in a score the things happen that students do badly: fills, waits, swung offbeats, second strokes of doubles.
 
-Each function returns one flag a row of the score, shape (n,), never set on grace strokes. They read what is written and
-nothing else, so that whoever plants a habit and whoever looks for it mean the same strokes. A row's *slot* is its tick.
+Each function says something of every row of the score, shape (n,), mostly a flag, never set on grace strokes. They read
+what is written and nothing else, so that whoever plants a habit and whoever looks for it mean the same strokes. A row's
+*slot* is its tick.
 """
+
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +15,7 @@ from station.core.units import NS_PER_MS, PPQ
 from station.music.score import Score
 
 Flags = NDArray[np.bool_]
+Floats = NDArray[np.float64]
 
 TIMEKEEPERS = (Piece.HIHAT, Piece.RIDE, Piece.RIDE_2, Piece.COWBELL, Piece.TAMBOURINE)
 """What keeps the time in a groove; where it stops and drums go on, there is a fill."""
@@ -56,6 +60,20 @@ def fills(score: Score) -> Flags:
     return np.asarray(~score.is_grace & filled[beat])
 
 
+def fill_ramp(score: Score) -> Floats:
+    """How far into its fill each stroke stands, in slots, over the mean of the fill's strokes; 0 outside; shape (n,).
+
+    Who rushes a fill mostly rushes more and more: an effect times this has the effect as its mean.
+    """
+    ramp = np.zeros(len(score))
+    rows = np.flatnonzero(fills(score))
+    beat = score.notes["tick"][rows] // PPQ
+    for fill in np.split(rows, np.flatnonzero(np.diff(beat) > 1) + 1) if len(rows) else ():
+        place = np.unique(score.notes["tick"][fill], return_inverse=True)[1] + 1.0
+        ramp[fill] = place / place.mean()
+    return ramp
+
+
 def long_waits(score: Score) -> Flags:
     """Strokes that come `LONG_WAIT` or more times the median wait after the slot before; never the first slot's."""
     ticks, slot_of_row = slots(score)
@@ -66,12 +84,29 @@ def long_waits(score: Score) -> Flags:
     return np.asarray(is_long[slot_of_row] & ~score.is_grace)
 
 
-def swung(score: Score) -> tuple[Flags, NDArray[np.int64], NDArray[np.float64]]:
-    """Swung offbeats, and of each the ticks of the unit that swings (a quarter or an eighth) and where in it it lies.
+@dataclass(frozen=True, eq=False)
+class Swung:
+    """The swung offbeats among n rows, all of shape (n,).
+
+    `flags` which they are; `span_ms` the length of the unit that swings (a quarter or an eighth), `places` where in it
+    they lie, 0–1; both are 0 on other rows.
+    """
+
+    flags: Flags
+    span_ms: Floats
+    places: Floats
+
+    @property
+    def written_place(self) -> float:
+        """Where the offbeats mostly lie; there is at least one."""
+        return float(np.median(self.places[self.flags]))
+
+
+def swung(score: Score) -> Swung:
+    """The swung offbeats.
 
     A beat swings where its only strokes are on it and at one later place within `SWING_FRACTIONS`; sixteenths swing
-    where both halves of the beat do so alike. All three have shape (n,); ticks and fractions mean nothing on other
-    rows.
+    where both halves of the beat do so alike.
     """
     within = (score.notes["tick"] - _beat_starts(score)) % PPQ
     beat = _beats(score)
@@ -82,7 +117,10 @@ def swung(score: Score) -> tuple[Flags, NDArray[np.int64], NDArray[np.float64]]:
         if span is not None:
             spans[rows], places[rows] = span, (within[rows] % span) / span
             flags[rows] = places[rows] > SWING_FRACTIONS[0]
-    return flags & ~score.is_grace, spans, places
+    flags &= ~score.is_grace
+    start = score.notes["tick"] - np.rint(places * spans).astype(np.int64)
+    span_ms = (score.tempo_map.ns_at(start + spans) - score.tempo_map.ns_at(start)) / NS_PER_MS
+    return Swung(flags, np.where(flags, span_ms, 0.0), np.where(flags, places, 0.0))
 
 
 def _swing_span(within: set[int]) -> int | None:

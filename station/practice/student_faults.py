@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Articulation, Dynamic, Limb, Piece
-from station.core.units import NS_PER_MS, PPQ
 from station.music import passages
 from station.music.score import Score
 from station.practice.student_spec import Fault
@@ -64,7 +63,7 @@ def louder(velocity: Floats, level_db: Floats) -> Floats:
 Effect = Callable[[Score, NDArray[np.int8], float], Floats]
 
 
-def _on(rows: NDArray[np.bool_], size: float) -> Floats:
+def _on(rows: NDArray[np.bool_], size: float | Floats) -> Floats:
     return np.where(rows, size, 0.0)
 
 
@@ -86,25 +85,13 @@ def _uneven_doubles(score: Score, limbs: NDArray[np.int8], size: float) -> Float
 
 def _rush_fills(score: Score, limbs: NDArray[np.int8], size: float) -> Floats:
     """Ahead in proportion to how far into the fill a stroke is; the mean over each fill's strokes is `size`."""
-    shift = np.zeros(len(score))
-    rows = np.flatnonzero(passages.fills(score))
-    beat = score.notes["tick"][rows] // PPQ
-    for fill in np.split(rows, np.flatnonzero(np.diff(beat) > 1) + 1) if len(rows) else ():
-        place = np.unique(score.notes["tick"][fill], return_inverse=True)[1] + 1.0
-        shift[fill] = -size * place / place.mean()
-    return shift
+    return -size * passages.fill_ramp(score)
 
 
 def _straight_swing(score: Score, limbs: NDArray[np.int8], size: float) -> Floats:
-    rows, spans, places = passages.swung(score)
-    place = places[rows]
-    ratio = np.maximum(place / (1.0 - place) - size, 1.0)
-    ticks, spans = score.notes["tick"][rows], spans[rows]
-    start = ticks - np.rint(place * spans).astype(np.int64)
-    span_ms = (score.tempo_map.ns_at(start + spans) - score.tempo_map.ns_at(start)) / NS_PER_MS
-    shift = np.zeros(len(score))
-    shift[rows] = (ratio / (1.0 + ratio) - place) * span_ms
-    return shift
+    swung = passages.swung(score)
+    ratio = np.maximum(swung.places / (1.0 - swung.places) - size, 1.0)
+    return _on(swung.flags, (ratio / (1.0 + ratio) - swung.places) * swung.span_ms)
 
 
 def _wide_flams(score: Score, limbs: NDArray[np.int8], size: float) -> Floats:

@@ -19,7 +19,7 @@ from station.music.judgement import Label
 from station.scoring.alignment import Reference
 from station.scoring.craft.untold import Untold
 from station.scoring.habits import CHANCE
-from station.scoring.points import FREE_LEAN_MS, ratio_of_place
+from station.scoring.points import ratio_of_place
 from station.scoring.regression import CONSTANT, Effect
 from station.scoring.summary import Summary
 from station.scoring.timing import asynchrony_ms, timed_notes
@@ -35,12 +35,15 @@ _Z_95 = 1.959964
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """A fault that one effect shows: `sign` of the effect, what is `free`, what is `clear`, both in `unit`."""
+    """A fault that one effect shows: `sign` of the effect, what is `free`, what is `clear`, both in `unit`.
+
+    `free` None: a lean, of which the lesson says how much is feel.
+    """
 
     fault: str
     effect: str
     sign: int
-    free: float
+    free: float | None
     clear: float
     unit: str
 
@@ -56,10 +59,10 @@ _FREE_DB, _CLEAR_DB = 1.5, 4.0
 """HUMANS: 1 dB is just noticeable to the skilled, 2–3 to others."""
 
 KINDS = (
-    Kind("late_kick", "kick", 1, FREE_LEAN_MS, _CLEAR_MS, "ms"),
-    Kind("early_kick", "kick", -1, FREE_LEAN_MS, _CLEAR_MS, "ms"),
-    Kind("slow_hihat_foot", "hihat_pedal", 1, FREE_LEAN_MS, _CLEAR_MS, "ms"),
-    Kind("early_hihat_foot", "hihat_pedal", -1, FREE_LEAN_MS, _CLEAR_MS, "ms"),
+    Kind("late_kick", "kick", 1, None, _CLEAR_MS, "ms"),
+    Kind("early_kick", "kick", -1, None, _CLEAR_MS, "ms"),
+    Kind("slow_hihat_foot", "hihat_pedal", 1, None, _CLEAR_MS, "ms"),
+    Kind("early_hihat_foot", "hihat_pedal", -1, None, _CLEAR_MS, "ms"),
     Kind("rush_fills", "fills", -1, _FREE_MS, _CLEAR_MS, "ms"),
     Kind("drag_fills", "fills", 1, _FREE_MS, _CLEAR_MS, "ms"),
     Kind("drag_slow", "long_waits", 1, _FREE_MS, _CLEAR_MS, "ms"),
@@ -135,8 +138,8 @@ def _habits(summary: Summary) -> list[Finding]:
 
 
 def _free(kind: Kind, summary: Summary) -> float:
-    """What a fault's effect may be without a word: a foot's lean is feel, unless the lesson asks for less."""
-    return summary.view.feel.lean_ms if kind.free == FREE_LEAN_MS else kind.free
+    """What a fault's effect may be without a word."""
+    return summary.view.feel.lean_ms if kind.free is None else kind.free
 
 
 def _is_sure(effect: Effect) -> bool:
@@ -166,16 +169,16 @@ def _farthest(summary: Summary, strokes: Flags, off: Floats) -> tuple[int, ...]:
 def _swing(summary: Summary) -> list[Finding]:
     """Swing that is held straighter or harder than is free; the effect is in ratios against what is written."""
     effect = summary.habits.effects.get("swing")
-    flags, _, places = passages.swung(summary.score)
-    if effect is None or not flags.any() or not _is_sure(effect):
+    swung = passages.swung(summary.score)
+    if effect is None or not swung.flags.any() or not _is_sure(effect):
         return []
-    written = float(np.median(places[flags]))
+    written = swung.written_place
     held, low, high = (ratio_of_place(written + effect.value + k * effect.error) for k in (0.0, -_Z_95, _Z_95))
-    if summary.view.feel.allows(held, ratio_of_place(written)):
-        return []
-    fault = "straight_swing" if held < ratio_of_place(written) else "hard_swing"
-    bars = _farthest(summary, flags, np.sign(effect.value) * asynchrony_ms(summary.alignment))
     asked = ratio_of_place(written)
+    if summary.view.feel.allows(held, asked):
+        return []
+    fault = "straight_swing" if held < asked else "hard_swing"
+    bars = _farthest(summary, swung.flags, np.sign(effect.value) * asynchrony_ms(summary.alignment))
     severity = abs(held - asked) / _CLEAR_SWING
     return [
         Finding(

@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Dynamic, Limb, Piece, word
-from station.core.units import NS_PER_MS, PPQ
 from station.music import passages
 from station.music.judgement import Label
 from station.music.performance import Performance
@@ -84,7 +83,7 @@ def _places(score: Score) -> dict[str, Flags]:
         "fills": passages.fills(score),
         "long_waits": passages.long_waits(score),
         "doubles": passages.second_of_doubles(score),
-        "swing": passages.swung(score)[0],
+        "swing": passages.swung(score).flags,
         "flams": score.is_grace,
         "left_level": main & (notes["limb"] == Limb.LEFT_HAND),
         "ghost_level": main & (notes["dynamic"] == Dynamic.GHOST),
@@ -108,9 +107,9 @@ def _timing(score: Score, alignment: Alignment, places: dict[str, Flags]) -> tup
         return {}, None
     tau = max(LEAN_SHARE * sd, LEAST_LEAN_MS)
     columns = [Column(name, places[name][timed].astype(np.float64)) for name in (*FEET.values(), *_IN_TIME)]
-    ramp = fill_ramp(score)[timed]
+    ramp = passages.fill_ramp(score)[timed]
     columns.append(Column("fills", ramp))
-    columns.append(Column("swing", _swing_spans_ms(score)[timed]))
+    columns.append(Column("swing", passages.swung(score).span_ms[timed]))  # the effect is a fraction of it
     common = _hands_and_pieces(score, timed, tau)
     common.append(Column("fill_shape", places["fills"][timed] - ramp, FILL_SHAPE_MS))
     whole = fit(off, columns + common, score.notes["tick"][timed])
@@ -129,28 +128,6 @@ def _hands_and_pieces(score: Score, rows: NDArray[np.int64], tau: float) -> list
     pieces = [Piece(p) for p in np.unique(notes["piece"]).tolist() if Piece(p) not in FEET]
     columns = [Column(f"lean_{word(p)}", (notes["piece"] == p).astype(np.float64), tau) for p in pieces]
     return [*columns, Column("left", (notes["limb"] == Limb.LEFT_HAND).astype(np.float64), tau)]
-
-
-def fill_ramp(score: Score) -> Floats:
-    """How far into its fill each stroke stands, in slots, over the fill's mean; 0 outside; shape (n,).
-
-    Who rushes a fill mostly rushes more and more: the effect is the mean over the fill's strokes.
-    """
-    ramp = np.zeros(len(score))
-    rows = np.flatnonzero(passages.fills(score))
-    beat = score.notes["tick"][rows] // PPQ
-    for fill in np.split(rows, np.flatnonzero(np.diff(beat) > 1) + 1) if len(rows) else ():
-        place = np.unique(score.notes["tick"][fill], return_inverse=True)[1] + 1.0
-        ramp[fill] = place / place.mean()
-    return ramp
-
-
-def _swing_spans_ms(score: Score) -> Floats:
-    """Length of the unit that swings at each swung offbeat, 0 elsewhere: the effect is a fraction of it; shape (n,)."""
-    flags, spans, places = passages.swung(score)
-    start = score.notes["tick"] - np.rint(places * spans).astype(np.int64)
-    lengths = (score.tempo_map.ns_at(start + spans) - score.tempo_map.ns_at(start)) / NS_PER_MS
-    return np.where(flags, lengths, 0.0)
 
 
 def _leans(

@@ -22,7 +22,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.units import NS_PER_MS
 from station.music import passages
 from station.music.judgement import Label
 from station.music.score import Score
@@ -86,22 +85,21 @@ def ratio_of_place(place: float) -> float:
 def free_ms(score: Score, alignment: Alignment, feel: Feel = ALL_FREE) -> NDArray[np.float64]:
     """The part of each note's asynchrony that is feel and costs nothing, ms, shape (n,)."""
     off, timed = asynchrony_ms(alignment), timed_notes(score, alignment)
-    swung, spans, places = passages.swung(score)
+    swung = passages.swung(score)
     leans = np.zeros(len(score))
     for piece in np.unique(score.notes["piece"][timed]):
         here = score.notes["piece"] == piece
-        told = here & timed & ~swung if (here & timed & ~swung).any() else here & timed
+        straight = here & timed & ~swung.flags
+        told = straight if straight.any() else here & timed
         leans[here] = np.clip(np.median(off[told]), -feel.lean_ms, feel.lean_ms)
-    told = swung & timed
+    told = swung.flags & timed
     if not told.any():
         return leans
-    start = score.notes["tick"] - np.rint(places * spans).astype(np.int64)
-    span_ms = (score.tempo_map.ns_at(start + spans) - score.tempo_map.ns_at(start)) / NS_PER_MS
-    shift = float(np.median((off - leans)[told] / span_ms[told]))
-    inside = swung.copy()
-    for place in np.unique(places[swung]).tolist():
-        inside &= (places != place) | feel.allows(ratio_of_place(place + shift), ratio_of_place(place))
-    leans[inside] += shift * span_ms[inside]
+    shift = float(np.median((off - leans)[told] / swung.span_ms[told]))
+    inside = swung.flags.copy()
+    for place in np.unique(swung.places[swung.flags]).tolist():
+        inside &= (swung.places != place) | feel.allows(ratio_of_place(place + shift), ratio_of_place(place))
+    leans[inside] += shift * swung.span_ms[inside]
     return leans
 
 

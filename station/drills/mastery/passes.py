@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from station.core.pieces import Ornament, Piece
 from station.core.units import NS_PER_MS
 from station.music.judgement import Label
-from station.music.passages import slots, swung
+from station.music.passages import Swung, slots, swung
 from station.music.performance import Performance
 from station.music.score import Score
 from station.scoring.alignment import Alignment
@@ -90,7 +90,7 @@ def measure_pass(
     """
     names = np.arange(score.bar_count) if bars is None else np.asarray(bars, np.int64)
     off_ms, rows, swing = asynchrony_ms(alignment), _steady(score, alignment), swung(score)
-    leaning = _leaning(score, off_ms, rows, swing[0])
+    leaning = _leaning(score, off_ms, rows, swing.flags)
     matched = alignment.note_label == Label.MATCH
     clear = np.abs(off_ms - leaning.due_ms) > CLEAR_FAULT_MS  # NaN, unpaired, is no fault of timing
     return PassResult(
@@ -101,7 +101,7 @@ def measure_pass(
         sd_ms=leaning.sd_ms,
         lean_ms=float(off_ms[rows].mean()) if rows.any() else None,
         interval_ms=_interval_ms(score),
-        swing_ratio=_swing_ratio(score, leaning.swing_ms, rows, swing),
+        swing_ratio=_swing_ratio(leaning.swing_ms, rows, swing),
         points=points(score, alignment, None, windows),
         bars=_by_bar(names[score.bar], matched & ~(rows & clear)),
         answers=_answers(score, performance, alignment),
@@ -145,19 +145,12 @@ def _interval_ms(score: Score) -> float | None:
     return float(np.median(np.diff(slot_ns))) / NS_PER_MS if len(slot_ns) > 1 else None
 
 
-_Swing = tuple[Flags, NDArray[np.int64], Floats]
-
-
-def _swing_ratio(score: Score, swing_ms: float, rows: Flags, swing: _Swing) -> float | None:
+def _swing_ratio(swing_ms: float, rows: Flags, swing: Swung) -> float | None:
     """Long to short as it was held: the written place of the swung offbeats, moved by their own lean."""
-    offbeat, spans, places = swing
-    own = offbeat & rows
+    own = swing.flags & rows
     if not own.any():
         return None
-    ticks = score.notes["tick"][own]
-    start = ticks - np.rint(places[own] * spans[own]).astype(np.int64)
-    span_ns = score.tempo_map.ns_at(start + spans[own]) - score.tempo_map.ns_at(start)
-    place = float(np.mean(places[own] + swing_ms * NS_PER_MS / span_ns))
+    place = float(np.mean(swing.places[own] + swing_ms / swing.span_ms[own]))
     return place / (1.0 - place) if 0.0 < place < 1.0 else None
 
 

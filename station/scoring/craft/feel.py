@@ -6,8 +6,6 @@ the lesson asks for less. Leans are those of `habits`, with everything else that
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from station.core.pieces import Piece, word
 from station.music import passages
 from station.music.score import Score
@@ -73,14 +71,14 @@ def leans(found: Habits, feel: Feel) -> tuple[Lean, ...]:
 
 def swing(score: Score, alignment: Alignment, found: Habits, feel: Feel) -> Swing | None:
     """The swing that is held; None where none is written or too little was played."""
-    flags, _, places = passages.swung(score)
+    swung = passages.swung(score)
     effect = found.effects.get("swing")
-    if effect is None or effect.slots <= _FEWEST or not flags.any():
+    if effect is None or effect.slots <= _FEWEST or not swung.flags.any():
         return None
-    written = float(np.median(places[flags]))
+    written = swung.written_place
     low, high = effect.ci
     held = ratio_of_place(written + effect.value)
-    told = flags & timed_notes(score, alignment)
+    told = swung.flags & timed_notes(score, alignment)
     off = (asynchrony_ms(alignment) - free_ms(score, alignment, feel))[told]
     sd_ms = float(off.std(ddof=1)) if len(off) > 1 else None
     ends = (ratio_of_place(written + low), ratio_of_place(written + high))

@@ -39,26 +39,26 @@ def test_a_slower_tempo_is_a_long_wait_everywhere() -> None:
 
 def test_swung_offbeats_of_a_ride_pattern() -> None:
     score = scores.swing_ride(2)
-    rows, spans, places = passages.swung(score)
-    assert score.notes["tick"][rows].tolist() == [
+    swung = passages.swung(score)
+    assert score.notes["tick"][swung.flags].tolist() == [
         bar * 4 * PPQ + b * PPQ + 2 * PPQ // 3 for bar in (0, 1) for b in (1, 3)
     ]
-    assert set(spans[rows]) == {PPQ}
-    np.testing.assert_allclose(places[rows], 2 / 3)
+    assert set(swung.span_ms[swung.flags]) == {60_000 / score.tempo_map.bpm_at(0)}
+    np.testing.assert_allclose(swung.places[swung.flags], 2 / 3)
 
 
 def test_full_triplets_straight_eighths_and_dotted_figures_do_not_swing() -> None:
     for places in ((0, 1 / 3, 2 / 3), (0, 1 / 2), (0, 3 / 4), (0, 1 / 4, 1 / 2, 3 / 4)):
         notes = [Note(beat * PPQ + round(x * PPQ), Piece.HIHAT) for beat in range(4) for x in places]
-        assert not passages.swung(Score.from_notes(notes, TempoMap.constant(100)))[0].any(), places
+        assert not passages.swung(Score.from_notes(notes, TempoMap.constant(100))).flags.any(), places
 
 
 def test_swung_sixteenths_swing_in_eighths() -> None:
     half = PPQ // 2
     notes = [Note(i * half + x, Piece.HIHAT) for i in range(8) for x in (0, 2 * half // 3)]
-    rows, spans, _ = passages.swung(Score.from_notes(notes, TempoMap.constant(90)))
-    assert rows.tolist() == [False, True] * 8
-    assert set(spans[rows]) == {half}
+    swung = passages.swung(Score.from_notes(notes, TempoMap.constant(60)))
+    assert swung.flags.tolist() == [False, True] * 8
+    assert swung.span_ms.tolist() == [0, 500] * 8
 
 
 def test_second_strokes_of_double_strokes() -> None:
@@ -102,14 +102,14 @@ def test_diddles_without_sticking_pair_up() -> None:
 
 def test_grace_strokes_are_never_flagged() -> None:
     score = scores.flams(1)
-    for flags in (passages.fills(score), passages.long_waits(score), passages.swung(score)[0]):
+    for flags in (passages.fills(score), passages.long_waits(score), passages.swung(score).flags):
         assert not flags[score.is_grace].any()
 
 
 def test_an_empty_score_has_no_passages() -> None:
     score = Score.from_notes([], TempoMap(), 4 * PPQ)
     assert len(passages.fills(score)) == len(passages.long_waits(score)) == len(passages.second_of_doubles(score)) == 0
-    assert len(passages.swung(score)[0]) == 0
+    assert len(passages.swung(score).flags) == 0
 
 
 def test_hands_are_compared_where_both_play_one_dynamic() -> None:

@@ -16,7 +16,7 @@ from station.music.score import Score
 from station.scoring.advice import Advice, advise
 from station.scoring.align import align
 from station.scoring.findings import wilson
-from station.scoring.habits import Habits, fill_ramp, habits
+from station.scoring.habits import Habits, habits
 from station.scoring.points import Feel
 from station.scoring.regression import Column, fit
 from station.scoring.summary import Summary, View, summarise
@@ -62,10 +62,10 @@ SWING, HANDS = swing_ride(16), double_strokes(16)
 PLANTED = [
     ("late_kick", ROCK, "kick", 40.0 * (ROCK.notes["piece"] == Piece.KICK), 40.0),
     ("slow_hihat_foot", SWING, "hihat_pedal", 45.0 * (SWING.notes["piece"] == Piece.HIHAT_PEDAL), 45.0),
-    ("rush_fills", FILL, "fills", -20.0 * fill_ramp(FILL), -20.0),
+    ("rush_fills", FILL, "fills", -20.0 * passages.fill_ramp(FILL), -20.0),
     ("uneven_doubles", DOUBLES, "doubles", -15.0 * passages.second_of_doubles(DOUBLES), -15.0),
     ("wide_flams", FLAMS, "flams", -20.0 * FLAMS.is_grace, 20.0),
-    ("straight_swing", SWING, "swing", -0.13 * 500 * passages.swung(SWING)[0], -0.13),
+    ("straight_swing", SWING, "swing", -0.13 * 500 * passages.swung(SWING).flags, -0.13),
 ]
 LEVELS = [
     ("flat_accents", ROCK, "accent_level", -4.0 * (ROCK.notes["dynamic"] == Dynamic.ACCENT), -4.0),
@@ -108,7 +108,7 @@ def test_without_a_fault_nothing_is_said(score: Score) -> None:
 def test_two_faults_are_both_named() -> None:
     kick = 45.0 * (FILL.notes["piece"] == Piece.KICK)
     for seed in range(8):
-        faults = {a.fault for a in advise(performed(FILL, seed, shift_ms=kick - 25.0 * fill_ramp(FILL)))}
+        faults = {a.fault for a in advise(performed(FILL, seed, shift_ms=kick - 25.0 * passages.fill_ramp(FILL)))}
         assert {"late_kick", "rush_fills"} <= faults
 
 
@@ -119,7 +119,7 @@ def test_a_lean_within_feel_is_not_scolded() -> None:
 
 def test_a_swing_within_feel_is_not_scolded_and_costs_nothing() -> None:
     """Written 2:1, held 1.6:1: offbeats 0.051 of a beat of 500 ms early."""
-    softer: Floats = (1.6 / 2.6 - 2 / 3) * 500.0 * passages.swung(SWING)[0].astype(np.float64)
+    softer: Floats = (1.6 / 2.6 - 2 / 3) * 500.0 * passages.swung(SWING).flags.astype(np.float64)
     assert first(advise(performed(SWING, 3, shift_ms=softer))) is None
     exact = performed(SWING, 3)
     held = performed(SWING, 3, shift_ms=softer)
@@ -132,7 +132,7 @@ def test_a_goal_makes_feel_a_fault() -> None:
     strict = View(feel=Feel(lean_ms=10.0, swing_error=0.2))
     laid_back = 18.0 * (ROCK.notes["piece"] == Piece.SNARE)
     assert first(advise(performed(ROCK, 3, shift_ms=laid_back, view=strict))) == "late_snare"
-    softer: Floats = (1.6 / 2.6 - 2 / 3) * 500.0 * passages.swung(SWING)[0].astype(np.float64)
+    softer: Floats = (1.6 / 2.6 - 2 / 3) * 500.0 * passages.swung(SWING).flags.astype(np.float64)
     assert first(advise(performed(SWING, 3, shift_ms=softer, view=strict))) == "straight_swing"
 
 
@@ -147,7 +147,7 @@ def test_the_spread_is_the_same_number_in_sentence_and_table() -> None:
 def test_tempi_are_told_in_the_beat_of_the_lesson() -> None:
     """100 quarters a minute are 66.7 dotted quarters; 85 % of them 56.7."""
     view = View(beat_ticks=PPQ * 3 // 2)
-    said = advise(performed(FILL, 1, shift_ms=-25.0 * fill_ramp(FILL), view=view))[0]
+    said = advise(performed(FILL, 1, shift_ms=-25.0 * passages.fill_ramp(FILL), view=view))[0]
     assert "57 bpm" in said.text
 
 
@@ -175,7 +175,7 @@ def test_few_strokes_bear_no_sentence() -> None:
 
 def test_advice_carries_bars_numbers_and_what_to_do() -> None:
     """Fills stand in every fourth bar."""
-    said = advise(performed(FILL, 1, shift_ms=-25.0 * fill_ramp(FILL)))[0]
+    said = advise(performed(FILL, 1, shift_ms=-25.0 * passages.fill_ramp(FILL)))[0]
     assert set(said.bars) <= set(range(4, 33, 4))
     assert said.ci[0] <= said.effect <= said.ci[1] < 0
     assert f"rush by {-said.effect:.0f} ms in the fills" in said.text
@@ -225,7 +225,7 @@ def test_independent_noise_gives_the_textbook_error() -> None:
 def test_errors_are_as_large_as_the_estimates_scatter(seed: int) -> None:
     """Over 150 fault-free performances z has SD 1 (its own error is 6 %) where slots share and carry on their noise."""
     z = []
-    flag = fill_ramp(FILL)
+    flag = passages.fill_ramp(FILL)
     for k in range(150):
         y = noise_ms(FILL, 10_000 * seed + k)
         fitted = fit(y, [Column("fills", flag)], FILL.notes["tick"])
