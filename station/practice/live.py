@@ -5,7 +5,7 @@ The capture is written by the engine as the bytes come, so that nothing that fol
 
 import signal
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,6 +18,7 @@ from station.engine.messages import Command, EngineEvent, Ready, Record, Recorde
 from station.music.judgement import Judgement
 from station.practice.adaptation import Adaptation
 from station.practice.hearing import Hearing
+from station.practice.pad_pause import PadPause
 from station.practice.session import Session, SessionResult
 
 POLL_S = 0.02
@@ -63,19 +64,47 @@ class LiveOutcome:
     fault: StationError | None
 
 
-def practise_live(engine: EngineLink, session: Session, clock: Clock, capture: Path, tell: Tell) -> LiveOutcome:
-    """Run `session` to its end, or until Ctrl-C or the engine's death; `tell` hears every round of judgements.
+@dataclass(frozen=True, slots=True)
+class Room:
+    """Where a session is played: its `engine` and `clock`, who hears every round of judgements, what the pads ask."""
+
+    engine: EngineLink
+    clock: Clock
+    tell: Tell
+    pads: PadPause | None = None
+
+    def begin(self, session: Session, capture: Path) -> None:
+        """Have everything recorded, and start the transport."""
+        session.waits = self.pads is not None and self.pads.waits
+        begin(self.engine, session, capture)
+
+    def step(self, session: Session) -> None:
+        """Take in what the engine has heard, move on to the present, and obey the pads."""
+        judged: tuple[Judgement, ...] = ()
+        for event in self.engine.events(POLL_S):
+            judged += session.handle(event)
+            self._obey(() if self.pads is None else self.pads.take(session, event))
+        judged += session.advance(self.clock.now_ns())
+        self._obey(() if self.pads is None else self.pads.look(session))
+        self.tell(session, judged)
+
+    def _obey(self, commands: Sequence[Command]) -> None:
+        for command in commands:
+            self.engine.send(command)
+
+
+def practise_live(room: Room, session: Session, capture: Path) -> LiveOutcome:
+    """Run `session` to its end, or until Ctrl-C or the engine's death.
 
     Raises `DeviceError` if the engine dies before the transport runs: then there is nothing to report.
     """
     fault: StationError | None = None
     try:
-        begin(engine, session, capture)
+        room.begin(session, capture)
         with _ctrl_c() as pressed:
             while not session.over and not pressed.is_set():
-                judged = take_in(engine, session, POLL_S) + session.advance(clock.now_ns())
-                tell(session, judged)
-            fault = end(engine, session)
+                room.step(session)
+            fault = end(room.engine, session)
     except DeviceError as error:
         if not session.started:
             raise
@@ -85,27 +114,24 @@ def practise_live(engine: EngineLink, session: Session, clock: Clock, capture: P
     return LiveOutcome(session.result(), fault)
 
 
-def practise_rounds(
-    engine: EngineLink, adaptation: Adaptation, first: Session, clock: Clock, capture: Path, tell: Tell
-) -> LiveOutcome:
+def practise_rounds(room: Room, adaptation: Adaptation, first: Session, capture: Path) -> LiveOutcome:
     """Run pass after pass of `adaptation`, beginning with the session `first`, until it is over, or Ctrl-C.
 
     The capture goes on from pass to pass. Raises `DeviceError` if the engine dies before the transport runs.
     """
     session, fault = first, None
     try:
-        begin(engine, session, capture)
+        room.begin(session, capture)
         with _ctrl_c() as pressed:
             while not pressed.is_set():
-                judged = take_in(engine, session, POLL_S) + session.advance(clock.now_ns())
-                tell(session, judged)
+                room.step(session)
                 if not session.over:
                     continue
                 adaptation.take(session.result())
                 if adaptation.over:
                     break
-                session = next_session(engine, adaptation, session)
-            fault = end(engine, session)
+                session = next_session(room.engine, adaptation, session)
+            fault = end(room.engine, session)
     except DeviceError as error:
         if not session.started and not adaptation.rounds:
             raise
@@ -132,11 +158,6 @@ def begin(engine: EngineLink, session: Listener, capture: Path) -> None:
     engine.send(Record(capture))
     for command in session.start():
         engine.send(command)
-
-
-def take_in(engine: EngineLink, session: Session, wait_s: float = 0.0) -> tuple[Judgement, ...]:
-    """Hand the session what the engine has heard; returns what was judged because of it."""
-    return tuple(judgement for event in engine.events(wait_s) for judgement in session.handle(event))
 
 
 def end(engine: EngineLink, session: Listener) -> StationError | None:

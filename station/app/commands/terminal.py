@@ -15,7 +15,8 @@ from station.music.judgement import Judgement, Label
 from station.practice.adaptation import Adaptation
 from station.practice.backing import Backing, BackingWish
 from station.practice.latency import latency_of
-from station.practice.live import LiveOutcome, practise_live, practise_rounds, wait_for_kits
+from station.practice.live import LiveOutcome, Room, practise_live, practise_rounds, wait_for_kits
+from station.practice.pad_pause import PadPause
 from station.practice.plan import Plan, Segment
 from station.practice.session import Session
 from station.scoring.windows import Windows
@@ -33,7 +34,9 @@ LEGEND = f"{_GOOD} on time  {_EARLY} early  {_LATE} late  o missed  x wrong piec
 class _Display:
     """Writes to standard error: a line a segment, a mark a judgement, notices between."""
 
-    def __init__(self) -> None:
+    def __init__(self, paused_words: str) -> None:
+        self._paused_words = paused_words
+        self._paused = False
         self._session: Session | None = None
         self._segment: Segment | None = None
         self._told = 0
@@ -51,6 +54,9 @@ class _Display:
                 self._line(f"\n{session.message}")
             self._segment = state.segment
             self._line(f"\n{session.plan.words(state.segment):14}")
+        if session.paused and not self._paused:
+            self._line(f"\n{self._paused_words}")
+        self._paused = session.paused
         marks = "".join(_mark(verdict, session.windows) for verdict in session.told(judged))
         if marks:
             self._line(marks)
@@ -81,7 +87,9 @@ def practise_in_terminal(
     """
     latency = latency_of(settings, load_calibration())
     session = Session(asked, latency) if isinstance(asked, Plan) else asked.session(latency)
-    display = _Display()
+    attended = sys.stdin.isatty() and sys.stderr.isatty()
+    pads = PadPause(settings, session.plan.score, whole=isinstance(asked, Adaptation), attended=attended)
+    display = _Display(pads.words)
     clock = MonotonicClock()
     config = EngineConfig.from_settings(settings)
     sys.stderr.write("looking for a kit and a sound output …\n")
@@ -95,9 +103,10 @@ def practise_in_terminal(
             sys.stderr.write(f"\n{LEGEND}\n")
             if wish is not None:
                 session.backing = _track(wish, session, settings)
+            room = Room(engine, clock, display.tell, pads)
             if isinstance(asked, Plan):
-                return practise_live(engine, session, clock, capture, display.tell)
-            return practise_rounds(engine, asked, session, clock, capture, display.tell)
+                return practise_live(room, session, capture)
+            return practise_rounds(room, asked, session, capture)
         finally:
             display.last_words(session)
             sys.stderr.write("\n")

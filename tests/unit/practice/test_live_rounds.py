@@ -12,7 +12,7 @@ from station.engine.messages import Command, EngineEvent, Play, Record, Recorded
 from station.music.judgement import Judgement
 from station.practice.adaptation import Adaptation
 from station.practice.latency import Latency
-from station.practice.live import practise_rounds
+from station.practice.live import Room, practise_rounds
 from station.practice.plan import Wishes
 from station.practice.session import Session
 
@@ -55,7 +55,7 @@ def test_passes_follow_each_other_in_one_capture_and_come_down(tmp_path: Path) -
         if session not in heard:
             heard.append(session)
 
-    outcome = practise_rounds(link, adaptation, adaptation.session(Latency()), clock, tmp_path / "x", tell)
+    outcome = practise_rounds(Room(link, clock, tell), adaptation, adaptation.session(Latency()), tmp_path / "x")
     assert outcome.fault is None
     assert (link.plays, len(heard)) == (3, 3)
     assert link.records == [tmp_path / "x", None]
