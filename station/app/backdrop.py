@@ -13,6 +13,7 @@ import numpy as np
 from imgui_bundle import imgui
 from numpy.typing import NDArray
 
+from station.app import theme
 from station.app.look import Look
 from station.app.model import Report
 from station.core.errors import DeviceError
@@ -21,6 +22,7 @@ from station.render.gl import GL_VERSION, Target
 from station.render.painter import Area, Arrangement, Painter
 from station.render.palette import NIGHT, dyed
 from station.render.quality import QUALITIES
+from station.render.report_layout import Page, page_for
 from station.render.report_picture import report_shapes, report_sheet
 from station.render.snapshot import Snapshot
 
@@ -32,6 +34,8 @@ _FAST_MS, _VERY_FAST_MS = 6.0, 2.0
 """A machine that draws the lowest level so fast can afford the middle and the highest at 60 Hz (our choice)."""
 _MEASURED = replace(QUALITIES[0], is_layered=False)
 """What is measured draws everything anew, as the higher levels do."""
+_LEAST_LETTERS = 0.9
+"""How large a result's letters are at the least, of the panels' own (our choice)."""
 _ORBIT_PER_PIXEL, _PAN_PER_PIXEL, _ZOOM_PER_STEP = 0.006, 0.0022, 1.12
 
 
@@ -45,7 +49,7 @@ class Backdrop:
         self._target: Target | None = None
         self._samples = 0
         self._times_ms: list[float] = []
-        self._page: tuple[Report, NDArray[np.void]] | None = None
+        self._page: tuple[Report, Page, NDArray[np.void]] | None = None
         self.look = look
         self._left_handed = False
         self.camera: Camera = replace(named(look.view), mirrored=look.mirrored)
@@ -189,11 +193,13 @@ class Backdrop:
                 self._painter.quality = QUALITIES[0]
 
     def _draw_report(self, report: Report, painter: Painter, ctx: moderngl.Context, area: Area) -> None:
-        if self._page is None or self._page[0] is not report:
-            self._page = report, report_shapes(report.facts, painter.atlas)
+        letters = theme.points(_LEAST_LETTERS) * imgui.get_io().display_framebuffer_scale.y
+        page = page_for(area[2:], letters)
+        if self._page is None or self._page[0] is not report or self._page[1] != page:
+            self._page = report, page, report_shapes(report.facts, painter.atlas, page)
         ctx.viewport = area
         painter.printer.theme = painter.theme
-        painter.printer.draw(self._page[1], report_sheet(area[2:]))
+        painter.printer.draw(self._page[2], report_sheet(area[2:], page))
 
 
 def quality_for(lowest_ms: float) -> int:

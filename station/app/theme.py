@@ -4,6 +4,8 @@ A theme dyes them as it dyes the pictures (`render.palette`); sizes are design p
 by the user's own scale.
 """
 
+from bisect import bisect_left
+
 from imgui_bundle import hello_imgui, imgui
 
 from station.render import palette
@@ -135,6 +137,21 @@ def soft(text: str) -> None:
     imgui.push_style_color(imgui.Col_.text, _vec(dyed(palette.INK_SOFT)))
     imgui.text_wrapped(text)
     imgui.pop_style_color()
+
+
+def first_lines(text: str, lines: int) -> str:
+    """As much of `text` as so many lines of the panel's width hold, with dots where it goes on."""
+    wrap = imgui.get_content_region_avail().x
+    room = (lines + 0.5) * imgui.get_text_line_height()
+
+    def fits(words: str) -> bool:
+        return bool(imgui.calc_text_size(words, False, wrap).y <= room)
+
+    if fits(text):
+        return text
+    words = text.split()
+    longest = bisect_left(range(len(words)), True, key=lambda count: not fits(" ".join(words[: count + 1]) + " …"))
+    return " ".join(words[:longest]) + " …"
 
 
 def tooltip(text: str) -> None:

@@ -24,6 +24,7 @@ from station.render.painter import SCORE_SHARE, Arrangement, Painter
 from station.render.palette import BRAND, MISSED, Theme
 from station.render.picture import PictureMaker, Shot, draw_png
 from station.render.quality import QUALITIES, Quality
+from station.render.report_layout import page_for
 from station.render.report_picture import draw_report_png
 from station.render.results import Words, result_facts
 from station.render.score_view import AFTER_S, BEFORE_S, Place, ScoreForm
@@ -271,15 +272,15 @@ def test_a_result_is_written_as_png(tmp_path: Path) -> None:
     facts = result_facts(SCORE, label, np.zeros(len(SCORE), np.int64), np.empty(0), Words("Rock", "120 bpm", 100.0))
     draw_report_png(facts, tmp_path / "report.png", (640, 400))
     picture = decode((tmp_path / "report.png").read_bytes())
-    dial = picture[54:166, 40:160]
+    dial = picture[66:156, 28:118]  # 62 units round (102, 156), 0.71 pixels each
     lit = near(BRAND, dial)
-    assert lit[:56].any()
-    assert lit[56:].any()
-    assert lit[:, :60].any(), "all of the dial is lit at 100 points"
+    assert lit[:45].any()
+    assert lit[45:].any()
+    assert lit[:, :45].any(), "all of the dial is lit at 100 points"
 
 
 def test_the_result_shows_what_hands_and_feet_did(tmp_path: Path) -> None:
-    """Two lines in two columns, below the pieces; without them that part of the card is empty."""
+    """Two lines below the pieces; without them that part of the card is empty."""
     label = np.full(len(SCORE), Label.MATCH, np.uint8)
     pictures = []
     for craft in ((), ("Swing: 1.8:1 held, 2.0:1 written", "Hi-hat: 9 of 12 as open as written")):
@@ -288,9 +289,11 @@ def test_the_result_shows_what_hands_and_feet_did(tmp_path: Path) -> None:
         draw_report_png(facts, tmp_path / "report.png", (1280, 800))
         pictures.append(decode((tmp_path / "report.png").read_bytes()).astype(int))
     changed = np.abs(pictures[0] - pictures[1]).max(axis=2) > 24
-    assert changed[460:756, 378:780].any(), "a column to the left"
-    assert changed[460:756, 798:1236].any(), "and one to the right"
-    changed[460:756, 370:1236] = False
+    pieces = page_for((1280, 800)).pieces
+    assert pieces is not None
+    left, top, right, low = (round(1280 / 900 * at) for at in (pieces.left, pieces.top, pieces.right, pieces.bottom))
+    assert changed[(top + low) // 2 : low, left:right].any()
+    changed[(top + low) // 2 : low, left:right] = False
     assert not changed.any(), "and nowhere else"
 
 

@@ -31,8 +31,11 @@ class LessonActions:
     room: Callable[[], RoomState]
 
 
-_HIGH_ENOUGH = 430
-"""Design pixels: in a lower panel Start comes first, so that it need not be scrolled to."""
+_HIGH_ENOUGH, _HIGH = 430, 680
+"""Design pixels: in a lower panel Start comes first, so that it need not be scrolled to; in one that is not high the
+heading is left out."""
+_ROWS = 9
+"""So many lines of the list are seen before more is said about the lesson that is chosen; our choice."""
 
 
 class LessonsPanel:
@@ -42,31 +45,34 @@ class LessonsPanel:
         self._choice = choice
         self._actions = actions
         self._is_low = False
-        self._below = 0.0  # pixels that the part under the list took in the last frame
+        self._below = self._about = 0.0  # pixels that the part under the list, and its words, took in the last frame
 
     def gui(self) -> None:
         """Draw the panel and do what the user does in it."""
         choice = self._choice
-        self._is_low = imgui.get_window_height() < theme.points(_HIGH_ENOUGH)
+        height = imgui.get_window_height()
+        self._is_low = height < theme.points(_HIGH_ENOUGH)
         if self._is_low:
             self._start_button()
-        else:
+        elif height >= theme.points(_HIGH):
             theme.heading("Lessons")
         imgui.set_next_item_width(-1)
         _, choice.search = imgui.input_text_with_hint(
             "##search", "Search: a word of title, level or tag", choice.search
         )
         theme.tooltip("Shows the lessons that contain every word")
-        room = imgui.get_content_region_avail().y - (self._below or theme.points(280))
-        imgui.begin_child("##list", imgui.ImVec2(0, max(room, theme.points(110))))
+        room = imgui.get_content_region_avail().y
+        least = _ROWS * imgui.get_text_line_height_with_spacing()
+        lines = int((room - least - (self._below - self._about)) / imgui.get_text_line_height())
+        imgui.begin_child("##list", imgui.ImVec2(0, max(room - (self._below or theme.points(280)), theme.points(110))))
         self._list()
         imgui.end_child()
-        top = imgui.get_cursor_pos_y()
+        top, self._about = imgui.get_cursor_pos_y(), 0.0
         imgui.separator()
         if choice.free:
             self._just_play()
         elif choice.card is not None:
-            self._chosen(choice.card)
+            self._chosen(choice.card, lines)
         self._below = imgui.get_cursor_pos_y() - top + imgui.get_style().item_spacing.y
 
     def _list(self) -> None:
@@ -89,13 +95,17 @@ class LessonsPanel:
             self._choice.choose(card)
         theme.tooltip(f"{card.about}\n{card.bars} bars, {card.meter}, {card.beats_a_minute:g} bpm")
 
-    def _chosen(self, card: LessonCard) -> None:
+    def _chosen(self, card: LessonCard, lines: int) -> None:
+        """The lesson, so many `lines` of what it is about, and how to practise it."""
         choice = self._choice
         theme.heading(card.title, 20)
         author = f" · {card.author}" if card.author else ""
         theme.soft(f"{card.bars} bars · {card.meter} · {card.beats_a_minute:g} bpm{author}")
-        if card.about and not self._is_low:  # the list's tooltip has it too
-            theme.soft(card.about)
+        if card.about and lines > 0 and not self._is_low:  # the list's tooltip has it too
+            before = imgui.get_cursor_pos_y()
+            theme.soft(theme.first_lines(card.about, lines))
+            theme.tooltip(card.about)
+            self._about = imgui.get_cursor_pos_y() - before
         row = Row()
         row.place(0)
         _, choice.adapt = imgui.checkbox(ADAPT_LABEL, choice.adapt)

@@ -7,14 +7,16 @@ from station.core.pieces import Piece
 from station.music.judgement import Label
 from station.render.atlas import Atlas
 from station.render.ink import Kind
+from station.render.report_layout import Page, page_for
 from station.render.report_picture import report_shapes, report_sheet
 from station.render.results import Lean, ResultFacts, Words, headline, in_words, leans, result_facts, ticks, whole_lean
 from tests.unit.render.scores import rock
 
 MS = 1_000_000
+WHOLE = page_for((1280, 800))
 
 
-def facts(advice: tuple[str, ...] = ()) -> ResultFacts:
+def facts(advice: tuple[str, ...] = (), craft: tuple[str, ...] = ()) -> ResultFacts:
     score = rock()
     label = np.full(len(score), Label.MATCH, np.uint8)
     played = np.zeros(len(score), np.int64)
@@ -23,7 +25,7 @@ def facts(advice: tuple[str, ...] = ()) -> ResultFacts:
     label[0] = Label.MISS if score.notes["piece"][0] != Piece.KICK else label[0]
     hats = np.flatnonzero(score.notes["piece"] == Piece.HIHAT)
     label[hats[0]], label[hats[1]] = Label.MISS, Label.WRONG_PIECE
-    return result_facts(score, label, played, np.array([0.3]), Words("Rock", "120 bpm", 87.0, advice))
+    return result_facts(score, label, played, np.array([0.3]), Words("Rock", "120 bpm", 87.0, advice, craft))
 
 
 def test_leans_of_pieces() -> None:
@@ -64,22 +66,61 @@ def test_no_hits_at_all() -> None:
     label = np.full(len(score), Label.MISS, np.uint8)
     made = result_facts(score, label, np.zeros(len(score), np.int64), np.empty(0), Words("Rock", "", None))
     assert whole_lean(made).mean_ms is None
-    assert len(report_shapes(made, Atlas())) > 100, "the page is drawn all the same"
+    assert len(report_shapes(made, Atlas(), WHOLE)) > 100, "the page is drawn all the same"
 
 
-def test_the_page_keeps_within_its_own_bounds() -> None:
+WINDOWS = {
+    "1280 × 720": ((947, 558), 0.9),
+    "1920 × 1080": ((1420, 880), 0.9),
+    "1280 × 720, panels twice as large": ((704, 330), 1.8),
+    "1920 × 1080, panels twice as large": ((1056, 840), 1.8),
+    "beside a panel": ((947, 290), 0.9),
+    "tiny": ((300, 90), 0.9),
+}
+"""What panels leave of a window, in pixels, and how large letters should be there."""
+
+
+@pytest.mark.parametrize(("size", "least"), WINDOWS.values(), ids=WINDOWS)
+def test_the_page_keeps_within_its_own_bounds(size: tuple[int, int], least: float) -> None:
+    page = page_for(size, least)
     sentence = "You leave out 14 % of the ghost notes, most in bars 2 and 4: play that slowly until all are there. "
-    shapes = report_shapes(facts((sentence * 2,) * 3), Atlas())
+    made = facts((sentence * 2,) * 3, ("Hi-hat, accents against plain strokes: +6.8 dB, written +6.5 dB",) * 20)
+    shapes = report_shapes(made, Atlas(), page)
     reach = np.where(shapes["kind"] == Kind.GLYPH, 0.0, shapes["half"].max(axis=1))
-    assert (shapes["centre"][:, 0] - 0 * reach).min() > 0
-    assert shapes["centre"][:, 0].max() < 1280
-    assert shapes["centre"][:, 1].max() < 790
+    round_ones = np.isin(shapes["kind"], (Kind.ELLIPSE, Kind.GLYPH))
+    inside = (shapes["centre"] - reach[:, None])[round_ones]
+    assert inside.min() > 0
+    lowest = max(box.bottom for box in (page.card, page.plot, page.pieces) if box is not None)
+    assert ((shapes["centre"] + reach[:, None])[round_ones] < (page.width, lowest)).all()
+    sheet = report_sheet(size, page)
+    assert (sheet.unit * page.width, sheet.unit * page.height) == pytest.approx(size), "all of the room is used"
+    assert lowest < page.height
 
 
-def test_the_page_fits_any_window() -> None:
-    sheet = report_sheet((640, 800))
-    assert sheet.unit == pytest.approx(0.5)
-    assert sheet.origin == pytest.approx((0.0, 200.0))
+def parts(page: Page) -> list[bool]:
+    return [page.plot is not None, page.pieces is not None]
+
+
+def test_a_small_window_shows_fewer_things_rather_than_smaller_letters() -> None:
+    """The smallest letters of what is read are 16 units high."""
+    pages = {name: page_for(*window) for name, window in WINDOWS.items()}
+    assert 16 * pages["1280 × 720"].unit >= 16
+    assert 16 * pages["1920 × 1080"].unit >= 24
+    assert 16 * pages["1920 × 1080, panels twice as large"].unit >= 24
+    assert parts(pages["1280 × 720"]) == [True, True]
+    assert parts(pages["1920 × 1080, panels twice as large"]) == [True, False]
+    assert parts(pages["1280 × 720, panels twice as large"]) == [False, False]
+
+
+def test_advice_that_has_no_room_is_left_out_as_whole_sentences() -> None:
+    """On the lowest card 190 units are left for words, eight lines of the smallest letters."""
+    few, many = (
+        len(report_shapes(facts(("Slow down.",) * count), Atlas(), page_for((704, 330), 1.8))) for count in (3, 90)
+    )
+    each = len("Slowdown.")
+    assert many > few
+    assert (many - few) % each == 0
+    assert many - few < 10 * each
 
 
 def played(missed: int, passes: int = 1, pass_bars: int = 0, first_bar: int = 0) -> ResultFacts:
@@ -114,22 +155,26 @@ def test_hits_outside_the_bars_stay_on_the_plot() -> None:
     early_and_late_s = np.array([-30.0, 60.0])  # the score lasts two seconds
     label = np.full(len(rock()), Label.MATCH, np.uint8)
     played_ns = np.zeros(len(label), np.int64)
-    shapes = report_shapes(result_facts(rock(), label, played_ns, early_and_late_s, Words("", "", None)), Atlas())
+    shapes = report_shapes(
+        result_facts(rock(), label, played_ns, early_and_late_s, Words("", "", None)), Atlas(), WHOLE
+    )
     crosses = shapes[shapes["kind"] == Kind.CROSS]
     assert len(crosses) == 3  # with that of the legend
     assert crosses["centre"][:, 0].min() > 0
-    assert crosses["centre"][:, 0].max() < 1240  # the card's right edge, of 1280
+    assert WHOLE.plot is not None
+    assert crosses["centre"][:, 0].max() < WHOLE.plot.right
 
 
 def test_a_wide_spread_ends_before_the_counts_and_the_words() -> None:
-    """Kicks 170 ms apart, early in the mean: the count ends 216 right of the card's edge, the words begin at 648."""
+    """Kicks 170 ms apart, early in the mean; names take 130 units of the card, words 206 on its right."""
     score = rock()
     label = np.full(len(score), Label.MATCH, np.uint8)
     played = np.zeros(len(score), np.int64)
     played[np.flatnonzero(score.notes["piece"] == Piece.KICK)] = [-145 * MS, 25 * MS]
-    shapes = report_shapes(result_facts(score, label, played, np.empty(0), Words("", "", None)), Atlas())
+    shapes = report_shapes(result_facts(score, label, played, np.empty(0), Words("", "", None)), Atlas(), WHOLE)
     spreads = shapes[(shapes["kind"] == Kind.BOX) & (shapes["half"][:, 1] == 6.0) & (shapes["style"][:, 0] == 6.0)]
     edges = spreads["centre"][:, :1] + spreads["half"][:, :1] * np.array([-1.0, 1.0])
     widest = edges[np.argmax(edges[:, 1] - edges[:, 0])]
-    assert widest[0] > 356 + 216 + 10
-    assert widest[1] < 356 + 648 - 10
+    assert WHOLE.pieces is not None
+    assert widest[0] > WHOLE.pieces.left + 20 + 130
+    assert widest[1] < WHOLE.pieces.right - 206 - 10
