@@ -6,7 +6,7 @@ from typing import Self
 from station.core.settings import Settings
 from station.devices.kit_ports import KitWish, parse_kits
 from station.engine.levels import parse_levels
-from station.engine.messages import Bus, Command, SetLevel, SetMidiOut
+from station.engine.messages import Bus, Command, SetLevel, SetMidiOut, SetPiece
 
 _CHOSEN = Settings()
 
@@ -38,7 +38,7 @@ class EngineConfig:
     drums: str = _CHOSEN.drums
     click: str = _CHOSEN.click
     own_sound: bool = True
-    levels: tuple[SetLevel, ...] = ()
+    levels: tuple[SetLevel | SetPiece, ...] = ()
     midi_out: str = ""
 
     @classmethod

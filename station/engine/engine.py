@@ -38,6 +38,8 @@ from station.engine.messages import (
     SetBacking,
     SetLevel,
     SetMidiOut,
+    SetPiece,
+    Setting,
     Started,
     Status,
     Stop,
@@ -191,7 +193,7 @@ class Engine:
                 self._player.stop()
                 if self._midi is not None:
                     self._midi.stop()
-            case SetLevel() | SetBacking() | SetMidiOut():
+            case SetLevel() | SetPiece() | SetBacking() | SetMidiOut():
                 self._set(command)
             case KeyHit():
                 self._take_key(command)
@@ -204,10 +206,12 @@ class Engine:
             case Quit():
                 self.quitting = True
 
-    def _set(self, command: SetLevel | SetBacking | SetMidiOut) -> None:
+    def _set(self, command: Setting) -> None:
         match command:
             case SetLevel():
                 self._player.set_level(command.bus, command.level, command.pan)
+            case SetPiece():
+                self._player.set_piece(command.piece, command.level, command.pan)
             case SetBacking():
                 self._set_backing(command)
             case SetMidiOut():

@@ -17,6 +17,7 @@ from typing import Protocol, Self
 from station.core.clock import monotonic_ns
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound, DeviceLost
+from station.core.pieces import Piece
 from station.core.units import NS_PER_S
 from station.engine.config import EngineConfig, Prepare
 from station.engine.messages import (
@@ -33,6 +34,8 @@ from station.engine.messages import (
     SetBacking,
     SetLevel,
     SetMidiOut,
+    SetPiece,
+    Setting,
     Started,
     Status,
     Stop,
@@ -199,6 +202,7 @@ class _Standing:
         self._sent_ns = 0
         self._zero_ns: int | None = None
         self._levels: dict[Bus, SetLevel] = {}
+        self._pieces: dict[Piece, SetPiece] = {}
         self._others: dict[type[Command], Command] = {}  # of these the last one holds
         self._unanswered = False
 
@@ -211,6 +215,8 @@ class _Standing:
                 self._play = None
             case SetLevel():
                 self._levels[command.bus] = command
+            case SetPiece():
+                self._pieces[command.piece] = command
             case SetBacking() | SetMidiOut() | Eavesdrop():
                 self._others[type(command)] = command
             case Record():
@@ -221,7 +227,7 @@ class _Standing:
 
     def misses(self, command: Command) -> bool:
         """Whether `commands` leaves `command` out."""
-        return not isinstance(command, Play | Stop | SetLevel | SetBacking | SetMidiOut | Eavesdrop | Record)
+        return not isinstance(command, Play | Stop | Setting | Eavesdrop | Record)
 
     def heard(self, event: EngineEvent) -> None:
         """The engine said `event`."""
@@ -236,6 +242,7 @@ class _Standing:
     def commands(self, now_ns: int) -> Iterable[Command]:
         """What a new engine is told at `now_ns`, in order."""
         yield from self._levels.values()
+        yield from self._pieces.values()
         for kind in (SetBacking, SetMidiOut, Eavesdrop):
             if kind in self._others:
                 yield self._others[kind]

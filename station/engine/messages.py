@@ -34,6 +34,7 @@ __all__ = [
     "SetBacking",
     "SetLevel",
     "SetMidiOut",
+    "SetPiece",
     "Sounding",
     "Started",
     "Status",
@@ -86,6 +87,15 @@ class SetLevel:
     """Set a bus's level (0 silent, 1 full) and pan (−1 left … 1 right)."""
 
     bus: Bus
+    level: float
+    pan: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class SetPiece:
+    """Set the level (0 silent, 1 as the kit has it) and pan (−1 left … 1 right) of a piece, whoever plays it."""
+
+    piece: Piece
     level: float
     pan: float = 0.0
 
@@ -147,7 +157,8 @@ class Quit:
     """End the engine process."""
 
 
-Command = Play | Resume | Stop | SetLevel | SetBacking | SetMidiOut | KeyHit | Record | Eavesdrop | TakeKit | Quit
+Setting = SetLevel | SetPiece | SetBacking | SetMidiOut
+Command = Play | Resume | Stop | Setting | KeyHit | Record | Eavesdrop | TakeKit | Quit
 
 
 # --- from the engine -------------------------------------------------------------------------------------------------

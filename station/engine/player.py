@@ -36,6 +36,7 @@ class Player:
         self._zeros: deque[int] = deque()
         self._playback = Playback()
         self._levels = dict.fromkeys(Bus, _FULL)
+        self._of_pieces: dict[Piece, Level] = {}
         self._passed_ns = 0
         self._track: Track | None = None
         self._track_at_ns = 0
@@ -52,6 +53,8 @@ class Player:
         if mixer is not None:
             for bus, (level, pan) in self._levels.items():
                 mixer.set_level(bus, level, pan)
+            for piece, (level, pan) in self._of_pieces.items():
+                mixer.set_piece(piece, level, pan)
 
     @property
     def is_silent(self) -> bool:
@@ -93,6 +96,11 @@ class Player:
         """Set a bus's level and pan."""
         self._levels[bus] = level, pan
         self._to_mixer(lambda mixer: mixer.set_level(bus, level, pan))
+
+    def set_piece(self, piece: Piece, level: float, pan: float) -> None:
+        """Set a piece's level and pan."""
+        self._of_pieces[piece] = level, pan
+        self._to_mixer(lambda mixer: mixer.set_piece(piece, level, pan))
 
     def strike(self, strike: Strike, velocity: int) -> None:
         """Sound the student's stroke with the next block."""

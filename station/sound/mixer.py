@@ -75,6 +75,7 @@ class Mixer:
         self._level_steps = np.zeros((_BUSES, 2), np.float32)
         self._level_targets = self._levels.copy()
         self._slew_left = 0
+        self._of_pieces: dict[Piece, tuple[float, NDArray[np.float32] | None]] = {}  # level, and the factors of its pan
         self._tracks: list[TrackVoice] = []  # the last plays, those before it fade out
 
     # --- what to play --------------------------------------------------------------------------------------------
@@ -127,11 +128,15 @@ class Mixer:
 
     def set_level(self, bus: Bus, level: float, pan: float = 0.0) -> None:
         """Set the level (0 silent, 1 full) and balance (−1 left … 1 right) of `bus`, from the next block on."""
-        pan = min(1.0, max(-1.0, pan))
         level = min(1.0, max(0.0, level))
-        self._level_targets[bus] = level * min(1.0, 1.0 - pan), level * min(1.0, 1.0 + pan)
+        self._level_targets[bus] = [level * side for side in _sides(pan)]
         self._slew_left = max(1, self._frames(LEVEL_SLEW_S))
         self._level_steps = (self._level_targets - self._levels) / np.float32(self._slew_left)
+
+    def set_piece(self, piece: Piece, level: float, pan: float = 0.0) -> None:
+        """Set the level (0 silent, 1 as the kit has it) and balance of `piece`, from its next stroke on."""
+        sides = np.tile(np.array(_sides(pan), np.float32), len(self._ramp) // 2) if pan else None
+        self._of_pieces[piece] = level, sides
 
     def silence(self) -> None:
         """Forget all that rings and all that was asked for, at once: for a mixer that nobody has listened to."""
@@ -250,8 +255,10 @@ class Mixer:
                 openness = 0.0
             self._damp_hihat(bus, openness)
             piece, openness = Piece.HIHAT, 1.0 if splashes else openness
-        gain = sound.levels[velocity]
+        level, sides = self._of_pieces.get(strike.piece, (1.0, None))
+        gain = level * sound.levels[velocity]
         voice = Voice(sound.take(max(1.0, velocity * timbre), turn), bus, gain, piece, openness)
+        voice.sides = sides
         if sound.mute_group is not None:
             self._mute_group(bus, sound)
             voice.sound = sound
@@ -319,3 +326,9 @@ class Mixer:
 
     def _frames(self, seconds: float) -> int:
         return round(seconds * self.kit.rate_hz)
+
+
+def _sides(pan: float) -> tuple[float, float]:
+    """The factors of left and right for `pan`: the far side is lowered, the near one kept."""
+    pan = min(1.0, max(-1.0, pan))
+    return min(1.0, 1.0 - pan), min(1.0, 1.0 + pan)

@@ -12,10 +12,24 @@ class Voice:
     """A sound that plays on a bus from its first frame to its last, or until it has faded.
 
     `gain` is its amplitude factor now and `slope` the gain's change a frame; `piece` (None for a click) and `openness`
-    say what may choke or damp it, `sound` what of its mute group stops it; `row` is its place in the mixer.
+    say what may choke or damp it, `sound` what of its mute group stops it; `row` is its place in the mixer; `sides` are
+    the factors of left and right in turn, as long as the longest row, None in the middle.
     """
 
-    __slots__ = ("_at", "_data", "_stop", "bus", "fading", "gain", "openness", "piece", "row", "slope", "sound")
+    __slots__ = (
+        "_at",
+        "_data",
+        "_stop",
+        "bus",
+        "fading",
+        "gain",
+        "openness",
+        "piece",
+        "row",
+        "sides",
+        "slope",
+        "sound",
+    )
 
     def __init__(self, frames: Frames, bus: Bus, gain: float, piece: Piece | None, openness: float = 0.0) -> None:
         self._data = frames.reshape(-1)
@@ -29,6 +43,7 @@ class Voice:
         self.openness = openness
         self.row = -1
         self.sound: Sound | None = None
+        self.sides: NDArray[np.float32] | None = None
 
     @property
     def position(self) -> int:
@@ -54,10 +69,13 @@ class Voice:
         self._at = next_at = at + size
         if self.fading:
             self.gain += self.slope * (size // 2)
-        if next_at < self._stop:
+        rings = next_at < self._stop
+        if rings:
             row[:] = self._data[at:next_at]
-            return True
-        left = self._stop - at
-        row[:left] = self._data[at : self._stop]
-        row[left:] = 0.0
-        return False
+        else:
+            left = self._stop - at
+            row[:left] = self._data[at : self._stop]
+            row[left:] = 0.0
+        if self.sides is not None:
+            row *= self.sides[:size]
+        return rings

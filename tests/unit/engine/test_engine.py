@@ -29,6 +29,7 @@ from station.engine.messages import (
     Recorded,
     Resume,
     SetLevel,
+    SetPiece,
     Started,
     Status,
     Stop,
@@ -114,9 +115,10 @@ def test_the_students_sound_can_be_muted_apart() -> None:
     assert np.flatnonzero(rig.sink.sound[:, 0]).size == 1  # the click
 
 
-def test_a_level_outlives_the_card() -> None:
+@pytest.mark.parametrize("level", [SetLevel(Bus.STUDENT, 0.0), SetPiece(Piece.SNARE, 0.0)])
+def test_a_level_outlives_the_card(level: SetLevel | SetPiece) -> None:
     rig = Rig()
-    rig.engine.handle(SetLevel(Bus.STUDENT, 0.0))
+    rig.engine.handle(level)
     rig.run_ms(5)
     rig.engine.attach(None)
     rig.engine.attach(impulse_mixer())

@@ -25,6 +25,7 @@ from station.engine.messages import (
     SetBacking,
     SetLevel,
     SetMidiOut,
+    SetPiece,
     Started,
     Status,
     Stop,
@@ -116,6 +117,8 @@ def test_the_session_goes_on_in_the_spare() -> None:
     for command in (
         SetLevel(Bus.CLICK, 0.5),
         SetLevel(Bus.CLICK, 0.7),
+        SetPiece(Piece.CRASH_1, 0.5),
+        SetPiece(Piece.CRASH_1, 0.6),
         SetMidiOut("module"),
         Record(Path("take")),
         play,
@@ -128,7 +131,8 @@ def test_the_session_goes_on_in_the_spare() -> None:
     assert second is not first
     assert second.config == first.config
     *before, resume = second.told
-    assert before == [SetLevel(Bus.CLICK, 0.7), SetMidiOut("module"), Record(Path("take"))]
+    held = [SetLevel(Bus.CLICK, 0.7), SetPiece(Piece.CRASH_1, 0.6), SetMidiOut("module"), Record(Path("take"))]
+    assert before == held
     assert isinstance(resume, Resume)
     assert resume.cues is play.cues
     assert resume.zero_ns == 500

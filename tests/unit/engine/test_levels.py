@@ -1,10 +1,11 @@
 import pytest
 
 from station.core.errors import BadInput
+from station.core.pieces import Piece
 from station.core.settings import Settings
 from station.engine.config import EngineConfig
 from station.engine.levels import parse_levels
-from station.engine.messages import Bus, SetLevel, SetMidiOut
+from station.engine.messages import Bus, SetLevel, SetMidiOut, SetPiece
 
 
 def test_words_make_levels() -> None:
@@ -14,10 +15,16 @@ def test_words_make_levels() -> None:
         SetLevel(Bus.STUDENT, 1.0, 0.25),
         SetLevel(Bus.BACKING, 0.7),
     )
+    assert parse_levels("crash_1=0.6@-0.4 kick=2") == (
+        SetPiece(Piece.CRASH_1, 0.6, -0.4),
+        SetPiece(Piece.KICK, 2.0),
+    )
     assert parse_levels("") == ()
 
 
-@pytest.mark.parametrize("word", ["drums=1", "click", "click=2", "click=-0.1", "click=nan", "click=1@2", "click=1@"])
+@pytest.mark.parametrize(
+    "word", ["drums=1", "click", "click=2", "click=-0.1", "click=nan", "click=1@2", "click=1@", "kick=2.1", "kcik=1"]
+)
 def test_a_word_that_cannot_be_is_named(word: str) -> None:
     with pytest.raises(BadInput, match="--levels"):
         parse_levels(f"student=1 {word}", "--levels")

@@ -50,6 +50,34 @@ def test_silence_is_exactly_silent() -> None:
     assert not block.any()
 
 
+def test_a_piece_has_a_level_and_a_place_of_its_own_whoever_plays_it() -> None:
+    """By hand: half of 0.4 on the left alone; from the next stroke on, and of this piece alone."""
+    mixer = mixer_of({SoundName.KICK: constant(0.4, 1000), SoundName.SNARE: impulse(0.4)})
+    mixer.trigger(Bus.STUDENT, KICK, 127)
+    mixer.render(1)
+    mixer.set_piece(Piece.KICK, 0.5, -1.0)
+    assert mixer.render(10)[9].tolist() == pytest.approx([0.4, 0.4])
+    mixer.trigger(Bus.DEMONSTRATION, KICK, 127)
+    assert mixer.render(1)[0].tolist() == pytest.approx([0.6, 0.4])
+    mixer.silence()
+    mixer.trigger(Bus.STUDENT, SNARE, 127)
+    assert mixer.render(1)[0].tolist() == pytest.approx([0.4, 0.4])
+    mixer.set_piece(Piece.KICK, 2.0)
+    mixer.trigger(Bus.STUDENT, KICK, 100)
+    assert mixer.render(1)[0].tolist() == pytest.approx([0.8 * (100 / 127) ** 2] * 2)
+
+
+def test_a_piece_on_one_side_stays_there_while_it_is_stolen() -> None:
+    mixer = mixer_of({SoundName.KICK: constant(0.5, 5000), SoundName.SNARE: impulse(0.0)}, voices=1)
+    mixer.set_piece(Piece.KICK, 1.0, 1.0)
+    mixer.trigger(Bus.STUDENT, KICK, 127)
+    mixer.render(10)
+    mixer.trigger(Bus.STUDENT, SNARE, 127)
+    tail = mixer.render(frames_in(STEAL_S))
+    assert tail[0, 1] > 0.4
+    assert not tail[:, 0].any()
+
+
 @pytest.mark.parametrize("at_frame", [0, 1, 63, 64, 249, 250, 251, 600])
 @pytest.mark.parametrize("block", [16, 64, 250, 256, 1024])
 def test_a_stroke_falls_on_the_frame_it_was_asked_for(at_frame: int, block: int) -> None:
