@@ -19,7 +19,7 @@ from station.motion.kit import Kit
 from station.music.score import Score
 from station.practice.click import PLAIN, ClickPattern
 from station.practice.plan import with_sticking
-from station.practice.song_cues import SOUNDED_NS, song_cues
+from station.practice.song_cues import SOUNDED_NS, CountIn, after, count_in_of, song_cues
 from station.practice.song_player import FLAGS, Song, SongPlayer, Step
 from station.render.snapshot import BarNumbers, Hud, Snapshot
 
@@ -46,7 +46,7 @@ class Watched:
 class Deck:
     """One lesson's demonstration by `who`; commands for the engine go through `send`, which may not raise.
 
-    `step` and `click` are what the user has chosen for steps and sound; flags are kept for every lesson.
+    `step`, `click` and `counts_in` are what the user has chosen for steps and sound; flags are kept for every lesson.
     """
 
     def __init__(self, send: Callable[[Command], None], watched: Watched, who: Demonstrator | None = None) -> None:
@@ -58,7 +58,10 @@ class Deck:
         self._sounding_until_ns: int | None = None
         self._due = False
         self.now_ns = 0
+        self._counting: CountIn | None = None  # what is counted before it goes on
         self.step, self.click = Step.BEAT, True
+        self.counts_in = False
+        """Whether a bar is counted before it plays."""
         self.player = SongPlayer(Song.of(self.score))
 
     # --- what it plays -----------------------------------------------------------------------------------------------
@@ -112,14 +115,21 @@ class Deck:
 
     def do(self, control: Control, held: bool = False) -> None:
         """Use a control; while it is `held` (a slider that is dragged), nothing sounds."""
-        before, self.player = self.player, control(self.player, self.now_ns)
+        before, left_ns = self.player, self._left_ns
+        self.player = control(before, self.now_ns)
+        begins = self.player.is_heard and (left_ns > 0 or not before.is_heard)
+        self._counting = self._count_in() if begins else None
         if held or self._sounding_until_ns is None or _course(self.player) != _course(before):
             self._sound(held)
 
     def set_click(self, click: bool) -> None:
         """Let the click sound with the strokes, or the strokes alone."""
         self.click = click
-        self._sound(held=False)
+        self._sound_on()
+
+    def count_in(self, counts_in: bool) -> None:
+        """Let a bar be counted before it plays, or not, from the next time on."""
+        self.counts_in = counts_in
 
     def halt(self) -> None:
         """Stop, where the user turns to something else."""
@@ -137,12 +147,17 @@ class Deck:
         if not self.player.playing:
             self._sounding_until_ns = None
         elif self._sounding_until_ns is not None and now_ns >= self._sounding_until_ns:
-            self._sound(held=False)
+            self._sound_on()
 
     def started(self, zero_ns: int) -> None:
         """The engine's transport runs from `zero_ns`: what was asked for sounds from then on."""
         if self._sounding_until_ns is not None:
-            self.player = self.player.started(zero_ns)
+            self.player = self.player.started(zero_ns + self._counted_ns)
+
+    def _sound_on(self) -> None:
+        """The same once more from where it is: only a count-in that still runs begins anew."""
+        self._counting = self._counting if self._left_ns else None
+        self._sound(held=False)
 
     def _sound(self, held: bool) -> None:
         """Let sound what the player plays from where it is, from the next frame on, or nothing."""
@@ -157,9 +172,24 @@ class Deck:
 
     def _begin_sound(self) -> None:
         self._due = False
-        self.player = self.player.started(self.now_ns + LEAD_NS)
-        self._sounding_until_ns = self.now_ns + SOUNDED_NS
-        self._send(Play(song_cues(self.score, self.player, self._watched.click if self.click else None), LEAD_NS))
+        self.player = self.player.started(self.now_ns + LEAD_NS + self._counted_ns)
+        self._sounding_until_ns = self.now_ns + SOUNDED_NS + self._counted_ns
+        cues = song_cues(self.score, self.player, self._watched.click if self.click else None)
+        self._send(Play(cues if self._counting is None else after(self._counting, cues), LEAD_NS))
+
+    # --- the count-in ------------------------------------------------------------------------------------------------
+
+    def _count_in(self) -> CountIn | None:
+        return count_in_of(self.player, self._watched.click) if self.counts_in else None
+
+    @property
+    def _counted_ns(self) -> int:
+        return 0 if self._counting is None else self._counting.length_ns
+
+    @property
+    def _left_ns(self) -> int:
+        """How much of the count-in is left."""
+        return 0 if self._counting is None else min(max(self.player.since_ns - self.now_ns, 0), self._counted_ns)
 
     # --- the picture -------------------------------------------------------------------------------------------------
 
@@ -171,12 +201,13 @@ class Deck:
     def snapshot(self) -> Snapshot:
         """The picture of the demonstration."""
         drummer, position_s = self.drummer, self.player.position_ns(self.now_ns) / NS_PER_S
+        raising_s = self._left_ns / NS_PER_S if position_s == 0 else 0.0  # while the beginning is counted in
         return Snapshot(
             score=self.score,
             position_s=position_s,
             kit=drummer.kit,
             figure=drummer.figure,
-            pose=drummer.pose(position_s),
+            pose=drummer.pose(position_s - raising_s),
             limbs=drummer.assignment.limbs,
             hud=self._hud(),
         )
@@ -192,7 +223,8 @@ class Deck:
         quarters = self.score.tempo_map.bpm_at(player.song.tick_at(player.position_ns(self.now_ns)))
         return Hud(
             title=self.lesson.title,
-            phase=f"Demonstration{speed}",
+            phase="Count-in" if self._left_ns else f"Demonstration{speed}",
+            count_in=None if self._counting is None else self._counting.beat(self._left_ns),
             bar=place.bar + 1,
             beat=place.beat + 1,
             beats=self.score.tempo_map.meter_at(start).beats,

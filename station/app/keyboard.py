@@ -76,7 +76,7 @@ COMMANDS: tuple[tuple[str, str], ...] = (
     ("Ctrl+1 to 8", "keep where you look from"),
     ("Ctrl+= and Ctrl+-", "larger and smaller panels"),
     ("W", "watch the demonstration, or stop it"),
-    ("R, C", "backwards; its click"),
+    ("R, C, Q", "backwards; its click; a count-in before it"),
     (", and .", "a step back, a step on"),
     ("X", "how far a step goes"),
     ("[ and ]", "rewind, forward while held"),

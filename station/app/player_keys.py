@@ -67,6 +67,7 @@ _ACTIONS: dict[imgui.Key, Callable[[Deck], None]] = {
     imgui.Key.w: lambda deck: deck.do(play_or_stop),
     imgui.Key.r: lambda deck: deck.do(lambda player, now_ns: player.reversed(now_ns, not player.reverse)),
     imgui.Key.c: lambda deck: deck.set_click(not deck.click),
+    imgui.Key.q: lambda deck: deck.count_in(not deck.counts_in),
     imgui.Key.x: _next_step,
     imgui.Key.comma: _stepped(-1),
     imgui.Key.period: _stepped(1),

@@ -3,13 +3,16 @@
 Loops are unrolled, as everywhere: so many passes as fill `SOUNDED_NS`; whoever plays on longer asks again.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
 from station.core.units import NS_PER_S
 from station.engine.messages import CUE_DTYPE
 from station.music.score import Score
-from station.practice.click import ClickPattern, click_cues
+from station.music.tempo import MeterChange, TempoMap
+from station.practice.click import ClickPattern, click_cues, counting
 from station.practice.plan import demonstration_cues
 from station.practice.song_player import SongPlayer
 
@@ -35,3 +38,48 @@ def song_cues(score: Score, player: SongPlayer, click: ClickPattern | None) -> N
     cues = cues[cues["at_ns"] >= 0]
     cues["at_ns"] = cues["at_ns"] * 100 // player.speed_percent
     return cues[np.argsort(cues["at_ns"], kind="stable")]
+
+
+@dataclass(frozen=True, eq=False)
+class CountIn:
+    """What is counted before a song goes on: `cues` from 0, `length_ns` until it does, both at the player's speed.
+
+    `tempo_map` is the count's own, from its first beat, which comes `lead_ns` after 0.
+    """
+
+    cues: NDArray[np.void]
+    length_ns: int
+    lead_ns: int
+    tempo_map: TempoMap
+
+    def beat(self, left_ns: int) -> int | None:
+        """The beat of the bar, from 1, that is counted when so much is left; None before the first."""
+        at_ns = self.length_ns - left_ns - self.lead_ns
+        if at_ns < 0 or left_ns <= 0:
+            return None
+        return self.tempo_map.position_at(int(self.tempo_map.ticks_at_ns(at_ns))).beat + 1
+
+
+def count_in_of(player: SongPlayer, click: ClickPattern) -> CountIn:
+    """A bar of clicks in the meter and at the tempo of where `player` stands, and so much more as lies before it there.
+
+    From the middle of a bar it counts "one two three four, one two" and goes on with three.
+    """
+    written = player.song.tempo_map
+    tick = player.song.tick_at(player.at_ns)
+    start = written.bar_start(int(written.bars_at(tick)))
+    meter = written.meter_at(tick)
+    plain = TempoMap.constant(written.bpm_at(tick) * player.speed_percent / 100)
+    tempo_map = TempoMap.build(plain.tempos, [MeterChange(0, meter.beats, meter.unit)])
+    end_tick = meter.bar_ticks + tick - start
+    cues = click_cues(tempo_map, end_tick, counting(click))
+    lead_ns = max(-int(cues["at_ns"].min(initial=0)), 0)  # a word begins before its beat
+    cues["at_ns"] += lead_ns
+    return CountIn(cues, lead_ns + int(tempo_map.ns_at(end_tick)), lead_ns, tempo_map)
+
+
+def after(count_in: CountIn, cues: NDArray[np.void]) -> NDArray[np.void]:
+    """The count, then `cues`."""
+    moved = cues.copy()
+    moved["at_ns"] += count_in.length_ns
+    return np.concatenate([count_in.cues, moved])

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 WHOLE = (900.0, 540.0)
 """Units that points, every stroke, pieces and craft take beside each other."""
-SHORT = (560.0, 330.0)
+SHORT = (560.0, 310.0)
 """Units that the points, the counts and what to do next take alone."""
 _A_LITTLE = 0.8
 """By so much letters may be smaller for the strokes to be seen (our choice)."""

@@ -164,7 +164,9 @@ class _Drawn:
             fit = int((lowest - y) / (LINE_HEIGHT * size)) + 1
             if len(sentence) > fit and number:
                 break
-            for line in sentence[:fit]:
+            if len(sentence) > fit:
+                sentence[fit - 1 :] = [self._ink.fitted(" ".join(sentence[fit - 1 :]), style, room.width)]
+            for line in sentence:
                 self._ink.text(line, (room.left, y), style)
                 y += LINE_HEIGHT * size
             y += gap

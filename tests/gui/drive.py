@@ -29,6 +29,7 @@ from station.app.panels.hits import STOP_LABEL as HITS_STOP
 from station.app.panels.hits import STUDENT_LABEL, TEACHER_LABEL
 from station.app.panels.lessons import ADAPT_LABEL, FREE_LABEL, LISTEN_LABEL
 from station.app.panels.page import PANELS_LABEL
+from station.app.panels.player_controls import COUNT_IN_LABEL
 from station.app.window import Window
 from station.core.errors import BadInput
 from station.core.pieces import Piece
@@ -581,9 +582,14 @@ def player(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     seen["sought"] = at_ms()
     plays = [command for command in engine.sent if isinstance(command, Play)]
     seen["cues"] = len(plays[0].cues)
+    ctx.item_click(COUNT_IN_LABEL)
     ctx.key_press(imgui.Key.w)
     ctx.mouse_move_to_pos(imgui.ImVec2(900, 30))
-    ctx.yield_(8)
+    ctx.yield_(4)
+    seen["counts"] = [deck.counts_in, deck.snapshot().hud.phase]
+    ctx.key_press(imgui.Key.q)
+    ctx.yield_(4)
+    seen["counts no more"] = deck.counts_in
 
 
 def graph(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:

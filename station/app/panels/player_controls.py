@@ -15,6 +15,7 @@ from station.core.units import NS_PER_S
 from station.practice.song_player import FLAGS, MAX_SPEED_PERCENT, MIN_SPEED_PERCENT, SongPlayer, Step
 
 PLAY_LABEL = "##play"
+COUNT_IN_LABEL = "count-in##demo"
 FLAGS_LABEL = "Flags##flags"
 _POPUP = "##flags-popup"
 _SILENT = "silent, as drums cannot sound backwards or by steps"
@@ -122,6 +123,11 @@ class PlayerControls:
         if changed:
             deck.set_click(click)
         theme.tooltip("Whether the click sounds with the demonstration (C)")
+        row.place(theme.points(108))
+        changed, counts_in = imgui.checkbox(COUNT_IN_LABEL, deck.counts_in)
+        if changed:
+            deck.count_in(counts_in)
+        theme.tooltip("A bar of clicks before the demonstration plays (Q)")
 
     def _loop(self, deck: Deck, row: Row) -> None:
         """The bars that are repeated and practised, as two numbers."""

@@ -140,3 +140,78 @@ def test_another_manner_or_body_is_in_the_next_picture() -> None:
         assert shown.pose is not None
         assert np.allclose(shown.pose.row, expected.row)
         assert shown.figure == who.figure
+
+
+# --- count-in ---------------------------------------------------------------------------------------------------------
+
+
+def counting_deck(*controls: Control) -> tuple[Deck, list[Command]]:
+    """A deck that counts in, and was pressed to play."""
+    made, sent = deck()
+    for control in controls:
+        use(made, control)
+    made.count_in(True)
+    use(made, SongPlayer.played)
+    return made, sent
+
+
+def test_a_bar_is_counted_before_the_first_stroke_and_the_picture_waits_for_it() -> None:
+    made, sent = counting_deck()
+    [play] = plays(sent)
+    clicks = play.cues[play.cues["bus"] == Bus.CLICK]
+    assert clicks["at_ns"][:5].tolist() == [beat * BAR_NS // 4 for beat in range(5)]
+    assert play.cues["at_ns"][play.cues["bus"] == Bus.DEMONSTRATION].min() == BAR_NS
+    made.started(2 * NS_PER_S)
+    seen = []
+    for beat in range(4):
+        made.advance(2 * NS_PER_S + beat * BAR_NS // 4 + NS_PER_MS)
+        hud = made.snapshot().hud
+        seen.append((hud.phase, hud.count_in, made.player.position_ns(made.now_ns)))
+    assert seen == [("Count-in", beat, 0) for beat in (1, 2, 3, 4)]
+    made.advance(2 * NS_PER_S + BAR_NS + 300 * NS_PER_MS)
+    assert (made.player.position_ns(made.now_ns), made.snapshot().hud.count_in) == (300 * NS_PER_MS, None)
+
+
+def test_while_the_beginning_is_counted_the_drummer_has_not_struck_yet() -> None:
+    made, _ = counting_deck()
+    made.started(2 * NS_PER_S)
+    made.advance(2 * NS_PER_S)
+    pose = made.snapshot().pose
+    assert pose is not None
+    assert np.array_equal(pose.row, made.drummer.pose(-3.0).row)
+
+
+def test_from_the_middle_of_a_bar_its_first_beats_are_counted_too_at_half_the_tempo() -> None:
+    """From the third beat: six clicks of 1.5 s, "one two three four, one two"."""
+    made, sent = counting_deck(lambda player, now_ns: player.sought(now_ns, BAR_NS // 2).at_speed(now_ns, 50))
+    [play] = plays(sent)
+    assert play.cues["at_ns"][play.cues["bus"] == Bus.DEMONSTRATION].min() == 9 * NS_PER_S
+    clicks = play.cues["at_ns"][play.cues["bus"] == Bus.CLICK]
+    assert clicks[:7].tolist() == [beat * 3 * NS_PER_S // 2 for beat in range(7)]
+    made.started(NS_PER_S)
+    made.advance(NS_PER_S + 8 * NS_PER_S)
+    assert made.snapshot().hud.count_in == 2
+
+
+def test_only_the_beginning_is_counted_and_anew_where_it_is_changed_meanwhile() -> None:
+    made, sent = counting_deck()
+    made.started(made.now_ns)
+    made.advance(made.now_ns + NS_PER_S)
+    use(made, lambda player, now_ns: player.at_speed(now_ns, 200))
+    assert plays(sent)[-1].cues["at_ns"][4] == BAR_NS // 2, "while it is counted it begins anew"
+    made.started(made.now_ns)
+    made.advance(made.now_ns + BAR_NS)
+    use(made, lambda player, now_ns: player.at_speed(now_ns, 100))
+    assert plays(sent)[-1].cues["at_ns"][plays(sent)[-1].cues["bus"] == Bus.DEMONSTRATION].min() < BAR_NS // 4
+    made.advance(made.now_ns + 700 * NS_PER_S)
+    assert not made.player.playing
+
+
+def test_a_loop_is_counted_in_once_however_long_it_is_played() -> None:
+    made, sent = counting_deck(lambda player, now_ns: player.looped(now_ns, (0, 0)))
+    made.started(made.now_ns)
+    made.advance(made.now_ns + 604 * NS_PER_S)
+    made.advance(made.now_ns)
+    first, again = plays(sent)
+    assert first.cues["at_ns"][first.cues["bus"] == Bus.DEMONSTRATION].min() == BAR_NS
+    assert again.cues["at_ns"][again.cues["bus"] == Bus.DEMONSTRATION].min() < BAR_NS // 4
