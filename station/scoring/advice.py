@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 from station.core.units import PPQ
-from station.scoring.findings import Finding, find_all
+from station.scoring.finding import Finding
+from station.scoring.findings import find_all
 from station.scoring.summary import Summary
 
 MOST = 3

@@ -13,14 +13,12 @@ around some milliseconds, and looks are rare. Times are seconds; score time is a
 """
 
 from bisect import bisect_right
-from dataclasses import replace
 from math import inf, log
 
 import numpy as np
-from numpy.typing import NDArray
 
 from station.core.units import NS_PER_S
-from station.scoring.doubt import DOUBT, SLACK_S, Doubt
+from station.scoring.doubt import DOUBT, LEAST_HITS, MOST_MOVED, SLACK_S, Doubt, Looks
 from station.scoring.elsewhere import FASTEST, SLOWEST, Elsewhere
 from station.scoring.evidence import class_rates
 from station.scoring.judge import Moved
@@ -28,24 +26,13 @@ from station.scoring.line import Line, Scales, jump_cost
 from station.scoring.locate import MISS_COST, Hits, Notes
 from station.scoring.shifts import START_S
 from station.scoring.tracker import Place, Tracker
-
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
+from station.scoring.warp import Written
 
 STOP_NOTES, STOP_S = 8, 1.0
 """Our choice: so many notes in a row are not missed by a player who plays on (2 nats each, a jump's cost)."""
 
-MOST_MOVED = 48
-"""Hits that a change of place may move, at most (our choice: two bars of a dense groove)."""
-
 _LOOK_HITS = 24
 """Hits that say where the student is: two bars of a sparse groove."""
-
-_LEAST_HITS = 6
-"""A look with fewer hits finds everything everywhere (our choice)."""
-
-_WAITS = (4, 6, 8, 12, 16, 24, 32, 64, 128)
-"""Hits from one look that found nothing to the next: whoever does not play the score costs little (our choice)."""
 
 _CONTEST_HITS = 4
 """Hits between two contests of the lead with its rivals (our choice: a beat of 16ths)."""
@@ -55,11 +42,11 @@ _MARGIN, _HOPELESS = 3.0, 12.0
 
 
 class Chase:
-    """Follows hits through notes at `note_s` (n,) of `classes` (n,), at least one; counted in to begin at time 0."""
+    """Follows hits through what is written, at least one note; counted in to begin at time 0."""
 
-    def __init__(self, note_s: Floats, classes: Indices) -> None:
-        order = np.argsort(note_s, kind="stable")
-        note_s, classes = note_s[order], classes[order]
+    def __init__(self, written: Written) -> None:
+        order = np.argsort(written.at_s, kind="stable")
+        note_s, classes = written.at_s[order], written.classes[order]
         self._notes = Notes(note_s, classes, class_rates(note_s, classes), Tracker(note_s, classes))
         self._note_s: list[float] = note_s.tolist()
         self._by_class: dict[int, list[float]] = {c: note_s[classes == c].tolist() for c in np.unique(classes).tolist()}
@@ -78,6 +65,7 @@ class Chase:
         self._lead_total = 0.0
         self._contested = 0  # hits before this one have been held against the rivals
         self._looked = -1
+        self._looks = Looks()
         self._calm(0)
 
     def place_ns(self, at_ns: int) -> int:
@@ -100,15 +88,15 @@ class Chase:
             self._resume(index)
         place, distance, self._place = self._notes.tracker.step(at_s, match_class, self._place)
         if not SLOWEST < self._place.rate < FASTEST:
-            self._place = replace(self._place, rate=1.0)
+            self._place = self._place._replace(rate=1.0)
         said = self._scales.said(distance, match_class)
         self._places.append(place)
         self._nats.append(said)
         self._doubt.take(index, match_class, place, said)
         if self._doubt.nats == 0.0:
-            if self._looks or self._stopped_at is not None:
+            if self._looks.count or self._stopped_at is not None:
                 self._calm(index + 1)
-        elif self._doubt.nats > DOUBT and index >= self._look_at:
+        elif self._doubt.nats > DOUBT and self._looks.is_due(index):
             self._look(index)
         if self._rivals and (index == self._looked or index >= self._contested + _CONTEST_HITS - 1):
             return self._found(self._contest(index))
@@ -147,21 +135,20 @@ class Chase:
     def _calm(self, index: int) -> None:
         """The hits before `index` fit."""
         self._stopped_at = None
-        self._looks, self._look_at = 0, index + _LEAST_HITS - 1
+        self._looks.calm(index)
 
     def _look(self, index: int) -> None:
         """Find where else the doubtful hits up to `index` may have been played; these places become rivals."""
-        self._look_at = index + _WAITS[min(self._looks, len(_WAITS) - 1)]
-        self._looks += 1
+        self._looks.look(index)
         known = [k for k in range(max(self._doubt.since, index - _LOOK_HITS + 1), index + 1) if self._is_known(k)]
-        if len(known) < _LEAST_HITS:
+        if len(known) < LEAST_HITS:
             return
         if self._rivals:
             self._keep_up(index)
         for rival in self._rivals:
             rival.total -= self._lead_total
         rivals = [self._rival(place, known[0], index) for place in self._places_elsewhere(known)]
-        self._rivals = [rival for rival in self._rivals + rivals if rival.total > -_HOPELESS]
+        self._rivals = _unlike([rival for rival in self._rivals + rivals if rival.total > -_HOPELESS])
         self._lead_total, self._contested, self._looked = 0.0, index + 1, index
 
     def _is_known(self, hit: int) -> bool:
@@ -171,11 +158,11 @@ class Chase:
         """Where the hits `known` fit."""
         window = Hits(np.array([self._times[k] for k in known]), np.array([self._classes[k] for k in known]))
         here_s = self._places[known[0]] if self._stopped_at is None else self._stop_s
-        return self._elsewhere.places(window, Place(self._times[known[0]], here_s, self._place.rate), self._looks)
+        return self._elsewhere.places(window, Place(self._times[known[0]], here_s, self._place.rate), self._looks.count)
 
     def _rival(self, place: Place, first: int, index: int) -> Line:
         """The line of a student who is at `place` with hit `first`, from the hit on from which that is best."""
-        back = max(self._doubt.since - _LEAST_HITS, index - MOST_MOVED + 1, self._stopped_at or 0, 0)
+        back = max(self._doubt.since - LEAST_HITS, index - MOST_MOVED + 1, self._stopped_at or 0, 0)
         known = [k for k in range(back, index + 1) if self._is_known(k)]
         since = known.index(first)
         early = [place.score_s + place.rate * (self._times[k] - place.at_s) for k in known[:since]]
@@ -189,7 +176,7 @@ class Chase:
             + sum(own[i + 1 :])
             - sum(lead[i:])
             - self._cost(known[i], line.places_s[i], place.rate)
-            for i in range(len(known) - _LEAST_HITS + 1)
+            for i in range(len(known) - LEAST_HITS + 1)
         ]
         split = max(range(len(gains)), key=gains.__getitem__)
         line = Line(known[split:], line.places_s[split:], line.nats[split:], after)
@@ -267,3 +254,16 @@ class Chase:
         self._place = line.place
         self._calm(len(self._times))
         self._doubt.calm(len(self._times))
+
+
+def _unlike(lines: list[Line]) -> list[Line]:
+    """The best of all lines that have come to one place: several looks find the same."""
+    found: list[Line] = []
+    for line in sorted(lines, key=lambda line: -line.total):
+        if not any(abs(line.places_s[-1] - other.places_s[-1]) < _SAME_S for other in found):
+            found.append(line)
+    return found
+
+
+_SAME_S = 0.01
+"""Our choice: less than a player's spread, so that two such lines hear the same notes."""

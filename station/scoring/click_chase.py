@@ -10,16 +10,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.units import NS_PER_S
-from station.scoring.doubt import DOUBT, Doubt
+from station.scoring.doubt import DOUBT, LEAST_HITS, MOST_MOVED, Doubt, Looks
 from station.scoring.evidence import class_rates, evidence, nats
 from station.scoring.judge import Moved
 from station.scoring.locate import MISS_COST
 from station.scoring.pursuit import JUMP_COST, JUMP_COST_PER_S, MOST_JUMP_COST_MORE
 from station.scoring.shifts import Beats, to_nearest
 from station.scoring.tracker import Tracker
+from station.scoring.warp import Written
 
 Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 _MOST_BEATS = 64
 """As far as the final alignment looks: 16 bars of 4/4 (`shifts`)."""
@@ -27,18 +27,13 @@ _MOST_BEATS = 64
 _START_BEATS = 8
 """However far he has come, who begins again is found within so many beats of the beginning (our choice: two bars)."""
 
-_MOST_MOVED, _LEAST_HITS = 48, 6
-"""Hits that a move may judge anew, and that it must at least (our choice, as in `chase`)."""
-
-_WAITS = (4, 6, 8, 12, 16, 24, 32, 64, 128)
-"""Hits from one look that found nothing to the next (our choice): whoever does not play the score costs little."""
-
 
 class ClickChase:
-    """Follows hits through notes at `note_s` (n,) of `classes` (n,)."""
+    """Follows hits through what is written."""
 
-    def __init__(self, note_s: Floats, classes: Indices, beats: Beats) -> None:
-        self._beats = beats
+    def __init__(self, written: Written) -> None:
+        note_s, classes = written.at_s, written.classes
+        self._beats = Beats(written.beat_s)
         self._tracker, self._doubt = Tracker(note_s, classes), Doubt(note_s, classes)
         self._note_s = np.sort(note_s)
         rates = class_rates(note_s, classes)
@@ -49,7 +44,7 @@ class ClickChase:
         self._at_ns: list[int] = []
         self._classes: list[int] = []
         self._nats: list[float] = []
-        self._looks, self._look_at = 0, _LEAST_HITS - 1
+        self._looks = Looks()
 
     def place_ns(self, at_ns: int) -> int:
         """Where the student is when the click is at `at_ns`."""
@@ -70,18 +65,17 @@ class ClickChase:
         self._nats.append(said)
         self._doubt.take(index, match_class, place, said)
         if self._doubt.nats == 0.0:
-            self._looks, self._look_at = 0, index + _LEAST_HITS
-        elif self._doubt.nats > DOUBT and index >= self._look_at:
+            self._looks.calm(index + 1)
+        elif self._doubt.nats > DOUBT and self._looks.is_due(index):
             return self._look(index) or Moved(index, [place_ns])
         return Moved(index, [place_ns])
 
     def _look(self, index: int) -> Moved | None:
         """Whether the doubtful hits fit some beats away; then the student is there from the first of them on."""
-        self._look_at = index + _WAITS[min(self._looks, len(_WAITS) - 1)]
-        self._looks += 1
-        first = max(self._doubt.since, index - _MOST_MOVED + 1)
+        self._looks.look(index)
+        first = max(self._doubt.since, index - MOST_MOVED + 1)
         known = [k for k in range(first, index + 1) if self._classes[k] in self._rate_of]
-        if len(known) < _LEAST_HITS:
+        if len(known) < LEAST_HITS:
             return None
         shifts = self._shifts(known[0])
         worth = self._worth(known, shifts)
@@ -92,7 +86,7 @@ class ClickChase:
             return None
         self._shift = float(shifts[best])
         self._doubt.calm(index + 1)
-        self._looks, self._look_at = 0, index + _LEAST_HITS
+        self._looks.calm(index + 1)
         places = self._moved(range(first, index + 1), shifts[best : best + 1])[:, 0]
         return Moved(first, np.rint(places * NS_PER_S).astype(np.int64).tolist())
 

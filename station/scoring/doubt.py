@@ -75,5 +75,35 @@ class Doubt:
             self._lost, self._lost_since = 0.0, index + 1
 
 
+MOST_MOVED = 48
+"""Hits that a change of place may move, at most (our choice: two bars of a dense groove)."""
+
+LEAST_HITS = 6
+"""A look with fewer hits finds everything everywhere (our choice)."""
+
+_WAITS = (4, 6, 8, 12, 16, 24, 32, 64, 128)
+"""Hits from one look that found nothing to the next: whoever does not play the score costs little (our choice)."""
+
+
+class Looks:
+    """When a doubt is looked into: with `LEAST_HITS`, then ever more rarely until the hits fit; `count` since then."""
+
+    def __init__(self) -> None:
+        self.calm(0)
+
+    def calm(self, index: int) -> None:
+        """The hits before `index` fit."""
+        self.count, self._next = 0, index + LEAST_HITS - 1
+
+    def is_due(self, index: int) -> bool:
+        """Whether hit `index` is one to look at."""
+        return index >= self._next
+
+    def look(self, index: int) -> None:
+        """It is looked at hit `index`."""
+        self._next = index + _WAITS[min(self.count, len(_WAITS) - 1)]
+        self.count += 1
+
+
 _STOP_DOUBT = 3.0
 """Nats of doubt more than enough that follow a stop: a few hits must speak for the place (our choice)."""

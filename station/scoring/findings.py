@@ -1,24 +1,24 @@
 """What a performance shows, each finding an effect with the interval that the data can bear.
 
-Habits come from two regressions (`habits`), losses from shares with Wilson's interval, a common lean and unsteadiness
-from the asynchronies themselves. Nothing is found that chance or feel explains: an effect counts if it lies `CHANCE`
+Habits come from two regressions (`habits`), losses from shares (`losses`), a common lean and unsteadiness from the
+asynchronies themselves. Nothing is found that chance or feel explains: an effect counts if it lies `CHANCE`
 standard errors from nothing and beyond what is free. How much it matters, its severity, is its size in units of a
 clear fault of its kind. Sentences are written by `advice`.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.names import name_of, piece_name
-from station.core.pieces import Limb, Piece
+from station.core.names import name_of
+from station.core.pieces import Limb
 from station.music import passages
 from station.music.judgement import Label
 from station.scoring.alignment import Reference
-from station.scoring.craft.untold import Untold
+from station.scoring.finding import MIN_SLOTS, Z_95, Finding, worst_bars
 from station.scoring.habits import CHANCE
+from station.scoring.losses import losses, wrong_pieces
 from station.scoring.points import ratio_of_place
 from station.scoring.regression import CONSTANT, Effect
 from station.scoring.summary import Summary
@@ -26,11 +26,6 @@ from station.scoring.timing import asynchrony_ms, timed_notes
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
-
-MIN_SLOTS = 6
-"""Fewer moments bear no sentence (our choice)."""
-
-_Z_95 = 1.959964
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,30 +78,11 @@ _CLEAR_SWING = 0.5
 FREE_BIAS_MS, _CLEAR_BIAS_MS = 20.0, 40.0
 """Professionals play 10–16 ms ahead of the click (HUMANS); 40 ms are a clear fault."""
 
-FREE_LOSS, _CLEAR_LOSS = 0.05, 0.2
-"""One stroke in twenty goes wrong with anyone; one in five is what to work at (our choice; TEACHING's pass is 90 %)."""
-
 _LEAST_SD_MS, _MOST_SD_MS, _SD_SHARE = 20.0, 35.0, 0.15
 """TEACHING: a pass's SD is at most min(35, max(20, 15 % of the interval)) ms."""
 
 _UNSTEADY_SEVERITY = 0.1
 """Slower is the answer to every spread: said when nothing more telling is found."""
-
-
-@dataclass(frozen=True, slots=True)
-class Finding:
-    """One fault: its size with sign and 95 % interval in `unit`, the lesson's bars (from 0) where it is worst.
-
-    `subject` names the piece … that it is about, in words; `severity` is 1 for a clear fault of its kind.
-    """
-
-    fault: str
-    subject: str
-    effect: float
-    ci: tuple[float, float]
-    unit: str
-    severity: float
-    bars: tuple[int, ...]
 
 
 def find_all(summary: Summary) -> list[Finding]:
@@ -117,8 +93,8 @@ def find_all(summary: Summary) -> list[Finding]:
         *_leans(summary),
         *_common_lean(summary),
         *_unsteady(summary),
-        *_losses(summary),
-        *_wrong_pieces(summary),
+        *losses(summary),
+        *wrong_pieces(summary),
     ]
     return sorted(found, key=lambda finding: -finding.severity)
 
@@ -173,7 +149,7 @@ def _swing(summary: Summary) -> list[Finding]:
     if effect is None or not swung.flags.any() or not _is_sure(effect):
         return []
     written = swung.written_place
-    held, low, high = (ratio_of_place(written + effect.value + k * effect.error) for k in (0.0, -_Z_95, _Z_95))
+    held, low, high = (ratio_of_place(written + shift) for shift in (effect.value, *effect.ci))
     asked = ratio_of_place(written)
     if summary.view.feel.allows(held, asked):
         return []
@@ -237,7 +213,7 @@ def _unsteady(summary: Summary) -> list[Finding]:
     if sd is None or left is None or count < 4 * MIN_SLOTS:
         return []
     limit = min(_MOST_SD_MS, max(_LEAST_SD_MS, _SD_SHARE * _usual_interval_ms(summary)))
-    half = _Z_95 * sd / (2 * count) ** 0.5
+    half = Z_95 * sd / (2 * count) ** 0.5
     if min(sd, left) - half <= limit:
         return []
     timed = timed_notes(summary.score, summary.alignment)
@@ -250,65 +226,3 @@ def _usual_interval_ms(summary: Summary) -> float:
     ticks, _ = passages.slots(summary.score)
     waits = np.diff(summary.score.tempo_map.seconds_at(ticks))
     return float(np.median(waits)) * 1e3 if len(waits) else 0.0
-
-
-# --- losses -----------------------------------------------------------------------------------------------------------
-
-
-def _losses(summary: Summary) -> list[Finding]:
-    """A piece whose notes are left out, and strokes that nobody wrote."""
-    found = []
-    told = summary.untold == Untold.TOLD
-    missed = (summary.alignment.note_label == Label.MISS) & told
-    for piece, group in summary.by_piece.items():
-        here = (summary.score.notes["piece"] == piece) & told
-        bars = worst_bars(summary, missed[here].astype(np.float64), here)
-        found += _of_share("missed", _name(piece), (int(missed[here].sum()), int(here.sum())), bars)
-        extras = group.extras or 0
-        found += _of_share("extra", _name(piece), (extras, group.matched + extras), ())
-    return found
-
-
-def _wrong_pieces(summary: Summary) -> list[Finding]:
-    found = []
-    for wrong in summary.wrong_pieces:
-        here = summary.score.notes["piece"] == wrong.written
-        missed = (summary.alignment.note_label == Label.WRONG_PIECE).astype(np.float64)
-        bars = worst_bars(summary, missed[here], here)
-        subject = f"{_name(wrong.played)} for {_name(wrong.written)}"
-        found += _of_share("wrong_piece", subject, (wrong.count, int(here.sum())), bars)
-    return found
-
-
-def _of_share(fault: str, subject: str, share: tuple[int, int], bars: Sequence[int]) -> list[Finding]:
-    """A finding in percent if the interval of `share` (so many of so many) lies beyond `FREE_LOSS`, else nothing."""
-    bad, of = share
-    if bad < 2 or of < MIN_SLOTS:
-        return []
-    if wilson(bad, of, CHANCE)[0] <= FREE_LOSS:
-        return []
-    low, high = wilson(bad, of)
-    percent = 100 * bad / of
-    return [Finding(fault, subject, percent, (100 * low, 100 * high), "%", bad / of / _CLEAR_LOSS, tuple(bars))]
-
-
-def wilson(hit: int, of: int, z: float = _Z_95) -> tuple[float, float]:
-    """Interval of a share, `z` standard errors to both sides (Wilson 1927)."""
-    z2, share = z * z, hit / of
-    centre = (share + z2 / (2 * of)) / (1 + z2 / of)
-    half = z / (1 + z2 / of) * (share * (1 - share) / of + z2 / (4 * of * of)) ** 0.5
-    return max(centre - half, 0.0), min(centre + half, 1.0)
-
-
-def worst_bars(summary: Summary, badness: Floats, notes: Flags, most: int = 3) -> list[int]:
-    """Up to `most` bars, in order, whose notes (mask (n,), `badness` ≥ 0, one value each) are worse than the mean."""
-    bars = summary.view.bars(summary.score)[notes]
-    if not len(bars):
-        return []
-    mean = np.bincount(bars, weights=badness) / np.maximum(np.bincount(bars), 1)
-    worse = [int(b) for b in np.argsort(-mean, kind="stable") if mean[b] > 0 and mean[b] >= badness.mean()]
-    return sorted(worse[:most])
-
-
-def _name(piece: int) -> str:
-    return piece_name(Piece(piece))

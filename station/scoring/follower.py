@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from station.core.events import Hit
 from station.core.pieces import Articulation, Piece
-from station.core.units import NS_PER_S, PPQ
+from station.core.units import NS_PER_S
 from station.music.judgement import Judgement
 from station.music.score import Score
 from station.scoring.chase import Chase
@@ -25,7 +25,7 @@ from station.scoring.classes import match_classes
 from station.scoring.click_chase import ClickChase
 from station.scoring.ignored import BOUNCE_NS, PRESS_LOUDER
 from station.scoring.judge import Judge, Moved
-from station.scoring.shifts import Beats
+from station.scoring.warp import written_of
 from station.scoring.windows import DEFAULT_LEVEL, Windows
 
 
@@ -117,7 +117,5 @@ def _where(score: Score, classes: NDArray[np.int64], clocked: bool) -> _Where | 
     """Who finds the student; None where nothing is written."""
     if not len(score):
         return None
-    if not clocked:
-        return Chase(score.onset_s, classes)
-    beats = np.arange(0, max(score.end_tick, PPQ) + 1, PPQ)
-    return ClickChase(score.onset_s, classes, Beats(score.tempo_map.seconds_at(beats)))
+    written = written_of(score, classes)
+    return ClickChase(written) if clocked else Chase(written)

@@ -17,7 +17,8 @@ Times are ns on the score's axis; asynchronies and windows are real time, of whi
 
 from bisect import bisect_left, bisect_right
 from collections.abc import Collection
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from typing import NamedTuple
 
 from station.core.events import Hit
 from station.core.pieces import Piece
@@ -26,6 +27,7 @@ from station.music.judgement import Judgement, Label
 from station.music.score import Score
 from station.scoring.classes import match_classes
 from station.scoring.ignored import Unwritten
+from station.scoring.lane import Lane
 from station.scoring.pairing import least_cost
 from station.scoring.windows import DEFAULT_LEVEL, Windows
 
@@ -36,8 +38,7 @@ _WRONG_REACH_NS = 50 * NS_PER_MS
 """How near another piece's note must be (our choice: less than half a 16th at 140 bpm)."""
 
 
-@dataclass(frozen=True, slots=True)
-class Moved:
+class Moved(NamedTuple):
     """Hits `first` … to the newest are at `places_ns` of the score, of which `pace` s pass in a real second."""
 
     first: int
@@ -47,40 +48,6 @@ class Moved:
 
 _NOBODY = -1
 _FAR = 2**62
-
-
-class _Lane:
-    """Notes and hits of one match class, each as parallel lists in order of time."""
-
-    __slots__ = ("hit_ns", "hits", "note_ns", "notes")
-
-    def __init__(self, notes: list[int], note_ns: list[int]) -> None:
-        self.notes, self.note_ns = notes, note_ns
-        self.hits: list[int] = []
-        self.hit_ns: list[int] = []
-
-    def put(self, hit: int, at_ns: int) -> None:
-        place = bisect_right(self.hit_ns, at_ns)
-        self.hit_ns.insert(place, at_ns)
-        self.hits.insert(place, hit)
-
-    def take_out(self, hit: int, at_ns: int) -> None:
-        place = bisect_left(self.hit_ns, at_ns)
-        while place < len(self.hits) and self.hit_ns[place] == at_ns and self.hits[place] != hit:
-            place += 1
-        if place < len(self.hits) and self.hits[place] == hit:
-            del self.hits[place], self.hit_ns[place]
-
-    def forget_from(self, start_ns: int) -> None:
-        """Leave out the hits from `start_ns` on."""
-        place = bisect_left(self.hit_ns, start_ns)
-        del self.hits[place:], self.hit_ns[place:]
-
-    def hits_between(self, start_ns: int, end_ns: int) -> slice:
-        return slice(bisect_left(self.hit_ns, start_ns), bisect_right(self.hit_ns, end_ns))
-
-    def notes_between(self, start_ns: int, end_ns: int) -> slice:
-        return slice(bisect_left(self.note_ns, start_ns), bisect_right(self.note_ns, end_ns))
 
 
 class Judge:
@@ -107,11 +74,11 @@ class Judge:
         self._stretch = 0  # the first hit since the student last went back
         self._begin = self._passed = 0
 
-    def _split(self) -> dict[int, _Lane]:
+    def _split(self) -> dict[int, Lane]:
         rows: dict[int, list[int]] = {}
         for note in self._order:
             rows.setdefault(self._note_class[note], []).append(note)
-        return {c: _Lane(notes, [self._onset_ns[note] for note in notes]) for c, notes in rows.items()}
+        return {c: Lane(notes, [self._onset_ns[note] for note in notes]) for c, notes in rows.items()}
 
     def hit(self, hit: Hit, moved: Moved) -> tuple[Judgement, ...]:
         """Judge `hit`, the last of `moved`: its own verdict and every older one that it changes.
@@ -158,7 +125,7 @@ class Judge:
         self._give(index, note, said)
         return said
 
-    def _sure_note(self, lane: _Lane, index: int) -> int:
+    def _sure_note(self, lane: Lane, index: int) -> int:
         """The free note that surely belongs to the hit `index`, by the first rule of `pairing`; −1 if none does."""
         at_ns, note_ns, hit_ns, reach = self._hit_ns[index], lane.note_ns, lane.hit_ns, self._reach_ns
         right = bisect_left(note_ns, at_ns)
@@ -181,7 +148,7 @@ class Judge:
         surely = near < other and other * other + second * second >= (reach + 1) * (reach + 1) + near * near
         return note if surely else _NOBODY
 
-    def _pair_around(self, lane: _Lane, index: int) -> list[Judgement]:
+    def _pair_around(self, lane: Lane, index: int) -> list[Judgement]:
         """Pair anew what is near the hit `index` in its lane; returns what changed."""
         at_ns, reach = self._hit_ns[index], self._reach_ns
         near = lane.hits_between(at_ns - _MEMORY * reach, at_ns + _MEMORY * reach)

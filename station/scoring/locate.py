@@ -124,13 +124,18 @@ def _fitted(notes: Notes, hits: Hits, place: Place) -> Place:
 
 
 def nats_for(notes: Notes, hits: Hits, place: Place) -> float:
-    """What hits and notes of a window say for its beginning at `place`."""
-    places, distances, _ = notes.tracker.follow(hits.at_s.tolist(), hits.classes.tolist(), place)
-    off = np.array(distances)
+    """What hits and notes of a window say for its beginning at `place`.
+
+    Before and after the score a hit costs what a note costs that it leaves out elsewhere: to run beyond the end must
+    not be cheaper than to stumble in mid-score.
+    """
+    reached, distances, _ = notes.tracker.follow(hits.at_s.tolist(), hits.classes.tolist(), place)
+    places, off = np.array(reached), np.array(distances)
     near = np.abs(off) < GATE_S
-    first, last = np.searchsorted(notes.at_s, (min(places) - GATE_S, max(places) + GATE_S))
+    first, last = np.searchsorted(notes.at_s, (places.min() - GATE_S, places.max() + GATE_S))
     unheard = max(int(last - first) - int(near.sum()), 0)
-    return float(evidence(off, notes.rates[hits.classes]).sum()) - MISS_COST * unheard
+    beyond = (places < notes.at_s[0] - GATE_S) | (places > notes.at_s[-1] + GATE_S)
+    return float(evidence(off, notes.rates[hits.classes]).sum()) - MISS_COST * (unheard + int(beyond.sum()))
 
 
 def _best_spots(notes: Notes, search: Search, hits: Hits) -> list[Place]:

@@ -15,8 +15,8 @@ about half a microsecond, so that several loops can be tried where one gets lost
 """
 
 from bisect import bisect_left
-from dataclasses import dataclass
 from math import inf
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,8 +43,7 @@ _SAME_S = 1e-4
 """Notes of one class nearer than this are one place."""
 
 
-@dataclass(frozen=True, slots=True)
-class Place:
+class Place(NamedTuple):
     """At performance time `at_s` the player is at score time `score_s` and plays `rate` s of score in a second."""
 
     at_s: float
@@ -67,14 +66,15 @@ class Tracker:
             self._middles[c] = [*((own[1:] + own[:-1]) / 2).tolist(), inf]
             apart = np.concatenate(([inf], np.diff(own), [inf]))
             self._rooms[c] = np.maximum(np.minimum(apart[1:], apart[:-1]) / 2, _LEAST_ROOM_S).tolist()
+        self._lanes = list(zip(self._middles, self._notes, self._rooms, strict=True))
 
     def follow(self, at_s: list[float], classes: list[int], start: Place) -> tuple[list[float], list[float], Place]:
         """Score time of each hit as predicted, its distance to the nearest note, and the place after the last.
 
         `at_s` (m,) rising, `classes` (m,). The prediction is what the loop believed before it heard the hit.
         """
-        lanes = list(zip(self._middles, self._notes, self._rooms, strict=True))
-        nearest = [bisect_left(own, start.score_s) if own else 0 for own in self._middles]
+        lanes = self._lanes
+        nearest = {c: bisect_left(self._middles[c], start.score_s) for c in set(classes)}
         score_s, rate, last_s = start.score_s, start.rate, start.at_s
         places: list[float] = []
         distances: list[float] = []

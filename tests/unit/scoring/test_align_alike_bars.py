@@ -67,3 +67,11 @@ def test_one_bar_more_is_one_bar_more(lesson: str) -> None:
     half, bar_s = score.bar_count // 2, float(score.tempo_map.seconds_at(score.tempo_map.bar_start(1)))
     first, again = between(score, 0, half), between(score, half - 1, score.bar_count)
     assert share_answered(score, take(score, (first, 1.2), (again, 1.2 + bar_s))) > 0.95
+
+
+def test_who_leaves_out_half_a_bar_off_the_beat_still_began_at_the_beginning() -> None:
+    """Three bars on, the rest of what was played would lie behind the end of the score, where no note is left out."""
+    score = find_lesson("jazz-waltz-1").score.bars(0, 0).repeated(8)
+    half_a_bar_s = float(score.tempo_map.seconds_at(score.tempo_map.bar_start(1))) / 2
+    performance = take(score, (between(score, 0, 4), 0.5), (between(score, 5, 8), 0.5 - half_a_bar_s))
+    assert align(score, performance, clocked=False).count(Label.MATCH) == len(performance.hits)

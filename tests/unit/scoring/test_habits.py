@@ -15,8 +15,8 @@ from station.music.performance import HIT_DTYPE, Performance
 from station.music.score import Score
 from station.scoring.advice import Advice, advise
 from station.scoring.align import align
-from station.scoring.findings import wilson
 from station.scoring.habits import Habits, habits
+from station.scoring.losses import wilson
 from station.scoring.points import Feel
 from station.scoring.regression import Column, fit
 from station.scoring.summary import Summary, View, summarise
