@@ -5,6 +5,8 @@ by the user's own scale.
 """
 
 from bisect import bisect_left
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 
 from imgui_bundle import hello_imgui, imgui
 
@@ -22,7 +24,9 @@ _NARROW = 300.0
 """Design pixels: a slider beside a label and two buttons would have less than a hundred (our choice)."""
 _PANEL = palette.PAPER
 _GRAB, _GRAB_ACTIVE = 0.55, 0.7
-"""Opacity of a slider's grab: its number is read on it too (our choice: 5 : 1 in every theme while it stands still)."""
+"""Opacity of a slider's grab, where it has one."""
+_MARK_HIGH = 4.0
+"""Design pixels of the line that shows a slider's place under its words (our choice: seen from two metres)."""
 
 
 def load_fonts() -> None:
@@ -162,6 +166,39 @@ def tooltip(text: str) -> None:
         imgui.text(text)
         imgui.pop_text_wrap_pos()
         imgui.end_tooltip()
+
+
+def slider_int(label: str, value: int, low: int, high: int, words: str = "%d") -> tuple[bool, int]:
+    """A slider with words on it: a line under them shows its place, for a grab would lie over them."""
+    with _no_grab(label, lambda: (value - low) / max(high - low, 1)):
+        moved, value = imgui.slider_int(label, value, low, high, words)
+    return bool(moved), int(value)
+
+
+def slider_float(label: str, value: float, low: float, high: float, words: str = "%.1f") -> tuple[bool, float]:
+    """As `slider_int`, of real numbers."""
+    with _no_grab(label, lambda: (value - low) / (high - low)):
+        moved, value = imgui.slider_float(label, value, low, high, words)
+    return bool(moved), float(value)
+
+
+@contextmanager
+def _no_grab(label: str, place: Callable[[], float]) -> Iterator[None]:
+    """Draw a slider without its grab, then the line up to `place`, 0 to 1, of its frame, left of its `label`."""
+    for slot in (imgui.Col_.slider_grab, imgui.Col_.slider_grab_active):
+        imgui.push_style_color(slot, imgui.ImVec4(0.0, 0.0, 0.0, 0.0))
+    yield
+    imgui.pop_style_color(2)
+    low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
+    words = imgui.calc_text_size(label, True).x
+    right = high.x - (words + imgui.get_style().item_inner_spacing.x if words else 0.0)
+    bottom, thick = low.y + imgui.get_frame_height(), points(_MARK_HIGH)
+    at = low.x + min(max(place(), 0.0), 1.0) * (right - low.x)
+    line, brush = thick / 2, imgui.get_window_draw_list()
+    brush.push_clip_rect(low, imgui.ImVec2(right, bottom), True)
+    ink = imgui.color_convert_float4_to_u32(_vec(dyed(palette.BRAND)))
+    brush.add_rect_filled(imgui.ImVec2(low.x, bottom - thick), imgui.ImVec2(max(at, low.x + thick), bottom), ink, line)
+    brush.pop_clip_rect()
 
 
 def fit_height(height: float) -> None:

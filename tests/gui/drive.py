@@ -29,7 +29,8 @@ from station.app.panels.hits import STOP_LABEL as HITS_STOP
 from station.app.panels.hits import STUDENT_LABEL, TEACHER_LABEL
 from station.app.panels.lessons import ADAPT_LABEL, FREE_LABEL, LISTEN_LABEL
 from station.app.panels.page import PANELS_LABEL
-from station.app.panels.player_controls import COUNT_IN_LABEL
+from station.app.panels.player_controls import COUNT_IN_LABEL, MORE_LABEL
+from station.app.panels.transport import VIEW_LABEL
 from station.app.window import Window
 from station.core.errors import BadInput
 from station.core.pieces import Piece
@@ -391,12 +392,34 @@ def worn(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.popup_close_all()
     ctx.key_press(chord(imgui.Key.equal, imgui.Key.mod_ctrl))
     ctx.key_press(chord(imgui.Key.equal, imgui.Key.mod_ctrl))
+    ctx.yield_(3)
+    behind_buttons(drive, ctx)
     ctx.key_press(chord(imgui.Key.minus, imgui.Key.mod_ctrl))
     ctx.yield_(3)
     drive.seen["letters"] = imgui.get_style().font_scale_main
     kept = load_settings(drive.settings)
     drive.seen["kept"] = [kept.theme, kept.panel_scale]
     drive.seen["panels"] = round(_width_of(ctx, "//Lessons") / imgui.get_io().display_size.x, 2)
+
+
+def behind_buttons(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """Panels so large that the strip has no room for all: views and the player's rest are reached by two buttons."""
+    strip = ctx.window_info("//Transport").window
+    assert strip is not None
+    drive.seen["strip"] = strip.size.y / imgui.get_style().font_scale_main
+    ctx.set_ref("//Transport")
+    ctx.item_click(VIEW_LABEL)
+    ctx.yield_(2)
+    ctx.item_click("//$FOCUSED/mirror")
+    ctx.yield_(2)
+    drive.seen["mirrored"] = drive.window.backdrop.look.mirrored
+    ctx.popup_close_all()
+    ctx.item_click(MORE_LABEL)
+    ctx.yield_(2)
+    ctx.item_input_value("//$FOCUSED/##speed", 70)
+    ctx.yield_(2)
+    drive.seen["speed"] = drive.room.deck.player.speed_percent
+    ctx.popup_close_all()
 
 
 def _width_of(ctx: imgui.test_engine.TestContext, panel: str) -> float:

@@ -12,12 +12,12 @@ from station.devices.kit_file import own_kit
 from station.devices.presets import GENERAL_MIDI_PRESET
 from station.drills.library import find_lesson
 from station.engine.engine import Engine
-from station.engine.messages import Command, EngineEvent, KeyHit, Play
+from station.engine.messages import Command, EngineEvent, KeyHit, Play, Ready
 from station.practice.plan import Plan, Wishes, plan_practice
 from station.practice.student_spec import StudentSpec
 from station.practice.virtual_student import play
 
-KIT = "virtual student"
+KIT, OUTPUT = "virtual student", "Speakers"
 
 
 class FrameClock:
@@ -46,6 +46,7 @@ class DirectEngine:
         self.plan: Plan | None = None
         self._engine.use_preset(KIT, GENERAL_MIDI_PRESET)
         self._engine.device_found(KIT, clock.now_ns())
+        self._told: list[EngineEvent] = [Ready(OUTPUT, 48_000)]
 
     def send(self, command: Command) -> None:
         self.sent.append(command)
@@ -61,7 +62,8 @@ class DirectEngine:
         self._waiting = self._waiting[len(due) :]
         for at_ns, data in due:
             self._engine.feed(KIT, data, at_ns)
-        return self._engine.advance(self._clock.now_ns())
+        told, self._told = self._told, []
+        return [*told, *self._engine.advance(self._clock.now_ns())]
 
     def play_bytes(self, text: str) -> None:
         """The kit sends bytes (hex) now."""

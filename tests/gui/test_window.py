@@ -199,6 +199,8 @@ def colours_and_sizes_are_worn_and_kept(seen: dict[str, Any]) -> None:
     assert seen["light"]
     assert seen["letters"] == 1.25, "two steps of a quarter up, and one down"
     assert seen["kept"] == ["day", 1.25]
+    assert seen["strip"] <= 2 * 38 + 9 + 2 * 14 + 1, "two lines, however large"
+    assert (seen["mirrored"], seen["speed"]) == (True, 70), "what has no room in them is behind two buttons"
     assert 0.3 < seen["panels"] < 0.36, "1.25 times 26 percent of the window"
 
 

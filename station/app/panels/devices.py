@@ -123,13 +123,13 @@ class DevicesPanel:
         theme.tooltip("The last strokes, the newest on the right, and the threshold; hollow ones are held back")
         imgui.table_next_column()
         imgui.set_next_item_width(-1)
-        moved, threshold = imgui.slider_int(f"##threshold-{word(piece)}", pad.threshold, 1, _MOST_THRESHOLD)
+        moved, threshold = theme.slider_int(f"##threshold-{word(piece)}", pad.threshold, 1, _MOST_THRESHOLD)
         if moved:
             desk.threshold(piece, min(max(threshold, 1), _LOUDEST))
         theme.tooltip(f"{piece_name(piece)}: softer than this velocity is no stroke")
         imgui.table_next_column()
         imgui.set_next_item_width(-1)
-        moved, mask = imgui.slider_int(f"##mask-{word(piece)}", pad.mask_ns // NS_PER_MS, 0, _MOST_MASK_MS, "%d ms")
+        moved, mask = theme.slider_int(f"##mask-{word(piece)}", pad.mask_ns // NS_PER_MS, 0, _MOST_MASK_MS, "%d ms")
         if moved:
             desk.mask(piece, min(max(mask, 0), _MOST_MASK_MS))
         theme.tooltip(f"{piece_name(piece)}: for so long after a stroke there is no other; 0 lets every one pass")
@@ -142,7 +142,7 @@ class DevicesPanel:
         for rule in rules:
             pair = f"{word(rule.source)}-{word(rule.victim)}"
             imgui.set_next_item_width(theme.points(110))
-            moved, percent = imgui.slider_int(f"##share-{pair}", round(100 * rule.share), 0, 100, "%d %%")
+            moved, percent = theme.slider_int(f"##share-{pair}", round(100 * rule.share), 0, 100, "%d %%")
             if moved:
                 desk.share(rule.source, rule.victim, percent / 100)
             theme.tooltip("Up to so loud, beside its cause, it is a ghost; 0 takes the rule away")

@@ -84,11 +84,11 @@ class HitsPanel:
         first, last = hits.bars
         row.place(wide + theme.points(40))
         imgui.set_next_item_width(wide)
-        _, self.bar = imgui.slider_int("bar", self.bar, first, last)
+        _, self.bar = theme.slider_int("bar", self.bar, first, last)
         theme.tooltip("The bar to hear; a click on a dot chooses its bar and pass")
         row.place(wide + theme.points(40))
         imgui.set_next_item_width(wide)
-        _, self.pass_number = imgui.slider_int("pass", self.pass_number, 1, int(hits.dots["pass"].max()))
+        _, self.pass_number = theme.slider_int("pass", self.pass_number, 1, int(hits.dots["pass"].max()))
         theme.tooltip("Whose strokes of yours: those of this pass")
         here = hits.dots[(hits.dots["bar"] == self.bar) & (hits.dots["pass"] == self.pass_number)]
         imgui.begin_disabled(not len(here))

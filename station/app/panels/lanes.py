@@ -162,7 +162,7 @@ class LanesEditor:
         if not narrow:
             imgui.same_line()
         imgui.set_next_item_width(-theme.points(28) - imgui.get_style().item_spacing.x)
-        set_to, value = imgui.slider_float(f"##value-of-{index}", point[1], *range_of(control), "%.1f")
+        set_to, value = theme.slider_float(f"##value-of-{index}", point[1], *range_of(control), "%.1f")
         theme.tooltip("What the control is there")
         imgui.same_line()
         if imgui.button(f"×##point-{index}", imgui.ImVec2(-1, 0)):

@@ -118,7 +118,7 @@ class LessonsPanel:
         if not choice.adapt:
             self._tempo()
         imgui.set_next_item_width(-1)
-        _, choice.loops = imgui.slider_int("##passes", choice.loops, 1, MAX_LOOPS, "passes %d")
+        _, choice.loops = theme.slider_int("##passes", choice.loops, 1, MAX_LOOPS, "passes %d")
         theme.tooltip("How often the loop is played")
         if not self._is_low:
             self._start_button()
@@ -153,7 +153,7 @@ class LessonsPanel:
         tap = theme.points(58)
         imgui.set_next_item_width(-(tap + imgui.get_style().item_spacing.x))
         beats = choice.tempo_bpm / choice.beat_quarters
-        moved, beats = imgui.slider_float("##tempo", beats, low, high, "tempo %.0f bpm")
+        moved, beats = theme.slider_float("##tempo", beats, low, high, "tempo %.0f bpm")
         if moved:
             choice.tempo_bpm = beats * choice.beat_quarters
         theme.tooltip("How fast to practise; the lesson's own tempo is set when you choose it. Ctrl+click to type")

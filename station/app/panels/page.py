@@ -15,6 +15,8 @@ from station.app.model import Stage
 
 PANELS_LABEL = "Panels##panels"
 _POPUP = "##panels-popup"
+PANELS_WIDTH = 84.0
+"""Design pixels of the button."""
 
 
 class Side(StrEnum):
@@ -55,7 +57,7 @@ def panels_popup(tools: Sequence[Page], docking: hello_imgui.DockingParams) -> N
     """A button that opens the list of tools, each with a tick where it is open."""
     if not tools:
         return
-    if imgui.button(PANELS_LABEL, imgui.ImVec2(theme.points(84), 0)):
+    if imgui.button(PANELS_LABEL, imgui.ImVec2(theme.points(PANELS_WIDTH), 0)):
         imgui.open_popup(_POPUP)
     theme.tooltip("Panels to open beside the picture")
     imgui.same_line()

@@ -1,6 +1,10 @@
-"""The controls of the demonstration's player, as SMED's transport has them (thesis, 4.1.1), in a line that wraps."""
+"""The controls of the demonstration's player, as SMED's transport has them (thesis, 4.1.1).
+
+They take one line; what has no room there is in a popup.
+"""
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import partial
 
 from imgui_bundle import imgui
@@ -10,16 +14,28 @@ from station.app.deck import Control, Deck
 from station.app.panels.icon_button import Sign, icon_button
 from station.app.panels.ruler import Bars
 from station.app.panels.slots import Use, popup_grid, slot_rows
-from station.app.row import Row
+from station.app.row import LINE_HEIGHT, Row
 from station.core.units import NS_PER_S
 from station.practice.song_player import FLAGS, MAX_SPEED_PERCENT, MIN_SPEED_PERCENT, SongPlayer, Step
 
 PLAY_LABEL = "##play"
 COUNT_IN_LABEL = "count-in##demo"
 FLAGS_LABEL = "Flags##flags"
-_POPUP = "##flags-popup"
+MORE_LABEL = "More##player"
+_POPUP, _MORE_POPUP = "##flags-popup", "##player-popup"
 _SILENT = "silent, as drums cannot sound backwards or by steps"
-BUTTON = (36.0, 38.0)
+BUTTON = (36.0, LINE_HEIGHT)
+_GAP = 4.0
+_SPEED, _BARS, _STEP, _FLAGS, _MORE = 118.0, 96.0, 92.0, 64.0, 64.0
+"""Widths in design pixels."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Part:
+    """One of the controls, and how much of the line it takes, in pixels."""
+
+    width: float
+    draw: Callable[[], None]
 
 
 def to_start(player: SongPlayer, now_ns: int) -> SongPlayer:
@@ -49,23 +65,42 @@ class PlayerControls:
         self._bars: list[int] = []
 
     def gui(self, deck: Deck, row: Row) -> None:
-        """Draw them into `row` and do what the user does."""
-        self._buttons(deck, row)
-        row.place(theme.points(150))
-        _counter(deck)
-        self._speed(deck, row)
-        self._steps_and_sound(deck, row)
-        self._loop(deck, row)
-        row.place(theme.points(64))
-        if imgui.button(FLAGS_LABEL, imgui.ImVec2(theme.points(64), theme.points(BUTTON[1]))):
-            imgui.open_popup(_POPUP)
-        theme.tooltip(f"Up to {FLAGS} places to come back to (Shift+1 to {FLAGS}; Ctrl+Shift+1 to {FLAGS} keeps one)")
-        _flags_popup(deck)
+        """Draw them into `row`, one line; where it is short the less needed are in a popup. Do what the user does."""
+        left_out: list[_Part] = []
+        for part in (parts := self._parts(deck)):
+            more = 0.0 if part is parts[-1] else theme.points(_MORE) + imgui.get_style().item_spacing.x
+            if left_out or not row.fits(part.width + more):
+                left_out.append(part)
+            else:
+                row.place(part.width)
+                part.draw()
+        if left_out:
+            row.place(theme.points(_MORE))
+            if imgui.button(MORE_LABEL, imgui.ImVec2(theme.points(_MORE), theme.points(BUTTON[1]))):
+                imgui.open_popup(_MORE_POPUP)
+            theme.tooltip("What else the player can do: its keys are on F1's page")
+        if imgui.begin_popup(_MORE_POPUP):
+            for part in left_out:
+                part.draw()
+            imgui.end_popup()
 
-    def _buttons(self, deck: Deck, row: Row) -> None:
-        row.place(theme.points(8 * BUTTON[0] + 7 * 4))
+    def _parts(self, deck: Deck) -> "list[_Part]":
+        """The most needed first."""
+        bars = imgui.calc_text_size("bars").x + imgui.get_style().item_spacing.x
+        return [
+            _Part(theme.points(8 * BUTTON[0] + 7 * _GAP), lambda: self._buttons(deck)),
+            _Part(theme.points(150), lambda: _counter(deck)),
+            _Part(theme.points(_SPEED), lambda: _speed(deck)),
+            _Part(_box_width("click"), lambda: _click(deck)),
+            _Part(theme.points(_BARS) + bars, lambda: self._loop(deck)),
+            _Part(_box_width(COUNT_IN_LABEL), lambda: _count_in(deck)),
+            _Part(theme.points(_STEP), lambda: _step(deck)),
+            _Part(theme.points(_FLAGS), lambda: _flags(deck)),
+        ]
+
+    def _buttons(self, deck: Deck) -> None:
         imgui.begin_group()
-        imgui.push_style_var(imgui.StyleVar_.item_spacing, imgui.ImVec2(theme.points(4), 0))
+        imgui.push_style_var(imgui.StyleVar_.item_spacing, imgui.ImVec2(theme.points(_GAP), 0))
         player, step = deck.player, deck.step
         _button(deck, "##start", Sign.START, to_start, "To the start (Home)")
         back = self._wind_button("##rewind", Sign.REWIND, f"Rewind while it is held ([); {_SILENT}")
@@ -94,51 +129,15 @@ class PlayerControls:
         imgui.same_line()
         return int(held)
 
-    @staticmethod
-    def _speed(deck: Deck, row: Row) -> None:
-        width = theme.points(118)
-        row.place(width)
-        imgui.set_next_item_width(width)
-        moved, percent = imgui.slider_int(
-            "##speed", deck.player.speed_percent, MIN_SPEED_PERCENT, MAX_SPEED_PERCENT, "speed %d %%"
-        )
-        if moved:
-            deck.do(lambda player, now_ns: player.at_speed(now_ns, percent), held=True)
-        if imgui.is_item_deactivated_after_edit():
-            deck.do(lambda player, _: player)
-        theme.tooltip("How fast the demonstration goes, of the lesson's own tempo (- and =). Ctrl+click to type")
-
-    @staticmethod
-    def _steps_and_sound(deck: Deck, row: Row) -> None:
-        width = theme.points(92)
-        row.place(width)
-        imgui.set_next_item_width(width)
-        steps = list(Step)
-        changed, index = imgui.combo("##step size", steps.index(deck.step), [step.words for step in steps])
-        if changed:
-            deck.step = steps[index]
-        theme.tooltip("How far a step goes (X for the next)")
-        row.place(theme.points(84))
-        changed, click = imgui.checkbox("click##demo", deck.click)
-        if changed:
-            deck.set_click(click)
-        theme.tooltip("Whether the click sounds with the demonstration (C)")
-        row.place(theme.points(108))
-        changed, counts_in = imgui.checkbox(COUNT_IN_LABEL, deck.counts_in)
-        if changed:
-            deck.count_in(counts_in)
-        theme.tooltip("A bar of clicks before the demonstration plays (Q)")
-
-    def _loop(self, deck: Deck, row: Row) -> None:
+    def _loop(self, deck: Deck) -> None:
         """The bars that are repeated and practised, as two numbers."""
-        player, width = deck.player, theme.points(96)
+        player = deck.player
         count = player.song.bar_count
         first, last = player.loop or (0, count - 1)
-        row.place(width + theme.points(10) + imgui.calc_text_size("bars").x)
         imgui.align_text_to_frame_padding()
         imgui.text_disabled("bars") if player.loop is None else imgui.text("bars")
         imgui.same_line()
-        imgui.set_next_item_width(width)
+        imgui.set_next_item_width(theme.points(_BARS))
         shown = self._bars or [first + 1, last + 1]
         moved, bars = imgui.drag_int2("##bars", shown, 0.1, 1, count)
         if moved:
@@ -149,6 +148,47 @@ class PlayerControls:
         if not imgui.is_item_active():
             self._bars = []
         theme.tooltip("The bars that are repeated and that Start practises (I, O; U for all). Ctrl+click to type")
+
+
+def _speed(deck: Deck) -> None:
+    imgui.set_next_item_width(theme.points(_SPEED))
+    moved, percent = theme.slider_int(
+        "##speed", deck.player.speed_percent, MIN_SPEED_PERCENT, MAX_SPEED_PERCENT, "speed %d %%"
+    )
+    if moved:
+        deck.do(lambda player, now_ns: player.at_speed(now_ns, percent), held=True)
+    if imgui.is_item_deactivated_after_edit():
+        deck.do(lambda player, _: player)
+    theme.tooltip("How fast the demonstration goes, of the lesson's own tempo (- and =). Ctrl+click to type")
+
+
+def _step(deck: Deck) -> None:
+    imgui.set_next_item_width(theme.points(_STEP))
+    steps = list(Step)
+    changed, index = imgui.combo("##step size", steps.index(deck.step), [step.words for step in steps])
+    if changed:
+        deck.step = steps[index]
+    theme.tooltip("How far a step goes (X for the next)")
+
+
+def _click(deck: Deck) -> None:
+    changed, click = imgui.checkbox("click##demo", deck.click)
+    if changed:
+        deck.set_click(click)
+    theme.tooltip("Whether the click sounds with the demonstration (C)")
+
+
+def _count_in(deck: Deck) -> None:
+    changed, counts_in = imgui.checkbox(COUNT_IN_LABEL, deck.counts_in)
+    if changed:
+        deck.count_in(counts_in)
+    theme.tooltip("A bar of clicks before the demonstration plays (Q)")
+
+
+def _box_width(label: str) -> float:
+    """What a checkbox and its words take."""
+    words = imgui.calc_text_size(label, True).x
+    return float(imgui.get_frame_height() + imgui.get_style().item_inner_spacing.x + words)
 
 
 def _stepping(step: Step, way: int) -> Control:
@@ -180,6 +220,13 @@ def counter(seconds: float, bar: int | None, beat: int | None) -> None:
 def _counter(deck: Deck) -> None:
     place = deck.player.place(deck.now_ns)
     counter(deck.player.position_ns(deck.now_ns) / NS_PER_S, place.bar + 1, place.beat + 1)
+
+
+def _flags(deck: Deck) -> None:
+    if imgui.button(FLAGS_LABEL, imgui.ImVec2(theme.points(_FLAGS), theme.points(BUTTON[1]))):
+        imgui.open_popup(_POPUP)
+    theme.tooltip(f"Up to {FLAGS} places to come back to (Shift+1 to {FLAGS}; Ctrl+Shift+1 to {FLAGS} keeps one)")
+    _flags_popup(deck)
 
 
 def _flags_popup(deck: Deck) -> None:

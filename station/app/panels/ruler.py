@@ -5,13 +5,13 @@ from collections.abc import Callable
 from imgui_bundle import imgui
 
 from station.app import theme
+from station.app.row import LINE_HEIGHT
 from station.app.ruler_scale import RulerScale
 from station.practice.song_player import SongPlayer
 from station.render import palette
 from station.render.ink import Colour
 
 RULER = "##ruler"
-HEIGHT = 38.0
 _DRAG_PX = 5.0
 """A press that moves less is a click (our choice)."""
 _FLAG_PX, _FLAG_WIDTH = 7.0, 13.0
@@ -36,7 +36,7 @@ class Ruler:
 
     def gui(self, player: SongPlayer, now_ns: int, width: float) -> None:
         """Draw it `width` pixels wide and do what the user does."""
-        height = theme.points(HEIGHT)
+        height = theme.points(LINE_HEIGHT)
         corner = imgui.get_cursor_screen_pos()
         imgui.invisible_button(RULER, imgui.ImVec2(max(width, 1.0), height))
         scale = RulerScale(player.song, corner.x, max(width, 1.0), theme.points(1.0))
