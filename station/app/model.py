@@ -15,6 +15,7 @@ from station.app.deck import Deck
 from station.app.demonstrator import Demonstrator
 from station.app.every_hit import DOT_DTYPE, EveryHit
 from station.app.graphed import Graphed
+from station.app.habits import HabitDesk
 from station.app.heat_map import HeatMap
 from station.app.kit_desk import KitDesk
 from station.app.welcome import Answers
@@ -241,6 +242,11 @@ class PracticeModel(Protocol):
     @property
     def desk(self) -> KitDesk:
         """The kits that are here, as the devices page shows and sets them."""
+        ...
+
+    @property
+    def habits(self) -> HabitDesk:
+        """How the student likes sessions to go."""
         ...
 
     def dismiss(self) -> None:

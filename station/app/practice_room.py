@@ -13,6 +13,7 @@ from station.app.demonstrator import Demonstrator, kept_demonstrator
 from station.app.ear import Ear
 from station.app.engine_line import EngineLine, WakeEngine
 from station.app.graphed import Graphed
+from station.app.habits import HabitDesk, Habits
 from station.app.just_play import JustPlay
 from station.app.kit_desk import KitDesk
 from station.app.lesson_cards import wish_of
@@ -75,6 +76,7 @@ class PracticeRoom:
         self._is_free = False
         self._ear = Ear(self._engine, self._prepared.has_tracks)
         self._pads = PadCommands(settings, first.score)
+        self.habits = HabitDesk(settings, self._accustom)
         self._is_wanted = False
         self._fault: StationError | None = None
         self.deck = Deck(self._ear.demonstrate, self._prepared.watched(first.lesson, first.kit), self._who)
@@ -216,6 +218,11 @@ class PracticeRoom:
         else:
             self._engine.send(command)
 
+    def _accustom(self, habits: Habits) -> None:
+        """Sessions go so from now on; one that runs waits as it began."""
+        self._prepared.settings = habits.within(self._prepared.settings)
+        self._pads = PadCommands(self._prepared.settings, self._run.plan.score)
+
     def meet(self, answers: Answers) -> None:
         """Who plays, what is heard and whose hand leads, from now on; raises `DeviceError` for a dead engine."""
         settings = self._prepared.settings = met(self._prepared.settings, answers)
@@ -273,7 +280,7 @@ class PracticeRoom:
 
     def _command(self, event: EngineEvent) -> None:
         """Do what pads and foot switches ask for; a question has the pads for itself."""
-        if self._outcome.is_asking:
+        if self._outcome.is_asking or self.habits.take(event):
             self._pads.forget()
             return
         self._pads.practise(self._run.plan.score)

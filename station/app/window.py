@@ -36,6 +36,9 @@ from station.app.panels.lessons import LessonActions, LessonsPanel
 from station.app.panels.look_popup import LookActions
 from station.app.panels.page import Page, Side, panels_popup
 from station.app.panels.player_controls import PlayerControls
+from station.app.panels.practice import ABOUT as ABOUT_PRACTICE
+from station.app.panels.practice import HELP as PRACTICE_HELP
+from station.app.panels.practice import PRACTICE, PracticePanel
 from station.app.panels.ruler import Bars, Ruler
 from station.app.panels.transport import TransportBar, TransportParts
 from station.app.panels.welcome import WelcomePage
@@ -82,6 +85,7 @@ class Window:
         self._fault: DeviceError | None = None
         self.monitors: MonitorWatch | None = None
         self._devices = DevicesPanel(model.desk, self._tried, self.news.tell)
+        self._practice = PracticePanel(model.habits, options.settings, self._tried)
         self.figure = FigurePanel(model, options.settings, self._tried, self._preview_anew)
         self.hits = HitsPanel(
             EarActions(
@@ -118,6 +122,7 @@ class Window:
             Page(BARS, Side.BESIDE, self._bars_gui, shown=lambda stage: self._shows_result()),
             Page(HITS, Side.STRIP, self._hits_gui, ABOUT_HITS),
             Page(FIGURE, Side.RIGHT, self.figure.gui, ABOUT, help=HELP),
+            Page(PRACTICE, Side.RIGHT, self._practice.gui, ABOUT_PRACTICE, help=PRACTICE_HELP),
             Page(DEVICES, Side.RIGHT, self._devices.gui, DEVICES_ABOUT, help=DEVICES_HELP),
             Page(GRAPH, Side.STRIP, self._graph_gui, GRAPH_ABOUT, help=GRAPH_HELP),
             Page(TRANSPORT, Side.BELOW, self._transport_gui, shown=lambda stage: True),
@@ -145,8 +150,7 @@ class Window:
         io.config_flags = io.config_flags & ~nav if stage is Stage.PLAYING else io.config_flags | nav
 
         if stage is not Stage.PLAYING:
-            self._keep_look()
-            self.figure.keep()
+            self._keep()
 
     def _wear(self) -> None:
         """Show the panels in the colours and the size that were chosen; larger ones dock anew."""
@@ -160,9 +164,14 @@ class Window:
             theme.apply()
 
     def _leaving(self) -> None:
+        self._keep()
+        self.backdrop.release()
+
+    def _keep(self) -> None:
+        """Write to the settings what was chosen in the window."""
         self._keep_look()
         self.figure.keep()
-        self.backdrop.release()
+        self._practice.keep()
 
     def _keep_look(self) -> None:
         """Write the look to the settings when it has changed; never while somebody plays."""

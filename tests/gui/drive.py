@@ -30,6 +30,7 @@ from station.app.panels.hits import STUDENT_LABEL, TEACHER_LABEL
 from station.app.panels.lessons import ADAPT_LABEL, FREE_LABEL, LISTEN_LABEL
 from station.app.panels.page import PANELS_LABEL
 from station.app.panels.player_controls import COUNT_IN_LABEL, MORE_LABEL
+from station.app.panels.practice import LEARN_LABEL, PRACTICE
 from station.app.panels.transport import VIEW_LABEL
 from station.app.window import Window
 from station.core.errors import BadInput
@@ -328,6 +329,25 @@ def devices(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     open_panel(ctx, DEVICES)  # and close it again
     ctx.yield_(2)
     drive.seen["still listens"] = [command.on for command in drive.engine.sent if isinstance(command, Eavesdrop)]
+
+
+def habits(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """The practice panel: a tick, a gesture taken away, another learnt from the kit; the settings keep them."""
+    open_panel(ctx, PRACTICE)
+    ctx.set_ref(f"//{PRACTICE}")
+    ctx.item_uncheck("two kicks start")
+    ctx.item_click("×##no-cc=64")
+    ctx.item_click(LEARN_LABEL)
+    drive.engine.play_bytes("99 31 50 99 33 50")
+    ctx.yield_(4)
+    kept = load_settings(drive.settings)
+    drive.seen["kept"] = [kept.kicks_start, kept.pause]
+    drive.engine.play_bytes("99 24 50")
+    ctx.yield_(5)
+    drive.engine.play_bytes("99 24 50")
+    ctx.yield_(2)
+    drive.seen["stage"] = drive.room.room().stage.name
+    open_panel(ctx, PRACTICE)  # and close it again
 
 
 def open_panel(ctx: imgui.test_engine.TestContext, name: str) -> None:
@@ -683,6 +703,7 @@ SCENARIOS = {
     "drill": drill,
     "closes": closes,
     "unplugged": unplugged,
+    "habits": habits,
     "player": player,
     "graph": graph,
     "fault": fault,

@@ -64,7 +64,8 @@ def test_a_lesson_is_chosen_played_and_judged(environment: dict[str, str], tmp_p
 
 
 def test_search_keys_and_faults_in_one_window(environment: dict[str, str], tmp_path: Path) -> None:
-    seen = run_in_turn(["devices", "search", "fault", "keys", "just_play"], environment, tmp_path)
+    seen = run_in_turn(["devices", "habits", "search", "fault", "keys", "just_play"], environment, tmp_path)
+    how_sessions_go_is_ticked_and_learnt(seen["habits"])
     the_kit_is_seen_and_set_by_looking(seen["devices"])
     typing_into_the_search_plays_nothing(seen["search"])
     a_fault_is_said_in_one_line(seen["fault"])
@@ -168,6 +169,11 @@ def the_kit_is_seen_and_set_by_looking(seen: dict[str, Any]) -> None:
     assert "TakeKit" in seen["taken"]
     assert seen["told"], "where it is kept, or that the engine took it"
     assert seen["still listens"] == [True, False]
+
+
+def how_sessions_go_is_ticked_and_learnt(seen: dict[str, Any]) -> None:
+    assert seen["kept"] == [False, "crash_1+crash_2 ride+crash_1"], "49 is a crash and 51 a ride in General MIDI"
+    assert seen["stage"] == "IDLE", "two kicks start nothing now"
 
 
 def typing_into_the_search_plays_nothing(seen: dict[str, Any]) -> None:

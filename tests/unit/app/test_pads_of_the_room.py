@@ -1,6 +1,7 @@
 """What the kit commands: two kicks start, two crashes or a foot switch pause, silence too. A room on a line by hand."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -196,3 +197,18 @@ def test_no_pads_command_while_a_question_is_open(tmp_path: Path) -> None:
 def test_a_pause_that_cannot_be_meant_is_named(tmp_path: Path) -> None:
     with pytest.raises(BadInput, match="settings: pause: snare: expected two pads"):
         room_with(tmp_path, pause="snare")
+
+
+def test_a_gesture_that_was_learnt_pauses_and_kicks_that_were_switched_off_start_nothing(tmp_path: Path) -> None:
+    room, line = room_with(tmp_path)
+    room.habits.put(replace(room.habits.now, kicks_start=False))
+    kicks(room, line, NS_PER_S)
+    assert not room.wants_start()
+    room.habits.learn(True)
+    strike(room, line, 3 * NS_PER_S, Piece.CRASH_1, Piece.RIDE)
+    room.start(WISH)
+    line.says.append(Started(4 * NS_PER_S))
+    room.snapshot(4 * NS_PER_S + 1)
+    strike(room, line, 4 * NS_PER_S + PLAN.passes_start_ns, Piece.KICK)
+    strike(room, line, 4 * NS_PER_S + PLAN.passes_start_ns + BAR_NS, Piece.CRASH_1, Piece.RIDE)
+    assert room.room().paused
