@@ -35,6 +35,9 @@ from station.core.pieces import Articulation, Piece, Zone
 MAGIC = b"DRUMCAP1"
 _HEAD = struct.Struct("<BHIq")
 _CHECK = struct.Struct("<I")
+_HARDEST = 127
+FURTHEST_NS = 2**62
+"""No clock says so much (146 years): two times lie within 64 bits of each other."""
 _UNIX = struct.Struct("<q")
 _STROKE = struct.Struct("<BBBBf")  # piece, zone, articulation, velocity, openness (NaN: cannot tell)
 
@@ -127,7 +130,7 @@ def parse_capture(data: bytes, source: str | Path = "capture") -> Capture:
         if body_end + _CHECK.size > len(data):
             break
         expected = zlib.crc32(data[at:body_end], check)
-        if _CHECK.unpack_from(data, body_end)[0] != expected:
+        if _CHECK.unpack_from(data, body_end)[0] != expected or abs(at_ns) > FURTHEST_NS:
             break
         records.append(Record(kind, device, at_ns, data[at + _HEAD.size : body_end]))
         check, at = expected, body_end + _CHECK.size
@@ -163,7 +166,7 @@ def device_of(record: Record) -> DeviceWord:
         name, preset, kit = fields["name"], fields["preset"], fields.get("kit")
         if not (isinstance(name, str) and isinstance(preset, str) and isinstance(kit, str | None)):
             raise TypeError
-    except (ValueError, TypeError, KeyError, AttributeError):
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
         raise BadInput("capture", f"device {record.device}", "its name and preset cannot be read") from None
     return DeviceWord(name, preset, kit)
 
@@ -179,6 +182,8 @@ def stroke_of(record: Record, device: str) -> Hit:
     """The hit of a STROKE record; raises `BadInput` where its payload is not ours."""
     try:
         piece, zone, articulation, velocity, openness = _STROKE.unpack(record.payload)
+        if not (1 <= velocity <= _HARDEST and (math.isnan(openness) or 0.0 <= openness <= 1.0)):
+            raise ValueError
         return Hit(
             at_ns=record.at_ns,
             piece=Piece(piece),

@@ -5,8 +5,7 @@
     notes.66 = { piece = "ride", zone = "edge" }          # articulation, openness too; piece = "none" for no stroke
     pedal = { controller = 4, open = 0, shut = 90, steps = [] }      # or { present = false }
     foot = { least_travel = 0.3, splash_ms = 90, by_controller = false }
-    choke = { from = 1, grab_velocity = 20 }
-    choke.notes.60 = { piece = "crash_1" }
+    choke = { from = 1, grab_velocity = 20, notes.60 = { piece = "crash_1" } }
     positions.16 = { pieces = ["snare"] }
     pads.snare = { threshold = 5, mask_ms = 9, least_velocity = 12 }
     [[crosstalk]]
@@ -18,7 +17,6 @@
 """
 
 import re
-import tomllib
 from collections.abc import Mapping
 from enum import IntEnum
 from pathlib import Path
@@ -30,7 +28,7 @@ from station.core.files import write_whole
 from station.core.kitmap import KitMap, Strike
 from station.core.pieces import Articulation, Piece, Zone, word
 from station.core.settings import settings_path
-from station.core.toml_table import Table, located, read_toml
+from station.core.toml_table import Table, located, parse_toml, read_toml
 from station.core.units import ms_from_ns, ns_from_ms
 from station.devices.kit import GHOST_BEFORE_NS, GHOST_WITHIN_NS, Crosstalk, Foot, KitPreset, Pad, PedalRange
 from station.devices.kit_text import kit_text
@@ -39,6 +37,8 @@ from station.devices.presets import GENERAL_MIDI_PRESET, preset_named, stable_na
 _KEYS = {"title", "base", "notes", "pedal", "foot", "choke", "positions", "pads", "crosstalk"}
 _NONE = "none"
 _LONGEST_MS = 500.0
+_LONGEST_NAME = 60
+"""A file's name may have 255 bytes on most systems, and a letter up to four; JACK's ports have up to 320 letters."""
 _Member = TypeVar("_Member", bound=IntEnum)
 
 
@@ -49,7 +49,7 @@ def kits_folder() -> Path:
 
 def own_kit_path(device: str, folder: Path | None = None) -> Path:
     """The file of the kit called `device`, whether there is one or not."""
-    name = re.sub(r"[^\w.+-]+", "-", stable_name(device)).strip("-.") or "kit"
+    name = re.sub(r"[^\w.+-]+", "-", stable_name(device))[:_LONGEST_NAME].strip("-.") or "kit"
     return (folder or kits_folder()) / f"{name}.toml"
 
 
@@ -67,10 +67,7 @@ def read_kit(path: Path) -> KitPreset:
 
 def parse_kit(text: str, name: str) -> KitPreset:
     """The kit in a text that `kit_text` wrote; raises `BadInput`."""
-    try:
-        return _kit(Table(tomllib.loads(text), Path(name), ""), name)
-    except tomllib.TOMLDecodeError as fault:
-        raise BadInput(name, "", f"its kit cannot be read: {fault}") from fault
+    return _kit(Table(parse_toml(text.encode(errors="replace"), name), Path(name), ""), name)
 
 
 def save_kit(kit: KitPreset, device: str, folder: Path | None = None) -> Path:
@@ -150,7 +147,8 @@ def _pedal(table: Table, base: PedalRange | None) -> PedalRange | None:
     wide_open, shut = table.whole("open", 0, 127, usual.wide_open), table.whole("shut", 0, 127, usual.shut)
     if wide_open == shut:
         raise BadInput(table.source, f"{table.place}.shut", f"open and shut are both {shut}: the pedal tells nothing")
-    steps = table.raw.get("steps", list(usual.steps))
+    usual_steps = () if {"open", "shut"} & set(table.raw) else usual.steps  # other ends are those of another way
+    steps = table.raw.get("steps", list(usual_steps))
     if not isinstance(steps, list) or len(steps) == 1 or not all(type(s) is int and 0 <= s <= 127 for s in steps):
         raise BadInput(table.source, f"{table.place}.steps", f"expected values such as [0, 56, 127], found {steps!r}")
     return PedalRange(wide_open, shut, table.whole("controller", 0, 127, usual.controller), tuple(steps))

@@ -1,10 +1,10 @@
 """Writes a kit as the TOML that `kit_file` reads: only what differs from the preset that it is built on."""
 
-import json
 from collections.abc import Iterator
 
 from station.core.kitmap import Strike
 from station.core.pieces import Articulation, Zone, word
+from station.core.toml_write import toml_text
 from station.core.units import ms_from_ns
 from station.devices.kit import PLAIN_PAD, Crosstalk, Foot, KitPreset, Pad, PedalRange
 from station.devices.presets import GENERAL_MIDI_PRESET, PRESETS
@@ -13,7 +13,7 @@ from station.devices.presets import GENERAL_MIDI_PRESET, PRESETS
 def kit_text(kit: KitPreset) -> str:
     """The file of `kit`; reading it gives an equal kit, but for its name and its ports."""
     base = PRESETS.get(kit.base or kit.name, GENERAL_MIDI_PRESET)
-    lines = [f"title = {json.dumps(kit.title, ensure_ascii=False)}", f"base = {json.dumps(base.name)}"]
+    lines = [f"title = {toml_text(kit.title)}", f"base = {toml_text(base.name)}"]
     lines += _notes(kit, base)
     if kit.pedal != base.pedal:
         lines.append(f"pedal = {_pedal(kit.pedal)}")

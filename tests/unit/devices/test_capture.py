@@ -1,5 +1,6 @@
 """The byte layout is checked against one record packed by hand from the table in the module's head."""
 
+import math
 import struct
 import zlib
 
@@ -77,6 +78,14 @@ def test_a_record_that_was_taken_out_or_moved_shows() -> None:
     assert list(parse_capture(swapped).records) == RECORDS[:1]
 
 
+@pytest.mark.parametrize("at_ns", [2**63 - 1, -(2**63)])
+def test_a_time_that_no_clock_says_ends_what_can_be_read(at_ns: int) -> None:
+    writer = RecordWriter()
+    said = [RECORDS[0], Record(Kind.BYTES, 1, at_ns, b"\x99\x26\x40"), RECORDS[1]]
+    data = MAGIC + b"".join([writer.encode(record) for record in said])
+    assert parse_capture(data).records == (RECORDS[0],)
+
+
 @pytest.mark.parametrize("data", [b"MThd", b"DRUMCUP", b"RUMCAP1", b"\x00" * 100])
 def test_another_file_is_refused(data: bytes) -> None:
     with pytest.raises(BadInput, match=r"song\.mid: byte 0: no capture"):
@@ -87,7 +96,7 @@ def test_a_device_has_a_name_and_a_preset() -> None:
     assert device_of(RECORDS[0])[:2] == ("Kit «ü»", "roland-td-17")
 
 
-@pytest.mark.parametrize("payload", [b"", b"[]", b"{}", b'{"name": 1, "preset": "x"}', b"\xff", b"3"])
+@pytest.mark.parametrize("payload", [b"", b"[]", b"{}", b'{"name": 1, "preset": "x"}', b"\xff", b"3", b"[" * 100_000])
 def test_a_device_that_cannot_be_read_is_the_files_fault(payload: bytes) -> None:
     with pytest.raises(BadInput, match="device 1"):
         device_of(Record(Kind.DEVICE, 1, 0, payload))
@@ -99,7 +108,11 @@ def test_a_stroke_without_bytes_comes_back_whole(openness: float | None) -> None
     assert stroke_of(stroke_record(2, hit), "keyboard") == hit
 
 
-@pytest.mark.parametrize("payload", [b"", b"\xff" * 8])
+NO_VELOCITY = struct.pack("<BBBBf", Piece.HIHAT, Zone.BOW, Articulation.NORMAL, 0, 0.5)
+NO_OPENNESS = struct.pack("<BBBBf", Piece.HIHAT, Zone.BOW, Articulation.NORMAL, 90, math.inf)
+
+
+@pytest.mark.parametrize("payload", [b"", b"\xff" * 8, NO_VELOCITY, NO_OPENNESS])
 def test_a_stroke_that_cannot_be_read_is_the_files_fault(payload: bytes) -> None:
     with pytest.raises(BadInput, match="stroke at 5 ns"):
         stroke_of(Record(Kind.STROKE, 2, 5, payload), "keyboard")

@@ -48,7 +48,7 @@ def test_everything_that_can_be_said_is_read(tmp_path: Path) -> None:
     assert kit.notes[46] == Strike(Piece.HIHAT, Zone.BOW, openness=0.5)
     assert 49 not in kit.notes
     assert kit.notes[33] == base.notes[33]
-    assert kit.pedal == PedalRange(127, 10, 4, (0, 56, 127))
+    assert kit.pedal == PedalRange(127, 10)
     assert kit.foot == Foot(0.3, 90 * NS_PER_MS, True)
     assert (kit.choke_from, kit.grab_velocity, dict(kit.choke_notes)) == (100, 20, {60: Piece.CRASH_1})
     assert dict(kit.position_controllers) == {16: {Piece.SNARE, Piece.TOM_1}}
@@ -143,3 +143,27 @@ def kits(draw: st.DrawFn) -> KitPreset:
 @given(kits())
 def test_what_is_written_reads_back(kit: KitPreset) -> None:
     assert parse_kit(kit_text(kit), "own") == kit
+
+
+def test_the_kit_that_the_manual_shows_is_one(tmp_path: Path) -> None:
+    manual = (Path(__file__).parents[3] / "docs" / "devices.md").read_text(encoding="utf-8")
+    shown = manual.partition("```toml\n")[2].partition("```")[0]
+    kit = read_kit(written(tmp_path, shown))
+    assert (kit.title, kit.base, dict(kit.choke_notes)) == ("my TD-17", "roland-td-17", {60: Piece.CRASH_1})
+    assert kit.crosstalk == (Crosstalk(Piece.KICK, Piece.SNARE, 0.3, 30 * NS_PER_MS, 5 * NS_PER_MS),)
+
+
+def test_a_port_of_any_name_has_a_file_that_reads_back(tmp_path: Path) -> None:
+    port = "ü\x7f\x1b/../" + "𝄞" * 320
+    kit = KitPreset(port, port, preset_named("general-midi").notes, base="general-midi")
+    assert len(own_kit_path(port, tmp_path).name.encode()) < 256
+    save_kit(kit, port, tmp_path)
+    read = own_kit(port, tmp_path)
+    assert read is not None
+    assert read.title == port
+
+
+@pytest.mark.parametrize("text", ["a = " + "[" * 5000, "a" * 100, "title = 3"])
+def test_the_text_of_a_kit_in_a_capture_that_is_none_is_bad_input(text: str) -> None:
+    with pytest.raises(BadInput):
+        parse_kit(text, "taken")
