@@ -12,6 +12,7 @@ from math import degrees, isfinite, radians
 from station.core.errors import BadInput
 from station.core.settings import LARGEST_PANELS, SMALLEST_PANELS, Settings, settings_path
 from station.render.camera import Camera, View
+from station.render.painter import DoublePlace
 from station.render.palette import Theme
 from station.render.score_view import ScoreForm
 
@@ -33,8 +34,8 @@ Viewpoints = tuple[Camera | None, ...]
 class Look:
     """The view, whether left and right are swapped, what the `inset` shows, the score's form, the viewpoints kept.
 
-    `theme` is the colours, `scale` how many times as large as designed the panels are, `double` whether the student's
-    double is shown.
+    `theme` is the colours, `scale` how many times as large as designed the panels are, `double` where the student's
+    double is.
     """
 
     view: View = View.SHOULDER
@@ -44,7 +45,7 @@ class Look:
     viewpoints: Viewpoints = (None,) * SLOTS
     theme: Theme = Theme.NIGHT
     scale: float = 1.0
-    double: bool = False
+    double: DoublePlace = DoublePlace.NOWHERE
 
     def keeping(self, slot: int, camera: Camera) -> "Look":
         """With `camera` as the viewpoint `slot`, from 0."""
@@ -59,6 +60,10 @@ class Look:
         """With larger panels by so many steps, smaller where negative, within what the settings allow."""
         scale = round(self.scale / SCALE_STEP) * SCALE_STEP + steps * SCALE_STEP
         return replace(self, scale=min(max(scale, SMALLEST_PANELS), LARGEST_PANELS))
+
+    def next_double(self) -> "Look":
+        """With the student's double at the next place."""
+        return replace(self, double=DoublePlace((self.double + 1) % len(DoublePlace)))
 
     def next_inset(self) -> "Look":
         """With what the second picture shows next."""
@@ -75,7 +80,9 @@ def look_of(settings: Settings) -> Look:
         _viewpoints(settings.viewpoints),
         Theme(_known("theme", settings.theme, list(Theme))),
         settings.panel_scale,
-        settings.double,
+        (DoublePlace.BESIDE if settings.double_beside else DoublePlace.OVER)
+        if settings.double
+        else DoublePlace.NOWHERE,
     )
 
 
@@ -89,7 +96,8 @@ def with_look(settings: Settings, look: Look) -> Settings:
         score=look.score.name.lower(),
         theme=str(look.theme),
         panel_scale=look.scale,
-        double=look.double,
+        double=look.double is not DoublePlace.NOWHERE,
+        double_beside=look.double is DoublePlace.BESIDE,
         viewpoints=" ".join(f"{slot}={_text(c)}" for slot, c in enumerate(look.viewpoints, 1) if c is not None),
     )
 

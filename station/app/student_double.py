@@ -5,7 +5,8 @@ demonstrator's strokes are planned already, and a stroke of the student looks li
 on the same piece. So each limb of the double shows the demonstrator's limb at a time of its own: at a hit it is at once
 at that stroke, from there its time runs on as the clock does, and it waits a moment before the limb's next stroke until
 that is heard. A limb that plays in time moves with the demonstrator's; one that is late comes late, and one that misses
-waits. Only the trunk is the demonstrator's, at every instant.
+waits. Only the trunk is the demonstrator's, at every instant. Pedals go with the feet; drums and cymbals stand still,
+for what the student strikes is lit by the strokes themselves.
 
 Times are seconds of the score; asynchronies are played − written.
 """
@@ -95,10 +96,16 @@ class StudentDouble:
         """How the double stands and where it glows, the score being at `position_s`."""
         now = drummer.pose(position_s)
         row = now.row.copy()
+        row[frame.PLAYED :] = 0.0
+        kicks = Limb.LEFT_FOOT if drummer.kit.left_handed else Limb.RIGHT_FOOT
         for limb, fields in _FIELDS.items():
             time_s = self._time_s(limb, drummer, position_s)
             if time_s != position_s:
-                row[fields] = drummer.pose(time_s).row[fields]
+                borrowed = drummer.pose(time_s).row
+                row[fields] = borrowed[fields]
+                if not limb.is_hand:
+                    pedal = frame.BEATER if limb is kicks else frame.GAP
+                    row[pedal] = borrowed[pedal]
         return Double(Pose(position_s, row), self._partings(now_ns))
 
     def _time_s(self, limb: Limb, drummer: Drummer, position_s: float) -> float:

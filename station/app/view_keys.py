@@ -13,7 +13,7 @@ _LOOKS: tuple[tuple[imgui.Key, Callable[[Look], Look]], ...] = (
     (imgui.Key.m, lambda look: replace(look, mirrored=not look.mirrored)),
     (imgui.Key.p, Look.next_inset),
     (imgui.Key.n, Look.next_score),
-    (imgui.Key.e, lambda look: replace(look, double=not look.double)),
+    (imgui.Key.e, Look.next_double),
 )
 """What a plain key makes of the look."""
 _SIZES = ((imgui.Key.equal, 1), (imgui.Key.minus, -1))

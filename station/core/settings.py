@@ -56,8 +56,8 @@ class Settings:
     (`practice.lead`).
     `view`, `mirrored`, `inset` and `viewpoints` are where the window looks from, `score` how it shows the score,
     `theme` its colours (`app.look`), `panel_scale` how many times as large as designed its panels are, `double` whether
-    the student is shown as a second drummer, `welcomed` whether the questions of the first start were asked
-    (`app.welcome`).
+    the student is shown as a second drummer, `double_beside` whether beside the demonstrator and not over him,
+    `welcomed` whether the questions of the first start were asked (`app.welcome`).
     """
 
     student: str = "student"
@@ -93,6 +93,7 @@ class Settings:
     panel_scale: float = 1.0
     welcomed: bool = False
     double: bool = False
+    double_beside: bool = False
 
     @property
     def threshold_of(self) -> dict[Piece, int]:

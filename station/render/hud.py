@@ -66,6 +66,18 @@ def scale(height: float) -> float:
     return max(height / (_DESIGN_HEIGHT * 0.70), 0.4)
 
 
+_NAMES = ("Demonstrator", "You")
+
+
+def name_shapes(atlas: Atlas, size: tuple[float, float]) -> NDArray[np.void]:
+    """Who is who in two pictures side by side, and the line between them; `size` as for `hud_shapes`."""
+    ink, (width, height), k = Ink(atlas), size, scale(size[1])
+    ink.box((width / 2 - k, 0.0), (2 * k, height), INK_FAINT)
+    for name, middle in zip(_NAMES, (0.25, 0.75), strict=True):
+        ink.text(name, (middle * width, height - 16 * k), Type(20 * k, INK, Face.BOLD, 0.5, _HALO))
+    return ink.shapes()
+
+
 class _HudPage:
     def __init__(self, hud: Hud, ink: Ink, size: tuple[float, float]) -> None:
         self._hud, self._ink = hud, ink

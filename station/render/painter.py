@@ -1,7 +1,8 @@
 """Paints a snapshot: scene above, score below, words over the scene. The window and the off-screen picture share it."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from enum import IntEnum
 from functools import partial
 
 import moderngl
@@ -23,7 +24,7 @@ from station.render.palette import BRAND, EARLY, GOOD, INK_FAINT, LATE, MISSED, 
 from station.render.quality import QUALITIES, Quality
 from station.render.scene import Scene
 from station.render.score_view import Place, ScoreForm, ScoreView, shows_staff
-from station.render.snapshot import Cue, Double, Hud, Snapshot, Strike
+from station.render.snapshot import Cue, Hud, Snapshot, Strike
 from station.render.still import Still
 
 Area = tuple[int, int, int, int]
@@ -50,18 +51,26 @@ def inset_area(scene: Area) -> Area:
     return left + width - inset_width - margin, low + margin, inset_width, inset_height
 
 
+class DoublePlace(IntEnum):
+    """Where the student's double is: nowhere, over the demonstrator, or in a picture of its own beside his."""
+
+    NOWHERE = 0
+    OVER = 1
+    BESIDE = 2
+
+
 @dataclass(frozen=True, slots=True)
 class Arrangement:
     """What else a picture has: the camera of a second, small picture in its corner, and the score's form.
 
-    `is_rough`: the camera moves, so that at the lowest quality the room may be drawn more simply. `double`: the
-    student's double is shown where the snapshot has one.
+    `is_rough`: the camera moves, so that at the lowest quality the room may be drawn more simply. `double`: where the
+    student's double is, where the snapshot has one.
     """
 
     inset: Camera | None = None
     form: ScoreForm = ScoreForm.SCROLLING
     is_rough: bool = False
-    double: bool = False
+    double: DoublePlace = DoublePlace.NOWHERE
 
 
 class Painter:
@@ -79,6 +88,7 @@ class Painter:
         self._still, self._inset_still = Still(ctx), Still(ctx)
         self._inset: Target | None = None
         self._written = (Hud(), (0, 0)), np.empty(0, SHAPE_DTYPE)
+        self._named = (0, 0), np.empty(0, SHAPE_DTYPE)
         self._played: tuple[Kit, Figure] | None = None
 
     def draw(
@@ -97,14 +107,20 @@ class Painter:
         scene_area = (left, low + score_height, width, height - score_height)
         place = Place(0.0, float(height - score_height), float(width), float(score_height))
         scene = self._scene_of(snapshot)
-        double = snapshot.double if arrangement.double else None
-        scene.set(_frame(snapshot, double, self.theme))
         camera = camera or named(View.SHOULDER, snapshot.kit.left_handed)
+        frames = _frames(snapshot, arrangement.double, self.theme)
+        places = _side_by_side(scene_area, len(frames))
+        scene.set(frames[0])
 
         is_staff = shows_staff(snapshot, arrangement.form)
 
+        def each(draw: Callable[[moderngl.Framebuffer, Camera, Area], None], into: moderngl.Framebuffer) -> None:
+            for frame, window in zip(frames[::-1], places[::-1], strict=True):  # the demonstrator's stays set
+                scene.set(frame)
+                draw(into, camera, window)
+
         def lay(into: moderngl.Framebuffer, draw: Callable[[moderngl.Framebuffer, Camera, Area], None]) -> None:
-            draw(into, camera, scene_area)
+            each(draw, into)
             self._ctx.viewport = area
             if with_score:
                 self._score.draw_paper(place, (width, height), is_staff)
@@ -114,13 +130,14 @@ class Painter:
             lay(into, partial(scene.draw_still, is_rough=arrangement.is_rough))
 
         if self.quality.is_layered:
-            key = (scene, camera, area, with_score, is_staff, scene.shows_figure, self.theme, arrangement.is_rough)
+            shown = scene.shows_figure, len(frames)
+            key = (scene, camera, area, with_score, is_staff, shown, self.theme, arrangement.is_rough)
             self._still.under(target, key, lay_still)
-            scene.draw_moving(target, camera, scene_area)
+            each(scene.draw_moving, target)
         else:
             lay(target, scene.draw)
         if arrangement.inset is not None:
-            self._draw_inset(scene, target, arrangement.inset, scene_area)
+            self._draw_inset(scene, target, arrangement.inset, places[0])
         self._ctx.viewport = area
         if with_score:
             self.printer.theme = self.theme
@@ -128,6 +145,8 @@ class Painter:
         self.printer.theme = over_picture(self.theme)
         veil = (0.0, 0.0, float(width), hud.VEIL_HEIGHT * hud.scale(height - score_height))
         self.printer.fill(veil, hud.VEIL, Sheet((width, height)))
+        if len(frames) > 1:
+            self.printer.draw(self._names((width, height - score_height)), Sheet((width, height)))
         self.printer.draw(self._words(snapshot.hud, (width, height - score_height)), Sheet((width, height)))
 
     def _words(self, words: Hud, size: tuple[int, int]) -> NDArray[np.void]:
@@ -135,6 +154,12 @@ class Painter:
         if (words, size) != self._written[0]:
             self._written = (words, size), hud.hud_shapes(words, self.atlas, (float(size[0]), float(size[1])))
         return self._written[1]
+
+    def _names(self, size: tuple[int, int]) -> NDArray[np.void]:
+        """Who is who in two pictures side by side."""
+        if size != self._named[0]:
+            self._named = size, hud.name_shapes(self.atlas, (float(size[0]), float(size[1])))
+        return self._named[1]
 
     def _draw_inset(self, scene: Scene, target: moderngl.Framebuffer, camera: Camera, scene_area: Area) -> None:
         """A second, small picture over the scene, and a line round it."""
@@ -183,15 +208,27 @@ def _same(one: tuple[Kit, Figure], other: tuple[Kit, Figure]) -> bool:
     return (one[0] is other[0] and one[1] is other[1]) or one == other
 
 
-def _frame(snapshot: Snapshot, double: Double | None, theme: Theme) -> Frame:
-    """What of the snapshot moves or glows in the scene."""
-    if double is None:
-        return Frame(snapshot.pose, _glow(snapshot))
+def _frames(snapshot: Snapshot, where: DoublePlace, theme: Theme) -> list[Frame]:
+    """What of the snapshot moves or glows in the scene: in one picture, or in the demonstrator's and the student's."""
+    double = snapshot.double
+    if double is None or where is DoublePlace.NOWHERE:
+        return [Frame(snapshot.pose, _glow(snapshot))]
     parted = {
         limb: parting.strength * np.array(dyed(_PARTED[parting.cue], over_picture(theme))[:3])
         for limb, parting in double.partings.items()
     }
-    return Frame(snapshot.pose, _glow(snapshot), double.pose, parted)
+    if where is DoublePlace.OVER:
+        return [Frame(snapshot.pose, _glow(snapshot), double.pose, parted)]
+    his = replace(snapshot, strikes=())
+    own = replace(snapshot, pose=double.pose)
+    return [Frame(his.pose, _glow(his)), Frame(own.pose, _glow(own), double.pose, parted)]
+
+
+def _side_by_side(scene: Area, count: int) -> list[Area]:
+    """The scene's place cut into `count` equal ones, from left to right."""
+    left, low, width, height = scene
+    edges = [left + round(width * k / count) for k in range(count + 1)]
+    return [(edges[k], low, edges[k + 1] - edges[k], height) for k in range(count)]
 
 
 _PARTED = {Cue.EARLY: EARLY, Cue.LATE: LATE, Cue.MISSED: MISSED, Cue.WRONG_PIECE: WRONG}

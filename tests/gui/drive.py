@@ -270,10 +270,10 @@ def viewpoints(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.seen["back"] = backdrop.camera == turned
     ctx.item_click("//$FOCUSED/8##keep8")
     ctx.item_click("//$FOCUSED/Feet##inset")
-    double = [backdrop.look.double]
-    ctx.item_click("//$FOCUSED/Your double")
+    double = [backdrop.look.double.name]
+    ctx.item_click("//$FOCUSED/Over##double")
     ctx.yield_(2)
-    double += [backdrop.look.double, load_settings(drive.settings).double]
+    double += [backdrop.look.double.name, look_of(load_settings(drive.settings)).double.name]
     drive.seen["slots"] = [slot for slot, camera in enumerate(backdrop.look.viewpoints, 1) if camera is not None]
     kept = look_of(load_settings(drive.settings))
     drive.seen["kept"] = [kept.view.name, kept.mirrored, kept.inset is View.FEET]
@@ -283,7 +283,7 @@ def viewpoints(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.mouse_move_to_pos(imgui.ImVec2(600, 200))
     ctx.key_press(imgui.Key.e)
     ctx.yield_(2)
-    drive.seen["double"] = [*double, backdrop.look.double]
+    drive.seen["double"] = [*double, backdrop.look.double.name]
     drive.seen["kept_there"] = there is not None and abs(there.azimuth_rad - turned.azimuth_rad) < 1e-5
 
 

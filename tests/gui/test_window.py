@@ -198,7 +198,7 @@ def viewpoints_are_kept_by_keys_and_in_the_popup(seen: dict[str, Any]) -> None:
     assert seen["slots"] == [3, 8]
     assert seen["kept"] == ["TOP", True, True], "the settings hold the view, the mirror and the second picture"
     assert seen["kept_there"]
-    assert seen["double"] == [False, True, True, False], "the double: popup, settings, key"
+    assert seen["double"] == ["NOWHERE", "OVER", "OVER", "BESIDE"], "the double: popup, settings, key"
 
 
 def colours_and_sizes_are_worn_and_kept(seen: dict[str, Any]) -> None:

@@ -15,12 +15,12 @@ from station.core.pieces import Limb, Piece
 from station.motion.drummer import Drummer
 from station.motion.figure import Joint, figure_of
 from station.motion.kit import load_kit
-from station.motion.pose import RIGHT
+from station.motion.pose import RIGHT, Pose
 from station.music.judgement import Label
 from station.music.score import Note
 from station.render.camera import Camera, View, named
 from station.render.gl import Target, standalone_context
-from station.render.painter import SCORE_SHARE, Arrangement, Painter
+from station.render.painter import SCORE_SHARE, Arrangement, DoublePlace, Painter
 from station.render.palette import BRAND, MISSED, Theme
 from station.render.picture import PictureMaker, Shot, draw_png
 from station.render.quality import QUALITIES, Quality
@@ -55,11 +55,11 @@ def at(position_s: float, **changes: object) -> Snapshot:
     return replace(snapshot, **changes)  # type: ignore[arg-type] # the tests name fields of Snapshot
 
 
-def pixel_of(point: NDArray[np.float64], camera: Camera) -> tuple[int, int]:
-    """Row and column of a point of the world in the scene's part of the picture."""
-    clip = camera.matrix(SIZE[0] / SCORE_TOP) @ np.append(point, 1.0)
+def pixel_of(point: NDArray[np.float64], camera: Camera, width: int = SIZE[0]) -> tuple[int, int]:
+    """Row and column of a point of the world in the scene's part of a picture so wide."""
+    clip = camera.matrix(width / SCORE_TOP) @ np.append(point, 1.0)
     x, y = clip[:2] / clip[3]
-    return round((0.5 - y / 2) * SCORE_TOP - 0.5), round((x / 2 + 0.5) * SIZE[0] - 0.5)
+    return round((0.5 - y / 2) * SCORE_TOP - 0.5), round((x / 2 + 0.5) * width - 0.5)
 
 
 def differs(one: Picture, other: Picture, where: tuple[int, int], reach: int) -> bool:
@@ -132,6 +132,32 @@ def test_a_missing_piece_s_stroke_glows_on_its_stand_in(draw: Draw) -> None:
 
 
 @pytest.mark.parametrize("quality", QUALITIES[:2])
+def test_beside_the_demonstrator_the_student_has_a_picture_of_his_own(quality: Quality) -> None:
+    """Left the demonstrator as if he were alone there, right a drummer who is where the student is."""
+    camera, half = named(View.SHOULDER), SIZE[0] // 2
+    away = DRUMMER.pose(0.63)
+    ctx = standalone_context()
+    with ctx:
+        painter, target = Painter(ctx, quality), Target(ctx, SIZE, quality.samples)
+
+        def drawn(double: Pose) -> Picture:
+            shown, arrangement = at(0.75, double=Double(double)), Arrangement(double=DoublePlace.BESIDE)
+            painter.draw(shown, target.framebuffer, (0, 0, *SIZE), camera, arrangement=arrangement)
+            return target.read()
+
+        together, parted = drawn(DRUMMER.pose(0.75)), drawn(away)
+        painter.draw(at(0.75), target.framebuffer, (0, 0, half, SIZE[1]), camera)
+        alone = target.read()
+    between = np.s_[round(0.4 * SCORE_TOP) : round(0.8 * SCORE_TOP), 4 : half - 4]  # the words above, the names below
+    assert np.array_equal(parted[between], alone[between])
+    assert np.array_equal(together[:, :half], parted[:, :half]), "the student moves nothing of the demonstrator's"
+    hand, edge = pixel_of(away.tip_m[RIGHT], camera, half), (round(0.6 * SCORE_TOP), 12)
+    assert differs(together[:, half:], parted[:, half:], hand, 3)
+    assert differs(parted[:, half:], parted[:, :half], hand, 3)
+    assert not differs(parted[:, half:], parted[:, :half], edge, 5), "the same room from the same place"
+
+
+@pytest.mark.parametrize("quality", QUALITIES[:2])
 def test_the_student_s_double_is_seen_where_his_limbs_are_and_glows_where_they_part(quality: Quality) -> None:
     """His right arm is where the demonstrator's was a moment ago; missed, it has the colour of a miss."""
     camera, area = named(View.SHOULDER), (0, 0, *SIZE)
@@ -141,7 +167,7 @@ def test_the_student_s_double_is_seen_where_his_limbs_are_and_glows_where_they_p
         painter, target = Painter(ctx, quality), Target(ctx, SIZE, quality.samples)
 
         def drawn(double: Double | None, shown: bool) -> Picture:
-            arrangement = Arrangement(double=shown)
+            arrangement = Arrangement(double=DoublePlace.OVER if shown else DoublePlace.NOWHERE)
             painter.draw(at(0.75, double=double), target.framebuffer, area, camera, arrangement=arrangement)
             return target.read()
 

@@ -9,17 +9,22 @@ from station.app import theme
 from station.app.look import INSETS, Look
 from station.app.panels.slots import Use, popup_grid, slot_rows
 from station.render.camera import VIEW_NAMES
+from station.render.painter import DoublePlace
 from station.render.palette import THEME_NAMES, Theme
 from station.render.score_view import ScoreForm
 
 LOOK_LABEL = "Look##look"
 POPUP = "##look-popup"
-DOUBLE_LABEL = "Your double"
 _NO_INSET = "None"
 _FORMS = {
     ScoreForm.SCROLLING: ("Scrolling", "The notes pass a line that stands still"),
     ScoreForm.PAGED: ("Pages", "The line crosses bars that stand still"),
     ScoreForm.HIGHWAY: ("Highway", "A lane for every piece, for those who do not read music"),
+}
+_DOUBLES = {
+    DoublePlace.NOWHERE: ("None", "The demonstrator alone"),
+    DoublePlace.OVER: ("Over", "You, translucent, over the demonstrator: a limb glows where it parts from his"),
+    DoublePlace.BESIDE: ("Beside", "You on a kit of your own beside the demonstrator's, both seen from the same place"),
 }
 _THEMES_TOLD = {
     Theme.NIGHT: "Light on dark, for a dim room",
@@ -57,9 +62,13 @@ def look_popup(look: Look, actions: LookActions) -> Look:
         theme.tooltip(f"{words} (N)")
         imgui.same_line()
     imgui.new_line()
-    _, double = imgui.checkbox(DOUBLE_LABEL, look.double)
-    theme.tooltip("You, translucent, over the demonstrator: a limb glows where it parts from his (E)")
-    look = replace(look, double=bool(double))
+    theme.soft("Your double")
+    for place, (name, words) in _DOUBLES.items():
+        if imgui.radio_button(f"{name}##double", look.double is place):
+            look = replace(look, double=place)
+        theme.tooltip(f"{words} (E)")
+        imgui.same_line()
+    imgui.new_line()
     theme.soft("Your own viewpoints")
     _slots(look, actions)
     look = _worn(look)

@@ -9,7 +9,7 @@ from station.app.look import SLOTS, Look, look_of, with_look
 from station.core.errors import BadInput
 from station.core.settings import Settings, load_settings, save_settings
 from station.render.camera import View, named
-from station.render.painter import inset_area
+from station.render.painter import DoublePlace, inset_area
 from station.render.palette import Theme
 
 
@@ -26,11 +26,12 @@ def test_a_look_comes_back_from_the_settings_file(tmp_path: Path) -> None:
     assert not last.mirrored, "the mirror is a switch of its own"
 
 
-def test_colours_and_size_come_back_too(tmp_path: Path) -> None:
-    look = replace(Look(), theme=Theme.APART, double=True).scaled(3)
+@pytest.mark.parametrize("place", DoublePlace)
+def test_colours_size_and_the_double_come_back_too(place: DoublePlace, tmp_path: Path) -> None:
+    look = replace(Look(), theme=Theme.APART, double=place).scaled(3)
     path = save_settings(with_look(Settings(), look), tmp_path / "settings.toml")
     found = look_of(load_settings(path))
-    assert (found.theme, found.scale, found.double) == (Theme.APART, 1.75, True)
+    assert (found.theme, found.scale, found.double) == (Theme.APART, 1.75, place)
 
 
 def test_panels_grow_and_shrink_by_quarters_and_have_their_limits() -> None:
@@ -38,6 +39,13 @@ def test_panels_grow_and_shrink_by_quarters_and_have_their_limits() -> None:
     assert Look().scaled(-5).scale == 0.75
     assert Look().scaled(9).scale == 2.5
     assert replace(Look(), scale=1.1).scaled(1).scale == 1.25, "from a size of one's own to the next quarter"
+
+
+def test_the_double_goes_round() -> None:
+    looks = [Look()]
+    for _ in range(3):
+        looks.append(looks[-1].next_double())
+    assert [look.double.name for look in looks] == ["NOWHERE", "OVER", "BESIDE", "NOWHERE"]
 
 
 def test_the_second_picture_goes_round() -> None:

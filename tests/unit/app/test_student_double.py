@@ -53,6 +53,18 @@ def test_a_late_stroke_lands_when_it_is_heard() -> None:
     assert tips(0.66, late)[LEFT] == pytest.approx(DRUMMER.pose(0.60).tip_m[LEFT])
 
 
+def test_the_pedals_go_with_his_feet_and_nothing_that_he_did_not_strike_moves() -> None:
+    """The kick of 1.0 s is heard 80 ms early: the beater is at its head then. At 1.12 s the demonstrator's crash-free
+    hi-hat has been struck, not by the student."""
+    early = hit(Piece.KICK, 0.92)
+    found = double_at(0.92, early).double(DRUMMER, 0.92, EARLIER_NS + round(0.92 * NS_PER_S)).pose
+    assert found.beater_rad == DRUMMER.pose(1.0).beater_rad != DRUMMER.pose(0.92).beater_rad
+    assert DRUMMER.pose(1.02).swing_rad.any()
+    still = double_at(1.02).double(DRUMMER, 1.02, EARLIER_NS + round(1.02 * NS_PER_S)).pose
+    assert not still.swing_rad.any()
+    assert not still.flash.any()
+
+
 def test_an_early_stroke_lands_before_it_is_written() -> None:
     snare = load_kit().pieces[Piece.SNARE]
     assert abs((tips(0.45, hit(Piece.SNARE, 0.45))[LEFT] - snare.centre) @ snare.normal) < 0.003
