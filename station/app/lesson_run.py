@@ -14,6 +14,7 @@ from station.app.every_hit import every_hit
 from station.app.graphed import Graphed
 from station.app.heat_map import heat_map
 from station.app.model import PlaceNow, Report, RoomState, Stage
+from station.app.preparation import LaidOut
 from station.app.results import session_facts
 from station.app.session_folder import SessionFolder, rescued
 from station.app.session_view import SessionView
@@ -27,8 +28,7 @@ from station.practice.adaptation import Adaptation
 from station.practice.latency import Latency
 from station.practice.live import begin, end, next_session
 from station.practice.mastery_report import with_mastery
-from station.practice.memory import Remembered
-from station.practice.plan import Phase, Plan
+from station.practice.plan import Phase
 from station.practice.report import practice_document
 from station.practice.session import Session, SessionResult
 from station.render.snapshot import Hud, Snapshot
@@ -48,22 +48,25 @@ class Kept:
 
 
 class LessonRun:
-    """One session over `plan`, or the passes that `followed` asks for; `tell` hears what a user should read once."""
+    """One session as it is `laid` out, or passes that follow the student; `tell` hears what a user should read.
+
+    `before` is what was shown last: its drummer sits there until the one of this session is made.
+    """
 
     def __init__(
         self,
         engine: EngineLine,
-        plan: Plan,
+        laid: LaidOut,
         who: Demonstrator,
         latency: Latency,
         tell: Callable[[str], None],
-        followed: Remembered | None = None,
+        before: "LessonRun | None" = None,
     ) -> None:
         self._engine, self._who, self._tell = engine, who, tell
-        self.plan = plan
-        self.session = Session(plan, latency) if followed is None else followed.adaptation.session(latency)
-        self._followed = followed
-        self._view = SessionView(plan, who)
+        self.plan, self._followed = laid.plan, laid.followed
+        followed = None if laid.followed is None else laid.followed.adaptation
+        self.session = Session(laid.plan, latency) if followed is None else followed.session(latency)
+        self.view: SessionView = SessionView(laid.plan, who, None if before is None else before.view)
         self._folder: SessionFolder | None = None
         self._taken: Session | None = None
         self._was_asked = False
@@ -79,6 +82,7 @@ class LessonRun:
             folder.discard()
             raise
         self._folder = folder
+        self.view.make_ahead()
 
     # --- while it runs -----------------------------------------------------------------------------------------------
 
@@ -100,7 +104,7 @@ class LessonRun:
     def _judged(self, verdicts: tuple[Judgement, ...], now_ns: int) -> None:
         """Show what the student is to see of `verdicts`."""
         session = self.session
-        self._view.judged(session.told(verdicts), session.hits, now_ns, session.windows)
+        self.view.judged(session.told(verdicts), session.hits, now_ns, session.windows)
 
     def _is_last(self) -> bool:
         """On to the next pass where the tempo follows the student and there is one; whether there is none."""
@@ -121,7 +125,8 @@ class LessonRun:
             self._tell(str(fault))
             return False
         self.plan = adaptation.plan
-        self._view = SessionView(self.plan, self._who)
+        self.view = SessionView(self.plan, self._who, self.view)
+        self.view.make_ahead()
         return True
 
     def veto(self) -> bool:
@@ -141,12 +146,12 @@ class LessonRun:
         """Pause; `command` are the strokes that asked for it, where some did."""
         self._was_asked = asked
         self._send(self.session.pause(command))
-        self._view.judged_anew(self.session)
+        self.view.judged_anew(self.session)
 
     def go_on(self) -> None:
         """Out of a pause: a pass that moves the tempo is taken whole, else from the bar of the last stroke."""
         self._send(self.session.resume(self._was_asked, whole=self._followed is not None))
-        self._view.judged_anew(self.session)
+        self.view.judged_anew(self.session)
 
     def _send(self, commands: Sequence[Command]) -> None:
         for command in commands:
@@ -157,18 +162,18 @@ class LessonRun:
 
     def snapshot(self, now_ns: int) -> Snapshot:
         """The picture at `now_ns`."""
-        shown = self._view.snapshot(self.session, now_ns, PAUSED if self.paused else "")
+        shown = self.view.snapshot(self.session, now_ns, PAUSED if self.paused else "")
         self._hud = shown.hud
         return shown
 
-    def graphed(self) -> Graphed:
+    def graphed(self) -> Graphed | None:
         """What the graph shows of it."""
-        return self._view.graphed(self.session)
+        return self.view.graphed(self.session)
 
     def move_as(self, who: Demonstrator, hands_stay: bool) -> None:
         """Let `who` demonstrate from now on."""
         self._who = who
-        self._view.move_as(who.style, hands_stay=hands_stay)
+        self.view.move_as(who.style, hands_stay=hands_stay)
 
     def told(self, room: RoomState) -> RoomState:
         """The room, and how far the session is."""

@@ -1,4 +1,4 @@
-"""What practises behind the window: the engine's process, the session, its folder, its pictures. No thread, no picture.
+"""What practises behind the window: the engine's process, the session, its folder, its pictures. No picture.
 
 `snapshot` is called once a frame and does everything: it reads what the engine has heard, moves the session on, keeps
 it when it is over. The hits carry their own times, so that the frame rate decides nothing.
@@ -20,7 +20,7 @@ from station.app.lesson_cards import wish_of
 from station.app.lesson_run import LessonRun
 from station.app.model import FreeWish, LessonCard, Report, RoomState, Stage, Start
 from station.app.outcome import Outcome
-from station.app.preparation import Preparation
+from station.app.preparation import LaidOut, Preparation
 from station.app.welcome import Answers, student_level
 from station.app.welcome import answered as met
 from station.core.calibration import Calibration
@@ -36,7 +36,6 @@ from station.practice.by_ear import Whose
 from station.practice.latency import Latency, latency_of
 from station.practice.lead import hands_of
 from station.practice.listening import Listening
-from station.practice.memory import Remembered
 from station.practice.own_ear import Guess
 from station.practice.pad_commands import PadCommands
 from station.practice.plan import Plan
@@ -68,7 +67,7 @@ class PracticeRoom:
         self._first = replace(wish_of(first), adapt=adapt)
         self._notices: list[str] = []
         self._who = kept_demonstrator(settings, self._notices.append)
-        self._run = self._new_run(first)
+        self._run = LessonRun(self._engine, LaidOut(first), self._who, self._latency, self._notices.append)
         self._outcome = Outcome()
         self._stage = Stage.IDLE
         self._free = JustPlay(settings, self._latency)
@@ -274,7 +273,7 @@ class PracticeRoom:
             self._ear.quiet()
             self._outcome.leave()
             self._stage = Stage.IDLE
-            self._run = self._new_run(self._run.plan)
+            self._run = self._new_run(LaidOut(self._run.plan))
 
     # --- inside ------------------------------------------------------------------------------------------------------
 
@@ -319,13 +318,13 @@ class PracticeRoom:
         self._stage = Stage.IDLE
 
     def _laid_out(self, wish: Start) -> LessonRun:
-        plan, followed = self._prepared.laid_out(wish)
-        if followed is not None and followed.fault is not None:
-            self._notices.append(followed.fault)
-        return self._new_run(plan, followed)
+        laid = self._prepared.laid_out(wish)
+        if laid.followed is not None and laid.followed.fault is not None:
+            self._notices.append(laid.followed.fault)
+        return self._new_run(laid)
 
-    def _new_run(self, plan: Plan, followed: Remembered | None = None) -> LessonRun:
-        return LessonRun(self._engine, plan, self._who, self._latency, self._notices.append, followed)
+    def _new_run(self, laid: LaidOut) -> LessonRun:
+        return LessonRun(self._engine, laid, self._who, self._latency, self._notices.append, self._run)
 
     def _heard(self) -> list[EngineEvent]:
         try:

@@ -4,6 +4,7 @@ It holds the settings that sessions go by; whoever changes them sets `settings` 
 """
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from datetime import date
 
 from station.app.deck import Watched
@@ -21,6 +22,14 @@ from station.practice.lead import hands_of
 from station.practice.memory import Memory, Remembered
 from station.practice.plan import Plan, Wishes, plan_practice
 from station.sound.track import PreparedTrack
+
+
+@dataclass(frozen=True, eq=False)
+class LaidOut:
+    """A session that can begin; where the tempo follows the student, `followed` lays out what comes after `plan`."""
+
+    plan: Plan
+    followed: Remembered | None = None
 
 
 class Preparation:
@@ -44,8 +53,8 @@ class Preparation:
         """The lesson of a name or a file; raises `BadInput`."""
         return self._lessons.get(name) or find_lesson(name)
 
-    def laid_out(self, wish: Start) -> tuple[Plan, Remembered | None]:
-        """The plan of what is wished for, and what is remembered where the tempo follows; raises `StationError`."""
+    def laid_out(self, wish: Start) -> LaidOut:
+        """What is wished for, from what is remembered where the tempo follows; raises `StationError`."""
         lesson, settings = self.lesson(wish.lesson), self.settings
         tempo_bpm = None if wish.adapt else wish.tempo_bpm
         click = self._click() if wish.click else None
@@ -53,10 +62,10 @@ class Preparation:
         wishes = Wishes(tempo_bpm, wish.loops, wish.bars, wish.demonstrations, click, settings.guide, hands)
         plan = plan_practice(lesson, wishes)
         if not wish.adapt:
-            return plan, None
+            return LaidOut(plan)
         memory = Memory.of(settings.sessions_dir, settings.student, lesson.name, plan.bars)
         followed = Remembered.of(lesson, wishes, date.today(), memory)
-        return followed.adaptation.plan, followed
+        return LaidOut(followed.adaptation.plan, followed)
 
     def watched(self, lesson: Lesson, kit: Kit) -> Watched:
         """The lesson as its demonstration is played; raises `BadInput` for a click that is none."""

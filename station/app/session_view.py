@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from station.app.demonstrator import Demonstrator
 from station.app.graphed import Graphed, played_of_marks, played_of_result
+from station.app.session_part import SessionPart
 from station.app.student_double import StudentDouble
 from station.core.events import Hit
 from station.core.pieces import Limb
@@ -18,10 +19,8 @@ from station.core.units import NS_PER_MS, NS_PER_S
 from station.drills.mastery.fading import Feedback
 from station.engine.engine import KEYBOARD
 from station.motion.drummer import Drummer
-from station.motion.lanes import in_passes
 from station.motion.style import Style
 from station.music.judgement import Judgement, Label
-from station.music.score import Score
 from station.practice.plan import Phase, Plan
 from station.practice.session import Session, SessionResult
 from station.render.snapshot import BarNumbers, Cue, Extra, Hud, Snapshot, Strike, mark, no_marks
@@ -38,33 +37,18 @@ _CUE_OF_LEAN = {-1: Cue.EARLY, 0: Cue.ON_TIME, 1: Cue.LATE}
 _CUE_OF = {Label.MISS: Cue.MISSED, Label.WRONG_PIECE: Cue.WRONG_PIECE}
 
 
-class _Part:
-    """A drummer who plays `score`, the plan's section once or more, which begins at `start_ns` of the transport."""
-
-    def __init__(self, plan: Plan, score: Score, start_ns: int, who: Demonstrator) -> None:
-        self.score = score
-        self.start_ns = start_ns
-        self._bars = plan.first_bar, plan.section.bar_count, score.bar_count // plan.section.bar_count
-        self._style = who.style
-        self._drummer = Drummer(score, plan.kit, who.figure, in_passes(who.style, *self._bars))
-
-    def drummer(self, style: Style) -> Drummer:
-        """The drummer in that style; what the change does not touch is not made again."""
-        if style is not self._style:
-            self._style, self._drummer = style, self._drummer.with_style(in_passes(style, *self._bars))
-        return self._drummer
-
-
 class SessionView:
     """One session's pictures: the demonstrator, `who`, on the plan's kit."""
 
-    def __init__(self, plan: Plan, who: Demonstrator | None = None) -> None:
+    def __init__(self, plan: Plan, who: Demonstrator | None = None, before: "SessionView | None" = None) -> None:
+        """`before` is the view that was shown last: its drummer sits there while this one's is made."""
         self.plan = plan
         self._who = who or Demonstrator()
+        self._sits = None if before is None else before.sitting
         demonstrations = [s for s in plan.segments if s.phase is Phase.DEMONSTRATION]
-        self._passes = _Part(plan, plan.score, plan.passes_start_ns, self._who)
+        self._passes = SessionPart(plan, plan.score, plan.passes_start_ns, self._who)
         self._demonstration = (
-            _Part(plan, plan.section.repeated(len(demonstrations)), demonstrations[0].start_ns, self._who)
+            SessionPart(plan, plan.section.repeated(len(demonstrations)), demonstrations[0].start_ns, self._who)
             if demonstrations
             else self._passes
         )
@@ -88,7 +72,7 @@ class SessionView:
         if not verdicts:
             return
         self._marks = self._marks.copy()
-        limbs = self._passes.drummer(self._who.style).assignment.limbs
+        limbs = self.plan.score.notes["limb"]
         for verdict in verdicts:
             if verdict.note_index is not None:
                 self._double.parted(Limb(limbs[verdict.note_index]), cue_of(verdict, windows), now_ns)
@@ -109,6 +93,13 @@ class SessionView:
         if state.transport_ns is None:
             return self._ready(message)
         part, position_s = self._part_at(state.transport_ns)
+        if not part.is_ready and self._sits is not None:
+            return replace(
+                self._waiting(part, self._sits),
+                position_s=position_s,
+                strikes=strikes(session.heard.recent, now_ns),
+                hud=self._hud(session, now_ns, message or _why(session)),
+            )
         drummer = part.drummer(self._who.style)
         double = None
         if part is self._passes:
@@ -129,26 +120,49 @@ class SessionView:
             double=double,
         )
 
-    def graphed(self, session: Session) -> Graphed:
-        """The drummer who is seen, and what the student is shown of his own strokes."""
+    def graphed(self, session: Session) -> Graphed | None:
+        """The drummer who is seen, and what the student is shown of his own strokes; None while he is made."""
         transport_ns = session.state().transport_ns
         part, position_s = (self._demonstration, 0.0) if transport_ns is None else self._part_at(transport_ns)
+        if not part.is_ready:
+            return None
         played = played_of_marks(part.score, self._marks) if part is self._passes else None
         return Graphed(part.drummer(self._who.style), position_s, self.bar_numbers, played)
 
-    def _part_at(self, transport_ns: int) -> tuple[_Part, float]:
+    def make_ahead(self) -> None:
+        """Let whoever plays be made while nobody waits for him."""
+        self._demonstration.ahead()
+        self._passes.ahead()
+
+    @property
+    def sitting(self) -> Drummer | None:
+        """A drummer who is made, to sit there before anything is played; None while there is none."""
+        part = next((part for part in (self._demonstration, self._passes) if part.is_made), None)
+        return self._sits if part is None else part.drummer(self._who.style)
+
+    def _part_at(self, transport_ns: int) -> tuple[SessionPart, float]:
         """Who plays at a transport time, and where in his score he is."""
         part = self._passes if transport_ns >= self.plan.demonstrations_end_ns else self._demonstration
-        return part, (transport_ns - part.start_ns) / NS_PER_S
+        return part, part.position_s(transport_ns)
 
     def _ready(self, message: str) -> Snapshot:
         """The picture before anything runs: the drummer waits, the score stands at its first bar."""
-        part, plan = self._demonstration, self.plan
-        drummer = part.drummer(self._who.style)
+        part, plan, drummer = self._demonstration, self.plan, self._sits
+        if drummer is None or part.is_ready:
+            drummer = part.drummer(self._who.style)
         hud = Hud(plan.lesson.title, "Ready", beats_a_minute=plan.beats_a_minute, message=message)
-        pose, limbs = drummer.pose(WAITING_S), drummer.assignment.limbs
+        return replace(self._waiting(part, drummer), hud=hud)
+
+    def _waiting(self, part: SessionPart, drummer: Drummer) -> Snapshot:
+        """Somebody sits there, and the score of `part` stands at its first bar."""
         return Snapshot(
-            part.score, 0.0, drummer.kit, drummer.figure, pose, limbs, hud=hud, bar_numbers=self.bar_numbers
+            score=part.score,
+            position_s=0.0,
+            kit=self.plan.kit,
+            figure=drummer.figure,
+            pose=drummer.pose(WAITING_S),
+            limbs=part.score.notes["limb"],
+            bar_numbers=self.bar_numbers,
         )
 
     def _extras(self, session: Session) -> tuple[Extra, ...]:
@@ -194,7 +208,7 @@ class SessionView:
 def graphed_result(result: SessionResult, who: Demonstrator) -> Graphed:
     """The whole of a session that is over: who demonstrated it, and every stroke of the student."""
     plan = result.plan
-    part = _Part(plan, result.score, 0, who)
+    part = SessionPart(plan, result.score, 0, who)
     return Graphed(part.drummer(who.style), None, bar_numbers(plan), played_of_result(result))
 
 

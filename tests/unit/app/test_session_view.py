@@ -3,11 +3,14 @@
 A drummer made from nothing for the demonstrated bars says where the sticks must be.
 """
 
+from threading import Event
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 from station.app.demonstrator import Demonstrator, kept_demonstrator
+from station.app.session_part import AHEAD
 from station.app.session_view import SessionView
 from station.core.settings import Settings
 from station.core.units import NS_PER_S
@@ -101,3 +104,38 @@ def test_a_style_that_is_gone_is_told_and_the_rest_is_kept() -> None:
     assert who.figure.stature_m == 1.90
     assert len(told) == 1
     assert "mine.toml" in told[0]
+
+
+# --- made ahead -------------------------------------------------------------------------------------------------------
+
+
+def began(plan: Plan, now_ns: int) -> Session:
+    session = Session(plan)
+    session.handle(Started(0, None))
+    session.advance(now_ns)
+    return session
+
+
+def test_until_a_drummer_is_made_ahead_the_one_before_sits_there_and_nobody_waits() -> None:
+    """The thread that makes him does nothing before the gate is opened."""
+    gate = Event()
+    before = SessionView(PLAN)
+    sits = before.snapshot(Session(PLAN), 0).pose
+    AHEAD.submit(gate.wait)
+    view, session = SessionView(PLAN, before=before), began(PLAN, 5 * NS_PER_S)
+    view.make_ahead()
+    meanwhile = view.snapshot(session, 5 * NS_PER_S)
+    assert sits is not None
+    assert meanwhile.pose is not None
+    assert np.array_equal(meanwhile.pose.row, sits.row)
+    assert view.graphed(session) is None
+    gate.set()
+    AHEAD.submit(gate.wait).result()
+    assert tips(view, PLAN, start_of(PLAN, Phase.DEMONSTRATION)) == pytest.approx(expected(PLAN, Style()), abs=1e-9)
+
+
+def test_the_stickings_that_are_shown_are_those_of_the_drummer() -> None:
+    view = SessionView(PLAN)
+    shown = view.snapshot(began(PLAN, start_of(PLAN, Phase.PASS) + 1), start_of(PLAN, Phase.PASS) + 1).limbs
+    assert shown is not None
+    assert shown.tolist() == PLAN.score.notes["limb"].tolist()
