@@ -56,16 +56,17 @@ def check_settings() -> Check:
 
 def check_midi() -> Check:
     """The MIDI driver and the kits behind it."""
-    from station.devices.midi_ports import MidiDirectory
+    from station.devices.kit_ports import midi_now
 
-    try:
-        directory = MidiDirectory()
-        ports = directory.names()
-    except DeviceError as fault:
-        return Check("kit (MIDI)", False, str(fault), "or play on the computer's keyboard, or with --virtual-student")
+    with midi_now() as (midi, fault):
+        if midi is None:
+            return Check(
+                "kit (MIDI)", False, f"{fault}", "or play on the computer's keyboard, or with --virtual-student"
+            )
+        driver, ports = midi.driver, midi.names()
     if not ports:
-        return Check("kit (MIDI)", False, f"{directory.driver} works, no kit is plugged in", "plug in a kit by USB")
-    return Check("kit (MIDI)", True, f"{directory.driver}: {', '.join(ports)}")
+        return Check("kit (MIDI)", False, f"{driver} works, no kit is plugged in", "plug in a kit by USB")
+    return Check("kit (MIDI)", True, f"{driver}: {', '.join(ports)}")
 
 
 def check_own_kits() -> Check:

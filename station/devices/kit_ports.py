@@ -129,7 +129,7 @@ def watch_kits(
 
 def devices_there(wishes: tuple[KitWish, ...]) -> list[str]:
     """The names of the kits that would be opened now, as far as the lists of ports tell."""
-    with _midi_now() as (midi, _):
+    with midi_now() as (midi, _):
         wanted = [wish for wish in wishes if wish.part or midi is not None]
         chosen = [choose_port(ports_for(wish, midi).names(), wish.part) for wish in wanted]
     return [device_of_port(stable_name(port)) for port in chosen if port is not None]
@@ -137,7 +137,7 @@ def devices_there(wishes: tuple[KitWish, ...]) -> list[str]:
 
 def no_kit(wishes: tuple[KitWish, ...]) -> str:
     """What to tell a user none of whose `wishes` is there: what was looked for, and which ports there are."""
-    with _midi_now() as (midi, fault):
+    with midi_now() as (midi, fault):
         ports = KitPorts(midi, SerialDirectory()).names()
     named = " or ".join(repr(wish.part) for wish in wishes if wish.part)
     if not named and fault is not None:
@@ -149,7 +149,7 @@ def no_kit(wishes: tuple[KitWish, ...]) -> str:
 
 
 @contextmanager
-def _midi_now() -> Iterator[tuple[MidiDirectory | None, str | None]]:
+def midi_now() -> Iterator[tuple[MidiDirectory | None, str | None]]:
     """The MIDI ports for a look at them, or why there are none; JACK's server waits for clients that never leave."""
     try:
         midi = MidiDirectory()

@@ -41,7 +41,7 @@ def opened(source: Path | bytes, name: str) -> Iterator[soundfile.SoundFile]:
                 raise BadInput(name, "header", f"{file.samplerate} Hz and {file.channels} channels is no sound")
             yield file
     except soundfile.SoundFileError as fault:
-        raise BadInput(name, "", f"cannot be read as sound: {fault}") from fault
+        raise BadInput(name, "", f"cannot be read as sound: {getattr(fault, 'error_string', fault)}") from fault
     except OSError as fault:
         raise BadInput(name, "", fault.strerror or str(fault)) from fault
 

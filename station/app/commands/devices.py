@@ -90,16 +90,17 @@ def _list(arguments: argparse.Namespace) -> int:
 def _ports() -> tuple[list[dict[str, str]], list[str]]:
     """A row a port, MIDI before serial, and why some cannot be listed or opened."""
     from station.devices.kit_file import own_kit
-    from station.devices.midi_ports import MidiDirectory
+    from station.devices.kit_ports import midi_now
     from station.devices.presets import preset_for
     from station.devices.serial_ports import SerialDirectory, no_access
 
     faults: list[str] = []
     names: list[tuple[str, str]] = []
-    try:
-        names = [(port, "midi") for port in MidiDirectory().names()]
-    except DeviceError as fault:
-        faults.append(str(fault))
+    with midi_now() as (midi, fault):
+        if midi is None:
+            faults.append(f"{fault}")
+        else:
+            names = [(port, "midi") for port in midi.names()]
     for address in SerialDirectory().addresses():
         names.append((address.port, "serial"))
         if (denied := no_access(address.path)) is not None:
@@ -108,8 +109,8 @@ def _ports() -> tuple[list[dict[str, str]], list[str]]:
     for port, wire in names:
         try:
             own = own_kit(port)
-        except BadInput as fault:
-            faults.append(str(fault))
+        except BadInput as broken:
+            faults.append(str(broken))
             own = None
         title = preset_for(port).title if own is None else f"{own.title}, as you taught it"
         rows.append({"port": port, "preset": title, "wire": wire})
