@@ -191,8 +191,13 @@ def first_client(drivers: tuple[str, ...], now_ns: int, sound: Sound) -> Client:
         try:
             return Client(driver, now_ns, sound)
         except (rtmidi.RtMidiError, OSError, RuntimeError, ValueError) as fault:
-            faults.append(f"{_TITLES[driver]}: {_REMEDIES.get(driver, fault)}")
+            faults.append(why_not(driver, fault))
     raise DeviceError("no MIDI driver works. " + ". ".join(faults or ["rtmidi was built without any"]))
+
+
+def why_not(driver: str, fault: Exception) -> str:
+    """What to do about a `driver` that does not work, `fault` where we know no better."""
+    return f"{_TITLES[driver]}: {_REMEDIES.get(driver, fault)}"
 
 
 def new_input(driver: str) -> rtmidi.MidiIn:

@@ -10,7 +10,7 @@ from contextlib import AbstractContextManager, nullcontext
 import rtmidi
 
 from station.core.errors import BadInput, DeviceError
-from station.devices.midi_clients import APIS, CLIENT_NAME, compiled_drivers, quiet_drivers
+from station.devices.midi_clients import APIS, CLIENT_NAME, compiled_drivers, quiet_drivers, why_not
 
 Undisturbed = Callable[[], AbstractContextManager[None]]
 
@@ -46,13 +46,20 @@ def open_midi_output(driver: str, part: str, undisturbed: Undisturbed = nullcont
 
     Raises `BadInput` for a driver that there is not, `DeviceError` that names the outputs there are.
     """
-    faults: list[str] = []
+    faults: list[DeviceError] = []
     for one in _drivers(driver):
         try:
             return _open(one, part, undisturbed if one == "jack" else nullcontext)
         except DeviceError as fault:
-            faults.append(str(fault))
-    raise DeviceError(". ".join(faults) or "MIDI cannot be sent: rtmidi was built without any driver")
+            faults.append(fault)
+    for fault in faults:
+        if isinstance(fault, NotThere):  # a driver that works knows better
+            raise fault
+    raise DeviceError(". ".join(["MIDI cannot be sent", *map(str, faults)]))
+
+
+class NotThere(DeviceError):
+    """The driver works, and has no output of that name."""
 
 
 def _drivers(driver: str) -> tuple[str, ...]:
@@ -84,7 +91,7 @@ def _choose(ports: list[str], part: str) -> str:
     near = [port for port in foreign if part.casefold() in port.casefold()]
     if not (exact or near):
         names = ", ".join(repr(port) for port in foreign) or "none"
-        raise DeviceError(f"no MIDI output is called {part!r}; there are {names}")
+        raise NotThere(f"no MIDI output is called {part!r}; there are {names}")
     return (exact or near)[0]
 
 
@@ -93,4 +100,4 @@ def _new_output(driver: str) -> rtmidi.MidiOut:
         with quiet_drivers():
             return rtmidi.MidiOut(APIS[driver], f"{CLIENT_NAME} out")
     except (rtmidi.RtMidiError, OSError, RuntimeError, ValueError, SystemError) as fault:
-        raise DeviceError(f"MIDI cannot be sent: {fault}") from fault
+        raise DeviceError(why_not(driver, fault)) from fault

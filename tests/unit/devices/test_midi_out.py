@@ -26,9 +26,10 @@ def test_what_is_sent_arrives() -> None:
         module = rtmidi.MidiIn(rtmidi.API_UNIX_JACK, "module")
         module.open_virtual_port("in")
         try:
-            open_midi_output("jack", "nobody")
+            open_midi_output("auto", "nobody")
         except DeviceError as fault:
             assert "module" in str(fault), fault
+            assert str(fault).startswith("no MIDI output is called 'nobody'; there are "), fault
         else:
             raise AssertionError("opened nobody")
         port = open_midi_output("auto", "MODULE")
