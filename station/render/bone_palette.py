@@ -15,7 +15,7 @@ from station.render import kit_rig
 from station.render.kit_rig import KitRig
 from station.render.light_shader import MAX_BONES
 from station.render.skeleton import LIMB_BONES, Bone, Skeleton
-from station.render.space import gl_bytes
+from station.render.space import Matrix
 
 Colour = NDArray[np.float64]
 """Linear red, green and blue, (3,)."""
@@ -45,8 +45,8 @@ class BonePalette:
         assert self.double_sticks + 2 <= MAX_BONES, "the kit has more pieces than a palette holds"
         self._matrices = np.tile(np.eye(4), (MAX_BONES, 1, 1))
         self._glow = np.zeros((MAX_BONES, 4), np.float32)
-        self._now = ctx.buffer(reserve=MAX_BONES * 80, dynamic=True)
-        self._rest = ctx.buffer(gl_bytes(self._matrices) + self._glow.tobytes())
+        self._now = ctx.buffer(reserve=MAX_BONES * 64, dynamic=True)
+        self._rest = ctx.buffer(_rows(self._matrices) + self._glow.tobytes())
 
     def set(self, frame: Frame) -> None:
         """Pose all bones as `frame` says."""
@@ -62,7 +62,7 @@ class BonePalette:
             matrices[self.double_sticks : self.double_sticks + 2] = kit_rig.stick_matrices(frame.double)
             for limb, colour in frame.double_glow.items():
                 glow[[self.double + bone for bone in LIMB_BONES[limb]], :3] = colour
-        self._now.write(gl_bytes(matrices) + glow.tobytes())
+        self._now.write(_rows(matrices) + glow.tobytes())
 
     def use(self) -> None:
         """Let the shaders read how the bones are now."""
@@ -71,3 +71,8 @@ class BonePalette:
     def use_rest(self) -> None:
         """Let the shaders read the kit at rest and the figure as it was made."""
         self._rest.bind_to_uniform_block(0)
+
+
+def _rows(matrices: Matrix) -> bytes:
+    """The upper three rows of affine matrices (n, 4, 4), as the shaders' `mat3x4`."""
+    return matrices[:, :3].astype(np.float32).tobytes()

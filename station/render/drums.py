@@ -127,8 +127,8 @@ def _claw(radius: float, depth: float, angle: float) -> Mesh:
     return joined(parts).moved(rotation([0, 0, 1], angle))
 
 
-_UNDER = [0, 1, 4, 7, 10, 13]
-"""The rings of a cymbal's underside where small things are left out: it is rarely seen."""
+_TOP, _UNDER = [0, 1, 3, 5, 7, 9, 10, 11, 12, 13], [0, 4, 10, 13]
+"""The rings of a cymbal's sides where small things are left out; the underside is rarely seen."""
 
 
 def cymbal(radius: float, detail: Detail, bell: float = 0.19) -> Mesh:
@@ -142,7 +142,9 @@ def cymbal(radius: float, detail: Detail, bell: float = 0.19) -> Mesh:
     bow = rise * (1 - (r / 0.98) ** 2) - rise * (1 - (0.6 / 0.98) ** 2)
     dome = np.where(r < bell, (BELL_ABOVE_BOW_M - 0.4 * rise) * np.sqrt(np.clip(1 - (r / bell) ** 2, 0, 1)), 0)
     top = np.stack([r * radius, bow + dome], axis=1)
-    under = (top if detail.hardware else top[_UNDER])[::-1] - [0.0, 0.0015]
+    under = top[::-1] - [0.0, 0.0015]
+    if not detail.hardware:
+        top, under = top[_TOP], top[_UNDER][::-1] - [0.0, 0.0015]
     mesh = joined(
         [
             _grooved(lathe(top, detail.segments, Material.BRONZE), detail),

@@ -22,9 +22,9 @@ def face_meshes(scale: float, fineness: float) -> list[Mesh]:
     parts = [
         _mesh(_skull(fineness), Material.SKIN),
         _mesh(_hair(fineness), Material.HAIR),
-        *_lids(),
-        *_brows(),
-        *_mouth(),
+        *_lids(fineness),
+        *_brows(fineness),
+        *_mouth(fineness),
         *_headphones(fineness),
     ]
     meshes = [
@@ -100,16 +100,24 @@ def _eyes(fineness: float) -> list[Mesh]:
         white = ball((0, 0, 0), 0.0185, Material.EYE_WHITE, max(10, round(20 / fineness)))
         parts.append(_stretched(white, (0.98, 0.62, 1.06)).moved(translation(centre)))
         look = frame(centre + np.array([0, 0.0088, 0]), [side * 0.06, 1, -0.04], [1, 0, 0])
-        iris = lathe([(0.0118, 0.0), (0.0108, 0.0022), (0.0068, 0.0038), (0.0, 0.0044)], 16, Material.EYE)
+        iris = lathe(
+            [(0.0118, 0.0), (0.0108, 0.0022), (0.0068, 0.0038), (0.0, 0.0044)], _cuts(16, fineness), Material.EYE
+        )
         parts.append(iris.moved(look))
         parts.append(ball(centre + np.array([0.0042, 0.0126, 0.0040]), 0.0023, Material.EYE_WHITE, 6))
     return parts
 
 
-def _lids() -> list[Mesh]:
+def _cuts(most: int, fineness: float) -> int:
+    """Into how many pieces a round is cut: `most`, less where the surface is cut coarser than usual."""
+    return max(5, round(most * min(1.0, 1.8 / fineness)))
+
+
+def _lids(fineness: float) -> list[Mesh]:
     """Upper lids: caps a little larger than the eyes."""
-    a = np.linspace(np.pi / 2, 0.42, 7)
-    cap = lathe(np.stack([0.0203 * np.cos(a), 0.0203 * np.sin(a)], axis=1)[::-1], 18, Material.SKIN)
+    a = np.linspace(np.pi / 2, 0.42, _cuts(7, fineness))
+    profile = np.stack([0.0203 * np.cos(a), 0.0203 * np.sin(a)], axis=1)[::-1]
+    cap = lathe(profile, _cuts(18, fineness), Material.SKIN)
     lid = _stretched(cap, (1.0, 0.66, 1.06))
     return [lid.moved(translation(_EYE * [side, 1, 1]) @ rotation([1, 0, 0], -0.12)) for side in (-1.0, 1.0)]
 
@@ -121,28 +129,27 @@ def _stretched(mesh: Mesh, factors: tuple[float, float, float]) -> Mesh:
     return Mesh(mesh.position * f, normal, mesh.tangent, mesh.uv, mesh.material, mesh.bone, mesh.ao, mesh.faces)
 
 
-def _brows() -> list[Mesh]:
-    t = np.linspace(0, 1, 7)
+def _brows(fineness: float) -> list[Mesh]:
+    t = np.linspace(0, 1, _cuts(7, fineness))
     parts = []
     for side in (-1.0, 1.0):
         x = 0.013 + 0.040 * t
         z = 0.127 + 0.009 * np.sin(np.pi * (0.2 + 0.65 * t)) - 0.006 * t
         y = _front(x, z) + 0.002
         path = np.stack([side * x, y, z], axis=1)
-        parts.append(tube(path, 0.0052, Material.HAIR, 6))
-        parts += [ball(path[0], 0.0052, Material.HAIR, 8), ball(path[-1], 0.0052, Material.HAIR, 8)]
+        parts.append(tube(path, 0.0052, Material.HAIR, _cuts(6, fineness)))
+        parts += [ball(path[end], 0.0052, Material.HAIR, _cuts(8, fineness)) for end in (0, -1)]
     return parts
 
 
-def _mouth() -> list[Mesh]:
-    t = np.linspace(-1, 1, 9)
+def _mouth(fineness: float) -> list[Mesh]:
+    t = np.linspace(-1, 1, _cuts(9, fineness))
     x = 0.021 * t + 0.002
     z = 0.031 + 0.0055 * t**2 + 0.0015 * t
     path = np.stack([x, _front(x, z) - 0.0004, z], axis=1)
     return [
-        tube(path, 0.0026, Material.LIP, 6),
-        ball(path[0], 0.0026, Material.LIP, 6),
-        ball(path[-1], 0.0026, Material.LIP, 6),
+        tube(path, 0.0026, Material.LIP, _cuts(6, fineness)),
+        *(ball(path[end], 0.0026, Material.LIP, _cuts(6, fineness)) for end in (0, -1)),
     ]
 
 
@@ -160,7 +167,10 @@ def _front(x: Array, z: Array) -> Array:
 def _headphones(fineness: float) -> list[Mesh]:
     angle = np.linspace(0.10, np.pi - 0.10, max(9, round(30 / fineness)))
     band = np.stack([0.098 * np.cos(angle), np.full_like(angle, -0.006), 0.100 + 0.132 * np.sin(angle)], axis=1)
-    parts = [tube(band + np.array([0, dy, 0]), 0.0065, Material.HEADPHONES, 6) for dy in (-0.009, 0.0, 0.009)]
+    parts = [
+        tube(band + np.array([0, dy, 0]), 0.0065, Material.HEADPHONES, _cuts(6, fineness))
+        for dy in (-0.009, 0.0, 0.009)
+    ]
     segments = max(10, round(28 / fineness))
     cup = [(0.0, 0.0), (0.030, 0.0), (0.041, 0.006), (0.042, 0.018), (0.036, 0.027), (0.020, 0.031), (0.0, 0.031)]
     ring = [(0.0265, 0.0300), (0.0265, 0.0312), (0.0215, 0.0322)]

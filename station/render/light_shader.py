@@ -9,11 +9,11 @@ includes the screen's gamma. A shader that takes this in defines `QUALITY` first
 from station.render.materials import Material
 
 MAX_BONES = 128
-"""Matrices in the palette; 128 of 5 × vec4 fit the 16 KiB that every OpenGL 3.3 grants a block."""
+"""Matrices in the palette; 128 of 4 × vec4 fit the 16 KiB that every OpenGL 3.3 grants a block."""
 
 _BONES = f"""
 layout(std140) uniform Bones {{
-    mat4 bone_matrix[{MAX_BONES}];
+    mat3x4 bone_matrix[{MAX_BONES}];         // the upper three rows, so that a row vector goes before it
     vec4 bone_glow[{MAX_BONES}];
 }};
 uniform int first_bone;                     // where the bones of what is drawn begin
@@ -41,9 +41,14 @@ in vec4 weights;
 in int material;
 in float ao;
 
-mat4 skinned() {
+mat3x4 skinned() {
     return bone_matrix[bones.x + first_bone] * weights.x + bone_matrix[bones.y + first_bone] * weights.y
          + bone_matrix[bones.z + first_bone] * weights.z + bone_matrix[bones.w + first_bone] * weights.w;
+}
+
+mat3x4 roughly_skinned() {                  // by the two strongest bones: within a few millimetres
+    return (bone_matrix[bones.x + first_bone] * weights.x + bone_matrix[bones.y + first_bone] * weights.y)
+         / (weights.x + weights.y);
 }
 """
 )

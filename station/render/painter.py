@@ -124,6 +124,10 @@ class Painter:
             self._ctx.viewport = area
             if with_score:
                 self._score.draw_paper(place, (width, height), is_staff)
+            self.printer.theme = over_picture(self.theme)
+            veil = (0.0, 0.0, float(width), hud.VEIL_HEIGHT * hud.scale(height - score_height))
+            self.printer.fill(veil, hud.VEIL, Sheet((width, height)))
+            self.printer.theme = self.theme
 
         def lay_still(into: moderngl.Framebuffer) -> None:
             into.clear(*dyed(NIGHT, self.theme), depth=1.0)
@@ -143,8 +147,6 @@ class Painter:
             self.printer.theme = self.theme
             self._score.draw(snapshot, place, (width, height), arrangement.form)
         self.printer.theme = over_picture(self.theme)
-        veil = (0.0, 0.0, float(width), hud.VEIL_HEIGHT * hud.scale(height - score_height))
-        self.printer.fill(veil, hud.VEIL, Sheet((width, height)))
         if len(frames) > 1:
             self.printer.draw(self._names((width, height - score_height)), Sheet((width, height)))
         self.printer.draw(self._words(snapshot.hud, (width, height - score_height)), Sheet((width, height)))

@@ -20,6 +20,8 @@ _PARTS = 3
 """Even rows of luma, odd rows, chroma."""
 _AHEAD = 2
 """So many frames are on their way from the graphics card while the next is drawn: double buffering."""
+_SETS = 2
+"""One is converted into while the other is read."""
 
 _VERTEX = """
 #version 330 core
@@ -56,7 +58,8 @@ class PlanesReader:
     """Converts one picture after another; all calls are made while its context is the current one.
 
     A fragment makes four pixels, which takes a software driver a quarter of the time: luma of even and of odd rows go
-    to pictures of their own, and come together as they are taken.
+    to pictures of their own, and come together as they are taken. What was converted is read back when the next
+    picture has been put in: a software driver then converts while that one is prepared.
     """
 
     def __init__(self, ctx: moderngl.Context, picture: moderngl.Texture) -> None:
@@ -67,42 +70,58 @@ class PlanesReader:
         program = ctx.program(_VERTEX, _FRAGMENT)
         program["last_row"] = height - 1
         self._triangle = ctx.vertex_array(program, [])
-        self._half = width // 2, height // 2
-        self._parts = ctx.framebuffer([ctx.texture(self._half, 2) for _ in range(_PARTS)])
+        half = width // 2, height // 2
+        self._free = [ctx.framebuffer([ctx.texture(half, 2) for _ in range(_PARTS)]) for _ in range(_SETS)]
+        self._converted: deque[moderngl.Framebuffer] = deque()
         self._part_bytes = width * height // 2
-        self._free = [ctx.buffer(reserve=_PARTS * self._part_bytes) for _ in range(_AHEAD)]
+        self._buffers = [ctx.buffer(reserve=_PARTS * self._part_bytes) for _ in range(_AHEAD)]
         self._waiting: deque[moderngl.Buffer] = deque()
 
     @property
     def is_full(self) -> bool:
         """Whether the oldest picture must be taken before the next is put in."""
-        return not self._free
+        return not self._buffers
 
     def put(self) -> None:
-        """Convert the picture as it is now, and begin to read it back."""
-        buffer = self._free.pop()
+        """Convert the picture as it is now, and begin to read back the one before."""
+        parts = self._free.pop()
         self._ctx.disable(moderngl.DEPTH_TEST | moderngl.CULL_FACE | moderngl.BLEND)
-        self._parts.use()
+        parts.use()
         self._picture.use(0)
         self._triangle.render(vertices=3)
-        for part in range(_PARTS):
-            offset = part * self._part_bytes
-            self._parts.read_into(buffer, components=2, attachment=part, alignment=1, write_offset=offset)
+        if self._converted:
+            self._read()
+        self._converted.append(parts)
+
+    def _read(self) -> None:
+        """Begin to read back the oldest that was converted: as textures, for which a driver waits for nothing else."""
+        parts, buffer = self._converted.popleft(), self._buffers.pop()
+        for place, part in enumerate(parts.color_attachments):
+            assert isinstance(part, moderngl.Texture)
+            part.read_into(buffer, alignment=1, write_offset=place * self._part_bytes)
+        self._free.append(parts)
         self._waiting.append(buffer)
 
     def take(self) -> Planes | None:
         """The oldest picture that was put in and not taken yet; None where there is none."""
         if not self._waiting:
-            return None
+            if not self._converted:
+                return None
+            self._read()
         buffer = self._waiting.popleft()
         width, height = self._picture.size
         upper, lower, chroma = np.frombuffer(buffer.read(), np.uint8).reshape(_PARTS, height // 2, width)
-        self._free.append(buffer)
+        self._buffers.append(buffer)
         planes = np.empty((height * 3 // 2, width), np.uint8)
         planes[0:height:2], planes[1:height:2], planes[height:] = upper, lower, chroma
         return planes
 
     def release(self) -> None:
         """Give the driver its memory back."""
-        for part in (*self._free, *self._waiting, *self._parts.color_attachments, self._parts, self._triangle):
-            part.release()
+        for parts in (*self._free, *self._converted):
+            for part in parts.color_attachments:
+                part.release()
+            parts.release()
+        for buffer in (*self._buffers, *self._waiting):
+            buffer.release()
+        self._triangle.release()

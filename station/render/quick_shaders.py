@@ -61,26 +61,26 @@ void place(vec3 world, vec3 normal, vec3 tangent, vec3 glow) {{
 
 _RIGID_MAIN = """
 void main() {
-    mat4 m = bone_matrix[bone + first_bone];
+    mat3x4 m = bone_matrix[bone + first_bone];
     vec3 glow = bone_glow[bone + first_bone].rgb;
-    place((m * vec4(position, 1.0)).xyz, mat3(m) * normal.xyz, mat3(m) * tangent.xyz, glow);
+    place(vec4(position, 1.0) * m, vec4(normal.xyz, 0.0) * m, vec4(tangent.xyz, 0.0) * m, glow);
 }
 """
 
 _SKIN_MAIN = """
 void main() {
-    mat4 m = skinned();
-    place((m * vec4(position, 1.0)).xyz, mat3(m) * normal.xyz, vec3(0.0), vec3(0.0));
+    mat3x4 m = roughly_skinned();
+    place(vec4(position, 1.0) * m, vec4(normal.xyz, 0.0) * m, vec3(0.0), vec3(0.0));
 }
 """
 
 _SKIN_GHOST_MAIN = f"""
 void main() {{
-    mat4 m = skinned();
+    mat3x4 m = skinned();
     fade = clamp(2.0 * dot(vec4(greaterThan(bones, ivec4({int(Bone.HEAD)}))), weights) - 1.0, 0.0, 1.0);  // limbs alone
     vec3 glow = bone_glow[bones.x + first_bone].rgb * weights.x + bone_glow[bones.y + first_bone].rgb * weights.y
               + bone_glow[bones.z + first_bone].rgb * weights.z + bone_glow[bones.w + first_bone].rgb * weights.w;
-    place((m * vec4(position, 1.0)).xyz, mat3(m) * normal.xyz, vec3(0.0), glow);
+    place(vec4(position, 1.0) * m, vec4(normal.xyz, 0.0) * m, vec3(0.0), glow);
 }}
 """
 

@@ -61,7 +61,9 @@ class Scene:
     # --- what is drawn ------------------------------------------------------------------------------------------------
 
     def set(self, frame: Frame) -> None:
-        """Say what the next pictures show."""
+        """Say what the next pictures show; to say the same again costs nothing."""
+        if frame is self._frame:
+            return
         self._frame = frame
         self._bones.set(frame)
         self._shadow_is_cast = False

@@ -30,9 +30,9 @@ RIGID_VERTEX = (
     + _OUT
     + """
 void main() {
-    mat4 m = bone_matrix[bone + first_bone];
-    place((m * vec4(position, 1.0)).xyz, mat3(m) * normal.xyz);
-    v_tangent = mat3(m) * tangent.xyz;
+    mat3x4 m = bone_matrix[bone + first_bone];
+    place(vec4(position, 1.0) * m, vec4(normal.xyz, 0.0) * m);
+    v_tangent = vec4(tangent.xyz, 0.0) * m;
     v_glow = bone_glow[bone + first_bone].rgb;
     v_ao = ao;
     v_material = material;
@@ -46,8 +46,8 @@ SKIN_VERTEX = (
     + _OUT
     + """
 void main() {
-    mat4 m = skinned();
-    place((m * vec4(position, 1.0)).xyz, mat3(m) * normal.xyz);
+    mat3x4 m = skinned();
+    place(vec4(position, 1.0) * m, vec4(normal.xyz, 0.0) * m);
     v_tangent = vec3(0.0);
     v_glow = vec3(0.0);
     v_ao = ao;
@@ -163,11 +163,11 @@ RIGID_SHADOW = (
     "#version 330 core\n"
     + RIGID_IN
     + _SHADOW_PLACE
-    + "void main() { place((bone_matrix[bone + first_bone] * vec4(position, 1.0)).xyz); }\n"
+    + "void main() { place(vec4(position, 1.0) * bone_matrix[bone + first_bone]); }\n"
 )
 
 SKIN_SHADOW = (
-    "#version 330 core\n" + SKIN_IN + _SHADOW_PLACE + "void main() { place((skinned() * vec4(position, 1.0)).xyz); }\n"
+    "#version 330 core\n" + SKIN_IN + _SHADOW_PLACE + "void main() { place(vec4(position, 1.0) * skinned()); }\n"
 )
 
 

