@@ -35,6 +35,10 @@ class Choice:
                 self.tempo_bpm, self.loops, self.adapt = first.tempo_bpm, first.loops, first.adapt
                 self.bars = first.bars
 
+    def offer(self, lessons: Sequence[LessonCard]) -> None:
+        """Choose among these from now on; what is chosen stays."""
+        self._lessons = tuple(lessons)
+
     def choose(self, card: LessonCard) -> None:
         """Take a lesson at the tempo, with the passes and the bars that its author wants."""
         self.free = False

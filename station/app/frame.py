@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from imgui_bundle import hello_imgui, imgui
@@ -27,7 +28,8 @@ class WindowOptions:
 
     `settings` is the file that keeps the look, None for this user's. `tests` registers tests with imgui's test engine
     and makes it run, without a pause between frames; `picture_every` draws the picture in every so manieth frame alone
-    and leaves it dark between them, for whoever watches the panels.
+    and leaves it dark between them, for whoever watches the panels. `shown` is called whenever a frame is on the
+    screen; the window closes when it says no.
     """
 
     size: tuple[int, int] = (1280, 720)
@@ -36,6 +38,7 @@ class WindowOptions:
     settings: Path | None = None
     tests: Callable[[], None] | None = None
     picture_every: int = 1
+    shown: Callable[[], bool] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +74,8 @@ def runner(options: WindowOptions, calls: Calls, pages: Sequence[Page], scale: f
     callbacks.pre_new_frame = calls.before
     callbacks.show_gui = calls.over
     callbacks.before_exit = calls.leaving
+    if options.shown is not None:
+        callbacks.after_swap = partial(_go_on_while, options.shown, params)
     docking = params.docking_params
     docking.layout_condition = hello_imgui.DockingLayoutCondition.application_start
     docking.docking_splits = splits(scale)
@@ -80,6 +85,11 @@ def runner(options: WindowOptions, calls: Calls, pages: Sequence[Page], scale: f
         params.fps_idling.fps_idle = 0.0
         callbacks.register_tests = options.tests
     return params
+
+
+def _go_on_while(wanted: Callable[[], bool], params: hello_imgui.RunnerParams) -> None:
+    if not wanted():
+        params.app_shall_exit = True
 
 
 def _use_opengl_3_3(params: hello_imgui.RunnerParams) -> None:

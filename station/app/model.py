@@ -151,8 +151,12 @@ class PracticeModel(Protocol):
         """What is going on."""
         ...
 
+    def first_card(self) -> LessonCard:
+        """The lesson that is chosen when the window opens, which is there sooner than all others."""
+        ...
+
     def lessons(self) -> Sequence[LessonCard]:
-        """Every lesson that can be chosen, in the order in which they are shown."""
+        """Every lesson that can be chosen, in the order in which they are shown; the first call takes a moment."""
         ...
 
     def first(self) -> Start | None:

@@ -116,6 +116,10 @@ class PracticeRoom:
         )
         return state if self._is_free else self._run.told(state)
 
+    def first_card(self) -> LessonCard:
+        """The lesson that the window was opened on, in the list."""
+        return self._prepared.first_card()
+
     def lessons(self) -> Sequence[LessonCard]:
         """Every shipped lesson, and the one that was named when the window was opened."""
         return self._prepared.cards()

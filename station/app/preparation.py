@@ -37,7 +37,8 @@ class Preparation:
 
     def __init__(self, settings: Settings, first: Lesson, backing: BackingWish | None) -> None:
         self.settings = settings
-        self._lessons = all_lessons(first)
+        self._first = first
+        self._shipped: dict[str, Lesson] | None = None
         self._backing = None if backing is None else Backing(backing)
 
     @property
@@ -47,11 +48,18 @@ class Preparation:
 
     def cards(self) -> Sequence[LessonCard]:
         """Every shipped lesson, and the one that the window was opened on."""
-        return [card(lesson) for lesson in self._lessons.values()]
+        if self._shipped is None:
+            self._shipped = all_lessons(self._first)
+        return [card(lesson) for lesson in self._shipped.values()]
+
+    def first_card(self) -> LessonCard:
+        """That of the lesson that the window was opened on; no other needs to be read for it."""
+        return card(self._first)
 
     def lesson(self, name: str) -> Lesson:
         """The lesson of a name or a file; raises `BadInput`."""
-        return self._lessons.get(name) or find_lesson(name)
+        known = {self._first.name: self._first} | (self._shipped or {})
+        return known.get(name) or find_lesson(name)
 
     def laid_out(self, wish: Start) -> LaidOut:
         """What is wished for, from what is remembered where the tempo follows; raises `StationError`."""

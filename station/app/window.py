@@ -52,6 +52,8 @@ from station.core.units import ns_from_s
 from station.practice.own_ear import Guess
 
 _NO_WINDOW = "no window can be opened: is there a screen, and OpenGL? `station practice --headless` needs neither"
+_FIRST_PICTURE = 2
+"""The frame, from 0, that has the first picture: the first shows the panels, the second all lessons."""
 LESSONS, TRANSPORT, BARS, GRAPH = "Lessons", "Transport", "Bars", "Graph"
 
 
@@ -62,7 +64,7 @@ class Window:
         self._model = model
         self._options = options
         self._clock = clock or MonotonicClock()
-        self.choice = Choice(model.lessons(), model.first())
+        self.choice = Choice([model.first_card()], model.first())
         first = self.choice.wish()
         self._previewed = None if first is None else (first.lesson, first.bars)
         self._panel = LessonsPanel(
@@ -182,7 +184,13 @@ class Window:
             self._tried(lambda: save_settings(with_look(load_settings(path), look), path))
 
     def _background(self) -> None:
-        """Draw the picture behind the panels."""
+        """Draw the picture behind the panels, which are there before it: it takes a second to build."""
+        if self.frames < _FIRST_PICTURE:
+            self.backdrop.clear()
+            if self.frames:
+                self.choice.offer(self._model.lessons())
+            self.frames += 1
+            return
         now_ns = self._clock.now_ns()
         self._preview()
         snapshot, left, low, width, height = self._model.snapshot(now_ns), *central_area(self.params.docking_params)

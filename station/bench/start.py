@@ -1,11 +1,26 @@
-"""Benchmarks of starting: how long `station --help` takes, from the shell's view."""
+"""Benchmarks of starting, from the shell's view: `station --help`, and the window's first frame and first picture.
 
+The window opens as `station` opens it, with its engine, on the screen that is there or else on one of Xvfb's.
+"""
+
+import os
+import shutil
 import subprocess
 import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from statistics import median
 
 from station.bench.benchmark import Benchmark, Measured, median_s
+from station.core.clock import monotonic_ns
+from station.core.units import NS_PER_S
 
-_TIMES = 7
+_TIMES, _OPENINGS = 7, 3
+_WITHIN_S = 50.0
+_FIRST_PICTURE = 3
+"""The frame, from 1, that shows the drummer (`app.window`)."""
 
 
 def _help() -> Measured:
@@ -13,4 +28,60 @@ def _help() -> Measured:
     return Measured(median_s(lambda: subprocess.run(words, check=True, capture_output=True), _TIMES))
 
 
-BENCHMARKS = (Benchmark("start_help", "s", 0.3, "lower", None, _help),)
+def _first_frame() -> Measured:
+    return _opening(1)
+
+
+def _first_picture() -> Measured:
+    return _opening(_FIRST_PICTURE)
+
+
+def _opening(frame: int) -> Measured:
+    """From the command until `frame` is on the screen, the median of some openings, and this process's own time."""
+    with _screen() as screen, tempfile.TemporaryDirectory() as home:
+        if screen is None:
+            return Measured(None, note="no screen, and no Xvfb to make one")
+        folder = Path(home) / "drum-station"
+        folder.mkdir()
+        (folder / "settings.toml").write_text(f"welcomed = true\nsessions = '{home}'\n", "utf-8")
+        environment = {**os.environ, **screen, "XDG_CONFIG_HOME": home}
+        told = [_opened(frame, environment) for _ in range(_OPENINGS)]
+    taken_s, worked_s = (median(column) for column in zip(*told, strict=True))
+    return Measured(taken_s, note=f"{worked_s:.2f} s of processor time")
+
+
+def _opened(frame: int, environment: dict[str, str]) -> tuple[float, float]:
+    begun_ns = monotonic_ns()
+    words = [sys.executable, "-c", f"from station.app.opening import open_until; open_until({frame})"]
+    done = subprocess.run(words, check=True, capture_output=True, text=True, env=environment, timeout=_WITHIN_S)
+    shown_ns, worked_s = done.stdout.split()[-2:]
+    return (int(shown_ns) - begun_ns) / NS_PER_S, float(worked_s)
+
+
+@contextmanager
+def _screen() -> Iterator[dict[str, str] | None]:
+    """What the environment needs for a screen; None where there can be none."""
+    if os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY") or sys.platform != "linux":
+        yield {}
+        return
+    if shutil.which("Xvfb") is None:
+        yield None
+        return
+    read, write = os.pipe()
+    words = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1400x900x24", "+extension", "GLX", "-nolisten", "tcp"]
+    server = subprocess.Popen(words, pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    os.close(write)
+    try:
+        with os.fdopen(read) as told:
+            display = told.readline().strip()
+        yield {"DISPLAY": f":{display}"} if display else None
+    finally:
+        server.terminate()
+        server.wait()
+
+
+BENCHMARKS = (
+    Benchmark("start_help", "s", 0.3, "lower", None, _help),
+    Benchmark("start_first_frame", "s", 2.0, "lower", None, _first_frame),
+    Benchmark("start_first_picture", "s", 2.0, "lower", None, _first_picture),
+)

@@ -7,6 +7,7 @@ virtual student its own account under `truth`. docs/report.md describes it.
 from collections.abc import Iterable
 from contextlib import suppress
 from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,10 +20,8 @@ from station.devices.kit_file import own_kit
 from station.drills.lesson import Goals
 from station.engine.engine import KEYBOARD
 from station.practice.adaptation import lesson_bars
-from station.practice.headless import VirtualSession
 from station.practice.mastery_report import passes_text
 from station.practice.session import SessionResult
-from station.practice.virtual_student import VirtualPerformance
 from station.practice.what_next import advice_of, what_next
 from station.scoring.alignment import Alignment, Reference
 from station.scoring.craft.untold import KitFacts
@@ -30,6 +29,10 @@ from station.scoring.craft.words import craft_lines
 from station.scoring.document import Json, assessment
 from station.scoring.points import FREE_LEAN_MS, Feel
 from station.scoring.summary import View, summarise
+
+if TYPE_CHECKING:
+    from station.practice.headless import VirtualSession
+    from station.practice.virtual_student import VirtualPerformance
 
 
 def kit_facts(settings: Settings, device: str | None = None) -> KitFacts:
@@ -74,7 +77,7 @@ def practice_document(result: SessionResult, settings: Settings) -> dict[str, Js
     return document
 
 
-def with_truth(document: dict[str, Json], virtual: VirtualSession, settings: Settings) -> dict[str, Json]:
+def with_truth(document: dict[str, Json], virtual: "VirtualSession", settings: Settings) -> dict[str, Json]:
     """The document beside what the virtual student knows that it did."""
     student, matching = virtual.student, virtual.student.truth
     hit_ns = student.performance.hits["at_ns"]
@@ -114,7 +117,7 @@ def feel_of(goals: Goals) -> Feel:
     return Feel(lean_ms, goals.max_swing_error)
 
 
-def _true_asynchrony_ns(student: VirtualPerformance) -> NDArray[np.int64]:
+def _true_asynchrony_ns(student: "VirtualPerformance") -> NDArray[np.int64]:
     """Played − written of every note that was answered, 0 elsewhere, shape (n,)."""
     hit = student.truth.hit_of_note
     answered = hit >= 0

@@ -1,6 +1,7 @@
 """`station` without a command: opens the practice room."""
 
 import argparse
+from collections.abc import Callable
 from contextlib import ExitStack
 
 from station.app.health import has_screen
@@ -25,14 +26,22 @@ def run(_: argparse.Namespace) -> int:
     return open_window(settings, first, adapt=True)
 
 
-def open_window(settings: Settings, first: Plan, adapt: bool, backing: BackingWish | None = None) -> int:
+def open_window(
+    settings: Settings,
+    first: Plan,
+    adapt: bool,
+    backing: BackingWish | None = None,
+    shown: Callable[[], bool] | None = None,
+) -> int:
     """Show the practice room until it is closed; what was played until then is kept.
 
     `adapt` whether the tempo follows the student, until another choice is made in the window; `backing` a track to
-    play along to in every session whose tempo stays.
+    play along to in every session whose tempo stays; `shown` is called after each frame and says
+    whether to go on.
     """
     if not has_screen():
         raise DeviceError("no screen: `station practice --headless` practises in the terminal")
+    from station.app.frame import WindowOptions
     from station.app.practice_room import PracticeRoom
     from station.app.window import run_window
     from station.engine.config import EngineConfig
@@ -44,7 +53,7 @@ def open_window(settings: Settings, first: Plan, adapt: bool, backing: BackingWi
         wake = lambda: engines.enter_context(LastingEngine(EngineConfig.from_settings(settings)))  # noqa: E731
         room = PracticeRoom(wake, settings, first, adapt, latency, backing)
         try:
-            run_window(room)
+            run_window(room, WindowOptions(shown=shown))
         finally:
             fault = room.close()
         if fault is not None:

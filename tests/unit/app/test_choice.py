@@ -21,6 +21,14 @@ def test_the_first_lesson_is_chosen_at_its_own_tempo() -> None:
     assert Choice([ROCK, PARADIDDLE]).wish() == Start("rock-1", 80.0, 8, adapt=True)
 
 
+def test_more_lessons_to_choose_from_change_nothing_that_is_chosen() -> None:
+    choice = Choice([PARADIDDLE])
+    choice.tempo_bpm = 71.0
+    choice.offer([ROCK, PARADIDDLE])
+    assert choice.visible() == [ROCK, PARADIDDLE]
+    assert (choice.card, choice.tempo_bpm) == (PARADIDDLE, 71.0)
+
+
 def test_without_lessons_there_is_nothing_to_start() -> None:
     assert Choice([]).wish() is None
 
