@@ -1,15 +1,18 @@
 """Ways round: where a hand on its way would bring its stick into the other's stick or arm, it is led around them.
 
 Both hands are looked at `RATE_HZ` times a second. Every tangle (`tangles`) is undone by the detour that helps most;
-where neither hand travels, the upper one's stick is held steeper, or the lower one's stroke lower. What is found once
-for a figure of the score is kept for its repetitions.
+where neither hand travels, the upper one's stick is held steeper; where one rests, it gives way (`giving_way`); else
+the lower one's stroke is lower. What is found once for a figure of the score is kept for its repetitions.
 """
+
+from collections import Counter
 
 import numpy as np
 from numpy.typing import NDArray
 
 from station.motion.events import LONG_AGO_S
 from station.motion.figure import Figure
+from station.motion.giving_way import Giving, giving_way
 from station.motion.hand import HandPart
 from station.motion.kit import Kit
 from station.motion.maths import Point
@@ -36,7 +39,8 @@ def detoured(
     hands: tuple[HandPart, HandPart], figure: Figure, kit: Kit, grid: Array, shoulders: tuple[Point, Point]
 ) -> tuple[HandPart, HandPart]:
     """Both parts with ways around each other, looked at `grid` (n,), when the shoulders are at `shoulders`."""
-    known: dict[tuple[object, ...], Detour | None] = {}
+    known: dict[tuple[object, ...], Remedy] = {}
+    tries: Counter[tuple[int, ...]] = Counter()
     stage = Stage(figure, kit, grid, shoulders, (hands[0].bump, hands[1].bump))
     for _ in range(ROUNDS):
         scene = Scene.of(hands, stage)
@@ -46,32 +50,53 @@ def detoured(
         bumps = [hand.bump.copy() for hand in hands]
         most = [hand.strokes.most.copy() for hand in hands]
         contacts = [hand.contacts.copy() for hand in hands]
+        gives = [hand.gives.copy() for hand in hands]
         changed: set[tuple[int, int]] = set()
-        rises: dict[tuple[object, ...], tuple[int, float] | None] = {}
-        for k, pair in enumerate(pairs.tolist()):
+        for pair, k in sorted(((p, k) for k, p in enumerate(pairs.tolist())), key=lambda p: tries[tuple(p[0])]):
             if changed & set(enumerate(pair)):
-                continue  # what helped its neighbour may have helped it too
+                continue  # what helped its neighbour may have helped it too; if not, its turn is next
             changed |= set(enumerate(pair))
+            tries[tuple(pair)] += 1
             moments = np.flatnonzero(which == k)
             key = scene.figure_of(pair)
             if key not in known:
-                known[key] = scene.way_round(pair, moments)
-            found = known[key]
-            if found is None and key not in rises:
-                rises[key] = scene.steeper(moments)
-            steeper = rises.get(key)
-            if found is not None:
-                bumps[found.side][pair[found.side], :3] += found.way
-                if found.share < 1.0:
-                    _lower(hands[found.side], most[found.side], pair[found.side], found.share)
-            elif steeper is not None:
-                side, rise = steeper
+                known[key] = _remedy(scene, pair, which, k)
+            remedy = known[key]
+            if isinstance(remedy, Detour):
+                bumps[remedy.side][pair[remedy.side], :3] += remedy.way
+                if remedy.share < 1.0:
+                    _lower(hands[remedy.side], most[remedy.side], pair[remedy.side], remedy.share)
+            elif isinstance(remedy, Giving):
+                event = pair[remedy.side]
+                gives[remedy.side][event] = remedy.row(float(hands[remedy.side].events.time_s[event]))
+            elif remedy is not None:
+                side, rise = remedy
                 contacts[side][np.ix_(scene.at(side, moments), SLOPES)] += rise
             else:
                 side = scene.lower(moments)
                 _lower(hands[side], most[side], pair[side], _LOWER)
-        hands = (hands[0].led(bumps[0], most[0], contacts[0]), hands[1].led(bumps[1], most[1], contacts[1]))
+        right, left = (hand.led(*new) for hand, *new in zip(hands, bumps, most, contacts, gives, strict=True))
+        hands = (right, left)
     return hands
+
+
+Remedy = Detour | Giving | tuple[int, float] | None
+"""What undoes a tangle: a way round, giving way, a hand whose stick is so much steeper, or nothing."""
+
+
+def _remedy(scene: Scene, pair: list[int], which: NDArray[np.int64], k: int) -> Remedy:
+    """What undoes tangle `k` of `which`: the first that is enough, in this order; else what comes nearest to it."""
+    moments = np.flatnonzero(which == k)
+    detour = scene.way_round(pair, moments)
+    if detour is not None and detour.near_m <= 0.0:
+        return detour
+    steeper = scene.steeper(moments)
+    if steeper is not None:
+        return steeper
+    giving = giving_way(scene, pair, which, k)
+    if giving is not None and (detour is None or giving.price < detour.price):
+        return giving
+    return detour
 
 
 def _lower(hand: HandPart, most: Array, stretch: int, share: float) -> None:

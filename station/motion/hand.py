@@ -19,7 +19,7 @@ from station.motion.grip import Hold
 from station.motion.kit import Kit
 from station.motion.maths import MANY, Point
 from station.motion.stroke import NATURALLY, StrokePlan, Strokes
-from station.motion.travel import DETOUR, Way, lifts
+from station.motion.travel import DETOUR, GIVES, Way, lifts
 from station.music.score import Score
 
 Array = NDArray[np.float64]
@@ -42,7 +42,7 @@ class HandPart:
     `lies` are the kinds of contact that occur, `which` (n,) the kind of each event, `wrist_m` (n, 3) where the wrist is
     at each, naturally, and `contacts` (n, fields) what its arm is solved from; the plan of its strokes; `bump`
     (n − 1, 4) how each stretch between two events goes round (`Way.of`), and whether it is travelled `early` (n − 1,);
-    `show`, where its stick is spun and tossed.
+    how it `gives` (n, 6) way after each event; `show`, where its stick is spun and tossed.
     """
 
     limb: Limb
@@ -55,6 +55,7 @@ class HandPart:
     contacts: Array
     bump: Array
     early: NDArray[np.bool_]
+    gives: Array
     show: Contact
 
     @classmethod
@@ -92,12 +93,13 @@ class HandPart:
         bump = np.zeros((len(contacts) - 1, DETOUR))
         bump[:, 2] = lifts(kit, contacts, played)
         show = lie_of(kit, figure, hold, Strike(Piece.SNARE, Zone.HEAD, SHOW, limb)).contact
-        return cls(limb, hold, events, lies, which, wrists, plan, contacts, bump, left_at_once[:-1], show)
+        gives = np.zeros((len(contacts), GIVES))
+        return cls(limb, hold, events, lies, which, wrists, plan, contacts, bump, left_at_once[:-1], gives, show)
 
     @cached_property
     def way(self) -> Way:
         """The way between the contacts."""
-        return Way.of(self.events.time_s, self.contacts, self.bump, self.early)
+        return Way.of(self.events.time_s, self.contacts, self.bump, self.early, self.gives)
 
     def eased(self, figure: Figure, time_s: Array, roots: tuple[Point, Point]) -> "HandPart":
         """The same with the hand so pointed at each contact that its wrist stays within its limits sideways.
@@ -163,9 +165,12 @@ class HandPart:
         most = height_m / np.maximum(self.strokes.height_m, 1e-6)
         return replace(self, strokes=replace(self.strokes, most=most))
 
-    def led(self, bump: Array, most: Array, contacts: Array) -> "HandPart":
-        """The same on the ways of `bump` (n − 1, 4) between `contacts`, no stroke over `most` (n,) times its height."""
-        return replace(self, bump=bump, contacts=contacts, strokes=replace(self.strokes, most=most))
+    def led(self, bump: Array, most: Array, contacts: Array, gives: Array) -> "HandPart":
+        """The same on the ways of `bump` (n − 1, 4) between `contacts`, no stroke over `most` (n,) times its height.
+
+        `gives` (n, 6) is how the hand gives way.
+        """
+        return replace(self, bump=bump, contacts=contacts, gives=gives, strokes=replace(self.strokes, most=most))
 
     @cached_property
     def on_the_shoulder(self) -> NDArray[np.int64]:

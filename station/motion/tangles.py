@@ -140,6 +140,7 @@ class Scene:
             words += [tuple(np.round(hand.bump[k : k + 1].ravel(), 3).tolist())]
             words += [tuple(np.round(hand.strokes.most[part], 3).tolist())]
             words += [tuple(np.round(hand.contacts[part, SLOPES[0]], 3).tolist())]
+            words += [tuple(np.round(hand.gives[k, 3:], 3).tolist())]
         return tuple(words)
 
     def lower(self, moments: NDArray[np.int64]) -> int:
@@ -208,8 +209,20 @@ class Scene:
         if led.any():  # the first detour was not enough: another instead of it may be
             ways = np.concatenate((ways, ways - led))
         ways = ways[(np.linalg.norm(so_far + ways, axis=1) <= _MOST_M) | ~ways.any(1)]
-        times, hump = self.stage.grid[on], self.hump[side][on]
-        contact = hand.way.many(times)
+        found, price, near = self.cheapest(side, on, (self.hump[side][on], ways), share)
+        return Detour(side, ways[found], share, price, near)
+
+    def cheapest(
+        self, side: int, on: NDArray[np.int64], moves: tuple[Array, Array], share: float, contact: Contact | None = None
+    ) -> tuple[int, float, float]:
+        """Which of some moves of one hand is the cheapest at the moments `on` (n,), its price, how much too near it is.
+
+        `moves` are how much of them is made at each moment, (n,), and the moves, (k, 3) metres, from where the hand
+        touches in its way or in `contact`.
+        """
+        hand, (hump, ways) = self.hands[side], moves
+        times = self.stage.grid[on]
+        contact = contact or hand.way.many(times)
         x, y, z = (c + hump * w[:, None] for c, w in zip(contact[:3], ways.T, strict=True))
         every = Contact(x, y, z, *(np.broadcast_to(c, x.shape) for c in contact[3:]))
         strokes = Offsets(*(share * self.strokes[side][:, on]))
@@ -242,7 +255,7 @@ class Scene:
             price = float(prices[k]) + _DEPTH_COST * deep
             if price < best:
                 best, found = price, k
-        return Detour(side, ways[found], share, best, float(near[found].max()))
+        return found, best, float(near[found].max())
 
     def _beyond(self, side: int, arm: Arm) -> Array:
         """By how much elbow and wrist are beyond their limits, radians."""

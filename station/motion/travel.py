@@ -2,7 +2,8 @@
 
 From one strike to the next the contact stays, travels and stays again. The travel is a minimum-jerk movement (Flash and
 Hogan 1985), as hands travel (HUMANS), late in the gap, so that the preparation happens while travelling, and it is
-lifted over what stands between. A crash is left at once: its stroke is never parked on the edge.
+lifted over what stands between. A crash is left at once: its stroke is never parked on the edge. A hand at rest may
+give way: it moves off while the other passes, stays off and comes back.
 """
 
 from bisect import bisect_right
@@ -34,23 +35,29 @@ _TRAVEL_S = 0.45
 
 FIELDS = len(Contact._fields)
 DETOUR = 4
-_HEAD = 2 + DETOUR
+GIVES = 6
+"""How a hand gives way: from when, until when, one over the time it takes to move off, right, forward, up."""
+_HEAD = 2 + DETOUR + GIVES
 _ROW = Struct(f"{_HEAD + 2 * FIELDS}d")
 
 
 @dataclass(frozen=True, eq=False)
 class Way:
-    """Contacts of one hand: `strike_s` (n,), `rows` (n, 6 + 2 · FIELDS) start, 1/duration, detour, from, step."""
+    """Contacts of one hand: `strike_s` (n,), `rows` (n, 12 + 2 · FIELDS).
+
+    A row: start and 1/duration of the travel, its detour, how the hand gives way, from where, step.
+    """
 
     strike_s: Array
     rows: Array
 
     @classmethod
-    def of(cls, strike_s: Array, contacts: Array, bump: Array, early: NDArray[np.bool_]) -> "Way":
+    def of(cls, strike_s: Array, contacts: Array, bump: Array, early: NDArray[np.bool_], gives: Array) -> "Way":
         """The way through `contacts` (n, FIELDS) at `strike_s` (n,).
 
         Each stretch goes round by `bump` (n − 1, 4) in its middle: right, forward and up in metres, and the hand turned
-        to the left in radians. An `early` one (n − 1,) is travelled at once, the others late in their gap.
+        to the left in radians. An `early` one (n − 1,) is travelled at once, the others late in their gap. After each
+        strike, before the first one too, the hand `gives` (n, 6) way.
         """
         gaps = np.diff(strike_s)
         leave, arrive = np.minimum(_LEAVE_SHARE * gaps, _LEAVE_S), np.minimum(_ARRIVE_SHARE * gaps, _ARRIVE_S)
@@ -63,7 +70,8 @@ class Way:
             np.where(early, np.minimum(end, start + _TRAVEL_S), end),
         )
         rows = np.zeros((len(strike_s), _HEAD + 2 * FIELDS))
-        rows[:-1, 0], rows[:-1, 1], rows[:-1, 2:_HEAD] = start, 1 / np.maximum(end - start, 1e-6), bump
+        rows[:-1, 0], rows[:-1, 1], rows[:-1, 2 : 2 + DETOUR] = start, 1 / np.maximum(end - start, 1e-6), bump
+        rows[:, 2 + DETOUR : _HEAD] = gives
         rows[:, _HEAD : _HEAD + FIELDS] = contacts
         rows[:-1, _HEAD + FIELDS :] = np.diff(contacts, axis=0)
         return cls(strike_s, rows)
@@ -78,7 +86,13 @@ class Way:
         strikes, rows = self._fast
         i = max(bisect_right(strikes, time_s) - 1, 0)
         row = _ROW.unpack_from(rows, i * _ROW.size)
-        t0, rate, bx, by, bz, turn, x, y, z, sr, hr, sy, hy, ahead, wing, turns, *steps = row
+        t0, rate, bx, by, bz, turn, off, back, pace, gx, gy, gz, x, y, z, sr, hr, sy, hy, ahead, wing, turns, *steps = (
+            row
+        )
+        if off < time_s < back:
+            u = min((time_s - off) * pace, (back - time_s) * pace, 1.0)
+            s = u * u * u * (10 + u * (6 * u - 15))
+            x, y, z = x + s * gx, y + s * gy, z + s * gz
         u = (time_s - t0) * rate
         if u <= 0.0:
             return x, y, z, sr, hr, sy, hy, ahead, wing, turns
@@ -93,18 +107,20 @@ class Way:
     def many(self, time_s: Array) -> Contact:
         """The contact at each time."""
         i = np.maximum(np.searchsorted(self.strike_s, time_s, side="right") - 1, 0)
-        t0, rate, bx, by, bz, turn, *way = self.rows[i].T
+        t0, rate, bx, by, bz, turn, off, back, pace, gx, gy, gz, *way = self.rows[i].T
         u = np.clip((time_s - t0) * rate, 0.0, 1.0)
         s = u * u * u * (10 + u * (6 * u - 15))
         x, y, z, sr, hr, sy, hy, *rest = (a + s * d for a, d in zip(way[:FIELDS], way[FIELDS:], strict=True))
-        h = (4 * u * (1 - u)) ** 2
-        return Contact(x + h * bx, y + h * by, z + h * bz, sr, hr, sy, hy + h * turn, *rest)
+        h, g = (4 * u * (1 - u)) ** 2, moved_off(time_s, off, back, pace)
+        x, y, z = x + h * bx + g * gx, y + h * by + g * gy, z + h * bz + g * gz
+        return Contact(x, y, z, sr, hr, sy, hy + h * turn, *rest)
 
     def nearest(self, time_s: Array) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
         """The contact that the hand is at, or nearer to on its way, at each time; and whether it stays there."""
         i = np.maximum(np.searchsorted(self.strike_s, time_s, side="right") - 1, 0)
-        u = (time_s - self.rows[i, 0]) * self.rows[i, 1]
-        return np.where(u > 0.5, np.minimum(i + 1, len(self.strike_s) - 1), i), (u <= 0.0) | (u >= 1.0)
+        t0, rate, *_, off, back, _, _, _, _ = self.rows[i, :_HEAD].T
+        u, gives = (time_s - t0) * rate, (off < time_s) & (time_s < back)
+        return np.where(u > 0.5, np.minimum(i + 1, len(self.strike_s) - 1), i), ((u <= 0.0) | (u >= 1.0)) & ~gives
 
     def humps(self, time_s: Array) -> tuple[NDArray[np.int64], Array]:
         """The stretch that each time is on, by the strike before it, and how much of its detour is made there, 0 … 1.
@@ -116,6 +132,12 @@ class Way:
         u = np.clip((time_s - t0) * rate, 0.0, 1.0)
         moves = self.rows[i, _HEAD + FIELDS : _HEAD + FIELDS + 3].any(1)
         return i, np.where(moves, (4 * u * (1 - u)) ** 2, 0.0)
+
+
+def moved_off(time_s: Array, off_s: Array | float, back_s: Array | float, pace: Array | float) -> Array:
+    """How far a hand that gives way from `off_s` until `back_s` has moved off at each time, 0 … 1."""
+    u = np.clip(np.minimum((time_s - off_s) * pace, (back_s - time_s) * pace), 0.0, 1.0)
+    return np.asarray(u * u * u * (10 + u * (6 * u - 15)))
 
 
 CLEAR_M = 0.10
