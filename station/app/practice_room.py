@@ -1,4 +1,4 @@
-"""What practises behind the window: the engine's process, the session, its folder, its pictures. No picture.
+"""What practises behind the window: the engine's process, the session, its folder, its pictures. No window.
 
 `snapshot` is called once a frame and does everything: it reads what the engine has heard, moves the session on, keeps
 it when it is over. The hits carry their own times, so that the frame rate decides nothing.
