@@ -22,6 +22,7 @@ sys.path.insert(0, str(ROOT))
 
 from station.app.model import Stage  # noqa: E402
 from station.app.panels.devices import DEVICES  # noqa: E402
+from station.app.panels.ear_row import EARLIER_LABEL  # noqa: E402
 from station.app.panels.figure import FIGURE  # noqa: E402
 from station.app.panels.hits import HITS  # noqa: E402
 from station.app.panels.lessons import FREE_LABEL  # noqa: E402
@@ -72,6 +73,16 @@ def _result(drive: Drive, ctx: Context) -> None:
     ctx.yield_(3)
 
 
+def _compared(drive: Drive, ctx: Context) -> None:
+    _result(drive, ctx)
+    ctx.item_click("**/Once more##again")
+    drive.wait_for(ctx, Stage.RESULT)
+    ctx.yield_(3)
+    ctx.set_ref("//Bars")
+    ctx.item_click(f"**/{EARLIER_LABEL}")
+    ctx.yield_(14)
+
+
 def _just_play(drive: Drive, ctx: Context) -> None:
     ctx.set_ref("//Lessons")
     ctx.item_click(f"**/{FREE_LABEL}")
@@ -112,6 +123,7 @@ PAGES: Mapping[str, Callable[[Drive, Context], None]] = {
     "playing": _playing,
     "result": _result,
     "hits": _beside_a_result(HITS),
+    "compared": _compared,
     "look": _look,
     "help": _help,
     "figure": _tool(FIGURE),
@@ -121,7 +133,7 @@ PAGES: Mapping[str, Callable[[Drive, Context], None]] = {
     "devices": _devices,
 }
 """What is done before each picture is taken."""
-_WITH_STUDENT = ("playing", "result", "hits")
+_WITH_STUDENT = ("playing", "result", "hits", "compared")
 
 
 def draw(page: str, size: tuple[int, int], scale: float, path: Path) -> None:

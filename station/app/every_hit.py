@@ -11,19 +11,15 @@ from numpy.typing import NDArray
 
 from station.core.names import piece_name
 from station.core.pieces import Piece
-from station.core.units import NS_PER_MS, NS_PER_S
+from station.core.units import NS_PER_MS
 from station.music.judgement import Label
-from station.practice.adaptation import lesson_bars
+from station.practice.places import PLACE_DTYPE, places_of, ticks_of_hits
 from station.practice.session import SessionResult
 
 DOT_DTYPE = np.dtype(
     [
-        ("place", np.float64),  # the lesson's bar from 1, and how much of it is over
+        *PLACE_DTYPE.descr,
         ("late_ms", np.float64),  # NaN where there is none
-        ("beat", np.float64),
-        ("bar", np.int32),  # of the lesson
-        ("row_bar", np.int32),  # of the result's score, from 0
-        ("pass", np.int32),
         ("piece", np.uint8),
         ("label", np.uint8),
     ]
@@ -59,8 +55,7 @@ def every_hit(result: SessionResult) -> EveryHit:
     notes["piece"], notes["label"] = score.notes["piece"], alignment.note_label
     played = np.isin(alignment.note_label, (Label.MATCH, Label.WRONG_PIECE))
     notes["late_ms"] = np.where(played, alignment.asynchrony_ns / NS_PER_MS, np.nan)
-    at_ns = np.clip(result.performance.hits["at_ns"][extra], 0, max(score.length_ns - 1, 0))
-    strokes = _dots(result, score.tempo_map.ticks_at(at_ns / NS_PER_S).astype(np.int64))
+    strokes = _dots(result, ticks_of_hits(result, result.performance.hits["at_ns"][extra]))
     strokes["piece"], strokes["label"] = result.performance.hits["piece"][extra], Label.EXTRA
     strokes["late_ms"] = np.nan
     return EveryHit(np.concatenate([notes, strokes]))
@@ -68,22 +63,9 @@ def every_hit(result: SessionResult) -> EveryHit:
 
 def _dots(result: SessionResult, ticks: NDArray[np.int64]) -> NDArray[np.void]:
     """Dots at `ticks` of the score, with their places alone."""
-    dots = np.zeros(len(ticks), DOT_DTYPE)
-    if not len(ticks):
-        return dots
-    tempo_map, plan = result.score.tempo_map, result.plan
-    names = np.asarray(lesson_bars(plan))
-    row = np.minimum(tempo_map.bars_at(ticks), len(names) - 1)
-    starts = np.asarray([tempo_map.bar_start(int(bar)) for bar in range(int(row.max()) + 2)])
-    lengths = np.diff(starts)[row]
-    within = np.minimum((ticks - starts[row]) / lengths, 1.0)
-    beats = np.asarray([tempo_map.meter_at(int(start)).beats for start in starts[:-1]])[row]
-    dots["row_bar"], dots["bar"], dots["beat"] = row, names[row] + 1, within * beats + 1
-    dots["place"] = dots["bar"] + within
-    if plan.rounds is not None:
-        dots["pass"] = np.searchsorted(np.asarray(plan.rounds.starts), row, "right")
-    else:
-        dots["pass"] = row // plan.section.bar_count + 1
+    dots, places = np.zeros(len(ticks), DOT_DTYPE), places_of(result, ticks)
+    for name in PLACE_DTYPE.fields or ():
+        dots[name] = places[name]
     return dots
 
 

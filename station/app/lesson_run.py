@@ -25,6 +25,7 @@ from station.core.units import NS_PER_S
 from station.engine.messages import Command, EngineEvent
 from station.music.judgement import Judgement
 from station.practice.adaptation import Adaptation
+from station.practice.earlier import NONE_KEPT, find_earlier
 from station.practice.latency import Latency
 from station.practice.live import begin, end, next_session
 from station.practice.mastery_report import with_mastery
@@ -218,7 +219,8 @@ class LessonRun:
             except StationError as refused:
                 fault = rescued(refused, result, document)
         facts = session_facts(result, document)
-        return Kept(result, Report(facts, document, path, heat_map(result), every_hit(result)), fault)
+        before = NONE_KEPT if self._folder is None else find_earlier(self._folder.path, self.plan.lesson.name)
+        return Kept(result, Report(facts, document, path, heat_map(result), every_hit(result), before), fault)
 
     def _whole(self, settings: Settings) -> tuple[SessionResult, dict[str, Json]]:
         """The result and its report, over all passes where there were several sessions."""

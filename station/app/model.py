@@ -24,6 +24,7 @@ from station.motion.hand_notes import Hands
 from station.motion.style import Style
 from station.music.score import Score
 from station.practice.by_ear import Whose
+from station.practice.earlier import NONE_KEPT, Earlier
 from station.practice.own_ear import Guess
 from station.render.results import ResultFacts
 from station.render.snapshot import Snapshot
@@ -128,7 +129,8 @@ class RoomState:
 class Report:
     """The result of the last session: the page's `facts`, the JSON `document`, the `folder` of both.
 
-    `heat` says how right each bar was, `hits` has every stroke.
+    `heat` says how right each bar was, `hits` has every stroke, `before` is an earlier session of the lesson, or says
+    why there is none to be compared with.
     """
 
     facts: ResultFacts
@@ -136,6 +138,7 @@ class Report:
     folder: str = ""
     heat: HeatMap = field(default_factory=lambda: HeatMap({}))
     hits: EveryHit = field(default_factory=lambda: EveryHit(np.empty(0, DOT_DTYPE)))
+    before: Earlier | str = NONE_KEPT
 
 
 class PracticeModel(Protocol):
@@ -180,7 +183,7 @@ class PracticeModel(Protocol):
         ...
 
     def hear_bar(self, bar: int, whose: Whose) -> None:
-        """Hear a bar (from 0) of the result's score, as it was written or played; raises `StationError`."""
+        """Hear and see a bar (from 0) of the result's score, as it was written or played; raises `StationError`."""
         ...
 
     def pause(self) -> None:

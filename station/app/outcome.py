@@ -11,11 +11,13 @@ from station.app.graphed import Graphed
 from station.app.lesson_run import Kept
 from station.app.model import Report
 from station.app.session_view import graphed_result
+from station.app.side_by_side import SideBySide
 from station.core.events import Hit
 from station.engine.messages import EngineEvent
-from station.practice.by_ear import Whose, bar_by_ear
+from station.practice.by_ear import Whose, bar_by_ear, earlier_bar, students_bar
 from station.practice.listening import Listening
 from station.practice.own_ear import GUESS_OF, QUESTION, Guess, answered, is_worth_asking
+from station.render.snapshot import Snapshot
 
 
 class Outcome:
@@ -25,11 +27,13 @@ class Outcome:
         self._kept: Kept | None = None
         self._graphed: Graphed | None = None
         self._asked: set[str] = set()
+        self._compared: SideBySide | None = None
+        self._from_ns = 0
         self.is_asking = False
 
     def keep(self, kept: Kept, may_ask: bool) -> None:
         """From now on this is the last one; a question is opened where the student `may` be asked one."""
-        self._kept, self._graphed = kept, None
+        self._kept, self._graphed, self._compared = kept, None, None
         self.is_asking = may_ask and self._is_new(kept.result.plan.lesson.name, kept.report.document)
 
     def _is_new(self, lesson: str, document: Mapping[str, object]) -> bool:
@@ -70,6 +74,25 @@ class Outcome:
             self._graphed = graphed_result(self._kept.result, who)
         return self._graphed
 
-    def bar(self, bar: int, whose: Whose) -> Listening | None:
-        """A bar (from 0) of its score, as it was written or played."""
-        return None if self._kept is None else bar_by_ear(self._kept.result, bar, whose)
+    def hear(self, bar: int, whose: Whose, who: Demonstrator) -> Listening | None:
+        """A bar (from 0) of its score, to be heard and, demonstrated by `who`, to be seen; None where there is none."""
+        if self._kept is None or self.is_asking:
+            return None
+        result, before = self._kept.result, self._kept.report.before
+        played, words = None, "the teacher"
+        if whose is Whose.STUDENT:
+            played, words = students_bar(result, bar), "you"
+        elif whose is Whose.EARLIER:
+            if isinstance(before, str):
+                return None
+            played, words = earlier_bar(result, bar, before), f"you, {before.day}"
+        self._compared = SideBySide(result, bar, played, who, words)
+        listening = bar_by_ear(result, bar, played)
+        self._from_ns = listening.from_ns
+        return listening
+
+    def compared(self, heard_ns: int | None) -> Snapshot | None:
+        """The picture of what is heard, at its place in the result's score; None before it has begun there."""
+        if self._compared is None:
+            return None
+        return self._compared.snapshot(self._from_ns if heard_ns is None else heard_ns)

@@ -100,7 +100,8 @@ class PracticeRoom:
         self.deck.advance(now_ns)
         if self._stage is Stage.IDLE and self.deck.is_shown:
             return self.deck.snapshot()
-        return self._run.snapshot(now_ns)
+        compared = self._outcome.compared(heard_ns) if self._stage is Stage.RESULT and self._ear.hears else None
+        return compared or self._run.snapshot(now_ns)
 
     def room(self) -> RoomState:
         """What surrounds the picture."""
@@ -183,9 +184,9 @@ class PracticeRoom:
             self._hear(self._free.listening())
 
     def hear_bar(self, bar: int, whose: Whose) -> None:
-        """Hear a bar (from 0) of the result's score, as it was written or played; raises `StationError`."""
+        """Hear and see a bar (from 0) of the result's score, as it was written or played; raises `StationError`."""
         if self._stage is Stage.RESULT:
-            self._hear(self._outcome.bar(bar, whose))
+            self._hear(self._outcome.hear(bar, whose, self._who))
 
     def score(self) -> Score:
         """The whole score of the lesson that is shown, at its own tempo."""

@@ -20,8 +20,8 @@ from station.practice.folder import (
 )
 from station.practice.report import report_text
 from station.practice.session import SessionResult
+from station.practice.session_pairs import session_pairs_csv
 from station.scoring.document import Json
-from station.scoring.pairs import pairs_csv, write_pairs
 
 
 class SessionFolder:
@@ -59,7 +59,7 @@ class SessionFolder:
         """Write the report as document, text and table; raises `DeviceError`."""
         write_document(self.path / DOCUMENT_NAME, document)
         write_whole(self.path / TEXT_NAME, report_text(document).encode())
-        write_pairs(self.path / PAIRS_NAME, result.score, result.performance, result.alignment)
+        write_whole(self.path / PAIRS_NAME, session_pairs_csv(result).encode())
 
     def keep_take(self, document: dict[str, object]) -> None:
         """Write what is kept of a free take beside its capture; raises `DeviceError`."""
@@ -84,7 +84,7 @@ def rescued(fault: StationError, result: SessionResult, document: dict[str, Json
     try:
         write_performance(result.performance, spare)
     except StationError:
-        document["pairs_csv"] = pairs_csv(result.score, result.performance, result.alignment)
+        document["pairs_csv"] = session_pairs_csv(result)
         return StationError(f"{fault}; no disk takes the hits: they are printed with the report")
     return StationError(f"{fault}; every hit is safe in {spare}")
 

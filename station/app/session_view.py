@@ -33,7 +33,8 @@ WAITING_S = -2.0
 CUE_SHOWN_NS = 1200 * NS_PER_MS
 """How long the coarse cue stays after what caused it; our choice."""
 
-_CUE_OF_LEAN = {-1: Cue.EARLY, 0: Cue.ON_TIME, 1: Cue.LATE}
+CUE_OF_LEAN = {-1: Cue.EARLY, 0: Cue.ON_TIME, 1: Cue.LATE}
+"""The cue of a stroke that leans so (`Windows.lean`)."""
 _CUE_OF = {Label.MISS: Cue.MISSED, Label.WRONG_PIECE: Cue.WRONG_PIECE}
 
 
@@ -236,5 +237,5 @@ def bar_numbers(plan: Plan) -> BarNumbers:
 def cue_of(verdict: Judgement, windows: Windows) -> Cue:
     """The coarse cue that a judgement gives; extras and ignored hits give none."""
     if verdict.label is Label.MATCH and verdict.asynchrony_ns is not None:
-        return _CUE_OF_LEAN[windows.lean(verdict.asynchrony_ns / NS_PER_MS)]
+        return CUE_OF_LEAN[windows.lean(verdict.asynchrony_ns / NS_PER_MS)]
     return _CUE_OF.get(verdict.label, Cue.NONE)

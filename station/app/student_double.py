@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.events import Hit
-from station.core.pieces import Limb
+from station.core.pieces import Limb, Piece
 from station.core.units import NS_PER_S
 from station.motion import frame
 from station.motion.drummer import Drummer
@@ -82,11 +82,10 @@ class StudentDouble:
 
     def _strike(self, hit: Hit, drummer: Drummer, at_s: float) -> None:
         """The nearest written stroke on the piece says which limb it was; without one nobody knows how to move."""
-        score = drummer.score
-        rows = np.flatnonzero(score.notes["piece"] == hit.piece)
-        if len(rows):
-            row = int(rows[np.argmin(np.abs(score.onset_s[rows] - at_s))])
-            self._last[Limb(drummer.assignment.limbs[row])] = _Stroke(row, at_s - float(score.onset_s[row]))
+        row = nearest_note(hit.piece, drummer, at_s)
+        if row is not None:
+            late_s = at_s - float(drummer.score.onset_s[row])
+            self._last[Limb(drummer.assignment.limbs[row])] = _Stroke(row, late_s)
 
     def parted(self, limb: Limb, cue: Cue, now_ns: int) -> None:
         """A stroke of the limb was judged: where it was not as written, the limb glows for a while."""
@@ -121,6 +120,13 @@ class StudentDouble:
     def _partings(self, now_ns: int) -> dict[Limb, Parting]:
         ages = ((limb, cue, (now_ns - at_ns) / PARTED_NS) for limb, (cue, at_ns) in self._parted.items())
         return {limb: Parting(cue, 1 - age) for limb, cue, age in ages if cue not in _TOGETHER and 0 <= age < 1}
+
+
+def nearest_note(piece: Piece, drummer: Drummer, at_s: float) -> int | None:
+    """The row of the note on `piece` that is nearest to a time of the drummer's score; None where there is none."""
+    score = drummer.score
+    rows = np.flatnonzero(score.notes["piece"] == piece)
+    return int(rows[np.argmin(np.abs(score.onset_s[rows] - at_s))]) if len(rows) else None
 
 
 _TOGETHER = (Cue.NONE, Cue.ON_TIME)

@@ -21,17 +21,18 @@ from station.app.look import look_of, with_look
 from station.app.model import PracticeModel, Stage
 from station.app.monitors import MonitorWatch
 from station.app.news import ABOVE_RESULT, News
-from station.app.panels.bars import heat_panel
+from station.app.panels.bars import bars_panel
 from station.app.panels.devices import ABOUT as DEVICES_ABOUT
 from station.app.panels.devices import DEVICES, DevicesPanel
 from station.app.panels.devices import HELP as DEVICES_HELP
+from station.app.panels.ear_row import EarActions, EarRow
 from station.app.panels.figure import ABOUT, FIGURE, HELP, FigurePanel
 from station.app.panels.graph import ABOUT as GRAPH_ABOUT
 from station.app.panels.graph import HELP as GRAPH_HELP
 from station.app.panels.graph import GraphPanel
 from station.app.panels.help import help_window
 from station.app.panels.hits import ABOUT as ABOUT_HITS
-from station.app.panels.hits import HITS, EarActions, HitsPanel
+from station.app.panels.hits import HITS, HitsPanel
 from station.app.panels.lessons import LessonActions, LessonsPanel
 from station.app.panels.look_popup import LookActions
 from station.app.panels.page import Page, Side, panels_popup
@@ -89,13 +90,14 @@ class Window:
         self._devices = DevicesPanel(model.desk, self._tried, self.news.tell)
         self._practice = PracticePanel(model.habits, options.settings, self._tried)
         self.figure = FigurePanel(model, options.settings, self._tried, self._preview_anew)
-        self.hits = HitsPanel(
+        self._ear = EarRow(
             EarActions(
                 lambda bar, whose: self._tried(lambda: model.hear_bar(bar, whose)),
                 lambda: self._tried(model.listen),
                 lambda: model.room().listening,
             )
         )
+        self.hits = HitsPanel(self._ear)
         self._pages = self._table_of_pages()
         calls = Calls(self._opened, self._before_frame, self._background, self._over_all, self._leaving)
         self.params = runner(options, calls, self._pages, self.backdrop.look.scale)
@@ -194,7 +196,7 @@ class Window:
         now_ns = self._clock.now_ns()
         self._preview()
         snapshot, left, low, width, height = self._model.snapshot(now_ns), *central_area(self.params.docking_params)
-        report = self._model.report() if self._shows_result() else None
+        report = self._model.report() if self._shows_result() and not self._model.room().listening else None
         if report is not None:
             height -= round(theme.points(ABOVE_RESULT) * imgui.get_io().display_framebuffer_scale.y)
         if self._model.wants_start():
@@ -326,7 +328,7 @@ class Window:
 
     def _bars_gui(self) -> None:
         report = self._model.report()
-        bar = None if report is None else heat_panel(report.heat)
+        bar = None if report is None else bars_panel(report, self._ear)
         if bar is not None:
             self._drill(bar)
 
@@ -350,7 +352,7 @@ class Window:
 
     def _hits_gui(self) -> None:
         report = self._model.report() if self._shows_result() else None
-        self.hits.gui(None if report is None else report.hits)
+        self.hits.gui(report)
 
     def _seek_s(self, to_s: float) -> None:
         self._model.deck.do(lambda player, now_ns: player.sought(now_ns, ns_from_s(to_s)))

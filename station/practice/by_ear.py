@@ -1,7 +1,8 @@
-"""A bar of a session to be heard: as the teacher plays it, and as the student did, both to the click.
+"""A bar of a session to be heard: as the teacher plays it, as the student did, and as he did in an earlier session.
 
-The two begin alike, a breath before the bar, so that a stroke that came early is heard. A stroke of the student's
-belongs to the bar of the note that it answers, else to the bar of its own time.
+All begin alike, to the click, a breath before the bar, so that a stroke that came early is heard. A stroke of the
+student's belongs to the bar of the note that it answers, else to the bar of its own time. Those of an earlier session
+fall as many seconds from their beats as they fell then, whatever the tempo.
 """
 
 from dataclasses import replace
@@ -10,9 +11,11 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.units import NS_PER_MS
+from station.core.units import NS_PER_MS, NS_PER_S
 from station.music.performance import Performance
+from station.practice.adaptation import lesson_bars
 from station.practice.click import PLAIN, click_cues
+from station.practice.earlier import Earlier
 from station.practice.listening import RING_NS, Listening, played_cues, stretch
 from station.practice.plan import demonstration_cues
 from station.practice.session import SessionResult
@@ -22,27 +25,28 @@ BREATH_NS = 250 * NS_PER_MS
 
 
 class Whose(Enum):
-    """Who is heard."""
+    """Who is heard: `EARLIER` is the student in an earlier session."""
 
     TEACHER = "teacher"
     STUDENT = "student"
+    EARLIER = "earlier"
 
 
-def bar_by_ear(result: SessionResult, bar: int, whose: Whose) -> Listening:
-    """The result's `bar`, from 0, as it was written or played."""
-    tempo_map = result.score.tempo_map
-    start_ns, end_ns = (int(ns) for ns in tempo_map.ns_at([tempo_map.bar_start(bar), tempo_map.bar_start(bar + 1)]))
+def bar_by_ear(result: SessionResult, bar: int, played: Performance | None) -> Listening:
+    """The result's `bar`, from 0, as it was `played` (in the time of the result's score), or as it is written."""
+    start_ns, end_ns = _span_ns(result, bar)
     from_ns = start_ns - BREATH_NS
     pattern = replace(result.plan.click or PLAIN, gap=None)
     one = result.score.bars(bar, bar)
     clicks = _moved(click_cues(one.tempo_map, one.end_tick, pattern), start_ns)
-    strokes = _moved(demonstration_cues(one), start_ns) if whose is Whose.TEACHER else _students(result, bar)
+    strokes = _moved(demonstration_cues(one), start_ns) if played is None else played_cues(played)
     cues = np.concatenate([clicks, strokes])
     cues = stretch(cues[np.argsort(cues["at_ns"], kind="stable")], from_ns, end_ns + RING_NS)
     return Listening(cues, end_ns - from_ns + RING_NS, from_ns)
 
 
-def _students(result: SessionResult, bar: int) -> NDArray[np.void]:
+def students_bar(result: SessionResult, bar: int) -> Performance:
+    """What the student played in `bar`, from 0, of the result's score."""
     tempo_map, performance = result.score.tempo_map, result.performance
     hits, note = performance.hits, result.alignment.note_of_hit
     ticks = _ticks(result, hits["at_ns"])
@@ -50,7 +54,25 @@ def _students(result: SessionResult, bar: int) -> NDArray[np.void]:
     mine = hits[tempo_map.bars_at(np.maximum(ticks, 0)) == bar]
     chokes = performance.chokes
     grabbed = chokes[tempo_map.bars_at(np.maximum(_ticks(result, chokes["at_ns"]), 0)) == bar]
-    return played_cues(Performance.from_array(mine.copy(), grabbed.copy()))
+    return Performance.from_array(mine.copy(), grabbed.copy())
+
+
+def earlier_bar(result: SessionResult, bar: int, earlier: Earlier) -> Performance:
+    """What was played earlier in the lesson's bar that is `bar`, from 0, of the result's score, laid over it."""
+    tempo_map = result.score.tempo_map
+    start = tempo_map.bar_start(bar)
+    at, strokes = earlier.in_bar(lesson_bars(result.plan)[bar] + 1)
+    ticks = start + np.round((at[:, 0] - 1) * tempo_map.meter_at(start).beat_ticks).astype(np.int64)
+    strokes = strokes.copy()
+    strokes["at_ns"] = tempo_map.ns_at(ticks) + np.round(at[:, 1] * NS_PER_S).astype(np.int64)
+    return Performance.from_array(strokes)
+
+
+def _span_ns(result: SessionResult, bar: int) -> tuple[int, int]:
+    """From and until when `bar` is played."""
+    tempo_map = result.score.tempo_map
+    start_ns, end_ns = tempo_map.ns_at([tempo_map.bar_start(bar), tempo_map.bar_start(bar + 1)])
+    return int(start_ns), int(end_ns)
 
 
 def _ticks(result: SessionResult, at_ns: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -213,6 +213,8 @@ def _same(one: tuple[Kit, Figure], other: tuple[Kit, Figure]) -> bool:
 def _frames(snapshot: Snapshot, where: DoublePlace, theme: Theme) -> list[Frame]:
     """What of the snapshot moves or glows in the scene: in one picture, or in the demonstrator's and the student's."""
     double = snapshot.double
+    if double is not None and double.is_compared and where is DoublePlace.NOWHERE:
+        where = DoublePlace.OVER
     if double is None or where is DoublePlace.NOWHERE:
         return [Frame(snapshot.pose, _glow(snapshot))]
     parted = {

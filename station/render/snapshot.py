@@ -57,10 +57,14 @@ class Parting:
 
 @dataclass(frozen=True, eq=False)
 class Double:
-    """The student as a second, translucent drummer, and the limbs that glow for they part from the demonstrator's."""
+    """The student as a second, translucent drummer, and the limbs that glow for they part from the demonstrator's.
+
+    `is_compared` where the picture is there for him, and shows him however the double is wished for otherwise.
+    """
 
     pose: Pose
     partings: Mapping[Limb, Parting] = field(default_factory=dict)
+    is_compared: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,6 +7,7 @@ or the General MIDI number of the piece where a file holds none. Hits that nobod
 
 import csv
 import io
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -34,12 +35,20 @@ def pairs_csv(score: Score, performance: Performance, matching: Matching) -> str
     text = io.StringIO()
     rows = csv.writer(text, lineterminator="\n")
     rows.writerow(COLUMNS)
+    rows.writerows(fields for _, _, fields in pair_rows(score, performance, matching))
+    return text.getvalue()
+
+
+def pair_rows(
+    score: Score, performance: Performance, matching: Matching
+) -> Iterator[tuple[int, int, tuple[object, ...]]]:
+    """Every line of the table: the index of its note and of its hit, −1 where there is none, and its fields."""
     for note, hit in enumerate(matching.hit_of_note.tolist()):
         label = _WORDS[Label(matching.note_label[note])]
-        rows.writerow((label, *_note_fields(score, note), *(_hit_fields(performance, hit) if hit >= 0 else _EMPTY)))
+        fields = _hit_fields(performance, hit) if hit >= 0 else _EMPTY
+        yield note, hit, (label, *_note_fields(score, note), *fields)
     for hit in np.flatnonzero(matching.note_of_hit < 0).tolist():
-        rows.writerow((_WORDS[Label(matching.hit_label[hit])], *_EMPTY, *_hit_fields(performance, hit)))
-    return text.getvalue()
+        yield -1, hit, (_WORDS[Label(matching.hit_label[hit])], *_EMPTY, *_hit_fields(performance, hit))
 
 
 _EMPTY = ("", "", "")

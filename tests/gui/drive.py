@@ -25,8 +25,8 @@ from station.app.look import look_of
 from station.app.model import Stage
 from station.app.monitors import GONE, Rectangle, Screen, home_for
 from station.app.panels.devices import DEVICES
-from station.app.panels.hits import STOP_LABEL as HITS_STOP
-from station.app.panels.hits import STUDENT_LABEL, TEACHER_LABEL
+from station.app.panels.ear_row import STOP_LABEL as HITS_STOP
+from station.app.panels.ear_row import STUDENT_LABEL, TEACHER_LABEL
 from station.app.panels.lessons import ADAPT_LABEL, FREE_LABEL, LISTEN_LABEL
 from station.app.panels.page import PANELS_LABEL
 from station.app.panels.player_controls import COUNT_IN_LABEL, MORE_LABEL
@@ -498,6 +498,8 @@ def by_ear(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
         ctx.item_click(label)
         ctx.yield_(2)
         drive.seen[f"heard {label.split('#')[0]}"] = drive.room.room().listening
+        double = drive.room.snapshot(drive.clock.now_ns()).double
+        drive.seen[f"seen {label.split('#')[0]}"] = double is not None and double.is_compared
         ctx.item_click(HITS_STOP)
         ctx.yield_(2)
     drive.seen["quiet"] = not drive.room.room().listening

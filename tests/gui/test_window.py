@@ -231,6 +231,7 @@ def test_a_click_on_a_bar_of_the_result_drills_it(environment: dict[str, str], t
     assert sum(notes for cell, notes in seen["cells"].items() if cell.endswith("FOOT")) == 6
     assert seen["heard Teacher"]
     assert seen["heard You"]
+    assert [seen["seen Teacher"], seen["seen You"]] == [False, True], "one's own sticks over the teacher's"
     assert seen["quiet"]
     assert seen["pointed"].startswith("Bar 1, beat 1, ")
     assert seen["stage"] == "PLAYING"

@@ -1,9 +1,12 @@
-"""The heat map beside a result: a row a bar, a column a limb; a click on a bar drills it."""
+"""What stands beside a result: the heat map, a row a bar and a column a limb, and a bar to be compared."""
 
 from imgui_bundle import imgui
 
 from station.app import theme
 from station.app.heat_map import HeatMap
+from station.app.model import Report
+from station.app.panels.ear_row import EarRow
+from station.app.row import Row
 from station.core.pieces import Limb
 from station.render import palette
 
@@ -13,18 +16,32 @@ _NAMES = {
     Limb.LEFT_FOOT: ("LF", "left foot"),
     Limb.RIGHT_FOOT: ("RF", "right foot"),
 }
+_COMPARING, _LEAST = 170.0, 90.0
+"""Design pixels: the height of the part below the map, and the least of the map."""
 _BEST, _WORST = palette.with_opacity(palette.GOOD, 0.16), palette.with_opacity(palette.MISSED, 0.75)
 """Of the night; the theme dyes them."""
 
 
-def heat_panel(heat: HeatMap) -> int | None:
-    """Draw the map; returns the bar (from 1) that the user wants to drill, None for none."""
+def bars_panel(report: Report, ear: EarRow) -> int | None:
+    """Draw both; returns the bar (from 1) that the user wants to drill, None for none."""
+    below = theme.points(_COMPARING) if len(report.hits.dots) else 0.0
+    chosen = _heat(report.heat, imgui.get_content_region_avail().y - below)
+    if below:
+        imgui.set_cursor_pos_y(max(imgui.get_cursor_pos_y(), imgui.get_window_height() - below))
+        imgui.separator_text("Hear and see a bar")
+        ear.gui(report, Row())
+    return chosen
+
+
+def _heat(heat: HeatMap, height: float) -> int | None:
+    top = imgui.get_cursor_pos_y()
     theme.heading("Bar by bar", 20)
     theme.soft("Notes right, in percent. Click a bar to practise it alone.")
     chosen = None
     limbs = heat.limbs
     flags = imgui.TableFlags_.sizing_stretch_same | imgui.TableFlags_.scroll_y
-    if limbs and imgui.begin_table("##heat", len(limbs) + 1, flags):
+    room = max(height - (imgui.get_cursor_pos_y() - top), theme.points(_LEAST))
+    if limbs and imgui.begin_table("##heat", len(limbs) + 1, flags, imgui.ImVec2(0, room)):
         imgui.table_setup_scroll_freeze(0, 1)
         imgui.table_setup_column("bar")
         for limb in limbs:

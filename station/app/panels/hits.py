@@ -4,27 +4,24 @@ Shapes and colours are those of the page and the score: a dot on time, arrows up
 wrong pad, barred rings missed and crosses not written on the floor of the plot.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass
-
 import numpy as np
 from imgui_bundle import imgui
 from numpy.typing import NDArray
 
 from station.app import theme
 from station.app.every_hit import EveryHit, nearest, words_of
+from station.app.model import Report
+from station.app.panels.ear_row import EarRow
 from station.app.row import Row
 from station.core.names import piece_name
 from station.core.pieces import Piece
 from station.music.judgement import Label
-from station.practice.by_ear import Whose
 from station.render import palette
 from station.render.ink import Colour
 from station.render.judgement_marks import ON_TIME_MS, timing_colour
 
 HITS = "Every hit"
 ABOUT = "How early or late every stroke was, over the bars of the lesson; and a bar to hear: the teacher's and yours"
-TEACHER_LABEL, STUDENT_LABEL, STOP_LABEL = "Teacher##ear", "You##ear", "Stop##ear"
 _REACH_MS = 80.0
 """Half the plot's height; what lies farther out stands on its edge, as on the page."""
 _LINES_MS = (-60, -30, 0, 30, 60)
@@ -35,39 +32,29 @@ _DOT, _NEAR = 4.5, 12.0
 _LEAST_HEIGHT = 110.0
 
 
-@dataclass(frozen=True, slots=True)
-class EarActions:
-    """What the user does: `hear` a bar of the result's score, from 0, `stop` it; `listening` says whether it sounds."""
-
-    hear: Callable[[int, Whose], None]
-    stop: Callable[[], None]
-    listening: Callable[[], bool]
-
-
 class HitsPanel:
-    """The plot; `piece` is shown alone where it is not None, `bar` and `pass_number` are chosen to be heard."""
+    """The plot; `piece` is shown alone where it is not None, `ear` chooses what is heard."""
 
-    def __init__(self, actions: EarActions) -> None:
-        self._actions = actions
+    def __init__(self, ear: EarRow) -> None:
+        self._ear = ear
         self._shown: EveryHit | None = None
         self.piece: Piece | None = None
-        self.bar = self.pass_number = 1
         self.at = np.empty((0, 2))
         """Where the dots lie in the window, in pixels."""
         self.pointed = ""
         """What is told of the dot under the mouse."""
 
-    def gui(self, hits: EveryHit | None) -> None:
-        """Draw the result's `hits`, None where there is no result to be seen."""
-        if hits is None or not len(hits.dots):
+    def gui(self, report: Report | None) -> None:
+        """Draw every hit of the `report`, None where there is no result to be seen."""
+        if report is None or not len(report.hits.dots):
             theme.soft("After a session every stroke stands here, early or late, at its place in the bar.")
             return
+        hits = report.hits
         if hits is not self._shown:
             self._shown, self.piece = hits, None
-            self.bar, self.pass_number = hits.bars[0], 1
         row = Row()
         self._pieces(hits, row)
-        self._ear(hits, row)
+        self._ear.gui(report, row)
         self._plot(hits, hits.of(self.piece))
 
     def _pieces(self, hits: EveryHit, row: Row) -> None:
@@ -78,35 +65,6 @@ class HitsPanel:
                 self.piece = piece
             theme.tooltip("Every piece" if piece is None else f"The {name} alone")
 
-    def _ear(self, hits: EveryHit, row: Row) -> None:
-        """Which bar, and whose."""
-        wide = theme.points(80)
-        first, last = hits.bars
-        row.place(wide + theme.points(40))
-        imgui.set_next_item_width(wide)
-        _, self.bar = theme.slider_int("bar", self.bar, first, last)
-        theme.tooltip("The bar to hear; a click on a dot chooses its bar and pass")
-        row.place(wide + theme.points(40))
-        imgui.set_next_item_width(wide)
-        _, self.pass_number = theme.slider_int("pass", self.pass_number, 1, int(hits.dots["pass"].max()))
-        theme.tooltip("Whose strokes of yours: those of this pass")
-        here = hits.dots[(hits.dots["bar"] == self.bar) & (hits.dots["pass"] == self.pass_number)]
-        imgui.begin_disabled(not len(here))
-        for label, whose, words in (
-            (TEACHER_LABEL, Whose.TEACHER, "The bar as the teacher plays it"),
-            (STUDENT_LABEL, Whose.STUDENT, "The bar as you played it in this pass"),
-        ):
-            row.place(theme.points(90))
-            if imgui.button(label, imgui.ImVec2(theme.points(90), 0)):
-                self._actions.hear(int(here["row_bar"][0]), whose)
-            theme.tooltip(f"{words}, with the click")
-        imgui.end_disabled()
-        if self._actions.listening():
-            row.place(theme.points(70))
-            if imgui.button(STOP_LABEL, imgui.ImVec2(theme.points(70), 0)):
-                self._actions.stop()
-            theme.tooltip("Enough")
-
     # --- the plot -----------------------------------------------------------------------------------------------------
 
     def _plot(self, hits: EveryHit, dots: NDArray[np.void]) -> None:
@@ -115,7 +73,7 @@ class HitsPanel:
         pressed = imgui.invisible_button("##plot", size)
         corner = imgui.get_item_rect_min()
         frame = _Frame(hits, (corner.x, corner.y), (size.x, size.y))
-        frame.paper(self.bar)
+        frame.paper(self._ear.bar)
         self.at = frame.places(dots)
         for (x, y), dot in zip(self.at.tolist(), dots, strict=True):
             _draw(imgui.get_window_draw_list(), (x, y), dot)
@@ -133,7 +91,7 @@ class HitsPanel:
         self.pointed = words_of(dots[index])
         imgui.set_tooltip(self.pointed)
         if pressed:
-            self.bar, self.pass_number = int(dots["bar"][index]), int(dots["pass"][index])
+            self._ear.bar, self._ear.pass_number = int(dots["bar"][index]), int(dots["pass"][index])
 
 
 class _Frame:

@@ -12,7 +12,7 @@ from station.engine.messages import Bus, Started
 from station.music.judgement import Label
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
-from station.practice.by_ear import BREATH_NS, Whose, bar_by_ear
+from station.practice.by_ear import BREATH_NS, bar_by_ear, students_bar
 from station.practice.listening import RING_NS
 from station.practice.plan import TAIL_NS, Wishes, plan_practice
 from station.practice.session import Session, SessionResult
@@ -85,7 +85,7 @@ def test_the_dot_under_the_mouse() -> None:
 
 
 def test_the_teacher_s_bar_sounds_as_written() -> None:
-    heard = bar_by_ear(RESULT, 1, Whose.TEACHER)
+    heard = bar_by_ear(RESULT, 1, None)
     assert heard.from_ns == BAR_NS - BREATH_NS
     assert heard.length_ns == BREATH_NS + BAR_NS + RING_NS
     for bus in (Bus.DEMONSTRATION, Bus.CLICK):
@@ -95,7 +95,7 @@ def test_the_teacher_s_bar_sounds_as_written() -> None:
 
 def test_the_student_s_bar_has_what_belongs_to_it() -> None:
     """Of bar 2: beats 1 and 4 on the snare, 10 ms late, beat 3 on the tom."""
-    heard = bar_by_ear(RESULT, 1, Whose.STUDENT)
+    heard = bar_by_ear(RESULT, 1, students_bar(RESULT, 1))
     mine = heard.cues[heard.cues["bus"] == Bus.DEMONSTRATION]
     late_ns = 10 * NS_PER_MS
     assert mine["at_ns"].tolist() == [
@@ -108,7 +108,7 @@ def test_the_student_s_bar_has_what_belongs_to_it() -> None:
 
 def test_an_early_downbeat_belongs_to_its_bar_and_a_choke_to_the_bar_of_its_time() -> None:
     played = result(*((beat * 500.0 - 40.0, S) for beat in range(16)))
-    mine = bar_by_ear(played, 2, Whose.STUDENT).cues
+    mine = bar_by_ear(played, 2, students_bar(played, 2)).cues
     mine = mine[mine["bus"] == Bus.DEMONSTRATION]
     assert mine["at_ns"][0] == BREATH_NS - 40 * NS_PER_MS
     assert len(mine) == 5

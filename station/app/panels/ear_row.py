@@ -1,0 +1,94 @@
+"""Which bar is heard and seen, and whose: the teacher's, the student's in one pass, or that of an earlier session.
+
+One row for every panel that shows it: they share the bar and the pass.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from imgui_bundle import imgui
+
+from station.app import theme
+from station.app.every_hit import EveryHit
+from station.app.model import Report
+from station.app.row import Row
+from station.practice.by_ear import Whose
+from station.practice.earlier import Earlier
+
+TEACHER_LABEL, STUDENT_LABEL, STOP_LABEL = "Teacher##ear", "You##ear", "Stop##ear"
+EARLIER_LABEL = "###earlier"
+"""What stands before it is the day."""
+_WIDE = 90.0
+
+
+@dataclass(frozen=True, slots=True)
+class EarActions:
+    """What the user does: `hear` a bar of the result's score, from 0, `stop` it; `listening` says whether it sounds."""
+
+    hear: Callable[[int, Whose], None]
+    stop: Callable[[], None]
+    listening: Callable[[], bool]
+
+
+class EarRow:
+    """The controls; `bar` and `pass_number`, from 1, are chosen to be heard."""
+
+    def __init__(self, actions: EarActions) -> None:
+        self._actions = actions
+        self._shown: EveryHit | None = None
+        self.bar = self.pass_number = 1
+
+    def gui(self, report: Report, row: Row) -> None:
+        """Draw them into `row` and do what the user does."""
+        hits = report.hits
+        if hits is not self._shown:
+            self._shown = hits
+            self.bar, self.pass_number = hits.bars[0], 1
+        first, last = hits.bars
+        passes = int(hits.dots["pass"].max())
+        self.bar = _slider("bar", self.bar, (first, last), row)
+        theme.tooltip("The bar to hear and see; a click on a dot of Every hit chooses its bar and pass")
+        self.pass_number = _slider("pass", self.pass_number, (1, passes), row)
+        theme.tooltip("Which pass of yours")
+        here = hits.dots[(hits.dots["bar"] == self.bar) & (hits.dots["pass"] == self.pass_number)]
+        imgui.begin_disabled(not len(here))
+        row_bar = int(here["row_bar"][0]) if len(here) else 0
+        self._button(TEACHER_LABEL, Whose.TEACHER, row_bar, row)
+        theme.tooltip("The bar as the teacher plays it, with the click")
+        self._button(STUDENT_LABEL, Whose.STUDENT, row_bar, row)
+        theme.tooltip("The bar as you played it in this pass, with the click; translucent sticks are yours")
+        self._earlier(report.before, row_bar, row)
+        imgui.end_disabled()
+        if self._actions.listening():
+            row.place(theme.points(70))
+            if imgui.button(STOP_LABEL, imgui.ImVec2(theme.points(70), 0)):
+                self._actions.stop()
+            theme.tooltip("Enough")
+
+    def _earlier(self, before: Earlier | str, row_bar: int, row: Row) -> None:
+        if isinstance(before, str):
+            imgui.begin_disabled()
+            self._button(f"Yesterday{EARLIER_LABEL}", Whose.EARLIER, row_bar, row)
+            imgui.end_disabled()
+            theme.tooltip(f"{before[0].upper()}{before[1:]}.")
+            return
+        told = f"{before.day[0].upper()}{before.day[1:]}"
+        imgui.begin_disabled(not before.has_bar(self.bar))
+        self._button(f"{told}{EARLIER_LABEL}", Whose.EARLIER, row_bar, row)
+        imgui.end_disabled()
+        when = f"{told} at {before.when:%H:%M}"
+        said = "your last pass over the bar, as translucent sticks" if before.has_bar(self.bar) else "not this bar"
+        theme.tooltip(f"{when}: {said}")
+
+    def _button(self, label: str, whose: Whose, row_bar: int, row: Row) -> None:
+        row.place(theme.points(_WIDE))
+        if imgui.button(label, imgui.ImVec2(theme.points(_WIDE), 0)):
+            self._actions.hear(row_bar, whose)
+
+
+def _slider(label: str, value: int, ends: tuple[int, int], row: Row) -> int:
+    wide = theme.points(80)
+    row.place(wide + theme.points(40))
+    imgui.set_next_item_width(wide)
+    _, moved = imgui.slider_int(label, value, *ends)
+    return int(moved)

@@ -1,0 +1,74 @@
+"""A bar of a result to be seen as it is heard: the demonstrator, and over him the student as he played it.
+
+The student's sticks are those of his double (`student_double`): a limb shows the demonstrator's stroke when the student
+struck, and glows where that was early or late. Times are those of the result's score.
+"""
+
+from dataclasses import replace
+
+from station.app.demonstrator import Demonstrator
+from station.app.session_view import CUE_OF_LEAN, strikes
+from station.app.student_double import StudentDouble, nearest_note
+from station.core.events import Hit
+from station.core.pieces import Limb
+from station.core.units import NS_PER_MS, NS_PER_S
+from station.motion.drummer import Drummer
+from station.motion.lanes import in_passes
+from station.music.performance import Performance
+from station.practice.adaptation import lesson_bars
+from station.practice.session import SessionResult
+from station.render.snapshot import BarNumbers, Double, Hud, Snapshot
+from station.scoring.windows import DEFAULT_LEVEL
+
+
+class SideBySide:
+    """One bar, from 0, of `result`, demonstrated by `who`; `played` is laid over it, None for nothing but him."""
+
+    def __init__(
+        self, result: SessionResult, bar: int, played: Performance | None, who: Demonstrator, words: str
+    ) -> None:
+        plan, tempo_map = result.plan, result.score.tempo_map
+        self._lesson_bar = lesson_bars(plan)[bar]
+        self._start_ns = int(tempo_map.ns_at(tempo_map.bar_start(bar)))
+        style = in_passes(who.style, self._lesson_bar, 1, 1)
+        self._drummer = Drummer(result.score.bars(bar, bar), plan.kit, who.figure, style)
+        hits = () if played is None else tuple(played)
+        self._hits = [replace(hit, at_ns=hit.at_ns - self._start_ns) for hit in hits]
+        self._is_alone = played is None
+        self._hud = Hud(
+            plan.lesson.title,
+            f"Bar {self._lesson_bar + 1}: {words}",
+            bar=self._lesson_bar + 1,
+            bar_count=plan.lesson.score.bar_count,
+            beats=tempo_map.meter_at(tempo_map.bar_start(bar)).beats,
+            beats_a_minute=plan.beats_a_minute,
+        )
+
+    def snapshot(self, at_ns: int) -> Snapshot:
+        """The picture at a time of the result's score."""
+        drummer, now_ns = self._drummer, at_ns - self._start_ns
+        past = [hit for hit in self._hits if hit.at_ns <= now_ns]
+        return Snapshot(
+            score=drummer.score,
+            position_s=now_ns / NS_PER_S,
+            kit=drummer.kit,
+            figure=drummer.figure,
+            pose=drummer.pose(now_ns / NS_PER_S),
+            limbs=drummer.assignment.limbs,
+            strikes=strikes(past, now_ns),
+            hud=self._hud,
+            bar_numbers=BarNumbers(self._lesson_bar, 1),
+            double=None if self._is_alone else self._double(past, now_ns),
+        )
+
+    def _double(self, past: list[Hit], now_ns: int) -> Double:
+        """The student as he stands after the strokes of the `past`."""
+        double, drummer = StudentDouble(), self._drummer
+        double.heard(past, drummer, now_ns / NS_PER_S, now_ns)
+        for hit in past:
+            row = nearest_note(hit.piece, drummer, hit.at_ns / NS_PER_S)
+            if row is not None:
+                late_ms = (hit.at_ns - int(drummer.score.onset_ns[row])) / NS_PER_MS
+                cue = CUE_OF_LEAN[DEFAULT_LEVEL.lean(late_ms)]
+                double.parted(Limb(drummer.assignment.limbs[row]), cue, hit.at_ns)
+        return replace(double.double(drummer, now_ns / NS_PER_S, now_ns), is_compared=True)
