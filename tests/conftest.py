@@ -1,6 +1,7 @@
 """Settings for all tests."""
 
 import os
+from collections.abc import Iterator
 
 import pytest
 from hypothesis import settings
@@ -9,6 +10,15 @@ from hypothesis import settings
 # The same examples in every run, so that a red test means a change; `SEARCH=1` looks for new ones.
 settings.register_profile("station", deadline=None, derandomize=not os.environ.get("SEARCH"))
 settings.load_profile("station")
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _nobodys_settings(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """No test reads or writes the settings and kits of whoever runs it (where XDG says where they are)."""
+    with pytest.MonkeyPatch.context() as patch:
+        for kind in ("CONFIG", "DATA"):
+            patch.setenv(f"XDG_{kind}_HOME", str(tmp_path_factory.mktemp(kind.lower())))
+        yield
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -1,7 +1,7 @@
 """The engine as the room holds it: woken when it is needed, and what it says of kits and sound, in words.
 
-It is an `EngineLink` that remembers its own death: after the `DeviceError` that tells of it nothing more is heard, and
-`wake` starts another engine.
+It is an `EngineLink` that remembers its own death: after the `DeviceError` of `events` that tells of it nothing more is
+heard, and `wake` starts another engine. A command that fails is no death yet: what was said before it is still to hear.
 """
 
 from collections.abc import Callable
@@ -46,11 +46,7 @@ class EngineLine:
 
     def send(self, command: Command) -> None:
         """Hand the engine a command; raises `DeviceError` where it has ended."""
-        try:
-            self._engine.send(command)
-        except DeviceError:
-            self.alive = False
-            raise
+        self._engine.send(command)
 
     def events(self, wait_s: float = 0.0) -> list[EngineEvent]:
         """What has happened since the last call, nothing from a dead engine; its death is raised once."""
@@ -59,7 +55,7 @@ class EngineLine:
         try:
             events = self._engine.events(wait_s)
         except DeviceError:
-            self.alive, self.sound = False, "the engine has ended"
+            self.alive, self.sound, self._kits = False, "the engine has ended", []
             raise
         for event in events:
             self._take(event)

@@ -58,6 +58,7 @@ class CaptureFile:
             self._file = os.open(path, os.O_RDWR | os.O_CREAT | getattr(os, "O_BINARY", 0), 0o644)
         except OSError as fault:
             raise DeviceError(f"{path}: no capture can be written: {fault.strerror or fault}") from fault
+        self._is_on_disk = stat.S_ISREG(os.fstat(self._file).st_mode)
         try:
             self._writer = RecordWriter(self._continue_file())
         except BaseException:
@@ -69,7 +70,7 @@ class CaptureFile:
 
     def _continue_file(self) -> int | None:
         """Go behind the last sound record; returns its check, None at the start of a new file."""
-        if not stat.S_ISREG(os.fstat(self._file).st_mode):  # a pipe or a device has no past
+        if not self._is_on_disk:  # a pipe or a device has no past
             self._pending.append(MAGIC)
             return None
         try:
@@ -88,7 +89,7 @@ class CaptureFile:
         return self._fault
 
     def append(self, record: Record) -> None:
-        """Keep `record`; never waits. Called from one thread only, for the checks follow one another."""
+        """Keep `record`; never waits. Callers take turns, for the checks follow one another."""
         self._pending.append(self._writer.encode(record))
         self._wake.set()
 
@@ -120,7 +121,8 @@ class CaptureFile:
             while self._half_written:
                 written = os.write(self._file, self._half_written)
                 self._half_written = self._half_written[written:]
-            os.fsync(self._file)
+            if self._is_on_disk:  # the system refuses for pipes and devices
+                os.fsync(self._file)
         except OSError as fault:
             self._fault = f"{self.path}: the capture waits in memory: {fault.strerror or fault}"
             return False

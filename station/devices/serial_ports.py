@@ -1,8 +1,8 @@
 """Raw MIDI over a serial port: home-built modules, microcontrollers, DIN MIDI on a UART; the only user of pyserial.
 
-MIDI is 31,250 baud (MIDI 1.0 Electrical Specification), no standard rate of serial
-ports: pyserial sets it through the system's own call. USB adapters hold bytes back for up to 16 ms to fill a packet
-(FTDI's latency timer) unless they are told not to, so they are, where the system lets us.
+MIDI is 31,250 baud (MIDI 1.0 Electrical Specification), no standard rate of serial ports: pyserial sets it through the
+system's own call. USB adapters hold bytes back for up to 16 ms to fill a packet (FTDI's latency timer) unless they are
+told not to, so they are, where the system lets us.
 
 Reading never waits. Bytes are stamped by the moment of reading and by what the wire allows (`stamps.WireClock`).
 """

@@ -131,6 +131,7 @@ class Card:
             self._engine.attach(None)
             raise
         self._output, self._alive_ns, self._retry_ns = output, now_ns, None
+        self._blocks_seen = -1  # it may stall from the next look on: making the mixer can have taken seconds
         self._is_on_jack = _JACK in output.host
         self._engine.output = OutputState(output.name, self._underflows, output.latency_ms)
 

@@ -107,6 +107,7 @@ class LastingEngine:
         try:
             self._process.send(command)
         except DeviceError as fault:
+            self._hear_out()
             self._restart(fault)  # what holds includes the command
             if self._holds.misses(command):
                 self._process.send(command)
@@ -145,6 +146,13 @@ class LastingEngine:
             case _:
                 pass
         return True
+
+    def _hear_out(self) -> None:
+        """Keep what a process that has ended said before."""
+        with suppress(DeviceError):
+            for event in self._process.events():
+                if self._take(event):
+                    self._said.append(event)
 
     def _drained(self) -> list[EngineEvent]:
         said, self._said = self._said, []

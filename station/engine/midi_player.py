@@ -38,7 +38,7 @@ class MidiPlayer:
         self._bus = bus
         self._playback = Playback()
         self._ends: list[tuple[int, bytes]] = []  # when notes end (session time), and how: a heap
-        self._waiting: deque[CueRun] = deque()  # what each start yet to take effect will play
+        self._waiting: deque[CueRun | None] = deque()  # of each start yet to take effect, None of one stopped before
         self.fault: DeviceError | None = None
         """Why nothing is sent any more; None while all is well."""
 
@@ -52,14 +52,14 @@ class MidiPlayer:
 
     def started(self, zero_ns: int) -> None:
         """The transport's next start has taken effect: time 0 is `zero_ns` of session time."""
-        if not self._waiting:  # stopped in the meantime
-            return
-        self._silence()
-        self._playback.start(self._waiting.popleft(), zero_ns)
+        run = self._waiting.popleft() if self._waiting else None  # one from before this player was made is none of its
+        if run is not None:
+            self._silence()
+            self._playback.start(run, zero_ns)
 
     def stop(self) -> None:
         """Forget what was to be played, and end every note that sounds."""
-        self._waiting.clear()
+        self._waiting = deque([None] * len(self._waiting))
         self._silence()
 
     def _silence(self) -> None:

@@ -45,7 +45,7 @@ class Outbox:
 
 
 class Inbox:
-    """Receives commands in a thread of its own; closed once the parent is gone."""
+    """Receives commands in a thread of its own; closed once the parent is gone, or nothing more can be received."""
 
     def __init__(self, commands: "Connection[None, Command]") -> None:
         self._commands = commands
@@ -64,7 +64,9 @@ class Inbox:
         try:
             while True:
                 self._received.append(with_track(self._commands.recv()))
-        except (EOFError, OSError):
+        except (EOFError, OSError):  # the parent is gone
+            pass
+        finally:  # an engine that hears no command any more shall not play on
             self.is_closed = True
 
 

@@ -82,8 +82,9 @@ class Playback:
 
     @property
     def has_cues(self) -> bool:
-        """Whether something is still to sound."""
-        return self._run is not None and not self._run.is_empty
+        """Whether something is still to sound; any thread may ask."""
+        run = self._run  # once: the thread that sounds may take it away meanwhile
+        return run is not None and not run.is_empty
 
     def start(self, run: CueRun, zero_ns: int) -> None:
         """Run from now on, with nothing but `run` to sound."""

@@ -119,7 +119,7 @@ def practise_rounds(room: Room, adaptation: Adaptation, first: Session, capture:
 
     The capture goes on from pass to pass. Raises `DeviceError` if the engine dies before the transport runs.
     """
-    session, fault = first, None
+    session, fault, taken = first, None, False
     try:
         room.begin(session, capture)
         with _ctrl_c() as pressed:
@@ -128,15 +128,16 @@ def practise_rounds(room: Room, adaptation: Adaptation, first: Session, capture:
                 if not session.over:
                     continue
                 adaptation.take(session.result())
+                taken = True
                 if adaptation.over:
                     break
-                session = next_session(room.engine, adaptation, session)
+                session, taken = next_session(room.engine, adaptation, session), False
             fault = end(room.engine, session)
     except DeviceError as error:
         if not session.started and not adaptation.rounds:
             raise
         fault = error
-    if not adaptation.over:
+    if not taken:
         adaptation.take(session.result())
     if fault is None and not session.heard.devices:
         fault = DeviceError("the kit was unplugged and did not come back; what was played until then is kept")

@@ -149,23 +149,32 @@ def test_every_byte_comes_once_and_in_order(rig: Rig) -> None:
 
 
 def test_times_are_session_time_and_never_go_back(rig: Rig) -> None:
+    """A machine that stalls stamps late; of several tries it does so in every one only where the stamps are wrong."""
     transport = rig.open()
-    sent = rig.play()
-    times_ns = [packet.at_ns for packet in read_all(transport, len(sent))]
-    assert times_ns == sorted(times_ns)
-    late_ns = [at - packet.at_ns for at, packet in zip(times_ns, sent, strict=True)]
-    assert min(late_ns) > -NS_PER_MS
-    assert sorted(late_ns)[len(late_ns) // 2] < 20 * NS_PER_MS
-    assert max(times_ns) <= time.monotonic_ns()
+    typical_ns = []
+    for _ in range(5):
+        sent = rig.play()
+        times_ns = [packet.at_ns for packet in read_all(transport, len(sent))]
+        assert times_ns == sorted(times_ns)
+        late_ns = [at - packet.at_ns for at, packet in zip(times_ns, sent, strict=True)]
+        assert min(late_ns) > -NS_PER_MS
+        assert max(times_ns) <= time.monotonic_ns()
+        typical_ns.append(sorted(late_ns)[len(late_ns) // 2])
+        if typical_ns[-1] < 20 * NS_PER_MS:
+            break
+    assert min(typical_ns) < 20 * NS_PER_MS
     transport.close()
 
 
 def test_reading_never_waits(rig: Rig) -> None:
+    """One that waits does so each time; a machine that stalls does not."""
     transport = rig.open()
-    begun_ns = time.monotonic_ns()
+    took_ns = []
     for _ in range(100):
+        begun_ns = time.monotonic_ns()
         assert transport.read() == []
-    assert time.monotonic_ns() - begun_ns < NS_PER_S // 2
+        took_ns.append(time.monotonic_ns() - begun_ns)
+    assert min(took_ns) < 5 * NS_PER_MS
     transport.close()
 
 

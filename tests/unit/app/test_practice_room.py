@@ -8,12 +8,23 @@ from station.app.model import FreeWish, Stage, Start
 from station.app.practice_room import PracticeRoom
 from station.app.welcome import Answers
 from station.core.errors import DeviceError
-from station.core.events import Hit
+from station.core.events import DeviceFound, Hit
 from station.core.pieces import Piece, Zone
 from station.core.settings import Settings
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.drills.library import find_lesson
-from station.engine.messages import Bus, Command, EngineEvent, Play, Record, Recorded, SetBacking, SetLevel, Started
+from station.engine.messages import (
+    Bus,
+    Command,
+    EngineEvent,
+    KeyHit,
+    Play,
+    Record,
+    Recorded,
+    SetBacking,
+    SetLevel,
+    Started,
+)
 from station.motion.hand_notes import Hands
 from station.practice.backing import BackingWish
 from station.practice.by_ear import Whose
@@ -99,8 +110,6 @@ def test_a_session_that_cannot_begin_leaves_no_folder(tmp_path: Path) -> None:
 
 
 def test_keys_to_a_dead_engine_are_harmless(tmp_path: Path) -> None:
-    from station.engine.messages import KeyHit
-
     line = Line()
     room = room_on([line], tmp_path)
     line.dead = True
@@ -281,3 +290,18 @@ def test_a_bar_is_heard_and_ends_by_itself(tmp_path: Path) -> None:
     room.snapshot(100 * NS_PER_S + 1)
     room.snapshot(160 * NS_PER_S)
     assert not room.room().listening, "it ends by itself"
+
+
+def test_an_end_that_a_key_finds_is_told_and_the_session_is_kept(tmp_path: Path) -> None:
+    line = Line()
+    room = room_on([line], tmp_path)
+    room.start(WISH)
+    line.says += [DeviceFound(0, "TD-17"), Started(NS_PER_S)]
+    room.snapshot(NS_PER_S + PLAN.passes_start_ns + 10)
+    assert room.room().kit == "TD-17"
+    line.dead = True
+    room.key(KeyHit(0, Piece.SNARE, Zone.HEAD, 90))
+    room.snapshot(NS_PER_S + PLAN.passes_start_ns + 20)
+    assert room.room().stage is Stage.RESULT
+    assert any("ended" in notice for notice in room.room().notices)
+    assert room.room().kit == ""

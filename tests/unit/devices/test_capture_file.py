@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from station.core.errors import BadInput, DeviceError
-from station.devices.capture import Kind, Record, read_capture
+from station.devices.capture import Kind, Record, parse_capture, read_capture
 from station.devices.capture_file import CaptureFile
 
 HIT = Record(Kind.BYTES, 1, 20, bytes.fromhex("99 26 64"))
@@ -18,12 +18,13 @@ FULL = Path("/dev/full")
 KILLED_WRITER = """
 import sys, time
 from pathlib import Path
-from station.devices.capture import Kind, Record
+from station.devices.capture import Kind, Record, read_capture
 from station.devices.capture_file import CaptureFile
 capture = CaptureFile(Path(sys.argv[1]), 0)
 for index in range(50):
     capture.append(Record(Kind.BYTES, 1, index, b"hit"))
-time.sleep(0.1)  # what the promise of the module allows
+while len(read_capture(Path(sys.argv[1])).records) < 51:
+    time.sleep(0.01)
 print("ready", flush=True)
 time.sleep(60)
 """
@@ -118,3 +119,16 @@ def test_a_missing_capture_is_the_users_fault(tmp_path: Path) -> None:
 def test_a_folder_is_no_capture(tmp_path: Path) -> None:
     with pytest.raises(DeviceError, match="cannot be read"):
         read_capture(tmp_path)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
+def test_a_pipe_takes_a_capture_and_is_at_no_fault(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+    capture = CaptureFile(pipe, 0)
+    capture.append(HIT)
+    capture.close(1)
+    assert capture.fault is None
+    assert [record.kind for record in parse_capture(os.read(reader, 4096)).records] == [Kind.START, HIT.kind, Kind.END]
+    os.close(reader)

@@ -269,3 +269,14 @@ def test_the_sound_stays_where_it_was_chosen(wanted: str, devices: list[SoundDev
         card.supervise(second * NS_PER_S)
         seen(lookout)
     assert card.name == "speakers"
+
+
+def test_a_mixer_that_takes_seconds_to_make_is_no_stall() -> None:
+    """The kit is made once for each rate; the card has had no time yet to ask for a block."""
+    engine, output = Engine(), FakeOutput()
+    card, _ = card_of(engine, output)
+    card.start(0)
+    card.supervise(STALLED_NS + 1)
+    assert output.calls == ["start"]
+    card.supervise(2 * STALLED_NS + 2)
+    assert output.calls == ["start", "close"]

@@ -91,7 +91,7 @@ def test_a_hundred_plug_cycles_leave_no_thread_file_or_port(tmp_path: Path) -> N
         runner = Runner(engine, [KitWatch(ports_for(parse_kit(kit.wish), None), kit.wish)], None)
         runner.start(0)
         runner.step(0)
-        held = (sorted(os.listdir("/proc/self/fd")), threading.active_count())  # noqa: PTH208 - names alone
+        files, threads = held()
         engine.handle(Record(tmp_path / "plugs.cap"))
         now_ns, events = 0, list[EngineEvent]()
         for _ in range(100):
@@ -105,17 +105,24 @@ def test_a_hundred_plug_cycles_leave_no_thread_file_or_port(tmp_path: Path) -> N
             events += runner.step(now_ns)
         engine.handle(Record(None))
         runner.step(now_ns)
-        assert (sorted(os.listdir("/proc/self/fd")), threading.active_count()) == held  # noqa: PTH208 - names alone
+        left_files, left_threads = held()
+        assert left_files <= files  # what an earlier test left may go meanwhile
+        assert left_threads <= threads
         runner.close()
     kinds = [type(event) for event in device_events(events)]
     assert kinds == [DeviceFound, Hit, DeviceLost] * 100
     assert [type(event) for event in replay(read_capture(tmp_path / "plugs.cap"))] == kinds
 
 
+def held() -> tuple[set[str], set[threading.Thread]]:
+    """The numbers of the open files, and the threads."""
+    return set(os.listdir("/proc/self/fd")), set(threading.enumerate())  # noqa: PTH208 - names alone
+
+
 def _until_hit(runner: Runner, now_ns: int) -> list[EngineEvent]:
-    """Step, with time at a stand, until the pty has passed a stroke and the two bytes after it on."""
+    """Step, with time at a stand, until the pty has passed a stroke on."""
     events: list[EngineEvent] = []
-    give_up_s = time.monotonic() + 5.0
+    give_up_s = time.monotonic() + 60.0
     while time.monotonic() < give_up_s and not any(isinstance(event, Hit) for event in events):
         events += runner.step(now_ns + NS_PER_MS)
     return events

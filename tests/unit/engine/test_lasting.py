@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from station.core.errors import DeviceError
-from station.core.events import DeviceFound, DeviceLost
+from station.core.events import DeviceFound, DeviceLost, Hit
 from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.engine.config import EngineConfig, Prepare
@@ -226,3 +226,14 @@ def test_one_that_ends_again_and_again_ends_for_good() -> None:
     house.now_ns += RESTARTS_WITHIN_NS
     assert [type(event) for event in [*house.hears(), *house.hears()]] == [Notice]
     assert house.working.exit_code is None
+
+
+def test_what_was_said_before_an_end_that_a_command_finds_is_heard() -> None:
+    house = House()
+    house.hears(Ready("card"))
+    stroke = Hit(5, Piece.SNARE, Zone.HEAD, 90)
+    house.working.says.append(stroke)
+    house.working.end()
+    house.engine.send(SetLevel(Bus.CLICK, 0.5))
+    assert house.working.told == [SetLevel(Bus.CLICK, 0.5)]
+    assert [event for event in house.engine.events() if not isinstance(event, Notice)] == [stroke]

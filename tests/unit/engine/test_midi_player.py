@@ -210,3 +210,17 @@ def test_stopping_the_transport_ends_what_sounds() -> None:
     engine.handle(Stop())
     engine.advance(200 * NS_PER_MS)
     assert wire.heard == [KICK_ON, ALL_OFF]
+
+
+def test_a_start_that_was_stopped_before_it_took_effect_leaves_the_next_its_own_time() -> None:
+    wire = Wire()
+    player = MidiPlayer(wire)
+    player.play(run(kick(0)))
+    player.stop()
+    player.play(run(kick(100)))
+    player.started(at(-50))  # the sound takes the two starts in their order
+    player.started(ZERO_NS)
+    player.advance(at(99))
+    assert wire.heard == []
+    player.advance(at(100))
+    assert wire.heard == [KICK_ON]

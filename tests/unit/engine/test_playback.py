@@ -70,3 +70,20 @@ def test_a_cue_bears_what_the_table_says() -> None:
     playback.start(CueRun(np.array([row], CUE_DTYPE)), 0)
     (cue,) = playback.take(0, 10)
     assert tuple(cue) == row
+
+
+class StoppedMeanwhile(Playback):
+    """Another thread stops it as soon as somebody has looked at what it plays."""
+
+    def __getattribute__(self, name: str) -> object:
+        seen: object = super().__getattribute__(name)
+        if name == "_run":
+            self.stop()
+        return seen
+
+
+def test_it_may_be_stopped_while_another_thread_asks_for_its_cues() -> None:
+    playback = StoppedMeanwhile()
+    playback.start(CueRun(clicks([10])), 0)
+    assert playback.has_cues
+    assert not playback.has_cues

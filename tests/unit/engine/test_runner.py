@@ -1,6 +1,5 @@
 """One step after another, with a fake driver and a fake card."""
 
-import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -12,7 +11,7 @@ from station.devices.watch import KitWatch
 from station.engine.card import Card
 from station.engine.engine import Engine
 from station.engine.messages import EngineEvent, Record
-from station.engine.runner import LATCH_WITHIN_S, LET_IN_S, Runner
+from station.engine.runner import LET_IN_S, Runner
 from tests.fakes.impulse_kit import impulse_mixer
 from tests.fakes.output import FakeOutput
 from tests.fakes.ports import FakeDriver
@@ -125,9 +124,7 @@ def test_a_block_waits_for_nobody_who_holds_the_engine_long() -> None:
     runner.start(0)
     driver.play(PORT, SNARE, 77)
     with runner._engine_lock:
-        began_s = time.perf_counter()
-        assert not output.ask(64, 0).any()
-        assert time.perf_counter() - began_s < 100 * LATCH_WITHIN_S
+        assert not output.ask(64, 0).any()  # a block that waited for the lock would never be mixed
     driver.unplug(PORT)
     output.ask(64, NS_PER_MS)
     events = run(runner, 1, 1000)

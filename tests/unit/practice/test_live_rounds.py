@@ -4,6 +4,7 @@ from datetime import date
 from pathlib import Path
 
 from station.core.clock import ManualClock
+from station.core.errors import DeviceError
 from station.core.events import DeviceFound, Hit
 from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_S
@@ -63,3 +64,22 @@ def test_passes_follow_each_other_in_one_capture_and_come_down(tmp_path: Path) -
     assert len(outcome.result.performance) == 3
     assert all(session.heard.devices == ["kit"] for session in heard)
     assert heard[1].message == adaptation.rounds[1].step.why
+
+
+class Dying(Link):
+    """An engine that ends when it is asked for its second pass."""
+
+    def send(self, command: Command) -> None:
+        if isinstance(command, Play) and self.plays:
+            raise DeviceError("the engine has ended")
+        super().send(command)
+
+
+def test_an_engine_that_ends_between_passes_leaves_the_passes_that_were_played(tmp_path: Path) -> None:
+    clock = ManualClock()
+    link, adaptation = Dying(clock), Adaptation(find_lesson("rock-1"), Wishes(loops=3, demonstrations=0), TODAY)
+    room = Room(link, clock, lambda *_: None)
+    outcome = practise_rounds(room, adaptation, adaptation.session(Latency()), tmp_path / "x")
+    assert str(outcome.fault) == "the engine has ended"
+    assert len(adaptation.rounds) == 1
+    assert len(outcome.result.performance) == 1
