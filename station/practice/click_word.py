@@ -32,10 +32,10 @@ def parse_click(text: str, source: str = "click") -> ClickPattern:
     """The pattern that `text` asks for, `PLAIN` for an empty one; raises `BadInput` that names `source` and word."""
     pattern = PLAIN
     for word in filter(None, (part.strip() for part in text.split(","))):
-        key, _, value = word.partition("=")
+        key, _, value = (part.strip() for part in word.partition("="))
         if key not in _KEYS:
             raise BadInput(source, word, f"no such word; there are {', '.join(_KEYS)}")
-        change = _KEYS[key](pattern, value.strip())
+        change = _KEYS[key](pattern, value)
         if change is None:
             raise BadInput(source, word, f"expected {_EXPECTED[key]}")
         pattern = change

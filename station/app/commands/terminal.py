@@ -54,12 +54,12 @@ class _Display:
                 self._line(f"\n{session.message}")
             self._segment = state.segment
             self._line(f"\n{session.plan.words(state.segment):14}")
-        if session.paused and not self._paused:
-            self._line(f"\n{self._paused_words}")
-        self._paused = session.paused
         marks = "".join(_mark(verdict, session.windows) for verdict in session.told(judged))
         if marks:
             self._line(marks)
+        if session.paused and not self._paused:
+            self._line(f"\n{self._paused_words}\n")
+        self._paused = session.paused
 
     def last_words(self, first: Session) -> None:
         """Show what is still untold of the session that ran last, `first` where none did."""
