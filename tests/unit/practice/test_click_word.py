@@ -15,6 +15,7 @@ from station.practice.click_word import parse_click
         ("on=2and4", ClickPattern(beats=ClickBeats.BACKBEAT)),
         ("on=bar, count", ClickPattern(beats=ClickBeats.BAR, counts=True)),
         ("parts=2,swing=2", ClickPattern(subdivisions=2, swing=Swing(2.0))),
+        (" parts = 2 , swing = 2 ", ClickPattern(subdivisions=2, swing=Swing(2.0))),
         ("place=and", ClickPattern(displacement=Displacement.AND)),
         ("accents=1+3,levels=127/60/0", ClickPattern(accents=(0, 2), levels=ClickLevels(127, 60, 0))),
         ("accents=0", ClickPattern(accents=())),
