@@ -18,6 +18,7 @@ from station.app.preparation import LaidOut
 from station.app.results import session_facts
 from station.app.session_folder import SessionFolder, rescued
 from station.app.session_view import SessionView
+from station.app.wrong_pads import wrong_pads
 from station.core.errors import DeviceError, StationError
 from station.core.events import Hit
 from station.core.settings import Settings
@@ -220,7 +221,11 @@ class LessonRun:
                 fault = rescued(refused, result, document)
         facts = session_facts(result, document)
         before = NONE_KEPT if self._folder is None else find_earlier(self._folder.path, self.plan.lesson.name)
-        return Kept(result, Report(facts, document, path, heat_map(result), every_hit(result), before), fault)
+        return Kept(
+            result,
+            Report(facts, document, path, heat_map(result), every_hit(result), before, wrong_pads(result)),
+            fault,
+        )
 
     def _whole(self, settings: Settings) -> tuple[SessionResult, dict[str, Json]]:
         """The result and its report, over all passes where there were several sessions."""

@@ -19,6 +19,7 @@ from station.app.habits import HabitDesk
 from station.app.heat_map import HeatMap
 from station.app.kit_desk import KitDesk
 from station.app.welcome import Answers
+from station.app.wrong_pads import WrongPad
 from station.engine.messages import KeyHit
 from station.motion.hand_notes import Hands
 from station.motion.style import Style
@@ -130,7 +131,7 @@ class Report:
     """The result of the last session: the page's `facts`, the JSON `document`, the `folder` of both.
 
     `heat` says how right each bar was, `hits` has every stroke, `before` is an earlier session of the lesson, or says
-    why there is none to be compared with.
+    why there is none to be compared with, `wrong_pads` says what was struck for what.
     """
 
     facts: ResultFacts
@@ -139,6 +140,7 @@ class Report:
     heat: HeatMap = field(default_factory=lambda: HeatMap({}))
     hits: EveryHit = field(default_factory=lambda: EveryHit(np.empty(0, DOT_DTYPE)))
     before: Earlier | str = NONE_KEPT
+    wrong_pads: tuple[WrongPad, ...] = ()
 
 
 class PracticeModel(Protocol):

@@ -6,6 +6,8 @@ struck, and glows where that was early or late. Times are those of the result's 
 
 from dataclasses import replace
 
+import numpy as np
+
 from station.app.demonstrator import Demonstrator
 from station.app.session_view import CUE_OF_LEAN, strikes
 from station.app.student_double import StudentDouble, nearest_note
@@ -17,8 +19,11 @@ from station.motion.lanes import in_passes
 from station.music.performance import Performance
 from station.practice.adaptation import lesson_bars
 from station.practice.session import SessionResult
-from station.render.snapshot import BarNumbers, Double, Hud, Snapshot
+from station.render.snapshot import BarNumbers, Cue, Double, Hud, Snapshot
 from station.scoring.windows import DEFAULT_LEVEL
+
+FAR_NS = 150 * NS_PER_MS
+"""A stroke so far from every note of its piece was meant for another (our choice: a sixteenth at 100 a minute)."""
 
 
 class SideBySide:
@@ -47,7 +52,7 @@ class SideBySide:
     def snapshot(self, at_ns: int) -> Snapshot:
         """The picture at a time of the result's score."""
         drummer, now_ns = self._drummer, at_ns - self._start_ns
-        past = [hit for hit in self._hits if hit.at_ns <= now_ns]
+        past = [hit for hit in self._hits if hit.at_ns <= now_ns] if len(drummer.score) else []
         return Snapshot(
             score=drummer.score,
             position_s=now_ns / NS_PER_S,
@@ -61,14 +66,19 @@ class SideBySide:
             double=None if self._is_alone else self._double(past, now_ns),
         )
 
+    def _parting(self, hit: Hit) -> tuple[int, Cue]:
+        """The note that `hit` was meant for, and how it parts from it; far from all of its piece it is a wrong pad."""
+        onset_ns = self._drummer.score.onset_ns
+        row = nearest_note(hit.piece, self._drummer, hit.at_ns / NS_PER_S)
+        if row is not None and abs(hit.at_ns - int(onset_ns[row])) <= FAR_NS:
+            return row, CUE_OF_LEAN[DEFAULT_LEVEL.lean((hit.at_ns - int(onset_ns[row])) / NS_PER_MS)]
+        return int(np.argmin(np.abs(onset_ns - hit.at_ns))), Cue.WRONG_PIECE
+
     def _double(self, past: list[Hit], now_ns: int) -> Double:
         """The student as he stands after the strokes of the `past`."""
         double, drummer = StudentDouble(), self._drummer
         double.heard(past, drummer, now_ns / NS_PER_S, now_ns)
         for hit in past:
-            row = nearest_note(hit.piece, drummer, hit.at_ns / NS_PER_S)
-            if row is not None:
-                late_ms = (hit.at_ns - int(drummer.score.onset_ns[row])) / NS_PER_MS
-                cue = CUE_OF_LEAN[DEFAULT_LEVEL.lean(late_ms)]
-                double.parted(Limb(drummer.assignment.limbs[row]), cue, hit.at_ns)
+            row, cue = self._parting(hit)
+            double.parted(Limb(drummer.assignment.limbs[row]), cue, hit.at_ns)
         return replace(double.double(drummer, now_ns / NS_PER_S, now_ns), is_compared=True)

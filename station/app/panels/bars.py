@@ -16,18 +16,28 @@ _NAMES = {
     Limb.LEFT_FOOT: ("LF", "left foot"),
     Limb.RIGHT_FOOT: ("RF", "right foot"),
 }
-_COMPARING, _LEAST = 170.0, 90.0
-"""Design pixels: the height of the part below the map, and the least of the map."""
+_COMPARING, _HEADING, _LINE, _LEAST = 170.0, 34.0, 27.0, 90.0
+"""Design pixels: the height of the part below the map, of the wrong pads' heading and lines, the least of the map."""
+_CONFUSIONS = 3
+"""So many confusions are named; our choice, the most frequent are worth a look."""
 _BEST, _WORST = palette.with_opacity(palette.GOOD, 0.16), palette.with_opacity(palette.MISSED, 0.75)
 """Of the night; the theme dyes them."""
 
 
 def bars_panel(report: Report, ear: EarRow) -> int | None:
     """Draw both; returns the bar (from 1) that the user wants to drill, None for none."""
-    below = theme.points(_COMPARING) if len(report.hits.dots) else 0.0
+    confused = report.wrong_pads[:_CONFUSIONS]
+    below = theme.points(_COMPARING + (_HEADING + _LINE * len(confused) if confused else 0.0))
+    below = below if len(report.hits.dots) else 0.0
     chosen = _heat(report.heat, imgui.get_content_region_avail().y - below)
     if below:
         imgui.set_cursor_pos_y(max(imgui.get_cursor_pos_y(), imgui.get_window_height() - below))
+        if confused:
+            imgui.separator_text("Wrong pads")
+        for pad in confused:
+            if imgui.selectable(f"{pad.words}##wrong-{pad.words}", False)[0]:
+                ear.show(report, pad.bar, pad.pass_number)
+            theme.tooltip(f"Most in bar {pad.bar}. Click to see it: the drummer's arm goes to the right pad, and glows")
         imgui.separator_text("Hear and see a bar")
         ear.gui(report, Row())
     return chosen

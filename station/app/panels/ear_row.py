@@ -65,6 +65,13 @@ class EarRow:
                 self._actions.stop()
             theme.tooltip("Enough")
 
+    def show(self, report: Report, bar: int, pass_number: int) -> None:
+        """Choose a bar and a pass, and hear and see what the student played there."""
+        self._shown, self.bar, self.pass_number = report.hits, bar, pass_number
+        here = report.hits.dots[(report.hits.dots["bar"] == bar) & (report.hits.dots["pass"] == pass_number)]
+        if len(here):
+            self._actions.hear(int(here["row_bar"][0]), Whose.STUDENT)
+
     def _earlier(self, before: Earlier | str, row_bar: int, row: Row) -> None:
         if isinstance(before, str):
             imgui.begin_disabled()

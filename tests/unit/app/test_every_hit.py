@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from station.app.every_hit import every_hit, nearest, words_of
+from station.app.wrong_pads import wrong_pads
 from station.core.events import Choke, Hit
 from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_MS, NS_PER_S, PPQ
@@ -115,3 +116,14 @@ def test_an_early_downbeat_belongs_to_its_bar_and_a_choke_to_the_bar_of_its_time
     grabbed = mine[mine["velocity"] == 0]
     assert grabbed["at_ns"].tolist() == [BREATH_NS + BEAT_NS]
     assert grabbed["piece"].tolist() == [Piece.CRASH_1]
+
+
+def test_what_was_struck_for_what() -> None:
+    """The tom for the snare once in bar 3; then twice more in the second pass, and a ride for the snare."""
+    assert [pad.words for pad in wrong_pads(RESULT)] == ["high tom for snare, 1×"]
+    pieces = {1: T, 5: T, 9: Piece.RIDE, 13: T}
+    made = result(*[(beat * 500.0, pieces.get(beat, S)) for beat in range(16)])
+    tom, ride = wrong_pads(made)
+    assert (tom.times, tom.bar, tom.pass_number) == (3, 3, 2), "most in bar 3, the last in the second pass"
+    assert (ride.struck, ride.written, ride.times, ride.bar) == (Piece.RIDE, S, 1, 2)
+    assert wrong_pads(result(*[(beat * 500.0, S) for beat in range(16)])) == ()

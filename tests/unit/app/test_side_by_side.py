@@ -85,3 +85,12 @@ def test_the_teacher_is_seen_alone_with_the_lesson_s_own_bar() -> None:
     seen = SideBySide(result(), BAR, None, Demonstrator(), "the teacher").snapshot(KICK_NS)
     assert seen.double is None
     assert (seen.hud.phase, seen.hud.bar, seen.position_s) == ("Bar 2: the teacher", 2, 0.0)
+
+
+def test_the_arm_that_struck_a_wrong_pad_glows() -> None:
+    """The floor tom for the snare on the second beat; the snare is the left hand's."""
+    hits = [replace(hit, piece=Piece.FLOOR_TOM_1) if hit.piece is Piece.SNARE else hit for hit in played(0.0)]
+    seen = SideBySide(result(), BAR, Performance.from_hits(hits), Demonstrator(), "you")
+    double = seen.snapshot(KICK_NS + 800 * NS_PER_MS).double
+    assert double is not None
+    assert double.partings[Limb.LEFT_HAND].cue is Cue.WRONG_PIECE
