@@ -15,6 +15,7 @@ from station.app.engine_line import EngineLine, WakeEngine
 from station.app.graphed import Graphed
 from station.app.habits import HabitDesk, Habits
 from station.app.just_play import JustPlay
+from station.app.kit_commands import KitCommands
 from station.app.kit_desk import KitDesk
 from station.app.lesson_cards import wish_of
 from station.app.lesson_run import LessonRun
@@ -37,7 +38,6 @@ from station.practice.latency import Latency, latency_of
 from station.practice.lead import hands_of
 from station.practice.listening import Listening
 from station.practice.own_ear import Guess
-from station.practice.pad_commands import PadCommands
 from station.practice.plan import Plan
 from station.render.snapshot import Snapshot
 
@@ -74,9 +74,7 @@ class PracticeRoom:
         self.desk = KitDesk(self._tell_engine)
         self._is_free = False
         self._ear = Ear(self._engine, self._prepared.has_tracks)
-        self._pads = PadCommands(settings, first.score)
-        self.habits = HabitDesk(settings, self._accustom)
-        self._is_wanted = False
+        self._kit = KitCommands(settings, first.score, self._accustom)
         self._fault: StationError | None = None
         self.deck = Deck(self._ear.demonstrate, self._prepared.watched(first.lesson, first.kit), self._who)
         self.deck.repeat(self._first.bars)
@@ -222,10 +220,15 @@ class PracticeRoom:
         else:
             self._engine.send(command)
 
+    @property
+    def habits(self) -> HabitDesk:
+        """How the student likes sessions to go."""
+        return self._kit.habits
+
     def _accustom(self, habits: Habits) -> None:
         """Sessions go so from now on; one that runs waits as it began."""
         self._prepared.settings = habits.within(self._prepared.settings)
-        self._pads = PadCommands(self._prepared.settings, self._run.plan.score)
+        self._kit.accustom(self._prepared.settings, self._run.plan.score)
 
     def meet(self, answers: Answers) -> None:
         """Who plays, what is heard and whose hand leads, from now on; raises `DeviceError` for a dead engine."""
@@ -247,13 +250,11 @@ class PracticeRoom:
     def pause(self) -> None:
         """Pause the session, or go on; nothing where there is none, or where the score waits by itself."""
         if self._stage is Stage.PLAYING and not self._is_free:
-            self._pads.forget()
-            self._run.go_on() if self._run.paused else self._run.hold()
+            self._kit.turn(self._run)
 
     def wants_start(self) -> bool:
         """Whether two kicks have asked for what Enter starts; said once."""
-        wanted, self._is_wanted = self._is_wanted, False
-        return wanted
+        return self._kit.wants_start()
 
     def stop(self) -> None:
         """End the session early; what was played is judged and kept."""
@@ -284,21 +285,11 @@ class PracticeRoom:
 
     def _command(self, event: EngineEvent) -> None:
         """Do what pads and foot switches ask for; a question has the pads for itself."""
-        if self._outcome.is_asking or self.habits.take(event):
-            self._pads.forget()
+        if self._outcome.is_asking:
+            self._kit.forget()
             return
-        self._pads.practise(self._run.plan.score)
-        is_running = self._stage is Stage.PLAYING and not self._is_free
-        is_quiet = self._stage is not Stage.PLAYING or (is_running and self._run.paused)
-        if is_quiet and self._pads.starts(event):
-            self._is_wanted = not is_running
-            if is_running:
-                self.pause()
-            return
-        command = self._pads.pauses(event)
-        if command is not None and is_running:
-            self._pads.forget()
-            self._run.go_on() if self._run.paused else self._run.hold(command)
+        is_playing = self._stage is Stage.PLAYING
+        self._kit.take(event, self._run, is_running=is_playing and not self._is_free, is_quiet=not is_playing)
 
     def _make_room(self) -> None:
         """End what runs or sounds, and have an engine; raises `DeviceError`."""
