@@ -292,10 +292,11 @@ class PracticeRoom:
         self._kit.take(event, self._run, is_running=is_playing and not self._is_free, is_quiet=not is_playing)
 
     def _make_room(self) -> None:
-        """End what runs or sounds, and have an engine; raises `DeviceError`."""
+        """End what runs, sounds or learns, and have an engine; raises `DeviceError`."""
         self._ear.quiet()
         self.deck.halt()
         self.stop()
+        self.habits.learn(on=False)  # what is played from now on is no gesture to be learnt
         self._engine.wake()
 
     def _hear(self, listening: Listening | None) -> None:

@@ -24,6 +24,9 @@ NONE_KEPT = "no earlier session of this lesson is kept"
 _TOO_OLD = "the session of {:%Y-%m-%d} was kept before its table had bars and beats: it cannot be shown"
 _STARTED = "%Y-%m-%dT%H-%M-%S"
 _STARTED_LETTERS = 19
+_MOST = 1e6
+"""No pass, bar, beat or second of a session is beyond it (our choice: a million seconds are twelve days)."""
+_HARDEST = 127
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,6 +111,8 @@ def _read(days: tuple[datetime, date], table: Path) -> Earlier | None:
                 return None
             played = [row for row in rows if row["hit_index"]]
             at = np.array([_at(row) for row in played], np.float64).reshape(-1, 4)
+            if not (np.abs(at) <= _MOST).all():
+                return None
             return Earlier(*days, at, _strokes(played))
     except (OSError, ValueError, KeyError, TypeError, csv.Error):
         return None
@@ -125,6 +130,8 @@ def _strokes(rows: list[dict[str, str]]) -> NDArray[np.void]:
     for stroke, row in zip(strokes, rows, strict=True):
         stroke["piece"], stroke["zone"] = Piece[row["hit_piece"].upper()], Zone[row["hit_zone"].upper()]
         stroke["articulation"] = Articulation[row["hit_articulation"].upper()]
-        stroke["velocity"] = int(row["hit_velocity"])
-        stroke["openness"] = float(row["hit_openness"]) if row["hit_openness"] else np.nan
+        velocity, openness = int(row["hit_velocity"]), float(row["hit_openness"] or "nan")
+        if not 1 <= velocity <= _HARDEST or not (np.isnan(openness) or 0.0 <= openness <= 1.0):
+            raise ValueError(row)
+        stroke["velocity"], stroke["openness"] = velocity, openness
     return strokes

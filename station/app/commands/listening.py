@@ -64,7 +64,7 @@ def listening(arguments: argparse.Namespace) -> Iterator[tuple[KitWatch, ...]]:
 
 
 def polls(kits: tuple[KitWatch, ...], seconds: float | None) -> Iterator[Findings]:
-    """What the kits bring, poll by poll, until the time is up.
+    """What the kits bring, poll by poll, until the time is up; each is looked at once at the least.
 
     Raises `DeviceError` where no kit comes: any kit is awaited to the end, a kit with a name not long.
     """
@@ -75,7 +75,7 @@ def polls(kits: tuple[KitWatch, ...], seconds: float | None) -> Iterator[Finding
     names = " and ".join(f"a kit called {kit.wanted!r}" if kit.wanted else "a kit" for kit in kits)
     say(f"waiting for {names}; Ctrl-C ends")
     is_named = all(kit.wanted for kit in kits)
-    while end_ns is None or monotonic_ns() < end_ns:
+    while True:
         for kit in kits:
             findings = kit.poll(monotonic_ns())
             found = found or findings.found
@@ -84,7 +84,10 @@ def polls(kits: tuple[KitWatch, ...], seconds: float | None) -> Iterator[Finding
             if findings.fault:
                 say(f"station: {findings.fault}")
             yield findings
-        if not found and is_named and monotonic_ns() - begun_ns > ns_from_s(NAMED_WITHIN_S):
+        now_ns = monotonic_ns()
+        if end_ns is not None and now_ns >= end_ns:
+            break
+        if not found and is_named and now_ns - begun_ns > ns_from_s(NAMED_WITHIN_S):
             break
         time.sleep(POLL_S)
     if not found:

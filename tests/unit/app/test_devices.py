@@ -2,6 +2,7 @@
 
 import io
 import sys
+from itertools import count
 from pathlib import Path
 
 import pytest
@@ -9,6 +10,7 @@ import pytest
 from station.bench.serial_kit import SerialKit
 from station.cli import main
 from station.core.errors import DeviceError
+from station.core.units import NS_PER_S
 from station.devices.capture import read_capture
 from station.devices.midi_ports import MidiDirectory
 from tests.fakes.ports import FakeDriver
@@ -158,3 +160,14 @@ def test_what_is_no_serial_port_is_said_to_be_none(path: str, capsys: pytest.Cap
 def test_a_rate_that_no_port_has_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["devices", "monitor", "--kit", "serial:/dev/ttyUSB0@fast"]) == 2
     assert "expected serial:PATH@BAUD" in capsys.readouterr().err
+
+
+def test_a_machine_that_stalls_looks_at_each_kit_before_the_time_is_up(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Whoever looks at the clock finds that a second has passed."""
+    seconds = count()
+    monkeypatch.setattr("station.devices.kit_ports.MidiDirectory", lambda *_: FakeDriver("TD-17 20:0"))
+    monkeypatch.setattr("station.app.commands.listening.monotonic_ns", lambda: next(seconds) * NS_PER_S)
+    assert main(["devices", "record", str(tmp_path / "take.cap"), "--seconds", "0.01"]) == 0
+    assert "TD-17 is here" in capsys.readouterr().err

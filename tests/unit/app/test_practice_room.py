@@ -305,3 +305,16 @@ def test_an_end_that_a_key_finds_is_told_and_the_session_is_kept(tmp_path: Path)
     assert room.room().stage is Stage.RESULT
     assert any("ended" in notice for notice in room.room().notices)
     assert room.room().kit == ""
+
+
+def test_what_is_played_in_a_session_is_never_learnt_as_a_gesture(tmp_path: Path) -> None:
+    line = Line()
+    room = room_on([line], tmp_path)
+    before = room.habits.now
+    room.habits.learn(on=True)
+    room.start(WISH)
+    at_ns = NS_PER_S + PLAN.passes_start_ns
+    line.says += [Started(NS_PER_S), downbeat(), Hit(at_ns, Piece.CRASH_1, Zone.EDGE, 90)]
+    room.snapshot(at_ns + 10)
+    assert room.habits.now == before
+    assert not room.habits.learns

@@ -94,7 +94,16 @@ def test_an_old_table_is_passed_over_and_told_of_where_there_is_no_other(tmp_pat
 
 
 @pytest.mark.parametrize(
-    "rows", [("match,0,x,38,0,0.02,38,1,1,1,snare,head,normal,90,",), ("match,0,0,38,0,0,38,1,1,1,gong",)]
+    "rows",
+    [
+        ("match,0,x,38,0,0.02,38,1,1,1,snare,head,normal,90,",),
+        ("match,0,0,38,0,0,38,1,1,1,gong",),
+        ("match,0,0,38,0,nan,38,1,1,1,snare,head,normal,90,",),
+        ("match,0,0,38,0,0,38,1,1,1e300,snare,head,normal,90,",),
+        ("match,0,0,38,0,0,38,1,1,1,snare,head,normal,900,",),
+        ("match,0,0,38,0,0,38,1,1,1,snare,head,normal,0,",),
+        ("match,0,0,38,0,0,38,1,1,1,snare,head,normal,90,7",),
+    ],
 )
 def test_a_table_that_cannot_be_read_is_none(tmp_path: Path, rows: Sequence[str]) -> None:
     kept(tmp_path, "2026-03-04T09-00-00_quarters", rows)
