@@ -3,7 +3,7 @@
 Sizes are pixels of a picture 720 high and grow with it, so that everything can be read two metres away.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,7 +53,22 @@ _CUES = {
 
 def hud_shapes(hud: Hud, atlas: Atlas, size: tuple[float, float]) -> NDArray[np.void]:
     """The shapes of the HUD for a picture area of `size` pixels (width, height above the score), origin top left."""
-    return _HudPage(hud, Ink(atlas), size).shapes()
+    return np.concatenate([hud_lines(hud, atlas, size), hud_calls(hud, atlas, size)])
+
+
+def hud_lines(hud: Hud, atlas: Atlas, size: tuple[float, float]) -> NDArray[np.void]:
+    """Of the HUD what stands in the upper corners: letters alone, which change once a beat."""
+    return _HudPage(hud, Ink(atlas), size).lines()
+
+
+def corners(hud: Hud) -> Hud:
+    """What `hud_lines` shows of `hud`, and nothing else."""
+    return replace(hud, count_in=None, cue=Cue.NONE, cue_age_s=0.0, message="")
+
+
+def hud_calls(hud: Hud, atlas: Atlas, size: tuple[float, float]) -> NDArray[np.void]:
+    """Of the HUD what stands in the middle for a while: count-in, cue, message."""
+    return _HudPage(hud, Ink(atlas), size).calls()
 
 
 VEIL = (with_opacity(NIGHT, 0.80), with_opacity(NIGHT, 0.0))
@@ -84,9 +99,12 @@ class _HudPage:
         self._k = scale(size[1])
         self._width, self._height = size
 
-    def shapes(self) -> NDArray[np.void]:
+    def lines(self) -> NDArray[np.void]:
         self._title()
         self._tempo()
+        return self._ink.shapes()
+
+    def calls(self) -> NDArray[np.void]:
         if self._hud.count_in is not None:
             self._count_in(self._hud.count_in)
         elif self._hud.cue is not Cue.NONE:

@@ -85,9 +85,10 @@ class Painter:
         self.printer = InkPrinter(ctx, self.atlas)
         self._score = ScoreView(self.printer, self.atlas)
         self._scene: Scene | None = None
-        self._still, self._inset_still = Still(ctx), Still(ctx)
+        self._still, self._worded, self._inset_still = Still(ctx), Still(ctx), Still(ctx)
         self._inset: Target | None = None
-        self._written = (Hud(), (0, 0)), np.empty(0, SHAPE_DTYPE)
+        self._lines = _Kept(lambda words, size: hud.hud_lines(words, self.atlas, size))
+        self._calls = _Kept(lambda words, size: hud.hud_calls(words, self.atlas, size))
         self._named = (0, 0), np.empty(0, SHAPE_DTYPE)
         self._played: tuple[Kit, Figure] | None = None
 
@@ -113,6 +114,7 @@ class Painter:
         scene.set(frames[0])
 
         is_staff = shows_staff(snapshot, arrangement.form)
+        corners, words = hud.corners(snapshot.hud), (width, height - score_height)
 
         def each(draw: Callable[[moderngl.Framebuffer, Camera, Area], None], into: moderngl.Framebuffer) -> None:
             for frame, window in zip(frames[::-1], places[::-1], strict=True):  # the demonstrator's stays set
@@ -124,19 +126,22 @@ class Painter:
             self._ctx.viewport = area
             if with_score:
                 self._score.draw_paper(place, (width, height), is_staff)
-            self.printer.theme = over_picture(self.theme)
-            veil = (0.0, 0.0, float(width), hud.VEIL_HEIGHT * hud.scale(height - score_height))
-            self.printer.fill(veil, hud.VEIL, Sheet((width, height)))
-            self.printer.theme = self.theme
+            self._draw_veil((width, height), words[1])
 
         def lay_still(into: moderngl.Framebuffer) -> None:
             into.clear(*dyed(NIGHT, self.theme), depth=1.0)
             lay(into, partial(scene.draw_still, is_rough=arrangement.is_rough))
 
+        def lay_words(into: moderngl.Framebuffer) -> None:
+            self._still.under(into, key, lay_still)
+            into.use()
+            self._ctx.viewport = area
+            self._lay_lines(self._lines.of(corners, words), (width, height))
+
         if self.quality.is_layered:
             shown = scene.shows_figure, len(frames)
             key = (scene, camera, area, with_score, is_staff, shown, self.theme, arrangement.is_rough)
-            self._still.under(target, key, lay_still)
+            self._worded.under(target, (key, corners), lay_words)
             each(scene.draw_moving, target)
         else:
             lay(target, scene.draw)
@@ -148,14 +153,22 @@ class Painter:
             self._score.draw(snapshot, place, (width, height), arrangement.form)
         self.printer.theme = over_picture(self.theme)
         if len(frames) > 1:
-            self.printer.draw(self._names((width, height - score_height)), Sheet((width, height)))
-        self.printer.draw(self._words(snapshot.hud, (width, height - score_height)), Sheet((width, height)))
+            self.printer.draw(self._names(words), Sheet((width, height)))
+        if not self.quality.is_layered:
+            self.printer.draw(self._lines.of(corners, words), Sheet((width, height)))
+        self.printer.draw(self._calls.of(snapshot.hud, words), Sheet((width, height)))
 
-    def _words(self, words: Hud, size: tuple[int, int]) -> NDArray[np.void]:
-        """The shapes of what is written over the scene of `size`."""
-        if (words, size) != self._written[0]:
-            self._written = (words, size), hud.hud_shapes(words, self.atlas, (float(size[0]), float(size[1])))
-        return self._written[1]
+    def _draw_veil(self, size: tuple[int, int], height: int) -> None:
+        """What darkens the scene, `height` pixels high, behind the upper lines."""
+        self.printer.theme = over_picture(self.theme)
+        self.printer.fill((0.0, 0.0, float(size[0]), hud.VEIL_HEIGHT * hud.scale(height)), hud.VEIL, Sheet(size))
+        self.printer.theme = self.theme
+
+    def _lay_lines(self, lines: NDArray[np.void], size: tuple[int, int]) -> None:
+        """Print the upper lines where nothing that moves comes before them."""
+        self.printer.theme = over_picture(self.theme)
+        self.printer.draw_before_all(lines, Sheet(size))
+        self.printer.theme = self.theme
 
     def _names(self, size: tuple[int, int]) -> NDArray[np.void]:
         """Who is who in two pictures side by side."""
@@ -197,12 +210,26 @@ class Painter:
         wanted = (snapshot.kit, snapshot.figure)
         if self._scene is None or self._played is None or not _same(wanted, self._played):
             self._scene = None
-            self._still.release()
-            self._inset_still.release()
+            for still in (self._still, self._worded, self._inset_still):
+                still.release()
             give_back(self._ctx)
             self._scene = Scene(self._ctx, *wanted, self.quality)
         self._played = wanted
         return self._scene
+
+
+class _Kept:
+    """Remembers the last shapes that `made` of words for a scene of a size."""
+
+    def __init__(self, made: Callable[[Hud, tuple[float, float]], NDArray[np.void]]) -> None:
+        self._made = made
+        self._last = (Hud(), (0, 0)), np.empty(0, SHAPE_DTYPE)
+
+    def of(self, words: Hud, size: tuple[int, int]) -> NDArray[np.void]:
+        """The shapes, made anew only if the words or the size are others."""
+        if (words, size) != self._last[0]:
+            self._last = (words, size), self._made(words, (float(size[0]), float(size[1])))
+        return self._last[1]
 
 
 def _same(one: tuple[Kit, Figure], other: tuple[Kit, Figure]) -> bool:

@@ -1,6 +1,6 @@
 """Pictures in two layers, the still one kept: they show what a picture drawn whole shows, and follow every change."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import moderngl
 import numpy as np
@@ -18,6 +18,7 @@ from station.render.gl import Target, standalone_context
 from station.render.painter import Painter
 from station.render.quality import QUALITIES
 from station.render.scene import Scene
+from station.render.snapshot import Hud
 from station.render.still import Still
 from tests.unit.render.scores import rock
 
@@ -97,3 +98,24 @@ def test_a_painter_goes_from_one_kit_to_another() -> None:
                 painter.draw(picture_of(drummer, 0.5), target.framebuffer, WHOLE, named(View.FRONT))
             pictures.append(target.read().astype(np.int64))
         assert np.abs(pictures[0] - pictures[1]).mean() > 1.0, "the kit is another"
+
+
+def test_what_moves_passes_behind_the_words() -> None:
+    ctx = standalone_context()
+    with ctx:
+        painter, target = Painter(ctx, QUALITIES[0]), Target(ctx, SIZE)
+        near = named(View.FRONT).zoomed(1.6)  # the figure is where a long title stands
+
+        def drawn(title: str, has_figure: bool) -> NDArray[np.int64]:
+            snapshot = replace(picture_of(DRUMMER, 0.5), hud=Hud(title))
+            shown = snapshot if has_figure else replace(snapshot, pose=None)
+            painter.draw(shown, target.framebuffer, WHOLE, near)
+            return np.asarray(target.read().astype(np.int64).sum(axis=2))
+
+        bare, empty, worded, whole = (
+            drawn(t, f) for t, f in (("", True), ("", False), ("M" * 40, False), ("M" * 40, True))
+        )
+        letters = (worded - empty > 300) & (worded > 600)
+        behind = letters & (np.abs(bare - empty) > 60)
+        assert behind.sum() > 20, "the figure is behind some letters"
+        assert np.array_equal(whole[behind], worded[behind])
