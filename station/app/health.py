@@ -45,9 +45,12 @@ def check_python() -> Check:
 
 def check_settings() -> Check:
     """The settings file."""
+    from station.app.commands import checking
+
     path = settings_path()
     try:
         settings = load_settings()
+        checking.check_settings(settings)
     except BadInput as fault:
         return Check("settings", False, str(fault), "mend the line, or delete the file to get the defaults")
     where = f"{path}{'' if path.exists() else ' (not there yet: defaults)'}; sessions in {settings.sessions_dir}"

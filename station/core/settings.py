@@ -102,8 +102,18 @@ class Settings:
 
     @property
     def sessions_dir(self) -> Path:
-        """Where sessions are kept: `sessions`, or a folder of ours in the user's documents."""
-        return Path(self.sessions).expanduser() if self.sessions else user_documents_path() / "Drum station"
+        """Where sessions are kept: `sessions`, or a folder of ours in the user's documents.
+
+        Raises `BadInput` for what no folder can be called.
+        """
+        if not self.sessions:
+            return user_documents_path() / "Drum station"
+        if "\0" in self.sessions:
+            raise BadInput(settings_path(), "sessions", f"no folder can be called {self.sessions!r}")
+        try:
+            return Path(self.sessions).expanduser()
+        except RuntimeError:
+            raise BadInput(settings_path(), "sessions", f"{self.sessions!r}: there is no such user's home") from None
 
     @property
     def styles_dir(self) -> Path:

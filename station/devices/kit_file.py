@@ -56,7 +56,11 @@ def own_kit_path(device: str, folder: Path | None = None) -> Path:
 def own_kit(device: str, folder: Path | None = None) -> KitPreset | None:
     """The user's own kit for `device`, None where there is none; raises `BadInput` where its file is at fault."""
     path = own_kit_path(device, folder)
-    return read_kit(path) if path.exists() else None
+    try:
+        is_there = path.exists()
+    except OSError as fault:  # the folder may not be looked into
+        raise BadInput(path, "", fault.strerror or str(fault)) from fault
+    return read_kit(path) if is_there else None
 
 
 def read_kit(path: Path) -> KitPreset:

@@ -21,4 +21,5 @@ def check_settings(settings: Settings) -> None:
     parse_click(settings.click_pattern, "settings: click_pattern")
     parse_pause(settings.pause, "settings: pause")
     hands_of(settings)
+    settings.sessions_dir  # noqa: B018 - raises where there can be none
     look_of(settings)

@@ -103,3 +103,9 @@ def test_sessions_go_where_the_user_says() -> None:
 def test_thresholds_are_read_pad_by_pad() -> None:
     assert Settings(thresholds="snare=20 floor_tom_1=35").threshold_of == {Piece.SNARE: 20, Piece.FLOOR_TOM_1: 35}
     assert Settings().threshold_of == {}
+
+
+@pytest.mark.parametrize("folder", ["~no-such-user/x", "a\0b"])
+def test_a_folder_that_cannot_be_is_the_settings_fault(folder: str) -> None:
+    with pytest.raises(BadInput, match=r"settings\.toml: sessions: "):
+        Settings(sessions=folder).sessions_dir  # noqa: B018 - it raises

@@ -163,6 +163,11 @@ def test_a_port_of_any_name_has_a_file_that_reads_back(tmp_path: Path) -> None:
     assert read.title == port
 
 
+def test_a_folder_that_cannot_be_looked_into_is_bad_input(tmp_path: Path) -> None:
+    with pytest.raises(BadInput, match="name too long"):
+        own_kit("TD-17", tmp_path / ("x" * 300))
+
+
 @pytest.mark.parametrize("text", ["a = " + "[" * 5000, "a" * 100, "title = 3"])
 def test_the_text_of_a_kit_in_a_capture_that_is_none_is_bad_input(text: str) -> None:
     with pytest.raises(BadInput):
