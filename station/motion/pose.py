@@ -132,8 +132,3 @@ class Pose:
     def flash(self) -> NDArray[np.float64]:
         """How brightly each piece's last stroke still shows, (pieces,) 0 … 1."""
         return self.row[frame.PLAYED + 2 :: 4]
-
-    @property
-    def ripple_m(self) -> NDArray[np.float64]:
-        """How deep each piece's head is pressed at the centre, (pieces,)."""
-        return self.row[frame.PLAYED + 3 :: 4]

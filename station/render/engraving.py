@@ -33,7 +33,6 @@ _STEM = 0.13
 _BEAM = 0.50
 _BEAM_STEP = 0.78
 _STEM_X = 0.56
-_STEM_LENGTH = 3.5
 _UP_BEAM_Y, _DOWN_BEAM_Y = -5.4, 4.35
 """Stems of a voice reach at least here, so that beams stand level along the line."""
 _GRACE = 0.62

@@ -34,7 +34,6 @@ PAPER = _hex("11141B")
 PAPER_LOW = _hex("0A0C11")
 PANEL_EDGE = _hex("FFFFFF", 0.07)
 BRAND = _hex("FF9A3C")
-BRAND_SOFT = _hex("FF9A3C", 0.22)
 
 GOOD = _hex("56B4E9")
 EARLY = _hex("F0E442")

@@ -14,7 +14,6 @@ _EXACT_TICKS = PPQ // 240
 """Onsets so close to a division are on it: one tick of a 240 PPQ file (our choice)."""
 _LOOSENESS = 0.012
 """A played, unquantised group may leave the grid by so much of a beat more for each step of simplicity (our choice)."""
-_BINARY = (1, 2, 4, 8, 16)
 _QUARTER_DIVISIONS = (1, 2, 4, 3, 6, 8, 5, 7, 12, 16)
 _COMPOUND_DIVISIONS = (3, 6, 12, 24)
 """Divisions tried, simplest first, of a quarter and of a dotted quarter."""

@@ -13,11 +13,12 @@ from station.core.errors import DeviceError
 from station.core.events import Hit
 from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_MS
-from station.devices.capture import read_capture
+from station.devices.capture import Kind, read_capture
 from station.devices.replay import replay
 from station.engine.config import EngineConfig
 from station.engine.messages import KeyHit, Notice, Play, Ready, Record, Recorded, Started
 from station.engine.process import EngineProcess
+from tests.fakes.captures import on_disk
 from tests.fakes.cues import clicks
 from tests.fakes.engine_listener import EngineListener
 
@@ -153,7 +154,7 @@ def test_an_engine_that_is_killed_is_noticed_and_keeps_its_capture(tmp_path: Pat
         engine.send(Record(tmp_path / "take.cap"))
         engine.send(KEY)
         listener.until(lambda event: isinstance(event, Hit))
-        time.sleep(0.3)  # the capture promises 100 ms, the machine may be busy
+        on_disk(tmp_path / "take.cap", Kind.STROKE)
         assert engine.pid is not None
         os.kill(engine.pid, signal.SIGKILL)
         with pytest.raises(DeviceError, match=r"has ended \(exit code -9\)"):

@@ -116,7 +116,7 @@ def test_a_kit_that_is_unplugged_and_plugged_in_again_plays_on(jack_server: Jack
                 listener.events.clear()
                 found = listener.until(lambda event: isinstance(event, DeviceFound))
                 assert isinstance(found, DeviceFound)
-                assert found.at_ns - plugged_ns < 2 * NS_PER_S  # 1 s, and a second for a busy machine
+                assert found.at_ns - plugged_ns < 10 * NS_PER_S  # 1 s, and what a busy machine adds
                 kit.play(time.monotonic_ns() + 100 * NS_PER_MS)
                 sent = notes(kit.truth())
                 listener.until_after(sent[-1].at_ns)

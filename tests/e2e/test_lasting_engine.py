@@ -14,13 +14,14 @@ import pytest
 from station.core.events import DeviceFound, DeviceLost, Hit
 from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_MS, NS_PER_S
-from station.devices.capture import read_capture
+from station.devices.capture import Kind, read_capture
 from station.devices.kit_ports import KitWish
 from station.devices.replay import replay, transport_zeros_ns
 from station.engine.config import EngineConfig
 from station.engine.lasting import LastingEngine
 from station.engine.messages import KeyHit, Notice, Play, Ready, Record, Sounding, Started
 from station.engine.process import EngineProcess
+from tests.fakes.captures import on_disk
 from tests.fakes.cues import clicks
 from tests.fakes.engine_listener import EngineListener
 from tests.fakes.jack_recorder import JackRecorder
@@ -75,7 +76,7 @@ def test_an_engine_that_is_killed_is_back_within_a_second_and_the_capture_goes_o
         engine.send(KEY)
         listener.until(lambda event: isinstance(event, Started))
         listener.until(lambda event: isinstance(event, Hit))
-        time.sleep(0.3)  # the capture promises 100 ms, the machine may be busy
+        on_disk(tmp_path / "take.cap", Kind.STROKE)
         killed_s = kill(engine)
         listener.until(lambda event: isinstance(event, Notice) and "goes on" in event.text)
         engine.send(KEY)

@@ -1,11 +1,19 @@
-"""Captures written down shortly."""
+"""Captures written down shortly, and awaited."""
 
+import time
 from collections.abc import Iterable
+from pathlib import Path
 
-from station.devices.capture import MAGIC, Record, RecordWriter
+from station.devices.capture import MAGIC, Kind, Record, RecordWriter, read_capture
 
 
 def capture_bytes(records: Iterable[Record]) -> bytes:
     """A capture file that holds `records`."""
     writer = RecordWriter()
     return MAGIC + b"".join(writer.encode(record) for record in records)
+
+
+def on_disk(path: Path, kind: Kind) -> None:
+    """Wait until the capture that is written at `path` has a record of `kind`; the test's own timeout bounds it."""
+    while all(record.kind != kind for record in read_capture(path).records):
+        time.sleep(0.01)
