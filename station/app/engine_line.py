@@ -5,13 +5,24 @@ heard, and `wake` starts another engine. A command that fails is no death yet: w
 """
 
 from collections.abc import Callable
+from typing import Protocol
 
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound, DeviceLost
 from station.engine.messages import Command, EngineEvent, Ready, SetLevel, Sounding
 from station.practice.live import EngineLink
 
-WakeEngine = Callable[[], EngineLink]
+
+class RoomEngine(EngineLink, Protocol):
+    """An engine that can be ended, so that its devices are free."""
+
+    def close(self) -> object:
+        """End it."""
+        ...
+
+
+WakeEngine = Callable[[], RoomEngine]
+_WAKING = "the engine is waking"
 
 
 class EngineLine:
@@ -22,7 +33,7 @@ class EngineLine:
         self._engine = wake()
         self.rate_hz = rate_hz
         self.alive = True
-        self.sound = "the engine is waking"
+        self.sound = _WAKING
         self._kits: list[str] = []
         self._standing: dict[object, Command] = {}
 
@@ -34,9 +45,16 @@ class EngineLine:
     def wake(self) -> None:
         """Have an engine: another one where the last has died. Raises `DeviceError`."""
         if not self.alive:
-            self._engine, self.alive = self._wake(), True
+            self._engine, self.alive, self.sound = self._wake(), True, _WAKING
             for command in self._standing.values():
                 self.send(command)
+
+    def rest(self) -> list[str]:
+        """End the engine, so that others can have its devices, until it is woken; returns the kits that were here."""
+        if self.alive:
+            self._engine.close()
+        kits, self._kits, self.alive, self.sound = self._kits, [], False, "the engine rests"
+        return kits
 
     def stand(self, command: Command) -> None:
         """What this engine and every later one is told; a dead engine is told when it has been woken."""
@@ -46,6 +64,8 @@ class EngineLine:
 
     def send(self, command: Command) -> None:
         """Hand the engine a command; raises `DeviceError` where it has ended."""
+        if not self.alive:
+            raise DeviceError(self.sound)
         self._engine.send(command)
 
     def events(self, wait_s: float = 0.0) -> list[EngineEvent]:

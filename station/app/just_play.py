@@ -51,6 +51,10 @@ class JustPlay:
         """Keep the takes that follow by other settings."""
         self._settings = settings
 
+    def delayed_by(self, latency: Latency) -> None:
+        """Take devices to be so late from the next take on."""
+        self._latency = latency
+
     @property
     def has_take(self) -> bool:
         """Whether there is something to listen back to."""

@@ -11,6 +11,7 @@ from typing import Protocol
 
 import numpy as np
 
+from station.app.calibration_desk import CalibrationDesk
 from station.app.deck import Deck
 from station.app.demonstrator import Demonstrator
 from station.app.every_hit import DOT_DTYPE, EveryHit
@@ -196,6 +197,14 @@ class PracticeModel(Protocol):
         """Whether the kit has asked for what Enter starts; said once."""
         ...
 
+    def measure(self, by: str, distance_m: float) -> None:
+        """Begin to measure how late the devices are, one of `measuring`'s ways; raises `StationError`."""
+        ...
+
+    def trust_measured(self) -> None:
+        """Subtract what is stored of the devices from now on; raises `StationError`."""
+        ...
+
     def veto(self) -> None:
         """Refuse what the next pass would change: it is as the last one was."""
         ...
@@ -251,6 +260,11 @@ class PracticeModel(Protocol):
     @property
     def desk(self) -> KitDesk:
         """The kits that are here, as the devices page shows and sets them."""
+        ...
+
+    @property
+    def calibration(self) -> CalibrationDesk:
+        """What measures how late the devices are."""
         ...
 
     @property

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 
+from station.app.calibration_desk import CalibrationDesk
 from station.app.deck import Deck
 from station.app.demonstrator import Demonstrator, kept_demonstrator
 from station.app.ear import Ear
@@ -24,8 +25,9 @@ from station.app.outcome import Outcome
 from station.app.preparation import LaidOut, Preparation
 from station.app.welcome import Answers, student_level
 from station.app.welcome import answered as met
-from station.core.calibration import Calibration
+from station.core.calibration import Calibration, load_calibration
 from station.core.errors import DeviceError, StationError
+from station.core.events import DeviceLost
 from station.core.settings import Settings
 from station.engine.messages import Command, Eavesdrop, EngineEvent, KeyHit, Started
 from station.motion.figure import load_figure
@@ -72,6 +74,7 @@ class PracticeRoom:
         self._stage = Stage.IDLE
         self._free = JustPlay(settings, self._latency)
         self.desk = KitDesk(self._tell_engine)
+        self.calibration = CalibrationDesk(self._rest, self._engine.wake)
         self._is_free = False
         self._ear = Ear(self._engine, self._prepared.has_tracks)
         self._kit = KitCommands(settings, first.score, self._accustom)
@@ -83,6 +86,7 @@ class PracticeRoom:
 
     def snapshot(self, now_ns: int) -> Snapshot:
         """Take in what has happened, then the picture at `now_ns`."""
+        self._measured()
         for event in self._heard():
             self.desk.take(event)
             self._take(event, now_ns)
@@ -242,6 +246,20 @@ class PracticeRoom:
         if told is not None:
             self._notices.append(told)
 
+    def measure(self, by: str, distance_m: float) -> None:
+        """Measure how late the devices are, while the engine rests; raises `DeviceError` while somebody plays."""
+        from station.app.measuring import MeasureWish
+
+        self.calibration.refuse()
+        if self._stage is Stage.PLAYING:
+            raise DeviceError("end the session first: what is measured needs the sound card and the kit")
+        self.calibration.measure(MeasureWish.of(self._prepared.settings, by, distance_m))
+
+    def trust_measured(self) -> None:
+        """Subtract what is stored of the devices from the next session on; raises `BadInput` for a foreign file."""
+        self._latency = latency_of(self._prepared.settings, load_calibration())
+        self._free.delayed_by(self._latency)
+
     def veto(self) -> None:
         """Refuse what the next pass would change, while it is counted in: the last one once more."""
         if self.room().can_veto and not self._run.veto():
@@ -283,6 +301,19 @@ class PracticeRoom:
 
     # --- inside ------------------------------------------------------------------------------------------------------
 
+    def _rest(self) -> None:
+        """Let the engine's devices go."""
+        self._ear.quiet()
+        self.deck.halt()
+        for kit in self._engine.rest():
+            self.desk.take(DeviceLost(0, kit))
+
+    def _measured(self) -> None:
+        try:
+            self.calibration.advance()
+        except DeviceError as fault:  # the engine does not wake
+            self._notices.append(str(fault))
+
     def _command(self, event: EngineEvent) -> None:
         """Do what pads and foot switches ask for; a question has the pads for itself."""
         if self._outcome.is_asking:
@@ -293,6 +324,7 @@ class PracticeRoom:
 
     def _make_room(self) -> None:
         """End what runs, sounds or learns, and have an engine; raises `DeviceError`."""
+        self.calibration.refuse()
         self._ear.quiet()
         self.deck.halt()
         self.stop()

@@ -22,6 +22,7 @@ from station.app.model import PracticeModel, Stage
 from station.app.monitors import MonitorWatch
 from station.app.news import ABOVE_RESULT, News
 from station.app.panels.bars import bars_panel
+from station.app.panels.calibration import CalibrationPart
 from station.app.panels.devices import ABOUT as DEVICES_ABOUT
 from station.app.panels.devices import DEVICES, DevicesPanel
 from station.app.panels.devices import HELP as DEVICES_HELP
@@ -87,7 +88,8 @@ class Window:
         self.picture_every = options.picture_every
         self._fault: DeviceError | None = None
         self.monitors: MonitorWatch | None = None
-        self._devices = DevicesPanel(model.desk, self._tried, self.news.tell)
+        calibration = CalibrationPart(model.calibration, model.measure, self._tried, self._measured)
+        self._devices = DevicesPanel(model.desk, self._tried, self.news.tell, calibration)
         self._practice = PracticePanel(model.habits, options.settings, self._tried)
         self.figure = FigurePanel(model, options.settings, self._tried, self._preview_anew)
         self._ear = EarRow(
@@ -127,7 +129,7 @@ class Window:
             Page(HITS, Side.STRIP, self._hits_gui, ABOUT_HITS),
             Page(FIGURE, Side.RIGHT, self.figure.gui, ABOUT, help=HELP),
             Page(PRACTICE, Side.RIGHT, self._practice.gui, ABOUT_PRACTICE, help=PRACTICE_HELP),
-            Page(DEVICES, Side.RIGHT, self._devices.gui, DEVICES_ABOUT, help=DEVICES_HELP),
+            Page(DEVICES, Side.RIGHT, self._devices_gui, DEVICES_ABOUT, help=DEVICES_HELP),
             Page(GRAPH, Side.STRIP, self._graph_gui, GRAPH_ABOUT, help=GRAPH_HELP),
             Page(TRANSPORT, Side.BELOW, self._transport_gui, shown=lambda stage: True),
         )
@@ -349,6 +351,14 @@ class Window:
         }
         viewpoints = LookActions(self._view_keys.keep, self._view_keys.go)
         return TransportBar(TransportParts(actions, viewpoints, self._tools, ruler, self._controls))
+
+    def _devices_gui(self) -> None:
+        self._devices.gui(self._model.room().stage is not Stage.PLAYING)
+
+    def _measured(self, told: str) -> None:
+        """Something that was measured is stored: judge by it."""
+        self._model.trust_measured()
+        self.news.tell(told)
 
     def _hits_gui(self) -> None:
         report = self._model.report() if self._shows_result() else None

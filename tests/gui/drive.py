@@ -18,12 +18,16 @@ from pathlib import Path
 import numpy as np
 from imgui_bundle import hello_imgui, imgui
 
+from station.app.calibration_desk import Told
+from station.app.calibration_findings import Findings, Row
 from station.app.frame import WindowOptions
 from station.app.help_pages import topic_of
 from station.app.keyboard import VIEW_KEYS
 from station.app.look import look_of
+from station.app.measuring import MeasureWish
 from station.app.model import Stage
 from station.app.monitors import GONE, Rectangle, Screen, home_for
+from station.app.panels.calibration import ANYWAY_LABEL, MEASURE_LABEL
 from station.app.panels.devices import DEVICES
 from station.app.panels.ear_row import STOP_LABEL as HITS_STOP
 from station.app.panels.ear_row import STUDENT_LABEL, TEACHER_LABEL
@@ -33,12 +37,14 @@ from station.app.panels.player_controls import COUNT_IN_LABEL, MORE_LABEL
 from station.app.panels.practice import LEARN_LABEL, PRACTICE
 from station.app.panels.transport import VIEW_LABEL
 from station.app.window import Window
+from station.core.calibration import load_calibration
 from station.core.errors import BadInput
 from station.core.pieces import Piece
 from station.core.settings import Settings, load_settings, save_settings
 from station.core.units import ns_from_ms
 from station.devices.kit_file import own_kit
 from station.drills.library import find_lesson
+from station.engine.calibrating import Devices
 from station.engine.messages import Eavesdrop, Play, SetLevel
 from station.practice.own_ear import Guess
 from station.practice.plan import Wishes, plan_practice
@@ -46,6 +52,7 @@ from station.practice.student_spec import parse_spec
 from station.render.camera import VIEW_NAMES, View
 from station.render.png import write_png
 from station.render.score_view import ScoreForm
+from station.sound.calibration.estimate import Estimate
 from tests.gui.figure import figure
 from tests.gui.room import KIT, practice_room
 
@@ -348,6 +355,41 @@ def habits(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.yield_(2)
     drive.seen["stage"] = drive.room.room().stage.name
     open_panel(ctx, PRACTICE)  # and close it again
+
+
+class Measurement:
+    """A measurement by strikes whose devices answer at once: it says so, then what it found."""
+
+    def __init__(self, wish: MeasureWish) -> None:
+        doubtful = Estimate(4.0, -1.0, 9.0, 8.0, 12, ("the strokes scatter by 8 ms",))
+        self._says: list[Told] = ["strike each pad", Findings(Devices(kit=KIT), (Row("kit", KIT, doubtful),))]
+        self.by = wish.by
+
+    def told(self) -> list[Told]:
+        return [self._says.pop(0)] if self._says else []
+
+    def end(self) -> None:
+        pass
+
+
+def calibration(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """Latency is measured on the devices page; what is found is kept only when it is asked for, doubts are said."""
+    room = drive.room
+    room.calibration.start = Measurement
+    open_panel(ctx, DEVICES)
+    ctx.set_ref(f"//{DEVICES}")
+    ctx.item_click("Strike##by")
+    ctx.item_click(MEASURE_LABEL)
+    drive.seen["rests"] = [room.calibration.runs, room.room().kit]
+    ctx.yield_(6)
+    drive.seen["found"] = [room.calibration.runs, room.room().kit, room.calibration.trusted]
+    drive.seen["kept unasked"] = bool(load_calibration().kits)
+    ctx.item_click(ANYWAY_LABEL)
+    ctx.yield_(3)
+    kept = load_calibration().kits[KIT].kit
+    drive.seen["kept"] = [kept.latency_ms, kept.by, kept.doubts]
+    drive.seen["told"] = drive.window.news.text
+    open_panel(ctx, DEVICES)  # and close it again
 
 
 def open_panel(ctx: imgui.test_engine.TestContext, name: str) -> None:
@@ -700,6 +742,7 @@ SCENARIOS = {
     "worn": worn,
     "newcomer": newcomer,
     "devices": devices,
+    "calibration": calibration,
     "highway": highway,
     "lost": lost,
     "drill": drill,

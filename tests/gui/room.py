@@ -7,6 +7,7 @@ frames as it has steps, however slowly they are drawn, and a virtual student's M
 from pathlib import Path
 
 from station.app.practice_room import PracticeRoom
+from station.core.events import DeviceFound
 from station.core.settings import Settings
 from station.devices.kit_file import own_kit
 from station.devices.presets import GENERAL_MIDI_PRESET
@@ -64,6 +65,10 @@ class DirectEngine:
             self._engine.feed(KIT, data, at_ns)
         told, self._told = self._told, []
         return [*told, *self._engine.advance(self._clock.now_ns())]
+
+    def close(self) -> None:
+        """Its devices are free; what wakes next finds them again."""
+        self._told = [Ready(OUTPUT, 48_000), DeviceFound(self._clock.now_ns(), KIT)]
 
     def play_bytes(self, text: str) -> None:
         """The kit sends bytes (hex) now."""

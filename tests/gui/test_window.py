@@ -64,9 +64,12 @@ def test_a_lesson_is_chosen_played_and_judged(environment: dict[str, str], tmp_p
 
 
 def test_search_keys_and_faults_in_one_window(environment: dict[str, str], tmp_path: Path) -> None:
-    seen = run_in_turn(["devices", "habits", "search", "fault", "keys", "just_play"], environment, tmp_path)
+    seen = run_in_turn(
+        ["devices", "calibration", "habits", "search", "fault", "keys", "just_play"], environment, tmp_path
+    )
     how_sessions_go_is_ticked_and_learnt(seen["habits"])
     the_kit_is_seen_and_set_by_looking(seen["devices"])
+    latency_is_measured_and_kept_when_asked(seen["calibration"])
     typing_into_the_search_plays_nothing(seen["search"])
     a_fault_is_said_in_one_line(seen["fault"])
     keys_play_the_kit_and_escape_stops(seen["keys"])
@@ -174,6 +177,14 @@ def the_kit_is_seen_and_set_by_looking(seen: dict[str, Any]) -> None:
 def how_sessions_go_is_ticked_and_learnt(seen: dict[str, Any]) -> None:
     assert seen["kept"] == [False, "crash_1+crash_2 ride+crash_1"], "49 is a crash and 51 a ride in General MIDI"
     assert seen["stage"] == "IDLE", "two kicks start nothing now"
+
+
+def latency_is_measured_and_kept_when_asked(seen: dict[str, Any]) -> None:
+    assert seen["rests"] == [True, ""], "the engine has let the kit go"
+    assert seen["found"] == [False, "virtual student", False], "and has it again; what was found is doubtful"
+    assert not seen["kept unasked"]
+    assert seen["kept"] == [4.0, "strike", "the strokes scatter by 8 ms"]
+    assert seen["told"].startswith("kept in ")
 
 
 def typing_into_the_search_plays_nothing(seen: dict[str, Any]) -> None:

@@ -6,18 +6,18 @@ later than played a stroke is stamped. docs/calibration.md says how to set up ea
 
 import argparse
 import sys
+from dataclasses import replace
 from datetime import date
 from typing import TYPE_CHECKING
 
 from station.app.commands.kit_option import KIT_HELP
 from station.app.commands.output import print_json, say
-from station.core.calibration import Calibration, load_calibration, save_calibration
+from station.core.calibration import load_calibration, save_calibration
 from station.core.settings import Settings, load_settings
 
 if TYPE_CHECKING:
-    from station.app.calibration_findings import Findings, Row
-    from station.devices.kit_ports import KitWish
-    from station.engine.calibrating import SoundWish
+    from station.app.calibration_findings import Row
+    from station.app.measuring import MeasureWish
 
 WAYS = ("report", "loopback", "strike", "tap")
 MOST_DISTANCE_M = 10.0
@@ -52,9 +52,10 @@ def _distance(text: str) -> float:
 def run(arguments: argparse.Namespace) -> int:
     """Measure, tell, and store what the user wants stored."""
     from station.app.calibration_findings import document, outdated, text, with_rows
+    from station.app.measuring import measured
 
     settings, before = load_settings(), load_calibration()
-    findings = _WAYS[arguments.by](arguments, settings, before)
+    findings = measured(_wish(arguments, settings), before, say)
     worth = [row for row in findings.rows if row.storable and (row.estimate.trusted or _insists(arguments, row))]
     if not arguments.json:
         sys.stdout.write(text(findings, before))
@@ -74,55 +75,15 @@ def run(arguments: argparse.Namespace) -> int:
 # --- measuring -------------------------------------------------------------------------------------------------------
 
 
-def _by_report(arguments: argparse.Namespace, settings: Settings, _: Calibration) -> "Findings":
-    from station.app.calibration_findings import Findings
-    from station.engine.calibrating import stream_report
+def _wish(arguments: argparse.Namespace, settings: Settings) -> "MeasureWish":
+    """On the devices that are asked for, else on the settings'."""
+    from station.app.measuring import MeasureWish
+    from station.devices.kit_ports import parse_kit
 
-    devices, stream = stream_report(_wish(arguments, settings), say)
-    return Findings(devices, stream=stream)
-
-
-def _by_loopback(arguments: argparse.Namespace, settings: Settings, _: Calibration) -> "Findings":
-    from station.app.calibration_findings import Findings, Row
-    from station.engine.calibrating import loopback_rounds
-
-    devices, estimate = loopback_rounds(_wish(arguments, settings), say)
-    return Findings(devices, (Row("output", devices.output or "", estimate),))
-
-
-def _by_strikes(arguments: argparse.Namespace, settings: Settings, _: Calibration) -> "Findings":
-    from station.app.calibration_findings import Findings, Row
-    from station.engine.calibrating import struck
-
-    devices, found = struck(_wish(arguments, settings), _kit(arguments, settings), say, arguments.distance)
-    kit = devices.kit or ""
-    pads = (Row("pad", kit, estimate, piece) for piece, estimate in found.pads.items())
-    return Findings(devices, (Row("kit", kit, found.kit), *pads))
-
-
-def _by_taps(arguments: argparse.Namespace, settings: Settings, before: Calibration) -> "Findings":
-    from station.app.calibration_findings import Findings, rows_of_taps
-    from station.engine.calibrating import tapped
-
-    devices, piece, found = tapped(_wish(arguments, settings), _kit(arguments, settings), say)
-    return Findings(devices, rows_of_taps(found, piece, devices, before))
-
-
-_WAYS = {"report": _by_report, "loopback": _by_loopback, "strike": _by_strikes, "tap": _by_taps}
-
-
-def _wish(arguments: argparse.Namespace, settings: Settings) -> "SoundWish":
-    from station.engine.calibrating import SoundWish
-
+    wish = MeasureWish.of(settings, arguments.by, arguments.distance)
     output = settings.output if arguments.output is None else arguments.output
-    return SoundWish(output, arguments.input, settings.block_frames, settings.rate_hz)
-
-
-def _kit(arguments: argparse.Namespace, settings: Settings) -> "KitWish":
-    """The kit that is asked for, else the first of the settings."""
-    from station.devices.kit_ports import parse_kit, parse_kits
-
-    return parse_kits(settings.kit)[0] if arguments.kit is None else parse_kit(arguments.kit)
+    kit = wish.kit if arguments.kit is None else parse_kit(arguments.kit)
+    return replace(wish, sound=replace(wish.sound, output=output, input=arguments.input), kit=kit)
 
 
 # --- storing ---------------------------------------------------------------------------------------------------------

@@ -11,6 +11,7 @@ from station.app import theme
 from station.app.kit_desk import STROKES_SHOWN, KitDesk, Stroke
 from station.app.kit_monitor import Line, suspected
 from station.app.latency_lines import latency_lines
+from station.app.panels.calibration import CalibrationPart
 from station.core.calibration import Calibration, load_calibration
 from station.core.events import Choke, Hit, PedalMoved, Switched
 from station.core.names import piece_name
@@ -50,20 +51,30 @@ class DevicesPanel:
     """The panel over one desk; `tried` does something or says why it could not be done, `tell` says a line."""
 
     def __init__(
-        self, desk: KitDesk, tried: Callable[[Callable[[], object]], None], tell: Callable[[str], None]
+        self,
+        desk: KitDesk,
+        tried: Callable[[Callable[[], object]], None],
+        tell: Callable[[str], None],
+        calibration: CalibrationPart,
     ) -> None:
         self._desk = desk
         self._tried = tried
         self._tell = tell
+        self._calibration = calibration
         self._known: Calibration | None = None
 
-    def gui(self) -> None:
-        """Draw the panel and do what the user does in it."""
+    def gui(self, may_measure: bool) -> None:
+        """Draw the panel and do what the user does in it; `may_measure` while nobody plays."""
         desk = self._desk
+        if self._calibration.runs:
+            theme.heading("How late they are")
+            self._calibration.gui(may_measure)
+            return
         if not desk.device:
             theme.heading(DEVICES)
             imgui.text_wrapped(_NO_KIT)
             theme.soft(_GIVEN_UP)
+            self._latency(may_measure)
             return
         self._kits()
         imgui.separator_text("What it sends")
@@ -72,11 +83,11 @@ class DevicesPanel:
         self._pads()
         self._crosstalk()
         self._keeping()
-        self._latency()
+        self._latency(may_measure)
 
-    def _latency(self) -> None:
-        """How late the devices are, as far as was measured; the file is read when the panel opens."""
-        if imgui.is_window_appearing() or self._known is None:
+    def _latency(self, may_measure: bool) -> None:
+        """How late the devices are, as far as was measured, and what measures it."""
+        if imgui.is_window_appearing() or self._known is None or self._calibration.has_changed():
             self._known = Calibration()
             self._tried(self._read_calibration)
         imgui.separator_text("How late they are")
@@ -84,6 +95,7 @@ class DevicesPanel:
             imgui.text_wrapped(f"{line.what}: {line.words}")
             theme.soft(line.trust)
         theme.tooltip("Judgement subtracts these; what is not measured has the settings' word")
+        self._calibration.gui(may_measure)
 
     def _read_calibration(self) -> None:
         self._known = load_calibration()

@@ -55,6 +55,9 @@ class Line:
         said, self.says = self.says, []
         return said
 
+    def close(self) -> None:
+        self.dead = True
+
     def _live(self) -> None:
         if self.dead:
             raise DeviceError("the engine has ended")

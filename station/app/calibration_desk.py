@@ -1,0 +1,169 @@
+"""Measuring latency from the window: in a process of its own, while the engine rests; nothing is stored unasked.
+
+The engine has the sound card and the kit for itself: it is put to rest before and woken after. What was told and found
+is kept here for the page; `keep` subtracts it from then on, only when the user says so. What measures is heavy, and not
+imported before it is wanted: the window would open later by a fifth.
+"""
+
+import multiprocessing as mp
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass
+from datetime import date
+from multiprocessing.connection import Connection
+from pathlib import Path
+from typing import TYPE_CHECKING, Protocol, TypeAlias
+
+from station.core.calibration import load_calibration, save_calibration
+from station.core.errors import DeviceError, StationError
+
+if TYPE_CHECKING:
+    from station.app.calibration_findings import Findings, Row
+    from station.app.measuring import MeasureWish
+
+REPORT, LOOPBACK, STRIKE, TAP = "report", "loopback", "strike", "tap"
+"""The ways to measure (docs/calibration.md)."""
+_ENDED = "the measurement ended without a result"
+
+
+@dataclass(frozen=True, slots=True)
+class Failed:
+    """Why nothing could be measured, in a line."""
+
+    why: str
+
+
+Told: TypeAlias = "str | Findings | Failed"
+"""What a measurement says: lines for the user, and at last what it found or why it did not."""
+
+
+class Running(Protocol):
+    """A measurement that runs."""
+
+    def told(self) -> "list[Told]":
+        """What it has said since the last call."""
+        ...
+
+    def end(self) -> None:
+        """End it, wherever it is."""
+        ...
+
+
+class MeasuringProcess:
+    """A measurement in a process of its own."""
+
+    def __init__(self, wish: "MeasureWish") -> None:
+        context = mp.get_context("spawn")
+        self._from, to = context.Pipe(duplex=False)
+        self._process = context.Process(target=_measure, args=(to, wish), daemon=True)
+        self._process.start()
+        to.close()
+
+    def told(self) -> "list[Told]":
+        """What has come through the pipe; a process that died has failed."""
+        said: list[Told] = []
+        with suppress(OSError):
+            while self._from.poll():
+                try:
+                    said.append(self._from.recv())
+                except EOFError:
+                    return [*said, Failed(_ENDED)]
+        return said
+
+    def end(self) -> None:
+        """Kill it if it still runs."""
+        self._process.kill()
+        self._process.join()
+        self._from.close()
+
+
+def _measure(to: Connection, wish: "MeasureWish") -> None:
+    """What the process does."""
+    from station.app.measuring import measured
+
+    try:
+        to.send(measured(wish, load_calibration(), to.send))
+    except StationError as fault:
+        to.send(Failed(str(fault)))
+
+
+class CalibrationDesk:
+    """One measurement after the other; `rest` and `wake` are the engine's, `start` begins a measurement."""
+
+    def __init__(
+        self,
+        rest: Callable[[], None],
+        wake: Callable[[], None],
+        start: "Callable[[MeasureWish], Running]" = MeasuringProcess,
+        path: Path | None = None,
+    ) -> None:
+        self._rest, self._wake, self.start, self._path = rest, wake, start, path
+        self._running: Running | None = None
+        self._by = ""
+        self.lines: list[str] = []
+        self.fault = ""
+        self.findings: Findings | None = None
+
+    @property
+    def runs(self) -> bool:
+        """Whether something is being measured."""
+        return self._running is not None
+
+    def measure(self, wish: "MeasureWish") -> None:
+        """Begin, with the engine at rest."""
+        self.drop()
+        self._rest()
+        self._by, self._running = wish.by, self.start(wish)
+
+    def advance(self) -> None:
+        """Take in what was said; at its end the engine wakes. Raises `DeviceError` where it does not."""
+        if self._running is None:
+            return
+        for told in self._running.told():
+            if isinstance(told, str):
+                self.lines.append(told)
+                continue
+            if isinstance(told, Failed):
+                self.fault = told.why
+            else:
+                self.findings = told
+            self.cancel()
+            return
+
+    def cancel(self) -> None:
+        """End what runs, and wake the engine; what was found stays."""
+        if self._running is not None:
+            self._running.end()
+            self._running = None
+            self._wake()
+
+    def refuse(self) -> None:
+        """Raise `DeviceError` while something is being measured: nothing else may sound."""
+        if self.runs:
+            raise DeviceError("a device is being measured: wait for it, or cancel it on the Devices page")
+
+    def drop(self) -> None:
+        """Forget what was told and found."""
+        self.lines, self.fault, self.findings = [], "", None
+
+    @property
+    def worth(self) -> "list[Row]":
+        """What judgement could subtract; pads that are in doubt go with their kit."""
+        rows = () if self.findings is None else self.findings.rows
+        return [row for row in rows if row.storable and (row.estimate.trusted or row.what != "pad")]
+
+    @property
+    def trusted(self) -> bool:
+        """Whether nothing speaks against any of that."""
+        return all(row.estimate.trusted for row in self.worth)
+
+    def keep(self) -> str:
+        """Subtract it from now on; returns what to tell. Raises `StationError` if the file refuses."""
+        from station.app.calibration_findings import outdated, with_rows
+
+        before, rows = load_calibration(self._path), self.worth
+        path = save_calibration(with_rows(before, rows, self._by, date.today()), self._path)
+        forgotten = outdated(before, rows)
+        self.drop()
+        also = f"; what was tapped on {', '.join(forgotten)} is forgotten: tap again" if forgotten else ""
+        return f"kept in {path}{also}"
