@@ -20,7 +20,7 @@ _EYE = np.array([0.0335, 0.079, EYE_HEIGHT])
 def face_meshes(scale: float, fineness: float) -> list[Mesh]:
     """Everything above the neck, on the bones `HEAD` and `EYES`, `scale` times as large as designed."""
     parts = [
-        _mesh(_skull(fineness), Material.SKIN),
+        *(_mesh(part, Material.SKIN) for part in _skull(fineness)),
         _mesh(_hair(fineness), Material.HAIR),
         *_lids(fineness),
         *_brows(fineness),
@@ -45,6 +45,17 @@ def _mesh(skin: Surface, material: Material) -> Mesh:
 
 
 def _skull_field() -> Field:
+    return united([_bare_skull_field(), _nose_field()], 0.014)
+
+
+def _nose_field() -> Field:
+    return united(
+        [cone((0, 0.088, 0.096), (0, 0.1045, 0.067), 0.008, 0.0120), egg((0, 0.099, 0.063), (0.0165, 0.011, 0.0095))],
+        0.010,
+    )
+
+
+def _bare_skull_field() -> Field:
     solids: list[Field] = [
         egg((0, -0.008, 0.128), (0.079, 0.096, 0.092)),
         egg((0, 0.030, 0.066), (0.064, 0.064, 0.072)),
@@ -55,17 +66,22 @@ def _skull_field() -> Field:
     head = united(solids, 0.035)
     sockets = united([egg((s * 0.034, 0.104, EYE_HEIGHT), (0.026, 0.024, 0.020)) for s in (-1.0, 1.0)], 0.004)
     face = without(head, sockets, 0.022)
-    nose = united(
-        [cone((0, 0.088, 0.096), (0, 0.1045, 0.067), 0.008, 0.0120), egg((0, 0.099, 0.063), (0.0165, 0.011, 0.0095))],
-        0.010,
-    )
     ears = united([egg((s * 0.083, -0.006, 0.088), (0.012, 0.022, 0.030)) for s in (-1.0, 1.0)], 0.002)
-    return united([united([face, nose], 0.014), ears], 0.008)
+    return united([face, ears], 0.008)
+
+
+_COARSE = 2.0
+"""Cells that are so many times as large as designed lose a nose: then it is a solid of its own, set on the face."""
+_BOX = (-0.11, -0.12, -0.03), (0.11, 0.14, 0.235)
 
 
 @cache
-def _skull(fineness: float) -> Surface:
-    return surface(_skull_field(), (-0.11, -0.12, -0.03), (0.11, 0.14, 0.235), 0.0075 * fineness)
+def _skull(fineness: float) -> list[Surface]:
+    cell = 0.0075 * fineness
+    if fineness <= _COARSE:
+        return [surface(_skull_field(), *_BOX, cell)]
+    nose = surface(_nose_field(), (-0.03, 0.06, 0.03), (0.03, 0.13, 0.12), 0.4 * cell)
+    return [surface(_bare_skull_field(), *_BOX, cell), nose]
 
 
 @cache
@@ -115,7 +131,7 @@ def _cuts(most: int, fineness: float) -> int:
 
 def _lids(fineness: float) -> list[Mesh]:
     """Upper lids: caps a little larger than the eyes."""
-    a = np.linspace(np.pi / 2, 0.42, _cuts(7, fineness))
+    a = np.linspace(np.pi / 2, 0.42, 7)
     profile = np.stack([0.0203 * np.cos(a), 0.0203 * np.sin(a)], axis=1)[::-1]
     cap = lathe(profile, _cuts(18, fineness), Material.SKIN)
     lid = _stretched(cap, (1.0, 0.66, 1.06))

@@ -93,18 +93,29 @@ def name_shapes(atlas: Atlas, size: tuple[float, float]) -> NDArray[np.void]:
     return ink.shapes()
 
 
+_LEAST = 230.0, 100.0
+"""A scene smaller than that, in pixels, shows no words: they would cover it, and each other (our choice)."""
+
+
 class _HudPage:
     def __init__(self, hud: Hud, ink: Ink, size: tuple[float, float]) -> None:
         self._hud, self._ink = hud, ink
         self._k = scale(size[1])
         self._width, self._height = size
 
+    @property
+    def _has_room(self) -> bool:
+        return self._width >= _LEAST[0] and self._height >= _LEAST[1]
+
     def lines(self) -> NDArray[np.void]:
-        self._title()
-        self._tempo()
+        if self._has_room:
+            self._title()
+            self._tempo()
         return self._ink.shapes()
 
     def calls(self) -> NDArray[np.void]:
+        if not self._has_room:
+            return self._ink.shapes()
         if self._hud.count_in is not None:
             self._count_in(self._hud.count_in)
         elif self._hud.cue is not Cue.NONE:

@@ -94,3 +94,9 @@ def test_a_cue_fades() -> None:
 def test_a_count_in_stands_before_a_cue() -> None:
     with_both = hud_shapes(Hud(count_in=2, cue=Cue.EARLY), ATLAS, (1280, 504))
     assert (with_both["kind"] == Kind.TRIANGLE).sum() == 0
+
+
+def test_a_scene_too_small_for_words_has_none() -> None:
+    full = Hud("Rock", "Pass 1", bar=1, beat=1, count_in=3, message="Play")
+    assert len(hud_shapes(full, ATLAS, (240.0, 112.0))) > 0
+    assert len(hud_shapes(full, ATLAS, (64.0, 34.0))) == 0
