@@ -10,6 +10,7 @@ import numpy as np
 from station.core.pieces import Limb
 from station.core.units import NS_PER_MS
 from station.music.judgement import Label
+from station.practice.places import places_of
 from station.practice.session import SessionResult
 
 CLEAR_FAULT_MS = 40.0
@@ -49,20 +50,16 @@ class HeatMap:
 
 def heat_map(result: SessionResult) -> HeatMap:
     """The map of a session's result."""
-    score, plan, alignment = result.score, result.plan, result.alignment
+    score, alignment = result.score, result.alignment
     if not len(score):
         return HeatMap({})
-    bars = score.tempo_map.bars_at(score.notes["tick"])
-    if plan.rounds is not None:
-        lesson_bars = np.asarray(plan.rounds.bars)[bars] + 1
-    else:
-        lesson_bars = plan.first_bar + bars % plan.section.bar_count + 1
+    bars = places_of(result, score.notes["tick"])["bar"]
     near = np.abs(alignment.asynchrony_ns) <= CLEAR_FAULT_MS * NS_PER_MS
     right = (alignment.note_label == Label.MATCH) & near
     cells: dict[tuple[int, Limb], Cell] = {}
     for limb in LIMBS:
         mine = score.notes["limb"] == limb
-        for bar in np.unique(lesson_bars[mine]).tolist():
-            here = mine & (lesson_bars == bar)
+        for bar in np.unique(bars[mine]).tolist():
+            here = mine & (bars == bar)
             cells[bar, limb] = Cell(int(right[here].sum()), int(here.sum()))
     return HeatMap(cells)

@@ -11,6 +11,8 @@ ABOVE_RESULT = 58.0
 """Design pixels that a result leaves free for news above it."""
 _TOP, _LOWEST = 150.0, 0.3
 """Where news stands over the room: design pixels from the picture's top, and the most of a low picture's height."""
+_MOST_LINES = 2
+"""So many notices are read at once (our choice: what has room above a result)."""
 _NAME = "##news"
 
 
@@ -27,12 +29,13 @@ class News:
         self.text, self._left_s = text, SHOWN_S
 
     def follow(self, notices: tuple[str, ...], passed_s: float) -> None:
-        """Let time pass, and tell the newest of `notices` where they have changed."""
+        """Let time pass, and tell what of `notices`, the last ones that there were, is new."""
         self._left_s -= passed_s
         if notices != self._told:
+            new = new_of(self._told, notices)[-_MOST_LINES:]
             self._told = notices
-            if notices:
-                self.tell(notices[-1])
+            if new:
+                self.tell("\n".join(new))
 
     def gui(self, picture: Area, is_result: bool) -> None:
         """Draw it at the top of `picture`, which is the window's free middle; above a result, never over it."""
@@ -55,3 +58,11 @@ class News:
         imgui.pop_text_wrap_pos()
         imgui.end()
         imgui.pop_style_var()
+
+
+def new_of(before: tuple[str, ...], now: tuple[str, ...]) -> tuple[str, ...]:
+    """What of the last lines of a list was added since the last lines were those `before`."""
+    kept = next(
+        kept for kept in range(min(len(before), len(now)), -1, -1) if before[len(before) - kept :] == now[:kept]
+    )
+    return now[kept:]

@@ -35,7 +35,7 @@ LEAD_S = 1.0
 RING_S = 1.0
 """A video goes on so long after the score's end, so that what rings is heard; our choice."""
 LEVELS = ("low", "middle", "high")
-"""The levels of `station.render.scene.QUALITIES`."""
+"""The levels of `station.render.quality.QUALITIES`."""
 
 NUMBER = re.compile(r"(%0?\d*d)")
 """What numbers pictures in a name."""
