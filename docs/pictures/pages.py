@@ -27,6 +27,7 @@ from station.app.panels.figure import FIGURE  # noqa: E402
 from station.app.panels.hits import HITS  # noqa: E402
 from station.app.panels.lessons import FREE_LABEL  # noqa: E402
 from station.app.panels.practice import PRACTICE  # noqa: E402
+from station.app.panels.take_along import TAKE_ALONG  # noqa: E402
 from station.core.settings import load_settings, save_settings  # noqa: E402
 from station.render.png import write_png  # noqa: E402
 from tests.gui.drive import NEWCOMER, Drive, open_panel  # noqa: E402
@@ -130,6 +131,7 @@ PAGES: Mapping[str, Callable[[Drive, Context], None]] = {
     "figure-bars": _lanes,
     "graph": _tool("Graph"),
     "practice": _tool(PRACTICE),
+    "take-along": _tool(TAKE_ALONG),
     "devices": _devices,
 }
 """What is done before each picture is taken."""

@@ -42,6 +42,9 @@ from station.app.panels.practice import ABOUT as ABOUT_PRACTICE
 from station.app.panels.practice import HELP as PRACTICE_HELP
 from station.app.panels.practice import PRACTICE, PracticePanel
 from station.app.panels.ruler import Bars, Ruler
+from station.app.panels.take_along import ABOUT as ABOUT_TAKING
+from station.app.panels.take_along import HELP as TAKE_HELP
+from station.app.panels.take_along import TAKE_ALONG, TakeActions, TakeAlongPanel
 from station.app.panels.transport import TransportBar, TransportParts
 from station.app.panels.welcome import WelcomePage
 from station.app.player_keys import player_keys
@@ -51,6 +54,7 @@ from station.core.clock import Clock, MonotonicClock
 from station.core.errors import DeviceError, StationError
 from station.core.settings import load_settings, save_settings
 from station.core.units import ns_from_s
+from station.drills.lesson import Lesson
 from station.practice.own_ear import Guess
 
 _NO_WINDOW = "no window can be opened: is there a screen, and OpenGL? `station practice --headless` needs neither"
@@ -90,6 +94,15 @@ class Window:
         self.monitors: MonitorWatch | None = None
         calibration = CalibrationPart(model.calibration, model.measure, self._tried, self._measured)
         self._devices = DevicesPanel(model.desk, self._tried, self.news.tell, calibration)
+        self.take = TakeAlongPanel(
+            TakeActions(
+                self._to_take,
+                lambda: load_settings(options.settings),
+                lambda: self.backdrop.look,
+                self._tried,
+                self.news.tell,
+            )
+        )
         self._practice = PracticePanel(model.habits, options.settings, self._tried)
         self.figure = FigurePanel(model, options.settings, self._tried, self._preview_anew)
         self._ear = EarRow(
@@ -130,6 +143,7 @@ class Window:
             Page(FIGURE, Side.RIGHT, self.figure.gui, ABOUT, help=HELP),
             Page(PRACTICE, Side.RIGHT, self._practice.gui, ABOUT_PRACTICE, help=PRACTICE_HELP),
             Page(DEVICES, Side.RIGHT, self._devices_gui, DEVICES_ABOUT, help=DEVICES_HELP),
+            Page(TAKE_ALONG, Side.RIGHT, self.take.gui, ABOUT_TAKING, help=TAKE_HELP),
             Page(GRAPH, Side.STRIP, self._graph_gui, GRAPH_ABOUT, help=GRAPH_HELP),
             Page(TRANSPORT, Side.BELOW, self._transport_gui, shown=lambda stage: True),
         )
@@ -171,6 +185,7 @@ class Window:
 
     def _leaving(self) -> None:
         self._keep()
+        self.take.files.cancel()
         self.backdrop.release()
 
     def _keep(self) -> None:
@@ -243,6 +258,7 @@ class Window:
         if self.welcome is not None:
             self._ask(self.welcome)
             return
+        self.take.advance()
         self.news.follow(self._model.room().notices, io.delta_time)
         moved = "" if self.monitors is None else self.monitors.check(self._clock.now_ns())
         if moved:
@@ -363,6 +379,11 @@ class Window:
     def _hits_gui(self) -> None:
         report = self._model.report() if self._shows_result() else None
         self.hits.gui(report)
+
+    def _to_take(self) -> tuple[Lesson, tuple[int, int]]:
+        """The chosen lesson, and the bars of it that are practised, from 0."""
+        lesson, bars = self._model.deck.lesson, self.choice.bars
+        return lesson, lesson.loop if bars is None else (bars[0] - 1, bars[1] - 1)
 
     def _seek_s(self, to_s: float) -> None:
         self._model.deck.do(lambda player, now_ns: player.sought(now_ns, ns_from_s(to_s)))

@@ -35,6 +35,7 @@ from station.app.panels.lessons import ADAPT_LABEL, FREE_LABEL, LISTEN_LABEL
 from station.app.panels.page import PANELS_LABEL
 from station.app.panels.player_controls import COUNT_IN_LABEL, MORE_LABEL
 from station.app.panels.practice import LEARN_LABEL, PRACTICE
+from station.app.panels.take_along import MIDI_LABEL, TAKE_ALONG
 from station.app.panels.transport import VIEW_LABEL
 from station.app.window import Window
 from station.core.calibration import load_calibration
@@ -355,6 +356,12 @@ def habits(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.yield_(2)
     drive.seen["stage"] = drive.room.room().stage.name
     open_panel(ctx, PRACTICE)  # and close it again
+    open_panel(ctx, TAKE_ALONG)
+    ctx.set_ref(f"//{TAKE_ALONG}")
+    ctx.item_click(MIDI_LABEL)
+    ctx.yield_(2)
+    drive.seen["taken"] = drive.window.news.text
+    open_panel(ctx, TAKE_ALONG)
 
 
 class Measurement:

@@ -1,0 +1,126 @@
+"""Some bars of a lesson to take along: as MIDI, as a lesson file for the teacher, as a video with notation.
+
+Files lie in the student's own folder, `take-along`. A video takes its time: another process films it (`station
+animate`) in a folder that goes with it, so that the window goes on and a cancelled video leaves nothing.
+"""
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import replace
+from pathlib import Path
+
+from station.core.errors import DeviceError
+from station.core.files import write_whole
+from station.core.settings import Settings
+from station.drills.lesson import Lesson
+from station.drills.lesson_write import write_lesson
+from station.music.formats.smf_write import write_score
+from station.practice.folder import folder_name
+
+FOLDER = "take-along"
+ANIMATE = (sys.executable, "-m", "station.cli", "animate")
+_BACKGROUND = 10
+"""How nice the film is to a drummer who plays meanwhile (our choice: it gets what is left)."""
+
+Bars = tuple[int, int]
+"""First and last bar of the lesson, from 0."""
+
+
+class TakeAlong:
+    """Writes the files; one video at a time, which `animate` (the first words of a command line) films."""
+
+    def __init__(self, animate: Sequence[str] = ANIMATE) -> None:
+        self._animate = animate
+        self._scratch: tempfile.TemporaryDirectory[str] | None = None
+        self.process: subprocess.Popen[str] | None = None
+        self._made = Path()
+        self.path: Path | None = None
+        """The video that is filmed now."""
+
+    def midi(self, lesson: Lesson, bars: Bars, settings: Settings) -> Path:
+        """The bars as a MIDI file; raises `DeviceError`."""
+        path = _place(lesson, bars, settings, ".mid")
+        write_score(lesson.score.bars(*bars), path)
+        return path
+
+    def lesson(self, lesson: Lesson, bars: Bars, settings: Settings) -> Path:
+        """The lesson as a file that repeats the bars; raises `BadInput` for what no file can say, `DeviceError`."""
+        path = _place(lesson, bars, settings, ".toml")
+        write_whole(path, write_lesson(replace(lesson, loop=bars)).encode())
+        return path
+
+    def film(self, lesson: Lesson, bars: Bars, settings: Settings, words: Sequence[str] = ()) -> None:
+        """Begin a video of the bars, filmed as further `words` of the command say; raises as `lesson` does."""
+        if self.process is not None:
+            raise DeviceError("one video at a time: wait for it, or cancel it")
+        path = _place(lesson, bars, settings, ".mp4")
+        self._scratch = tempfile.TemporaryDirectory()
+        source = Path(self._scratch.name) / f"{folder_name(lesson.name)}.toml"
+        try:
+            write_whole(source, write_lesson(lesson).encode())
+            span = ("--start-bar", str(bars[0] + 1), "--end-bar", str(bars[1] + 1))
+            self.process = subprocess.Popen(
+                [*self._animate, str(source), "--out", str(source.with_suffix(".mp4")), *span, "--click", *words],
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.PIPE,
+                text=True,
+            )
+        except OSError as fault:
+            raise DeviceError(f"no video can be made: {fault.strerror or fault}") from fault
+        finally:
+            if self.process is None:
+                self._end()
+        self.path, self._made = path, source.with_suffix(".mp4")
+        with suppress(OSError, AttributeError):  # there is no such thing on every system
+            os.setpriority(os.PRIO_PROCESS, self.process.pid, _BACKGROUND)
+
+    def news(self) -> str | None:
+        """What has come of the video since it was last asked: where it is, or why there is none; None meanwhile."""
+        if self.process is None or self.process.poll() is None:
+            return None
+        said = self.process.stderr.read().strip() if self.process.stderr is not None else ""
+        told = self._kept() if self.process.returncode == 0 else f"no video: {_last_line(said)}"
+        self._end()
+        return told
+
+    def _kept(self) -> str:
+        try:
+            shutil.move(self._made, str(self.path))
+        except OSError as fault:
+            return f"no video: {self.path}: {fault.strerror or fault}"
+        return f"kept in {self.path}"
+
+    def cancel(self) -> None:
+        """Give the video up; nothing of it is left."""
+        if self.process is None:
+            return
+        self.process.kill()
+        self.process.communicate()
+        self._end()
+
+    def _end(self) -> None:
+        if self.process is not None and self.process.stderr is not None:
+            self.process.stderr.close()
+        self.process = self.path = None
+        if self._scratch is not None:
+            self._scratch.cleanup()
+            self._scratch = None
+
+
+def _place(lesson: Lesson, bars: Bars, settings: Settings, ending: str) -> Path:
+    """Where the file goes; raises `DeviceError` where there can be no folder."""
+    folder = settings.sessions_dir / folder_name(settings.student) / FOLDER
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as fault:
+        raise DeviceError(f"{folder}: no folder can be made: {fault.strerror or fault}") from fault
+    return folder / f"{folder_name(lesson.name)}_{bars[0] + 1}-{bars[1] + 1}{ending}"
+
+
+def _last_line(said: str) -> str:
+    return said.splitlines()[-1] if said else "the film ended without a word"
