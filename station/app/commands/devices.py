@@ -1,6 +1,7 @@
 """`station devices`: list kits and sound outputs, watch a kit live, record it, replay a capture."""
 
 import argparse
+import math
 from dataclasses import asdict
 from enum import IntEnum
 from pathlib import Path
@@ -48,7 +49,10 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def _seconds(text: str) -> float:
-    seconds = float(text)
+    try:
+        seconds = float(text)
+    except ValueError:
+        seconds = math.nan
     if not 0.0 < seconds <= LONGEST_S:
         raise argparse.ArgumentTypeError(f"{text} is no length of time; give seconds above 0, {LONGEST_S:.0f} at most")
     return seconds
