@@ -7,7 +7,6 @@ imported before it is wanted: the window would open later by a fifth.
 
 import multiprocessing as mp
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import dataclass
 from datetime import date
 from multiprocessing.connection import Connection
@@ -50,24 +49,27 @@ class Running(Protocol):
 
 
 class MeasuringProcess:
-    """A measurement in a process of its own."""
+    """A measurement in a process of its own; raises `DeviceError` where the system has none to give."""
 
     def __init__(self, wish: "MeasureWish") -> None:
         context = mp.get_context("spawn")
         self._from, to = context.Pipe(duplex=False)
         self._process = context.Process(target=_measure, args=(to, wish), daemon=True)
-        self._process.start()
-        to.close()
+        try:
+            self._process.start()
+        except OSError as fault:
+            raise DeviceError(f"nothing can be measured: {fault.strerror or fault}") from fault
+        finally:
+            to.close()
 
     def told(self) -> "list[Told]":
         """What has come through the pipe; a process that died has failed."""
         said: list[Told] = []
-        with suppress(OSError):
+        try:
             while self._from.poll():
-                try:
-                    said.append(self._from.recv())
-                except EOFError:
-                    return [*said, Failed(_ENDED)]
+                said.append(self._from.recv())
+        except (EOFError, OSError):
+            said.append(Failed(_ENDED))
         return said
 
     def end(self) -> None:
@@ -110,10 +112,14 @@ class CalibrationDesk:
         return self._running is not None
 
     def measure(self, wish: "MeasureWish") -> None:
-        """Begin, with the engine at rest."""
+        """Begin, with the engine at rest; raises `DeviceError` where that cannot be."""
         self.drop()
         self._rest()
-        self._by, self._running = wish.by, self.start(wish)
+        try:
+            self._by, self._running = wish.by, self.start(wish)
+        except DeviceError:
+            self._wake()
+            raise
 
     def advance(self) -> None:
         """Take in what was said; at its end the engine wakes. Raises `DeviceError` where it does not."""

@@ -1,12 +1,16 @@
 """The part of the devices panel that measures how late devices are: what to do, what was found, whether to keep it."""
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from imgui_bundle import imgui
 
 from station.app import theme
 from station.app.calibration_desk import LOOPBACK, REPORT, STRIKE, TAP, CalibrationDesk
 from station.core.calibration import load_calibration
+
+if TYPE_CHECKING:
+    from station.app.calibration_findings import Findings
 
 MEASURE_LABEL, CANCEL_LABEL = "Measure##calibrate", "Cancel##calibrate"
 KEEP_LABEL, ANYWAY_LABEL = "Subtract it from now on##keep", "Subtract it all the same##keep"
@@ -35,6 +39,8 @@ class CalibrationPart:
         self._by = REPORT
         self._distance_m = 0.0
         self._changed = False
+        self._worded: Findings | None = None
+        self._words: list[str] = []
 
     @property
     def runs(self) -> bool:
@@ -88,12 +94,12 @@ class CalibrationPart:
         theme.tooltip("End the measurement; nothing is kept")
 
     def _found(self) -> None:
-        from station.app.calibration_findings import text
-
         desk = self._desk
-        assert desk.findings is not None, "asked for only where there are some"
-        for line in text(desk.findings, load_calibration()).splitlines():
-            imgui.text_wrapped(line.strip())
+        if desk.findings is not self._worded:  # once: what is known of the devices is read from a file
+            self._worded, self._words = desk.findings, []
+            self._tried(self._put_into_words)
+        for line in self._words:
+            imgui.text_wrapped(line)
         if desk.worth:
             label = KEEP_LABEL if desk.trusted else ANYWAY_LABEL
             if imgui.button(label):
@@ -103,6 +109,12 @@ class CalibrationPart:
         if imgui.button(DROP_LABEL):
             desk.drop()
         theme.tooltip("Nothing is kept")
+
+    def _put_into_words(self) -> None:
+        from station.app.calibration_findings import text
+
+        if self._worded is not None:
+            self._words = [line.strip() for line in text(self._worded, load_calibration()).splitlines()]
 
     def _keep(self) -> None:
         self._kept(self._desk.keep())

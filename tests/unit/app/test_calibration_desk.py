@@ -137,3 +137,14 @@ def test_nothing_is_measured_while_somebody_plays(tmp_path: Path) -> None:
     room.start(WISH)
     with pytest.raises(DeviceError, match="end the session first"):
         room.measure(TAP, 0.0)
+
+
+def test_a_measurement_that_cannot_begin_lets_the_engine_wake(tmp_path: Path) -> None:
+    def start(_: MeasureWish) -> Measurement:
+        raise DeviceError("nothing can be measured: too many processes")
+
+    done: list[str] = []
+    desk = CalibrationDesk(lambda: done.append("rest"), lambda: done.append("wake"), start, tmp_path / "c.toml")
+    with pytest.raises(DeviceError, match="too many processes"):
+        desk.measure(wish_by(TAP))
+    assert (desk.runs, done) == (False, ["rest", "wake"])
