@@ -37,8 +37,8 @@ HELP: Mapping[Topic, Help] = MappingProxyType(
                 ("passes", "how often the loop is played"),
                 ("click", "without it you are counted in, and the score then follows your own tempo"),
                 ("Start", "or Enter, or two kicks; Esc stops, and what was played is kept and judged"),
-                ("The strip", "plays the demonstration: step by step, backwards, at 10 to 200 %; its keys are on the"
-                 " next leaf"),
+                ("The strip", "plays the demonstration: step by step, backwards, at 10 to 200 %, counted in or not; its"
+                 " keys are on the next leaf"),
                 ("The ruler", "a drag over bars repeats them, and Start practises them; a double click takes all"),
             ),
         ),
@@ -59,6 +59,7 @@ HELP: Mapping[Topic, Help] = MappingProxyType(
                 ("Fewer marks", "they fade as passes get clean, and every fifth pass shows none"),
                 ("As it was", "while a changed tempo is counted in: the last one once more"),
                 ("Pause", "or Backspace, both crashes at once, a foot switch; by itself when you stop for two bars"),
+                ("Panels, Practice", "what else shall pause, learnt from the kit; whether the score waits"),
                 ("Go on", "or two kicks: a bar of count-in, then from the bar of your last stroke"),
                 ("Stop", "or Esc: the session ends here and is kept"),
             ),
@@ -67,7 +68,7 @@ HELP: Mapping[Topic, Help] = MappingProxyType(
             "Say first what you believe: rushed, dragged or on. Whoever guesses before looking learns to hear it.",
             (
                 ("Answer", "with a button, or a pad: hi-hat rushed, ride or floor tom dragged, snare on"),
-                ("ask_first = false", "in the settings: no question any more"),
+                ("Panels, Practice", "has a tick for it: no question any more"),
             ),
         ),
         Topic.RESULT: Help(
@@ -78,7 +79,10 @@ HELP: Mapping[Topic, Help] = MappingProxyType(
                  " latency, a spread is practice"),
                 ("What to do next", "the one thing that helps most, where the numbers are sure of it"),
                 ("Bar by bar", "a click on a bar practises it alone"),
-                ("Panels, Every hit", "each stroke over the bars; a bar to hear, the teacher's and yours"),
+                ("Wrong pads", "what was struck for what; a click shows the bar where it happened most"),
+                ("Hear and see a bar", "as the teacher plays it, as you did, and as you did yesterday: the translucent"
+                 " sticks are yours"),
+                ("Panels, Every hit", "each stroke over the bars; the mouse asks, a click chooses its bar"),
                 ("Once more", "or Enter, or two kicks; Esc goes back to the lessons"),
             ),
         ),

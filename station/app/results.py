@@ -24,7 +24,7 @@ def session_facts(result: SessionResult, document: dict[str, Json]) -> ResultFac
     passes = "1 pass" if plan.passes == 1 else f"{plan.passes} passes"
     words = Words(
         title=plan.lesson.title,
-        subtitle=f"{passes} of {bars} at {round(plan.beats_a_minute, 3):g} bpm{stopped}",
+        subtitle=f"{passes} of {bars} at {round(plan.beats_a_minute, 3):g} bpm{stopped}{_standing(document)}",
         points=float(points) if isinstance(points, float | int) else None,
         advice=tuple(map(str, steps)),
         craft=tuple(craft_lines(document)),
@@ -39,3 +39,9 @@ def session_facts(result: SessionResult, document: dict[str, Json]) -> ResultFac
         np.asarray(result.performance.hits["at_ns"][extra] / NS_PER_S),
         words,
     )
+
+
+def _standing(document: dict[str, Json]) -> str:
+    """Where the student stands in the lesson, in words, where the tempo followed him."""
+    mastery = document.get("mastery")
+    return f" · {mastery['words']}" if isinstance(mastery, dict) else ""

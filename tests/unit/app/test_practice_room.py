@@ -140,6 +140,7 @@ def test_where_the_tempo_follows_the_student_the_next_pass_begins_by_itself(tmp_
     assert isinstance(mastery, dict)
     assert [one["tempo_bpm"] for one in mastery["passes"]] == [pytest.approx(0.7 * TARGET_BPM)] * 2
     assert len(list(tmp_path.glob("*/mastery/rock-1_*.json"))) == 1
+    assert report.facts.words.subtitle.endswith(" · Not yet shown in a blind pass.")
 
 
 def test_a_change_may_be_refused_while_the_next_pass_is_counted_in(tmp_path: Path) -> None:

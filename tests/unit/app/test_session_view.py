@@ -122,14 +122,17 @@ def test_until_a_drummer_is_made_ahead_the_one_before_sits_there_and_nobody_wait
     before = SessionView(PLAN)
     sits = before.snapshot(Session(PLAN), 0).pose
     AHEAD.submit(gate.wait)
-    view, session = SessionView(PLAN, before=before), began(PLAN, 5 * NS_PER_S)
-    view.make_ahead()
-    meanwhile = view.snapshot(session, 5 * NS_PER_S)
+    try:
+        view, session = SessionView(PLAN, before=before), began(PLAN, 5 * NS_PER_S)
+        view.make_ahead()
+        meanwhile = view.snapshot(session, 5 * NS_PER_S).pose
+        shown = view.graphed(session)
+    finally:
+        gate.set()
     assert sits is not None
-    assert meanwhile.pose is not None
-    assert np.array_equal(meanwhile.pose.row, sits.row)
-    assert view.graphed(session) is None
-    gate.set()
+    assert meanwhile is not None
+    assert np.array_equal(meanwhile.row, sits.row)
+    assert shown is None
     AHEAD.submit(gate.wait).result()
     assert tips(view, PLAN, start_of(PLAN, Phase.DEMONSTRATION)) == pytest.approx(expected(PLAN, Style()), abs=1e-9)
 
