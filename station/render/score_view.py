@@ -34,6 +34,10 @@ PAGE_S = 8.0
 """A page holds whole bars of at most so many seconds, at least one bar; our choice, what scrolling shows too."""
 
 
+_LEAST_SPACES = 48.0
+"""So many staff spaces are as wide as the score: eighths at 150 beats a minute stay apart (our choice)."""
+
+
 @dataclass(frozen=True, slots=True)
 class Place:
     """Where the score lies in the picture, in pixels, y down."""
@@ -45,13 +49,18 @@ class Place:
 
     @property
     def space(self) -> float:
-        """Pixels a staff space."""
-        return self.height / (engraving.BOTTOM_Y - engraving.TOP_Y)
+        """Pixels a staff space: the height holds what is engraved, and the width enough of them to tell notes apart."""
+        return min(self.height / (engraving.BOTTOM_Y - engraving.TOP_Y), self.width / _LEAST_SPACES)
 
     @property
     def middle_line(self) -> float:
         """Where the staff's middle line lies."""
-        return self.top - engraving.TOP_Y * self.space
+        return self.top + self.height / 2 - (engraving.TOP_Y + engraving.BOTTOM_Y) / 2 * self.space
+
+    @property
+    def top_y(self) -> float:
+        """The upper edge in staff spaces from the middle line."""
+        return (self.top - self.middle_line) / self.space
 
 
 class ScoreForm(IntEnum):
@@ -134,7 +143,7 @@ class ScoreView:
         space = place.space
         per_s, line_x = place.width / (BEFORE_S + AFTER_S), place.left + place.width / 2
         plain = Sheet(size, (place.left, place.middle_line), space)
-        self._printer.draw(strip_paper(self._atlas, place.width / space, place.height / space), plain)
+        self._printer.draw(strip_paper(self._atlas, place.width / space, (place.top_y, place.height / space)), plain)
         fade = (place.left, place.left + 3 * space, place.left + place.width - 3 * space, place.left + place.width)
         rolling = Sheet(size, (line_x, place.middle_line), space, position_s, per_s, fade)
         window_s = position_s - BEFORE_S - _MARGIN_S, position_s + AFTER_S + _MARGIN_S
@@ -183,7 +192,7 @@ class ScoreView:
     def _paper(self, snapshot: Snapshot, place: Place, line_x: float) -> NDArray[np.void]:
         ink, space = Ink(self._atlas), place.space
         line = (line_x - place.left) / space
-        ink.box((line - 0.14, engraving.TOP_Y), (0.28, place.height / space), with_opacity(BRAND, 0.95))
+        ink.box((line - 0.14, place.top_y), (0.28, place.height / space), with_opacity(BRAND, 0.95))
         tick = max(int(snapshot.score.tempo_map.ticks_at(snapshot.position_s)), 0)
         note_shapes.time_signature(ink, snapshot.score.tempo_map.meter_at(tick), 4.6)
         return ink.shapes()

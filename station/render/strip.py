@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Articulation, Piece, Zone
-from station.render import engraving, note_shapes
+from station.render import note_shapes
 from station.render.atlas import Atlas
 from station.render.ink import Ink
 from station.render.palette import BRAND, INK, INK_FAINT, with_opacity
@@ -20,11 +20,11 @@ _LEAST, _MOST = 0.72, 1.18
 """Size of the head of the softest and of the hardest stroke (our choice: ghost and accent differ at a glance)."""
 
 
-def strip_paper(atlas: Atlas, width: float, tall: float) -> NDArray[np.void]:
-    """The staff's lines and the line where now is, in the middle of `width`."""
+def strip_paper(atlas: Atlas, width: float, upright: tuple[float, float]) -> NDArray[np.void]:
+    """The staff's lines and the line where now is, in the middle of `width`; `upright` is its top and its length."""
     ink = Ink(atlas)
     note_shapes.staff_lines(ink, width)
-    ink.box((width / 2 - 0.14, engraving.TOP_Y), (0.28, tall), with_opacity(BRAND, 0.95))
+    ink.box((width / 2 - 0.14, upright[0]), (0.28, upright[1]), with_opacity(BRAND, 0.95))
     return ink.shapes()
 
 

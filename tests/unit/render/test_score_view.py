@@ -33,7 +33,7 @@ def test_timing_colours() -> None:
 
 
 def test_the_staff_fills_its_place() -> None:
-    place = Place(0, 100, 800, 306)
+    place = Place(0, 100, 1600, 306)
     assert place.space == pytest.approx(20.0)  # 15.3 spaces from above the bar numbers to below the sticking
     assert place.middle_line == pytest.approx(100 + 8.3 * 20)
 
@@ -136,3 +136,12 @@ def test_the_highway_s_notes_roll_at_their_times_in_their_lanes() -> None:
     assert len(notes) == len(score)
     snares = notes[np.isclose(notes["centre"][:, 1], 1.5)]
     assert snares["time_s"][:, 0].tolist() == pytest.approx([0.5, 1.5])
+
+
+@pytest.mark.parametrize(("width", "height", "space"), [(1280.0, 216.0, 216 / 15.3), (300.0, 180.0, 300 / 48)])
+def test_a_narrow_score_is_engraved_smaller_in_the_middle(width: float, height: float, space: float) -> None:
+    place = Place(0.0, 420.0, width, height)
+    assert place.space == pytest.approx(space)
+    above, below = place.middle_line - 420 - 8.3 * space, 420 + height - place.middle_line - 7.0 * space
+    assert above == pytest.approx(below, abs=1e-9)  # 8.3 spaces are engraved above the middle line, 7 below
+    assert place.middle_line + place.top_y * space == pytest.approx(420.0)
