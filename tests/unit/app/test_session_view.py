@@ -3,6 +3,7 @@
 A drummer made from nothing for the demonstrated bars says where the sticks must be.
 """
 
+from collections.abc import Iterator
 from threading import Event
 
 import numpy as np
@@ -116,9 +117,16 @@ def began(plan: Plan, now_ns: int) -> Session:
     return session
 
 
-def test_until_a_drummer_is_made_ahead_the_one_before_sits_there_and_nobody_waits() -> None:
+@pytest.fixture
+def gate() -> Iterator[Event]:
+    """Opened at the end in any case: the thread that waits for it would keep the process."""
+    closed = Event()
+    yield closed
+    closed.set()
+
+
+def test_until_a_drummer_is_made_ahead_the_one_before_sits_there_and_nobody_waits(gate: Event) -> None:
     """The thread that makes him does nothing before the gate is opened."""
-    gate = Event()
     before = SessionView(PLAN)
     sits = before.snapshot(Session(PLAN), 0).pose
     AHEAD.submit(gate.wait)
