@@ -15,7 +15,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from station.core.errors import DeviceError
-from station.core.files import write_whole
+from station.core.files import growing, write_whole
 from station.core.settings import Settings
 from station.drills.lesson import Lesson
 from station.drills.lesson_write import write_lesson
@@ -89,10 +89,12 @@ class TakeAlong:
         return told
 
     def _kept(self) -> str:
+        assert self.path is not None, "a video has its place from the beginning"
         try:
-            shutil.move(self._made, str(self.path))
-        except OSError as fault:
-            return f"no video: {self.path}: {fault.strerror or fault}"
+            with growing(self.path) as part:
+                shutil.copyfile(self._made, part)
+        except DeviceError as fault:
+            return f"no video: {fault}"
         return f"kept in {self.path}"
 
     def cancel(self) -> None:

@@ -94,3 +94,12 @@ def test_one_video_at_a_time_and_cancelled_it_is_gone(tmp_path: Path) -> None:
     assert (files.process, files.path, files.news()) == (None, None, None)
     assert list((tmp_path / "Ann" / "take-along").iterdir()) == []
     files.cancel()
+
+
+def test_a_video_whose_place_is_taken_is_not_kept_elsewhere(tmp_path: Path) -> None:
+    files = TakeAlong((sys.executable, "-c", FILMS))
+    place = tmp_path / "Ann" / "take-along" / "rock-1_1-2.mp4"
+    place.mkdir(parents=True)
+    files.film(ROCK, (0, 1), settings(tmp_path))
+    assert ended(files) == f"no video: {place}: cannot be written: it is no plain file"
+    assert list(place.iterdir()) == []
