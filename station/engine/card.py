@@ -1,7 +1,8 @@
 """Keeps the engine sounding: opens the sound card, and when it goes runs silent until it is back.
 
-A card that is missing from the start is told of once and not asked for again; one that stops in mid-session (unplugged,
-its server ended, no block asked for in a while) is tried anew every few seconds, and the session goes on meanwhile.
+A card that is missing from the start is told of once, and opened when there is one while no transport runs; one that
+stops in mid-session (unplugged, its server ended, no block asked for in a while) is tried anew every few seconds, and
+the session goes on meanwhile.
 Where a sound server took this process's sound library with it, only a new process sounds again: as soon as there is an
 output once more, the card says that this one is worn out. Where the user left the choice to the system, the sound moves
 with the system's default, while no transport runs.
@@ -25,7 +26,8 @@ STALLED_NS = 2 * NS_PER_S
 """A card that asks for nothing so long has stopped (our choice: every driver's blocks are well under a second)."""
 RETRY_NS = 3 * NS_PER_S
 LOOK_EVERY_NS = 10 * NS_PER_S
-"""How often the system's default is looked up while nothing plays (our choice: a look costs a quarter of a second)."""
+"""How often it is looked what there is to sound on while nothing plays (our choice: a look costs a quarter of a second
+of another process)."""
 _JACK = "JACK"
 """The host whose default stays what it is, and whose graph a look would disturb."""
 
@@ -73,6 +75,7 @@ class Card:
         try:
             self._open(now_ns)
         except DeviceError as fault:
+            self._next_look_ns = now_ns + LOOK_EVERY_NS
             self._engine.notify(f"running silent, on the computer's own clock: {fault}")
 
     def supervise(self, now_ns: int) -> None:
@@ -82,7 +85,9 @@ class Card:
             self._follow_default(now_ns)
         elif self._server_is_gone:
             self._await_server(now_ns)
-        elif self._retry_ns is not None and now_ns >= self._retry_ns:
+        elif self._retry_ns is None:
+            self._await_first(now_ns)
+        elif now_ns >= self._retry_ns:
             self._reopen(now_ns)
 
     @contextmanager
@@ -147,6 +152,26 @@ class Card:
         self._engine.notify(f"sound is back on {self.name}")
         self._engine.tell(Sounding(self.name, self.rate_hz))
 
+    def _await_first(self, now_ns: int) -> None:
+        """Sound as soon as there is something to sound on, where there was nothing from the start."""
+        lookout = self._lookout
+        if lookout is None or self._engine.is_playing:
+            return
+        if lookout.take() is None:
+            self._look(lookout, now_ns)
+            return
+        try:
+            self._open(now_ns)
+        except DeviceError:  # it is there and cannot be had; the next look will come
+            return
+        self._engine.notify(f"sound goes to {self.name}")
+        self._engine.tell(Sounding(self.name, self.rate_hz))
+
+    def _look(self, lookout: Lookout, now_ns: int) -> None:
+        if now_ns >= self._next_look_ns:
+            self._next_look_ns = now_ns + LOOK_EVERY_NS
+            lookout.begin()
+
     def _await_server(self, now_ns: int) -> None:
         if self._lookout is None:
             return
@@ -164,9 +189,8 @@ class Card:
         found = lookout.take()
         if found is not None and found.is_default and found.name != output.name:
             self._move(now_ns)
-        elif now_ns >= self._next_look_ns:
-            self._next_look_ns = now_ns + LOOK_EVERY_NS
-            lookout.begin()
+        else:
+            self._look(lookout, now_ns)
 
     def _move(self, now_ns: int) -> None:
         """Leave the card for the one that is the system's default by now."""

@@ -6,6 +6,7 @@ plays on the system's default compares it with what it plays on, and moves.
 """
 
 import json
+import os
 import subprocess
 import sys
 from dataclasses import asdict
@@ -25,13 +26,18 @@ def outputs_now(patience_s: float = PATIENCE_S) -> list[SoundDevice]:
     """
     command = [sys.executable, "-m", "station.sound.outputs_now"]
     try:
-        told = subprocess.run(command, capture_output=True, text=True, timeout=patience_s, check=False)
+        told = subprocess.run(command, capture_output=True, text=True, timeout=patience_s, check=False, env=_alone())
         found = json.loads(told.stdout)
     except (OSError, subprocess.TimeoutExpired, json.JSONDecodeError) as fault:
         raise DeviceError(f"the sound devices cannot be listed: {fault}") from fault
     if isinstance(found, str):
         raise DeviceError(found)
     return [SoundDevice(**device) for device in found]
+
+
+def _alone() -> dict[str, str]:
+    """The environment of a look that starts no JACK server: who looks wants to know what there is."""
+    return {**os.environ, "JACK_NO_START_SERVER": "1"}
 
 
 def _tell() -> None:

@@ -217,6 +217,39 @@ def test_after_a_sound_servers_death_the_engine_wears_out_as_soon_as_there_is_an
     assert [event for event in told if isinstance(event, Sounding)] == [Sounding(None)]
 
 
+def test_a_card_that_was_missing_from_the_start_sounds_when_it_comes_while_nothing_plays() -> None:
+    """The first that comes cannot be opened."""
+    engine, street, shop = Engine(), Street(), Shop([None, None, FakeOutput("phones")])
+    lookout = Lookout("phones", street.look)
+    card = Card(engine, shop.open, shop.build, lookout)
+    card.start(0)
+    told: list[object] = []
+
+    def go_by(seconds: range) -> None:
+        for second in seconds:
+            if card.name is None:
+                card.supervise(second * NS_PER_S)
+                seen(lookout)
+                told.extend(engine.advance(second * NS_PER_S))
+
+    go_by(range(1, 10))
+    assert street.looks == 0, "the start has just looked"
+    go_by(range(10, 40))
+    assert 2 <= street.looks <= 4
+    assert len(shop.outputs) == 2, "what is not there is not opened"
+    street.devices = [device("phones")]
+    engine.handle(Play(clicks([0, 3600 * NS_PER_S]), 0))
+    go_by(range(40, 80))
+    assert len(shop.outputs) == 2, "not while it plays"
+    engine.handle(Stop())
+    go_by(range(80, 120))
+    assert card.name == "phones"
+    texts = [event.text for event in told if isinstance(event, Notice)]
+    assert texts[0].startswith("running silent")
+    texts += [event.text for event in engine.advance(120 * NS_PER_S) if isinstance(event, Notice)]
+    assert texts[1:] == ["sound goes to phones"]
+
+
 def test_the_sound_follows_the_systems_default_while_nothing_plays() -> None:
     engine, street, shop = Engine(), Street([device("speakers")]), Shop([FakeOutput("speakers"), FakeOutput("phones")])
     lookout = Lookout("", street.look)
