@@ -44,7 +44,8 @@ class KitMonitor:
         self._folder = folder
         self._bank = DecoderBank()
         self._suspects: dict[str, Suspects] = {}
-        self._raw: dict[tuple[str, int], str] = {}
+        self._raw: dict[str, dict[int, str]] = {}
+        """What each kit sent, by its time, as long as something of it is not certain."""
 
     def found(self, device: str, now_ns: int) -> tuple[list[Line], str]:
         """A kit is here; its lines, and what is wrong with the user's file for it: the preset holds then."""
@@ -70,15 +71,21 @@ class KitMonitor:
         """What was sent."""
         if data[:1] in _CHATTER:
             return []
-        self._raw[device, at_ns] = f"{self._raw.get((device, at_ns), '')} {data.hex(' ')}".strip()
+        raw = self._raw.setdefault(device, {})
+        raw[at_ns] = f"{raw.get(at_ns, '')} {data.hex(' ')}".strip()
         lines = self._lines(self._bank.feed(device, data, at_ns).told)
-        if not lines and not self._bank.waits(device):
-            lines = [Line(at_ns, device, self._raw.pop((device, at_ns), ""))]
+        if not self._bank.waits(device):
+            lines = lines or [Line(at_ns, device, raw[at_ns])]
+            raw.clear()
         return lines
 
     def settle(self, now_ns: int) -> list[Line]:
         """What the clock has made certain."""
-        return self._lines(self._bank.settle(now_ns))
+        lines = self._lines(self._bank.settle(now_ns))
+        for device, raw in self._raw.items():
+            if not self._bank.waits(device):
+                raw.clear()
+        return lines
 
     def kit(self, device: str) -> KitPreset:
         """The kit as it stands."""
@@ -92,13 +99,17 @@ class KitMonitor:
         """Keep the kit as it stands; returns where. Raises `DeviceError` if the disk refuses."""
         return save_kit(self.kit(device), device, self._folder)
 
+    def _sent(self, device: str, at_ns: int) -> str:
+        """The bytes of that moment; they are shown once."""
+        return self._raw.get(device, {}).pop(at_ns, "")
+
     def _lines(self, told: list[DeviceEvent]) -> list[Line]:
         lines = []
         for ghost in self._bank.take_ghosts():
             hit = ghost.hit
-            lines.append(Line(hit.at_ns, hit.device, self._raw.pop((hit.device, hit.at_ns), ""), ghost=ghost))
+            lines.append(Line(hit.at_ns, hit.device, self._sent(hit.device, hit.at_ns), ghost=ghost))
         for event in told:
-            raw = self._raw.pop((event.device, event.at_ns), "")
+            raw = self._sent(event.device, event.at_ns)
             suspicions: tuple[Suspicion, ...] = ()
             if isinstance(event, Hit):
                 suspicions = tuple(self._suspects.setdefault(event.device, Suspects()).look(event))

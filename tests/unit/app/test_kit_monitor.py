@@ -1,0 +1,28 @@
+"""What a page of a kit keeps of the bytes that it shows."""
+
+from dataclasses import replace
+from pathlib import Path
+
+from station.app.kit_monitor import KitMonitor
+from station.core.pieces import Piece
+from station.core.units import NS_PER_MS
+from station.devices.kit import Crosstalk
+from station.devices.presets import GENERAL_MIDI_PRESET
+
+KIT = "a kit"
+SNARE, ITS_END = bytes.fromhex("99 26 10"), bytes.fromhex("89 26 00")
+
+
+def test_bytes_are_kept_no_longer_than_their_strokes_are_in_doubt(tmp_path: Path) -> None:
+    """A soft snare waits for a kick that may have made it; its end comes meanwhile and says nothing."""
+    monitor = KitMonitor(tmp_path)
+    monitor.found(KIT, 0)
+    monitor.trial(KIT, replace(GENERAL_MIDI_PRESET, crosstalk=(Crosstalk(Piece.KICK, Piece.SNARE, 0.3),)))
+    shown = []
+    for stroke in range(100):
+        at_ns = stroke * 100 * NS_PER_MS
+        shown += monitor.bytes_came(KIT, SNARE, at_ns)
+        shown += monitor.bytes_came(KIT, ITS_END, at_ns + NS_PER_MS)
+        shown += monitor.settle(at_ns + 50 * NS_PER_MS)
+    assert [line.raw for line in shown if line.event is not None] == ["99 26 10"] * 100
+    assert sum(len(raw) for raw in monitor._raw.values()) <= 2
