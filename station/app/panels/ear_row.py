@@ -94,8 +94,6 @@ class EarRow:
 
 
 def _slider(label: str, value: int, ends: tuple[int, int], row: Row) -> int:
-    wide = theme.points(80)
-    row.place(wide + theme.points(40))
-    imgui.set_next_item_width(wide)
-    _, moved = imgui.slider_int(label, value, *ends)
-    return int(moved)
+    row.place(theme.points(_WIDE))
+    imgui.set_next_item_width(theme.points(_WIDE))
+    return theme.slider_int(f"##ear-{label}", value, *ends, f"{label} %d")[1]
