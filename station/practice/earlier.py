@@ -22,6 +22,8 @@ from station.practice.session_pairs import SESSION_COLUMNS
 
 NONE_KEPT = "no earlier session of this lesson is kept"
 _TOO_OLD = "the session of {:%Y-%m-%d} was kept before its table had bars and beats: it cannot be shown"
+MOST_READ = 40
+"""So many sessions are looked into; our choice, a fraction of a second of reading."""
 _STARTED = "%Y-%m-%dT%H-%M-%S"
 _STARTED_LETTERS = 19
 _MOST = 1e6
@@ -76,7 +78,7 @@ def find_earlier(folder: Path, lesson: str) -> Earlier | str:
     ]
     others.sort(key=lambda other: (other[0].date() < started.date(), other[0]), reverse=True)
     fault = NONE_KEPT
-    for when, path in others:
+    for when, path in others[:MOST_READ]:
         if _lesson_of(path) != lesson:
             continue
         found = _read((when, started.date()), path / PAIRS_NAME)

@@ -16,7 +16,7 @@ _NAMES = {
     Limb.LEFT_FOOT: ("LF", "left foot"),
     Limb.RIGHT_FOOT: ("RF", "right foot"),
 }
-_COMPARING, _HEADING, _LINE, _LEAST = 170.0, 34.0, 27.0, 90.0
+_COMPARING, _HEADING, _LINE, _LEAST = 134.0, 34.0, 27.0, 90.0
 """Design pixels: the height of the part below the map, of the wrong pads' heading and lines, the least of the map."""
 _CONFUSIONS = 3
 """So many confusions are named; our choice, the most frequent are worth a look."""
