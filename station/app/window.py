@@ -165,6 +165,8 @@ class Window:
         runs = self._model.room().listening or self._model.deck.player.rate_percent != 0
         self.params.fps_idling.enable_idling = stage is not Stage.PLAYING and not runs
         self._model.desk.listen(docking.dockable_window_of_name(DEVICES).is_visible)
+        if not docking.dockable_window_of_name(PRACTICE).is_visible:
+            self._model.habits.learn(on=False)  # nobody sees that it listens
         io = imgui.get_io()
         nav = imgui.ConfigFlags_.nav_enable_keyboard
         io.config_flags = io.config_flags & ~nav if stage is Stage.PLAYING else io.config_flags | nav

@@ -355,7 +355,12 @@ def habits(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.engine.play_bytes("99 24 50")
     ctx.yield_(2)
     drive.seen["stage"] = drive.room.room().stage.name
+    ctx.item_click(LEARN_LABEL)
+    ctx.yield_(2)
+    drive.seen["learns"] = drive.room.habits.learns
     open_panel(ctx, PRACTICE)  # and close it again
+    ctx.yield_(2)
+    drive.seen["learns unseen"] = drive.room.habits.learns
     open_panel(ctx, TAKE_ALONG)
     ctx.set_ref(f"//{TAKE_ALONG}")
     ctx.item_click(MIDI_LABEL)

@@ -177,6 +177,7 @@ def the_kit_is_seen_and_set_by_looking(seen: dict[str, Any]) -> None:
 def how_sessions_go_is_ticked_and_learnt(seen: dict[str, Any]) -> None:
     assert seen["kept"] == [False, "crash_1+crash_2 ride+crash_1"], "49 is a crash and 51 a ride in General MIDI"
     assert seen["stage"] == "IDLE", "two kicks start nothing now"
+    assert (seen["learns"], seen["learns unseen"]) == (True, False)
     assert seen["taken"].endswith("take-along/rock-1_1-2.mid")
 
 
