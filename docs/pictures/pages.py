@@ -21,16 +21,19 @@ ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT))
 
 from station.app.model import Stage  # noqa: E402
+from station.app.panels.calibration import DROP_LABEL, MEASURE_LABEL  # noqa: E402
 from station.app.panels.devices import DEVICES  # noqa: E402
 from station.app.panels.ear_row import EARLIER_LABEL  # noqa: E402
 from station.app.panels.figure import FIGURE  # noqa: E402
 from station.app.panels.hits import HITS  # noqa: E402
 from station.app.panels.lessons import FREE_LABEL  # noqa: E402
+from station.app.panels.look_popup import LOOK_LABEL  # noqa: E402
 from station.app.panels.practice import PRACTICE  # noqa: E402
 from station.app.panels.take_along import TAKE_ALONG  # noqa: E402
 from station.core.settings import load_settings, save_settings  # noqa: E402
+from station.render.painter import DoublePlace  # noqa: E402
 from station.render.png import write_png  # noqa: E402
-from tests.gui.drive import NEWCOMER, Drive, open_panel  # noqa: E402
+from tests.gui.drive import NEWCOMER, Drive, Measurement, open_panel, press_view  # noqa: E402
 from tests.gui.x_server import screen  # noqa: E402
 
 Context = imgui.test_engine.TestContext
@@ -44,8 +47,7 @@ def _lessons(drive: Drive, ctx: Context) -> None:
 
 
 def _look(drive: Drive, ctx: Context) -> None:
-    ctx.set_ref("//Transport")
-    ctx.item_click("**/Look##look")
+    press_view(ctx, LOOK_LABEL)
     ctx.yield_(3)
 
 
@@ -98,6 +100,22 @@ def _devices(drive: Drive, ctx: Context) -> None:
     ctx.yield_(3)
 
 
+def _calibration(drive: Drive, ctx: Context) -> None:
+    drive.room.calibration.start = Measurement
+    open_panel(ctx, DEVICES)
+    ctx.set_ref(f"//{DEVICES}")
+    ctx.item_click("Strike##by")
+    ctx.item_click(MEASURE_LABEL)
+    ctx.yield_(6)
+    ctx.mouse_move(DROP_LABEL)
+
+
+def _double(drive: Drive, ctx: Context) -> None:
+    backdrop = drive.window.backdrop
+    backdrop.look_from(replace(backdrop.look, double=DoublePlace.BESIDE))
+    _playing(drive, ctx)
+
+
 def _lanes(drive: Drive, ctx: Context) -> None:
     open_panel(ctx, FIGURE)
     drive.window.figure.options.draw_lane("amplitude_gain", ((1.0, 30.0), (1.75, 45.0), (2.0, 85.0), (3.0, 60.0)))
@@ -133,9 +151,11 @@ PAGES: Mapping[str, Callable[[Drive, Context], None]] = {
     "practice": _tool(PRACTICE),
     "take-along": _tool(TAKE_ALONG),
     "devices": _devices,
+    "calibration": _calibration,
+    "double": _double,
 }
 """What is done before each picture is taken."""
-_WITH_STUDENT = ("playing", "result", "hits", "compared")
+_WITH_STUDENT = ("playing", "result", "hits", "compared", "double")
 
 
 def draw(page: str, size: tuple[int, int], scale: float, path: Path) -> None:

@@ -404,11 +404,21 @@ def calibration(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     open_panel(ctx, DEVICES)  # and close it again
 
 
+def press_view(ctx: imgui.test_engine.TestContext, label: str) -> None:
+    """Press a button of the strip's right end, which large panels have behind another."""
+    ctx.set_ref("//Transport")
+    if ctx.item_exists(VIEW_LABEL):
+        ctx.item_click(VIEW_LABEL)
+        ctx.yield_(2)
+        ctx.item_click(f"//$FOCUSED/{label}")
+    else:
+        ctx.item_click(f"**/{label}")
+    ctx.yield_(2)
+
+
 def open_panel(ctx: imgui.test_engine.TestContext, name: str) -> None:
     """Tick a tool in the list of panels."""
-    ctx.set_ref("//Transport")
-    ctx.item_click(f"**/{PANELS_LABEL}")
-    ctx.yield_(2)
+    press_view(ctx, PANELS_LABEL)
     ctx.item_click(f"//$FOCUSED/{name}")
     ctx.popup_close_all()
     ctx.yield_(2)

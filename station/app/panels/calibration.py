@@ -7,13 +7,14 @@ from imgui_bundle import imgui
 
 from station.app import theme
 from station.app.calibration_desk import LOOPBACK, REPORT, STRIKE, TAP, CalibrationDesk
+from station.app.row import Row
 from station.core.calibration import load_calibration
 
 if TYPE_CHECKING:
     from station.app.calibration_findings import Findings
 
 MEASURE_LABEL, CANCEL_LABEL = "Measure##calibrate", "Cancel##calibrate"
-KEEP_LABEL, ANYWAY_LABEL = "Subtract it from now on##keep", "Subtract it all the same##keep"
+KEEP_LABEL, ANYWAY_LABEL = "Subtract it##keep", "Subtract it anyway##keep"
 DROP_LABEL = "Forget it##drop"
 _WAYS = {
     REPORT: ("Driver's word", "What the sound output reports, and how its clock runs: ten seconds, nothing to do"),
@@ -70,12 +71,12 @@ class CalibrationPart:
             self._found()
 
     def _ways(self) -> None:
+        row = Row()
         for by, (name, words) in _WAYS.items():
+            row.place(imgui.get_frame_height() + imgui.get_style().item_inner_spacing.x + imgui.calc_text_size(name).x)
             if imgui.radio_button(f"{name}##by", self._by == by):
                 self._by = by
             theme.tooltip(words)
-            imgui.same_line()
-        imgui.new_line()
         theme.soft(_WAYS[self._by][1] + ".")
         if self._by == STRIKE:
             imgui.set_next_item_width(theme.points(_LEAST_DISTANCE_WIDTH))
@@ -100,13 +101,12 @@ class CalibrationPart:
             self._tried(self._put_into_words)
         for line in self._words:
             imgui.text_wrapped(line)
+        row = Row()
         if desk.worth:
-            label = KEEP_LABEL if desk.trusted else ANYWAY_LABEL
-            if imgui.button(label):
+            if row.button(*((KEEP_LABEL, 110) if desk.trusted else (ANYWAY_LABEL, 144))):
                 self._tried(self._keep)
             theme.tooltip("Judgement subtracts it from now on, in place of what it knew of these devices")
-            imgui.same_line()
-        if imgui.button(DROP_LABEL):
+        if row.button(DROP_LABEL, 96):
             desk.drop()
         theme.tooltip("Nothing is kept")
 
