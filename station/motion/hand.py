@@ -30,6 +30,8 @@ _EASINGS = 4
 _LEAST_HUMP, _MOST_TURN_RAD = 0.3, radians(60)
 """Moments at which so little of a detour is left are not helped by turning the hand; nor is it turned more than this
 (our choice)."""
+_VIGOROUS = 2.0
+"""Styles may make strokes so much higher, and on its ways the wrist must bear them (our choice)."""
 _MOST_AHEAD_M = 0.12
 """A hand waits so much farther forward at most: it stays over the snare (our choice)."""
 _Y, _HAND_YAW, _TURNS = Contact._fields.index("y"), Contact._fields.index("hand_yaw"), Contact._fields.index("turns")
@@ -128,7 +130,10 @@ class HandPart:
             turn = np.clip(turn, np.minimum(least_turn, middle), np.maximum(most_turn, middle))
             contacts[:, _HAND_YAW] -= side * turn
             part = replace(part, contacts=contacts)
-        return part._turned_on_ways(side, time_s, bent, (least, most)) if len(self.bump) else part
+        if not len(self.bump):
+            return part
+        vigorous = part._sideways(figure, time_s, roots[1], Offsets(*(_VIGOROUS * o for o in strokes)))
+        return part._turned_on_ways(side, time_s, (bent, vigorous), (least, most))
 
     def _sideways(self, figure: Figure, time_s: Array, root: Point, strokes: Offsets) -> Array:
         """How far the wrist is bent to the thumb's side at `time_s` (k,) with the shoulder at `root`."""
@@ -136,14 +141,17 @@ class HandPart:
         arm = solve(MANY, self.hold.lengths(figure, right), root, self.way.many(time_s), strokes)
         return np.asarray((1.0 if right else -1.0) * np.broadcast_to(arm.deviation, time_s.shape))
 
-    def _turned_on_ways(self, side: float, time_s: Array, bent: Array, bounds: tuple[float, float]) -> "HandPart":
-        """The same with the hand turned on its ways as far as its wrist, `bent` at `time_s`, is beyond `bounds`."""
+    def _turned_on_ways(
+        self, side: float, time_s: Array, bends: tuple[Array, ...], bounds: tuple[float, float]
+    ) -> "HandPart":
+        """The same with the hand turned on its ways as far as its wrist's `bends` at `time_s` are beyond `bounds`."""
         k, hump = self.way.humps(time_s)
-        over = bent - np.clip(bent, *bounds)
         helped = hump > _LEAST_HUMP
         turn = np.zeros((2, len(self.bump)))
-        np.maximum.at(turn[0], k[helped], over[helped] / hump[helped])
-        np.minimum.at(turn[1], k[helped], over[helped] / hump[helped])
+        for bent in bends:
+            over = (bent - np.clip(bent, *bounds))[helped] / hump[helped]
+            np.maximum.at(turn[0], k[helped], over)
+            np.minimum.at(turn[1], k[helped], over)
         bump = self.bump.copy()
         bump[:, 3] -= side * np.clip(turn.sum(0), -_MOST_TURN_RAD, _MOST_TURN_RAD)
         return replace(self, bump=bump)

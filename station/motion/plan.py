@@ -34,7 +34,7 @@ from station.music.score import Score
 
 Array = NDArray[np.float64]
 
-LIVELY = Style(amplitude_twist=75.0, amplitude_back=95.0, amplitude_side=45.0)
+LIVELY = Style(amplitude_twist=75.0, amplitude_back=95.0, amplitude_side=45.0, shrug=50.0)
 """The style whose shoulders are farthest from the natural ones: hands are so pointed that both serve their wrists."""
 HANDS = (Limb.RIGHT_HAND, Limb.LEFT_HAND)
 

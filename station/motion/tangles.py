@@ -56,10 +56,11 @@ _WAY_COST = 0.08
 _NEAR_COST = 5.0
 """A metre of what is too near costs so much more than one of what is nearer than drummers like (our choice)."""
 _DEPTH_COST = 20.0
-_ELBOW_SPARE_RAD = radians(10)
+_CLEAR_COST, _WELL_OFF, _ELBOW_SPARE_RAD = 2.0, 0.3, radians(10)
 _ANGLE_COST_M = 1.0
 """A metre deep in a drum or a radian beyond a joint's limit weighs as this many metres less clear; the elbow's limit is
-left to styles by the spare (our choice)."""
+left to styles by the spare; so does, where so much of a detour is made, what is short of the spare over the kit (our
+choice)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -251,11 +252,18 @@ class Scene:
         for k in np.argsort(prices, kind="stable").tolist():
             if prices[k] >= best:
                 break
-            deep = max(float(depth_in_kit(self.stage.kit, stick[0][k], stick[1][k]).max()) for stick in (own, flat))
-            price = float(prices[k]) + _DEPTH_COST * deep
+            price = float(prices[k]) + max(
+                self._price_of_depth(stick[0][k], stick[1][k], hump) for stick in (own, flat)
+            )
             if price < best:
                 best, found = price, k
         return found, best, float(near[found].max())
+
+    def _price_of_depth(self, butt: Array, tip: Array, hump: Array) -> float:
+        """What it costs that the stick is in the kit, and off on its way hardly clear, for styles lower it a little."""
+        deep = depth_in_kit(self.stage.kit, butt, tip).max()
+        low = np.outer(hump > _WELL_OFF, (0.0, 0.0, _SPARE_M))
+        return float(_DEPTH_COST * deep + _CLEAR_COST * depth_in_kit(self.stage.kit, butt - low, tip - low).max())
 
     def _beyond(self, side: int, arm: Arm) -> Array:
         """By how much elbow and wrist are beyond their limits, radians."""
