@@ -15,17 +15,18 @@ class EngineListener:
         self._engine = engine
         self.events: list[EngineEvent] = []
 
-    def until(self, is_it: Callable[[EngineEvent], bool], within_s: float = 30.0) -> EngineEvent:
+    def until(self, is_it: Callable[[EngineEvent], bool], within_s: float = 60.0) -> EngineEvent:
         """Wait for the first event, among those collected and those to come, of which `is_it` holds."""
         give_up_s = time.monotonic() + within_s
         seen = 0
-        while time.monotonic() < give_up_s:
+        while True:
             for event in self.events[seen:]:
                 if is_it(event):
                     return event
+            if time.monotonic() > give_up_s:
+                raise AssertionError(f"it did not happen within {within_s} s; what did: {self.events}")
             seen = len(self.events)
             self.events += self._engine.events(wait_s=0.1)
-        raise AssertionError(f"it did not happen within {within_s} s; what did: {self.events}")
 
     def until_after(self, at_ns: int) -> None:
         """Wait until the engine has told all that came until `at_ns`."""
