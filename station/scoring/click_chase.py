@@ -15,7 +15,7 @@ from station.scoring.evidence import class_rates, evidence, nats
 from station.scoring.judge import Moved
 from station.scoring.locate import MISS_COST
 from station.scoring.pursuit import JUMP_COST, JUMP_COST_PER_S, MOST_JUMP_COST_MORE
-from station.scoring.shifts import Beats, to_nearest
+from station.scoring.shifts import to_nearest
 from station.scoring.tracker import Tracker
 from station.scoring.warp import Written
 
@@ -33,7 +33,7 @@ class ClickChase:
 
     def __init__(self, written: Written) -> None:
         note_s, classes = written.at_s, written.classes
-        self._beats = Beats(written.beat_s)
+        self._beats = written.beats()
         self._tracker, self._doubt = Tracker(note_s, classes), Doubt(note_s, classes)
         self._note_s = np.sort(note_s)
         rates = class_rates(note_s, classes)

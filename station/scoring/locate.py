@@ -68,6 +68,10 @@ class Hits:
         """Hits `start` … `end` − 1."""
         return Hits(self.at_s[start:end], self.classes[start:end])
 
+    def lists(self) -> tuple[list[float], list[int]]:
+        """Times and classes, for loops."""
+        return self.at_s.tolist(), self.classes.tolist()
+
     def window(self, start: int) -> "Hits":
         """The `WINDOW_HITS` or `WINDOW_S` from hit `start` on, whatever ends first, a third of the hits at least."""
         late = int(np.searchsorted(self.at_s, self.at_s[start] + WINDOW_S))
@@ -129,7 +133,7 @@ def nats_for(notes: Notes, hits: Hits, place: Place) -> float:
     Before and after the score a hit costs what a note costs that it leaves out elsewhere: to run beyond the end must
     not be cheaper than to stumble in mid-score.
     """
-    reached, distances, _ = notes.tracker.follow(hits.at_s.tolist(), hits.classes.tolist(), place)
+    reached, distances, _ = notes.tracker.follow(*hits.lists(), place)
     places, off = np.array(reached), np.array(distances)
     near = np.abs(off) < GATE_S
     first, last = np.searchsorted(notes.at_s, (places.min() - GATE_S, places.max() + GATE_S))

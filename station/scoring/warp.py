@@ -28,18 +28,25 @@ Indices = NDArray[np.int64]
 class Written:
     """A score as it is looked for.
 
-    `at_s` (n,) and `classes` (n,) of its notes in any order; `beat_s` (b,) of every quarter, rising, at least two.
+    `at_s` (n,) and `classes` (n,) of its notes in any order; `beat_s` (b,) of every quarter, rising, at least two;
+    `bar_beats` how many quarters the first bar has.
     """
 
     at_s: Floats
     classes: Indices
     beat_s: Floats
+    bar_beats: float
+
+    def beats(self, tempo: float = 1.0) -> Beats:
+        """Its quarters, played at `tempo` times the written one."""
+        return Beats(self.beat_s / tempo, self.bar_beats)
 
 
 def written_of(score: Score, note_class: Indices) -> Written:
     """`score`, whose notes are of `note_class` (n,), as it is looked for."""
     beats = np.arange(0, max(score.end_tick, PPQ) + 1, PPQ)
-    return Written(score.onset_s, note_class, score.tempo_map.seconds_at(beats))
+    bar_beats = score.tempo_map.meter_at(0).bar_ticks / PPQ
+    return Written(score.onset_s, note_class, score.tempo_map.seconds_at(beats), bar_beats)
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,8 +69,7 @@ def find_warp(written: Written, hit_s: Floats, hit_classes: Indices) -> Warp:
     tempo = beginning.rate
     if tempo != 1.0:
         notes = _prepared(note_s / tempo, classes)
-    beats = Beats(written.beat_s / tempo)
-    way = best_way(notes, hits, Place(beginning.at_s, beginning.score_s / tempo, 1.0), beats)
+    way = best_way(notes, hits, Place(beginning.at_s, beginning.score_s / tempo, 1.0), written.beats(tempo))
     stretch = _stretches(hits.at_s, way.places)
     return _filled(_smoothed(hits.at_s, way.places, way.distances, stretch) * tempo, stretch, hit_s, known)
 
@@ -79,7 +85,7 @@ def click_warp(written: Written, hit_s: Floats, hit_classes: Indices) -> Warp | 
     order = np.argsort(written.at_s, kind="stable")
     notes = _prepared(written.at_s[order], written.classes[order])
     hits = Hits(hit_s[known], hit_classes[known])
-    places = clicked_way(notes, hits, Beats(written.beat_s))
+    places = clicked_way(notes, hits, written.beats())
     if places is None:
         return None
     stretch = _stretches(hits.at_s, places)

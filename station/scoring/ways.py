@@ -14,8 +14,17 @@ from numpy.typing import NDArray
 
 from station.scoring.evidence import SD_S, best_evidence, evidence
 from station.scoring.locate import Hits, Notes
-from station.scoring.pursuit import JUMP_COST, Pursuit, silences
-from station.scoring.shifts import Beats, best_shifts, fits_elsewhere, jumps, to_nearest, whole_beats
+from station.scoring.pursuit import JUMP_COST, SURE_JUMP_COST, Pursuit, silences
+from station.scoring.shifts import (
+    SHIFTS_BEATS,
+    Beats,
+    best_shifts,
+    fits_bars_away,
+    fits_elsewhere,
+    jumps,
+    to_nearest,
+    whole_beats,
+)
 from station.scoring.tracker import Place
 
 Floats = NDArray[np.float64]
@@ -38,21 +47,38 @@ def best_way(notes: Notes, hits: Hits, start: Place, beats: Beats) -> Way:
     ways = _ways(notes, hits, start, beats, resumes=False)
     if len(silences(hits.at_s)):
         ways += _ways(notes, hits, start, beats, resumes=True)
+    if start == Place(start.at_s, start.at_s, 1.0) and _keeps_to_a_click(hits, ways[0]):
+        clicked = clicked_way(notes, hits, beats)
+        ways.append(_way_of(notes, hits, hits.at_s if clicked is None else clicked))
     return ways[0] if len(ways) == 1 else max(ways, key=lambda way: _worth(notes, hits, way))
+
+
+def _keeps_to_a_click(hits: Hits, way: Way) -> bool:
+    """Whether what was recorded on the score's time base seems to have been played to a click: it never strays far."""
+    off = way.places - hits.at_s
+    stretches = np.split(off, jumps(hits.at_s, way.places))
+    return all(float(np.abs(part - np.median(part)).max()) < _MOST_ASTRAY_S for part in stretches)
+
+
+_MOST_ASTRAY_S = 0.1
+"""Our choice: three times a steady player's slow sway."""
 
 
 def _ways(notes: Notes, hits: Hits, start: Place, beats: Beats, resumes: bool) -> list[Way]:
     """What the pursuit found, and that with its shifts corrected where there is a doubt."""
     pursuit = Pursuit(notes, hits, resumes)
     pursuit.run(start)
-    places, followed = pursuit.places, Way(pursuit.places, pursuit.distances)
-    doubtful = _doubtful(pursuit.distances, notes.rates[hits.classes])
-    if len(jumps(hits.at_s, places)) or any(
-        fits_elsewhere(notes, hits.part(part.start, part.stop), places[part], beats) for part in doubtful
-    ):
-        moved = beats.moved(places, best_shifts(notes, hits, places, beats))
-        return [followed, Way(moved, np.array(notes.tracker.distances(moved.tolist(), hits.classes.tolist())))]
-    return [followed]
+    places, found = pursuit.places, [Way(pursuit.places, pursuit.distances)]
+    jumped = len(jumps(hits.at_s, places)) > 0
+    if jumped and not resumes:  # he may never have left his place, however ill some bars fit
+        found.append(_way_of(notes, hits, np.array(notes.tracker.follow(*hits.lists(), start)[0])))
+    if jumped or _is_doubtful(notes, hits, found[0], beats, SHIFTS_BEATS):
+        found.append(_way_of(notes, hits, beats.moved(places, best_shifts(notes, hits, places, beats))))
+    return found
+
+
+def _way_of(notes: Notes, hits: Hits, places: Floats) -> Way:
+    return Way(places, np.array(notes.tracker.distances(places.tolist(), hits.classes.tolist())))
 
 
 def clicked_way(notes: Notes, hits: Hits, beats: Beats) -> Floats | None:
@@ -60,21 +86,30 @@ def clicked_way(notes: Notes, hits: Hits, beats: Beats) -> Floats | None:
 
     The hits' times are the click's.
     """
-    distances = np.array(notes.tracker.distances(hits.at_s.tolist(), hits.classes.tolist()))
-    doubtful = _doubtful(distances, notes.rates[hits.classes])
-    parts = [hits.part(part.start, part.stop) for part in doubtful]
+    way = _way_of(notes, hits, hits.at_s)
+    doubtful = _doubtful(way.distances, notes.rates[hits.classes])
     restarts = np.array([*(part.start for part in doubtful), *silences(hits.at_s).tolist()], np.int64)
     tried = whole_beats(notes, hits, beats, restarts)
-    if not any(fits_elsewhere(notes, part, part.at_s, beats, tried) for part in parts):
+    if not _is_doubtful(notes, hits, way, beats, tried):
         return None
     shifts = best_shifts(notes, hits, hits.at_s, beats, tried)
     return beats.moved(hits.at_s, shifts) if shifts.any() else None
 
 
+def _is_doubtful(notes: Notes, hits: Hits, way: Way, beats: Beats, tried: Floats) -> bool:
+    """Whether some hits of `way` fit better elsewhere: those that fit worst by a shift of `tried`, or many by bars."""
+    parts = _doubtful(way.distances, notes.rates[hits.classes])
+    return any(
+        fits_elsewhere(notes, hits.part(part.start, part.stop), way.places[part], beats, tried) for part in parts
+    ) or fits_bars_away(notes, hits, way.places, beats)
+
+
 def _worth(notes: Notes, hits: Hits, way: Way) -> float:
     """What the hits that answer a note and the notes that a hit answers say for a way, less what its jumps cost."""
     said = evidence(way.distances, notes.rates[hits.classes])
-    total = float(said.sum()) - JUMP_COST * len(jumps(hits.at_s, way.places))
+    jumped = jumps(hits.at_s, way.places)
+    resumed = np.isin(jumped, silences(hits.at_s))
+    total = float(said.sum()) - float(np.where(resumed, JUMP_COST, SURE_JUMP_COST).sum())
     weights = best_evidence(notes.rates)
     for c in np.unique(hits.classes).tolist():
         off = to_nearest(np.sort(way.places[hits.classes == c]), notes.at_s[notes.classes == c])
