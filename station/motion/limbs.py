@@ -73,15 +73,34 @@ def _feet(score: Score, left_handed: bool) -> tuple[NDArray[np.int8], list[str]]
     return limbs, why
 
 
-def as_led(score: Score, kit: Kit) -> Score:
-    """`score` with its written sticking read for the player of `kit`.
+def as_led(score: Score, kit: Kit, hands: Hands | None = None) -> Score:
+    """`score` with its written sticking read for the player of `kit`, who may be open-handed.
 
     Lessons write R and L for a right-handed drummer: R means the hand that leads. On a left-handed kit every written
-    limb changes sides; what is read so says what is played, and is not to be read so again.
+    limb changes sides. `Hands.OPEN` on another kit: while the right hand alone keeps time on the hi-hat, both hands
+    change sides. What is read so says what is played, and is not to be read so again.
     """
-    if not kit.left_handed:
+    if not kit.left_handed and hands is not Hands.OPEN:
         return score
-    return score.with_limbs(_OTHER_SIDE[score.notes["limb"].astype(np.int64)])
+    written = score.notes["limb"].astype(np.int64)
+    turned = np.ones(len(score), bool) if kit.left_handed else _beside_the_hat(score)
+    return score.with_limbs(np.where(turned, _OTHER_SIDE[written], written).astype(np.int8))
+
+
+def _beside_the_hat(score: Score) -> NDArray[np.bool_]:
+    """The strokes of hands (n,) from a bar's first stroke on the hi-hat to its last, where the right hand has them all.
+
+    So a fill behind them starts with the right hand as it is written. A bar whose hi-hat both hands play, as in quick
+    sixteenths, or the left, as where the lesson is written open-handed, stays as it is.
+    """
+    tick, limb, bar = score.notes["tick"], score.notes["limb"], score.bar
+    turned = np.zeros(len(score), bool)
+    on_hat = score.notes["piece"] == Piece.HIHAT
+    for one in np.unique(bar[on_hat]).tolist():
+        rows = np.flatnonzero(on_hat & (bar == one))
+        if (limb[rows] == Limb.RIGHT_HAND).all():
+            turned |= (tick >= tick[rows[0]]) & (tick <= tick[rows[-1]])
+    return turned & np.isin(limb, (Limb.RIGHT_HAND, Limb.LEFT_HAND))
 
 
 _OTHER_SIDE = np.array([Limb.LEFT_HAND, Limb.RIGHT_HAND, Limb.LEFT_FOOT, Limb.RIGHT_FOOT, Limb.UNKNOWN], np.int8)

@@ -222,7 +222,7 @@ def with_sticking(section: Score, kit: Kit, hands: Hands | None) -> Score:
 
     So the demonstration, the per-limb figures and the advice all speak of the same hands.
     """
-    led = as_led(section, kit)
+    led = as_led(section, kit, hands)
     return led.with_limbs(assign_limbs(led, kit, hands=hands).limbs)
 
 

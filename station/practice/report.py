@@ -181,7 +181,7 @@ def _figures_text(document: dict[str, Json]) -> str:
         f"Score {_figure(document['score'], '.0f')} of 100",
         f"Notes {counts['notes']}: {counts['matched']} hit, {counts['misses']} missed,"
         f" {counts['wrong_piece']} on a wrong piece; extra hits: {counts['extras']}",
-        _timing_words(timing),
+        _timing_words(timing, document["reference"] == Reference.PLAYER.value),
     ]
     rows = [
         (piece, group)
@@ -205,10 +205,13 @@ def _cells(group: dict[str, Json]) -> list[str]:
     return [*counted, _figure(mean, "+.1f"), _figure(sd, ".1f")]
 
 
-def _timing_words(timing: dict[str, Json]) -> str:
+def _timing_words(timing: dict[str, Json], own_clock: bool) -> str:
     mean, sd = timing["mean_signed_asynchrony_ms"], timing["sd_asynchrony_ms"]
     if not isinstance(mean, float | int):
         return "Timing: nothing to measure"
+    if own_clock:
+        lean = "without a click, early or late cannot be told"
+        return f"Timing: spread (SD) {_figure(sd, '.1f')} ms about your own tempo; {lean}"
     where = "on time" if abs(mean) < _ON_TIME_MS else f"{abs(mean):.1f} ms {'early' if mean < 0 else 'late'}"
     return f"Timing: {where} on average, spread (SD) {_figure(sd, '.1f')} ms"
 

@@ -27,17 +27,24 @@ from station.scoring.stretches import owners
 from station.scoring.warp import click_warp, written_of
 
 
-def align(score: Score, performance: Performance, clocked: bool, kit: Collection[Piece] | None = None) -> Alignment:
+def align(
+    score: Score,
+    performance: Performance,
+    clocked: bool,
+    kit: Collection[Piece] | None = None,
+    may_share_base: bool = True,
+) -> Alignment:
     """Pair every hit and note that belong together.
 
-    `clocked`: the hits' times are score time (practice with a click), else nothing is known of tempo and offset.
+    `clocked`: the hits' times are score time (practice with a click), else nothing is known of tempo and offset, but
+    they `may_share_base`: a MIDI file may have been recorded on the score's own time, a capture never is.
     `kit` names the pieces that the student's kit has; notes of others fold onto what is there. Never raises.
     """
     classes = match_classes(kit)
     note_class, hit_class = classes[score.notes["piece"]], classes[performance.hits["piece"]]
     if clocked or not _share_a_class(note_class, hit_class):
         return align_clocked(score, performance, note_class, hit_class)
-    return align_unclocked(score, performance, note_class, hit_class)
+    return align_unclocked(score, performance, note_class, hit_class, may_share_base)
 
 
 def _share_a_class(note_class: Indices, hit_class: Indices) -> bool:

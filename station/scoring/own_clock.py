@@ -38,8 +38,13 @@ _CURVE_HALF_WIDTH = 16
 """Hits to both sides in the player's tempo curve: two bars in all, so that a fill's rush stays visible."""
 
 
-def align_unclocked(score: Score, performance: Performance, note_class: Indices, hit_class: Indices) -> Alignment:
-    """The alignment of hits of unknown tempo and offset; some hit has a class that some note has."""
+def align_unclocked(
+    score: Score, performance: Performance, note_class: Indices, hit_class: Indices, may_share_base: bool
+) -> Alignment:
+    """The alignment of hits of unknown tempo and offset; some hit has a class that some note has.
+
+    Unless the hits `may_share_base` with the score, a likeness of their times is chance: the player's tempo tells.
+    """
     at_ns: Times = np.asarray(performance.hits["at_ns"])
     written = written_of(score, note_class)
     rules = Unwritten(score)
@@ -52,17 +57,17 @@ def align_unclocked(score: Score, performance: Performance, note_class: Indices,
     hits = Side(hit_ns, hit_class, warp.stretch, spots(performance.hits))
     settled = settle(notes, hits, note_kinds(score), unwritten.own_only, _START)
     settled = with_presses(score, with_far_graces(score, settled, hits), hits, bounces)
-    return labelled(settled, _timed(score, at_ns, warp, settled), unwritten.quiet)
+    return labelled(settled, _timed(score, at_ns, warp, settled, may_share_base), unwritten.quiet)
 
 
-def _timed(score: Score, at_ns: Times, warp: Warp, settled: Settled) -> Timed:
+def _timed(score: Score, at_ns: Times, warp: Warp, settled: Settled, may_share_base: bool) -> Timed:
     """When each paired note was due, by the file's time if that is the score's, else by the player's tempo curve."""
     hit_of_note = np.where(settled.partner >= 0, settled.partner, settled.wrong)
     score_ns = np.rint(warp.score_s * NS_PER_S).astype(np.int64)
     told = np.flatnonzero((settled.partner >= 0) & ~score.is_grace)
     told = told[np.argsort(at_ns[hit_of_note[told]], kind="stable")]
     played, written = at_ns[hit_of_note[told]], score.onset_ns[told]
-    if _is_same_base(played, written):
+    if may_share_base and _is_same_base(played, written):
         return Timed(at_ns, score.onset_ns, score_ns, warp.stretch, Reference.FILE)
     off_ns = score_ns[np.maximum(hit_of_note, 0)] - score.onset_ns - settled.trend_ns
     pace = _paces(at_ns, warp)[np.maximum(hit_of_note, 0)]

@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from station.app.commands.output import print_json, say
-from station.app.commands.scores import bars_of_gap, is_lesson, load_score_and_performance
+from station.app.commands.scores import bars_of_gap, is_lesson, is_midi, load_score_and_performance
 from station.core.settings import load_settings
 
 
@@ -46,7 +46,7 @@ def run(arguments: argparse.Namespace) -> int:
         score = score.repeated(times_played(score, performance))
     if arguments.gap is not None:
         view = replace(view, silences=silences(score.tempo_map, score.end_tick, arguments.gap))
-    alignment = align(score, performance, clocked=False)
+    alignment = align(score, performance, clocked=False, may_share_base=is_midi(arguments.performance))
     document = assessment(summarise(score, performance, alignment, view))
     if arguments.pairs is not None:
         write_pairs(arguments.pairs, score, performance, alignment)

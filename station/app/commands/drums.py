@@ -20,15 +20,18 @@ def add_drums_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--drums", default="", metavar="NAME", help=drums)
     hands = "which hand leads; open: the left hand plays a right-handed kit's hi-hat (as the kit is built)"
     parser.add_argument("--hands", choices=[h.value for h in Hands], help=hands)
-    as_written = "on a left-handed kit, do not change the sides of a lesson's sticking"
+    as_written = "leave the sides of a lesson's sticking on a left-handed kit, and for open hands"
     parser.add_argument("--as-written", action="store_true", help=as_written)
     parser.add_argument("--method", choices=METHODS, default=METHODS[0], help="how limbs are assigned (%(default)s)")
 
 
 def assigned(score: Score, kit: Kit, arguments: argparse.Namespace) -> Assignment:
     """The limbs of `score` on `kit` as the arguments ask for them."""
-    hands = Hands(arguments.hands) if arguments.hands else None
-    return assign_limbs(score, kit, arguments.method, hands)
+    return assign_limbs(score, kit, arguments.method, _hands_of(arguments))
+
+
+def _hands_of(arguments: argparse.Namespace) -> Hands | None:
+    return Hands(arguments.hands) if arguments.hands else None
 
 
 def drums_of(arguments: argparse.Namespace) -> Kit:
@@ -37,8 +40,8 @@ def drums_of(arguments: argparse.Namespace) -> Kit:
 
 
 def led_score(arguments: argparse.Namespace) -> Score:
-    """The score that is asked for, a lesson's sticking read for the player of its kit unless `--as-written`."""
-    return load_led_score(arguments.score, drums_of(arguments), arguments.as_written)
+    """The score that is asked for, a lesson's sticking read for who plays it unless `--as-written`."""
+    return load_led_score(arguments.score, drums_of(arguments), _hands_of(arguments), arguments.as_written)
 
 
 def planned(score: Score, figure: Figure, arguments: argparse.Namespace) -> Plan:

@@ -11,10 +11,9 @@ from station.music.performance import Performance
 from station.music.score import Score
 
 if TYPE_CHECKING:
-    from station.practice.click import Gap
-
-if TYPE_CHECKING:
+    from station.motion.hand_notes import Hands
     from station.motion.kit import Kit
+    from station.practice.click import Gap
 
 TEXT_ENDING = ".txt"
 """Of a text score: see `station.motion.text_score`."""
@@ -54,14 +53,14 @@ def load_score(name: str) -> Score:
     return find_lesson(name).score
 
 
-def load_led_score(name: str, kit: Kit, as_written: bool = False) -> Score:
-    """The score that `name` means, a lesson's sticking read for the player of `kit` unless `as_written`."""
+def load_led_score(name: str, kit: Kit, hands: Hands | None = None, as_written: bool = False) -> Score:
+    """The score that `name` means, a lesson's sticking read for the `hands` that play `kit` unless `as_written`."""
     score = load_score(name)
     if as_written or not is_lesson(name):
         return score
     from station.motion.limbs import as_led
 
-    return as_led(score, kit)
+    return as_led(score, kit, hands)
 
 
 def kit_of_lesson(name: str) -> str:

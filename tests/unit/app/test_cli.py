@@ -83,6 +83,11 @@ def test_a_capture_can_be_assessed_again(capsys: pytest.CaptureFixture[str], tmp
     assert main(["assess", "rock-1", str(tmp_path / "session" / "session.capture"), "--json"]) == 0
     again = json.loads(capsys.readouterr().out)
     assert again["counts"] == document["counts"]
+    assert again["reference"] == "player"  # its clock begins with the first stroke, early or late: no lean can be told
+    assert "late" not in {advice["fault"] for advice in again["advice"]}
+    assert "early" not in {advice["fault"] for advice in again["advice"]}
+    assert main(["assess", "rock-1", str(tmp_path / "session" / "session.capture")]) == 0
+    assert "about your own tempo; without a click" in capsys.readouterr().out
 
 
 def test_limbs_say_who_plays_every_note(capsys: pytest.CaptureFixture[str]) -> None:
