@@ -88,9 +88,7 @@ def _add_picture_options(parser: argparse.ArgumentParser) -> None:
     pictures.add_argument(
         "--mirror", action="store_true", default=None, help="left and right swapped, to learn face to face"
     )
-    pictures.add_argument(
-        "--no-score", action="store_true", default=None, help="the drummer alone, without the score below"
-    )
+    pictures.add_argument("--no-score", action="store_true", default=None, help="no score below; title and beat stay")
     pictures.add_argument("--click", action="store_true", default=None, help="a video with a click under the drums")
     moment = pictures.add_mutually_exclusive_group()
     moment.add_argument("--beat", type=float, metavar="T", help="the beat that a picture shows (1)")
