@@ -13,9 +13,9 @@ from station.music.judgement import Label
 from station.render.camera import View, named
 from station.render.picture import PictureMaker
 from station.render.png import write_png
+from station.render.quality import QUALITIES
 from station.render.report_picture import draw_report_png
 from station.render.results import Words, result_facts
-from station.render.scene import QUALITIES
 from station.render.snapshot import Cue, Hud, Snapshot, Strike, no_marks
 
 SIZE = (960, 540)
@@ -63,7 +63,7 @@ def main() -> None:
         "3 passes of bars 1–2 at 84 bpm",
         86.0,
         ("Nothing stands out: raise the tempo.",),
-        lesson.loop_score.bar_count,
+        pass_bars=lesson.loop_score.bar_count,
     )
     draw_report_png(result_facts(score, label, late_ns, np.empty(0), words), HERE / "result.png", (960, 600))
 
