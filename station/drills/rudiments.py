@@ -34,7 +34,7 @@ class Rudiment:
     @property
     def name(self) -> str:
         """Its name as a lesson: `flam-tap`."""
-        return self.title.lower().replace(" ", "-").replace("#", "")
+        return _name_of(self.title)
 
     @property
     def beat(self) -> str:
@@ -104,6 +104,11 @@ RUDIMENTS: tuple[Rudiment, ...] = (
 )
 
 
+def _name_of(title: str) -> str:
+    """A title as a lesson's name."""
+    return title.strip().lower().replace(" ", "-").replace("#", "")
+
+
 @cache
 def _by_name() -> dict[str, Rudiment]:
     return {r.name: r for r in RUDIMENTS}
@@ -113,7 +118,7 @@ def find_rudiment(name_or_number: str) -> Rudiment:
     """The rudiment of that name (`flam-tap`) or PAS number; raises `BadInput` with the nearest name."""
     if name_or_number.isdecimal() and 1 <= int(name_or_number) <= len(RUDIMENTS):
         return RUDIMENTS[int(name_or_number) - 1]
-    name = name_or_number.strip().lower().replace(" ", "-")
+    name = _name_of(name_or_number)
     if name not in _by_name():
         raise BadInput(name_or_number, "", f"no such rudiment{nearest(name, _by_name())}")
     return _by_name()[name]

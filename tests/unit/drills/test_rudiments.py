@@ -131,6 +131,7 @@ def test_finding() -> None:
     assert find_rudiment("16").title == "Single Paradiddle"
     assert find_rudiment("Flam Tap").number == 22
     assert find_rudiment("drag-paradiddle-2").number == 37
+    assert find_rudiment("Drag Paradiddle #2").number == 37
     with pytest.raises(BadInput, match="did you mean flam-tap"):
         find_rudiment("flamtap")
     with pytest.raises(BadInput, match="no such rudiment"):
