@@ -3,6 +3,8 @@
 World axes are the station's: x to the drummer's right, y forward, z up, metres. Clip space is OpenGL's.
 """
 
+from math import cos, sin, sqrt
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -59,11 +61,17 @@ def translation(offset: ArrayLike) -> Matrix:
 
 
 def rotation(axis: ArrayLike, angle_rad: float) -> Matrix:
-    """A right-handed turn about an axis through the origin (Rodrigues' formula)."""
-    x, y, z = unit(axis)
-    k = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    """A right-handed turn about an axis through the origin (Rodrigues' formula); numbers outrun small arrays."""
+    x, y, z = np.asarray(axis, np.float64).tolist()
+    length = sqrt(x * x + y * y + z * z) or 1.0
+    x, y, z = x / length, y / length, z / length
+    s, v = sin(angle_rad), 1 - cos(angle_rad)
     m = np.eye(4)
-    m[:3, :3] += np.sin(angle_rad) * k + (1 - np.cos(angle_rad)) * (k @ k)
+    m[:3, :3] = (
+        (1 - v * (y * y + z * z), v * x * y - s * z, v * x * z + s * y),
+        (v * x * y + s * z, 1 - v * (x * x + z * z), v * y * z - s * x),
+        (v * x * z - s * y, v * y * z + s * x, 1 - v * (x * x + y * y)),
+    )
     return m
 
 
