@@ -27,10 +27,10 @@ def latency_lines(known: Calibration, kits: Sequence[str]) -> list[LatencyLine]:
     """A line an output, a kit and a pad that was measured, and one for each of `kits` that was not."""
     lines = [_line(name, measured) for name, measured in known.outputs.items()]
     if not lines:
-        lines.append(LatencyLine("sound output", "not measured", "station devices calibrate --by loopback", False))
+        lines.append(LatencyLine("sound output", "not measured", "measure it below, best by Loopback", False))
     for name in kits:
         if name not in known.kits:
-            lines.append(LatencyLine(name, "not measured", "station devices calibrate --by strike", False))
+            lines.append(LatencyLine(name, "not measured", "measure it below, best by Strike", False))
     for name, kit in known.kits.items():
         lines.append(_line(name, kit.kit))
         lines += [_line(f"{name}, {piece_name(piece)}", measured) for piece, measured in sorted(kit.pads.items())]

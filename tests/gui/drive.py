@@ -59,7 +59,7 @@ from tests.gui.room import KIT, practice_room
 
 STEP_NS = ns_from_ms(100)
 SIZE = (760, 480)
-SIZES = {"player": (1280, 720)}
+SIZES = {"player": (1280, 560)}
 LESSON = "rock-2"
 MOST_FRAMES = 1000
 PICTURE_EVERY = 25

@@ -13,8 +13,8 @@ ROUGH = "a rough number: measure once more"
 
 def test_what_nobody_measured_says_how_to() -> None:
     assert latency_lines(Calibration(), ["TD-17"]) == [
-        LatencyLine("sound output", "not measured", "station devices calibrate --by loopback", False),
-        LatencyLine("TD-17", "not measured", "station devices calibrate --by strike", False),
+        LatencyLine("sound output", "not measured", "measure it below, best by Loopback", False),
+        LatencyLine("TD-17", "not measured", "measure it below, best by Strike", False),
     ]
 
 
