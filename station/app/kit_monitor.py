@@ -16,10 +16,13 @@ from station.devices.decoders import DecoderBank
 from station.devices.guard import Ghost, Why
 from station.devices.kit import KitPreset
 from station.devices.kit_file import own_kit, save_kit
+from station.devices.midi_tokens import MidiTokenizer
 from station.devices.suspects import Suspects, Suspicion
 
 _CHATTER = (b"\xf8", b"\xfe")
 """MIDI clock and active sensing: several a second, and nothing that a drummer did."""
+_MOST_BEGUN = 3
+"""Bytes are shown together as the message that they are; so many that are none yet are shown as they stand."""
 _WIDER = 1.25
 """A rule is proposed so much wider than what was seen (our choice: the next ghost may be louder)."""
 
@@ -46,6 +49,8 @@ class KitMonitor:
         self._suspects: dict[str, Suspects] = {}
         self._raw: dict[str, dict[int, str]] = {}
         """What each kit sent, by its time, as long as something of it is not certain."""
+        self._begun: dict[str, tuple[MidiTokenizer, bytes]] = {}
+        """The bytes of each kit that may become a message, which serial ports bring one by one."""
 
     def found(self, device: str, now_ns: int) -> tuple[list[Line], str]:
         """A kit is here; its lines, and what is wrong with the user's file for it: the preset holds then."""
@@ -65,14 +70,21 @@ class KitMonitor:
 
     def lost(self, device: str, now_ns: int) -> list[Line]:
         """A kit is gone."""
+        self._begun.pop(device, None)
         return self._lines(self._bank.lost(device, now_ns))
 
     def bytes_came(self, device: str, data: bytes, at_ns: int) -> list[Line]:
         """What was sent."""
         if data[:1] in _CHATTER:
             return []
+        cutter, begun = self._begun.get(device) or (MidiTokenizer(), b"")
+        sent, ends = begun + data, bool(cutter.feed(data))
+        if not ends and len(sent) < _MOST_BEGUN:
+            self._begun[device] = cutter, sent
+            return self._lines(self._bank.feed(device, data, at_ns).told)
+        self._begun[device] = cutter, b""
         raw = self._raw.setdefault(device, {})
-        raw[at_ns] = f"{raw.get(at_ns, '')} {data.hex(' ')}".strip()
+        raw[at_ns] = f"{raw.get(at_ns, '')} {sent.hex(' ')}".strip()
         lines = self._lines(self._bank.feed(device, data, at_ns).told)
         if not self._bank.waits(device):
             lines = lines or [Line(at_ns, device, raw[at_ns])]

@@ -26,3 +26,13 @@ def test_bytes_are_kept_no_longer_than_their_strokes_are_in_doubt(tmp_path: Path
         shown += monitor.settle(at_ns + 50 * NS_PER_MS)
     assert [line.raw for line in shown if line.event is not None] == ["99 26 10"] * 100
     assert sum(len(raw) for raw in monitor._raw.values()) <= 2
+
+
+def test_a_serial_ports_single_bytes_are_shown_as_the_stroke_that_they_are(tmp_path: Path) -> None:
+    """The second stroke leaves its status out (running status); what is no message is shown all the same."""
+    monitor = KitMonitor(tmp_path)
+    monitor.found(KIT, 0)
+    stream = bytes.fromhex("99 26 5a 24 50 b9 f7 01 02 03")
+    lines = [line for at, byte in enumerate(stream) for line in monitor.bytes_came(KIT, bytes([byte]), at)]
+    shown = [(line.raw, type(line.event).__name__) for line in lines]
+    assert shown == [("99 26 5a", "Hit"), ("24 50", "Hit"), ("b9 f7 01", "NoneType")]
