@@ -3,10 +3,11 @@
 from dataclasses import replace
 from pathlib import Path
 
+from station.app.demonstrator import Demonstrator
 from station.app.session_view import bar_numbers
 from station.core.units import NS_PER_S
 from station.motion.drummer import Drummer
-from station.motion.figure import figure_of
+from station.motion.lanes import in_passes
 from station.music.judgement import Label
 from station.practice.session import SessionResult
 from station.render.picture import draw_png
@@ -14,13 +15,20 @@ from station.render.snapshot import Extra, Hud, Snapshot, mark, no_marks
 from station.scoring.alignment import judgements
 
 
-def draw_session(result: SessionResult, path: Path) -> None:
+def drummer_of(result: SessionResult, who: Demonstrator) -> Drummer:
+    """The one who demonstrated it, over all its passes."""
+    plan = result.plan
+    passes = result.score.bar_count // plan.section.bar_count
+    style = in_passes(who.style, plan.first_bar, plan.section.bar_count, passes)
+    return Drummer(result.score, plan.kit, who.figure, style)
+
+
+def draw_session(result: SessionResult, path: Path, who: Demonstrator) -> None:
     """The last pass of a session, half into its first bar, every note with its judgement; raises `DeviceError`."""
     plan = result.plan
     last_pass_s = (result.score.length_ns - plan.section.length_ns) / NS_PER_S
     bar_s = plan.section.length_ns / NS_PER_S / plan.section.bar_count
-    drummer = Drummer(result.score, plan.kit, figure_of())
-    snapshot = picture_of(drummer, last_pass_s + bar_s / 2)
+    snapshot = picture_of(drummer_of(result, who), last_pass_s + bar_s / 2)
     marks = no_marks(result.score)
     extras = []
     for judgement in judgements(result.score, result.performance, result.alignment):

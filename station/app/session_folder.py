@@ -33,6 +33,7 @@ class SessionFolder:
     """
 
     def __init__(self, wanted: Path | None, settings: Settings, name: str) -> None:
+        self._settings = settings
         self._made = wanted is None or not wanted.exists()
         if wanted is None:
             self.path = session_folder(settings.sessions_dir, settings.student, name, datetime.now())
@@ -67,12 +68,14 @@ class SessionFolder:
 
     def draw(self, result: SessionResult, document: dict[str, Json]) -> Path:
         """Draw the report and the drummer; returns the report's picture. Raises `DeviceError`."""
+        from station.app.demonstrator import kept_demonstrator
         from station.app.pictures import draw_session
         from station.app.results import session_facts
         from station.render.report_picture import draw_report_png
 
         draw_report_png(session_facts(result, document), self.path / PICTURE_NAME)
-        draw_session(result, self.path / DRUMMER_NAME)
+        who = kept_demonstrator(self._settings, lambda _: None)  # a style that is none was told when practice began
+        draw_session(result, self.path / DRUMMER_NAME, who)
         return self.path / PICTURE_NAME
 
 
