@@ -38,7 +38,7 @@ class Effort:
     """How the encoder works: x264's preset, and what it holds constant, lower being finer.
 
     `held` is "crf", its rate factor, or "qp", the quantiser: with that one it need not look at a picture beforehand,
-    which takes it a fifth less time for a file a twentieth larger.
+    which takes it a tenth less time for a file a twentieth larger.
     """
 
     preset: str
