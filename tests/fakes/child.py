@@ -14,7 +14,7 @@ def say(line: str) -> None:
 
 
 class Child:
-    """`python -m MODULE ARGUMENTS`, ended at the latest when its `with` block is left."""
+    """`python -m MODULE ARGUMENTS` that has said `ready`; ended at the latest when its `with` block is left."""
 
     def __init__(self, module: str, arguments: Sequence[str], env: Mapping[str, str]) -> None:
         self._process = subprocess.Popen(
@@ -25,6 +25,11 @@ class Child:
             text=True,
             bufsize=1,
         )
+        try:
+            self.expect("ready")
+        except BaseException:
+            self.stop()
+            raise
 
     @property
     def pid(self) -> int:

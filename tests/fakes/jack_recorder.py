@@ -76,7 +76,6 @@ class JackRecorder:
         self._rate_hz = server.rate_hz
         self._file = folder / "heard.npz"
         self._child = Child(__name__, [str(self._file)], server.env)
-        self._child.expect("ready")
 
     def connect(self, pattern: str) -> None:
         """Listen to the audio outputs whose full names match `pattern`."""

@@ -36,7 +36,6 @@ class JackRoom:
 
     def __init__(self, server: JackServer, mode: str, delay_frames: int) -> None:
         self._child = Child(__name__, [mode, str(delay_frames)], server.env)
-        self._child.expect("ready")
 
     def go(self) -> None:
         """Strike the pads."""

@@ -36,7 +36,6 @@ class KitPlayer:
         plan, self._truth = folder / "strokes.json", folder / "truth.json"
         plan.write_text(_to_json(strokes))
         self._child = Child(__name__, [port, str(plan), str(self._truth)], server.env)
-        self._child.expect("ready")
 
     def play(self, start_ns: int) -> None:
         """Begin to play with the strokes' time 0 at monotonic `start_ns`."""

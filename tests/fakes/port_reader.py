@@ -24,7 +24,6 @@ class PortReader(Child):
 
     def __init__(self, server: JackServer, port: str) -> None:
         super().__init__(__name__, [port], server.env)
-        self.expect("ready")
 
     @contextlib.contextmanager
     def held_up(self) -> Iterator[None]:
