@@ -1,7 +1,7 @@
 """The window: hello_imgui owns it and its loop, the picture is its background, panels dock round the picture.
 
 A view and nothing else: it asks its `PracticeModel` for a snapshot a frame, draws it, and passes on what the user does.
-No thread is started, and nothing that happens here can change a judgement.
+It starts no thread of its own, and nothing that happens here can change a judgement.
 """
 
 from collections.abc import Callable

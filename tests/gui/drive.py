@@ -277,9 +277,9 @@ def viewpoints(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.yield_(2)
     drive.seen["back"] = backdrop.camera == turned
     ctx.item_click("//$FOCUSED/8##keep8")
-    ctx.item_click("//$FOCUSED/Feet##inset")
+    ctx.item_click("//$FOCUSED/Feet##Second picture")
     double = [backdrop.look.double.name]
-    ctx.item_click("//$FOCUSED/Over##double")
+    ctx.item_click("//$FOCUSED/Over##Your double")
     ctx.yield_(2)
     double += [backdrop.look.double.name, look_of(load_settings(drive.settings)).double.name]
     drive.seen["slots"] = [slot for slot, camera in enumerate(backdrop.look.viewpoints, 1) if camera is not None]
@@ -307,7 +307,7 @@ def score(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.set_ref("//Transport")
     ctx.item_click("Look##look")
     ctx.yield_(2)
-    ctx.item_click("//$FOCUSED/Pages##score")
+    ctx.item_click("//$FOCUSED/Pages##Score")
     ctx.yield_(2)
     drive.seen["chosen"] = drive.window.backdrop.look.score.name
     drive.seen["kept"] = load_settings(drive.settings).score
@@ -469,7 +469,7 @@ def worn(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.set_ref("//Transport")
     ctx.item_click("Look##look")
     ctx.yield_(2)
-    ctx.item_click("//$FOCUSED/Day##theme")
+    ctx.item_click("//$FOCUSED/Day##Colours")
     ctx.yield_(2)
     paper = imgui.get_style().color_(imgui.Col_.window_bg)
     drive.seen["light"] = min(paper.x, paper.y, paper.z) > 0.8

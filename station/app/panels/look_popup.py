@@ -1,7 +1,8 @@
 """What the Look button opens: the second picture, the score's form, the user's viewpoints, colours and size."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 from imgui_bundle import imgui
 
@@ -13,24 +14,33 @@ from station.render.painter import DoublePlace
 from station.render.palette import THEME_NAMES, Theme
 from station.render.score_view import ScoreForm
 
+T = TypeVar("T")
+
 LOOK_LABEL = "Look##look"
 POPUP = "##look-popup"
-_NO_INSET = "None"
+_INSET_TOLD = "Hands or feet in a corner of the picture, whatever the picture itself shows (P)"
+_INSETS = {view: ("None" if view is None else VIEW_NAMES[view], _INSET_TOLD) for view in INSETS}
 _FORMS = {
-    ScoreForm.SCROLLING: ("Scrolling", "The notes pass a line that stands still"),
-    ScoreForm.PAGED: ("Pages", "The line crosses bars that stand still"),
-    ScoreForm.HIGHWAY: ("Highway", "A lane for every piece, for those who do not read music"),
+    ScoreForm.SCROLLING: ("Scrolling", "The notes pass a line that stands still (N)"),
+    ScoreForm.PAGED: ("Pages", "The line crosses bars that stand still (N)"),
+    ScoreForm.HIGHWAY: ("Highway", "A lane for every piece, for those who do not read music (N)"),
 }
 _DOUBLES = {
-    DoublePlace.NOWHERE: ("None", "The demonstrator alone"),
-    DoublePlace.OVER: ("Over", "You, translucent, over the demonstrator: a limb glows where it parts from his"),
-    DoublePlace.BESIDE: ("Beside", "You on a kit of your own beside the demonstrator's, both seen from the same place"),
+    DoublePlace.NOWHERE: ("None", "The demonstrator alone (E)"),
+    DoublePlace.OVER: ("Over", "You, translucent, over the demonstrator: a limb glows where it parts from his (E)"),
+    DoublePlace.BESIDE: (
+        "Beside",
+        "You on a kit of your own beside the demonstrator's, seen from the same place (E)",
+    ),
 }
-_THEMES_TOLD = {
-    Theme.NIGHT: "Light on dark, for a dim room",
-    Theme.DAY: "Dark on light, for a bright room",
-    Theme.CONTRAST: "White on black, and the strongest colours",
-    Theme.APART: "Judgements in colours that everybody tells apart; each has a shape of its own besides",
+_THEMES = {
+    Theme.NIGHT: (THEME_NAMES[Theme.NIGHT], "Light on dark, for a dim room"),
+    Theme.DAY: (THEME_NAMES[Theme.DAY], "Dark on light, for a bright room"),
+    Theme.CONTRAST: (THEME_NAMES[Theme.CONTRAST], "White on black, and the strongest colours"),
+    Theme.APART: (
+        THEME_NAMES[Theme.APART],
+        "Judgements in colours that everybody tells apart; each has a shape of its own besides",
+    ),
 }
 
 
@@ -47,28 +57,9 @@ def look_popup(look: Look, actions: LookActions) -> Look:
     if not imgui.begin_popup(POPUP):
         return look
     theme.heading("Look", 20)
-    theme.soft("Second picture")
-    for view in INSETS:
-        name = _NO_INSET if view is None else VIEW_NAMES[view]
-        if imgui.radio_button(f"{name}##inset", look.inset is view):
-            look = replace(look, inset=view)
-        theme.tooltip("Hands or feet in a corner of the picture, whatever the picture itself shows (P)")
-        imgui.same_line()
-    imgui.new_line()
-    theme.soft("Score")
-    for form, (name, words) in _FORMS.items():
-        if imgui.radio_button(f"{name}##score", look.score is form):
-            look = replace(look, score=form)
-        theme.tooltip(f"{words} (N)")
-        imgui.same_line()
-    imgui.new_line()
-    theme.soft("Your double")
-    for place, (name, words) in _DOUBLES.items():
-        if imgui.radio_button(f"{name}##double", look.double is place):
-            look = replace(look, double=place)
-        theme.tooltip(f"{words} (E)")
-        imgui.same_line()
-    imgui.new_line()
+    look = replace(look, inset=_one_of("Second picture", _INSETS, look.inset))
+    look = replace(look, score=_one_of("Score", _FORMS, look.score))
+    look = replace(look, double=_one_of("Your double", _DOUBLES, look.double))
     theme.soft("Your own viewpoints")
     _slots(look, actions)
     look = _worn(look)
@@ -78,13 +69,7 @@ def look_popup(look: Look, actions: LookActions) -> Look:
 
 def _worn(look: Look) -> Look:
     """The colours and the size of the panels."""
-    theme.soft("Colours")
-    for worn, name in THEME_NAMES.items():
-        if imgui.radio_button(f"{name}##theme", look.theme is worn):
-            look = replace(look, theme=worn)
-        theme.tooltip(_THEMES_TOLD[worn])
-        imgui.same_line()
-    imgui.new_line()
+    look = replace(look, theme=_one_of("Colours", _THEMES, look.theme))
     theme.soft("Size of the panels")
     for label, steps, told in (("Smaller##scale", -1, "Ctrl+−"), ("Larger##scale", 1, "Ctrl+=")):
         imgui.begin_disabled(look.scaled(steps) == look)
@@ -96,6 +81,18 @@ def _worn(look: Look) -> Look:
     imgui.align_text_to_frame_padding()
     imgui.text(f"{look.scale:.0%}")
     return look
+
+
+def _one_of(title: str, choices: Mapping[T, tuple[str, str]], chosen: T) -> T:
+    """A row of buttons, one for each choice (its name, and what the tooltip says); returns the one that is chosen."""
+    theme.soft(title)
+    for choice, (name, words) in choices.items():
+        if imgui.radio_button(f"{name}##{title}", choice is chosen):
+            chosen = choice
+        theme.tooltip(words)
+        imgui.same_line()
+    imgui.new_line()
+    return chosen
 
 
 def _slots(look: Look, actions: LookActions) -> None:

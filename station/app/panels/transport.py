@@ -27,7 +27,7 @@ STOP_LABEL = "Stop##stop"
 AGAIN_LABEL = "Once more##again"
 BACK_LABEL = "Back to the lessons##back"
 
-_PAUSE = "The score waits (Backspace; both crashes at once or a foot switch, as the settings say)"
+_PAUSE = "The score waits (Backspace; both crashes at once or a foot switch, as the Practice panel says)"
 _GO_ON = "A bar of count-in, then on from the bar of your last stroke (Backspace, or two kicks)"
 NO_KIT = "no kit: the keys play (F1)"
 VIEW_LABEL = "View##views"

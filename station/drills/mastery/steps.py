@@ -75,11 +75,6 @@ class Item:
         often = math.ceil(min(least, rules.least_notes))
         return often if gap is None else max(often, math.ceil((sum(gap) + 1) / (bars[1] - bars[0] + 1)))
 
-    def pass_s(self, step: "Step") -> float:
-        """How long the pass lasts."""
-        first, last = (bar - self.first_bar for bar in step.bars)
-        return step.repeats * sum(self.bar_s[first : last + 1]) * 100.0 / step.pct
-
 
 @dataclass(frozen=True, slots=True)
 class Step:
