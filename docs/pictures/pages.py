@@ -118,7 +118,7 @@ def _double(drive: Drive, ctx: Context) -> None:
 
 def _lanes(drive: Drive, ctx: Context) -> None:
     open_panel(ctx, FIGURE)
-    drive.window.figure.options.draw_lane("amplitude_gain", ((1.0, 30.0), (1.75, 45.0), (2.0, 85.0), (3.0, 60.0)))
+    drive.window.pages.figure.options.draw_lane("amplitude_gain", ((1.0, 30.0), (1.75, 45.0), (2.0, 85.0), (3.0, 60.0)))
     ctx.set_ref(f"//{FIGURE}")
     ctx.item_click("##figure/Bars")
 

@@ -113,8 +113,9 @@ class CalibrationDesk:
 
     def measure(self, wish: "MeasureWish") -> None:
         """Begin, with the engine at rest; raises `DeviceError` where that cannot be."""
-        self.drop()
+        self.refuse()
         self._rest()
+        self.drop()
         try:
             self._by, self._running = wish.by, self.start(wish)
         except DeviceError:

@@ -9,7 +9,7 @@ from typing import Protocol
 
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound, DeviceLost
-from station.engine.messages import Command, EngineEvent, Ready, SetLevel, Sounding
+from station.engine.messages import Command, Eavesdrop, EngineEvent, Ready, SetLevel, Sounding
 from station.practice.live import EngineLink
 
 
@@ -61,6 +61,10 @@ class EngineLine:
         self._standing[command.bus if isinstance(command, SetLevel) else type(command)] = command
         if self.alive:
             self.send(command)
+
+    def tell(self, command: Command) -> None:
+        """Send what is for now; what asks for something lasting stands. Raises `DeviceError` as `send`."""
+        self.stand(command) if isinstance(command, Eavesdrop) else self.send(command)
 
     def send(self, command: Command) -> None:
         """Hand the engine a command; raises `DeviceError` where it has ended."""

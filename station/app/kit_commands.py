@@ -4,54 +4,56 @@ Pads command nothing in mid-drill but the gestures of a pause, and nothing at al
 else: an answer, or a gesture to be learnt.
 """
 
-from collections.abc import Callable
-
+from station.app.course import Course
 from station.app.habits import HabitDesk, Habits
-from station.app.lesson_run import LessonRun
-from station.core.settings import Settings
+from station.app.preparation import Preparation
 from station.engine.messages import EngineEvent
-from station.music.score import Score
 from station.practice.pad_commands import PadCommands
 
 
 class KitCommands:
-    """By the `habits` of `settings`, `changed` where they do; raises `BadInput` for a pause that is none."""
+    """What the kit asks of a `course`, by the habits of what is `prepared`; raises `BadInput` for a pause that is none.
 
-    def __init__(self, settings: Settings, score: Score, changed: Callable[[Habits], None]) -> None:
-        self.habits = HabitDesk(settings, changed)
-        self._pads = PadCommands(settings, score)
+    The habits change both: sessions go so from then on, and one that runs waits as it began.
+    """
+
+    def __init__(self, prepared: Preparation, course: Course) -> None:
+        self._prepared, self._course = prepared, course
+        self.habits = HabitDesk(prepared.settings, self._accustom)
+        self._pads = self._by_habit()
         self._is_wanted = False
 
-    def accustom(self, settings: Settings, score: Score) -> None:
-        """Go by other settings from now on."""
-        self._pads = PadCommands(settings, score)
+    def _by_habit(self) -> PadCommands:
+        return PadCommands(self._prepared.settings, self._course.run.plan.score)
 
-    def forget(self) -> None:
-        """What was struck so far means nothing."""
-        self._pads.forget()
+    def _accustom(self, habits: Habits) -> None:
+        self._prepared.settings = habits.within(self._prepared.settings)
+        self._pads = self._by_habit()
 
     def wants_start(self) -> bool:
         """Whether two kicks have asked for what Enter starts; said once."""
         wanted, self._is_wanted = self._is_wanted, False
         return wanted
 
-    def take(self, event: EngineEvent, run: LessonRun, is_running: bool, is_quiet: bool) -> None:
-        """Do what `event` asks of `run`, which goes on or waits where it `is_running`; kicks start what is quiet."""
-        if self.habits.take(event):
-            self.forget()
+    def take(self, event: EngineEvent) -> None:
+        """Do what `event` asks for: a session goes on or waits, kicks start what is quiet; a question has the pads."""
+        course, run = self._course, self._course.run
+        if course.outcome.is_asking or self.habits.take(event):
+            self._pads.forget()
             return
         self._pads.practise(run.plan.score)
-        if (is_quiet or (is_running and run.paused)) and self._pads.starts(event):
-            self._is_wanted = not is_running
-            if is_running:
-                self.turn(run)
+        if (not course.is_playing or (course.is_session and run.paused)) and self._pads.starts(event):
+            self._is_wanted = not course.is_session
+            self.turn()
             return
         command = self._pads.pauses(event)
-        if command is not None and is_running:
-            self.forget()
+        if command is not None and course.is_session:
+            self._pads.forget()
             run.go_on() if run.paused else run.hold(command)
 
-    def turn(self, run: LessonRun) -> None:
-        """Pause `run`, or let it go on."""
-        self.forget()
-        run.go_on() if run.paused else run.hold()
+    def turn(self) -> None:
+        """Pause the session, or let it go on; nothing where there is none."""
+        if self._course.is_session:
+            run = self._course.run
+            self._pads.forget()
+            run.go_on() if run.paused else run.hold()

@@ -567,10 +567,10 @@ def by_ear(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
         ctx.item_click(HITS_STOP)
         ctx.yield_(2)
     drive.seen["quiet"] = not drive.room.room().listening
-    x, y = drive.window.hits.at[0].tolist()
+    x, y = drive.window.pages.hits.at[0].tolist()
     ctx.mouse_move_to_pos(imgui.ImVec2(x, y))
     ctx.yield_(2)
-    drive.seen["pointed"] = drive.window.hits.pointed
+    drive.seen["pointed"] = drive.window.pages.hits.pointed
 
 
 def closes(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
@@ -703,7 +703,7 @@ def player(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
 
 def graph(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """The graph is opened, follows the play line, is zoomed by wheel, its line dragged; a result shows there."""
-    panel, deck, seen = drive.window.graph, drive.room.deck, drive.seen
+    panel, deck, seen = drive.window.pages.graph, drive.room.deck, drive.seen
     ctx.set_ref("//Transport")
     ctx.item_click("Panels##panels")
     ctx.item_click("//$FOCUSED/Graph")

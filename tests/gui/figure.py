@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 def figure(drive: "Drive", ctx: imgui.test_engine.TestContext) -> None:
     """Everything in one window; what was set last is what the settings keep."""
-    options, seen = drive.window.figure.options, drive.seen
+    options, seen = drive.window.pages.figure.options, drive.seen
     ctx.set_ref("//Transport")
     ctx.item_click("Panels##panels")
     ctx.yield_(2)
@@ -25,7 +25,7 @@ def figure(drive: "Drive", ctx: imgui.test_engine.TestContext) -> None:
     ctx.item_input_value("##figure/Arms/##amplitude_gain", 90.0)
     ctx.yield_(2)
     seen["gain"] = options.value("amplitude_gain")
-    seen["moves so"] = drive.room.demonstrator().style.amplitude_gain
+    seen["moves so"] = drive.room.casting.who.style.amplitude_gain
     ctx.item_click("1##keep1")
     ctx.item_click("##style")
     ctx.yield_(2)
@@ -53,7 +53,7 @@ def figure(drive: "Drive", ctx: imgui.test_engine.TestContext) -> None:
 
 def own_styles(drive: "Drive", ctx: imgui.test_engine.TestContext) -> None:
     """A style is saved by name, left for others and taken again from the list."""
-    options, seen = drive.window.figure.options, drive.seen
+    options, seen = drive.window.pages.figure.options, drive.seen
     ctx.item_input_value("##style-name", "My own")
     ctx.item_click("Save##save-style")
     ctx.yield_(2)

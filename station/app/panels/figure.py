@@ -14,9 +14,10 @@ from imgui_bundle import imgui
 from station.app import theme
 from station.app.figure_controls import TABS, WORD_LABELS, Control, Group
 from station.app.figure_options import PIECES, FigureOptions
-from station.app.model import PracticeModel, Stage
+from station.app.model import Stage
 from station.app.panels.lanes import LanesEditor
 from station.app.panels.styles import StylesHead, Tried
+from station.app.practice_model import PracticeModel
 from station.core.errors import StationError
 from station.core.names import name_of
 from station.core.settings import load_settings, save_settings
@@ -50,11 +51,11 @@ class FigurePanel:
     """The panel over one model; `settings` is the file that keeps what was set, None for this user's."""
 
     def __init__(self, model: PracticeModel, settings: Path | None, tried: Tried, preview: Callable[[], None]) -> None:
-        self._model = model
+        self._model, self._cast = model, model.casting
         self._settings = settings
         self._tried = tried
         self._preview = preview
-        self.options = FigureOptions(model.demonstrator().style)
+        self.options = FigureOptions(model.casting.who.style)
         self._head = StylesHead(self.options, settings, tried)
         self._lanes = LanesEditor(self.options)
         self._opens_bars = False
@@ -84,7 +85,7 @@ class FigurePanel:
                 imgui.end_tab_item()
             imgui.end_tab_bar()
         if self.options.style is not before:
-            self._model.move_as(self.options.style)
+            self._cast.move_as(self.options.style)
 
     def keep(self) -> None:
         """Write to the settings what was changed since the last time."""
@@ -168,7 +169,7 @@ class FigurePanel:
         imgui.separator_text("Who plays")
         imgui.begin_disabled(playing)
         for hands, (words, about) in _LEADS.items():
-            if imgui.radio_button(f"{words}##lead", self._model.hands() is hands):
+            if imgui.radio_button(f"{words}##lead", self._cast.hands is hands):
                 self._tried(lambda hands=hands: self._lead(hands))  # type: ignore[misc] # mypy knows no such default
             theme.tooltip(f"{about}. It holds for what you are asked to play too{waits}")
         self._body(waits)
@@ -202,16 +203,16 @@ class FigurePanel:
         theme.tooltip(about)
 
     def _lead(self, hands: Hands) -> None:
-        self._model.lead_with(hands)
+        self._cast.lead_with(hands)
         save_settings(replace(load_settings(self._settings), hands=hands.value), self._settings)
         self._preview()
 
     def _embody(self, name: str) -> None:
-        self._model.embody(name)
+        self._cast.embody(name)
         try:
             self._preview()
         except StationError:  # out of reach
-            self._model.embody(self._figure)
+            self._cast.embody(self._figure)
             raise
         self._figure = name
         save_settings(replace(load_settings(self._settings), figure=name), self._settings)

@@ -1,0 +1,41 @@
+"""Who demonstrates and whose hand leads, as the window chooses them while it is open."""
+
+from dataclasses import replace
+
+from station.app.course import Course
+from station.app.deck import Deck
+from station.app.demonstrator import Demonstrator
+from station.app.preparation import Preparation
+from station.motion.figure import load_figure
+from station.motion.hand_notes import Hands
+from station.motion.style import Style
+from station.practice.lead import hands_of
+
+
+class Casting:
+    """`who` demonstrates what goes on in `course` and on the `deck`; what is `prepared` next goes by the hands."""
+
+    def __init__(self, who: Demonstrator, prepared: Preparation, course: Course, deck: Deck) -> None:
+        self.who = who
+        self._prepared, self._course, self._deck = prepared, course, deck
+
+    def move_as(self, style: Style) -> None:
+        """Let the demonstrator move in another style at once; hands hold as before while a pass is played."""
+        self.who = replace(self.who, style=style)
+        self._course.run.move_as(self.who, hands_stay=self._course.is_session)
+        self._deck.perform_as(self.who)
+
+    def embody(self, figure: str) -> None:
+        """Let another body demonstrate from the next preview or session on: a name or file; raises `BadInput`."""
+        self.who = replace(self.who, figure=load_figure(figure))
+        self._deck.perform_as(self.who)
+
+    @property
+    def hands(self) -> Hands:
+        """Whose hand leads: as it was chosen, else as the lesson's kit is built."""
+        built = Hands.LEFT if self._course.run.plan.kit.left_handed else Hands.RIGHT
+        return hands_of(self._prepared.settings) or built
+
+    def lead_with(self, hands: Hands) -> None:
+        """Let another hand lead from the next preview or session on."""
+        self._prepared.settings = replace(self._prepared.settings, hands=hands.value)

@@ -1,0 +1,160 @@
+"""Every panel of the window, in one table: what it is called, where it docks, who draws it.
+
+A panel belongs to what goes on (`shown`), or it is a tool that the user opens from the strip's "Panels". Whoever adds
+one writes a module in `panels` and a line here.
+"""
+
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+from imgui_bundle import hello_imgui
+
+from station.app import theme
+from station.app.backdrop import Backdrop
+from station.app.deeds import Deeds
+from station.app.model import Stage
+from station.app.panels import calibration, devices, figure, graph, hits, practice, take_along
+from station.app.panels.bars import bars_panel
+from station.app.panels.ear_row import EarActions, EarRow
+from station.app.panels.lessons import LessonActions, LessonsPanel
+from station.app.panels.look_popup import LookActions
+from station.app.panels.page import Page, Side, panels_popup
+from station.app.panels.player_controls import PlayerControls
+from station.app.panels.ruler import Ruler
+from station.app.panels.transport import TransportBar, TransportParts
+from station.app.view_keys import ViewKeys
+from station.core.settings import load_settings
+from station.core.units import ns_from_s
+from station.practice.own_ear import Guess
+
+LESSONS, TRANSPORT, BARS, GRAPH = "Lessons", "Transport", "Bars", "Graph"
+
+
+class Pages:
+    """The panels over the model of `deeds`; `settings` keeps what is set in them, None for this user's file."""
+
+    def __init__(self, deeds: Deeds, backdrop: Backdrop, settings: Path | None) -> None:
+        self._model, self._deeds, self._backdrop = deeds.model, deeds, backdrop
+        self.view_keys = ViewKeys(backdrop, deeds.tell)
+        model, tried, tell = deeds.model, deeds.tried, deeds.tell
+        self._lessons = LessonsPanel(deeds.choice, LessonActions(deeds.start, lambda: tried(model.listen), model.room))
+        self._ear = EarRow(
+            EarActions(
+                lambda bar, whose: tried(lambda: model.hear_bar(bar, whose)),
+                lambda: tried(model.listen),
+                lambda: model.room().listening,
+            )
+        )
+        self.hits = hits.HitsPanel(self._ear)
+        self.figure = figure.FigurePanel(model, settings, tried, deeds.preview_anew)
+        self.practice = practice.PracticePanel(model.habits, settings, tried)
+        measuring = calibration.CalibrationPart(model.calibration, model.measure, tried, self._measured)
+        self._devices = devices.DevicesPanel(model.desk, tried, tell, measuring)
+        self.take = take_along.TakeAlongPanel(
+            take_along.TakeActions(deeds.to_take, lambda: load_settings(settings), lambda: backdrop.look, tried, tell)
+        )
+        self.graph = graph.GraphPanel(self._seek_s)
+        self.controls = PlayerControls(deeds.choose_bars)
+        self._transport = self._strip()
+        self.table = self._table()
+        self.docking: hello_imgui.DockingParams | None = None
+        """Where they are docked, once the window is made."""
+
+    def _table(self) -> tuple[Page, ...]:
+        """Every panel; those without `shown` are tools that the user opens."""
+        beside, right, strip = Side.BESIDE, Side.RIGHT, Side.STRIP
+        return (
+            Page(LESSONS, beside, self._lessons.gui, shown=lambda stage: stage is Stage.IDLE),
+            Page(BARS, beside, self._bars_gui, shown=lambda stage: self._deeds.shows_result),
+            Page(hits.HITS, strip, self._hits_gui, hits.ABOUT),
+            Page(figure.FIGURE, right, self.figure.gui, figure.ABOUT, help=figure.HELP),
+            Page(practice.PRACTICE, right, self.practice.gui, practice.ABOUT, help=practice.HELP),
+            Page(devices.DEVICES, right, self._devices_gui, devices.ABOUT, help=devices.HELP),
+            Page(take_along.TAKE_ALONG, right, self.take.gui, take_along.ABOUT, help=take_along.HELP),
+            Page(GRAPH, strip, self._graph_gui, graph.ABOUT, help=graph.HELP),
+            Page(TRANSPORT, Side.BELOW, self._transport_gui, shown=lambda stage: True),
+        )
+
+    # --- which are open ----------------------------------------------------------------------------------------------
+
+    @property
+    def tools(self) -> list[Page]:
+        """Those that the user opens."""
+        return [page for page in self.table if page.shown is None]
+
+    def is_open(self, name: str) -> bool:
+        """Whether a panel is there."""
+        return self._docked(name).is_visible
+
+    def _docked(self, name: str) -> hello_imgui.DockableWindow:
+        assert self.docking is not None, "the window has been made"
+        return self.docking.dockable_window_of_name(name)
+
+    def show(self, stage: Stage | None) -> None:
+        """Show what belongs to `stage`, nothing for None; a tool that nobody sees does not listen."""
+        for page in self.table:
+            if page.shown is not None:
+                self._docked(page.name).is_visible = stage is not None and page.shown(stage)
+        self._model.desk.listen(self.is_open(devices.DEVICES))
+        if not self.is_open(practice.PRACTICE):
+            self._model.habits.learn(on=False)
+
+    def keep(self) -> None:
+        """Write to the settings what was set in them."""
+        self.figure.keep()
+        self.practice.keep()
+
+    # --- the strip below ---------------------------------------------------------------------------------------------
+
+    def _strip(self) -> TransportBar:
+        model, deck, tried = self._model, self._model.deck, self._deeds.tried
+        ruler = Ruler(
+            seek=lambda at_ns: deck.do(lambda player, now_ns: player.sought(now_ns, at_ns)),
+            choose=self._deeds.choose_bars,
+            flag=lambda slot: deck.do(lambda player, now_ns: player.at_flag(now_ns, slot)),
+        )
+        actions: dict[str, Callable[[], None]] = {
+            "stop": lambda: tried(model.stop),
+            "again": self._deeds.start,
+            "pause": model.pause,
+            "veto": lambda: tried(model.veto),
+            "back": model.dismiss,
+            **{guess.value: partial(model.answer, guess) for guess in Guess},
+        }
+        viewpoints = LookActions(self.view_keys.keep, self.view_keys.go)
+        return TransportBar(TransportParts(actions, viewpoints, self._open_tools, ruler, self.controls))
+
+    def _transport_gui(self) -> None:
+        look = self._transport.gui(self._model.room(), self._model.deck, self._backdrop.look)
+        self._backdrop.look_from(look)
+        theme.fit_height(self._transport.height)
+
+    def _open_tools(self) -> None:
+        assert self.docking is not None, "the window has been made"
+        panels_popup(self.tools, self.docking)
+
+    # --- the others --------------------------------------------------------------------------------------------------
+
+    def _bars_gui(self) -> None:
+        report = self._model.report()
+        bar = None if report is None else bars_panel(report, self._ear)
+        if bar is not None:
+            self._deeds.drill(bar)
+
+    def _hits_gui(self) -> None:
+        self.hits.gui(self._model.report() if self._deeds.shows_result else None)
+
+    def _graph_gui(self) -> None:
+        self.graph.gui(self._model.graphed(), can_seek=self._model.room().stage is Stage.IDLE)
+
+    def _seek_s(self, to_s: float) -> None:
+        self._model.deck.do(lambda player, now_ns: player.sought(now_ns, ns_from_s(to_s)))
+
+    def _devices_gui(self) -> None:
+        self._devices.gui(self._model.room().stage is not Stage.PLAYING)
+
+    def _measured(self, told: str) -> None:
+        """Something that was measured is stored: judge by it."""
+        self._model.trust_measured()
+        self._deeds.tell(told)
