@@ -2,7 +2,8 @@
 
 Bytes and times in, lines out, whoever brings them: the terminal's `monitor` from ports of its own, the window's page
 from the engine. Each kit is understood by the user's own file where there is one; `trial` sets other rules, which hold
-here at once, and `save` keeps them. Times are monotonic ns.
+here at once, and `save` keeps them. Velocities are those that were sent, for which the rules are set. Times are
+monotonic ns.
 """
 
 from dataclasses import dataclass
@@ -45,7 +46,7 @@ class KitMonitor:
     def __init__(self, folder: Path | None = None) -> None:
         """`folder` holds the user's own kits, None for this user's."""
         self._folder = folder
-        self._bank = DecoderBank()
+        self._bank = DecoderBank(has_touch=False)
         self._suspects: dict[str, Suspects] = {}
         self._raw: dict[str, dict[int, str]] = {}
         """What each kit sent, by its time, as long as something of it is not certain."""

@@ -1,13 +1,18 @@
-"""All the kits that are heard, each with its own decoder and guard, by its name: for live bytes and captures."""
+"""All the kits that are heard, each with its own decoder and guard, by its name: for live bytes and captures.
 
-from collections.abc import Callable
+What is a stroke is judged by what the pads sent; what comes out has the velocities as they count (`touch`).
+"""
+
+from collections.abc import Callable, Iterable
+from dataclasses import replace
 from typing import NamedTuple
 
-from station.core.events import DeviceEvent, DeviceFound, DeviceLost
+from station.core.events import DeviceEvent, DeviceFound, DeviceLost, Hit
 from station.devices.guard import Ghost, Guard
 from station.devices.kit import KitPreset
 from station.devices.midi_decoder import MidiDecoder
 from station.devices.presets import preset_for
+from station.devices.touch import AS_SENT, counted
 
 
 class Heard(NamedTuple):
@@ -20,29 +25,47 @@ class Heard(NamedTuple):
 class _Kit:
     """One kit: what it sends, and which of it counts."""
 
-    def __init__(self, preset: KitPreset, device: str) -> None:
+    def __init__(self, preset: KitPreset, device: str, has_touch: bool) -> None:
         self.decoder = MidiDecoder(preset, device)
         self.guard = Guard(preset)
         self.is_guarded = preset.has_rules
+        pads = preset.pads if has_touch else {}
+        self._tables = {piece: pad.curve.table for piece, pad in pads.items() if pad.curve != AS_SENT}
+
+    def as_counts(self, events: Iterable[DeviceEvent]) -> list[DeviceEvent]:
+        """The events with the velocities that they count as."""
+        return [self._counted(event) for event in events] if self._tables else list(events)
+
+    def _counted(self, event: DeviceEvent) -> DeviceEvent:
+        table = self._tables.get(event.piece) if isinstance(event, Hit) else None
+        if table is None:
+            return event
+        assert isinstance(event, Hit)
+        velocity, fraction = counted(table, event.velocity, event.velocity_fraction)
+        return replace(event, velocity=velocity, velocity_fraction=fraction)
 
     def reset(self) -> list[DeviceEvent]:
         """Start afresh; returns what still waited."""
         self.decoder.reset()
         waiting = self.guard.flush()
         self.guard.reset()
-        return waiting
+        return self.as_counts(waiting)
 
 
 class DecoderBank:
-    """Decoders by device; a device that nobody announced gets the preset that `suggest` has for its name."""
+    """Decoders by device; a device that nobody announced gets the preset that `suggest` has for its name.
 
-    def __init__(self, suggest: Callable[[str], KitPreset] = preset_for) -> None:
+    Without `has_touch` velocities are told as they were sent.
+    """
+
+    def __init__(self, suggest: Callable[[str], KitPreset] = preset_for, has_touch: bool = True) -> None:
         self._suggest = suggest
+        self._has_touch = has_touch
         self._kits: dict[str, _Kit] = {}
 
     def add(self, device: str, preset: KitPreset) -> None:
         """Understand `device` by `preset` from now on; what its decoder knew is forgotten."""
-        self._kits[device] = _Kit(preset, device)
+        self._kits[device] = _Kit(preset, device, self._has_touch)
 
     def preset_of(self, device: str) -> KitPreset:
         """The preset by which `device` is understood."""
@@ -53,17 +76,19 @@ class DecoderBank:
         kit = self._kit(device)
         events = kit.decoder.feed(data, at_ns)
         if not kit.is_guarded:
+            events = kit.as_counts(events)
             return Heard(events, events)
         sounding = [event for event in events if kit.guard.feed(event)]
-        return Heard(sounding, kit.guard.told())
+        return Heard(kit.as_counts(sounding), kit.as_counts(kit.guard.told()))
 
     def settle(self, now_ns: int) -> list[DeviceEvent]:
         """What is certain by the clock, which must not run ahead of the bytes."""
-        return [event for kit in self._kits.values() for event in kit.guard.settle(now_ns)]
+        return [event for kit in self._kits.values() for event in kit.as_counts(kit.guard.settle(now_ns))]
 
     def settle_until(self, device: str, until_ns: int) -> list[DeviceEvent]:
         """What a clock had made certain of `device` at `until_ns`; see `overtaken_ns`."""
-        return self._kit(device).guard.settle_until(until_ns)
+        kit = self._kit(device)
+        return kit.as_counts(kit.guard.settle_until(until_ns))
 
     def overtaken_ns(self, device: str, at_ns: int) -> int | None:
         """Up to when events of `device` were let go, if bytes from before that come only now; see `Guard`."""
@@ -75,7 +100,7 @@ class DecoderBank:
 
     def flush(self) -> list[DeviceEvent]:
         """All that still waits, as it stands."""
-        return [event for kit in self._kits.values() for event in kit.guard.flush()]
+        return [event for kit in self._kits.values() for event in kit.as_counts(kit.guard.flush())]
 
     def take_ghosts(self) -> list[Ghost]:
         """What was held back since the last call."""
@@ -101,5 +126,5 @@ class DecoderBank:
     def _kit(self, device: str) -> _Kit:
         kit = self._kits.get(device)
         if kit is None:
-            kit = self._kits[device] = _Kit(self._suggest(device), device)
+            kit = self._kits[device] = _Kit(self._suggest(device), device, self._has_touch)
         return kit

@@ -12,9 +12,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 
-from station.core.kitmap import KitMap
+from station.core.kitmap import KitMap, Strike, strike_of
 from station.core.pieces import CYMBALS, Piece
 from station.core.units import NS_PER_MS
+from station.devices.touch import AS_SENT, Curve
 
 PEDAL_CONTROLLER = 4
 """The foot controller: the hi-hat pedal of every module whose maker says so, unless its owner chose another."""
@@ -74,12 +75,14 @@ class Foot:
 class Pad:
     """What is known of one pad: softer than `threshold` is no stroke; for `mask_ns` after a stroke there is no other.
 
-    `least_velocity` is the softest that the pad was found to send, None where nobody has measured.
+    `least_velocity` is the softest that the pad was found to send, None where nobody has measured. All three are
+    velocities as they are sent; `curve` says what a stroke counts as.
     """
 
     threshold: int = 1
     mask_ns: int = 0
     least_velocity: int | None = None
+    curve: Curve = AS_SENT
 
 
 PLAIN_PAD = Pad()
@@ -99,6 +102,10 @@ class Crosstalk:
     before_ns: int = GHOST_BEFORE_NS
 
 
+Sent = tuple[int, int]
+"""A note as it is sent: its channel, 1–16, and its number, 0–127."""
+
+
 def _nothing() -> MappingProxyType[int, frozenset[Piece]]:
     return MappingProxyType({})
 
@@ -107,11 +114,12 @@ def _nothing() -> MappingProxyType[int, frozenset[Piece]]:
 class KitPreset:
     """How to understand one kit.
 
-    `port_words` are parts of the names that drivers give its port; `pedal` is None where the notes alone tell the
-    hi-hat's openness; `choke_from` the least polyphonic aftertouch that means a grabbed cymbal; `choke_notes` the notes
-    that mean one; `grab_velocity` the hardest stroke that a grabbing hand fires on the cymbal's edge (0: none);
-    `position_controllers` tell where the next stroke on one of their pieces lands, 0 centre … 127 edge; `base` names
-    the preset that a user's own kit is built on, empty for a preset.
+    `port_words` are parts of the names that drivers give its port; `channel_notes` are notes that mean another thing
+    on one channel; `pedal` is None where the notes alone tell the hi-hat's openness; `choke_from` the least polyphonic
+    aftertouch that means a grabbed cymbal; `choke_notes` the notes that mean one; `grab_velocity` the hardest stroke
+    that a grabbing hand fires on the cymbal's edge (0: none); `position_controllers` tell where the next stroke on one
+    of their pieces lands, 0 centre … 127 edge; `base` names the preset that a user's own kit is built on, empty for a
+    preset.
     """
 
     name: str
@@ -127,6 +135,15 @@ class KitPreset:
     pads: Mapping[Piece, Pad] = field(default_factory=lambda: MappingProxyType({}))
     crosstalk: tuple[Crosstalk, ...] = ()
     base: str = ""
+    channel_notes: Mapping[Sent, Strike] = field(default_factory=lambda: MappingProxyType({}))
+
+    def strike(self, channel: int, note: int) -> Strike:
+        """What `note` of `channel`, 1–16, means; `Piece.PERCUSSION` where nobody has said."""
+        return self.channel_notes.get((channel, note)) or strike_of(note, self.notes)
+
+    def knows(self, channel: int, note: int) -> bool:
+        """Whether it is known what `note` of `channel` means."""
+        return note in self.notes or note in self.choke_notes or (channel, note) in self.channel_notes
 
     @property
     def has_rules(self) -> bool:

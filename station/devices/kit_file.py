@@ -7,7 +7,9 @@
     foot = { least_travel = 0.3, splash_ms = 90, by_controller = false }
     choke = { from = 1, grab_velocity = 20, notes.60 = { piece = "crash_1" } }
     positions.16 = { pieces = ["snare"] }
-    pads.snare = { threshold = 5, mask_ms = 9, least_velocity = 12 }
+    channels.3.notes.36 = { piece = "cowbell" }           # where that note means another thing on channel 3
+    pads.snare = { threshold = 5, mask_ms = 9, least_velocity = 12, curve = "light" }
+    pads.kick = { curve = { softest = 8, loudest = 118, bend = 0.3 } }
     [[crosstalk]]
     source = "kick"
     victim = "snare"
@@ -30,11 +32,21 @@ from station.core.pieces import Articulation, Piece, Zone, word
 from station.core.settings import settings_path
 from station.core.toml_table import Table, located, parse_toml, read_toml
 from station.core.units import ms_from_ns, ns_from_ms
-from station.devices.kit import GHOST_BEFORE_NS, GHOST_WITHIN_NS, Crosstalk, Foot, KitPreset, Pad, PedalRange
+from station.devices.kit import GHOST_BEFORE_NS, GHOST_WITHIN_NS, Crosstalk, Foot, KitPreset, Pad, PedalRange, Sent
 from station.devices.kit_text import kit_text
 from station.devices.presets import GENERAL_MIDI_PRESET, preset_named, stable_name
+from station.devices.touch import (
+    LEAST_SPAN,
+    LOUDEST_FROM,
+    LOUDEST_TO,
+    MOST_BEND,
+    SHAPES,
+    SOFTEST_FROM,
+    SOFTEST_TO,
+    Curve,
+)
 
-_KEYS = {"title", "base", "notes", "pedal", "foot", "choke", "positions", "pads", "crosstalk"}
+_KEYS = {"title", "base", "notes", "pedal", "foot", "choke", "positions", "pads", "crosstalk", "channels"}
 _NONE = "none"
 _LONGEST_MS = 500.0
 _LONGEST_NAME = 60
@@ -94,6 +106,7 @@ def _kit(table: Table, name: str) -> KitPreset:
         title=_text(table, "title", name),
         base=base.name,
         notes=_notes(table.table("notes", {}), base.notes),
+        channel_notes=_channel_notes(table.table("channels", {})),
         pedal=_pedal(table.table("pedal", {}), base.pedal) if "pedal" in table.raw else base.pedal,
         choke_from=choke.whole("from", 1, 127, base.choke_from),
         choke_notes=_choke_notes(choke, base),
@@ -130,17 +143,31 @@ def _notes(table: Table, base: KitMap) -> KitMap:
     notes = dict(base)
     for number, key in table.numbers(0, 127):
         entry = table.table(key)
-        entry.only({"piece", "zone", "articulation", "openness"})
         if entry.raw.get("piece") == _NONE:
             notes.pop(number, None)
-            continue
-        notes[number] = Strike(
-            _member(entry, "piece", Piece),
-            _member(entry, "zone", Zone, "head"),
-            _member(entry, "articulation", Articulation, "normal"),
-            entry.number("openness", 0.0, 1.0) if "openness" in entry.raw else None,
-        )
+        else:
+            notes[number] = _strike(entry)
     return MappingProxyType(notes)
+
+
+def _strike(entry: Table) -> Strike:
+    entry.only({"piece", "zone", "articulation", "openness"})
+    return Strike(
+        _member(entry, "piece", Piece),
+        _member(entry, "zone", Zone, "head"),
+        _member(entry, "articulation", Articulation, "normal"),
+        entry.number("openness", 0.0, 1.0) if "openness" in entry.raw else None,
+    )
+
+
+def _channel_notes(table: Table) -> Mapping[Sent, Strike]:
+    found: dict[Sent, Strike] = {}
+    for channel, key in table.numbers(1, 16):
+        entry = table.table(key)
+        entry.only({"notes"})
+        notes = entry.table("notes")
+        found |= {(channel, number): _strike(notes.table(name)) for number, name in notes.numbers(0, 127)}
+    return MappingProxyType(found)
 
 
 def _pedal(table: Table, base: PedalRange | None) -> PedalRange | None:
@@ -208,11 +235,26 @@ def _pads(table: Table, base: KitPreset) -> Mapping[Piece, Pad]:
     found.only(set(words))
     for name in found.raw:
         entry, usual = found.table(name), base.pad(words[name])
-        entry.only({"threshold", "mask_ms", "least_velocity"})
+        entry.only({"threshold", "mask_ms", "least_velocity", "curve"})
         least = entry.whole("least_velocity", 1, 127, 1) if "least_velocity" in entry.raw else usual.least_velocity
         threshold = entry.whole("threshold", 1, 127, usual.threshold)
-        pads[words[name]] = Pad(threshold, _ns(entry, "mask_ms", usual.mask_ns), least)
+        curve = _curve(entry) if "curve" in entry.raw else usual.curve
+        pads[words[name]] = Pad(threshold, _ns(entry, "mask_ms", usual.mask_ns), least, curve)
     return MappingProxyType(pads)
+
+
+def _curve(entry: Table) -> Curve:
+    """A curve by its name, or by its numbers."""
+    if isinstance(entry.raw["curve"], str):
+        return SHAPES[entry.word("curve", tuple(SHAPES), "")]
+    table = entry.table("curve")
+    table.only({"softest", "loudest", "bend"})
+    usual = Curve()
+    softest = table.number("softest", SOFTEST_FROM, SOFTEST_TO, usual.softest)
+    loudest = table.number("loudest", LOUDEST_FROM, LOUDEST_TO, usual.loudest)
+    if loudest < softest + LEAST_SPAN:
+        raise BadInput(table.source, f"{table.place}.loudest", f"expected {LEAST_SPAN:g} or more above softest")
+    return Curve(softest, loudest, table.number("bend", -MOST_BEND, MOST_BEND, usual.bend))
 
 
 def _crosstalk(entry: Table) -> Crosstalk:

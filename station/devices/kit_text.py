@@ -8,6 +8,7 @@ from station.core.toml_write import toml_text
 from station.core.units import ms_from_ns
 from station.devices.kit import PLAIN_PAD, Crosstalk, Foot, KitPreset, Pad, PedalRange
 from station.devices.presets import GENERAL_MIDI_PRESET, PRESETS
+from station.devices.touch import SHAPES, Curve
 
 
 def kit_text(kit: KitPreset) -> str:
@@ -15,6 +16,7 @@ def kit_text(kit: KitPreset) -> str:
     base = PRESETS.get(kit.base or kit.name, GENERAL_MIDI_PRESET)
     lines = [f"title = {toml_text(kit.title)}", f"base = {toml_text(base.name)}"]
     lines += _notes(kit, base)
+    lines += [f"channels.{at}.notes.{note} = {_strike(to)}" for (at, note), to in sorted(kit.channel_notes.items())]
     if kit.pedal != base.pedal:
         lines.append(f"pedal = {_pedal(kit.pedal)}")
     if kit.foot != base.foot:
@@ -86,8 +88,16 @@ def _pad(pad: Pad) -> str:
         "threshold": pad.threshold if pad.threshold != PLAIN_PAD.threshold else None,
         "mask_ms": ms_from_ns(pad.mask_ns) if pad.mask_ns else None,
         "least_velocity": pad.least_velocity,
+        "curve": _curve(pad.curve) if pad.curve != PLAIN_PAD.curve else None,
     }
-    return f"{{ {', '.join(f'{key} = {value!r}' for key, value in said.items() if value is not None)} }}"
+    return f"{{ {', '.join(f'{key} = {value}' for key, value in said.items() if value is not None)} }}"
+
+
+def _curve(curve: Curve) -> str:
+    name = next((name for name, shape in SHAPES.items() if shape == curve), None)
+    if name is not None:
+        return toml_text(name)
+    return f"{{ softest = {curve.softest!r}, loudest = {curve.loudest!r}, bend = {curve.bend!r} }}"
 
 
 def _crosstalk(rule: Crosstalk) -> Iterator[str]:

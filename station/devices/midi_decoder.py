@@ -14,7 +14,6 @@ Groove MIDI Dataset has its own, just before it.
 """
 
 from station.core.events import Choke, DeviceEvent, Hit, Switched
-from station.core.kitmap import strike_of
 from station.core.pieces import Piece
 from station.devices.hihat import Hihat
 from station.devices.kit import CHOKEABLE, KitPreset
@@ -81,15 +80,15 @@ class MidiDecoder:
             elif kind == _PROGRAM_CHANGE:
                 events.append(Switched(at_ns, f"program={message[1]}", self.device))
             elif kind == _POLY_AFTERTOUCH:
-                self._take_aftertouch(message[1], message[2], at_ns, events)
+                self._take_aftertouch(message, at_ns, events)
         return events
 
     def _note(self, message: bytes, at_ns: int, velocity_fraction: float) -> Hit | Choke:
-        _, note, velocity = message
+        status, note, velocity = message
         choked = self.preset.choke_notes.get(note)
         if choked is not None:
             return Choke(at_ns, choked, self.device)
-        strike = strike_of(note, self.preset.notes)
+        strike = self.preset.strike(_channel(status), note)
         self._held.pop(strike.piece, None)
         return Hit(
             at_ns=at_ns,
@@ -126,8 +125,9 @@ class MidiDecoder:
         elif value >= _ON:
             events.append(Switched(at_ns, f"cc={number}", self.device))
 
-    def _take_aftertouch(self, note: int, value: int, at_ns: int, events: list[DeviceEvent]) -> None:
-        piece = strike_of(note, self.preset.notes).piece
+    def _take_aftertouch(self, message: bytes, at_ns: int, events: list[DeviceEvent]) -> None:
+        status, note, value = message
+        piece = self.preset.strike(_channel(status), note).piece
         if piece not in CHOKEABLE:
             return
         held = self._held.setdefault(piece, set())
@@ -137,3 +137,8 @@ class MidiDecoder:
         if not held:
             events.append(Choke(at_ns, piece, self.device))
         held.add(note)
+
+
+def _channel(status: int) -> int:
+    """The channel of a message, as people count them: from 1."""
+    return (status & _CHANNEL) + 1

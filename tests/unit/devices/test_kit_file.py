@@ -15,6 +15,7 @@ from station.devices.kit import Crosstalk, Foot, KitPreset, Pad, PedalRange
 from station.devices.kit_file import own_kit, own_kit_path, parse_kit, read_kit, save_kit
 from station.devices.kit_text import kit_text
 from station.devices.presets import PRESETS, preset_named
+from station.devices.touch import SHAPES, Curve
 
 EVERYTHING = """
 title = "mine"
@@ -26,7 +27,9 @@ pedal = { open = 127, shut = 10 }
 foot = { least_travel = 0.3, splash_ms = 90, by_controller = true }
 choke = { from = 100, grab_velocity = 20, notes.60 = { piece = "crash_1" } }
 positions.16 = { pieces = ["snare", "tom_1"] }
-pads.snare = { threshold = 5, mask_ms = 9.5, least_velocity = 12 }
+channels.3.notes.36 = { piece = "cowbell" }
+pads.snare = { threshold = 5, mask_ms = 9.5, least_velocity = 12, curve = "light" }
+pads.kick = { curve = { softest = 8, loudest = 118.5, bend = -0.25 } }
 [[crosstalk]]
 source = "kick"
 victim = "snare"
@@ -52,7 +55,9 @@ def test_everything_that_can_be_said_is_read(tmp_path: Path) -> None:
     assert kit.foot == Foot(0.3, 90 * NS_PER_MS, True)
     assert (kit.choke_from, kit.grab_velocity, dict(kit.choke_notes)) == (100, 20, {60: Piece.CRASH_1})
     assert dict(kit.position_controllers) == {16: {Piece.SNARE, Piece.TOM_1}}
-    assert kit.pad(Piece.SNARE) == Pad(5, 9_500_000, 12)
+    assert kit.pad(Piece.SNARE) == Pad(5, 9_500_000, 12, Curve(1.0, 127.0, 0.25))
+    assert kit.pad(Piece.KICK) == Pad(curve=Curve(8.0, 118.5, -0.25))
+    assert dict(kit.channel_notes) == {(3, 36): Strike(Piece.COWBELL)}
     assert kit.crosstalk == (Crosstalk(Piece.KICK, Piece.SNARE, 0.3, 30 * NS_PER_MS, 2 * NS_PER_MS),)
 
 
@@ -70,6 +75,14 @@ def test_everything_that_can_be_said_is_read(tmp_path: Path) -> None:
         ("pedal = { steps = [3] }", "line 1, column 19", "0, 56, 127"),
         ("pads.snare = { threshold = 0 }", "line 1, column 28", "1 to 127"),
         ("pads.snaer = { threshold = 2 }", "line 1", "no such key"),
+        ('pads.snare = { curve = "softly" }', "line 1, column 24", "light or very_light"),
+        ("pads.snare = { curve = { softest = 0 } }", "line 1, column 36", "1 to 100"),
+        ("pads.snare = { curve = { softest = 90, loudest = 95 } }", "line 1, column 50", "10 or more above softest"),
+        ("pads.snare = { curve = { bend = 2 } }", "line 1, column 33", "-1 to 1"),
+        ("pads.snare = { curve = { bent = 0.5 } }", "line 1", "no such key"),
+        ("pads.snare = { curve = 7 }", "line 1, column 24", "expected a table"),
+        ('channels.17.notes.36 = { piece = "kick" }', "line 1", "from 1 to 16"),
+        ('channels.1.notes.36 = { piece = "kik" }', "line 1, column 33", "kick"),
         ('positions.16 = { pieces = ["snaer"] }', "line 1, column 27", "pieces such as"),
         ("crosstalk = 4", "line 1, column 13", "array of tables"),
         (
@@ -107,6 +120,10 @@ def test_a_preset_needs_no_words_but_its_name(name: str) -> None:
 VELOCITY, NUMBER = st.integers(1, 127), st.integers(0, 127)
 PIECE, SHARE = st.sampled_from(Piece), st.floats(0, 1)
 NS = st.integers(0, 500 * NS_PER_MS)
+CURVES = st.one_of(
+    st.sampled_from(sorted(SHAPES.values(), key=str)),
+    st.builds(Curve, st.floats(1, 90), st.floats(100, 400), st.floats(-1, 1)),
+)
 STRIKES = st.builds(
     Strike, PIECE, st.sampled_from(Zone), st.sampled_from(Articulation), st.one_of(st.none(), st.floats(0, 1))
 )
@@ -129,12 +146,17 @@ def kits(draw: st.DrawFn) -> KitPreset:
         choke_from=draw(VELOCITY),
         choke_notes=MappingProxyType(draw(st.dictionaries(NUMBER, PIECE, max_size=3))),
         grab_velocity=draw(NUMBER),
+        channel_notes=MappingProxyType(
+            draw(st.dictionaries(st.tuples(st.integers(1, 16), NUMBER), STRIKES, max_size=3))
+        ),
         position_controllers=MappingProxyType(
             draw(st.dictionaries(NUMBER, st.frozensets(PIECE, min_size=1, max_size=4), max_size=3))
         ),
         foot=Foot(draw(SHARE), draw(NS), draw(st.booleans())),
         pads=MappingProxyType(
-            draw(st.dictionaries(PIECE, st.builds(Pad, VELOCITY, NS, st.one_of(st.none(), VELOCITY)), max_size=4))
+            draw(
+                st.dictionaries(PIECE, st.builds(Pad, VELOCITY, NS, st.one_of(st.none(), VELOCITY), CURVES), max_size=4)
+            )
         ),
         crosstalk=tuple(draw(st.lists(crosstalk, max_size=3))),
     )

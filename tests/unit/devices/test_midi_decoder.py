@@ -1,10 +1,12 @@
 """Bytes as the modules' MIDI implementations and users' dumps give them; expected strokes from their note tables."""
 
 from dataclasses import replace
+from types import MappingProxyType
 
 import pytest
 
 from station.core.events import Choke, DeviceEvent, Hit, PedalMoved, Switched
+from station.core.kitmap import Strike
 from station.core.pieces import Articulation, Piece, Zone
 from station.devices.midi_decoder import MidiDecoder
 from station.devices.presets import GENERAL_MIDI_PRESET, preset_named
@@ -28,6 +30,19 @@ def test_a_note_is_a_hit_with_its_velocity_time_note_and_device() -> None:
 
 def test_every_channel_counts() -> None:
     assert [hit.piece for hit in hits("90 24 64 9f 26 64")] == [Piece.KICK, Piece.SNARE]
+
+
+def test_a_note_may_mean_another_thing_on_one_channel() -> None:
+    mine = MappingProxyType({(3, 0x26): Strike(Piece.COWBELL), (3, 0x31): Strike(Piece.CHINA, Zone.EDGE)})
+    decoder = MidiDecoder(replace(preset_named("roland-td-17"), channel_notes=mine), "kit")
+    events = decoder.feed(bytes.fromhex("92 26 64 99 26 64 92 24 64 a2 31 7f a9 31 7f"), AT_NS)
+    assert [event.piece for event in events if isinstance(event, Hit | Choke)] == [
+        Piece.COWBELL,
+        Piece.SNARE,
+        Piece.KICK,
+        Piece.CHINA,
+        Piece.CRASH_1,
+    ]
 
 
 @pytest.mark.parametrize(
