@@ -12,6 +12,7 @@ import sys
 import tempfile
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from datetime import date, timedelta
 from pathlib import Path
 
 import numpy as np
@@ -31,6 +32,12 @@ from station.app.panels.look_popup import LOOK_LABEL  # noqa: E402
 from station.app.panels.practice import PRACTICE  # noqa: E402
 from station.app.panels.take_along import TAKE_ALONG  # noqa: E402
 from station.core.settings import load_settings, save_settings  # noqa: E402
+from station.drills.library import find_lesson  # noqa: E402
+from station.drills.mastery.policy import new_item  # noqa: E402
+from station.drills.mastery.probes import Probes  # noqa: E402
+from station.drills.mastery.reviews import Review  # noqa: E402
+from station.drills.mastery.steps import item_of  # noqa: E402
+from station.practice.memory import Memory  # noqa: E402
 from station.render.painter import DoublePlace  # noqa: E402
 from station.render.png import write_png  # noqa: E402
 from tests.gui.drive import NEWCOMER, Drive, Measurement, open_panel, press_view  # noqa: E402
@@ -44,6 +51,26 @@ STROKES = ("99 26 50", "99 24 64", "99 26 0c", "99 2e 40", "99 33 5a", "99 24 58
 
 def _lessons(drive: Drive, ctx: Context) -> None:
     ctx.yield_(2)
+
+
+def _learnt(drive: Drive) -> None:
+    """Somebody is in the middle of a course: a lesson mastered, one due again today, one begun."""
+    today, settings = date.today(), load_settings(drive.settings)
+    for name, probes, review in (
+        ("rock-1", Probes(70.0, 100.0, 2), Review(today, 0, today + timedelta(days=3))),
+        ("single-stroke-roll", Probes(70.0, 100.0, 2), Review(today - timedelta(days=1), 0, today)),
+        ("rock-2", Probes(70.0, 85.0), Review()),
+    ):
+        lesson = find_lesson(name)
+        state = replace(new_item(item_of(lesson), today), probes=probes, review=review)
+        Memory.of(settings.sessions_dir, settings.student, name, lesson.loop).keep(state)
+
+
+def _courses(drive: Drive, ctx: Context) -> None:
+    ctx.set_ref("//Lessons")
+    ctx.item_click("##course")
+    ctx.item_click("//$FOCUSED/First beats##first-beats")
+    ctx.yield_(3)
 
 
 def _look(drive: Drive, ctx: Context) -> None:
@@ -138,6 +165,7 @@ def _beside_a_result(name: str) -> Callable[[Drive, Context], None]:
 PAGES: Mapping[str, Callable[[Drive, Context], None]] = {
     "welcome": _lessons,
     "lessons": _lessons,
+    "courses": _courses,
     "just-play": _just_play,
     "playing": _playing,
     "result": _result,
@@ -165,6 +193,9 @@ def draw(page: str, size: tuple[int, int], scale: float, path: Path) -> None:
         drive = Drive(Path(folder), student, size=size)
         drive.window.backdrop.look_from(replace(drive.window.backdrop.look, scale=scale))
         save_settings(replace(load_settings(drive.settings), panel_scale=scale), drive.settings)
+
+        if page == "courses":
+            _learnt(drive)
 
         def shown(drive: Drive, ctx: Context) -> None:
             PAGES[page](drive, ctx)

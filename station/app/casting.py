@@ -2,9 +2,9 @@
 
 from dataclasses import replace
 
-from station.app.course import Course
 from station.app.deck import Deck
 from station.app.demonstrator import Demonstrator
+from station.app.goings_on import GoingsOn
 from station.app.preparation import Preparation
 from station.motion.figure import load_figure
 from station.motion.hand_notes import Hands
@@ -13,16 +13,16 @@ from station.practice.lead import hands_of
 
 
 class Casting:
-    """`who` demonstrates what goes on in `course` and on the `deck`; what is `prepared` next goes by the hands."""
+    """`who` demonstrates what goes on in `goings_on` and on the `deck`; what is `prepared` next goes by the hands."""
 
-    def __init__(self, who: Demonstrator, prepared: Preparation, course: Course, deck: Deck) -> None:
+    def __init__(self, who: Demonstrator, prepared: Preparation, goings_on: GoingsOn, deck: Deck) -> None:
         self.who = who
-        self._prepared, self._course, self._deck = prepared, course, deck
+        self._prepared, self._goings_on, self._deck = prepared, goings_on, deck
 
     def move_as(self, style: Style) -> None:
         """Let the demonstrator move in another style at once; hands hold as before while a pass is played."""
         self.who = replace(self.who, style=style)
-        self._course.run.move_as(self.who, hands_stay=self._course.is_session)
+        self._goings_on.run.move_as(self.who, hands_stay=self._goings_on.is_session)
         self._deck.perform_as(self.who)
 
     def embody(self, figure: str) -> None:
@@ -33,7 +33,7 @@ class Casting:
     @property
     def hands(self) -> Hands:
         """Whose hand leads: as it was chosen, else as the lesson's kit is built."""
-        built = Hands.LEFT if self._course.run.plan.kit.left_handed else Hands.RIGHT
+        built = Hands.LEFT if self._goings_on.run.plan.kit.left_handed else Hands.RIGHT
         return hands_of(self._prepared.settings) or built
 
     def lead_with(self, hands: Hands) -> None:

@@ -1,9 +1,12 @@
 """What the user has chosen but not begun: the lesson, its tempo and passes, what the list shows of it."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from types import MappingProxyType
 
 from station.app.model import FreeWish, LessonCard, Start
+from station.drills.course import Course
+from station.practice.progress import Progress
 from station.practice.tap_tempo import TapTempo
 
 MIN_TEMPO_BPM, MAX_TEMPO_BPM = 30, 260
@@ -19,6 +22,11 @@ class Choice:
         self._lessons = tuple(lessons)
         self._first = first
         self._taps = TapTempo()
+        self.courses: tuple[Course, ...] = ()
+        self.course: Course | None = None
+        """The one whose lessons are listed, None for all lessons."""
+        self.progress: Mapping[str, Progress] = MappingProxyType({})
+        """How far the student is, by the names of lessons."""
         self.search = ""
         self.free = False
         """Whether just playing is chosen, in place of a lesson."""
@@ -35,9 +43,28 @@ class Choice:
                 self.tempo_bpm, self.loops, self.adapt = first.tempo_bpm, first.loops, first.adapt
                 self.bars = first.bars
 
-    def offer(self, lessons: Sequence[LessonCard]) -> None:
-        """Choose among these from now on; what is chosen stays."""
+    def offer(self, lessons: Sequence[LessonCard], courses: Sequence[Course] = (), course: str = "") -> None:
+        """Choose among these from now on; the lesson that is chosen stays, and `course` is listed if there is one."""
         self._lessons = tuple(lessons)
+        self.courses = tuple(courses)
+        self.course = next((one for one in self.courses if one.name == course), None)
+
+    def follow(self, course: Course | None) -> None:
+        """List a course, and choose its first lesson that is not mastered yet, the last where all are."""
+        self.course, self.search = course, ""
+        if course is None:
+            return
+        cards = self.visible()
+        ahead = [card for card in cards if not self._is_mastered(card.name)] or cards[-1:]
+        if ahead:
+            self.choose(ahead[0])
+
+    def mastered(self, course: Course) -> int:
+        """How many lessons of a course are mastered."""
+        return sum(map(self._is_mastered, course.lesson_names))
+
+    def _is_mastered(self, name: str) -> bool:
+        return name in self.progress and self.progress[name].is_mastered
 
     def choose(self, card: LessonCard) -> None:
         """Take a lesson at the tempo, with the passes and the bars that its author wants."""
@@ -61,9 +88,13 @@ class Choice:
         return FreeWish(float(self.tempo_bpm), self.click) if self.free else None
 
     def visible(self) -> list[LessonCard]:
-        """The lessons whose title, name, author, level or tags contain every word of the search."""
+        """The lessons, in a course's order or the list's, whose words contain every word of the search."""
+        lessons: Sequence[LessonCard] = self._lessons
+        if self.course is not None:
+            known = {card.name: card for card in self._lessons}
+            lessons = [known[name] for name in self.course.lesson_names if name in known]
         words = self.search.casefold().split()
-        return [card for card in self._lessons if all(word in _text(card) for word in words)]
+        return [card for card in lessons if all(word in _text(card) for word in words)]
 
     def wish(self) -> Start | None:
         """What to start; None where no lesson is chosen."""

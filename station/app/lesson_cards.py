@@ -1,9 +1,15 @@
 """The lessons as the window's list shows them, and what a plan was asked for as."""
 
+from collections.abc import Iterable
+from contextlib import suppress
+from pathlib import Path
+
 from station.app.model import LessonCard, Start
+from station.core.errors import BadInput
 from station.core.units import PPQ
+from station.drills.course import Course, lesson_name
 from station.drills.lesson import LEVELS, Lesson
-from station.drills.library import shipped_lessons
+from station.drills.library import read_lesson, shipped_lessons
 from station.practice.plan import Phase, Plan
 
 
@@ -15,9 +21,14 @@ def wish_of(plan: Plan) -> Start:
     return Start(plan.lesson.name, plan.tempo_bpm, plan.passes, bars, demonstrations, click=plan.click is not None)
 
 
-def all_lessons(first: Lesson) -> dict[str, Lesson]:
-    """Every shipped lesson by name, and `first`."""
-    return {lesson.name: lesson for lesson in shipped_lessons()} | {first.name: first}
+def all_lessons(first: Lesson, courses: Iterable[Course]) -> dict[str, Lesson]:
+    """Every shipped lesson by name, those that `courses` have beside them and that can be read, and `first`."""
+    known = {lesson.name: lesson for lesson in shipped_lessons()}
+    for found_by in dict.fromkeys(lesson for course in courses for lesson in course.lessons):
+        if lesson_name(found_by) not in known:
+            with suppress(BadInput):  # `station lesson check` tells what is wrong with it
+                known[lesson_name(found_by)] = read_lesson(Path(found_by))
+    return known | {first.name: first}
 
 
 def card(lesson: Lesson) -> LessonCard:

@@ -5,6 +5,7 @@ one writes a module in `panels` and a line here.
 """
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -24,7 +25,7 @@ from station.app.panels.player_controls import PlayerControls
 from station.app.panels.ruler import Ruler
 from station.app.panels.transport import TransportBar, TransportParts
 from station.app.view_keys import ViewKeys
-from station.core.settings import load_settings
+from station.core.settings import load_settings, save_settings
 from station.core.units import ns_from_s
 from station.practice.own_ear import Guess
 
@@ -38,6 +39,7 @@ class Pages:
         self._model, self._deeds, self._backdrop = deeds.model, deeds, backdrop
         self.view_keys = ViewKeys(backdrop, deeds.tell)
         model, tried, tell = deeds.model, deeds.tried, deeds.tell
+        self._settings, self._course = settings, load_settings(settings).course
         self._lessons = LessonsPanel(deeds.choice, LessonActions(deeds.start, lambda: tried(model.listen), model.room))
         self._ear = EarRow(
             EarActions(
@@ -104,6 +106,13 @@ class Pages:
         """Write to the settings what was set in them."""
         self.figure.keep()
         self.practice.keep()
+        followed = self._deeds.choice.course
+        course = "" if followed is None else followed.name
+        if self._deeds.choice.courses and course != self._course:
+            self._course = course
+            self._deeds.tried(
+                lambda: save_settings(replace(load_settings(self._settings), course=course), self._settings)
+            )
 
     # --- the strip below ---------------------------------------------------------------------------------------------
 

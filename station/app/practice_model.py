@@ -4,7 +4,7 @@ The window calls it once a frame and whenever the user does something; it keeps 
 thread. Faults of the user's or the world's come as `StationError` and are shown in one line.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Protocol
 
 from station.app.calibration_desk import CalibrationDesk
@@ -15,10 +15,12 @@ from station.app.habits import HabitDesk
 from station.app.kit_desk import KitDesk
 from station.app.model import FreeWish, LessonCard, Report, RoomState, Start
 from station.app.welcome import Answers
+from station.drills.course import Course
 from station.engine.messages import KeyHit
 from station.music.score import Score
 from station.practice.by_ear import Whose
 from station.practice.own_ear import Guess
+from station.practice.progress import Progress
 from station.render.snapshot import Snapshot
 
 
@@ -41,6 +43,14 @@ class PracticeModel(Protocol):
 
     def lessons(self) -> Sequence[LessonCard]:
         """Every lesson that can be chosen, in the order in which they are shown; the first call takes a moment."""
+        ...
+
+    def courses(self) -> Sequence[Course]:
+        """Every course that can be followed."""
+        ...
+
+    def progress(self) -> Mapping[str, Progress]:
+        """How far the student is, by the names of lessons."""
         ...
 
     def first(self) -> Start | None:

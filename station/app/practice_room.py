@@ -4,17 +4,17 @@
 it when it is over. The hits carry their own times, so that the frame rate decides nothing.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 
 from station.app.calibration_desk import CalibrationDesk
 from station.app.casting import Casting
-from station.app.course import Course
 from station.app.deck import Deck
 from station.app.demonstrator import kept_demonstrator
 from station.app.ear import Ear
 from station.app.engine_line import EngineLine, WakeEngine
+from station.app.goings_on import GoingsOn
 from station.app.graphed import Graphed
 from station.app.habits import HabitDesk
 from station.app.just_play import JustPlay
@@ -30,6 +30,7 @@ from station.core.calibration import Calibration, load_calibration
 from station.core.errors import DeviceError, StationError
 from station.core.events import DeviceLost
 from station.core.settings import Settings
+from station.drills.course import Course
 from station.engine.messages import EngineEvent, KeyHit, Started
 from station.music.score import Score
 from station.practice.backing import BackingWish
@@ -38,6 +39,7 @@ from station.practice.latency import Latency, latency_of
 from station.practice.listening import Listening
 from station.practice.own_ear import Guess
 from station.practice.plan import Plan
+from station.practice.progress import Progress
 from station.render.snapshot import Snapshot
 
 NOTICES_KEPT = 5
@@ -67,14 +69,14 @@ class PracticeRoom:
         self._notices: list[str] = []
         who = kept_demonstrator(settings, self._notices.append)
         run = LessonRun(self._engine, LaidOut(first), who, self._latency, self._notices.append)
-        self._course = Course(self._engine, run, JustPlay(settings, self._latency), self._notices.append)
+        self._goings_on = GoingsOn(self._engine, run, JustPlay(settings, self._latency), self._notices.append)
         self.desk = KitDesk(self._engine.tell)
         self.calibration = CalibrationDesk(self._rest, self._engine.wake)
         self._ear = Ear(self._engine, self._prepared.has_tracks)
-        self._kit = KitCommands(self._prepared, self._course)
+        self._kit = KitCommands(self._prepared, self._goings_on)
         self.deck = Deck(self._ear.demonstrate, self._prepared.watched(first.lesson, first.kit), who)
         self.deck.repeat(self._first.bars)
-        self.casting = Casting(who, self._prepared, self._course, self.deck)
+        self.casting = Casting(who, self._prepared, self._goings_on, self.deck)
 
     # --- what the window shows ---------------------------------------------------------------------------------------
 
@@ -86,12 +88,12 @@ class PracticeRoom:
             self._take(event, now_ns)
         self.desk.advance(now_ns)
         heard_ns = self._ear.advance(now_ns)
-        self._course.advance(now_ns, self._prepared.settings)
-        if not self._course.is_free:
+        self._goings_on.advance(now_ns, self._prepared.settings)
+        if not self._goings_on.is_free:
             self.deck.advance(now_ns)
-            if self._course.stage is Stage.IDLE and self.deck.is_shown:
+            if self._goings_on.stage is Stage.IDLE and self.deck.is_shown:
                 return self.deck.snapshot()
-        return self._course.snapshot(now_ns, heard_ns, self._ear.hears)
+        return self._goings_on.snapshot(now_ns, heard_ns, self._ear.hears)
 
     def room(self) -> RoomState:
         """What surrounds the picture."""
@@ -101,29 +103,39 @@ class PracticeRoom:
             notices=tuple(self._notices[-NOTICES_KEPT:]),
             listening=self._ear.hears,
         )
-        return self._course.told(shown)
+        return self._goings_on.told(shown)
 
     def first_card(self) -> LessonCard:
         """The lesson that the window was opened on, in the list."""
         return self._prepared.first_card()
 
     def lessons(self) -> Sequence[LessonCard]:
-        """Every shipped lesson, and the one that was named when the window was opened."""
-        return self._prepared.cards()
+        """Every shipped lesson, those of the user's own courses, and the one that the window was opened on."""
+        cards = self._prepared.cards()
+        self._notices += [str(fault) for fault in self._prepared.faults]
+        return cards
+
+    def courses(self) -> Sequence[Course]:
+        """The user's own courses, then those that ship."""
+        return self._prepared.courses()
+
+    def progress(self) -> Mapping[str, Progress]:
+        """How far the student is, by the names of lessons."""
+        return self._prepared.progress()
 
     def report(self) -> Report | None:
         """The result of the session that ended last, once the question before it was answered."""
-        return self._course.outcome.report
+        return self._goings_on.outcome.report
 
     def graphed(self) -> Graphed | None:
         """What the graph shows: the demonstration, the session, or its whole result once it may be seen."""
-        if self._course.is_free:
+        if self._goings_on.is_free:
             return None
-        if self._course.is_playing:
-            return self._course.run.graphed()
-        if self._course.stage is Stage.IDLE:
+        if self._goings_on.is_playing:
+            return self._goings_on.run.graphed()
+        if self._goings_on.stage is Stage.IDLE:
             return self.deck.graphed()
-        return self._course.outcome.graphed(self.casting.who)
+        return self._goings_on.outcome.graphed(self.casting.who)
 
     def first(self) -> Start:
         """The lesson that the window was opened on, as it was asked for."""
@@ -133,11 +145,11 @@ class PracticeRoom:
 
     def preview(self, wish: Start | None) -> None:
         """Show the chosen lesson, its bars on the player, or the kit alone, to just play; raises `StationError`."""
-        if self._course.stage is not Stage.IDLE:
+        if self._goings_on.stage is not Stage.IDLE:
             return
         self._ear.quiet()
         run = None if wish is None else self._laid_out(wish)
-        self._course.show(run)
+        self._goings_on.show(run)
         if wish is None or run is None:
             self.deck.halt()
         else:
@@ -150,29 +162,29 @@ class PracticeRoom:
         track = None if wish.adapt else self._prepared.track(run.plan, self._engine.rate_hz)
         if track is None:
             self._ear.without_track()
-        self._course.begin(run, self._prepared.settings, track)
+        self._goings_on.begin(run, self._prepared.settings, track)
 
     def just_play(self, wish: FreeWish) -> None:
         """Begin a free take, ending what runs; raises `StationError`."""
         self._make_room()
         self._ear.without_track()
-        self._course.begin_free(wish)
+        self._goings_on.begin_free(wish)
 
     def listen(self) -> None:
         """Hear the last free take from its capture, or end what is heard; raises `StationError`."""
         if self._ear.hears:
             self._ear.quiet()
-        elif not self._course.is_playing:
-            self._hear(self._course.free.listening())
+        elif not self._goings_on.is_playing:
+            self._hear(self._goings_on.free.listening())
 
     def hear_bar(self, bar: int, whose: Whose) -> None:
         """Hear and see a bar (from 0) of the result's score, as it was written or played; raises `StationError`."""
-        if self._course.stage is Stage.RESULT:
-            self._hear(self._course.outcome.hear(bar, whose, self.casting.who))
+        if self._goings_on.stage is Stage.RESULT:
+            self._hear(self._goings_on.outcome.hear(bar, whose, self.casting.who))
 
     def score(self) -> Score:
         """The whole score of the lesson that is shown, at its own tempo."""
-        return self._course.run.plan.lesson.score
+        return self._goings_on.run.plan.lesson.score
 
     @property
     def habits(self) -> HabitDesk:
@@ -182,12 +194,12 @@ class PracticeRoom:
     def meet(self, answers: Answers) -> None:
         """Who plays, what is heard and whose hand leads, from now on; raises `DeviceError` for a dead engine."""
         settings = self._prepared.settings = met(self._prepared.settings, answers)
-        self._course.free.meet(settings)
+        self._goings_on.free.meet(settings)
         self._engine.stand(student_level(settings))
 
     def answer(self, guess: Guess) -> None:
         """What the student believes of the session that ended: now its result is shown beside it."""
-        self._course.answer(guess)
+        self._goings_on.answer(guess)
 
     def measure(self, by: str, distance_m: float) -> None:
         """Measure how late the devices are, while the engine rests; raises `DeviceError` while somebody plays."""
@@ -198,12 +210,12 @@ class PracticeRoom:
     def trust_measured(self) -> None:
         """Subtract what is stored of the devices from the next session on; raises `BadInput` for a foreign file."""
         self._latency = latency_of(self._prepared.settings, load_calibration())
-        self._course.free.delayed_by(self._latency)
+        self._goings_on.free.delayed_by(self._latency)
 
     def veto(self) -> None:
         """Refuse what the next pass would change, while it is counted in: the last one once more."""
         if self.room().can_veto:
-            self._course.veto(self._prepared.settings)
+            self._goings_on.veto(self._prepared.settings)
 
     def pause(self) -> None:
         """Pause the session, or go on; nothing where there is none, or where the score waits by itself."""
@@ -215,14 +227,14 @@ class PracticeRoom:
 
     def stop(self) -> None:
         """End the session early; what was played is judged and kept."""
-        self._course.end(self._prepared.settings)
+        self._goings_on.end(self._prepared.settings)
 
     def close(self) -> StationError | None:
         """Keep a session that still runs; returns what the window can no longer tell of it."""
-        if not self._course.is_playing:
+        if not self._goings_on.is_playing:
             return None
         self.stop()
-        return self._course.fault
+        return self._goings_on.fault
 
     def key(self, hit: KeyHit) -> None:
         """A stroke on the computer's keyboard; a dead engine hears none, and has said so."""
@@ -231,15 +243,16 @@ class PracticeRoom:
 
     def dismiss(self) -> None:
         """Back to the lessons."""
-        if self._course.stage is Stage.RESULT:
+        if self._goings_on.stage is Stage.RESULT:
             self._ear.quiet()
-            self._course.leave(self._new_run(LaidOut(self._course.run.plan)))
+            self._prepared.learnt()
+            self._goings_on.leave(self._new_run(LaidOut(self._goings_on.run.plan)))
 
     # --- inside ------------------------------------------------------------------------------------------------------
 
     def _rest(self) -> None:
         """Let the engine's devices go; raises `DeviceError` while somebody plays."""
-        if self._course.is_playing:
+        if self._goings_on.is_playing:
             raise DeviceError("end the session first: what is measured needs the sound card and the kit")
         self._ear.quiet()
         self.deck.halt()
@@ -274,7 +287,7 @@ class PracticeRoom:
         return self._new_run(laid)
 
     def _new_run(self, laid: LaidOut) -> LessonRun:
-        return LessonRun(self._engine, laid, self.casting.who, self._latency, self._notices.append, self._course.run)
+        return LessonRun(self._engine, laid, self.casting.who, self._latency, self._notices.append, self._goings_on.run)
 
     def _heard(self) -> list[EngineEvent]:
         try:
@@ -288,11 +301,11 @@ class PracticeRoom:
     def _take(self, event: EngineEvent, now_ns: int) -> None:
         if self._ear.hears:
             self._ear.take(event)
-        elif isinstance(event, Started) and not self._course.is_playing:
+        elif isinstance(event, Started) and not self._goings_on.is_playing:
             self.deck.started(event.zero_ns)
             return
-        self._course.take(event, now_ns)
+        self._goings_on.take(event, now_ns)
         self._kit.take(event)
-        guess = self._course.outcome.guess_of(event)
+        guess = self._goings_on.outcome.guess_of(event)
         if guess is not None:
             self.answer(guess)

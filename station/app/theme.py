@@ -158,6 +158,18 @@ def first_lines(text: str, lines: int) -> str:
     return " ".join(words[:longest]) + " …"
 
 
+def one_line(text: str, width: float) -> str:
+    """As much of `text` as `width` pixels hold, with dots where it goes on."""
+
+    def fits(words: str) -> bool:
+        return bool(imgui.calc_text_size(words).x <= width)
+
+    if fits(text):
+        return text
+    longest = bisect_left(range(len(text)), True, key=lambda count: not fits(f"{text[: count + 1].rstrip()} …"))
+    return f"{text[:longest].rstrip()} …"
+
+
 def tooltip(text: str) -> None:
     """Explain the control that was drawn last."""
     hovered = imgui.HoveredFlags_.delay_normal | imgui.HoveredFlags_.allow_when_disabled

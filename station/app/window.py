@@ -129,7 +129,8 @@ class Window:
         if self.frames < _FIRST_PICTURE:
             self.backdrop.clear()
             if self.frames:
-                self.choice.offer(self._model.lessons())
+                course = load_settings(self._options.settings).course
+                self.choice.offer(self._model.lessons(), self._model.courses(), course)
             self.frames += 1
             return
         now_ns = self._clock.now_ns()
@@ -138,6 +139,7 @@ class Window:
         report = self._model.report() if self._deeds.shows_result and not self._model.room().listening else None
         if report is not None:
             height -= round(theme.points(ABOVE_RESULT) * imgui.get_io().display_framebuffer_scale.y)
+        self.choice.progress = self._model.progress()
         if self._model.wants_start():
             self._deeds.start()
         if self.frames % self.picture_every:

@@ -57,6 +57,7 @@ class Settings:
     `view`, `mirrored`, `inset` and `viewpoints` are where the window looks from, `score` how it shows the score,
     `theme` its colours (`app.look`), `panel_scale` how many times as large as designed its panels are, `double` whether
     the student is shown as a second drummer, `double_beside` whether beside the demonstrator and not over him,
+    `course` names the course whose lessons are listed, empty for all;
     `welcomed` whether the questions of the first start were asked (`app.welcome`).
     """
 
@@ -89,6 +90,7 @@ class Settings:
     inset: str = ""
     score: str = "scrolling"
     viewpoints: str = ""
+    course: str = ""
     theme: str = "night"
     panel_scale: float = 1.0
     welcomed: bool = False
@@ -114,6 +116,11 @@ class Settings:
             return Path(self.sessions).expanduser()
         except RuntimeError:
             raise BadInput(settings_path(), "sessions", f"{self.sessions!r}: there is no such user's home") from None
+
+    @property
+    def courses_dir(self) -> Path:
+        """Where the user's own courses are."""
+        return self.sessions_dir / "courses"
 
     @property
     def styles_dir(self) -> Path:

@@ -1,10 +1,12 @@
-"""What a teacher does with lesson files: check them, look at them, begin a new one."""
+"""What a teacher does with lesson and course files: check them, look at them, begin a new one."""
 
 from pathlib import Path
 
 from station.core.errors import BadInput
+from station.drills.course import is_course, parse_course
 from station.drills.faults import Fault
 from station.drills.lesson_file import lesson_text, parse_lesson
+from station.drills.library import lessons_for
 
 _ENDING = "*.toml"
 
@@ -44,7 +46,7 @@ kick     = "| o- -- o- -- | o- -o o- -- |"
 
 
 def check_lessons(paths: list[str]) -> tuple[list[Fault], int]:
-    """Every fault of the lessons at `paths` (files, or folders with all `.toml` files in them), and how many were read.
+    """Every fault of lessons and courses at `paths` (files, or folders of `.toml` files), and how many were read.
 
     A path that cannot be read is a fault at line 1. A folder without lessons is one too.
     """
@@ -67,4 +69,6 @@ def _check(file: Path) -> list[Fault]:
     except BadInput as fault:
         line = fault.place.removeprefix("line ")
         return [Fault(str(file), int(line) if line.isdecimal() else 1, 1, fault.fault)]
+    if is_course(file):
+        return parse_course(text, file, lessons_for(file.parent))[1]
     return parse_lesson(text, str(file), file.stem).faults

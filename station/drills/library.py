@@ -1,8 +1,8 @@
-"""The lessons that ship with the station, and how a word or a path finds one.
+"""The lessons and courses that ship with the station, and how a word or a path finds a lesson.
 
 In a checkout they lie in `lessons/` beside the package, in an installed wheel in `station/shipped/lessons`. A lesson's
 name is its file's stem; names are unique, whatever folder a file lies in. Any other `.toml` file is a lesson by its
-path.
+path. Files that end in `.course.toml` are courses.
 """
 
 from dataclasses import dataclass
@@ -12,6 +12,7 @@ from pathlib import Path
 
 import station
 from station.core.errors import BadInput
+from station.drills.course import ENDING, Course, Where, is_course, read_course
 from station.drills.lesson import Lesson
 from station.drills.lesson_file import read_lesson
 
@@ -21,11 +22,14 @@ FIRST_LESSON = "rock-1"
 __all__ = [
     "FIRST_LESSON",
     "LessonRow",
+    "courses_in",
     "find_lesson",
     "lesson_names",
     "lesson_rows",
     "lessons_dir",
+    "lessons_for",
     "read_lesson",
+    "shipped_courses",
     "shipped_lessons",
 ]
 
@@ -56,7 +60,7 @@ def lessons_dir() -> Path:
 
 
 def _files(folder: Path) -> dict[str, Path]:
-    return {path.stem: path for path in sorted(folder.rglob(f"*{_ENDING}"))}
+    return {path.stem: path for path in sorted(folder.rglob(f"*{_ENDING}")) if not is_course(path)}
 
 
 def lesson_names() -> list[str]:
@@ -76,6 +80,38 @@ def find_lesson(name_or_path: str) -> Lesson:
     if _is_file(path) or _is_path(path):
         return read_lesson(path)
     raise BadInput(name_or_path, "", f"no such lesson{_like(name_or_path, list(files))}")
+
+
+def lessons_for(folder: Path) -> Where:
+    """Finds what a course in `folder` names: a shipped lesson by its name, or a file."""
+    shipped = frozenset(lesson_names())
+
+    def where(word: str) -> str | None:
+        path = folder / word
+        if word in shipped:
+            return word
+        return str(path) if word.endswith(_ENDING) and _is_file(path) else None
+
+    return where
+
+
+def shipped_courses() -> list[Course]:
+    """All shipped courses by level and name."""
+    courses, faults = courses_in(lessons_dir())
+    assert not faults, "what ships is checked by tests"
+    return courses
+
+
+def courses_in(folder: Path) -> tuple[list[Course], list[BadInput]]:
+    """The courses in a folder and below it by level and name, and the faults of those that cannot be read."""
+    courses: list[Course] = []
+    faults: list[BadInput] = []
+    for path in sorted(folder.rglob(f"*{ENDING}")):
+        try:
+            courses.append(read_course(path, lessons_for(path.parent)))
+        except BadInput as fault:
+            faults.append(fault)
+    return sorted(courses, key=lambda course: (course.level, course.name)), faults
 
 
 def _is_path(path: Path) -> bool:

@@ -89,9 +89,7 @@ class Remembered:
         if self.memory is None:
             return None
         here = self.adaptation.state
-        known = [
-            state for path in sorted(self.memory.path.parent.glob("*.json")) if (state := _known(path)) is not None
-        ]
+        known = _all_in(self.memory.path.parent)
         others = [state for state in known if (state.item.name, state.item.bars) != (here.item.name, here.item.bars)]
         return next_turn(here, others, self.adaptation.today, self.adaptation.rules)
 
@@ -99,6 +97,15 @@ class Remembered:
         """Remember what was learnt; raises `DeviceError`."""
         if self.memory is not None:
             self.memory.keep(self.adaptation.state)
+
+
+def remembered(sessions: Path, student: str) -> list[ItemState]:
+    """All that is remembered of `student` under the folder of all sessions; what cannot be read is left out."""
+    return _all_in(sessions / folder_name(student) / FOLDER)
+
+
+def _all_in(folder: Path) -> list[ItemState]:
+    return [state for path in sorted(folder.glob("*.json")) if (state := _known(path)) is not None]
 
 
 def _known(path: Path) -> ItemState | None:

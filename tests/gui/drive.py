@@ -28,6 +28,7 @@ from station.app.measuring import MeasureWish
 from station.app.model import Stage
 from station.app.monitors import GONE, Rectangle, Screen, home_for
 from station.app.panels.calibration import ANYWAY_LABEL, MEASURE_LABEL
+from station.app.panels.course_list import ALL_LESSONS
 from station.app.panels.devices import DEVICES
 from station.app.panels.ear_row import STOP_LABEL as HITS_STOP
 from station.app.panels.ear_row import STUDENT_LABEL, TEACHER_LABEL
@@ -142,7 +143,7 @@ class Drive:
         lesson = find_lesson(LESSON)
         ctx.set_ref("//Lessons")
         ctx.item_input_value("##search", lesson.title.split(":")[0])
-        ctx.item_click(f"**/{lesson.title}##{LESSON}".replace("/4", "\\/4"))
+        ctx.item_click(f"**/###{LESSON}")
         ctx.item_input_value("##passes", passes)
         self.engine.plan = plan_practice(lesson, Wishes(lesson.tempo_bpm, passes))
 
@@ -219,6 +220,13 @@ def search(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.yield_(2)
     drive.seen["keys"] = len(drive.engine.keys)
     drive.seen["shown"] = [card.title for card in drive.window.choice.visible()]
+    for course in ("Funk: ghosts and sixteenths##funk", ALL_LESSONS):
+        ctx.item_click("##course")
+        ctx.item_click(f"//$FOCUSED/{course}")
+        ctx.yield_(2)
+        kept = load_settings(drive.settings).course
+        drive.seen[kept or "none"] = [card.name for card in drive.window.choice.visible()]
+        drive.seen[f"chosen in {kept or 'none'}"] = drive.window.choice.card and drive.window.choice.card.name
 
 
 def look(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:

@@ -71,6 +71,7 @@ def test_search_keys_and_faults_in_one_window(environment: dict[str, str], tmp_p
     the_kit_is_seen_and_set_by_looking(seen["devices"])
     latency_is_measured_and_kept_when_asked(seen["calibration"])
     typing_into_the_search_plays_nothing(seen["search"])
+    a_course_lists_its_lessons_in_their_order(seen["search"])
     a_fault_is_said_in_one_line(seen["fault"])
     keys_play_the_kit_and_escape_stops(seen["keys"])
     a_free_take_is_recorded_and_heard_again(seen["just_play"])
@@ -193,6 +194,12 @@ def typing_into_the_search_plays_nothing(seen: dict[str, Any]) -> None:
     assert seen["keys"] == 0
     assert seen["shown"]
     assert all("paradiddle" in title.casefold() for title in seen["shown"])
+
+
+def a_course_lists_its_lessons_in_their_order(seen: dict[str, Any]) -> None:
+    assert seen["funk"][:3] == ["rock-3", "motown-1", "hip-hop-1"]
+    assert seen["chosen in funk"] == "rock-3"
+    assert len(seen["none"]) > 80, "all lessons again"
 
 
 def every_viewpoint_can_be_chosen_and_turned(seen: dict[str, Any]) -> None:

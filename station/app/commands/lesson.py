@@ -15,12 +15,12 @@ SCHEMA = "drum-station/lessons/1"
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add this command's words."""
     verbs = parser.add_subparsers(dest="verb", required=True, metavar="VERB")
-    listing = verbs.add_parser("list", help="the lessons that are shipped")
+    listing = verbs.add_parser("list", help="the lessons and courses that are shipped")
     listing.add_argument("--json", action="store_true", help="print one JSON document")
     show = verbs.add_parser("show", help="a lesson, written out")
     show.add_argument("lesson", metavar="LESSON", help="a lesson's name or file")
-    check = verbs.add_parser("check", help="every fault of lesson files, with line and column")
-    check.add_argument("paths", metavar="PATH", nargs="+", help="lesson files, or folders of them")
+    check = verbs.add_parser("check", help="every fault of lesson and course files, with line and column")
+    check.add_argument("paths", metavar="PATH", nargs="+", help="lesson and course files, or folders of them")
     verbs.add_parser("new", help="print a lesson to start from")
     importing = verbs.add_parser("import", help="write a lesson from a MIDI file")
     importing.add_argument("source", metavar="SOURCE", help="a MIDI file")
@@ -39,7 +39,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _list(arguments: argparse.Namespace) -> int:
     from station.drills.lesson import LEVELS
-    from station.drills.library import lesson_rows
+    from station.drills.library import lesson_rows, shipped_courses
 
     rows = lesson_rows()
     if arguments.json:
@@ -55,7 +55,11 @@ def _list(arguments: argparse.Namespace) -> int:
             }
             for row in rows
         ]
-        print_json({"schema": SCHEMA, "lessons": lessons})
+        courses = [
+            {"name": one.name, "title": one.title, "level": one.level, "lessons": list(one.lessons)}
+            for one in shipped_courses()
+        ]
+        print_json({"schema": SCHEMA, "lessons": lessons, "courses": courses})
         return 0
     folder = None
     for row in rows:
@@ -65,6 +69,9 @@ def _list(arguments: argparse.Namespace) -> int:
         bars = f"{row.bars:2} bar{' ' if row.bars == 1 else 's'}"
         facts = f"{row.meter}  {row.beats_a_minute:5g} bpm  {bars}  {LEVELS[row.level]:12}"
         print(f"  {row.name:26}{facts}  {row.title}")
+    print("\ncourses")
+    for course in shipped_courses():
+        print(f"  {course.title}: {', '.join(course.lessons)}")
     return 0
 
 

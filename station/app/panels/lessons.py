@@ -5,6 +5,7 @@ Every control has a tooltip, and every one is reached by the keyboard (Tab, arro
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from datetime import date
 from itertools import groupby
 
 from imgui_bundle import imgui
@@ -12,6 +13,7 @@ from imgui_bundle import imgui
 from station.app import theme
 from station.app.choice import MAX_LOOPS, MAX_TEMPO_BPM, MIN_TEMPO_BPM, Choice
 from station.app.model import LessonCard, RoomState
+from station.app.panels.course_list import course_picker, mark, mark_width
 from station.app.row import Row
 from station.core.clock import monotonic_ns
 
@@ -61,6 +63,7 @@ class LessonsPanel:
             "##search", "Search: a word of title, level or tag", choice.search
         )
         theme.tooltip("Shows the lessons that contain every word")
+        course_picker(choice)
         room = imgui.get_content_region_avail().y
         least = _ROWS * imgui.get_text_line_height_with_spacing()
         lines = int((room - least - (self._below - self._about)) / imgui.get_text_line_height())
@@ -81,19 +84,28 @@ class LessonsPanel:
             self._choice.free = True
         theme.tooltip("A click if you like, everything recorded, nothing judged")
         visible = self._choice.visible()
-        for level, cards in groupby(visible, key=lambda card: card.level_words):
-            imgui.separator_text(level)
-            for card in cards:
-                self._row(card)
+        if self._choice.course is not None:
+            imgui.separator()
+            for number, card in enumerate(visible, 1):
+                self._row(card, f"{number}  {card.title}")
+        else:
+            for level, cards in groupby(visible, key=lambda card: card.level_words):
+                imgui.separator_text(level)
+                for card in cards:
+                    self._row(card, card.title)
         if not visible:
             theme.soft("No lesson has these words.")
 
-    def _row(self, card: LessonCard) -> None:
+    def _row(self, card: LessonCard, words: str) -> None:
         chosen = not self._choice.free and self._choice.card is not None and self._choice.card.name == card.name
-        pressed, _ = imgui.selectable(f"{card.title}##{card.name}", chosen)
+        progress, today = self._choice.progress.get(card.name), date.today()
+        room = imgui.get_content_region_avail().x - (0.0 if progress is None else mark_width())
+        pressed, _ = imgui.selectable(f"{theme.one_line(words, room)}###{card.name}", chosen)
+        mark(progress, today)
         if pressed:
             self._choice.choose(card)
-        theme.tooltip(f"{card.about}\n{card.bars} bars, {card.meter}, {card.beats_a_minute:g} bpm")
+        far = "" if progress is None else f"\n{progress.words(today)}"
+        theme.tooltip(f"{card.title}\n{card.about}\n{card.bars} bars, {card.meter}, {card.beats_a_minute:g} bpm{far}")
 
     def _chosen(self, card: LessonCard, lines: int) -> None:
         """The lesson, so many `lines` of what it is about, and how to practise it."""

@@ -10,6 +10,8 @@ from station.app.keyboard import KEYS
 from station.app.model import LessonCard, Start
 from station.core.pieces import HAND_PIECES, Piece, Zone
 from station.core.units import NS_PER_S
+from station.drills.course import Course
+from station.practice.progress import Progress
 
 ROCK = LessonCard(
     "rock-1", "Rock 1: eighths", 1, "first steps", "The first groove", "Ada", 80.0, 2, 8, "4/4", ("rock",)
@@ -116,3 +118,28 @@ def test_just_playing_takes_the_place_of_a_lesson_and_taps_quarters() -> None:
     choice.choose(ROCK)
     assert choice.free_wish() is None
     assert choice.wish() is not None
+
+
+def test_a_course_lists_its_lessons_in_its_order_and_begins_where_the_student_is() -> None:
+    course = Course("hands", "Hands", "", "", 1, ("paradiddle", "rock-1", "gone"))
+    choice = Choice([ROCK, PARADIDDLE])
+    choice.offer([ROCK, PARADIDDLE], [course])
+    assert (choice.course, choice.visible()) == (None, [ROCK, PARADIDDLE])
+    choice.follow(course)
+    assert choice.visible() == [PARADIDDLE, ROCK]
+    assert choice.card is PARADIDDLE
+    choice.progress = {"paradiddle": Progress(100.0, 100.0, True), "rock-1": Progress(80.0, 75.0, False)}
+    assert choice.mastered(course) == 1
+    choice.follow(course)
+    assert choice.card is ROCK
+    choice.follow(None)
+    assert (choice.visible(), choice.card) == ([ROCK, PARADIDDLE], ROCK)
+
+
+def test_a_course_that_was_followed_is_listed_again_and_one_that_is_gone_is_not() -> None:
+    course = Course("hands", "Hands", "", "", 1, ("paradiddle",))
+    choice = Choice([ROCK])
+    choice.offer([ROCK, PARADIDDLE], [course], "hands")
+    assert (choice.course, choice.card) == (course, ROCK)
+    choice.offer([ROCK, PARADIDDLE], [course], "none")
+    assert choice.course is None

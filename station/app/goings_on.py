@@ -20,7 +20,7 @@ from station.render.snapshot import Snapshot
 from station.sound.track import PreparedTrack
 
 
-class Course:
+class GoingsOn:
     """At first `run` is shown and nothing goes on; `tell` hears what a user should read."""
 
     def __init__(self, engine: EngineLine, run: LessonRun, free: JustPlay, tell: Callable[[str], None]) -> None:

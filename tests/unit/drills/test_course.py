@@ -1,0 +1,83 @@
+"""Courses: what a file says, what is wrong with it, and those that ship."""
+
+from pathlib import Path
+
+import pytest
+
+from station.core.errors import BadInput
+from station.drills.authoring import NEW_LESSON, check_lessons
+from station.drills.course import Course
+from station.drills.library import courses_in, lesson_names, shipped_courses
+
+GOOD = """\
+title = "My first month"
+author = "Ada"
+level = 2
+about = "Twice a week."
+lessons = [
+  "rock-2",
+  "own/mine.toml",
+  "rock-1",
+]
+"""
+
+
+def written(folder: Path, text: str, name: str = "month.course.toml") -> Path:
+    (folder / "own").mkdir(exist_ok=True)
+    (folder / "own" / "mine.toml").write_text(NEW_LESSON)
+    (folder / name).write_text(text)
+    return folder / name
+
+
+def test_a_course_has_its_lessons_in_their_order_those_of_files_too(tmp_path: Path) -> None:
+    written(tmp_path, GOOD)
+    courses, faults = courses_in(tmp_path)
+    own = str(tmp_path / "own" / "mine.toml")
+    assert courses == [Course("month", "My first month", "Twice a week.", "Ada", 2, ("rock-2", own, "rock-1"))]
+    assert courses[0].lesson_names == ("rock-2", "mine", "rock-1")
+    assert not faults
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "column", "words"),
+    [
+        (GOOD.replace('"rock-2"', '"rok-2"'), 6, 3, "no such lesson: rok-2"),
+        (GOOD.replace("mine.toml", "none.toml"), 7, 3, "no such lesson: own/none.toml"),
+        (GOOD.replace('"rock-1"', '"rock-2"'), 8, 3, "rock-2 is in the course already"),
+        (GOOD.replace('title = "My first month"\n', ""), 1, 1, "title is missing"),
+        (GOOD.replace("level = 2", "level = 9"), 3, 9, "from 1 to 5"),
+        (GOOD.replace("about", "abuot"), 4, 1, "no such key: abuot; did you mean about"),
+        ('title = "T"\nlessons = []\n', 2, 11, "the list is empty"),
+        ('title = "T"\nlessons = "rock-1"\n', 2, 11, "expected a list"),
+        ('title = "T"\nlessons = ["rock-1"\n', 2, 20, "a list is not closed"),
+    ],
+)
+def test_each_fault_is_told_with_its_place(tmp_path: Path, text: str, line: int, column: int, words: str) -> None:
+    path = written(tmp_path, text)
+    faults, count = check_lessons([str(path)])
+    assert count == 1
+    assert [(one.line, one.column) for one in faults] == [(line, column)]
+    assert words in faults[0].text
+
+
+def test_a_course_that_cannot_be_read_is_told_and_the_others_stay(tmp_path: Path) -> None:
+    written(tmp_path, GOOD)
+    bad = written(tmp_path, "title = 3", "bad.course.toml")
+    courses, faults = courses_in(tmp_path)
+    assert [one.name for one in courses] == ["month"]
+    assert [(one.source, type(one)) for one in faults] == [(str(bad), BadInput)]
+
+
+def test_a_folder_that_is_not_there_has_none(tmp_path: Path) -> None:
+    assert courses_in(tmp_path / "none") == ([], [])
+
+
+def test_those_that_ship_begin_with_the_first_beats_and_have_shipped_lessons_alone() -> None:
+    courses = shipped_courses()
+    assert courses[0].name == "first-beats"
+    assert courses[0].lessons[0] == "rock-1", "what a newcomer meets first"
+    assert [one.level for one in courses] == sorted(one.level for one in courses)
+    for course in courses:
+        assert course.about
+        assert set(course.lessons) <= set(lesson_names())
+        assert len(course.lessons) >= 8
