@@ -29,8 +29,8 @@ from station.core.errors import DeviceError
 from station.core.settings import load_settings, save_settings
 
 _NO_WINDOW = "no window can be opened: is there a screen, and OpenGL? `station practice --headless` needs neither"
-_FIRST_PICTURE = 2
-"""The frame, from 0, that has the first picture: the first shows the panels, the second all lessons."""
+_FIRST_PICTURE = 1
+"""The frame, from 0, that has the first picture: the one before it shows the panels, the one after it all lessons."""
 
 
 class Window:
@@ -125,21 +125,19 @@ class Window:
             self._deeds.tried(lambda: save_settings(with_look(load_settings(path), look), path))
 
     def _background(self) -> None:
-        """Draw the picture behind the panels, which are there before it: it takes a second to build."""
+        """Draw the picture behind the panels, which are there before it: it takes half a second to build."""
         if self.frames < _FIRST_PICTURE:
             self.backdrop.clear()
-            if self.frames:
-                course = load_settings(self._options.settings).course
-                self.choice.offer(self._model.lessons(), self._model.courses(), course)
             self.frames += 1
             return
+        if self.frames > _FIRST_PICTURE:
+            self._offer()
         now_ns = self._clock.now_ns()
         self._deeds.preview()
         snapshot, left, low, width, height = self._model.snapshot(now_ns), *central_area(self.params.docking_params)
         report = self._model.report() if self._deeds.shows_result and not self._model.room().listening else None
         if report is not None:
             height -= round(theme.points(ABOVE_RESULT) * imgui.get_io().display_framebuffer_scale.y)
-        self.choice.progress = self._model.progress()
         if self._model.wants_start():
             self._deeds.start()
         if self.frames % self.picture_every:
@@ -150,6 +148,13 @@ class Window:
             except DeviceError as fault:
                 self._fault, self.params.app_shall_exit = fault, True
         self.frames += 1
+
+    def _offer(self) -> None:
+        """What can be chosen, and how far the student is: read from files once, after the first picture."""
+        if self.frames == _FIRST_PICTURE + 1:
+            course = load_settings(self._options.settings).course
+            self.choice.offer(self._model.lessons(), self._model.courses(), course)
+        self.choice.progress = self._model.progress()
 
     def _over_all(self) -> None:
         """Keys, mouse and what floats over the picture."""

@@ -48,34 +48,65 @@ class KitRig:
 
 def build_kit(kit: Kit, detail: Detail) -> KitRig:
     """Meshes of all pieces, their hardware, the throne and the sticks."""
-    bones = {piece: 1 + i for i, piece in enumerate(kit.pieces)}
-    first = 1 + len(bones)
-    boards, beater, sticks = (first, first + 1), first + 2, (first + 3, first + 4)
-    axle = axle_of(kit)
-    parts = [_piece_mesh(p, detail).moved(_place(p)).on_bone(bones[p.piece]) for p in kit.pieces.values()]
+    return rig_of(kit, kit_mesh(kit, detail))
+
+
+def kit_mesh(kit: Kit, detail: Detail) -> Mesh:
+    """The mesh of `build_kit` alone: all else follows from it at once."""
+    bones = _bones(kit)
+    parts = [_piece_mesh(p, detail).moved(_place(p)).on_bone(bones.of[p.piece]) for p in kit.pieces.values()]
     parts += [hardware.stands(kit, p, detail) for p in kit.pieces.values()]
-    parts += pedal_meshes(kit, boards, beater, axle)
+    parts += pedal_meshes(kit, bones.boards, bones.beater, axle_of(kit))
     parts.append(hardware.throne(kit.seat_m, detail))
-    parts += [drums.stick(drums.STICK_M).on_bone(bone) for bone in sticks]
-    still = [WORLD, *(bones[p.piece] for p in kit.pieces.values() if p.kind not in _SWINGING)]
-    mesh, faces_of = _bone_by_bone(joined(parts), still)
-    still_faces = max(faces_of[bone].stop for bone in still)
-    return KitRig(kit, mesh, bones, boards, beater, sticks, axle, first + 5, faces_of, still_faces)
+    parts += [drums.stick(drums.STICK_M).on_bone(bone) for bone in bones.sticks]
+    return _bone_by_bone(joined(parts), bones.still)
+
+
+def rig_of(kit: Kit, mesh: Mesh) -> KitRig:
+    """The rig of what `kit_mesh` has made of `kit`."""
+    bones, faces_of = _bones(kit), _faces_of(mesh)
+    still_faces = max(faces_of[bone].stop for bone in bones.still)
+    count = bones.sticks[1] + 1
+    return KitRig(
+        kit, mesh, bones.of, bones.boards, bones.beater, bones.sticks, axle_of(kit), count, faces_of, still_faces
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Bones:
+    """The numbers of a kit's bones: `of` its pieces, and the `still` ones, whose faces lie first."""
+
+    of: dict[Piece, int]
+    boards: tuple[int, int]
+    beater: int
+    sticks: tuple[int, int]
+    still: list[int]
+
+
+def _bones(kit: Kit) -> _Bones:
+    of = {piece: 1 + i for i, piece in enumerate(kit.pieces)}
+    first = 1 + len(of)
+    still = [WORLD, *(of[p.piece] for p in kit.pieces.values() if p.kind not in _SWINGING)]
+    return _Bones(of, (first, first + 1), first + 2, (first + 3, first + 4), still)
 
 
 _SWINGING = ("cymbal", "hihat")
 
 
-def _bone_by_bone(mesh: Mesh, first: list[int]) -> tuple[Mesh, dict[int, slice]]:
-    """The mesh with the faces of each bone together, those of the bones `first` before all others; and where they lie.
+def _bone_by_bone(mesh: Mesh, first: list[int]) -> Mesh:
+    """The mesh with the faces of each bone together, those of the bones `first` before all others.
 
     Among a bone's faces those with near corners are neighbours: a software driver shades fewer corners twice.
     """
     bone = mesh.bone[mesh.faces[:, 0]]
-    order = np.lexsort((mesh.faces.min(axis=1), bone, ~np.isin(bone, first)))
-    bones, starts, counts = np.unique(bone[order], return_index=True, return_counts=True)
+    return replace(mesh, faces=mesh.faces[np.lexsort((mesh.faces.min(axis=1), bone, ~np.isin(bone, first)))])
+
+
+def _faces_of(mesh: Mesh) -> dict[int, slice]:
+    """Where the faces of each bone lie, which are together."""
+    bones, starts, counts = np.unique(mesh.bone[mesh.faces[:, 0]], return_index=True, return_counts=True)
     rows = zip(bones.tolist(), starts.tolist(), counts.tolist(), strict=True)
-    return replace(mesh, faces=mesh.faces[order]), {b: slice(start, start + count) for b, start, count in rows}
+    return {b: slice(start, start + count) for b, start, count in rows}
 
 
 def _place(piece: KitPiece) -> Matrix:

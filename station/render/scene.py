@@ -17,7 +17,8 @@ from station.motion.figure import Figure
 from station.motion.kit import Kit
 from station.render.bone_palette import BonePalette, Frame
 from station.render.camera import Camera
-from station.render.kit_rig import KitRig, build_kit
+from station.render.kept import kept_kit
+from station.render.kit_rig import KitRig
 from station.render.quality import Quality
 from station.render.scene_parts import ANISOTROPY, SceneParts, write
 from station.render.skeleton import Skeleton
@@ -38,7 +39,7 @@ class Scene:
     def __init__(self, ctx: moderngl.Context, kit: Kit, figure: Figure, quality: Quality) -> None:
         self._ctx = ctx
         self.quality = quality
-        self.rig: KitRig = build_kit(kit, quality.detail)
+        self.rig: KitRig = kept_kit(kit, quality.detail)
         self.skeleton = Skeleton(figure)
         self._bones = BonePalette(ctx, self.rig, self.skeleton)
         self._parts = SceneParts(ctx, self.rig, figure, quality)

@@ -14,8 +14,9 @@ from station.core.pieces import Limb
 from station.motion.figure import Figure
 from station.motion.kit import Kit
 from station.render import quick_shaders, room, shaders
-from station.render.body import Skin, build_body
-from station.render.kit_rig import KitRig, floor_discs
+from station.render.body import Skin
+from station.render.kept import kept_body, kept_floor, kept_wall
+from station.render.kit_rig import KitRig
 from station.render.light import Light
 from station.render.materials import shader_table
 from station.render.mesh import Mesh
@@ -57,7 +58,7 @@ class SceneParts:
         self._ctx = ctx
         self._quality = quality
         self._textures(rig.kit)
-        self._upload(rig.mesh, build_body(figure, quality.figure_cell))
+        self._upload(rig.mesh, kept_body(figure, quality.figure_cell))
         fragment = shaders.solid_fragment(quality.level)
         self.solid = self._pair(shaders.RIGID_VERTEX, shaders.SKIN_VERTEX, fragment)
         self.quick = self._pair(quick_shaders.RIGID_QUICK, quick_shaders.SKIN_QUICK, quick_shaders.QUICK_FRAGMENT)
@@ -79,7 +80,7 @@ class SceneParts:
 
     def _textures(self, kit: Kit) -> None:
         ctx = self._ctx
-        floor, wall = room.floor_picture(floor_discs(kit), _KEY, self._quality.floor_texels), room.wall_picture()
+        floor, wall = kept_floor(kit, _KEY, self._quality.floor_texels), kept_wall()
         self.floor_map = ctx.texture(floor.shape[1::-1], 4, floor.tobytes())
         self.floor_map.build_mipmaps()
         self.floor_map.filter = moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR

@@ -18,9 +18,8 @@ from pathlib import Path
 from types import MappingProxyType
 
 import numpy as np
-from platformdirs import user_cache_path
 
-from station.core.settings import APP_NAME
+from station.core.kept_files import cache_folder, forget_oldest
 from station.sound.drum_kit import DrumKit, Frames, Layer, Sound
 from station.sound.kit_synth import KIT_NAME, MODELS, synth_kit
 from station.sound.sounds import SoundName
@@ -32,11 +31,6 @@ KEPT_FILES = 4
 _ENDING = ".kit"
 
 
-def cache_folder() -> Path:
-    """Where made kits lie on this system; may be deleted at any time."""
-    return user_cache_path(APP_NAME, appauthor=False) / "kits"
-
-
 def cached_kit(model: str = KIT_NAME, rate_hz: int = 48_000, folder: Path | None = None) -> DrumKit:
     """The synthesised kit `model` at `rate_hz`, from disk where it was made before, else made and kept there."""
     path = _path(model, rate_hz, folder)
@@ -45,7 +39,7 @@ def cached_kit(model: str = KIT_NAME, rate_hz: int = 48_000, folder: Path | None
         kit = synth_kit.__wrapped__(rate_hz, model)
         with suppress(OSError):
             _write(path, kit)
-            _forget_oldest(path.parent)
+            forget_oldest(path.parent, _ENDING, KEPT_FILES)
     return kit
 
 
@@ -55,7 +49,7 @@ def is_made(model: str, rate_hz: int, folder: Path | None = None) -> bool:
 
 
 def _path(model: str, rate_hz: int, folder: Path | None) -> Path:
-    return (folder or cache_folder()) / f"{model}-{rate_hz}-{_digest(model)}{_ENDING}"
+    return (folder or cache_folder("kits")) / f"{model}-{rate_hz}-{_digest(model)}{_ENDING}"
 
 
 @lru_cache
@@ -109,9 +103,3 @@ def _write(path: Path, kit: DrumKit) -> None:
         part.replace(path)
     finally:
         part.unlink(missing_ok=True)
-
-
-def _forget_oldest(folder: Path) -> None:
-    kept = sorted(folder.glob(f"*{_ENDING}"), key=lambda path: path.stat().st_mtime, reverse=True)
-    for old in kept[KEPT_FILES:]:
-        old.unlink(missing_ok=True)

@@ -15,11 +15,10 @@ from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
-from platformdirs import user_cache_path
 
 from station.core.errors import BadInput, DeviceError
 from station.core.files import write_whole
-from station.core.settings import APP_NAME
+from station.core.kept_files import cache_folder, forget_oldest
 from station.sound.audio_file import opened, read_audio
 from station.sound.drum_kit import Frames
 from station.sound.track import Pcm, PreparedTrack
@@ -55,7 +54,7 @@ class TrackWish:
 
 def tracks_folder() -> Path:
     """Where prepared tracks lie on this system; may be deleted at any time."""
-    return user_cache_path(APP_NAME, appauthor=False) / "tracks"
+    return cache_folder("tracks")
 
 
 def prepare_in_background(wish: TrackWish, folder: Path | None = None) -> "Future[PreparedTrack]":
@@ -73,7 +72,7 @@ def prepare(wish: TrackWish, folder: Path | None = None) -> PreparedTrack:
     file = home / f"{_digest(wish)}{_ENDING}"
     if not file.exists():
         write_whole(file, pcm_of(stretched(_read(wish), wish.rate_hz, wish.speed)).tobytes())
-        _forget_oldest(home)
+        forget_oldest(home, _ENDING, KEPT_FILES)
     scale = wish.rate_hz / wish.speed
     frames = file.stat().st_size // 4
     loop = None
@@ -132,13 +131,3 @@ def _digest(wish: TrackWish) -> str:
     stat = wish.path.stat()
     facts = (str(wish.path.resolve()), stat.st_size, stat.st_mtime_ns, wish.rate_hz, wish.speed, TRACK_DB)
     return hashlib.sha256(repr(facts).encode()).hexdigest()[:24]
-
-
-def _forget_oldest(folder: Path) -> None:
-    kept = sorted(folder.glob(f"*{_ENDING}"), key=_age, reverse=True)
-    for old in kept[KEPT_FILES:]:
-        old.unlink(missing_ok=True)
-
-
-def _age(path: Path) -> int:
-    return path.stat().st_mtime_ns

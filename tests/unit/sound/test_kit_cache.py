@@ -98,7 +98,7 @@ def test_another_rate_or_recipe_is_another_file(tmp_path: Path, made: tuple[Path
 
 
 def test_synthesised_kits_are_loaded_by_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(kit_cache, "cache_folder", lambda: tmp_path)
+    monkeypatch.setattr(kit_cache, "cache_folder", lambda _: tmp_path)
     assert load_kit(MODEL, RATE_HZ).name == MODEL
     assert len(files(tmp_path)) == 1
 

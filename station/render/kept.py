@@ -1,0 +1,115 @@
+"""What a scene is made of, kept on disk: solids and pictures take most of a second to make and a hundredth to read.
+
+A file holds named arrays (numpy's `.npz`, whose parts bear checksums). Its name bears a digest of what was asked for
+and of the code of drummers and pictures, so that it never outlives what made it. Nothing depends on the files: one that
+cannot be read is made anew, one that cannot be written costs time alone.
+"""
+
+import hashlib
+import io
+import zipfile
+from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
+from dataclasses import fields
+from functools import lru_cache
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.errors import DeviceError
+from station.core.files import write_whole
+from station.core.kept_files import cache_folder, forget_oldest
+from station.motion.figure import Figure
+from station.motion.kit import Kit
+from station.render.body import Skin, build_body
+from station.render.drums import Detail
+from station.render.kit_rig import KitRig, floor_discs, kit_mesh, rig_of
+from station.render.light import Light
+from station.render.mesh import Mesh
+from station.render.room import floor_picture, wall_picture
+
+Arrays = Mapping[str, NDArray[Any]]
+
+KEPT_FILES = 16
+"""The oldest go first (our choice: a few kits and figures at three qualities, some 60 MB)."""
+_ENDING = ".npz"
+_PICTURE = "picture"
+
+
+def kept_kit(kit: Kit, detail: Detail) -> KitRig:
+    """`build_kit`, its mesh from disk where it was made before."""
+    return rig_of(kit, Mesh(**kept("kit", (kit, detail), lambda: _arrays(kit_mesh(kit, detail)))))
+
+
+def kept_body(figure: Figure, fineness: float) -> Skin:
+    """`build_body`, from disk where it was made before."""
+    return Skin(**kept("body", (figure, fineness), lambda: _arrays(build_body(figure, fineness))))
+
+
+def kept_floor(kit: Kit, light: Light, texels: int) -> NDArray[np.uint8]:
+    """`floor_picture` under a kit, from disk where it was made before."""
+    discs = floor_discs(kit)
+    return kept("floor", (discs, light, texels), lambda: {_PICTURE: floor_picture(discs, light, texels)})[_PICTURE]
+
+
+def kept_wall() -> NDArray[np.uint8]:
+    """`wall_picture`, from disk where it was made before."""
+    return kept("wall", None, lambda: {_PICTURE: wall_picture()})[_PICTURE]
+
+
+def kept(name: str, wanted: object, make: Callable[[], Arrays], folder: Path | None = None) -> Arrays:
+    """What `make` makes of `wanted`, which its `repr` tells from all else; from disk where it was made before."""
+    path = (folder or cache_folder("scenes")) / f"{name}-{_digest(wanted)}{_ENDING}"
+    found = _read(path)
+    if found is None:
+        found = make()
+        with suppress(DeviceError):
+            write_whole(path, _packed(found))
+            forget_oldest(path.parent, _ENDING, KEPT_FILES)
+    return found
+
+
+def _arrays(solid: Mesh | Skin) -> Arrays:
+    return {field.name: getattr(solid, field.name) for field in fields(solid)}
+
+
+def _digest(wanted: object) -> str:
+    words = repr(wanted)
+    assert " at 0x" not in words, "an address tells nothing apart"
+    return hashlib.sha256(f"{_code()} {words}".encode()).hexdigest()[:24]
+
+
+@lru_cache
+def _code() -> str:
+    """A digest of all code that what is kept may depend on."""
+    digest = hashlib.sha256(np.__version__.encode())
+    for source in _sources("station.motion", "station.render"):
+        digest.update(source)
+    return digest.hexdigest()
+
+
+def _sources(*packages: str) -> Iterable[bytes]:
+    for package in packages:
+        for entry in sorted(files(package).iterdir(), key=lambda entry: entry.name):
+            if entry.name.endswith(".py"):
+                yield entry.read_bytes()
+
+
+def _read(path: Path) -> Arrays | None:
+    """The arrays at `path`; None where there are none, or no whole ones."""
+    try:
+        with path.open("rb") as whole, np.load(whole, allow_pickle=False) as file:
+            found = dict(file)
+        path.touch()
+    except (OSError, ValueError, EOFError, zipfile.BadZipFile):
+        return None
+    return found or None
+
+
+def _packed(arrays: Arrays) -> bytes:
+    file = io.BytesIO()
+    np.savez(file, **arrays)  # type: ignore[arg-type] # numpy's stub thinks of a flag
+    return file.getvalue()
