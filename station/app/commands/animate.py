@@ -65,7 +65,7 @@ Times = NDArray[np.float64]
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add this command's words."""
-    parser.add_argument("score", metavar="SCORE", help="a lesson, a MIDI file or a text score")
+    parser.add_argument("score", metavar="SCORE", help="a lesson, a MIDI file, a text score or a take (.capture)")
     parser.add_argument("--out", metavar="FILE", type=Path, required=True, help=_OUT)
     styles = f"{', '.join(style_names())}, {PROPOSED} (what the score itself suggests), or a file"
     parser.add_argument("--style", metavar="NAME", default="natural", help=styles)

@@ -18,7 +18,7 @@ SCHEMA = "drum-station/limbs/1"
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add this command's words."""
-    parser.add_argument("score", metavar="SCORE", help="a lesson, a MIDI file or a text score")
+    parser.add_argument("score", metavar="SCORE", help="a lesson, a MIDI file, a text score or a take (.capture)")
     add_drums_options(parser)
     text = "write a text score whose limbs can be edited and that every command reads again"
     parser.add_argument("--text", type=Path, metavar=f"FILE{TEXT_ENDING}", help=text)

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 TEXT_ENDING = ".txt"
 """Of a text score: see `station.motion.text_score`."""
 MIDI_ENDINGS = (".mid", ".midi", ".smf", ".kar")
+CAPTURE_ENDING = ".capture"
 
 
 def is_midi(name: str) -> bool:
@@ -25,9 +26,14 @@ def is_midi(name: str) -> bool:
     return Path(name).suffix.lower() in MIDI_ENDINGS
 
 
+def is_capture(name: str) -> bool:
+    """Whether `name` ends as captures do."""
+    return Path(name).suffix.lower() == CAPTURE_ENDING
+
+
 def is_lesson(name: str) -> bool:
-    """Whether `name` means a lesson, and not a music file."""
-    return not is_midi(name) and Path(name).suffix.lower() != TEXT_ENDING
+    """Whether `name` means a lesson, and not music in another file."""
+    return not is_midi(name) and not is_capture(name) and Path(name).suffix.lower() != TEXT_ENDING
 
 
 def existing(name: str) -> Path:
@@ -39,7 +45,11 @@ def existing(name: str) -> Path:
 
 
 def load_score(name: str) -> Score:
-    """The score that `name` means: a MIDI file or a text score by its ending, else a lesson by name or path."""
+    """The score that `name` means: a MIDI file, a text score or a take by its ending, else a lesson by name or path."""
+    if is_capture(name):
+        from station.app.commands.takes import take_as_score
+
+        return take_as_score(existing(name))
     if is_midi(name):
         from station.music.formats.smf import read_midi, score_from_midi
 
@@ -75,7 +85,7 @@ def kit_of_lesson(name: str) -> str:
 def load_score_and_performance(score_name: str, performance_name: str) -> tuple[Score, Performance]:
     """Both; of two MIDI files each helps to tell which maker's note numbers the other uses."""
     if not is_midi(performance_name):
-        return load_score(score_name), _performance_of_capture(existing(performance_name))
+        return load_score(score_name), performance_of_capture(existing(performance_name))
     from station.music.formats.smf import guess_kit_map, performance_from_midi, read_midi, score_from_midi
 
     performance = read_midi(existing(performance_name))
@@ -86,7 +96,8 @@ def load_score_and_performance(score_name: str, performance_name: str) -> tuple[
     return score_from_midi(score, score_map), performance_from_midi(performance, performance_map)
 
 
-def _performance_of_capture(path: Path) -> Performance:
+def performance_of_capture(path: Path) -> Performance:
+    """All strokes of the capture at `path`, from the first on; raises `BadInput`."""
     from station.core.events import Choke, Hit
     from station.devices.capture import MAGIC, read_capture
     from station.devices.replay import replay

@@ -3,12 +3,14 @@
 import json
 import wave
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 import pytest
 
 from station.cli import main
 from station.core.settings import load_settings
+from tests.fakes.captures import capture_bytes
 
 
 @pytest.fixture(autouse=True)
@@ -88,6 +90,30 @@ def test_a_capture_can_be_assessed_again(capsys: pytest.CaptureFixture[str], tmp
     assert "early" not in {advice["fault"] for advice in again["advice"]}
     assert main(["assess", "rock-1", str(tmp_path / "session" / "session.capture")]) == 0
     assert "about your own tempo; without a click" in capsys.readouterr().out
+
+
+def test_a_session_s_capture_is_a_score_too_in_the_lesson_s_bars(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    practised = practise(capsys, "--loops", "1", "--report", str(tmp_path / "session"))
+    assert main(["limbs", str(tmp_path / "session" / "session.capture"), "--json"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    counts = cast(dict[str, int], practised["counts"])
+    assert len(document["notes"]) == counts["hits"]
+    bar_s = 4 * 60 / 80  # rock-1 in 80 bpm, whose count-in and demonstrations are whole bars
+    assert all(abs((8 * note["time_s"] / bar_s + 0.5) % 1 - 0.5) < 0.15 for note in document["notes"]), "on its eighths"
+
+
+@pytest.mark.parametrize("data", [b"", capture_bytes([])])
+def test_a_capture_without_a_stroke_is_no_score(
+    data: bytes, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    (tmp_path / "empty.capture").write_bytes(data)
+    assert main(["animate", str(tmp_path / "empty.capture"), "--out", str(tmp_path / "x.npz")]) == 2
+    said = capsys.readouterr().err
+    assert "empty.capture" in said
+    assert said.count("\n") == 1
+    assert not (tmp_path / "x.npz").exists()
 
 
 def test_limbs_say_who_plays_every_note(capsys: pytest.CaptureFixture[str]) -> None:

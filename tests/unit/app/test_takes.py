@@ -1,0 +1,63 @@
+"""A take as a score: where its bars are, by what is kept beside the capture."""
+
+from pathlib import Path
+
+import pytest
+
+from station.app.commands.takes import FREE_TITLE, take_as_score
+from station.core.units import NS_PER_MS, NS_PER_S
+from station.devices.presets import GENERAL_MIDI_PRESET
+from station.engine.engine import Engine
+from station.engine.messages import Record
+from station.practice.click import PLAIN
+from station.practice.free_play import LEAD_IN_NS, FreeClick, FreePlay
+from station.practice.latency import Latency
+
+KIT = "kit"
+
+
+def taken(folder: Path, has_transport: bool) -> Path:
+    """A capture of the engine's: kick 2.1 s and snare 2.6 s after the transport's zero."""
+    path = folder / "session.capture"
+    engine, play = Engine(), FreePlay(FreeClick(120.0, PLAIN), Latency())
+    engine.use_preset(KIT, GENERAL_MIDI_PRESET)
+    engine.device_found(KIT, 0)
+    engine.advance(0)
+    for command in (Record(path), *(play.start() if has_transport else ())):
+        engine.handle(command)
+    engine.advance(LEAD_IN_NS)
+    for at_ms, note in ((2100, 36), (2600, 38)):
+        engine.advance(LEAD_IN_NS + at_ms * NS_PER_MS - 1)
+        engine.feed(KIT, bytes([0x99, note, 100]), LEAD_IN_NS + at_ms * NS_PER_MS)
+    engine.handle(Record(None))
+    return path
+
+
+def seconds(path: Path) -> list[float]:
+    score = take_as_score(path)
+    return [float(ns) / NS_PER_S for ns in score.tempo_map.ns_at(score.notes["tick"])]
+
+
+@pytest.mark.parametrize(
+    ("document", "title", "times_s"),
+    [
+        ('{"tempo_bpm": 120.0}', FREE_TITLE, [0.1, 0.6]),  # bars of 2 s
+        ('{"tempo_bpm": 60.0}', FREE_TITLE, [2.1, 2.6]),  # bars of 4 s
+        ('{"tempo_bpm": "fast"}', FREE_TITLE, [0.1, 0.6]),
+        ('{"tempo_bpm": -3}', FREE_TITLE, [0.1, 0.6]),
+        ("[1, 2", "session", [0.1, 0.6]),
+        (None, "session", [0.1, 0.6]),
+    ],
+)
+def test_a_free_take_begins_with_the_bar_of_its_first_stroke(
+    document: str | None, title: str, times_s: list[float], tmp_path: Path
+) -> None:
+    path = taken(tmp_path, has_transport=True)
+    if document is not None:
+        (tmp_path / "take.json").write_text(document)
+    assert take_as_score(path).title == title
+    assert seconds(path) == pytest.approx(times_s, abs=1e-5)
+
+
+def test_what_was_recorded_without_a_transport_begins_with_its_first_stroke(tmp_path: Path) -> None:
+    assert seconds(taken(tmp_path, has_transport=False)) == pytest.approx([0.0, 0.5], abs=1e-5)
