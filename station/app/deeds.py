@@ -76,7 +76,10 @@ class Deeds:
             self.tried(lambda: self.model.start(replace(wish, bars=(bar, bar), adapt=False)))
 
     def leave(self) -> None:
-        """Out of what goes on: a session ends, a result was read, the demonstration stops."""
+        """Out of what goes on: a pad is not learnt, a session ends, a result was read, the demonstration stops."""
+        if self.model.desk.learns:
+            self.model.desk.give_up()
+            return
         stage = self.model.room().stage
         if stage is Stage.PLAYING:
             self.tried(self.model.stop)

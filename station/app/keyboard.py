@@ -64,7 +64,7 @@ KEYS: Mapping[imgui.Key, KeyStroke] = MappingProxyType(
 
 COMMANDS: tuple[tuple[str, str], ...] = (
     ("Enter", "start, or once more"),
-    ("Esc", "stop, or back to the lessons"),
+    ("Esc", "stop, or back to the lessons; a pad is not learnt"),
     ("Backspace", "pause, or go on"),
     ("F1", "help: the page that is open, and these keys"),
     ("F2 to F9", "the named views, in the list's order"),

@@ -2,7 +2,8 @@
 
 While the page is open the engine tells every byte besides (`Eavesdrop`). They are understood here once more, by rules
 that may be set by looking; `save` keeps them in the kit's own file and lets the engine take it, so that what counts as
-a stroke changes for sound and judgement only then.
+a stroke changes for sound and judgement only then. What is learnt from strokes, what a pad is and how loud its ghosts
+and accents count, is kept at once, and can be undone.
 """
 
 from collections import deque
@@ -12,14 +13,19 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from station.app.kit_monitor import KitMonitor, Line, rule_against
-from station.core.errors import DeviceError
+from station.core.errors import DeviceError, StationError
 from station.core.events import DeviceFound, DeviceLost, Hit
+from station.core.kitmap import Strike
 from station.core.pieces import Piece, word
 from station.core.units import NS_PER_MS
 from station.devices.desk import obey
 from station.devices.guard import Why
-from station.devices.kit import KitPreset
+from station.devices.kit import KitPreset, Sent
 from station.devices.suspects import Suspicion
+from station.devices.touch import Curve
+from station.devices.wizard.one_hit import PadEar, in_words, taught
+from station.devices.wizard.pads import pad_name
+from station.devices.wizard.touch_learning import TouchLearning
 from station.engine.messages import Command, Eavesdrop, EngineEvent, Overheard, TakeKit
 
 LINES_SHOWN, STROKES_SHOWN, SUSPICIONS_SHOWN = 8, 24, 4
@@ -47,12 +53,17 @@ def _suspicions() -> deque[Suspicion]:
 
 @dataclass(slots=True)
 class Seen:
-    """What one kit did of late, the newest last, and what is wrong with its file."""
+    """What one kit did of late, the newest last, and what is wrong with its file.
+
+    `before` is how it was kept, and how it was on trial, before each thing that was learnt.
+    """
 
     lines: deque[Line] = field(default_factory=_lines)
     suspicions: deque[Suspicion] = field(default_factory=_suspicions)
     strokes: dict[Piece, deque[Stroke]] = field(default_factory=dict)
     fault: str = ""
+    ear: PadEar = field(default_factory=PadEar)
+    before: list[tuple[KitPreset, KitPreset]] = field(default_factory=list)
 
     def take(self, line: Line) -> None:
         """One more line."""
@@ -74,7 +85,11 @@ class KitDesk:
         self._seen: dict[str, Seen] = {}
         self._kept: dict[str, KitPreset] = {}
         self._listens = False
+        self._pad: Strike | None = None
+        self._touch: TouchLearning | None = None
         self.device = ""
+        self.learnt = ""
+        """What was learnt last, or why it was not."""
 
     @property
     def devices(self) -> list[str]:
@@ -99,14 +114,42 @@ class KitDesk:
     @property
     def pads(self) -> list[Piece]:
         """The pads that were struck, or of which something is known."""
-        return sorted({*self.seen.strokes, *self.kit.pads})
+        return sorted({*self.seen.strokes, *self.kit.pads} - {Piece.PERCUSSION})
+
+    @property
+    def unknown(self) -> list[Sent]:
+        """The notes that came and that mean nothing yet."""
+        return self.seen.ear.unknown(self.kit)
+
+    @property
+    def learns(self) -> bool:
+        """Whether strokes are taken for what they teach: they command nothing meanwhile."""
+        return self._pad is not None or self._touch is not None
+
+    @property
+    def asks(self) -> str:
+        """What to play now, empty while nothing is learnt."""
+        if self._touch is not None:
+            return self._touch.asks
+        return "" if self._pad is None else f"hit it now, once: {pad_name(self._pad)}"
+
+    @property
+    def can_undo(self) -> bool:
+        """Whether something was learnt since the kit is here."""
+        return bool(self.seen.before)
 
     # --- from the engine ---------------------------------------------------------------------------------------------
+
+    def show(self, device: str) -> None:
+        """Show another kit."""
+        self.give_up()
+        self.device = device
 
     def listen(self, on: bool) -> None:
         """Have the bytes told, or no longer; a dead engine is not asked."""
         if on != self._listens:
             self._listens = on
+            self.give_up()
             with suppress(DeviceError):
                 self._send(Eavesdrop(on))
 
@@ -120,11 +163,15 @@ class KitDesk:
                 self.device = self.device or device
                 self._show(lines)
             case DeviceLost(at_ns, device):
+                if self.device == device:
+                    self.give_up()
                 self._monitor.lost(device, at_ns)
                 self._seen.pop(device, None)
                 if self.device == device:
                     self.device = next(iter(self._seen), "")
             case Overheard(at_ns, device, data):
+                if device in self._seen:
+                    self._seen[device].ear.feed(data, at_ns)
                 self._show(self._monitor.bytes_came(device, data, at_ns))
             case _:
                 pass
@@ -132,11 +179,88 @@ class KitDesk:
     def advance(self, now_ns: int) -> None:
         """Show what the clock has made certain."""
         self._show(self._monitor.settle(now_ns - _SHOWN_LATE_NS))
+        if self._pad is not None:
+            sent = self.seen.ear.hit(now_ns - _SHOWN_LATE_NS)
+            if sent is not None:
+                pad, self._pad = self._pad, None
+                self.name(sent, pad)
 
     def _show(self, lines: list[Line]) -> None:
         for line in lines:
             if line.device in self._seen:
                 self._seen[line.device].take(line)
+            if self._touch is not None and line.device == self.device:
+                self._touched(line)
+
+    def _touched(self, line: Line) -> None:
+        """A stroke for the touch that is learnt; those that are too soft to count are strokes too."""
+        hit = line.event if line.ghost is None or line.ghost.why is not Why.TOO_SOFT else line.ghost.hit
+        if self._touch is None or not isinstance(hit, Hit):
+            return
+        self._touch.take(hit)
+        if self._touch.is_over:
+            touch, self._touch = self._touch, None
+            self._learn(touch.learnt, touch.in_words())
+
+    # --- learning ----------------------------------------------------------------------------------------------------
+
+    def learn_pad(self, pad: Strike) -> None:
+        """The next hit is on `pad`."""
+        self.give_up()
+        self._pad = pad
+        self.seen.ear.listen(on=True)
+
+    def learn_touch(self, piece: Piece) -> None:
+        """The next strokes are five ghosts and five accents on `piece`."""
+        self.give_up()
+        self._touch = TouchLearning(piece)
+
+    def give_up(self) -> None:
+        """Learn no longer; what was played meanwhile changes nothing."""
+        self._pad = self._touch = None
+        self.learnt = ""
+        if self.device:
+            self.seen.ear.listen(on=False)
+
+    def name(self, sent: Sent, pad: Strike) -> None:
+        """The note that was `sent` is `pad` from now on."""
+        is_shared = self.seen.ear.is_shared(sent)
+        words = in_words(self._kept[self.device], sent, pad)
+        self._learn(lambda kit: taught(kit, sent, pad, is_shared), words)
+
+    def _learn(self, change: Callable[[KitPreset], KitPreset], words: str) -> None:
+        """Keep a change at once, beside what is on trial; `learnt` says what came of it."""
+        before = self._kept[self.device], self.kit
+        try:
+            self._keep(change(before[0]))
+            self._monitor.trial(self.device, change(before[1]))
+        except StationError as fault:
+            self.learnt = str(fault)
+            return
+        self.seen.before.append(before)
+        self.learnt = words
+
+    def undo(self) -> None:
+        """What was learnt last is as it was before."""
+        kept, trial = self.seen.before[-1]
+        try:
+            self._keep(kept)
+        except StationError as fault:
+            self.learnt = str(fault)
+            return
+        self.seen.before.pop()
+        self._monitor.trial(self.device, trial)
+        self.learnt = "as it was before"
+
+    def _keep(self, kit: KitPreset) -> Path:
+        """Keep `kit`, and let the engine take it; raises `DeviceError`, for a faulty file of the user's too."""
+        if self.seen.fault:
+            raise DeviceError(f"nothing is kept while the kit's file has a fault: {self.seen.fault}")
+        path = self._monitor.keep(self.device, kit)
+        self._kept[self.device] = kit
+        with suppress(DeviceError):
+            self._send(TakeKit(self.device))
+        return path
 
     # --- from the page -----------------------------------------------------------------------------------------------
 
@@ -152,6 +276,10 @@ class KitDesk:
         """A stroke on `source` makes `victim` send ghosts up to so loud; 0 for no longer."""
         self._obey(f"ghost {word(source)} {word(victim)} {share:.2f}")
 
+    def curve(self, piece: Piece, curve: Curve) -> None:
+        """How loud strokes count."""
+        self._obey(f"curve {word(piece)} {curve.softest} {curve.loudest} {curve.bend}")
+
     def hold_back(self, suspicion: Suspicion) -> None:
         """Take hits such as this one for what they are suspected to be."""
         self._obey(rule_against(suspicion))
@@ -165,9 +293,9 @@ class KitDesk:
         self._monitor.trial(self.device, self._kept[self.device])
 
     def save(self) -> Path:
-        """Keep the rules, and let the engine take them; returns where. Raises `DeviceError` if the disk refuses."""
-        path = self._monitor.save(self.device)
-        self._kept[self.device] = self.kit
-        with suppress(DeviceError):
-            self._send(TakeKit(self.device))
-        return path
+        """Keep the rules, and let the engine take them; returns where. Raises `DeviceError` if the disk refuses.
+
+        What was learnt before is kept with them, and not undone any more.
+        """
+        self.seen.before.clear()
+        return self._keep(self.kit)

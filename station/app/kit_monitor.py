@@ -110,7 +110,11 @@ class KitMonitor:
 
     def save(self, device: str) -> Path:
         """Keep the kit as it stands; returns where. Raises `DeviceError` if the disk refuses."""
-        return save_kit(self.kit(device), device, self._folder)
+        return self.keep(device, self.kit(device))
+
+    def keep(self, device: str, kit: KitPreset) -> Path:
+        """Keep `kit` as the user's own for `device`, whatever is on trial; returns and raises as `save` does."""
+        return save_kit(kit, device, self._folder)
 
     def _sent(self, device: str, at_ns: int) -> str:
         """The bytes of that moment; they are shown once."""

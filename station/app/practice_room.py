@@ -305,6 +305,8 @@ class PracticeRoom:
             self.deck.started(event.zero_ns)
             return
         self._goings_on.take(event, now_ns)
+        if self.desk.learns:  # strokes teach, and command nothing
+            return
         self._kit.take(event)
         guess = self._goings_on.outcome.guess_of(event)
         if guess is not None:

@@ -5,6 +5,9 @@ mask PIECE MS                 so long after a stroke there is no other
 ghost SOURCE VICTIM SHARE     a stroke on SOURCE makes VICTIM send ghosts up to so loud (0: no longer)
 travel OPENNESS               a stomp beside a hi-hat stroke counts if the pedal closed by so much (0: always)
 grab VELOCITY                 strokes up to so hard around a grab come from the grabbing hand
+curve PIECE SHAPE             strokes count as a curve of `touch` with a name says: light, firm …
+curve PIECE SOFTEST LOUDEST BEND    or as one by its numbers says
+note NUMBER PAD               the note is that pad, such as tom_1/rim
 """
 
 from collections.abc import Callable
@@ -16,8 +19,23 @@ from station.core.meant import meant
 from station.core.pieces import Piece, word
 from station.core.units import ns_from_ms
 from station.devices.kit import Crosstalk, KitPreset, Pad
+from station.devices.touch import (
+    LEAST_SPAN,
+    LOUDEST_FROM,
+    LOUDEST_TO,
+    MOST_BEND,
+    SHAPES,
+    SOFTEST_FROM,
+    SOFTEST_TO,
+    Curve,
+)
+from station.devices.wizard.one_hit import taught
+from station.devices.wizard.pads import pad_named
 
-USAGE = "threshold PIECE VELOCITY | mask PIECE MS | ghost SOURCE VICTIM SHARE | travel OPENNESS | grab VELOCITY"
+USAGE = (
+    "threshold PIECE VELOCITY | mask PIECE MS | ghost SOURCE VICTIM SHARE | travel OPENNESS | grab VELOCITY"
+    " | curve PIECE SHAPE or SOFTEST LOUDEST BEND | note NUMBER PAD"
+)
 _PIECES = {word(piece): piece for piece in Piece}
 _LONGEST_MASK_MS = 100.0
 
@@ -26,7 +44,7 @@ def obey(kit: KitPreset, line: str) -> KitPreset:
     """The kit as `line` wants it; raises `BadInput` that says what is expected."""
     name, *words = line.split() or [""]
     order = _ORDERS.get(name)
-    if order is None or len(words) != order[0]:
+    if order is None or len(words) not in order[0]:
         raise BadInput(line, "", f"expected {USAGE}")
     return order[1](kit, words)
 
@@ -59,12 +77,34 @@ def _grab(kit: KitPreset, words: list[str]) -> KitPreset:
     return replace(kit, grab_velocity=int(_number(words[0], 0, 127)))
 
 
-_ORDERS: dict[str, tuple[int, Callable[[KitPreset, list[str]], KitPreset]]] = {
-    "threshold": (2, _threshold),
-    "mask": (2, _mask),
-    "ghost": (3, _ghost),
-    "travel": (1, _travel),
-    "grab": (1, _grab),
+def _curve(kit: KitPreset, words: list[str]) -> KitPreset:
+    piece, shape = _piece(words[0]), words[1]
+    if len(words) == 2:
+        if shape not in SHAPES:
+            raise BadInput(shape, "", f"no such shape{meant(shape, SHAPES)}")
+        return _with_pad(kit, piece, replace(kit.pad(piece), curve=SHAPES[shape]))
+    softest = _number(words[1], SOFTEST_FROM, SOFTEST_TO)
+    loudest = _number(words[2], max(LOUDEST_FROM, softest + LEAST_SPAN), LOUDEST_TO)
+    curve = Curve(softest, loudest, _number(words[3], -MOST_BEND, MOST_BEND))
+    return _with_pad(kit, piece, replace(kit.pad(piece), curve=curve))
+
+
+def _note(kit: KitPreset, words: list[str]) -> KitPreset:
+    number = _number(words[0], 0, 127)
+    return taught(kit, (_ANY_CHANNEL, int(number)), pad_named(words[1]))
+
+
+_ANY_CHANNEL = 1
+"""A note that is no channel's own means the same on all of them."""
+
+_ORDERS: dict[str, tuple[tuple[int, ...], Callable[[KitPreset, list[str]], KitPreset]]] = {
+    "threshold": ((2,), _threshold),
+    "mask": ((2,), _mask),
+    "ghost": ((3,), _ghost),
+    "travel": ((1,), _travel),
+    "grab": ((1,), _grab),
+    "curve": ((2, 4), _curve),
+    "note": ((2,), _note),
 }
 
 

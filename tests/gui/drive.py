@@ -33,10 +33,13 @@ from station.app.panels.devices import DEVICES
 from station.app.panels.ear_row import STOP_LABEL as HITS_STOP
 from station.app.panels.ear_row import STUDENT_LABEL, TEACHER_LABEL
 from station.app.panels.lessons import ADAPT_LABEL, FREE_LABEL, LISTEN_LABEL
+from station.app.panels.pads import LEARN_LABEL as LEARN_PAD_LABEL
+from station.app.panels.pads import UNDO_LABEL
 from station.app.panels.page import PANELS_LABEL
 from station.app.panels.player_controls import COUNT_IN_LABEL, MORE_LABEL
 from station.app.panels.practice import LEARN_LABEL, PRACTICE
 from station.app.panels.take_along import MIDI_LABEL, TAKE_ALONG
+from station.app.panels.touch import LEARN_LABEL as TOUCH_LABEL
 from station.app.panels.transport import VIEW_LABEL
 from station.app.window import Window
 from station.core.calibration import load_calibration
@@ -342,9 +345,47 @@ def devices(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.seen["kept"] = None if kept is None else kept.pad(Piece.SNARE).threshold
     drive.seen["taken"] = [type(command).__name__ for command in drive.engine.sent]
     drive.seen["told"] = drive.window.news.text
+    pads_are_learnt(drive, ctx)
     open_panel(ctx, DEVICES)  # and close it again
     ctx.yield_(2)
     drive.seen["still listens"] = [command.on for command in drive.engine.sent if isinstance(command, Eavesdrop)]
+
+
+def pads_are_learnt(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """An unknown note gets a name, a pad is learnt with one hit and undone, Esc gives up, ten strokes make a curve."""
+    desk = drive.room.desk
+    drive.engine.play_bytes("99 0e 40")
+    ctx.yield_(2)
+    drive.seen["unknown"] = desk.unknown
+    ctx.item_click("What is it?##10-14")
+    ctx.item_click("//$FOCUSED/##pads/rim##tom_1\\/rim")
+    ctx.yield_(2)
+    drive.seen["named"] = desk.learnt
+    ctx.item_click(LEARN_PAD_LABEL)
+    ctx.item_click("//$FOCUSED/##pads/bell##ride\\/bell")
+    ctx.yield_(2)
+    drive.seen["asks"] = desk.asks
+    drive.engine.play_bytes("99 24 60")
+    ctx.yield_(6)
+    drive.seen["learnt"] = [desk.learnt, drive.room.room().stage.name]
+    ctx.set_ref(f"//{DEVICES}")
+    ctx.item_click(UNDO_LABEL)
+    ctx.yield_(2)
+    drive.seen["undone"] = desk.kit.strike(10, 0x24).piece.name
+    ctx.item_click("##pads/snare##pad-snare")
+    ctx.yield_(2)
+    ctx.item_click(TOUCH_LABEL)
+    ctx.yield_(2)
+    ctx.key_press(imgui.Key.escape)
+    ctx.yield_(2)
+    drive.seen["given up"] = desk.learns
+    ctx.item_click(TOUCH_LABEL)
+    for velocity in (0x10, 0x12, 0x11, 0x13, 0x14, 0x50, 0x52, 0x51, 0x53, 0x54):
+        drive.engine.play_bytes(f"99 26 {velocity:02x}")
+        ctx.yield_(2)
+    ctx.yield_(3)
+    kept = own_kit(KIT)
+    drive.seen["touch"] = None if kept is None else [kept.pad(Piece.SNARE).curve.table[v] for v in (0x12, 0x52)]
 
 
 def habits(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:

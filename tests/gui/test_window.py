@@ -173,6 +173,13 @@ def the_kit_is_seen_and_set_by_looking(seen: dict[str, Any]) -> None:
     assert "TakeKit" in seen["taken"]
     assert seen["told"], "where it is kept, or that the engine took it"
     assert seen["still listens"] == [True, False]
+    assert seen["unknown"] == [[10, 14]]
+    assert seen["named"] == "note 14 (channel 10) is the high tom, rim"
+    assert seen["asks"] == "hit it now, once: ride, bell"
+    assert seen["learnt"] == ["note 36 (channel 10) is the ride, bell now; it was the kick before", "IDLE"]
+    assert seen["undone"] == "KICK"
+    assert not seen["given up"], "Esc gives up"
+    assert seen["touch"] == [32, 116], "18 and 82 are the medians of what was played"
 
 
 def how_sessions_go_is_ticked_and_learnt(seen: dict[str, Any]) -> None:

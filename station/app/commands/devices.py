@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from station.app.commands import calibrate
 from station.app.commands.kit_option import KIT_HELP
 from station.app.commands.learn import learn
+from station.app.commands.learn_pad import add_pad_options, learn_one
 from station.app.commands.listening import event_line, listening, polls
 from station.app.commands.monitor import monitor
 from station.app.commands.output import print_json, say
@@ -37,6 +38,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     listing.add_argument("--json", action="store_true", help="print one JSON document")
     watch = verbs.add_parser("monitor", help="every hit with its raw bytes, and what looks like a ghost; Ctrl-C ends")
     teach = verbs.add_parser("learn", help="teach the station your kit: strike what is asked for")
+    add_pad_options(teach)
     record = verbs.add_parser("record", help="keep every byte of a kit with its time; Ctrl-C ends")
     record.add_argument("file", metavar="FILE", type=Path, help="the capture to write")
     for verb in (watch, teach, record):
@@ -63,7 +65,7 @@ def run(arguments: argparse.Namespace) -> int:
     verbs = {
         "list": _list,
         "monitor": monitor,
-        "learn": learn,
+        "learn": learn_one if "pad" in arguments and (arguments.pad or arguments.touch) else learn,
         "calibrate": calibrate.run,
         "record": _record,
         "replay": _replay,

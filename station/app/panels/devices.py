@@ -12,6 +12,8 @@ from station.app.kit_desk import STROKES_SHOWN, KitDesk, Stroke
 from station.app.kit_monitor import Line, suspected
 from station.app.latency_lines import latency_lines
 from station.app.panels.calibration import CalibrationPart
+from station.app.panels.pads import PadsPart
+from station.app.panels.touch import TouchPart
 from station.core.calibration import Calibration, load_calibration
 from station.core.events import Choke, Hit, PedalMoved, Switched
 from station.core.names import piece_name
@@ -25,8 +27,9 @@ ABOUT = "The kits that were found, what they send, and what of it counts as a st
 HELP = (
     "Strike a pad: a line says what was understood, with the raw bytes, and a bar how hard. Raise a pad's threshold"
     " until bars that you did not play are hollow, and its mask until double triggers are. What looks like crosstalk is"
-    " named with a button that holds it back. Changes show here at once; Save keeps them for this kit, and from then on"
-    " the station plays and judges by them."
+    " named with a button that holds it back. Learn a pad: choose what it is, hit it once. A pad's name shows how loud"
+    " its strokes count; five ghosts and five accents teach that. Changes show here at once; Save keeps them for this"
+    " kit, and from then on the station plays and judges by them."
 )
 SAVE_LABEL = "Save##save-kit"
 BACK_LABEL = "As it was##back-kit"
@@ -61,6 +64,7 @@ class DevicesPanel:
         self._tried = tried
         self._tell = tell
         self._calibration = calibration
+        self._pads, self._touch = PadsPart(desk), TouchPart(desk)
         self._known: Calibration | None = None
 
     def gui(self, may_measure: bool) -> None:
@@ -76,11 +80,16 @@ class DevicesPanel:
             theme.soft(_GIVEN_UP)
             self._latency(may_measure)
             return
+        if self._pads.runs:
+            self._pads.running(may_measure)
+            return
         self._kits()
         imgui.separator_text("What it sends")
         _live(desk.seen.lines)
         imgui.separator_text("Pads")
-        self._pads()
+        self._pads.gui(may_measure)
+        self._table()
+        self._touch.gui(may_measure)
         self._crosstalk()
         self._keeping()
         self._latency(may_measure)
@@ -104,13 +113,13 @@ class DevicesPanel:
         desk = self._desk
         for device in desk.devices:
             if imgui.radio_button(f"{device}##kit", desk.device == device):
-                desk.device = device
+                desk.show(device)
             theme.tooltip("Show this kit")
         theme.soft(f"understood as {desk.kit.title}")
         if desk.seen.fault:
             imgui.text_wrapped(desk.seen.fault)
 
-    def _pads(self) -> None:
+    def _table(self) -> None:
         desk = self._desk
         if not desk.pads:
             theme.soft("Strike every pad once: each then has its line here.")
@@ -129,7 +138,10 @@ class DevicesPanel:
         pad = desk.kit.pad(piece)
         imgui.table_next_row()
         imgui.table_next_column()
-        imgui.text_wrapped(piece_name(piece))
+        is_shown = self._touch.piece is piece
+        if imgui.selectable(f"{piece_name(piece)}##pad-{word(piece)}", is_shown)[0]:
+            self._touch.piece = None if is_shown else piece
+        theme.tooltip("Show or hide how loud its strokes count")
         imgui.table_next_column()
         _bars(desk.seen.strokes.get(piece, ()), pad.threshold)
         theme.tooltip("The last strokes, the newest on the right, and the threshold; hollow ones are held back")

@@ -10,7 +10,9 @@ from station.core.events import DeviceFound, DeviceLost
 from station.core.pieces import Piece
 from station.core.units import NS_PER_MS
 from station.devices.guard import Why
+from station.devices.kit import KitPreset, Pad
 from station.devices.kit_file import own_kit
+from station.devices.wizard.pads import pad_named
 from station.engine.messages import Command, Eavesdrop, Overheard, TakeKit
 
 KIT = "TD-17"
@@ -113,3 +115,95 @@ def test_a_file_at_fault_is_told_and_the_preset_holds(tmp_path: Path) -> None:
     bench = Bench(tmp_path / "kits")
     assert "threshold" in bench.desk.seen.fault
     assert bench.desk.kit.pad(Piece.SNARE).threshold == 1
+
+
+def kept(bench: Bench) -> KitPreset:
+    kit = own_kit(KIT, bench.folder)
+    assert kit is not None
+    return kit
+
+
+def test_a_pad_is_learnt_with_one_hit_kept_at_once_and_undone(bench: Bench) -> None:
+    bench.desk.threshold(Piece.SNARE, 20)
+    bench.desk.learn_pad(pad_named("tom_1/rim"))
+    assert (bench.desk.learns, bench.desk.asks) == (True, "hit it now, once: high tom, rim")
+    bench.strike(1000, f"{KICK} 14")
+    bench.strike(1002, "99 43 60")
+    bench.desk.advance(1300 * NS_PER_MS)
+    assert not bench.desk.learns
+    assert bench.desk.learnt == "note 67 (channel 10) is the high tom, rim", "the loudest of the notes of a hit"
+    assert kept(bench).strike(10, 67) == pad_named("tom_1/rim")
+    assert kept(bench).pad(Piece.SNARE).threshold == 1, "what is on trial is not kept with it"
+    assert bench.desk.kit.pad(Piece.SNARE).threshold == 20, "nor lost by it"
+    assert bench.told == [TakeKit(KIT)]
+    bench.desk.undo()
+    assert kept(bench).strike(10, 67).piece is Piece.PERCUSSION
+    assert bench.desk.kit.pad(Piece.SNARE).threshold == 20
+    assert not bench.desk.can_undo
+
+
+def test_a_pad_that_meant_another_thing_is_said(bench: Bench) -> None:
+    bench.desk.learn_pad(pad_named("crash_1/edge"))
+    bench.strike(1000, f"{SNARE} 60")
+    bench.desk.advance(1300 * NS_PER_MS)
+    assert bench.desk.learnt == "note 38 (channel 10) is the crash, edge now; it was the snare, head before"
+
+
+def test_what_is_not_known_gets_its_name(bench: Bench) -> None:
+    bench.strike(100, "99 02 40")
+    assert (bench.desk.unknown, bench.desk.pads) == ([(10, 2)], [])
+    bench.desk.name((10, 2), pad_named("cowbell"))
+    assert bench.desk.unknown == []
+    bench.strike(900, "99 02 40")
+    assert bench.desk.pads == [Piece.COWBELL]
+
+
+@pytest.mark.parametrize("end", ["give_up", "listen", "lost"])
+def test_nothing_is_learnt_that_was_given_up(bench: Bench, end: str) -> None:
+    bench.desk.listen(on=True)
+    bench.desk.learn_pad(pad_named("tom_1/rim"))
+    bench.strike(1000, f"{SNARE} 60")
+    match end:
+        case "give_up":
+            bench.desk.give_up()
+        case "listen":
+            bench.desk.listen(on=False)
+        case _:
+            bench.desk.take(DeviceLost(1100 * NS_PER_MS, KIT))
+    bench.desk.advance(2000 * NS_PER_MS)
+    assert not bench.desk.learns
+    assert own_kit(KIT, bench.folder) is None
+
+
+def ten_strokes(bench: Bench, ghost: int, accent: int) -> None:
+    for k in range(10):
+        bench.strike(1000 + 500 * k, f"{SNARE} {(ghost if k < 5 else accent) + k % 5:02x}")
+        bench.desk.advance((1400 + 500 * k) * NS_PER_MS)
+
+
+def test_ghosts_below_the_threshold_teach_too(bench: Bench) -> None:
+    bench.desk.threshold(Piece.SNARE, 30)
+    bench.desk.save()
+    bench.desk.learn_touch(Piece.SNARE)
+    ten_strokes(bench, 18, 90)
+    pad = kept(bench).pad(Piece.SNARE)
+    assert (pad.curve.table[20], pad.curve.table[92], pad.threshold) == (32, 116, 9)
+    bench.desk.undo()
+    assert kept(bench).pad(Piece.SNARE) == Pad(threshold=30)
+
+
+def test_strokes_that_are_all_alike_teach_nothing(bench: Bench) -> None:
+    bench.desk.learn_touch(Piece.SNARE)
+    ten_strokes(bench, 60, 61)
+    assert "told apart" in bench.desk.learnt
+    assert (bench.desk.learns, bench.desk.can_undo, own_kit(KIT, bench.folder)) == (False, False, None)
+
+
+def test_a_file_at_fault_is_not_written_over(tmp_path: Path) -> None:
+    (tmp_path / "kits").mkdir()
+    path = tmp_path / "kits" / f"{KIT}.toml"
+    path.write_text("pads.snare = { threshold = 900 }\n")
+    bench = Bench(tmp_path / "kits")
+    bench.desk.name((10, 2), pad_named("cowbell"))
+    assert "has a fault" in bench.desk.learnt
+    assert path.read_text() == "pads.snare = { threshold = 900 }\n"

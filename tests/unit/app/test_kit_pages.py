@@ -5,12 +5,15 @@ from pathlib import Path
 import pytest
 
 from station.app.commands.learn import LearnPage
+from station.app.commands.learn_pad import OnePadPage
 from station.app.commands.monitor import MonitorPage
 from station.core.pieces import Piece
 from station.core.units import NS_PER_MS, ns_from_ms
 from station.devices.kit_file import kits_folder, own_kit
+from station.devices.touch import SHAPES, Curve
 from station.devices.transport import Packet
 from station.devices.watch import Findings
+from station.devices.wizard.pads import pad_named
 from station.devices.wizard.steps import STEPS
 from tests.fakes.module import FakeModule
 from tests.unit.devices.wizard.drummer import answer
@@ -169,3 +172,54 @@ def test_a_rule_that_is_none_is_told_and_changes_nothing(order: str) -> None:
     (line,) = page.obey(order)
     assert "expected" in line or "no such piece" in line or "its own" in line
     assert not kits_folder().exists()
+
+
+def test_one_pad_is_learnt_with_one_hit(capsys: pytest.CaptureFixture[str]) -> None:
+    page = OnePadPage(lambda desk: desk.learn_pad(pad_named("tom_1/rim")))
+    page.take(found())
+    page.advance(0)
+    assert capsys.readouterr().out == "hit it now, once: high tom, rim\n"
+    page.take(packets((1000.0, "99 43 60")))
+    page.advance(1300 * NS_PER_MS)
+    assert capsys.readouterr().out == "note 67 (channel 10) is the high tom, rim\n"
+    assert page.over
+    kit = own_kit(DEVICE)
+    assert kit is not None
+    assert kit.strike(10, 67) == pad_named("tom_1/rim")
+
+
+def test_a_touch_that_cannot_be_told_is_asked_for_once_more(capsys: pytest.CaptureFixture[str]) -> None:
+    page = OnePadPage(lambda desk: desk.learn_touch(Piece.SNARE))
+    page.take(found())
+    page.advance(0)
+    velocities = [60] * 10 + [20] * 5 + [100] * 5
+    for k, velocity in enumerate(velocities):
+        page.take(packets((1000.0 + 500 * k, f"99 26 {velocity:02x}")))
+        page.advance((1400 + 500 * k) * NS_PER_MS)
+    shown = capsys.readouterr().out
+    assert "told apart" in shown
+    assert shown.count("play five ghost strokes, 0 of 5") == 2
+    assert page.over
+    kit = own_kit(DEVICE)
+    assert kit is not None
+    assert [kit.pad(Piece.SNARE).curve.table[sent] for sent in (20, 100)] == [32, 116]
+
+
+def test_a_curve_and_a_note_are_typed(capsys: pytest.CaptureFixture[str]) -> None:
+    page = MonitorPage(0)
+    page.take(found())
+    for line in ("curve snare light", "curve kick 5 110 -0.5", "note 67 tom_1/rim", "save"):
+        page.obey(line)
+    kit = own_kit(DEVICE)
+    assert kit is not None
+    assert kit.pad(Piece.SNARE).curve == SHAPES["light"]
+    assert kit.pad(Piece.KICK).curve == Curve(5.0, 110.0, -0.5)
+    assert kit.strike(4, 67) == pad_named("tom_1/rim")
+    for line, fault in (
+        ("curve snare softly", "no such shape"),
+        ("curve snare 50 40 0", "expected a number from 60 to 400"),
+        ("curve snare 5", "no such shape"),
+        ("note 200 kick", "expected a number from 0 to 127"),
+        ("note 40 kick/rim", "no such zone"),
+    ):
+        assert fault in page.obey(line)[0]

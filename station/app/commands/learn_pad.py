@@ -1,0 +1,110 @@
+"""`station devices learn --pad PAD` and `--touch PIECE`: one pad with one hit, or its ghosts and accents.
+
+The same desk as the window's page; what was learnt is kept at once.
+"""
+
+import argparse
+from collections.abc import Callable
+
+from station.app.commands.listening import listening, polls
+from station.app.commands.output import say
+from station.app.kit_desk import KitDesk
+from station.core.clock import monotonic_ns
+from station.core.errors import BadInput
+from station.core.events import DeviceFound, DeviceLost
+from station.core.kitmap import Strike
+from station.core.meant import meant
+from station.core.pieces import Piece, word
+from station.devices.watch import Findings
+from station.devices.wizard.pads import PADS, pad_named
+from station.engine.messages import Overheard
+
+_PIECES = {word(piece): piece for piece in PADS}
+
+
+def add_pad_options(parser: argparse.ArgumentParser) -> None:
+    """Add what asks for one pad alone."""
+    one = parser.add_mutually_exclusive_group()
+    one.add_argument(
+        "--pad", type=_pad, metavar="PAD", help="learn one pad with one hit: kick, snare/rim_shot, tom_1/rim, ride/bell"
+    )
+    one.add_argument(
+        "--touch", type=_piece, metavar="PIECE", help="learn a pad's velocity curve from five ghosts and five accents"
+    )
+
+
+def _pad(text: str) -> Strike:
+    try:
+        return pad_named(text)
+    except BadInput as fault:
+        raise argparse.ArgumentTypeError(str(fault)) from None
+
+
+def _piece(text: str) -> Piece:
+    if text not in _PIECES:
+        raise argparse.ArgumentTypeError(f"{text}: no such piece{meant(text, _PIECES)}")
+    return _PIECES[text]
+
+
+def learn_one(arguments: argparse.Namespace) -> int:
+    """Learn what the options ask for from the first kit that is found."""
+
+    def begin(desk: KitDesk) -> None:
+        if arguments.pad is not None:
+            desk.learn_pad(arguments.pad)
+        else:
+            desk.learn_touch(arguments.touch)
+
+    page = OnePadPage(begin)
+    with listening(arguments) as kits:
+        for findings in polls(kits, arguments.seconds):
+            page.take(findings)
+            page.advance(monotonic_ns())
+            if page.over:
+                break
+    if not page.over:
+        say("nothing was kept")
+    return 0
+
+
+class OnePadPage:
+    """The first kit that is found, and what is learnt of it; `begin` asks its desk."""
+
+    def __init__(self, begin: Callable[[KitDesk], None]) -> None:
+        self._begin = begin
+        self._desk = KitDesk(lambda _: None)
+        self._shown = ""
+
+    @property
+    def over(self) -> bool:
+        """Whether something was learnt and kept."""
+        return bool(self._desk.device) and self._desk.can_undo
+
+    def take(self, findings: Findings) -> None:
+        """What the kit brought; another kit than the first is not listened to."""
+        desk, device = self._desk, findings.device
+        if findings.found and not desk.device:
+            desk.take(DeviceFound(monotonic_ns(), device))
+            say(f"{device} is here, understood as {desk.kit.title}")
+            self._begin(desk)
+        if device != desk.device:
+            return
+        for packet in findings.packets:
+            desk.take(Overheard(packet.at_ns, device, packet.data))
+        if findings.lost:
+            desk.take(DeviceLost(monotonic_ns(), device))
+            say(f"{device} is gone; plug it in again")
+
+    def advance(self, now_ns: int) -> None:
+        """Say what is asked and what was learnt; ask once more where it could not be."""
+        desk = self._desk
+        if not desk.device:
+            return
+        desk.advance(now_ns)
+        if desk.learnt:
+            print(desk.learnt, flush=True)
+        if not desk.learns and not self.over:
+            self._begin(desk)
+        if desk.asks and desk.asks != self._shown:
+            self._shown = desk.asks
+            print(desk.asks, flush=True)
