@@ -17,6 +17,8 @@ the first fault and has everything before it. Kinds that it does not know it pas
 | ZERO | 0 | when cue time 0 was heard | none |
 | END | 0 | when the capture was closed | none |
 | SETTLED | number | until when its hits had been told | none; only before bytes from earlier, that came late |
+| OUTPUT | 0 | when the sound went there | the name of what sounds from now on, UTF-8; empty: nothing does |
+| REMARK | 0 | when it came | what whoever records wishes to be kept, UTF-8; sessions: `station.practice.remarks` |
 """
 
 import json
@@ -54,6 +56,8 @@ class Kind(IntEnum):
     ZERO = 6
     END = 7
     SETTLED = 8
+    OUTPUT = 9
+    REMARK = 10
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,13 +17,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.errors import DeviceError, StationError
-from station.core.events import Choke, DeviceEvent, DeviceFound, DeviceLost, Hit, PedalMoved
-from station.core.kitmap import Strike
+from station.core.events import DeviceFound, DeviceLost, Hit
 from station.core.units import NS_PER_S
-from station.devices.capture_file import CaptureFile, CaptureSink
+from station.devices.capture_file import CaptureFile
 from station.devices.decoders import DecoderBank
 from station.devices.kit import KitPreset
 from station.engine.messages import (
+    Annotate,
     Command,
     Eavesdrop,
     EngineEvent,
@@ -40,15 +40,16 @@ from station.engine.messages import (
     SetMidiOut,
     SetPiece,
     Setting,
+    Sounding,
     Started,
     Status,
     Stop,
     TakeKit,
 )
-from station.engine.midi_player import MidiPlayer, MidiSink
+from station.engine.midi_player import MidiOut, OpenMidiOut, no_midi_out
 from station.engine.playback import CueRun
 from station.engine.player import Player
-from station.engine.recorder import Recorder
+from station.engine.recorder import OpenCapture, Recording, Scene
 from station.sound.mixer import Mixer
 from station.sound.track import load
 
@@ -56,15 +57,8 @@ STATUS_EVERY_NS = NS_PER_S
 KEYBOARD = "keyboard"
 """The device that a stroke on the computer's keys names."""
 
-OpenCapture = Callable[[Path, int], CaptureSink]
-OpenMidiOut = Callable[[str], MidiSink]
 FindKit = Callable[[str], KitPreset | None]
 """The user's own kit for a device; raises `BadInput` where its file is at fault."""
-
-
-def no_midi_out(port: str) -> MidiSink:
-    """For an engine without ports."""
-    raise DeviceError(f"{port}: there is no MIDI output here")
 
 
 def no_own_kit(_: str) -> KitPreset | None:
@@ -97,16 +91,12 @@ class Engine:
         self.quitting = False
         """Whether `Quit` was handled."""
         self._player = Player(mixer)
-        self._open_capture = open_capture
-        self._open_midi_out = open_midi_out
         self._own_kit = own_kit
-        self._midi: MidiPlayer | None = None
-        self._midi_fault: DeviceError | None = None
+        self._midi = MidiOut(open_midi_out, self.notify)
         self._decoders = DecoderBank()
         self._devices: list[str] = []
         self._eavesdrops = False
-        self._recorder: Recorder | None = None
-        self._capture_fault: str | None = None
+        self._recording = Recording(open_capture, self._decoders)
         self._zero_ns: int | None = None
         self._events: list[EngineEvent] = []
         self._now_ns = 0
@@ -118,21 +108,16 @@ class Engine:
         """Understand `device` by `preset` instead of the one that its name suggests."""
         self._events += self._decoders.flush()
         self._decoders.add(device, preset)
-        if self._recorder is not None:
-            self._recorder.add_device(device, self._now_ns)
+        self._recording.add_device(device, self._now_ns)
 
     def feed(self, device: str, data: bytes, at_ns: int) -> None:
         """Take bytes of `device` that came at `at_ns`; the strokes in them sound with the next block."""
-        overtaken_ns = self._decoders.overtaken_ns(device, at_ns)
-        if self._recorder is not None:
-            if overtaken_ns is not None:
-                self._recorder.settled(device, overtaken_ns)
-            self._recorder.bytes_came(device, data, at_ns)
+        self._recording.bytes_came(device, data, at_ns, self._decoders.overtaken_ns(device, at_ns))
         if self._eavesdrops:
             self._events.append(Overheard(at_ns, device, data))
         heard = self._decoders.feed(device, data, at_ns)
         for event in heard.sounding:
-            self._sound(event)
+            self._player.sound(event)
         self._events += heard.told
 
     def device_found(self, device: str, at_ns: int) -> None:
@@ -140,8 +125,7 @@ class Engine:
         self._take_own_kit(device)
         if device not in self._devices:
             self._devices.append(device)
-        if self._recorder is not None:
-            self._recorder.device_changed(DeviceFound(at_ns, device))
+        self._recording.device_changed(DeviceFound(at_ns, device))
         self._events += self._decoders.found(device, at_ns)
 
     def _take_own_kit(self, device: str) -> None:
@@ -158,21 +142,8 @@ class Engine:
         """`device` is gone."""
         if device in self._devices:
             self._devices.remove(device)
-        if self._recorder is not None:
-            self._recorder.device_changed(DeviceLost(at_ns, device))
+        self._recording.device_changed(DeviceLost(at_ns, device))
         self._events += self._decoders.lost(device, at_ns)
-
-    def _sound(self, event: DeviceEvent) -> None:
-        match event:
-            case Hit():
-                strike = Strike(event.piece, event.zone, event.articulation, event.openness)
-                self._player.strike(strike, event.velocity)
-            case Choke():
-                self._player.choke(event.piece)
-            case PedalMoved():
-                self._player.pedal(event.openness)
-            case _:
-                pass
 
     # --- commands ----------------------------------------------------------------------------------------------------
 
@@ -181,24 +152,23 @@ class Engine:
         match command:
             case Play():
                 self._player.play(CueRun(command.cues), self._now_ns + command.start_in_ns)
-                if self._midi is not None:
-                    self._midi.play(CueRun(command.cues))
+                self._midi.play(CueRun(command.cues))
             case Resume():
                 self._zero_ns = command.zero_ns
                 self._player.resume(CueRun(command.cues), command.zero_ns)
-                if self._midi is not None:
-                    self._midi.resume(CueRun(command.cues), command.zero_ns, self._now_ns)
+                self._midi.resume(CueRun(command.cues), command.zero_ns, self._now_ns)
             case Stop():
                 self._zero_ns = None
                 self._player.stop()
-                if self._midi is not None:
-                    self._midi.stop()
+                self._midi.stop()
             case SetLevel() | SetPiece() | SetBacking() | SetMidiOut():
                 self._set(command)
             case KeyHit():
                 self._take_key(command)
             case Record():
                 self._record(command.path)
+            case Annotate(text):
+                self._recording.remark(text, self._now_ns)
             case Eavesdrop(on):
                 self._eavesdrops = on
             case TakeKit(device):
@@ -215,27 +185,7 @@ class Engine:
             case SetBacking():
                 self._set_backing(command)
             case SetMidiOut():
-                self._set_midi_out(command.port)
-
-    def _set_midi_out(self, port: str | None) -> None:
-        if self._midi is not None:
-            self._midi.close()
-        self._midi = self._midi_fault = None
-        if port is None:
-            return
-        try:
-            self._midi = MidiPlayer(self._open_midi_out(port))
-        except StationError as fault:
-            self.notify(f"the demonstration is not sent: {fault}")
-
-    def _send_midi(self, now_ns: int) -> None:
-        """Send what is due; a fault is told once."""
-        if self._midi is None:
-            return
-        self._midi.advance(now_ns)
-        if self._midi.fault is not self._midi_fault:
-            self._midi_fault = self._midi.fault
-            self.notify(f"the demonstration is no longer sent: {self._midi_fault}")
+                self._midi.choose(command.port)
 
     def _set_backing(self, wish: SetBacking) -> None:
         track = wish.loaded
@@ -259,38 +209,25 @@ class Engine:
             openness=key.openness,
             device=KEYBOARD,
         )
-        self._sound(hit)
-        if self._recorder is not None:
-            self._recorder.stroke(hit)
+        self._player.sound(hit)
+        self._recording.stroke(hit)
         self._events.append(hit)
 
     def _record(self, path: Path | None) -> None:
         self._events += self._decoders.flush()  # what was played before a capture begins or ends is told before it
-        lacking = self._end_capture()
+        lacking = self._recording.end(self._now_ns)
         if path is None:
             self._events.append(Recorded(None, lacking))
             return
         if lacking is not None:
             self.notify(lacking)
+        zero_ns = self._zero_ns if self._player.has_cues else None  # what has played out belongs to what was before
         try:
-            sink = self._open_capture(path, self._now_ns)
+            self._recording.begin(path, self._now_ns, Scene(self._devices, self.output.name, zero_ns))
         except StationError as fault:
             self._events.append(Recorded(path, str(fault)))
             return
         self._events.append(Recorded(path))
-        self._recorder = Recorder(sink, self._decoders)
-        for device in self._devices:
-            self._recorder.add_device(device, self._now_ns)
-        if self._zero_ns is not None and self._player.has_cues:  # one that has played out belongs to what was before
-            self._recorder.zero(self._zero_ns)
-
-    def _end_capture(self) -> str | None:
-        """Close the capture; returns what it lacks."""
-        if self._recorder is None:
-            return None
-        self._recorder.close(self._now_ns)
-        fault, self._recorder, self._capture_fault = self._recorder.fault, None, None
-        return fault
 
     # --- time --------------------------------------------------------------------------------------------------------
 
@@ -300,6 +237,9 @@ class Engine:
 
     def tell(self, event: EngineEvent) -> None:
         """Say `event` with the next `advance`."""
+        if isinstance(event, Sounding):  # what was played before sounded elsewhere, and is told before
+            self._events += self._decoders.flush()
+            self._recording.output(event.output, self._now_ns)
         self._events.append(event)
 
     @property
@@ -315,17 +255,16 @@ class Engine:
             self._player.pass_by(now_ns)
         for zero_ns in self._player.take_zeros_ns():
             self._zero_ns = zero_ns
-            if self._midi is not None:
-                self._midi.started(zero_ns)
+            self._midi.started(zero_ns)
             self._events.append(Started(zero_ns, self.output.name))
-            if self._recorder is not None:
-                self._recorder.zero(zero_ns)
-        self._send_midi(now_ns)
+            self._recording.zero(zero_ns)
+        self._midi.advance(now_ns)
         if self._next_status_ns is None:
             self._next_status_ns = now_ns + STATUS_EVERY_NS
         elif now_ns >= self._next_status_ns:
             self._next_status_ns = now_ns + STATUS_EVERY_NS
-            self._tell_capture_fault()
+            if (fault := self._recording.take_fault()) is not None:
+                self.notify(fault)
             self._events.append(self._status())
         events, self._events = self._events, []
         return events
@@ -339,17 +278,11 @@ class Engine:
             load=self.output.load,
         )
 
-    def _tell_capture_fault(self) -> None:
-        fault = self._recorder.fault if self._recorder is not None else None
-        if fault is not None and fault != self._capture_fault:
-            self.notify(fault)
-        self._capture_fault = fault
-
     def close(self) -> None:
         """Leave the MIDI output, and end the capture, so that its last hits are on the disk."""
-        self._set_midi_out(None)
+        self._midi.choose(None)
         self._events += self._decoders.flush()
-        lacking = self._end_capture()
+        lacking = self._recording.end(self._now_ns)
         if lacking is not None:
             self.notify(lacking)
 

@@ -17,6 +17,7 @@ from station.sound.track import PreparedTrack, Track
 
 __all__ = [
     "CUE_DTYPE",
+    "Annotate",
     "Bus",
     "ClickVoice",
     "Command",
@@ -139,6 +140,13 @@ class Record:
 
 
 @dataclass(frozen=True, slots=True)
+class Annotate:
+    """Keep `text` in the capture, where one is open: what its bytes do not say of what went on."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
 class Eavesdrop:
     """Tell every byte that comes from a kit as `Overheard` from now on, for a page that shows them; or no longer."""
 
@@ -158,7 +166,7 @@ class Quit:
 
 
 Setting = SetLevel | SetPiece | SetBacking | SetMidiOut
-Command = Play | Resume | Stop | Setting | KeyHit | Record | Eavesdrop | TakeKit | Quit
+Command = Play | Resume | Stop | Setting | KeyHit | Record | Annotate | Eavesdrop | TakeKit | Quit
 
 
 # --- from the engine -------------------------------------------------------------------------------------------------

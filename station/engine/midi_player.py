@@ -8,10 +8,11 @@ output fails once it is left alone, and its fault is there to be told.
 
 import heapq
 from collections import deque
+from collections.abc import Callable
 from math import isnan
 from typing import Protocol
 
-from station.core.errors import DeviceError
+from station.core.errors import DeviceError, StationError
 from station.core.pieces import Articulation, Piece, Zone
 from station.devices.midi_encode import GATE_NS, all_off, choke, note_off, note_on
 from station.engine.messages import Bus
@@ -28,6 +29,14 @@ class MidiSink(Protocol):
     def close(self) -> None:
         """Give the output back; harmless when closed already."""
         ...
+
+
+OpenMidiOut = Callable[[str], MidiSink]
+
+
+def no_midi_out(port: str) -> MidiSink:
+    """For an engine without ports; raises `DeviceError`."""
+    raise DeviceError(f"{port}: there is no MIDI output here")
 
 
 class MidiPlayer:
@@ -98,3 +107,53 @@ class MidiPlayer:
                 self._sink.send(message)
             except DeviceError as fault:
                 self.fault = fault
+
+
+class MidiOut:
+    """The output that the demonstration is sent to, None most of the time; `tell` hears what a user should read."""
+
+    def __init__(self, open_output: OpenMidiOut, tell: Callable[[str], None]) -> None:
+        self._open, self._tell = open_output, tell
+        self._player: MidiPlayer | None = None
+        self._fault: DeviceError | None = None
+
+    def choose(self, port: str | None) -> None:
+        """Send to the output whose name contains `port`, from the next start on; None to none."""
+        if self._player is not None:
+            self._player.close()
+        self._player = self._fault = None
+        if port is None:
+            return
+        try:
+            self._player = MidiPlayer(self._open(port))
+        except StationError as fault:
+            self._tell(f"the demonstration is not sent: {fault}")
+
+    def play(self, run: CueRun) -> None:
+        """As `MidiPlayer.play`."""
+        if self._player is not None:
+            self._player.play(run)
+
+    def resume(self, run: CueRun, zero_ns: int, now_ns: int) -> None:
+        """As `MidiPlayer.resume`."""
+        if self._player is not None:
+            self._player.resume(run, zero_ns, now_ns)
+
+    def started(self, zero_ns: int) -> None:
+        """As `MidiPlayer.started`."""
+        if self._player is not None:
+            self._player.started(zero_ns)
+
+    def stop(self) -> None:
+        """As `MidiPlayer.stop`."""
+        if self._player is not None:
+            self._player.stop()
+
+    def advance(self, now_ns: int) -> None:
+        """Send what is due; a fault is told once."""
+        if self._player is None:
+            return
+        self._player.advance(now_ns)
+        if self._player.fault is not self._fault:
+            self._fault = self._player.fault
+            self._tell(f"the demonstration is no longer sent: {self._fault}")

@@ -16,6 +16,7 @@ from math import isnan
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.events import Choke, DeviceEvent, Hit, PedalMoved
 from station.core.kitmap import Strike
 from station.core.pieces import Articulation, Piece, Zone
 from station.core.units import NS_PER_S
@@ -101,6 +102,18 @@ class Player:
         """Set a piece's level and pan."""
         self._of_pieces[piece] = level, pan
         self._to_mixer(lambda mixer: mixer.set_piece(piece, level, pan))
+
+    def sound(self, event: DeviceEvent) -> None:
+        """Sound what the student did with the next block."""
+        match event:
+            case Hit():
+                self.strike(Strike(event.piece, event.zone, event.articulation, event.openness), event.velocity)
+            case Choke():
+                self.choke(event.piece)
+            case PedalMoved():
+                self.pedal(event.openness)
+            case _:
+                pass
 
     def strike(self, strike: Strike, velocity: int) -> None:
         """Sound the student's stroke with the next block."""
