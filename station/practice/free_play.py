@@ -16,7 +16,7 @@ from station.core.pieces import word
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.devices.capture import Capture
 from station.devices.replay import replay, transport_zeros_ns
-from station.engine.messages import CUE_DTYPE, Command, EngineEvent, Play
+from station.engine.messages import CUE_DTYPE, Command, EngineEvent, Play, Stop
 from station.music.performance import Performance
 from station.music.tempo import TempoChange, TempoMap
 from station.practice.click import ClickPattern, click_cues
@@ -68,6 +68,10 @@ class FreePlay:
     def start(self) -> tuple[Command, ...]:
         """The commands that set the engine going."""
         return (Play(self.click.cues(), LEAD_IN_NS),)
+
+    def stop(self) -> tuple[Command, ...]:
+        """The commands that end it."""
+        return (Stop(),)
 
     def handle(self, event: EngineEvent) -> None:
         """Take one event of the engine."""

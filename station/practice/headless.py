@@ -61,7 +61,10 @@ class _Room:
 
     def practise(self, plan: Plan, student: VirtualPerformance, capture: Path | None) -> SessionResult:
         """What the session makes of `plan` as the student played it; the capture begins before it."""
-        session = self._session = Session(plan)
+        session, before = Session(plan), self._session
+        if before is not None:
+            session.heard.go_on_from(before.heard)
+        self._session = session
         commands: tuple[Command, ...] = session.start()
         for command in commands if capture is None else (Record(capture), *commands):
             self._engine.handle(command)
@@ -80,7 +83,8 @@ class _Room:
     def end(self) -> StationError | None:
         """Close the capture; returns why it lacks some of what was played, if it does."""
         assert self._session is not None, "something was practised"
-        self._engine.handle(Record(None))
+        for command in (*self._session.stop(), Record(None)):
+            self._engine.handle(command)
         self._step(self._clock.now_ns())
         fault = self._session.heard.capture_fault
         return None if fault is None else DeviceError(fault)

@@ -22,7 +22,8 @@ class Hearing:
     `devices` are the kits that are connected, the newest last; `output` is what the click is heard on, or was last;
     `capture_fault` why the capture lacks what came after, if it does; `rate_hz` the sound card's, None where there is
     none; `notices` what a user should read once, in order; `recent` the last hits, the newest last; `zero_ns` when cue
-    time 0 was heard, None while the transport has not started.
+    time 0 was heard, None while the transport has not started; `strokes` counts the strokes and the grabbed cymbals
+    since the capture began.
     """
 
     latency: Latency = field(default_factory=Latency)
@@ -33,12 +34,16 @@ class Hearing:
     notices: list[str] = field(default_factory=list)
     recent: deque[Hit] = field(default_factory=lambda: deque(maxlen=RECENT_HITS))
     zero_ns: int | None = None
+    strokes: int = 0
 
     def take(self, event: EngineEvent) -> None:
         """Take in one event."""
         match event:
             case Hit():
                 self.recent.append(event)
+                self.strokes += 1
+            case Choke():
+                self.strokes += 1
             case Started(zero_ns, output):
                 self.zero_ns, self.output = zero_ns, output
             case DeviceLost(_, device):
@@ -50,6 +55,8 @@ class Hearing:
             case Recorded(_, fault) if fault is not None:
                 self.capture_fault = fault
                 self.notices.append(f"nothing more is recorded: {fault}")
+            case Recorded(path) if path is not None:
+                self.strokes = 0
             case Ready(output, rate_hz) | Sounding(output, rate_hz):
                 self.rate_hz = rate_hz
                 self.output = output or self.output  # whoever plays on in silence keeps the beat that he heard
@@ -61,6 +68,7 @@ class Hearing:
     def go_on_from(self, before: "Hearing") -> None:
         """Know what a session knew that ran before on the same engine."""
         self.devices, self.capture_fault, self.rate_hz = before.devices, before.capture_fault, before.rate_hz
+        self.strokes = before.strokes
 
     def transport_ns(self, at_ns: int) -> int | None:
         """The transport's time that was heard at session time `at_ns`; None before it has started."""

@@ -14,7 +14,7 @@ from typing import Protocol
 from station.core.clock import Clock
 from station.core.errors import DeviceError, StationError
 from station.core.units import ns_from_s
-from station.engine.messages import Command, EngineEvent, Ready, Record, Recorded, Stop
+from station.engine.messages import Command, EngineEvent, Ready, Record, Recorded
 from station.music.judgement import Judgement
 from station.practice.adaptation import Adaptation
 from station.practice.hearing import Hearing
@@ -49,6 +49,10 @@ class Listener(Protocol):
 
     def start(self) -> tuple[Command, ...]:
         """The commands that set the engine going."""
+        ...
+
+    def stop(self) -> tuple[Command, ...]:
+        """The commands that end it."""
         ...
 
     def handle(self, event: EngineEvent) -> object:
@@ -163,8 +167,8 @@ def begin(engine: EngineLink, session: Listener, capture: Path) -> None:
 
 def end(engine: EngineLink, session: Listener) -> StationError | None:
     """Stop, close the capture and take in every hit that was still on its way; returns why the capture lacks some."""
-    engine.send(Stop())
-    engine.send(Record(None))
+    for command in (*session.stop(), Record(None)):
+        engine.send(command)
     for _ in range(round(LAST_WORDS_S / POLL_S)):
         events = engine.events(POLL_S)
         for event in events:

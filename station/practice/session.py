@@ -19,7 +19,7 @@ from dataclasses import dataclass, field, replace
 from station.core.events import Choke, Hit
 from station.core.units import NS_PER_MS
 from station.drills.mastery.fading import Feedback
-from station.engine.messages import Command, EngineEvent, Play, SetBacking, Started, Stop
+from station.engine.messages import Annotate, Command, EngineEvent, Play, SetBacking, Started, Stop
 from station.music.judgement import Judgement, Label
 from station.music.performance import Performance
 from station.music.score import Score
@@ -28,6 +28,7 @@ from station.practice.judging import Judging
 from station.practice.latency import Latency
 from station.practice.pausing import NEAR_NS, SILENT_BARS, Pause, Silence, Stretch, bar_of, from_bar
 from station.practice.plan import TAIL_NS, Phase, Plan, Segment
+from station.practice.remarks import Ended, PassBegan, Paused, WentOn, stroke_key, text_of
 from station.scoring.align import align
 from station.scoring.alignment import Alignment
 from station.scoring.windows import DEFAULT_LEVEL, Windows
@@ -103,7 +104,15 @@ class Session:
         """The pauses after which the session went on, in order."""
 
     def start(self) -> tuple[Command, ...]:
-        """The commands that set the engine going."""
+        """The commands that set the engine going; the capture learns what is to be judged."""
+        began = PassBegan(self.heard.strokes, self.plan, self.latency, self.waits)
+        return (Annotate(text_of(began)), *self._play())
+
+    def stop(self) -> tuple[Command, ...]:
+        """The commands that end it, at the present that it knows."""
+        return (Annotate(text_of(Ended(self.heard.strokes, self._now_ns))), Stop())
+
+    def _play(self) -> tuple[Command, ...]:
         play = Play(self._run.cues, LEAD_IN_NS)
         if self.backing is None:
             return (play,)
@@ -135,7 +144,8 @@ class Session:
         meant = [replace(hit, at_ns=at_ns) for hit in command if (at_ns := self._score_of(hit)) is not None]
         self._judging.leave_out(meant)
         self._held_ns, self.paused, self._has_left = self._plan_ns(), True, False
-        return (Stop(),)
+        said = Paused(self.heard.strokes, self._now_ns, tuple(stroke_key(hit) for hit in command))
+        return (Annotate(text_of(said)), Stop())
 
     def resume(self, asked: bool = True, whole: bool = False) -> tuple[Command, ...]:
         """Go on from the bar of the last stroke, or from the beginning where the `whole` is to be judged.
@@ -149,7 +159,7 @@ class Session:
         self.pauses.append(Pause(bar, asked, self._judging.take_back(self._run.from_ns)))
         self.heard.zero_ns, self.paused = None, False
         self._held_ns = self.plan.passes_start_ns + self._run.from_ns
-        return self.start()
+        return (Annotate(text_of(WentOn(self.heard.strokes, asked, whole))), *self._play())
 
     # --- input ------------------------------------------------------------------------------------------------------
 

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from station.engine.engine import Engine
 
 SCHEMA = "drum-station/devices/1"
+REPLAY_SCHEMA = "drum-station/replay/1"
 POLL_S = 0.0005
 """Pause between two looks at the kit: the engine's own pace."""
 
@@ -45,7 +46,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         verb.add_argument("--kit", metavar="PORT", action="append", help=KIT_HELP)
         verb.add_argument("--seconds", type=_seconds, metavar="S", help="end by itself after so long")
     calibrate.add_options(verbs.add_parser("calibrate", help="measure the latency of a kit or a sound output"))
-    replay = verbs.add_parser("replay", help="the hits of a capture, as they were")
+    replay = verbs.add_parser("replay", help="the hits of a capture, as they were, and a session's judgements")
     replay.add_argument("file", metavar="FILE", type=Path, help="a capture")
     replay.add_argument("--json", action="store_true", help="print one JSON document")
 
@@ -183,20 +184,24 @@ def _tell(engine: "Engine") -> int:
 def _replay(arguments: argparse.Namespace) -> int:
     from station.devices.capture import read_capture
     from station.devices.replay import replay
+    from station.practice.judged_again import judge_again, session_document, session_line
 
     capture = read_capture(arguments.file)
     if capture.good_bytes == capture.lost_bytes == 0:
         raise BadInput(arguments.file, "", "the file is empty")
-    events = list(replay(capture))
+    events, sessions = list(replay(capture)), judge_again(capture)
     start_ns = capture.records[0].at_ns if capture.records else 0
     if not capture.complete:
         say(f"{arguments.file}: was not closed in order; {capture.lost_bytes} bytes at its end cannot be read")
     if arguments.json:
         rows = [{"event": type(event).__name__, **_plain(event)} for event in events]
-        print_json({"schema": "drum-station/replay/1", "complete": capture.complete, "events": rows})
+        judged = [session_document(session.result()) for session in sessions]
+        print_json({"schema": REPLAY_SCHEMA, "complete": capture.complete, "events": rows, "sessions": judged})
     else:
         for event in events:
             print(event_line(event, start_ns))
+        for session in sessions:
+            say(session_line(session.result()))
     return 0
 
 

@@ -40,7 +40,7 @@ def test_it_begins_with_the_first_pass(tmp_path: Path, monkeypatch: pytest.Monke
     assert track.rate_hz == 44_100
     backing.ask(asked, 44_100)
     assert backing.take() is track  # it is kept
-    first, second = Session(asked, backing=track).start()
+    _, first, second = Session(asked, backing=track).start()
     assert first == SetBacking(track, asked.passes_start_ns)
     assert isinstance(second, Play)
 

@@ -28,7 +28,7 @@ def session(latency: Latency | None = None, loops: int = 1) -> Session:
     score = Score.from_notes([Note(i * PPQ, Piece.SNARE) for i in range(4)], TempoMap.constant(120))
     lesson = Lesson(name="quarters", title="Quarters", score=score)
     made = Session(plan_practice(lesson, Wishes(demonstrations=0, loops=loops)), latency or Latency())
-    (play,) = made.start()
+    _, play = made.start()
     assert isinstance(play, Play)
     made.handle(Started(ZERO_NS))
     return made
