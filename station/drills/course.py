@@ -63,11 +63,7 @@ def parse_course(words: str, path: Path, where: Where) -> tuple[Course | None, l
     raw, syntax, words = load(words)
     faults = Faults()
     course = _course(Table(raw, (), faults), path, where) if raw or not syntax else None
-    told = [Fault(str(path), *fault) for fault in syntax]
-    semantic = faults.placed(words, str(path))
-    if syntax:  # lines were set aside: what seems to be missing may stand there
-        semantic = [fault for fault in semantic if "is missing" not in fault.text]
-    found = sorted([*told, *semantic])
+    found = faults.found(syntax, words, str(path))
     return (None if found else course), found
 
 

@@ -5,11 +5,13 @@ and, inside a text, against the index of a character. Lines and columns are work
 was a fault: a good file never pays for them. Lines and columns count from 1, in characters.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from station.core.errors import BadInput
 from station.core.toml_places import KeyPath, Places
+from station.drills.toml_syntax import SyntaxFault
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -50,6 +52,14 @@ class Faults:
 
     def __len__(self) -> int:
         return len(self._noted)
+
+    def found(self, syntax: Sequence[SyntaxFault], text: str, source: str) -> list[Fault]:
+        """These and the `syntax` faults of a file, in its order; `text` is what could be read, faulty lines blanked."""
+        told = [Fault(source, *fault) for fault in syntax]
+        semantic = self.placed(text, source)
+        if syntax:  # lines were set aside: what seems to be missing may stand there
+            semantic = [fault for fault in semantic if "is missing" not in fault.text]
+        return sorted([*told, *semantic])
 
     def placed(self, text: str, source: str) -> list[Fault]:
         """All faults with their lines and columns in `text`, in the order of the file, each once."""

@@ -90,11 +90,7 @@ def parse_lesson(text: str, source: str, name: str) -> Reading:
     raw, syntax, text = load(text)
     faults = Faults()
     lesson = _Reader(raw, name, faults).lesson() if raw or not syntax else None
-    told = [Fault(source, *fault) for fault in syntax]
-    semantic = faults.placed(text, source)
-    if syntax:  # lines were set aside: what seems to be missing may stand there
-        semantic = [f for f in semantic if "is missing" not in f.text]
-    found = sorted([*told, *semantic])
+    found = faults.found(syntax, text, source)
     return Reading(None if found else lesson, found)
 
 
