@@ -15,10 +15,13 @@ from station.core.pieces import Piece
 from station.motion import frame
 from station.motion.figure import Joint
 from station.motion.kit import Kit
+from station.motion.maths import blocks
 from station.motion.piece import KitPiece
 
 Array = NDArray[np.float64]
 
+_STICKS_AT_ONCE = 1024
+"""So many sticks at once are looked at as fast as all of them (our choice)."""
 ALONG = np.linspace(0.0, 1.0, 33)
 """Places on the stick at which it is looked at, from butt to tip: 13 mm apart."""
 TOUCH_M = 0.001
@@ -65,18 +68,22 @@ def depth_in_kit(kit: Kit, butt: Array, tip: Array) -> Array:
     The kick is left out: no stick comes to it.
     """
     middle, reach = 0.5 * (butt + tip), 0.5 * np.linalg.norm(tip - butt, axis=1)
-    points = butt[:, None] + ALONG[:, None] * (tip - butt)[:, None]
     deepest = np.zeros(len(butt))
     for piece in kit.pieces.values():
         size = np.hypot(piece.radius_m, piece.depth_m)
-        if piece.kind != "kick" and np.any(((middle - piece.centre) ** 2).sum(1) < (reach + size) ** 2):
-            deepest = np.maximum(deepest, depth(piece, points))
+        away = middle - piece.centre
+        near = np.flatnonzero(_dot(away, away) < (reach + size) ** 2) if piece.kind != "kick" else np.zeros(0, np.intp)
+        for block in blocks(len(near), _STICKS_AT_ONCE):
+            on = near[max(block.start - 1, 0) : block.stop]  # with the one before, from which a cymbal is jumped
+            points = butt[on, None] + ALONG[:, None] * (tip - butt)[on, None]
+            deepest[on] = np.maximum(deepest[on], depth(piece, points, np.diff(on) == 1))
     return deepest
 
 
-def depth(piece: KitPiece, points: Array) -> Array:
+def depth(piece: KitPiece, points: Array, follows: NDArray[np.bool_] | bool = True) -> Array:
     """How deep the sticks' points (n, k, 3), of n moments in order, are in `piece`, (n,).
 
+    `follows` (n − 1,): whether no moment is left out before each but the first.
     A cymbal is thin enough to be jumped through between two moments: where a point of the stick changes its side within
     the edge, it has gone through by its distance from the edge.
     """
@@ -95,7 +102,7 @@ def depth(piece: KitPiece, points: Array) -> Array:
     up, down = np.where(near, height, 0.0).max(-1), np.where(near, -height, 0.0).max(-1)
     through = np.minimum(inside, np.minimum(up, down))
     before, after = height[:-1], height[1:]
-    jumped = (before * after < 0) & (np.minimum(np.abs(before), np.abs(after)) > TOUCH_M)
+    jumped = (before * after < 0) & np.reshape(follows, (-1, 1)) & (np.minimum(np.abs(before), np.abs(after)) > TOUCH_M)
     swept = np.where(jumped, piece.radius_m - np.maximum(radial[:-1], radial[1:]), 0.0).max(-1)
     return np.asarray(np.maximum(np.maximum(through, np.concatenate((np.zeros(1), swept))), 0.0))
 

@@ -15,8 +15,8 @@ from station.motion.figure import Figure
 from station.motion.giving_way import Giving, giving_way
 from station.motion.hand import HandPart
 from station.motion.kit import Kit
-from station.motion.maths import Point
-from station.motion.tangles import SLOPES, Detour, Scene, Stage
+from station.motion.scene import SLOPES, Scene, Stage
+from station.motion.tangles import Detour, steeper, way_round
 
 Array = NDArray[np.float64]
 
@@ -36,14 +36,15 @@ def looks(*event_s: Array) -> Array:
 
 
 def detoured(
-    hands: tuple[HandPart, HandPart], figure: Figure, kit: Kit, grid: Array, shoulders: tuple[Point, Point]
+    hands: tuple[HandPart, HandPart], figure: Figure, kit: Kit, grid: Array, shoulders: tuple[Array, Array]
 ) -> tuple[HandPart, HandPart]:
-    """Both parts with ways around each other, looked at `grid` (n,), when the shoulders are at `shoulders`."""
+    """Both parts with ways around each other, looked at `grid` (n,) with the shoulders at `shoulders`, (3, n) each."""
     known: dict[tuple[object, ...], Remedy] = {}
     tries: Counter[tuple[int, ...]] = Counter()
     stage = Stage(figure, kit, grid, shoulders, (hands[0].bump, hands[1].bump))
+    scene: Scene | None = None
     for _ in range(ROUNDS):
-        scene = Scene.of(hands, stage)
+        scene = Scene.of(hands, stage, scene)
         pairs, which = scene.tangled()
         if not len(pairs):
             break
@@ -87,12 +88,12 @@ Remedy = Detour | Giving | tuple[int, float] | None
 def _remedy(scene: Scene, pair: list[int], which: NDArray[np.int64], k: int) -> Remedy:
     """What undoes tangle `k` of `which`: the first that is enough, in this order; else what comes nearest to it."""
     moments = np.flatnonzero(which == k)
-    detour = scene.way_round(pair, moments)
+    detour = way_round(scene, pair, moments)
     if detour is not None and detour.near_m <= 0.0:
         return detour
-    steeper = scene.steeper(moments)
-    if steeper is not None:
-        return steeper
+    slope = steeper(scene, moments)
+    if slope is not None:
+        return slope
     giving = giving_way(scene, pair, which, k)
     if giving is not None and (detour is None or giving.price < detour.price):
         return giving

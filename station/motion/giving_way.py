@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from station.motion.arm import Contact
 from station.motion.events import LONG_AGO_S
-from station.motion.tangles import Scene
+from station.motion.scene import Scene
+from station.motion.tangles import Moves, cheapest
 from station.motion.travel import HAND_M_S, MINIMUM_JERK_PEAK, moved_off
 
 Array = NDArray[np.float64]
@@ -92,7 +93,7 @@ def _given(scene: Scene, side: int, stretch: int, moments: NDArray[np.int64]) ->
     ways = _WAYS * (1.0 if side == 0 else -1.0, 1.0, 1.0)
     length = np.linalg.norm(ways, axis=1)
     ways = ways[(length <= _MOST_M) & (MINIMUM_JERK_PEAK * length <= HAND_M_S * time_s)]
-    k, price, near = scene.cheapest(side, on, (share, ways), 1.0, Contact(x, y, z, *contact[3:]))
+    k, price, near = cheapest(scene, Moves(side, on, share, ways, contact=Contact(x, y, z, *contact[3:])))
     if not ways[k].any():
         return None
     return Giving(side, off - event_s, back - event_s, 1 / time_s, ways[k], price, near)

@@ -17,7 +17,7 @@ from station.motion.events import SHOW, WAIT, HandEvents
 from station.motion.figure import Figure
 from station.motion.grip import Hold
 from station.motion.kit import Kit
-from station.motion.maths import MANY, Point
+from station.motion.maths import MANY, blocks
 from station.motion.stroke import NATURALLY, StrokePlan, Strokes
 from station.motion.travel import DETOUR, GIVES, Way, lifts
 from station.music.score import Score
@@ -103,15 +103,15 @@ class HandPart:
         """The way between the contacts."""
         return Way.of(self.events.time_s, self.contacts, self.bump, self.early, self.gives)
 
-    def eased(self, figure: Figure, time_s: Array, roots: tuple[Point, Point]) -> "HandPart":
+    def eased(self, figure: Figure, time_s: Array, roots: tuple[Array, Array]) -> "HandPart":
         """The same with the hand so pointed at each contact that its wrist stays within its limits sideways.
 
-        `roots` is the shoulder's x, y, z at `time_s` (k,) as the body naturally is, and as a lively one has it, which
-        counts while the hand stays.
+        `roots` are where the shoulder is at `time_s` (k,) as the body naturally is, and as a lively one has it, which
+        counts while the hand stays; (3, k) each.
         """
         limits = figure.limits
         most, least = limits.wrist_radial - _SPARE_RAD, _SPARE_RAD - limits.wrist_ulnar
-        strokes = Strokes.of(self.strokes, NATURALLY).many(time_s)
+        strokes = Strokes.of(self.strokes, NATURALLY)
         part, side = self, 1.0 if self.limb == Limb.RIGHT_HAND else -1.0
         for _ in range(_EASINGS):
             contacts = part.contacts.copy()
@@ -132,14 +132,22 @@ class HandPart:
             part = replace(part, contacts=contacts)
         if not len(self.bump):
             return part
-        vigorous = part._sideways(figure, time_s, roots[1], Offsets(*(_VIGOROUS * o for o in strokes)))
+        vigorous = part._sideways(figure, time_s, roots[1], strokes, _VIGOROUS)
         return part._turned_on_ways(side, time_s, (bent, vigorous), (least, most))
 
-    def _sideways(self, figure: Figure, time_s: Array, root: Point, strokes: Offsets) -> Array:
-        """How far the wrist is bent to the thumb's side at `time_s` (k,) with the shoulder at `root`."""
+    def _sideways(self, figure: Figure, time_s: Array, root: Array, strokes: Strokes, share: float = 1.0) -> Array:
+        """How far the wrist is bent to the thumb's side at `time_s` (k,) with the shoulder at `root` (3, k).
+
+        With this share of the `strokes`.
+        """
         right = self.limb == Limb.RIGHT_HAND
-        arm = solve(MANY, self.hold.lengths(figure, right), root, self.way.many(time_s), strokes)
-        return np.asarray((1.0 if right else -1.0) * np.broadcast_to(arm.deviation, time_s.shape))
+        lengths, bent = self.hold.lengths(figure, right), np.empty(len(time_s))
+        for block in blocks(len(time_s)):
+            at = time_s[block]
+            raised = Offsets(*(share * o for o in strokes.many(at)))
+            x, y, z = root[:, block]
+            bent[block] = solve(MANY, lengths, (x, y, z), self.way.many(at), raised).deviation
+        return bent if right else -bent
 
     def _turned_on_ways(
         self, side: float, time_s: Array, bends: tuple[Array, ...], bounds: tuple[float, float]
@@ -156,13 +164,11 @@ class HandPart:
         bump[:, 3] -= side * np.clip(turn.sum(0), -_MOST_TURN_RAD, _MOST_TURN_RAD)
         return replace(self, bump=bump)
 
-    def waiting_before(self, time_s: Array, root: Point) -> "HandPart":
-        """The same, waiting farther forward where the shoulder, at `root` at `time_s` (k,), comes forward meanwhile."""
+    def waiting_before(self, time_s: Array, root: Array) -> "HandPart":
+        """The same, waiting farther forward where the shoulder comes forward meanwhile: `root` (3, k) at `time_s`."""
         nearest, _ = self.way.nearest(time_s)
         comes = np.zeros(len(self.contacts))
-        ahead = (
-            np.broadcast_to(root[1], time_s.shape) - np.array([lie.root[1] for lie in self.lies])[self.which][nearest]
-        )
+        ahead = root[1] - np.array([lie.root[1] for lie in self.lies])[self.which][nearest]
         np.maximum.at(comes, nearest, ahead)
         contacts = self.contacts.copy()
         contacts[:, _Y] += np.where(self.events.key[:, 2] == WAIT, np.minimum(comes, _MOST_AHEAD_M), 0.0)

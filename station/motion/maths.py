@@ -5,7 +5,7 @@ which is what a live pose needs; on arrays numpy gives whole performances at onc
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -40,3 +40,11 @@ def _most(a: float, b: float) -> float:
 
 ONE = Maths(math.sin, math.cos, math.acos, math.atan2, math.sqrt, _least, _most)
 MANY = Maths(np.sin, np.cos, np.arccos, np.arctan2, np.sqrt, np.minimum, np.maximum)
+
+_BLOCK = 4096
+"""So many instants at once are computed as fast as all of them (our choice)."""
+
+
+def blocks(count: int, most: int = _BLOCK) -> Iterator[slice]:
+    """The parts of at most so many in which `count` instants are computed, so that what it takes meanwhile is small."""
+    return (slice(start, min(start + most, count)) for start in range(0, count, most))

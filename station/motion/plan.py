@@ -22,7 +22,7 @@ from station.motion.instruments import Instrument, instruments
 from station.motion.kit import Kit
 from station.motion.life import Blinks
 from station.motion.limbs import Assignment, assign_limbs
-from station.motion.maths import MANY, Point
+from station.motion.maths import MANY, Point, blocks
 from station.motion.pedals import hat_board, kick_board
 from station.motion.posture import pelvis_of
 from station.motion.reach import reaching
@@ -102,11 +102,14 @@ class Plan:
         right, left = (hand.eased(self.figure, grid, r) for hand, r in zip((right, left), shoulders, strict=True))
         return right, left
 
-    def _roots(self, time_s: Array, curves: Curves) -> tuple[Point, Point]:
-        """Where the right and the left shoulder are at each time in a body that moves by `curves`."""
-        twist, lean, side, shrug, *_ = curves.many(time_s)
-        frame = trunk(MANY, self.figure, self.pelvis, TrunkAngles(twist, lean, side, 0.0, 0.0, 0.0, shrug))
-        return frame.right_shoulder, frame.left_shoulder
+    def _roots(self, time_s: Array, curves: Curves) -> tuple[Array, Array]:
+        """Where the right and the left shoulder are at each time (n,) in a body that moves by `curves`, (3, n) each."""
+        right, left = np.empty((3, len(time_s))), np.empty((3, len(time_s)))
+        for block in blocks(len(time_s)):
+            twist, lean, side, shrug, *_ = curves.many(time_s[block])
+            frame = trunk(MANY, self.figure, self.pelvis, TrunkAngles(twist, lean, side, 0.0, 0.0, 0.0, shrug))
+            right[:, block], left[:, block] = frame.right_shoulder, frame.left_shoulder
+        return right, left
 
     def gaze(self, style: Style) -> Curves:
         """Where the drummer looks."""

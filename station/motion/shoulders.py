@@ -5,6 +5,7 @@ its elbow swings fast. Such a stretch goes round by the least detour, forward, a
 and the stick out of the kit.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import pi, radians
 
@@ -17,7 +18,7 @@ from station.motion.collisions import depth_in_kit
 from station.motion.figure import Figure
 from station.motion.hand import HandPart
 from station.motion.kit import Kit
-from station.motion.maths import MANY, Point
+from station.motion.maths import MANY, blocks
 from station.motion.stroke import NATURALLY, Strokes
 
 Array = NDArray[np.float64]
@@ -39,10 +40,10 @@ _WAY_COST, _DEPTH_COST = 0.1, 10.0
 """A metre of detour and a metre deep in the kit weigh as this many metres too near to the shoulder (our choice)."""
 
 
-def past_the_shoulder(part: HandPart, figure: Figure, kit: Kit, time_s: Array, root: Point) -> HandPart:
+def past_the_shoulder(part: HandPart, figure: Figure, kit: Kit, time_s: Array, root: Array) -> HandPart:
     """`part` on ways that keep its elbow within its limit.
 
-    `root` is the shoulder's x, y, z as the body naturally is at `time_s` (k,).
+    `root` (3, k) is where the shoulder is at `time_s` (k,) as the body naturally is.
     """
     scene = _Scene.of(part, figure, kit, time_s, root)
     for _ in range(_ROUNDS):
@@ -70,7 +71,7 @@ def past_the_shoulder(part: HandPart, figure: Figure, kit: Kit, time_s: Array, r
 
 @dataclass(frozen=True, eq=False)
 class _Scene:
-    """One hand's arm at some moments: how its stroke raises it, its shoulder (n, 3), how near the wrist may come."""
+    """One hand's arm at some moments: how its stroke raises it, its shoulder (3, n), how near the wrist may come."""
 
     kit: Kit
     lengths: ArmLengths
@@ -80,22 +81,29 @@ class _Scene:
     near_m: Array
 
     @classmethod
-    def of(cls, part: HandPart, figure: Figure, kit: Kit, time_s: Array, root: Point) -> "_Scene":
+    def of(cls, part: HandPart, figure: Figure, kit: Kit, time_s: Array, root: Array) -> "_Scene":
         lengths = replace(part.hold.lengths(figure, part.limb == Limb.RIGHT_HAND), most_bend=pi)
-        raised = Strokes.of(part.strokes, NATURALLY).many(time_s)
-        near = lengths.nearest_m(MANY, figure.limits.elbow_flexion - SPARE_RAD - raised.elbow)
-        shoulder = np.stack([np.broadcast_to(r, time_s.shape) for r in root], 1)
-        return cls(kit, lengths, time_s, np.array(raised), shoulder, np.asarray(near))
+        raised = np.array(Strokes.of(part.strokes, NATURALLY).many(time_s))
+        near = lengths.nearest_m(MANY, figure.limits.elbow_flexion - SPARE_RAD - raised[1])
+        return cls(kit, lengths, time_s, raised, root, np.asarray(near))
 
     def at(self, which: NDArray[np.bool_]) -> "_Scene":
         """The same at some of the moments."""
         return _Scene(
-            self.kit, self.lengths, self.time_s[which], self.raised[:, which], self.root[which], self.near_m[which]
+            self.kit,
+            self.lengths,
+            self.time_s[which],
+            self.raised[:, which],
+            self.root[:, which],
+            self.near_m[which],
         )
 
     def away(self, part: HandPart) -> Array:
         """From the shoulder to the wrist, without the stroke, (n, 3)."""
-        return np.stack(self._arm(part, 0.0).wrist, 1) - self.root
+        away = np.empty((len(self.time_s), 3))
+        for block, arm in self._arms(part, 0.0):
+            away[block] = np.stack(arm.wrist, 1) - self.root[:, block].T
+        return away
 
     def price(self, part: HandPart, length: Array | float) -> Array:
         """What each stretch of `part` costs, whose detour is longer by `length`, (n − 1,) metres."""
@@ -105,16 +113,19 @@ class _Scene:
         deep = np.maximum(self._depth(part, 1.0), self._depth(part, _LOW))
         return _worst(k, lack, len(part.bump)) + _DEPTH_COST * _worst(k, deep, len(part.bump)) + _WAY_COST * length
 
-    def _arm(self, part: HandPart, share: float) -> Arm:
-        """The arm with this share of the stroke."""
-        x, y, z = self.root.T
-        contact = part.way.many(self.time_s)
-        return solve(MANY, self.lengths, (x, y, z), contact, Offsets(*(share * self.raised)))
+    def _arms(self, part: HandPart, share: float) -> Iterator[tuple[slice, Arm]]:
+        """The arm with this share of the stroke, block by block of the moments."""
+        for block in blocks(len(self.time_s)):
+            x, y, z = self.root[:, block]
+            contact = part.way.many(self.time_s[block])
+            yield block, solve(MANY, self.lengths, (x, y, z), contact, Offsets(*(share * self.raised[:, block])))
 
     def _depth(self, part: HandPart, share: float) -> Array:
         """How deep the stick is in the kit, (n,)."""
-        arm = self._arm(part, share)
-        return depth_in_kit(self.kit, np.stack(arm.butt, 1), np.stack(arm.tip, 1))
+        butt, tip = np.empty((len(self.time_s), 3)), np.empty((len(self.time_s), 3))
+        for block, arm in self._arms(part, share):
+            butt[block], tip[block] = np.stack(arm.butt, 1), np.stack(arm.tip, 1)
+        return depth_in_kit(self.kit, butt, tip)
 
 
 def _worst(stretch: NDArray[np.int64], value: Array, count: int) -> Array:

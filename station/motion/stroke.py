@@ -156,6 +156,16 @@ class Strokes:
             result.append(((d * u + c) * u + b) * u + a)
         return result
 
+    def differ(self, others: "Strokes") -> NDArray[np.bool_]:
+        """Where these are not `others` of the same strikes: from each strike to the next, (n,).
+
+        What comes before the first strike is the first one's.
+        """
+        keys = ((self.cubics != others.cubics).any(2) | (self.knots_s != others.knots_s)).any(0)
+        found = np.asarray(np.append(keys[STRIKE:], np.zeros(STRIKE, bool)).reshape(-1, KEYS).any(1))
+        found[0] |= keys[:STRIKE].any()
+        return found
+
     def many(self, time_s: Array) -> Offsets:
         """The offsets at each time."""
         return Offsets(

@@ -118,7 +118,7 @@ class Way:
     def nearest(self, time_s: Array) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
         """The contact that the hand is at, or nearer to on its way, at each time; and whether it stays there."""
         i = np.maximum(np.searchsorted(self.strike_s, time_s, side="right") - 1, 0)
-        t0, rate, *_, off, back, _, _, _, _ = self.rows[i, :_HEAD].T
+        t0, rate, off, back = (self.rows[i, k] for k in (0, 1, 2 + DETOUR, 3 + DETOUR))
         u, gives = (time_s - t0) * rate, (off < time_s) & (time_s < back)
         return np.where(u > 0.5, np.minimum(i + 1, len(self.strike_s) - 1), i), ((u <= 0.0) | (u >= 1.0)) & ~gives
 
@@ -130,8 +130,8 @@ class Way:
         i = np.maximum(np.searchsorted(self.strike_s, time_s, side="right") - 1, 0)
         t0, rate = self.rows[i, 0], self.rows[i, 1]
         u = np.clip((time_s - t0) * rate, 0.0, 1.0)
-        moves = self.rows[i, _HEAD + FIELDS : _HEAD + FIELDS + 3].any(1)
-        return i, np.where(moves, (4 * u * (1 - u)) ** 2, 0.0)
+        moves = np.asarray(self.rows[:, _HEAD + FIELDS : _HEAD + FIELDS + 3].any(1))
+        return i, np.where(moves[i], (4 * u * (1 - u)) ** 2, 0.0)
 
 
 def moved_off(time_s: Array, off_s: Array | float, back_s: Array | float, pace: Array | float) -> Array:
