@@ -12,7 +12,8 @@ from station.app.pictures import picture_of
 from station.app.soundtrack import Sounds, Soundtrack
 from station.core.errors import DeviceError
 from station.motion.drummer import Drummer
-from station.render.picture import PictureMaker, Shot, draw_pngs
+from station.render.drawers import artist
+from station.render.picture import Shot
 from station.render.quality import QUALITIES
 from station.render.snapshot import Snapshot
 
@@ -50,21 +51,19 @@ def write_film(drummer: Drummer, take: Take, shot: Shot, sounds: Sounds, path: P
 
     soundtrack = Soundtrack(drummer.score, take.start_s, sounds)
     effort = EFFORTS[QUALITIES.index(shot.quality)]
-    maker = PictureMaker(shot.size, shot.quality)
-    try:
-        with video_file(path, VideoFormat(shot.size, take.fps, soundtrack.rate_hz, effort)) as sink:
-            for done, planes in enumerate(maker.film(_snapshots(drummer, take), shot.camera, shot.with_score), 1):
-                sink.add_picture(planes)
-                sink.add_sound(soundtrack.until(float(done / take.fps)))
-                tell(done)
-    finally:
-        maker.release()
+    video = VideoFormat(shot.size, take.fps, soundtrack.rate_hz, effort)
+    with artist(shot, take.pictures) as who, video_file(path, video) as sink:
+        for done, planes in enumerate(who.film(_snapshots(drummer, take)), 1):
+            sink.add_picture(planes)
+            sink.add_sound(soundtrack.until(float(done / take.fps)))
+            tell(done)
 
 
 def write_pictures(drummer: Drummer, take: Take, shot: Shot, paths: Iterable[Path], tell: Tell) -> None:
     """A PNG a picture, each whole or not at all; raises `DeviceError` without OpenGL or disk."""
-    for done, _ in enumerate(draw_pngs(_snapshots(drummer, take), paths, shot), 1):
-        tell(done)
+    with artist(shot, take.pictures) as who:
+        for done, _ in enumerate(who.pngs(_snapshots(drummer, take), paths), 1):
+            tell(done)
 
 
 def _snapshots(drummer: Drummer, take: Take) -> Iterator[Snapshot]:

@@ -12,12 +12,13 @@ import numpy as np
 
 from station.bench.benchmark import Benchmark, Measured, median_s
 from station.bench.drawing import SIZE, snapshots
-from station.render.picture import PictureMaker
+from station.render.drawers import artist
+from station.render.picture import Shot
 from station.render.planes import Planes
 from station.render.quality import QUALITIES
 from station.render.video_file import VideoFormat, video_file
 
-_FRAMES = 60
+_FRAMES = 120
 _FPS = 60
 _RATE_HZ = 48_000
 _ROUNDS = 3
@@ -25,11 +26,10 @@ _ROUNDS = 3
 
 def _video() -> Measured:
     frames = snapshots(_FRAMES)
-    maker = PictureMaker(SIZE, QUALITIES[0])
-    drawn = list(maker.film(frames))
-    with TemporaryDirectory() as folder:
+    with TemporaryDirectory() as folder, artist(Shot(SIZE, QUALITIES[0]), _FRAMES) as who:
         path = Path(folder) / "film.mp4"
-        ours_s = median_s(lambda: _write(maker.film(frames), path), _ROUNDS) / _FRAMES
+        drawn = list(who.film(frames))
+        ours_s = median_s(lambda: _write(who.film(frames), path), _ROUNDS) / _FRAMES
         theirs_s = median_s(lambda: _write(drawn, path), _ROUNDS) / _FRAMES
     return Measured(1 / ours_s, 1 / theirs_s)
 

@@ -4,16 +4,15 @@
 the parent learns of a child's end by the next call of `events` or `send`.
 """
 
-import signal
 import threading
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
 from types import TracebackType
 from typing import Self
 
 from station.core.errors import DeviceError
+from station.core.processes import ctrl_c_ignored
 from station.engine.config import EngineConfig, Prepare
 from station.engine.messages import Command, EngineEvent, Quit
 
@@ -35,7 +34,7 @@ class EngineProcess:
         self._events, events_out = context.Pipe(duplex=False)
         commands_in, self._commands = context.Pipe(duplex=False)
         self._process = context.Process(target=_run, args=(commands_in, events_out), name="engine", daemon=True)
-        with _ctrl_c_ignored():
+        with ctrl_c_ignored():
             self._process.start()
         commands_in.close()  # the child has its own; ours would hide its end from us
         events_out.close()
@@ -138,20 +137,3 @@ def _run(commands: "Connection[None, Command]", events: "Connection[list[EngineE
     from station.engine.child import run_engine  # noqa: PLC0415 - heavy, and never needed by the app
 
     run_engine(commands, events)
-
-
-@contextmanager
-def _ctrl_c_ignored() -> Iterator[None]:
-    """What is started meanwhile ignores Ctrl-C from its first instruction on; ours is as before afterwards.
-
-    Only the main thread may change that (Python's documentation of `signal`); another one starts the child as it is.
-    """
-    before = signal.getsignal(signal.SIGINT)
-    if threading.current_thread() is not threading.main_thread() or before is None:  # None: not Python's to restore
-        yield
-        return
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)

@@ -1,6 +1,7 @@
 """Pictures without a window: a snapshot as pixels or as a PNG file."""
 
 from collections.abc import Iterable, Iterator
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -38,12 +39,22 @@ class PictureMaker:
         with self._ctx:  # other makers may have contexts of their own
             self._target = Target(self._ctx, size, quality.samples)
             self._painter = Painter(self._ctx, quality)
+        self._reader: PlanesReader | None = None
 
     def draw(self, snapshot: Snapshot, camera: Camera | None = None, with_score: bool = True) -> NDArray[np.uint8]:
         """The picture, shape (height, width, 3), top row first."""
         with self._ctx:
             self._paint(snapshot, camera, with_score)
             return self._target.read()
+
+    def planes(self, snapshot: Snapshot, into: Planes, camera: Camera | None = None, with_score: bool = True) -> None:
+        """Write the picture to `into` as planes for video; its size must be even."""
+        with self._ctx:
+            self._paint(snapshot, camera, with_score)
+            picture = self._target.resolved()
+            self._reader = self._reader or PlanesReader(self._ctx, picture)
+            self._reader.put()
+            self._reader.take(into)
 
     def film(
         self, snapshots: Iterable[Snapshot], camera: Camera | None = None, with_score: bool = True
@@ -80,6 +91,8 @@ class PictureMaker:
     def release(self) -> None:
         """Give the driver its memory back."""
         with self._ctx:
+            if self._reader is not None:
+                self._reader.release()
             self._target.release()
         self._ctx.release()
 
@@ -87,20 +100,40 @@ class PictureMaker:
 _USUAL = Shot()
 
 
-def draw_pngs(snapshots: Iterable[Snapshot], paths: Iterable[Path], shot: Shot) -> Iterator[Path]:
-    """Write the picture of each snapshot to its path, and tell it; raises `DeviceError` without OpenGL or disk."""
-    maker = PictureMaker(shot.size, shot.quality)
-    try:
+class Artist:
+    """Draws the pictures of a shot, as files or for video; raises `DeviceError` without OpenGL or disk."""
+
+    def __init__(self, shot: Shot = _USUAL) -> None:
+        self._shot = shot
+        self._maker = PictureMaker(shot.size, shot.quality)
+
+    def film(self, snapshots: Iterable[Snapshot]) -> Iterator[Planes]:
+        """The pictures of consecutive `snapshots` as planes for video; the size must be even."""
+        return self._maker.film(snapshots, self._shot.camera, self._shot.with_score)
+
+    def planes(self, snapshot: Snapshot, into: Planes) -> None:
+        """One picture as planes for video."""
+        self._maker.planes(snapshot, into, self._shot.camera, self._shot.with_score)
+
+    def png(self, snapshot: Snapshot, path: Path) -> None:
+        """One picture as a file, whole or not at all."""
+        write_png(self._maker.draw(snapshot, self._shot.camera, self._shot.with_score), path)
+
+    def pngs(self, snapshots: Iterable[Snapshot], paths: Iterable[Path]) -> Iterator[Path]:
+        """Write the picture of each snapshot to its path, and tell it."""
         for snapshot, path in zip(snapshots, paths, strict=True):
-            write_png(maker.draw(snapshot, shot.camera, shot.with_score), path)
+            self.png(snapshot, path)
             yield path
-    finally:
-        maker.release()
+
+    def close(self) -> None:
+        """Give the driver its memory back."""
+        self._maker.release()
 
 
 def draw_png(snapshot: Snapshot, path: Path, shot: Shot = _USUAL) -> None:
     """Write the picture of `snapshot` to `path`; raises `DeviceError` without OpenGL or if the disk refuses."""
-    list(draw_pngs([snapshot], [path], shot))
+    with closing(Artist(shot)) as artist:
+        artist.png(snapshot, path)
 
 
 def renderer_name() -> str:

@@ -102,8 +102,8 @@ class PlanesReader:
         self._free.append(parts)
         self._waiting.append(buffer)
 
-    def take(self) -> Planes | None:
-        """The oldest picture that was put in and not taken yet; None where there is none."""
+    def take(self, into: Planes | None = None) -> Planes | None:
+        """The oldest picture that was put in and not taken yet, written to `into`; None where there is none."""
         if not self._waiting:
             if not self._converted:
                 return None
@@ -112,7 +112,7 @@ class PlanesReader:
         width, height = self._picture.size
         upper, lower, chroma = np.frombuffer(buffer.read(), np.uint8).reshape(_PARTS, height // 2, width)
         self._buffers.append(buffer)
-        planes = np.empty((height * 3 // 2, width), np.uint8)
+        planes = np.empty((height * 3 // 2, width), np.uint8) if into is None else into
         planes[0:height:2], planes[1:height:2], planes[height:] = upper, lower, chroma
         return planes
 
