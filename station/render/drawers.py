@@ -187,7 +187,7 @@ class _Drawer:
 def _planes(memory: "ctypes.Array[ctypes.c_uint8]", shot: Shot) -> Planes:
     """The shared memory as pictures, shape (n, height · 3/2, width)."""
     width, height = shot.size
-    return np.frombuffer(memory, np.uint8).reshape(-1, height * 3 // 2, width)
+    return np.frombuffer(memoryview(memory).cast("B"), np.uint8).reshape(-1, height * 3 // 2, width)
 
 
 def _news(before: Snapshot | None, snapshot: Snapshot) -> Said:
