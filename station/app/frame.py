@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 
 from imgui_bundle import hello_imgui, imgui
@@ -10,6 +9,7 @@ from imgui_bundle import hello_imgui, imgui
 from station.app import theme
 from station.app.panels.page import Page, Side
 from station.render.painter import Area
+from station.render.snapshot import Snapshot
 
 TITLE = "Drum station"
 _DOCK = "MainDockSpace"
@@ -29,7 +29,7 @@ class WindowOptions:
     `settings` is the file that keeps the look, None for this user's. `tests` registers tests with imgui's test engine
     and makes it run, without a pause between frames; `picture_every` draws the picture in every so manieth frame alone
     and leaves it dark between them, for whoever watches the panels. `shown` is called whenever a frame is on the
-    screen; the window closes when it says no.
+    screen, with what it shows behind the panels; the window closes when it says no.
     """
 
     size: tuple[int, int] = (1280, 720)
@@ -38,17 +38,18 @@ class WindowOptions:
     settings: Path | None = None
     tests: Callable[[], None] | None = None
     picture_every: int = 1
-    shown: Callable[[], bool] | None = None
+    shown: Callable[[Snapshot | None], bool] | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Calls:
-    """What is done when the window has `opened`, in every frame (`before`, `picture`, gui `over`), and at the end."""
+    """What is done when the window has `opened`, in a frame (`before`, `picture`, gui `over`, `swapped`), at last."""
 
     opened: Callable[[], None]
     before: Callable[[], None]
     picture: Callable[[], None]
     over: Callable[[], None]
+    swapped: Callable[[], None]
     leaving: Callable[[], None]
 
 
@@ -74,8 +75,7 @@ def runner(options: WindowOptions, calls: Calls, pages: Sequence[Page], scale: f
     callbacks.pre_new_frame = calls.before
     callbacks.show_gui = calls.over
     callbacks.before_exit = calls.leaving
-    if options.shown is not None:
-        callbacks.after_swap = partial(_go_on_while, options.shown, params)
+    callbacks.after_swap = calls.swapped
     docking = params.docking_params
     docking.layout_condition = hello_imgui.DockingLayoutCondition.application_start
     docking.docking_splits = splits(scale)
@@ -85,11 +85,6 @@ def runner(options: WindowOptions, calls: Calls, pages: Sequence[Page], scale: f
         params.fps_idling.fps_idle = 0.0
         callbacks.register_tests = options.tests
     return params
-
-
-def _go_on_while(wanted: Callable[[], bool], params: hello_imgui.RunnerParams) -> None:
-    if not wanted():
-        params.app_shall_exit = True
 
 
 def _use_opengl_3_3(params: hello_imgui.RunnerParams) -> None:

@@ -27,6 +27,7 @@ from station.app.welcome import Answers, answered
 from station.core.clock import Clock, MonotonicClock
 from station.core.errors import DeviceError
 from station.core.settings import load_settings, save_settings
+from station.render.snapshot import Snapshot
 
 _NO_WINDOW = "no window can be opened: is there a screen, and OpenGL? `station practice --headless` needs neither"
 _FIRST_PICTURE = 1
@@ -51,11 +52,12 @@ class Window:
         self._worn = self._kept.theme, self._kept.scale
         self._show_help = False
         self._frame_ms = 0.0
+        self._drawn: Snapshot | None = None
         self.frames = 0
         self.picture_every = options.picture_every
         self._fault: DeviceError | None = None
         self.monitors: MonitorWatch | None = None
-        calls = Calls(self._opened, self._before_frame, self._background, self._over_all, self._leaving)
+        calls = Calls(self._opened, self._before_frame, self._background, self._over_all, self._swapped, self._leaving)
         self.params = runner(options, calls, self.pages.table, self.backdrop.look.scale)
         self.pages.docking = self.params.docking_params
         theme.choose(*self._worn)
@@ -134,7 +136,8 @@ class Window:
             self._offer()
         now_ns = self._clock.now_ns()
         self._deeds.preview()
-        snapshot, left, low, width, height = self._model.snapshot(now_ns), *central_area(self.params.docking_params)
+        self._drawn = snapshot = self._model.snapshot(now_ns)
+        left, low, width, height = central_area(self.params.docking_params)
         report = self._model.report() if self._deeds.shows_result and not self._model.room().listening else None
         if report is not None:
             height -= round(theme.points(ABOVE_RESULT) * imgui.get_io().display_framebuffer_scale.y)
@@ -148,6 +151,11 @@ class Window:
             except DeviceError as fault:
                 self._fault, self.params.app_shall_exit = fault, True
         self.frames += 1
+
+    def _swapped(self) -> None:
+        """The frame is on the screen."""
+        if self._options.shown is not None and not self._options.shown(self._drawn):
+            self.params.app_shall_exit = True
 
     def _offer(self) -> None:
         """What can be chosen, and how far the student is: read from files once, after the first picture."""

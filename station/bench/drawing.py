@@ -11,9 +11,6 @@ import sys
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from time import perf_counter
-
-import numpy as np
 
 from station.bench.benchmark import Benchmark, Measured, median_s
 from station.core.pieces import Limb, Piece, Zone
@@ -30,10 +27,9 @@ from station.render.gl import Target, standalone_context
 from station.render.painter import Arrangement, Painter
 from station.render.picture import PictureMaker
 from station.render.quality import QUALITIES
-from station.render.snapshot import Hud, Snapshot, Strike, no_marks
+from station.render.snapshot import Hud, Snapshot, no_marks
 
 SIZE = (1280, 720)
-_HITS = 120
 _SETTLES, _GROWS_FOR = 200, 800
 _SESSION = 10 * 60 * 60
 """Pictures of ten minutes at 60 a second."""
@@ -89,19 +85,6 @@ def _turned() -> Measured:
         return Measured(_FRAMES / median_s(draw, _ROUNDS))
 
 
-def _hit_to_picture() -> Measured:
-    """From a snapshot that holds a new stroke to the pixels that show it: a stroke waits at most a frame before."""
-    maker = PictureMaker(SIZE, QUALITIES[0])
-    frames = [replace(frame, strikes=(Strike(Piece.SNARE, 100, 0.0),)) for frame in snapshots(_HITS)]
-    maker.draw(frames[0])
-    taken = []
-    for frame in frames:
-        start = perf_counter()
-        maker.draw(frame)
-        taken.append(perf_counter() - start)
-    return Measured(float(np.percentile(taken, 99)) * 1000, note="with a graphics card it is its driver's time")
-
-
 def _growth(pictures: int) -> Measured:
     """The process's memory after many pictures with ever new words and marks, less that after the first few hundred."""
     if not _MEMORY.exists():
@@ -131,7 +114,6 @@ def _first_picture() -> Measured:
 BENCHMARKS = (
     Benchmark("pictures_lowest_quality_1280x720", "pictures/s", 60.0, "higher", "bare moderngl", _pictures),
     Benchmark("pictures_camera_turns_1280x720", "pictures/s", 30.0, "higher", None, _turned),
-    Benchmark("hit_to_picture_beyond_a_frame_p99", "ms", 5.0, "lower", None, _hit_to_picture),
     Benchmark("pictures_memory_growth", "MB", 0.5, "lower", None, partial(_growth, _GROWS_FOR)),
     Benchmark(
         "ten_minutes_of_pictures_memory_growth", "MB", 5.0, "lower", None, partial(_growth, _SESSION), True, 1_800.0

@@ -5,22 +5,19 @@ measured is a second start: one before it leaves Python's bytecode, as an instal
 keeps in the user's folder for caches.
 """
 
-import os
-import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
-from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from statistics import median
 
+from station.bench.a_screen import a_screen, installed
 from station.bench.benchmark import Benchmark, Measured, median_s
 from station.core.clock import monotonic_ns
 from station.core.units import NS_PER_S
 
-_TIMES, _OPENINGS = 7, 3
+_TIMES, _OPENINGS = 7, 2
 _WITHIN_S = 50.0
 _FIRST_PICTURE = 2
 """The frame, from 1, that shows the drummer (`app.window`)."""
@@ -29,7 +26,7 @@ _FIRST_PICTURE = 2
 def _help() -> Measured:
     words = [sys.executable, "-m", "station.cli", "--help"]
     with tempfile.TemporaryDirectory() as home:
-        run = partial(subprocess.run, words, check=True, capture_output=True, env=_installed(home))
+        run = partial(subprocess.run, words, check=True, capture_output=True, env=installed(home))
         return Measured(median_s(run, _TIMES))
 
 
@@ -43,23 +40,17 @@ def _first_picture() -> Measured:
 
 def _opening(frame: int) -> Measured:
     """From the command until `frame` is on the screen, the median of some openings, and this process's own time."""
-    with _screen() as screen, tempfile.TemporaryDirectory() as home:
+    with a_screen() as screen, tempfile.TemporaryDirectory() as home:
         if screen is None:
             return Measured(None, note="no screen, and no Xvfb to make one")
         folder = Path(home) / "drum-station"
         folder.mkdir()
         (folder / "settings.toml").write_text(f"welcomed = true\nsessions = '{home}'\n", "utf-8")
-        environment = {**_installed(home), **screen, "XDG_CONFIG_HOME": home}
+        environment = {**installed(home), **screen, "XDG_CONFIG_HOME": home}
         _opened(frame, environment)
         told = [_opened(frame, environment) for _ in range(_OPENINGS)]
     taken_s, worked_s = (median(column) for column in zip(*told, strict=True))
     return Measured(taken_s, note=f"{worked_s:.2f} s of processor time")
-
-
-def _installed(home: str) -> dict[str, str]:
-    """The environment of a program that may keep its bytecode, here in `home`, as an installed one has it."""
-    kept = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
-    return {**kept, "PYTHONPYCACHEPREFIX": home}
 
 
 def _opened(frame: int, environment: dict[str, str]) -> tuple[float, float]:
@@ -68,28 +59,6 @@ def _opened(frame: int, environment: dict[str, str]) -> tuple[float, float]:
     done = subprocess.run(words, check=True, capture_output=True, text=True, env=environment, timeout=_WITHIN_S)
     shown_ns, worked_s = done.stdout.split()[-2:]
     return (int(shown_ns) - begun_ns) / NS_PER_S, float(worked_s)
-
-
-@contextmanager
-def _screen() -> Iterator[dict[str, str] | None]:
-    """What the environment needs for a screen; None where there can be none."""
-    if os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY") or sys.platform != "linux":
-        yield {}
-        return
-    if shutil.which("Xvfb") is None:
-        yield None
-        return
-    read, write = os.pipe()
-    words = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1400x900x24", "+extension", "GLX", "-nolisten", "tcp"]
-    server = subprocess.Popen(words, pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    os.close(write)
-    try:
-        with os.fdopen(read) as told:
-            display = told.readline().strip()
-        yield {"DISPLAY": f":{display}"} if display else None
-    finally:
-        server.terminate()
-        server.wait()
 
 
 BENCHMARKS = (

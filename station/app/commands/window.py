@@ -11,6 +11,7 @@ from station.core.settings import Settings, load_settings
 from station.practice.backing import BackingWish
 from station.practice.lead import hands_of
 from station.practice.plan import Plan, Wishes, plan_practice
+from station.render.snapshot import Snapshot
 
 
 def add_options(_: argparse.ArgumentParser) -> None:
@@ -31,13 +32,13 @@ def open_window(
     first: Plan,
     adapt: bool,
     backing: BackingWish | None = None,
-    shown: Callable[[], bool] | None = None,
+    shown: Callable[[Snapshot | None], bool] | None = None,
 ) -> int:
     """Show the practice room until it is closed; what was played until then is kept.
 
     `adapt` whether the tempo follows the student, until another choice is made in the window; `backing` a track to
-    play along to in every session whose tempo stays; `shown` is called after each frame and says
-    whether to go on.
+    play along to in every session whose tempo stays; `shown` is called after each frame, with what
+    it shows behind the panels, and says whether to go on.
     """
     if not has_screen():
         raise DeviceError("no screen: `station practice --headless` practises in the terminal")
