@@ -122,7 +122,7 @@ class GoingsOn:
         state = replace(
             state,
             stage=self.stage,
-            has_take=self.free.has_take,
+            take=self.free.take,
             free=self.is_free,
             question=self.outcome.question,
         )

@@ -56,9 +56,10 @@ class JustPlay:
         self._latency = latency
 
     @property
-    def has_take(self) -> bool:
-        """Whether there is something to listen back to."""
-        return self._take is not None and len(self._take) > 0
+    def take(self) -> Path | None:
+        """The capture of the last take, None where there is nothing to listen back to."""
+        has_strokes = self._take is not None and len(self._take) > 0
+        return self._folder.capture if has_strokes and self._folder is not None else None
 
     @property
     def notices(self) -> list[str]:
@@ -122,9 +123,9 @@ class JustPlay:
 
     def listening(self) -> Listening | None:
         """The capture of the last take, ready to sound; None where there is none. Raises `StationError`."""
-        if self._folder is None or not self.has_take:
+        if self.take is None:
             return None
-        self._take = take_of(read_capture(self._folder.capture), self._latency, self._play.heard.output)
+        self._take = take_of(read_capture(self.take), self._latency, self._play.heard.output)
         return listening_back(self._take, self._play.click)
 
     # --- pictures ----------------------------------------------------------------------------------------------------

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import IntEnum
+from pathlib import Path
 
 import numpy as np
 
@@ -87,7 +88,8 @@ class RoomState:
 
     `progress` None while nothing plays. `why` is the reason for the pass that is counted in, and `can_veto` whether the
     student may still refuse it. `question` is to be answered before the result is shown, empty where none is open.
-    `has_take` where the last free take can be heard, `listening` while something sounds that was played or is written;
+    `take` is the capture of the last free take, None where there is none to be heard;
+    `listening` while something sounds that was played or is written;
     `paused` while a session stands still, `can_pause` where it may. `clock` is where a session is, None outside;
     `free` where no lesson is chosen, to just play.
     """
@@ -100,7 +102,7 @@ class RoomState:
     why: str = ""
     can_veto: bool = False
     question: str = ""
-    has_take: bool = False
+    take: Path | None = None
     listening: bool = False
     clock: PlaceNow | None = None
     free: bool = False

@@ -40,7 +40,11 @@ class Pages:
         self.view_keys = ViewKeys(backdrop, deeds.tell)
         model, tried, tell = deeds.model, deeds.tried, deeds.tell
         self._settings, self._course = settings, load_settings(settings).course
-        self._lessons = LessonsPanel(deeds.choice, LessonActions(deeds.start, lambda: tried(model.listen), model.room))
+        self.take = take_along.TakeAlongPanel(
+            take_along.TakeActions(deeds.to_take, lambda: load_settings(settings), lambda: backdrop.look, tried, tell)
+        )
+        actions = LessonActions(deeds.start, lambda: tried(model.listen), self.take.film_take, model.room)
+        self._lessons = LessonsPanel(deeds.choice, actions)
         self._ear = EarRow(
             EarActions(
                 lambda bar, whose: tried(lambda: model.hear_bar(bar, whose)),
@@ -53,9 +57,6 @@ class Pages:
         self.practice = practice.PracticePanel(model.habits, settings, tried)
         measuring = calibration.CalibrationPart(model.calibration, model.measure, tried, self._measured)
         self._devices = devices.DevicesPanel(model.desk, tried, tell, measuring)
-        self.take = take_along.TakeAlongPanel(
-            take_along.TakeActions(deeds.to_take, lambda: load_settings(settings), lambda: backdrop.look, tried, tell)
-        )
         self.graph = graph.GraphPanel(self._seek_s)
         self.controls = PlayerControls(deeds.choose_bars)
         self._transport = self._strip()

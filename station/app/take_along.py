@@ -14,7 +14,7 @@ from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
-from station.core.errors import DeviceError
+from station.core.errors import DeviceError, StationError
 from station.core.files import growing, write_whole
 from station.core.settings import Settings
 from station.drills.lesson import Lesson
@@ -56,16 +56,36 @@ class TakeAlong:
 
     def film(self, lesson: Lesson, bars: Bars, settings: Settings, words: Sequence[str] = ()) -> None:
         """Begin a video of the bars, filmed as further `words` of the command say; raises as `lesson` does."""
-        if self.process is not None:
-            raise DeviceError("one video at a time: wait for it, or cancel it")
+        span = ("--start-bar", str(bars[0] + 1), "--end-bar", str(bars[1] + 1))
         path = _place(lesson, bars, settings, ".mp4")
-        self._scratch = tempfile.TemporaryDirectory()
-        source = Path(self._scratch.name) / f"{folder_name(lesson.name)}.toml"
+        scratch = self._scratch_folder()
+        source = scratch / f"{folder_name(lesson.name)}.toml"
         try:
             write_whole(source, write_lesson(lesson).encode())
-            span = ("--start-bar", str(bars[0] + 1), "--end-bar", str(bars[1] + 1))
+        except StationError:
+            self._end()
+            raise
+        self._begin(source, path, (*span, "--click", *words))
+
+    def film_take(self, capture: Path, words: Sequence[str] = ()) -> None:
+        """Begin a video, beside a take's capture, of the drummer who plays it; raises `DeviceError`."""
+        self._scratch_folder()
+        self._begin(capture, capture.with_suffix(".mp4"), words)
+
+    def _scratch_folder(self) -> Path:
+        """A folder that goes with the film; raises `DeviceError` while there is one."""
+        if self.process is not None:
+            raise DeviceError("one video at a time: wait for it, or cancel it")
+        self._scratch = tempfile.TemporaryDirectory()
+        return Path(self._scratch.name)
+
+    def _begin(self, source: Path, path: Path, words: Sequence[str]) -> None:
+        """Let another process film `source`; the film takes its place at `path` when it is whole."""
+        assert self._scratch is not None, "it has a folder to film into"
+        self._made = Path(self._scratch.name) / "film.mp4"
+        try:
             self.process = subprocess.Popen(
-                [*self._animate, str(source), "--out", str(source.with_suffix(".mp4")), *span, "--click", *words],
+                [*self._animate, str(source), "--out", str(self._made), *words],
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.PIPE,
                 text=True,
@@ -75,7 +95,7 @@ class TakeAlong:
         finally:
             if self.process is None:
                 self._end()
-        self.path, self._made = path, source.with_suffix(".mp4")
+        self.path = path
         with suppress(OSError, AttributeError):  # there is no such thing on every system
             os.setpriority(os.PRIO_PROCESS, self.process.pid, _BACKGROUND)
 

@@ -32,7 +32,7 @@ from station.app.panels.course_list import ALL_LESSONS
 from station.app.panels.devices import DEVICES
 from station.app.panels.ear_row import STOP_LABEL as HITS_STOP
 from station.app.panels.ear_row import STUDENT_LABEL, TEACHER_LABEL
-from station.app.panels.lessons import ADAPT_LABEL, FREE_LABEL, LISTEN_LABEL
+from station.app.panels.lessons import ADAPT_LABEL, FILM_LABEL, FREE_LABEL, LISTEN_LABEL
 from station.app.panels.pads import LEARN_LABEL as LEARN_PAD_LABEL
 from station.app.panels.pads import UNDO_LABEL
 from station.app.panels.page import PANELS_LABEL
@@ -41,6 +41,7 @@ from station.app.panels.practice import LEARN_LABEL, PRACTICE
 from station.app.panels.take_along import MIDI_LABEL, TAKE_ALONG
 from station.app.panels.touch import LEARN_LABEL as TOUCH_LABEL
 from station.app.panels.transport import VIEW_LABEL
+from station.app.take_along import TakeAlong
 from station.app.window import Window
 from station.core.calibration import load_calibration
 from station.core.errors import BadInput
@@ -77,6 +78,9 @@ STUDENTS = {
     "highway": "intermediate,seed=2,velocity_sd=30",
 }
 PATIENCE_S = 600.0  # the parent's own limit is what ends a run that hangs
+
+FILMS = "import sys; words = sys.argv; open(words[words.index('--out') + 1], 'w').write(words[1])"
+"""Stands in for what films: its video says what was filmed."""
 
 Scenario = Callable[["Drive", imgui.test_engine.TestContext], None]
 
@@ -213,6 +217,14 @@ def just_play(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
             break
         ctx.yield_()
     drive.seen["ended"] = not drive.room.room().listening
+    films = drive.window.pages.take.files = TakeAlong((sys.executable, "-c", FILMS))
+    ctx.item_click(FILM_LABEL)
+    drive.seen["filming"] = films.process is not None
+    if films.process is not None:
+        films.process.wait(PATIENCE_S)
+    ctx.yield_(3)
+    capture = drive.room.room().take
+    drive.seen["filmed"] = capture is not None and capture.with_suffix(".mp4").read_text() == str(capture)
 
 
 def search(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:

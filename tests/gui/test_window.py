@@ -103,6 +103,7 @@ def a_free_take_is_recorded_and_heard_again(seen: dict[str, Any]) -> None:
     assert seen["after"] == "IDLE", "there is no result"
     assert seen["listening"]
     assert set(seen["lit"]) & {"SNARE", "KICK", "HIHAT"}, "what sounds lights the kit"
+    assert [seen["filming"], seen["filmed"]] == [True, True], "as a video beside its capture"
     assert seen["ended"], "it ends by itself"
 
 

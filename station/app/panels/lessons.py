@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import date
 from itertools import groupby
+from pathlib import Path
 
 from imgui_bundle import imgui
 
@@ -21,15 +22,20 @@ START_LABEL = "Start##start"
 ADAPT_LABEL = "the tempo follows me"
 FREE_LABEL = "Just play##free"
 LISTEN_LABEL, STOP_LISTENING = "Listen back##listen", "Stop listening##listen"
+FILM_LABEL = "Video of it##film"
 TAP_LABEL = "Tap##tap"
 
 
 @dataclass(frozen=True, slots=True)
 class LessonActions:
-    """What the user does: `start` what is chosen, `listen` back to the last take, or end it; `room` is asked."""
+    """What the user does: `start` what is chosen, `listen` back to the last take, or end it; `film` it.
+
+    `room` is asked.
+    """
 
     start: Callable[[], None]
     listen: Callable[[], None]
+    film: Callable[[Path], None]
     room: Callable[[], RoomState]
 
 
@@ -152,11 +158,16 @@ class LessonsPanel:
         if not self._is_low:
             self._start_button()
         room = self._actions.room()
-        imgui.begin_disabled(not (room.has_take or room.listening))
+        imgui.begin_disabled(not (room.take or room.listening))
         if imgui.button(STOP_LISTENING if room.listening else LISTEN_LABEL, imgui.ImVec2(-1, theme.points(38))):
             self._actions.listen()
         imgui.end_disabled()
         theme.tooltip("The last take from its recording, through the station's own drums")
+        imgui.begin_disabled(room.take is None)
+        if imgui.button(FILM_LABEL, imgui.ImVec2(-1, theme.points(38))) and room.take is not None:
+            self._actions.film(room.take)
+        imgui.end_disabled()
+        theme.tooltip("The drummer plays your last take, as MP4 beside its recording; it is filmed while you go on")
 
     def _tempo(self) -> None:
         choice = self._choice

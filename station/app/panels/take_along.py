@@ -75,6 +75,17 @@ class TakeAlongPanel:
         settings = self._actions.settings()
         self.files.film(*self._actions.chosen(), settings, film_words(self._actions.look(), settings))
 
+    def film_take(self, capture: Path) -> None:
+        """Film a take beside its capture."""
+        settings = self._actions.settings()
+        words = film_words(self._actions.look(), settings)
+
+        def begin() -> None:
+            self.files.film_take(capture, words)
+            self._actions.tell(f"the video is being filmed; you may go on ({TAKE_ALONG} cancels it)")
+
+        self._actions.tried(begin)
+
     def advance(self) -> None:
         """Say what has come of a video; once a frame, whether the panel is open or not."""
         told = self.files.news()

@@ -222,7 +222,7 @@ def test_a_free_take_is_kept_with_its_capture_and_judges_nothing(tmp_path: Path)
     assert picture.hud.judged == 0
     room.stop()
     assert (room.room().stage, room.report()) == (Stage.IDLE, None)
-    assert room.room().has_take
+    assert room.room().take is not None
     assert len(list(tmp_path.glob("*/*_just-play/take.json"))) == 1
     assert [command.path.name for command in line.heard if isinstance(command, Record) and command.path] == [
         "session.capture"
@@ -249,7 +249,7 @@ def test_an_engine_that_dies_in_a_take_loses_none_of_it(tmp_path: Path) -> None:
     line.dead = True
     room.snapshot(3 * NS_PER_S)
     assert room.room().stage is Stage.IDLE
-    assert room.room().has_take
+    assert room.room().take is not None
     assert len(list(tmp_path.glob("*/*_just-play/take.json"))) == 1
 
 

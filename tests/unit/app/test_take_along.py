@@ -62,6 +62,16 @@ def test_a_video_is_filmed_by_another_process_and_told_of_once(tmp_path: Path) -
     assert (files.news(), files.path) == (None, None)
 
 
+def test_a_take_is_filmed_beside_its_capture(tmp_path: Path) -> None:
+    files = TakeAlong((sys.executable, "-c", FILMS))
+    (tmp_path / "session.capture").write_bytes(b"")
+    files.film_take(tmp_path / "session.capture", ("--quality", "low"))
+    with pytest.raises(DeviceError, match="one video at a time"):
+        files.film_take(tmp_path / "session.capture")
+    assert ended(files) == f"kept in {tmp_path / 'session.mp4'}"
+    assert (tmp_path / "session.mp4").read_text() == "--quality low"
+
+
 def test_it_is_filmed_as_it_is_seen() -> None:
     """Every word is one that the command knows."""
     look = Look(view=View.EYES, mirrored=True)
