@@ -185,12 +185,8 @@ class Backdrop:
             return
         self._ctx.finish()
         self._times_ms.append((perf_counter() - began) * 1000)
-        if len(self._times_ms) == _MEASURED_FRAMES:
-            level = quality_for(median(self._times_ms[2:]))
-            if level or self._painter is None:
-                self._painter = Painter(self._ctx, QUALITIES[level])
-            else:
-                self._painter.quality = QUALITIES[0]
+        if len(self._times_ms) == _MEASURED_FRAMES and self._painter is not None:
+            self._painter.draw_at(QUALITIES[quality_for(median(self._times_ms[2:]))])
 
     def _draw_report(self, report: Report, painter: Painter, ctx: moderngl.Context, area: Area) -> None:
         letters = theme.points(_LEAST_LETTERS) * imgui.get_io().display_framebuffer_scale.y

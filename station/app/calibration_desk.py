@@ -144,6 +144,12 @@ class CalibrationDesk:
             self._running = None
             self._wake()
 
+    def close(self) -> None:
+        """End what runs, and let the engine sleep: the window closes."""
+        if self._running is not None:
+            self._running.end()
+            self._running = None
+
     def refuse(self) -> None:
         """Raise `DeviceError` while something is being measured: nothing else may sound."""
         if self.runs:

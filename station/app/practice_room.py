@@ -230,7 +230,8 @@ class PracticeRoom:
         self._goings_on.end(self._prepared.settings)
 
     def close(self) -> StationError | None:
-        """Keep a session that still runs; returns what the window can no longer tell of it."""
+        """Keep a session that still runs, end a measurement; returns what the window can no longer tell of it."""
+        self.calibration.close()
         if not self._goings_on.is_playing:
             return None
         self.stop()

@@ -1,10 +1,14 @@
 """A drummer who plays a part of a session: its demonstrations, or its passes.
 
 To plan a drummer takes about a tenth of a second for two bars; asked to be made `ahead`, he is planned on a thread of
-his own, while the part before him is played or counted in, and no frame waits for him.
+his own, while the part before him is played or counted in, and no frame waits for him; nor does a window that closes.
 """
 
-from concurrent.futures import Future, ThreadPoolExecutor
+from collections.abc import Callable
+from concurrent.futures import Future
+from queue import SimpleQueue
+from threading import Thread
+from typing import TypeVar
 
 from station.app.demonstrator import Demonstrator
 from station.core.units import NS_PER_S
@@ -14,8 +18,42 @@ from station.motion.style import Style
 from station.music.score import Score
 from station.practice.plan import Plan
 
-AHEAD = ThreadPoolExecutor(1, "drummer")
-"""One after the other: two at once would only take each other's time."""
+Made = TypeVar("Made")
+
+
+class Ahead:
+    """Makes drummers one after the other: two at once would only take each other's time.
+
+    On a thread that the end of the program does not wait for, unlike those of `concurrent.futures`: a long drummer
+    takes seconds, and nobody wants him any more.
+    """
+
+    def __init__(self) -> None:
+        self._asked: SimpleQueue[Callable[[], None]] = SimpleQueue()
+        self._thread: Thread | None = None
+
+    def submit(self, make: Callable[[], Made]) -> Future[Made]:
+        """What `make` will have made."""
+        if self._thread is None:
+            self._thread = Thread(target=self._work, name="drummer", daemon=True)
+            self._thread.start()
+        coming: Future[Made] = Future()
+        self._asked.put(lambda: _settle(coming, make))
+        return coming
+
+    def _work(self) -> None:
+        while True:
+            self._asked.get()()
+
+
+def _settle(coming: Future[Made], make: Callable[[], Made]) -> None:
+    try:
+        coming.set_result(make())
+    except Exception as fault:  # it is raised where the drummer is wanted
+        coming.set_exception(fault)
+
+
+AHEAD = Ahead()
 
 
 class SessionPart:

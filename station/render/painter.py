@@ -92,6 +92,12 @@ class Painter:
         self._named = (0, 0), np.empty(0, SHAPE_DTYPE)
         self._played: tuple[Kit, Figure] | None = None
 
+    def draw_at(self, quality: Quality) -> None:
+        """Draw at another quality from now on; the scene is built anew if it is made of other things."""
+        if replace(quality, is_layered=False) != replace(self.quality, is_layered=False):
+            self._played = None
+        self.quality = quality
+
     def draw(
         self,
         snapshot: Snapshot,

@@ -131,6 +131,24 @@ def test_a_missing_piece_s_stroke_glows_on_its_stand_in(draw: Draw) -> None:
     assert not np.array_equal(draw(still), draw(lit))
 
 
+def test_a_painter_that_goes_to_another_quality_draws_as_one_that_began_with_it() -> None:
+    snapshot, size = at(0.75), (160, 90)
+    with standalone_context() as ctx:
+        target = Target(ctx, size)
+
+        def drawn(painter: Painter) -> Picture:
+            target.framebuffer.clear(depth=1.0)
+            painter.draw(snapshot, target.framebuffer, (0, 0, *size))
+            return target.read().copy()
+
+        painter = Painter(ctx, QUALITIES[0])
+        before = drawn(painter)
+        painter.draw_at(QUALITIES[1])
+        after = drawn(painter)
+        assert np.array_equal(after, drawn(Painter(ctx, QUALITIES[1])))
+        assert not np.array_equal(before, after)
+
+
 @pytest.mark.parametrize("quality", QUALITIES[:2])
 def test_beside_the_demonstrator_the_student_has_a_picture_of_his_own(quality: Quality) -> None:
     """Left the demonstrator as if he were alone there, right a drummer who is where the student is."""

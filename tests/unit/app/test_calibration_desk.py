@@ -66,6 +66,15 @@ def test_the_engine_rests_while_it_is_measured_and_nothing_is_stored_unasked(tmp
     assert desk.findings is None
 
 
+def test_a_window_that_closes_ends_the_measurement_and_wakes_nothing(tmp_path: Path) -> None:
+    measurement = Measurement("chirps, 1 of 3")
+    desk, done = desk_over(measurement, tmp_path / "calibration.toml")
+    desk.measure(wish_by(LOOPBACK))
+    desk.close()
+    assert (measurement.ended, desk.runs, done) == (True, False, ["rest"])
+    desk.close()
+
+
 def test_what_is_in_doubt_is_stored_with_its_doubts_and_a_doubtful_pad_not_at_all(tmp_path: Path) -> None:
     rows = (Row("kit", "TD-17", POOR), Row("pad", "TD-17", GOOD, Piece.SNARE), Row("pad", "TD-17", POOR, Piece.KICK))
     desk, _ = desk_over(Measurement(Findings(Devices(kit="TD-17"), rows)), tmp_path / "calibration.toml")

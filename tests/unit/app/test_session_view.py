@@ -3,6 +3,8 @@
 A drummer made from nothing for the demonstrated bars says where the sticks must be.
 """
 
+import subprocess
+import sys
 from collections.abc import Iterator
 from threading import Event
 
@@ -143,6 +145,12 @@ def test_until_a_drummer_is_made_ahead_the_one_before_sits_there_and_nobody_wait
     assert shown is None
     AHEAD.submit(gate.wait).result()
     assert tips(view, PLAN, start_of(PLAN, Phase.DEMONSTRATION)) == pytest.approx(expected(PLAN, Style()), abs=1e-9)
+
+
+def test_a_program_that_ends_waits_for_no_drummer() -> None:
+    """One that is never made would keep a program for ever whose end waits for its threads."""
+    words = "from threading import Event; from station.app.session_part import AHEAD; AHEAD.submit(Event().wait)"
+    subprocess.run([sys.executable, "-c", words], check=True, timeout=60)
 
 
 def test_the_stickings_that_are_shown_are_those_of_the_drummer() -> None:
