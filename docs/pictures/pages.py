@@ -1,22 +1,21 @@
 """Keeps a screenshot of every page of the window: `python docs/pictures/pages.py [--size WxH] [--scale N] [--to DIR]`.
 
-Run from the project's root; it needs Xvfb and takes half a minute a page without a graphics card. Every page is a
-process with a window of its own, driven by imgui's test engine as in `tests/gui`. Look at each: nothing cut off,
-nothing overlapping. 1280x720 at scale 1 is what `docs/window.md` shows; look at 1920x1080 and at scale 2 too.
+Run from the project's root; it needs Xvfb and takes some ten seconds a page without a graphics card. Pages share a
+window where they can, driven by imgui's test engine as in `tests/gui`. What imgui has cut off or written over itself is
+told; look at each picture all the same. 1280x720 at scale 1 is what `docs/window.md` shows; look at 1920x1080 and at
+scale 2 too.
 """
 
 import argparse
-import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from datetime import date, timedelta
 from pathlib import Path
 
-import numpy as np
-from imgui_bundle import hello_imgui, imgui
+from imgui_bundle import imgui
 
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT))
@@ -40,7 +39,7 @@ from station.drills.mastery.steps import item_of  # noqa: E402
 from station.practice.memory import Memory  # noqa: E402
 from station.render.painter import DoublePlace  # noqa: E402
 from station.render.png import write_png  # noqa: E402
-from tests.gui.drive import NEWCOMER, Drive, Measurement, open_panel, press_view  # noqa: E402
+from tests.gui.drive import NEWCOMER, Drive, Measurement, Scenario, open_panel, press_view  # noqa: E402
 from tests.gui.x_server import screen  # noqa: E402
 
 Context = imgui.test_engine.TestContext
@@ -165,68 +164,101 @@ def _beside_a_result(name: str) -> Callable[[Drive, Context], None]:
 PAGES: Mapping[str, Callable[[Drive, Context], None]] = {
     "welcome": _lessons,
     "lessons": _lessons,
+    "look": _look,
+    "help": _help,
+    "figure": _tool(FIGURE),
+    "graph": _tool("Graph"),
+    "practice": _tool(PRACTICE),
+    "take-along": _tool(TAKE_ALONG),
+    "devices": _devices,
+    "calibration": _calibration,
+    "figure-bars": _lanes,
     "courses": _courses,
     "just-play": _just_play,
     "playing": _playing,
     "result": _result,
     "hits": _beside_a_result(HITS),
     "compared": _compared,
-    "look": _look,
-    "help": _help,
-    "figure": _tool(FIGURE),
-    "figure-bars": _lanes,
-    "graph": _tool("Graph"),
-    "practice": _tool(PRACTICE),
-    "take-along": _tool(TAKE_ALONG),
-    "devices": _devices,
-    "calibration": _calibration,
     "double": _double,
 }
 """What is done before each picture is taken."""
-_WITH_STUDENT = ("playing", "result", "hits", "compared", "double")
+_STUDENTS = {
+    "welcome": NEWCOMER,
+    "courses": None,
+    **dict.fromkeys(("playing", "result", "hits", "compared", "double"), STUDENT),
+}
+"""Who plays on pages that need a window of their own: they leave something behind, or need it."""
 
 
-def draw(page: str, size: tuple[int, int], scale: float, path: Path) -> None:
-    """Open a window of `size`, go to `page` and keep its last frame at `path`."""
-    student = NEWCOMER if page == "welcome" else STUDENT if page in _WITH_STUDENT else None
-    with tempfile.TemporaryDirectory() as folder:
-        drive = Drive(Path(folder), student, size=size)
+def draw(pages: Sequence[str], size: tuple[int, int], scale: float, folder: Path) -> None:
+    """Open a window of `size`, go to each of `pages` and keep its picture in `folder`."""
+    with tempfile.TemporaryDirectory() as sessions:
+        drive = Drive(Path(sessions), _STUDENTS.get(pages[0]), size=size)
         drive.window.backdrop.look_from(replace(drive.window.backdrop.look, scale=scale))
         save_settings(replace(load_settings(drive.settings), panel_scale=scale), drive.settings)
-
-        if page == "courses":
+        if "courses" in pages:
             _learnt(drive)
-
-        def shown(drive: Drive, ctx: Context) -> None:
-            PAGES[page](drive, ctx)
-            ctx.mouse_move_to_pos(imgui.ImVec2(size[0] - 3, 3))
-            drive.window.picture_every = 1
-            ctx.yield_(3)
-
-        drive.run([shown])
+        drive.run([_shown(page, size, folder / f"{page}.png") for page in pages])
         drive.room.close()
-        if "traceback" in drive.seen:
-            raise SystemExit(f"{page}: {drive.seen['traceback']}")
-        write_png(np.ascontiguousarray(hello_imgui.final_app_window_screenshot()), path)
+        for page, seen in zip(pages, drive.all_seen, strict=False):
+            if "traceback" in seen:
+                raise SystemExit(f"{page}: {seen['traceback']}")
+
+
+def _shown(page: str, size: tuple[int, int], path: Path) -> Scenario:
+    def show(drive: Drive, ctx: Context) -> None:
+        _close_tools(drive)
+        PAGES[page](drive, ctx)
+        ctx.mouse_move_to_pos(imgui.ImVec2(size[0] - 3, 3))
+        write_png(drive.shot(ctx), path)
+        if page == "help":
+            ctx.key_press(imgui.Key.f1)
+        for fault in drive.faults:
+            sys.stderr.write(f"{path.stem}: {fault}\n")
+
+    return show
+
+
+def _close_tools(drive: Drive) -> None:
+    for page in drive.window.pages.tools:
+        drive.window.params.docking_params.dockable_window_of_name(page.name).is_visible = False
+
+
+def _windows(pages: Sequence[str]) -> Iterator[list[str]]:
+    """The pages of each window."""
+    shared = [page for page in pages if page not in _STUDENTS]
+    yield from [shared] if shared else []
+    yield from ([page] for page in pages if page in _STUDENTS)
 
 
 def main() -> None:
-    """Draw the pages that were named, all by default, one process after the other."""
+    """Draw the pages that were named, all by default, one window after the other."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("pages", nargs="*", default=[*PAGES], metavar="PAGE", help=f"of {', '.join(PAGES)}")
     parser.add_argument("--size", default="1280x720")
     parser.add_argument("--scale", type=float, default=1.0)
     parser.add_argument("--to", type=Path, default=Path(__file__).with_name("pages"))
+    parser.add_argument("--here", action="store_true", help="on this screen, in one window")
     wish = parser.parse_args()
     width, height = map(int, wish.size.split("x"))
     wish.to.mkdir(parents=True, exist_ok=True)
-    if "DISPLAY" in os.environ and len(wish.pages) == 1:
-        draw(wish.pages[0], (width, height), wish.scale, wish.to / f"{wish.pages[0]}.png")
+    if wish.here:
+        draw(wish.pages, (width, height), wish.scale, wish.to)
         return
     for environment in screen(wish.size):
         with tempfile.TemporaryDirectory() as config:
-            for page in wish.pages:
-                asked = [sys.executable, __file__, page, "--size", wish.size, "--scale", str(wish.scale), "--to"]
+            for pages in _windows(wish.pages):
+                asked = [
+                    sys.executable,
+                    __file__,
+                    *pages,
+                    "--size",
+                    wish.size,
+                    "--scale",
+                    str(wish.scale),
+                    "--here",
+                    "--to",
+                ]
                 inside = {**environment, "XDG_CONFIG_HOME": config}
                 subprocess.run([*asked, str(wish.to.absolute())], env=inside, check=True, stdout=subprocess.DEVNULL)
 

@@ -168,6 +168,7 @@ class Backdrop:
         self._seen_from = self.camera
         painter.draw(snapshot, target.framebuffer, area, self.camera, arrangement=arrangement)
         target.show(screen)
+        screen.use()  # the panels are drawn into what is bound
         self._measure(began)
 
     def _target_for(self, painter: Painter, ctx: moderngl.Context, whole: tuple[int, int]) -> Target:

@@ -17,6 +17,7 @@ from pathlib import Path
 
 import numpy as np
 from imgui_bundle import hello_imgui, imgui
+from numpy.typing import NDArray
 
 from station.app.calibration_desk import Told
 from station.app.calibration_findings import Findings, Row
@@ -58,9 +59,12 @@ from station.practice.student_spec import parse_spec
 from station.render.camera import VIEW_NAMES, View
 from station.render.png import write_png
 from station.render.score_view import ScoreForm
+from station.render.snapshot import Snapshot
 from station.sound.calibration.estimate import Estimate
 from tests.gui.figure import figure
+from tests.gui.legible import present_faults
 from tests.gui.room import KIT, practice_room
+from tests.gui.screen_shot import screen_shot
 
 STEP_NS = ns_from_ms(100)
 SIZE = (760, 480)
@@ -97,9 +101,13 @@ class Drive:
         settings = Settings(sessions=str(sessions), welcomed=student != NEWCOMER)
         self.settings = save_settings(settings, sessions / "settings.toml")
         options = WindowOptions(size, quality=0, remember_layout=False, settings=self.settings, tests=self._register)
-        options = replace(options, picture_every=picture_every)
+        options = replace(options, picture_every=picture_every, shown=self._frame_is_shown)
         self.window = Window(self.room, options, self.clock)
         self.all_seen: list[dict[str, object]] = []
+        self._wants_shot = False
+        self._pixels = np.empty((0, 0, 3), np.uint8)
+        self.faults: list[str] = []
+        """What cannot be read of the last screenshot."""
         self._scenarios: Sequence[Scenario] = ()
 
     @property
@@ -111,6 +119,25 @@ class Drive:
         """Open the window and play them in turn, each from the lessons page with no popup open."""
         self._scenarios = scenarios
         self.window.run()
+
+    def shot(self, ctx: imgui.test_engine.TestContext) -> NDArray[np.uint8]:
+        """What the window shows on the screen, picture and panels: (height, width, 3)."""
+        every, self.window.picture_every = self.window.picture_every, 1
+        ctx.yield_(3)
+        self._wants_shot = True
+        ctx.yield_(2)
+        assert not self._wants_shot
+        self.window.picture_every = every
+        return self._pixels
+
+    def _frame_is_shown(self, snapshot: Snapshot | None) -> bool:
+        """Whether the window shall stay."""
+        del snapshot
+        if self._wants_shot:
+            assert self.window.monitors is not None
+            self._pixels, self.faults = screen_shot(self.window.monitors.screen.window()), present_faults()
+            self._wants_shot = False
+        return True
 
     def _register(self) -> None:
         engine = hello_imgui.get_imgui_test_engine()
@@ -262,6 +289,10 @@ def look(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     before = drive.window.backdrop.camera.azimuth_rad
     turn(ctx)
     drive.seen["turned"] = drive.window.backdrop.camera.azimuth_rad - before
+    pixels, start = drive.shot(ctx), ctx.item_info("//Lessons/Start##start").rect_full
+    drive.seen["button"] = pixels[round(start.get_center().y), round(start.min.x) + 12].tolist()
+    drive.seen["picture"] = float(pixels[100:200, 400:].std())
+    drive.seen["cannot be read"] = drive.faults
 
 
 def chord(*keys: imgui.Key) -> int:

@@ -215,6 +215,9 @@ def every_viewpoint_can_be_chosen_and_turned(seen: dict[str, Any]) -> None:
         assert seen[view] == view
     assert seen["mirrored"]
     assert abs(seen["turned"]) > 0.1
+    red, green, blue = seen["button"]
+    assert blue < 100 < green < 200 < red, "the orange button is on the screen, over the picture"
+    assert seen["picture"] > 10, "and the picture beside it"
 
 
 def viewpoints_are_kept_by_keys_and_in_the_popup(seen: dict[str, Any]) -> None:
