@@ -1,4 +1,4 @@
-"""Some bars of a lesson to take along: as MIDI, as a lesson file for the teacher, as a video with notation.
+"""Some bars of a lesson to take along: as MIDI, as a lesson file for the teacher, as a video or a GIF with notation.
 
 Files lie in the student's own folder, `take-along`. A video takes its time: another process films it (`station
 animate`) in a folder that goes with it, so that the window goes on and a cancelled video leaves nothing.
@@ -23,6 +23,7 @@ from station.music.formats.smf_write import write_score
 from station.practice.folder import folder_name
 
 FOLDER = "take-along"
+FILM, LOOP = ".mp4", ".gif"
 ANIMATE = (sys.executable, "-m", "station.cli", "animate")
 _BACKGROUND = 10
 """How nice the film is to a drummer who plays meanwhile (our choice: it gets what is left)."""
@@ -40,7 +41,7 @@ class TakeAlong:
         self.process: subprocess.Popen[str] | None = None
         self._made = Path()
         self.path: Path | None = None
-        """The video that is filmed now."""
+        """The video or GIF that is filmed now."""
 
     def midi(self, lesson: Lesson, bars: Bars, settings: Settings) -> Path:
         """The bars as a MIDI file; raises `DeviceError`."""
@@ -54,10 +55,13 @@ class TakeAlong:
         write_whole(path, write_lesson(replace(lesson, loop=bars)).encode())
         return path
 
-    def film(self, lesson: Lesson, bars: Bars, settings: Settings, words: Sequence[str] = ()) -> None:
-        """Begin a video of the bars, filmed as further `words` of the command say; raises as `lesson` does."""
+    def film(
+        self, lesson: Lesson, bars: Bars, settings: Settings, words: Sequence[str] = (), ending: str = FILM
+    ) -> None:
+        """Begin a `FILM` or a `LOOP` of the bars, as further `words` of the command say; raises as `lesson` does."""
         span = ("--start-bar", str(bars[0] + 1), "--end-bar", str(bars[1] + 1))
-        path = _place(lesson, bars, settings, ".mp4")
+        click = ("--click",) if ending == FILM else ()
+        path = _place(lesson, bars, settings, ending)
         scratch = self._scratch_folder()
         source = scratch / f"{folder_name(lesson.name)}.toml"
         try:
@@ -65,12 +69,12 @@ class TakeAlong:
         except StationError:
             self._end()
             raise
-        self._begin(source, path, (*span, "--click", *words))
+        self._begin(source, path, (*span, *click, *words))
 
     def film_take(self, capture: Path, words: Sequence[str] = ()) -> None:
         """Begin a video, beside a take's capture, of the drummer who plays it; raises `DeviceError`."""
         self._scratch_folder()
-        self._begin(capture, capture.with_suffix(".mp4"), words)
+        self._begin(capture, capture.with_suffix(FILM), words)
 
     def _scratch_folder(self) -> Path:
         """A folder that goes with the film; raises `DeviceError` while there is one."""
@@ -82,7 +86,7 @@ class TakeAlong:
     def _begin(self, source: Path, path: Path, words: Sequence[str]) -> None:
         """Let another process film `source`; the film takes its place at `path` when it is whole."""
         assert self._scratch is not None, "it has a folder to film into"
-        self._made = Path(self._scratch.name) / "film.mp4"
+        self._made = Path(self._scratch.name) / f"film{path.suffix}"
         try:
             self.process = subprocess.Popen(
                 [*self._animate, str(source), "--out", str(self._made), *words],

@@ -2,13 +2,13 @@
 
 import argparse
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from math import inf
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from station.app.commands.animate_motion import WRITERS
 from station.app.commands.drums import add_drums_options, led_score, planned
 from station.app.commands.output import say, say_beyond
 from station.core.errors import BadInput
@@ -39,11 +39,12 @@ LEVELS = ("low", "middle", "high")
 
 NUMBER = re.compile(r"(%0?\d*d)")
 """What numbers pictures in a name."""
-_DRAWN = ("picture", "pictures", "video")
+_DRAWN = ("picture", "pictures", "video", "loop")
 _MEANT_FOR = {
     **dict.fromkeys(("beat", "time"), ("picture",)),
     **dict.fromkeys(("size", "quality", "view", "mirror", "no_score"), _DRAWN),
-    **dict.fromkeys(("fps", "seconds"), ("pictures", "video", "motion")),
+    "fps": ("pictures", "video", "loop", "motion"),
+    "seconds": ("pictures", "video", "motion"),
     "click": ("video",),
 }
 """Which options say something of what."""
@@ -58,9 +59,17 @@ _USUAL = {
     "fps": 60.0,
     "click": False,
 }
-_WORDS = {"picture": "a picture", "pictures": "numbered pictures", "video": "a video", "motion": "motion"}
-
-Times = NDArray[np.float64]
+_USUAL_OF_LOOPS = {"size": (640, 360), "fps": 20.0}
+"""What a GIF can bear: a two-bar groove is about 2 MB (our choice)."""
+MOST_LOOP_S = 60.0
+"""No GIF lasts longer: tens of megabytes, in which nobody can stop or go back (our choice)."""
+_WORDS = {
+    "loop": "a GIF",
+    "picture": "a picture",
+    "pictures": "numbered pictures",
+    "video": "a video",
+    "motion": "motion",
+}
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -99,22 +108,24 @@ def run(arguments: argparse.Namespace) -> int:
     """Draw an instant or some bars, or write the motion of some bars."""
     out: Path = arguments.out
     ending = out.suffix.lower()
-    if ending not in (_STILL, _FILM, *_WRITERS):
+    if ending not in (_STILL, _FILM, _LOOP, *WRITERS):
         raise BadInput(out, "", f"expected a name that ends in {_ENDINGS}")
     _check_meant(arguments, _made(out))
-    if ending == _FILM:
+    if ending in (_FILM, _LOOP):
         _check_even(arguments.size)
-    score = led_score(arguments)
+    whole = score = led_score(arguments)
+    if ending == _LOOP:
+        score = _looped(whole, arguments)
     style = propose_style(score) if arguments.style == PROPOSED else load_style(arguments.style)
     plan = planned(score, _figure(arguments), arguments)
     drummer = Drummer(score, plan.kit, plan.figure, style, plan)
-    if ending in _WRITERS:
+    if ending in WRITERS:
         start_s, length_s = _stretch(drummer.score, arguments, 0.0)
         times_s = start_s + np.arange(round(length_s * arguments.fps) + 1) / arguments.fps
-        _WRITERS[ending]()(drummer, out, times_s)
+        WRITERS[ending]()(drummer, out, times_s)
         kind = "motion "
     else:
-        kind = _draw(drummer, arguments)
+        kind = _draw(drummer, whole, arguments)
     say_beyond(drummer.assignment.warnings)
     say(f"{kind}  {out}")
     return 0
@@ -125,6 +136,8 @@ def _made(out: Path) -> str:
     ending = out.suffix.lower()
     if ending == _FILM:
         return "video"
+    if ending == _LOOP:
+        return "loop"
     if ending != _STILL:
         return "motion"
     numbers = out.name.count("%")
@@ -139,7 +152,8 @@ def _check_meant(arguments: argparse.Namespace, made: str) -> None:
     """Refuse what says nothing of what is made, and fill in the usual where nothing was said."""
     for name, kinds in _MEANT_FOR.items():
         if getattr(arguments, name) is None:
-            setattr(arguments, name, _USUAL.get(name))
+            usual = _USUAL | _USUAL_OF_LOOPS if made == "loop" else _USUAL
+            setattr(arguments, name, usual.get(name))
         elif made not in kinds:
             option = f"--{name.replace('_', '-')}"
             raise BadInput(option, "", f"{arguments.out.name} makes {_WORDS[made]}; this is for {_listed(kinds)}")
@@ -149,7 +163,20 @@ def _listed(kinds: Sequence[str]) -> str:
     return ", ".join(_WORDS[kind] for kind in kinds)
 
 
-def _draw(drummer: Drummer, arguments: argparse.Namespace) -> str:
+def _looped(score: Score, arguments: argparse.Namespace) -> Score:
+    """The bars that a GIF shows, as they are played over and over."""
+    from station.app.film import Loop
+
+    _check_fps(arguments)
+    start, end = _ticks(score, arguments)
+    start_s, end_s = score.tempo_map.seconds_at([start, end]).tolist()
+    if end_s - start_s > MOST_LOOP_S:
+        fault = f"a GIF lasts {MOST_LOOP_S:g} s at most, these bars {end_s - start_s:.0f} s: choose some of them"
+        raise BadInput("--start-bar, --end-bar", "", f"{fault}, or make an .mp4")
+    return Loop.score(score, *_bars(score, arguments))
+
+
+def _draw(drummer: Drummer, whole: Score, arguments: argparse.Namespace) -> str:
     """Draw what the name asks for; returns what it is, for people."""
     from station.app.commands import animate_pictures as pictures
 
@@ -157,6 +184,9 @@ def _draw(drummer: Drummer, arguments: argparse.Namespace) -> str:
     if made == "picture":
         pictures.draw_still(drummer, _moment_s(drummer.score, arguments), arguments)
         return "picture"
+    if made == "loop":
+        pictures.draw_loop(drummer, whole, _bars(whole, arguments)[0], arguments)
+        return "loop   "
     stretch = _stretch(drummer.score, arguments, RING_S)
     if made == "pictures":
         pictures.draw_sequence(drummer, stretch, arguments)
@@ -194,9 +224,8 @@ def _stretch(score: Score, arguments: argparse.Namespace, ring_s: float) -> tupl
 
     Where that is the score's end, `ring_s` more.
     """
-    fps, most_s = arguments.fps, arguments.seconds
-    if not MIN_FPS <= fps <= MAX_FPS:
-        raise BadInput("--fps", f"{fps:g}", f"expected {MIN_FPS:g} to {MAX_FPS:g} a second")
+    _check_fps(arguments)
+    most_s = arguments.seconds
     if most_s is not None and not 0 < most_s < inf:
         raise BadInput("--seconds", f"{most_s:g}", "expected a number above 0")
     first, last = _ticks(score, arguments)
@@ -205,8 +234,19 @@ def _stretch(score: Score, arguments: argparse.Namespace, ring_s: float) -> tupl
     return start_s - LEAD_S, length_s if most_s is None else min(length_s, most_s)
 
 
+def _check_fps(arguments: argparse.Namespace) -> None:
+    if not MIN_FPS <= arguments.fps <= MAX_FPS:
+        raise BadInput("--fps", f"{arguments.fps:g}", f"expected {MIN_FPS:g} to {MAX_FPS:g} a second")
+
+
 def _ticks(score: Score, arguments: argparse.Namespace) -> tuple[int, int]:
     """First tick of the first bar, last of the last."""
+    first, last = _bars(score, arguments)
+    return score.tempo_map.bar_start(first), score.tempo_map.bar_start(last + 1)
+
+
+def _bars(score: Score, arguments: argparse.Namespace) -> tuple[int, int]:
+    """The first and the last bar, from 0."""
     first = arguments.start_bar
     last = score.bar_count if arguments.end_bar is None else arguments.end_bar
     named = "--start-bar, --end-bar", f"{first}-{last}"
@@ -214,41 +254,21 @@ def _ticks(score: Score, arguments: argparse.Namespace) -> tuple[int, int]:
         raise BadInput(*named, f"the score has bars 1 to {score.bar_count}")
     if last < first:
         raise BadInput(*named, "the last bar is before the first")
-    return score.tempo_map.bar_start(first - 1), score.tempo_map.bar_start(last)
+    return first - 1, last - 1
 
 
 # --- formats ---------------------------------------------------------------------------------------------------------
 
-Writer = Callable[[Drummer, Path, Times], None]
-
-
-def _npz() -> Writer:
-    from station.motion.export_npz import write_npz
-
-    return write_npz
-
-
-def _bvh() -> Writer:
-    from station.motion.export_bvh import write_bvh
-
-    return write_bvh
-
-
-def _glb() -> Writer:
-    from station.motion.export_glb import write_glb
-
-    return write_glb
-
-
-_WRITERS: dict[str, Callable[[], Writer]] = {".npz": _npz, ".bvh": _bvh, ".glb": _glb}
-_STILL, _FILM = ".png", ".mp4"
-_ENDINGS = ".mp4, .png, .npz, .bvh or .glb"
+_STILL, _FILM, _LOOP = ".png", ".mp4", ".gif"
+_ENDINGS = ".mp4, .gif, .png, .npz, .bvh or .glb"
 _OUT = f"the file to write: {_ENDINGS}; %%05d.png in a name numbers the pictures of all bars"
 
 
 def _check_even(size: tuple[int, int]) -> None:
     if any(side % 2 for side in size):
-        raise BadInput("--size", "{}x{}".format(*size), "a video's width and height are even numbers of pixels")
+        raise BadInput(
+            "--size", "{}x{}".format(*size), "a video's and a GIF's width and height are even numbers of pixels"
+        )
 
 
 def _size(text: str) -> tuple[int, int]:

@@ -1,4 +1,4 @@
-"""What `station animate` draws: one picture, numbered pictures, or a video with the drums and, if wished, a click."""
+"""What `station animate` draws: one picture, numbered pictures, a GIF that loops, or a video with sound."""
 
 import argparse
 from collections.abc import Callable, Iterator
@@ -8,10 +8,11 @@ from pathlib import Path
 
 from station.app.commands.animate import LEVELS, NUMBER
 from station.app.commands.progress import Progress
-from station.app.film import Take, write_film, write_pictures
+from station.app.film import Loop, Take, write_film, write_loop, write_pictures
 from station.app.soundtrack import Sounds
 from station.core.settings import load_settings
 from station.motion.drummer import Drummer
+from station.music.score import Score
 from station.render.camera import View, named
 from station.render.picture import Shot
 from station.render.quality import QUALITIES
@@ -36,6 +37,17 @@ def draw_sequence(drummer: Drummer, stretch: Stretch, arguments: argparse.Namesp
     take = _take(stretch, arguments.fps)
     shot = _shot(drummer, arguments)
     _with_progress(take, lambda tell: write_pictures(drummer, take, shot, _numbered(arguments.out, take), tell))
+
+
+def draw_loop(drummer: Drummer, whole: Score, first_bar: int, arguments: argparse.Namespace) -> None:
+    """A GIF of bars of the `whole` score from `first_bar` (from 0) on, which `drummer` plays over and over."""
+    loop = Loop.of(drummer, first_bar, whole.bar_count)
+    shot = _shot(drummer, arguments)
+    progress = Progress(round(loop.length_s * arguments.fps))
+    try:
+        write_loop(drummer, loop, arguments.fps, shot, arguments.out, progress.tell)
+    finally:
+        progress.close()
 
 
 def draw_film(drummer: Drummer, stretch: Stretch, arguments: argparse.Namespace) -> None:

@@ -1,4 +1,4 @@
-"""The panel of what can be taken along: the chosen bars as MIDI, as a lesson file, as a video."""
+"""The panel of what can be taken along: the chosen bars as MIDI, as a lesson file, as a video, as a GIF."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -8,19 +8,20 @@ from imgui_bundle import imgui
 
 from station.app import theme
 from station.app.look import Look
-from station.app.take_along import Bars, TakeAlong
+from station.app.take_along import FILM, LOOP, Bars, TakeAlong
 from station.core.settings import Settings
 from station.drills.lesson import Lesson
 
 TAKE_ALONG = "Take along"
-ABOUT = "The chosen bars as MIDI, as a file for your teacher, as a video"
+ABOUT = "The chosen bars as MIDI, as a file for your teacher, as a video or a GIF"
 HELP = (
     "The bars that the player repeats are written at the lesson's own tempo: MIDI for any other program; a lesson file"
-    " that a teacher can read and change, and this station opens; a video of the drummer with the notes and a click."
+    " that a teacher can read and change, and this station opens; a video of the drummer with the notes and a click; a"
+    " GIF of the same that plays for ever and makes no sound."
     " The files lie in the folder take-along beside your sessions."
 )
 MIDI_LABEL, LESSON_LABEL = "MIDI file##take", "Lesson file##take"
-FILM_LABEL, CANCEL_LABEL = "Video##take", "Cancel##take"
+FILM_LABEL, LOOP_LABEL, CANCEL_LABEL = "Video##take", "GIF##take", "Cancel##take"
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,11 +56,15 @@ class TakeAlongPanel:
             self._write(self.files.lesson)
         if self.files.path is None:
             if self._button(FILM_LABEL, "The drummer, the notes and the click as MP4; it is filmed while you go on"):
-                self._actions.tried(self._film)
+                self._actions.tried(lambda: self._film(FILM))
+            if self._button(
+                LOOP_LABEL, "The drummer and the notes, over and over, for a message; bars of 60 s at most"
+            ):
+                self._actions.tried(lambda: self._film(LOOP))
             return
         if self._button(CANCEL_LABEL, "Give it up; nothing is left of it"):
             self.files.cancel()
-        theme.soft("The video is being filmed; you may go on.")
+        theme.soft("It is being filmed; you may go on.")
 
     @staticmethod
     def _button(label: str, told: str) -> bool:
@@ -71,9 +76,9 @@ class TakeAlongPanel:
         actions = self._actions
         actions.tried(lambda: actions.tell(f"kept in {make(*actions.chosen(), actions.settings())}"))
 
-    def _film(self) -> None:
+    def _film(self, ending: str) -> None:
         settings = self._actions.settings()
-        self.files.film(*self._actions.chosen(), settings, film_words(self._actions.look(), settings))
+        self.files.film(*self._actions.chosen(), settings, film_words(self._actions.look(), settings), ending)
 
     def film_take(self, capture: Path) -> None:
         """Film a take beside its capture."""

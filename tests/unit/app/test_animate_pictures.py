@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 
 from station.app.commands.progress import progress_line
+from station.app.film import Loop
 from station.app.health import check_video
 from station.cli import main
+from station.drills.library import find_lesson
 from tests.fakes.sound_files import stroke
 from tests.unit.app.test_cli import refused
 from tests.unit.render.test_png import decode
@@ -55,12 +57,28 @@ def test_a_name_with_a_number_is_a_sequence_and_one_without_an_instant(tmp_path:
     assert np.abs(still.astype(int) - decode((tmp_path / "f" / "a001.png").read_bytes())).mean() > 0.1
 
 
+@pytest.mark.gl
+def test_a_gif_is_the_middle_of_three_passes(tmp_path: Path) -> None:
+    av = pytest.importorskip("av", reason="av is not installed: pip install av")
+    path = tmp_path / "x.gif"
+    assert animate(path, "--fps", "1", "--start-bar", "2", "--size", "64x32", "--no-score") == 0
+    with av.open(str(path)) as container:
+        frames = [frame.pts for frame in container.decode(video=0)]
+    assert frames == [0, 100, 200], "a bar of 3 s at 80 bpm, in hundredths, and no second before or after it"
+
+
+def test_what_a_loop_shows_is_numbered_as_in_the_score() -> None:
+    score = find_lesson("rock-1").score
+    played = Loop.score(score, 1, 1)
+    assert (played.bar_count, len(played)) == (3, 3 * len(score.bars(1, 1)))
+
+
 def test_what_cannot_be_is_refused_in_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     def said(name: str, *words: str) -> str:
         return refused(capsys, "animate", "rock-1", "--out", str(tmp_path / name), *words)
 
-    assert "161x90: a video's width and height are even" in said("x.mp4", "--size", "161x90")
-    assert "expected a name that ends in .mp4, .png, .npz, .bvh or .glb" in said("x.avi")
+    assert "161x90: a video's and a GIF's width and height are even" in said("x.mp4", "--size", "161x90")
+    assert "expected a name that ends in .mp4, .gif, .png, .npz, .bvh or .glb" in said("x.avi")
     assert "the score has seconds 0 to 6.000" in said("x.png", "--time", "6.1")
     assert "expected a number above 0" in said("x.mp4", "--seconds", "0")
     assert "expected 1 to 1000 a second" in said("x.mp4", "--fps", "0")
@@ -68,8 +86,11 @@ def test_what_cannot_be_is_refused_in_one_line(tmp_path: Path, capsys: pytest.Ca
     assert "--beat: x.mp4 makes a video; this is for a picture" in said("x.mp4", "--beat", "2")
     assert "--size: x.npz makes motion" in said("x.npz", "--size", "64x64")
     assert "--click: x.glb makes motion; this is for a video" in said("x.glb", "--click")
+    assert "--click: x.gif makes a GIF; this is for a video" in said("x.gif", "--click")
+    assert "--seconds: x.gif makes a GIF" in said("x.gif", "--seconds", "3")
+    assert "expected 1 to 1000 a second" in said("x.gif", "--fps", "0")
     assert "the last bar is before the first" in said("x.npz", "--start-bar", "2", "--end-bar", "1")
-    assert [p.name for p in tmp_path.iterdir() if p.suffix in (".mp4", ".png")] == []
+    assert [p.name for p in tmp_path.iterdir() if p.suffix in (".mp4", ".gif", ".png")] == []
 
 
 def test_without_the_encoder_a_video_is_refused_with_what_to_do(

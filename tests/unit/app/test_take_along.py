@@ -10,7 +10,7 @@ import pytest
 from station.app.commands.animate import add_options
 from station.app.look import Look
 from station.app.panels.take_along import film_words
-from station.app.take_along import TakeAlong
+from station.app.take_along import LOOP, TakeAlong
 from station.core.errors import DeviceError
 from station.core.settings import Settings
 from station.drills.lesson_write import first_difference
@@ -113,3 +113,12 @@ def test_a_video_whose_place_is_taken_is_not_kept_elsewhere(tmp_path: Path) -> N
     files.film(ROCK, (0, 1), settings(tmp_path))
     assert ended(files) == f"no video: {place}: cannot be written: it is no plain file"
     assert list(place.iterdir()) == []
+
+
+def test_a_gif_is_filmed_without_a_click(tmp_path: Path) -> None:
+    files = TakeAlong((sys.executable, "-c", FILMS, "animate"))
+    files.film(ROCK, (0, 1), settings(tmp_path), ending=LOOP)
+    told = ended(files)
+    path = tmp_path / "Ann" / "take-along" / "rock-1_1-2.gif"
+    assert told == f"kept in {path}"
+    assert "--click" not in path.read_text()
