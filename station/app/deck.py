@@ -172,10 +172,12 @@ class Deck:
 
     def _begin_sound(self) -> None:
         self._due = False
-        self.player = self.player.started(self.now_ns + LEAD_NS + self._counted_ns)
-        self._sounding_until_ns = self.now_ns + SOUNDED_NS + self._counted_ns
         cues = song_cues(self.score, self.player, self._watched.click if self.click else None)
-        self._send(Play(cues if self._counting is None else after(self._counting, cues), LEAD_NS))
+        cues = cues if self._counting is None else after(self._counting, cues)
+        lead_ns = LEAD_NS + max(-int(cues["at_ns"].min(initial=0)), 0)  # a counted word begins before its beat
+        self.player = self.player.started(self.now_ns + lead_ns + self._counted_ns)
+        self._sounding_until_ns = self.now_ns + SOUNDED_NS + self._counted_ns
+        self._send(Play(cues, lead_ns))
 
     # --- the count-in ------------------------------------------------------------------------------------------------
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from station.core.units import NS_PER_S
 from station.engine.messages import CUE_DTYPE, Bus, Command, EngineEvent, Play, Started, Stop
 from station.music.performance import Performance
+from station.practice.click import leads_ns
 
 SOON_NS = NS_PER_S // 5
 """How long after the wish the first sound comes: time for the cues to reach the sound card; our choice."""
@@ -34,8 +35,9 @@ def played_cues(performance: Performance) -> NDArray[np.void]:
 
 
 def stretch(cues: NDArray[np.void], start_ns: int, end_ns: int) -> NDArray[np.void]:
-    """The cues in [`start_ns`, `end_ns`), from 0 on."""
-    inside = cues[(cues["at_ns"] >= start_ns) & (cues["at_ns"] < end_ns)].copy()
+    """The cues in [`start_ns`, `end_ns`), from 0 on; a counted word is where its beat is, and begins before it."""
+    beats = cues["at_ns"] + leads_ns(cues)
+    inside = cues[(beats >= start_ns) & (beats < end_ns)].copy()
     inside["at_ns"] -= start_ns
     return inside
 

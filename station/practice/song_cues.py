@@ -12,7 +12,7 @@ from station.core.units import NS_PER_S
 from station.engine.messages import CUE_DTYPE
 from station.music.score import Score
 from station.music.tempo import MeterChange, TempoMap
-from station.practice.click import ClickPattern, click_cues, counting
+from station.practice.click import ClickPattern, click_cues, counting, leads_ns
 from station.practice.plan import demonstration_cues
 from station.practice.song_player import SongPlayer
 
@@ -23,7 +23,8 @@ SOUNDED_NS = 600 * NS_PER_S
 def song_cues(score: Score, player: SongPlayer, click: ClickPattern | None) -> NDArray[np.void]:
     """The cues (n,) of `CUE_DTYPE` of `player` from its `at_ns` on, which is cue time 0; times are at its speed.
 
-    A grace stroke on a loop's first note sounds at the end of the pass before. None for `click`: strokes alone.
+    The word that counts the first beat begins before it, at a negative time. A grace stroke on a loop's first note
+    sounds at the end of the pass before. None for `click`: strokes alone.
     """
     low_ns, high_ns = player.span_ns
     length_ns = high_ns - low_ns
@@ -35,8 +36,11 @@ def song_cues(score: Score, player: SongPlayer, click: ClickPattern | None) -> N
     passes = 1 if player.loop is None else 2 + SOUNDED_NS * player.speed_percent // 100 // length_ns
     cues = np.tile(once, passes).astype(CUE_DTYPE)
     cues["at_ns"] += np.repeat(np.arange(passes, dtype=np.int64) * length_ns, len(once)) + low_ns - player.at_ns
-    cues = cues[cues["at_ns"] >= 0]
-    cues["at_ns"] = cues["at_ns"] * 100 // player.speed_percent
+    leads = leads_ns(cues)  # a counted word begins before its beat, by the clock and at any speed
+    beats = cues["at_ns"] + leads
+    ahead = beats >= 0
+    cues, leads, beats = cues[ahead], leads[ahead], beats[ahead]
+    cues["at_ns"] = beats * 100 // player.speed_percent - leads
     return cues[np.argsort(cues["at_ns"], kind="stable")]
 
 

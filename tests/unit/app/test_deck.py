@@ -3,6 +3,8 @@
 Rock 1 is two bars of 4/4 at 80 beats a minute: 0.75 s a beat, 3 s a bar (its file says so).
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from station.app.deck import LEAD_NS, Control, Deck, Watched
@@ -14,6 +16,7 @@ from station.motion.drummer import Drummer
 from station.motion.figure import figure_of
 from station.motion.kit import load_kit
 from station.motion.style import Style
+from station.practice.click import PLAIN
 from station.practice.plan import with_sticking
 from station.practice.song_player import SongPlayer
 
@@ -50,6 +53,17 @@ def test_played_forward_it_sounds_and_moves_with_its_sound() -> None:
     made.advance(NS_PER_S + 380 * NS_PER_MS)
     assert made.player.position_ns(made.now_ns) == 300 * NS_PER_MS
     assert made.snapshot().position_s == 0.3
+
+
+def test_the_word_on_the_first_beat_is_not_lost() -> None:
+    sent: list[Command] = []
+    made = Deck(sent.append, Watched(ROCK, KIT, click=replace(PLAIN, counts=True)))
+    made.advance(NS_PER_S)
+    use(made, SongPlayer.played)
+    [play] = plays(sent)
+    words = play.cues[play.cues["bus"] == Bus.CLICK]
+    assert len(words) == 8
+    assert play.start_in_ns + words["at_ns"][0] >= LEAD_NS, "there is time for it to reach the card"
 
 
 def test_without_the_click_the_strokes_sound_on_from_where_it_is() -> None:

@@ -3,6 +3,8 @@
 The song has four bars of 4/4 at 120 beats a minute: a beat lasts 0.5 s, a bar 2 s, the song 8 s.
 """
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -12,7 +14,7 @@ from station.engine.messages import Bus
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 from station.practice.click import PLAIN
-from station.practice.song_cues import SOUNDED_NS, song_cues
+from station.practice.song_cues import SOUNDED_NS, after, count_in_of, song_cues
 from station.practice.song_player import Song, SongPlayer, Step
 
 BEAT_NS, BAR_NS = 500 * NS_PER_MS, 2 * NS_PER_S
@@ -171,3 +173,18 @@ def test_a_flam_on_a_loop_s_first_note_keeps_its_grace_stroke() -> None:
     score = Score.from_notes(notes, SONG.tempo_map, SONG.end_tick)
     cues = song_cues(score, PLAYER.looped(T, (0, 0)), None)
     assert cues["at_ns"][:3].tolist() == [0, BAR_NS - 30 * NS_PER_MS, BAR_NS]
+
+
+@pytest.mark.parametrize("percent", [50, 100, 200])
+@pytest.mark.parametrize("loop", [None, (0, 1)])
+def test_the_first_beat_after_a_count_is_counted_too(percent: int, loop: tuple[int, int] | None) -> None:
+    """A word begins 70 ms before its beat (`SPOKEN_LEAD_S`) at any speed; a bar has "one two three four"."""
+    score = Score.from_notes([Note(i * PPQ, Piece.SNARE) for i in range(16)], TempoMap.constant(120.0))
+    player = PLAYER.looped(T, loop).at_speed(T, percent)
+    counted = replace(PLAIN, counts=True)
+    count = count_in_of(player, counted)
+    cues = after(count, song_cues(score, player, counted))
+    words = cues[cues["bus"] == Bus.CLICK]
+    beats_ns = count.lead_ns + np.arange(12) * BEAT_NS * 100 // percent
+    assert words["at_ns"][:12].tolist() == (beats_ns - 70 * NS_PER_MS).tolist()
+    assert words["piece"][:12].tolist() == words["piece"][:4].tolist() * 3
