@@ -20,7 +20,7 @@ _COMMANDS: tuple[tuple[str, str], ...] = (
     ("animate", "draw the drummer who plays a score"),
     ("limbs", "say which limb plays every note of a score"),
     ("lesson", "list, show, check, write, import and export lessons"),
-    ("devices", "list, monitor, record and replay kits"),
+    ("devices", "list, monitor, teach, calibrate, record and replay kits and sound outputs"),
     ("doctor", "say what works on this computer, and what to do about what does not"),
     ("bench", "measure this computer's station"),
 )

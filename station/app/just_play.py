@@ -11,7 +11,7 @@ from station.app.model import FreeWish
 from station.app.session_folder import SessionFolder
 from station.app.session_view import STRIKE_SHOWN_NS, strikes
 from station.core.errors import DeviceError, StationError
-from station.core.settings import Settings
+from station.core.settings import Settings, setting_source
 from station.core.units import NS_PER_S
 from station.devices.capture import read_capture
 from station.engine.messages import EngineEvent
@@ -75,7 +75,7 @@ class JustPlay:
 
     def begin(self, engine: EngineLink, wish: FreeWish) -> None:
         """Record from now on, to the click that is wished for; raises `StationError`."""
-        pattern = parse_click(self._settings.click_pattern, "settings: click_pattern") if wish.click else None
+        pattern = parse_click(self._settings.click_pattern, setting_source("click_pattern")) if wish.click else None
         play = FreePlay(FreeClick(wish.tempo_bpm, pattern), self._latency)
         folder = SessionFolder(None, self._settings, FOLDER)
         try:

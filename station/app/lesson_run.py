@@ -135,7 +135,10 @@ class LessonRun:
         """Refuse what the next pass would change, the last one once more; returns whether there was an engine."""
         assert self._followed is not None, "the room asks where it may"
         self._followed.adaptation.veto()
-        return self._next_pass(self._followed.adaptation)
+        has_begun = self._next_pass(self._followed.adaptation)
+        if not has_begun:
+            self._taken = self.session  # it was refused: no pass of anybody's
+        return has_begun
 
     # --- pauses ------------------------------------------------------------------------------------------------------
 

@@ -11,7 +11,7 @@ from station.app.deck import Watched
 from station.app.lesson_cards import all_lessons, card
 from station.app.model import LessonCard, Start
 from station.core.errors import BadInput, DeviceError
-from station.core.settings import Settings
+from station.core.settings import Settings, setting_source
 from station.drills.course import Course
 from station.drills.lesson import Lesson
 from station.drills.library import courses_in, find_lesson, shipped_courses
@@ -114,4 +114,4 @@ class Preparation:
         return track
 
     def _click(self) -> ClickPattern:
-        return parse_click(self.settings.click_pattern, "settings: click_pattern")
+        return parse_click(self.settings.click_pattern, setting_source("click_pattern"))

@@ -1,6 +1,7 @@
 """Keeps a session: the folder with its capture, report and pictures, and a way out when the disk is full."""
 
 import tempfile
+from collections.abc import Iterator
 from datetime import datetime
 from pathlib import Path
 
@@ -66,17 +67,18 @@ class SessionFolder:
         """Write what is kept of a free take beside its capture; raises `DeviceError`."""
         write_document(self.path / TAKE_NAME, document)
 
-    def draw(self, result: SessionResult, document: dict[str, Json]) -> Path:
-        """Draw the report and the drummer; returns the report's picture. Raises `DeviceError`."""
+    def draw(self, result: SessionResult, document: dict[str, Json]) -> Iterator[Path]:
+        """Draw the report and the drummer, and say each that is there; raises `DeviceError`."""
         from station.app.demonstrator import kept_demonstrator
         from station.app.pictures import draw_session
         from station.app.results import session_facts
         from station.render.report_picture import draw_report_png
 
         draw_report_png(session_facts(result, document), self.path / PICTURE_NAME)
+        yield self.path / PICTURE_NAME
         who = kept_demonstrator(self._settings, lambda _: None)  # a style that is none was told when practice began
         draw_session(result, self.path / DRUMMER_NAME, who)
-        return self.path / PICTURE_NAME
+        yield self.path / DRUMMER_NAME
 
 
 def rescued(fault: StationError, result: SessionResult, document: dict[str, Json]) -> StationError:

@@ -133,6 +133,11 @@ def settings_path() -> Path:
     return user_config_path(APP_NAME, appauthor=False) / "settings.toml"
 
 
+def setting_source(key: str) -> str:
+    """How a complaint of the setting `key` begins: where it is kept, and which it is."""
+    return f"{settings_path()}: {key}"
+
+
 def load_settings(path: Path | None = None) -> Settings:
     """Settings from `path` (this user's by default); raises `BadInput` for a file that is not ours."""
     source = path or settings_path()

@@ -111,6 +111,9 @@ class Table:
     def _at(self, key: str) -> str:
         return f"{self.place}.{key}" if self.place else key
 
+    def _lacks(self, key: str) -> BadInput:
+        return BadInput(self.source, self.place, f"{key} is missing")
+
     def only(self, keys: set[str]) -> None:
         """Refuse any key that is not in `keys`."""
         for key in self.raw:
@@ -120,7 +123,7 @@ class Table:
     def table(self, key: str, default: Mapping[str, object] | None = None) -> "Table":
         """The table at `key`."""
         if key not in self.raw and default is None:
-            raise BadInput(self.source, self._at(key), "is missing")
+            raise self._lacks(key)
         return Table(self.raw.get(key, default), self.source, self._at(key))
 
     def tables(self, key: str) -> list["Table"]:
@@ -141,7 +144,7 @@ class Table:
         """The number at `key`, from `low` to `high`."""
         value = self.raw.get(key, default)
         if value is None:
-            raise BadInput(self.source, self._at(key), "is missing")
+            raise self._lacks(key)
         if isinstance(value, bool) or not isinstance(value, int | float) or not low <= value <= high:
             raise BadInput(self.source, self._at(key), f"expected a number from {low:g} to {high:g}, found {value!r}")
         return float(value)
@@ -171,7 +174,7 @@ class Table:
         """The three lengths at `key`, in metres."""
         value = self.raw.get(key, default)
         if value is None:
-            raise BadInput(self.source, self._at(key), "is missing")
+            raise self._lacks(key)
         if not isinstance(value, list | tuple) or len(value) != 3:
             raise BadInput(self.source, self._at(key), f"expected [right, forward, up] in metres, found {value!r}")
         x, y, z = (Table({key: v}, self.source, self.place).number(key, -_MAX_LENGTH_M, _MAX_LENGTH_M) for v in value)

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Self
 
-from station.core.settings import Settings
+from station.core.settings import Settings, setting_source
 from station.devices.kit_ports import KitWish, parse_kits
 from station.engine.levels import parse_levels
 from station.engine.messages import Bus, Command, SetLevel, SetMidiOut, SetPiece
@@ -52,7 +52,7 @@ class EngineConfig:
             drums=settings.drums,
             click=settings.click,
             own_sound=settings.own_sound,
-            levels=parse_levels(settings.levels, "settings: levels"),
+            levels=parse_levels(settings.levels, setting_source("levels")),
             midi_out=settings.midi_out,
         )
 

@@ -11,7 +11,14 @@ from pathlib import Path
 from station.core.errors import BadInput, DeviceError
 from station.practice.plan import Plan
 from station.sound.track import PreparedTrack
-from station.sound.track_file import MAX_SPEED, MIN_SPEED, TrackWish, checked_length_s, prepare_in_background
+from station.sound.track_file import (
+    MAX_SPEED,
+    MIN_SPEED,
+    TrackWish,
+    checked_length_s,
+    file_length_s,
+    prepare_in_background,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +43,7 @@ class BackingWish:
 
     def check(self, plan: Plan, rate_hz: int) -> None:
         """Raise `BadInput` for what could never be made ready, as far as the head of its file tells."""
+        file_length_s(self.path)  # one that is not there has no speed either
         checked_length_s(self.track(plan, rate_hz))
 
 

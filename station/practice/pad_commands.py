@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from station.core.events import Hit, Switched
-from station.core.settings import Settings
+from station.core.settings import Settings, setting_source
 from station.engine.messages import EngineEvent
 from station.music.score import Score
 from station.practice.pad_gestures import FootSwitch, Together, TwoKicks
@@ -14,7 +14,7 @@ class PadCommands:
     """Hand it every event that may command something; raises `BadInput` for a pause in `settings` that is none."""
 
     def __init__(self, settings: Settings, score: Score) -> None:
-        self._wish = parse_pause(settings.pause, "settings: pause")
+        self._wish = parse_pause(settings.pause, setting_source("pause"))
         self._kicks_start = settings.kicks_start
         self._foot = FootSwitch(self._wish.switches)
         self._score: Score | None = None

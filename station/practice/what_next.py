@@ -3,13 +3,13 @@
 Pure: an assessment document and the lesson's goals in, sentences out. Tempi are in quarter notes a minute.
 """
 
-from math import ceil, floor
+from dataclasses import dataclass
+from math import ceil, floor, sqrt
 
 from station.drills.lesson import Lesson
+from station.drills.mastery.passes import usual_interval_ms
+from station.drills.mastery.rules import Rules
 from station.scoring.document import Json
-
-SPREAD_TO_GO_ON_MS = 25.0
-"""Where a lesson names no spread of its own: what is shown as on time (docs/pictures.md); our choice."""
 
 _NOTHING_PLAYED = "There was nothing to judge: the session ended before the first note."
 _NOTHING_HEARD = (
@@ -25,7 +25,36 @@ def what_next(document: dict[str, Json], lesson: Lesson, tempo_bpm: float) -> tu
         return (_NOTHING_PLAYED,)
     if not counts["hits"]:
         return (_NOTHING_HEARD,)
-    return advice_of(document) or (_short_of_goal(document, lesson) or _go_on(lesson, tempo_bpm),)
+    if advice := advice_of(document):
+        return advice
+    spread = _Spread.of(document, lesson, tempo_bpm)
+    return (_short_of_goal(document, lesson, spread) or _go_on(lesson, tempo_bpm, spread),)
+
+
+@dataclass(frozen=True, slots=True)
+class _Spread:
+    """The spread about each piece's own lean, 0 where there is none, and the widest with which a pass is clean."""
+
+    ms: float
+    limit_ms: float
+
+    @classmethod
+    def of(cls, document: dict[str, Json], lesson: Lesson, tempo_bpm: float) -> "_Spread":
+        """As the mastery policy has it at this tempo (TEACHING: min(35, max(20, 15 % of the interval)) ms)."""
+        interval_ms = usual_interval_ms(lesson.loop_score.at_speed(tempo_bpm / lesson.tempo_bpm))
+        total_ms = _numbers(document["timing"]).get("sd_asynchrony_ms", 0.0)
+        about_leans_ms = _pooled_ms(_table(document, "per_piece")) if "per_piece" in document else None
+        limit_ms = Rules().for_lesson(lesson).sd_limit_ms(interval_ms)
+        return cls(total_ms if about_leans_ms is None else min(about_leans_ms, total_ms), limit_ms)
+
+
+def _pooled_ms(per_piece: Json) -> float | None:
+    """The SD of all strokes, each about the mean of its piece."""
+    assert isinstance(per_piece, dict), "the report is ours"
+    timings = [_numbers(_table(group, "timing")) for group in per_piece.values() if isinstance(group, dict)]
+    spread = [(t["strokes"] - 1, t["sd_asynchrony_ms"]) for t in timings if "sd_asynchrony_ms" in t]
+    freedom = sum(count for count, _ in spread)
+    return sqrt(sum(count * sd_ms**2 for count, sd_ms in spread) / freedom) if freedom else None
 
 
 def advice_of(document: dict[str, Json]) -> tuple[str, ...]:
@@ -35,18 +64,17 @@ def advice_of(document: dict[str, Json]) -> tuple[str, ...]:
     return tuple(str(item["text"]) for item in advice if isinstance(item, dict))
 
 
-def _short_of_goal(document: dict[str, Json], lesson: Lesson) -> str:
+def _short_of_goal(document: dict[str, Json], lesson: Lesson, spread: _Spread) -> str:
     """The first goal that was not reached, empty where all were."""
     goals, counts, timing = lesson.goals, _numbers(document["counts"]), _numbers(document["timing"])
     right = counts["matched"] / counts["notes"]
     if right < goals.min_accuracy:
         share, goal = floor(100 * right), ceil(100 * goals.min_accuracy)
         return f"{share} % of the notes were right, {goal} % are the goal: play it again at this tempo, or slower."
-    spread_ms, limit_ms = timing.get("sd_asynchrony_ms", 0.0), goals.max_sd_ms or SPREAD_TO_GO_ON_MS
-    if spread_ms > limit_ms:
+    if spread.ms > spread.limit_ms:
+        spreads = f"your strokes spread by {ceil(spread.ms)} ms and {floor(spread.limit_ms)} are the goal"
         return (
-            f"No one fault stands out, but your strokes spread by {ceil(spread_ms)} ms and {limit_ms:g} are the goal:"
-            " stay at this tempo, or go slower, until they lie closer together."
+            f"No one fault stands out, but {spreads}: stay at this tempo, or go slower, until they lie closer together."
         )
     lean_ms = timing.get("mean_signed_asynchrony_ms", 0.0)
     if goals.max_lean_ms is not None and abs(lean_ms) > goals.max_lean_ms:
@@ -67,9 +95,11 @@ def _short_of_goal(document: dict[str, Json], lesson: Lesson) -> str:
     return ""
 
 
-def _go_on(lesson: Lesson, tempo_bpm: float) -> str:
+def _go_on(lesson: Lesson, tempo_bpm: float, spread: _Spread) -> str:
     below = tempo_bpm < lesson.target_tempo_bpm * (1 - _SAME_TEMPO)
-    return f"Nothing stands out: {'raise the tempo' if below else 'take the next lesson, or raise the tempo'}."
+    why = f" (a spread of {ceil(spread.ms)} ms is within the {floor(spread.limit_ms)} of a clean pass)"
+    told = why if spread.ms > Rules().sd_floor_ms else ""  # who lies closer together does not ask
+    return f"Nothing stands out{told}: {'raise the tempo' if below else 'take the next lesson, or raise the tempo'}."
 
 
 _SAME_TEMPO = 0.01

@@ -110,8 +110,7 @@ def checked_length_s(wish: TrackWish) -> float:
     name = str(wish.path)
     if not MIN_SPEED <= wish.speed <= MAX_SPEED:
         raise BadInput(name, "speed", f"expected {MIN_SPEED:g} to {MAX_SPEED:g}, found {wish.speed:g}")
-    with opened(wish.path, name) as file:
-        length_s: float = min(MAX_TRACK_S, file.frames / file.samplerate)
+    length_s = min(MAX_TRACK_S, file_length_s(wish.path))
     if not 0.0 <= wish.start_s < length_s:
         raise BadInput(name, "start", f"expected 0 to {length_s:.1f} s, found {wish.start_s:g}")
     if wish.loop_s is not None:
@@ -122,12 +121,22 @@ def checked_length_s(wish: TrackWish) -> float:
     return length_s
 
 
+def file_length_s(path: Path) -> float:
+    """How long a sound file is by its head; raises `BadInput` for what is none."""
+    with opened(path, str(path)) as file:
+        length_s: float = file.frames / file.samplerate
+    return length_s
+
+
 def _read(wish: TrackWish) -> Frames:
     return read_audio(wish.path, str(wish.path), wish.rate_hz, MAX_TRACK_S)
 
 
 def _digest(wish: TrackWish) -> str:
-    """Names what the frames depend on: the file as it is now, the rate and the speed."""
-    stat = wish.path.stat()
-    facts = (str(wish.path.resolve()), stat.st_size, stat.st_mtime_ns, wish.rate_hz, wish.speed, TRACK_DB)
+    """Names what the frames depend on: the file as it is now, the rate and the speed; raises `DeviceError`."""
+    try:
+        stat, path = wish.path.stat(), wish.path.resolve()
+    except OSError as fault:  # it was there a moment ago
+        raise DeviceError(f"{wish.path}: cannot be read: {fault.strerror or fault}") from fault
+    facts = (str(path), stat.st_size, stat.st_mtime_ns, wish.rate_hz, wish.speed, TRACK_DB)
     return hashlib.sha256(repr(facts).encode()).hexdigest()[:24]

@@ -9,7 +9,14 @@ from pathlib import Path
 
 from station.app.commands.output import print_json, say
 from station.app.commands.scores import bars_of_gap, is_lesson, is_midi, load_score_and_performance
+from station.core.errors import BadInput
 from station.core.settings import load_settings
+from station.core.units import NS_PER_MS
+
+_BEGINS_AT_ONCE = (
+    "{}: its first stroke lies at its very beginning; if the recording was cut there, early and late are told"
+    " against that stroke, and not against the time that was played to"
+)
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -32,12 +39,15 @@ def run(arguments: argparse.Namespace) -> int:
     from station.practice.click import silences
     from station.practice.report import assessment_text, feel_of, kit_facts
     from station.scoring.align import align
+    from station.scoring.alignment import Reference
     from station.scoring.document import assessment
     from station.scoring.loops import times_played
     from station.scoring.pairs import write_pairs
     from station.scoring.summary import View, summarise
     from station.scoring.windows import find_windows
 
+    if arguments.pairs is not None and not arguments.pairs.resolve().parent.is_dir():
+        raise BadInput(arguments.pairs, "", "there is no such folder to write it in")
     score, performance = load_score_and_performance(arguments.score, arguments.performance)
     view = View(find_windows(arguments.level), kit=kit_facts(load_settings()))
     if is_lesson(arguments.score):
@@ -48,6 +58,9 @@ def run(arguments: argparse.Namespace) -> int:
         view = replace(view, silences=silences(score.tempo_map, score.end_tick, arguments.gap))
     alignment = align(score, performance, clocked=False, may_share_base=is_midi(arguments.performance))
     document = assessment(summarise(score, performance, alignment, view))
+    scatter_ns = alignment.asynchrony_ns[alignment.hit_of_note >= 0].std()
+    if alignment.reference is Reference.FILE and performance.hits["at_ns"][0] == 0 and scatter_ns > NS_PER_MS:
+        say(_BEGINS_AT_ONCE.format(arguments.performance))
     if arguments.pairs is not None:
         write_pairs(arguments.pairs, score, performance, alignment)
         say(f"pairs    {arguments.pairs}")

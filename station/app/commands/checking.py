@@ -4,7 +4,7 @@ Each word goes through the parser of whoever uses it later, so that nothing is r
 """
 
 from station.app.look import look_of
-from station.core.settings import Settings
+from station.core.settings import Settings, setting_source
 from station.engine.config import EngineConfig
 from station.practice.click_word import parse_click
 from station.practice.lead import hands_of
@@ -18,8 +18,8 @@ def check_settings(settings: Settings) -> None:
     EngineConfig.from_settings(settings)
     find_kit(settings.drums)
     blips_of(settings.click)
-    parse_click(settings.click_pattern, "settings: click_pattern")
-    parse_pause(settings.pause, "settings: pause")
+    parse_click(settings.click_pattern, setting_source("click_pattern"))
+    parse_pause(settings.pause, setting_source("pause"))
     hands_of(settings)
     settings.sessions_dir  # noqa: B018 - raises where there can be none
     look_of(settings)

@@ -15,7 +15,7 @@ from station.app.commands.tapping import TAP, tapped_tempo
 from station.app.health import has_screen
 from station.app.session_folder import SessionFolder, rescued
 from station.core.errors import BadInput, StationError
-from station.core.settings import Settings, load_settings, save_settings, with_said
+from station.core.settings import Settings, load_settings, save_settings, setting_source, with_said
 from station.core.units import PPQ
 from station.drills.lesson import Lesson
 from station.practice.backing import BackingWish
@@ -102,6 +102,8 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _virtual(plan: Plan, wishes: Wishes, spec: str, arguments: argparse.Namespace, settings: Settings) -> int:
     """A virtual student is new to every lesson, and forgotten, unless it practises under a name."""
+    if arguments.midi_out is not None or arguments.track is not None:
+        say("a virtual student practises without sound: nothing is sent to a MIDI output, and no track plays")
     from station.practice.headless import practise_adaptively, practise_virtually
     from station.practice.student_spec import parse_spec
 
@@ -186,7 +188,8 @@ def _leave(
     if arguments.no_pictures:
         return
     try:
-        say(f"picture  {folder.draw(result, document)}")
+        for picture in folder.draw(result, document):
+            say(f"picture  {picture}")
     except StationError as error:
         say(f"no picture: {error}")
 
@@ -202,7 +205,7 @@ def _lesson(name: str | None) -> Lesson:
 
 def _wishes(arguments: argparse.Namespace, settings: Settings) -> Wishes:
     demonstrations = 0 if arguments.no_demonstration else None
-    pattern = parse_click(settings.click_pattern, "settings: click_pattern")
+    pattern = parse_click(settings.click_pattern, setting_source("click_pattern"))
     click = None if arguments.no_click else replace(pattern, gap=arguments.gap)
     hands = hands_of(settings)
     return Wishes(arguments.tempo, arguments.loops, arguments.bars, demonstrations, click, settings.guide, hands)

@@ -98,8 +98,9 @@ def practise_in_terminal(
         if not session.heard.devices:
             raise DeviceError(f"{no_kit(config.kits)}; station practice --virtual-student intermediate needs none")
         try:
-            if (here := len(session.heard.devices)) < len(config.kits):
-                sys.stderr.write(f"\n{here} of {len(config.kits)} kits are here; the others may come")
+            if len(session.heard.devices) < len(config.kits):
+                here = ", ".join(session.heard.devices)
+                sys.stderr.write(f"\nof {len(config.kits)} kits there is {here}; the others may come")
             sys.stderr.write(f"\n{LEGEND}\n")
             if wish is not None:
                 session.backing = _track(wish, session, settings)

@@ -100,7 +100,7 @@ def measure_pass(
         extras=alignment.count(Label.EXTRA),
         sd_ms=leaning.sd_ms,
         lean_ms=float(off_ms[rows].mean()) if rows.any() else None,
-        interval_ms=_interval_ms(score),
+        interval_ms=usual_interval_ms(score),
         swing_ratio=_swing_ratio(leaning.swing_ms, rows, swing),
         points=points(score, alignment, None, windows),
         bars=_by_bar(names[score.bar], matched & ~(rows & clear)),
@@ -139,7 +139,7 @@ def _leaning(score: Score, off_ms: Floats, rows: Flags, offbeat: Flags) -> _Lean
     return _Leaning(due_ms, float(lean[-1]), sd_ms)
 
 
-def _interval_ms(score: Score) -> float | None:
+def usual_interval_ms(score: Score) -> float | None:
     """The median wait between slots, in real time."""
     slot_ns = score.tempo_map.ns_at(slots(score)[0])
     return float(np.median(np.diff(slot_ns))) / NS_PER_MS if len(slot_ns) > 1 else None

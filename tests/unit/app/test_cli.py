@@ -3,13 +3,18 @@
 import json
 import wave
 from pathlib import Path
+from random import Random
 from typing import cast
 
 import numpy as np
 import pytest
 
 from station.cli import main
+from station.core.events import Hit
 from station.core.settings import load_settings
+from station.drills.library import find_lesson
+from station.music.formats.smf_write import write_performance
+from station.music.performance import Performance
 from tests.fakes.captures import capture_bytes
 
 
@@ -399,8 +404,8 @@ def test_a_virtual_session_too_refuses_a_part_that_its_track_lacks(
     ("line", "named"),
     [
         ('drums = "nokit"', "nokit: no such drum kit"),
-        ('levels = "x"', "settings: levels"),
-        ('pause = "banana+ride"', "settings: pause: banana+ride: expected two pads"),
+        ('levels = "x"', "settings.toml: levels"),
+        ('pause = "banana+ride"', "settings.toml: pause: banana+ride: expected two pads"),
         ('theme = "pink"', "theme: expected one of"),
         ('click = "banana"', "banana: no such click; there are"),
     ],
@@ -438,3 +443,37 @@ def test_a_midi_file_is_shown_the_way_to_a_lesson(
     assert main(["lesson", "export", "rock-1", "--out", str(midi)]) == 0
     capsys.readouterr()
     assert f"`station lesson import {midi} --out beat.toml`" in refused(capsys, *command, str(midi))
+
+
+def test_a_table_of_pairs_goes_into_a_folder_that_is_there(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    nowhere = tmp_path / "nowhere" / "pairs.csv"
+    said = refused(capsys, "assess", "rock-1", "whatever.mid", "--pairs", str(nowhere))
+    assert f"{nowhere}: there is no such folder" in said
+    assert not nowhere.parent.exists()
+
+
+def test_a_track_that_is_not_there_is_missed_before_its_speed(capsys: pytest.CaptureFixture[str]) -> None:
+    said = refused(capsys, "practice", "rock-1", "--tempo", "30", "--track", "missing.wav", "--headless")
+    assert "missing.wav: no such file" in said
+
+
+def test_a_virtual_student_says_that_it_sends_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    wish = ("--virtual-student", "pro", "--loops", "1", "--no-pictures", "--report", str(tmp_path / "x"))
+    assert main(["practice", "rock-1", "--headless", *wish, "--midi-out", "Nope"]) == 0
+    assert "without sound" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("first_ms", "is_told"), [(0, True), (5, False)])
+def test_a_recording_that_may_be_cut_at_its_first_stroke_is_told_to_be(
+    first_ms: int, is_told: bool, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    score = find_lesson("rock-1").score
+    rng = Random(3)
+    late_ns = [round(rng.gauss(12, 6) * 1e6) for _ in score]
+    late_ns[0] = first_ms * 1_000_000
+    hits = [
+        Hit(int(at) + late, n.piece, n.zone, 80) for at, late, n in zip(score.onset_ns, late_ns, score, strict=True)
+    ]
+    write_performance(Performance.from_hits(hits), tmp_path / "take.mid")
+    assert main(["assess", "rock-1", str(tmp_path / "take.mid")]) == 0
+    assert ("first stroke lies at its very beginning" in capsys.readouterr().err) is is_told

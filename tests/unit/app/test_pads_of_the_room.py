@@ -195,7 +195,7 @@ def test_no_pads_command_while_a_question_is_open(tmp_path: Path) -> None:
 
 
 def test_a_pause_that_cannot_be_meant_is_named(tmp_path: Path) -> None:
-    with pytest.raises(BadInput, match="settings: pause: snare: expected two pads"):
+    with pytest.raises(BadInput, match=r"settings\.toml: pause: snare: expected two pads"):
         room_with(tmp_path, pause="snare")
 
 

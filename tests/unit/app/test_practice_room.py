@@ -1,5 +1,6 @@
 """The room behind the window when the engine fails: nothing that was played is lost, and a new engine is woken."""
 
+import json
 from pathlib import Path
 
 import pytest
@@ -158,6 +159,20 @@ def test_a_change_may_be_refused_while_the_next_pass_is_counted_in(tmp_path: Pat
     assert "down to" in room.room().why
     room.veto()
     assert room.room().why == "As you wish: all stays as it was."
+
+
+def test_a_pass_that_was_refused_when_the_engine_had_ended_is_none(tmp_path: Path) -> None:
+    line = Line()
+    room = room_on([line], tmp_path)
+    room.start(Start("rock-1", 80.0, 5, demonstrations=0, adapt=True))
+    line.says += [Started(0), Hit(3 * NS_PER_S, Piece.KICK, Zone.HEAD, 90)]
+    room.snapshot(60 * NS_PER_S)
+    line.says.append(Started(60 * NS_PER_S))
+    room.snapshot(60 * NS_PER_S + 1)
+    line.dead = True
+    room.veto()
+    (kept,) = tmp_path.glob("*/*_rock-1/report.json")
+    assert len(json.loads(kept.read_text("utf-8"))["mastery"]["passes"]) == 1
 
 
 def played_early(room: PracticeRoom, line: Line, from_ns: int) -> None:

@@ -34,6 +34,12 @@ def swinging(held: float) -> dict[str, Json]:
     return document(craft={"swing": {"written": 2.0, "held": held, "ci": None}})
 
 
+def leaning() -> dict[str, Json]:
+    """Two pieces that lie 40 ms apart, each with 10 ms of spread: 22.5 ms in all."""
+    piece: Json = {"timing": {"mean_signed_asynchrony_ms": 20.0, "sd_asynchrony_ms": 10.0, "strokes": 50}}
+    return document(sd_ms=22.5, per_piece={"snare": piece, "kick": piece, "ride": {"timing": {"strokes": 0}}})
+
+
 @pytest.mark.parametrize(
     ("made", "goals", "said"),
     [
@@ -41,8 +47,12 @@ def swinging(held: float) -> dict[str, Json]:
         (document(89), {}, "89 % of the notes were right, 90 % are the goal"),
         (document(94), {"min_accuracy": 0.95}, "94 % of the notes were right, 95 % are the goal"),
         (document(94), {"min_accuracy": 0.94}, "raise the tempo."),
-        (document(sd_ms=25.5), {}, "spread by 26 ms and 25 are the goal"),
+        (document(sd_ms=35.5), {}, "spread by 36 ms and 35 are the goal"),
+        (document(sd_ms=25.5), {}, "a spread of 26 ms is within the 35 of a clean pass): raise the tempo."),
+        (document(sd_ms=25.5), {"max_sd_ms": 24.0}, "spread by 26 ms and 24 are the goal"),
         (document(sd_ms=25.5), {"max_sd_ms": 30.0}, "raise the tempo."),
+        (leaning(), {"max_sd_ms": 12.0}, "raise the tempo."),
+        (leaning(), {"max_sd_ms": 9.0}, "spread by 10 ms and 9 are the goal"),
         (document(sd_ms=None, mean_ms=None), {}, "raise the tempo."),
         (document(mean_ms=-12.5), {}, "raise the tempo."),
         (document(mean_ms=-12.5), {"max_lean_ms": 10.0}, "13 ms early on average and the lesson allows 10"),
@@ -58,6 +68,13 @@ def swinging(held: float) -> dict[str, Json]:
 def test_what_is_said(made: dict[str, Json], goals: dict[str, float | None], said: str) -> None:
     (sentence,) = what_next(made, lesson(**goals), 80.0)
     assert said in sentence
+
+
+@pytest.mark.parametrize(("tempo_bpm", "limit"), [(40.0, 35), (80.0, 35), (160.0, 28), (300.0, 20)])
+def test_the_spread_of_a_clean_pass_depends_on_the_tempo(tempo_bpm: float, limit: int) -> None:
+    """Rock 1 has eighths: 750, 375, 187.5 and 100 ms apart; TEACHING: min(35, max(20, 15 %))."""
+    assert "raise the tempo" in what_next(document(sd_ms=limit - 0.5), lesson(), tempo_bpm)[0]
+    assert f"{limit} are the goal" in what_next(document(sd_ms=limit + 1.5), lesson(), tempo_bpm)[0]
 
 
 def test_at_the_goal_the_next_lesson_comes_first() -> None:
