@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Limb
+from station.motion.bouncing import bounces_on
 from station.motion.contacts import strike_points
 from station.motion.events import SAME_STROKE_S
 from station.motion.kit import Kit
@@ -56,25 +57,29 @@ def beyond_human(score: Score, kit: Kit, limbs: NDArray[np.int8]) -> tuple[Beyon
         if len(rows) < 2:
             continue
         times = score.onset_s[rows]
-        found += _repeated(limb, times, score.bar[rows])
         found += _sundered(limb, times, score.bar[rows], points[rows]) if limb.is_hand else []
+        rows = rows[np.diff(times, prepend=-np.inf) > SAME_STROKE_S]
+        times = score.onset_s[rows]
+        on = bounces_on(times, score.notes["piece"][rows], score.notes["velocity"][rows]) & limb.is_hand
+        found += _repeated(limb, times, score.bar[rows], on)
     return tuple(sorted(found, key=lambda b: (b.bar, b.limb, b.start_s)))
 
 
-def _repeated(limb: Limb, times: Array, bars: NDArray[np.int64]) -> list[Beyond]:
-    """Bars in which three strokes of the limb come too soon after one another, or a run is faster than champions'."""
-    apart = times[np.concatenate(([True], np.diff(times) > SAME_STROKE_S))]
-    bars = bars[np.concatenate(([True], np.diff(times) > SAME_STROKE_S))]
+def _repeated(limb: Limb, times: Array, bars: NDArray[np.int64], on: NDArray[np.bool_]) -> list[Beyond]:
+    """Bars in which three strokes of the limb come too soon after one another, or a run is faster than champions'.
+
+    Strokes that a stick bounces `on` to are not struck: they count only for how soon a stroke comes after them.
+    """
     word = "hand" if limb.is_hand else "foot"
     worst: dict[int, tuple[float, float, float]] = {}  # of each bar: rate, first and last stroke
-    for strokes, over in ((3, _OVER), (_LONG_RUN, _OVER_LONG)):
-        last = strokes - 1
-        rate = last / (apart[last:] - apart[: max(len(apart) - last, 0)])
-        fast = np.flatnonzero(rate > FASTEST_HZ[limb.is_hand] * over)
-        for bar in np.unique(bars[fast + 1]).tolist():
-            at = fast[bars[fast + 1] == bar]
+    for strokes, over, counted in ((3, _OVER, np.ones(len(on), bool)), (_LONG_RUN, _OVER_LONG, ~on)):
+        last, at_s, in_bar, free = strokes - 1, times[counted], bars[counted], on[counted]
+        rate = last / (at_s[last:] - at_s[: max(len(at_s) - last, 0)])
+        fast = np.flatnonzero((rate > FASTEST_HZ[limb.is_hand] * over) & ~free[last:])
+        for bar in np.unique(in_bar[fast + 1]).tolist():
+            at = fast[in_bar[fast + 1] == bar]
             told, start, end = worst.get(bar, (0.0, np.inf, -np.inf))
-            found = float(rate[at].max()), float(apart[at[0]]), float(apart[at[-1] + last])
+            found = float(rate[at].max()), float(at_s[at[0]]), float(at_s[at[-1] + last])
             worst[bar] = max(told, found[0]), min(start, found[1]), max(end, found[2])
     return [
         Beyond(bar, limb, start, end, f"bar {bar + 1} needs {rate:.0f} strokes a second of one {word}")

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Articulation, Limb, Piece, Zone
+from station.motion.bouncing import bounces_on
 from station.motion.dynamics import stroke_height_m
 from station.music.score import Score
 
@@ -50,7 +51,7 @@ class HandEvents:
     """One hand's events.
 
     `time_s` (n,) rising; `row` (n,) of the score that each comes from; `key` (n, 3) piece, zone and articulation or
-    `GRAB`; `height_m` (n,). `bounces` (n,) of a pressed stick, and `rebounds` (n,), the second strokes of doubles, are
+    `GRAB`; `height_m` (n,). `bounces` (n,) of a stick, and `rebounds` (n,), the second strokes of doubles, are
     not struck by the wrist. An idle hand has waited since long ago, and `row` is empty.
     """
 
@@ -174,9 +175,13 @@ def _events(notes: NDArray[np.void], found: list[Event]) -> HandEvents:
     zone = np.where(articulation == WAIT, int(Zone.HEAD), zone)
     piece = np.where(articulation == WAIT, int(Piece.SNARE), notes["piece"][row])
     key = np.stack([piece, zone, articulation], 1).astype(np.int64)
-    rebounds = _rebounds(time, piece) & ~bounces & (articulation < GRAB)
-    after = np.flatnonzero(rebounds)
-    height[after] = np.minimum(height[after], REBOUND_HEIGHT * height[after - 1])
+    on = bounces_on(time, piece, notes["velocity"][row]) & (articulation < GRAB)
+    rebounds = np.zeros(len(time), bool)
+    rebounds[~on] = _rebounds(time[~on], piece[~on])
+    rebounds &= ~bounces & (articulation < GRAB)
+    bounces |= on
+    for k in np.flatnonzero(rebounds | on).tolist():
+        height[k] = min(height[k], REBOUND_HEIGHT * height[k - 1])
     return HandEvents(time, row, key, height, bounces, rebounds)
 
 

@@ -48,6 +48,7 @@ class HandNotes:
     piece: list[int]  # as this kit plays it
     kind: list[int]  # equal where the piece and the struck spot are
     spot: list[list[list[float]]]  # of each hand and note: x, y, z
+    velocity: list[int]
     written: list[int]
     ostinato: list[bool]  # whether it belongs to an ostinato that one hand can play
     natural: list[int]  # the hand of natural sticking
@@ -87,6 +88,7 @@ class HandNotes:
             piece=played.tolist(),
             kind=which.tolist(),
             spot=spots,
+            velocity=notes["velocity"].tolist(),
             written=notes["limb"].tolist(),
             ostinato=ostinato.tolist(),
             natural=np.where(odd ^ (firm & quick), 1 - lead, lead).tolist(),

@@ -8,6 +8,7 @@ term has a name, because the term that decided becomes the reason that is shown.
 import math
 
 from station.core.pieces import Limb, Piece
+from station.motion.bouncing import AGAIN_S
 from station.motion.hand_notes import AT_ONCE_S, EASY_REPEAT_S, LEFT, RIGHT, HandNotes
 
 # --- speeds -----------------------------------------------------------------------------------------------------------
@@ -35,6 +36,7 @@ WRITTEN = 1e6
 IMPOSSIBLE = 1000.0
 CRUSHED = 200.0
 UNEVEN = 12.0
+BOUNCED_AGAIN = 3.0
 GRACE = 8.0
 LATE = 7.0
 SLOW = 4.0
@@ -101,18 +103,20 @@ def after_own(notes: HandNotes, i: int, hand: int, own: int, bounced: bool) -> t
     gap = notes.time_s[i] - notes.time_s[own]
     if notes.piece[own] == notes.piece[i]:
         crushed = CRUSHED * max(0.0, 1.0 - gap / CRUSHED_S)
-        return crushed, partner, 0.0, _repeat(notes, i, gap, bounced)
+        return crushed, partner, 0.0, _repeat(notes, i, own, bounced)
     if gap < AT_ONCE_S:  # the nearer, the worse, so that what must be impossible is so where it is so most
         return IMPOSSIBLE * (3.0 - 2.0 * gap / AT_ONCE_S), partner, 0.0, 0.0
     return 0.0, partner, _travel(gap, math.dist(notes.spot[hand][i], notes.spot[hand][own])), 0.0
 
 
-def _repeat(notes: HandNotes, i: int, gap_s: float, bounced: bool) -> float:
-    """The price of one hand's next stroke on the same piece."""
+def _repeat(notes: HandNotes, i: int, own: int, bounced: bool) -> float:
+    """The price of one hand's next stroke, after `own`, on the same piece."""
+    gap_s = notes.time_s[i] - notes.time_s[own]
     if gap_s < BOUNCE_S:
         price = 0.0 if notes.paired[i] == 1 else SKIP if notes.ostinato[i] else BOUNCE
-        if bounced:  # a third stroke has no rebound left to live on
-            price += UNEVEN
+        if bounced:  # a third stroke has no rebound left to live on, unless the stick bounces softer and softer
+            again = gap_s < AGAIN_S and notes.velocity[i] < notes.velocity[own]
+            price += BOUNCED_AGAIN if again else UNEVEN
         return price if notes.odd[i] else price + LATE_BOUNCE
     price = SLOW * max(0.0, EASY_REPEAT_S - gap_s) / (EASY_REPEAT_S - BOUNCE_S)
     if not bounced:  # two are easy, it is the third that tires

@@ -39,6 +39,37 @@ def test_a_long_run_just_over_a_champions_rate_is_named_a_short_one_not() -> Non
     assert said(repeated(6, PPQ // 2, 312)) == ()  # 10.4 a second
 
 
+def bouncing(*velocities: int, each_ms: float = 60.0) -> Score:
+    """One hand's strokes on the snare, so long apart, as loud as said."""
+    ticks = [4 * PPQ + round(i * each_ms / 600 * PPQ) for i in range(len(velocities))]
+    notes = [Note(t, Piece.SNARE, velocity=v, limb=HAND) for t, v in zip(ticks, velocities, strict=True)]
+    return Score.from_notes(notes, TempoMap.constant(100))
+
+
+def test_a_stick_that_bounces_on_is_human() -> None:
+    """A recorded drummer's 127, 33, 8 at some 80 ms: a blow, its rebound (HUMANS: 50-90 ms), and what is left of it."""
+    assert said(bouncing(127, 33, 8)) == ()
+    assert said(bouncing(127, 60, 33, 20, 8)) == ()
+
+
+def test_what_does_not_die_away_is_no_bounce() -> None:
+    """60 ms apart is 17 a second; champions do 10. A blow just after a bounce is one too soon as well."""
+    for velocities in (
+        (33, 80, 127),
+        (80, 80, 80),
+        (127, 33, 8, 90),
+        (90, 60, 90, 60, 90, 60),
+        tuple(range(90, 80, -1)),
+    ):
+        assert said(bouncing(*velocities)) == ("bar 2 needs 17 strokes a second of one hand",), velocities
+
+
+def test_no_foot_bounces() -> None:
+    notes = [Note(4 * PPQ + i * PPQ // 10, Piece.KICK, velocity=v) for i, v in enumerate((127, 33, 8))]
+    score = Score.from_notes(notes, TempoMap.constant(100))
+    assert [b.text for b in assign_limbs(score, KIT).beyond] == ["bar 2 needs 17 strokes a second of one foot"]
+
+
 def test_a_hand_in_two_far_places_is_named_with_the_way_and_the_time() -> None:
     """From the snare to the floor tom it is about 60 cm; 50 ms leave 12 m/s, a boxer's fist does 9."""
     tick = 4 * PPQ

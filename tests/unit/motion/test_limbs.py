@@ -3,7 +3,7 @@
 import pytest
 
 from station.core.errors import BadInput
-from station.core.pieces import Articulation, Limb, Ornament, Piece
+from station.core.pieces import Articulation, Limb, Ornament, Piece, Zone
 from station.core.units import PPQ
 from station.motion.hand_notes import Hands
 from station.motion.kit import load_kit
@@ -45,6 +45,17 @@ def test_beyond_it_the_hands_alternate_and_the_leading_hand_takes_the_backbeat()
     groove = [(i, HAT) for i in range(16) if i not in (4, 12)] + list(BACKBEAT)
     assert letters(groove, HAT, tempo_bpm=120) == "RLRLLRLRLRLLRL"
     assert letters(groove, SNARE, tempo_bpm=120) == "RR"
+
+
+def test_a_bounce_that_dies_away_stays_in_its_hand_while_the_other_is_away() -> None:
+    """A recorded drummer's backbeat of 127, 33, 8 at 60 ms with the ride around it: no hand comes over for a bounce."""
+    ms = PPQ / 600  # at 100 bpm
+    snare = [Note(4 * PPQ + round(60 * i * ms), Piece.SNARE, velocity=v) for i, v in enumerate((127, 33, 8))]
+    ride = [Note(4 * PPQ + round(at * ms), Piece.RIDE, Zone.BOW, 80) for at in (-300, 0, 200, 400)]
+    score = Score.from_notes([*snare, *ride], TempoMap.constant(100))
+    found = assign_limbs(score, KIT)
+    assert hand_letters(score, found.limbs, Piece.SNARE) == "LLL"
+    assert found.beyond == ()
 
 
 def test_sixteenths_alternate_from_the_leading_hand() -> None:

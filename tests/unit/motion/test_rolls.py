@@ -109,3 +109,18 @@ def test_a_buzz_roll_is_carried_on_by_both_hands_without_a_gap() -> None:
     sounds = np.sort(np.concatenate([hand.events.time_s for hand in drummer._hands]))
     sounds = sounds[(sounds >= 1.0) & (sounds < 2.0)]
     assert np.diff(sounds).max() < 0.08
+
+
+def test_a_stick_bounces_on_ever_lower_while_the_wrist_rests() -> None:
+    """A blow, its rebound and two more bounces 60 ms apart: the wrist moves for the first two, the stick for all."""
+    notes = [Note(4 * PPQ + i * PPQ // 10, Piece.SNARE, velocity=v, limb=R) for i, v in enumerate((110, 60, 33, 15))]
+    drummer = drummer_of(notes, 100)
+    right = drummer._hands[0].events
+    assert right.rebounds.tolist()[:4] == [False, True, False, False]
+    assert right.bounces.tolist()[:4] == [False, False, True, True]
+    at = np.arange(2.4, 2.58, 0.0005)
+    wrist, _, height = seen(drummer, at)
+    tops = [height[(at > 2.4 + 0.06 * i) & (at < 2.46 + 0.06 * i)].max() for i in range(3)]
+    assert all(later < 0.8 * earlier for earlier, later in pairwise(tops))
+    assert np.ptp(wrist[at > 2.47]) < 3.0
+    assert height.min() > -0.001
