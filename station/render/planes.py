@@ -31,25 +31,28 @@ void main() { gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 -
 _FRAGMENT = f"""
 #version 330 core
 uniform sampler2D picture;
-uniform int last_row;
-layout(location = 0) out vec2 upper;        // two pixels' luma
-layout(location = 1) out vec2 lower;        // of the row below
-layout(location = 2) out vec2 chroma;
+uniform ivec2 last;                         // column and row
+layout(location = 0) out vec4 upper;        // four pixels' luma
+layout(location = 1) out vec4 lower;        // of the row below
+layout(location = 2) out vec4 chroma;       // of two blocks of two by two
 
+vec3 at(int x, int y) {{ return texelFetch(picture, ivec2(x, y), 0).rgb; }}
 float luma(vec3 c) {{ return dot(c, vec3({_LUMA_RED}, {1 - _LUMA_RED - _LUMA_BLUE}, {_LUMA_BLUE})); }}
+vec2 differences(vec3 mean) {{
+    vec2 reach = vec2({2 * (1 - _LUMA_BLUE)}, {2 * (1 - _LUMA_RED)});
+    return (128.0 + 224.0 * (mean.br - luma(mean)) / reach) / 255.0;
+}}
 
 void main() {{
-    ivec2 at = 2 * ivec2(gl_FragCoord.xy);
-    at.y = last_row - at.y;                 // OpenGL counts rows from below
-    ivec2 before = ivec2(max(at.x - 1, 0), at.y);
-    vec3 a = texelFetch(picture, at, 0).rgb, b = texelFetch(picture, at + ivec2(1, 0), 0).rgb;
-    vec3 c = texelFetch(picture, at - ivec2(0, 1), 0).rgb, d = texelFetch(picture, at + ivec2(1, -1), 0).rgb;
-    vec3 left = texelFetch(picture, before, 0).rgb + texelFetch(picture, before - ivec2(0, 1), 0).rgb;
-    vec3 mean = 0.25 * (a + c) + 0.125 * (b + d + left);
-    upper = (16.0 + 219.0 * vec2(luma(a), luma(b))) / 255.0;
-    lower = (16.0 + 219.0 * vec2(luma(c), luma(d))) / 255.0;
-    vec2 reach = vec2({2 * (1 - _LUMA_BLUE)}, {2 * (1 - _LUMA_RED)});
-    chroma = (128.0 + 224.0 * (mean.br - luma(mean)) / reach) / 255.0;
+    int x = 4 * int(gl_FragCoord.x), y = last.y - 2 * int(gl_FragCoord.y);  // OpenGL counts rows from below
+    int x2 = min(x + 2, last.x), x3 = min(x + 3, last.x), before = max(x - 1, 0);
+    vec3 a = at(x, y), b = at(x + 1, y), c = at(x2, y), d = at(x3, y);
+    vec3 e = at(x, y - 1), f = at(x + 1, y - 1), g = at(x2, y - 1), h = at(x3, y - 1);
+    vec3 left = at(before, y) + at(before, y - 1), middle = b + f;
+    upper = (16.0 + 219.0 * vec4(luma(a), luma(b), luma(c), luma(d))) / 255.0;
+    lower = (16.0 + 219.0 * vec4(luma(e), luma(f), luma(g), luma(h))) / 255.0;
+    chroma.xy = differences(0.25 * (a + e) + 0.125 * (middle + left));
+    chroma.zw = differences(0.25 * (c + g) + 0.125 * (d + h + middle));
 }}
 """
 
@@ -57,7 +60,7 @@ void main() {{
 class PlanesReader:
     """Converts one picture after another; all calls are made while its context is the current one.
 
-    A fragment makes four pixels, which takes a software driver a quarter of the time: luma of even and of odd rows go
+    A fragment makes eight pixels, which takes a software driver a fifth of the time: luma of even and of odd rows go
     to pictures of their own, and come together as they are taken. What was converted is read back when the next
     picture has been put in: a software driver then converts while that one is prepared.
     """
@@ -68,12 +71,12 @@ class PlanesReader:
         self._ctx = ctx
         self._picture = picture
         program = ctx.program(_VERTEX, _FRAGMENT)
-        program["last_row"] = height - 1
+        program["last"] = width - 1, height - 1
         self._triangle = ctx.vertex_array(program, [])
-        half = width // 2, height // 2
-        self._free = [ctx.framebuffer([ctx.texture(half, 2) for _ in range(_PARTS)]) for _ in range(_SETS)]
+        fours = (width + 3) // 4, height // 2
+        self._free = [ctx.framebuffer([ctx.texture(fours, 4) for _ in range(_PARTS)]) for _ in range(_SETS)]
         self._converted: deque[moderngl.Framebuffer] = deque()
-        self._part_bytes = width * height // 2
+        self._part_bytes = 4 * fours[0] * fours[1]
         self._buffers = [ctx.buffer(reserve=_PARTS * self._part_bytes) for _ in range(_AHEAD)]
         self._waiting: deque[moderngl.Buffer] = deque()
 
@@ -110,7 +113,8 @@ class PlanesReader:
             self._read()
         buffer = self._waiting.popleft()
         width, height = self._picture.size
-        upper, lower, chroma = np.frombuffer(buffer.read(), np.uint8).reshape(_PARTS, height // 2, width)
+        rows = np.frombuffer(buffer.read(), np.uint8).reshape(_PARTS, height // 2, -1)
+        upper, lower, chroma = rows[..., :width]
         self._buffers.append(buffer)
         planes = np.empty((height * 3 // 2, width), np.uint8) if into is None else into
         planes[0:height:2], planes[1:height:2], planes[height:] = upper, lower, chroma
