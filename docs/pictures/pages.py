@@ -37,7 +37,7 @@ from station.drills.mastery.probes import Probes  # noqa: E402
 from station.drills.mastery.reviews import Review  # noqa: E402
 from station.drills.mastery.steps import item_of  # noqa: E402
 from station.practice.memory import Memory  # noqa: E402
-from station.render.painter import DoublePlace  # noqa: E402
+from station.render.frames import DoublePlace  # noqa: E402
 from station.render.png import write_png  # noqa: E402
 from tests.gui.drive import NEWCOMER, Drive, Measurement, Scenario, open_panel, press_view  # noqa: E402
 from tests.gui.x_server import screen  # noqa: E402

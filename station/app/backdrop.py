@@ -4,6 +4,7 @@ The quality is measured: the first frames are drawn at the lowest, and where the
 next level is tried. While somebody plays nothing is rebuilt.
 """
 
+from collections.abc import Callable
 from dataclasses import replace
 from statistics import median
 from time import perf_counter
@@ -40,10 +41,11 @@ _ORBIT_PER_PIXEL, _PAN_PER_PIXEL, _ZOOM_PER_STEP = 0.006, 0.0022, 1.12
 
 
 class Backdrop:
-    """Draws with the window's own OpenGL context, which it takes over at the first frame."""
+    """Draws with the window's own OpenGL context, which it takes over at the first frame; `news` is `Arrangement`'s."""
 
-    def __init__(self, quality: int | None, look: Look) -> None:
+    def __init__(self, quality: int | None, look: Look, news: Callable[[], Snapshot | None] | None = None) -> None:
         self._wanted = quality
+        self._news = news
         self._painter: Painter | None = None
         self._ctx: moderngl.Context | None = None
         self._target: Target | None = None
@@ -164,7 +166,8 @@ class Backdrop:
             self._back_to_the_view()
         began = perf_counter()
         target = self._target_for(painter, ctx, whole)
-        arrangement = Arrangement(self._inset, self.look.score, self.camera != self._seen_from, self.look.double)
+        is_rough = self.camera != self._seen_from
+        arrangement = Arrangement(self._inset, self.look.score, is_rough, self.look.double, self._news)
         self._seen_from = self.camera
         painter.draw(snapshot, target.framebuffer, area, self.camera, arrangement=arrangement)
         target.show(screen)

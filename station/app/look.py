@@ -12,7 +12,7 @@ from math import degrees, isfinite, radians
 from station.core.errors import BadInput
 from station.core.settings import LARGEST_PANELS, SMALLEST_PANELS, Settings, settings_path
 from station.render.camera import Camera, View
-from station.render.painter import DoublePlace
+from station.render.frames import DoublePlace
 from station.render.palette import Theme
 from station.render.score_view import ScoreForm
 

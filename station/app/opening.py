@@ -3,6 +3,7 @@
 import json
 import sys
 import time
+from math import ceil
 
 from station.app.commands.window import open_window
 from station.core.clock import monotonic_ns
@@ -12,8 +13,8 @@ from station.drills.library import FIRST_LESSON, find_lesson
 from station.practice.plan import Wishes, plan_practice
 from station.render.snapshot import Snapshot
 
-MANY_PASSES = 150
-"""Of the first lesson, 15 minutes at its own tempo."""
+PASS_S = 6.0
+"""The first lesson's two bars at its own tempo."""
 
 
 def open_until(frame: int) -> None:
@@ -50,7 +51,7 @@ def open_for(seconds: float) -> None:
         before.update(struck)
         return now_ns - shown_ns[0] < seconds * NS_PER_S
 
-    plan = plan_practice(find_lesson(FIRST_LESSON), Wishes(loops=MANY_PASSES, demonstrations=0))
+    plan = plan_practice(find_lesson(FIRST_LESSON), Wishes(loops=ceil(seconds / PASS_S), demonstrations=0))
     open_window(load_settings(), plan, adapt=False, shown=shown)
     _say(json.dumps({"shown_ns": shown_ns, "lit": lit}))
 

@@ -33,6 +33,10 @@ class PracticeModel(Protocol):
         """What is to be seen at monotonic time `now_ns`."""
         ...
 
+    def news(self, now_ns: int) -> Snapshot | None:
+        """What is to be seen at `now_ns` if something has been struck since the last call of `snapshot`."""
+        ...
+
     def room(self) -> RoomState:
         """What is going on."""
         ...

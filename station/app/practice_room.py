@@ -83,9 +83,7 @@ class PracticeRoom:
     def snapshot(self, now_ns: int) -> Snapshot:
         """Take in what has happened, then the picture at `now_ns`."""
         self._measured()
-        for event in self._heard():
-            self.desk.take(event)
-            self._take(event, now_ns)
+        self._take_in(now_ns)
         self.desk.advance(now_ns)
         heard_ns = self._ear.advance(now_ns)
         self._goings_on.advance(now_ns, self._prepared.settings)
@@ -94,6 +92,10 @@ class PracticeRoom:
             if self._goings_on.stage is Stage.IDLE and self.deck.is_shown:
                 return self.deck.snapshot()
         return self._goings_on.snapshot(now_ns, heard_ns, self._ear.hears)
+
+    def news(self, now_ns: int) -> Snapshot | None:
+        """The picture at `now_ns` if there is something new in it, while somebody plays: it need not wait a frame."""
+        return self.snapshot(now_ns) if self._goings_on.is_playing and self._take_in(now_ns) else None
 
     def room(self) -> RoomState:
         """What surrounds the picture."""
@@ -289,6 +291,14 @@ class PracticeRoom:
 
     def _new_run(self, laid: LaidOut) -> LessonRun:
         return LessonRun(self._engine, laid, self.casting.who, self._latency, self._notices.append, self._goings_on.run)
+
+    def _take_in(self, now_ns: int) -> bool:
+        """Take in what the engine has said; whether it has said anything."""
+        events = self._heard()
+        for event in events:
+            self.desk.take(event)
+            self._take(event, now_ns)
+        return bool(events)
 
     def _heard(self) -> list[EngineEvent]:
         try:

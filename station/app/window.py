@@ -45,7 +45,7 @@ class Window:
         self.news = News()
         self.choice = Choice([model.first_card()], model.first())
         self._deeds = Deeds(model, self.choice, self.news.tell)
-        self.backdrop = Backdrop(options.quality, look_of(settings))
+        self.backdrop = Backdrop(options.quality, look_of(settings), self._news)
         self.pages = Pages(self._deeds, self.backdrop, options.settings)
         self.welcome = None if settings.welcomed else WelcomePage(Answers.of(settings))
         self._kept = self.backdrop.look
@@ -151,6 +151,12 @@ class Window:
             except DeviceError as fault:
                 self._fault, self.params.app_shall_exit = fault, True
         self.frames += 1
+
+    def _news(self) -> Snapshot | None:
+        """What was struck while the frame was drawn."""
+        news = self._model.news(self._clock.now_ns())
+        self._drawn = news or self._drawn
+        return news
 
     def _swapped(self) -> None:
         """The frame is on the screen."""

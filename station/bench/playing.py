@@ -106,8 +106,11 @@ def _played(seconds: float, each_minute: list[Counter[str]] | None = None) -> _P
                 for _ in range(_MINUTES):
                     time.sleep(_MINUTE_S)
                     each_minute.append(_memory(window.pid))
-            told = json.loads(window.stdout.readlines()[-1])
+            said = window.stdout.readlines()
             kit.close()
+        if window.returncode:
+            raise RuntimeError(f"the window ended with exit status {window.returncode}")
+        told = json.loads(said[-1])
     shown_ns = np.array(told["shown_ns"], np.int64)
     shown_ns = shown_ns[shown_ns > shown_ns[0] + _SETTLES_S * NS_PER_S]
     return _Played(shown_ns, late_ms(kit.sent, [(at, v) for at, v in told["lit"] if at > shown_ns[0]]))

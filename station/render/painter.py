@@ -1,30 +1,28 @@
 """Paints a snapshot: scene above, score below, words over the scene. The window and the off-screen picture share it."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from enum import IntEnum
 from functools import partial
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Piece
 from station.motion.figure import Figure
 from station.motion.kit import Kit
-from station.motion.pose import Pose
 from station.render import hud
 from station.render.atlas import Atlas
-from station.render.bone_palette import Colour, Frame
+from station.render.bone_palette import Frame
 from station.render.camera import Camera, View, named
+from station.render.frames import DoublePlace, frames_of
 from station.render.gl import Target, give_back
 from station.render.ink import SHAPE_DTYPE
 from station.render.ink_printer import InkPrinter, Sheet
-from station.render.palette import BRAND, EARLY, GOOD, INK_FAINT, LATE, MISSED, NIGHT, WRONG, Theme, dyed, over_picture
+from station.render.palette import INK_FAINT, NIGHT, Theme, dyed, over_picture
 from station.render.quality import QUALITIES, Quality
 from station.render.scene import Scene
 from station.render.score_view import Place, ScoreForm, ScoreView, shows_staff
-from station.render.snapshot import Cue, Hud, Snapshot, Strike
+from station.render.snapshot import Hud, Snapshot
 from station.render.still import Still
 
 Area = tuple[int, int, int, int]
@@ -37,9 +35,6 @@ INSET_SHARE = 0.36
 _INSET_MARGIN = 0.03
 _INSET_EDGE = 2
 """Pixels of the line round the second picture."""
-_GLOW_FADE_S = 0.16
-"""How fast a struck piece stops glowing (our choice)."""
-_DEMONSTRATOR_GLOW, _STUDENT_GLOW = 0.35, 1.1
 
 
 def inset_area(scene: Area) -> Area:
@@ -51,26 +46,20 @@ def inset_area(scene: Area) -> Area:
     return left + width - inset_width - margin, low + margin, inset_width, inset_height
 
 
-class DoublePlace(IntEnum):
-    """Where the student's double is: nowhere, over the demonstrator, or in a picture of its own beside his."""
-
-    NOWHERE = 0
-    OVER = 1
-    BESIDE = 2
-
-
 @dataclass(frozen=True, slots=True)
 class Arrangement:
     """What else a picture has: the camera of a second, small picture in its corner, and the score's form.
 
     `is_rough`: the camera moves, so that at the lowest quality the room may be drawn more simply. `double`: where the
-    student's double is, where the snapshot has one.
+    student's double is, where the snapshot has one. `news` is asked at the lowest quality when all that moves is drawn,
+    the longest part: a snapshot of the same scene that knows of more strokes, or None where there were none.
     """
 
     inset: Camera | None = None
     form: ScoreForm = ScoreForm.SCROLLING
     is_rough: bool = False
     double: DoublePlace = DoublePlace.NOWHERE
+    news: Callable[[], Snapshot | None] | None = None
 
 
 class Painter:
@@ -112,10 +101,10 @@ class Painter:
         left, low, width, height = area
         score_height = round(height * SCORE_SHARE) if with_score else 0
         scene_area = (left, low + score_height, width, height - score_height)
-        place = Place(0.0, float(height - score_height), float(width), float(score_height))
+        place = Place(0.0, float(scene_area[3]), float(width), float(score_height))
         scene = self._scene_of(snapshot)
         camera = camera or named(View.SHOULDER, snapshot.kit.left_handed)
-        frames = _frames(snapshot, arrangement.double, self.theme)
+        frames = frames_of(snapshot, arrangement.double, self.theme)
         places = _side_by_side(scene_area, len(frames))
         scene.set(frames[0])
 
@@ -149,13 +138,14 @@ class Painter:
             key = (scene, camera, area, with_score, is_staff, shown, self.theme, arrangement.is_rough)
             self._worded.under(target, (key, corners), lay_words)
             each(scene.draw_moving, target)
+            snapshot, frames = self._newest(snapshot, frames, arrangement)
+            each(scene.draw_glow, target)
         else:
             lay(target, scene.draw)
         if arrangement.inset is not None:
             self._draw_inset(scene, target, arrangement.inset, places[0])
         self._ctx.viewport = area
         if with_score:
-            self.printer.theme = self.theme
             self._score.draw(snapshot, place, (width, height), arrangement.form)
         self.printer.theme = over_picture(self.theme)
         if len(frames) > 1:
@@ -163,6 +153,16 @@ class Painter:
         if not self.quality.is_layered:
             self.printer.draw(self._lines.of(corners, words), Sheet((width, height)))
         self.printer.draw(self._calls.of(snapshot.hud, words), Sheet((width, height)))
+
+    def _newest(
+        self, snapshot: Snapshot, frames: list[Frame], arrangement: Arrangement
+    ) -> tuple[Snapshot, list[Frame]]:
+        """What has been struck while all that moves was drawn, else what is known."""
+        if arrangement.news is None or len(frames) > 1:
+            return snapshot, frames
+        self._ctx.finish()  # else what is drawn would still be to do when the news is read
+        news = arrangement.news()
+        return (snapshot, frames) if news is None else (news, frames_of(news, arrangement.double, self.theme)[:1])
 
     def _draw_veil(self, size: tuple[int, int], height: int) -> None:
         """What darkens the scene, `height` pixels high, behind the upper lines."""
@@ -209,6 +209,7 @@ class Painter:
         key = (scene, camera, scene.shows_figure)
         self._inset_still.under(into, key, lambda still: scene.draw_still(still, camera, whole))
         scene.draw_moving(into, camera, whole)
+        scene.draw_glow(into, camera, whole)
         return self._inset.resolved()
 
     def _scene_of(self, snapshot: Snapshot) -> Scene:
@@ -243,55 +244,8 @@ def _same(one: tuple[Kit, Figure], other: tuple[Kit, Figure]) -> bool:
     return (one[0] is other[0] and one[1] is other[1]) or one == other
 
 
-def _frames(snapshot: Snapshot, where: DoublePlace, theme: Theme) -> list[Frame]:
-    """What of the snapshot moves or glows in the scene: in one picture, or in the demonstrator's and the student's."""
-    double = snapshot.double
-    if double is not None and double.is_compared and where is DoublePlace.NOWHERE:
-        where = DoublePlace.OVER
-    if double is None or where is DoublePlace.NOWHERE:
-        return [Frame(snapshot.pose, _glow(snapshot))]
-    parted = {
-        limb: parting.strength * np.array(dyed(_PARTED[parting.cue], over_picture(theme))[:3])
-        for limb, parting in double.partings.items()
-    }
-    if where is DoublePlace.OVER:
-        return [Frame(snapshot.pose, _glow(snapshot), double.pose, parted)]
-    his = replace(snapshot, strikes=())
-    own = replace(snapshot, pose=double.pose)
-    return [Frame(his.pose, _glow(his)), Frame(own.pose, _glow(own), double.pose, parted)]
-
-
 def _side_by_side(scene: Area, count: int) -> list[Area]:
     """The scene's place cut into `count` equal ones, from left to right."""
     left, low, width, height = scene
     edges = [left + round(width * k / count) for k in range(count + 1)]
     return [(edges[k], low, edges[k + 1] - edges[k], height) for k in range(count)]
-
-
-_PARTED = {Cue.EARLY: EARLY, Cue.LATE: LATE, Cue.MISSED: MISSED, Cue.WRONG_PIECE: WRONG}
-"""The colour of a limb of the student's double that parts from the demonstrator's: its judgement's in the score."""
-
-
-def _glow(snapshot: Snapshot) -> dict[Piece, Colour]:
-    """How brightly each piece glows, in linear light: the demonstrator's strokes warm, the student's blue."""
-    warm, blue = np.square(BRAND[:3]), np.square(GOOD[:3])
-    glow: dict[Piece, Colour] = {}
-    for piece, light in _demonstrated(snapshot.kit, snapshot.pose):
-        glow[piece] = glow.get(piece, np.zeros(3)) + _DEMONSTRATOR_GLOW * light * warm
-    for piece, light in _struck(snapshot.kit, snapshot.strikes):
-        glow[piece] = glow.get(piece, np.zeros(3)) + _STUDENT_GLOW * light * blue
-    return glow
-
-
-def _demonstrated(kit: Kit, pose: Pose | None) -> Iterable[tuple[Piece, float]]:
-    if pose is not None:
-        yield from zip(kit.pieces, pose.flash.tolist(), strict=True)
-
-
-def _struck(kit: Kit, strikes: Iterable[Strike]) -> Iterable[tuple[Piece, float]]:
-    for strike in strikes:
-        if strike.student and strike.age_s >= 0:
-            yield (
-                kit.stand_in(strike.piece),
-                float(np.exp(-strike.age_s / _GLOW_FADE_S)) * (0.35 + strike.velocity / 195),
-            )

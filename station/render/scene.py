@@ -5,7 +5,7 @@ uploaded once; a frame uploads the palette alone.
 
 Where the processor does all the work, at the lowest quality, a picture is made in two layers instead: what hardly ever
 moves is drawn once for each camera with the figure's resting shadow (`draw_still`), whoever draws keeps that picture
-with its depth, and each frame adds what moves, lit corner by corner (`draw_moving`).
+with its depth, and each frame adds what moves, lit corner by corner (`draw_moving`), and what glows (`draw_glow`).
 """
 
 from functools import lru_cache
@@ -13,6 +13,7 @@ from functools import lru_cache
 import moderngl
 import numpy as np
 
+from station.core.pieces import Piece
 from station.motion.figure import Figure
 from station.motion.kit import Kit
 from station.render.bone_palette import BonePalette, Frame
@@ -46,6 +47,7 @@ class Scene:
         self._parts.ghost.skin.program["first_bone"] = self._bones.double
         self._parts.ghost.rigid.program["first_bone"] = self._bones.double_sticks - self.rig.sticks[0]
         self._frame = Frame()
+        self._lit: dict[Frame, set[Piece]] = {}  # what was drawn glowing already, of frames that wait for `draw_glow`
         self._shadow_is_cast = False
         self._resting_shadow: bool | None = None
 
@@ -110,21 +112,39 @@ class Scene:
         self._resting_shadow = self.shows_figure
 
     def draw_moving(self, target: moderngl.Framebuffer, camera: Camera, viewport: Viewport) -> None:
-        """Draw what moves and what glows over what `draw_still` has left there, its depth included."""
+        """Draw what moves over what `draw_still` has left there, its depth included."""
         self._bones.use()
         self._begin(target, viewport, camera)
         rigid, skin = self._parts.quick.rigid, self._parts.quick.skin
-        self._aim(camera, viewport, rigid, skin, self._parts.glow)
+        self._aim(camera, viewport, rigid, skin)
         if self.shows_figure:
             skin.render()
         _render(rigid, slice(self.rig.still_faces, len(self.rig.mesh.faces)))
+        self._lit[self._frame] = {piece for piece in self._glowing if self._faces(piece).start >= self.rig.still_faces}
+        self._end()
+
+    def draw_glow(self, target: moderngl.Framebuffer, camera: Camera, viewport: Viewport) -> None:
+        """Lay over what `draw_moving` has drawn what glows, and the double; what has begun to glow since then too."""
+        self._bones.use()
+        self._begin(target, viewport, camera)
+        self._aim(camera, viewport, self._parts.glow)
         self._over_the_same()
-        for piece, colour in self._frame.glow.items():
-            faces = self.rig.faces_of[self.rig.piece_bones[piece]]
-            if faces.stop <= self.rig.still_faces and np.max(colour) > _DARK:
-                _render(self._parts.glow, faces)
+        lit = self._lit.pop(self._frame, None)
+        if lit is None:  # a frame that is newer than what was drawn
+            lit = set().union(*self._lit.values())
+            self._lit.clear()
+        for piece in self._glowing:
+            if piece not in lit:
+                _render(self._parts.glow, self._faces(piece))
         self._draw_double(target, camera, viewport)
         self._end()
+
+    @property
+    def _glowing(self) -> list[Piece]:
+        return [piece for piece, colour in self._frame.glow.items() if np.max(colour) > _DARK]
+
+    def _faces(self, piece: Piece) -> slice:
+        return self.rig.faces_of[self.rig.piece_bones[piece]]
 
     def draw_shadows(self) -> None:
         """Draw the shadow map of the frame."""

@@ -19,8 +19,9 @@ from station.motion.pose import RIGHT, Pose
 from station.music.judgement import Label
 from station.music.score import Note
 from station.render.camera import Camera, View, named
+from station.render.frames import DoublePlace
 from station.render.gl import Target, standalone_context
-from station.render.painter import SCORE_SHARE, Arrangement, DoublePlace, Painter
+from station.render.painter import SCORE_SHARE, Arrangement, Painter
 from station.render.palette import BRAND, MISSED, Theme
 from station.render.picture import PictureMaker, Shot, draw_png
 from station.render.quality import QUALITIES, Quality
@@ -129,6 +130,26 @@ def test_a_missing_piece_s_stroke_glows_on_its_stand_in(draw: Draw) -> None:
     still = replace(at(-2.0), pose=None)
     lit = replace(still, strikes=(Strike(Piece.SPLASH, 110, 0.0),))
     assert not np.array_equal(draw(still), draw(lit))
+
+
+@pytest.mark.parametrize("piece", [Piece.SNARE, Piece.CRASH_1])
+def test_a_stroke_that_comes_while_the_picture_is_drawn_is_in_it(piece: Piece) -> None:
+    """A drum stands still, a cymbal swings: both are lit, the drum to the pixel as if it had been known before."""
+    before, after = at(0.75), at(0.75, strikes=(Strike(piece, 100, 0.0),))
+    with standalone_context() as ctx:
+        painter, target = Painter(ctx, QUALITIES[0]), Target(ctx, SIZE)
+
+        def drawn(snapshot: Snapshot, news: Snapshot | None) -> Picture:
+            arrangement = Arrangement(news=lambda: news)
+            painter.draw(snapshot, target.framebuffer, (0, 0, *SIZE), arrangement=arrangement)
+            return target.read().astype(np.int16)
+
+        dark, known, late = drawn(before, None), drawn(after, None), drawn(before, after)
+    changed = np.abs(known - dark).max(axis=2) > 8
+    assert changed.any()
+    assert (late - dark)[changed].mean() > 0.5 * (known - dark)[changed].mean() > 0
+    if piece is Piece.SNARE:
+        assert np.array_equal(late, known)
 
 
 def test_a_painter_that_goes_to_another_quality_draws_as_one_that_began_with_it() -> None:

@@ -10,7 +10,7 @@ from station.app import theme
 from station.app.look import INSETS, Look
 from station.app.panels.slots import Use, popup_grid, slot_rows
 from station.render.camera import VIEW_NAMES
-from station.render.painter import DoublePlace
+from station.render.frames import DoublePlace
 from station.render.palette import THEME_NAMES, Theme
 from station.render.score_view import ScoreForm
 

@@ -9,7 +9,8 @@ from station.app.look import SLOTS, Look, look_of, with_look
 from station.core.errors import BadInput
 from station.core.settings import Settings, load_settings, save_settings
 from station.render.camera import View, named
-from station.render.painter import DoublePlace, inset_area
+from station.render.frames import DoublePlace
+from station.render.painter import inset_area
 from station.render.palette import Theme
 
 

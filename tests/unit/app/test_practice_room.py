@@ -88,6 +88,22 @@ def test_hits_on_their_way_when_the_session_is_stopped_are_judged(tmp_path: Path
     assert counts["hits"] == 1
 
 
+def test_a_stroke_while_the_frame_is_drawn_is_in_its_picture(tmp_path: Path) -> None:
+    line = Line()
+    room = room_on([line], tmp_path)
+    assert room.news(0) is None, "nobody plays"
+    room.start(WISH)
+    line.says += [Started(0)]
+    room.snapshot(1)
+    assert room.news(2) is None
+    line.says += [downbeat()]
+    at_ns = downbeat().at_ns + 1
+    news = room.news(at_ns)
+    assert news is not None
+    assert [strike.piece for strike in news.strikes] == [downbeat().piece]
+    assert room.news(at_ns) is None, "it is told once"
+
+
 def test_an_engine_that_dies_costs_no_hit_and_the_next_start_wakes_another(tmp_path: Path) -> None:
     first, second = Line(), Line()
     room = room_on([first, second], tmp_path)
