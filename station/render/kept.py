@@ -1,13 +1,15 @@
 """What a scene is made of, kept on disk: solids and pictures take most of a second to make and a hundredth to read.
 
-A file holds named arrays (numpy's `.npz`, whose parts bear checksums). Its name bears a digest of what was asked for
-and of the code of drummers and pictures, so that it never outlives what made it. Nothing depends on the files: one that
-cannot be read is made anew, one that cannot be written costs time alone.
+A file holds named arrays: a checksum of all that follows (CRC-32, 4 bytes, the least first), then numpy's `.npz`, which
+alone would leave its table of contents unguarded. Its name bears a digest of what was asked for and of the code of
+drummers and pictures, so that it never outlives what made it. Nothing depends on the files: one that cannot be read is
+made anew, one that cannot be written costs time alone.
 """
 
 import hashlib
 import io
-import zipfile
+import os
+import zlib
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import fields
@@ -35,7 +37,8 @@ Arrays = Mapping[str, NDArray[Any]]
 
 KEPT_FILES = 16
 """The oldest go first (our choice: a few kits and figures at three qualities, some 60 MB)."""
-_ENDING = ".npz"
+_ENDING = ".scene"
+_CHECKSUM_BYTES = 4
 _PICTURE = "picture"
 
 
@@ -101,15 +104,22 @@ def _sources(*packages: str) -> Iterable[bytes]:
 def _read(path: Path) -> Arrays | None:
     """The arrays at `path`; None where there are none, or no whole ones."""
     try:
-        with path.open("rb") as whole, np.load(whole, allow_pickle=False) as file:
-            found = dict(file)
-        path.touch()
-    except (OSError, ValueError, EOFError, zipfile.BadZipFile):
+        whole = path.read_bytes()
+    except OSError:
         return None
-    return found or None
+    if whole[:_CHECKSUM_BYTES] != _checksum(memoryview(whole)[_CHECKSUM_BYTES:]):
+        return None
+    with suppress(OSError):  # a folder that may only be read
+        os.utime(path)
+    with np.load(io.BytesIO(whole[_CHECKSUM_BYTES:]), allow_pickle=False) as file:
+        return dict(file)
 
 
 def _packed(arrays: Arrays) -> bytes:
     file = io.BytesIO()
     np.savez(file, **arrays)  # type: ignore[arg-type] # numpy's stub thinks of a flag
-    return file.getvalue()
+    return _checksum(file.getbuffer()) + file.getvalue()
+
+
+def _checksum(data: memoryview) -> bytes:
+    return zlib.crc32(data).to_bytes(_CHECKSUM_BYTES, "little")

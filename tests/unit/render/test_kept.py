@@ -73,6 +73,19 @@ def test_a_damaged_file_is_made_anew(tmp_path: Path, damage: str) -> None:
     assert file.read_bytes() == whole
 
 
+def test_damage_where_no_part_has_a_checksum_is_found_too(tmp_path: Path) -> None:
+    """A zip's table of contents stands at its end: methods, flags, names and sizes."""
+    kept("solid", 1, make, tmp_path)
+    file = only_file(tmp_path)
+    whole = file.read_bytes()
+    for from_end in range(1, 200, 7):
+        data = bytearray(whole)
+        data[-from_end] ^= 0x41
+        file.write_bytes(data)
+        assert_same(kept("solid", 1, make, tmp_path), MADE)
+        assert file.read_bytes() == whole
+
+
 def test_a_folder_that_cannot_be_written_costs_time_alone(tmp_path: Path) -> None:
     (tmp_path / "file").write_bytes(b"")
     assert_same(kept("solid", 1, make, tmp_path / "file" / "folder"), MADE)
@@ -82,7 +95,7 @@ def test_only_the_latest_files_are_kept(tmp_path: Path) -> None:
     (tmp_path / "else.txt").write_bytes(b"not ours")
     for wanted in range(module.KEPT_FILES + 3):
         kept("solid", wanted, make, tmp_path)
-    assert len(list(tmp_path.glob("*.npz"))) == module.KEPT_FILES
+    assert len(list(tmp_path.glob("*.scene"))) == module.KEPT_FILES
     assert (tmp_path / "else.txt").exists()
 
 
