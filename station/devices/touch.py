@@ -43,6 +43,13 @@ class Curve:
     loudest: float = float(HARDEST)
     bend: float = 0.0
 
+    @classmethod
+    def nearest(cls, softest: float, loudest: float, bend: float) -> "Curve":
+        """The curve that comes nearest to these numbers among those that a kit may have; softest goes first."""
+        softest = min(SOFTEST_TO, max(SOFTEST_FROM, softest))
+        loudest = min(LOUDEST_TO, max(LOUDEST_FROM, softest + LEAST_SPAN, loudest))
+        return cls(softest, loudest, min(MOST_BEND, max(-MOST_BEND, bend)))
+
     @property
     def table(self) -> tuple[int, ...]:
         """What each velocity 0–127 counts as, 128 numbers: 1–127 for a stroke, 0 for velocity 0."""

@@ -93,6 +93,10 @@ def _lessons(top: Table, where: Where) -> tuple[str, ...]:
         name = None if at is None else lesson_name(at)
         if name is None:
             top.faults.add((*top.path, "lessons", index), f"no such lesson: {lesson}; `station lesson list` shows all")
+        elif at != name and where(name) == name:  # progress is remembered by the name alone
+            top.faults.add(
+                (*top.path, "lessons", index), f"{lesson} has the name of a lesson that ships; name the file otherwise"
+            )
         elif name in found:
             top.faults.add((*top.path, "lessons", index), f"{lesson} is in the course already")
         else:

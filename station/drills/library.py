@@ -90,7 +90,7 @@ def lessons_for(folder: Path) -> Where:
         path = folder / word
         if word in shipped:
             return word
-        return str(path) if word.endswith(_ENDING) and _is_file(path) else None
+        return str(path) if word.endswith(_ENDING) and not is_course(path) and _is_file(path) else None
 
     return where
 

@@ -168,7 +168,7 @@ class DevicesPanel:
             imgui.set_next_item_width(theme.points(110))
             moved, percent = theme.slider_int(f"##share-{pair}", round(100 * rule.share), 0, 100, "%d %%")
             if moved:
-                desk.share(rule.source, rule.victim, percent / 100)
+                desk.share(rule.source, rule.victim, min(max(percent, 0), 100) / 100)
             theme.tooltip("Up to so loud, beside its cause, it is a ghost; 0 takes the rule away")
             imgui.same_line()
             imgui.text_wrapped(f"{piece_name(rule.source)} makes {piece_name(rule.victim)} send")

@@ -86,10 +86,12 @@ def _numbers(piece: Piece, curve: Curve) -> Curve:
     least = round(_MOST_SOFTEST + LEAST_SPAN)
     ended, loudest = theme.slider_int(f"##loudest-{name}", round(curve.loudest), least, _MOST_LOUDEST, "loudest %d")
     theme.tooltip("What the pad sends from here on counts as 127; beyond 127 its hardest stroke counts for less")
-    return Curve(
-        float(min(max(softest, 1), _MOST_SOFTEST)) if begun else curve.softest,
-        float(min(max(loudest, least), _MOST_LOUDEST)) if ended else curve.loudest,
-        min(max(bend, -MOST_BEND), MOST_BEND) if moved else curve.bend,
+    if not (moved or begun or ended):
+        return curve  # the sliders round what a file may say to the finest
+    return Curve.nearest(
+        float(softest) if begun else curve.softest,
+        float(loudest) if ended else curve.loudest,
+        bend if moved else curve.bend,
     )
 
 

@@ -15,6 +15,7 @@ from station.core.pieces import Dynamic, Piece
 from station.core.units import NS_PER_MS
 from station.devices.capture import read_capture
 from station.devices.decoders import DecoderBank
+from station.devices.desk import obey
 from station.devices.kit import Crosstalk, KitPreset, Pad
 from station.devices.presets import GENERAL_MIDI_PRESET
 from station.devices.replay import replay
@@ -63,6 +64,20 @@ def told(kit: KitPreset, sent: list[tuple[int, bytes]]) -> list[Hit]:
 def test_what_is_not_set_counts_as_it_was_sent() -> None:
     assert AS_SENT.table == tuple(range(128))
     assert [hit.velocity for hit in told(GENERAL_MIDI_PRESET, strikes(1, 64, 127))] == [1, 64, 127]
+
+
+def test_the_nearest_curve_is_always_one_that_a_kit_file_may_hold() -> None:
+    assert Curve.nearest(40.0, 30.0, 0.1) == Curve(40.0, 50.0, 0.1), "by hand: ten apart at the least"
+    assert Curve.nearest(-3.0, 5.0, 7.0) == Curve(1.0, 20.0, 1.0)
+    assert Curve.nearest(500.0, 900.0, -7.0) == Curve(100.0, 400.0, -1.0)
+    assert Curve.nearest(8.0, 118.0, 0.3) == Curve(8.0, 118.0, 0.3)
+
+
+@given(st.floats(-1e3, 1e3), st.floats(-1e3, 1e3), st.floats(-3, 3))
+def test_every_nearest_curve_is_obeyed(softest: float, loudest: float, bend: float) -> None:
+    curve = Curve.nearest(softest, loudest, bend)
+    kit = obey(GENERAL_MIDI_PRESET, f"curve snare {curve.softest} {curve.loudest} {curve.bend}")
+    assert kit.pad(Piece.SNARE).curve == curve
 
 
 def test_numbers_by_hand() -> None:

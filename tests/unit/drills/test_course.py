@@ -24,7 +24,8 @@ lessons = [
 
 def written(folder: Path, text: str, name: str = "month.course.toml") -> Path:
     (folder / "own").mkdir(exist_ok=True)
-    (folder / "own" / "mine.toml").write_text(NEW_LESSON)
+    for name_of_lesson in ("mine", "rock-3"):
+        (folder / "own" / f"{name_of_lesson}.toml").write_text(NEW_LESSON)
     (folder / name).write_text(text)
     return folder / name
 
@@ -43,6 +44,8 @@ def test_a_course_has_its_lessons_in_their_order_those_of_files_too(tmp_path: Pa
     [
         (GOOD.replace('"rock-2"', '"rok-2"'), 6, 3, "no such lesson: rok-2"),
         (GOOD.replace("mine.toml", "none.toml"), 7, 3, "no such lesson: own/none.toml"),
+        (GOOD.replace("own/mine.toml", "month.course.toml"), 7, 3, "no such lesson: month.course.toml"),
+        (GOOD.replace("own/mine.toml", "own/rock-3.toml"), 7, 3, "rock-3.toml has the name of a lesson that ships"),
         (GOOD.replace('"rock-1"', '"rock-2"'), 8, 3, "rock-2 is in the course already"),
         (GOOD.replace('title = "My first month"\n', ""), 1, 1, "title is missing"),
         (GOOD.replace("level = 2", "level = 9"), 3, 9, "from 1 to 5"),
