@@ -7,6 +7,7 @@ it when it is over. The hits carry their own times, so that the frame rate decid
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from station.app.calibration_desk import CalibrationDesk
 from station.app.casting import Casting
@@ -33,7 +34,6 @@ from station.core.settings import Settings
 from station.drills.course import Course
 from station.engine.messages import EngineEvent, KeyHit, Started
 from station.music.score import Score
-from station.practice.backing import BackingWish
 from station.practice.by_ear import Whose
 from station.practice.latency import Latency, latency_of
 from station.practice.listening import Listening
@@ -41,6 +41,9 @@ from station.practice.own_ear import Guess
 from station.practice.plan import Plan
 from station.practice.progress import Progress
 from station.render.snapshot import Snapshot
+
+if TYPE_CHECKING:
+    from station.practice.backing import BackingWish
 
 NOTICES_KEPT = 5
 """How many notices the window may show at once; our choice."""
@@ -60,7 +63,7 @@ class PracticeRoom:
         first: Plan,
         adapt: bool = False,
         latency: Latency | None = None,
-        backing: BackingWish | None = None,
+        backing: "BackingWish | None" = None,
     ) -> None:
         self._engine = EngineLine(wake, settings.rate_hz)
         self._prepared = Preparation(settings, first.lesson, backing)

@@ -6,6 +6,7 @@ It holds the settings that sessions go by; whoever changes them sets `settings` 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import date
+from typing import TYPE_CHECKING
 
 from station.app.deck import Watched
 from station.app.lesson_cards import all_lessons, card
@@ -16,7 +17,6 @@ from station.drills.course import Course
 from station.drills.lesson import Lesson
 from station.drills.library import courses_in, find_lesson, shipped_courses
 from station.motion.kit import Kit
-from station.practice.backing import Backing, BackingWish
 from station.practice.click import ClickPattern
 from station.practice.click_word import parse_click
 from station.practice.lead import hands_of
@@ -24,6 +24,9 @@ from station.practice.memory import Memory, Remembered
 from station.practice.plan import Plan, Wishes, plan_practice
 from station.practice.progress import Progress, progress_of
 from station.sound.track import PreparedTrack
+
+if TYPE_CHECKING:
+    from station.practice.backing import Backing, BackingWish
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,14 +37,21 @@ class LaidOut:
     followed: Remembered | None = None
 
 
+def _backing_of(wish: "BackingWish") -> "Backing":
+    """Its keeper, which comes with libraries of sound: the window opens sooner without."""
+    from station.practice.backing import Backing
+
+    return Backing(wish)
+
+
 class Preparation:
     """Lays out what is wished for by `settings`; sessions whose tempo stays play along to `backing`."""
 
-    def __init__(self, settings: Settings, first: Lesson, backing: BackingWish | None) -> None:
+    def __init__(self, settings: Settings, first: Lesson, backing: "BackingWish | None") -> None:
         self.settings = settings
         self._first = first
         self._shipped: dict[str, Lesson] | None = None
-        self._backing = None if backing is None else Backing(backing)
+        self._backing = None if backing is None else _backing_of(backing)
         self._courses: Sequence[Course] | None = None
         self.faults: Sequence[BadInput] = ()
         """What was wrong with courses that were left out."""

@@ -19,7 +19,6 @@ from station.core.files import growing, write_whole
 from station.core.settings import Settings
 from station.drills.lesson import Lesson
 from station.drills.lesson_write import write_lesson
-from station.music.formats.smf_write import write_score
 from station.practice.folder import folder_name
 
 FOLDER = "take-along"
@@ -45,6 +44,8 @@ class TakeAlong:
 
     def midi(self, lesson: Lesson, bars: Bars, settings: Settings) -> Path:
         """The bars as a MIDI file; raises `DeviceError`."""
+        from station.music.formats.smf_write import write_score  # with mido: the window would open later
+
         path = _place(lesson, bars, settings, ".mid")
         write_score(lesson.score.bars(*bars), path)
         return path

@@ -3,15 +3,18 @@
 import argparse
 from collections.abc import Callable
 from contextlib import ExitStack
+from typing import TYPE_CHECKING
 
 from station.app.health import has_screen
 from station.core.calibration import load_calibration
 from station.core.errors import DeviceError
 from station.core.settings import Settings, load_settings
-from station.practice.backing import BackingWish
 from station.practice.lead import hands_of
 from station.practice.plan import Plan, Wishes, plan_practice
 from station.render.snapshot import Snapshot
+
+if TYPE_CHECKING:
+    from station.practice.backing import BackingWish
 
 
 def add_options(_: argparse.ArgumentParser) -> None:
@@ -31,7 +34,7 @@ def open_window(
     settings: Settings,
     first: Plan,
     adapt: bool,
-    backing: BackingWish | None = None,
+    backing: "BackingWish | None" = None,
     shown: Callable[[Snapshot | None], bool] | None = None,
 ) -> int:
     """Show the practice room until it is closed; what was played until then is kept.
