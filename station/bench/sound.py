@@ -14,8 +14,8 @@ from station.sound.click import click_sounds
 from station.sound.drum_kit import DrumKit
 from station.sound.kit_cache import cached_kit
 from station.sound.kit_synth import KIT_NAME, synth_kit
-from station.sound.mixer import MAX_VOICES, TRACK_SLACK, Mixer
-from station.sound.track import Track
+from station.sound.mixer import MAX_VOICES, Mixer
+from station.sound.track import TRACK_SLACK, Track
 from station.sound.track_file import stretched
 
 RATE_HZ = 48_000

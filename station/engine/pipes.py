@@ -11,6 +11,7 @@ from multiprocessing.connection import Connection
 from queue import SimpleQueue
 
 from station.core.errors import DeviceError
+from station.core.patience import ends_within
 from station.engine.messages import Command, EngineEvent, SetBacking
 from station.sound.track import load
 
@@ -34,8 +35,7 @@ class Outbox:
     def close(self) -> None:
         """Wait until everything is sent, or the parent is gone; it learns at once that nothing more will come."""
         self._queue.put(None)
-        self._thread.join(CLOSE_WITHIN_S)
-        if not self._thread.is_alive():
+        if ends_within(self._thread, CLOSE_WITHIN_S):
             self._events.close()
 
     def _run(self) -> None:

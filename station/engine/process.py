@@ -12,6 +12,7 @@ from types import TracebackType
 from typing import Self
 
 from station.core.errors import DeviceError
+from station.core.patience import ends_within
 from station.core.processes import ctrl_c_ignored
 from station.engine.config import EngineConfig, Prepare
 from station.engine.messages import Command, EngineEvent, Quit
@@ -68,7 +69,7 @@ class EngineProcess:
     @property
     def exit_code(self) -> int | None:
         """How the child ended, −n by signal n; None while it runs. Waits a little for one that is on its way out."""
-        self._process.join(QUIT_WITHIN_S)
+        ends_within(self._process, QUIT_WITHIN_S)
         return self._process.exitcode
 
     def send(self, command: Command) -> None:
@@ -108,8 +109,7 @@ class EngineProcess:
         last_words: list[EngineEvent] = []
         drain = threading.Thread(target=self._drain, args=(last_words,), daemon=True)
         drain.start()  # a child that still has much to say must not wait for us while we wait for it
-        self._process.join(QUIT_WITHIN_S)
-        if self._process.is_alive():
+        if not ends_within(self._process, QUIT_WITHIN_S):
             self._process.kill()
             self._process.join()
         drain.join()

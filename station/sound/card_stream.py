@@ -7,6 +7,7 @@ from types import ModuleType
 from typing import Any, Literal
 
 from station.core.errors import DeviceError
+from station.core.patience import ends_within
 from station.sound.dac_clock import DacClock
 from station.sound.portaudio import PORTAUDIO
 
@@ -80,8 +81,7 @@ class CardStream:
         self._is_open = False
         closing = Thread(target=end, name=f"close {self._title}", daemon=True)
         closing.start()
-        closing.join(CLOSE_WITHIN_S)
-        if closing.is_alive():
+        if not ends_within(closing, CLOSE_WITHIN_S):
             PORTAUDIO.abandon()
         PORTAUDIO.release()
 

@@ -8,6 +8,7 @@ from threading import Event
 
 import numpy as np
 
+from station.core.patience import TURN_S
 from station.sound.drum_kit import Frames
 
 FADE_S = 0.005
@@ -34,8 +35,9 @@ class Gate:
         self._target = 0.0
 
     def wait_until_shut(self, within_s: float) -> bool:
-        """Wait for the fade's end, at most `within_s`; whether it has ended."""
-        return self._is_shut.wait(within_s)
+        """Wait for the fade's end, at most `within_s` of a machine that runs; whether it has ended."""
+        turns = max(1, round(within_s / TURN_S))
+        return any(self._is_shut.wait(within_s / turns) for _ in range(turns))
 
     def through(self, block: Frames) -> Frames:
         """What of `block` (n, 2) is let through; written in place where it fades."""

@@ -20,9 +20,10 @@ from station.core.kitmap import Strike
 from station.core.pieces import Articulation, Piece
 from station.sound.buses import Bus, ClickVoice
 from station.sound.drum_kit import MAX_VELOCITY, DrumKit, Frames, Sound, level_of
+from station.sound.levels import BusLevels, sides_of
 from station.sound.limiter import soft_clip
 from station.sound.sounds import SoundName
-from station.sound.track import Track, TrackVoice
+from station.sound.track import Track, TrackDeck
 from station.sound.voice import Voice
 
 PIECE_FRAMES = 250
@@ -44,13 +45,7 @@ MUTE_S = 0.03
 """So long a sound takes to fall silent that another of its mute group stops (our choice: a hand's choke is slower)."""
 HALF_OPEN_RING_S = 0.9
 """So long a hi-hat rings on that the pedal has brought from open to openness ½ (our choice: as its half-open sound)."""
-TRACK_SLACK = 2
-"""Frames by which a track may be off its place: the clock's own noise (our choice)."""
-TRACK_JUMP_S = 0.03
-"""Further away than this a track is moved at once, for the stream has jumped (our choice: a flam's width)."""
 _BUSES = len(Bus)
-LEVEL_SLEW_S = 0.01
-"""A bus takes so long to a new level: no zipper noise."""
 
 
 class Mixer:
@@ -71,12 +66,9 @@ class Mixer:
         self._tail = np.zeros((_BUSES, 2 * max(1, self._frames(STEAL_S))), np.float32)
         self._ramp = np.repeat(np.arange(max(PIECE_FRAMES, self._tail.shape[1] // 2), dtype=np.float32), 2)
         self._tail_left = 0
-        self._levels = np.ones((_BUSES, 2), np.float32)
-        self._level_steps = np.zeros((_BUSES, 2), np.float32)
-        self._level_targets = self._levels.copy()
-        self._slew_left = 0
+        self._levels = BusLevels(kit.rate_hz)
         self._of_pieces: dict[Piece, tuple[float, NDArray[np.float32] | None]] = {}  # level, and the factors of its pan
-        self._tracks: list[TrackVoice] = []  # the last plays, those before it fade out
+        self._tracks = TrackDeck()
 
     # --- what to play --------------------------------------------------------------------------------------------
 
@@ -105,37 +97,23 @@ class Mixer:
     def play_track(self, track: Track, at_frame: int = 0) -> None:
         """Play `track` on the backing bus, in place of one that plays, from `at_frame` of the next block on."""
         assert track.rate_hz == self.kit.rate_hz, "a track is prepared for the card's rate"
-        self._at(at_frame, partial(self._begin_track, track))
+        self._at(at_frame, partial(self._tracks.play, track))
 
     def stop_track(self) -> None:
         """Fade the track out."""
-        for track in self._tracks:
-            track.stop()
+        self._tracks.stop()
 
     def keep_track_at(self, position: int) -> None:
-        """Bring the playing track to `position`, the frames since its start that the next block should begin with.
-
-        A frame at a time where it has drifted a little, at once where it is `TRACK_JUMP_S` away.
-        """
-        if not self._tracks:
-            return
-        track = self._tracks[-1]
-        off = position - track.position
-        if abs(off) > self._frames(TRACK_JUMP_S):
-            track.move(off)
-        elif abs(off) > TRACK_SLACK:
-            track.move(1 if off > 0 else -1)
+        """Bring the playing track to `position`, the frames since its start that the next block should begin with."""
+        self._tracks.keep_at(position)
 
     def set_level(self, bus: Bus, level: float, pan: float = 0.0) -> None:
         """Set the level (0 silent, 1 full) and balance (−1 left … 1 right) of `bus`, from the next block on."""
-        level = min(1.0, max(0.0, level))
-        self._level_targets[bus] = [level * side for side in _sides(pan)]
-        self._slew_left = max(1, self._frames(LEVEL_SLEW_S))
-        self._level_steps = (self._level_targets - self._levels) / np.float32(self._slew_left)
+        self._levels.set(bus, level, pan)
 
     def set_piece(self, piece: Piece, level: float, pan: float = 0.0) -> None:
         """Set the level (0 silent, 1 as the kit has it) and balance of `piece`, from its next stroke on."""
-        sides = np.tile(np.array(_sides(pan), np.float32), len(self._ramp) // 2) if pan else None
+        sides = np.tile(np.array(sides_of(pan), np.float32), len(self._ramp) // 2) if pan else None
         self._of_pieces[piece] = level, sides
 
     def silence(self) -> None:
@@ -145,7 +123,7 @@ class Mixer:
             self._release(voice)
         self._tail[:] = 0.0
         self._tail_left = 0
-        self._tracks.clear()
+        self._tracks.forget()
 
     @property
     def ringing(self) -> int:
@@ -170,8 +148,8 @@ class Mixer:
         count = min(wanted, PIECE_FRAMES)
         if self._pending:
             count = min(count, self._pending[0][0] - self.frame)
-        if self._slew_left:
-            count = min(count, self._slew_left)
+        if self._levels.moving:
+            count = min(count, self._levels.moving)
         return count
 
     def _mix(self, count: int, out: Frames) -> None:
@@ -180,15 +158,9 @@ class Mixer:
         buses = self._sum_voices(size)
         if self._tail_left:
             self._add_tail(buses, size)
-        if self._tracks:
-            self._add_tracks(buses, count)
-        stereo = buses.reshape(_BUSES, count, 2)
-        if self._slew_left:
-            ramp = np.arange(count, dtype=np.float32)[None, :, None]
-            np.einsum("bnc,bnc->nc", stereo, self._levels[:, None] + ramp * self._level_steps[:, None], out=out)
-            self._slew(count)
-        else:
-            np.einsum("bnc,bc->nc", stereo, self._levels, out=out)
+        if self._tracks.plays:
+            self._tracks.add_to(buses[Bus.BACKING], count)
+        self._levels.sum(buses.reshape(_BUSES, count, 2), out)
 
     def _sum_voices(self, size: int) -> NDArray[np.float32]:
         """The buses, (buses, size) interleaved, of the next `size`/2 frames; voices that end are let go."""
@@ -223,17 +195,6 @@ class Mixer:
         tail[:, tail.shape[1] - width :] = 0.0
         self._tail_left = max(0, self._tail_left - width)
 
-    def _add_tracks(self, buses: NDArray[np.float32], count: int) -> None:
-        for track in self._tracks:
-            buses[Bus.BACKING] += track.read(count).reshape(-1)
-        self._tracks = [track for track in self._tracks if not track.has_ended]
-
-    def _slew(self, count: int) -> None:
-        self._levels += count * self._level_steps
-        self._slew_left -= count
-        if not self._slew_left:
-            self._levels[:] = self._level_targets
-
     # --- actions -------------------------------------------------------------------------------------------------
 
     def _at(self, at_frame: int, action: Callable[[], None]) -> None:
@@ -266,10 +227,6 @@ class Mixer:
 
     def _click(self, voice: ClickVoice, velocity: int) -> None:
         self._begin(Voice(self._clicks[voice], Bus.CLICK, level_of(velocity), None))
-
-    def _begin_track(self, track: Track) -> None:
-        self.stop_track()
-        self._tracks.append(TrackVoice(track))
 
     def _begin(self, voice: Voice) -> None:
         self._retire_oldest(voice)
@@ -326,9 +283,3 @@ class Mixer:
 
     def _frames(self, seconds: float) -> int:
         return round(seconds * self.kit.rate_hz)
-
-
-def _sides(pan: float) -> tuple[float, float]:
-    """The factors of left and right for `pan`: the far side is lowered, the near one kept."""
-    pan = min(1.0, max(-1.0, pan))
-    return min(1.0, 1.0 - pan), min(1.0, 1.0 + pan)

@@ -18,6 +18,10 @@ SEAM_S = 0.01
 """The end of a loop fades into its beginning within so long (our choice)."""
 EDGE_S = 0.005
 """A track that starts or stops in mid-music fades in or out within so long."""
+TRACK_SLACK = 2
+"""Frames by which a track may be off its place: the clock's own noise (our choice)."""
+TRACK_JUMP_S = 0.03
+"""Further away than this a track is moved at once, for the stream has jumped (our choice: a flam's width)."""
 _SCALE = np.float32(1.0 / 32768.0)
 
 Pcm = NDArray[np.int16]
@@ -76,6 +80,11 @@ class TrackVoice:
         self._edge = max(1, round(EDGE_S * track.rate_hz))
         self._fade_in_left = self._edge if track.start else 0
         self._fade_out_left: int | None = None
+
+    @property
+    def rate_hz(self) -> int:
+        """Of its track."""
+        return self._track.rate_hz
 
     @property
     def position(self) -> int:
@@ -149,6 +158,52 @@ class TrackVoice:
         if not inside.all():
             frames[~inside] = 0.0
         return frames
+
+
+class TrackDeck:
+    """The track that plays, and those before it while they fade out."""
+
+    def __init__(self) -> None:
+        self._voices: list[TrackVoice] = []
+
+    @property
+    def plays(self) -> bool:
+        """Whether something sounds."""
+        return bool(self._voices)
+
+    def play(self, track: Track) -> None:
+        """Play `track` in place of one that plays."""
+        self.stop()
+        self._voices.append(TrackVoice(track))
+
+    def stop(self) -> None:
+        """Fade out."""
+        for voice in self._voices:
+            voice.stop()
+
+    def forget(self) -> None:
+        """Be silent at once."""
+        self._voices.clear()
+
+    def keep_at(self, position: int) -> None:
+        """Bring what plays to `position`, the frames since its start that is read next.
+
+        A frame at a time where it has drifted a little, at once where it is `TRACK_JUMP_S` away.
+        """
+        if not self._voices:
+            return
+        voice = self._voices[-1]
+        off = position - voice.position
+        if abs(off) > round(TRACK_JUMP_S * voice.rate_hz):
+            voice.move(off)
+        elif abs(off) > TRACK_SLACK:
+            voice.move(1 if off > 0 else -1)
+
+    def add_to(self, bus: NDArray[np.float32], count: int) -> None:
+        """Add the next `count` frames to `bus`, interleaved (2 · count,)."""
+        for voice in self._voices:
+            bus += voice.read(count).reshape(-1)
+        self._voices = [voice for voice in self._voices if not voice.has_ended]
 
 
 def _ramp(gone: int, count: int, length: int) -> NDArray[np.float32]:

@@ -25,6 +25,7 @@ from tests.fakes.engine_listener import EngineListener
 from tests.fakes.jack_recorder import JackRecorder, Recording
 from tests.fakes.jack_server import JackServer
 from tests.fakes.kit_player import KitPlayer, Stroke
+from tests.fakes.stillness import Stillness
 
 pytestmark = pytest.mark.jack
 
@@ -39,12 +40,22 @@ DROPOUTS = 3
 MOST = 0.75
 """The machine may be shared: so many swallowed blocks do not count, and this share must be in time."""
 
+FEWEST = 4
+"""Of fewer moments in which the machine ran nothing is said."""
+AROUND_NS = 300 * NS_PER_MS
+"""So long before and after it stood still a machine catches up."""
+
 NOTES = [  # a TD-17's numbers, and the least and greatest spectral centroid that a drummer would grant the piece
     (36, Piece.KICK, 30.0, 450.0),
     (38, Piece.SNARE, 500.0, 4_000.0),
     (42, Piece.HIHAT, 4_000.0, 20_000.0),
     (43, Piece.FLOOR_TOM_1, 50.0, 450.0),
 ]
+
+
+def stands(stillness: Stillness, at_ns: int) -> bool:
+    """Whether the machine stood still about a moment: what was due then could not be heard then."""
+    return stillness.stood(at_ns - AROUND_NS, at_ns + AROUND_NS)
 
 
 def is_trouble(event: EngineEvent) -> bool:
@@ -76,6 +87,7 @@ def test_a_kit_in_another_process_is_heard_and_sounds(jack_server: JackServer, t
         KitPlayer(jack_server, KIT, strokes, tmp_path) as kit,
         EngineProcess(CONFIG) as engine,
         JackRecorder(jack_server, tmp_path) as recorder,
+        Stillness() as stillness,
     ):
         listener = EngineListener(engine)
         ready = listener.until(lambda event: isinstance(event, Ready))
@@ -98,8 +110,14 @@ def test_a_kit_in_another_process_is_heard_and_sounds(jack_server: JackServer, t
     period_ns = NS_PER_S * jack_server.period_frames / jack_server.rate_hz
     check_hits(listener.hits(), notes(sent), period_ns)
     click_onsets = [frame for frame in heard.onsets() if heard.at_ns[frame] < started.zero_ns + 1_250 * NS_PER_MS]
-    check_clicks(heard.at_ns[click_onsets] - started.zero_ns, period_ns)
-    check_sounds(heard, notes(sent), period_ns)
+    still_clicks_ns = [at for at in CLICKS_NS.tolist() if not stands(stillness, started.zero_ns + at)]
+    if len(still_clicks_ns) >= FEWEST:
+        check_clicks(heard.at_ns[click_onsets] - started.zero_ns, np.array(still_clicks_ns), period_ns)
+    still_strokes = [stroke for stroke in notes(sent) if not stands(stillness, stroke.at_ns)]
+    if len(still_strokes) >= FEWEST:
+        check_sounds(heard, still_strokes, period_ns)
+        if len(still_strokes) == len(notes(sent)):
+            assert np.count_nonzero(heard.at_ns[heard.onsets()] >= sent[0].at_ns) - len(notes(sent)) <= DROPOUTS
     capture = read_capture(tmp_path / "take.cap")
     assert capture.complete
     assert [event for event in replay(capture) if isinstance(event, Hit)] == listener.hits()
@@ -164,13 +182,14 @@ def check_hits(hits: list[Hit], sent: list[Stroke], period_ns: float) -> None:
     assert np.mean(late_ns < 2 * period_ns + 10 * NS_PER_MS) >= MOST, in_ms(late_ns)
 
 
-def check_clicks(onset_ns: Times, period_ns: float) -> None:
+def check_clicks(onset_ns: Times, clicks_ns: Times, period_ns: float) -> None:
     """Every click where its cue says, taken by JACK a few periods before it is heard."""
-    nearest = np.abs(onset_ns[:, None] - CLICKS_NS).argmin(axis=0)
-    offset_ns = onset_ns[nearest] - CLICKS_NS
+    nearest = np.abs(onset_ns[:, None] - clicks_ns).argmin(axis=0)
+    offset_ns = onset_ns[nearest] - clicks_ns
     assert -6 * period_ns < np.median(offset_ns) < period_ns, in_ms(offset_ns)
     assert np.mean(np.abs(offset_ns - np.median(offset_ns)) < 1.5 * NS_PER_MS) >= MOST, in_ms(offset_ns)
-    assert abs(len(onset_ns) - len(CLICKS_NS)) <= DROPOUTS
+    if len(clicks_ns) == len(CLICKS_NS):
+        assert abs(len(onset_ns) - len(CLICKS_NS)) <= DROPOUTS
 
 
 def check_sounds(heard: Recording, sent: list[Stroke], period_ns: float) -> None:
@@ -185,7 +204,6 @@ def check_sounds(heard: Recording, sent: list[Stroke], period_ns: float) -> None
     late_ns = onset_ns[first_after] - np.array([stroke.at_ns for stroke in sent])
     assert np.median(late_ns) < 4 * period_ns, in_ms(late_ns)
     assert np.mean(late_ns < 4 * period_ns + 10 * NS_PER_MS) >= MOST, in_ms(late_ns)
-    assert np.count_nonzero(onset_ns >= sent[0].at_ns) - len(sent) <= DROPOUTS
     limits = {note: (lowest_hz, highest_hz) for note, _, lowest_hz, highest_hz in NOTES}
     centroids_hz = [heard.centroid_hz(int(onsets[index])) for index in first_after]
     strange = [

@@ -10,11 +10,11 @@ from station.core.kitmap import Strike
 from station.core.pieces import Articulation, Piece, Zone
 from station.sound.buses import Bus, ClickVoice
 from station.sound.drum_kit import DrumKit, Frames
+from station.sound.levels import LEVEL_SLEW_S
 from station.sound.limiter import KNEE
 from station.sound.mixer import (
     CHOKE_S,
     CLOSE_S,
-    LEVEL_SLEW_S,
     MAX_VOICES,
     PIECE_FRAMES,
     RETIRE_S,

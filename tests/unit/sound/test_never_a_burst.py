@@ -13,7 +13,8 @@ from station.sound.buses import Bus, ClickVoice
 from station.sound.click import click_sounds
 from station.sound.drum_kit import DrumKit, Layer, Sound
 from station.sound.kit_synth import synth_kit
-from station.sound.mixer import CHOKE_S, LEVEL_SLEW_S, STEAL_S, Mixer
+from station.sound.levels import LEVEL_SLEW_S
+from station.sound.mixer import CHOKE_S, STEAL_S, Mixer
 from station.sound.sounds import SoundName
 from station.sound.track import EDGE_S, Track
 

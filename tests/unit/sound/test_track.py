@@ -10,8 +10,7 @@ from station.core.errors import DeviceError
 from station.core.kitmap import Strike
 from station.core.pieces import Piece
 from station.sound.buses import Bus
-from station.sound.mixer import TRACK_JUMP_S
-from station.sound.track import EDGE_S, SEAM_S, PreparedTrack, Track, TrackVoice, load
+from station.sound.track import EDGE_S, SEAM_S, TRACK_JUMP_S, PreparedTrack, Track, TrackVoice, load
 from tests.unit.sound.kits import RATE_HZ, impulse, mixer_of
 
 EDGE = round(EDGE_S * RATE_HZ)
@@ -149,7 +148,7 @@ def test_a_drifting_card_is_followed(drift_ppm: int) -> None:
     for block in range(60 * RATE_HZ // 128):
         mixer.keep_track_at(round(block * 128 * (1 + drift_ppm * 1e-6)))
         mixer.render(128)
-        voice = mixer._tracks[-1]
+        voice = mixer._tracks._voices[-1]
         assert abs(voice.position - (block + 1) * 128 * (1 + drift_ppm * 1e-6)) <= 4
     assert voice is not None
     assert abs(voice.position - 60 * RATE_HZ) > 60 * RATE_HZ * abs(drift_ppm) * 0.9e-6  # it did drift
