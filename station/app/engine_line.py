@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import Protocol
 
 from station.core.errors import DeviceError
-from station.core.events import DeviceFound, DeviceLost
+from station.core.events import DeviceFound, DeviceLost, Hit
 from station.engine.messages import Command, Eavesdrop, EngineEvent, Ready, SetLevel, Sounding
 from station.practice.live import EngineLink
 
@@ -34,6 +34,8 @@ class EngineLine:
         self.rate_hz = rate_hz
         self.alive = True
         self.sound = _WAKING
+        self.struck_ns: int | None = None
+        """When the last stroke was played that was heard of."""
         self._kits: list[str] = []
         self._standing: dict[object, Command] = {}
 
@@ -91,6 +93,8 @@ class EngineLine:
                 self._kits = [*(kit for kit in self._kits if kit != device), device]
             case DeviceLost(_, device):
                 self._kits = [kit for kit in self._kits if kit != device]
+            case Hit(at_ns):
+                self.struck_ns = at_ns
             case Ready(output, rate_hz) | Sounding(output, rate_hz):
                 self.sound = output or "silent"
                 self.rate_hz = rate_hz or self.rate_hz

@@ -37,6 +37,10 @@ class PracticeModel(Protocol):
         """What is to be seen at `now_ns` if something has been struck since the last call of `snapshot`."""
         ...
 
+    def is_lively(self, now_ns: int) -> bool:
+        """Whether something moves, or may at any moment, so that no frame is to be spared."""
+        ...
+
     def room(self) -> RoomState:
         """What is going on."""
         ...

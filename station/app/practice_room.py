@@ -31,6 +31,7 @@ from station.core.calibration import Calibration, load_calibration
 from station.core.errors import DeviceError, StationError
 from station.core.events import DeviceLost
 from station.core.settings import Settings
+from station.core.units import NS_PER_S
 from station.drills.course import Course
 from station.engine.messages import EngineEvent, KeyHit, Started
 from station.music.score import Score
@@ -47,6 +48,8 @@ if TYPE_CHECKING:
 
 NOTICES_KEPT = 5
 """How many notices the window may show at once; our choice."""
+LIVELY_NS = 5 * NS_PER_S
+"""So long after a stroke another may come at any moment (our choice: a bar or two)."""
 
 
 class PracticeRoom:
@@ -99,6 +102,11 @@ class PracticeRoom:
     def news(self, now_ns: int) -> Snapshot | None:
         """The picture at `now_ns` if there is something new in it, while somebody plays: it need not wait a frame."""
         return self.snapshot(now_ns) if self._goings_on.is_playing and self._take_in(now_ns) else None
+
+    def is_lively(self, now_ns: int) -> bool:
+        """Whether something moves, or may at any moment: a frame that is spared would be missed."""
+        moves = self._goings_on.is_playing or self._ear.hears or self.deck.player.rate_percent != 0
+        return moves or (self._engine.struck_ns is not None and now_ns - self._engine.struck_ns < LIVELY_NS)
 
     def room(self) -> RoomState:
         """What surrounds the picture."""

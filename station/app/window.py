@@ -89,8 +89,7 @@ class Window:
         stage = self._model.room().stage
         self._wear()
         self.pages.show(None if self.welcome is not None else stage)
-        runs = self._model.room().listening or self._model.deck.player.rate_percent != 0
-        self.params.fps_idling.enable_idling = stage is not Stage.PLAYING and not runs
+        self.params.fps_idling.enable_idling = not self._model.is_lively(self._clock.now_ns())
         io = imgui.get_io()
         nav = imgui.ConfigFlags_.nav_enable_keyboard
         io.config_flags = io.config_flags & ~nav if stage is Stage.PLAYING else io.config_flags | nav

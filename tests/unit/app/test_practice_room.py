@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from station.app.model import FreeWish, Stage, Start
-from station.app.practice_room import PracticeRoom
+from station.app.practice_room import LIVELY_NS, PracticeRoom
 from station.app.welcome import Answers
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound, Hit
@@ -102,6 +102,20 @@ def test_a_stroke_while_the_frame_is_drawn_is_in_its_picture(tmp_path: Path) -> 
     assert news is not None
     assert [strike.piece for strike in news.strikes] == [downbeat().piece]
     assert room.news(at_ns) is None, "it is told once"
+
+
+def test_a_window_spares_no_frame_while_a_kit_is_played(tmp_path: Path) -> None:
+    line = Line()
+    room = room_on([line], tmp_path)
+    room.snapshot(0)
+    assert not room.is_lively(0)
+    line.says += [downbeat()]
+    struck_ns = downbeat().at_ns
+    room.snapshot(struck_ns + 100)
+    assert room.is_lively(struck_ns + LIVELY_NS - 1)
+    assert not room.is_lively(struck_ns + LIVELY_NS)
+    room.start(WISH)
+    assert room.is_lively(struck_ns + LIVELY_NS)
 
 
 def test_an_engine_that_dies_costs_no_hit_and_the_next_start_wakes_another(tmp_path: Path) -> None:
