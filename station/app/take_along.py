@@ -24,6 +24,8 @@ from station.practice.folder import folder_name
 FOLDER = "take-along"
 FILM, LOOP = ".mp4", ".gif"
 ANIMATE = (sys.executable, "-m", "station.cli", "animate")
+_SAID = "said"
+"""What the film's process says, in the folder that goes with it."""
 _BACKGROUND = 10
 """How nice the film is to a drummer who plays meanwhile (our choice: it gets what is left)."""
 
@@ -37,7 +39,7 @@ class TakeAlong:
     def __init__(self, animate: Sequence[str] = ANIMATE) -> None:
         self._animate = animate
         self._scratch: tempfile.TemporaryDirectory[str] | None = None
-        self.process: subprocess.Popen[str] | None = None
+        self.process: subprocess.Popen[bytes] | None = None
         self._made = Path()
         self.path: Path | None = None
         """The video or GIF that is filmed now."""
@@ -81,20 +83,23 @@ class TakeAlong:
         """A folder that goes with the film; raises `DeviceError` while there is one."""
         if self.process is not None:
             raise DeviceError("one video at a time: wait for it, or cancel it")
-        self._scratch = tempfile.TemporaryDirectory()
+        self._scratch = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)  # who helps to draw may end later
         return Path(self._scratch.name)
 
     def _begin(self, source: Path, path: Path, words: Sequence[str]) -> None:
-        """Let another process film `source`; the film takes its place at `path` when it is whole."""
+        """Let another process film `source`; the film takes its place at `path` when it is whole.
+
+        It says what went wrong to a file: a pipe would fill, and last as long as anyone whom it has let draw.
+        """
         assert self._scratch is not None, "it has a folder to film into"
         self._made = Path(self._scratch.name) / f"film{path.suffix}"
         try:
-            self.process = subprocess.Popen(
-                [*self._animate, str(source), "--out", str(self._made), *words],
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.PIPE,
-                text=True,
-            )
+            with self._made.with_name(_SAID).open("wb") as said:
+                self.process = subprocess.Popen(
+                    [*self._animate, str(source), "--out", str(self._made), *words],
+                    stdout=subprocess.DEVNULL,
+                    stderr=said,
+                )
         except OSError as fault:
             raise DeviceError(f"no video can be made: {fault.strerror or fault}") from fault
         finally:
@@ -108,8 +113,7 @@ class TakeAlong:
         """What has come of the video since it was last asked: where it is, or why there is none; None meanwhile."""
         if self.process is None or self.process.poll() is None:
             return None
-        said = self.process.stderr.read().strip() if self.process.stderr is not None else ""
-        told = self._kept() if self.process.returncode == 0 else f"no video: {_last_line(said)}"
+        told = self._kept() if self.process.returncode == 0 else f"no video: {_last_line(self._made.with_name(_SAID))}"
         self._end()
         return told
 
@@ -127,12 +131,10 @@ class TakeAlong:
         if self.process is None:
             return
         self.process.kill()
-        self.process.communicate()
+        self.process.wait()
         self._end()
 
     def _end(self) -> None:
-        if self.process is not None and self.process.stderr is not None:
-            self.process.stderr.close()
         self.process = self.path = None
         if self._scratch is not None:
             self._scratch.cleanup()
@@ -149,5 +151,6 @@ def _place(lesson: Lesson, bars: Bars, settings: Settings, ending: str) -> Path:
     return folder / f"{folder_name(lesson.name)}_{bars[0] + 1}-{bars[1] + 1}{ending}"
 
 
-def _last_line(said: str) -> str:
-    return said.splitlines()[-1] if said else "the film ended without a word"
+def _last_line(said: Path) -> str:
+    lines = said.read_text(encoding="locale", errors="replace").strip().splitlines()
+    return lines[-1] if lines else "the film ended without a word"

@@ -1,6 +1,7 @@
 """What is taken along from a lesson; a small program stands in for the one that films."""
 
 import sys
+import time
 from argparse import ArgumentParser
 from dataclasses import replace
 from pathlib import Path
@@ -27,6 +28,15 @@ import pathlib, sys, time
 pathlib.Path(sys.argv[sys.argv.index('--out') + 1]).write_text('half')
 time.sleep(600)
 """
+
+HELPER = """
+import pathlib, sys, time
+path = pathlib.Path(sys.argv[1])
+path.touch()
+while path.exists():
+    time.sleep(0.01)
+"""
+HELPED = "import subprocess, sys, time; subprocess.Popen([sys.executable, '-c', *sys.argv[1:3]]); time.sleep(600)"
 
 
 def settings(folder: Path) -> Settings:
@@ -104,6 +114,26 @@ def test_one_video_at_a_time_and_cancelled_it_is_gone(tmp_path: Path) -> None:
     assert (files.process, files.path, files.news()) == (None, None, None)
     assert list((tmp_path / "Ann" / "take-along").iterdir()) == []
     files.cancel()
+
+
+def test_cancelling_does_not_wait_for_who_helps_to_draw(tmp_path: Path) -> None:
+    """A helper holds what the film says its errors to, and ends only when this test is over."""
+    helper = tmp_path / "helper"
+    files = TakeAlong((sys.executable, "-c", HELPED, HELPER, str(helper)))
+    files.film(ROCK, (0, 1), settings(tmp_path))
+    try:
+        while not helper.exists():
+            time.sleep(0.01)
+        files.cancel()
+        assert (files.process, files.path) == (None, None)
+    finally:
+        helper.unlink()
+
+
+def test_a_film_that_says_more_than_a_pipe_holds_ends(tmp_path: Path) -> None:
+    files = TakeAlong((sys.executable, "-c", "import sys; sys.exit('x' * 10**6 + '\\nthe end')"))
+    files.film(ROCK, (0, 1), settings(tmp_path))
+    assert ended(files) == "no video: the end"
 
 
 def test_a_video_whose_place_is_taken_is_not_kept_elsewhere(tmp_path: Path) -> None:
