@@ -18,6 +18,7 @@ _COMMANDS: tuple[tuple[str, str], ...] = (
     ("practice", "practise a lesson"),
     ("assess", "align and score a recorded performance against a score"),
     ("animate", "draw the drummer who plays a score"),
+    ("sheet", "write a score as a sheet to print"),
     ("limbs", "say which limb plays every note of a score"),
     ("lesson", "list, show, check, write, import and export lessons"),
     ("devices", "list, monitor, teach, calibrate, record and replay kits and sound outputs"),

@@ -1,4 +1,4 @@
-"""Some bars of a lesson to take along: as MIDI, as a lesson file for the teacher, as a video or a GIF with notation.
+"""Some bars of a lesson to take along: MIDI, a lesson file for the teacher, a sheet to print, a video or a GIF.
 
 Files lie in the student's own folder, `take-along`. A video takes its time: another process films it (`station
 animate`) in a folder that goes with it, so that the window goes on and a cancelled video leaves nothing.
@@ -14,6 +14,7 @@ from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
+from station.app.sheets import pdf_of, words_of_lesson
 from station.core.errors import DeviceError, StationError
 from station.core.files import growing, write_whole
 from station.core.settings import Settings
@@ -22,6 +23,7 @@ from station.drills.lesson_write import write_lesson
 from station.practice.folder import folder_name
 
 FOLDER = "take-along"
+_PAPER = "a4"
 FILM, LOOP = ".mp4", ".gif"
 ANIMATE = (sys.executable, "-m", "station.cli", "animate")
 _SAID = "said"
@@ -56,6 +58,13 @@ class TakeAlong:
         """The lesson as a file that repeats the bars; raises `BadInput` for what no file can say, `DeviceError`."""
         path = _place(lesson, bars, settings, ".toml")
         write_whole(path, write_lesson(replace(lesson, loop=bars)).encode())
+        return path
+
+    def sheet(self, lesson: Lesson, bars: Bars, settings: Settings) -> Path:
+        """The bars as notation on paper, repeated; raises `DeviceError`."""
+        path = _place(lesson, bars, settings, ".pdf")
+        words = words_of_lesson(replace(lesson, loop=bars), bars)
+        write_whole(path, pdf_of(lesson.score, bars, words, _PAPER))
         return path
 
     def film(

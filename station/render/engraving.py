@@ -35,6 +35,10 @@ _BEAM_STEP = 0.78
 _STEM_X = 0.56
 _UP_BEAM_Y, _DOWN_BEAM_Y = -5.4, 4.35
 """Stems of a voice reach at least here, so that beams stand level along the line."""
+_TUPLET_OFF = {-1: 1.0, 1: 0.4}
+"""How far a tuplet's number stands from the stems' ends: below there are the sticking's letters."""
+_TUPLET_GAP = 0.7
+"""What the bracket leaves free on either side of its number's middle."""
 _GRACE = 0.62
 _GRACE_STEP = 1.0
 _GRACE_GAP = 1.5
@@ -78,9 +82,9 @@ class Engraver:
         feet = [int(p) for p in FOOT_PIECES]
         self._is_foot = np.isin(score.notes["piece"], feet)
 
-    def bar(self, bar: int) -> NDArray[np.void]:
-        """The shapes of one bar with its left bar line, dtype `ink.SHAPE_DTYPE`."""
-        return _BarEngraver(self, bar).shapes()
+    def bar(self, bar: int, with_line: bool = True) -> NDArray[np.void]:
+        """The shapes of one bar, `with_line` the bar line on its left, dtype `ink.SHAPE_DTYPE`."""
+        return _BarEngraver(self, bar, with_line).shapes()
 
     # --- what a bar asks ------------------------------------------------------------------------------------------
 
@@ -128,7 +132,8 @@ _OPEN_FROM, _WIDE_FROM = 0.25, 0.75
 class _BarEngraver:
     """The work of one bar."""
 
-    def __init__(self, engraver: Engraver, bar: int) -> None:
+    def __init__(self, engraver: Engraver, bar: int, with_line: bool) -> None:
+        self._with_line = with_line
         self._e = engraver
         self._tempo = engraver.score.tempo_map
         self._bar = bar
@@ -161,7 +166,8 @@ class _BarEngraver:
     def _bar_line(self) -> None:
         self._at(self._start)
         x = -1.25
-        self._ink.line((x, STAFF_TOP), (x, STAFF_BOTTOM), 0.16, INK_SOFT)
+        if self._with_line:
+            self._ink.line((x, STAFF_TOP), (x, STAFF_BOTTOM), 0.16, INK_SOFT)
         if self._start >= self._e.score.end_tick:
             return
         x += (
@@ -246,7 +252,7 @@ class _BarEngraver:
         for line in ledger_steps(step):
             self._ink.line((x - 1.05 * scale, height(line)), (x + 1.05 * scale, height(line)), STAFF_LINE, INK_SOFT)
         draw_head(self._ink, head_of(piece, zone, how), (x, y), scale)
-        if row["dynamic"] == Dynamic.GHOST:
+        if row["dynamic"] == Dynamic.GHOST and row["lead_ms"] == 0:  # grace strokes are soft by themselves
             self._ink.sign("bracket_left", (x - 1.0 * scale, y), INK, scale)
             self._ink.sign("bracket_right", (x + 1.0 * scale, y), INK, scale)
         if how is Articulation.RIM_SHOT:
@@ -312,22 +318,31 @@ class _BarEngraver:
         self._ink.box((x, y), (1.1, _BEAM), INK)
 
     def _tuplet(self, group: Group, chords: Sequence[_Chord], voice: _Voice, beam_y: float, beamed: bool) -> None:
-        y = beam_y + voice.way * (2.9 if self._crowded(chords) else 1.0) + (0.45 if voice is _FEET else 0.3)
+        y = (
+            beam_y
+            + voice.way * (2.9 if self._crowded(chords) else _TUPLET_OFF[voice.way])
+            + (0.45 if voice is _FEET else 0.3)
+        )
         start = self._start + group.start if not beamed else chords[0].tick
         end = max(chords[-1].tick, self._start + group.start + (group.end - group.start) * 2 // 3)
-        self._at(start)
-        self._until(end)
+        start_s, end_s = float(self._tempo.seconds_at(start)), float(self._tempo.seconds_at(end))
         if not beamed:
-            tip = 0.5 * -voice.way
-            middle = y - 0.45
-            self._ink.box((-0.5, middle - 0.05), (1.0 + voice.stem_x, 0.1), INK_SOFT)
-            self._ink.span_s = 0.0
-            self._ink.line((-0.5, middle), (-0.5, middle + tip), 0.1, INK_SOFT)
-            self._at(end)
-            self._ink.line((0.5 + voice.stem_x, middle), (0.5 + voice.stem_x, middle + tip), 0.1, INK_SOFT)
-        centre = (float(self._tempo.seconds_at(start)) + float(self._tempo.seconds_at(end))) / 2
-        self._ink.time_s, self._ink.span_s = centre, 0.0
+            self._bracket((start_s, end_s), voice, y - 0.45)
+        self._ink.time_s, self._ink.span_s = (start_s + end_s) / 2, 0.0
         self._ink.text(str(group.tuplet), (voice.stem_x, y), Type(1.35, INK, Face.BOLD, 0.5))
+
+    def _bracket(self, ends_s: tuple[float, float], voice: _Voice, y: float) -> None:
+        """A line over a tuplet with a hook at each end, and a gap in the middle for its number."""
+        (start_s, end_s), tip = ends_s, 0.5 * -voice.way
+        centre_s, right = (start_s + end_s) / 2, 0.5 + voice.stem_x
+        gap = voice.stem_x - _TUPLET_GAP, voice.stem_x + _TUPLET_GAP
+        for begin_s, x, end_x in ((start_s, -0.5, gap[0]), (centre_s, gap[1], right)):
+            self._ink.time_s, self._ink.span_s = begin_s, centre_s - start_s
+            self._ink.box((x, y - 0.05), (end_x - x, 0.1), INK_SOFT)
+        self._ink.span_s = 0.0
+        for at_s, x in ((start_s, -0.5), (end_s, right)):
+            self._ink.time_s = at_s
+            self._ink.line((x, y), (x, y + tip), 0.1, INK_SOFT)
 
     def _crowded(self, chords: Sequence[_Chord]) -> bool:
         """Whether signs stand where the tuplet's number would."""

@@ -39,7 +39,7 @@ from station.app.panels.pads import UNDO_LABEL
 from station.app.panels.page import PANELS_LABEL
 from station.app.panels.player_controls import COUNT_IN_LABEL, MORE_LABEL
 from station.app.panels.practice import LEARN_LABEL, PRACTICE
-from station.app.panels.take_along import MIDI_LABEL, TAKE_ALONG
+from station.app.panels.take_along import MIDI_LABEL, SHEET_LABEL, TAKE_ALONG
 from station.app.panels.touch import LEARN_LABEL as TOUCH_LABEL
 from station.app.panels.transport import VIEW_LABEL
 from station.app.take_along import TakeAlong
@@ -458,6 +458,9 @@ def habits(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.item_click(MIDI_LABEL)
     ctx.yield_(2)
     drive.seen["taken"] = drive.window.news.text
+    ctx.item_click(SHEET_LABEL)
+    ctx.yield_(2)
+    drive.seen["printed"] = drive.window.news.text
     open_panel(ctx, TAKE_ALONG)
 
 

@@ -188,6 +188,7 @@ def how_sessions_go_is_ticked_and_learnt(seen: dict[str, Any]) -> None:
     assert seen["stage"] == "IDLE", "two kicks start nothing now"
     assert (seen["learns"], seen["learns unseen"]) == (True, False)
     assert seen["taken"].endswith("take-along/rock-1_1-2.mid")
+    assert seen["printed"].endswith("take-along/rock-1_1-2.pdf")
 
 
 def latency_is_measured_and_kept_when_asked(seen: dict[str, Any]) -> None:

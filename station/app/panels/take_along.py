@@ -1,4 +1,4 @@
-"""The panel of what can be taken along: the chosen bars as MIDI, as a lesson file, as a video, as a GIF."""
+"""The panel of what can be taken along: the chosen bars as MIDI, as a lesson file, as a sheet, as a video, as a GIF."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -13,14 +13,14 @@ from station.core.settings import Settings
 from station.drills.lesson import Lesson
 
 TAKE_ALONG = "Take along"
-ABOUT = "The chosen bars as MIDI, as a file for your teacher, as a video or a GIF"
+ABOUT = "The chosen bars as MIDI, as a file for your teacher, as a sheet to print, as a video or a GIF"
 HELP = (
     "The bars that the player repeats are written at the lesson's own tempo: MIDI for any other program; a lesson file"
-    " that a teacher can read and change, and this station opens; a video of the drummer with the notes and a click; a"
-    " GIF of the same that plays for ever and makes no sound."
-    " The files lie in the folder take-along beside your sessions."
+    " that a teacher can read and change, and this station opens; a sheet of notes to print; a video of the drummer"
+    " with the notes and a click; a GIF of the same that plays for ever and makes no sound. The files lie in the folder"
+    " take-along beside your sessions."
 )
-MIDI_LABEL, LESSON_LABEL = "MIDI file##take", "Lesson file##take"
+MIDI_LABEL, LESSON_LABEL, SHEET_LABEL = "MIDI file##take", "Lesson file##take", "Sheet (PDF)##take"
 FILM_LABEL, LOOP_LABEL, CANCEL_LABEL = "Video##take", "GIF##take", "Cancel##take"
 
 
@@ -54,6 +54,8 @@ class TakeAlongPanel:
             self._write(self.files.midi)
         if self._button(LESSON_LABEL, "A text that a teacher can read and change, and that this station opens"):
             self._write(self.files.lesson)
+        if self._button(SHEET_LABEL, "The notes on paper, for the music stand: A4, with a key of what is used"):
+            self._write(self.files.sheet)
         if self.files.path is None:
             if self._button(FILM_LABEL, "The drummer, the notes and the click as MP4; it is filmed while you go on"):
                 self._actions.tried(lambda: self._film(FILM))

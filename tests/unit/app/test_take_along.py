@@ -152,3 +152,9 @@ def test_a_gif_is_filmed_without_a_click(tmp_path: Path) -> None:
     path = tmp_path / "Ann" / "take-along" / "rock-1_1-2.gif"
     assert told == f"kept in {path}"
     assert "--click" not in path.read_text()
+
+
+def test_the_bars_as_a_sheet(tmp_path: Path) -> None:
+    path = TakeAlong().sheet(ROCK, (1, 1), settings(tmp_path))
+    assert path == tmp_path / "Ann" / "take-along" / "rock-1_2-2.pdf"
+    assert path.read_bytes().startswith(b"%PDF-")

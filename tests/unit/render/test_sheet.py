@@ -1,0 +1,184 @@
+"""Sheets: areas by geometry, places on the staff by hand, PDF by the specification's own rules."""
+
+import re
+import zlib
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from station.core.units import PPQ
+from station.drills.library import find_lesson
+from station.music.score import Score
+from station.music.tempo import MeterChange, TempoChange, TempoMap
+from station.render.fonts import Face
+from station.render.ink import Ink, Type
+from station.render.palette import INK, INK_FAINT
+from station.render.paper import Filled, OutlineAtlas, Spot, filled
+from station.render.pdf import pdf
+from station.render.sheet import MARGIN, PAPERS, SPACES, SheetWords, sheet
+from station.render.sheet_key import notes_used, signs_used
+from station.render.systems import ruler, systems
+
+A4 = PAPERS["a4"]
+WORDS = SheetWords("Title", "Author", 80.0)
+
+
+def area(shape: Filled) -> float:
+    """By the shoelace formula; holes run the other way round."""
+    total = 0.0
+    for x, y in (contour.T for contour in shape.contours):
+        total += float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)) / 2
+    return abs(total)
+
+
+def drawn(ink: Ink, unit: float = 1.0) -> list[Filled]:
+    assert isinstance(ink.atlas, OutlineAtlas)
+    return list(filled(ink.shapes(), ink.atlas, Spot((0.0, 0.0), unit)))
+
+
+def points(areas: list[Filled]) -> NDArray[np.float64]:
+    return np.concatenate([contour for shape in areas for contour in shape.contours])
+
+
+def test_areas_are_those_of_the_shapes() -> None:
+    ink = Ink(OutlineAtlas())
+    ink.box((1.0, 2.0), (3.0, 4.0), INK)
+    ink.line((0.0, 0.0), (3.0, 4.0), 0.5, INK)
+    ink.ellipse((0.0, 0.0), (2.0, 1.0), INK, 0.4)
+    ink.ellipse((0.0, 0.0), (2.0, 2.0), INK, 0.0, (0.0, 0.5, 0.0))
+    ink.triangle((0.0, 0.0), (1.0, 0.5), INK)
+    ink.cross((0.0, 0.0), (3.0, 4.0), 0.2, INK_FAINT)
+    found = [area(shape) for shape in drawn(ink, 2.0)]
+    ring = np.pi * (2.25**2 - 1.75**2)
+    expected = [12.0, 2.5, 2 * np.pi, ring, 1.0, 0.0]
+    assert found[:5] == pytest.approx([4 * a for a in expected[:5]], rel=0.01), "four times as much at twice the size"
+    assert len(drawn(ink)[5].contours) == 2
+    assert drawn(ink)[0].grey == 0.0
+    assert 0.2 < drawn(ink)[5].grey <= 0.5, "soft ink is still read"
+
+
+def test_a_shape_that_spans_a_time_reaches_from_one_place_to_the_other() -> None:
+    ink = Ink(OutlineAtlas())
+    ink.time_s, ink.span_s = 2.0, 3.0
+    ink.box((-0.5, 0.0), (1.0, 1.0), INK)
+    shapes = list(filled(ink.shapes(), ink.atlas, Spot((10.0, 0.0), 1.0, lambda s: 4.0 * s)))  # type: ignore[arg-type]
+    assert (points(shapes)[:, 0].min(), points(shapes)[:, 0].max()) == (10 + 8 - 0.5, 10 + 20 + 0.5)
+
+
+def test_letters_and_signs_lie_where_their_outlines_do() -> None:
+    ink = Ink(OutlineAtlas())
+    width = ink.text("HH", (5.0, 7.0), Type(10.0, INK, Face.BOLD))
+    found = points(drawn(ink))
+    assert found[:, 1].max() == pytest.approx(7.0), "an H stands on the base line"
+    assert 6.5 < 7.0 - found[:, 1].min() < 7.6, "capitals are 0.71 em high in Roboto"
+    assert 5.0 < found[:, 0].min() < found[:, 0].max() < 5.0 + width
+    for mirrored, low, high in ((False, 0.0, 2.62), (True, -2.62, 0.0)):
+        flag = Ink(ink.atlas)
+        flag.sign("flag", (0.0, 0.0), INK, mirrored=mirrored)
+        y = points(drawn(flag))[:, 1]
+        assert (y.min(), y.max()) == pytest.approx((low, high)), "a flag hangs 2.62 spaces from its stem's end"
+
+
+@pytest.fixture(scope="module")
+def groove() -> Score:
+    return find_lesson("rock-1").score
+
+
+def test_phrases_stand_under_each_other(groove: Score) -> None:
+    five = groove.repeated(3).bars(0, 4)
+    assert [len(line) for line in systems(five, 100.0)] == [4, 1]
+    assert [len(line) for line in systems(five, 70.0)] == [2, 2, 1]
+    assert [len(line) for line in systems(five, 200.0)] == [5], "all there are"
+    assert [len(line) for line in systems(five, 5.0)] == [1] * 5, "one at the least"
+    for line in systems(five, 70.0)[:2]:
+        assert line[-1].right == pytest.approx(70.0)
+
+
+def test_a_bar_s_ruler_goes_by_ticks_through_a_change_of_tempo(groove: Score) -> None:
+    (line,) = systems(groove, 100.0)
+    box = line[1]
+    place = ruler(groove, box)
+    assert place(3.0) == pytest.approx(box.start), "a bar at 80 bpm is 3 s"
+    assert place(4.5) == pytest.approx((box.start + box.right) / 2)
+    assert place(6.0) == pytest.approx(box.right)
+
+
+def test_grace_strokes_on_a_bar_s_first_beat_keep_off_the_bar_line() -> None:
+    flams = find_lesson("flam").score
+    (line, *_) = systems(flams, 200.0)
+    assert line[0].start - line[0].left > 2.5
+
+
+@pytest.mark.parametrize("name", ["rock-1", "six-eight-fill-1", "single-ratamacue", "funk-2", "bossa-fill-1"])
+@pytest.mark.parametrize("paper", sorted(PAPERS))
+def test_all_is_on_the_paper(name: str, paper: str) -> None:
+    score, (width, height) = find_lesson(name).score, PAPERS[paper]
+    words = replace(WORDS, title="A title that is long " * 6, about="word " * 200, repeat=(0, score.bar_count - 1))
+    pages = sheet(score, words, PAPERS[paper])
+    assert len(pages) == 1
+    found = points(pages[0])
+    assert found.min() >= MARGIN - 3 * SPACES[0]
+    assert found[:, 0].max() <= width - MARGIN + 1.0
+    assert found[:, 1].max() <= height - MARGIN
+
+
+def test_notes_lie_on_their_lines(groove: Score) -> None:
+    """A sheet of one bar: its five lines are the widest areas; the kick's heads fill the lowest gap between them."""
+    (page,) = sheet(groove.bars(0, 0), WORDS, A4)
+    flat = [shape for shape in page if np.ptp(shape.contours[0][:, 0]) > A4[0] * 0.7]
+    lines = sorted(float(shape.contours[0][:, 1].mean()) for shape in flat)
+    assert len(lines) == 5
+    space = lines[1] - lines[0]
+    assert space == pytest.approx(SPACES[0]), "one bar is set as large as it goes"
+    low = (lines[3] + lines[4]) / 2
+    heads = [s for s in page if len(s.contours[0]) == 40 and abs(s.contours[0][:, 1].mean() - low) < 0.05 * space]
+    assert len(heads) == 2, "kick on one and three"
+    first, third = sorted(float(head.contours[0][:, 0].mean()) for head in heads)
+    assert lines[0] < min(head.contours[0][:, 1].min() for head in heads)
+    assert third - first > 6 * space
+
+
+def test_a_long_score_goes_on_over_pages_that_are_numbered(groove: Score) -> None:
+    pages = sheet(groove.repeated(40), WORDS, A4)
+    assert len(pages) > 1
+    for page in pages:
+        assert points(page)[:, 1].max() > A4[1] - MARGIN, "number and title below"
+
+
+def test_the_key_names_what_is_used_and_no_more() -> None:
+    names = [name for _, _, name in notes_used(find_lesson("rock-1").score)]
+    assert names == ["kick", "snare", "hi-hat"]
+    assert "ride, bell" in [name for _, _, name in notes_used(find_lesson("ride-bell-1").score)]
+    signs = [words for _, words in signs_used(find_lesson("funk-2").score, with_sticking=False)]
+    assert signs == ["accent: loud", "ghost: very soft", "hi-hat open"], "nothing closes it before the end"
+    assert "closed again" in [words for _, words in signs_used(find_lesson("disco-1").score, with_sticking=False)]
+    drags = [words for _, words in signs_used(find_lesson("drag").score, with_sticking=True)]
+    assert drags == ["drag", "right and left hand"]
+    silence = Score.from_notes([], TempoMap.build([TempoChange.from_bpm(0, 80)], [MeterChange(0, 4, 4)]), 4 * PPQ)
+    assert list(notes_used(silence)) == []
+    assert len(sheet(silence, WORDS, A4)) == 1
+
+
+def test_the_file_is_a_pdf_whose_table_points_at_its_objects() -> None:
+    square = Filled((np.array([[10.0, 20.0], [30.0, 20.0], [30.0, 40.0], [10.0, 40.0]]),), 0.25)
+    data = pdf([[square], []], (200.0, 100.0), "Größe", "A")
+    assert data.startswith(b"%PDF-1.7\n")
+    assert data.endswith(b"%%EOF\n")
+    table = int(re.search(rb"startxref\n(\d+)\n", data).group(1))  # type: ignore[union-attr]
+    rows = data[table:].split(b"\n")
+    assert rows[1] == b"0 8"
+    for number, row in enumerate(rows[3:10], 1):
+        assert len(row) == 19
+        assert data[int(row[:10]) :].startswith(f"{number} 0 obj\n".encode())
+    assert data.count(b"/Type /Page ") == 2
+    assert b"/Count 2" in data
+    assert "\ufeffGröße".encode("utf-16-be").hex().encode() in data
+    start, length = data.index(b"stream\n") + 7, int(re.search(rb"/Length (\d+)", data).group(1))  # type: ignore[union-attr]
+    assert zlib.decompress(data[start : start + length]).decode().split("\n") == [
+        "1 0 0 -1 0 100 cm",
+        "0.25 g",
+        "10.00 20.00 m 30.00 20.00 l 30.00 40.00 l 10.00 40.00 l h",
+        "f",
+    ]
