@@ -101,10 +101,10 @@ def test_a_film_given_up_leaves_nobody() -> None:
 
 ORPHANED = """
 import sys
-from tests.render.test_drawers import SHOT
-from station.render.drawers import Drawers
 if __name__ == "__main__":
-    two = Drawers(SHOT, 2)
+    from station.render.drawers import Drawers
+    from station.render.picture import Shot
+    two = Drawers(Shot(), 2)
     print("begun", flush=True)
     sys.stdin.read()
 """
