@@ -90,17 +90,22 @@ def _measure(to: Connection, wish: "MeasureWish") -> None:
 
 
 class CalibrationDesk:
-    """One measurement after the other; `rest` and `wake` are the engine's, `start` begins a measurement."""
+    """One measurement after the other; `rest` and `wake` are the engine's, `start` begins a measurement.
+
+    `rest` returns what says whether the engine has let its devices go.
+    """
 
     def __init__(
         self,
-        rest: Callable[[], None],
+        rest: Callable[[], Callable[[], bool]],
         wake: Callable[[], None],
         start: "Callable[[MeasureWish], Running]" = MeasuringProcess,
         path: Path | None = None,
     ) -> None:
         self._rest, self._wake, self.start, self._path = rest, wake, start, path
         self._running: Running | None = None
+        self._wish: MeasureWish | None = None  # what waits for the devices
+        self._are_free: Callable[[], bool] = lambda: True
         self._by = ""
         self.lines: list[str] = []
         self.fault = ""
@@ -109,21 +114,30 @@ class CalibrationDesk:
     @property
     def runs(self) -> bool:
         """Whether something is being measured."""
-        return self._running is not None
+        return self._running is not None or self._wish is not None
 
     def measure(self, wish: "MeasureWish") -> None:
-        """Begin, with the engine at rest; raises `DeviceError` where that cannot be."""
+        """Begin as soon as the engine rests; raises `DeviceError` where that cannot be."""
         self.refuse()
-        self._rest()
+        self._are_free = self._rest()
         self.drop()
+        self._by, self._wish = wish.by, wish
+        self._begin()
+
+    def _begin(self) -> None:
+        """Begin with what waits for the devices, if they are free."""
+        if self._wish is None or not self._are_free():
+            return
+        wish, self._wish = self._wish, None
         try:
-            self._by, self._running = wish.by, self.start(wish)
+            self._running = self.start(wish)
         except DeviceError:
             self._wake()
             raise
 
     def advance(self) -> None:
         """Take in what was said; at its end the engine wakes. Raises `DeviceError` where it does not."""
+        self._begin()
         if self._running is None:
             return
         for told in self._running.told():
@@ -139,13 +153,13 @@ class CalibrationDesk:
 
     def cancel(self) -> None:
         """End what runs, and wake the engine; what was found stays."""
-        if self._running is not None:
-            self._running.end()
-            self._running = None
+        if self.runs:
+            self.close()
             self._wake()
 
     def close(self) -> None:
         """End what runs, and let the engine sleep: the window closes."""
+        self._wish = None
         if self._running is not None:
             self._running.end()
             self._running = None

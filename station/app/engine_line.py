@@ -5,6 +5,7 @@ heard, and `wake` starts another engine. A command that fails is no death yet: w
 """
 
 from collections.abc import Callable
+from threading import Thread
 from typing import Protocol
 
 from station.core.errors import DeviceError
@@ -31,6 +32,7 @@ class EngineLine:
     def __init__(self, wake: WakeEngine, rate_hz: int) -> None:
         self._wake = wake
         self._engine = wake()
+        self._resting: Thread | None = None
         self.rate_hz = rate_hz
         self.alive = True
         self.sound = _WAKING
@@ -46,17 +48,28 @@ class EngineLine:
 
     def wake(self) -> None:
         """Have an engine: another one where the last has died. Raises `DeviceError`."""
+        if self._resting is not None:
+            self._resting.join()
+            self._resting = None
         if not self.alive:
             self._engine, self.alive, self.sound = self._wake(), True, _WAKING
             for command in self._standing.values():
                 self.send(command)
 
     def rest(self) -> list[str]:
-        """End the engine, so that others can have its devices, until it is woken; returns the kits that were here."""
+        """Let the engine end, so that others can have its devices, until it is woken; returns the kits that were here.
+
+        It may take seconds where a sound server hangs: a thread waits for it, and `has_rested` says when it is done.
+        """
         if self.alive:
-            self._engine.close()
+            self._resting = Thread(target=self._engine.close, name="engine rests")
+            self._resting.start()
         kits, self._kits, self.alive, self.sound = self._kits, [], False, "the engine rests"
         return kits
+
+    def has_rested(self) -> bool:
+        """Whether no engine that ends still holds a device."""
+        return self._resting is None or not self._resting.is_alive()
 
     def stand(self, command: Command) -> None:
         """What this engine and every later one is told; a dead engine is told when it has been woken."""

@@ -4,7 +4,7 @@
 it when it is over. The hits carry their own times, so that the frame rate decides nothing.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -264,14 +264,15 @@ class PracticeRoom:
 
     # --- inside ------------------------------------------------------------------------------------------------------
 
-    def _rest(self) -> None:
-        """Let the engine's devices go; raises `DeviceError` while somebody plays."""
+    def _rest(self) -> Callable[[], bool]:
+        """Let the engine's devices go; returns what says whether it has. Raises `DeviceError` while somebody plays."""
         if self._goings_on.is_playing:
             raise DeviceError("end the session first: what is measured needs the sound card and the kit")
         self._ear.quiet()
         self.deck.halt()
         for kit in self._engine.rest():
             self.desk.take(DeviceLost(0, kit))
+        return self._engine.has_rested
 
     def _measured(self) -> None:
         try:
