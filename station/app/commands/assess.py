@@ -58,8 +58,9 @@ def run(arguments: argparse.Namespace) -> int:
         view = replace(view, silences=silences(score.tempo_map, score.end_tick, arguments.gap))
     alignment = align(score, performance, clocked=False, may_share_base=is_midi(arguments.performance))
     document = assessment(summarise(score, performance, alignment, view))
-    scatter_ns = alignment.asynchrony_ns[alignment.hit_of_note >= 0].std()
-    if alignment.reference is Reference.FILE and performance.hits["at_ns"][0] == 0 and scatter_ns > NS_PER_MS:
+    answered_ns = alignment.asynchrony_ns[alignment.hit_of_note >= 0]
+    is_trimmed = alignment.reference is Reference.FILE and performance.hits["at_ns"][:1].tolist() == [0]
+    if is_trimmed and len(answered_ns) and answered_ns.std() > NS_PER_MS:
         say(_BEGINS_AT_ONCE.format(arguments.performance))
     if arguments.pairs is not None:
         write_pairs(arguments.pairs, score, performance, alignment)

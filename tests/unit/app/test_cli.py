@@ -477,3 +477,13 @@ def test_a_recording_that_may_be_cut_at_its_first_stroke_is_told_to_be(
     write_performance(Performance.from_hits(hits), tmp_path / "take.mid")
     assert main(["assess", "rock-1", str(tmp_path / "take.mid")]) == 0
     assert ("first stroke lies at its very beginning" in capsys.readouterr().err) is is_told
+
+
+def test_a_recording_without_a_stroke_is_assessed_as_nothing_but_misses(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write_performance(Performance.from_hits([]), tmp_path / "silent.mid")
+    assert main(["assess", "rock-1", str(tmp_path / "silent.mid"), "--json"]) == 0
+    told = capsys.readouterr()
+    assert json.loads(told.out)["counts"]["hits"] == 0
+    assert told.err == ""
