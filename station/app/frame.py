@@ -16,8 +16,8 @@ _DOCK = "MainDockSpace"
 _SPLITS = (
     (Side.BELOW, imgui.Dir.down, 0.28, 0.56),
     (Side.BESIDE, imgui.Dir.left, 0.26, 0.45),
-    (Side.RIGHT, imgui.Dir.right, 0.42, 0.5),
-    (Side.STRIP, imgui.Dir.down, 0.5, 0.5),
+    (Side.RIGHT, imgui.Dir.right, 0.42, 0.62),
+    (Side.STRIP, imgui.Dir.down, 0.5, 0.72),
 )
 """Where panels dock, in this order: side, way, their share of what is left, and the most of it when they are large."""
 

@@ -74,7 +74,7 @@ def apply() -> None:
 
 def _colours() -> dict[imgui.Col_, Colour]:
     """The colour of each part of a panel."""
-    brand, ink, panel = dyed(palette.BRAND), dyed(palette.INK), palette.with_opacity(dyed(_PANEL), 0.97)
+    brand, ink, panel = dyed(palette.BRAND), dyed(palette.INK), dyed(_PANEL)
     return {
         imgui.Col_.text: ink,
         imgui.Col_.text_disabled: dyed(palette.INK_SOFT),
@@ -141,6 +141,30 @@ def soft(text: str) -> None:
     imgui.push_style_color(imgui.Col_.text, _vec(dyed(palette.INK_SOFT)))
     imgui.text_wrapped(text)
     imgui.pop_style_color()
+
+
+def part(title: str) -> None:
+    """A line with a title, where a part of a panel begins; one that has no room for it is broken."""
+    room = imgui.get_content_region_avail().x - 4 * imgui.get_style().item_spacing.x - points(20)
+    if imgui.calc_text_size(title).x <= room:
+        imgui.separator_text(title)
+        return
+    imgui.separator()
+    imgui.text_wrapped(title)
+
+
+def checkbox(label: str, value: bool) -> tuple[bool, bool]:
+    """A box to tick; its words are broken where the panel ends, and tick it too. Returns whether it changed, and it."""
+    inner = imgui.get_style().item_inner_spacing.x
+    if imgui.get_frame_height() + inner + imgui.calc_text_size(label).x <= imgui.get_content_region_avail().x:
+        changed, value = imgui.checkbox(label, value)
+        return bool(changed), bool(value)
+    changed, value = imgui.checkbox(f"##{label}", value)
+    imgui.same_line(0.0, inner)
+    imgui.text_wrapped(label)
+    if imgui.is_item_clicked():
+        changed, value = True, not value
+    return bool(changed), bool(value)
 
 
 def first_lines(text: str, lines: int) -> str:

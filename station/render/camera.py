@@ -103,8 +103,8 @@ _CAMERAS = {
     View.SHOULDER: Camera((0.02, 0.60, 0.70), -54 * _DEG, 50 * _DEG, 1.85, 0.78),
     View.EYES: Camera((0.05, 0.74, 0.62), -90 * _DEG, 54 * _DEG, 0.86, 1.15),
     View.TOP: Camera((0.08, 0.48, 0.6), -90 * _DEG, 88 * _DEG, 2.1, 0.80),
-    View.HANDS: Camera((-0.03, 0.42, 0.78), 60 * _DEG, 26 * _DEG, 1.15, 0.62),
-    View.FEET: Camera((-0.04, 0.50, 0.20), 196 * _DEG, 14 * _DEG, 1.45, 0.62),
+    View.HANDS: Camera((-0.03, 0.42, 0.78), 70 * _DEG, 44 * _DEG, 1.20, 0.62),
+    View.FEET: Camera((-0.02, 0.50, 0.18), 222 * _DEG, 22 * _DEG, 1.50, 0.62),
     View.LEFT_HAND: Camera((-0.12, 0.33, 0.74), 176 * _DEG, 46 * _DEG, 0.86, 0.60),
     View.RIGHT_HAND: Camera((0.00, 0.42, 0.82), 38 * _DEG, 34 * _DEG, 0.86, 0.66),
 }

@@ -97,6 +97,10 @@ _LEAST = 230.0, 100.0
 """A scene smaller than that, in pixels, shows no words: they would cover it, and each other (our choice)."""
 
 
+_SMALLEST = 0.65
+"""How small letters are made where there is little room, of their size, before words are cut (our choice)."""
+
+
 class _HudPage:
     def __init__(self, hud: Hud, ink: Ink, size: tuple[float, float]) -> None:
         self._hud, self._ink = hud, ink
@@ -109,8 +113,8 @@ class _HudPage:
 
     def lines(self) -> NDArray[np.void]:
         if self._has_room:
-            self._title()
-            self._tempo()
+            self._title(self._tempo())
+            self._place()
         return self._ink.shapes()
 
     def calls(self) -> NDArray[np.void]:
@@ -124,23 +128,36 @@ class _HudPage:
             self._message()
         return self._ink.shapes()
 
-    def _title(self) -> None:
+    def _title(self, right: float) -> None:
+        """The title as far as `right`, in smaller letters before it is cut, and the phase under it."""
         k, hud = self._k, self._hud
-        room = self._width * 0.56
-        title = Type(30 * k, INK, Face.BOLD, 0.0, _HALO)
-        self._ink.text(self._ink.fitted(hud.title, title, room), (_EDGE * k, 46 * k), title)
+        text, style = self._shrunk(hud.title, Type(30 * k, INK, Face.BOLD, 0.0, _HALO), right - 2 * _EDGE * k)
+        self._ink.text(text, (_EDGE * k, 46 * k), style)
         if hud.phase:
             self._ink.ellipse(((_EDGE + 6) * k, 71 * k), (6 * k, 6 * k), BRAND)
-            phase = Type(20 * k, _LINE, Face.REGULAR, 0.0, _HALO)
-            self._ink.text(self._ink.fitted(hud.phase, phase, room), ((_EDGE + 20) * k, 78 * k), phase)
+            text, style = self._shrunk(hud.phase, Type(20 * k, _LINE, Face.REGULAR, 0.0, _HALO), self._width * 0.56)
+            self._ink.text(text, ((_EDGE + 20) * k, 78 * k), style)
 
-    def _tempo(self) -> None:
+    def _shrunk(self, text: str, style: Type, room: float) -> tuple[str, Type]:
+        """A line that has so much room, in letters as large as fit; cut where even the smallest do not."""
+        ratio = min(room / max(self._ink.width(text, style), 1.0), 1.0)
+        smaller = replace(style, size=style.size * max(ratio, _SMALLEST))
+        return self._ink.fitted(text, smaller, room), smaller
+
+    def _tempo(self) -> float:
+        """The tempo in the corner; returns where it begins."""
         k, hud = self._k, self._hud
         right = self._width - _EDGE * k
-        if hud.beats_a_minute is not None:
-            width = self._ink.text("bpm", (right, 46 * k), Type(17 * k, _LINE, Face.REGULAR, 1.0, _HALO))
-            tempo = Type(34 * k, INK, Face.BOLD, 1.0, _HALO)
-            self._ink.text(f"{hud.beats_a_minute:.0f}", (right - width - 6 * k, 46 * k), tempo)
+        if hud.beats_a_minute is None:
+            return right
+        right -= self._ink.text("bpm", (right, 46 * k), Type(17 * k, _LINE, Face.REGULAR, 1.0, _HALO)) + 6 * k
+        tempo = Type(34 * k, INK, Face.BOLD, 1.0, _HALO)
+        return right - self._ink.text(f"{hud.beats_a_minute:.0f}", (right, 46 * k), tempo)
+
+    def _place(self) -> None:
+        """Bar and beat, and how much was right, under the tempo."""
+        k, hud = self._k, self._hud
+        right = self._width - _EDGE * k
         if hud.bar is None or hud.beat is None:
             return
         x = right - 7 * k
@@ -150,7 +167,7 @@ class _HudPage:
             self._ink.ellipse((x, 72 * k), (size, size), (BRAND if now else INK_FAINT))
             x -= 21 * k
         where = f"bar {hud.bar}" + (f" of {hud.bar_count}" if hud.bar_count else "")
-        width = self._ink.text(where, (x - 6 * k, 78 * k), Type(18 * k, _LINE, Face.REGULAR, 1.0, _HALO))
+        self._ink.text(where, (x - 6 * k, 78 * k), Type(18 * k, _LINE, Face.REGULAR, 1.0, _HALO))
         if hud.judged:
             text = f"{hud.right} of {hud.judged} right"
             self._ink.text(text, (right, 104 * k), Type(18 * k, _LINE, Face.REGULAR, 1.0, _HALO))
@@ -179,8 +196,8 @@ class _HudPage:
 
     def _message(self) -> None:
         k = self._k
-        style = Type(21 * k, INK, Face.REGULAR, 0.5)
-        text = self._ink.fitted(self._hud.message, style, self._width * 0.82)
+        message = Type(21 * k, INK, Face.REGULAR, 0.5)
+        text, style = self._shrunk(self._hud.message, message, self._width - 4 * _EDGE * k)
         width = self._ink.width(text, style) + 44 * k
         y = 132 * k
         self._ink.box((self._width / 2 - width / 2, y - 20 * k), (width, 42 * k), PANEL, None, (12 * k, 0.0, 0.0))

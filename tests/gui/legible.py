@@ -144,9 +144,13 @@ def _covered(seen: Letters, font: Font) -> Iterator[str]:
 
 
 def _scrolls(name: str) -> bool:
-    """Whether a window shows a part of what it has, and the rest by scrolling."""
-    window = imgui.internal.find_window_by_name(name)
-    return window is not None and bool(window.scroll_max.y > 0) and not window.flags & imgui.WindowFlags_.no_scrollbar
+    """Whether a window, or one that it is in, shows a part of what it has, and the rest by scrolling."""
+    window: imgui.internal.Window | None = imgui.internal.find_window_by_name(name)
+    while window is not None:
+        if window.scroll_max.y > 0 and not window.flags & imgui.WindowFlags_.no_scrollbar:
+            return True
+        window = window.parent_window
+    return False
 
 
 def _told(what: str, seen: Letters, index: int, text: str) -> str:

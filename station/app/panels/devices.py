@@ -42,7 +42,8 @@ _WHY = {
 }
 _MOST_THRESHOLD, _MOST_MASK_MS = 60, 60
 """The sliders' ends; our choice, twice what any pad needed that was read of."""
-_BARS_HIGH, _BAR_LEAST = 40, 3
+_BAR_LEAST = 3
+"""Design pixels."""
 _LOUDEST = 127
 _LIVE_SHARES = (0.38, 0.10, 0.27, 0.25)
 """What each column of the live lines takes of the width."""
@@ -124,35 +125,39 @@ class DevicesPanel:
         if not desk.pads:
             theme.soft("Strike every pad once: each then has its line here.")
             return
+        if theme.is_narrow():
+            for piece in desk.pads:
+                self._pad(piece, _below)
+            return
         if not imgui.begin_table("##pads", 4, imgui.TableFlags_.sizing_stretch_prop):
             return
         for name, share in (("pad", 0.24), ("last strokes", 0.34), ("threshold", 0.21), ("mask", 0.21)):
             imgui.table_setup_column(name, imgui.TableColumnFlags_.width_stretch, share)
         imgui.table_headers_row()
         for piece in desk.pads:
-            self._pad(piece)
+            imgui.table_next_row()
+            self._pad(piece, _next_cell)
         imgui.end_table()
 
-    def _pad(self, piece: Piece) -> None:
+    def _pad(self, piece: Piece, place: Callable[[int], None]) -> None:
+        """One pad's four controls; `place` goes to where one of them is, from 0."""
         desk = self._desk
         pad = desk.kit.pad(piece)
-        imgui.table_next_row()
-        imgui.table_next_column()
+        place(0)
         is_shown = self._touch.piece is piece
+        imgui.align_text_to_frame_padding()
         if imgui.selectable(f"{piece_name(piece)}##pad-{word(piece)}", is_shown)[0]:
             self._touch.piece = None if is_shown else piece
         theme.tooltip("Show or hide how loud its strokes count")
-        imgui.table_next_column()
+        place(1)
         _bars(desk.seen.strokes.get(piece, ()), pad.threshold)
         theme.tooltip("The last strokes, the newest on the right, and the threshold; hollow ones are held back")
-        imgui.table_next_column()
-        imgui.set_next_item_width(-1)
+        place(2)
         moved, threshold = theme.slider_int(f"##threshold-{word(piece)}", pad.threshold, 1, _MOST_THRESHOLD)
         if moved:
             desk.threshold(piece, min(max(threshold, 1), _LOUDEST))
         theme.tooltip(f"{piece_name(piece)}: softer than this velocity is no stroke")
-        imgui.table_next_column()
-        imgui.set_next_item_width(-1)
+        place(3)
         moved, mask = theme.slider_int(f"##mask-{word(piece)}", pad.mask_ns // NS_PER_MS, 0, _MOST_MASK_MS, "%d ms")
         if moved:
             desk.mask(piece, min(max(mask, 0), _MOST_MASK_MS))
@@ -193,11 +198,31 @@ class DevicesPanel:
         imgui.end_disabled()
 
 
+def _next_cell(index: int) -> None:
+    """The next control stands in the next column of the table."""
+    del index
+    imgui.table_next_column()
+    imgui.set_next_item_width(-1)
+
+
+def _below(index: int) -> None:
+    """The next control stands below the last one, and the fourth beside the third."""
+    if index == 3:
+        imgui.same_line()
+    half = (imgui.get_content_region_avail().x - imgui.get_style().item_spacing.x) / 2
+    imgui.set_next_item_width(half if index == 2 else -1)
+
+
 def _live(lines: Iterable[Line]) -> None:
     """The last lines, the newest first."""
     shown = list(lines)[::-1]
     if not shown:
         theme.soft("Strike a pad.")
+        return
+    if theme.is_narrow():
+        for line in shown:
+            words = ", ".join(filter(None, cells(line)))
+            theme.soft(words) if _is_quiet(line) else imgui.text_wrapped(words)
         return
     if imgui.begin_table("##live", len(_LIVE_SHARES), imgui.TableFlags_.sizing_stretch_prop):
         for index, share in enumerate(_LIVE_SHARES):
@@ -206,8 +231,13 @@ def _live(lines: Iterable[Line]) -> None:
             imgui.table_next_row()
             for text in cells(line):
                 imgui.table_next_column()
-                imgui.text_disabled(text) if line.ghost is not None or line.event is None else imgui.text(text)
+                imgui.text_disabled(text) if _is_quiet(line) else imgui.text(text)
         imgui.end_table()
+
+
+def _is_quiet(line: Line) -> bool:
+    """Whether it is no stroke and nothing else that the station plays by."""
+    return line.ghost is not None or line.event is None
 
 
 def cells(line: Line) -> tuple[str, str, str, str]:
@@ -233,7 +263,7 @@ def cells(line: Line) -> tuple[str, str, str, str]:
 
 def _bars(strokes: Iterable[Stroke], threshold: int) -> None:
     """The strokes as bars, the newest on the right, and the threshold across."""
-    size = imgui.ImVec2(max(imgui.get_content_region_avail().x, 1.0), theme.points(_BARS_HIGH))
+    size = imgui.ImVec2(max(imgui.get_content_region_avail().x, 1.0), imgui.get_frame_height())
     left, top = imgui.get_cursor_screen_pos()
     imgui.dummy(size)
     ink = imgui.get_window_draw_list()

@@ -110,7 +110,7 @@ class FigurePanel:
         theme.tooltip("Off: wrist, elbow and shoulder share the gain, and one's gain is the others' loss")
 
     def _group(self, group: Group) -> None:
-        imgui.separator_text(group.title)
+        theme.part(group.title)
         for control in group.controls:
             self._number(control)
 

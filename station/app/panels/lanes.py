@@ -141,7 +141,7 @@ class LanesEditor:
         if not theme.is_narrow():
             imgui.same_line()
         imgui.begin_disabled(not lane)
-        if imgui.button("The same in all bars##end-lane"):
+        if imgui.button("Same in all bars##end-lane"):
             options.end_lane(control)
         imgui.end_disabled()
         theme.tooltip("Take the lane away")

@@ -16,6 +16,8 @@ from station.render.score_view import ScoreForm
 
 T = TypeVar("T")
 
+_HIGH, _TITLE_WIDTH = 500, 150
+"""Design pixels that the popup is high, and that its titles take beside its rows."""
 LOOK_LABEL = "Look##look"
 POPUP = "##look-popup"
 _INSET_TOLD = "Hands or feet in a corner of the picture, whatever the picture itself shows (P)"
@@ -56,11 +58,13 @@ def look_popup(look: Look, actions: LookActions) -> Look:
     """Draw the popup where it is open; returns the look that was chosen."""
     if not imgui.begin_popup(POPUP):
         return look
-    theme.heading("Look", 20)
+    if not _is_low():
+        theme.heading("Look", 20)
     look = replace(look, inset=_one_of("Second picture", _INSETS, look.inset))
     look = replace(look, score=_one_of("Score", _FORMS, look.score))
     look = replace(look, double=_one_of("Your double", _DOUBLES, look.double))
-    theme.soft("Your own viewpoints")
+    if not _is_low():
+        theme.soft("Your own viewpoints")
     _slots(look, actions)
     look = _worn(look)
     imgui.end_popup()
@@ -70,7 +74,7 @@ def look_popup(look: Look, actions: LookActions) -> Look:
 def _worn(look: Look) -> Look:
     """The colours and the size of the panels."""
     look = replace(look, theme=_one_of("Colours", _THEMES, look.theme))
-    theme.soft("Size of the panels")
+    _title("Size of the panels")
     for label, steps, told in (("Smaller##scale", -1, "Ctrl+−"), ("Larger##scale", 1, "Ctrl+=")):
         imgui.begin_disabled(look.scaled(steps) == look)
         if imgui.button(label, imgui.ImVec2(theme.points(96), 0)):
@@ -85,7 +89,7 @@ def _worn(look: Look) -> Look:
 
 def _one_of(title: str, choices: Mapping[T, tuple[str, str]], chosen: T) -> T:
     """A row of buttons, one for each choice (its name, and what the tooltip says); returns the one that is chosen."""
-    theme.soft(title)
+    _title(title)
     for choice, (name, words) in choices.items():
         if imgui.radio_button(f"{name}##{title}", choice is chosen):
             chosen = choice
@@ -93,6 +97,21 @@ def _one_of(title: str, choices: Mapping[T, tuple[str, str]], chosen: T) -> T:
         imgui.same_line()
     imgui.new_line()
     return chosen
+
+
+def _is_low() -> bool:
+    """Whether the screen has no room for a line above each row."""
+    return bool(imgui.get_io().display_size.y < theme.points(_HIGH))
+
+
+def _title(words: str) -> None:
+    """What a row is about: above it, or before it where there is little room."""
+    if not _is_low():
+        theme.soft(words)
+        return
+    imgui.align_text_to_frame_padding()
+    theme.soft(words)
+    imgui.same_line(theme.points(_TITLE_WIDTH))
 
 
 def _slots(look: Look, actions: LookActions) -> None:

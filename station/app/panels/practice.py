@@ -41,11 +41,11 @@ class PracticePanel:
         habits = self._desk.now
         theme.heading("How sessions go", 20)
         for name, label, told in _TICKS:
-            changed, on = imgui.checkbox(label, bool(getattr(habits, name)))
+            changed, on = theme.checkbox(label, bool(getattr(habits, name)))
             theme.tooltip(told)
             if changed:
-                habits = replace(habits, **{name: bool(on)})  # type: ignore[arg-type] # every tick is a yes or no
-        imgui.separator_text("What pauses and goes on")
+                habits = replace(habits, **{name: on})  # type: ignore[arg-type] # every tick is a yes or no
+        theme.part("What pauses and goes on")
         habits = self._pauses(habits)
         self._desk.put(habits)
         self._learn()
