@@ -376,7 +376,7 @@ def devices(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
         ctx.yield_(2)
     drive.seen["pads"] = [piece.name for piece in desk.pads]
     ctx.set_ref(f"//{DEVICES}")
-    ctx.item_input_value("##pads/##threshold-snare", 30)
+    ctx.item_input_value("**/##threshold-snare", 30)
     ctx.yield_(2)
     drive.engine.play_bytes("99 26 0a")
     ctx.yield_(3)
@@ -415,7 +415,7 @@ def pads_are_learnt(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.item_click(UNDO_LABEL)
     ctx.yield_(2)
     drive.seen["undone"] = desk.kit.strike(10, 0x24).piece.name
-    ctx.item_click("##pads/snare##pad-snare")
+    ctx.item_click("**/snare##pad-snare")
     ctx.yield_(2)
     ctx.item_click(TOUCH_LABEL)
     ctx.yield_(2)
