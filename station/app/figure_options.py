@@ -138,11 +138,6 @@ class FigureOptions:
         """The lane of a control or a piece; None where it is the same in all bars."""
         return self.style.automation.get(name)
 
-    def begin_lane(self, name: str) -> None:
-        """Let a control change over the bars, from what it is set to."""
-        if self.lane(name) is None:
-            self.draw_lane(name, ((1.0, self.value(name)),))
-
     def draw_lane(self, name: str, lane: Automation) -> None:
         """Put a lane in the place of the control's; a lane without points is none."""
         low, high = range_of(name)

@@ -5,6 +5,7 @@ name is its file's stem; names are unique, whatever folder a file lies in. Any o
 path. Files that end in `.course.toml` are courses.
 """
 
+from contextlib import suppress
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cache
@@ -15,6 +16,7 @@ from station.core.errors import BadInput
 from station.drills.course import ENDING, Course, Where, is_course, read_course
 from station.drills.lesson import Lesson
 from station.drills.lesson_file import read_lesson
+from station.drills.rudiments import find_rudiment
 
 FIRST_LESSON = "rock-1"
 """What a newcomer meets first."""
@@ -69,7 +71,7 @@ def lesson_names() -> list[str]:
 
 
 def find_lesson(name_or_path: str) -> Lesson:
-    """The shipped lesson of that name, or the lesson in the file at that path.
+    """The shipped lesson of that name, a rudiment by its number or title too, or the lesson in the file at that path.
 
     Raises `BadInput`: the file's fault, that there is none, or for an unknown name the shipped names nearest to it.
     """
@@ -79,6 +81,8 @@ def find_lesson(name_or_path: str) -> Lesson:
     path = Path(name_or_path)
     if _is_file(path) or _is_path(path):
         return read_lesson(path)
+    with suppress(BadInput):
+        return read_lesson(files[find_rudiment(name_or_path).name])
     raise BadInput(name_or_path, "", f"no such lesson{_like(name_or_path, list(files))}")
 
 

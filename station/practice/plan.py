@@ -157,36 +157,9 @@ def plan_practice(lesson: Lesson, wishes: Wishes) -> Plan:
     section = with_sticking(section, kit, wishes.hands)
     demonstrations = lesson.demonstrations if wishes.demonstrations is None else wishes.demonstrations
 
-    segments: list[Segment] = []
-    cues: list[NDArray[np.void]] = []
-    now_ns = 0
-    click = wishes.click or PLAIN
-    count_in = _count_in(section, lesson.count_in_bars)
-    count_in_cues = click_cues(count_in.tempo_map, count_in.end_tick, counting(click))
-    section_cues = np.concatenate([click_cues(section.tempo_map, section.end_tick, click), demonstration_cues(section)])
-    for phase, times in ((Phase.DEMONSTRATION, demonstrations), (Phase.PASS, passes)):
-        if times == 0:
-            continue
-        if count_in.length_ns:
-            segments.append(Segment(Phase.COUNT_IN, 0, now_ns, now_ns + count_in.length_ns))
-        cues.append(_moved(count_in_cues, now_ns))
-        now_ns += count_in.length_ns
-        whole = section.repeated(times)
-        ends = whole.tempo_map.ns_at(np.arange(1, times + 1) * section.end_tick)
-        if phase is Phase.DEMONSTRATION:
-            for start in (0, *ends[:-1].tolist()):
-                cues.append(_moved(section_cues, now_ns + start))
-        else:
-            passes_start_ns = now_ns
-            if wishes.click is not None:
-                cues.append(_moved(click_cues(whole.tempo_map, whole.end_tick, click), now_ns))
-            if wishes.guide:
-                cues.append(_moved(demonstration_cues(whole), now_ns))
-        segments += [
-            Segment(phase, i, now_ns + start, now_ns + end)
-            for i, (start, end) in enumerate(zip((0, *ends[:-1].tolist()), ends.tolist(), strict=True))
-        ]
-        now_ns += whole.length_ns
+    line = _Timeline(section, lesson.count_in_bars, wishes)
+    line.add(Phase.DEMONSTRATION, demonstrations)
+    passes_start_ns = line.add(Phase.PASS, passes)
     return Plan(
         lesson=lesson,
         kit=kit,
@@ -195,12 +168,62 @@ def plan_practice(lesson: Lesson, wishes: Wishes) -> Plan:
         score=section.repeated(passes),
         first_bar=first,
         passes=passes,
-        segments=tuple(segments),
+        segments=tuple(line.segments),
         passes_start_ns=passes_start_ns,
-        end_ns=now_ns,
-        cues=_in_order(cues),
+        end_ns=line.end_ns,
+        cues=_in_order(line.cues),
         click=wishes.click,
     )
+
+
+class _Timeline:
+    """A session's `segments` and `cues` so far, until `end_ns`; each phase is counted in."""
+
+    def __init__(self, section: Score, count_in_bars: int, wishes: Wishes) -> None:
+        self.segments: list[Segment] = []
+        self.cues: list[NDArray[np.void]] = []
+        self.end_ns = 0
+        self._section, self._wishes, self._click = section, wishes, wishes.click or PLAIN
+        self._count_in = _count_in(section, count_in_bars)
+
+    def add(self, phase: Phase, times: int) -> int:
+        """The section `times` times in a row behind a count-in, nothing where it is none; returns when it begins."""
+        if times == 0:
+            return self.end_ns
+        self._count()
+        start_ns, whole = self.end_ns, self._section.repeated(times)
+        ends_ns = whole.tempo_map.ns_at(np.arange(1, times + 1) * self._section.end_tick).tolist()
+        starts_ns = [0, *ends_ns[:-1]]
+        if phase is Phase.DEMONSTRATION:
+            for at_ns in starts_ns:
+                self._sound(start_ns + at_ns, self._clicks(self._section), demonstration_cues(self._section))
+        else:
+            self._sound(start_ns, *self._under_passes(whole))
+        self.segments += [
+            Segment(phase, i, start_ns + begin_ns, start_ns + end_ns)
+            for i, (begin_ns, end_ns) in enumerate(zip(starts_ns, ends_ns, strict=True))
+        ]
+        self.end_ns += whole.length_ns
+        return start_ns
+
+    def _count(self) -> None:
+        if length_ns := self._count_in.length_ns:
+            self.segments.append(Segment(Phase.COUNT_IN, 0, self.end_ns, self.end_ns + length_ns))
+        count = self._count_in
+        self._sound(self.end_ns, click_cues(count.tempo_map, count.end_tick, counting(self._click)))
+        self.end_ns += length_ns
+
+    def _under_passes(self, whole: Score) -> Iterable[NDArray[np.void]]:
+        if self._wishes.click is not None:
+            yield self._clicks(whole)
+        if self._wishes.guide:
+            yield demonstration_cues(whole)
+
+    def _clicks(self, score: Score) -> NDArray[np.void]:
+        return click_cues(score.tempo_map, score.end_tick, self._click)
+
+    def _sound(self, at_ns: int, *cues: NDArray[np.void]) -> None:
+        self.cues += [_moved(each, at_ns) for each in cues]
 
 
 def demonstration_cues(score: Score) -> NDArray[np.void]:

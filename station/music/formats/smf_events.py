@@ -204,7 +204,7 @@ class _TrackReader:
         elif kind == _METER:
             self._take_meter(event_at, body[0], body[1])
         elif 1 <= kind <= _LAST_TEXT_KIND:
-            self.found.texts.append(Text(self.tick, kind, _text(body)))
+            self.found.texts.append(Text.of(self.tick, kind, body))
 
     def _take_tempo(self, event_at: int, us_per_quarter: int) -> None:
         if not us_per_quarter:
@@ -290,12 +290,3 @@ def _joined(blocks: list[_Block]) -> Columns:
         np.concatenate([first for _, _, first, _ in whole]),
         np.concatenate([second for _, _, _, second in whole]),
     )
-
-
-def _text(body: bytes) -> str:
-    """UTF-8 where it is, else Latin-1, in one line without control characters."""
-    try:
-        text = body.decode("utf-8")
-    except UnicodeDecodeError:
-        text = body.decode("latin-1")
-    return " ".join("".join(c if c.isprintable() else " " for c in text).split())

@@ -72,6 +72,15 @@ class Text:
     kind: int
     text: str
 
+    @classmethod
+    def of(cls, tick: int, kind: int, body: bytes) -> "Text":
+        """Of UTF-8 where it is, else of Latin-1, in one line without control characters."""
+        try:
+            text = body.decode("utf-8")
+        except UnicodeDecodeError:
+            text = body.decode("latin-1")
+        return cls(tick, kind, " ".join("".join(c if c.isprintable() else " " for c in text).split()))
+
 
 @dataclass(frozen=True, slots=True)
 class SysEx:

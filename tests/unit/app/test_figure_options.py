@@ -94,14 +94,10 @@ def test_a_piece_s_own_amplitude_of_the_chosen_style_comes_back() -> None:
     assert dict(options.style.pieces) == {Piece.RIDE: 30.0, Piece.SNARE: 60.0}
 
 
-def test_a_lane_begins_at_what_is_set_and_ends_without_a_trace() -> None:
+def test_a_lane_is_held_within_its_range_and_ends_without_a_trace() -> None:
     options = FigureOptions(Style(amplitude_back=35.0))
-    options.begin_lane("amplitude_back")
-    assert options.lane("amplitude_back") == ((1.0, 35.0),)
     options.draw_lane("amplitude_back", ((1.0, -20.0), (3.0, 400.0)))
     assert options.lane("amplitude_back") == ((1.0, 0.0), (3.0, 100.0))
-    options.begin_lane("amplitude_back")
-    assert options.lane("amplitude_back") == ((1.0, 0.0), (3.0, 100.0)), "what was drawn stays"
     options.end_lane("amplitude_back")
     assert not options.is_changed
 

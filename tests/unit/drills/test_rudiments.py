@@ -146,5 +146,12 @@ def test_each_ships_as_a_lesson_with_the_same_strokes(rudiment: Rudiment) -> Non
     assert {n.piece for n in shipped.score} == {Piece.SNARE}
 
 
+@pytest.mark.parametrize(("word", "title"), [("16", "Single Paradiddle"), ("Flam Tap", "Flam Tap")])
+def test_a_rudiment_is_practised_by_its_number_or_title(word: str, title: str) -> None:
+    assert find_lesson(word).title.endswith(f": {title}")
+    with pytest.raises(BadInput, match="no such lesson"):
+        find_lesson("41")
+
+
 def test_the_multiple_bounce_roll_buzzes() -> None:
     assert {n.articulation for n in rudiment_lesson(RUDIMENTS[3]).score} == {Articulation.BUZZ}
