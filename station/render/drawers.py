@@ -84,9 +84,8 @@ class Drawers:
     """`crew` processes that draw the pictures of a shot in turn; after what it raises only `close` is left to do."""
 
     def __init__(self, shot: Shot, crew: int) -> None:
-        width, height = shot.size
         self._slots = crew * _AHEAD
-        memory = get_context("spawn").RawArray(ctypes.c_uint8, self._slots * width * height * 3 // 2)
+        memory = _memory(self._slots, shot)
         self._planes = _planes(memory, shot)
         self._drawers: list[_Drawer] = []
         try:
@@ -182,6 +181,15 @@ class _Drawer:
             self._process.kill()
             self._process.join()
         self._process.close()
+
+
+def _memory(pictures: int, shot: Shot) -> "ctypes.Array[ctypes.c_uint8]":
+    """Memory for so many pictures that processes share."""
+    width, height = shot.size
+    try:
+        return get_context("spawn").RawArray(ctypes.c_uint8, pictures * width * (height * 3 // 2))
+    except OSError as fault:
+        raise DeviceError(f"there is no room for pictures: {fault.strerror or fault}") from fault
 
 
 def _planes(memory: "ctypes.Array[ctypes.c_uint8]", shot: Shot) -> Planes:
