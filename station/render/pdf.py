@@ -30,7 +30,7 @@ def pdf(pages: Sequence[Iterable[Filled]], size: tuple[float, float], title: str
 
 
 def _text(text: str) -> str:
-    return f"<{(chr(0xFEFF) + text).encode('utf-16-be').hex()}>"
+    return f"<{(chr(0xFEFF) + text).encode('utf-16-be', 'replace').hex()}>"  # a file's name may be no text
 
 
 def _stream(page: Iterable[Filled], height: float) -> bytes:

@@ -33,7 +33,8 @@ def run(arguments: argparse.Namespace) -> int:
         raise BadInput(out, "", f"expected a name that ends in {ENDING}")
     lesson = find_lesson(arguments.score) if is_lesson(arguments.score) else None
     score = load_score(arguments.score) if lesson is None else lesson.score
-    first, last = arguments.start_bar, arguments.end_bar or score.bar_count
+    first = arguments.start_bar
+    last = score.bar_count if arguments.end_bar is None else arguments.end_bar
     if not 1 <= first <= last <= score.bar_count:
         fault = f"expected bars within 1-{score.bar_count}, the first before the last"
         raise BadInput("--start-bar, --end-bar", f"{first}-{last}", fault)

@@ -1,12 +1,18 @@
 """`station sheet`: the file, which bars, what is refused."""
 
+import os
+import sys
 from pathlib import Path
 
 import pytest
 
 from station.app.sheets import words_of_lesson
 from station.cli import main
+from station.core.events import Hit
+from station.core.pieces import Piece, Zone
 from station.drills.library import find_lesson
+from station.music.formats.smf_write import write_performance
+from station.music.performance import Performance
 from tests.unit.app.test_cli import refused
 
 
@@ -28,6 +34,14 @@ def test_the_words_are_the_lesson_s() -> None:
     assert words_of_lesson(find_lesson("jazz-ride-1"), (0, 1)).feel == "swing 2 : 1"
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere names of files are Unicode")
+def test_a_file_may_have_a_name_that_is_no_text(tmp_path: Path) -> None:
+    path = tmp_path / os.fsdecode(b"caf\xe9.mid")  # Latin-1's
+    write_performance(Performance.from_hits([Hit(0, Piece.SNARE, Zone.HEAD, 80)]), path)
+    assert main(["sheet", str(path), "--out", str(tmp_path / "x.pdf")]) == 0
+    assert "caf?".encode("utf-16-be").hex().encode() in (tmp_path / "x.pdf").read_bytes()
+
+
 def test_what_cannot_be_is_refused_in_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     def said(name: str, *words: str) -> str:
         return refused(capsys, "sheet", "rock-1", "--out", str(tmp_path / name), *words)
@@ -35,5 +49,6 @@ def test_what_cannot_be_is_refused_in_one_line(tmp_path: Path, capsys: pytest.Ca
     assert "expected a name that ends in .pdf" in said("x.png")
     assert "expected bars within 1-2" in said("x.pdf", "--start-bar", "3")
     assert "expected bars within 1-2" in said("x.pdf", "--start-bar", "2", "--end-bar", "1")
+    assert "expected bars within 1-2" in said("x.pdf", "--end-bar", "0")
     assert "no such choice" in said("x.pdf", "--paper", "a3")
     assert list(tmp_path.iterdir()) == []
