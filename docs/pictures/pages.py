@@ -28,6 +28,7 @@ from station.app.panels.figure import FIGURE  # noqa: E402
 from station.app.panels.hits import HITS  # noqa: E402
 from station.app.panels.lessons import FREE_LABEL  # noqa: E402
 from station.app.panels.look_popup import LOOK_LABEL  # noqa: E402
+from station.app.panels.pads import LEARN_LABEL as LEARN_PAD_LABEL  # noqa: E402
 from station.app.panels.practice import PRACTICE  # noqa: E402
 from station.app.panels.take_along import TAKE_ALONG  # noqa: E402
 from station.core.settings import load_settings, save_settings  # noqa: E402
@@ -126,6 +127,24 @@ def _devices(drive: Drive, ctx: Context) -> None:
     ctx.yield_(3)
 
 
+def _touch(drive: Drive, ctx: Context) -> None:
+    _devices(drive, ctx)
+    ctx.set_ref(f"//{DEVICES}")
+    ctx.item_click("##pads/snare##pad-snare")
+    ctx.item_click("light##shape")
+    ctx.yield_(2)
+    ctx.mouse_move_to_pos(imgui.ImVec2(0, 0))
+    ctx.yield_(2)
+
+
+def _which_pad(drive: Drive, ctx: Context) -> None:
+    _devices(drive, ctx)
+    drive.engine.play_bytes("99 0e 40")
+    ctx.yield_(2)
+    ctx.item_click(f"//{DEVICES}/{LEARN_PAD_LABEL}")
+    ctx.yield_(3)
+
+
 def _calibration(drive: Drive, ctx: Context) -> None:
     drive.room.calibration.start = Measurement
     open_panel(ctx, DEVICES)
@@ -171,6 +190,8 @@ PAGES: Mapping[str, Callable[[Drive, Context], None]] = {
     "practice": _tool(PRACTICE),
     "take-along": _tool(TAKE_ALONG),
     "devices": _devices,
+    "touch": _touch,
+    "which-pad": _which_pad,
     "calibration": _calibration,
     "figure-bars": _lanes,
     "courses": _courses,

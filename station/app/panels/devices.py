@@ -144,10 +144,9 @@ class DevicesPanel:
         desk = self._desk
         pad = desk.kit.pad(piece)
         place(0)
-        is_shown = self._touch.piece is piece
         imgui.align_text_to_frame_padding()
-        if imgui.selectable(f"{piece_name(piece)}##pad-{word(piece)}", is_shown)[0]:
-            self._touch.piece = None if is_shown else piece
+        if imgui.selectable(f"{piece_name(piece)}##pad-{word(piece)}", self._touch.piece is piece)[0]:
+            self._touch.turn(piece)
         theme.tooltip("Show or hide how loud its strokes count")
         place(1)
         _bars(desk.seen.strokes.get(piece, ()), pad.threshold)

@@ -37,14 +37,25 @@ class TouchPart:
     def __init__(self, desk: KitDesk) -> None:
         self._desk = desk
         self.piece: Piece | None = None
+        self._is_new = False
+
+    def turn(self, piece: Piece) -> None:
+        """Show a pad, or hide it where it is shown."""
+        self._is_new = self.piece is not piece
+        self.piece = piece if self._is_new else None
 
     def gui(self, may_learn: bool) -> None:
         """Draw the pad that is shown and do what the user does with it; its strokes teach while nobody plays."""
         desk = self._desk
         if self.piece not in desk.pads:
+            if desk.pads:
+                theme.soft("A pad's name opens how loud its strokes count.")
             return
         piece, pad = self.piece, desk.kit.pad(self.piece)
         imgui.separator_text(f"How loud it counts: {piece_name(piece)}")
+        if self._is_new:
+            imgui.set_scroll_here_y(0.0)
+            self._is_new = False
         _plot(pad, desk.seen.strokes.get(piece, ()))
         theme.tooltip(
             "Right: how hard the pad says it was struck; up: what that counts as. The dots are your last strokes"
@@ -107,10 +118,12 @@ def _plot(pad: Pad, strokes: Iterable[Stroke]) -> None:
         return left + wide * sent / HARDEST, top + high * (1 - counts / HARDEST)
 
     ink.add_rect_filled((left, top), (left + wide, top + high), _u32(palette.INK, 0.06))
-    for counts, name in ((GHOST_COUNTS, "ghost"), (ACCENT_COUNTS, "accent")):
+    beside, under = theme.points(6), imgui.get_text_line_height()
+    for counts, name, is_right in ((GHOST_COUNTS, "ghost", True), (ACCENT_COUNTS, "accent", False)):  # off the curve
         ink.add_line(at(0, counts), at(HARDEST, counts), _u32(palette.INK, 0.25), theme.points(1))
-        x, y = at(0, counts)
-        ink.add_text((x + theme.points(6), y), _u32(palette.INK, 0.6), name)
+        x, y = at(HARDEST if is_right else 0, counts)
+        x += -beside - imgui.calc_text_size(name).x if is_right else beside
+        ink.add_text((x, y - under if is_right else y), _u32(palette.INK, 0.6), name)
     ink.add_line(at(pad.threshold, 0), at(pad.threshold, HARDEST), _u32(palette.BRAND, 0.5), theme.points(1.5))
     points: list[imgui.ImVec2Like] = [imgui.ImVec2(*at(sent, table[sent])) for sent in range(1, HARDEST + 1)]
     ink.add_polyline(points, _u32(palette.INK), theme.points(_LINE), 0)

@@ -9,7 +9,7 @@ import pytest
 from station.app.model import Stage, Start
 from station.app.practice_room import PracticeRoom
 from station.core.errors import BadInput
-from station.core.events import Hit, Switched
+from station.core.events import DeviceFound, Hit, Switched
 from station.core.pieces import Piece, Zone
 from station.core.settings import Settings
 from station.core.units import NS_PER_MS, NS_PER_S
@@ -68,6 +68,18 @@ def test_two_kicks_ask_once_for_what_enter_starts(tmp_path: Path) -> None:
     room, line = room_with(tmp_path)
     kicks(room, line, NS_PER_S)
     assert list(asked_for(room)) == [True, False]
+
+
+def test_strokes_that_teach_command_nothing(tmp_path: Path) -> None:
+    room, line = room_with(tmp_path)
+    line.says.append(DeviceFound(0, "TD-17"))
+    room.snapshot(1)
+    room.desk.learn_touch(Piece.KICK)
+    kicks(room, line, NS_PER_S)
+    assert not room.wants_start()
+    room.desk.give_up()
+    kicks(room, line, 3 * NS_PER_S)
+    assert room.wants_start()
 
 
 def test_two_kicks_begin_a_free_take_too(tmp_path: Path) -> None:
