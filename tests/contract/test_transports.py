@@ -119,7 +119,7 @@ def rig(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Rig]:
         yield FakeRig()
 
 
-def until(enough: Callable[[], bool], within_s: float = 10.0) -> bool:
+def until(enough: Callable[[], bool], within_s: float = 60.0) -> bool:
     give_up_s = time.monotonic() + within_s
     while not enough():
         if time.monotonic() > give_up_s:

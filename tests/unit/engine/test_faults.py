@@ -168,7 +168,7 @@ def test_a_computer_that_slept_for_an_hour_goes_on() -> None:
 def test_a_disk_that_was_full_gets_every_record_once_there_is_room(tmp_path: Path) -> None:
     path = tmp_path / "take.cap"
     words = [sys.executable, "-c", FULL_DISK, str(path)]
-    told = subprocess.run(words, capture_output=True, text=True, check=True, timeout=30).stdout.splitlines()
+    told = subprocess.run(words, capture_output=True, text=True, check=True, timeout=100).stdout.splitlines()
     assert "the capture waits in memory" in told[0]
     assert told[1] == "None"
     capture = read_capture(path)
