@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Limb, Piece
-from station.motion.contacts import strike_points
 from station.motion.kit import Kit, load_kit
 from station.motion.limbs import METHODS, assign_limbs
+from station.motion.targets import strike_points
 from station.music.formats.smf import read_midi, score_from_midi
 from station.music.score import Score
 

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Limb
 from station.motion.bouncing import bounces_on
-from station.motion.contacts import strike_points
 from station.motion.events import SAME_STROKE_S
 from station.motion.kit import Kit
+from station.motion.targets import strike_points
 from station.motion.travel import MINIMUM_JERK_PEAK, MOST_TRAVEL
 from station.music.score import Score
 

@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 from station.core.files import write_whole
 from station.core.pieces import Limb, Piece, Zone, word
 from station.motion import frame
-from station.motion.contacts import Strike, target_of
 from station.motion.drummer import Drummer
 from station.motion.figure import PARENT, Joint
 from station.motion.pedals import beater_m
 from station.motion.pose import ANGLE_NAMES
+from station.motion.targets import Strike, target_of
 
 Array = NDArray[np.float64]
 

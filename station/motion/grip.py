@@ -116,7 +116,3 @@ class Hold:
     def length_m(self, figure: Figure) -> float:
         """The length of what is held."""
         return self.held.length * figure.stick_m
-
-
-MATCHED = Hold(GRIPS["american"], HELD["stick"])
-"""The hold of a drummer of whom nothing else is said."""

@@ -12,13 +12,14 @@ from station.core.names import limb_name
 from station.core.pieces import Limb, Piece, Zone, word
 from station.motion.amplitudes import amplitudes, rebounds
 from station.motion.arm import Contact, Offsets, solve
-from station.motion.contacts import PROTRACTION_M, Lie, Strike, lie_of
+from station.motion.contacts import PROTRACTION_M, Lie, lie_of
 from station.motion.events import SHOW, WAIT, HandEvents
 from station.motion.figure import Figure
 from station.motion.grip import Hold
 from station.motion.kit import Kit
 from station.motion.maths import MANY, blocks
 from station.motion.stroke import NATURALLY, StrokePlan, Strokes
+from station.motion.targets import Strike
 from station.motion.travel import DETOUR, GIVES, Way, lifts
 from station.music.score import Score
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from station.core.pieces import Limb, Piece, word
 from station.motion import body
 from station.motion.arm import Contact
-from station.motion.flourish import Flourishes, Now, flourished
+from station.motion.flourish import NOTHING, Flourishes, Now, flourished
 from station.motion.frame import HandNow, Rig
 from station.motion.hand import HandPart
 from station.motion.instruments import Instrument
@@ -48,7 +48,8 @@ class HandKeys:
         now = self.way.at(time_s), self.strokes.at(time_s)
         if self.sweeps is not None:
             return _swept(now, self.sweeps.at(time_s)), None
-        return (now, None) if self.flourishes is None else self._raised(now, self.flourishes.at(time_s))
+        flourish = NOTHING if self.flourishes is None else self.flourishes.at(time_s)
+        return (now, None) if flourish is NOTHING else self._raised(now, flourish)
 
     def many(self, time_s: Array) -> tuple[HandNow, Now | None]:
         """The same at each time."""

@@ -11,7 +11,6 @@ from station.motion import body
 from station.motion.beats import Beats, bob_cofactors, restarts
 from station.motion.body import Ground, mean_bearing
 from station.motion.clearance import cleared
-from station.motion.contacts import strike_points
 from station.motion.detours import detoured, looks
 from station.motion.events import HandEvents, hand_events
 from station.motion.figure import Figure
@@ -29,6 +28,7 @@ from station.motion.reach import reaching
 from station.motion.shoulders import past_the_shoulder
 from station.motion.splines import Curves
 from station.motion.style import Style
+from station.motion.targets import strike_points
 from station.motion.trunk import TrunkAngles, trunk
 from station.music.score import Score
 

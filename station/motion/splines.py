@@ -71,8 +71,7 @@ def slopes(
     `times_s` (..., m) never falls; `values` (..., m); tension, continuity and bias −1 … 1, one for all or (..., m).
     """
     t, c, b = (np.asarray(x, np.float64) for x in (tension, continuity, bias))
-    steps = np.maximum(np.diff(times_s, axis=-1), _SHORTEST_S)
-    chords = np.diff(values, axis=-1) / steps
+    steps, chords = lines(times_s, values)
     earlier, later = np.ones(values.shape), np.ones(values.shape)
     np.divide(steps[..., :-1], steps[..., :-1] + steps[..., 1:], out=earlier[..., 1:-1])
     np.subtract(1, earlier[..., 1:-1], out=later[..., 1:-1])
@@ -96,12 +95,26 @@ def slopes(
 
 def cubics(times_s: Array, values: Array, into: Array, out: Array) -> Array:
     """Power form of the Hermite segments, (..., m, 4) from the key's own time on; the last holds the last value."""
+    return power_form(values, lines(times_s, values), into, out)
+
+
+Lines = tuple[Array, Array]
+"""The straight lines between keys: how long each takes and its slope, (..., m − 1)."""
+
+
+def lines(times_s: Array, values: Array) -> Lines:
+    """The lines between keys at `times_s` (..., m), which never fall, with `values` (..., m)."""
     steps = np.maximum(np.diff(times_s, axis=-1), _SHORTEST_S)
-    rise = np.diff(values, axis=-1) / steps
-    leave, arrive = out[..., :-1], into[..., 1:]
+    return steps, np.diff(values, axis=-1) / steps
+
+
+def power_form(values: Array, between: Lines, into: Array, out: Array) -> Array:
+    """`cubics` from the lines between the keys."""
+    (steps, rise), leave, arrive = between, out[..., :-1], into[..., 1:]
     result = np.zeros((*values.shape, 4))
     result[..., 0] = values
     result[..., :-1, 1] = leave
-    result[..., :-1, 2] = (3 * rise - 2 * leave - arrive) / steps
-    result[..., :-1, 3] = (leave + arrive - 2 * rise) / steps**2
+    bend = leave + arrive - 2 * rise
+    np.divide(rise - leave - bend, steps, out=result[..., :-1, 2])
+    np.divide(bend, steps * steps, out=result[..., :-1, 3])
     return result

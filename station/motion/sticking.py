@@ -8,7 +8,6 @@ kit's spots. The result is optimal.
 """
 
 import heapq
-from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -46,14 +45,6 @@ def choose_hands(notes: HandNotes) -> tuple[NDArray[np.int8], list[str]]:
         limbs[row] = Limb.RIGHT_HAND if state.hand == RIGHT else Limb.LEFT_HAND
         reasons[row] = _reason(notes, i, state)
     return limbs, reasons
-
-
-def cost_of(notes: HandNotes, hands: Sequence[int]) -> float:
-    """What it costs that `hands` (one a note, in order of time) play `notes`."""
-    state = _START
-    for i, hand in enumerate(hands):
-        state = _after(notes, i, hand, state, state.cost + sum(_terms(notes, i, hand, state)))
-    return state.cost
 
 
 def _cost(state: _State) -> float:

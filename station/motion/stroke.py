@@ -17,25 +17,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.motion.arm import Offsets
-from station.motion.splines import Curves, cubics, slopes
+from station.motion.splines import Curves
 from station.motion.whip import (
     BEFORE_S,
-    BIAS,
-    CONTINUITY,
     DOWN_S,
     FULL_HEIGHT_M,
     KEYS,
     LONGEST_S,
     REBOUND_S,
     REST_S,
-    REST_TENSION,
     SHARE_AT_TOP,
     SHARE_BEFORE,
     SHARE_REBOUND,
-    START_TENSION,
     STRIKE,
-    TENSION,
     WRIST,
+    through,
 )
 
 Array = NDArray[np.float64]
@@ -121,18 +117,12 @@ class Strokes:
         own = np.where(plan.rebounds, sliders.gain[3:], sliders.gain)  # one motion of all joints
         gain = np.minimum(own * np.minimum(room, 1.0), plan.most)
         peak = np.minimum(plan.amplitude * gain, plan.ceiling)
-        n = len(strike_s)
         times, merged = _times(strike_s, gaps, np.maximum(height_m * gain.mean(0), _LEAST_HEIGHT_M), sliders)
         merged[:, plan.rebounds] = 1.0
         struck = np.where(plan.rebounds, _REBOUNDS_AGAIN, 1.0) * np.maximum(peak, 0.0)
         values = _values(times, merged, (peak, struck), np.minimum(plan.rest_m, _REST_SHARE * height_m) / plan.lever_m)
-        tension = np.tile(TENSION[:, None, :], (1, n, 1))
-        tension[..., 0] = START_TENSION * (1 - merged)
-        tension[..., 7] = REST_TENSION * (1 - _merged_after(merged))
-        flat = (4, n * KEYS)
-        times, values = times.reshape(flat), values.reshape(flat)
-        into, out = slopes(times, values, tension.reshape(flat), np.tile(CONTINUITY, n), np.tile(BIAS, n))
-        return cls(strike_s, times, cubics(times, values, into, out))
+        cubics = through(times, values, merged, _merged_after(merged))  # what is merged has no tension
+        return cls(strike_s, times.reshape(4, -1), cubics)
 
     @cached_property
     def _fast(self) -> tuple[memoryview, list[tuple[memoryview, memoryview]]]:

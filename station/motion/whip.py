@@ -9,9 +9,9 @@ and stick.
 """
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from station.motion.splines import Curves, cubics, slopes
+from station.motion.splines import Curves, lines, power_form
 
 Array = NDArray[np.float64]
 
@@ -55,22 +55,31 @@ _STRIKE_INTO = np.array([[1.0], [1.0], [0.8], [1.0]])
 _STRIKE_OUT = np.array([[1.0], [1.0], [0.65], [2.35]])
 """Slopes at the strike in shares of the chords before and after it: the wrist already slows down, the stick does not,
 and it leaves the head at half the speed (rebound ratio 0.51)."""
-START_TENSION, REST_TENSION = 1.0, 1.0
-TENSION = np.zeros((4, KEYS))
-TENSION[:, 5:6] = 1 - (_STRIKE_INTO + _STRIKE_OUT) / 2
-BIAS = np.zeros((4, KEYS))
-BIAS[:, 5:6] = (_STRIKE_INTO - _STRIKE_OUT) / (_STRIKE_INTO + _STRIKE_OUT)
-CONTINUITY = np.array([0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0])
+
+
+def through(times_s: Array, values: Array, start: ArrayLike, rest: ArrayLike) -> Array:
+    """The cubics (4, n · KEYS, 4) of Kochanek-Bartels splines through the keys of n strokes, (4, n, KEYS) each.
+
+    Continuity is broken at the strike; `start` and `rest` (4, n) are 1 less the tension of those keys.
+    """
+    flat = (4, values.shape[1] * KEYS)
+    steps, chords = lines(times_s.reshape(flat), values.reshape(flat))
+    slopes = np.empty(flat)
+    slopes[:, :1], slopes[:, -1:] = chords[:, :1], chords[:, -1:]
+    slopes[:, 1:-1] = chords[:, :-1] + steps[:, :-1] / (steps[:, :-1] + steps[:, 1:]) * np.diff(chords, axis=1)
+    slopes[:, ::KEYS] *= start
+    slopes[:, KEYS - 1 :: KEYS] *= rest
+    into = slopes.copy()
+    into[:, STRIKE::KEYS] = _STRIKE_INTO * chords[:, STRIKE - 1 :: KEYS]
+    slopes[:, STRIKE::KEYS] = _STRIKE_OUT * chords[:, STRIKE::KEYS]
+    return power_form(values.reshape(flat), (steps, chords), into, slopes)
 
 
 def _shares_near_top() -> Array:
     """The measured stroke alone about its highest, (moments, 4): every joint in shares of its peak."""
     times = np.concatenate((-BEFORE_S, np.zeros((4, 1)), REBOUND_S, REST_S), 1)
     values = np.concatenate((SHARE_BEFORE, np.zeros((4, 1)), SHARE_REBOUND, np.zeros((4, 1))), 1)
-    tension = TENSION.copy()
-    tension[:, 0], tension[:, -1] = START_TENSION, REST_TENSION
-    into, out = slopes(times, values, tension, np.tile(CONTINUITY, (4, 1)), BIAS)
-    rows = cubics(times, values, into, out)
+    rows = through(times[:, None], values[:, None], 0.0, 0.0)
     moments = np.array([-0.24, -0.21, -0.18, -0.15, -0.12, -0.10, -0.08])
     return np.stack([Curves(times[j], rows[j, :, None]).many(moments)[0] for j in range(4)], 1)
 

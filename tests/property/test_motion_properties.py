@@ -1,5 +1,6 @@
 """What holds for any score: strokes on their drums, limbs optimal on small scores, time spent in proportion."""
 
+from collections.abc import Sequence
 from itertools import product
 
 import numpy as np
@@ -10,13 +11,13 @@ from hypothesis import strategies as st
 from station.core.pieces import Articulation, Limb, Piece, Zone
 from station.core.units import PPQ
 from station.motion import frame
+from station.motion import sticking_costs as price
 from station.motion.collisions import collisions
-from station.motion.contacts import Strike, target_of
 from station.motion.drummer import Drummer
 from station.motion.hand_notes import HandNotes, Hands
 from station.motion.kit import load_kit
 from station.motion.limbs import assign_limbs
-from station.motion.sticking import cost_of
+from station.motion.targets import Strike, target_of
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 
@@ -62,6 +63,17 @@ def test_every_tip_stroke_is_on_its_drum_and_no_stick_in_one(score: Score) -> No
     at = np.arange(-1.0, float(score.onset_s[-1]) + 1.0, 1 / 240)
     for piece, found in collisions(drummer.rows(at), KIT).pieces.items():
         assert found.max() <= 0.003, piece
+
+
+def cost_of(notes: HandNotes, hands: Sequence[int]) -> float:
+    """What it costs that `hands`, one a note in order of time, play `notes`, each note by its prices."""
+    last, doubled, cost = [-1, -1], [False, False], 0.0
+    for i, hand in enumerate(hands):
+        own = last[hand]
+        cost += sum(price.alone(notes, i, hand)) + sum(price.beside(notes, i, hand, last[1 - hand]))
+        cost += sum(price.after_own(notes, i, hand, own, doubled[hand]))
+        last[hand], doubled[hand] = i, price.is_double(notes, i, own)
+    return cost
 
 
 @given(scores(most=9), st.sampled_from(list(Hands)))
