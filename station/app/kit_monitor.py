@@ -19,6 +19,7 @@ from station.devices.kit import KitPreset
 from station.devices.kit_file import own_kit, save_kit
 from station.devices.midi_tokens import MidiTokenizer
 from station.devices.suspects import Suspects, Suspicion
+from station.devices.touch import AS_SENT
 
 _CHATTER = (b"\xf8", b"\xfe")
 """MIDI clock and active sensing: several a second, and nothing that a drummer did."""
@@ -30,7 +31,10 @@ _WIDER = 1.25
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """One line of the page: an event or a ghost, or bytes that make neither; `raw` is what was sent, in hex."""
+    """One line of the page: an event or a ghost, or bytes that make neither; `raw` is what was sent, in hex.
+
+    `counts` is what the velocity of a stroke counts as, None where that is what was sent.
+    """
 
     at_ns: int
     device: str
@@ -38,6 +42,7 @@ class Line:
     event: DeviceEvent | None = None
     ghost: Ghost | None = None
     suspicions: tuple[Suspicion, ...] = ()
+    counts: int | None = None
 
 
 class KitMonitor:
@@ -120,6 +125,10 @@ class KitMonitor:
         """The bytes of that moment; they are shown once."""
         return self._raw.get(device, {}).pop(at_ns, "")
 
+    def _counts(self, hit: Hit) -> int | None:
+        curve = self.kit(hit.device).pad(hit.piece).curve
+        return None if curve == AS_SENT else curve.table[hit.velocity]
+
     def _lines(self, told: list[DeviceEvent]) -> list[Line]:
         lines = []
         for ghost in self._bank.take_ghosts():
@@ -128,9 +137,11 @@ class KitMonitor:
         for event in told:
             raw = self._sent(event.device, event.at_ns)
             suspicions: tuple[Suspicion, ...] = ()
+            counts = None
             if isinstance(event, Hit):
+                counts = self._counts(event)
                 suspicions = tuple(self._suspects.setdefault(event.device, Suspects()).look(event))
-            lines.append(Line(event.at_ns, event.device, raw, event, None, suspicions))
+            lines.append(Line(event.at_ns, event.device, raw, event, None, suspicions, counts))
         return lines
 
 

@@ -5,6 +5,7 @@ The same desk as the window's page; what was learnt is kept at once.
 
 import argparse
 from collections.abc import Callable
+from pathlib import Path
 
 from station.app.commands.listening import listening, polls
 from station.app.commands.output import say
@@ -15,6 +16,7 @@ from station.core.events import DeviceFound, DeviceLost
 from station.core.kitmap import Strike
 from station.core.meant import meant
 from station.core.pieces import Piece, word
+from station.devices.kit_file import own_kit_path
 from station.devices.watch import Findings
 from station.devices.wizard.pads import PADS, pad_named
 from station.engine.messages import Overheard
@@ -62,8 +64,7 @@ def learn_one(arguments: argparse.Namespace) -> int:
             page.advance(monotonic_ns())
             if page.over:
                 break
-    if not page.over:
-        say("nothing was kept")
+    say(f"kept in {page.kept}; practice uses it from now on" if page.over else "nothing was kept")
     return 0
 
 
@@ -74,6 +75,11 @@ class OnePadPage:
         self._begin = begin
         self._desk = KitDesk(lambda _: None)
         self._shown = ""
+
+    @property
+    def kept(self) -> Path:
+        """Where the kit's own file is."""
+        return own_kit_path(self._desk.device)
 
     @property
     def over(self) -> bool:

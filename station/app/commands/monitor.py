@@ -76,7 +76,8 @@ class MonitorPage:
             return [self._held_back(line.ghost, line.raw)]
         if line.event is None:
             return [f"{s_from_ns(line.at_ns - self._start_ns):10.4f}  {'':60}  {line.raw}"]
-        told = f"{event_line(line.event, self._start_ns)}{_position(line.event):16}  {line.raw}".rstrip()
+        counts = "" if line.counts is None else f"  counts as {line.counts}"
+        told = f"{event_line(line.event, self._start_ns)}{counts}{_position(line.event):16}  {line.raw}".rstrip()
         return [told, *(f"{'':12}? {_words(suspicion)}" for suspicion in line.suspicions)]
 
     def _held_back(self, ghost: Ghost, raw: str) -> str:

@@ -12,6 +12,7 @@ from station.core.units import NS_PER_MS
 from station.devices.guard import Why
 from station.devices.kit import KitPreset, Pad
 from station.devices.kit_file import own_kit
+from station.devices.touch import SHAPES
 from station.devices.wizard.pads import pad_named
 from station.engine.messages import Command, Eavesdrop, Overheard, TakeKit
 
@@ -207,3 +208,11 @@ def test_a_file_at_fault_is_not_written_over(tmp_path: Path) -> None:
     bench.desk.name((10, 2), pad_named("cowbell"))
     assert "has a fault" in bench.desk.learnt
     assert path.read_text() == "pads.snare = { threshold = 900 }\n"
+
+
+def test_a_line_says_what_a_stroke_counts_as_where_that_is_not_what_was_sent(bench: Bench) -> None:
+    bench.desk.curve(Piece.SNARE, SHAPES["very_light"])
+    bench.strike(100, f"{SNARE} 20")
+    bench.strike(400, f"{KICK} 20")
+    assert [line.counts for line in bench.desk.seen.lines][-2:] == [63, None]
+    assert bench.desk.seen.strokes[Piece.SNARE][-1].velocity == 32, "bars and dots stand where the pad was struck"

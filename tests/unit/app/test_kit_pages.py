@@ -183,6 +183,7 @@ def test_one_pad_is_learnt_with_one_hit(capsys: pytest.CaptureFixture[str]) -> N
     page.advance(1300 * NS_PER_MS)
     assert capsys.readouterr().out == "note 67 (channel 10) is the high tom, rim\n"
     assert page.over
+    assert page.kept.is_file()
     kit = own_kit(DEVICE)
     assert kit is not None
     assert kit.strike(10, 67) == pad_named("tom_1/rim")
@@ -210,6 +211,8 @@ def test_a_curve_and_a_note_are_typed(capsys: pytest.CaptureFixture[str]) -> Non
     page.take(found())
     for line in ("curve snare light", "curve kick 5 110 -0.5", "note 67 tom_1/rim", "save"):
         page.obey(line)
+    (told,) = page.take(packets((100.0, "99 26 20")))
+    assert "velocity  32  counts as 48" in told
     kit = own_kit(DEVICE)
     assert kit is not None
     assert kit.pad(Piece.SNARE).curve == SHAPES["light"]
