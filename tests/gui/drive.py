@@ -68,7 +68,7 @@ from tests.gui.screen_shot import screen_shot
 
 STEP_NS = ns_from_ms(100)
 SIZE = (760, 480)
-SIZES = {"player": (1280, 560)}
+SIZES = {"player": (1280, 560), "legible": (1280, 720)}
 LESSON = "rock-2"
 MOST_FRAMES = 1000
 PICTURE_EVERY = 25
@@ -104,10 +104,10 @@ class Drive:
         options = replace(options, picture_every=picture_every, shown=self._frame_is_shown)
         self.window = Window(self.room, options, self.clock)
         self.all_seen: list[dict[str, object]] = []
-        self._wants_shot = False
+        self._wants_shot = self._wants_faults = False
         self._pixels = np.empty((0, 0, 3), np.uint8)
         self.faults: list[str] = []
-        """What cannot be read of the last screenshot."""
+        """What cannot be read of the panels as they were looked at last."""
         self._scenarios: Sequence[Scenario] = ()
 
     @property
@@ -130,13 +130,22 @@ class Drive:
         self.window.picture_every = every
         return self._pixels
 
+    def unread(self, ctx: imgui.test_engine.TestContext) -> list[str]:
+        """What cannot be read of the panels as they stand now (`legible`)."""
+        self._wants_faults = True
+        ctx.yield_(2)
+        assert not self._wants_faults
+        return self.faults
+
     def _frame_is_shown(self, snapshot: Snapshot | None) -> bool:
         """Whether the window shall stay."""
         del snapshot
         if self._wants_shot:
             assert self.window.monitors is not None
-            self._pixels, self.faults = screen_shot(self.window.monitors.screen.window()), present_faults()
-            self._wants_shot = False
+            self._pixels = screen_shot(self.window.monitors.screen.window())
+        if self._wants_shot or self._wants_faults:
+            self.faults = present_faults()
+        self._wants_shot = self._wants_faults = False
         return True
 
     def _register(self) -> None:
@@ -836,6 +845,19 @@ def graph(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     seen["result"] = graphed is not None and graphed.played is not None
 
 
+def legible(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """Every tool is opened, at both ends of the usual sizes, and what cannot be read in it is told."""
+    backdrop, docking = drive.window.backdrop, drive.window.params.docking_params
+    for scale in (1.0, 2.0):
+        backdrop.look_from(replace(backdrop.look, scale=scale))
+        for page in drive.window.pages.tools:
+            tool = docking.dockable_window_of_name(page.name)
+            tool.is_visible = True
+            ctx.yield_(5)
+            drive.seen[f"{page.name} at {scale:g}"] = drive.unread(ctx)
+            tool.is_visible = False
+
+
 def fault(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """A session that cannot begin is said in one line, and nothing else happens."""
     room = drive.room
@@ -873,6 +895,7 @@ SCENARIOS = {
     "player": player,
     "graph": graph,
     "fault": fault,
+    "legible": legible,
     "figure": figure,
 }
 

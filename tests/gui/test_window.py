@@ -108,11 +108,18 @@ def a_free_take_is_recorded_and_heard_again(seen: dict[str, Any]) -> None:
 
 
 def test_player_graph_and_figure_in_one_window(environment: dict[str, str], tmp_path: Path) -> None:
-    seen = run_in_turn(["player", "figure", "graph"], environment, tmp_path)
+    seen = run_in_turn(["player", "figure", "graph", "legible"], environment, tmp_path)
     the_demonstration_is_watched_as_in_a_player(seen["player"])
     the_demonstrator_is_made_to_move_otherwise(seen["figure"])
     the_graph_follows_and_is_zoomed(seen["graph"])
+    nothing_is_cut_off_nor_written_over(seen["legible"])
     assert (tmp_path / "sessions" / "styles" / "slots.toml").exists()
+
+
+def nothing_is_cut_off_nor_written_over(seen: dict[str, Any]) -> None:
+    looked_at = {name: faults for name, faults in seen.items() if " at " in name}
+    assert len(looked_at) >= 12, "six tools in two sizes"
+    assert not any(looked_at.values()), {name: faults for name, faults in looked_at.items() if faults}
 
 
 def the_demonstration_is_watched_as_in_a_player(seen: dict[str, Any]) -> None:

@@ -230,7 +230,7 @@ def _live(lines: Iterable[Line]) -> None:
             imgui.table_next_row()
             for text in cells(line):
                 imgui.table_next_column()
-                imgui.text_disabled(text) if _is_quiet(line) else imgui.text(text)
+                theme.soft(text) if _is_quiet(line) else imgui.text_wrapped(text)
         imgui.end_table()
 
 

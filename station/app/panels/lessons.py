@@ -65,9 +65,9 @@ class LessonsPanel:
         elif height >= theme.points(_HIGH):
             theme.heading("Lessons")
         imgui.set_next_item_width(-1)
-        _, choice.search = imgui.input_text_with_hint(
-            "##search", "Search: a word of title, level or tag", choice.search
-        )
+        hint = theme.one_line("Search: a word of title, level or tag", imgui.calc_item_width() - theme.points(24))
+        imgui.set_next_item_width(-1)
+        _, choice.search = imgui.input_text_with_hint("##search", hint, choice.search)
         theme.tooltip("Shows the lessons that contain every word")
         course_picker(choice)
         room = imgui.get_content_region_avail().y
