@@ -27,6 +27,7 @@ from tests.fakes.engine_listener import EngineListener
 from tests.fakes.jack_recorder import JackRecorder
 from tests.fakes.jack_server import JackServer, jackd_is_installed, joined
 from tests.fakes.kit_player import KitPlayer
+from tests.fakes.stillness import Stillness, run_for
 
 KEY = KeyHit(123, Piece.SNARE, Zone.HEAD, 99)
 KIT = "TD-17 fake kit"
@@ -45,7 +46,7 @@ def working(engine: LastingEngine) -> EngineProcess:
 def spare_is_ready(engine: LastingEngine) -> None:
     """The spare imports for a moment after the first engine is ready; a session begins later than that."""
     assert isinstance(engine._spare, EngineProcess)
-    time.sleep(1.0)
+    run_for(1.0)
 
 
 def kill(engine: LastingEngine) -> float:
@@ -102,7 +103,9 @@ def test_a_killed_engine_clicks_on_where_the_click_would_be(tmp_path: Path) -> N
         joined(jack_server),
         KitPlayer(jack_server, KIT, [], tmp_path),
         LastingEngine(config) as engine,
+        Stillness() as stillness,
     ):
+        begun_ns = time.monotonic_ns()
         listener = EngineListener(engine)
         listener.until(lambda event: isinstance(event, Ready))
         listener.until(lambda event: isinstance(event, DeviceFound))
@@ -116,15 +119,18 @@ def test_a_killed_engine_clicks_on_where_the_click_would_be(tmp_path: Path) -> N
         ready_s = time.monotonic() - killed_s
         with JackRecorder(jack_server, tmp_path) as recorder:
             recorder.connect("PortAudio:.*")
-            time.sleep(1.5)
+            run_for(1.5)
             heard = recorder.stop()
     assert ready_s < BACK_WITHIN_S + BUSY_S
     offset_ms = ((heard.at_ns[heard.onsets()] - started.zero_ns) % every_ns) / NS_PER_MS
     around_ms = (offset_ms + 62.5) % 125.0 - 62.5
+    assert len(around_ms) >= 4
+    if stillness.stood(begun_ns, time.monotonic_ns()):  # so has JACK's clock, or JACK has lost patience with us
+        return
+    assert not [event for event in listener.events if isinstance(event, DeviceLost)]  # it was there again at once
     assert len(around_ms) >= 8
     assert abs(np.median(around_ms)) < 25.0  # JACK takes a click a few periods of 5 ms before it is heard
     assert np.median(np.abs(around_ms - np.median(around_ms))) < 1.5
-    assert not [event for event in listener.events if isinstance(event, DeviceLost)]  # it was there again at once
 
 
 @pytest.mark.jack
@@ -148,7 +154,7 @@ def test_sound_comes_back_with_the_sound_server(jack_server: JackServer, tmp_pat
         with KitPlayer(jack_server, KIT, [], tmp_path), JackRecorder(jack_server, tmp_path) as recorder:
             listener.until(lambda event: isinstance(event, DeviceFound))
             recorder.connect("PortAudio:.*")
-            time.sleep(0.6)
+            run_for(0.6)
             assert len(recorder.stop().onsets()) >= 2
         engine.send(Record(None))
     assert len([event for event in listener.events if isinstance(event, Notice) and "again" in event.text]) == 1

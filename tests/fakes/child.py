@@ -6,6 +6,8 @@ from collections.abc import Mapping, Sequence
 from types import TracebackType
 from typing import Self
 
+ATTEMPTS = 3
+
 
 def say(line: str) -> None:
     """What a child says to its test."""
@@ -14,22 +16,32 @@ def say(line: str) -> None:
 
 
 class Child:
-    """`python -m MODULE ARGUMENTS` that has said `ready`; ended at the latest when its `with` block is left."""
+    """`python -m MODULE ARGUMENTS` that has said `ready`; ended at the latest when its `with` block is left.
+
+    One that ends before it is ready is started anew: JACK gives a client seconds to join, and a machine that stands
+    still meanwhile takes them away.
+    """
 
     def __init__(self, module: str, arguments: Sequence[str], env: Mapping[str, str]) -> None:
-        self._process = subprocess.Popen(
-            [sys.executable, "-m", module, *arguments],
-            env=dict(env),
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            text=True,
-            bufsize=1,
+        self._command, self._env = [sys.executable, "-m", module, *arguments], dict(env)
+        for attempt in range(ATTEMPTS):
+            self._process = self._started()
+            try:
+                self.expect("ready")
+            except AssertionError:
+                self.stop()
+                if attempt == ATTEMPTS - 1:
+                    raise
+            except BaseException:
+                self.stop()
+                raise
+            else:
+                return
+
+    def _started(self) -> "subprocess.Popen[str]":
+        return subprocess.Popen(
+            self._command, env=self._env, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, bufsize=1
         )
-        try:
-            self.expect("ready")
-        except BaseException:
-            self.stop()
-            raise
 
     @property
     def pid(self) -> int:

@@ -183,9 +183,9 @@ def test_a_session_with_pauses(seed: int, tmp_path: Path) -> None:
 
 
 def test_the_pauses_are_really_there(tmp_path: Path) -> None:
-    taken_back = [pause.strokes for seed in range(6) for pause in paused_day(tmp_path / f"{seed}.cap", seed, 40).pauses]
-    assert len(taken_back) > 6
-    assert sum(taken_back) > 20
+    pauses = paused_day(tmp_path / "take.cap", 0, 40).pauses
+    assert len(pauses) == 3
+    assert sum(pause.strokes for pause in pauses) > 10
 
 
 @pytest.mark.parametrize("lesson", ["rock-1", "single-paradiddle", "jazz-ride-1"])
@@ -262,7 +262,7 @@ def test_another_engine_continues_the_capture_and_the_count(tmp_path: Path) -> N
 def test_a_capture_cut_short_is_judged_up_to_there(tmp_path: Path) -> None:
     live = paused_day(tmp_path / "take.cap", 3, 40)
     data = (tmp_path / "take.cap").read_bytes()
-    for length in range(2000, len(data), len(data) // 40):
+    for length in range(2000, len(data), len(data) // 20):
         for again in judge_again(parse_capture(data[:length])):
             assert again.result().performance is not None
             assert len(again.hits) <= len(live.hits) + sum(pause.strokes for pause in live.pauses)
