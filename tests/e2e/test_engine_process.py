@@ -50,7 +50,8 @@ if __name__ == "__main__":
     with EngineProcess(EngineConfig(kits=(), sound=False)) as engine:
         try:
             print("the child imports", flush=True)
-            time.sleep(60)
+            while True:  # one long sleep would swallow a signal that comes just before it begins
+                time.sleep(0.02)
         except KeyboardInterrupt:
             print("Ctrl-C", flush=True)
         while not any(isinstance(event, Ready) for event in engine.events(1.0)):
