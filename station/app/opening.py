@@ -33,10 +33,11 @@ def open_until(frame: int) -> None:
 def open_for(seconds: float) -> None:
     """Open it on a long session, which the kit's own two kicks begin, and close it after so many seconds.
 
-    Prints "open" when the first frame is there; at the end a JSON object: when frames were `shown_ns`, and `lit`, pairs
-    of when a frame first showed a stroke and the velocity by which that is known.
+    Prints "open" when the first frame is there; at the end a JSON object: when frames were `shown_ns`, the processor's
+    seconds until then (`worked_s`), and `lit`, pairs of when a frame first showed a stroke and of its velocity.
     """
     shown_ns: list[int] = []
+    worked_s: list[float] = []
     lit: list[tuple[int, int]] = []
     before: set[int] = set()
 
@@ -45,6 +46,7 @@ def open_for(seconds: float) -> None:
         if not shown_ns:
             _say("open")
         shown_ns.append(now_ns)
+        worked_s.append(time.process_time())
         struck = set() if snapshot is None else {strike.velocity for strike in snapshot.strikes if strike.student}
         lit.extend((now_ns, velocity) for velocity in struck - before)
         before.clear()
@@ -53,7 +55,7 @@ def open_for(seconds: float) -> None:
 
     plan = plan_practice(find_lesson(FIRST_LESSON), Wishes(loops=ceil(seconds / PASS_S), demonstrations=0))
     open_window(load_settings(), plan, adapt=False, shown=shown)
-    _say(json.dumps({"shown_ns": shown_ns, "lit": lit}))
+    _say(json.dumps({"shown_ns": shown_ns, "worked_s": worked_s, "lit": lit}))
 
 
 def _say(line: str) -> None:

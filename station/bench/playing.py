@@ -23,12 +23,16 @@ from station.bench.a_screen import a_screen, installed
 from station.bench.benchmark import Benchmark, Measured
 from station.bench.serial_kit import SerialKit
 from station.core.clock import monotonic_ns
+from station.core.errors import DeviceError
 from station.core.units import NS_PER_MS, NS_PER_S
 
 _BAUD = 115_200
 _KICK, _HAT = 36, 42
 _SETTLES_S, _PLAYS_S = 5.0, 5.0
-"""How long the window may take to be at ease (quality measured, count-in over), and how long it is then watched."""
+"""How long the window may take to be at ease (kit found, drummer made), and how long it is then watched."""
+_SETTLING = 40
+"""So many frames at the least are not watched: the quality is measured in the first, and others then drawn anew."""
+_BUSY = "this computer is too busy: {} frames in {:g} s"
 _FOUND_S = 3.0
 """What the engine may take to find the kit after the first frame."""
 _GAP_S = (0.15, 0.25)
@@ -41,9 +45,10 @@ _MINUTES = 10
 
 @dataclass(frozen=True, eq=False)
 class _Played:
-    """What was seen: when frames were shown (n,) ns, and from stroke to picture (m,) ms, after the settling."""
+    """What was seen after the settling: when frames were shown, the processor's time of each, stroke to picture."""
 
     shown_ns: NDArray[np.int64]
+    worked_ms: NDArray[np.float64]
     late_ms: NDArray[np.float64]
 
     @property
@@ -112,8 +117,11 @@ def _played(seconds: float, each_minute: list[Counter[str]] | None = None) -> _P
             raise RuntimeError(f"the window ended with exit status {window.returncode}")
         told = json.loads(said[-1])
     shown_ns = np.array(told["shown_ns"], np.int64)
-    shown_ns = shown_ns[shown_ns > shown_ns[0] + _SETTLES_S * NS_PER_S]
-    return _Played(shown_ns, late_ms(kit.sent, [(at, v) for at, v in told["lit"] if at > shown_ns[0]]))
+    seen = (shown_ns > shown_ns[0] + _SETTLES_S * NS_PER_S) & (np.arange(len(shown_ns)) >= _SETTLING)
+    if np.count_nonzero(seen) < _SETTLING:
+        raise DeviceError(_BUSY.format(len(shown_ns), seconds))
+    shown_ns, worked_ms = shown_ns[seen], np.diff(np.array(told["worked_s"])[seen]) * 1000
+    return _Played(shown_ns, worked_ms, late_ms(kit.sent, [(at, v) for at, v in told["lit"] if at > shown_ns[0]]))
 
 
 def late_ms(sent: Iterable[tuple[int, int]], lit: Iterable[tuple[int, int]]) -> NDArray[np.float64]:
@@ -145,13 +153,18 @@ _NO_SCREEN = Measured(None, note="no screen, and no Xvfb to make one")
 
 def _frames() -> Measured:
     seen = _played(_SETTLES_S + _PLAYS_S)
-    return _NO_SCREEN if seen is None else Measured(1000 / seen.frame_ms, note=f"{len(seen.shown_ns)} frames")
+    if seen is None:
+        return _NO_SCREEN
+    note = f"{len(seen.shown_ns)} frames, {np.median(seen.worked_ms):.1f} ms of processor time each"
+    return Measured(1000 / seen.frame_ms, note=note)
 
 
 def _stroke_to_picture() -> Measured:
     seen = _played(_SETTLES_S + _PLAYS_S)
     if seen is None:
         return _NO_SCREEN
+    if not len(seen.late_ms):
+        return Measured(None, note=f"no stroke was on the screen within {_LOST_NS / NS_PER_MS:g} ms")
     median, most = np.percentile(seen.late_ms, (50, 99))
     note = f"median {median:.1f} ms, p99 {most:.1f}, a frame {seen.frame_ms:.1f}, {len(seen.late_ms)} strokes"
     return Measured(float(most) - seen.frame_ms, note=note)
