@@ -79,6 +79,8 @@ def find_lesson(name_or_path: str) -> Lesson:
     if name_or_path in files:
         return read_lesson(files[name_or_path])
     path = Path(name_or_path)
+    if is_course(path) and _is_file(path):
+        raise BadInput(path, "", "this is a course; name one of its lessons, or follow it in the window")
     if _is_file(path) or _is_path(path):
         return read_lesson(path)
     with suppress(BadInput):

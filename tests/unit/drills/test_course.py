@@ -7,7 +7,7 @@ import pytest
 from station.core.errors import BadInput
 from station.drills.authoring import NEW_LESSON, check_lessons
 from station.drills.course import Course
-from station.drills.library import courses_in, lesson_names, shipped_courses
+from station.drills.library import courses_in, find_lesson, lesson_names, shipped_courses
 
 GOOD = """\
 title = "My first month"
@@ -69,6 +69,12 @@ def test_a_course_that_cannot_be_read_is_told_and_the_others_stay(tmp_path: Path
     courses, faults = courses_in(tmp_path)
     assert [one.name for one in courses] == ["month"]
     assert [(one.source, type(one)) for one in faults] == [(str(bad), BadInput)]
+
+
+def test_who_asks_for_a_lesson_and_names_a_course_is_told_so(tmp_path: Path) -> None:
+    path = written(tmp_path, GOOD)
+    with pytest.raises(BadInput, match=r"month\.course\.toml: this is a course; name one of its lessons"):
+        find_lesson(str(path))
 
 
 def test_a_folder_that_is_not_there_has_none(tmp_path: Path) -> None:
