@@ -136,6 +136,9 @@ def _latency_fields(latency: Latency) -> dict[str, object]:
     }
 
 
+_MOST_TICKS = 2**32
+"""So long may what is judged be (our choice: five hours at 120 bpm); what is longer is damage."""
+
 # --- reading ----------------------------------------------------------------------------------------------------------
 
 
@@ -165,7 +168,7 @@ def _plan(fields: dict[str, object]) -> Plan:
     """As much of the plan as judgement needs: nothing sounds, and nobody demonstrates."""
     section = _section(fields)
     passes, start_ns, end_ns = (_whole(fields[key]) for key in ("passes", "passes_start_ns", "end_ns"))
-    if not 1 <= passes <= MAX_LOOPS or section.end_tick <= 0:
+    if not 1 <= passes <= MAX_LOOPS:
         raise ValueError
     lesson = Lesson(
         name=str(fields["lesson"]), title=str(fields["title"]), score=section, beat_ticks=_whole(fields["beat_ticks"])
@@ -192,7 +195,12 @@ def _section(fields: dict[str, object]) -> Score:
         [TempoChange(*map(_whole, _list(change))) for change in tempos],
         [MeterChange(*map(_whole, _list(change))) for change in meters],
     )
-    return Score.from_notes([_note(_list(row)) for row in rows], tempo_map, _whole(fields["end_tick"]))
+    end_tick, notes = _whole(fields["end_tick"]), [_note(_list(row)) for row in rows]
+    if not 0 < end_tick <= _MOST_TICKS or any(not 0 <= note.tick < end_tick for note in notes):
+        raise ValueError
+    if any(meter.beats > _MOST_TICKS for meter in tempo_map.meters):
+        raise ValueError
+    return Score.from_notes(notes, tempo_map, end_tick)
 
 
 def _note(row: list[object]) -> Note:
@@ -200,6 +208,8 @@ def _note(row: list[object]) -> Note:
     openness, lead_ms = value["openness"], value["lead_ms"]
     if not isinstance(openness, float | int | None) or not isinstance(lead_ms, float | int):
         raise TypeError
+    if openness is not None and not 0 <= openness <= 1:
+        raise ValueError
     return Note(
         tick=_whole(value["tick"]),
         piece=Piece(_whole(value["piece"])),

@@ -30,13 +30,14 @@ from station.engine.engine import Engine
 from station.engine.messages import Command, EngineEvent, Started
 from station.engine.messages import Record as SetRecord
 from station.music.judgement import Judgement
+from station.music.score import NOTE_DTYPE
 from station.practice.adaptation import Adaptation, Row
 from station.practice.headless import practise_adaptively, practise_virtually
 from station.practice.judged_again import judge_again
 from station.practice.latency import KitLatency, Latency
 from station.practice.pausing import start_of
 from station.practice.plan import Plan, Wishes, plan_practice
-from station.practice.remarks import said_in
+from station.practice.remarks import PassBegan, said_in, text_of
 from station.practice.session import Session, SessionResult
 from station.practice.student_spec import parse_spec
 from station.practice.virtual_student import play
@@ -287,6 +288,31 @@ def test_a_capture_from_before_there_were_remarks_holds_no_session() -> None:
 def test_a_damaged_remark_is_named(text: str) -> None:
     with pytest.raises(BadInput, match="remark at 5 ns"):
         said_in(Remark(5, text))
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("end_tick", 1),  # its notes lie behind it
+        ("end_tick", 2**61),
+        ("meters", [[0, 2**61, 4]]),
+        ("passes", 1001),
+        (("notes", "tick"), 2**61),
+        (("notes", "tick"), -1),
+        (("notes", "openness"), 1e308),
+        (("notes", "piece"), 99),
+    ],
+)
+def test_a_score_that_none_can_be_is_named(key: str | tuple[str, str], value: object) -> None:
+    """Each of these once ended in numpy's words, or asked for terabytes."""
+    fields = json.loads(text_of(PassBegan(0, plan_of("rock-1", 1), LATENCY, waits=False)))
+    assert isinstance(said_in(Remark(5, json.dumps(fields))), PassBegan)
+    if isinstance(key, str):
+        fields[key] = value
+    else:
+        fields[key[0]][0][(NOTE_DTYPE.names or ()).index(key[1])] = value
+    with pytest.raises(BadInput, match="remark at 5 ns"):
+        said_in(Remark(5, json.dumps(fields)))
 
 
 def test_what_a_later_version_says_is_passed_over() -> None:
