@@ -22,6 +22,7 @@ from station.devices.replay import transport_zeros_ns
 from station.drills.library import find_lesson
 from station.music.judgement import Label
 from station.practice.folder import CAPTURE_NAME
+from station.practice.judged_again import judge_again
 from station.practice.plan import Wishes, plan_practice
 from station.practice.student_spec import parse_spec
 from station.practice.virtual_student import play
@@ -131,9 +132,14 @@ def test_a_fake_kit_is_heard_judged_and_sounded(tmp_path: Path) -> None:
     assert document["session"]["latency"] == "12 ms input (measured), -4 ms output (measured)"
 
     assert {path.name for path in report.iterdir()} >= {CAPTURE_NAME, "report.json", "report.txt", "pairs.csv"}
-    if stillness.stood(
-        start_ns - NS_PER_S, sent[-1].at_ns + NS_PER_S
-    ):  # then the kit, too, played late, or all at once
+    (again,) = judge_again(read_capture(report / CAPTURE_NAME))
+    alignment = again.result().alignment
+    judged = [document["counts"][name] for name in ("matched", "misses", "extras", "wrong_piece")]
+    assert [alignment.count(label) for label in (Label.MATCH, Label.MISS, Label.EXTRA, Label.WRONG_PIECE)] == judged
+    again_ms = alignment.asynchrony_ns[(alignment.note_label == Label.MATCH) & ~plan.score.is_grace].mean() / NS_PER_MS
+    assert document["timing"]["mean_signed_asynchrony_ms"] == pytest.approx(again_ms, abs=0.001)
+    # where the machine stood still, the kit, too, played late, or all at once
+    if stillness.stood(start_ns - NS_PER_S, sent[-1].at_ns + NS_PER_S):
         return
     assert document["counts"]["hits"] == len(student.performance)
     assert abs(document["counts"]["misses"] - truth.count(Label.MISS)) <= 1
