@@ -157,11 +157,9 @@ def cymbal(radius: float, detail: Detail, bell: float = 0.19) -> Mesh:
 
 
 def _grooved(mesh: Mesh, detail: Detail) -> Mesh:
-    """Every other ring reflects a little less: the tonal grooves of the lathe."""
-    if not detail.hardware:
-        return mesh
+    """Every other ring reflects a little less: the tonal grooves of the lathe, broad bands where rings are few."""
     ring = np.arange(len(mesh.position)) // (detail.segments + 1)
-    return mesh.shaded(np.where(ring % 2 == 0, 1.0, 0.80))
+    return mesh.shaded(np.where(ring % 2 == 0, 1.0, 0.80 if detail.hardware else 0.72))
 
 
 def hat_bottom(radius: float, detail: Detail) -> Mesh:
