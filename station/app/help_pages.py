@@ -33,12 +33,13 @@ HELP: Mapping[Topic, Help] = MappingProxyType(
             " then it is your turn.",
             (
                 ("The list", "from first steps to hard; the search finds words of title, level, author and tags"),
+                ("All lessons", "or one course, in its teacher's order; marks beside the lessons say how far you are"),
                 ("the tempo follows me", "each pass begins where the last one led, and says why"),
                 ("passes", "how often the loop is played"),
                 ("click", "without it you are counted in, and the score then follows your own tempo"),
                 ("Start", "or Enter, or two kicks; Esc stops, and what was played is kept and judged"),
                 ("The strip", "plays the demonstration: step by step, backwards, at 10 to 200 %, counted in or not; its"
-                 " keys are on the next leaf"),
+                 " keys are under Keys"),
                 ("The ruler", "a drag over bars repeats them, and Start practises them; a double click takes all"),
             ),
         ),
@@ -47,6 +48,7 @@ HELP: Mapping[Topic, Help] = MappingProxyType(
             (
                 ("Tempo, click", "drag, type or tap a tempo, or play without a click"),
                 ("Listen back", "plays the take once more; it is kept in your sessions folder"),
+                ("Video of it", "films the drummer who plays your take"),
             ),
         ),
         Topic.PLAYING: Help(

@@ -92,7 +92,8 @@ def _lessons(top: Table, where: Where) -> tuple[str, ...]:
         at = where(lesson)
         name = None if at is None else lesson_name(at)
         if name is None:
-            top.faults.add((*top.path, "lessons", index), f"no such lesson: {lesson}; `station lesson list` shows all")
+            advice = "a file is named from the course's folder" if "/" in lesson else "`station lesson list` shows all"
+            top.faults.add((*top.path, "lessons", index), f"no such lesson: {lesson}; {advice}")
         elif at != name and where(name) == name:  # progress is remembered by the name alone
             top.faults.add(
                 (*top.path, "lessons", index), f"{lesson} has the name of a lesson that ships; name the file otherwise"

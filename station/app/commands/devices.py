@@ -41,7 +41,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     teach = verbs.add_parser("learn", help="teach the station your kit: strike what is asked for")
     add_pad_options(teach)
     record = verbs.add_parser("record", help="keep every byte of a kit with its time; Ctrl-C ends")
-    record.add_argument("file", metavar="FILE", type=Path, help="the capture to write")
+    record.add_argument("file", metavar="FILE", type=Path, help="the capture to write; one that is there goes on")
     for verb in (watch, teach, record):
         verb.add_argument("--kit", metavar="PORT", action="append", help=KIT_HELP)
         verb.add_argument("--seconds", type=_seconds, metavar="S", help="end by itself after so long")

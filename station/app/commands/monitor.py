@@ -44,7 +44,7 @@ class MonitorPage:
         if findings.found:
             self._device = device
             shown, fault = self._kits.found(device, now_ns)
-            lines.append(fault or f"{device}: {self._kits.kit(device).title}; {USAGE} | save")
+            lines.append(fault or f"{device}: {self._kits.kit(device).title}; {USAGE} | save; Ctrl-C ends")
             lines += self._words(shown)
         for packet in findings.packets:
             lines += self._words(self._kits.bytes_came(device, packet.data, packet.at_ns))

@@ -27,8 +27,18 @@ def is_midi(name: str) -> bool:
 
 
 def is_capture(name: str) -> bool:
-    """Whether `name` ends as captures do."""
-    return Path(name).suffix.lower() == CAPTURE_ENDING
+    """Whether `name` ends as captures do, or is a file that begins as they do: `devices record` takes any name."""
+    return Path(name).suffix.lower() == CAPTURE_ENDING or _begins_as_capture(Path(name))
+
+
+def _begins_as_capture(path: Path) -> bool:
+    try:
+        with path.open("rb") as file:
+            from station.devices.capture import MAGIC
+
+            return file.read(len(MAGIC)) == MAGIC
+    except (OSError, ValueError):  # no file, a folder, no name that a file can have
+        return False
 
 
 def is_lesson(name: str) -> bool:
@@ -99,12 +109,11 @@ def load_score_and_performance(score_name: str, performance_name: str) -> tuple[
 def performance_of_capture(path: Path) -> Performance:
     """All strokes of the capture at `path`, from the first on; raises `BadInput`."""
     from station.core.events import Choke, Hit
-    from station.devices.capture import MAGIC, read_capture
+    from station.devices.capture import read_capture
     from station.devices.replay import replay
 
-    with path.open("rb") as file:
-        if file.read(len(MAGIC)) != MAGIC:
-            raise BadInput(path, "", f"neither a MIDI file ({', '.join(MIDI_ENDINGS)}) nor a capture")
+    if not _begins_as_capture(path):
+        raise BadInput(path, "", f"neither a MIDI file ({', '.join(MIDI_ENDINGS)}) nor a capture")
     events = list(replay(read_capture(path)))
     hits = [event for event in events if isinstance(event, Hit)]
     start_ns = hits[0].at_ns if hits else 0

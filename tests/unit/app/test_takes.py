@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from station.app.commands.scores import is_lesson, load_score
 from station.app.commands.takes import FREE_TITLE, take_as_score
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.devices.presets import GENERAL_MIDI_PRESET
@@ -36,6 +37,14 @@ def taken(folder: Path, has_transport: bool) -> Path:
 def seconds(path: Path) -> list[float]:
     score = take_as_score(path)
     return [float(ns) / NS_PER_S for ns in score.tempo_map.ns_at(score.notes["tick"])]
+
+
+def test_a_capture_of_any_name_is_a_score(tmp_path: Path) -> None:
+    path = taken(tmp_path, has_transport=False).rename(tmp_path / "take.cap")
+    assert len(load_score(str(path))) == 2
+    assert not is_lesson(str(path))
+    assert is_lesson("rock-1")
+    assert is_lesson(str(tmp_path))
 
 
 @pytest.mark.parametrize(

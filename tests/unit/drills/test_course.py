@@ -43,7 +43,12 @@ def test_a_course_has_its_lessons_in_their_order_those_of_files_too(tmp_path: Pa
     ("text", "line", "column", "words"),
     [
         (GOOD.replace('"rock-2"', '"rok-2"'), 6, 3, "no such lesson: rok-2"),
-        (GOOD.replace("mine.toml", "none.toml"), 7, 3, "no such lesson: own/none.toml"),
+        (
+            GOOD.replace("mine.toml", "none.toml"),
+            7,
+            3,
+            "no such lesson: own/none.toml; a file is named from the course's folder",
+        ),
         (GOOD.replace("own/mine.toml", "month.course.toml"), 7, 3, "no such lesson: month.course.toml"),
         (GOOD.replace("own/mine.toml", "own/rock-3.toml"), 7, 3, "rock-3.toml has the name of a lesson that ships"),
         (GOOD.replace('"rock-1"', '"rock-2"'), 8, 3, "rock-2 is in the course already"),
