@@ -104,7 +104,7 @@ def test_what_moves_passes_behind_the_words() -> None:
     ctx = standalone_context()
     with ctx:
         painter, target = Painter(ctx, QUALITIES[0]), Target(ctx, SIZE)
-        near = named(View.FRONT).zoomed(1.6)  # the figure is where a long title stands
+        near = named(View.FRONT).zoomed(2.0)  # the figure is where a title stands
 
         def drawn(title: str, has_figure: bool) -> NDArray[np.int64]:
             snapshot = replace(picture_of(DRUMMER, 0.5), hud=Hud(title))
@@ -113,7 +113,7 @@ def test_what_moves_passes_behind_the_words() -> None:
             return np.asarray(target.read().astype(np.int64).sum(axis=2))
 
         bare, empty, worded, whole = (
-            drawn(t, f) for t, f in (("", True), ("", False), ("M" * 40, False), ("M" * 40, True))
+            drawn(t, f) for t, f in (("", True), ("", False), ("M" * 20, False), ("M" * 20, True))
         )
         letters = (worded - empty > 300) & (worded > 600)
         behind = letters & (np.abs(bare - empty) > 60)
