@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 from station.app.commands.output import print_json, say
-from station.app.commands.scores import existing, is_midi
+from station.app.commands.scores import existing, is_capture, is_midi, load_score
 from station.core.errors import BadInput
 from station.core.files import write_whole
 
@@ -22,8 +22,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     check = verbs.add_parser("check", help="every fault of lesson and course files, with line and column")
     check.add_argument("paths", metavar="PATH", nargs="+", help="lesson and course files, or folders of them")
     verbs.add_parser("new", help="print a lesson to start from")
-    importing = verbs.add_parser("import", help="write a lesson from a MIDI file")
-    importing.add_argument("source", metavar="SOURCE", help="a MIDI file")
+    importing = verbs.add_parser("import", help="write a lesson from a MIDI file or a take")
+    importing.add_argument("source", metavar="SOURCE", help="a MIDI file, or a take")
     exporting = verbs.add_parser("export", help="write a lesson as a MIDI file")
     exporting.add_argument("lesson", metavar="LESSON", help="a lesson's name or file")
     for verb in (importing, exporting):
@@ -108,17 +108,16 @@ def _new(_: argparse.Namespace) -> int:
 def _import(arguments: argparse.Namespace) -> int:
     from station.drills.fit import fit_score, lesson_of
     from station.drills.lesson_write import write_lesson
-    from station.music.formats.smf import read_midi, score_from_midi
 
-    if not is_midi(arguments.source):
-        raise BadInput(arguments.source, "", "expected a MIDI file (.mid)")
+    if not is_midi(arguments.source) and not is_capture(arguments.source):
+        raise BadInput(arguments.source, "", "expected a MIDI file (.mid) or a take (.capture)")
     out: Path = arguments.out
     if out.suffix != ".toml":
         raise BadInput(out, "", "expected a name that ends in .toml")
     if out.exists() and not arguments.overwrite:
         raise BadInput(out, "", "is there already: choose another name, or say --overwrite")
     source = existing(arguments.source)
-    score = score_from_midi(read_midi(source))
+    score = load_score(str(source))
     if not len(score):
         raise BadInput(source, "", "there is no drum note in it")
     fitted = fit_score(score)

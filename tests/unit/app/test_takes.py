@@ -6,8 +6,11 @@ import pytest
 
 from station.app.commands.scores import is_lesson, load_score
 from station.app.commands.takes import FREE_TITLE, take_as_score
+from station.cli import main
+from station.core.pieces import Piece
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.devices.presets import GENERAL_MIDI_PRESET
+from station.drills.library import find_lesson
 from station.engine.engine import Engine
 from station.engine.messages import Record
 from station.practice.click import PLAIN
@@ -45,6 +48,15 @@ def test_a_capture_of_any_name_is_a_score(tmp_path: Path) -> None:
     assert not is_lesson(str(path))
     assert is_lesson("rock-1")
     assert is_lesson(str(tmp_path))
+
+
+def test_a_take_is_imported_onto_the_grid_of_a_lesson(tmp_path: Path) -> None:
+    """At 120 bpm the kick at 2.1 s and the snare at 2.6 s lie a fifth of a beat behind beats 1 and 2 of their bar."""
+    out = tmp_path / "mine.toml"
+    assert main(["lesson", "import", str(taken(tmp_path, has_transport=True)), "--out", str(out)]) == 0
+    score = find_lesson(str(out)).score
+    assert len(score) == 2
+    assert set(score.notes["piece"].tolist()) == {Piece.KICK, Piece.SNARE}
 
 
 @pytest.mark.parametrize(
