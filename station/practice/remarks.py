@@ -138,6 +138,8 @@ def _latency_fields(latency: Latency) -> dict[str, object]:
 
 _MOST_TICKS = 2**32
 """So long may what is judged be (our choice: five hours at 120 bpm); what is longer is damage."""
+_MOST_LEAD_MS = 10_000.0
+"""No grace stroke lies so far from its note."""
 
 # --- reading ----------------------------------------------------------------------------------------------------------
 
@@ -168,15 +170,14 @@ def _plan(fields: dict[str, object]) -> Plan:
     """As much of the plan as judgement needs: nothing sounds, and nobody demonstrates."""
     section = _section(fields)
     passes, start_ns, end_ns = (_whole(fields[key]) for key in ("passes", "passes_start_ns", "end_ns"))
-    if not 1 <= passes <= MAX_LOOPS:
+    beat_ticks, tempo_bpm = _whole(fields["beat_ticks"]), float(str(fields["tempo_bpm"]))
+    if not (1 <= passes <= MAX_LOOPS and 0 < beat_ticks <= _MOST_TICKS and 0 < tempo_bpm < math.inf):
         raise ValueError
-    lesson = Lesson(
-        name=str(fields["lesson"]), title=str(fields["title"]), score=section, beat_ticks=_whole(fields["beat_ticks"])
-    )
+    lesson = Lesson(name=str(fields["lesson"]), title=str(fields["title"]), score=section, beat_ticks=beat_ticks)
     return Plan(
         lesson=lesson,
         kit=load_kit(DEFAULT_KIT),
-        tempo_bpm=float(str(fields["tempo_bpm"])),
+        tempo_bpm=tempo_bpm,
         section=section,
         score=section.repeated(passes),
         first_bar=_whole(fields["first_bar"]),
@@ -208,7 +209,7 @@ def _note(row: list[object]) -> Note:
     openness, lead_ms = value["openness"], value["lead_ms"]
     if not isinstance(openness, float | int | None) or not isinstance(lead_ms, float | int):
         raise TypeError
-    if openness is not None and not 0 <= openness <= 1:
+    if not abs(lead_ms) <= _MOST_LEAD_MS or (openness is not None and not 0 <= openness <= 1):
         raise ValueError
     return Note(
         tick=_whole(value["tick"]),
