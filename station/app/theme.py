@@ -195,9 +195,9 @@ def one_line(text: str, width: float) -> str:
 
 
 def tooltip(text: str) -> None:
-    """Explain the control that was drawn last."""
+    """Explain the control that was drawn last, while it is looked at; one that is typed or dragged in is understood."""
     hovered = imgui.HoveredFlags_.delay_normal | imgui.HoveredFlags_.allow_when_disabled
-    if imgui.is_item_hovered(hovered) and imgui.begin_tooltip():
+    if imgui.is_item_hovered(hovered) and not imgui.is_item_active() and imgui.begin_tooltip():
         imgui.push_text_wrap_pos(points(_TOOLTIP_WIDTH))
         imgui.text(text)
         imgui.pop_text_wrap_pos()
