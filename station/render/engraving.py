@@ -26,6 +26,8 @@ STAFF_TOP, STAFF_BOTTOM = -2.0, 2.0
 STICKING_Y = 6.5
 """Baseline of the R and L below the staff."""
 BAR_NUMBER_Y = -7.4
+_NUMBER_X = 0.7
+"""A bar's number begins so far left of its line: clear of what stands over the first beat."""
 TOP_Y, BOTTOM_Y = -8.3, 7.0
 """What a staff takes with everything above and below it."""
 
@@ -170,10 +172,8 @@ class _BarEngraver:
             self._ink.line((x, STAFF_TOP), (x, STAFF_BOTTOM), 0.16, INK_SOFT)
         if self._start >= self._e.score.end_tick:
             return
-        x += (
-            self._ink.text(str(self._e.numbers.of(self._bar)), (x, BAR_NUMBER_Y + 0.6), Type(1.25, INK_SOFT, Face.BOLD))
-            + 0.8
-        )
+        number = str(self._e.numbers.of(self._bar))
+        x += _NUMBER_X + self._ink.text(number, (x - _NUMBER_X, BAR_NUMBER_Y + 0.6), Type(1.25, INK_SOFT, Face.BOLD))
         meter = self._tempo.meter_at(self._start)
         if self._bar > 0 and meter.tick == self._start:  # above the staff: time leaves no room for it between notes
             self._ink.text(f"{meter.beats}/{meter.unit}", (x, BAR_NUMBER_Y + 0.6), Type(1.5, BRAND, Face.BOLD))
