@@ -33,11 +33,13 @@ def is_capture(name: str) -> bool:
 
 def _begins_as_capture(path: Path) -> bool:
     try:
+        if not path.is_file():  # whoever looks into a pipe waits, and takes what is there
+            return False
         with path.open("rb") as file:
             from station.devices.capture import MAGIC
 
             return file.read(len(MAGIC)) == MAGIC
-    except (OSError, ValueError):  # no file, a folder, no name that a file can have
+    except OSError:  # a name longer than the file system takes
         return False
 
 

@@ -1,10 +1,11 @@
 """A take as a score: where its bars are, by what is kept beside the capture."""
 
+import os
 from pathlib import Path
 
 import pytest
 
-from station.app.commands.scores import is_lesson, load_score
+from station.app.commands.scores import is_capture, is_lesson, load_score
 from station.app.commands.takes import FREE_TITLE, take_as_score
 from station.cli import main
 from station.core.pieces import Piece
@@ -82,3 +83,12 @@ def test_a_free_take_begins_with_the_bar_of_its_first_stroke(
 
 def test_what_was_recorded_without_a_transport_begins_with_its_first_stroke(tmp_path: Path) -> None:
     assert seconds(taken(tmp_path, has_transport=False)) == pytest.approx([0.0, 0.5], abs=1e-5)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no such pipes")
+def test_a_pipe_is_not_looked_into(tmp_path: Path) -> None:
+    """Nobody writes to it: whoever opened it would wait for ever."""
+    os.mkfifo(tmp_path / "pipe")
+    assert not is_capture(str(tmp_path / "pipe"))
+    assert not is_capture("no\0name")
+    assert not is_capture(300 * "long")
