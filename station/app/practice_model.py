@@ -4,7 +4,6 @@ The window calls it once a frame and whenever the user does something; it keeps 
 thread. Faults of the user's or the world's come as `StationError` and are shown in one line.
 """
 
-from collections.abc import Mapping, Sequence
 from typing import Protocol
 
 from station.app.calibration_desk import CalibrationDesk
@@ -13,21 +12,21 @@ from station.app.deck import Deck
 from station.app.graphed import Graphed
 from station.app.habits import HabitDesk
 from station.app.kit_desk import KitDesk
-from station.app.model import FreeWish, LessonCard, Report, RoomState, Start
+from station.app.model import FreeWish, Report, RoomState, Start
+from station.app.shelf import Shelf
 from station.app.welcome import Answers
-from station.drills.course import Course
 from station.engine.messages import KeyHit
 from station.music.score import Score
 from station.practice.by_ear import Whose
 from station.practice.own_ear import Guess
-from station.practice.progress import Progress
 from station.render.snapshot import Snapshot
 
 
 class PracticeModel(Protocol):
-    """What practises behind the window; `deck` plays the chosen lesson's demonstration between sessions."""
+    """What practises behind the window: `shelf` has what can be, `deck` demonstrates what is chosen of it."""
 
     deck: Deck
+    shelf: Shelf
 
     def snapshot(self, now_ns: int) -> Snapshot:
         """What is to be seen at monotonic time `now_ns`."""
@@ -43,22 +42,6 @@ class PracticeModel(Protocol):
 
     def room(self) -> RoomState:
         """What is going on."""
-        ...
-
-    def first_card(self) -> LessonCard:
-        """The lesson that is chosen when the window opens, which is there sooner than all others."""
-        ...
-
-    def lessons(self) -> Sequence[LessonCard]:
-        """Every lesson that can be chosen, in the order in which they are shown; the first call takes a moment."""
-        ...
-
-    def courses(self) -> Sequence[Course]:
-        """Every course that can be followed."""
-        ...
-
-    def progress(self) -> Mapping[str, Progress]:
-        """How far the student is, by the names of lessons."""
         ...
 
     def first(self) -> Start | None:

@@ -4,7 +4,7 @@
 it when it is over. The hits carry their own times, so that the frame rate decides nothing.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -23,8 +23,9 @@ from station.app.kit_commands import KitCommands
 from station.app.kit_desk import KitDesk
 from station.app.lesson_cards import wish_of
 from station.app.lesson_run import LessonRun
-from station.app.model import FreeWish, LessonCard, Report, RoomState, Stage, Start
+from station.app.model import FreeWish, Report, RoomState, Stage, Start
 from station.app.preparation import LaidOut, Preparation
+from station.app.shelf import Shelf
 from station.app.welcome import Answers, student_level
 from station.app.welcome import answered as met
 from station.core.calibration import Calibration, load_calibration
@@ -32,7 +33,6 @@ from station.core.errors import DeviceError, StationError
 from station.core.events import DeviceLost
 from station.core.settings import Settings
 from station.core.units import NS_PER_S
-from station.drills.course import Course
 from station.engine.messages import EngineEvent, KeyHit, Started
 from station.music.score import Score
 from station.practice.by_ear import Whose
@@ -40,7 +40,6 @@ from station.practice.latency import Latency, latency_of
 from station.practice.listening import Listening
 from station.practice.own_ear import Guess
 from station.practice.plan import Plan
-from station.practice.progress import Progress
 from station.render.snapshot import Snapshot
 
 if TYPE_CHECKING:
@@ -69,10 +68,11 @@ class PracticeRoom:
         backing: "BackingWish | None" = None,
     ) -> None:
         self._engine = EngineLine(wake, settings.rate_hz)
-        self._prepared = Preparation(settings, first.lesson, backing)
+        self._prepared = Preparation(settings, backing)
         self._latency = latency or latency_of(settings, Calibration())
         self._first = replace(wish_of(first), adapt=adapt)
         self._notices: list[str] = []
+        self.shelf = Shelf(lambda: self._prepared.settings, first.lesson, self._notices.append)
         who = kept_demonstrator(settings, self._notices.append)
         run = LessonRun(self._engine, LaidOut(first), who, self._latency, self._notices.append)
         self._goings_on = GoingsOn(self._engine, run, JustPlay(settings, self._latency), self._notices.append)
@@ -100,8 +100,13 @@ class PracticeRoom:
         return self._goings_on.snapshot(now_ns, heard_ns, self._ear.hears)
 
     def news(self, now_ns: int) -> Snapshot | None:
-        """The picture at `now_ns` if there is something new in it, while somebody plays: it need not wait a frame."""
-        return self.snapshot(now_ns) if self._goings_on.is_playing and self._take_in(now_ns) else None
+        """The picture at `now_ns` if there is something new in it, while somebody plays: it need not wait a frame.
+
+        What goes on with time does so in `snapshot` alone, once a frame.
+        """
+        if not self._goings_on.is_playing or not self._take_in(now_ns):
+            return None
+        return self._goings_on.snapshot(now_ns, None, hears=False)
 
     def is_lively(self, now_ns: int) -> bool:
         """Whether something moves, or may at any moment: a frame that is spared would be missed."""
@@ -117,24 +122,6 @@ class PracticeRoom:
             listening=self._ear.hears,
         )
         return self._goings_on.told(shown)
-
-    def first_card(self) -> LessonCard:
-        """The lesson that the window was opened on, in the list."""
-        return self._prepared.first_card()
-
-    def lessons(self) -> Sequence[LessonCard]:
-        """Every shipped lesson, those of the user's own courses, and the one that the window was opened on."""
-        cards = self._prepared.cards()
-        self._notices += [str(fault) for fault in self._prepared.faults]
-        return cards
-
-    def courses(self) -> Sequence[Course]:
-        """The user's own courses, then those that ship."""
-        return self._prepared.courses()
-
-    def progress(self) -> Mapping[str, Progress]:
-        """How far the student is, by the names of lessons."""
-        return self._prepared.progress()
 
     def report(self) -> Report | None:
         """The result of the session that ended last, once the question before it was answered."""
@@ -166,7 +153,7 @@ class PracticeRoom:
         if wish is None or run is None:
             self.deck.halt()
         else:
-            self.deck.load(self._prepared.watched(self._prepared.lesson(wish.lesson), run.plan.kit), wish.bars)
+            self.deck.load(self._prepared.watched(self.shelf.lesson(wish.lesson), run.plan.kit), wish.bars)
 
     def start(self, wish: Start) -> None:
         """Begin a session, ending the one that runs; wakes a new engine if the old has ended. Raises `StationError`."""
@@ -259,7 +246,7 @@ class PracticeRoom:
         """Back to the lessons."""
         if self._goings_on.stage is Stage.RESULT:
             self._ear.quiet()
-            self._prepared.learnt()
+            self.shelf.learnt()
             self._goings_on.leave(self._new_run(LaidOut(self._goings_on.run.plan)))
 
     # --- inside ------------------------------------------------------------------------------------------------------
@@ -296,7 +283,7 @@ class PracticeRoom:
             self._ear.hear(listening)
 
     def _laid_out(self, wish: Start) -> LessonRun:
-        laid = self._prepared.laid_out(wish)
+        laid = self._prepared.laid_out(self.shelf.lesson(wish.lesson), wish)
         if laid.followed is not None and laid.followed.fault is not None:
             self._notices.append(laid.followed.fault)
         return self._new_run(laid)

@@ -43,7 +43,7 @@ class Window:
         self._clock = clock or MonotonicClock()
         settings = load_settings(options.settings)
         self.news = News()
-        self.choice = Choice([model.first_card()], model.first())
+        self.choice = Choice([model.shelf.first_card()], model.first())
         self._deeds = Deeds(model, self.choice, self.news.tell)
         self.backdrop = Backdrop(options.quality, look_of(settings), self._news)
         self.pages = Pages(self._deeds, self.backdrop, options.settings)
@@ -166,8 +166,8 @@ class Window:
         """What can be chosen, and how far the student is: read from files once, after the first picture."""
         if self.frames == _FIRST_PICTURE + 1:
             course = load_settings(self._options.settings).course
-            self.choice.offer(self._model.lessons(), self._model.courses(), course)
-        self.choice.progress = self._model.progress()
+            self.choice.offer(self._model.shelf.cards(), self._model.shelf.courses(), course)
+        self.choice.progress = self._model.shelf.progress()
 
     def _over_all(self) -> None:
         """Keys, mouse and what floats over the picture."""

@@ -189,7 +189,12 @@ def _replay(arguments: argparse.Namespace) -> int:
     capture = read_capture(arguments.file)
     if capture.good_bytes == capture.lost_bytes == 0:
         raise BadInput(arguments.file, "", "the file is empty")
-    events, sessions = list(replay(capture)), judge_again(capture)
+    events = list(replay(capture))
+    try:
+        sessions = judge_again(capture)
+    except BadInput as fault:  # the strokes are there all the same
+        sessions = []
+        say(f"{arguments.file}: {fault.place}: {fault.fault}; its sessions are not judged again")
     start_ns = capture.records[0].at_ns if capture.records else 0
     if not capture.complete:
         say(f"{arguments.file}: was not closed in order; {capture.lost_bytes} bytes at its end cannot be read")

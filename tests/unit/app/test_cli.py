@@ -2,6 +2,7 @@
 
 import json
 import wave
+from dataclasses import replace
 from pathlib import Path
 from random import Random
 from typing import cast
@@ -12,6 +13,7 @@ import pytest
 from station.cli import main
 from station.core.events import Hit
 from station.core.settings import load_settings
+from station.devices.capture import Kind, read_capture
 from station.drills.library import find_lesson
 from station.music.formats.smf_write import write_performance
 from station.music.performance import Performance
@@ -417,6 +419,26 @@ def test_a_virtual_session_too_refuses_settings_that_mean_nothing(
     settings.parent.mkdir(parents=True)
     settings.write_text(f"{line}\n")
     assert named in refused(capsys, "practice", "rock-1", "--headless", "--virtual-student", "pro")
+
+
+def test_a_remark_that_cannot_be_read_keeps_no_stroke_from_being_replayed(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    practise(capsys, "--loops", "1", "--report", str(tmp_path / "session"))
+    path = tmp_path / "session" / "session.capture"
+    assert main(["devices", "replay", str(path), "--json"]) == 0
+    before = json.loads(capsys.readouterr().out)
+    records = [
+        replace(one, payload=b"of a later version") if one.kind == Kind.REMARK else one
+        for one in read_capture(path).records
+    ]
+    path.write_bytes(capture_bytes(records))
+    assert main(["devices", "replay", str(path), "--json"]) == 0
+    out, said = capsys.readouterr()
+    after = json.loads(out)
+    assert after["events"] == before["events"]
+    assert [len(before["sessions"]), after["sessions"]] == [1, []]
+    assert f"{path}: remark at" in said
 
 
 def test_an_empty_file_is_no_capture(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
