@@ -1,8 +1,9 @@
 """What a benchmark is: a row of a table, and a function that measures it.
 
 An area of the station is a module of this package with a tuple `BENCHMARKS`; `station.bench.run` finds it by that. Each
-benchmark runs in a process of its own, so it may import, allocate and fail as it likes. It measures with real work, in
-seconds rather than minutes, and times a peer's way of doing the same work beside its own wherever there is one.
+benchmark runs in a process of its own, or of its group's, so it may import, allocate and fail as it likes. It measures
+with real work, in seconds rather than minutes, and times a peer's way of doing the same work beside its own wherever
+there is one.
 """
 
 import statistics
@@ -29,7 +30,8 @@ class Benchmark:
     """A row: `target` is the value to reach (None if there is none), `peer` who is measured beside us.
 
     `measure` may raise; the row then says why. `is_soak` marks the long ones, which run only when they are asked for;
-    `limit_s` is the most that it may take, in seconds.
+    `limit_s` is the most that it may take, in seconds. Those of a module that have one `group` and stand together are
+    measured in one process and one limit, so that they can share what takes long to make.
     """
 
     name: str
@@ -40,6 +42,7 @@ class Benchmark:
     measure: Callable[[], Measured]
     is_soak: bool = False
     limit_s: float = DEFAULT_LIMIT_S
+    group: str = ""
 
     def reaches(self, value: float | None) -> bool | None:
         """Whether `value` reaches the target; None where there is no value or no target."""

@@ -1,4 +1,4 @@
-"""One benchmark in a process of its own: `python -m station.bench.child MODULE NAME` prints its result as JSON.
+"""Benchmarks in a process of their own: `python -m station.bench.child MODULE NAME…` prints their results as JSON.
 
 Standard output belongs to the result; whatever else the work prints goes to standard error.
 """
@@ -7,6 +7,7 @@ import json
 import math
 import os
 import sys
+from dataclasses import asdict
 
 from station.bench.benchmark import Benchmark, Measured
 from station.bench.registry import table_of
@@ -27,14 +28,14 @@ def measured(benchmark: Benchmark) -> Measured:
     return result
 
 
-def main(module: str, name: str) -> None:
-    """Run the benchmark `name` of `module` and print its result."""
+def main(module: str, *names: str) -> None:
+    """Run the benchmarks `names` of `module` and print a list of their results."""
     result_to = os.dup(sys.stdout.fileno())
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
-    benchmark = next(b for b in table_of(module) if b.name == name)
-    result = measured(benchmark)
+    table = {benchmark.name: benchmark for benchmark in table_of(module)}
+    results = [asdict(measured(table[name])) for name in names]
     with os.fdopen(result_to, "w") as file:
-        json.dump({"value": result.value, "peer_value": result.peer_value, "note": result.note}, file)
+        json.dump(results, file)
 
 
 if __name__ == "__main__":

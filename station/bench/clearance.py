@@ -6,7 +6,7 @@ spread of lessons; the long one every style with every lesson on every kit.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from math import degrees
 
 from station.bench.benchmark import Benchmark, Measured
@@ -52,18 +52,32 @@ _KINDS = (
 )
 
 
-def _measure(kind: _Kind, kits: tuple[str, ...], lessons: tuple[str, ...]) -> Measured:
+@cache
+def _worst(kits: tuple[str, ...], lessons: tuple[str, ...]) -> Audit:
+    """The worst of every kind."""
     worst = Audit()
     for where, found in audits(kits, lessons):
         worst = worst.worse(found, where)
-    found_worst = getattr(worst, kind.kind)
+    return worst
+
+
+def _measure(kind: _Kind, kits: tuple[str, ...], lessons: tuple[str, ...]) -> Measured:
+    found_worst = getattr(_worst(kits, lessons), kind.kind)
     where = f"{found_worst.what} at {found_worst.time_s:.2f} s" if found_worst.what else ""
     return Measured(kind.scale * found_worst.value, note=where)
 
 
 BENCHMARKS = (
     *(
-        Benchmark(f"motion_{k.name}", k.unit, k.target, "lower", None, partial(_measure, k, (DEFAULT_KIT,), SPREAD))
+        Benchmark(
+            f"motion_{k.name}",
+            k.unit,
+            k.target,
+            "lower",
+            None,
+            partial(_measure, k, (DEFAULT_KIT,), SPREAD),
+            group="spread",
+        )
         for k in _KINDS
     ),
     *(
@@ -76,6 +90,7 @@ BENCHMARKS = (
             partial(_measure, k, tuple(kit_names()), tuple(lesson_names())),
             is_soak=True,
             limit_s=_SOAK_LIMIT_S,
+            group="everywhere",
         )
         for k in _KINDS
     ),

@@ -13,6 +13,7 @@ import sys
 import time
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from itertools import groupby
 from types import ModuleType
 from typing import TextIO
 
@@ -84,32 +85,42 @@ def document(results: Iterable[Result]) -> dict[str, object]:
 def run(chosen: Iterable[Entry], budget_s: float = BUDGET_S) -> Iterator[Result]:
     """Measure one after the other; those that are no soak share `budget_s`."""
     end_s = time.monotonic() + budget_s
-    for entry in sorted(chosen, key=lambda entry: entry.benchmark.is_soak):
+    for group in _groups(sorted(chosen, key=lambda entry: entry.benchmark.is_soak)):
+        benchmarks = [entry.benchmark for entry in group]
+        limit_s = max(benchmark.limit_s for benchmark in benchmarks)
+        left_s = limit_s if benchmarks[0].is_soak else min(limit_s, end_s - time.monotonic())
+        none = Measured(None, note=f"no time was left of {budget_s:g} s")
+        yield from map(Result, benchmarks, _in_child(group, left_s) if left_s > 0 else [none] * len(group))
+
+
+def _groups(entries: list[Entry]) -> Iterator[list[Entry]]:
+    """Those that are measured together; most are alone."""
+
+    def together(entry: Entry) -> tuple[str, str]:
         benchmark = entry.benchmark
-        left_s = benchmark.limit_s if benchmark.is_soak else min(benchmark.limit_s, end_s - time.monotonic())
-        if left_s > 0:
-            yield Result(benchmark, _in_child(entry, left_s))
-        else:
-            yield Result(benchmark, Measured(None, note=f"no time was left of {budget_s:g} s"))
+        return entry.module, f"group {benchmark.group}" if benchmark.group else benchmark.name
+
+    return (list(group) for _, group in groupby(entries, together))
 
 
-def _in_child(entry: Entry, limit_s: float) -> Measured:
-    """Run one benchmark in a child process; the process and all that it started end with it or at its limit."""
-    words = [sys.executable, "-m", "station.bench.child", entry.module, entry.benchmark.name]
+def _in_child(group: list[Entry], limit_s: float) -> list[Measured]:
+    """Run benchmarks in a child process; the process and all that it started end with them or at their limit."""
+    names = [entry.benchmark.name for entry in group]
+    words = [sys.executable, "-m", "station.bench.child", group[0].module, *names]
     with subprocess.Popen(
         words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
     ) as child:
         try:
             printed, complaints = child.communicate(timeout=limit_s)
         except subprocess.TimeoutExpired:
-            return Measured(None, note=f"was ended after {limit_s:.0f} s")
+            return [Measured(None, note=f"was ended after {limit_s:.0f} s")] * len(group)
         finally:
             _end(child)
     try:
-        return Measured(**json.loads(printed))
+        return [Measured(**result) for result in json.loads(printed)]
     except (ValueError, TypeError):
         last_line = complaints.strip().rpartition("\n")[2][:_NOTE_LENGTH]
-        return Measured(None, note=f"ended with status {child.returncode}: {last_line or 'no word'}")
+        return [Measured(None, note=f"ended with status {child.returncode}: {last_line or 'no word'}")] * len(group)
 
 
 def _end(child: "subprocess.Popen[str]") -> None:

@@ -6,7 +6,7 @@ import random
 import statistics
 import time
 from collections.abc import Callable, Sequence
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -33,6 +33,7 @@ _BARE = "bare read"
 Errors = NDArray[np.float64]
 
 
+@cache
 def _late_ms(wire: Wire) -> tuple[Errors, str]:
     """By how much each stamp is later than the median stamp, and the account of all."""
     with stage(wire) as at:
@@ -57,6 +58,7 @@ def paired(sent: Sequence[int], heard: Sequence[int]) -> list[tuple[int, int]]:
     return pairs
 
 
+@cache
 def _bare_ms(wire: Wire) -> Errors | None:
     """The same of the plainest reader of a serial line; there is none of JACK."""
     if wire.jack_frames:
@@ -160,12 +162,12 @@ _SERIAL, _JACK_16, _JACK_32, _JACK_128 = Wire(), Wire(16), Wire(32), Wire(128, p
 _FAST_SERIAL = Wire(baud=115_200)
 
 BENCHMARKS = (
-    Benchmark("stamps_serial_sd", "ms", 0.3, "lower", _BARE, partial(_stamps, _sd, _SERIAL)),
-    Benchmark("stamps_serial_p99", "ms", 1.0, "lower", _BARE, partial(_stamps, _p99, _SERIAL)),
-    Benchmark("stamps_jack_16_frames_sd", "ms", 0.3, "lower", None, partial(_stamps, _sd, _JACK_16)),
-    Benchmark("stamps_jack_16_frames_p99", "ms", 1.0, "lower", None, partial(_stamps, _p99, _JACK_16)),
-    Benchmark("stamps_jack_32_frames_sd", "ms", 0.3, "lower", None, partial(_stamps, _sd, _JACK_32)),
-    Benchmark("stamps_jack_32_frames_p99", "ms", 1.0, "lower", None, partial(_stamps, _p99, _JACK_32)),
+    Benchmark("stamps_serial_sd", "ms", 0.3, "lower", _BARE, partial(_stamps, _sd, _SERIAL), group="serial"),
+    Benchmark("stamps_serial_p99", "ms", 1.0, "lower", _BARE, partial(_stamps, _p99, _SERIAL), group="serial"),
+    Benchmark("stamps_jack_16_frames_sd", "ms", 0.3, "lower", None, partial(_stamps, _sd, _JACK_16), group="jack 16"),
+    Benchmark("stamps_jack_16_frames_p99", "ms", 1.0, "lower", None, partial(_stamps, _p99, _JACK_16), group="jack 16"),
+    Benchmark("stamps_jack_32_frames_sd", "ms", 0.3, "lower", None, partial(_stamps, _sd, _JACK_32), group="jack 32"),
+    Benchmark("stamps_jack_32_frames_p99", "ms", 1.0, "lower", None, partial(_stamps, _p99, _JACK_32), group="jack 32"),
     Benchmark("capture_on_the_disk_worst", "ms", 100.0, "lower", None, _capture_ms),
     Benchmark("flood_serial_hits_lost", "hits", 0.0, "lower", None, partial(_flood_lost, _FAST_SERIAL), True, 180.0),
     Benchmark("flood_jack_hits_lost", "hits", 0.0, "lower", None, partial(_flood_lost, _JACK_128), True, 180.0),

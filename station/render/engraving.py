@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from station.core.pieces import Articulation, Dynamic, Limb, Piece, Zone
 from station.music.score import Score
 from station.render.atlas import Atlas
+from station.render.beams import STEM, STEM_X, Anchor, Voice, draw_beams, draw_flags, draw_tuplet
 from station.render.fonts import Face
 from station.render.ink import Ink, Type
 from station.render.note_shapes import STAFF_LINE, draw_hat_sign, draw_head
@@ -26,39 +27,23 @@ STAFF_TOP, STAFF_BOTTOM = -2.0, 2.0
 STICKING_Y = 6.5
 """Baseline of the R and L below the staff."""
 BAR_NUMBER_Y = -7.4
-_NUMBER_X = 0.7
+_NUMBER_X = 0.35
 """A bar's number begins so far left of its line: clear of what stands over the first beat."""
 TOP_Y, BOTTOM_Y = -8.3, 7.0
 """What a staff takes with everything above and below it."""
 
-_STEM = 0.13
-_BEAM = 0.50
-_BEAM_STEP = 0.78
-_STEM_X = 0.56
 _UP_BEAM_Y, _DOWN_BEAM_Y = -5.4, 4.35
 """Stems of a voice reach at least here, so that beams stand level along the line."""
 _TUPLET_OFF = {-1: 1.0, 1: 0.4}
 """How far a tuplet's number stands from the stems' ends: below there are the sticking's letters."""
-_TUPLET_GAP = 0.7
-"""What the bracket leaves free on either side of its number's middle."""
+_TUPLET_FAR = 2.0
+"""And where an accent stands between: no farther, for there the staff's room ends (`TOP_Y`)."""
 _GRACE = 0.62
 _GRACE_STEP = 1.0
 _GRACE_GAP = 1.5
 
 
-@dataclass(frozen=True, slots=True)
-class _Voice:
-    """Hands or feet: `way` −1 stems up, +1 stems down."""
-
-    way: int
-    rest_y: float
-
-    @property
-    def stem_x(self) -> float:
-        return -self.way * _STEM_X
-
-
-_HANDS, _FEET = _Voice(-1, 0.0), _Voice(1, 2.5)
+_HANDS, _FEET = Voice(-1, 0.0), Voice(1, 2.5)
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,6 +126,7 @@ class _BarEngraver:
         self._bar = bar
         self._start, self._end = self._tempo.bar_start(bar), self._tempo.bar_start(bar + 1)
         self._ink = engraver.ink()
+        self._anchor = Anchor(self._ink, self._tempo)
 
     def shapes(self) -> NDArray[np.void]:
         self._bar_line()
@@ -154,19 +140,10 @@ class _BarEngraver:
                 self._voice(feet, _FEET, beside=True)
         return self._ink.shapes()
 
-    def _at(self, tick: int) -> None:
-        """Anchor what follows at `tick` of the score."""
-        self._ink.time_s = float(self._tempo.seconds_at(tick))
-        self._ink.span_s = 0.0
-
-    def _until(self, tick: int) -> None:
-        """Stretch what follows from the anchor to `tick` of the score."""
-        self._ink.span_s = float(self._tempo.seconds_at(tick)) - self._ink.time_s
-
     # --- bars ---------------------------------------------------------------------------------------------------------
 
     def _bar_line(self) -> None:
-        self._at(self._start)
+        self._anchor.at(self._start)
         x = -1.25
         if self._with_line:
             self._ink.line((x, STAFF_TOP), (x, STAFF_BOTTOM), 0.16, INK_SOFT)
@@ -180,12 +157,12 @@ class _BarEngraver:
 
     def _silent_bar(self) -> None:
         if self._start < self._e.score.end_tick:
-            self._at((self._start + self._end) // 2)
+            self._anchor.at((self._start + self._end) // 2)
             self._ink.box((-0.6, -1.0), (1.2, 0.5), INK_SOFT)
 
     # --- a voice ------------------------------------------------------------------------------------------------------
 
-    def _voice(self, chords: Sequence[_Chord], voice: _Voice, beside: bool) -> None:
+    def _voice(self, chords: Sequence[_Chord], voice: Voice, beside: bool) -> None:
         mains = [c for c in chords if c.mains]
         for start, end in beat_groups(self._tempo.meter_at(self._start), self._end - self._start):
             inside = [c for c in mains if start <= c.tick - self._start < end]
@@ -196,31 +173,31 @@ class _BarEngraver:
         for chord in chords:
             self._graces(chord, voice)
 
-    def _rests(self, group: Group, voice: _Voice, beside: bool) -> None:
+    def _rests(self, group: Group, voice: Voice, beside: bool) -> None:
         for rest in group.rests:
-            self._at(self._start + rest.tick)
+            self._anchor.at(self._start + rest.tick)
             y = voice.rest_y - (1.0 if beside and voice is _HANDS else 0.0)
             name = f"rest_{min(rest.value.base, 32)}"
             self._ink.sign(name, (0.0, y), INK_SOFT)
             if rest.value.dots:
                 self._ink.ellipse((0.95, y - 0.5), (0.2, 0.2), INK_SOFT)
 
-    def _group(self, group: Group, chords: Sequence[_Chord], voice: _Voice) -> None:
+    def _group(self, group: Group, chords: Sequence[_Chord], voice: Voice) -> None:
         if not chords:
             return
         beam_y = self._beam_y(chords, voice)
         for chord, stroke in zip(chords, group.strokes, strict=True):
-            self._at(chord.tick)
+            self._anchor.at(chord.tick)
             self._chord(chord, stroke, voice, beam_y)
         flagged = [(c, s) for c, s in zip(chords, group.strokes, strict=True) if s.value.beams]
         if len(flagged) == 1:
-            self._flags(flagged[0][0].tick, flagged[0][1].value.beams, voice, beam_y)
+            draw_flags(self._anchor, flagged[0][0].tick, flagged[0][1].value.beams, voice, beam_y)
         elif flagged:
-            self._beams([(c.tick, s.value.beams) for c, s in flagged], voice, beam_y)
+            draw_beams(self._anchor, [(c.tick, s.value.beams) for c, s in flagged], voice, beam_y)
         if group.tuplet:
             self._tuplet(group, chords, voice, beam_y, len(flagged) == len(chords) > 1 and not group.rests)
 
-    def _beam_y(self, chords: Sequence[_Chord], voice: _Voice) -> float:
+    def _beam_y(self, chords: Sequence[_Chord], voice: Voice) -> float:
         """Where the stems of a group end: level, clear of every head."""
         heights = [height(self._step(i)) for c in chords for i in c.mains]
         if voice is _HANDS:
@@ -232,10 +209,10 @@ class _BarEngraver:
 
     # --- a chord ------------------------------------------------------------------------------------------------------
 
-    def _chord(self, chord: _Chord, stroke: Timed, voice: _Voice, beam_y: float) -> None:
+    def _chord(self, chord: _Chord, stroke: Timed, voice: Voice, beam_y: float) -> None:
         heights = [height(self._step(i)) for i in chord.mains]
         root = max(heights) if voice is _HANDS else min(heights)
-        self._ink.line((voice.stem_x, root), (voice.stem_x, beam_y), _STEM, INK)
+        self._ink.line((voice.stem_x, root), (voice.stem_x, beam_y), STEM, INK)
         for i in chord.mains:
             self._head(i, 0.0, 1.0)
             if stroke.value.dots:
@@ -260,7 +237,7 @@ class _BarEngraver:
         if row["choke_ticks"] > 0:
             self._ink.sign("choke", (x + 1.3, y - 0.7), INK)
 
-    def _above(self, chord: _Chord, voice: _Voice, beam_y: float) -> None:
+    def _above(self, chord: _Chord, voice: Voice, beam_y: float) -> None:
         """Hi-hat signs, accents and buzz strokes, stacked outward from the stem's end."""
         notes, way = self._e.score.notes, voice.way
         if any(notes["articulation"][i] == Articulation.BUZZ for i in chord.mains):
@@ -291,58 +268,14 @@ class _BarEngraver:
         if text:
             self._ink.text(text, (0.0, STICKING_Y), Type(1.3, INK_SOFT, Face.BOLD, 0.5))
 
-    # --- beams, flags, tuplets ----------------------------------------------------------------------------------------
+    # --- tuplets ------------------------------------------------------------------------------------------------------
 
-    def _flags(self, tick: int, count: int, voice: _Voice, beam_y: float) -> None:
-        self._at(tick)
-        for k in range(count):
-            y = beam_y - voice.way * k * 0.85
-            self._ink.sign("flag", (voice.stem_x, y), INK, 0.95, mirrored=voice is _FEET)
-
-    def _beams(self, stems: Sequence[tuple[int, int]], voice: _Voice, beam_y: float) -> None:
-        for level in range(1, max(count for _, count in stems) + 1):
-            y = beam_y - voice.way * (level - 1) * _BEAM_STEP - (_BEAM if voice is _FEET else 0.0)
-            for first, last in _runs([count >= level for _, count in stems]):
-                if first == last:
-                    self._stub(stems, first, y, voice)
-                else:
-                    self._at(stems[first][0])
-                    self._until(stems[last][0])
-                    self._ink.box((voice.stem_x - _STEM / 2, y), (_STEM, _BEAM), INK)
-                    self._ink.span_s = 0.0
-
-    def _stub(self, stems: Sequence[tuple[int, int]], index: int, y: float, voice: _Voice) -> None:
-        """A broken-off beam: towards the stroke before, or after where there is none before."""
-        self._at(stems[index][0])
-        x = voice.stem_x - 1.1 if index else voice.stem_x
-        self._ink.box((x, y), (1.1, _BEAM), INK)
-
-    def _tuplet(self, group: Group, chords: Sequence[_Chord], voice: _Voice, beam_y: float, beamed: bool) -> None:
-        y = (
-            beam_y
-            + voice.way * (2.9 if self._crowded(chords) else _TUPLET_OFF[voice.way])
-            + (0.45 if voice is _FEET else 0.3)
-        )
+    def _tuplet(self, group: Group, chords: Sequence[_Chord], voice: Voice, beam_y: float, beamed: bool) -> None:
+        off = voice.way * (_TUPLET_FAR if self._crowded(chords) else _TUPLET_OFF[voice.way])
+        y = beam_y + off + (0.3 if voice.is_up else 0.45)
         start = self._start + group.start if not beamed else chords[0].tick
         end = max(chords[-1].tick, self._start + group.start + (group.end - group.start) * 2 // 3)
-        start_s, end_s = float(self._tempo.seconds_at(start)), float(self._tempo.seconds_at(end))
-        if not beamed:
-            self._bracket((start_s, end_s), voice, y - 0.45)
-        self._ink.time_s, self._ink.span_s = (start_s + end_s) / 2, 0.0
-        self._ink.text(str(group.tuplet), (voice.stem_x, y), Type(1.35, INK, Face.BOLD, 0.5))
-
-    def _bracket(self, ends_s: tuple[float, float], voice: _Voice, y: float) -> None:
-        """A line over a tuplet with a hook at each end, and a gap in the middle for its number."""
-        (start_s, end_s), tip = ends_s, 0.5 * -voice.way
-        centre_s, right = (start_s + end_s) / 2, 0.5 + voice.stem_x
-        gap = voice.stem_x - _TUPLET_GAP, voice.stem_x + _TUPLET_GAP
-        for begin_s, x, end_x in ((start_s, -0.5, gap[0]), (centre_s, gap[1], right)):
-            self._ink.time_s, self._ink.span_s = begin_s, centre_s - start_s
-            self._ink.box((x, y - 0.05), (end_x - x, 0.1), INK_SOFT)
-        self._ink.span_s = 0.0
-        for at_s, x in ((start_s, -0.5), (end_s, right)):
-            self._ink.time_s = at_s
-            self._ink.line((x, y), (x, y + tip), 0.1, INK_SOFT)
+        draw_tuplet(self._anchor, group.tuplet, (start, end), voice, y, with_bracket=not beamed)
 
     def _crowded(self, chords: Sequence[_Chord]) -> bool:
         """Whether signs stand where the tuplet's number would."""
@@ -353,10 +286,10 @@ class _BarEngraver:
 
     # --- grace notes --------------------------------------------------------------------------------------------------
 
-    def _graces(self, chord: _Chord, voice: _Voice) -> None:
+    def _graces(self, chord: _Chord, voice: Voice) -> None:
         if not chord.graces:
             return
-        self._at(chord.tick)
+        self._anchor.at(chord.tick)
         count = len(chord.graces)
         notes = self._e.score.notes
         top = min(height(self._step(i)) for i in chord.graces) - 2.4
@@ -364,8 +297,8 @@ class _BarEngraver:
         for k, i in enumerate(sorted(chord.graces, key=lambda i: -notes["lead_ms"][i])):
             x = -_GRACE_GAP - (count - 1 - k) * _GRACE_STEP
             self._head(i, x, _GRACE)
-            stems.append(x + _STEM_X * _GRACE)
-            self._ink.line((stems[-1], height(self._step(i))), (stems[-1], top), _STEM * 0.8, INK)
+            stems.append(x + STEM_X * _GRACE)
+            self._ink.line((stems[-1], height(self._step(i))), (stems[-1], top), STEM * 0.8, INK)
         if count == 1:
             self._ink.sign("flag", (stems[0], top), INK, 0.55)
             self._ink.line((stems[0] - 0.55, top + 1.35), (stems[0] + 0.75, top + 0.45), 0.1, INK)
@@ -374,14 +307,3 @@ class _BarEngraver:
                 self._ink.box((stems[0], top + 0.5 * level), (stems[-1] - stems[0], 0.3), INK)
         low = max(height(self._step(i)) for i in chord.graces)
         self._ink.sign("slur", (-_GRACE_GAP / 2 - 0.1, low + 0.7), INK_SOFT, 0.95)
-
-
-def _runs(flags: Sequence[bool]) -> Iterator[tuple[int, int]]:
-    """First and last index of every run of True."""
-    start: int | None = None
-    for i, flag in enumerate([*flags, False]):
-        if flag and start is None:
-            start = i
-        elif not flag and start is not None:
-            yield start, i - 1
-            start = None

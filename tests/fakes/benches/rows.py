@@ -49,6 +49,10 @@ def not_a_number() -> Measured:
     return Measured(float("nan"))
 
 
+def process() -> Measured:
+    return Measured(float(os.getpid()))
+
+
 BENCHMARKS = (
     Benchmark("noisy", "ms", 20, "lower", "rival", noisy),
     Benchmark("no_device", "ms", 20, "lower", None, no_device),
@@ -57,5 +61,10 @@ BENCHMARKS = (
     Benchmark("leaves", "s", None, "lower", None, leaves),
     Benchmark("hangs", "s", None, "lower", None, hangs, limit_s=1.5),
     Benchmark("not_a_number", "s", None, "lower", None, not_a_number),
+    Benchmark("first_together", "", None, "lower", None, process, group="pair"),
+    Benchmark("second_together", "", None, "lower", None, process, group="pair"),
+    Benchmark("alone", "", None, "lower", None, process),
+    Benchmark("falls_with_it", "", None, "lower", None, process, group="doomed"),
+    Benchmark("falls", "", None, "lower", None, leaves, group="doomed"),
     Benchmark("long", "s", None, "lower", None, noisy, is_soak=True),
 )

@@ -51,6 +51,14 @@ def test_what_goes_wrong_is_a_row_that_says_so(name: str, note: str) -> None:
     assert one(name) == Measured(None, None, note)
 
 
+def test_those_of_a_group_share_a_process_and_its_fate() -> None:
+    names = ("first_together", "second_together", "alone", "falls_with_it", "falls")
+    results = {result.benchmark.name: result.measured for result in run([FAKES[name] for name in names])}
+    first, second, alone = (results[name].value for name in names[:3])
+    assert first == second != alone
+    assert results["falls_with_it"] == results["falls"] == Measured(None, None, "ended with status 3: I quit")
+
+
 def test_what_hangs_is_ended_with_all_that_it_started() -> None:
     start = time.monotonic()
     assert one("hangs") == Measured(None, None, "was ended after 2 s")
@@ -126,7 +134,8 @@ def test_the_whole_run_prints_one_document_with_every_row() -> None:
     assert main(as_json=True, soak=True, out=out, package=benches) == 0
     rows = json.loads(out.getvalue())["results"]
     assert {row["name"] for row in rows} == set(FAKES)
-    assert [row["name"] for row in rows if row["value"] is not None] == ["noisy", "long"]
+    measured = ["noisy", "first_together", "second_together", "alone", "long"]
+    assert [row["name"] for row in rows if row["value"] is not None] == measured
     assert all(row["note"] for row in rows if row["value"] is None)
 
 
