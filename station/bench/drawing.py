@@ -30,7 +30,7 @@ from station.render.quality import QUALITIES
 from station.render.snapshot import Hud, Snapshot, no_marks
 
 SIZE = (1280, 720)
-_SETTLES, _GROWS_FOR = 200, 800
+_SETTLES, _GROWS_FOR = 200, 500
 _SESSION = 10 * 60 * 60
 """Pictures of ten minutes at 60 a second."""
 _MEMORY = Path("/proc/self/statm")
