@@ -18,6 +18,7 @@ from station.bench.heard import Stage, Wire, read_barely, stage
 from station.bench.player import velocity_of
 from station.core.clock import monotonic_ns
 from station.core.events import DeviceFound, DeviceLost
+from station.core.kept_files import cache_folder
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.devices.capture import MAGIC, Kind, Record, RecordWriter, start_record
 from station.devices.capture_file import CaptureFile
@@ -82,6 +83,13 @@ def _p99(late_ms: Errors) -> float:
     return float(np.percentile(np.abs(late_ms), 99))
 
 
+def _on_disk() -> Path:
+    """A folder for scratch files: the system's own may be in memory, and where one works nothing may be left."""
+    folder = cache_folder("bench")
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder
+
+
 def _capture_ms() -> Measured:
     """How long a record is not yet on the disk, at worst: from `append` to the end of the `fsync` that keeps it."""
     kept: list[tuple[int, int]] = []
@@ -95,7 +103,7 @@ def _capture_ms() -> Measured:
     os.fsync = noted  # type: ignore[assignment] # to see when the disk has it; the work itself is done
     appended = []
     record, chance = Record(Kind.BYTES, 1, 0, b"\x99\x26\x64"), random.Random(1)
-    with TemporaryDirectory(dir=Path.cwd()) as folder:  # the system's folder for such things may be in memory
+    with TemporaryDirectory(dir=_on_disk()) as folder:
         capture = CaptureFile(Path(folder) / "take.cap", 0)
         for _ in range(_RECORDS):
             time.sleep(chance.expovariate(_RECORDS_A_S))
