@@ -22,13 +22,13 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Piece, word
 from station.core.units import NS_PER_MS, NS_PER_S, PPQ
-from station.music.formats.smf import performance_from_midi, read_midi, score_from_midi
+from station.music.formats.smf.standard_midi import performance_from_midi, read_midi, score_from_midi
 from station.music.judgement import Label
 from station.music.performance import Performance
 from station.music.score import Score
 from station.scoring.align import align
-from station.scoring.alignment import Alignment
-from station.scoring.classes import match_classes
+from station.scoring.matching.alignment import Alignment
+from station.scoring.matching.match_classes import match_classes
 
 Indices = NDArray[np.int64]
 _DATA = Path("../shared/data/gmd")

@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Limb, Piece
-from station.motion.kit import Kit, load_kit
-from station.motion.limbs import METHODS, assign_limbs
-from station.motion.targets import strike_points
-from station.music.formats.smf import read_midi, score_from_midi
+from station.motion.kit.kit import Kit, load_kit
+from station.motion.sticking.limbs import METHODS, assign_limbs
+from station.motion.strokes.targets import strike_points
+from station.music.formats.smf.standard_midi import read_midi, score_from_midi
 from station.music.score import Score
 
 AT_ONCE_S = (0.005, 0.010, 0.025, 0.050)

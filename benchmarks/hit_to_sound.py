@@ -33,10 +33,10 @@ from numpy.typing import NDArray
 
 from station.core.events import DeviceFound, Hit
 from station.core.units import NS_PER_MS, NS_PER_S
-from station.devices.kit_ports import KitWish
-from station.engine.config import EngineConfig
+from station.devices.device_ports import DeviceRequest
+from station.engine.engine_config import EngineConfig
+from station.engine.engine_process import EngineProcess
 from station.engine.messages import Ready, Status
-from station.engine.process import EngineProcess
 from tests.fakes.engine_listener import EngineListener
 from tests.fakes.jack_recorder import JackRecorder, Recording
 from tests.fakes.jack_server import JackServer, joined
@@ -50,7 +50,7 @@ MATCH_NS = 25 * NS_PER_MS
 """A sound that comes later than this after a stroke is not its own."""
 _DRAW = """
 import time
-from station.bench.drawing import SIZE, snapshots
+from station.bench.rows.drawing_rows import SIZE, snapshots
 from station.render.picture import PictureMaker
 from station.render.quality import QUALITIES
 maker, frames = PictureMaker(SIZE, QUALITIES[0]), snapshots(60)
@@ -175,7 +175,7 @@ def measure(period: int, plan: list[Stroke], draws: bool) -> None:
         folder = Path(name)
         (folder / "kit").mkdir()
         config = EngineConfig(
-            kits=(KitWish(KIT),), midi_driver="jack", output="jack", drums=str(pulse_kit(folder / "kit"))
+            kits=(DeviceRequest(KIT),), midi_driver="jack", output="jack", drums=str(pulse_kit(folder / "kit"))
         )
         with (
             drawing(draws),

@@ -20,10 +20,10 @@ from pathlib import Path
 from statistics import fmean, stdev
 from typing import NamedTuple
 
-from station.bench.mastery_trial import Outcome, trial
-from station.bench.mastery_tutors import TUTORS
+from station.bench.rigs.mastery_trial import TrialOutcome, trial
+from station.bench.rigs.mastery_tutors import TUTORS
 from station.core.files import write_whole
-from station.practice.learner_kinds import LEARNERS
+from station.simulation.learner_kinds import LEARNERS
 
 FIRST_SEED = 1000
 SHARES = (0.0, 0.3)
@@ -40,7 +40,7 @@ class Key(NamedTuple):
     share: float
 
 
-Outcomes = dict[Key, Outcome]
+Outcomes = dict[Key, TrialOutcome]
 
 COLUMNS = (
     ("reached %", "reached", 100.0),
@@ -126,7 +126,7 @@ def _duel(known: Outcomes, share: float) -> Iterable[str]:
         yield _duel_row("**all**", everyone)
 
 
-def _duel_row(name: str, pairs: list[tuple[Outcome, Outcome]]) -> str:
+def _duel_row(name: str, pairs: list[tuple[TrialOutcome, TrialOutcome]]) -> str:
     both = [(a.repetitions, b.repetitions) for a, b in pairs if a.reached and b.reached]
     gains = [a.week_pct - b.week_pct for a, b in pairs]
     error = stdev(gains) / len(gains) ** 0.5 if len(gains) > 1 else 0.0
@@ -142,7 +142,7 @@ def _duel_row(name: str, pairs: list[tuple[Outcome, Outcome]]) -> str:
     return f"| {' | '.join(cells)} |"
 
 
-def _against(pairs: list[tuple[Outcome, Outcome]], field: str, scale: float = 1.0, unit: str = "") -> str:
+def _against(pairs: list[tuple[TrialOutcome, TrialOutcome]], field: str, scale: float = 1.0, unit: str = "") -> str:
     mean = [scale * fmean(getattr(pair[side], field) for pair in pairs) for side in (0, 1)]
     return f"{mean[0]:.0f}{unit} against {mean[1]:.0f}{unit}"
 
@@ -172,14 +172,14 @@ def _cell(values: list[float | None], scale: float) -> str:
 # --- trials -----------------------------------------------------------------------------------------------------------
 
 
-def _trial(key: Key) -> Outcome:
+def _trial(key: Key) -> TrialOutcome:
     return trial(key.tutor, key.kind, key.seed, perturb_share=key.share)
 
 
-def _read(path: Path) -> Iterable[tuple[Key, Outcome]]:
+def _read(path: Path) -> Iterable[tuple[Key, TrialOutcome]]:
     for line in path.read_text(encoding="utf-8").splitlines():
         *key, fields = json.loads(line)
-        yield Key(*key), Outcome(**fields)
+        yield Key(*key), TrialOutcome(**fields)
 
 
 if __name__ == "__main__":

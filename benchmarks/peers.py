@@ -17,19 +17,19 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from station.bench.scoring import oracle_f1
-from station.bench.scoring_peers import PEERS
-from station.bench.scoring_work import Played, Player, f1, grooves, play
+from station.bench.rigs.scoring_peers import PEERS
+from station.bench.rigs.scoring_work import PlayedWork, WorkPlayer, f1, grooves, play
+from station.bench.rows.scoring_rows import oracle_f1
 from station.music.judgement import Label
 from station.music.score import Score
 from station.scoring.align import align
 
 _SEED = 20
 _QUICK_S, _TIMES = 2.0, 5
-Matcher = Callable[[Score, Played], NDArray[np.int64]]
+Matcher = Callable[[Score, PlayedWork], NDArray[np.int64]]
 
 
-def ours(score: Score, played: Played) -> NDArray[np.int64]:
+def ours(score: Score, played: PlayedWork) -> NDArray[np.int64]:
     """The note of each hit, −1 for none; of the score nothing is worked out yet."""
     fresh = Score(score.notes, score.tempo_map, score.end_tick, score.title)
     found = align(fresh, played.performance, clocked=False)
@@ -39,7 +39,7 @@ def ours(score: Score, played: Played) -> NDArray[np.int64]:
 def measured(matcher: Matcher, notes: int) -> tuple[float, float]:
     """F1, and seconds of one run."""
     score = grooves(notes, _SEED)
-    played = play(score, Player(), _SEED)
+    played = play(score, WorkPlayer(), _SEED)
     took = []
     while not took or (len(took) < _TIMES and took[0] < _QUICK_S):
         begun = time.process_time()
@@ -62,7 +62,7 @@ def row(name: str, matcher: Matcher, sizes: list[int]) -> str:
 
 def oracle_row(sizes: list[int]) -> str:
     """What who knows the true tempo reaches."""
-    works = [(score, play(score, Player(), _SEED)) for score in (grooves(notes, _SEED) for notes in sizes)]
+    works = [(score, play(score, WorkPlayer(), _SEED)) for score in (grooves(notes, _SEED) for notes in sizes)]
     return "| oracle | " + " | ".join(f"{oracle_f1(score, played):.4f} | " for score, played in works) + " | |"
 
 

@@ -3,7 +3,7 @@
     .venv/bin/python benchmarks/planted_faults.py --minutes 30 --processes 2 --out docs/planted-faults.md
 
 Sessions are played in rounds of ten seeds, all lessons and faults in each, so that whenever time ends every lesson and
-fault has had the same number of seeds; the page says how many. `station.bench.scoring_faults` says how it is done.
+fault has had the same number of seeds; the page says how many. `station.bench.rows.advice_rows` says how it is done.
 """
 
 import argparse
@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from station.bench.scoring_faults import (
+from station.bench.rows.advice_rows import (
     FAULT_SEEDS,
     PAIR_SEEDS,
     STUDENT,
@@ -27,7 +27,7 @@ from station.bench.scoring_faults import (
     silent,
 )
 from station.drills.library import lesson_names
-from station.practice.student_spec import FAULTS
+from station.simulation.student_spec import FAULTS
 
 _SEEDS_A_ROUND = 10
 _NONE, _BOTH = "none", "both"

@@ -4,12 +4,12 @@ Run it with `python examples/score_a_take.py`. Everything here is the core: it n
 """
 
 from station.drills.library import find_lesson
-from station.practice.report import assessment_text
-from station.practice.student_spec import parse_spec
-from station.practice.virtual_student import play
+from station.practice.records.session_report import assessment_text
 from station.scoring.align import align
-from station.scoring.document import assessment
-from station.scoring.summary import summarise
+from station.scoring.analysis.summary import summarise
+from station.scoring.report.assessment_document import assessment
+from station.simulation.student_spec import parse_spec
+from station.simulation.virtual_student import play
 
 
 def main() -> None:

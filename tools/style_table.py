@@ -16,12 +16,12 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Limb, Piece, Zone
 from station.core.units import PPQ
-from station.motion import frame
 from station.motion.drummer import Drummer
-from station.motion.figure import Joint
-from station.motion.pose import ANGLE_NAMES
-from station.motion.style import NUMBERS, Style, range_of
-from station.motion.style_file import load_style, style_names
+from station.motion.kinematics import frame
+from station.motion.kinematics.figure import Joint
+from station.motion.kinematics.pose import ANGLE_NAMES
+from station.motion.style.style import NUMBERS, Style, range_of
+from station.motion.style.style_file import load_style, style_names
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 

@@ -7,16 +7,16 @@ import numpy as np
 from station.core.pieces import Piece
 from station.drills.library import find_lesson
 from station.motion.drummer import Drummer
-from station.motion.figure import figure_of
-from station.motion.kit import load_kit
+from station.motion.kinematics.figure import figure_of
+from station.motion.kit.kit import load_kit
 from station.music.judgement import Label
-from station.render.camera import View, named
+from station.render.camera import NamedView, named
+from station.render.files.png_file import write_png
 from station.render.picture import PictureMaker
-from station.render.png import write_png
 from station.render.quality import QUALITIES
-from station.render.report_picture import draw_report_png
-from station.render.results import Words, result_facts
-from station.render.snapshot import Cue, Hud, Snapshot, Strike, no_marks
+from station.render.report.report_picture import draw_report_png
+from station.render.report.result_facts import ResultWords, result_facts
+from station.render.snapshot import Hud, SeenStrike, Snapshot, TimingCue, no_marks
 
 SIZE = (960, 540)
 HERE = Path(__file__).parent
@@ -43,8 +43,8 @@ def main() -> None:
     hud = Hud(lesson.title, "Demonstration", *where)
     snapshot = Snapshot(score, POSITION_S, kit, figure, drummer.pose(POSITION_S), drummer.assignment.limbs, hud=hud)
     maker = PictureMaker(SIZE, QUALITIES[1])
-    write_png(maker.draw(snapshot, named(View.FRONT)), HERE / "demonstration.png")
-    hud = Hud(lesson.title, "Pass 1 of 3", *where, None, 18, 19, "", Cue.LATE, 0.2)
+    write_png(maker.draw(snapshot, named(NamedView.FRONT)), HERE / "demonstration.png")
+    hud = Hud(lesson.title, "Pass 1 of 3", *where, None, 18, 19, "", TimingCue.LATE, 0.2)
     passing = Snapshot(
         score,
         POSITION_S,
@@ -53,12 +53,12 @@ def main() -> None:
         drummer.pose(POSITION_S),
         drummer.assignment.limbs,
         marks,
-        strikes=(Strike(Piece.SNARE, 100, 0.02),),
+        strikes=(SeenStrike(Piece.SNARE, 100, 0.02),),
         hud=hud,
     )
-    write_png(maker.draw(passing, named(View.EYES)), HERE / "pass.png")
+    write_png(maker.draw(passing, named(NamedView.EYES)), HERE / "pass.png")
     label = np.where(random.random(len(score)) < 0.05, Label.MISS, Label.MATCH).astype(np.uint8)
-    words = Words(
+    words = ResultWords(
         lesson.title,
         "3 passes of bars 1–2 at 84 bpm",
         86.0,

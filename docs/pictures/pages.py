@@ -21,25 +21,25 @@ ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT))
 
 from station.app.model import Stage  # noqa: E402
-from station.app.panels.calibration import DROP_LABEL, MEASURE_LABEL  # noqa: E402
-from station.app.panels.devices import DEVICES  # noqa: E402
-from station.app.panels.ear_row import EARLIER_LABEL  # noqa: E402
-from station.app.panels.figure import FIGURE  # noqa: E402
-from station.app.panels.hits import HITS  # noqa: E402
-from station.app.panels.lessons import FREE_LABEL  # noqa: E402
-from station.app.panels.look_popup import LOOK_LABEL  # noqa: E402
-from station.app.panels.pads import LEARN_LABEL as LEARN_PAD_LABEL  # noqa: E402
-from station.app.panels.practice import PRACTICE  # noqa: E402
-from station.app.panels.take_along import TAKE_ALONG  # noqa: E402
 from station.core.settings import load_settings, save_settings  # noqa: E402
 from station.drills.library import find_lesson  # noqa: E402
 from station.drills.mastery.policy import new_item  # noqa: E402
+from station.drills.mastery.practice_steps import item_of  # noqa: E402
 from station.drills.mastery.probes import Probes  # noqa: E402
 from station.drills.mastery.reviews import Review  # noqa: E402
-from station.drills.mastery.steps import item_of  # noqa: E402
-from station.practice.memory import Memory  # noqa: E402
-from station.render.frames import DoublePlace  # noqa: E402
-from station.render.png import write_png  # noqa: E402
+from station.gui.panels.calibration_part import DROP_LABEL, MEASURE_LABEL  # noqa: E402
+from station.gui.panels.devices_panel import DEVICES  # noqa: E402
+from station.gui.panels.export_panel import TAKE_ALONG  # noqa: E402
+from station.gui.panels.hits_panel import HITS  # noqa: E402
+from station.gui.panels.lessons_panel import FREE_LABEL  # noqa: E402
+from station.gui.panels.pads_part import LEARN_LABEL as LEARN_PAD_LABEL  # noqa: E402
+from station.gui.panels.playback_row import EARLIER_LABEL  # noqa: E402
+from station.gui.panels.practice_panel import PRACTICE  # noqa: E402
+from station.gui.panels.style_panel import FIGURE  # noqa: E402
+from station.gui.panels.view_popup import LOOK_LABEL  # noqa: E402
+from station.practice.records.memory import Memory  # noqa: E402
+from station.render.files.png_file import write_png  # noqa: E402
+from station.render.gpu.moving_parts import DoublePlace  # noqa: E402
 from tests.gui.drive import NEWCOMER, Drive, Measurement, Scenario, open_panel, press_view  # noqa: E402
 from tests.gui.x_server import screen  # noqa: E402
 

@@ -2,20 +2,20 @@
 
 from dataclasses import replace
 
-from station.app.deck import Deck
-from station.app.demonstrator import Demonstrator
+from station.app.demo_player import DemoPlayer
 from station.app.goings_on import GoingsOn
-from station.app.preparation import Preparation
-from station.motion.figure import load_figure
-from station.motion.hand_notes import Hands
-from station.motion.style import Style
-from station.practice.lead import hands_of
+from station.app.session_preparation import SessionPreparation
+from station.motion.kinematics.figure import load_figure
+from station.motion.sticking.hand_notes import Hands
+from station.motion.style.style import Style
+from station.practice.session.leading_hand import hands_of
+from station.scenes.demonstrator import Demonstrator
 
 
 class Casting:
     """`who` demonstrates what goes on in `goings_on` and on the `deck`; what is `prepared` next goes by the hands."""
 
-    def __init__(self, who: Demonstrator, prepared: Preparation, goings_on: GoingsOn, deck: Deck) -> None:
+    def __init__(self, who: Demonstrator, prepared: SessionPreparation, goings_on: GoingsOn, deck: DemoPlayer) -> None:
         self.who = who
         self._prepared, self._goings_on, self._deck = prepared, goings_on, deck
 

@@ -3,18 +3,18 @@
 from collections.abc import Callable
 from dataclasses import replace
 
-from station.app.choice import Choice
 from station.app.model import Stage
-from station.app.panels.ruler import Bars
 from station.app.practice_model import PracticeModel
+from station.app.selection import Selection
 from station.core.errors import StationError
 from station.drills.lesson import Lesson
+from station.gui.panels.ruler import Bars
 
 
 class Deeds:
     """Done to `model` by what was chosen in `choice`; `tell` shows a line."""
 
-    def __init__(self, model: PracticeModel, choice: Choice, tell: Callable[[str], None]) -> None:
+    def __init__(self, model: PracticeModel, choice: Selection, tell: Callable[[str], None]) -> None:
         self.model, self.choice, self.tell = model, choice, tell
         first = choice.wish()
         self._previewed = None if first is None else (first.lesson, first.bars)

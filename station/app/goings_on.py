@@ -7,15 +7,15 @@ room's (`practice_room`).
 from collections.abc import Callable
 from dataclasses import replace
 
-from station.app.engine_line import EngineLine
-from station.app.just_play import JustPlay
-from station.app.lesson_run import LessonRun
-from station.app.model import FreeWish, RoomState, Stage
-from station.app.outcome import Outcome
+from station.app.engine_client import EngineClient
+from station.app.free_session import FreeSession
+from station.app.lesson_session import LessonSession
+from station.app.model import FreeRequest, RoomState, Stage
+from station.app.result import LastResult
 from station.core.errors import StationError
 from station.core.settings import Settings
 from station.engine.messages import EngineEvent
-from station.practice.own_ear import Guess
+from station.practice.session.self_estimate import SelfEstimate
 from station.render.snapshot import Snapshot
 from station.sound.track import PreparedTrack
 
@@ -23,10 +23,12 @@ from station.sound.track import PreparedTrack
 class GoingsOn:
     """At first `run` is shown and nothing goes on; `tell` hears what a user should read."""
 
-    def __init__(self, engine: EngineLine, run: LessonRun, free: JustPlay, tell: Callable[[str], None]) -> None:
+    def __init__(
+        self, engine: EngineClient, run: LessonSession, free: FreeSession, tell: Callable[[str], None]
+    ) -> None:
         self._engine, self._tell = engine, tell
         self.run, self.free = run, free
-        self.outcome = Outcome()
+        self.outcome = LastResult()
         self.stage = Stage.IDLE
         self.is_free = False
         """Whether no lesson is shown: the kit alone, to just play."""
@@ -45,18 +47,18 @@ class GoingsOn:
 
     # --- one after the other -----------------------------------------------------------------------------------------
 
-    def show(self, run: LessonRun | None) -> None:
+    def show(self, run: LessonSession | None) -> None:
         """Show what would be played, None the kit alone."""
         self.is_free = run is None
         self.run = run or self.run
 
-    def begin(self, run: LessonRun, settings: Settings, track: PreparedTrack | None) -> None:
+    def begin(self, run: LessonSession, settings: Settings, track: PreparedTrack | None) -> None:
         """Play a lesson; raises `StationError`, and goes on as before then."""
         run.begin(settings, track)
         self.outcome.leave()
         self.run, self.stage, self.is_free = run, Stage.PLAYING, False
 
-    def begin_free(self, wish: FreeWish) -> None:
+    def begin_free(self, wish: FreeRequest) -> None:
         """Begin a free take; raises `StationError`, and goes on as before then."""
         self.free.begin(self._engine, wish)
         self.outcome.leave()
@@ -104,13 +106,13 @@ class GoingsOn:
         if not self.run.veto():
             self._finish(settings)
 
-    def answer(self, guess: Guess) -> None:
+    def answer(self, guess: SelfEstimate) -> None:
         """What the student believes, where a question is open."""
         told = self.outcome.answer(guess)
         if told is not None:
             self._tell(told)
 
-    def leave(self, run: LessonRun) -> None:
+    def leave(self, run: LessonSession) -> None:
         """The result was read: `run` is shown again."""
         self.outcome.leave()
         self.run, self.stage = run, Stage.IDLE

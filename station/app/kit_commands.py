@@ -5,10 +5,10 @@ else: an answer, or a gesture to be learnt.
 """
 
 from station.app.goings_on import GoingsOn
-from station.app.habits import HabitDesk, Habits
-from station.app.preparation import Preparation
+from station.app.preferences import PracticePreferences, Preferences
+from station.app.session_preparation import SessionPreparation
 from station.engine.messages import EngineEvent
-from station.practice.pad_commands import PadCommands
+from station.practice.control.pad_commands import PadCommands
 
 
 class KitCommands:
@@ -17,16 +17,16 @@ class KitCommands:
     The habits change both: sessions go so from then on, and one that runs waits as it began.
     """
 
-    def __init__(self, prepared: Preparation, goings_on: GoingsOn) -> None:
+    def __init__(self, prepared: SessionPreparation, goings_on: GoingsOn) -> None:
         self._prepared, self._goings_on = prepared, goings_on
-        self.habits = HabitDesk(prepared.settings, self._accustom)
+        self.habits = Preferences(prepared.settings, self._accustom)
         self._pads = self._by_habit()
         self._is_wanted = False
 
     def _by_habit(self) -> PadCommands:
         return PadCommands(self._prepared.settings, self._goings_on.run.plan.score)
 
-    def _accustom(self, habits: Habits) -> None:
+    def _accustom(self, habits: PracticePreferences) -> None:
         self._prepared.settings = habits.within(self._prepared.settings)
         self._pads = self._by_habit()
 

@@ -6,8 +6,8 @@ Milliseconds, positive where a device is later than it reports; ± is half the 9
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from station.core.calibration import Calibration, Measured
-from station.core.names import piece_name
+from station.core.labels import piece_name
+from station.core.measured_latency import MeasuredLatency, StoredCalibration
 
 SURE_MS = 2.0
 """An interval up to so wide on either side changes no judgement (our choice: a tenth of the narrowest window)."""
@@ -23,7 +23,7 @@ class LatencyLine:
     good: bool
 
 
-def latency_lines(known: Calibration, kits: Sequence[str]) -> list[LatencyLine]:
+def latency_lines(known: StoredCalibration, kits: Sequence[str]) -> list[LatencyLine]:
     """A line an output, a kit and a pad that was measured, and one for each of `kits` that was not."""
     lines = [_line(name, measured) for name, measured in known.outputs.items()]
     if not lines:
@@ -37,7 +37,7 @@ def latency_lines(known: Calibration, kits: Sequence[str]) -> list[LatencyLine]:
     return lines
 
 
-def _line(what: str, measured: Measured) -> LatencyLine:
+def _line(what: str, measured: MeasuredLatency) -> LatencyLine:
     words = f"{measured.latency_ms:+.1f} ± {measured.half_ms:.1f} ms, by {measured.by} on {measured.on}"
     if measured.doubts:
         return LatencyLine(what, words, f"don't trust this: {measured.doubts}", False)

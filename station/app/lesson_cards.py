@@ -4,21 +4,23 @@ from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
 
-from station.app.model import LessonCard, Start
+from station.app.model import LessonCard, SessionRequest
 from station.core.errors import BadInput
 from station.core.units import PPQ
 from station.drills.course import Course, lesson_name
 from station.drills.lesson import LEVELS, Lesson
 from station.drills.library import read_lesson, shipped_lessons
-from station.practice.plan import Phase, Plan
+from station.practice.session.plan import Phase, Plan
 
 
-def wish_of(plan: Plan) -> Start:
+def request_of(plan: Plan) -> SessionRequest:
     """What would lay out `plan` again."""
     first, last = plan.bars
     demonstrations = sum(segment.phase is Phase.DEMONSTRATION for segment in plan.segments)
     bars = None if plan.bars == plan.lesson.loop else (first + 1, last + 1)
-    return Start(plan.lesson.name, plan.tempo_bpm, plan.passes, bars, demonstrations, click=plan.click is not None)
+    return SessionRequest(
+        plan.lesson.name, plan.tempo_bpm, plan.passes, bars, demonstrations, click=plan.click is not None
+    )
 
 
 def all_lessons(first: Lesson, courses: Iterable[Course]) -> dict[str, Lesson]:

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
-from station.app.every_hit import DOT_DTYPE, EveryHit
-from station.app.heat_map import HeatMap
-from station.app.wrong_pads import WrongPad
-from station.practice.earlier import NONE_KEPT, Earlier
-from station.render.results import ResultFacts
+from station.practice.records.previous_session import NONE_KEPT, PreviousSession
+from station.render.report.result_facts import ResultFacts
+from station.scenes.heat_map import HeatMap
+from station.scenes.hit_table import DOT_DTYPE, EveryHit
+from station.scenes.wrong_pads import WrongPad
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +41,7 @@ class LessonCard:
 
 
 @dataclass(frozen=True, slots=True)
-class Start:
+class SessionRequest:
     """What the user chose: a lesson by name, quarter notes a minute, passes, bars from 1 (None: the lesson's).
 
     With `adapt` the tempo follows the student from pass to pass, and `tempo_bpm` says nothing. Without
@@ -58,7 +58,7 @@ class Start:
 
 
 @dataclass(frozen=True, slots=True)
-class FreeWish:
+class FreeRequest:
     """Just play: beats a minute, and whether they click."""
 
     tempo_bpm: float
@@ -111,7 +111,7 @@ class RoomState:
 
 
 @dataclass(frozen=True, eq=False)
-class Report:
+class ShownResult:
     """The result of the last session: the page's `facts`, the JSON `document`, the `folder` of both.
 
     `heat` says how right each bar was, `hits` has every stroke, `before` is an earlier session of the lesson, or says
@@ -123,5 +123,5 @@ class Report:
     folder: str = ""
     heat: HeatMap = field(default_factory=lambda: HeatMap({}))
     hits: EveryHit = field(default_factory=lambda: EveryHit(np.empty(0, DOT_DTYPE)))
-    before: Earlier | str = NONE_KEPT
+    before: PreviousSession | str = NONE_KEPT
     wrong_pads: tuple[WrongPad, ...] = ()

@@ -6,27 +6,27 @@ thread. Faults of the user's or the world's come as `StationError` and are shown
 
 from typing import Protocol
 
-from station.app.calibration_desk import CalibrationDesk
+from station.app.calibration import Calibration
 from station.app.casting import Casting
-from station.app.deck import Deck
-from station.app.graphed import Graphed
-from station.app.habits import HabitDesk
-from station.app.kit_desk import KitDesk
-from station.app.model import FreeWish, Report, RoomState, Start
-from station.app.shelf import Shelf
-from station.app.welcome import Answers
+from station.app.catalog import Catalog
+from station.app.demo_player import DemoPlayer
+from station.app.first_start import FirstAnswers
+from station.app.mapping_editor import MappingEditor
+from station.app.model import FreeRequest, RoomState, SessionRequest, ShownResult
+from station.app.preferences import Preferences
 from station.engine.messages import KeyHit
 from station.music.score import Score
-from station.practice.by_ear import Whose
-from station.practice.own_ear import Guess
+from station.practice.demonstration.compare_by_ear import Whose
+from station.practice.session.self_estimate import SelfEstimate
 from station.render.snapshot import Snapshot
+from station.scenes.curves import ScoreCurves
 
 
 class PracticeModel(Protocol):
     """What practises behind the window: `shelf` has what can be, `deck` demonstrates what is chosen of it."""
 
-    deck: Deck
-    shelf: Shelf
+    deck: DemoPlayer
+    shelf: Catalog
 
     def snapshot(self, now_ns: int) -> Snapshot:
         """What is to be seen at monotonic time `now_ns`."""
@@ -44,19 +44,19 @@ class PracticeModel(Protocol):
         """What is going on."""
         ...
 
-    def first(self) -> Start | None:
+    def first(self) -> SessionRequest | None:
         """What is chosen when the window opens; None leaves it to the list."""
         ...
 
-    def preview(self, wish: Start | None) -> None:
+    def preview(self, wish: SessionRequest | None) -> None:
         """Show what is chosen, before it begins, None the kit alone for just playing; raises `StationError`."""
         ...
 
-    def start(self, wish: Start) -> None:
+    def start(self, wish: SessionRequest) -> None:
         """Begin a session; raises `StationError`."""
         ...
 
-    def just_play(self, wish: FreeWish) -> None:
+    def just_play(self, wish: FreeRequest) -> None:
         """Begin a free take; raises `StationError`."""
         ...
 
@@ -96,15 +96,15 @@ class PracticeModel(Protocol):
         """A stroke on the computer's keyboard."""
         ...
 
-    def report(self) -> Report | None:
+    def report(self) -> ShownResult | None:
         """The result of the session that ended last, None before the first and while a question is open."""
         ...
 
-    def graphed(self) -> Graphed | None:
+    def graphed(self) -> ScoreCurves | None:
         """What the graph shows, None for nothing."""
         ...
 
-    def answer(self, guess: Guess) -> None:
+    def answer(self, guess: SelfEstimate) -> None:
         """What the student believes, where a question is open."""
         ...
 
@@ -112,7 +112,7 @@ class PracticeModel(Protocol):
         """The whole score of the lesson that is shown, at its own tempo."""
         ...
 
-    def meet(self, answers: Answers) -> None:
+    def meet(self, answers: FirstAnswers) -> None:
         """Who plays, what is heard and whose hand leads, from now on; raises `StationError`."""
         ...
 
@@ -122,17 +122,17 @@ class PracticeModel(Protocol):
         ...
 
     @property
-    def desk(self) -> KitDesk:
+    def desk(self) -> MappingEditor:
         """The kits that are here, as the devices page shows and sets them."""
         ...
 
     @property
-    def calibration(self) -> CalibrationDesk:
+    def calibration(self) -> Calibration:
         """What measures how late the devices are."""
         ...
 
     @property
-    def habits(self) -> HabitDesk:
+    def habits(self) -> Preferences:
         """How the student likes sessions to go."""
         ...
 

@@ -9,41 +9,41 @@ from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from station.app.calibration_desk import CalibrationDesk
+from station.app.calibration import Calibration
 from station.app.casting import Casting
-from station.app.deck import Deck
-from station.app.demonstrator import kept_demonstrator
-from station.app.ear import Ear
-from station.app.engine_line import EngineLine, WakeEngine
+from station.app.catalog import Catalog
+from station.app.demo_player import DemoPlayer
+from station.app.engine_client import EngineClient, WakeEngine
+from station.app.first_start import FirstAnswers, student_level
+from station.app.first_start import answered as met
+from station.app.free_session import FreeSession
 from station.app.goings_on import GoingsOn
-from station.app.graphed import Graphed
-from station.app.habits import HabitDesk
-from station.app.just_play import JustPlay
 from station.app.kit_commands import KitCommands
-from station.app.kit_desk import KitDesk
-from station.app.lesson_cards import wish_of
-from station.app.lesson_run import LessonRun
-from station.app.model import FreeWish, Report, RoomState, Stage, Start
-from station.app.preparation import LaidOut, Preparation
-from station.app.shelf import Shelf
-from station.app.welcome import Answers, student_level
-from station.app.welcome import answered as met
-from station.core.calibration import Calibration, load_calibration
+from station.app.lesson_cards import request_of
+from station.app.lesson_session import LessonSession
+from station.app.mapping_editor import MappingEditor
+from station.app.model import FreeRequest, RoomState, SessionRequest, ShownResult, Stage
+from station.app.playback import Playback
+from station.app.preferences import Preferences
+from station.app.session_preparation import PreparedSession, SessionPreparation
 from station.core.errors import DeviceError, StationError
 from station.core.events import DeviceLost
+from station.core.measured_latency import StoredCalibration, load_calibration
 from station.core.settings import Settings
 from station.core.units import NS_PER_S
 from station.engine.messages import EngineEvent, KeyHit, Started
 from station.music.score import Score
-from station.practice.by_ear import Whose
-from station.practice.latency import Latency, latency_of
-from station.practice.listening import Listening
-from station.practice.own_ear import Guess
-from station.practice.plan import Plan
+from station.practice.demonstration.compare_by_ear import Whose
+from station.practice.session.device_latency import Latency, latency_of
+from station.practice.session.listening import Listening
+from station.practice.session.plan import Plan
+from station.practice.session.self_estimate import SelfEstimate
 from station.render.snapshot import Snapshot
+from station.scenes.curves import ScoreCurves
+from station.scenes.demonstrator import kept_demonstrator
 
 if TYPE_CHECKING:
-    from station.practice.backing import BackingWish
+    from station.practice.session.backing_track import BackingRequest
 
 NOTICES_KEPT = 5
 """How many notices the window may show at once; our choice."""
@@ -65,22 +65,22 @@ class PracticeRoom:
         first: Plan,
         adapt: bool = False,
         latency: Latency | None = None,
-        backing: "BackingWish | None" = None,
+        backing: "BackingRequest | None" = None,
     ) -> None:
-        self._engine = EngineLine(wake, settings.rate_hz)
-        self._prepared = Preparation(settings, backing)
-        self._latency = latency or latency_of(settings, Calibration())
-        self._first = replace(wish_of(first), adapt=adapt)
+        self._engine = EngineClient(wake, settings.rate_hz)
+        self._prepared = SessionPreparation(settings, backing)
+        self._latency = latency or latency_of(settings, StoredCalibration())
+        self._first = replace(request_of(first), adapt=adapt)
         self._notices: list[str] = []
-        self.shelf = Shelf(lambda: self._prepared.settings, first.lesson, self._notices.append)
+        self.shelf = Catalog(lambda: self._prepared.settings, first.lesson, self._notices.append)
         who = kept_demonstrator(settings, self._notices.append)
-        run = LessonRun(self._engine, LaidOut(first), who, self._latency, self._notices.append)
-        self._goings_on = GoingsOn(self._engine, run, JustPlay(settings, self._latency), self._notices.append)
-        self.desk = KitDesk(self._engine.tell)
-        self.calibration = CalibrationDesk(self._rest, self._engine.wake)
-        self._ear = Ear(self._engine, self._prepared.has_tracks)
+        run = LessonSession(self._engine, PreparedSession(first), who, self._latency, self._notices.append)
+        self._goings_on = GoingsOn(self._engine, run, FreeSession(settings, self._latency), self._notices.append)
+        self.desk = MappingEditor(self._engine.tell)
+        self.calibration = Calibration(self._rest, self._engine.wake)
+        self._ear = Playback(self._engine, self._prepared.has_tracks)
         self._kit = KitCommands(self._prepared, self._goings_on)
-        self.deck = Deck(self._ear.demonstrate, self._prepared.watched(first.lesson, first.kit), who)
+        self.deck = DemoPlayer(self._ear.demonstrate, self._prepared.watched(first.lesson, first.kit), who)
         self.deck.repeat(self._first.bars)
         self.casting = Casting(who, self._prepared, self._goings_on, self.deck)
 
@@ -123,11 +123,11 @@ class PracticeRoom:
         )
         return self._goings_on.told(shown)
 
-    def report(self) -> Report | None:
+    def report(self) -> ShownResult | None:
         """The result of the session that ended last, once the question before it was answered."""
         return self._goings_on.outcome.report
 
-    def graphed(self) -> Graphed | None:
+    def graphed(self) -> ScoreCurves | None:
         """What the graph shows: the demonstration, the session, or its whole result once it may be seen."""
         if self._goings_on.is_free:
             return None
@@ -137,13 +137,13 @@ class PracticeRoom:
             return self.deck.graphed()
         return self._goings_on.outcome.graphed(self.casting.who)
 
-    def first(self) -> Start:
+    def first(self) -> SessionRequest:
         """The lesson that the window was opened on, as it was asked for."""
         return self._first
 
     # --- what the user does ------------------------------------------------------------------------------------------
 
-    def preview(self, wish: Start | None) -> None:
+    def preview(self, wish: SessionRequest | None) -> None:
         """Show the chosen lesson, its bars on the player, or the kit alone, to just play; raises `StationError`."""
         if self._goings_on.stage is not Stage.IDLE:
             return
@@ -155,7 +155,7 @@ class PracticeRoom:
         else:
             self.deck.load(self._prepared.watched(self.shelf.lesson(wish.lesson), run.plan.kit), wish.bars)
 
-    def start(self, wish: Start) -> None:
+    def start(self, wish: SessionRequest) -> None:
         """Begin a session, ending the one that runs; wakes a new engine if the old has ended. Raises `StationError`."""
         run = self._laid_out(wish)
         self._make_room()
@@ -164,7 +164,7 @@ class PracticeRoom:
             self._ear.without_track()
         self._goings_on.begin(run, self._prepared.settings, track)
 
-    def just_play(self, wish: FreeWish) -> None:
+    def just_play(self, wish: FreeRequest) -> None:
         """Begin a free take, ending what runs; raises `StationError`."""
         self._make_room()
         self._ear.without_track()
@@ -187,25 +187,25 @@ class PracticeRoom:
         return self._goings_on.run.plan.lesson.score
 
     @property
-    def habits(self) -> HabitDesk:
+    def habits(self) -> Preferences:
         """How the student likes sessions to go."""
         return self._kit.habits
 
-    def meet(self, answers: Answers) -> None:
+    def meet(self, answers: FirstAnswers) -> None:
         """Who plays, what is heard and whose hand leads, from now on; raises `DeviceError` for a dead engine."""
         settings = self._prepared.settings = met(self._prepared.settings, answers)
         self._goings_on.free.meet(settings)
         self._engine.stand(student_level(settings))
 
-    def answer(self, guess: Guess) -> None:
+    def answer(self, guess: SelfEstimate) -> None:
         """What the student believes of the session that ended: now its result is shown beside it."""
         self._goings_on.answer(guess)
 
     def measure(self, by: str, distance_m: float) -> None:
         """Measure how late the devices are, while the engine rests; raises `DeviceError` while somebody plays."""
-        from station.app.measuring import MeasureWish
+        from station.app.latency_methods import MeasureRequest
 
-        self.calibration.measure(MeasureWish.of(self._prepared.settings, by, distance_m))
+        self.calibration.measure(MeasureRequest.of(self._prepared.settings, by, distance_m))
 
     def trust_measured(self) -> None:
         """Subtract what is stored of the devices from the next session on; raises `BadInput` for a foreign file."""
@@ -247,7 +247,7 @@ class PracticeRoom:
         if self._goings_on.stage is Stage.RESULT:
             self._ear.quiet()
             self.shelf.learnt()
-            self._goings_on.leave(self._new_run(LaidOut(self._goings_on.run.plan)))
+            self._goings_on.leave(self._new_run(PreparedSession(self._goings_on.run.plan)))
 
     # --- inside ------------------------------------------------------------------------------------------------------
 
@@ -282,14 +282,16 @@ class PracticeRoom:
         if listening is not None:
             self._ear.hear(listening)
 
-    def _laid_out(self, wish: Start) -> LessonRun:
+    def _laid_out(self, wish: SessionRequest) -> LessonSession:
         laid = self._prepared.laid_out(self.shelf.lesson(wish.lesson), wish)
         if laid.followed is not None and laid.followed.fault is not None:
             self._notices.append(laid.followed.fault)
         return self._new_run(laid)
 
-    def _new_run(self, laid: LaidOut) -> LessonRun:
-        return LessonRun(self._engine, laid, self.casting.who, self._latency, self._notices.append, self._goings_on.run)
+    def _new_run(self, laid: PreparedSession) -> LessonSession:
+        return LessonSession(
+            self._engine, laid, self.casting.who, self._latency, self._notices.append, self._goings_on.run
+        )
 
     def _take_in(self, now_ns: int) -> bool:
         """Take in what the engine has said; whether it has said anything."""

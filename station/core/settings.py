@@ -10,9 +10,9 @@ from pathlib import Path
 
 from platformdirs import user_config_path, user_documents_path
 
+from station.core.did_you_mean import did_you_mean
 from station.core.errors import BadInput
 from station.core.files import write_whole
-from station.core.meant import meant
 from station.core.pieces import Piece, word
 from station.core.toml_table import parse_toml
 from station.core.toml_write import toml_value
@@ -158,7 +158,7 @@ def _checked(raw: dict[str, object], source: Path) -> Settings:
     values: dict[str, object] = {}
     for key, value in raw.items():
         if key not in types:
-            raise BadInput(source, key, f"no such setting{meant(key, types)}")
+            raise BadInput(source, key, f"no such setting{did_you_mean(key, types)}")
         if types[key] is float and type(value) is int:
             value = float(value)  # noqa: PLW2901 - TOML writes 5.0 and 5 alike for a person
         if type(value) is not types[key]:

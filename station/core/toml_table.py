@@ -11,8 +11,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from station.core.did_you_mean import did_you_mean
 from station.core.errors import BadInput
-from station.core.meant import meant
 from station.core.toml_places import KeyPath, Places
 from station.core.utf8 import utf8_text
 
@@ -118,7 +118,7 @@ class Table:
         """Refuse any key that is not in `keys`."""
         for key in self.raw:
             if key not in keys:
-                raise BadInput(self.source, self._at(key), f"no such key{meant(key, sorted(keys))}")
+                raise BadInput(self.source, self._at(key), f"no such key{did_you_mean(key, sorted(keys))}")
 
     def table(self, key: str, default: Mapping[str, object] | None = None) -> "Table":
         """The table at `key`."""

@@ -1,6 +1,6 @@
 """All the kits that are heard, each with its own decoder and guard, by its name: for live bytes and captures.
 
-What is a stroke is judged by what the pads sent; what comes out has the velocities as they count (`touch`).
+What is a stroke is judged by what the pads sent; what comes out has the velocities as they count (`velocity_curve`).
 """
 
 from collections.abc import Callable, Iterable
@@ -8,14 +8,14 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from station.core.events import DeviceEvent, DeviceFound, DeviceLost, Hit
-from station.devices.guard import Ghost, Guard
-from station.devices.kit import KitPreset
-from station.devices.midi_decoder import MidiDecoder
-from station.devices.presets import preset_for
-from station.devices.touch import AS_SENT, counted
+from station.devices.mapping.device_map import DeviceMap
+from station.devices.mapping.presets import preset_for
+from station.devices.mapping.trigger_filter import FalseTrigger, TriggerFilter
+from station.devices.mapping.velocity_curve import AS_SENT, counted
+from station.devices.midi.midi_decoder import MidiDecoder
 
 
-class Heard(NamedTuple):
+class DecodedEvents(NamedTuple):
     """What bytes brought: the events that may sound at once, and those that are certain now and can be told."""
 
     sounding: list[DeviceEvent]
@@ -25,9 +25,9 @@ class Heard(NamedTuple):
 class _Kit:
     """One kit: what it sends, and which of it counts."""
 
-    def __init__(self, preset: KitPreset, device: str, has_touch: bool) -> None:
+    def __init__(self, preset: DeviceMap, device: str, has_touch: bool) -> None:
         self.decoder = MidiDecoder(preset, device)
-        self.guard = Guard(preset)
+        self.guard = TriggerFilter(preset)
         self.is_guarded = preset.has_rules
         pads = preset.pads if has_touch else {}
         self._tables = {piece: pad.curve.table for piece, pad in pads.items() if pad.curve != AS_SENT}
@@ -58,28 +58,28 @@ class DecoderBank:
     Without `has_touch` velocities are told as they were sent.
     """
 
-    def __init__(self, suggest: Callable[[str], KitPreset] = preset_for, has_touch: bool = True) -> None:
+    def __init__(self, suggest: Callable[[str], DeviceMap] = preset_for, has_touch: bool = True) -> None:
         self._suggest = suggest
         self._has_touch = has_touch
         self._kits: dict[str, _Kit] = {}
 
-    def add(self, device: str, preset: KitPreset) -> None:
+    def add(self, device: str, preset: DeviceMap) -> None:
         """Understand `device` by `preset` from now on; what its decoder knew is forgotten."""
         self._kits[device] = _Kit(preset, device, self._has_touch)
 
-    def preset_of(self, device: str) -> KitPreset:
+    def preset_of(self, device: str) -> DeviceMap:
         """The preset by which `device` is understood."""
         return self._kit(device).decoder.preset
 
-    def feed(self, device: str, data: bytes, at_ns: int) -> Heard:
+    def feed(self, device: str, data: bytes, at_ns: int) -> DecodedEvents:
         """What `data` from `device`, come at `at_ns`, brings."""
         kit = self._kit(device)
         events = kit.decoder.feed(data, at_ns)
         if not kit.is_guarded:
             events = kit.as_counts(events)
-            return Heard(events, events)
+            return DecodedEvents(events, events)
         sounding = [event for event in events if kit.guard.feed(event)]
-        return Heard(kit.as_counts(sounding), kit.as_counts(kit.guard.told()))
+        return DecodedEvents(kit.as_counts(sounding), kit.as_counts(kit.guard.told()))
 
     def settle(self, now_ns: int) -> list[DeviceEvent]:
         """What is certain by the clock, which must not run ahead of the bytes."""
@@ -91,7 +91,7 @@ class DecoderBank:
         return kit.as_counts(kit.guard.settle_until(until_ns))
 
     def overtaken_ns(self, device: str, at_ns: int) -> int | None:
-        """Up to when events of `device` were let go, if bytes from before that come only now; see `Guard`."""
+        """Up to when events of `device` were let go, if bytes from before that come only now; see `TriggerFilter`."""
         return self._kit(device).guard.overtaken_ns(at_ns)
 
     def waits(self, device: str) -> bool:
@@ -102,7 +102,7 @@ class DecoderBank:
         """All that still waits, as it stands."""
         return [event for kit in self._kits.values() for event in kit.as_counts(kit.guard.flush())]
 
-    def take_ghosts(self) -> list[Ghost]:
+    def take_ghosts(self) -> list[FalseTrigger]:
         """What was held back since the last call."""
         ghosts = [ghost for kit in self._kits.values() for ghost in kit.guard.ghosts]
         for kit in self._kits.values():

@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 
 from station.core.units import PPQ
-from station.drills.strokes import Velocities
-from station.drills.swing import STRAIGHT, Swing
+from station.drills.grid.cell_strokes import Velocities
+from station.drills.grid.swing import STRAIGHT, Swing
 from station.music.score import Score
 from station.music.tempo import TempoChange
 

@@ -18,7 +18,10 @@ from station.core.toml_places import KeyPath
 from station.core.units import PPQ
 from station.core.utf8 import utf8_text
 from station.drills.faults import Fault, Faults, raise_first
-from station.drills.grid_table import GridSection, Timing, note_length, read_grid, read_timing
+from station.drills.grid.cell_strokes import Origin, Velocities, WrittenCell, expand
+from station.drills.grid.grid_reader import CellTiming, GridSection, note_length, read_grid, read_timing
+from station.drills.grid.swing import MAX_RATIO, MIN_RATIO, STRAIGHT, Swing
+from station.drills.grid.tab_symbols import LINE_PIECES
 from station.drills.lesson import (
     DEFAULT_DEMONSTRATIONS,
     DEFAULT_MIN_ACCURACY,
@@ -28,10 +31,7 @@ from station.drills.lesson import (
     Lesson,
     Section,
 )
-from station.drills.letters import LINE_PIECES
 from station.drills.playable import impossible
-from station.drills.strokes import Origin, Velocities, Written, expand
-from station.drills.swing import MAX_RATIO, MIN_RATIO, STRAIGHT, Swing
 from station.drills.table import Table, number, text, texts, title, whole
 from station.drills.toml_syntax import load
 from station.music.score import Score
@@ -48,7 +48,7 @@ _MIDI = b"MThd"
 MAX_PASSES = 1000
 MAX_COUNT_IN_BARS = 8
 MAX_DEMONSTRATIONS = 20
-DEFAULT_TIMING = Timing(80.0, MeterChange(0, 4, 4), PPQ)
+DEFAULT_TIMING = CellTiming(80.0, MeterChange(0, 4, 4), PPQ)
 """Where a file says no tempo: a slow walk, our choice."""
 
 
@@ -138,7 +138,7 @@ class _Reader:
         self._note_impossible(lesson, origins)
         return lesson
 
-    def _sections(self, timing: Timing) -> list[GridSection]:
+    def _sections(self, timing: CellTiming) -> list[GridSection]:
         """The grids of the file, one after the other; there may be one `[grid]` or several `[[grid]]`."""
         grids = self.top.require("grid", lambda raw: raw, None, "a table [grid] with the lines to play")
         if grids is None:
@@ -154,7 +154,7 @@ class _Reader:
             self.faults.add(("grid",), "nothing to play: every cell is a rest", at_key=True)
         return sections
 
-    def _check_swing(self, swing: Swing, timing: Timing, sections: Sequence[GridSection]) -> None:
+    def _check_swing(self, swing: Swing, timing: CellTiming, sections: Sequence[GridSection]) -> None:
         """Pairs of swung cells must fill every beat that is counted, else parentheses and swing would cross."""
         beats = {timing.beat_ticks, *(s.timing.beat_ticks for s in sections)}
         if swing.ratio != STRAIGHT and any(beat % (2 * swing.unit_ticks) for beat in beats):
@@ -248,7 +248,7 @@ def _three(table: Table, usual: tuple[int, int, int]) -> tuple[int, int, int]:
 
 def _score(sections: Sequence[GridSection], velocities: Velocities, swing: Swing) -> tuple[Score, list[Origin]]:
     """The score of all sections, and the letter that wrote each of its rows."""
-    strokes: list[Written] = [stroke for section in sections for stroke in section.strokes]
+    strokes: list[WrittenCell] = [stroke for section in sections for stroke in section.strokes]
     rows, origins = expand(strokes, velocities, swing)
     order = np.lexsort((rows["piece"], -rows["lead_ms"], rows["tick"]))
     tempos: list[TempoChange] = []

@@ -9,8 +9,8 @@ student should begin.
 from dataclasses import dataclass
 from functools import cache
 
+from station.core.did_you_mean import nearest
 from station.core.errors import BadInput
-from station.core.meant import nearest
 from station.drills.lesson import Lesson
 from station.drills.lesson_file import parse_lesson
 

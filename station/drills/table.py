@@ -6,7 +6,7 @@ A reader takes a raw value and gives the value that it means, or raises `ValueEr
 from collections.abc import Callable, Iterable
 from typing import TypeVar
 
-from station.core.meant import meant
+from station.core.did_you_mean import did_you_mean
 from station.core.toml_places import KeyPath
 from station.drills.faults import Faults
 
@@ -113,5 +113,5 @@ class Table:
         """Note every key that nobody took, with the known one nearest to it."""
         for key in self.raw:
             if key not in self._taken:
-                hint = meant(key, self._taken)
+                hint = did_you_mean(key, self._taken)
                 self.faults.add((*self.path, key), f"no such key: {key}{hint}", at_key=True)

@@ -15,12 +15,12 @@ from functools import partial
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_S
 from station.engine.engine import Engine, OutputState
-from station.engine.lookout import Lookout
+from station.engine.hotplug import Hotplug
 from station.engine.messages import Sounding
 from station.sound.drum_kit import Frames
 from station.sound.mixer import Mixer
-from station.sound.output import Output
-from station.sound.portaudio import SoundServerGone
+from station.sound.output.portaudio import SoundServerGone
+from station.sound.output.sound_output import Output
 
 STALLED_NS = 2 * NS_PER_S
 """A card that asks for nothing so long has stopped (our choice: every driver's blocks are well under a second)."""
@@ -39,7 +39,7 @@ class Card:
     """The engine's sound card. `build_mixer` makes a mixer for a sample rate, `lookout` finds what there is to open."""
 
     def __init__(
-        self, engine: Engine, open_output: OpenOutput, build_mixer: BuildMixer, lookout: Lookout | None = None
+        self, engine: Engine, open_output: OpenOutput, build_mixer: BuildMixer, lookout: Hotplug | None = None
     ) -> None:
         self.is_worn_out = False
         """Whether sound can be had again, but only by a new process."""
@@ -167,7 +167,7 @@ class Card:
         self._engine.notify(f"sound goes to {self.name}")
         self._engine.tell(Sounding(self.name, self.rate_hz))
 
-    def _look(self, lookout: Lookout, now_ns: int) -> None:
+    def _look(self, lookout: Hotplug, now_ns: int) -> None:
         if now_ns >= self._next_look_ns:
             self._next_look_ns = now_ns + LOOK_EVERY_NS
             lookout.begin()

@@ -3,7 +3,7 @@
 It owns no thread, clock, port or card. Whoever runs it (the engine process, a headless session, a test) feeds it the
 bytes of the devices with their times, hands it commands, advances it to the present and, where there is a sound card,
 asks it for blocks. One thread may call `render` while another calls anything else; all else takes turns
-(`station.engine.runner`).
+(`station.engine.engine_step`).
 
 Times are session time (monotonic ns). With a mixer the transport starts with the block that the card asks for next;
 without one it runs on the times that `advance` is told.
@@ -19,21 +19,23 @@ from numpy.typing import NDArray
 from station.core.errors import DeviceError, StationError
 from station.core.events import DeviceFound, DeviceLost, Hit
 from station.core.units import NS_PER_S
-from station.devices.capture_file import CaptureFile
+from station.devices.capture.capture_writer import CaptureFile
 from station.devices.decoders import DecoderBank
-from station.devices.kit import KitPreset
+from station.devices.mapping.device_map import DeviceMap
+from station.engine.capture_recorder import CaptureOpening, OpenCapture, RunningCapture
+from station.engine.cue_queue import CueRun
 from station.engine.messages import (
     Annotate,
+    CaptureSaved,
     Command,
-    Eavesdrop,
     EngineEvent,
     KeyHit,
     Notice,
-    Overheard,
     Play,
     Quit,
-    Record,
-    Recorded,
+    RawBytes,
+    RecordCapture,
+    ReloadDevice,
     Resume,
     SetBacking,
     SetLevel,
@@ -44,12 +46,10 @@ from station.engine.messages import (
     Started,
     Status,
     Stop,
-    TakeKit,
+    WatchRawBytes,
 )
 from station.engine.midi_player import MidiOut, OpenMidiOut, no_midi_out
-from station.engine.playback import CueRun
-from station.engine.player import Player
-from station.engine.recorder import OpenCapture, Recording, Scene
+from station.engine.sound_player import SoundPlayer
 from station.sound.mixer import Mixer
 from station.sound.track import load
 
@@ -57,11 +57,11 @@ STATUS_EVERY_NS = NS_PER_S
 KEYBOARD = "keyboard"
 """The device that a stroke on the computer's keys names."""
 
-FindKit = Callable[[str], KitPreset | None]
+FindKit = Callable[[str], DeviceMap | None]
 """The user's own kit for a device; raises `BadInput` where its file is at fault."""
 
 
-def no_own_kit(_: str) -> KitPreset | None:
+def no_own_kit(_: str) -> DeviceMap | None:
     """For an engine that knows kits by their presets alone."""
     return None
 
@@ -90,13 +90,13 @@ class Engine:
         """What the next `Status` tells of the sound card; set by whoever owns it."""
         self.quitting = False
         """Whether `Quit` was handled."""
-        self._player = Player(mixer)
+        self._player = SoundPlayer(mixer)
         self._own_kit = own_kit
         self._midi = MidiOut(open_midi_out, self.notify)
         self._decoders = DecoderBank()
         self._devices: list[str] = []
         self._eavesdrops = False
-        self._recording = Recording(open_capture, self._decoders)
+        self._recording = RunningCapture(open_capture, self._decoders)
         self._zero_ns: int | None = None
         self._events: list[EngineEvent] = []
         self._now_ns = 0
@@ -104,7 +104,7 @@ class Engine:
 
     # --- devices -----------------------------------------------------------------------------------------------------
 
-    def use_preset(self, device: str, preset: KitPreset) -> None:
+    def use_preset(self, device: str, preset: DeviceMap) -> None:
         """Understand `device` by `preset` instead of the one that its name suggests."""
         self._events += self._decoders.flush()
         self._decoders.add(device, preset)
@@ -114,7 +114,7 @@ class Engine:
         """Take bytes of `device` that came at `at_ns`; the strokes in them sound with the next block."""
         self._recording.bytes_came(device, data, at_ns, self._decoders.overtaken_ns(device, at_ns))
         if self._eavesdrops:
-            self._events.append(Overheard(at_ns, device, data))
+            self._events.append(RawBytes(at_ns, device, data))
         heard = self._decoders.feed(device, data, at_ns)
         for event in heard.sounding:
             self._player.sound(event)
@@ -165,13 +165,13 @@ class Engine:
                 self._set(command)
             case KeyHit():
                 self._take_key(command)
-            case Record():
+            case RecordCapture():
                 self._record(command.path)
             case Annotate(text):
                 self._recording.remark(text, self._now_ns)
-            case Eavesdrop(on):
+            case WatchRawBytes(on):
                 self._eavesdrops = on
-            case TakeKit(device):
+            case ReloadDevice(device):
                 self._take_own_kit(device)
             case Quit():
                 self.quitting = True
@@ -217,17 +217,17 @@ class Engine:
         self._events += self._decoders.flush()  # what was played before a capture begins or ends is told before it
         lacking = self._recording.end(self._now_ns)
         if path is None:
-            self._events.append(Recorded(None, lacking))
+            self._events.append(CaptureSaved(None, lacking))
             return
         if lacking is not None:
             self.notify(lacking)
         zero_ns = self._zero_ns if self._player.has_cues else None  # what has played out belongs to what was before
         try:
-            self._recording.begin(path, self._now_ns, Scene(self._devices, self.output.name, zero_ns))
+            self._recording.begin(path, self._now_ns, CaptureOpening(self._devices, self.output.name, zero_ns))
         except StationError as fault:
-            self._events.append(Recorded(path, str(fault)))
+            self._events.append(CaptureSaved(path, str(fault)))
             return
-        self._events.append(Recorded(path))
+        self._events.append(CaptureSaved(path))
 
     # --- time --------------------------------------------------------------------------------------------------------
 

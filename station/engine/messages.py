@@ -21,16 +21,16 @@ __all__ = [
     "Bus",
     "ClickVoice",
     "Command",
-    "Eavesdrop",
+    "WatchRawBytes",
     "EngineEvent",
     "KeyHit",
     "Notice",
-    "Overheard",
+    "RawBytes",
     "Play",
     "Quit",
     "Ready",
-    "Record",
-    "Recorded",
+    "RecordCapture",
+    "CaptureSaved",
     "Resume",
     "SetBacking",
     "SetLevel",
@@ -40,7 +40,7 @@ __all__ = [
     "Started",
     "Status",
     "Stop",
-    "TakeKit",
+    "ReloadDevice",
 ]
 
 CUE_DTYPE = np.dtype(
@@ -133,7 +133,7 @@ class KeyHit:
 
 
 @dataclass(frozen=True, slots=True)
-class Record:
+class RecordCapture:
     """Write every byte of every device to a capture at `path` from now on; None ends the capture."""
 
     path: Path | None
@@ -147,14 +147,14 @@ class Annotate:
 
 
 @dataclass(frozen=True, slots=True)
-class Eavesdrop:
-    """Tell every byte that comes from a kit as `Overheard` from now on, for a page that shows them; or no longer."""
+class WatchRawBytes:
+    """Tell every byte that comes from a kit as `RawBytes` from now on, for a page that shows them; or no longer."""
 
     on: bool
 
 
 @dataclass(frozen=True, slots=True)
-class TakeKit:
+class ReloadDevice:
     """Read the user's own kit for `device` anew: it was changed."""
 
     device: str
@@ -166,7 +166,7 @@ class Quit:
 
 
 Setting = SetLevel | SetPiece | SetBacking | SetMidiOut
-Command = Play | Resume | Stop | Setting | KeyHit | Record | Annotate | Eavesdrop | TakeKit | Quit
+Command = Play | Resume | Stop | Setting | KeyHit | RecordCapture | Annotate | WatchRawBytes | ReloadDevice | Quit
 
 
 # --- from the engine -------------------------------------------------------------------------------------------------
@@ -192,8 +192,8 @@ class Sounding:
 
 
 @dataclass(frozen=True, slots=True)
-class Recorded:
-    """A `Record` command was obeyed: what was played before it has been told, and is on the disk where one was open.
+class CaptureSaved:
+    """A `RecordCapture` command was obeyed: what was played before it has been told, and is on the disk where one was open.
 
     `path` is that of the command; `fault` says why nothing is recorded, or what the capture that ended lacks.
     """
@@ -233,7 +233,7 @@ class Status:
 
 
 @dataclass(frozen=True, slots=True)
-class Overheard:
+class RawBytes:
     """Bytes of `device` that came at `at_ns`, as they are; the events that they bring are told besides."""
 
     at_ns: int
@@ -241,4 +241,4 @@ class Overheard:
     data: bytes
 
 
-EngineEvent = DeviceEvent | Overheard | Ready | Sounding | Recorded | Started | Notice | Status
+EngineEvent = DeviceEvent | RawBytes | Ready | Sounding | CaptureSaved | Started | Notice | Status

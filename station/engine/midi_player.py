@@ -2,7 +2,7 @@
 
 The engine's other half beside `Player`: that one sounds cues by the card's blocks, this one sends them when the engine
 is advanced past their time. Cues are made into bytes only when they are due, so that a long session costs nothing at
-its start. One that lies further back than `station.engine.playback.LATE_NS` is left out, as a sound would be. Where the
+its start. One that lies further back than `station.engine.cue_queue.LATE_NS` is left out, as a sound would be. Where the
 output fails once it is left alone, and its fault is there to be told.
 """
 
@@ -14,9 +14,9 @@ from typing import Protocol
 
 from station.core.errors import DeviceError, StationError
 from station.core.pieces import Articulation, Piece, Zone
-from station.devices.midi_encode import GATE_NS, all_off, choke, note_off, note_on
+from station.devices.midi.midi_encoder import GATE_NS, all_off, choke, note_off, note_on
+from station.engine.cue_queue import Cue, CueQueue, CueRun
 from station.engine.messages import Bus
-from station.engine.playback import Cue, CueRun, Playback
 
 
 class MidiSink(Protocol):
@@ -45,7 +45,7 @@ class MidiPlayer:
     def __init__(self, sink: MidiSink, bus: Bus = Bus.DEMONSTRATION) -> None:
         self._sink = sink
         self._bus = bus
-        self._playback = Playback()
+        self._playback = CueQueue()
         self._ends: list[tuple[int, bytes]] = []  # when notes end (session time), and how: a heap
         self._waiting: deque[CueRun | None] = deque()  # of each start yet to take effect, None of one stopped before
         self.fault: DeviceError | None = None

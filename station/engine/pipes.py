@@ -11,7 +11,7 @@ from multiprocessing.connection import Connection
 from queue import SimpleQueue
 
 from station.core.errors import DeviceError
-from station.core.patience import ends_within
+from station.core.join_timeout import ends_within
 from station.engine.messages import Command, EngineEvent, SetBacking
 from station.sound.track import load
 

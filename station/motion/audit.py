@@ -12,13 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Limb, word
-from station.motion import frame
-from station.motion.collisions import collisions
 from station.motion.drummer import Drummer
-from station.motion.events import SAME_STROKE_S
-from station.motion.limits import FASTEST_RAD_S, Limits
-from station.motion.pose import ANGLE_NAMES
-from station.motion.targets import Strike, target_of
+from station.motion.kinematics import frame
+from station.motion.kinematics.collisions import collisions
+from station.motion.kinematics.joint_limits import FASTEST_RAD_S, Limits
+from station.motion.kinematics.pose import ANGLE_NAMES
+from station.motion.strokes.hand_events import SAME_STROKE_S
+from station.motion.strokes.targets import Strike, target_of
 
 Array = NDArray[np.float64]
 

@@ -14,14 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Limb
-from station.motion.figure import Figure, figure_of
-from station.motion.hand import HandPart
-from station.motion.keys import Keys
-from station.motion.kit import Kit, load_kit
-from station.motion.limbs import Assignment
-from station.motion.plan import Plan, holds
-from station.motion.pose import Pose
-from station.motion.style import Style
+from station.motion.keyframes import Keys
+from station.motion.kinematics.figure import Figure, figure_of
+from station.motion.kinematics.pose import Pose
+from station.motion.kit.kit import Kit, load_kit
+from station.motion.motion_plan import MotionPlan, holds
+from station.motion.sticking.limbs import Assignment
+from station.motion.strokes.hand import HandPart
+from station.motion.style.style import Style
 from station.music.score import Score
 
 Array = NDArray[np.float64]
@@ -38,12 +38,12 @@ class Drummer:
     kit: Kit = field(default_factory=load_kit)
     figure: Figure = field(default_factory=figure_of)
     style: Style = field(default_factory=Style)
-    plan: Plan | None = None
+    plan: MotionPlan | None = None
     parts: tuple[HandPart, HandPart] | None = None
     keys: Keys | None = None
 
     def __post_init__(self) -> None:
-        plan = self.plan or Plan.of(self.score, self.kit, self.figure)
+        plan = self.plan or MotionPlan.of(self.score, self.kit, self.figure)
         object.__setattr__(self, "plan", plan)
         parts = self.parts or plan.hands(self.style)
         object.__setattr__(self, "parts", parts)
@@ -62,7 +62,7 @@ class Drummer:
         return self._plan.assignment
 
     @property
-    def _plan(self) -> Plan:
+    def _plan(self) -> MotionPlan:
         assert self.plan is not None
         return self.plan
 

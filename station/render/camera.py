@@ -5,7 +5,7 @@ from enum import IntEnum
 
 import numpy as np
 
-from station.render.space import Matrix, look_at, perspective
+from station.render.geometry.transforms import Matrix, look_at, perspective
 
 _NEAR_M, _FAR_M = 0.06, 16.0
 _MIN_DISTANCE_M, _MAX_DISTANCE_M = 0.5, 4.4
@@ -13,7 +13,7 @@ _MIN_DISTANCE_M, _MAX_DISTANCE_M = 0.5, 4.4
 _LOWEST_M, _HIGHEST_RAD, _LOWEST_RAD = 0.15, 1.53, -0.35
 
 
-class View(IntEnum):
+class NamedView(IntEnum):
     """The named views."""
 
     FRONT = 0
@@ -27,14 +27,14 @@ class View(IntEnum):
 
 
 VIEW_NAMES = {
-    View.FRONT: "Front",
-    View.SHOULDER: "Over the shoulder",
-    View.EYES: "Drummer's eyes",
-    View.TOP: "Top",
-    View.HANDS: "Hands",
-    View.FEET: "Feet",
-    View.LEFT_HAND: "Left hand",
-    View.RIGHT_HAND: "Right hand",
+    NamedView.FRONT: "Front",
+    NamedView.SHOULDER: "Over the shoulder",
+    NamedView.EYES: "Drummer's eyes",
+    NamedView.TOP: "Top",
+    NamedView.HANDS: "Hands",
+    NamedView.FEET: "Feet",
+    NamedView.LEFT_HAND: "Left hand",
+    NamedView.RIGHT_HAND: "Right hand",
 }
 
 
@@ -89,7 +89,7 @@ class Camera:
 _DEG = np.pi / 180
 
 
-def named(view: View, left_handed: bool = False) -> Camera:
+def named(view: NamedView, left_handed: bool = False) -> Camera:
     """The camera of a named view, on the other side for a kit that leads with the left hand."""
     camera = _CAMERAS[_OTHER_HAND.get(view, view) if left_handed else view]
     if not left_handed:
@@ -99,14 +99,14 @@ def named(view: View, left_handed: bool = False) -> Camera:
 
 
 _CAMERAS = {
-    View.FRONT: Camera((0.06, 0.40, 0.70), 70 * _DEG, 13 * _DEG, 2.95, 0.66),
-    View.SHOULDER: Camera((0.02, 0.60, 0.70), -54 * _DEG, 50 * _DEG, 1.85, 0.78),
-    View.EYES: Camera((0.05, 0.74, 0.62), -90 * _DEG, 54 * _DEG, 0.86, 1.15),
-    View.TOP: Camera((0.08, 0.48, 0.6), -90 * _DEG, 88 * _DEG, 2.1, 0.80),
-    View.HANDS: Camera((-0.03, 0.42, 0.78), 70 * _DEG, 44 * _DEG, 1.20, 0.62),
-    View.FEET: Camera((-0.02, 0.50, 0.18), 222 * _DEG, 22 * _DEG, 1.50, 0.62),
-    View.LEFT_HAND: Camera((-0.12, 0.33, 0.74), 176 * _DEG, 46 * _DEG, 0.86, 0.60),
-    View.RIGHT_HAND: Camera((0.00, 0.42, 0.82), 38 * _DEG, 34 * _DEG, 0.86, 0.66),
+    NamedView.FRONT: Camera((0.06, 0.40, 0.70), 70 * _DEG, 13 * _DEG, 2.95, 0.66),
+    NamedView.SHOULDER: Camera((0.02, 0.60, 0.70), -54 * _DEG, 50 * _DEG, 1.85, 0.78),
+    NamedView.EYES: Camera((0.05, 0.74, 0.62), -90 * _DEG, 54 * _DEG, 0.86, 1.15),
+    NamedView.TOP: Camera((0.08, 0.48, 0.6), -90 * _DEG, 88 * _DEG, 2.1, 0.80),
+    NamedView.HANDS: Camera((-0.03, 0.42, 0.78), 70 * _DEG, 44 * _DEG, 1.20, 0.62),
+    NamedView.FEET: Camera((-0.02, 0.50, 0.18), 222 * _DEG, 22 * _DEG, 1.50, 0.62),
+    NamedView.LEFT_HAND: Camera((-0.12, 0.33, 0.74), 176 * _DEG, 46 * _DEG, 0.86, 0.60),
+    NamedView.RIGHT_HAND: Camera((0.00, 0.42, 0.82), 38 * _DEG, 34 * _DEG, 0.86, 0.66),
 }
-_OTHER_HAND = {View.LEFT_HAND: View.RIGHT_HAND, View.RIGHT_HAND: View.LEFT_HAND}
+_OTHER_HAND = {NamedView.LEFT_HAND: NamedView.RIGHT_HAND, NamedView.RIGHT_HAND: NamedView.LEFT_HAND}
 """A kit that leads with the left hand is the other one in a mirror: so are its hands."""

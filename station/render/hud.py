@@ -8,9 +8,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from station.render.atlas import Atlas
-from station.render.fonts import Face
-from station.render.ink import Colour, Ink, Type
 from station.render.palette import (
     BRAND,
     EARLY,
@@ -24,7 +21,10 @@ from station.render.palette import (
     WRONG,
     with_opacity,
 )
-from station.render.snapshot import Cue, Hud
+from station.render.snapshot import Hud, TimingCue
+from station.render.text.atlas import Atlas
+from station.render.text.draw_list import Colour, DrawList, TypeStyle
+from station.render.text.fonts import Face
 
 _DESIGN_HEIGHT = 720.0
 _EDGE = 26.0
@@ -43,11 +43,11 @@ class _CueLook:
 
 
 _CUES = {
-    Cue.ON_TIME: _CueLook("on time", GOOD, 0),
-    Cue.EARLY: _CueLook("early", EARLY, -1),
-    Cue.LATE: _CueLook("late", LATE, 1),
-    Cue.MISSED: _CueLook("missed", MISSED, 0),
-    Cue.WRONG_PIECE: _CueLook("wrong pad", WRONG, 0),
+    TimingCue.ON_TIME: _CueLook("on time", GOOD, 0),
+    TimingCue.EARLY: _CueLook("early", EARLY, -1),
+    TimingCue.LATE: _CueLook("late", LATE, 1),
+    TimingCue.MISSED: _CueLook("missed", MISSED, 0),
+    TimingCue.WRONG_PIECE: _CueLook("wrong pad", WRONG, 0),
 }
 
 
@@ -58,17 +58,17 @@ def hud_shapes(hud: Hud, atlas: Atlas, size: tuple[float, float]) -> NDArray[np.
 
 def hud_lines(hud: Hud, atlas: Atlas, size: tuple[float, float]) -> NDArray[np.void]:
     """Of the HUD what stands in the upper corners: letters alone, which change once a beat."""
-    return _HudPage(hud, Ink(atlas), size).lines()
+    return _HudPage(hud, DrawList(atlas), size).lines()
 
 
 def corners(hud: Hud) -> Hud:
     """What `hud_lines` shows of `hud`, and nothing else."""
-    return replace(hud, count_in=None, cue=Cue.NONE, cue_age_s=0.0, message="")
+    return replace(hud, count_in=None, cue=TimingCue.NONE, cue_age_s=0.0, message="")
 
 
 def hud_calls(hud: Hud, atlas: Atlas, size: tuple[float, float]) -> NDArray[np.void]:
     """Of the HUD what stands in the middle for a while: count-in, cue, message."""
-    return _HudPage(hud, Ink(atlas), size).calls()
+    return _HudPage(hud, DrawList(atlas), size).calls()
 
 
 VEIL = (with_opacity(NIGHT, 0.80), with_opacity(NIGHT, 0.0))
@@ -86,10 +86,10 @@ _NAMES = ("Demonstrator", "You")
 
 def name_shapes(atlas: Atlas, size: tuple[float, float]) -> NDArray[np.void]:
     """Who is who in two pictures side by side, and the line between them; `size` as for `hud_shapes`."""
-    ink, (width, height), k = Ink(atlas), size, scale(size[1])
+    ink, (width, height), k = DrawList(atlas), size, scale(size[1])
     ink.box((width / 2 - k, 0.0), (2 * k, height), INK_FAINT)
     for name, middle in zip(_NAMES, (0.25, 0.75), strict=True):
-        ink.text(name, (middle * width, height - 16 * k), Type(20 * k, INK, Face.BOLD, 0.5, _HALO))
+        ink.text(name, (middle * width, height - 16 * k), TypeStyle(20 * k, INK, Face.BOLD, 0.5, _HALO))
     return ink.shapes()
 
 
@@ -102,7 +102,7 @@ _SMALLEST = 0.65
 
 
 class _HudPage:
-    def __init__(self, hud: Hud, ink: Ink, size: tuple[float, float]) -> None:
+    def __init__(self, hud: Hud, ink: DrawList, size: tuple[float, float]) -> None:
         self._hud, self._ink = hud, ink
         self._k = scale(size[1])
         self._width, self._height = size
@@ -122,7 +122,7 @@ class _HudPage:
             return self._ink.shapes()
         if self._hud.count_in is not None:
             self._count_in(self._hud.count_in)
-        elif self._hud.cue is not Cue.NONE:
+        elif self._hud.cue is not TimingCue.NONE:
             self._cue(_CUES[self._hud.cue])
         if self._hud.message:
             self._message()
@@ -131,14 +131,16 @@ class _HudPage:
     def _title(self, right: float) -> None:
         """The title as far as `right`, in smaller letters before it is cut, and the phase under it."""
         k, hud = self._k, self._hud
-        text, style = self._shrunk(hud.title, Type(30 * k, INK, Face.BOLD, 0.0, _HALO), right - 2 * _EDGE * k)
+        text, style = self._shrunk(hud.title, TypeStyle(30 * k, INK, Face.BOLD, 0.0, _HALO), right - 2 * _EDGE * k)
         self._ink.text(text, (_EDGE * k, 46 * k), style)
         if hud.phase:
             self._ink.ellipse(((_EDGE + 6) * k, 71 * k), (6 * k, 6 * k), BRAND)
-            text, style = self._shrunk(hud.phase, Type(20 * k, _LINE, Face.REGULAR, 0.0, _HALO), self._width * 0.56)
+            text, style = self._shrunk(
+                hud.phase, TypeStyle(20 * k, _LINE, Face.REGULAR, 0.0, _HALO), self._width * 0.56
+            )
             self._ink.text(text, ((_EDGE + 20) * k, 78 * k), style)
 
-    def _shrunk(self, text: str, style: Type, room: float) -> tuple[str, Type]:
+    def _shrunk(self, text: str, style: TypeStyle, room: float) -> tuple[str, TypeStyle]:
         """A line that has so much room, in letters as large as fit; cut where even the smallest do not."""
         ratio = min(room / max(self._ink.width(text, style), 1.0), 1.0)
         smaller = replace(style, size=style.size * max(ratio, _SMALLEST))
@@ -150,8 +152,8 @@ class _HudPage:
         right = self._width - _EDGE * k
         if hud.beats_a_minute is None:
             return right
-        right -= self._ink.text("bpm", (right, 46 * k), Type(17 * k, _LINE, Face.REGULAR, 1.0, _HALO)) + 6 * k
-        tempo = Type(34 * k, INK, Face.BOLD, 1.0, _HALO)
+        right -= self._ink.text("bpm", (right, 46 * k), TypeStyle(17 * k, _LINE, Face.REGULAR, 1.0, _HALO)) + 6 * k
+        tempo = TypeStyle(34 * k, INK, Face.BOLD, 1.0, _HALO)
         return right - self._ink.text(f"{hud.beats_a_minute:.0f}", (right, 46 * k), tempo)
 
     def _place(self) -> None:
@@ -167,23 +169,23 @@ class _HudPage:
             self._ink.ellipse((x, 72 * k), (size, size), (BRAND if now else INK_FAINT))
             x -= 21 * k
         where = f"bar {hud.bar}" + (f" of {hud.bar_count}" if hud.bar_count else "")
-        self._ink.text(where, (x - 6 * k, 78 * k), Type(18 * k, _LINE, Face.REGULAR, 1.0, _HALO))
+        self._ink.text(where, (x - 6 * k, 78 * k), TypeStyle(18 * k, _LINE, Face.REGULAR, 1.0, _HALO))
         if hud.judged:
             text = f"{hud.right} of {hud.judged} right"
-            self._ink.text(text, (right, 104 * k), Type(18 * k, _LINE, Face.REGULAR, 1.0, _HALO))
+            self._ink.text(text, (right, 104 * k), TypeStyle(18 * k, _LINE, Face.REGULAR, 1.0, _HALO))
 
     def _count_in(self, number: int) -> None:
         k, centre = self._k, (self._width / 2, self._height * 0.52)
         self._ink.ellipse(centre, (96 * k, 96 * k), with_opacity(NIGHT, 0.62))
         self._ink.ellipse(centre, (96 * k, 96 * k), with_opacity(BRAND, 0.9), 0.0, (0.0, 5 * k, 0.0))
-        self._ink.text(str(number), (centre[0], centre[1] + 47 * k), Type(132 * k, INK, Face.BOLD, 0.5))
+        self._ink.text(str(number), (centre[0], centre[1] + 47 * k), TypeStyle(132 * k, INK, Face.BOLD, 0.5))
 
     def _cue(self, look: _CueLook) -> None:
         left = 1 - (self._hud.cue_age_s - _CUE_HOLD_S) / _CUE_FADE_S
         opacity = float(np.clip(left, 0.0, 1.0))
         if opacity <= 0:
             return
-        k, style = self._k, Type(40 * self._k, with_opacity(look.colour, opacity), Face.BOLD, 0.5)
+        k, style = self._k, TypeStyle(40 * self._k, with_opacity(look.colour, opacity), Face.BOLD, 0.5)
         text = self._ink.width(look.word, style)
         width = text + (2 * 46 if look.way else 52) * k
         x, y = self._width / 2, self._height - 52 * k
@@ -196,7 +198,7 @@ class _HudPage:
 
     def _message(self) -> None:
         k = self._k
-        message = Type(21 * k, INK, Face.REGULAR, 0.5)
+        message = TypeStyle(21 * k, INK, Face.REGULAR, 0.5)
         text, style = self._shrunk(self._hud.message, message, self._width - 4 * _EDGE * k)
         width = self._ink.width(text, style) + 44 * k
         y = 132 * k

@@ -8,22 +8,22 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from station.motion.figure import Figure
-from station.motion.kit import Kit
+from station.motion.kinematics.figure import Figure
+from station.motion.kit.kit import Kit
 from station.render import hud
-from station.render.atlas import Atlas
-from station.render.bone_palette import Frame
-from station.render.camera import Camera, View, named
-from station.render.frames import DoublePlace, frames_of
-from station.render.gl import Target, give_back
-from station.render.ink import SHAPE_DTYPE
-from station.render.ink_printer import InkPrinter, Sheet
+from station.render.camera import Camera, NamedView, named
+from station.render.gpu.bone_palette import BoneFrame
+from station.render.gpu.cached_layer import CachedLayer
+from station.render.gpu.gl import RenderTarget, give_back
+from station.render.gpu.moving_parts import DoublePlace, frames_of
+from station.render.gpu.shape_renderer import ShapeRenderer, Transform
+from station.render.notation.score_view import ScoreForm, ScorePlace, ScoreView, shows_staff
 from station.render.palette import INK_FAINT, NIGHT, Theme, dyed, over_picture
 from station.render.quality import QUALITIES, Quality
 from station.render.scene import Scene
-from station.render.score_view import Place, ScoreForm, ScoreView, shows_staff
 from station.render.snapshot import Hud, Snapshot
-from station.render.still import Still
+from station.render.text.atlas import Atlas
+from station.render.text.draw_list import SHAPE_DTYPE
 
 Area = tuple[int, int, int, int]
 """Left, lower, width, height in pixels from the lower left corner, as OpenGL counts."""
@@ -71,11 +71,11 @@ class Painter:
         self.quality = quality
         self.theme = Theme.NIGHT
         self.atlas = Atlas()
-        self.printer = InkPrinter(ctx, self.atlas)
+        self.printer = ShapeRenderer(ctx, self.atlas)
         self._score = ScoreView(self.printer, self.atlas)
         self._scene: Scene | None = None
-        self._still, self._worded, self._inset_still = Still(ctx), Still(ctx), Still(ctx)
-        self._inset: Target | None = None
+        self._still, self._worded, self._inset_still = CachedLayer(ctx), CachedLayer(ctx), CachedLayer(ctx)
+        self._inset: RenderTarget | None = None
         self._lines = _Kept(lambda words, size: hud.hud_lines(words, self.atlas, size))
         self._calls = _Kept(lambda words, size: hud.hud_calls(words, self.atlas, size))
         self._named = (0, 0), np.empty(0, SHAPE_DTYPE)
@@ -101,9 +101,9 @@ class Painter:
         left, low, width, height = area
         score_height = round(height * SCORE_SHARE) if with_score else 0
         scene_area = (left, low + score_height, width, height - score_height)
-        place = Place(0.0, float(scene_area[3]), float(width), float(score_height))
+        place = ScorePlace(0.0, float(scene_area[3]), float(width), float(score_height))
         scene = self._scene_of(snapshot)
-        camera = camera or named(View.SHOULDER, snapshot.kit.left_handed)
+        camera = camera or named(NamedView.SHOULDER, snapshot.kit.left_handed)
         frames = frames_of(snapshot, arrangement.double, self.theme)
         places = _side_by_side(scene_area, len(frames))
         scene.set(frames[0])
@@ -149,14 +149,14 @@ class Painter:
             self._score.draw(snapshot, place, (width, height), arrangement.form)
         self.printer.theme = over_picture(self.theme)
         if len(frames) > 1:
-            self.printer.draw(self._names(words), Sheet((width, height)))
+            self.printer.draw(self._names(words), Transform((width, height)))
         if not self.quality.is_layered:
-            self.printer.draw(self._lines.of(corners, words), Sheet((width, height)))
-        self.printer.draw(self._calls.of(snapshot.hud, words), Sheet((width, height)))
+            self.printer.draw(self._lines.of(corners, words), Transform((width, height)))
+        self.printer.draw(self._calls.of(snapshot.hud, words), Transform((width, height)))
 
     def _newest(
-        self, snapshot: Snapshot, frames: list[Frame], arrangement: Arrangement
-    ) -> tuple[Snapshot, list[Frame]]:
+        self, snapshot: Snapshot, frames: list[BoneFrame], arrangement: Arrangement
+    ) -> tuple[Snapshot, list[BoneFrame]]:
         """What has been struck while all that moves was drawn, else what is known."""
         if arrangement.news is None or len(frames) > 1:
             return snapshot, frames
@@ -167,13 +167,13 @@ class Painter:
     def _draw_veil(self, size: tuple[int, int], height: int) -> None:
         """What darkens the scene, `height` pixels high, behind the upper lines."""
         self.printer.theme = over_picture(self.theme)
-        self.printer.fill((0.0, 0.0, float(size[0]), hud.VEIL_HEIGHT * hud.scale(height)), hud.VEIL, Sheet(size))
+        self.printer.fill((0.0, 0.0, float(size[0]), hud.VEIL_HEIGHT * hud.scale(height)), hud.VEIL, Transform(size))
         self.printer.theme = self.theme
 
     def _lay_lines(self, lines: NDArray[np.void], size: tuple[int, int]) -> None:
         """Print the upper lines where nothing that moves comes before them."""
         self.printer.theme = over_picture(self.theme)
-        self.printer.draw_before_all(lines, Sheet(size))
+        self.printer.draw_before_all(lines, Transform(size))
         self.printer.theme = self.theme
 
     def _names(self, size: tuple[int, int]) -> NDArray[np.void]:
@@ -192,7 +192,7 @@ class Painter:
             target.use()
         self._ctx.viewport = (left - edge, low - edge, width + 2 * edge, height + 2 * edge)
         frame = (width + 2 * edge, height + 2 * edge)
-        self.printer.fill((0.0, 0.0, float(frame[0]), float(frame[1])), (INK_FAINT, INK_FAINT), Sheet(frame))
+        self.printer.fill((0.0, 0.0, float(frame[0]), float(frame[1])), (INK_FAINT, INK_FAINT), Transform(frame))
         if self.quality.is_layered:
             self._ctx.viewport = place
             self.printer.picture(picture)
@@ -204,7 +204,7 @@ class Painter:
         if self._inset is None or self._inset.size != size:
             if self._inset is not None:
                 self._inset.release()
-            self._inset = Target(self._ctx, size)
+            self._inset = RenderTarget(self._ctx, size)
         whole, into = (0, 0, *size), self._inset.framebuffer
         key = (scene, camera, scene.shows_figure)
         self._inset_still.under(into, key, lambda still: scene.draw_still(still, camera, whole))

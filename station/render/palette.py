@@ -16,7 +16,7 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-from station.render.ink import Colour
+from station.render.text.draw_list import Colour
 
 
 def _hex(code: str, opacity: float = 1.0) -> Colour:

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.render.camera import Camera
-from station.render.gl import Target, standalone_context
+from station.render.files.png_file import write_png
+from station.render.gpu.gl import RenderTarget, standalone_context
+from station.render.gpu.nv12 import Nv12Reader, Planes
 from station.render.painter import Painter
-from station.render.planes import Planes, PlanesReader
-from station.render.png import write_png
 from station.render.quality import QUALITIES, Quality
 from station.render.snapshot import Snapshot
 
@@ -37,9 +37,9 @@ class PictureMaker:
         self.size = size
         self._ctx = ctx or standalone_context()
         with self._ctx:  # other makers may have contexts of their own
-            self._target = Target(self._ctx, size, quality.samples)
+            self._target = RenderTarget(self._ctx, size, quality.samples)
             self._painter = Painter(self._ctx, quality)
-        self._reader: PlanesReader | None = None
+        self._reader: Nv12Reader | None = None
 
     def draw(self, snapshot: Snapshot, camera: Camera | None = None, with_score: bool = True) -> NDArray[np.uint8]:
         """The picture, shape (height, width, 3), top row first."""
@@ -52,7 +52,7 @@ class PictureMaker:
         with self._ctx:
             self._paint(snapshot, camera, with_score)
             picture = self._target.resolved()
-            self._reader = self._reader or PlanesReader(self._ctx, picture)
+            self._reader = self._reader or Nv12Reader(self._ctx, picture)
             self._reader.put()
             self._reader.take(into)
 
@@ -64,7 +64,7 @@ class PictureMaker:
         The size must be even.
         """
         with self._ctx:
-            reader = PlanesReader(self._ctx, self._target.resolved())
+            reader = Nv12Reader(self._ctx, self._target.resolved())
         try:
             for snapshot in snapshots:
                 with self._ctx:
@@ -80,7 +80,7 @@ class PictureMaker:
             with self._ctx:
                 reader.release()
 
-    def _taken(self, reader: PlanesReader) -> Planes | None:
+    def _taken(self, reader: Nv12Reader) -> Planes | None:
         with self._ctx:
             return reader.take()
 

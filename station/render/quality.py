@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from station.render.drums import Detail
+from station.render.kit.instrument_meshes import Detail
 
 
 @dataclass(frozen=True, slots=True)

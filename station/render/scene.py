@@ -14,16 +14,16 @@ import moderngl
 import numpy as np
 
 from station.core.pieces import Piece
-from station.motion.figure import Figure
-from station.motion.kit import Kit
-from station.render.bone_palette import BonePalette, Frame
+from station.motion.kinematics.figure import Figure
+from station.motion.kit.kit import Kit
 from station.render.camera import Camera
-from station.render.kept import kept_kit
-from station.render.kit_rig import KitRig
+from station.render.figure.skeleton import Skeleton
+from station.render.geometry.transforms import gl_bytes
+from station.render.gpu.bone_palette import BoneFrame, BonePalette
+from station.render.gpu.scene_cache import kept_kit
+from station.render.gpu.scene_parts import ANISOTROPY, SceneParts, write
+from station.render.kit.kit_rig import KitRig
 from station.render.quality import Quality
-from station.render.scene_parts import ANISOTROPY, SceneParts, write
-from station.render.skeleton import Skeleton
-from station.render.space import gl_bytes
 
 _NEARER = (-1.0, -4.0)
 """Depth offset of what is drawn over the very same surface once more."""
@@ -46,8 +46,10 @@ class Scene:
         self._parts = SceneParts(ctx, self.rig, figure, quality)
         self._parts.ghost.skin.program["first_bone"] = self._bones.double
         self._parts.ghost.rigid.program["first_bone"] = self._bones.double_sticks - self.rig.sticks[0]
-        self._frame = Frame()
-        self._lit: dict[Frame, set[Piece]] = {}  # what was drawn glowing already, of frames that wait for `draw_glow`
+        self._frame = BoneFrame()
+        self._lit: dict[
+            BoneFrame, set[Piece]
+        ] = {}  # what was drawn glowing already, of frames that wait for `draw_glow`
         self._shadow_is_cast = False
         self._resting_shadow: bool | None = None
 
@@ -63,7 +65,7 @@ class Scene:
 
     # --- what is drawn ------------------------------------------------------------------------------------------------
 
-    def set(self, frame: Frame) -> None:
+    def set(self, frame: BoneFrame) -> None:
         """Say what the next pictures show; to say the same again costs nothing."""
         if frame is self._frame:
             return

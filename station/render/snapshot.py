@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Limb, Piece
-from station.motion.figure import Figure
-from station.motion.kit import Kit
-from station.motion.pose import Pose
+from station.motion.kinematics.figure import Figure
+from station.motion.kinematics.pose import Pose
+from station.motion.kit.kit import Kit
 from station.music.judgement import Judgement, Label
 from station.music.performance import Performance
 from station.music.score import Score
@@ -26,7 +26,7 @@ MARK_DTYPE = np.dtype([("label", np.int8), ("asynchrony_ms", np.float32), ("velo
 """A note's judgement: `Label` or `PENDING`; played − written, NaN where nothing was played."""
 
 
-class Cue(IntEnum):
+class TimingCue(IntEnum):
     """The one coarse live cue: what the last strokes were like."""
 
     NONE = 0
@@ -38,7 +38,7 @@ class Cue(IntEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Strike:
+class SeenStrike:
     """A stroke that somebody played `age_s` ago; `student` tells the student's from the demonstrator's."""
 
     piece: Piece
@@ -48,27 +48,27 @@ class Strike:
 
 
 @dataclass(frozen=True, slots=True)
-class Parting:
+class LimbParting:
     """How a limb of the student parted from the demonstrator's; `strength` falls from 1 to 0 as it fades."""
 
-    cue: Cue
+    cue: TimingCue
     strength: float
 
 
 @dataclass(frozen=True, eq=False)
-class Double:
+class StudentShown:
     """The student as a second, translucent drummer, and the limbs that glow for they part from the demonstrator's.
 
     `is_compared` where the picture is there for him, and shows him however the double is wished for otherwise.
     """
 
     pose: Pose
-    partings: Mapping[Limb, Parting] = field(default_factory=dict)
+    partings: Mapping[Limb, LimbParting] = field(default_factory=dict)
     is_compared: bool = False
 
 
 @dataclass(frozen=True, slots=True)
-class Extra:
+class ExtraHit:
     """A hit that answers no note: at `time_s` of the score on `piece`."""
 
     time_s: float
@@ -95,7 +95,7 @@ class Hud:
     right: int = 0
     judged: int = 0
     message: str = ""
-    cue: Cue = Cue.NONE
+    cue: TimingCue = TimingCue.NONE
     cue_age_s: float = 0.0
 
 
@@ -161,9 +161,9 @@ class Snapshot:
     pose: Pose | None = None
     limbs: NDArray[np.int8] | None = None
     marks: NDArray[np.void] | None = None
-    extras: tuple[Extra, ...] = ()
-    strikes: tuple[Strike, ...] = ()
+    extras: tuple[ExtraHit, ...] = ()
+    strikes: tuple[SeenStrike, ...] = ()
     hud: Hud = field(default_factory=Hud)
     bar_numbers: BarNumbers = BarNumbers()
     strip: Strip | None = None
-    double: Double | None = None
+    double: StudentShown | None = None

@@ -1,8 +1,8 @@
 """The final alignment of a performance with a score: hits to notes one to one by least cost.
 
-With a click the hits come in score time already; the player's lean must be found (`bias`), and the bars that were
+With a click the hits come in score time already; the player's lean must be found (`click_offset`), and the bars that were
 skipped or played again (`warp`). Without one tempo, drift and the place where the recording begins are unknown as well,
-and `own_clock` says what was due. Both ways end in `settle`, which pairs.
+and `free_tempo` says what was due. Both ways end in `settle`, which pairs.
 """
 
 from collections.abc import Collection
@@ -14,17 +14,17 @@ from station.core.pieces import Piece
 from station.core.units import NS_PER_S
 from station.music.performance import Performance
 from station.music.score import Score
-from station.scoring.alignment import Alignment, Reference, Timed, labelled
-from station.scoring.bias import common_bias_ns
-from station.scoring.classes import match_classes
-from station.scoring.graces import with_far_graces
-from station.scoring.ignored import Unwritten
-from station.scoring.own_clock import NO_CLASS, align_unclocked
-from station.scoring.pairing import Indices
-from station.scoring.presses import with_presses
-from station.scoring.settle import MOST_CLASSES, Side, Start, note_kinds, settle, spots
-from station.scoring.stretches import owners
-from station.scoring.warp import click_warp, written_of
+from station.scoring.following.free_tempo import NO_CLASS, align_unclocked
+from station.scoring.following.stretches import owners
+from station.scoring.following.warp import click_warp, written_of
+from station.scoring.matching.alignment import Alignment, Reference, Timed, labelled
+from station.scoring.matching.assignment import MOST_CLASSES, SettleSide, Start, note_kinds, settle, spots
+from station.scoring.matching.buzz_onsets import with_presses
+from station.scoring.matching.click_offset import common_bias_ns
+from station.scoring.matching.grace_strokes import with_far_graces
+from station.scoring.matching.ignored_hits import Unwritten
+from station.scoring.matching.match_classes import match_classes
+from station.scoring.matching.pairing import Indices
 
 
 def align(
@@ -65,8 +65,8 @@ def align_clocked(score: Score, performance: Performance, note_class: Indices, h
         at_ns = np.rint(warp.score_s * NS_PER_S).astype(np.int64) + bias_ns
         strand, attempt = owners(score.onset_s, note_class, warp, hit_class), warp.stretch
     unwritten = rules.masks(performance, at_ns - bias_ns)
-    notes = Side(score.onset_ns, note_class, strand, spots(score.notes))
-    hits = Side(at_ns, hit_class, attempt, spots(performance.hits))
+    notes = SettleSide(score.onset_ns, note_class, strand, spots(score.notes))
+    hits = SettleSide(at_ns, hit_class, attempt, spots(performance.hits))
     settled = settle(notes, hits, note_kinds(score), unwritten.own_only, Start(bias_ns))
     settled = with_presses(score, with_far_graces(score, settled, hits), hits, bounces)
     return labelled(settled, Timed(at_ns, score.onset_ns, at_ns, attempt, Reference.CLICK), unwritten.quiet)

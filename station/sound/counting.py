@@ -15,9 +15,9 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-from station.sound.audio_file import resampled
 from station.sound.buses import SPOKEN_LEAD_S, ClickVoice
 from station.sound.drum_kit import Frames
+from station.sound.samples.audio_file import resampled
 
 SPEECH_HZ = 16_000
 PEAK = 0.6

@@ -3,7 +3,7 @@
 Frames are float32 of shape (n, 2), left and right, at the kit's sample rate; the stroke falls on frame 0. A layer's
 takes are recorded (or made) as loud as velocity 127 would be; `Sound.levels` then sets the level of every velocity, so
 that loudness rises smoothly while the timbre changes from layer to layer. Where a kit lacks a sound, the substitute of
-`station.sound.sounds` plays, and the lookup never fails for a kit that has kick, snare and closed hi-hat.
+`station.sound.sound_names` plays, and the lookup never fails for a kit that has kick, snare and closed hi-hat.
 """
 
 from collections.abc import Mapping
@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.kitmap import Strike
-from station.sound.sounds import SUBSTITUTES, SoundName, voicing_of
+from station.core.note_map import NoteMeaning
+from station.sound.sound_names import SUBSTITUTES, SoundName, voicing_of
 
 Frames = NDArray[np.float32]
 """Stereo sound: float32 of shape (n, 2), full scale ±1."""
@@ -83,7 +83,7 @@ class DrumKit:
         """The sound that is heard for `name`: itself, or what stands in for it."""
         return self._resolved[name]
 
-    def choose(self, strike: Strike) -> tuple[SoundName, Sound, float]:
+    def choose(self, strike: NoteMeaning) -> tuple[SoundName, Sound, float]:
         """The sound's name, the sound, and the factor on the velocity that chooses its layer."""
         wanted, timbre = voicing_of(strike)
         name = self._resolved[wanted]

@@ -16,13 +16,13 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.kitmap import Strike
+from station.core.note_map import NoteMeaning
 from station.core.pieces import Articulation, Piece
+from station.sound.bus_levels import BusLevels, sides_of
 from station.sound.buses import Bus, ClickVoice
 from station.sound.drum_kit import MAX_VELOCITY, DrumKit, Frames, Sound, level_of
-from station.sound.levels import BusLevels, sides_of
 from station.sound.limiter import soft_clip
-from station.sound.sounds import SoundName
+from station.sound.sound_names import SoundName
 from station.sound.track import Track, TrackDeck
 from station.sound.voice import Voice
 
@@ -72,7 +72,7 @@ class Mixer:
 
     # --- what to play --------------------------------------------------------------------------------------------
 
-    def trigger(self, bus: Bus, strike: Strike, velocity: int, at_frame: int = 0) -> None:
+    def trigger(self, bus: Bus, strike: NoteMeaning, velocity: int, at_frame: int = 0) -> None:
         """Sound a stroke of `velocity` 1–127 on `bus`, `at_frame` frames after the start of the next block.
 
         `strike.openness` (None counts as closed) chooses the hi-hat's sound and damps one that rings more open; the
@@ -205,7 +205,7 @@ class Mixer:
         while self._pending and self._pending[0][0] <= self.frame:
             heapq.heappop(self._pending)[2]()
 
-    def _strike(self, bus: Bus, strike: Strike, velocity: int) -> None:
+    def _strike(self, bus: Bus, strike: NoteMeaning, velocity: int) -> None:
         name, sound, timbre = self.kit.choose(strike)
         turn = self._turns.get(name, 0)
         self._turns[name] = turn + 1

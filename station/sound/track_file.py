@@ -16,11 +16,11 @@ from pathlib import Path
 
 import numpy as np
 
+from station.core.disk_cache import cache_folder, forget_oldest
 from station.core.errors import BadInput, DeviceError
 from station.core.files import write_whole
-from station.core.kept_files import cache_folder, forget_oldest
-from station.sound.audio_file import opened, read_audio
 from station.sound.drum_kit import Frames
+from station.sound.samples.audio_file import opened, read_audio
 from station.sound.track import Pcm, PreparedTrack
 
 MIN_SPEED, MAX_SPEED = 0.5, 1.5
@@ -39,7 +39,7 @@ _LOUDEST = 0.98
 
 
 @dataclass(frozen=True, slots=True)
-class TrackWish:
+class TrackRequest:
     """What to play along to: a sound file, how fast (0.5 … 1.5), from where, and which part again and again.
 
     Times are seconds of the file at its own speed.
@@ -57,7 +57,7 @@ def tracks_folder() -> Path:
     return cache_folder("tracks")
 
 
-def prepare_in_background(wish: TrackWish, folder: Path | None = None) -> "Future[PreparedTrack]":
+def prepare_in_background(wish: TrackRequest, folder: Path | None = None) -> "Future[PreparedTrack]":
     """`prepare` in a process of its own; the future ends with its result, or raises what it raises."""
     pool = ProcessPoolExecutor(1, mp_context=get_context("spawn"))
     future = pool.submit(prepare, wish, folder)
@@ -65,7 +65,7 @@ def prepare_in_background(wish: TrackWish, folder: Path | None = None) -> "Futur
     return future
 
 
-def prepare(wish: TrackWish, folder: Path | None = None) -> PreparedTrack:
+def prepare(wish: TrackRequest, folder: Path | None = None) -> PreparedTrack:
     """Make the track ready; raises `BadInput` for the wish's or the file's fault, `DeviceError` for the disk's."""
     length_s = checked_length_s(wish)
     home = folder or tracks_folder()
@@ -105,7 +105,7 @@ def pcm_of(frames: Frames) -> Pcm:
     return pcm
 
 
-def checked_length_s(wish: TrackWish) -> float:
+def checked_length_s(wish: TrackRequest) -> float:
     """How long the file is, at most `MAX_TRACK_S`; raises `BadInput` for no sound file, or a part that it lacks."""
     name = str(wish.path)
     if not MIN_SPEED <= wish.speed <= MAX_SPEED:
@@ -128,11 +128,11 @@ def file_length_s(path: Path) -> float:
     return length_s
 
 
-def _read(wish: TrackWish) -> Frames:
+def _read(wish: TrackRequest) -> Frames:
     return read_audio(wish.path, str(wish.path), wish.rate_hz, MAX_TRACK_S)
 
 
-def _digest(wish: TrackWish) -> str:
+def _digest(wish: TrackRequest) -> str:
     """Names what the frames depend on: the file as it is now, the rate and the speed; raises `DeviceError`."""
     try:
         stat, path = wish.path.stat(), wish.path.resolve()

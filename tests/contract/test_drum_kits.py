@@ -6,15 +6,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from station.core.kitmap import Strike
+from station.core.note_map import NoteMeaning
 from station.core.pieces import Articulation, Piece, Zone
 from station.sound.buses import Bus
-from station.sound.click import click_sounds
+from station.sound.click_sounds import click_sounds
 from station.sound.drum_kit import DrumKit, Frames
-from station.sound.kit_cache import cached_kit
-from station.sound.kits.load import read_kit
 from station.sound.mixer import Mixer
-from station.sound.sounds import SoundName
+from station.sound.samples.load_kit import read_kit
+from station.sound.sound_names import SoundName
+from station.sound.synth.synth_cache import cached_kit
 from tests.fakes.sound_files import instrument, kit_xml, layer, stroke, tar
 
 RATE_HZ = 44_100
@@ -97,7 +97,7 @@ def test_every_stroke_of_every_piece_sounds(kit: DrumKit) -> None:
     for piece in Piece:
         for zone in Zone:
             mixer = Mixer(kit, _CLICKS)
-            mixer.trigger(Bus.STUDENT, Strike(piece, zone, Articulation.NORMAL, 0.5), 100)
+            mixer.trigger(Bus.STUDENT, NoteMeaning(piece, zone, Articulation.NORMAL, 0.5), 100)
             heard = mixer.render(2048)
             assert 1e-3 < np.abs(heard).max() <= 1.0
 

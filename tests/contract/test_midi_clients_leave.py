@@ -4,10 +4,10 @@ from pathlib import Path
 
 import pytest
 
-from station.app.health import check_midi
+from station.app.diagnostics import check_midi
 from station.core.clock import monotonic_ns
-from station.devices.kit_ports import KitWish, devices_there, no_kit, watch_kits
-from station.devices.midi_clients import CLIENT_NAME
+from station.devices.device_ports import DeviceRequest, devices_there, no_kit, watch_kits
+from station.devices.midi.midi_clients import CLIENT_NAME
 from tests.fakes.jack_server import JackServer, jackd_is_installed, joined
 from tests.fakes.kit_player import KitPlayer
 
@@ -30,14 +30,14 @@ def is_there(server: JackServer, name: str) -> bool:
 
 def test_whoever_listened_to_a_kit_leaves_no_client_behind(tmp_path: Path) -> None:
     with JackServer() as server, joined(server), KitPlayer(server, KIT, [], tmp_path):
-        watches = watch_kits((KitWish(KIT),), "jack")
+        watches = watch_kits((DeviceRequest(KIT),), "jack")
         (kit,) = watches.kits
         while not kit.poll(monotonic_ns()).found:
             pass
         assert is_there(server, f"{CLIENT_NAME} kit")
         watches.close()
         assert not is_there(server, f"{CLIENT_NAME} kit")
-        assert devices_there((KitWish(KIT),)) == [f"{KIT}:out"]
-        assert KIT in no_kit((KitWish("another"),))
+        assert devices_there((DeviceRequest(KIT),)) == [f"{KIT}:out"]
+        assert KIT in no_kit((DeviceRequest("another"),))
         assert KIT in check_midi().finding
         assert not is_there(server, f"{CLIENT_NAME} kit"), "a look at the ports is no stay"

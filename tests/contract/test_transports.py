@@ -12,12 +12,12 @@ from typing import Protocol
 
 import pytest
 
-from station.bench.serial_kit import SerialKit
+from station.bench.rigs.serial_kit import SerialKit
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_MS, NS_PER_S
-from station.devices.midi_clients import SILENT_SERVER_NS
-from station.devices.midi_ports import MidiDirectory
-from station.devices.serial_ports import SerialDirectory
+from station.devices.midi.midi_clients import SILENT_SERVER_NS
+from station.devices.midi.midi_ports import MidiDirectory
+from station.devices.serial.serial_ports import SerialDirectory
 from station.devices.transport import Packet, Transport
 from tests.fakes.jack_server import JackServer, jackd_is_installed, joined
 from tests.fakes.kit_player import KitPlayer, Stroke

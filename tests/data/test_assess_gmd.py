@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from station.core.units import NS_PER_MS, PPQ
-from station.music.formats.smf import performance_from_midi, read_midi, score_from_midi
+from station.music.formats.smf.standard_midi import performance_from_midi, read_midi, score_from_midi
 from station.music.judgement import Label
 from station.music.performance import Performance
 from station.music.score import Note, Score

@@ -9,15 +9,15 @@ from pathlib import Path
 import pytest
 
 from station.scoring.align import align
-from station.scoring.craft.keeper import Keeper, keeper
-from station.scoring.craft.together import together
+from station.scoring.analysis.technique.synchrony import together
+from station.scoring.analysis.technique.wing_kristofferson import WingKristofferson, keeper
 from tests.data.test_assess_gmd import quantised
 from tests.real_data import real_files
 
 FILES = real_files("gmd/*/eval_session/*.mid")
 
 
-def told(path: Path) -> tuple[Keeper, float | None]:
+def told(path: Path) -> tuple[WingKristofferson, float | None]:
     score, performance, _ = quantised(path)
     alignment = align(score, performance, clocked=False)
     limbs = together(score, alignment)

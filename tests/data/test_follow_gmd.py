@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from station.music.judgement import Label
-from station.scoring.follower import Follower
+from station.scoring.following.follower import Follower
 from tests.data.test_assess_gmd import quantised
 from tests.real_data import real_files
 

@@ -10,8 +10,8 @@ from station.core.events import DeviceEvent, Hit
 from station.core.pieces import TOMS, Piece
 from station.core.units import NS_PER_MS, ns_from_s
 from station.devices.decoders import DecoderBank
-from station.devices.kit import Crosstalk, Foot, KitPreset, Pad
-from station.devices.presets import preset_named
+from station.devices.mapping.device_map import Crosstalk, DeviceMap, Foot, Pad
+from station.devices.mapping.presets import preset_named
 from tests.real_data import DATA
 
 _ALL = sorted((DATA / "gmd").rglob("*.mid"))
@@ -31,7 +31,7 @@ RULES = replace(
 pytestmark = pytest.mark.skipif(not TAKES, reason="the Groove MIDI Dataset is not here")
 
 
-def told(kit: KitPreset) -> list[DeviceEvent]:
+def told(kit: DeviceMap) -> list[DeviceEvent]:
     """What all the takes are understood as."""
     found: list[DeviceEvent] = []
     for take in TAKES:

@@ -9,7 +9,13 @@ import pytest
 from station.core.errors import BadInput
 from station.core.pieces import Piece
 from station.core.units import PPQ
-from station.music.formats.smf import MidiFile, MidiTrack, performance_from_midi, read_midi, score_from_midi
+from station.music.formats.smf.standard_midi import (
+    MidiFile,
+    MidiTrack,
+    performance_from_midi,
+    read_midi,
+    score_from_midi,
+)
 from tests.real_data import real_file, real_files
 
 MIDI_FILES = real_files("midi/**/*.mid", "gmd/**/*.mid", "charts/**/*.mid")

@@ -4,19 +4,19 @@ import pytest
 
 from station.drills.library import find_lesson, lesson_names
 from station.music.judgement import Label
-from station.practice.plan import Wishes, plan_practice
-from station.practice.report import feel_of
-from station.practice.student_spec import parse_spec
-from station.practice.virtual_student import play
+from station.practice.records.session_report import feel_of
+from station.practice.session.plan import PlanOptions, plan_practice
 from station.scoring.align import align
-from station.scoring.summary import View, summarise
+from station.scoring.analysis.summary import SummaryView, summarise
+from station.simulation.student_spec import parse_spec
+from station.simulation.virtual_student import play
 
 SPEC = "seed={seed},sd_ms=12,bias_ms=-8,miss_pct=3,extra_pct=2"
 
 
 @pytest.mark.parametrize("lesson", lesson_names())
 def test_counts_and_timing_are_the_truth(lesson: str) -> None:
-    score = plan_practice(find_lesson(lesson), Wishes()).score
+    score = plan_practice(find_lesson(lesson), PlanOptions()).score
     allowed = max(1.0, 0.01 * len(score))
     for seed in (1, 2):
         student = play(score, parse_spec(SPEC.format(seed=seed)))
@@ -32,9 +32,9 @@ def test_counts_and_timing_are_the_truth(lesson: str) -> None:
 def test_who_plays_exactly_what_is_written_has_100(lesson: str) -> None:
     """Openness, grabbed cymbals and grace strokes among it, as a General MIDI kit tells them."""
     found = find_lesson(lesson)
-    score = plan_practice(found, Wishes(loops=1)).score
+    score = plan_practice(found, PlanOptions(loops=1)).score
     student = play(score, parse_spec("seed=1,sd_ms=0,velocity_sd=0"))
     alignment = align(score, student.performance, clocked=True)
-    assert summarise(score, student.performance, alignment, View(feel=feel_of(found.goals))).points == pytest.approx(
-        100
-    )
+    assert summarise(
+        score, student.performance, alignment, SummaryView(feel=feel_of(found.goals))
+    ).points == pytest.approx(100)

@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from station.core.pieces import Limb, Piece
 from station.core.units import PPQ
 from station.motion.drummer import Drummer
-from station.motion.export_npz import motion_arrays
-from station.motion.figure import figure_of
-from station.motion.style import Style
+from station.motion.export.npz import motion_arrays
+from station.motion.kinematics.figure import figure_of
+from station.motion.style.style import Style
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from tests.real_data import real_file

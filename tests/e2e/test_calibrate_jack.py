@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from station.core.calibration import load_calibration
+from station.core.measured_latency import load_calibration
 from station.core.pieces import Piece
 from tests.fakes.jack_room import KIT, STROKES, JackRoom
 from tests.fakes.jack_server import JackServer, jackd_is_installed
@@ -47,8 +47,8 @@ def test_a_cables_delay_is_measured() -> None:
     program = """
         import json
         from dataclasses import asdict
-        from station.engine.calibrating import SoundWish, loopback_rounds
-        devices, estimate = loopback_rounds(SoundWish(), lambda text: None, rounds=2)
+        from station.engine.latency_measurement import SoundRequest, loopback_rounds
+        devices, estimate = loopback_rounds(SoundRequest(), lambda text: None, rounds=2)
         print(json.dumps({**asdict(devices), **asdict(estimate)}))
     """
     with JackServer(48_000, PERIOD_FRAMES) as server, JackRoom(server, "cable", DELAY_FRAMES):
@@ -63,7 +63,7 @@ def test_struck_pads_are_measured_and_stored(tmp_path: Path) -> None:
     with JackServer(48_000, PERIOD_FRAMES) as server, JackRoom(server, "pads", DELAY_FRAMES) as room:
         options = ["--by", "strike", "--kit", "room", "--store", "--json"]
         with subprocess.Popen(
-            [sys.executable, "-m", "station.cli", "devices", "calibrate", *options],
+            [sys.executable, "-m", "station.cli.command_line", "devices", "calibrate", *options],
             env={**server.env, "XDG_CONFIG_HOME": str(tmp_path)},
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
@@ -91,9 +91,9 @@ def test_a_drummer_who_follows_the_click_is_measured() -> None:
     program = """
         import json
         from dataclasses import asdict
-        from station.devices.kit_ports import KitWish
-        from station.engine.calibrating import SoundWish, tapped
-        devices, _, found = tapped(SoundWish(), KitWish("room"), lambda text: None, clicks=18)
+        from station.devices.device_ports import DeviceRequest
+        from station.engine.latency_measurement import SoundRequest, tapped
+        devices, _, found = tapped(SoundRequest(), DeviceRequest("room"), lambda text: None, clicks=18)
         print(json.dumps({**asdict(devices), "total": asdict(found.total), "equipment": asdict(found.equipment)}))
     """
     with JackServer(48_000, PERIOD_FRAMES) as server, JackRoom(server, "drummer", 4 * DELAY_FRAMES):
@@ -122,7 +122,7 @@ def test_the_doctor_names_what_is_not_measured(tmp_path: Path, measured: bool) -
         (tmp_path / "drum-station" / "calibration.toml").write_text(CALIBRATION)
     program = """
         import json
-        from station.app.health import check_calibration
+        from station.app.diagnostics import check_calibration
         check = check_calibration()
         print(json.dumps({"works": check.works, "finding": check.finding, "remedy": check.remedy}))
     """
@@ -138,7 +138,17 @@ def test_the_doctor_names_what_is_not_measured(tmp_path: Path, measured: bool) -
 def test_silence_is_told_in_one_line() -> None:
     with JackServer(48_000, PERIOD_FRAMES) as server:
         done = subprocess.run(
-            [sys.executable, "-m", "station.cli", "devices", "calibrate", "--by", "strike", "--kit", "no such kit"],
+            [
+                sys.executable,
+                "-m",
+                "station.cli.command_line",
+                "devices",
+                "calibrate",
+                "--by",
+                "strike",
+                "--kit",
+                "no such kit",
+            ],
             env=server.env,
             capture_output=True,
             text=True,

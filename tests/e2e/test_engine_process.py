@@ -13,11 +13,11 @@ from station.core.errors import DeviceError
 from station.core.events import Hit
 from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_MS
-from station.devices.capture import Kind, read_capture
-from station.devices.replay import replay
-from station.engine.config import EngineConfig
-from station.engine.messages import KeyHit, Notice, Play, Ready, Record, Recorded, Started
-from station.engine.process import EngineProcess
+from station.devices.capture.capture import RecordKind, read_capture
+from station.devices.capture.replay import replay
+from station.engine.engine_config import EngineConfig
+from station.engine.engine_process import EngineProcess
+from station.engine.messages import CaptureSaved, KeyHit, Notice, Play, Ready, RecordCapture, Started
 from tests.fakes.captures import on_disk
 from tests.fakes.cues import clicks
 from tests.fakes.engine_listener import EngineListener
@@ -28,8 +28,8 @@ NO_JACK = "drum-test-no-such-server"
 PARENT = """
 import sys, time
 from station.engine.messages import Ready
-from station.engine.config import EngineConfig
-from station.engine.process import EngineProcess
+from station.engine.engine_config import EngineConfig
+from station.engine.engine_process import EngineProcess
 if __name__ == "__main__":
     engine = EngineProcess(EngineConfig(kits=(), sound=False))
     while not any(isinstance(event, Ready) for event in engine.events(1.0)):
@@ -43,8 +43,8 @@ CTRL_C_PARENT = """
 import signal
 import time
 from station.engine.messages import Ready
-from station.engine.config import EngineConfig
-from station.engine.process import EngineProcess
+from station.engine.engine_config import EngineConfig
+from station.engine.engine_process import EngineProcess
 if __name__ == "__main__":
     signal.signal(signal.SIGINT, signal.default_int_handler)  # who runs tests in the background has them ignore Ctrl-C
     with EngineProcess(EngineConfig(kits=(), sound=False)) as engine:
@@ -98,7 +98,7 @@ def test_what_is_missing_is_said_once_and_the_transport_runs() -> None:
 def test_keys_are_played_and_recorded(tmp_path: Path) -> None:
     with EngineProcess(EngineConfig(kits=(), sound=False)) as engine:
         listener = ready(engine)
-        engine.send(Record(tmp_path / "take.cap"))
+        engine.send(RecordCapture(tmp_path / "take.cap"))
         engine.send(KEY)
         hit = listener.until(lambda event: isinstance(event, Hit))
     assert hit == Hit(123, Piece.SNARE, Zone.HEAD, 99, device="keyboard")
@@ -118,11 +118,11 @@ def test_leaving_ends_the_process_and_leaving_twice_is_harmless() -> None:
 def test_what_is_said_at_the_very_end_is_not_lost() -> None:
     engine = EngineProcess(EngineConfig(kits=(), sound=False))
     ready(engine)
-    engine.send(Record(Path("/dev/full")))
+    engine.send(RecordCapture(Path("/dev/full")))
     engine.send(KEY)
     said = engine.close()
-    kinds = [type(event) for event in said if isinstance(event, Recorded | Hit | Notice)]
-    assert kinds[-3:] == [Recorded, Hit, Notice]  # before them perhaps that no kit can be heard
+    kinds = [type(event) for event in said if isinstance(event, CaptureSaved | Hit | Notice)]
+    assert kinds[-3:] == [CaptureSaved, Hit, Notice]  # before them perhaps that no kit can be heard
     assert "No space left" in [event.text for event in said if isinstance(event, Notice)][-1]
     assert engine.close() == []
 
@@ -152,10 +152,10 @@ def test_leaving_at_once_is_no_trouble() -> None:
 def test_an_engine_that_is_killed_is_noticed_and_keeps_its_capture(tmp_path: Path) -> None:
     with EngineProcess(EngineConfig(kits=(), sound=False)) as engine:
         listener = ready(engine)
-        engine.send(Record(tmp_path / "take.cap"))
+        engine.send(RecordCapture(tmp_path / "take.cap"))
         engine.send(KEY)
         listener.until(lambda event: isinstance(event, Hit))
-        on_disk(tmp_path / "take.cap", Kind.STROKE)
+        on_disk(tmp_path / "take.cap", RecordKind.STROKE)
         assert engine.pid is not None
         os.kill(engine.pid, signal.SIGKILL)
         with pytest.raises(DeviceError, match=r"has ended \(exit code -9\)"):

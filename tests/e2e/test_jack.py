@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 from station.core.events import Choke, DeviceFound, DeviceLost, Hit
 from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_MS, NS_PER_S
-from station.devices.capture import read_capture
-from station.devices.kit_ports import KitWish
-from station.devices.replay import replay, transport_zeros_ns
-from station.engine.config import EngineConfig
-from station.engine.messages import EngineEvent, KeyHit, Notice, Play, Ready, Record, Started
-from station.engine.process import EngineProcess
+from station.devices.capture.capture import read_capture
+from station.devices.capture.replay import replay, transport_zeros_ns
+from station.devices.device_ports import DeviceRequest
+from station.engine.engine_config import EngineConfig
+from station.engine.engine_process import EngineProcess
+from station.engine.messages import EngineEvent, KeyHit, Notice, Play, Ready, RecordCapture, Started
 from tests.fakes.cues import clicks
 from tests.fakes.engine_listener import EngineListener
 from tests.fakes.jack_recorder import JackRecorder, Recording
@@ -32,7 +32,7 @@ pytestmark = pytest.mark.jack
 Times = NDArray[np.int64]
 
 KIT = "TD-17 fake kit"
-CONFIG = EngineConfig(kits=(KitWish(KIT),), midi_driver="jack", output="jack")
+CONFIG = EngineConfig(kits=(DeviceRequest(KIT),), midi_driver="jack", output="jack")
 OUTPUTS = "PortAudio:.*"
 LEAD_NS = 300 * NS_PER_MS
 CLICKS_NS = np.arange(9) * 125 * NS_PER_MS
@@ -95,14 +95,14 @@ def test_a_kit_in_another_process_is_heard_and_sounds(jack_server: JackServer, t
         assert ready.output == "system"
         listener.until(lambda event: isinstance(event, DeviceFound))
         recorder.connect(OUTPUTS)
-        engine.send(Record(tmp_path / "take.cap"))
+        engine.send(RecordCapture(tmp_path / "take.cap"))
         engine.send(Play(clicks(CLICKS_NS), LEAD_NS))
         started = listener.until(lambda event: isinstance(event, Started))
         assert isinstance(started, Started)
         kit.play(started.zero_ns + 1_500 * NS_PER_MS)
         sent = kit.truth()
         listener.until(lambda event: isinstance(event, Choke))
-        engine.send(Record(None))
+        engine.send(RecordCapture(None))
         listener.until_after(sent[-1].at_ns + NS_PER_S // 2)
         heard = recorder.stop()
 
@@ -150,7 +150,7 @@ def test_a_sound_server_that_ends_leaves_a_silent_engine(jack_server: JackServer
         listener = EngineListener(engine)
         listener.until(lambda event: isinstance(event, Ready))
         listener.until(lambda event: isinstance(event, DeviceFound))
-        engine.send(Record(tmp_path / "take.cap"))
+        engine.send(RecordCapture(tmp_path / "take.cap"))
         jack_server.stop()
         listener.until(lambda event: isinstance(event, DeviceLost))
         listener.until(lambda event: isinstance(event, Notice) and "silent" in event.text)

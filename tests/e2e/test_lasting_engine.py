@@ -14,13 +14,13 @@ import pytest
 from station.core.events import DeviceFound, DeviceLost, Hit
 from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_MS, NS_PER_S
-from station.devices.capture import Kind, read_capture
-from station.devices.kit_ports import KitWish
-from station.devices.replay import replay, transport_zeros_ns
-from station.engine.config import EngineConfig
-from station.engine.lasting import LastingEngine
-from station.engine.messages import KeyHit, Notice, Play, Ready, Record, Sounding, Started
-from station.engine.process import EngineProcess
+from station.devices.capture.capture import RecordKind, read_capture
+from station.devices.capture.replay import replay, transport_zeros_ns
+from station.devices.device_ports import DeviceRequest
+from station.engine.engine_config import EngineConfig
+from station.engine.engine_process import EngineProcess
+from station.engine.messages import KeyHit, Notice, Play, Ready, RecordCapture, Sounding, Started
+from station.engine.supervisor import EngineSupervisor
 from tests.fakes.captures import on_disk
 from tests.fakes.cues import clicks
 from tests.fakes.engine_listener import EngineListener
@@ -38,18 +38,18 @@ BUSY_S = 10.0
 """What a machine that others use may add: that it is within a second is for the benchmark `killed_engine_back`."""
 
 
-def working(engine: LastingEngine) -> EngineProcess:
+def working(engine: EngineSupervisor) -> EngineProcess:
     assert isinstance(engine._process, EngineProcess)
     return engine._process
 
 
-def spare_is_ready(engine: LastingEngine) -> None:
+def spare_is_ready(engine: EngineSupervisor) -> None:
     """The spare imports for a moment after the first engine is ready; a session begins later than that."""
     assert isinstance(engine._spare, EngineProcess)
     run_for(1.0)
 
 
-def kill(engine: LastingEngine) -> float:
+def kill(engine: EngineSupervisor) -> float:
     pid = working(engine).pid
     assert pid is not None
     os.kill(pid, signal.SIGKILL)
@@ -68,22 +68,22 @@ def jack_clients(server: JackServer) -> set[str]:
 
 @pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="this system cannot kill outright")
 def test_an_engine_that_is_killed_is_back_within_a_second_and_the_capture_goes_on(tmp_path: Path) -> None:
-    with LastingEngine(EngineConfig(kits=(), sound=False)) as engine:
+    with EngineSupervisor(EngineConfig(kits=(), sound=False)) as engine:
         listener = EngineListener(engine)
         listener.until(lambda event: isinstance(event, Ready))
         spare_is_ready(engine)
-        engine.send(Record(tmp_path / "take.cap"))
+        engine.send(RecordCapture(tmp_path / "take.cap"))
         engine.send(Play(clicks([0, 60 * NS_PER_S]), 0))
         engine.send(KEY)
         listener.until(lambda event: isinstance(event, Started))
         listener.until(lambda event: isinstance(event, Hit))
-        on_disk(tmp_path / "take.cap", Kind.STROKE)
+        on_disk(tmp_path / "take.cap", RecordKind.STROKE)
         killed_s = kill(engine)
         listener.until(lambda event: isinstance(event, Notice) and "goes on" in event.text)
         engine.send(KEY)
         listener.until(lambda _: len(listener.hits()) == 2)
         back_s = time.monotonic() - killed_s
-        engine.send(Record(None))
+        engine.send(RecordCapture(None))
     assert back_s < BACK_WITHIN_S + BUSY_S
     capture = read_capture(tmp_path / "take.cap")
     assert capture.complete
@@ -96,13 +96,13 @@ def test_an_engine_that_is_killed_is_back_within_a_second_and_the_capture_goes_o
 @pytest.mark.skipif(not jackd_is_installed(), reason="jackd is not installed")
 def test_a_killed_engine_clicks_on_where_the_click_would_be(tmp_path: Path) -> None:
     """JACK itself waits for the clients of the dead process in turn, and lets nobody join until then: few, at best."""
-    config = EngineConfig(kits=(KitWish(KIT),), midi_driver="jack", output="jack")
+    config = EngineConfig(kits=(DeviceRequest(KIT),), midi_driver="jack", output="jack")
     every_ns = 125 * NS_PER_MS
     with (
         JackServer(period_frames=256, patience_ms=JACK_WAITS_MS) as jack_server,
         joined(jack_server),
         KitPlayer(jack_server, KIT, [], tmp_path),
-        LastingEngine(config) as engine,
+        EngineSupervisor(config) as engine,
         Stillness() as stillness,
     ):
         begun_ns = time.monotonic_ns()
@@ -135,11 +135,11 @@ def test_a_killed_engine_clicks_on_where_the_click_would_be(tmp_path: Path) -> N
 
 @pytest.mark.jack
 def test_sound_comes_back_with_the_sound_server(jack_server: JackServer, tmp_path: Path) -> None:
-    config = EngineConfig(kits=(KitWish(KIT),), midi_driver="jack", output="jack")
-    with LastingEngine(config) as engine:
+    config = EngineConfig(kits=(DeviceRequest(KIT),), midi_driver="jack", output="jack")
+    with EngineSupervisor(config) as engine:
         listener = EngineListener(engine)
         listener.until(lambda event: isinstance(event, Ready))
-        engine.send(Record(tmp_path / "take.cap"))
+        engine.send(RecordCapture(tmp_path / "take.cap"))
         engine.send(Play(clicks(np.arange(500) * 125 * NS_PER_MS), 100 * NS_PER_MS))
         listener.until(lambda event: isinstance(event, Started))
         jack_server.halt()
@@ -156,6 +156,6 @@ def test_sound_comes_back_with_the_sound_server(jack_server: JackServer, tmp_pat
             recorder.connect("PortAudio:.*")
             run_for(0.6)
             assert len(recorder.stop().onsets()) >= 2
-        engine.send(Record(None))
+        engine.send(RecordCapture(None))
     assert len([event for event in listener.events if isinstance(event, Notice) and "again" in event.text]) == 1
     assert [type(event) for event in replay(read_capture(tmp_path / "take.cap")) if isinstance(event, Hit)] == [Hit]

@@ -10,18 +10,18 @@ from pathlib import Path
 
 import pytest
 
-from station.bench.serial_kit import SerialKit
-from station.cli import main
+from station.bench.rigs.serial_kit import SerialKit
+from station.cli.command_line import main
 from station.core.events import DeviceFound, Hit
 from station.core.pieces import Piece
 from station.core.units import NS_PER_MS
-from station.devices.capture import read_capture
-from station.devices.kit_file import own_kit_path
-from station.devices.kit_ports import parse_kits
-from station.devices.replay import replay
-from station.engine.config import EngineConfig
-from station.engine.messages import Notice, Ready, Record, Recorded
-from station.engine.process import EngineProcess
+from station.devices.capture.capture import read_capture
+from station.devices.capture.replay import replay
+from station.devices.device_ports import parse_kits
+from station.devices.mapping.device_file import own_kit_path
+from station.engine.engine_config import EngineConfig
+from station.engine.engine_process import EngineProcess
+from station.engine.messages import CaptureSaved, Notice, Ready, RecordCapture
 from tests.fakes.engine_listener import EngineListener
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="ptys that speak as serial ports are Linux's")
@@ -51,15 +51,15 @@ def test_a_kit_is_taught_and_practice_understands_it_so(tmp_path: Path, monkeypa
             listener.until(lambda event: isinstance(event, Ready))
             listener.until(lambda event: isinstance(event, DeviceFound))
             listener.until(lambda event: isinstance(event, Notice) and "as you taught it" in event.text)
-            engine.send(Record(tmp_path / "take.cap"))
-            listener.until(lambda event: isinstance(event, Recorded))
+            engine.send(RecordCapture(tmp_path / "take.cap"))
+            listener.until(lambda event: isinstance(event, CaptureSaved))
             kit.play(bytes((0x99, 62, 20, 0x99, 61, 100)))  # the ghost comes first
             listener.until(lambda event: isinstance(event, Hit) and event.velocity == 100)
             time.sleep(0.2)
             kit.play(bytes((0x99, 62, 25)))
             listener.until(lambda event: isinstance(event, Hit) and event.velocity == 25)
-            engine.send(Record(None))
-            listener.until(lambda event: isinstance(event, Recorded) and event.path is None)
+            engine.send(RecordCapture(None))
+            listener.until(lambda event: isinstance(event, CaptureSaved) and event.path is None)
     told = [event for event in listener.events if isinstance(event, Hit)]
     assert [(hit.piece, hit.velocity) for hit in told] == [(Piece.KICK, 100), (Piece.SNARE, 25)]
     assert told[1].at_ns - told[0].at_ns > 150 * NS_PER_MS

@@ -17,15 +17,15 @@ from scipy.signal import butter, sosfiltfilt
 
 from station.core.errors import BadInput
 from station.core.units import NS_PER_MS, NS_PER_S
-from station.devices.capture import read_capture
-from station.devices.replay import transport_zeros_ns
+from station.devices.capture.capture import read_capture
+from station.devices.capture.replay import transport_zeros_ns
 from station.drills.library import find_lesson
 from station.music.judgement import Label
-from station.practice.folder import CAPTURE_NAME
-from station.practice.judged_again import judge_again
-from station.practice.plan import Wishes, plan_practice
-from station.practice.student_spec import parse_spec
-from station.practice.virtual_student import play
+from station.practice.records.rejudge import judge_again
+from station.practice.records.session_files import CAPTURE_NAME
+from station.practice.session.plan import PlanOptions, plan_practice
+from station.simulation.student_spec import parse_spec
+from station.simulation.virtual_student import play
 from tests.fakes.jack_recorder import JackRecorder, Recording
 from tests.fakes.jack_server import JackServer, jackd_is_installed
 from tests.fakes.kit_player import KitPlayer, Stroke
@@ -68,7 +68,7 @@ def start_station(server: JackServer, folder: Path) -> "subprocess.Popen[str]":
     (config / "drum-station" / "calibration.toml").write_text(MEASURED)
     env = {**server.env, "XDG_CONFIG_HOME": str(config)}
     return subprocess.Popen(
-        [sys.executable, "-m", "station.cli", *command],
+        [sys.executable, "-m", "station.cli.command_line", *command],
         env=env,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
@@ -105,7 +105,7 @@ def low_onsets_ns(heard: Recording, rate_hz: int) -> NDArray[np.int64]:
 
 
 def test_a_fake_kit_is_heard_judged_and_sounded(tmp_path: Path) -> None:
-    plan = plan_practice(find_lesson(LESSON), Wishes(TEMPO_BPM, 1, None, 0))
+    plan = plan_practice(find_lesson(LESSON), PlanOptions(TEMPO_BPM, 1, None, 0))
     student = play(plan.score, parse_spec("seed=3,sd_ms=6,bias_ms=-15,miss_pct=6,extra_pct=4"))
     strokes = [Stroke(at_ns, data) for at_ns, data in student.midi]
     report = tmp_path / "session"

@@ -9,15 +9,15 @@ from pathlib import Path
 
 import pytest
 
-from station.bench.serial_kit import SerialKit
+from station.bench.rigs.serial_kit import SerialKit
 from station.core.events import DeviceFound, DeviceLost, Hit
 from station.core.units import NS_PER_MS, NS_PER_S
-from station.devices.capture import read_capture
-from station.devices.kit_ports import parse_kits
-from station.devices.replay import replay
-from station.engine.config import EngineConfig
-from station.engine.messages import Ready, Record, Recorded
-from station.engine.process import EngineProcess
+from station.devices.capture.capture import read_capture
+from station.devices.capture.replay import replay
+from station.devices.device_ports import parse_kits
+from station.engine.engine_config import EngineConfig
+from station.engine.engine_process import EngineProcess
+from station.engine.messages import CaptureSaved, Ready, RecordCapture
 from tests.fakes.engine_listener import EngineListener
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="ptys that speak as serial ports are Linux's")
@@ -52,7 +52,7 @@ def test_two_serial_kits_are_heard_unplugged_and_heard_again(tmp_path: Path) -> 
             heard_from(listener, first)
             heard_from(listener, second)
             assert (first.rate(), second.rate()) == ((31_250, 31_250), (115_200, 115_200))
-            engine.send(Record(tmp_path / "take.cap"))
+            engine.send(RecordCapture(tmp_path / "take.cap"))
             sent_ns = played(first, STROKES[:20])
             listener.until(lambda event: isinstance(event, Hit) and event.velocity == 79)  # a hang-up drops the unread
             first.play(STROKES[0][:2])
@@ -65,8 +65,8 @@ def test_two_serial_kits_are_heard_unplugged_and_heard_again(tmp_path: Path) -> 
             assert heard_from(listener, first).at_ns - plugged_ns < 10 * NS_PER_S  # 1 s, and what a busy machine adds
             sent_ns += played(first, STROKES[20:])
             listener.until(lambda event: isinstance(event, Hit) and (event.device, event.velocity) == (first.wish, 99))
-            engine.send(Record(None))
-            listener.until(lambda event: isinstance(event, Recorded) and event.path is None)
+            engine.send(RecordCapture(None))
+            listener.until(lambda event: isinstance(event, CaptureSaved) and event.path is None)
     hits = [event for event in replay(read_capture(tmp_path / "take.cap")) if isinstance(event, Hit)]
     by_first = [hit for hit in hits if hit.device == first.wish]
     assert [bytes((0x99, hit.midi_note, hit.velocity)) for hit in by_first] == STROKES

@@ -11,7 +11,7 @@ from station.core.units import NS_PER_MS
 from station.music.performance import CHOKE_DTYPE, HIT_DTYPE, Performance
 from station.music.score import Score
 from station.scoring.align import align
-from station.scoring.alignment import Alignment
+from station.scoring.matching.alignment import Alignment
 
 
 @dataclass(frozen=True, eq=False)

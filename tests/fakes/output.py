@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.errors import DeviceError
-from station.sound.card_output import Renderer
+from station.sound.output.card_output import Renderer
 
 
 class FakeOutput:

@@ -11,7 +11,7 @@ import sys
 import time
 from collections.abc import Iterator
 
-from station.devices.midi_ports import MidiDirectory
+from station.devices.midi.midi_ports import MidiDirectory
 from tests.fakes.child import Child, say
 from tests.fakes.jack_server import JackServer
 

@@ -3,7 +3,7 @@
 from collections import deque
 
 from station.core.errors import DeviceError
-from station.devices.presets import stable_name
+from station.devices.mapping.presets import stable_name
 from station.devices.transport import Packet
 
 

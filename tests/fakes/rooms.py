@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.sound.calibration.chirp import FADE, HIGH_HZ, LENGTH_S, LOW_HZ, MARK_S, RULER
-from station.sound.calibration.timeline import Recording, Timeline
+from station.sound.calibration.timeline import TimedRecording, Timeline
 
 BEGIN_NS = 10**13
 LEAD_S = 1.0
@@ -39,7 +39,7 @@ class Room:
     ppm: float = 0.0
     seed: int = 1
 
-    def recorded(self, sound: Floats) -> Recording:
+    def recorded(self, sound: Floats) -> TimedRecording:
         """`sound` (n,) with the room's noises, on the second of two channels."""
         rng = np.random.default_rng(self.seed)
         heard = sound + self.noise * rng.standard_normal(len(sound))
@@ -50,7 +50,7 @@ class Room:
         frames = np.arange(0, len(sound), BLOCK_FRAMES)
         times = BEGIN_NS + np.round(frames / self.true_rate_hz * 1e9).astype(np.int64)
         stereo = np.column_stack([np.zeros(len(heard)), heard]).astype(np.float32)
-        return Recording(stereo, Timeline(frames, times, self.rate_hz))
+        return TimedRecording(stereo, Timeline(frames, times, self.rate_hz))
 
     @property
     def true_rate_hz(self) -> float:
@@ -63,7 +63,7 @@ def chirps_played_ns() -> NDArray[np.int64]:
     return BEGIN_NS + np.round((LEAD_S + np.array(RULER) * MARK_S) * 1e9).astype(np.int64)
 
 
-def room_with_chirps(room: Room, delay_ms: float) -> Recording:
+def room_with_chirps(room: Room, delay_ms: float) -> TimedRecording:
     """A train that comes back `delay_ms` after it left."""
     count = round((LEAD_S + RULER[-1] * MARK_S + 1.5) * room.rate_hz)
     at_s = np.arange(count) / room.true_rate_hz - LEAD_S - delay_ms / 1e3
@@ -89,7 +89,7 @@ def strokes_at_s(count: int, seed: int, gap_s: tuple[float, float] = (0.5, 0.9))
     return 0.5 + np.cumsum(np.random.default_rng(seed).uniform(*gap_s, count))
 
 
-def room_with_strokes(room: Room, at_s: Sequence[float] | Floats) -> Recording:
+def room_with_strokes(room: Room, at_s: Sequence[float] | Floats) -> TimedRecording:
     """Pads that are struck at `at_s`: a stick's noise and a head's tone, of various strengths."""
     rng = np.random.default_rng(room.seed + 1)
     sound = np.zeros(round((max(at_s) + 1.0) * room.rate_hz))

@@ -19,48 +19,48 @@ import numpy as np
 from imgui_bundle import hello_imgui, imgui
 from numpy.typing import NDArray
 
-from station.app.calibration_desk import Told
-from station.app.calibration_findings import Findings, Row
-from station.app.frame import WindowOptions
-from station.app.help_pages import topic_of
-from station.app.keyboard import VIEW_KEYS
-from station.app.look import look_of
-from station.app.measuring import MeasureWish
+from station.app.calibration import Told
+from station.app.calibration_results import CalibrationResult, CalibrationResults
+from station.app.export import Export
+from station.app.help_topics import topic_of
+from station.app.latency_methods import MeasureRequest
 from station.app.model import Stage
-from station.app.monitors import GONE, Rectangle, Screen, home_for
-from station.app.panels.calibration import ANYWAY_LABEL, MEASURE_LABEL
-from station.app.panels.course_list import ALL_LESSONS
-from station.app.panels.devices import DEVICES
-from station.app.panels.ear_row import STOP_LABEL as HITS_STOP
-from station.app.panels.ear_row import STUDENT_LABEL, TEACHER_LABEL
-from station.app.panels.lessons import ADAPT_LABEL, FILM_LABEL, FREE_LABEL, LISTEN_LABEL
-from station.app.panels.pads import LEARN_LABEL as LEARN_PAD_LABEL
-from station.app.panels.pads import UNDO_LABEL
-from station.app.panels.page import PANELS_LABEL
-from station.app.panels.player_controls import COUNT_IN_LABEL, MORE_LABEL
-from station.app.panels.practice import LEARN_LABEL, PRACTICE
-from station.app.panels.take_along import MIDI_LABEL, SHEET_LABEL, TAKE_ALONG
-from station.app.panels.touch import LEARN_LABEL as TOUCH_LABEL
-from station.app.panels.transport import VIEW_LABEL
-from station.app.take_along import TakeAlong
-from station.app.window import Window
-from station.core.calibration import load_calibration
+from station.app.view_settings import view_settings_of
 from station.core.errors import BadInput
+from station.core.measured_latency import load_calibration
 from station.core.pieces import Piece
 from station.core.settings import Settings, load_settings, save_settings
 from station.core.units import ns_from_ms
-from station.devices.kit_file import own_kit
+from station.devices.mapping.device_file import own_kit
 from station.drills.library import find_lesson
-from station.engine.calibrating import Devices
-from station.engine.messages import Eavesdrop, Play, SetLevel
-from station.practice.own_ear import Guess
-from station.practice.plan import Wishes, plan_practice
-from station.practice.student_spec import parse_spec
-from station.render.camera import VIEW_NAMES, View
-from station.render.png import write_png
-from station.render.score_view import ScoreForm
+from station.engine.latency_measurement import Devices
+from station.engine.messages import Play, SetLevel, WatchRawBytes
+from station.gui.display import GONE, Rectangle, Screen, home_for
+from station.gui.keyboard_kit import VIEW_KEYS
+from station.gui.layout import WindowOptions
+from station.gui.panels.calibration_part import ANYWAY_LABEL, MEASURE_LABEL
+from station.gui.panels.course_list import ALL_LESSONS
+from station.gui.panels.devices_panel import DEVICES
+from station.gui.panels.export_panel import MIDI_LABEL, SHEET_LABEL, TAKE_ALONG
+from station.gui.panels.lessons_panel import ADAPT_LABEL, FILM_LABEL, FREE_LABEL, LISTEN_LABEL
+from station.gui.panels.pads_part import LEARN_LABEL as LEARN_PAD_LABEL
+from station.gui.panels.pads_part import UNDO_LABEL
+from station.gui.panels.panel import PANELS_LABEL
+from station.gui.panels.playback_row import STOP_LABEL as HITS_STOP
+from station.gui.panels.playback_row import STUDENT_LABEL, TEACHER_LABEL
+from station.gui.panels.player_controls import COUNT_IN_LABEL, MORE_LABEL
+from station.gui.panels.practice_panel import LEARN_LABEL, PRACTICE
+from station.gui.panels.transport_bar import VIEW_LABEL
+from station.gui.panels.velocity_part import LEARN_LABEL as TOUCH_LABEL
+from station.gui.window import Window
+from station.practice.session.plan import PlanOptions, plan_practice
+from station.practice.session.self_estimate import SelfEstimate
+from station.render.camera import VIEW_NAMES, NamedView
+from station.render.files.png_file import write_png
+from station.render.notation.score_view import ScoreForm
 from station.render.snapshot import Snapshot
-from station.sound.calibration.estimate import Estimate
+from station.simulation.student_spec import parse_spec
+from station.sound.calibration.latency_estimate import LatencyEstimate
 from tests.gui.figure import figure
 from tests.gui.legible import present_faults
 from tests.gui.room import KIT, practice_room
@@ -97,7 +97,7 @@ class Drive:
     ) -> None:
         spec = None if student in (None, NEWCOMER) else parse_spec(str(student))
         self.picture_every = picture_every
-        self.room, self.engine, self.clock = practice_room("rock-1", Wishes(), sessions, spec, STEP_NS)
+        self.room, self.engine, self.clock = practice_room("rock-1", PlanOptions(), sessions, spec, STEP_NS)
         settings = Settings(sessions=str(sessions), welcomed=student != NEWCOMER)
         self.settings = save_settings(settings, sessions / "settings.toml")
         options = WindowOptions(size, quality=0, remember_layout=False, settings=self.settings, tests=self._register)
@@ -188,7 +188,7 @@ class Drive:
         ctx.item_input_value("##search", lesson.title.split(":")[0])
         ctx.item_click(f"**/###{LESSON}")
         ctx.item_input_value("##passes", passes)
-        self.engine.plan = plan_practice(lesson, Wishes(lesson.tempo_bpm, passes))
+        self.engine.plan = plan_practice(lesson, PlanOptions(lesson.tempo_bpm, passes))
 
 
 def practise(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
@@ -253,7 +253,7 @@ def just_play(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
             break
         ctx.yield_()
     drive.seen["ended"] = not drive.room.room().listening
-    films = drive.window.pages.take.files = TakeAlong((sys.executable, "-c", FILMS))
+    films = drive.window.pages.take.files = Export((sys.executable, "-c", FILMS))
     ctx.item_click(FILM_LABEL)
     drive.seen["filming"] = films.process is not None
     if films.process is not None:
@@ -284,8 +284,8 @@ def look(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """Every viewpoint can be chosen, two from the list and the others by their keys, and the mouse turns it."""
     ctx.set_ref("//Transport")
     keys = {view: key for key, view in VIEW_KEYS.items()}
-    for view in View:
-        if view in (View.TOP, View.FEET):
+    for view in NamedView:
+        if view in (NamedView.TOP, NamedView.FEET):
             ctx.combo_click(f"##view/{VIEW_NAMES[view]}")
         else:
             ctx.key_press(keys[view])
@@ -344,10 +344,10 @@ def viewpoints(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     double = [backdrop.look.double.name]
     ctx.item_click("//$FOCUSED/Over##Your double")
     ctx.yield_(2)
-    double += [backdrop.look.double.name, look_of(load_settings(drive.settings)).double.name]
+    double += [backdrop.look.double.name, view_settings_of(load_settings(drive.settings)).double.name]
     drive.seen["slots"] = [slot for slot, camera in enumerate(backdrop.look.viewpoints, 1) if camera is not None]
-    kept = look_of(load_settings(drive.settings))
-    drive.seen["kept"] = [kept.view.name, kept.mirrored, kept.inset is View.FEET]
+    kept = view_settings_of(load_settings(drive.settings))
+    drive.seen["kept"] = [kept.view.name, kept.mirrored, kept.inset is NamedView.FEET]
     there = kept.viewpoints[2]
     ctx.key_press(imgui.Key.escape)
     ctx.yield_(2)
@@ -400,7 +400,7 @@ def devices(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     pads_are_learnt(drive, ctx)
     open_panel(ctx, DEVICES)  # and close it again
     ctx.yield_(2)
-    drive.seen["still listens"] = [command.on for command in drive.engine.sent if isinstance(command, Eavesdrop)]
+    drive.seen["still listens"] = [command.on for command in drive.engine.sent if isinstance(command, WatchRawBytes)]
 
 
 def pads_are_learnt(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
@@ -476,9 +476,12 @@ def habits(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
 class Measurement:
     """A measurement by strikes whose devices answer at once: it says so, then what it found."""
 
-    def __init__(self, wish: MeasureWish) -> None:
-        doubtful = Estimate(4.0, -1.0, 9.0, 8.0, 12, ("the strokes scatter by 8 ms",))
-        self._says: list[Told] = ["strike each pad", Findings(Devices(kit=KIT), (Row("kit", KIT, doubtful),))]
+    def __init__(self, wish: MeasureRequest) -> None:
+        doubtful = LatencyEstimate(4.0, -1.0, 9.0, 8.0, 12, ("the strokes scatter by 8 ms",))
+        self._says: list[Told] = [
+            "strike each pad",
+            CalibrationResults(Devices(kit=KIT), (CalibrationResult("kit", KIT, doubtful),)),
+        ]
         self.by = wish.by
 
     def told(self) -> list[Told]:
@@ -640,7 +643,7 @@ def drill(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.item_click("Start##start")
     drive.wait_for(ctx, Stage.RESULT)
     ctx.yield_(2)
-    for guess in Guess:
+    for guess in SelfEstimate:
         if drive.room.room().question:
             ctx.item_click(f"//Transport/{guess.value}")
             ctx.yield_(2)

@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING
 from imgui_bundle import imgui
 
 from station.core.settings import load_settings
-from station.motion.style import JOINTS
-from station.motion.style_file import load_style
+from station.motion.style.style import JOINTS
+from station.motion.style.style_file import load_style
 
 if TYPE_CHECKING:
     from tests.gui.drive import Drive

@@ -15,7 +15,7 @@ import numpy as np
 from imgui_bundle import imgui
 from numpy.typing import NDArray
 
-from station.app import theme
+from station.gui import theme
 
 _VERTEX = np.dtype([("at", "<f4", 2), ("uv", "<f4", 2), ("colour", "<u4")])
 _SLACK = 1.0

@@ -9,14 +9,14 @@ from pathlib import Path
 from station.app.practice_room import PracticeRoom
 from station.core.events import DeviceFound
 from station.core.settings import Settings
-from station.devices.kit_file import own_kit
-from station.devices.presets import GENERAL_MIDI_PRESET
+from station.devices.mapping.device_file import own_kit
+from station.devices.mapping.presets import GENERAL_MIDI_PRESET
 from station.drills.library import find_lesson
 from station.engine.engine import Engine
 from station.engine.messages import Command, EngineEvent, KeyHit, Play, Ready
-from station.practice.plan import Plan, Wishes, plan_practice
-from station.practice.student_spec import StudentSpec
-from station.practice.virtual_student import play
+from station.practice.session.plan import Plan, PlanOptions, plan_practice
+from station.simulation.student_spec import StudentSpec
+from station.simulation.virtual_student import play
 
 KIT, OUTPUT = "virtual student", "Speakers"
 
@@ -80,7 +80,7 @@ class DirectEngine:
 
 
 def practice_room(
-    lesson: str, wishes: Wishes, sessions: Path, student: StudentSpec | None, step_ns: int
+    lesson: str, wishes: PlanOptions, sessions: Path, student: StudentSpec | None, step_ns: int
 ) -> tuple[PracticeRoom, DirectEngine, FrameClock]:
     """A room that opens on `lesson`, its engine, and the clock that both go by."""
     clock = FrameClock(step_ns)

@@ -8,7 +8,7 @@ import ctypes
 import numpy as np
 from numpy.typing import NDArray
 
-from station.app.monitors import Rectangle
+from station.gui.display import Rectangle
 
 _ALL_PLANES, _Z_PIXMAP = ctypes.c_ulong(-1), 2
 

@@ -16,12 +16,12 @@ from hypothesis import strategies as st
 from station.core.events import DeviceEvent, Hit
 from station.core.pieces import Piece
 from station.core.units import NS_PER_MS
-from station.devices.capture import read_capture
-from station.devices.kit import Crosstalk, Foot, Pad
-from station.devices.presets import preset_named
-from station.devices.replay import replay
+from station.devices.capture.capture import read_capture
+from station.devices.capture.replay import replay
+from station.devices.mapping.device_map import Crosstalk, Foot, Pad
+from station.devices.mapping.presets import preset_named
 from station.engine.engine import Engine
-from station.engine.messages import EngineEvent, Record
+from station.engine.messages import EngineEvent, RecordCapture
 
 DEVICE = "TD-17"
 KIT = replace(
@@ -54,7 +54,7 @@ def test_what_was_told_is_what_a_capture_replays(moves: list[tuple[int, int, int
         path = Path(folder) / "take.cap"
         engine, told, sent = Engine(own_kit=lambda _: KIT), list[EngineEvent](), Counter[tuple[int, int, int]]()
         engine.device_found(DEVICE, 0)
-        engine.handle(Record(path))
+        engine.handle(RecordCapture(path))
         engine.advance(0)
         at_ns = now_ns = 0
         for wait_ms, late_ms, on_ms, message in moves:
@@ -66,7 +66,7 @@ def test_what_was_told_is_what_a_capture_replays(moves: list[tuple[int, int, int
             told += engine.advance(now_ns)
             if message[0] == 0x99:
                 sent[at_ns, message[1], message[2]] += 1
-        engine.handle(Record(None))
+        engine.handle(RecordCapture(None))
         told += engine.advance(now_ns)
         heard: list[DeviceEvent] = [event for event in told if isinstance(event, DeviceEvent)]
         assert list(replay(read_capture(path))) == heard

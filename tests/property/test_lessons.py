@@ -11,13 +11,13 @@ from station.core.errors import BadInput
 from station.core.pieces import Piece, word
 from station.core.toml_places import Places
 from station.core.units import PPQ
-from station.drills.fit import fit_score, lesson_of
-from station.drills.grid import Frame, parse_line
+from station.drills.grid.grid import GridFrame, parse_line
+from station.drills.grid.swing import MAX_RATIO, Swing
+from station.drills.grid.tab_symbols import LETTERS, LINE_PIECES, family_of
 from station.drills.lesson import Goals, Lesson
 from station.drills.lesson_file import KEYS, parse_lesson
-from station.drills.lesson_write import first_difference, write_lesson
-from station.drills.letters import LETTERS, LINE_PIECES, family_of
-from station.drills.swing import MAX_RATIO, Swing
+from station.drills.lesson_writer import first_difference, write_lesson
+from station.drills.quantise import fit_score, lesson_of
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoMap
 
@@ -131,7 +131,7 @@ def test_whatever_is_played_slowly_fits_the_grid(played: list[Note]) -> None:
 def test_cells_share_the_bar_equally(count: int, beats: int, unit: int) -> None:
     """Against exact fractions: a bar that is accepted is covered by cells of one length without a gap."""
     told: list[str] = []
-    frame = Frame(MeterChange(0, beats, unit), PPQ)
+    frame = GridFrame(MeterChange(0, beats, unit), PPQ)
     (bar,) = parse_line("o" * count, frame, lambda _, text: told.append(text))
     fits = count % beats == 0 or beats % count == 0
     exact = Fraction(beats * 4 * PPQ, unit * count).denominator == 1

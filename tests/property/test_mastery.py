@@ -6,16 +6,16 @@ from datetime import date, timedelta
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from station.drills.mastery.document import document_of, state_from
-from station.drills.mastery.fading import Feedback
-from station.drills.mastery.passes import BarResult, PassResult
+from station.drills.mastery.feedback_fading import Feedback
+from station.drills.mastery.mastery_json import document_of, state_from
+from station.drills.mastery.mastery_state import ItemState
+from station.drills.mastery.pass_facts import BarResult, PassResult
 from station.drills.mastery.policy import begin, fix_tempo, new_item, next_step, veto
+from station.drills.mastery.practice_steps import PassKind, PracticeItem, PracticeStep
 from station.drills.mastery.rules import DEFAULT_RULES, Rules
-from station.drills.mastery.state import ItemState
-from station.drills.mastery.steps import Item, Kind, Step
 
 DAY = date(2024, 3, 1)
-ITEM = Item("any", 96.0, 2, (8, 12, 10), (2.5, 2.5, 2.5))
+ITEM = PracticeItem("any", 96.0, 2, (8, 12, 10), (2.5, 2.5, 2.5))
 
 
 @st.composite
@@ -54,7 +54,7 @@ RULES = st.builds(
 )
 
 
-def run(state: ItemState, results: list[PassResult], rules: Rules) -> list[Step]:
+def run(state: ItemState, results: list[PassResult], rules: Rules) -> list[PracticeStep]:
     steps = [state.step]
     for result in results:
         state, step = next_step(state, result, rules)
@@ -65,7 +65,7 @@ def run(state: ItemState, results: list[PassResult], rules: Rules) -> list[Step]
 @given(MIXED, RULES)
 def test_the_tempo_stays_between_floor_and_target(results: list[PassResult], rules: Rules) -> None:
     for step in run(new_item(ITEM, DAY, rules), results, rules):
-        top = 100.0 + (rules.vary_pct if step.kind is Kind.VARIATION else 0.0)
+        top = 100.0 + (rules.vary_pct if step.kind is PassKind.VARIATION else 0.0)
         assert rules.floor_pct <= step.pct <= top
         assert step.tempo_bpm == ITEM.bpm(step.pct)
 
@@ -91,7 +91,7 @@ def test_the_ladder_moves_by_its_steps_alone(results: list[PassResult]) -> None:
     for result in results:
         before = state
         state, _ = next_step(state, result)
-        if before.step.kind in (Kind.WHOLE, Kind.PROBE):
+        if before.step.kind in (PassKind.WHOLE, PassKind.PROBE):
             moved = state.ladder.pct - before.ladder.pct
             assert moved in (0.0, 5.0, -8.0, -16.0) or state.ladder.pct in (40.0, 100.0)
             assert moved >= 0 or state.ladder.clean == state.ladder.bad == 0
@@ -115,7 +115,7 @@ def test_one_bad_pass_never_lowers_the_tempo(results: list[PassResult]) -> None:
     for result in results:
         state, _ = next_step(state, result)
     state, _ = next_step(state, perfect())
-    if state.step.kind is Kind.WHOLE:
+    if state.step.kind is PassKind.WHOLE:
         assert next_step(state, bad)[0].ladder.pct == state.ladder.pct
 
 
@@ -148,7 +148,7 @@ def test_a_veto_keeps_tempo_and_bars_of_the_last_pass_of_the_ladder(results: lis
     for result in results:
         before = state.step
         state, _ = next_step(state, result, rules)
-        if before.kind in (Kind.WHOLE, Kind.CHUNK) and not result.is_silent:
+        if before.kind in (PassKind.WHOLE, PassKind.CHUNK) and not result.is_silent:
             _, kept = veto(state, rules)
             assert (kept.pct, kept.bars) == (before.pct, before.bars)
 

@@ -10,9 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from station.core.events import Hit
-from station.devices.midi_decoder import MidiDecoder
-from station.devices.midi_tokens import MidiTokenizer
-from station.devices.presets import PRESETS, preset_named
+from station.devices.mapping.presets import PRESETS, preset_named
+from station.devices.midi.midi_decoder import MidiDecoder
+from station.devices.midi.midi_tokens import MidiTokenizer
 
 DATA = st.integers(0, 0x7F)
 REAL_TIME = st.sampled_from([0xF8, 0xFA, 0xFB, 0xFC, 0xFE, 0xFF])

@@ -10,14 +10,14 @@ from hypothesis import strategies as st
 
 from station.core.pieces import Articulation, Limb, Piece, Zone
 from station.core.units import PPQ
-from station.motion import frame
-from station.motion import sticking_costs as price
-from station.motion.collisions import collisions
 from station.motion.drummer import Drummer
-from station.motion.hand_notes import HandNotes, Hands
-from station.motion.kit import load_kit
-from station.motion.limbs import assign_limbs
-from station.motion.targets import Strike, target_of
+from station.motion.kinematics import frame
+from station.motion.kinematics.collisions import collisions
+from station.motion.kit.kit import load_kit
+from station.motion.sticking import hand_costs as price
+from station.motion.sticking.hand_notes import HandNotes, Hands
+from station.motion.sticking.limbs import assign_limbs
+from station.motion.strokes.targets import Strike, target_of
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 

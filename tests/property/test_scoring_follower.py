@@ -9,7 +9,7 @@ from station.core.units import NS_PER_MS, NS_PER_S
 from station.music.judgement import Judgement, Label
 from station.music.performance import Performance
 from station.scoring.align import align
-from station.scoring.follower import Follower
+from station.scoring.following.follower import Follower
 from tests.fakes.scores import beat_and_fill, double_strokes, rock_beat
 
 SCORES = [rock_beat(3), beat_and_fill(1), double_strokes(2, 110.0)]

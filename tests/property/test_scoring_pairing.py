@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import linear_sum_assignment
 
-from station.scoring.pairing import least_cost, pair_nearest
+from station.scoring.matching.pairing import least_cost, pair_nearest
 
 REACH = 50
 WIDTH = REACH + 1  # the edge itself is within reach

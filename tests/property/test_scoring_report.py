@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from station.core.units import NS_PER_MS
 from station.music.performance import HIT_DTYPE, Performance
 from station.scoring.align import align
-from station.scoring.pairs import pairs_csv
-from station.scoring.summary import Summary, summarise
+from station.scoring.analysis.summary import Summary, summarise
+from station.scoring.report.pairs_table import pairs_csv
 from tests.fakes.played import varied_groove
 from tests.fakes.scores import beat_and_fill, flams, rock_beat
 

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from station.core.errors import BadInput
-from station.music.formats.smf import MidiFile, parse_midi, performance_from_midi, score_from_midi
+from station.music.formats.smf.standard_midi import MidiFile, parse_midi, performance_from_midi, score_from_midi
 from tests.fakes.smf_bytes import END, chunk, event, header, meta, meter, number, tempo, track
 from tests.real_data import real_files
 

@@ -8,17 +8,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from station.core.events import Choke, Hit
-from station.core.kitmap import GENERAL_MIDI, V_DRUMS
+from station.core.note_map import GENERAL_MIDI, V_DRUMS
 from station.core.pieces import CYMBALS, Piece
 from station.core.units import PPQ
-from station.music.formats.smf import (
+from station.music.formats.smf.standard_midi import (
     performance_from_midi,
     read_midi,
     score_from_midi,
     write_performance,
     write_score,
 )
-from station.music.formats.smf_write import PERFORMANCE_TICK_NS
+from station.music.formats.smf.track_writer import PERFORMANCE_TICK_NS
 from station.music.performance import Performance
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from station.core.units import NS_PER_S, PPQ
 from station.music.tempo import MeterChange, TempoChange, TempoMap
-from station.practice.song_player import MAX_SPEED_PERCENT, WIND_PERCENT, Song, SongPlayer, Step
+from station.practice.demonstration.song_player import MAX_SPEED_PERCENT, WIND_PERCENT, Song, SongPlayer, SongStep
 
 CHANGES = [TempoChange.from_bpm(0, 97.0), TempoChange.from_bpm(7 * PPQ, 161.0)]
 METERS = [MeterChange(0, 4, 4), MeterChange(8 * PPQ, 7, 8)]
@@ -17,7 +17,7 @@ SONG = Song(TempoMap.build(CHANGES, METERS), 8 * PPQ + 2 * 7 * PPQ // 2)
 CONTROLS: dict[str, Callable[[SongPlayer, int, int, int], SongPlayer]] = {
     "play": lambda p, now, a, b: p.played(now) if a % 2 else p.stopped(now),
     "seek": lambda p, now, a, b: p.sought(now, a * NS_PER_S // 3),
-    "step": lambda p, now, a, b: p.stepped(now, list(Step)[a % 5], 1 if b % 2 else -1),
+    "step": lambda p, now, a, b: p.stepped(now, list(SongStep)[a % 5], 1 if b % 2 else -1),
     "wind": lambda p, now, a, b: p.wound(now, a % 3 - 1),
     "speed": lambda p, now, a, b: p.at_speed(now, 10 * a),
     "reverse": lambda p, now, a, b: p.reversed(now, bool(a % 2)),
@@ -45,8 +45,8 @@ def test_it_stays_in_the_song_and_in_its_loop(uses: list[tuple[str, int, int, in
         assert 0 <= player.place(now_ns).bar < SONG.bar_count
 
 
-@given(st.integers(0, SONG.length_ns), st.sampled_from(list(Step)))
-def test_a_step_on_and_one_back_surround_the_place(at_ns: int, step: Step) -> None:
+@given(st.integers(0, SONG.length_ns), st.sampled_from(list(SongStep)))
+def test_a_step_on_and_one_back_surround_the_place(at_ns: int, step: SongStep) -> None:
     on, back = SONG.stepped_ns(at_ns, step, 1), SONG.stepped_ns(at_ns, step, -1)
     assert back <= at_ns <= on
     assert back < on

@@ -7,13 +7,13 @@ from hypothesis import strategies as st
 from station.core.events import Hit
 from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone
 from station.core.units import PPQ
-from station.devices.midi_decoder import MidiDecoder
-from station.devices.presets import GENERAL_MIDI_PRESET
+from station.devices.mapping.presets import GENERAL_MIDI_PRESET
+from station.devices.midi.midi_decoder import MidiDecoder
 from station.music.judgement import Label
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
-from station.practice.student_spec import FAULTS, Fault, StudentSpec
-from station.practice.virtual_student import play
+from station.simulation.student_spec import FAULTS, PlantedFault, StudentSpec
+from station.simulation.virtual_student import play
 
 NOTES = st.builds(
     Note,
@@ -51,7 +51,7 @@ SPECS = st.builds(
     sd_interval_pct=st.floats(0, 10),
     velocity_cv_pct=st.floats(0, 30),
     faults=st.lists(st.sampled_from(sorted(FAULTS)), unique=True, max_size=3).map(
-        lambda names: tuple(Fault(name, FAULTS[name].largest / 5) for name in names)
+        lambda names: tuple(PlantedFault(name, FAULTS[name].largest / 5) for name in names)
     ),
 )
 

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from station.core.errors import BadInput
-from station.practice.student_spec import FAULTS, KEYS, PLAYERS, Fault, StudentSpec, parse_spec
+from station.simulation.student_spec import FAULTS, KEYS, PLAYERS, PlantedFault, StudentSpec, parse_spec
 
 NUMBERS = {
     name: st.integers(int(key.low), int(key.high)) if key.whole else st.floats(key.low, key.high)
@@ -15,7 +15,7 @@ NUMBERS = {
 }
 FAULT_LISTS = st.lists(
     st.sampled_from(sorted(FAULTS)).flatmap(
-        lambda name: st.floats(0.001, FAULTS[name].largest).map(lambda size: Fault(name, size))
+        lambda name: st.floats(0.001, FAULTS[name].largest).map(lambda size: PlantedFault(name, size))
     ),
     unique_by=lambda fault: fault.name,
 ).map(tuple)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from station.core.errors import BadInput
 from station.core.pieces import HAND_PIECES, Articulation, Dynamic, Limb, Ornament, Piece, Zone
 from station.core.units import PPQ
-from station.motion.text_score import parse_text_score, score_text
+from station.music.formats.text_score import parse_text_score, score_text
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 

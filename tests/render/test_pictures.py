@@ -13,26 +13,26 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Limb, Piece
 from station.motion.drummer import Drummer
-from station.motion.figure import Joint, figure_of
-from station.motion.kit import load_kit
-from station.motion.pose import RIGHT, Pose
+from station.motion.kinematics.figure import Joint, figure_of
+from station.motion.kinematics.pose import RIGHT, Pose
+from station.motion.kit.kit import load_kit
 from station.music.judgement import Label
 from station.music.score import Note
-from station.render.camera import Camera, View, named
-from station.render.frames import DoublePlace
-from station.render.gl import Target, standalone_context
+from station.render.camera import Camera, NamedView, named
+from station.render.gpu.gl import RenderTarget, standalone_context
+from station.render.gpu.moving_parts import DoublePlace
+from station.render.notation.score_view import AFTER_S, BEFORE_S, ScoreForm, ScorePlace
+from station.render.notation.staff import PLACES, height
 from station.render.painter import SCORE_SHARE, Arrangement, Painter
 from station.render.palette import BRAND, MISSED, Theme
 from station.render.picture import PictureMaker, Shot, draw_png
 from station.render.quality import QUALITIES, Quality
-from station.render.report_layout import page_for
-from station.render.report_picture import draw_report_png
-from station.render.results import Words, result_facts
-from station.render.score_view import AFTER_S, BEFORE_S, Place, ScoreForm
-from station.render.snapshot import Cue, Double, Hud, Parting, Snapshot, Strike, no_marks
-from station.render.staff import PLACES, height
+from station.render.report.report_layout import page_for
+from station.render.report.report_picture import draw_report_png
+from station.render.report.result_facts import ResultWords, result_facts
+from station.render.snapshot import Hud, LimbParting, SeenStrike, Snapshot, StudentShown, TimingCue, no_marks
 from tests.unit.render.scores import rock, score_of
-from tests.unit.render.test_png import decode
+from tests.unit.render.test_png_file import decode
 
 pytestmark = pytest.mark.gl
 
@@ -71,7 +71,7 @@ def differs(one: Picture, other: Picture, where: tuple[int, int], reach: int) ->
 
 def test_the_same_snapshot_gives_the_same_picture_whatever_was_drawn_before(draw: Draw) -> None:
     first = draw(at(1.0))
-    draw(at(0.2, hud=Hud(title="another")), named(View.TOP))
+    draw(at(0.2, hud=Hud(title="another")), named(NamedView.TOP))
     assert np.array_equal(draw(at(1.0)), first)
 
 
@@ -81,7 +81,7 @@ def test_the_stick_s_tip_is_seen_on_the_snare_when_it_strikes(draw: Draw) -> Non
     drummer = Drummer(score, KIT, FIGURE)
     strike_s = float(score.onset_s[1])
     pose = drummer.pose(strike_s)
-    camera = named(View.EYES)
+    camera = named(NamedView.EYES)
     snapshot = Snapshot(score, strike_s, KIT, FIGURE, pose)
     tip = pose.tip_m[RIGHT]
     snare = KIT.pieces[Piece.SNARE]
@@ -93,7 +93,7 @@ def test_the_stick_s_tip_is_seen_on_the_snare_when_it_strikes(draw: Draw) -> Non
 
 @pytest.mark.parametrize("joint", [Joint.RIGHT_ELBOW, Joint.LEFT_WRIST, Joint.RIGHT_SHOULDER, Joint.HEAD])
 def test_the_body_is_where_its_joints_are(draw: Draw, joint: Joint) -> None:
-    camera = named(View.SHOULDER)
+    camera = named(NamedView.SHOULDER)
     snapshot = at(0.6)
     assert snapshot.pose is not None
     place = pixel_of(snapshot.pose.joints_m[joint], camera)
@@ -101,8 +101,10 @@ def test_the_body_is_where_its_joints_are(draw: Draw, joint: Joint) -> None:
     assert differs(draw(snapshot, camera), empty, place, 1)
 
 
-@pytest.mark.parametrize(("view", "hand"), [(View.LEFT_HAND, Joint.LEFT_HAND), (View.RIGHT_HAND, Joint.RIGHT_HAND)])
-def test_nothing_of_the_kit_hides_the_hand_that_a_close_up_shows(draw: Draw, view: View, hand: Joint) -> None:
+@pytest.mark.parametrize(
+    ("view", "hand"), [(NamedView.LEFT_HAND, Joint.LEFT_HAND), (NamedView.RIGHT_HAND, Joint.RIGHT_HAND)]
+)
+def test_nothing_of_the_kit_hides_the_hand_that_a_close_up_shows(draw: Draw, view: NamedView, hand: Joint) -> None:
     for at_s in (0.0, 0.37, 0.5, 1.1):
         snapshot = at(at_s)
         assert snapshot.pose is not None
@@ -114,30 +116,30 @@ def test_nothing_of_the_kit_hides_the_hand_that_a_close_up_shows(draw: Draw, vie
 
 
 def test_a_struck_piece_glows_and_no_other(draw: Draw) -> None:
-    camera = named(View.EYES)
+    camera = named(NamedView.EYES)
     still = replace(at(-2.0), pose=None)
-    lit = replace(still, strikes=(Strike(Piece.TOM_1, 110, 0.0),))
+    lit = replace(still, strikes=(SeenStrike(Piece.TOM_1, 110, 0.0),))
     before, after = draw(still, camera), draw(lit, camera)
     tom, floor_tom = (pixel_of(KIT.pieces[p].centre, camera) for p in (Piece.TOM_1, Piece.FLOOR_TOM_1))
     assert differs(before, after, tom, 1)
     assert not differs(before, after, floor_tom, 1)
-    faded = draw(replace(still, strikes=(Strike(Piece.TOM_1, 110, 2.0),)), camera)
+    faded = draw(replace(still, strikes=(SeenStrike(Piece.TOM_1, 110, 2.0),)), camera)
     assert not differs(before, faded, tom, 1)
 
 
 def test_a_missing_piece_s_stroke_glows_on_its_stand_in(draw: Draw) -> None:
     assert Piece.SPLASH not in KIT.pieces
     still = replace(at(-2.0), pose=None)
-    lit = replace(still, strikes=(Strike(Piece.SPLASH, 110, 0.0),))
+    lit = replace(still, strikes=(SeenStrike(Piece.SPLASH, 110, 0.0),))
     assert not np.array_equal(draw(still), draw(lit))
 
 
 @pytest.mark.parametrize("piece", [Piece.SNARE, Piece.CRASH_1])
 def test_a_stroke_that_comes_while_the_picture_is_drawn_is_in_it(piece: Piece) -> None:
     """A drum stands still, a cymbal swings: both are lit, the drum to the pixel as if it had been known before."""
-    before, after = at(0.75), at(0.75, strikes=(Strike(piece, 100, 0.0),))
+    before, after = at(0.75), at(0.75, strikes=(SeenStrike(piece, 100, 0.0),))
     with standalone_context() as ctx:
-        painter, target = Painter(ctx, QUALITIES[0]), Target(ctx, SIZE)
+        painter, target = Painter(ctx, QUALITIES[0]), RenderTarget(ctx, SIZE)
 
         def drawn(snapshot: Snapshot, news: Snapshot | None) -> Picture:
             arrangement = Arrangement(news=lambda: news)
@@ -155,7 +157,7 @@ def test_a_stroke_that_comes_while_the_picture_is_drawn_is_in_it(piece: Piece) -
 def test_a_painter_that_goes_to_another_quality_draws_as_one_that_began_with_it() -> None:
     snapshot, size = at(0.75), (160, 90)
     with standalone_context() as ctx:
-        target = Target(ctx, size)
+        target = RenderTarget(ctx, size)
 
         def drawn(painter: Painter) -> Picture:
             target.framebuffer.clear(depth=1.0)
@@ -173,14 +175,14 @@ def test_a_painter_that_goes_to_another_quality_draws_as_one_that_began_with_it(
 @pytest.mark.parametrize("quality", QUALITIES[:2])
 def test_beside_the_demonstrator_the_student_has_a_picture_of_his_own(quality: Quality) -> None:
     """Left the demonstrator as if he were alone there, right a drummer who is where the student is."""
-    camera, half = named(View.SHOULDER), SIZE[0] // 2
+    camera, half = named(NamedView.SHOULDER), SIZE[0] // 2
     away = DRUMMER.pose(0.63)
     ctx = standalone_context()
     with ctx:
-        painter, target = Painter(ctx, quality), Target(ctx, SIZE, quality.samples)
+        painter, target = Painter(ctx, quality), RenderTarget(ctx, SIZE, quality.samples)
 
         def drawn(double: Pose) -> Picture:
-            shown, arrangement = at(0.75, double=Double(double)), Arrangement(double=DoublePlace.BESIDE)
+            shown, arrangement = at(0.75, double=StudentShown(double)), Arrangement(double=DoublePlace.BESIDE)
             painter.draw(shown, target.framebuffer, (0, 0, *SIZE), camera, arrangement=arrangement)
             return target.read()
 
@@ -199,22 +201,22 @@ def test_beside_the_demonstrator_the_student_has_a_picture_of_his_own(quality: Q
 @pytest.mark.parametrize("quality", QUALITIES[:2])
 def test_the_student_s_double_is_seen_where_his_limbs_are_and_glows_where_they_part(quality: Quality) -> None:
     """His right arm is where the demonstrator's was a moment ago; missed, it has the colour of a miss."""
-    camera, area = named(View.SHOULDER), (0, 0, *SIZE)
+    camera, area = named(NamedView.SHOULDER), (0, 0, *SIZE)
     away = DRUMMER.pose(0.63)
     ctx = standalone_context()
     with ctx:
-        painter, target = Painter(ctx, quality), Target(ctx, SIZE, quality.samples)
+        painter, target = Painter(ctx, quality), RenderTarget(ctx, SIZE, quality.samples)
 
-        def drawn(double: Double | None, shown: bool) -> Picture:
+        def drawn(double: StudentShown | None, shown: bool) -> Picture:
             arrangement = Arrangement(double=DoublePlace.OVER if shown else DoublePlace.NOWHERE)
             painter.draw(at(0.75, double=double), target.framebuffer, area, camera, arrangement=arrangement)
             return target.read()
 
-        parted = Double(away, {Limb.RIGHT_HAND: Parting(Cue.MISSED, 1.0)})
+        parted = StudentShown(away, {Limb.RIGHT_HAND: LimbParting(TimingCue.MISSED, 1.0)})
         alone, hidden, seen, red = (
             drawn(None, True),
             drawn(parted, False),
-            drawn(Double(away), True),
+            drawn(StudentShown(away), True),
             drawn(parted, True),
         )
     assert np.array_equal(alone, hidden), "only for those who want to see it"
@@ -230,7 +232,7 @@ def test_what_is_kept_follows_the_colours_and_the_form_of_the_score() -> None:
     """By day the paper is light (F6F3EC), the highway has no staff: also where the room is drawn once."""
     ctx = standalone_context()
     with ctx:
-        painter, target = Painter(ctx, QUALITIES[0]), Target(ctx, SIZE)
+        painter, target = Painter(ctx, QUALITIES[0]), RenderTarget(ctx, SIZE)
 
         def drawn(theme: Theme, form: ScoreForm) -> Picture:
             painter.theme = theme
@@ -242,7 +244,7 @@ def test_what_is_kept_follows_the_colours_and_the_form_of_the_score() -> None:
     assert np.median(day[..., 0]) == pytest.approx(0xF6, abs=2)
     assert np.median(night[..., 0]) < 0x20
     assert np.array_equal(night, again)
-    place = Place(0.0, 0.0, float(SIZE[0]), float(SIZE[1] - SCORE_TOP))
+    place = ScorePlace(0.0, 0.0, float(SIZE[0]), float(SIZE[1] - SCORE_TOP))
     line = round(place.middle_line) - 2
     between = np.s_[line - 1 : line + 2, 8:20]  # left of the clef
     assert night[between].max() > highway[between].max() + 30
@@ -250,7 +252,7 @@ def test_what_is_kept_follows_the_colours_and_the_form_of_the_score() -> None:
 
 # --- the score --------------------------------------------------------------------------------------------------------
 
-PLACE = Place(0, SCORE_TOP, SIZE[0], SIZE[1] - SCORE_TOP)
+PLACE = ScorePlace(0, SCORE_TOP, SIZE[0], SIZE[1] - SCORE_TOP)
 CLEF = 7.0 * PLACE.space
 PER_S = (SIZE[0] - CLEF) / (BEFORE_S + AFTER_S)
 LINE_X = CLEF + BEFORE_S * PER_S
@@ -310,7 +312,7 @@ def test_early_and_late_differ_in_shape_too(draw: Draw) -> None:
         (Hud(title="Rock"), np.s_[5:45, 5:120]),
         (Hud(beats_a_minute=120.0), np.s_[5:45, 520:635]),
         (Hud(count_in=4), np.s_[80:190, 270:370]),
-        (Hud(cue=Cue.EARLY), np.s_[200:252, 260:380]),
+        (Hud(cue=TimingCue.EARLY), np.s_[200:252, 260:380]),
         (Hud(message="Play when you are ready"), np.s_[50:90, 200:440]),
     ],
 )
@@ -334,7 +336,9 @@ def test_a_picture_is_written_as_png(tmp_path: Path) -> None:
 
 def test_a_result_is_written_as_png(tmp_path: Path) -> None:
     label = np.full(len(SCORE), Label.MATCH, np.uint8)
-    facts = result_facts(SCORE, label, np.zeros(len(SCORE), np.int64), np.empty(0), Words("Rock", "120 bpm", 100.0))
+    facts = result_facts(
+        SCORE, label, np.zeros(len(SCORE), np.int64), np.empty(0), ResultWords("Rock", "120 bpm", 100.0)
+    )
     draw_report_png(facts, tmp_path / "report.png", (640, 400))
     picture = decode((tmp_path / "report.png").read_bytes())
     dial = picture[66:156, 28:118]  # 62 units round (102, 156), 0.71 pixels each
@@ -349,7 +353,7 @@ def test_the_result_shows_what_hands_and_feet_did(tmp_path: Path) -> None:
     label = np.full(len(SCORE), Label.MATCH, np.uint8)
     pictures = []
     for craft in ((), ("Swing: 1.8:1 held, 2.0:1 written", "Hi-hat: 9 of 12 as open as written")):
-        words = Words("Rock", "120 bpm", 100.0, craft=craft)
+        words = ResultWords("Rock", "120 bpm", 100.0, craft=craft)
         facts = result_facts(SCORE, label, np.zeros(len(SCORE), np.int64), np.empty(0), words)
         draw_report_png(facts, tmp_path / "report.png", (1280, 800))
         pictures.append(decode((tmp_path / "report.png").read_bytes()).astype(int))
@@ -364,7 +368,7 @@ def test_the_result_shows_what_hands_and_feet_did(tmp_path: Path) -> None:
 
 def test_no_opengl_is_said_with_what_to_install() -> None:
     program = (
-        "from station.render.gl import standalone_context\n"
+        "from station.render.gpu.gl import standalone_context\n"
         "from station.core.errors import DeviceError\n"
         "try:\n    standalone_context()\nexcept DeviceError as fault:\n    print(fault)\n"
     )
@@ -392,7 +396,7 @@ def test_higher_qualities_draw_the_same_scene_more_finely(level: int) -> None:
 
 
 def test_views_show_different_pictures(draw: Draw) -> None:
-    pictures = [draw(at(0.5), named(view)) for view in View]
+    pictures = [draw(at(0.5), named(view)) for view in NamedView]
     for i, one in enumerate(pictures):
         for other in pictures[i + 1 :]:
             assert np.abs(one[:SCORE_TOP].astype(int) - other[:SCORE_TOP]).mean() > 5

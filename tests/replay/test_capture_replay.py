@@ -11,10 +11,10 @@ import pytest
 
 from station.core.events import DeviceEvent, Hit
 from station.core.units import NS_PER_S
-from station.devices.capture import read_capture
-from station.devices.replay import replay
+from station.devices.capture.capture import read_capture
+from station.devices.capture.replay import replay
 from station.engine.engine import Engine
-from station.engine.messages import Record
+from station.engine.messages import RecordCapture
 from tests.real_data import DATA
 
 DEVICE = "TD-11"
@@ -38,7 +38,7 @@ def play(messages: list[tuple[int, mido.Message]], capture: Path, steps_per_s: i
     """Let an engine hear `messages`, in pieces of `piece` bytes, advanced `steps_per_s` times a second."""
     engine = Engine()
     engine.device_found(DEVICE, 0)
-    engine.handle(Record(capture))
+    engine.handle(RecordCapture(capture))
     step_ns = NS_PER_S // steps_per_s
     now_ns = 0
     told: list[object] = []

@@ -8,16 +8,16 @@ from pathlib import Path
 import pytest
 
 from station.core.units import NS_PER_MS, NS_PER_S
-from station.devices.capture import Capture, read_capture
-from station.devices.replay import replay, transport_zeros_ns
+from station.devices.capture.capture import Capture, read_capture
+from station.devices.capture.replay import replay, transport_zeros_ns
 from station.drills.library import find_lesson
 from station.engine.engine import Engine
-from station.engine.messages import Record, Started
-from station.practice.latency import Latency
-from station.practice.plan import TAIL_NS, Plan, Wishes, plan_practice
-from station.practice.session import Session
-from station.practice.student_spec import parse_spec
-from station.practice.virtual_student import play
+from station.engine.messages import RecordCapture, Started
+from station.practice.session.device_latency import Latency
+from station.practice.session.plan import TAIL_NS, Plan, PlanOptions, plan_practice
+from station.practice.session.session import Session
+from station.simulation.student_spec import parse_spec
+from station.simulation.virtual_student import play
 
 KIT = "TD-17"
 LATENCY = Latency(3 * NS_PER_MS + 7, 11 * NS_PER_MS + 13)
@@ -30,7 +30,7 @@ def practise(plan: Plan, capture: Path, fps: int) -> Session:
     engine, session, zero_ns, now_ns = Engine(), Session(plan, LATENCY), None, 0
     engine.advance(now_ns)
     engine.device_found(KIT, now_ns)
-    for command in (Record(capture), *session.start()):
+    for command in (RecordCapture(capture), *session.start()):
         engine.handle(command)
     due = list(play(plan.score, parse_spec(STUDENT)).midi)
     while not session.over:
@@ -44,7 +44,7 @@ def practise(plan: Plan, capture: Path, fps: int) -> Session:
                 break
             engine.feed(KIT, due.pop(0)[1], at_ns)
         session.advance(now_ns)
-    engine.handle(Record(None))
+    engine.handle(RecordCapture(None))
     for event in engine.advance(now_ns):
         session.handle(event)
     return session
@@ -68,7 +68,7 @@ def judge_again(plan: Plan, capture: Capture, fps: int) -> Session:
 
 @pytest.mark.parametrize("lesson", ["rock-1", "single-paradiddle"])
 def test_the_same_judgements_at_any_frame_rate(lesson: str, tmp_path: Path) -> None:
-    plan = plan_practice(find_lesson(lesson), Wishes(demonstrations=0, loops=2))
+    plan = plan_practice(find_lesson(lesson), PlanOptions(demonstrations=0, loops=2))
     live = practise(plan, tmp_path / "take.cap", 50)
     capture = read_capture(tmp_path / "take.cap")
     assert capture.complete

@@ -16,32 +16,32 @@ from types import MappingProxyType
 
 import pytest
 
-from station.cli import main
+from station.cli.command_line import main
 from station.core.errors import BadInput
 from station.core.events import Hit
 from station.core.pieces import Piece
 from station.core.units import NS_PER_MS, NS_PER_S
-from station.devices.capture import Kind, Record, parse_capture, read_capture
-from station.devices.kit import KitPreset, Pad
-from station.devices.presets import preset_named
-from station.devices.replay import Remark
+from station.devices.capture.capture import CaptureRecord, RecordKind, parse_capture, read_capture
+from station.devices.capture.replay import LoggedText
+from station.devices.mapping.device_map import DeviceMap, Pad
+from station.devices.mapping.presets import preset_named
 from station.drills.library import find_lesson
 from station.engine.engine import Engine
 from station.engine.messages import Command, EngineEvent, Started
-from station.engine.messages import Record as SetRecord
+from station.engine.messages import RecordCapture as SetRecord
 from station.music.judgement import Judgement
 from station.music.score import NOTE_DTYPE
-from station.practice.adaptation import Adaptation, Row
-from station.practice.headless import practise_adaptively, practise_virtually
-from station.practice.judged_again import judge_again
-from station.practice.latency import KitLatency, Latency
-from station.practice.pausing import start_of
-from station.practice.plan import Plan, Wishes, plan_practice
-from station.practice.remarks import PassBegan, said_in, text_of
-from station.practice.session import Session, SessionResult
-from station.practice.student_spec import parse_spec
-from station.practice.virtual_student import play
+from station.practice.records.rejudge import judge_again
+from station.practice.session.adaptation import Adaptation, ScoreRow
+from station.practice.session.device_latency import KitLatency, Latency
+from station.practice.session.event_log import PassBegan, said_in, text_of
+from station.practice.session.headless import practise_adaptively, practise_virtually
+from station.practice.session.pausing import start_of
+from station.practice.session.plan import Plan, PlanOptions, plan_practice
+from station.practice.session.session import Session, SessionResult
 from station.scoring.align import align
+from station.simulation.student_spec import parse_spec
+from station.simulation.virtual_student import play
 from tests.fakes.captures import capture_bytes
 
 KIT = "TD-17"
@@ -64,7 +64,7 @@ TODAY = date(2026, 3, 1)
 class Day:
     """An engine that records, and a session that hears and commands it later than it happens."""
 
-    def __init__(self, session: Session, capture: Path, lag_ns: int, own: KitPreset = GUARDED) -> None:
+    def __init__(self, session: Session, capture: Path, lag_ns: int, own: DeviceMap = GUARDED) -> None:
         self.session, self._capture, self._lag_ns, self._own = session, capture, lag_ns, own
         self._engine, self.now_ns = Engine(own_kit=lambda _: own), 0
         self._engine.advance(0)
@@ -157,7 +157,7 @@ def same_result(again: SessionResult, live: SessionResult) -> None:
 
 
 def plan_of(lesson: str, loops: int) -> Plan:
-    return plan_practice(find_lesson(lesson), Wishes(demonstrations=0, loops=loops, tempo_bpm=120))
+    return plan_practice(find_lesson(lesson), PlanOptions(demonstrations=0, loops=loops, tempo_bpm=120))
 
 
 def paused_day(path: Path, seed: int, lag_ms: int) -> Session:
@@ -191,7 +191,9 @@ def test_the_pauses_are_really_there(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("lesson", ["rock-1", "single-paradiddle", "jazz-ride-1"])
 def test_a_session_without_a_pause_or_without_a_click(lesson: str, tmp_path: Path) -> None:
-    for number, wishes in enumerate([Wishes(loops=2), Wishes(loops=2, click=None), Wishes(loops=3, bars=(1, 1))]):
+    for number, wishes in enumerate(
+        [PlanOptions(loops=2), PlanOptions(loops=2, click=None), PlanOptions(loops=3, bars=(1, 1))]
+    ):
         plan = plan_practice(find_lesson(lesson), wishes)
         virtual = practise_virtually(plan, parse_spec(STUDENT), tmp_path / f"{number}.cap")
         (again,) = judge_again(read_capture(tmp_path / f"{number}.cap"))
@@ -199,14 +201,14 @@ def test_a_session_without_a_pause_or_without_a_click(lesson: str, tmp_path: Pat
 
 
 def test_practice_that_follows_the_student(tmp_path: Path) -> None:
-    adaptation = Adaptation(find_lesson("rock-fill-1"), Wishes(loops=6), TODAY)
+    adaptation = Adaptation(find_lesson("rock-fill-1"), PlanOptions(loops=6), TODAY)
     virtual = practise_adaptively(adaptation, parse_spec(STUDENT), tmp_path / "take.cap")
     again = [session.result() for session in judge_again(read_capture(tmp_path / "take.cap"))]
     assert len(again) == len(adaptation.rounds) == 6
     assert len({round(one.plan.tempo_bpm) for one in again}) > 1, "the tempo has moved"
     for one, live in zip(again, adaptation.rounds, strict=True):
         same_result(one, live.result)
-    row = Row(tuple(one.score for one in again))
+    row = ScoreRow(tuple(one.score for one in again))
     whole = align(row.score, row.performance(one.performance for one in again), clocked=True)
     assert whole.hit_of_note.tolist() == virtual.result.alignment.hit_of_note.tolist()
     assert whole.asynchrony_ns.tolist() == virtual.result.alignment.asynchrony_ns.tolist()
@@ -270,7 +272,11 @@ def test_a_capture_cut_short_is_judged_up_to_there(tmp_path: Path) -> None:
 
 
 def test_a_capture_from_before_there_were_remarks_holds_no_session() -> None:
-    old = [Record(Kind.START, 0, 0, bytes(8)), Record(Kind.ZERO, 0, 700), Record(Kind.END, 0, 900)]
+    old = [
+        CaptureRecord(RecordKind.START, 0, 0, bytes(8)),
+        CaptureRecord(RecordKind.ZERO, 0, 700),
+        CaptureRecord(RecordKind.END, 0, 900),
+    ]
     assert judge_again(parse_capture(capture_bytes(old))) == []
 
 
@@ -287,7 +293,7 @@ def test_a_capture_from_before_there_were_remarks_holds_no_session() -> None:
 )
 def test_a_damaged_remark_is_named(text: str) -> None:
     with pytest.raises(BadInput, match="remark at 5 ns"):
-        said_in(Remark(5, text))
+        said_in(LoggedText(5, text))
 
 
 @pytest.mark.parametrize(
@@ -309,14 +315,14 @@ def test_a_damaged_remark_is_named(text: str) -> None:
 def test_a_score_that_none_can_be_is_named(key: str | tuple[str, str], value: object) -> None:
     """Each of these once ended in numpy's words, or asked for terabytes."""
     fields = json.loads(text_of(PassBegan(0, plan_of("rock-1", 1), LATENCY, waits=False)))
-    assert isinstance(said_in(Remark(5, json.dumps(fields))), PassBegan)
+    assert isinstance(said_in(LoggedText(5, json.dumps(fields))), PassBegan)
     if isinstance(key, str):
         fields[key] = value
     else:
         fields[key[0]][0][(NOTE_DTYPE.names or ()).index(key[1])] = value
     with pytest.raises(BadInput, match="remark at 5 ns"):
-        said_in(Remark(5, json.dumps(fields)))
+        said_in(LoggedText(5, json.dumps(fields)))
 
 
 def test_what_a_later_version_says_is_passed_over() -> None:
-    assert said_in(Remark(5, '{"said":"sang","strokes":"la"}')) is None
+    assert said_in(LoggedText(5, '{"said":"sang","strokes":"la"}')) is None

@@ -7,12 +7,12 @@ from collections.abc import Mapping
 from dataclasses import replace
 from types import MappingProxyType
 
-from station.core.kitmap import Strike
-from station.devices.kit import KitPreset, Sent
-from station.devices.midi_tokens import MidiTokenizer
-from station.devices.presets import PRESETS
-from station.devices.wizard.pads import pad_name
-from station.devices.wizard.takes import ONE_STROKE_NS
+from station.core.note_map import NoteMeaning
+from station.devices.mapping.device_map import DeviceMap, Sent
+from station.devices.mapping.presets import PRESETS
+from station.devices.midi.midi_tokens import MidiTokenizer
+from station.devices.wizard.answers import ONE_STROKE_NS
+from station.devices.wizard.pad_choices import pad_name
 
 _NOTE_ON, _CHANNEL = 0x9, 0x0F
 
@@ -54,7 +54,7 @@ class PadEar:
         self.listen(on=False)
         return self._loudest[1]
 
-    def unknown(self, kit: KitPreset) -> list[Sent]:
+    def unknown(self, kit: DeviceMap) -> list[Sent]:
         """The notes that came and of which `kit` does not know what they are, in the order in which they came."""
         return [sent for sent in self._heard if not kit.knows(*sent)]
 
@@ -63,17 +63,17 @@ class PadEar:
         return any(number == sent[1] and channel != sent[0] for channel, number in self._heard)
 
 
-def taught(kit: KitPreset, sent: Sent, strike: Strike, is_shared: bool = False) -> KitPreset:
+def taught(kit: DeviceMap, sent: Sent, strike: NoteMeaning, is_shared: bool = False) -> DeviceMap:
     """The kit in which `sent` is `strike`: on every channel, on its own alone where the number `is_shared`."""
     own = kit if kit.base else replace(kit, base=kit.name if kit.name in PRESETS else "", port_words=())
     channels = {other: strikes for other, strikes in kit.channel_notes.items() if other != sent}
     chokes = {number: piece for number, piece in kit.choke_notes.items() if number != sent[1]}
-    notes: Mapping[int, Strike] = kit.notes if is_shared else MappingProxyType({**kit.notes, sent[1]: strike})
+    notes: Mapping[int, NoteMeaning] = kit.notes if is_shared else MappingProxyType({**kit.notes, sent[1]: strike})
     channels |= {sent: strike} if is_shared else {}
     return replace(own, notes=notes, channel_notes=MappingProxyType(channels), choke_notes=MappingProxyType(chokes))
 
 
-def in_words(before: KitPreset, sent: Sent, strike: Strike) -> str:
+def in_words(before: DeviceMap, sent: Sent, strike: NoteMeaning) -> str:
     """What learning a pad changes: which note it is, and what that meant."""
     channel, number = sent
     told = f"note {number} (channel {channel}) is the {pad_name(strike)}"

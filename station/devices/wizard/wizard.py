@@ -7,12 +7,12 @@ keeps what it has `learned`. A step ends by itself when its strokes were played 
 from dataclasses import dataclass
 
 from station.core.units import NS_PER_MS
-from station.devices.midi_tokens import MidiTokenizer
-from station.devices.wizard.deduce import Learned, grab_notes, learn, main_notes, main_of
-from station.devices.wizard.guess import Guess, guess
-from station.devices.wizard.pedal import learned_pedal, moved_controller, presses
-from station.devices.wizard.steps import SPLASH, STEPS, STOMP, Ask, Step
-from station.devices.wizard.takes import ONE_STROKE_NS, Said, Take, groups
+from station.devices.midi.midi_tokens import MidiTokenizer
+from station.devices.wizard.answers import ONE_STROKE_NS, Said, StepAnswer, groups
+from station.devices.wizard.infer import Learned, grab_notes, learn, main_notes, main_of
+from station.devices.wizard.module_guess import ModuleGuess, guess
+from station.devices.wizard.pedal_range import learned_pedal, moved_controller, presses
+from station.devices.wizard.wizard_steps import SPLASH, STEPS, STOMP, WizardQuestion, WizardStep
 
 PEDAL_RESTS_NS = 800 * NS_PER_MS
 """A pedal that was moved and then said nothing for so long is held; our choice."""
@@ -40,24 +40,24 @@ class WizardView:
     needed: int
     hint: str
     heard: tuple[tuple[int, int], ...]
-    guess: Guess
+    guess: ModuleGuess
 
 
 class Wizard:
     """Learns the kit at `port`."""
 
-    def __init__(self, port: str, steps: tuple[Step, ...] = STEPS) -> None:
+    def __init__(self, port: str, steps: tuple[WizardStep, ...] = STEPS) -> None:
         self.port = port
         self._steps = steps
-        self._takes: dict[Step, Take] = {}
+        self._takes: dict[WizardStep, StepAnswer] = {}
         self._at = 0
         self._now_ns = 0
         self._tokens = MidiTokenizer()
-        self._take = Take()
+        self._take = StepAnswer()
         self._hint = ""
         self._asked_ns = -READING_NS
         self._weighed: list[Said] = []
-        self._mains: dict[Step, int] = {}  # the main note of each answered step
+        self._mains: dict[WizardStep, int] = {}  # the main note of each answered step
 
     # --- in ----------------------------------------------------------------------------------------------------------
 
@@ -81,7 +81,7 @@ class Wizard:
         step = self._step
         if step is STOMP and self._take.controllers and not self._take.notes:
             self._takes[step] = self._take
-        elif step is not None and step.ask is Ask.STRIKE and self._done() >= step.firm:
+        elif step is not None and step.ask is WizardQuestion.STRIKE and self._done() >= step.firm:
             self._accept()
             return
         self._go(self._at + 1)
@@ -123,22 +123,22 @@ class Wizard:
         )
 
     @property
-    def _step(self) -> Step | None:
+    def _step(self) -> WizardStep | None:
         return None if self.over else self._steps[self._at]
 
-    def _text(self, step: Step) -> str:
-        if step.ask is Ask.SWEEP:
+    def _text(self, step: WizardStep) -> str:
+        if step.ask is WizardQuestion.SWEEP:
             return step.text
         if step.soft and self._done() >= step.firm:
             return f"{step.text}: now as softly as you can, {step.soft} times"
-        return f"{step.text}: {step.firm} {'times' if step.ask is Ask.GRAB else 'firm single strokes, with a pause'}"
+        return f"{step.text}: {step.firm} {'times' if step.ask is WizardQuestion.GRAB else 'firm single strokes, with a pause'}"
 
-    def _surety(self, found: Guess) -> str:
+    def _surety(self, found: ModuleGuess) -> str:
         if found.agreeing >= SURE_OF and not found.differing and not self.over:
             return f"all is as on a {found.preset.title}: the rest can be left to that (finish)"
         return ""
 
-    def _guess(self) -> Guess:
+    def _guess(self) -> ModuleGuess:
         numbers = {s: n for s, n in self._mains.items() if s is not SPLASH}
         return guess(numbers, self.port, learned_pedal(self._takes, None))
 
@@ -147,9 +147,9 @@ class Wizard:
     def _done(self) -> int:
         """How many of the wanted strokes, stomps or grabs are played."""
         step = self._step
-        if step is None or step.ask is Ask.SWEEP:
+        if step is None or step.ask is WizardQuestion.SWEEP:
             return 0
-        if step.ask is Ask.GRAB:
+        if step.ask is WizardQuestion.GRAB:
             return max(len(groups(self._take.touches, GRABS_APART_NS)), self._grab_notes())
         strokes = self._take.strokes()
         main = main_of(step, self._take, self._mains)
@@ -166,10 +166,10 @@ class Wizard:
         assert step is not None, "asked only while there is one"
         said: list[Said] = [*self._take.notes[-1:], *self._take.touches[-1:], *self._take.controllers[-1:]]
         quiet_ns = self._now_ns - max((one.at_ns for one in said), default=self._now_ns)
-        if quiet_ns <= (PEDAL_RESTS_NS if step.ask is Ask.SWEEP else ONE_STROKE_NS) or said == self._weighed:
+        if quiet_ns <= (PEDAL_RESTS_NS if step.ask is WizardQuestion.SWEEP else ONE_STROKE_NS) or said == self._weighed:
             return False
         self._weighed = said  # once is enough until something more comes
-        if step.ask is Ask.SWEEP:
+        if step.ask is WizardQuestion.SWEEP:
             return moved_controller(self._take) is not None
         return self._done() >= step.firm + step.soft or (
             self._done() >= SLIPS and self._struck_instead(step) is not None
@@ -184,12 +184,12 @@ class Wizard:
             self._takes[step] = self._take
             self._go(self._at + 1)
         else:
-            self._take, self._weighed = Take(), []
+            self._take, self._weighed = StepAnswer(), []
             self._hint = f"that was the pad of: {other.text}; once more, or skip if the kit lacks this one"
 
-    def _struck_instead(self, step: Step) -> Step | None:
+    def _struck_instead(self, step: WizardStep) -> WizardStep | None:
         """The step of another piece whose note most of these strokes had."""
-        if step.ask is not Ask.STRIKE or not self._take.notes:
+        if step.ask is not WizardQuestion.STRIKE or not self._take.notes:
             return None
         own = main_of(step, self._take, self._mains)
         return next((s for s, n in self._mains.items() if n == own and s.piece is not step.piece), None)
@@ -197,4 +197,4 @@ class Wizard:
     def _go(self, step: int) -> None:
         self._at = min(step, len(self._steps))
         self._mains = main_notes(self._takes)
-        self._take, self._hint, self._asked_ns, self._weighed = Take(), "", self._now_ns, []
+        self._take, self._hint, self._asked_ns, self._weighed = StepAnswer(), "", self._now_ns, []

@@ -9,16 +9,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import date
 
+from station.drills.mastery.mastery_state import ItemState
+from station.drills.mastery.practice_steps import PassKind, PracticeItem
 from station.drills.mastery.rules import DEFAULT_RULES, Rules
-from station.drills.mastery.state import ItemState
-from station.drills.mastery.steps import Item, Kind
 
 
 @dataclass(frozen=True, slots=True)
 class Turn:
     """The `item` to practise next, and `why`."""
 
-    item: Item
+    item: PracticeItem
     why: str
 
 
@@ -27,9 +27,9 @@ def next_turn(current: ItemState, others: Sequence[ItemState], today: date, rule
     due = [state for state in others if state.review.is_due(today)]
     if due:
         return Turn(min(due, key=_due).item, "it is due for review")
-    if not current.is_stable(rules) and current.step.kind is not Kind.LEAVE:
+    if not current.is_stable(rules) and current.step.kind is not PassKind.LEAVE:
         return Turn(current.item, "it is not stable yet, so stay with it")
-    rest = [state for state in others if state.step.kind is not Kind.LEAVE or state.today < today]
+    rest = [state for state in others if state.step.kind is not PassKind.LEAVE or state.today < today]
     rest = _from_current_on(current, rest)
     fresh = [state for state in rest if not state.is_stable(rules)]
     if fresh:

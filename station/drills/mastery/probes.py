@@ -8,8 +8,8 @@ row.
 
 from dataclasses import dataclass, replace
 
-from station.drills.mastery.ladder import TOP_PCT
 from station.drills.mastery.rules import Rules
+from station.drills.mastery.tempo_ladder import TOP_PCT
 
 
 @dataclass(frozen=True, slots=True)

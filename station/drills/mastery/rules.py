@@ -9,10 +9,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
+from station.core.did_you_mean import did_you_mean
 from station.core.errors import BadInput
-from station.core.meant import meant
+from station.drills.grid.swing import STRAIGHT
 from station.drills.lesson import Lesson
-from station.drills.swing import STRAIGHT
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,7 +128,7 @@ class Rules:
         known = {field.name for field in fields(self)}
         for name, value in changes.items():
             if name not in known:
-                raise BadInput("mastery rules", name, f"no such rule{meant(name, sorted(known))}")
+                raise BadInput("mastery rules", name, f"no such rule{did_you_mean(name, sorted(known))}")
             if not _fits(value, getattr(DEFAULT_RULES, name)):
                 raise BadInput("mastery rules", name, f"{value!r} is not like {getattr(DEFAULT_RULES, name)!r}")
         values: dict[str, Any] = {name: _tuples(value) for name, value in changes.items()}

@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass
 from enum import StrEnum
 
-from station.drills.mastery.passes import PassResult
+from station.drills.mastery.pass_facts import PassResult
 from station.drills.mastery.rules import Rules
 
 
@@ -22,7 +22,7 @@ class Grade(StrEnum):
     """So much went wrong that repeating it would only teach the mistakes."""
 
 
-class Fault(StrEnum):
+class PassFault(StrEnum):
     """What keeps a pass from being clean."""
 
     RIGHT = "right"
@@ -38,7 +38,7 @@ class Verdict:
     """A pass's grade, its faults, none of a clean one, and `words` for the first of them."""
 
     grade: Grade
-    faults: tuple[Fault, ...]
+    faults: tuple[PassFault, ...]
     words: str
 
     @property
@@ -53,31 +53,33 @@ def judge(result: PassResult, rules: Rules) -> Verdict:
     needed = math.ceil(rules.min_right * (result.notes + result.extras) - _TINY)
     sd_limit_ms, allowed = rules.sd_limit_ms(result.interval_ms), allowed_wrong_pads(result.notes, rules)
     found = {
-        Fault.PADS: wrong > allowed,
-        Fault.RIGHT: right < needed,
-        Fault.SPREAD: result.sd_ms is not None and result.sd_ms > sd_limit_ms,
-        Fault.LEAN: _beyond(result.lean_ms, 0.0, rules.max_lean_ms),
-        Fault.SWING: _beyond(result.swing_ratio, rules.swing_ratio, rules.max_swing_error),
-        Fault.POINTS: rules.min_points is not None and result.points is not None and result.points < rules.min_points,
+        PassFault.PADS: wrong > allowed,
+        PassFault.RIGHT: right < needed,
+        PassFault.SPREAD: result.sd_ms is not None and result.sd_ms > sd_limit_ms,
+        PassFault.LEAN: _beyond(result.lean_ms, 0.0, rules.max_lean_ms),
+        PassFault.SWING: _beyond(result.swing_ratio, rules.swing_ratio, rules.max_swing_error),
+        PassFault.POINTS: rules.min_points is not None
+        and result.points is not None
+        and result.points < rules.min_points,
     }
     words = {
-        Fault.PADS: f"{wrong} strokes on a wrong pad, {allowed} allowed",
-        Fault.RIGHT: f"{right} of {result.notes} right{_too_many(result.extras)}, {needed} needed",
-        Fault.SPREAD: f"spread {_number(result.sd_ms)} ms, {sd_limit_ms:.0f} allowed",
-        Fault.LEAN: f"{_number(result.lean_ms, '+')} ms beside the click, {_number(rules.max_lean_ms)} allowed",
-        Fault.SWING: f"swung {_ratio(result.swing_ratio)}, {_ratio(rules.swing_ratio)} is written",
-        Fault.POINTS: f"{_number(result.points)} points, {_number(rules.min_points)} needed",
+        PassFault.PADS: f"{wrong} strokes on a wrong pad, {allowed} allowed",
+        PassFault.RIGHT: f"{right} of {result.notes} right{_too_many(result.extras)}, {needed} needed",
+        PassFault.SPREAD: f"spread {_number(result.sd_ms)} ms, {sd_limit_ms:.0f} allowed",
+        PassFault.LEAN: f"{_number(result.lean_ms, '+')} ms beside the click, {_number(rules.max_lean_ms)} allowed",
+        PassFault.SWING: f"swung {_ratio(result.swing_ratio)}, {_ratio(rules.swing_ratio)} is written",
+        PassFault.POINTS: f"{_number(result.points)} points, {_number(rules.min_points)} needed",
     }
     faults = tuple(fault for fault, is_there in found.items() if is_there)
     return Verdict(_grade(result, faults, rules), faults, words[faults[0]] if faults else "clean")
 
 
-def _grade(result: PassResult, faults: tuple[Fault, ...], rules: Rules) -> Grade:
+def _grade(result: PassResult, faults: tuple[PassFault, ...], rules: Rules) -> Grade:
     if not faults:
         return Grade.CLEAN
     if result.right < rules.broken_right * (result.notes + result.extras):
         return Grade.BROKEN
-    is_loose = faults == (Fault.SPREAD,) and _within(result.sd_ms, rules.loose_share, result.interval_ms)
+    is_loose = faults == (PassFault.SPREAD,) and _within(result.sd_ms, rules.loose_share, result.interval_ms)
     return Grade.LOOSE if is_loose else Grade.BAD
 
 

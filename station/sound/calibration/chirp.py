@@ -13,7 +13,7 @@ all of them together, be it longer than the pauses between them.
 import numpy as np
 from numpy.typing import NDArray
 
-from station.sound.calibration.timeline import Recording
+from station.sound.calibration.timeline import TimedRecording
 
 Floats = NDArray[np.float64]
 
@@ -84,7 +84,9 @@ def lags_s(least_s: float, most_s: float, rate_hz: int) -> NDArray[np.int64]:
     return np.arange(round(least_s * rate_hz), round(most_s * rate_hz) + 1)
 
 
-def together(recording: Recording, coherent: Floats, played_ns: NDArray[np.int64], lags: NDArray[np.int64]) -> Floats:
+def together(
+    recording: TimedRecording, coherent: Floats, played_ns: NDArray[np.int64], lags: NDArray[np.int64]
+) -> Floats:
     """The mean coherence over all chirps for each of `lags` (in frames) after they were played: (len(lags),)."""
     starts = np.round(recording.timeline.frame_at(played_ns.astype(np.float64))).astype(np.int64)
     frames = starts[:, None] + lags

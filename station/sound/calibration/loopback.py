@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_MS
 from station.sound.calibration.chirp import coherence, found_at, lags_s, together
-from station.sound.calibration.estimate import Estimate, Floats, estimate_of
-from station.sound.calibration.timeline import Recording
+from station.sound.calibration.latency_estimate import Floats, LatencyEstimate, estimate_of
+from station.sound.calibration.timeline import TimedRecording
 
 LEAST_S, MOST_S = -0.3, 1.2
 """The delays that are looked at: drivers that report too much, and wireless headphones (our choice)."""
@@ -39,14 +39,14 @@ UNLIKELY_MS = (-30.0, 500.0)
 
 
 @dataclass(frozen=True, eq=False)
-class Round:
+class LoopbackRound:
     """One opening of the devices: when each chirp left by the output's report, (k,) monotonic ns; what was recorded."""
 
     played_ns: NDArray[np.int64]
-    recording: Recording
+    recording: TimedRecording
 
 
-def loopback(rounds: Sequence[Round]) -> Estimate:
+def loopback(rounds: Sequence[LoopbackRound]) -> LatencyEstimate:
     """How much later than reported the output sounds; raises `DeviceError` where no chirp was heard."""
     found = [_lags_ms(each) for each in rounds]
     played = sum(len(each.played_ns) for each in rounds)
@@ -69,7 +69,7 @@ def loopback(rounds: Sequence[Round]) -> Estimate:
     return estimate
 
 
-def _lags_ms(each: Round) -> Floats:
+def _lags_ms(each: LoopbackRound) -> Floats:
     """The delay of every chirp that was heard, in the channel that heard them best."""
     recording, rate_hz = each.recording, each.recording.rate_hz
     lags = lags_s(LEAST_S, MOST_S, rate_hz)
@@ -98,7 +98,7 @@ def _moved_ms(lags_ms: Floats) -> float:
     return abs(float(np.median(lags_ms[half:]) - np.median(lags_ms[:half]))) if half else 0.0
 
 
-def _why(recordings: Sequence[Recording]) -> str:
+def _why(recordings: Sequence[TimedRecording]) -> str:
     loudest = max((float(np.abs(each.sound).max(initial=0.0)) for each in recordings), default=0.0)
     if loudest == 0.0:
         return "the input recorded nothing at all; is it the right one, is it switched off?"

@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 from station.core.errors import DeviceError
 from station.core.pieces import Piece
 from station.core.units import NS_PER_MS, NS_PER_S
-from station.sound.calibration.estimate import Estimate, Floats, estimate_of, inliers
-from station.sound.calibration.onsets import onsets
-from station.sound.calibration.timeline import Recording
+from station.sound.calibration.latency_estimate import Floats, LatencyEstimate, estimate_of, inliers
+from station.sound.calibration.stroke_onsets import onsets
+from station.sound.calibration.timeline import TimedRecording
 
 SPEED_OF_SOUND_M_S = 343.0
 LEAST_MS, MOST_MS = -300.0, 300.0
@@ -42,12 +42,12 @@ UNLIKELY_MS = (-60.0, 150.0)
 class Strikes:
     """What strikes told: of the kit as a whole, and of each pad that was struck often enough."""
 
-    kit: Estimate
-    pads: Mapping[Piece, Estimate]
+    kit: LatencyEstimate
+    pads: Mapping[Piece, LatencyEstimate]
 
 
 def strikes(
-    stamps_ns: NDArray[np.int64], pieces: Sequence[Piece], recording: Recording, distance_m: float = 0.0
+    stamps_ns: NDArray[np.int64], pieces: Sequence[Piece], recording: TimedRecording, distance_m: float = 0.0
 ) -> Strikes:
     """How much later than they sounded strokes were stamped (n,), each on its piece.
 
@@ -75,7 +75,7 @@ def strikes(
     return Strikes(_doubted(_checked(kit), near, rivals, recording), MappingProxyType(pads))
 
 
-def _heard_ns(recording: Recording, channel: int, distance_m: float) -> Floats:
+def _heard_ns(recording: TimedRecording, channel: int, distance_m: float) -> Floats:
     at_ns = recording.timeline.at_ns(onsets(recording.sound[:, channel], recording.rate_hz))
     return at_ns - distance_m / SPEED_OF_SOUND_M_S * NS_PER_S
 
@@ -108,7 +108,7 @@ def _good(values: Floats) -> Floats:
     return values[inliers(values)]
 
 
-def _checked(estimate: Estimate) -> Estimate:
+def _checked(estimate: LatencyEstimate) -> LatencyEstimate:
     """With the doubts that its own figures raise."""
     if estimate.sd_ms > MAX_SD_MS:
         estimate = estimate.doubted(f"single strokes scatter by {estimate.sd_ms:.1f} ms")
@@ -117,7 +117,9 @@ def _checked(estimate: Estimate) -> Estimate:
     return estimate
 
 
-def _doubted(kit: Estimate, near: NDArray[np.bool_], rivals: tuple[int, int], recording: Recording) -> Estimate:
+def _doubted(
+    kit: LatencyEstimate, near: NDArray[np.bool_], rivals: tuple[int, int], recording: TimedRecording
+) -> LatencyEstimate:
     """With the doubts that the recording as a whole raises."""
     if kit.count < ENOUGH_STROKES:
         kit = kit.doubted(f"only {kit.count} strokes; strike each pad ten times")

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_MS
-from station.sound.calibration.estimate import Estimate, Floats, estimate_of
+from station.sound.calibration.latency_estimate import Floats, LatencyEstimate, estimate_of
 
 HABIT_MS = (-40.0, 10.0)
 """How far people tap beside a click, early negative: professionals 2 to 16 ms early (HUMANS, Timing), others up to
@@ -34,10 +34,10 @@ _MAX_LAG_1 = 0.9
 class Taps:
     """`total` equipment and habit together; `equipment` what may be the equipment's share, always in doubt."""
 
-    total: Estimate
-    equipment: Estimate
+    total: LatencyEstimate
+    equipment: LatencyEstimate
 
-    def habit(self, equipment_ms: float) -> Estimate:
+    def habit(self, equipment_ms: float) -> LatencyEstimate:
         """The player's own lean, early negative, where the equipment's latency is known."""
         return self.total.less(equipment_ms)
 
@@ -85,10 +85,10 @@ def _independent(offsets_ms: Floats) -> float:
     return (1 - rho) / (1 + rho)
 
 
-def _equipment(total: Estimate) -> Estimate:
+def _equipment(total: LatencyEstimate) -> LatencyEstimate:
     """What the equipment may have of `total`."""
     low, high = total.low_ms - HABIT_MS[1], total.high_ms - HABIT_MS[0]
-    equipment = Estimate((low + high) / 2, low, high, total.sd_ms, total.count, total.doubts)
+    equipment = LatencyEstimate((low + high) / 2, low, high, total.sd_ms, total.count, total.doubts)
     if low <= 0.0 <= high:
         return equipment.doubted("it may be the player's habit alone")
     return equipment.doubted(

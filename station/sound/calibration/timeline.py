@@ -15,7 +15,7 @@ from station.core.units import NS_PER_S
 Floats = NDArray[np.float64]
 
 SETTLED_S = 1.0
-"""The clock of a stream needs so long before its times are smooth (see `station.sound.dac_clock`)."""
+"""The clock of a stream needs so long before its times are smooth (see `station.sound.output.dac_clock`)."""
 _PARTS = 5
 """Into so many parts a stream is cut to see how far its rate can be trusted (our choice)."""
 
@@ -79,7 +79,7 @@ def _ns_a_frame(frames: NDArray[np.int64] | Floats, at_ns: NDArray[np.int64] | F
 
 
 @dataclass(frozen=True, eq=False)
-class Recording:
+class TimedRecording:
     """What an input heard: float32 (n, channels) at `rate_hz`, each frame's time, and how many blocks were lost."""
 
     sound: NDArray[np.float32]

@@ -6,51 +6,51 @@ import subprocess
 import sys
 import time
 
-from station.bench.benchmark import Benchmark, Measured
+from station.bench.harness.benchmark import Benchmark, Measurement
 from station.core.errors import DeviceError
 
 
-def noisy() -> Measured:
+def noisy() -> Measurement:
     sys.stdout.write("chatter on standard output\n")
     sys.stdout.flush()
     os.write(1, b"and from below Python\n")
-    return Measured(12.5, 50.0, "all well")
+    return Measurement(12.5, 50.0, "all well")
 
 
-def no_device() -> Measured:
+def no_device() -> Measurement:
     raise DeviceError("no sound card")
 
 
-def fails() -> Measured:
+def fails() -> Measurement:
     raise ValueError("two\nlines")
 
 
-def crashes() -> Measured:
+def crashes() -> Measurement:
     sys.stderr.write("the driver gives up\n")
     sys.stderr.flush()
     ctypes.string_at(0)
-    return Measured(1.0)
+    return Measurement(1.0)
 
 
-def leaves() -> Measured:
+def leaves() -> Measurement:
     sys.stderr.write("I quit\n")
     sys.stderr.flush()
     os._exit(3)
 
 
-def hangs() -> Measured:
+def hangs() -> Measurement:
     """With a child that holds on to our pipes."""
     subprocess.Popen([sys.executable, "-c", "import time; time.sleep(60)"])
     time.sleep(60)
-    return Measured(1.0)
+    return Measurement(1.0)
 
 
-def not_a_number() -> Measured:
-    return Measured(float("nan"))
+def not_a_number() -> Measurement:
+    return Measurement(float("nan"))
 
 
-def process() -> Measured:
-    return Measured(float(os.getpid()))
+def process() -> Measurement:
+    return Measurement(float(os.getpid()))
 
 
 BENCHMARKS = (

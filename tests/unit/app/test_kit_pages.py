@@ -4,17 +4,17 @@ from pathlib import Path
 
 import pytest
 
-from station.app.commands.learn import LearnPage
-from station.app.commands.learn_pad import OnePadPage
-from station.app.commands.monitor import MonitorPage
+from station.cli.devices_learn import LearnPage
+from station.cli.devices_learn_pad import OnePadPage
+from station.cli.devices_monitor import MonitorPage
 from station.core.pieces import Piece
 from station.core.units import NS_PER_MS, ns_from_ms
-from station.devices.kit_file import kits_folder, own_kit
-from station.devices.touch import SHAPES, Curve
+from station.devices.mapping.device_file import kits_folder, own_kit
+from station.devices.mapping.velocity_curve import SHAPES, VelocityCurve
+from station.devices.port_watch import PortPoll
 from station.devices.transport import Packet
-from station.devices.watch import Findings
-from station.devices.wizard.pads import pad_named
-from station.devices.wizard.steps import STEPS
+from station.devices.wizard.pad_choices import pad_named
+from station.devices.wizard.wizard_steps import STEPS
 from tests.fakes.module import FakeModule
 from tests.unit.devices.wizard.drummer import answer
 
@@ -31,12 +31,12 @@ def own_settings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("HOME", str(tmp_path))
 
 
-def found() -> Findings:
-    return Findings(DEVICE, [], found=True)
+def found() -> PortPoll:
+    return PortPoll(DEVICE, [], found=True)
 
 
-def packets(*sent: tuple[float, str]) -> Findings:
-    return Findings(DEVICE, [Packet(bytes.fromhex(data), ns_from_ms(ms)) for ms, data in sent])
+def packets(*sent: tuple[float, str]) -> PortPoll:
+    return PortPoll(DEVICE, [Packet(bytes.fromhex(data), ns_from_ms(ms)) for ms, data in sent])
 
 
 def taught(page: LearnPage, capsys: pytest.CaptureFixture[str]) -> list[str]:
@@ -47,7 +47,7 @@ def taught(page: LearnPage, capsys: pytest.CaptureFixture[str]) -> list[str]:
     for step in STEPS:
         asked.append(capsys.readouterr().out)
         sent = sorted(answer(KIT, step, now_ms))
-        page.take(Findings(DEVICE, [Packet(data, ns_from_ms(ms)) for ms, data in sent]))
+        page.take(PortPoll(DEVICE, [Packet(data, ns_from_ms(ms)) for ms, data in sent]))
         now_ms += 9_000
         page.advance(round(now_ms) * NS_PER_MS)
         shown = capsys.readouterr().out
@@ -99,8 +99,8 @@ def test_where_nobody_presses_keys_the_kit_is_kept_in_the_end(capsys: pytest.Cap
 
 def test_a_hit_is_shown_with_all_that_it_tells() -> None:
     page = MonitorPage(0)
-    page.take(Findings("TD-11", [], found=True))
-    (moved, hit) = page.take(Findings("TD-11", [Packet(bytes.fromhex("b9 04 2d"), 0), Packet(b"\x99\x2e\x64", 0)]))
+    page.take(PortPoll("TD-11", [], found=True))
+    (moved, hit) = page.take(PortPoll("TD-11", [Packet(bytes.fromhex("b9 04 2d"), 0), Packet(b"\x99\x2e\x64", 0)]))
     assert "openness 0.50" in moved
     assert hit.split() == [
         "0.0000",
@@ -115,7 +115,7 @@ def test_a_hit_is_shown_with_all_that_it_tells() -> None:
         "2e",
         "64",
     ]
-    (hit,) = page.take(Findings("TD-11", [Packet(bytes.fromhex("b9 10 7f 99 26 50"), 5)]))
+    (hit,) = page.take(PortPoll("TD-11", [Packet(bytes.fromhex("b9 10 7f 99 26 50"), 5)]))
     assert "position 1.00" in hit
 
 
@@ -216,7 +216,7 @@ def test_a_curve_and_a_note_are_typed(capsys: pytest.CaptureFixture[str]) -> Non
     kit = own_kit(DEVICE)
     assert kit is not None
     assert kit.pad(Piece.SNARE).curve == SHAPES["light"]
-    assert kit.pad(Piece.KICK).curve == Curve(5.0, 110.0, -0.5)
+    assert kit.pad(Piece.KICK).curve == VelocityCurve(5.0, 110.0, -0.5)
     assert kit.strike(4, 67) == pad_named("tom_1/rim")
     for line, fault in (
         ("curve snare softly", "no such shape"),

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from station.app.model import Stage, Start
+from station.app.model import SessionRequest, Stage
 from station.app.practice_room import PracticeRoom
 from station.core.errors import BadInput
 from station.core.events import DeviceFound, Hit, Switched
@@ -15,12 +15,12 @@ from station.core.settings import Settings
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.drills.library import find_lesson
 from station.engine.messages import Play, Started, Stop
-from station.practice.plan import Wishes, plan_practice
+from station.practice.session.plan import PlanOptions, plan_practice
 from tests.unit.app.test_practice_room import Line
 
 LOOPS = 4
-PLAN = plan_practice(find_lesson("rock-1"), Wishes(tempo_bpm=80.0, loops=LOOPS, demonstrations=0))
-WISH = Start("rock-1", 80.0, LOOPS, demonstrations=0)
+PLAN = plan_practice(find_lesson("rock-1"), PlanOptions(tempo_bpm=80.0, loops=LOOPS, demonstrations=0))
+WISH = SessionRequest("rock-1", 80.0, LOOPS, demonstrations=0)
 BAR_NS = 3 * NS_PER_S
 """Four quarters at 80 bpm."""
 ZERO_NS = NS_PER_S
@@ -177,7 +177,7 @@ def test_the_report_tells_of_the_pause(tmp_path: Path) -> None:
 
 def test_a_pass_that_moves_the_tempo_is_played_whole_again(tmp_path: Path) -> None:
     room, line = room_with(tmp_path)
-    room.start(Start("rock-1", 80.0, LOOPS, demonstrations=0, adapt=True))
+    room.start(SessionRequest("rock-1", 80.0, LOOPS, demonstrations=0, adapt=True))
     line.says.append(Started(ZERO_NS))
     room.snapshot(ZERO_NS + 1)
     strike(room, line, at(2 * BAR_NS), Piece.SNARE)

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from station.app.model import FreeWish, Stage, Start
+from station.app.first_start import FirstAnswers
+from station.app.model import FreeRequest, SessionRequest, Stage
 from station.app.practice_room import LIVELY_NS, PracticeRoom
-from station.app.welcome import Answers
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound, Hit
 from station.core.pieces import Piece, Zone
@@ -16,24 +16,24 @@ from station.core.units import NS_PER_MS, NS_PER_S
 from station.drills.library import find_lesson
 from station.engine.messages import (
     Bus,
+    CaptureSaved,
     Command,
     EngineEvent,
     KeyHit,
     Play,
-    Record,
-    Recorded,
+    RecordCapture,
     SetBacking,
     SetLevel,
     Started,
 )
-from station.motion.hand_notes import Hands
-from station.practice.backing import BackingWish
-from station.practice.by_ear import Whose
-from station.practice.plan import Wishes, plan_practice
+from station.motion.sticking.hand_notes import Hands
+from station.practice.demonstration.compare_by_ear import Whose
+from station.practice.session.backing_track import BackingRequest
+from station.practice.session.plan import PlanOptions, plan_practice
 
 TARGET_BPM = find_lesson("rock-1").target_tempo_bpm
-PLAN = plan_practice(find_lesson("rock-1"), Wishes(loops=1, demonstrations=0))
-WISH = Start("rock-1", 80.0, 1, demonstrations=0)
+PLAN = plan_practice(find_lesson("rock-1"), PlanOptions(loops=1, demonstrations=0))
+WISH = SessionRequest("rock-1", 80.0, 1, demonstrations=0)
 
 
 class Line:
@@ -47,8 +47,8 @@ class Line:
     def send(self, command: Command) -> None:
         self._live()
         self.heard.append(command)
-        if isinstance(command, Record):
-            self.says.append(Recorded(command.path))
+        if isinstance(command, RecordCapture):
+            self.says.append(CaptureSaved(command.path))
 
     def events(self, wait_s: float = 0.0) -> list[EngineEvent]:
         del wait_s
@@ -131,7 +131,7 @@ def test_an_engine_that_dies_costs_no_hit_and_the_next_start_wakes_another(tmp_p
     assert len(list(tmp_path.rglob("report.json"))) == 1
     room.dismiss()
     room.start(WISH)
-    assert any(isinstance(command, Record) for command in second.heard)
+    assert any(isinstance(command, RecordCapture) for command in second.heard)
 
 
 def test_a_session_that_cannot_begin_leaves_no_folder(tmp_path: Path) -> None:
@@ -155,7 +155,7 @@ def test_where_the_tempo_follows_the_student_the_next_pass_begins_by_itself(tmp_
     """Silence on both: the second pass is the first once more, and then nobody is there."""
     line = Line()
     room = room_on([line], tmp_path)
-    room.start(Start("rock-1", 80.0, 5, demonstrations=0, adapt=True))
+    room.start(SessionRequest("rock-1", 80.0, 5, demonstrations=0, adapt=True))
     now_ns = 0
     for _ in range(2):
         line.says.append(Started(now_ns))
@@ -177,7 +177,7 @@ def test_where_the_tempo_follows_the_student_the_next_pass_begins_by_itself(tmp_
 def test_a_change_may_be_refused_while_the_next_pass_is_counted_in(tmp_path: Path) -> None:
     line = Line()
     room = room_on([line], tmp_path)
-    room.start(Start("rock-1", 80.0, 5, demonstrations=0, adapt=True))
+    room.start(SessionRequest("rock-1", 80.0, 5, demonstrations=0, adapt=True))
     line.says.append(Started(0))
     room.snapshot(1)
     assert not room.room().can_veto
@@ -194,7 +194,7 @@ def test_a_change_may_be_refused_while_the_next_pass_is_counted_in(tmp_path: Pat
 def test_a_pass_that_was_refused_when_the_engine_had_ended_is_none(tmp_path: Path) -> None:
     line = Line()
     room = room_on([line], tmp_path)
-    room.start(Start("rock-1", 80.0, 5, demonstrations=0, adapt=True))
+    room.start(SessionRequest("rock-1", 80.0, 5, demonstrations=0, adapt=True))
     line.says += [Started(0), Hit(3 * NS_PER_S, Piece.KICK, Zone.HEAD, 90)]
     room.snapshot(60 * NS_PER_S)
     line.says.append(Started(60 * NS_PER_S))
@@ -255,7 +255,7 @@ def test_a_free_take_is_kept_with_its_capture_and_judges_nothing(tmp_path: Path)
     line = Line()
     room = room_on([line], tmp_path)
     room.preview(None)
-    room.just_play(FreeWish(100.0))
+    room.just_play(FreeRequest(100.0))
     assert room.room().stage is Stage.PLAYING
     line.says.append(Started(NS_PER_S))
     room.snapshot(NS_PER_S + 1)
@@ -269,7 +269,7 @@ def test_a_free_take_is_kept_with_its_capture_and_judges_nothing(tmp_path: Path)
     assert (room.room().stage, room.report()) == (Stage.IDLE, None)
     assert room.room().take is not None
     assert len(list(tmp_path.glob("*/*_just-play/take.json"))) == 1
-    assert [command.path.name for command in line.heard if isinstance(command, Record) and command.path] == [
+    assert [command.path.name for command in line.heard if isinstance(command, RecordCapture) and command.path] == [
         "session.capture"
     ]
 
@@ -288,7 +288,7 @@ def test_strokes_light_the_kit_before_a_take_and_are_not_kept(tmp_path: Path) ->
 def test_an_engine_that_dies_in_a_take_loses_none_of_it(tmp_path: Path) -> None:
     line = Line()
     room = room_on([line], tmp_path)
-    room.just_play(FreeWish(100.0))
+    room.just_play(FreeRequest(100.0))
     line.says += [Started(NS_PER_S), Hit(2 * NS_PER_S, Piece.SNARE, Zone.HEAD, 90)]
     room.snapshot(2 * NS_PER_S + 1)
     line.dead = True
@@ -301,7 +301,7 @@ def test_an_engine_that_dies_in_a_take_loses_none_of_it(tmp_path: Path) -> None:
 def test_whoever_was_met_is_kept_through_a_new_engine(tmp_path: Path) -> None:
     first, second = Line(), Line()
     room = room_on([first, second], tmp_path)
-    room.meet(Answers("Ann", module_sounds=True, hands=Hands.LEFT))
+    room.meet(FirstAnswers("Ann", module_sounds=True, hands=Hands.LEFT))
     assert first.heard == [SetLevel(Bus.STUDENT, 0.0)]
     room.preview(WISH)
     assert room.snapshot(0).kit.left_handed
@@ -316,13 +316,15 @@ def test_whoever_was_met_is_kept_through_a_new_engine(tmp_path: Path) -> None:
 def test_a_free_take_has_no_track_of_a_lesson(tmp_path: Path) -> None:
     """A track sounds whenever the transport runs, so it is taken away first."""
     line = Line()
-    wish = BackingWish(tmp_path / "song.mp3")
+    wish = BackingRequest(tmp_path / "song.mp3")
     room = PracticeRoom(lambda: line, Settings(sessions=str(tmp_path)), PLAN, backing=wish)
-    room.just_play(FreeWish(100.0))
+    room.just_play(FreeRequest(100.0))
     line.says += [Started(NS_PER_S), Hit(2 * NS_PER_S, Piece.SNARE, Zone.HEAD, 90)]
     room.snapshot(2 * NS_PER_S + 1)
     room.stop()
-    before_play = [line.heard[i - 1] for i, command in enumerate(line.heard) if isinstance(command, Record | Play)]
+    before_play = [
+        line.heard[i - 1] for i, command in enumerate(line.heard) if isinstance(command, RecordCapture | Play)
+    ]
     assert isinstance(before_play[0], SetBacking)
     assert before_play[0].track is None
 

@@ -6,17 +6,17 @@ import time
 
 import pytest
 
-from station.bench.benchmark import Benchmark, Measured, median_s
-from station.bench.midi import drum_file
-from station.bench.registry import entries
-from station.bench.run import BUDGET_S, Result, document, main, run, write_table
-from station.music.formats.smf import parse_midi, performance_from_midi
+from station.bench.harness.benchmark import Benchmark, Measurement, median_s
+from station.bench.harness.registry import entries
+from station.bench.harness.run import BUDGET_S, Result, document, main, run, write_table
+from station.bench.rows.midi_rows import drum_file
+from station.music.formats.smf.standard_midi import parse_midi, performance_from_midi
 from tests.fakes import benches
 
 FAKES = {entry.benchmark.name: entry for entry in entries(benches)}
 
 
-def one(name: str, budget_s: float = 60) -> Measured:
+def one(name: str, budget_s: float = 60) -> Measurement:
     [result] = run([FAKES[name]], budget_s)
     return result.measured
 
@@ -33,7 +33,7 @@ def test_names_are_told_apart() -> None:
 
 
 def test_a_result_comes_through_whatever_the_work_prints() -> None:
-    assert one("noisy") == Measured(12.5, 50.0, "all well")
+    assert one("noisy") == Measurement(12.5, 50.0, "all well")
 
 
 @pytest.mark.parametrize(
@@ -48,7 +48,7 @@ def test_a_result_comes_through_whatever_the_work_prints() -> None:
     ],
 )
 def test_what_goes_wrong_is_a_row_that_says_so(name: str, note: str) -> None:
-    assert one(name) == Measured(None, None, note)
+    assert one(name) == Measurement(None, None, note)
 
 
 def test_those_of_a_group_share_a_process_and_its_fate() -> None:
@@ -56,17 +56,17 @@ def test_those_of_a_group_share_a_process_and_its_fate() -> None:
     results = {result.benchmark.name: result.measured for result in run([FAKES[name] for name in names])}
     first, second, alone = (results[name].value for name in names[:3])
     assert first == second != alone
-    assert results["falls_with_it"] == results["falls"] == Measured(None, None, "ended with status 3: I quit")
+    assert results["falls_with_it"] == results["falls"] == Measurement(None, None, "ended with status 3: I quit")
 
 
 def test_what_hangs_is_ended_with_all_that_it_started() -> None:
     start = time.monotonic()
-    assert one("hangs") == Measured(None, None, "was ended after 2 s")
+    assert one("hangs") == Measurement(None, None, "was ended after 2 s")
     assert time.monotonic() - start < 55, "its child sleeps for a minute and holds the pipes"
 
 
 def test_what_finds_no_time_left_says_so() -> None:
-    assert one("noisy", budget_s=0) == Measured(None, None, "no time was left of 0 s")
+    assert one("noisy", budget_s=0) == Measurement(None, None, "no time was left of 0 s")
 
 
 def test_the_long_ones_come_last_and_have_their_own_time() -> None:
@@ -77,8 +77,8 @@ def test_the_long_ones_come_last_and_have_their_own_time() -> None:
 
 # --- what is printed --------------------------------------------------------------------------------------------------
 
-GOOD = Result(FAKES["noisy"].benchmark, Measured(12.5, 50.0))
-FAILED = Result(FAKES["fails"].benchmark, Measured(None, note="why"))
+GOOD = Result(FAKES["noisy"].benchmark, Measurement(12.5, 50.0))
+FAILED = Result(FAKES["fails"].benchmark, Measurement(None, note="why"))
 
 
 def test_the_document_has_the_designs_keys() -> None:
@@ -121,12 +121,12 @@ def test_the_table_has_a_line_for_each() -> None:
     [("lower", 20, True), ("lower", 20.1, False), ("higher", 20, True), ("higher", 19.9, False), ("lower", None, None)],
 )
 def test_a_target_is_reached_from_its_side(better: str, value: float | None, reached: bool | None) -> None:
-    row = Benchmark("x", "s", 20, "lower" if better == "lower" else "higher", None, lambda: Measured(value))
+    row = Benchmark("x", "s", 20, "lower" if better == "lower" else "higher", None, lambda: Measurement(value))
     assert row.reaches(value) is reached
 
 
 def test_without_a_target_nothing_is_reached_or_missed() -> None:
-    assert Benchmark("x", "s", None, "lower", None, lambda: Measured(1)).reaches(1) is None
+    assert Benchmark("x", "s", None, "lower", None, lambda: Measurement(1)).reaches(1) is None
 
 
 def test_the_whole_run_prints_one_document_with_every_row() -> None:
@@ -161,7 +161,7 @@ def test_the_first_call_is_not_counted(monkeypatch: pytest.MonkeyPatch) -> None:
         nonlocal now
         now += next(steps)
 
-    monkeypatch.setattr("station.bench.benchmark.time.perf_counter", lambda: now)
+    monkeypatch.setattr("station.bench.harness.benchmark.time.perf_counter", lambda: now)
     assert median_s(work, 3) == 2.0
 
 

@@ -3,17 +3,17 @@
 import numpy as np
 import pytest
 
-from station.bench.mastery_trial import Schedule, trial
-from station.bench.mastery_tutors import TUTORS, FixedLadder, Mastery, Ratchet, Tutor
+from station.bench.rigs.mastery_trial import Schedule, trial
+from station.bench.rigs.mastery_tutors import TUTORS, FixedLadder, Mastery, Ratchet, Tutor
 from station.drills.library import find_lesson
-from station.drills.mastery.steps import Item, item_of
+from station.drills.mastery.practice_steps import PracticeItem, item_of
 from station.music.performance import HIT_DTYPE, Performance
 from station.music.score import Score
-from station.practice.learner import Learner
-from station.practice.learner_kinds import LEARNERS
+from station.simulation.learner import Learner
+from station.simulation.learner_kinds import LEARNERS
 
 LESSON = find_lesson("rock-1")
-ITEM: Item = item_of(LESSON)
+ITEM: PracticeItem = item_of(LESSON)
 SCORE: Score = LESSON.loop_score
 LEARNER = Learner(LEARNERS["usual"], 1, 2)
 SHORT = Schedule(days=2, session_s=40.0, block_s=20.0, exam_every_s=20.0)

@@ -9,10 +9,10 @@ import pytest
 from station.core.errors import BadInput
 from station.core.events import Hit
 from station.core.pieces import Articulation, Piece, Zone
-from station.devices.capture import (
+from station.devices.capture.capture import (
     MAGIC,
-    Kind,
-    Record,
+    CaptureRecord,
+    RecordKind,
     RecordWriter,
     device_of,
     device_record,
@@ -23,14 +23,14 @@ from station.devices.capture import (
 
 RECORDS = [
     device_record(1, 10, "Kit «ü»", "roland-td-17"),
-    Record(Kind.BYTES, 1, 20, bytes.fromhex("99 26 64")),
-    Record(Kind.BYTES, 1, 30, b""),
-    Record(Kind.LOST, 1, -40),
-    Record(Kind.END, 0, 50),
+    CaptureRecord(RecordKind.BYTES, 1, 20, bytes.fromhex("99 26 64")),
+    CaptureRecord(RecordKind.BYTES, 1, 30, b""),
+    CaptureRecord(RecordKind.LOST, 1, -40),
+    CaptureRecord(RecordKind.END, 0, 50),
 ]
 
 
-def encoded(records: list[Record]) -> bytes:
+def encoded(records: list[CaptureRecord]) -> bytes:
     writer = RecordWriter()
     return MAGIC + b"".join(writer.encode(record) for record in records)
 
@@ -38,7 +38,7 @@ def encoded(records: list[Record]) -> bytes:
 def test_a_record_is_laid_out_as_documented() -> None:
     body = b"\x02" + b"\x01\x00" + b"\x03\x00\x00\x00" + struct.pack("<q", 20) + b"\x99\x26\x64"
     check = struct.pack("<I", zlib.crc32(body, zlib.crc32(b"DRUMCAP1")))
-    assert encoded([Record(Kind.BYTES, 1, 20, b"\x99\x26\x64")]) == b"DRUMCAP1" + body + check
+    assert encoded([CaptureRecord(RecordKind.BYTES, 1, 20, b"\x99\x26\x64")]) == b"DRUMCAP1" + body + check
 
 
 def test_what_was_written_is_read() -> None:
@@ -81,7 +81,7 @@ def test_a_record_that_was_taken_out_or_moved_shows() -> None:
 @pytest.mark.parametrize("at_ns", [2**63 - 1, -(2**63)])
 def test_a_time_that_no_clock_says_ends_what_can_be_read(at_ns: int) -> None:
     writer = RecordWriter()
-    said = [RECORDS[0], Record(Kind.BYTES, 1, at_ns, b"\x99\x26\x40"), RECORDS[1]]
+    said = [RECORDS[0], CaptureRecord(RecordKind.BYTES, 1, at_ns, b"\x99\x26\x40"), RECORDS[1]]
     data = MAGIC + b"".join([writer.encode(record) for record in said])
     assert parse_capture(data).records == (RECORDS[0],)
 
@@ -99,7 +99,7 @@ def test_a_device_has_a_name_and_a_preset() -> None:
 @pytest.mark.parametrize("payload", [b"", b"[]", b"{}", b'{"name": 1, "preset": "x"}', b"\xff", b"3", b"[" * 100_000])
 def test_a_device_that_cannot_be_read_is_the_files_fault(payload: bytes) -> None:
     with pytest.raises(BadInput, match="device 1"):
-        device_of(Record(Kind.DEVICE, 1, 0, payload))
+        device_of(CaptureRecord(RecordKind.DEVICE, 1, 0, payload))
 
 
 @pytest.mark.parametrize("openness", [None, 0.0, 0.5])
@@ -115,4 +115,4 @@ NO_OPENNESS = struct.pack("<BBBBf", Piece.HIHAT, Zone.BOW, Articulation.NORMAL, 
 @pytest.mark.parametrize("payload", [b"", b"\xff" * 8, NO_VELOCITY, NO_OPENNESS])
 def test_a_stroke_that_cannot_be_read_is_the_files_fault(payload: bytes) -> None:
     with pytest.raises(BadInput, match="stroke at 5 ns"):
-        stroke_of(Record(Kind.STROKE, 2, 5, payload), "keyboard")
+        stroke_of(CaptureRecord(RecordKind.STROKE, 2, 5, payload), "keyboard")

@@ -1,6 +1,6 @@
 """What of the MIDI ports needs no driver; all else is in the contract of the transports."""
 
-from station.devices.midi_clients import numbered
+from station.devices.midi.midi_clients import numbered
 
 
 def test_two_devices_of_one_name_are_told_apart() -> None:

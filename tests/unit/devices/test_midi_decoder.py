@@ -6,10 +6,10 @@ from types import MappingProxyType
 import pytest
 
 from station.core.events import Choke, DeviceEvent, Hit, PedalMoved, Switched
-from station.core.kitmap import Strike
+from station.core.note_map import NoteMeaning
 from station.core.pieces import Articulation, Piece, Zone
-from station.devices.midi_decoder import MidiDecoder
-from station.devices.presets import GENERAL_MIDI_PRESET, preset_named
+from station.devices.mapping.presets import GENERAL_MIDI_PRESET, preset_named
+from station.devices.midi.midi_decoder import MidiDecoder
 
 AT_NS = 5_000
 
@@ -33,7 +33,7 @@ def test_every_channel_counts() -> None:
 
 
 def test_a_note_may_mean_another_thing_on_one_channel() -> None:
-    mine = MappingProxyType({(3, 0x26): Strike(Piece.COWBELL), (3, 0x31): Strike(Piece.CHINA, Zone.EDGE)})
+    mine = MappingProxyType({(3, 0x26): NoteMeaning(Piece.COWBELL), (3, 0x31): NoteMeaning(Piece.CHINA, Zone.EDGE)})
     decoder = MidiDecoder(replace(preset_named("roland-td-17"), channel_notes=mine), "kit")
     events = decoder.feed(bytes.fromhex("92 26 64 99 26 64 92 24 64 a2 31 7f a9 31 7f"), AT_NS)
     assert [event.piece for event in events if isinstance(event, Hit | Choke)] == [

@@ -7,7 +7,7 @@ import textwrap
 import pytest
 
 from station.core.errors import BadInput
-from station.devices.midi_out import open_midi_output
+from station.devices.midi.midi_out import open_midi_output
 from tests.fakes.jack_server import JackServer, jackd_is_installed
 
 
@@ -22,7 +22,7 @@ def test_what_is_sent_arrives() -> None:
     program = """
         import time, rtmidi
         from station.core.errors import DeviceError
-        from station.devices.midi_out import open_midi_output
+        from station.devices.midi.midi_out import open_midi_output
         module = rtmidi.MidiIn(rtmidi.API_UNIX_JACK, "module")
         module.open_virtual_port("in")
         try:

@@ -2,7 +2,7 @@
 
 import pytest
 
-from station.devices.midi_tokens import LONGEST_SYSEX, MidiTokenizer
+from station.devices.midi.midi_tokens import LONGEST_SYSEX, MidiTokenizer
 
 
 def messages(data: str) -> list[str]:

@@ -3,10 +3,10 @@
 import pytest
 
 from station.core.errors import BadInput
-from station.core.kitmap import strike_of
+from station.core.note_map import strike_of
 from station.core.pieces import Articulation, Piece, Zone
-from station.devices.kit import PedalRange
-from station.devices.presets import PRESETS, preset_for, preset_named, stable_name
+from station.devices.mapping.device_map import PedalRange
+from station.devices.mapping.presets import PRESETS, preset_for, preset_named, stable_name
 
 
 @pytest.mark.parametrize(

@@ -9,13 +9,13 @@ from pathlib import Path
 
 import pytest
 
-from station.bench.serial_kit import SerialKit
+from station.bench.rigs.serial_kit import SerialKit
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_S
-from station.devices.kit_ports import KitPorts, parse_kit, ports_for
-from station.devices.serial_ports import SerialDirectory, no_access
+from station.devices.device_ports import DevicePorts, parse_kit, ports_for
+from station.devices.port_watch import PortWatch
+from station.devices.serial.serial_ports import SerialDirectory, no_access
 from station.devices.transport import Packet, Transport
-from station.devices.watch import KitWatch
 from tests.fakes.ports import FakeDriver
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="ptys that speak as serial ports are Linux's")
@@ -118,7 +118,7 @@ def test_an_unplugged_port_is_a_device_that_has_gone(path: Path) -> None:
 def test_unplugged_in_mid_message_and_back(path: Path) -> None:
     """The half message is lost with the cable; the station hears the module again within a second."""
     with PatientKit(path) as kit:
-        watch = KitWatch(ports_for(parse_kit(kit.wish), None), kit.wish)
+        watch = PortWatch(ports_for(parse_kit(kit.wish), None), kit.wish)
         assert watch.poll(0).found
         kit.play(b"\x99\x26")
         assert len(watch.poll(1).packets) == 2
@@ -135,7 +135,7 @@ def test_a_port_that_another_program_holds_is_told_once_it_lasts(path: Path) -> 
     with SerialKit(path) as kit:
         ports = ports_for(parse_kit(kit.wish), None)
         other = ports.open(kit.wish)
-        watch = KitWatch(ports, kit.wish)
+        watch = PortWatch(ports, kit.wish)
         faults = [watch.poll(at_s * NS_PER_S).fault for at_s in range(4)]
         assert faults == ["", f"{kit.wish}: another program has this serial port open", "", ""]
         other.close()
@@ -171,7 +171,7 @@ def test_the_group_in_the_remedy_is_the_ports_own(tmp_path: Path, monkeypatch: p
 def test_midi_and_serial_ports_are_one_list(path: Path) -> None:
     midi = FakeDriver("TD-17 20:0")
     with SerialKit(path) as kit:
-        ports = KitPorts(midi, SerialDirectory(asked=str(path)))
+        ports = DevicePorts(midi, SerialDirectory(asked=str(path)))
         assert ports.names()[0] == "TD-17 20:0"
         assert kit.wish in ports.names()
         assert ports.open("TD-17 20:0").name == "TD-17"

@@ -3,14 +3,14 @@
 from collections.abc import Iterable
 from datetime import date
 
-from station.drills.mastery.passes import BarResult, PassResult
+from station.drills.mastery.mastery_state import ItemState
+from station.drills.mastery.pass_facts import BarResult, PassResult
 from station.drills.mastery.policy import new_item, next_step
+from station.drills.mastery.practice_steps import PracticeItem
 from station.drills.mastery.rules import DEFAULT_RULES, Rules
-from station.drills.mastery.state import ItemState
-from station.drills.mastery.steps import Item
 
 DAY = date(2024, 3, 1)
-ITEM = Item("rock", 120.0, 0, (10, 10, 10, 10), (2.0, 2.0, 2.0, 2.0))
+ITEM = PracticeItem("rock", 120.0, 0, (10, 10, 10, 10), (2.0, 2.0, 2.0, 2.0))
 INTERVAL_MS = 250.0
 
 

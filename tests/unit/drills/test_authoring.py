@@ -4,8 +4,8 @@ import re
 from pathlib import Path
 
 from station.drills.authoring import NEW_LESSON, check_lessons
+from station.drills.grid.tab_symbols import LETTERS, TabFamily
 from station.drills.lesson_file import KEYS, parse_lesson
-from station.drills.letters import LETTERS, Family
 from station.drills.library import lessons_dir
 
 
@@ -59,6 +59,6 @@ def test_the_manual_has_every_letter_and_every_key() -> None:
     for key in KEYS:
         assert f"`{key}`" in text or f"`[{key}]`" in text, key
     rows = {row.split("|")[1].strip(): row for row in text.splitlines() if row.startswith("| `")}
-    for line, family in (("snare", Family.SNARE), ("hihat", Family.HIHAT), ("kick", Family.KICK)):
+    for line, family in (("snare", TabFamily.SNARE), ("hihat", TabFamily.HIHAT), ("kick", TabFamily.KICK)):
         for letter in LETTERS[family]:
             assert f"`{letter.lower()}`" in rows[f"`{line}`"], (line, letter)

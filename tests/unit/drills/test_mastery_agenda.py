@@ -6,9 +6,9 @@ from datetime import date, timedelta
 import pytest
 
 from station.drills.mastery.agenda import next_turn
+from station.drills.mastery.mastery_state import ItemState
+from station.drills.mastery.practice_steps import PassKind
 from station.drills.mastery.rules import DEFAULT_RULES
-from station.drills.mastery.state import ItemState
-from station.drills.mastery.steps import Kind
 from tests.unit.drills.mastering import CLEAN, DAY, played
 
 FRESH = played([CLEAN] * 2)
@@ -20,7 +20,7 @@ def named(state: ItemState, name: str, day: date = DAY) -> ItemState:
 
 
 def left(state: ItemState) -> ItemState:
-    return replace(state, step=replace(state.step, kind=Kind.LEAVE))
+    return replace(state, step=replace(state.step, kind=PassKind.LEAVE))
 
 
 def test_the_states_are_what_they_are_called() -> None:

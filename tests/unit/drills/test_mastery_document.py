@@ -7,10 +7,10 @@ import pytest
 
 from station.core.errors import BadInput
 from station.core.pieces import Piece
-from station.drills.mastery.document import SCHEMA, document_of, from_json, state_from, to_json
-from station.drills.mastery.equipment import Equipment
+from station.drills.mastery.equipment_faults import Equipment
+from station.drills.mastery.mastery_json import SCHEMA, document_of, from_json, state_from, to_json
+from station.drills.mastery.mastery_state import ItemState
 from station.drills.mastery.rules import DEFAULT_RULES, Rules
-from station.drills.mastery.state import ItemState
 from tests.unit.drills.mastering import BAD, CLEAN, played, weak_second_bar
 
 WEAK = weak_second_bar()

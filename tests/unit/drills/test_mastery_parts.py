@@ -10,13 +10,13 @@ from station.core.errors import BadInput
 from station.core.pieces import Piece
 from station.drills.lesson import Goals
 from station.drills.library import find_lesson
-from station.drills.mastery.equipment import Equipment, rewired
-from station.drills.mastery.gaps import Gaps
-from station.drills.mastery.passes import Answers, BarResult, PassResult
+from station.drills.mastery.equipment_faults import Equipment, rewired
+from station.drills.mastery.pass_facts import BarResult, PassResult, StruckFor
+from station.drills.mastery.practice_steps import PracticeItem, item_of
 from station.drills.mastery.reviews import Review
 from station.drills.mastery.rules import DEFAULT_RULES, Rules
-from station.drills.mastery.steps import Item, item_of
-from station.drills.mastery.verdict import Fault, Grade, judge
+from station.drills.mastery.silent_bars import SilentBars
+from station.drills.mastery.verdict import Grade, PassFault, judge
 from station.drills.mastery.weak_bars import tallied, weakest
 from station.music.performance import HIT_DTYPE, Performance
 from tests.unit.drills.mastering import BAD, BROKEN, CLEAN, DAY, INTERVAL_MS, LOOSE, result
@@ -82,15 +82,15 @@ def test_loose_is_right_but_for_a_spread_within_an_eighth_of_a_slow_interval() -
 def test_a_lean_costs_nothing_unless_the_lesson_asks() -> None:
     leaning = replace(CLEAN, lean_ms=-24.0)
     assert grade(leaning) is Grade.CLEAN
-    assert judge(leaning, Rules(max_lean_ms=20.0)).faults == (Fault.LEAN,)
+    assert judge(leaning, Rules(max_lean_ms=20.0)).faults == (PassFault.LEAN,)
 
 
 def test_swing_and_points_where_a_lesson_asks() -> None:
     swung = replace(CLEAN, swing_ratio=1.5, points=70.0)
     assert grade(swung) is Grade.CLEAN
-    assert judge(swung, Rules(max_swing_error=0.3, swing_ratio=2.0)).faults == (Fault.SWING,)
+    assert judge(swung, Rules(max_swing_error=0.3, swing_ratio=2.0)).faults == (PassFault.SWING,)
     assert judge(swung, Rules(max_swing_error=0.6, swing_ratio=2.0)).is_clean
-    assert judge(swung, Rules(min_points=75.0)).faults == (Fault.POINTS,)
+    assert judge(swung, Rules(min_points=75.0)).faults == (PassFault.POINTS,)
 
 
 # --- rules ------------------------------------------------------------------------------------------------------------
@@ -183,7 +183,7 @@ def test_mastering_again_on_a_later_day_does_not_move_the_reviews() -> None:
 
 # --- equipment --------------------------------------------------------------------------------------------------------
 
-CROSSED = (Answers(Piece.TOM_1, Piece.TOM_2, 6), Answers(Piece.TOM_2, Piece.TOM_1, 6))
+CROSSED = (StruckFor(Piece.TOM_1, Piece.TOM_2, 6), StruckFor(Piece.TOM_2, Piece.TOM_1, 6))
 
 
 @pytest.mark.parametrize(
@@ -191,12 +191,12 @@ CROSSED = (Answers(Piece.TOM_1, Piece.TOM_2, 6), Answers(Piece.TOM_2, Piece.TOM_
     [
         (CROSSED, True),
         (CROSSED[:1], False),  # a habit, not a cable: only one way
-        ((*CROSSED, Answers(Piece.TOM_1, Piece.TOM_1, 2)), True),  # 6 of 8 are 75 %
-        ((*CROSSED, Answers(Piece.TOM_1, Piece.TOM_1, 3)), False),
+        ((*CROSSED, StruckFor(Piece.TOM_1, Piece.TOM_1, 2)), True),  # 6 of 8 are 75 %
+        ((*CROSSED, StruckFor(Piece.TOM_1, Piece.TOM_1, 3)), False),
         (tuple(replace(a, count=5) for a in CROSSED), False),  # too few to tell
     ],
 )
-def test_cables_are_swapped_where_two_pads_answer_for_each_other(answers: tuple[Answers, ...], found: bool) -> None:
+def test_cables_are_swapped_where_two_pads_answer_for_each_other(answers: tuple[StruckFor, ...], found: bool) -> None:
     known, notice = Equipment().after(replace(CLEAN, answers=answers), DEFAULT_RULES)
     assert (known.swap is not None, notice is not None) == (found, found)
 
@@ -247,7 +247,7 @@ def test_the_grades_of_the_fixtures() -> None:
 
 def test_the_click_falls_silent_longer_and_longer_and_comes_back() -> None:
     """TEACHING: 4 on 1 off, 2/2, 1/3; two clean passes a level, one that is not clean goes back."""
-    gaps, seen = Gaps(), []
+    gaps, seen = SilentBars(), []
     for is_clean in (True,) * 8 + (False,) * 4:
         gaps = gaps.after(is_clean, DEFAULT_RULES)
         seen.append(gaps.bars(DEFAULT_RULES))
@@ -257,7 +257,7 @@ def test_the_click_falls_silent_longer_and_longer_and_comes_back() -> None:
 
 def test_a_pass_with_a_silent_click_is_long_enough_for_its_return() -> None:
     """A loop of two bars: 4 on, 1 off and the bar after it are six bars, three times round."""
-    item = Item("x", 100.0, 0, (16, 16), (2.4, 2.4))
+    item = PracticeItem("x", 100.0, 0, (16, 16), (2.4, 2.4))
     assert item.repeats((0, 1), DEFAULT_RULES) == 1
     assert item.repeats((0, 1), DEFAULT_RULES, (4, 1)) == 3
     assert item.repeats((0, 1), DEFAULT_RULES, (1, 3)) == 3

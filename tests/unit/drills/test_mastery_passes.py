@@ -7,7 +7,7 @@ import pytest
 
 from station.core.pieces import Ornament, Piece
 from station.core.units import NS_PER_MS, PPQ
-from station.drills.mastery.passes import Answers, PassResult, measure_pass
+from station.drills.mastery.pass_facts import PassResult, StruckFor, measure_pass
 from station.music.performance import HIT_DTYPE, Performance
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
@@ -105,7 +105,7 @@ def test_misses_and_wrong_pads() -> None:
     result = pass_over(score, missed=frozenset({kick}), struck={snare: Piece.TOM_1}, bars=(2, 3))
     assert (result.right, result.wrong_pads, result.extras) == (24, 1, 0)
     assert [(b.bar, b.right) for b in result.bars] == [(2, 13), (3, 11)]
-    assert Answers(Piece.SNARE, Piece.TOM_1, 1) in result.answers
+    assert StruckFor(Piece.SNARE, Piece.TOM_1, 1) in result.answers
 
 
 def test_a_stroke_clearly_out_of_time_counts_against_its_bar_alone() -> None:

@@ -9,11 +9,11 @@ from datetime import timedelta
 import pytest
 
 from station.core.pieces import Piece
-from station.drills.mastery.fading import Feedback
-from station.drills.mastery.passes import Answers, PassResult
+from station.drills.mastery.feedback_fading import Feedback
+from station.drills.mastery.pass_facts import PassResult, StruckFor
 from station.drills.mastery.policy import begin, fix_tempo, new_item, next_step, veto
+from station.drills.mastery.practice_steps import PassKind
 from station.drills.mastery.rules import DEFAULT_RULES, Rules
-from station.drills.mastery.steps import Kind
 from tests.unit.drills.mastering import (
     BAD,
     BROKEN,
@@ -88,7 +88,7 @@ def test_only_probes_move_mastery() -> None:
 def test_a_failed_probe_takes_mastery_down_a_step() -> None:
     """Blind at 80, then three bad passes of four hold the tempo, and the next probe fails there: 80 − 8."""
     passes = [*[CLEAN] * 5, BAD, CLEAN, BAD, CLEAN]
-    assert played(passes).step.kind is Kind.PROBE
+    assert played(passes).step.kind is PassKind.PROBE
     assert played([*passes, BAD]).mastery_pct == 72.0
 
 
@@ -98,10 +98,10 @@ def test_a_failed_probe_takes_mastery_down_a_step() -> None:
 def test_a_weak_bar_is_practised_alone_and_the_whole_comes_back() -> None:
     """Two bad passes: the bar at 62 %, twice a pass, until it is clean twice."""
     state = played([WEAK, WEAK], NO_PROBES)
-    assert (state.step.kind, state.step.pct, state.step.bars, state.step.repeats) == (Kind.CHUNK, 62.0, (1, 1), 2)
+    assert (state.step.kind, state.step.pct, state.step.bars, state.step.repeats) == (PassKind.CHUNK, 62.0, (1, 1), 2)
     assert state.step.bar_names == (1, 1)
     state = played([result(20, 20), result(20, 20)], NO_PROBES, state)
-    assert (state.step.kind, state.step.pct, state.step.bars) == (Kind.WHOLE, 62.0, (0, 3))
+    assert (state.step.kind, state.step.pct, state.step.bars) == (PassKind.WHOLE, 62.0, (0, 3))
 
 
 def test_a_weak_bar_climbs_back_to_where_it_was_taken_out() -> None:
@@ -137,15 +137,15 @@ def test_breaking_down_at_the_floor_is_left_after_five_passes() -> None:
 
 def test_who_plays_on_after_the_plateau_is_not_sent_away_again() -> None:
     state = played([CLEAN, BAD] * 22 + [CLEAN])
-    assert state.step.kind is Kind.LEAVE
+    assert state.step.kind is PassKind.LEAVE
     state, step = next_step(state, CLEAN)
-    assert step.kind is not Kind.LEAVE
+    assert step.kind is not PassKind.LEAVE
 
 
 def test_a_veto_keeps_the_tempo_and_starts_the_counting_anew() -> None:
     state = played([CLEAN, CLEAN], NO_PROBES)
     state, step = veto(state, NO_PROBES)
-    assert (step.kind, step.pct) == (Kind.WHOLE, 70.0)
+    assert (step.kind, step.pct) == (PassKind.WHOLE, 70.0)
     assert [
         one.pct for one in (played([CLEAN], NO_PROBES, state).step, played([CLEAN, CLEAN], NO_PROBES, state).step)
     ] == [
@@ -156,11 +156,11 @@ def test_a_veto_keeps_the_tempo_and_starts_the_counting_anew() -> None:
 
 def test_a_veto_of_a_try_puts_it_off_by_four_rungs() -> None:
     state = played([CLEAN] * 8)
-    assert state.step.kind is Kind.TARGET_PROBE
+    assert state.step.kind is PassKind.TARGET_PROBE
     state, step = veto(state)
-    assert (step.kind, step.pct) == (Kind.WHOLE, 85.0)
+    assert (step.kind, step.pct) == (PassKind.WHOLE, 85.0)
     state, step = next_step(state, CLEAN)
-    assert step.kind is not Kind.TARGET_PROBE
+    assert step.kind is not PassKind.TARGET_PROBE
 
 
 def test_a_fixed_tempo_never_changes() -> None:
@@ -176,10 +176,10 @@ def test_a_fixed_tempo_never_changes() -> None:
 def test_a_weak_bar_is_practised_alone_at_a_fixed_tempo_too() -> None:
     state, _ = fix_tempo(new_item(ITEM, DAY), 84.0)
     state = played([WEAK, WEAK], NO_PROBES, state)
-    assert state.step.kind is Kind.CHUNK
+    assert state.step.kind is PassKind.CHUNK
     assert state.step.tempo_bpm == pytest.approx(84.0)
     state = played([result(20, 20)] * 2, NO_PROBES, state)
-    assert state.step.kind is Kind.WHOLE
+    assert state.step.kind is PassKind.WHOLE
     assert state.step.tempo_bpm == pytest.approx(84.0)
 
 
@@ -188,15 +188,15 @@ def test_a_weak_bar_is_practised_alone_at_a_fixed_tempo_too() -> None:
 
 def test_the_first_review_comes_on_the_day_after_mastering() -> None:
     state = played([CLEAN] * 14)
-    assert begin(state, DAY).step.kind is not Kind.REVIEW
-    assert begin(state, DAY + timedelta(days=1)).step.kind is Kind.REVIEW
+    assert begin(state, DAY).step.kind is not PassKind.REVIEW
+    assert begin(state, DAY + timedelta(days=1)).step.kind is PassKind.REVIEW
 
 
 def test_what_has_faded_is_learnt_again_from_a_step_below() -> None:
     state = begin(played([CLEAN] * 14), DAY + timedelta(days=1))
     assert (state.step.pct, state.step.feedback) == (100.0, Feedback.NONE)
     state, step = next_step(state, BAD)
-    assert (step.kind, step.pct, state.mastery_pct, state.review.due) == (Kind.WHOLE, 92.0, 92.0, None)
+    assert (step.kind, step.pct, state.mastery_pct, state.review.due) == (PassKind.WHOLE, 92.0, 92.0, None)
 
 
 def test_another_day_starts_a_step_below_where_the_last_one_ended() -> None:
@@ -228,7 +228,7 @@ def test_a_latency_is_told_once_and_costs_no_tempo() -> None:
 
 def test_swapped_pads_are_told_and_the_pass_is_not_held_against_the_student() -> None:
     """Three strokes each a pass: after two passes there are six of both, and the tempo has not moved."""
-    crossed = (Answers(Piece.TOM_1, Piece.TOM_2, 3), Answers(Piece.TOM_2, Piece.TOM_1, 3))
+    crossed = (StruckFor(Piece.TOM_1, Piece.TOM_2, 3), StruckFor(Piece.TOM_2, Piece.TOM_1, 3))
     mixed = replace(BAD, wrong_pads=6, answers=crossed)
     state, step = next_step(new_item(ITEM, DAY), mixed)
     assert step.notice is None

@@ -2,7 +2,7 @@
 
 import pytest
 
-from station.drills.swing import Swing
+from station.drills.grid.swing import Swing
 from tests.unit.drills.reading import EIGHTH, QUARTER, SIXTEENTH, TRIPLET, notes, ticks
 
 

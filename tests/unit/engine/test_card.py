@@ -8,11 +8,11 @@ from station.core.errors import DeviceError
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.engine.card import RETRY_NS, STALLED_NS, Card
 from station.engine.engine import Engine
-from station.engine.lookout import Lookout
+from station.engine.hotplug import Hotplug
 from station.engine.messages import Notice, Play, Sounding, Started, Status, Stop
-from station.sound.card_stream import SoundDevice
 from station.sound.mixer import Mixer
-from station.sound.portaudio import SoundServerGone
+from station.sound.output.card_stream import SoundDevice
+from station.sound.output.portaudio import SoundServerGone
 from tests.fakes.cues import clicks
 from tests.fakes.impulse_kit import impulse_mixer
 from tests.fakes.output import FakeOutput
@@ -189,7 +189,7 @@ def device(name: str, is_default: bool = True) -> SoundDevice:
     return SoundDevice(0, name, "fake host", 2, 48_000, is_default)
 
 
-def seen(lookout: Lookout) -> None:
+def seen(lookout: Hotplug) -> None:
     """Wait until the look that is on its way is done."""
     if lookout._looking is not None:
         lookout._looking.join()
@@ -197,7 +197,7 @@ def seen(lookout: Lookout) -> None:
 
 def test_after_a_sound_servers_death_the_engine_wears_out_as_soon_as_there_is_an_output() -> None:
     engine, street, shop = Engine(), Street(), Shop([FakeOutput("jack")])
-    lookout = Lookout("", street.look)
+    lookout = Hotplug("", street.look)
     card = Card(engine, shop.open, shop.build, lookout)
     card.start(0)
     shop.outputs[:] = []
@@ -220,7 +220,7 @@ def test_after_a_sound_servers_death_the_engine_wears_out_as_soon_as_there_is_an
 def test_a_card_that_was_missing_from_the_start_sounds_when_it_comes_while_nothing_plays() -> None:
     """The first that comes cannot be opened."""
     engine, street, shop = Engine(), Street(), Shop([None, None, FakeOutput("phones")])
-    lookout = Lookout("phones", street.look)
+    lookout = Hotplug("phones", street.look)
     card = Card(engine, shop.open, shop.build, lookout)
     card.start(0)
     told: list[object] = []
@@ -252,7 +252,7 @@ def test_a_card_that_was_missing_from_the_start_sounds_when_it_comes_while_nothi
 
 def test_the_sound_follows_the_systems_default_while_nothing_plays() -> None:
     engine, street, shop = Engine(), Street([device("speakers")]), Shop([FakeOutput("speakers"), FakeOutput("phones")])
-    lookout = Lookout("", street.look)
+    lookout = Hotplug("", street.look)
     card = Card(engine, shop.open, shop.build, lookout)
     card.start(0)
     first = card._output
@@ -293,7 +293,7 @@ def test_the_sound_follows_the_systems_default_while_nothing_plays() -> None:
 )
 def test_the_sound_stays_where_it_was_chosen(wanted: str, devices: list[SoundDevice]) -> None:
     engine, shop = Engine(), Shop([FakeOutput("speakers"), FakeOutput("phones")])
-    lookout = Lookout(wanted, Street(devices).look)
+    lookout = Hotplug(wanted, Street(devices).look)
     card = Card(engine, shop.open, shop.build, lookout)
     card.start(0)
     for second in range(1, 40):

@@ -2,8 +2,8 @@ from pathlib import Path
 
 import pytest
 
-from station.engine.child import _clicks, _drums
 from station.engine.engine import Engine
+from station.engine.engine_main import _clicks, _drums
 from station.engine.messages import Notice
 from tests.fakes.sound_files import stroke
 

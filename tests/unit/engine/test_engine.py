@@ -11,29 +11,29 @@ from station.core.clock import ManualClock
 from station.core.events import Choke, DeviceFound, DeviceLost, Hit, PedalMoved
 from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_MS, NS_PER_S
-from station.devices.capture import read_capture
-from station.devices.kit import Pad
-from station.devices.presets import preset_named
-from station.devices.replay import replay, transport_zeros_ns
+from station.devices.capture.capture import read_capture
+from station.devices.capture.replay import replay, transport_zeros_ns
+from station.devices.mapping.device_map import Pad
+from station.devices.mapping.presets import preset_named
 from station.engine.engine import KEYBOARD, Engine, OutputState
 from station.engine.messages import (
     Bus,
-    Eavesdrop,
+    CaptureSaved,
     EngineEvent,
     KeyHit,
     Notice,
-    Overheard,
     Play,
     Quit,
-    Record,
-    Recorded,
+    RawBytes,
+    RecordCapture,
+    ReloadDevice,
     Resume,
     SetLevel,
     SetPiece,
     Started,
     Status,
     Stop,
-    TakeKit,
+    WatchRawBytes,
 )
 from tests.fakes.audio_sink import AudioSink
 from tests.fakes.cues import clicks, stroke_cue
@@ -170,7 +170,7 @@ def test_a_start_that_comes_too_late_for_its_block_begins_with_the_next() -> Non
 def test_an_engine_goes_on_where_another_one_ended(tmp_path: Path) -> None:
     rig = Rig()
     zero_ns = rig.clock.now_ns() - 100 * NS_PER_MS
-    rig.engine.handle(Record(tmp_path / "take.cap"))
+    rig.engine.handle(RecordCapture(tmp_path / "take.cap"))
     rig.engine.handle(Resume(clicks([0, 50 * NS_PER_MS, 110 * NS_PER_MS, 130 * NS_PER_MS]), zero_ns))
     events = rig.run_ms(1000)
     rig.engine.close()
@@ -287,7 +287,7 @@ def test_a_capture_replays_what_the_engine_told(tmp_path: Path) -> None:
     engine.device_found(KIT, 0)
     engine.feed(KIT, bytes.fromhex("b9 04 40"), 0)  # the pedal's place is known before the capture begins
     engine.advance(NS_PER_S)
-    engine.handle(Record(path))
+    engine.handle(RecordCapture(path))
     engine.handle(Play(clicks([0]), 0))
     told = engine.advance(NS_PER_S)
     engine.feed(KIT, bytes.fromhex("99 2e 50 2e"), 1_100_000_001)
@@ -297,10 +297,10 @@ def test_a_capture_replays_what_the_engine_told(tmp_path: Path) -> None:
     engine.device_lost(KIT, 1_300_000_000)
     engine.device_found(KIT, 1_400_000_000)
     told += engine.advance(1_500_000_000)
-    engine.handle(Record(None))
+    engine.handle(RecordCapture(None))
     capture = read_capture(path)
     assert capture.complete
-    events = [event for event in told if not isinstance(event, Started | Recorded)]
+    events = [event for event in told if not isinstance(event, Started | CaptureSaved)]
     assert list(replay(capture)) == [PedalMoved(NS_PER_S, 63 / 127, KIT), *events]
     assert transport_zeros_ns(capture) == [NS_PER_S]
 
@@ -309,7 +309,7 @@ def test_a_capture_that_begins_in_mid_session_knows_the_transport(tmp_path: Path
     engine = Engine()
     engine.handle(Play(clicks([0]), 700))
     engine.advance(0)
-    engine.handle(Record(tmp_path / "take.cap"))
+    engine.handle(RecordCapture(tmp_path / "take.cap"))
     engine.close()
     assert transport_zeros_ns(read_capture(tmp_path / "take.cap")) == [700]
 
@@ -317,10 +317,10 @@ def test_a_capture_that_begins_in_mid_session_knows_the_transport(tmp_path: Path
 def test_a_capture_that_cannot_begin_is_told_and_playing_goes_on(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     engine = Engine()
-    engine.handle(Record(tmp_path / "file" / "take.cap"))
+    engine.handle(RecordCapture(tmp_path / "file" / "take.cap"))
     engine.feed(KIT, SNARE, 5)
     events = engine.advance(10)
-    recorded = only(events, Recorded)
+    recorded = only(events, CaptureSaved)
     assert recorded.path == tmp_path / "file" / "take.cap"
     assert recorded.fault is not None
     assert "take.cap" in recorded.fault
@@ -330,7 +330,7 @@ def test_a_capture_that_cannot_begin_is_told_and_playing_goes_on(tmp_path: Path)
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no /dev/full")
 def test_a_full_disk_is_told_once_and_playing_goes_on() -> None:
     engine = Engine()
-    engine.handle(Record(Path("/dev/full")))
+    engine.handle(RecordCapture(Path("/dev/full")))
     engine.feed(KIT, SNARE, 5)
     engine.close()
     events = engine.advance(10)
@@ -340,22 +340,22 @@ def test_a_full_disk_is_told_once_and_playing_goes_on() -> None:
 
 def test_the_end_of_a_capture_comes_after_all_that_is_in_it(tmp_path: Path) -> None:
     engine = Engine()
-    engine.handle(Record(tmp_path / "take.cap"))
+    engine.handle(RecordCapture(tmp_path / "take.cap"))
     engine.feed(KIT, SNARE, 5)
-    engine.handle(Record(None))
+    engine.handle(RecordCapture(None))
     events = engine.advance(10)
-    assert [type(event) for event in events] == [Recorded, Hit, Recorded]
-    assert events[-1] == Recorded(None, None)
+    assert [type(event) for event in events] == [CaptureSaved, Hit, CaptureSaved]
+    assert events[-1] == CaptureSaved(None, None)
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no /dev/full")
 def test_a_capture_that_lacks_hits_says_so_at_its_end() -> None:
     engine = Engine()
-    engine.handle(Record(Path("/dev/full")))
+    engine.handle(RecordCapture(Path("/dev/full")))
     engine.feed(KIT, SNARE, 5)
-    engine.handle(Record(None))
+    engine.handle(RecordCapture(None))
     fault = engine.advance(10)[-1]
-    assert isinstance(fault, Recorded)
+    assert isinstance(fault, CaptureSaved)
     assert fault.fault is not None
     assert "No space left" in fault.fault
 
@@ -366,7 +366,7 @@ def test_a_transport_that_has_played_out_is_none_of_the_next_captures(tmp_path: 
     engine.handle(Play(clicks([0, 500]), 100))
     engine.advance(0)
     engine.advance(NS_PER_S)
-    engine.handle(Record(tmp_path / "take.cap"))
+    engine.handle(RecordCapture(tmp_path / "take.cap"))
     engine.close()
     assert transport_zeros_ns(read_capture(tmp_path / "take.cap")) == []
 
@@ -374,8 +374,8 @@ def test_a_transport_that_has_played_out_is_none_of_the_next_captures(tmp_path: 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no /dev/full")
 def test_what_a_capture_lacks_is_told_when_the_next_one_begins(tmp_path: Path) -> None:
     engine = Engine()
-    engine.handle(Record(Path("/dev/full")))
-    engine.handle(Record(tmp_path / "take.cap"))
+    engine.handle(RecordCapture(Path("/dev/full")))
+    engine.handle(RecordCapture(tmp_path / "take.cap"))
     assert "No space left" in only(engine.advance(0), Notice).text
     engine.close()
 
@@ -389,15 +389,15 @@ def test_quit_is_remembered() -> None:
 def test_every_byte_is_told_besides_while_somebody_looks() -> None:
     rig = Rig()
     rig.engine.device_found(KIT, rig.clock.now_ns())
-    rig.engine.handle(Eavesdrop(True))
+    rig.engine.handle(WatchRawBytes(True))
     rig.engine.feed(KIT, b"\xfe", 7)
     rig.engine.feed(KIT, SNARE, 8)
-    told = [event for event in rig.engine.advance(rig.clock.now_ns()) if isinstance(event, Overheard | Hit)]
-    assert told[:2] == [Overheard(7, KIT, b"\xfe"), Overheard(8, KIT, SNARE)]
+    told = [event for event in rig.engine.advance(rig.clock.now_ns()) if isinstance(event, RawBytes | Hit)]
+    assert told[:2] == [RawBytes(7, KIT, b"\xfe"), RawBytes(8, KIT, SNARE)]
     assert isinstance(told[2], Hit)
-    rig.engine.handle(Eavesdrop(False))
+    rig.engine.handle(WatchRawBytes(False))
     rig.engine.feed(KIT, SNARE, 9)
-    assert not [event for event in rig.engine.advance(rig.clock.now_ns()) if isinstance(event, Overheard)]
+    assert not [event for event in rig.engine.advance(rig.clock.now_ns()) if isinstance(event, RawBytes)]
 
 
 def test_a_kit_that_was_changed_is_taken_at_once() -> None:
@@ -407,7 +407,7 @@ def test_a_kit_that_was_changed_is_taken_at_once() -> None:
     engine.device_found(KIT, 0)
     kits.append(replace(plain, pads={Piece.SNARE: Pad(threshold=100)}))
     engine.feed(KIT, bytes.fromhex("99 26 40"), 1)
-    engine.handle(TakeKit(KIT))
+    engine.handle(ReloadDevice(KIT))
     engine.feed(KIT, bytes.fromhex("99 26 40"), 1_000_000_000)
     hits = [event.at_ns for event in engine.advance(2_000_000_000) if isinstance(event, Hit)]
     assert hits == [1], "64 is softer than 100"

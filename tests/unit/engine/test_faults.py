@@ -12,16 +12,16 @@ from pathlib import Path
 
 import pytest
 
-from station.bench.serial_kit import SerialKit
+from station.bench.rigs.serial_kit import SerialKit
 from station.core.events import DeviceEvent, DeviceFound, DeviceLost, Hit
 from station.core.units import NS_PER_MS, NS_PER_S
-from station.devices.capture import read_capture
-from station.devices.kit_ports import parse_kit, ports_for
-from station.devices.replay import replay
-from station.devices.watch import KitWatch
+from station.devices.capture.capture import read_capture
+from station.devices.capture.replay import replay
+from station.devices.device_ports import parse_kit, ports_for
+from station.devices.port_watch import PortWatch
 from station.engine.engine import Engine
-from station.engine.messages import EngineEvent, Play, Record, Started
-from station.engine.runner import Runner
+from station.engine.engine_step import Runner
+from station.engine.messages import EngineEvent, Play, RecordCapture, Started
 from tests.fakes.cues import clicks
 from tests.fakes.ports import FakeDriver
 
@@ -32,19 +32,19 @@ FLOOD_HZ, FLOOD_S = 1_000, 20
 FULL_DISK = """
 import resource, sys, time
 from pathlib import Path
-from station.devices.capture import Kind, Record
-from station.devices.capture_file import CaptureFile
+from station.devices.capture.capture import RecordKind, CaptureRecord
+from station.devices.capture.capture_writer import CaptureFile
 _, most = resource.getrlimit(resource.RLIMIT_FSIZE)
 resource.setrlimit(resource.RLIMIT_FSIZE, (500, most))
 capture = CaptureFile(Path(sys.argv[1]), 0)
 for index in range(100):
-    capture.append(Record(Kind.BYTES, 1, index, b"hit"))
+    capture.append(CaptureRecord(RecordKind.BYTES, 1, index, b"hit"))
 while capture.fault is None:
     time.sleep(0.01)
 print(capture.fault, flush=True)
 resource.setrlimit(resource.RLIMIT_FSIZE, (most, most))
 for index in range(100, 200):
-    capture.append(Record(Kind.BYTES, 1, index, b"hit"))
+    capture.append(CaptureRecord(RecordKind.BYTES, 1, index, b"hit"))
 capture.close(200)
 print(capture.fault, flush=True)
 """
@@ -63,10 +63,10 @@ def test_a_flood_costs_no_hit(tmp_path: Path) -> None:
     The soak plays a minute of it.
     """
     engine, driver = Engine(), FakeDriver(PORT)
-    runner = Runner(engine, [KitWatch(driver)], None)
+    runner = Runner(engine, [PortWatch(driver)], None)
     runner.start(0)
     runner.step(0)
-    engine.handle(Record(tmp_path / "flood.cap"))
+    engine.handle(RecordCapture(tmp_path / "flood.cap"))
     heard: list[EngineEvent] = []
     sent = []
     for index in range(FLOOD_HZ * FLOOD_S):
@@ -88,11 +88,11 @@ def test_a_hundred_plug_cycles_leave_no_thread_file_or_port(tmp_path: Path) -> N
     """A real pty comes and goes, each time in the middle of a message, each time heard and recorded."""
     engine = Engine()
     with SerialKit(tmp_path / "ttyUSB0", plugged=False) as kit:
-        runner = Runner(engine, [KitWatch(ports_for(parse_kit(kit.wish), None), kit.wish)], None)
+        runner = Runner(engine, [PortWatch(ports_for(parse_kit(kit.wish), None), kit.wish)], None)
         runner.start(0)
         runner.step(0)
         files, threads = held()
-        engine.handle(Record(tmp_path / "plugs.cap"))
+        engine.handle(RecordCapture(tmp_path / "plugs.cap"))
         now_ns, events = 0, list[EngineEvent]()
         for _ in range(100):
             now_ns += NS_PER_S
@@ -103,7 +103,7 @@ def test_a_hundred_plug_cycles_leave_no_thread_file_or_port(tmp_path: Path) -> N
             kit.unplug()
             now_ns += NS_PER_S
             events += runner.step(now_ns)
-        engine.handle(Record(None))
+        engine.handle(RecordCapture(None))
         runner.step(now_ns)
         left_files, left_threads = held()
         assert left_files <= files  # what an earlier test left may go meanwhile
@@ -135,13 +135,13 @@ def test_a_wall_clock_that_is_set_moves_nothing(tmp_path: Path, monkeypatch: pyt
     engine = Engine()
     engine.advance(0)
     engine.device_found("TD-17", 0)
-    engine.handle(Record(tmp_path / "take.cap"))
+    engine.handle(RecordCapture(tmp_path / "take.cap"))
     engine.handle(Play(clicks([0]), NS_PER_S))
     events: list[EngineEvent] = []
     for at_ms in range(0, 3_000, 10):
         if at_ms % 1_000 == 500:
             wall_ns[0] += (-7_200, 10**6, -(10**9))[at_ms // 1_000] * NS_PER_S
-            engine.handle(Record(tmp_path / "take.cap"))  # the capture is left and continued under the new time
+            engine.handle(RecordCapture(tmp_path / "take.cap"))  # the capture is left and continued under the new time
         engine.feed("TD-17", SNARE, at_ms * NS_PER_MS)
         events += engine.advance(at_ms * NS_PER_MS)
     engine.close()
@@ -154,7 +154,7 @@ def test_a_wall_clock_that_is_set_moves_nothing(tmp_path: Path, monkeypatch: pyt
 def test_a_computer_that_slept_for_an_hour_goes_on() -> None:
     """Session time jumps: the kit is still there or is found again, and what is played then has its own time."""
     driver = FakeDriver(PORT)
-    runner = Runner(Engine(), [KitWatch(driver)], None)
+    runner = Runner(Engine(), [PortWatch(driver)], None)
     runner.start(0)
     runner.step(NS_PER_MS)
     awake_ns = 3_600 * NS_PER_S

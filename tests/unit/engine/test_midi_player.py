@@ -5,11 +5,11 @@ from numpy.typing import NDArray
 from station.core.errors import DeviceError
 from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_MS
-from station.devices.midi_encode import GATE_NS
+from station.devices.midi.midi_encoder import GATE_NS
+from station.engine.cue_queue import CueRun
 from station.engine.engine import Engine
 from station.engine.messages import CUE_DTYPE, Bus, ClickVoice, Notice, Play, SetMidiOut, Stop
 from station.engine.midi_player import MidiPlayer
-from station.engine.playback import CueRun
 
 ZERO_NS = 7_000 * NS_PER_MS
 KICK_ON, KICK_OFF, ALL_OFF = "99 24 64", "89 24 00", "b9 7b 00"

@@ -9,12 +9,12 @@ from station.core.errors import BadInput
 from station.core.events import DeviceEvent, Hit
 from station.core.pieces import Piece
 from station.core.units import NS_PER_MS
-from station.devices.capture import read_capture
-from station.devices.kit import Crosstalk, KitPreset
-from station.devices.presets import preset_named
-from station.devices.replay import replay
+from station.devices.capture.capture import read_capture
+from station.devices.capture.replay import replay
+from station.devices.mapping.device_map import Crosstalk, DeviceMap
+from station.devices.mapping.presets import preset_named
 from station.engine.engine import Engine
-from station.engine.messages import EngineEvent, Notice, Record
+from station.engine.messages import EngineEvent, Notice, RecordCapture
 
 DEVICE = "TD-17"
 OWN = replace(
@@ -26,11 +26,11 @@ OWN = replace(
 )
 
 
-def own_kit(device: str) -> KitPreset | None:
+def own_kit(device: str) -> DeviceMap | None:
     return OWN if device == DEVICE else None
 
 
-def broken_kit(device: str) -> KitPreset | None:
+def broken_kit(device: str) -> DeviceMap | None:
     raise BadInput(f"{device}.toml", "line 3, column 5", "expected a number")
 
 
@@ -78,14 +78,14 @@ def test_a_capture_replays_what_was_told_even_if_bytes_came_late(tmp_path: Path,
     on how often the engine was advanced, and the capture knows."""
     engine, path = Engine(own_kit=own_kit), tmp_path / "take.cap"
     engine.device_found(DEVICE, 0)
-    engine.handle(Record(path))
+    engine.handle(RecordCapture(path))
     told: list[EngineEvent] = engine.advance(0)
     engine.feed(DEVICE, note(38, 20), 10 * NS_PER_MS)
     for now_ms in range(10, 20, step_ms):
         told += engine.advance(now_ms * NS_PER_MS)
     engine.feed(DEVICE, note(36, 100), 12 * NS_PER_MS)
     engine.feed(DEVICE, note(38, 20), 50 * NS_PER_MS)
-    engine.handle(Record(None))
+    engine.handle(RecordCapture(None))
     told += engine.advance(60 * NS_PER_MS)
     expected = [(10, Piece.SNARE)] if step_ms == 1 else []
     assert hits(told) == [*expected, (12, Piece.KICK), (50, Piece.SNARE)]

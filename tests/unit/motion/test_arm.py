@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from station.motion.arm import ArmLengths, Contact, Offsets, solve
-from station.motion.maths import MANY, ONE
+from station.motion.kinematics.arm import ArmLengths, Contact, Offsets, solve
+from station.motion.kinematics.maths import MANY, ONE
 
 LENGTHS = ArmLengths(upper=0.33, fore=0.26, hand=0.15, ahead=0.27, behind=0.135)
 SHOULDER = (0.22, 0.03, 1.09)

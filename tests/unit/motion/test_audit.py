@@ -16,12 +16,12 @@ from station.core.units import PPQ
 from station.drills.library import find_lesson
 from station.motion.audit import Audit, Worst, audit
 from station.motion.drummer import Drummer
-from station.motion.export_npz import write_npz
-from station.motion.figure import figure_of
-from station.motion.kit import kit_names, load_kit
-from station.motion.limbs import as_led
-from station.motion.style import Style
-from station.motion.style_file import load_style
+from station.motion.export.npz import write_npz
+from station.motion.kinematics.figure import figure_of
+from station.motion.kit.kit import kit_names, load_kit
+from station.motion.sticking.limbs import as_led
+from station.motion.style.style import Style
+from station.motion.style.style_file import load_style
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from tests.unit.motion.patterns import ROCK, score_of

@@ -7,7 +7,7 @@ import pytest
 
 from station.core.pieces import Piece
 from station.core.units import PPQ
-from station.motion.beats import LEAD_IN_BEATS, SILENT_BOB, Beats, bob_cofactors, restarts
+from station.motion.body.beats import LEAD_IN_BEATS, SILENT_BOB, Beats, bob_cofactors, restarts
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 

@@ -5,8 +5,8 @@ import pytest
 from numpy.typing import NDArray
 
 from station.core.pieces import Piece
-from station.motion.collisions import ALONG, depth, segments_apart
-from station.motion.piece import KitPiece
+from station.motion.kinematics.collisions import ALONG, depth, segments_apart
+from station.motion.kit.piece import KitPiece
 
 Array = NDArray[np.float64]
 

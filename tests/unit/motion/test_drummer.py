@@ -9,15 +9,15 @@ from numpy.typing import NDArray
 from station.core.errors import BadInput
 from station.core.pieces import Articulation, Limb, Piece, Zone
 from station.core.units import PPQ
-from station.motion import frame
-from station.motion.collisions import collisions
 from station.motion.drummer import Drummer
-from station.motion.figure import Joint, figure_of
-from station.motion.kit import kit_names, load_kit
-from station.motion.pose import ANGLE_NAMES
-from station.motion.style import Style
-from station.motion.style_file import load_style, style_names
-from station.motion.targets import Strike, target_of
+from station.motion.kinematics import frame
+from station.motion.kinematics.collisions import collisions
+from station.motion.kinematics.figure import Joint, figure_of
+from station.motion.kinematics.pose import ANGLE_NAMES
+from station.motion.kit.kit import kit_names, load_kit
+from station.motion.strokes.targets import Strike, target_of
+from station.motion.style.style import Style
+from station.motion.style.style_file import load_style, style_names
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from tests.unit.motion.patterns import ROCK, score_of, zone_of

@@ -15,14 +15,14 @@ from station.core.errors import DeviceError
 from station.core.pieces import Articulation, Limb, Piece, Zone
 from station.core.units import PPQ
 from station.motion.drummer import Drummer
-from station.motion.export_bvh import bvh_text, write_bvh
-from station.motion.export_glb import glb_bytes, write_glb
-from station.motion.export_npz import motion_arrays, write_npz
-from station.motion.figure import Joint
-from station.motion.kit import load_kit
-from station.motion.pose import ANGLE_NAMES
-from station.motion.skeleton import TURN
-from station.motion.style import Style
+from station.motion.export.bvh import bvh_text, write_bvh
+from station.motion.export.gltf import glb_bytes, write_glb
+from station.motion.export.joint_tree import TURN
+from station.motion.export.npz import motion_arrays, write_npz
+from station.motion.kinematics.figure import Joint
+from station.motion.kinematics.pose import ANGLE_NAMES
+from station.motion.kit.kit import load_kit
+from station.motion.style.style import Style
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from tests.unit.motion.patterns import ROCK, score_of

@@ -7,17 +7,17 @@ import pytest
 
 from station.core.errors import BadInput
 from station.core.pieces import Articulation, Limb, Piece, Zone
-from station.motion.arm import Offsets, solve
-from station.motion.contacts import lie_of
 from station.motion.drummer import Drummer
-from station.motion.figure import PARENT, Joint, figure_of, load_figure
-from station.motion.frame import ANGLES
-from station.motion.kit import load_kit
-from station.motion.maths import ONE
-from station.motion.plan import holds
-from station.motion.pose import ANGLE_NAMES
-from station.motion.style import Style
-from station.motion.targets import Strike
+from station.motion.kinematics.arm import Offsets, solve
+from station.motion.kinematics.figure import PARENT, Joint, figure_of, load_figure
+from station.motion.kinematics.frame import ANGLES
+from station.motion.kinematics.maths import ONE
+from station.motion.kinematics.pose import ANGLE_NAMES
+from station.motion.kit.kit import load_kit
+from station.motion.motion_plan import holds
+from station.motion.strokes.contact_pose import lie_of
+from station.motion.strokes.targets import Strike
+from station.motion.style.style import Style
 from tests.unit.motion.patterns import score_of
 
 

@@ -8,13 +8,13 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Limb, Piece
 from station.core.units import PPQ
-from station.motion import frame
 from station.motion.audit import audit
 from station.motion.drummer import Drummer
-from station.motion.figure import Joint
-from station.motion.flourish import Flourishes
-from station.motion.pose import ANGLE_NAMES
-from station.motion.style_file import load_style
+from station.motion.kinematics import frame
+from station.motion.kinematics.figure import Joint
+from station.motion.kinematics.pose import ANGLE_NAMES
+from station.motion.strokes.flourish import Flourishes
+from station.motion.style.style_file import load_style
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 

@@ -3,12 +3,12 @@ import pytest
 from numpy.typing import NDArray
 
 from station.core.pieces import Piece
+from station.motion.body.gaze import LEAD_S, GazeTargets, gaze_curve
 from station.motion.drummer import Drummer
-from station.motion.frame import ANGLES, FACING
-from station.motion.gaze import LEAD_S, Sights, gaze_curve
-from station.motion.pose import ANGLE_NAMES
-from station.motion.splines import Curves
-from station.motion.style import Style
+from station.motion.kinematics.frame import ANGLES, FACING
+from station.motion.kinematics.pose import ANGLE_NAMES
+from station.motion.kinematics.splines import SplineChannels
+from station.motion.style.style import Style
 from tests.unit.motion.patterns import score_of
 
 Array = NDArray[np.float64]
@@ -17,9 +17,9 @@ LEFT, RIGHT = [0.6, 0.3], [-0.6, 0.3]
 
 def curve(
     strikes: Array, place: NDArray[np.int64], directions: list[list[float]], around: float = 0.0, seed: int = 1
-) -> Curves:
+) -> SplineChannels:
     """In bars of two seconds."""
-    sights = Sights(strikes, place, np.array(directions).reshape(-1, 2), np.full(len(strikes), 2.0))
+    sights = GazeTargets(strikes, place, np.array(directions).reshape(-1, 2), np.full(len(strikes), 2.0))
     return gaze_curve(sights, np.array([around]), seed)
 
 

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from station.core.pieces import Limb, Piece
-from station.motion.kit import load_kit
-from station.motion.limbs import METHODS, assign_limbs
-from station.motion.targets import strike_points
-from station.music.formats.smf import read_midi, score_from_midi
+from station.motion.kit.kit import load_kit
+from station.motion.sticking.limbs import METHODS, assign_limbs
+from station.motion.strokes.targets import strike_points
+from station.music.formats.smf.standard_midi import read_midi, score_from_midi
 from station.music.score import Score
 from tests.real_data import real_file, real_files
 

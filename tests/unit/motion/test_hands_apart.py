@@ -9,10 +9,10 @@ from station.core.pieces import Articulation, Limb, Piece, Zone
 from station.core.units import PPQ
 from station.motion.audit import audit
 from station.motion.drummer import Drummer
-from station.motion.events import WAIT, hand_events
-from station.motion.figure import load_figure
-from station.motion.kit import load_kit
-from station.motion.limbs import as_led, assign_limbs
+from station.motion.kinematics.figure import load_figure
+from station.motion.kit.kit import load_kit
+from station.motion.sticking.limbs import as_led, assign_limbs
+from station.motion.strokes.hand_events import WAIT, hand_events
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 

@@ -12,12 +12,12 @@ import pytest
 
 from station.core.pieces import Limb, Piece, Zone
 from station.core.units import PPQ
-from station.motion import frame
 from station.motion.audit import audit
 from station.motion.drummer import Drummer
-from station.motion.figure import Joint, figure_of
-from station.motion.kit import load_kit
-from station.motion.style import Style
+from station.motion.kinematics import frame
+from station.motion.kinematics.figure import Joint, figure_of
+from station.motion.kit.kit import load_kit
+from station.motion.style.style import Style
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 

@@ -8,13 +8,13 @@ import pytest
 from numpy.typing import NDArray
 
 from station.drills.library import find_lesson
-from station.motion import frame
-from station.motion.collisions import segments_apart
 from station.motion.drummer import Drummer
-from station.motion.figure import Joint
-from station.motion.kit import load_kit
-from station.motion.limbs import as_led
-from station.motion.style_file import load_style
+from station.motion.kinematics import frame
+from station.motion.kinematics.collisions import segments_apart
+from station.motion.kinematics.figure import Joint
+from station.motion.kit.kit import load_kit
+from station.motion.sticking.limbs import as_led
+from station.motion.style.style_file import load_style
 
 Array = NDArray[np.float64]
 FOREARM_OVER_M = 0.08

@@ -5,9 +5,9 @@ import pytest
 from numpy.typing import NDArray
 
 from station.core.pieces import Limb, Piece, Zone
-from station.motion.instruments import INCH_M, Instrument, _instrument
-from station.motion.kit import load_kit
-from station.motion.piece import KitPiece
+from station.motion.kit.instruments import INCH_M, Instrument, _instrument
+from station.motion.kit.kit import load_kit
+from station.motion.kit.piece import KitPiece
 
 Array = NDArray[np.float64]
 AT = np.arange(0.0, 8.0, 0.001)

@@ -6,7 +6,7 @@ import pytest
 
 from station.core.errors import BadInput
 from station.core.pieces import Limb, Piece, Zone
-from station.motion.kit import kit_names, load_kit
+from station.motion.kit.kit import kit_names, load_kit
 
 SHIPPED = Path("station/motion/data/kits/four_piece.toml")
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from station.motion.lanes import drawn, in_passes, value_at, with_moved, with_point, without_point
-from station.motion.style import Style
+from station.motion.style.lanes import drawn, in_passes, value_at, with_moved, with_point, without_point
+from station.motion.style.style import Style
 
 RAMP = ((1.0, 20.0), (5.0, 60.0))
 

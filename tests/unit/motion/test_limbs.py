@@ -5,11 +5,11 @@ import pytest
 from station.core.errors import BadInput
 from station.core.pieces import Articulation, Limb, Ornament, Piece, Zone
 from station.core.units import PPQ
-from station.motion.hand_notes import Hands
-from station.motion.kit import load_kit
-from station.motion.limbs import METHODS, assign_limbs
-from station.motion.sticking import WORDS
-from station.motion.sticking_costs import AFTER_OWN, ALONE, BESIDE
+from station.motion.kit.kit import load_kit
+from station.motion.sticking.hand_choice import WORDS
+from station.motion.sticking.hand_costs import AFTER_OWN, ALONE, BESIDE
+from station.motion.sticking.hand_notes import Hands
+from station.motion.sticking.limbs import METHODS, assign_limbs
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from tests.unit.motion.patterns import BACKBEAT, EIGHTH_HATS, ROCK, hand_letters, score_of

@@ -10,9 +10,9 @@ from station.core.units import PPQ
 from station.drills.library import find_lesson
 from station.motion.audit import audit
 from station.motion.drummer import Drummer
-from station.motion.kit import load_kit
-from station.motion.limbs import as_led
-from station.motion.style_file import load_style
+from station.motion.kit.kit import load_kit
+from station.motion.sticking.limbs import as_led
+from station.motion.style.style_file import load_style
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 

@@ -4,9 +4,9 @@ import pytest
 
 from station.core.pieces import Limb, Piece, Zone
 from station.core.units import PPQ
-from station.motion.hand_notes import Hands
-from station.motion.kit import load_kit
-from station.motion.limbs import as_led
+from station.motion.kit.kit import load_kit
+from station.motion.sticking.hand_notes import Hands
+from station.motion.sticking.limbs import as_led
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 

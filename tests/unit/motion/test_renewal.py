@@ -8,8 +8,8 @@ import pytest
 
 from station.core.pieces import Piece, word
 from station.motion.drummer import Drummer
-from station.motion.keys import READS
-from station.motion.style import NUMBERS, WORDS, Style, range_of
+from station.motion.keyframes import READS
+from station.motion.style.style import NUMBERS, WORDS, Style, range_of
 from tests.unit.motion.patterns import ROCK, score_of
 
 SCORE = score_of([*ROCK, *((i + 16, p) for i, p in ROCK), (80, Piece.SNARE), (84, Piece.CRASH_1), (84, Piece.KICK)])

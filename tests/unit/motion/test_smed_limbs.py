@@ -6,8 +6,8 @@ The expected hands and passes are worked out by hand from the printed algorithm.
 import numpy as np
 
 from station.core.pieces import Limb, Piece
-from station.motion.kit import load_kit
-from station.motion.limbs import Assignment, assign_limbs
+from station.motion.kit.kit import load_kit
+from station.motion.sticking.limbs import Assignment, assign_limbs
 from station.music.score import Score
 from tests.unit.motion.patterns import ROCK, score_of
 

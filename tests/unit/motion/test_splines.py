@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from station.motion.splines import Curves, cubics, slopes
+from station.motion.kinematics.splines import SplineChannels, cubics, slopes
 
 TIMES = np.array([0.0, 1.0, 2.0, 3.0, 4.0])
 VALUES = np.array([0.0, 2.0, 1.0, 5.0, 5.0])
@@ -37,7 +37,7 @@ def test_continuity_minus_one_breaks_the_slope() -> None:
 
 def test_a_curve_passes_its_keys_and_holds_its_ends() -> None:
     into, out = slopes(TIMES, VALUES)
-    curves = Curves(TIMES, cubics(TIMES, VALUES, into, out)[:, None, :])
+    curves = SplineChannels(TIMES, cubics(TIMES, VALUES, into, out)[:, None, :])
     for t, v in zip(TIMES.tolist(), VALUES.tolist(), strict=True):
         assert curves.at(t) == [pytest.approx(v)]
     assert curves.at(-5.0) == [0.0]
@@ -46,7 +46,7 @@ def test_a_curve_passes_its_keys_and_holds_its_ends() -> None:
 
 def test_one_instant_and_many_agree() -> None:
     into, out = slopes(TIMES, VALUES, 0.1, 0.2, 0.3)
-    curves = Curves(TIMES, cubics(TIMES, VALUES, into, out)[:, None, :])
+    curves = SplineChannels(TIMES, cubics(TIMES, VALUES, into, out)[:, None, :])
     at = np.linspace(-1, 5, 61)
     assert curves.many(at)[0] == pytest.approx([curves.at(t)[0] for t in at.tolist()])
 
@@ -55,6 +55,6 @@ def test_keys_at_one_time_are_a_step_without_a_nan() -> None:
     times = np.array([0.0, 1.0, 1.0, 2.0])
     values = np.array([0.0, 0.0, 1.0, 1.0])
     into, out = slopes(times, values, 1.0)
-    curves = Curves(times, cubics(times, values, into, out)[:, None, :])
+    curves = SplineChannels(times, cubics(times, values, into, out)[:, None, :])
     assert curves.at(0.5) == [pytest.approx(0.0)]
     assert curves.at(1.5) == [pytest.approx(1.0)]

@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Articulation, Limb, Piece, Zone
 from station.core.units import PPQ
-from station.motion import frame
 from station.motion.audit import audit
 from station.motion.drummer import Drummer
-from station.motion.dynamics import INCH_M, LEVELS
-from station.motion.figure import Joint
-from station.motion.kit import load_kit
+from station.motion.kinematics import frame
+from station.motion.kinematics.figure import Joint
+from station.motion.kit.kit import load_kit
+from station.motion.strokes.stroke_heights import INCH_M, LEVELS
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from station.motion.amplitudes import amplitudes
-from station.motion.arm import ArmLengths
-from station.motion.dynamics import INCH_M, stroke_height_m
-from station.motion.stroke import Sliders, StrokePlan, Strokes
+from station.motion.kinematics.arm import ArmLengths
+from station.motion.strokes.amplitudes import amplitudes
+from station.motion.strokes.stroke import Sliders, StrokePlan, Strokes
+from station.motion.strokes.stroke_heights import INCH_M, stroke_height_m
 
 Array = NDArray[np.float64]
 

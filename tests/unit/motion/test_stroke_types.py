@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Limb, Ornament, Piece, Zone
 from station.core.units import PPQ
-from station.motion import frame
 from station.motion.drummer import Drummer
-from station.motion.pose import ANGLE_NAMES
-from station.motion.style import Style
+from station.motion.kinematics import frame
+from station.motion.kinematics.pose import ANGLE_NAMES
+from station.motion.style.style import Style
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 

@@ -7,9 +7,9 @@ import pytest
 from station.core.errors import BadInput
 from station.core.pieces import Piece
 from station.motion.drummer import Drummer
-from station.motion.propose import propose_style
-from station.motion.style import MOST, NUMBERS, Style, bent, checked, range_of
-from station.motion.style_file import SLOTS, Slots, load_style, save_style, style_names
+from station.motion.style.proposal import propose_style
+from station.motion.style.style import MOST, NUMBERS, Style, bent, checked, range_of
+from station.motion.style.style_file import SLOTS, Slots, load_style, save_style, style_names
 from tests.unit.motion.patterns import ROCK, score_of
 
 TABLE_5_2 = ("subdued", "crisp", "dramatic", "smooth", "sweeping")

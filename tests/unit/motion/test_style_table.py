@@ -4,8 +4,8 @@ from itertools import combinations, pairwise
 
 import pytest
 
-from station.motion.style import NUMBERS
-from station.motion.style_file import style_names
+from station.motion.style.style import NUMBERS
+from station.motion.style.style_file import style_names
 from tools.style_table import EFFECTS, PAGE, effects, style_rows
 
 STEADY = [control for control, effect in EFFECTS.items() if not effect.steps]

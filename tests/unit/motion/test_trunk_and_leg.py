@@ -2,11 +2,11 @@ import math
 
 import pytest
 
-from station.motion.figure import figure_of
-from station.motion.kit import Pedal
-from station.motion.leg import Footing, leg
-from station.motion.maths import ONE
-from station.motion.trunk import TrunkAngles, trunk
+from station.motion.kinematics.figure import figure_of
+from station.motion.kinematics.leg import Footing, leg
+from station.motion.kinematics.maths import ONE
+from station.motion.kinematics.trunk import TrunkAngles, trunk
+from station.motion.kit.kit import Pedal
 
 FIGURE = figure_of()
 PELVIS = (0.0, 0.0, 0.59)

@@ -4,10 +4,16 @@ import numpy as np
 import pytest
 
 from station.core.errors import BadInput
-from station.core.kitmap import GENERAL_MIDI, V_DRUMS, KitMap
+from station.core.note_map import GENERAL_MIDI, V_DRUMS, KitMap
 from station.core.pieces import Articulation, Dynamic, Limb, Piece, Zone
 from station.core.units import PPQ
-from station.music.formats.smf import MidiFile, guess_kit_map, parse_midi, performance_from_midi, score_from_midi
+from station.music.formats.smf.standard_midi import (
+    MidiFile,
+    guess_kit_map,
+    parse_midi,
+    performance_from_midi,
+    score_from_midi,
+)
 from station.music.tempo import MeterChange, TempoChange
 from tests.fakes.smf_bytes import event, file, header, meta, meter, tempo, track
 

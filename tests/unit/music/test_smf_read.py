@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from station.core.errors import BadInput
-from station.music.formats.smf import MidiFile, parse_midi, read_midi
-from station.music.formats.smf_read import MAX_BYTES
+from station.music.formats.smf.chunk_reader import MAX_BYTES
+from station.music.formats.smf.standard_midi import MidiFile, parse_midi, read_midi
 from station.music.tempo import MeterChange, TempoChange
 from tests.fakes.smf_bytes import END, chunk, event, file, header, meta, meter, number, tempo, track
 

@@ -8,10 +8,10 @@ import pytest
 
 from station.core.errors import BadInput, DeviceError
 from station.core.events import Choke, Hit
-from station.core.kitmap import GENERAL_MIDI, V_DRUMS
+from station.core.note_map import GENERAL_MIDI, V_DRUMS
 from station.core.pieces import Articulation, Piece, Zone
 from station.core.units import PPQ
-from station.music.formats.smf import (
+from station.music.formats.smf.standard_midi import (
     guess_kit_map,
     performance_from_midi,
     read_midi,

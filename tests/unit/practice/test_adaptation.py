@@ -14,23 +14,25 @@ from station.core.errors import BadInput
 from station.core.pieces import Piece
 from station.core.settings import Settings
 from station.drills.library import find_lesson
-from station.drills.mastery.fading import Feedback
-from station.drills.mastery.steps import Kind
+from station.drills.mastery.feedback_fading import Feedback
+from station.drills.mastery.practice_steps import PassKind
 from station.music.judgement import Judgement, Label
-from station.practice.adaptation import SILENT_TO_STOP, Adaptation, Row, lesson_bars
-from station.practice.headless import VirtualSession, practise_adaptively
-from station.practice.mastery_report import with_mastery
-from station.practice.plan import Wishes, plan_practice
-from station.practice.report import practice_document, report_text, with_truth
-from station.practice.session import Session
-from station.practice.student_spec import parse_spec
+from station.practice.records.mastery_report import with_mastery
+from station.practice.records.session_report import practice_document, report_text, with_truth
+from station.practice.session.adaptation import SILENT_TO_STOP, Adaptation, ScoreRow, lesson_bars
+from station.practice.session.headless import VirtualSession, practise_adaptively
+from station.practice.session.plan import PlanOptions, plan_practice
+from station.practice.session.session import Session
+from station.simulation.student_spec import parse_spec
 
 TODAY = date(2026, 3, 1)
 FILL = find_lesson("rock-fill-1")
 """Four bars, target 104 bpm."""
 
 
-def practised(spec: str, wishes: Wishes, adaptation: Adaptation | None = None) -> tuple[Adaptation, VirtualSession]:
+def practised(
+    spec: str, wishes: PlanOptions, adaptation: Adaptation | None = None
+) -> tuple[Adaptation, VirtualSession]:
     followed = adaptation or Adaptation(FILL, wishes, TODAY)
     return followed, practise_adaptively(followed, parse_spec(spec))
 
@@ -40,12 +42,12 @@ def tempi(adaptation: Adaptation) -> list[float]:
 
 
 def test_clean_passes_climb_as_the_rules_say() -> None:
-    adaptation, _ = practised("sd_ms=10,seed=4", Wishes(loops=6))
+    adaptation, _ = practised("sd_ms=10,seed=4", PlanOptions(loops=6))
     assert tempi(adaptation) == [72.8, 72.8, 78.0, 78.0, 83.2, 83.2]
 
 
 def test_bad_passes_come_down_with_a_reason() -> None:
-    adaptation, _ = practised("sd_ms=12,miss_pct=40,seed=4", Wishes(loops=3))
+    adaptation, _ = practised("sd_ms=12,miss_pct=40,seed=4", PlanOptions(loops=3))
     played = tempi(adaptation)
     assert played[0] == 72.8
     assert played[-1] < 72.8
@@ -54,7 +56,7 @@ def test_bad_passes_come_down_with_a_reason() -> None:
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_the_report_counts_what_the_student_knows_over_all_passes(seed: int) -> None:
-    adaptation, virtual = practised(f"sd_ms=12,bias_ms=-8,miss_pct=4,extra_pct=2,seed={seed}", Wishes(loops=7))
+    adaptation, virtual = practised(f"sd_ms=12,bias_ms=-8,miss_pct=4,extra_pct=2,seed={seed}", PlanOptions(loops=7))
     told, truth = virtual.result.alignment, virtual.student.truth
     assert len(told.note_label) == len(truth.note_label) == sum(len(one.result.score) for one in adaptation.rounds)
     assert len(told.hit_label) == len(truth.hit_label)
@@ -70,18 +72,18 @@ def test_the_report_counts_what_the_student_knows_over_all_passes(seed: int) -> 
 
 
 def test_the_same_student_has_the_same_session() -> None:
-    first, second = (practised("intermediate,seed=5", Wishes(loops=5)) for _ in range(2))
+    first, second = (practised("intermediate,seed=5", PlanOptions(loops=5)) for _ in range(2))
     assert [one.step for one in first[0].rounds] == [one.step for one in second[0].rounds]
     assert np.array_equal(first[1].result.performance.hits["at_ns"], second[1].result.performance.hits["at_ns"])
 
 
 def test_a_tempo_that_was_asked_for_stays() -> None:
-    adaptation, _ = practised("sd_ms=10,seed=1", Wishes(tempo_bpm=90.0, loops=4))
+    adaptation, _ = practised("sd_ms=10,seed=1", PlanOptions(tempo_bpm=90.0, loops=4))
     assert tempi(adaptation) == [90.0] * 4
 
 
 def test_bars_that_were_asked_for_are_the_item() -> None:
-    adaptation, virtual = practised("sd_ms=10,seed=1", Wishes(bars=(3, 4), loops=2))
+    adaptation, virtual = practised("sd_ms=10,seed=1", PlanOptions(bars=(3, 4), loops=2))
     assert [one.step.bars for one in adaptation.rounds] == [(2, 3), (2, 3)]
     assert virtual.result.plan.bars == (2, 3)
     assert set(lesson_bars(virtual.result.plan)) == {2, 3}
@@ -89,40 +91,40 @@ def test_bars_that_were_asked_for_are_the_item() -> None:
 
 def test_wishes_that_cannot_be_are_refused() -> None:
     with pytest.raises(BadInput, match="--loops"):
-        Adaptation(FILL, Wishes(loops=0), TODAY)
+        Adaptation(FILL, PlanOptions(loops=0), TODAY)
 
 
 def test_the_demonstration_comes_before_the_first_pass_alone() -> None:
-    adaptation = Adaptation(FILL, Wishes(loops=3), TODAY)
+    adaptation = Adaptation(FILL, PlanOptions(loops=3), TODAY)
     assert adaptation.plan.demonstrations_end_ns > 0
-    adaptation.take(practised("pro,seed=1", Wishes(loops=1))[1].result)
+    adaptation.take(practised("pro,seed=1", PlanOptions(loops=1))[1].result)
     assert adaptation.plan.demonstrations_end_ns == 0
 
 
 def test_the_next_session_goes_on_from_what_is_known() -> None:
-    first, _ = practised("sd_ms=10,seed=4", Wishes(loops=6))
-    same_day = Adaptation(FILL, Wishes(), TODAY, first.state)
+    first, _ = practised("sd_ms=10,seed=4", PlanOptions(loops=6))
+    same_day = Adaptation(FILL, PlanOptions(), TODAY, first.state)
     assert same_day.step.pct == 85.0
-    tomorrow = Adaptation(FILL, Wishes(), date(2026, 3, 2), first.state)
+    tomorrow = Adaptation(FILL, PlanOptions(), date(2026, 3, 2), first.state)
     assert tomorrow.step.pct == 77.0
 
 
 def test_a_lesson_that_was_changed_begins_anew() -> None:
-    first, _ = practised("sd_ms=10,seed=4", Wishes(loops=6))
-    other = Adaptation(FILL, Wishes(bars=(1, 2)), TODAY, first.state)
+    first, _ = practised("sd_ms=10,seed=4", PlanOptions(loops=6))
+    other = Adaptation(FILL, PlanOptions(bars=(1, 2)), TODAY, first.state)
     assert other.step.pct == 70.0
 
 
 def test_silence_ends_it_and_is_not_judged() -> None:
-    adaptation, _ = practised("miss_pct=100,seed=1", Wishes(loops=8))
+    adaptation, _ = practised("miss_pct=100,seed=1", PlanOptions(loops=8))
     assert len(adaptation.rounds) == SILENT_TO_STOP
     assert adaptation.step.pct == 70.0
     assert adaptation.step.why == "Nothing was played: the same again."
 
 
 def test_a_pass_that_was_stopped_is_kept_and_not_judged() -> None:
-    _, virtual = practised("pro,seed=1", Wishes(loops=1))
-    stopped = Adaptation(FILL, Wishes(loops=4), TODAY)
+    _, virtual = practised("pro,seed=1", PlanOptions(loops=1))
+    stopped = Adaptation(FILL, PlanOptions(loops=4), TODAY)
     step = stopped.step
     stopped.take(replace(virtual.result, complete=False))
     assert stopped.over
@@ -132,7 +134,7 @@ def test_a_pass_that_was_stopped_is_kept_and_not_judged() -> None:
 
 
 def test_a_veto_stays_with_the_last_tempo() -> None:
-    adaptation, _ = practised("sd_ms=10,seed=4", Wishes(loops=2))
+    adaptation, _ = practised("sd_ms=10,seed=4", PlanOptions(loops=2))
     assert adaptation.step.pct == 75.0
     assert adaptation.veto().pct == 70.0
     assert adaptation.plan.tempo_bpm == pytest.approx(72.8)
@@ -140,16 +142,16 @@ def test_a_veto_stays_with_the_last_tempo() -> None:
 
 def test_passes_in_a_row_lie_apart() -> None:
     """A bar of 4/4 at 80 bpm, as it is written, lasts 3 s: one such bar is rest enough."""
-    score = plan_practice(FILL, Wishes(loops=1)).score
-    row = Row((score, score))
+    score = plan_practice(FILL, PlanOptions(loops=1)).score
+    row = ScoreRow((score, score))
     assert row.start_bars == (0, 5)
     assert row.start_ns[1] == pytest.approx(20 * 60e9 / 80, abs=20)
 
 
 def test_bars_of_a_chunk_keep_the_lesson_s_numbers() -> None:
     """A student who breaks one bar gets it alone; its strokes count under the lesson's own bar."""
-    adaptation, virtual = practised("sd_ms=30,miss_pct=14,seed=2", Wishes(loops=24))
-    chunks = [one.step.bars for one in adaptation.rounds if one.step.kind is Kind.CHUNK]
+    adaptation, virtual = practised("sd_ms=30,miss_pct=14,seed=2", PlanOptions(loops=24))
+    chunks = [one.step.bars for one in adaptation.rounds if one.step.kind is PassKind.CHUNK]
     assert chunks, "the seed was chosen for its weak bar"
     names = np.array(lesson_bars(virtual.result.plan))[virtual.result.score.bar]
     for one, start in zip(adaptation.rounds, adaptation.row().start_bars, strict=True):
@@ -159,7 +161,7 @@ def test_bars_of_a_chunk_keep_the_lesson_s_numbers() -> None:
 
 
 def test_the_report_says_every_pass_and_what_comes_next() -> None:
-    adaptation, virtual = practised("sd_ms=10,seed=4", Wishes(loops=3))
+    adaptation, virtual = practised("sd_ms=10,seed=4", PlanOptions(loops=3))
     document = with_mastery(practice_document(virtual.result, Settings()), adaptation)
     mastery = document["mastery"]
     assert isinstance(mastery, dict)
@@ -175,14 +177,14 @@ def test_the_report_says_every_pass_and_what_comes_next() -> None:
     ("feedback", "shown"), [(Feedback.TIMING, [9, None]), (Feedback.PADS, [None, None]), (Feedback.NONE, [])]
 )
 def test_feedback_is_what_the_student_is_shown(feedback: Feedback, shown: list[int | None]) -> None:
-    session = Session(plan_practice(FILL, Wishes(loops=1)), feedback=feedback)
+    session = Session(plan_practice(FILL, PlanOptions(loops=1)), feedback=feedback)
     verdicts = (Judgement(Label.MATCH, 0, 0, 9), Judgement(Label.MISS, 1, None))
     assert [verdict.asynchrony_ns for verdict in session.told(verdicts)] == shown
 
 
 def test_what_is_stable_is_kept_while_the_click_is_silent() -> None:
     """A student without a fault is stable after probes of the target; then passes have gaps, and the report knows."""
-    adaptation, virtual = practised("sd_ms=8,seed=4", Wishes(loops=20))
+    adaptation, virtual = practised("sd_ms=8,seed=4", PlanOptions(loops=20))
     gapped = [one.result.plan.silences for one in adaptation.rounds if one.step.gap is not None]
     assert gapped
     assert all(gapped)
@@ -195,7 +197,7 @@ def test_what_is_stable_is_kept_while_the_click_is_silent() -> None:
 
 
 def test_what_is_stable_is_also_played_on_the_other_cymbal() -> None:
-    adaptation, virtual = practised("sd_ms=8,seed=4", Wishes(loops=24))
+    adaptation, virtual = practised("sd_ms=8,seed=4", PlanOptions(loops=24))
     other = [one for one in adaptation.rounds if one.step.revoiced]
     assert other
     assert {one.step.pct for one in other} == {100.0}

@@ -4,22 +4,22 @@ from pathlib import Path
 
 import pytest
 
-from station.core.calibration import Calibration
 from station.core.events import Hit
+from station.core.measured_latency import StoredCalibration
 from station.core.pieces import Piece, Zone
 from station.core.settings import Settings
 from station.core.units import NS_PER_MS, NS_PER_S
-from station.devices.capture import read_capture
-from station.devices.presets import GENERAL_MIDI_PRESET
+from station.devices.capture.capture import read_capture
+from station.devices.mapping.presets import GENERAL_MIDI_PRESET
 from station.engine.engine import Engine
-from station.engine.messages import Bus, Play, Record, Started
+from station.engine.messages import Bus, Play, RecordCapture, Started
 from station.music.performance import Performance
-from station.practice.click import PLAIN
-from station.practice.free_play import LEAD_IN_NS, LONGEST_NS, FreeClick, FreePlay, listening_back, take_of
-from station.practice.latency import Latency, latency_of
+from station.practice.session.click_pattern import PLAIN
+from station.practice.session.device_latency import Latency, latency_of
+from station.practice.session.free_play import LEAD_IN_NS, LONGEST_NS, FreeClick, FreePlay, listening_back, take_of
 
 KIT = "kit"
-LATE = latency_of(Settings(input_latency_ms=10.0, output_latency_ms=5.0), Calibration())
+LATE = latency_of(Settings(input_latency_ms=10.0, output_latency_ms=5.0), StoredCalibration())
 
 
 def hit(at_ns: int, piece: Piece = Piece.SNARE) -> Hit:
@@ -65,7 +65,7 @@ def test_the_capture_gives_the_take_again_and_it_sounds_at_its_times(tmp_path: P
     engine.use_preset(KIT, GENERAL_MIDI_PRESET)
     engine.device_found(KIT, 0)
     engine.advance(0)
-    for command in (Record(tmp_path / "take"), *play.start()):
+    for command in (RecordCapture(tmp_path / "take"), *play.start()):
         engine.handle(command)
     for event in engine.advance(LEAD_IN_NS):
         play.handle(event)
@@ -74,7 +74,7 @@ def test_the_capture_gives_the_take_again_and_it_sounds_at_its_times(tmp_path: P
         for event in engine.advance(now_ns - 1):
             play.handle(event)
         engine.feed(KIT, bytes([0x99, note, 100]), now_ns)
-    engine.handle(Record(None))
+    engine.handle(RecordCapture(None))
     for event in engine.advance(LEAD_IN_NS + 4 * NS_PER_S):
         play.handle(event)
     take = take_of(read_capture(tmp_path / "take"), Latency(), None)

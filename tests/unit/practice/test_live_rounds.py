@@ -9,13 +9,13 @@ from station.core.events import DeviceFound, Hit
 from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_S
 from station.drills.library import find_lesson
-from station.engine.messages import Command, EngineEvent, Play, Record, Recorded, Started
+from station.engine.messages import CaptureSaved, Command, EngineEvent, Play, RecordCapture, Started
 from station.music.judgement import Judgement
-from station.practice.adaptation import Adaptation
-from station.practice.latency import Latency
-from station.practice.live import Room, practise_rounds
-from station.practice.plan import Wishes
-from station.practice.session import Session
+from station.practice.session.adaptation import Adaptation
+from station.practice.session.device_latency import Latency
+from station.practice.session.live import Room, practise_rounds
+from station.practice.session.plan import PlanOptions
+from station.practice.session.session import Session
 
 TODAY = date(2026, 3, 1)
 
@@ -34,9 +34,9 @@ class Link:
             self.plays += 1
             zero_ns = self._clock.now_ns() + command.start_in_ns
             self._says += [Started(zero_ns), Hit(zero_ns + 10 * NS_PER_S, Piece.SNARE, Zone.HEAD, 90)]
-        elif isinstance(command, Record):
+        elif isinstance(command, RecordCapture):
             self.records.append(command.path)
-            self._says.append(Recorded(command.path))
+            self._says.append(CaptureSaved(command.path))
 
     def events(self, wait_s: float = 0.0) -> list[EngineEvent]:
         del wait_s
@@ -48,7 +48,7 @@ class Link:
 def test_passes_follow_each_other_in_one_capture_and_come_down(tmp_path: Path) -> None:
     """One stroke of 24 is right at best: too much went wrong, two steps of 8 % down from 70 % after each pass."""
     clock = ManualClock()
-    link, adaptation = Link(clock), Adaptation(find_lesson("rock-1"), Wishes(loops=3, demonstrations=0), TODAY)
+    link, adaptation = Link(clock), Adaptation(find_lesson("rock-1"), PlanOptions(loops=3, demonstrations=0), TODAY)
     heard: list[Session] = []
 
     def tell(session: Session, judged: tuple[Judgement, ...]) -> None:
@@ -77,7 +77,7 @@ class Dying(Link):
 
 def test_an_engine_that_ends_between_passes_leaves_the_passes_that_were_played(tmp_path: Path) -> None:
     clock = ManualClock()
-    link, adaptation = Dying(clock), Adaptation(find_lesson("rock-1"), Wishes(loops=3, demonstrations=0), TODAY)
+    link, adaptation = Dying(clock), Adaptation(find_lesson("rock-1"), PlanOptions(loops=3, demonstrations=0), TODAY)
     room = Room(link, clock, lambda *_: None)
     outcome = practise_rounds(room, adaptation, adaptation.session(Latency()), tmp_path / "x")
     assert str(outcome.fault) == "the engine has ended"

@@ -9,12 +9,12 @@ import pytest
 
 from station.core.errors import DeviceError
 from station.drills.library import find_lesson
-from station.drills.mastery.document import SCHEMA
+from station.drills.mastery.mastery_json import SCHEMA
 from station.drills.mastery.policy import new_item
+from station.drills.mastery.practice_steps import item_of
 from station.drills.mastery.reviews import Review
-from station.drills.mastery.steps import item_of
-from station.practice.memory import Memory, Remembered
-from station.practice.plan import Wishes
+from station.practice.records.memory import Memory, Remembered
+from station.practice.session.plan import PlanOptions
 
 TODAY = date(2026, 3, 1)
 LESSON = find_lesson("rock-1")
@@ -52,7 +52,7 @@ def test_a_file_that_cannot_be_read_is_set_aside_whole(text: str, tmp_path: Path
     file = memory(tmp_path).path
     file.parent.mkdir(parents=True)
     file.write_bytes(text.encode("latin-1"))
-    remembered = Remembered.of(LESSON, Wishes(), TODAY, memory(tmp_path))
+    remembered = Remembered.of(LESSON, PlanOptions(), TODAY, memory(tmp_path))
     assert remembered.fault is not None
     assert str(file) in remembered.fault
     assert "\n" not in remembered.fault
@@ -79,8 +79,8 @@ def test_a_folder_in_the_file_s_place_is_the_disk_s_fault(tmp_path: Path) -> Non
 
 def test_what_comes_next_is_chosen_among_all_that_is_remembered(tmp_path: Path) -> None:
     """Rock 1 is new and gone on with; rock 2, mastered and due, comes before it; a broken file is no reason to fall."""
-    remembered = Remembered.of(LESSON, Wishes(), TODAY, memory(tmp_path))
-    assert Remembered.of(LESSON, Wishes(), TODAY, None).next_turn() is None
+    remembered = Remembered.of(LESSON, PlanOptions(), TODAY, memory(tmp_path))
+    assert Remembered.of(LESSON, PlanOptions(), TODAY, None).next_turn() is None
     remembered.keep()
     turn = remembered.next_turn()
     assert turn is not None

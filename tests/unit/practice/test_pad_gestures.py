@@ -8,8 +8,8 @@ from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_MS, PPQ
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
-from station.practice.pad_gestures import FootSwitch, Together, TwoKicks, is_written
-from station.practice.pause_word import PauseWish, parse_pause
+from station.practice.control.pad_gestures import FootSwitch, PadsTogether, TwoKicks, is_written
+from station.practice.control.pause_options import PauseOptions, parse_pause
 
 K, S = Piece.KICK, Piece.SNARE
 
@@ -62,7 +62,7 @@ def score(*notes: Note) -> Score:
     ],
 )
 def test_two_pads_at_once(strokes: list[tuple[int, Piece]], pauses_at: list[int]) -> None:
-    together = Together([CRASHES], score(Note(0, K)))
+    together = PadsTogether([CRASHES], score(Note(0, K)))
     assert [at for at, piece in strokes if together.take(Hit(at * NS_PER_MS, piece, Zone.EDGE, 90))] == pauses_at
 
 
@@ -73,7 +73,7 @@ def test_what_the_score_asks_for_commands_nothing() -> None:
     assert is_written(CRASHES, score(Note(0, Piece.CRASH_1), Note(PPQ // 4, Piece.CRASH_2)))
     assert not is_written(CRASHES, score(Note(0, Piece.CRASH_1), Note(PPQ // 2, Piece.CRASH_2)))
     assert not is_written(CRASHES, score(Note(0, Piece.CRASH_1)))
-    together = Together([CRASHES], at_once)
+    together = PadsTogether([CRASHES], at_once)
     assert not any(together.take(Hit(0, piece, Zone.EDGE, 90)) for piece in CRASHES)
 
 
@@ -87,7 +87,7 @@ def test_what_pauses_in_words() -> None:
     wish = parse_pause("crash_1+crash_2 ride+snare cc=064 program=5")
     assert wish.pairs == (CRASHES, frozenset({Piece.RIDE, S}))
     assert wish.switches == {"cc=64", "program=5"}
-    assert parse_pause("") == PauseWish()
+    assert parse_pause("") == PauseOptions()
 
 
 @pytest.mark.parametrize(

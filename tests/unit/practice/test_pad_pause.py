@@ -13,14 +13,14 @@ from station.core.pieces import Piece, Zone
 from station.core.settings import Settings
 from station.core.units import NS_PER_S
 from station.drills.library import find_lesson
-from station.engine.messages import Command, EngineEvent, Play, Record, Recorded, Started, Stop
-from station.practice.latency import Latency
-from station.practice.live import LiveOutcome, Room, practise_live
-from station.practice.pad_pause import PadPause
-from station.practice.plan import Wishes, plan_practice
-from station.practice.session import Session
+from station.engine.messages import CaptureSaved, Command, EngineEvent, Play, RecordCapture, Started, Stop
+from station.practice.control.pad_pause import PadPause
+from station.practice.session.device_latency import Latency
+from station.practice.session.live import LiveOutcome, Room, practise_live
+from station.practice.session.plan import PlanOptions, plan_practice
+from station.practice.session.session import Session
 
-PLAN = plan_practice(find_lesson("rock-1"), Wishes(tempo_bpm=80.0, loops=4, demonstrations=0))
+PLAN = plan_practice(find_lesson("rock-1"), PlanOptions(tempo_bpm=80.0, loops=4, demonstrations=0))
 BAR_NS = 3 * NS_PER_S
 LOOK_NS = NS_PER_S // 4
 LONGEST_NS = 40 * BAR_NS
@@ -49,8 +49,8 @@ class Engine:
         elif isinstance(command, Stop):
             self._plan(self._clock.now_ns(), self._later)
             self._later = []
-        elif isinstance(command, Record):
-            self._said.append(Recorded(command.path))
+        elif isinstance(command, RecordCapture):
+            self._said.append(CaptureSaved(command.path))
 
     def _plan(self, from_ns: int, strokes: list[Planned]) -> None:
         for bars, what in strokes:

@@ -11,10 +11,10 @@ from station.engine.messages import Bus, Play, Started, Stop
 from station.music.judgement import Label
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
-from station.practice.click import PLAIN, ClickPattern
-from station.practice.pausing import NEAR_NS, Silence
-from station.practice.plan import TAIL_NS, Phase, Plan, Wishes, plan_practice
-from station.practice.session import Session
+from station.practice.session.click_pattern import PLAIN, ClickPattern
+from station.practice.session.pausing import NEAR_NS, Silence
+from station.practice.session.plan import TAIL_NS, Phase, Plan, PlanOptions, plan_practice
+from station.practice.session.session import Session
 
 BAR_NS, BEAT_NS = 2 * NS_PER_S, NS_PER_S // 2
 ZERO_NS = 50 * NS_PER_S
@@ -27,7 +27,7 @@ def plan_of(loops: int, rests: int = 0, click: ClickPattern | None = PLAIN) -> P
     notes = [Note(i * PPQ, Piece.SNARE) for i in range(4)]
     score = Score.from_notes(notes, TempoMap.constant(120), (1 + rests) * 4 * PPQ)
     lesson = Lesson(name="quarters", title="Quarters", score=score, loop=(0, rests))
-    return plan_practice(lesson, Wishes(demonstrations=0, loops=loops, click=click))
+    return plan_practice(lesson, PlanOptions(demonstrations=0, loops=loops, click=click))
 
 
 def started(loops: int = 6) -> Session:

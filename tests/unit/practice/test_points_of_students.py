@@ -10,11 +10,11 @@ from station.drills.lesson import Lesson
 from station.drills.library import find_lesson, shipped_lessons
 from station.music.performance import HIT_DTYPE, Performance
 from station.music.score import Score
-from station.practice.plan import Wishes, plan_practice
-from station.practice.student_spec import parse_spec
-from station.practice.virtual_student import play
+from station.practice.session.plan import PlanOptions, plan_practice
 from station.scoring.align import align
-from station.scoring.summary import summarise
+from station.scoring.analysis.summary import summarise
+from station.simulation.student_spec import parse_spec
+from station.simulation.virtual_student import play
 
 PADS = np.array(
     [Piece.KICK, Piece.SNARE, Piece.HIHAT, Piece.RIDE, Piece.CRASH_1, Piece.TOM_1, Piece.TOM_2, Piece.FLOOR_TOM_1]
@@ -38,7 +38,7 @@ def test_hammering_scores_under_10_on_every_lesson(part: int) -> None:
     """20 strokes a second anywhere, and every pad on every 16th, through one pass of the loop."""
     lessons: list[Lesson] = list(shipped_lessons())[part::12]
     for lesson in lessons:
-        score = plan_practice(lesson, Wishes(loops=1, demonstrations=0)).score
+        score = plan_practice(lesson, PlanOptions(loops=1, demonstrations=0)).score
         rng = np.random.default_rng(7)
         count = 20 * score.length_ns // NS_PER_S
         assert points(score, struck(rng.integers(0, score.length_ns, count), rng.choice(PADS, count))) < 10, lesson.name
@@ -50,7 +50,7 @@ def test_hammering_scores_under_10_on_every_lesson(part: int) -> None:
 @pytest.mark.parametrize("name", ["rock-fill-1", "flam-tap"])
 def test_a_virtual_student_who_spreads_less_never_scores_less(name: str) -> None:
     """Averaged over eight seeds."""
-    score = plan_practice(find_lesson(name), Wishes(loops=1, demonstrations=0)).score
+    score = plan_practice(find_lesson(name), PlanOptions(loops=1, demonstrations=0)).score
     means = [
         np.mean([points(score, play(score, parse_spec(f"seed={k},sd_ms={sd}")).performance) for k in range(8)])
         for sd in (40, 25, 12, 4)

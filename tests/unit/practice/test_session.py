@@ -4,8 +4,8 @@ from datetime import date
 
 import pytest
 
-from station.core.calibration import Calibration, KitMeasured, Measured
 from station.core.events import DeviceFound, DeviceLost, Hit
+from station.core.measured_latency import DeviceLatency, MeasuredLatency, StoredCalibration
 from station.core.pieces import Piece, Zone
 from station.core.settings import Settings
 from station.core.units import NS_PER_MS, NS_PER_S, PPQ
@@ -15,9 +15,9 @@ from station.engine.messages import Play, Sounding, Started
 from station.music.judgement import Label
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
-from station.practice.latency import Latency, latency_of
-from station.practice.plan import TAIL_NS, Phase, Wishes, plan_practice
-from station.practice.session import Session
+from station.practice.session.device_latency import Latency, latency_of
+from station.practice.session.plan import TAIL_NS, Phase, PlanOptions, plan_practice
+from station.practice.session.session import Session
 
 BAR_NS = 2 * NS_PER_S
 BEAT_NS = NS_PER_S // 2
@@ -27,7 +27,7 @@ ZERO_NS = 50 * NS_PER_S
 def session(latency: Latency | None = None, loops: int = 1) -> Session:
     score = Score.from_notes([Note(i * PPQ, Piece.SNARE) for i in range(4)], TempoMap.constant(120))
     lesson = Lesson(name="quarters", title="Quarters", score=score)
-    made = Session(plan_practice(lesson, Wishes(demonstrations=0, loops=loops)), latency or Latency())
+    made = Session(plan_practice(lesson, PlanOptions(demonstrations=0, loops=loops)), latency or Latency())
     _, play = made.start()
     assert isinstance(play, Play)
     made.handle(Started(ZERO_NS))
@@ -62,7 +62,7 @@ def test_hits_of_count_in_are_not_judged() -> None:
 
 def test_nothing_is_judged_before_the_transport_runs() -> None:
     score = Score.from_notes([Note(0, Piece.SNARE)], TempoMap.constant(120))
-    practice = Session(plan_practice(Lesson(name="one", title="One", score=score), Wishes()))
+    practice = Session(plan_practice(Lesson(name="one", title="One", score=score), PlanOptions()))
     assert practice.handle(snare(0)) == ()
     assert practice.advance(ZERO_NS) == ()
     assert not practice.over
@@ -142,7 +142,7 @@ def test_latency_is_real_time_at_any_speed(percent: int) -> None:
     """14 ms of latency are 14 ms, and 9 ms late are 9 ms, at half the tempo as at twice the tempo."""
     score = Score.from_notes([Note(i * PPQ, Piece.SNARE) for i in range(4)], TempoMap.constant(120))
     lesson = Lesson(name="quarters", title="Quarters", score=score)
-    wishes = Wishes(tempo_bpm=1.2 * percent, demonstrations=0, loops=1)
+    wishes = PlanOptions(tempo_bpm=1.2 * percent, demonstrations=0, loops=1)
     practice = Session(plan_practice(lesson, wishes), Latency(input_ns=4 * NS_PER_MS, output_ns=10 * NS_PER_MS))
     practice.start()
     practice.handle(Started(ZERO_NS))
@@ -205,9 +205,13 @@ def test_a_kit_that_goes_and_comes_is_told() -> None:
 KIT, OTHER, DAY = "TD-17", "Nitro", date(2026, 1, 2)
 MEASURED = latency_of(
     Settings(input_latency_ms=9.0, output_latency_ms=2.0),
-    Calibration(
-        {"card": Measured(-3.0, 0.1, "loopback", DAY)},
-        {KIT: KitMeasured(Measured(4.0, 0.5, "strike", DAY), {Piece.SNARE: Measured(6.0, 0.5, "strike", DAY)})},
+    StoredCalibration(
+        {"card": MeasuredLatency(-3.0, 0.1, "loopback", DAY)},
+        {
+            KIT: DeviceLatency(
+                MeasuredLatency(4.0, 0.5, "strike", DAY), {Piece.SNARE: MeasuredLatency(6.0, 0.5, "strike", DAY)}
+            )
+        },
     ),
 )
 
@@ -225,7 +229,7 @@ MEASURED = latency_of(
 )
 def test_each_device_and_pad_has_its_own_latency(device: str, piece: Piece, output: str | None, late_ms: int) -> None:
     lesson = Lesson(name="one", title="One", score=Score.from_notes([Note(0, piece)], TempoMap.constant(120)))
-    practice = Session(plan_practice(lesson, Wishes(demonstrations=0, loops=1)), MEASURED)
+    practice = Session(plan_practice(lesson, PlanOptions(demonstrations=0, loops=1)), MEASURED)
     practice.handle(Started(ZERO_NS, output))
     (verdict,) = practice.handle(Hit(ZERO_NS + BAR_NS + late_ms * NS_PER_MS, piece, Zone.HEAD, 90, device=device))
     assert verdict.asynchrony_ns == 0

@@ -12,18 +12,18 @@ from station.core.settings import Settings
 from station.core.units import NS_PER_S
 from station.drills.library import find_lesson
 from station.engine.messages import Bus, Started
-from station.practice.click import PLAIN
-from station.practice.headless import practise_virtually
-from station.practice.plan import Phase, Plan, Wishes, plan_practice
-from station.practice.report import practice_document
-from station.practice.session import Session
-from station.practice.student_spec import parse_spec
+from station.practice.records.session_report import practice_document
+from station.practice.session.click_pattern import PLAIN
+from station.practice.session.headless import practise_virtually
+from station.practice.session.plan import Phase, Plan, PlanOptions, plan_practice
+from station.practice.session.session import Session
+from station.simulation.student_spec import parse_spec
 
 ZERO_NS = 5 * NS_PER_S
 
 
 def planned(loops: int = 4, with_click: bool = False) -> Plan:
-    wishes = Wishes(tempo_bpm=120.0, loops=loops, demonstrations=0, click=PLAIN if with_click else None)
+    wishes = PlanOptions(tempo_bpm=120.0, loops=loops, demonstrations=0, click=PLAIN if with_click else None)
     return plan_practice(find_lesson("rock-1"), wishes)
 
 

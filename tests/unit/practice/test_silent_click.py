@@ -6,19 +6,19 @@ from typing import Any
 
 import pytest
 
-from station.app.commands.scores import bars_of_gap
+from station.cli.read_scores import bars_of_gap
 from station.core.settings import Settings
 from station.drills.library import find_lesson
-from station.practice.click import PLAIN, Gap
-from station.practice.headless import practise_virtually
-from station.practice.plan import Wishes, plan_practice
-from station.practice.report import practice_document
-from station.practice.student_spec import parse_spec
+from station.practice.records.session_report import practice_document
+from station.practice.session.click_pattern import PLAIN, Gap
+from station.practice.session.headless import practise_virtually
+from station.practice.session.plan import PlanOptions, plan_practice
+from station.simulation.student_spec import parse_spec
 
 
 def craft(gap: Gap | None) -> dict[str, Any]:
     """rock-1 is two bars, played eight times: 16 bars."""
-    plan = plan_practice(find_lesson("rock-1"), Wishes(demonstrations=0, click=replace(PLAIN, gap=gap)))
+    plan = plan_practice(find_lesson("rock-1"), PlanOptions(demonstrations=0, click=replace(PLAIN, gap=gap)))
     document: dict[str, Any] = practice_document(
         practise_virtually(plan, parse_spec("seed=2,sd_ms=8")).result, Settings()
     )

@@ -13,9 +13,9 @@ from station.core.units import NS_PER_MS, NS_PER_S, PPQ
 from station.engine.messages import Bus
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
-from station.practice.click import PLAIN
-from station.practice.song_cues import SOUNDED_NS, after, count_in_of, song_cues
-from station.practice.song_player import Song, SongPlayer, Step
+from station.practice.demonstration.song_cues import SOUNDED_NS, after, count_in_of, song_cues
+from station.practice.demonstration.song_player import Song, SongPlayer, SongStep
+from station.practice.session.click_pattern import PLAIN
 
 BEAT_NS, BAR_NS = 500 * NS_PER_MS, 2 * NS_PER_S
 SONG = Song(TempoMap.constant(120.0), 16 * PPQ)
@@ -96,14 +96,14 @@ def test_winding_runs_at_six_times_and_goes_on_as_before() -> None:
 @pytest.mark.parametrize(
     ("step", "forward", "back"),
     [
-        (Step.SIXTEENTH, [125, 250, 375], [7875, 7750, 7625]),
-        (Step.TRIPLET, [167, 333, 500], [7833, 7667, 7500]),
-        (Step.EIGHTH, [250, 500, 750], [7750, 7500, 7250]),
-        (Step.BEAT, [500, 1000, 1500], [7500, 7000, 6500]),
-        (Step.BAR, [2000, 4000, 6000], [6000, 4000, 2000]),
+        (SongStep.SIXTEENTH, [125, 250, 375], [7875, 7750, 7625]),
+        (SongStep.TRIPLET, [167, 333, 500], [7833, 7667, 7500]),
+        (SongStep.EIGHTH, [250, 500, 750], [7750, 7500, 7250]),
+        (SongStep.BEAT, [500, 1000, 1500], [7500, 7000, 6500]),
+        (SongStep.BAR, [2000, 4000, 6000], [6000, 4000, 2000]),
     ],
 )
-def test_steps_go_from_line_to_line(step: Step, forward: list[int], back: list[int]) -> None:
+def test_steps_go_from_line_to_line(step: SongStep, forward: list[int], back: list[int]) -> None:
     for start_ns, way, milliseconds in ((0, 1, forward), (8 * NS_PER_S, -1, back)):
         player, seen = PLAYER.sought(T, start_ns), []
         for _ in range(3):
@@ -114,11 +114,11 @@ def test_steps_go_from_line_to_line(step: Step, forward: list[int], back: list[i
 
 def test_steps_from_between_lines_and_at_the_ends() -> None:
     between = PLAYER.played(T)
-    assert between.stepped(T + 600 * NS_PER_MS, Step.BEAT, 1).at_ns == 1000 * NS_PER_MS
-    back = between.stepped(T + 600 * NS_PER_MS, Step.BEAT, -1)
+    assert between.stepped(T + 600 * NS_PER_MS, SongStep.BEAT, 1).at_ns == 1000 * NS_PER_MS
+    back = between.stepped(T + 600 * NS_PER_MS, SongStep.BEAT, -1)
     assert (back.at_ns, back.playing) == (500 * NS_PER_MS, False)
-    assert PLAYER.stepped(T, Step.BAR, -1).at_ns == 0
-    assert PLAYER.sought(T, 8 * NS_PER_S).stepped(T, Step.BEAT, 1).at_ns == 8 * NS_PER_S
+    assert PLAYER.stepped(T, SongStep.BAR, -1).at_ns == 0
+    assert PLAYER.sought(T, 8 * NS_PER_S).stepped(T, SongStep.BEAT, 1).at_ns == 8 * NS_PER_S
 
 
 def test_steps_follow_meter_and_tempo() -> None:
@@ -127,11 +127,11 @@ def test_steps_follow_meter_and_tempo() -> None:
     song = Song(TempoMap.build(changes, [MeterChange(0, 3, 4), MeterChange(3 * PPQ, 6, 8)]), 6 * PPQ)
     player = SongPlayer(song)
     assert (song.bar_count, song.length_ns) == (2, 4500 * NS_PER_MS)
-    bar = player.stepped(T, Step.BAR, 1)
+    bar = player.stepped(T, SongStep.BAR, 1)
     assert bar.at_ns == 1500 * NS_PER_MS
-    assert bar.stepped(T, Step.BEAT, 1).at_ns == 2000 * NS_PER_MS
+    assert bar.stepped(T, SongStep.BEAT, 1).at_ns == 2000 * NS_PER_MS
     assert (bar.place(T).bar, bar.place(T).beat) == (1, 0)
-    assert bar.stepped(T, Step.BEAT, 1).stepped(T, Step.BAR, -1).at_ns == 1500 * NS_PER_MS
+    assert bar.stepped(T, SongStep.BEAT, 1).stepped(T, SongStep.BAR, -1).at_ns == 1500 * NS_PER_MS
 
 
 def test_bar_and_beat_to_the_very_end() -> None:

@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from station.core.units import NS_PER_MS, NS_PER_S
-from station.practice.tap_tempo import MAX_TAPS, PAUSE_NS, TapTempo, tapped_bpm
+from station.practice.control.tap_tempo import MAX_TAPS, PAUSE_NS, TapTempo, tapped_bpm
 
 
 def taps_at(bpm: float, numbers: list[float]) -> list[int]:

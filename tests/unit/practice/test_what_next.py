@@ -7,12 +7,12 @@ import pytest
 from station.core.settings import Settings
 from station.drills.lesson import Goals, Lesson
 from station.drills.library import find_lesson
-from station.practice.headless import practise_virtually
-from station.practice.plan import Wishes, plan_practice
-from station.practice.report import practice_document, report_text, with_truth
-from station.practice.student_spec import parse_spec
-from station.practice.what_next import what_next
-from station.scoring.document import Json
+from station.practice.records.session_report import practice_document, report_text, with_truth
+from station.practice.records.what_next import what_next
+from station.practice.session.headless import practise_virtually
+from station.practice.session.plan import PlanOptions, plan_practice
+from station.scoring.report.assessment_document import Json
+from station.simulation.student_spec import parse_spec
 
 IDA = Settings(student="Ida")
 ADVICE: Json = [{"fault": "late_kick", "text": "Your kick is late.", "bars": [1]}]
@@ -82,7 +82,7 @@ def test_at_the_goal_the_next_lesson_comes_first() -> None:
 
 
 def test_a_session_without_a_hit_is_reported() -> None:
-    plan = plan_practice(find_lesson("rock-1"), Wishes(loops=1, bars=(2, 2)))
+    plan = plan_practice(find_lesson("rock-1"), PlanOptions(loops=1, bars=(2, 2)))
     virtual = practise_virtually(plan, parse_spec("miss_pct=100"))
     made = with_truth(practice_document(virtual.result, IDA), virtual, IDA)
     text = report_text(made)
@@ -93,7 +93,7 @@ def test_a_session_without_a_hit_is_reported() -> None:
 
 
 def test_pieces_that_were_neither_written_nor_struck_extra_have_no_line() -> None:
-    plan = plan_practice(find_lesson("rock-1"), Wishes())
+    plan = plan_practice(find_lesson("rock-1"), PlanOptions())
     virtual = practise_virtually(plan, parse_spec("intermediate,seed=1"))
     made = practice_document(virtual.result, IDA)
     assert made["per_piece"]["crash_1"]["wrong_piece"] == 0  # type: ignore[index,call-overload] # its one hit was a hat's
@@ -101,6 +101,6 @@ def test_pieces_that_were_neither_written_nor_struck_extra_have_no_line() -> Non
 
 
 def test_the_tempo_is_said_in_the_beat_of_the_lesson_and_of_the_command_line() -> None:
-    plan = plan_practice(find_lesson("six-eight-1"), Wishes(loops=1))  # written at 50 dotted quarters: 75 quarters
+    plan = plan_practice(find_lesson("six-eight-1"), PlanOptions(loops=1))  # written at 50 dotted quarters: 75 quarters
     made = practice_document(practise_virtually(plan, parse_spec("seed=1")).result, IDA)
     assert "at 50 bpm (75 quarter notes a minute), bars 1-2, 1 pass\n" in report_text(made)

@@ -3,10 +3,10 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from station.motion import frame
-from station.motion.figure import Figure, Joint
-from station.motion.pose import Pose
-from station.render.skeleton import bind_stance
+from station.motion.kinematics import frame
+from station.motion.kinematics.figure import Figure, Joint
+from station.motion.kinematics.pose import Pose
+from station.render.figure.skeleton import bind_stance
 
 _PLACES: dict[str, slice | int] = {
     "joints_m": frame.JOINTS,

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from station.motion.figure import Joint, figure_of
-from station.motion.pose import Pose
-from station.render.body import build_body
-from station.render.materials import TABLE, Material, shader_table
-from station.render.skeleton import Bone, Skeleton, bind_stance, bone_frames
+from station.motion.kinematics.figure import Joint, figure_of
+from station.motion.kinematics.pose import Pose
+from station.render.figure.body import build_body
+from station.render.figure.skeleton import Bone, Skeleton, bind_stance, bone_frames
+from station.render.geometry.materials import TABLE, Material, shader_table
 from tests.unit.render.poses import pose_of
 
 FIGURE = figure_of()

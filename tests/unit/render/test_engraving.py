@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone
 from station.core.units import PPQ
 from station.music.score import Note
-from station.render.atlas import Atlas
-from station.render.engraving import BOTTOM_Y, TOP_Y, Engraver
-from station.render.ink import Kind
+from station.render.notation.engraving import BOTTOM_Y, TOP_Y, Engraver
+from station.render.notation.staff import PLACES, NoteHead, head_of, height, ledger_steps
 from station.render.snapshot import BarNumbers
-from station.render.staff import PLACES, Head, head_of, height, ledger_steps
+from station.render.text.atlas import Atlas
+from station.render.text.draw_list import ShapeKind
 from tests.unit.render.scores import BAR, rock, score_of
 
 ATLAS = Atlas()
@@ -24,7 +24,7 @@ def bar_of(*notes: Note, bar: int = 0) -> Shapes:
     return Engraver(score_of(*notes), ATLAS).bar(bar)
 
 
-def of_kind(shapes: Shapes, kind: Kind) -> Shapes:
+def of_kind(shapes: Shapes, kind: ShapeKind) -> Shapes:
     return np.asarray(shapes[shapes["kind"] == kind])
 
 
@@ -34,7 +34,7 @@ def signs(shapes: Shapes, name: str) -> int:
 
 
 def letters(shapes: Shapes, character: str) -> int:
-    from station.render.fonts import Face
+    from station.render.text.fonts import Face
 
     uv = np.array(ATLAS.letter(character, Face.BOLD).uv, np.float32)
     return int((shapes["uv"] == uv).all(axis=1).sum())
@@ -42,7 +42,7 @@ def letters(shapes: Shapes, character: str) -> int:
 
 def beams(shapes: Shapes) -> list[float]:
     """Seconds that each beam spans."""
-    thick = (shapes["kind"] == Kind.BOX) & np.isclose(shapes["half"][:, 1], 0.25) & (shapes["time_s"][:, 1] > 0)
+    thick = (shapes["kind"] == ShapeKind.BOX) & np.isclose(shapes["half"][:, 1], 0.25) & (shapes["time_s"][:, 1] > 0)
     return sorted(shapes["time_s"][thick, 1].tolist())
 
 
@@ -70,10 +70,10 @@ def test_no_two_pieces_are_written_alike() -> None:
 
 
 def test_heads() -> None:
-    assert head_of(Piece.SNARE, Zone.HEAD, Articulation.NORMAL) is Head.ROUND
-    assert head_of(Piece.SNARE, Zone.RIM, Articulation.CROSS_STICK) is Head.CROSS
-    assert head_of(Piece.RIDE, Zone.BELL, Articulation.NORMAL) is Head.DIAMOND
-    assert head_of(Piece.HIHAT, Zone.BOW, Articulation.NORMAL) is Head.CROSS
+    assert head_of(Piece.SNARE, Zone.HEAD, Articulation.NORMAL) is NoteHead.ROUND
+    assert head_of(Piece.SNARE, Zone.RIM, Articulation.CROSS_STICK) is NoteHead.CROSS
+    assert head_of(Piece.RIDE, Zone.BELL, Articulation.NORMAL) is NoteHead.DIAMOND
+    assert head_of(Piece.HIHAT, Zone.BOW, Articulation.NORMAL) is NoteHead.CROSS
 
 
 def test_heights_and_ledger_lines() -> None:
@@ -88,8 +88,8 @@ def test_heights_and_ledger_lines() -> None:
 
 def test_a_rock_bar() -> None:
     shapes = Engraver(rock(), ATLAS).bar(0)
-    assert len(of_kind(shapes, Kind.CROSS)) == 8
-    assert len(of_kind(shapes, Kind.ELLIPSE)) == 4, "two snares and two kicks, no dots"
+    assert len(of_kind(shapes, ShapeKind.CROSS)) == 8
+    assert len(of_kind(shapes, ShapeKind.ELLIPSE)) == 4, "two snares and two kicks, no dots"
     assert beams(shapes) == pytest.approx([0.25] * 4), "each beat's two eighths, a quarter of a second apart"
     assert letters(shapes, "R") == 8
     assert letters(shapes, "L") == 2
@@ -108,14 +108,14 @@ def test_bars_are_numbered_as_in_the_lesson_in_every_pass() -> None:
 
 def test_everything_of_a_note_is_anchored_at_its_time() -> None:
     shapes = bar_of(Note(PPQ, Piece.SNARE))
-    heads = of_kind(shapes, Kind.ELLIPSE)
+    heads = of_kind(shapes, ShapeKind.ELLIPSE)
     assert heads["time_s"].tolist() == [[0.5, 0.0]]
     assert heads["centre"].tolist() == [[0.0, height(5)]]
 
 
 def test_stems_of_hands_go_up_and_of_feet_down() -> None:
     shapes = bar_of(Note(0, Piece.SNARE), Note(0, Piece.KICK))
-    stems = shapes[(shapes["kind"] == Kind.BOX) & np.isclose(shapes["half"][:, 1], 0.065)]
+    stems = shapes[(shapes["kind"] == ShapeKind.BOX) & np.isclose(shapes["half"][:, 1], 0.065)]
     ends = {round(float(s["centre"][0]), 2): s for s in stems}
     assert set(ends) == {0.56, -0.56}, "right of the head when up, left when down"
     assert ends[0.56]["centre"][1] < height(5) < height(1) < ends[-0.56]["centre"][1]
@@ -141,7 +141,7 @@ def test_signs_of_a_note(note: Note, sign: str, count: int) -> None:
 def test_open_half_open_and_closed_hats() -> None:
     def rings(*openness: float | None) -> int:
         notes = [Note(k * PPQ, Piece.HIHAT, Zone.BOW, openness=o) for k, o in enumerate(openness)]
-        return len(of_kind(bar_of(*notes), Kind.ELLIPSE))
+        return len(of_kind(bar_of(*notes), ShapeKind.ELLIPSE))
 
     assert rings(None, 0.0) == 0
     assert rings(1.0) == 1
@@ -151,7 +151,7 @@ def test_open_half_open_and_closed_hats() -> None:
         Note(PPQ, Piece.HIHAT, Zone.BOW, openness=0.0),
         Note(2 * PPQ, Piece.HIHAT, Zone.BOW, openness=0.0),
     )
-    strokes = closing[(closing["kind"] == Kind.BOX) & np.isclose(closing["half"][:, 1], 0.08)]
+    strokes = closing[(closing["kind"] == ShapeKind.BOX) & np.isclose(closing["half"][:, 1], 0.08)]
     crossing = strokes[np.isclose(strokes["half"][:, 0], 0.45)]
     assert len(crossing) == 2, "one +, on the first closed stroke after the open one"
     assert set(crossing["time_s"][:, 0].tolist()) == {0.5}
@@ -160,7 +160,7 @@ def test_open_half_open_and_closed_hats() -> None:
 def test_flams_and_drags() -> None:
     main = Note(PPQ, Piece.SNARE, limb=Limb.RIGHT_HAND)
     flam = dataclasses.replace(main, limb=Limb.LEFT_HAND, lead_ms=30.0, ornament=Ornament.FLAM)
-    heads = of_kind(bar_of(main, flam), Kind.ELLIPSE)
+    heads = of_kind(bar_of(main, flam), ShapeKind.ELLIPSE)
     assert len(heads) == 2
     small = heads[np.argmin(heads["half"][:, 0])]
     assert small["centre"][0] < -1, "before the main note"
@@ -169,7 +169,7 @@ def test_flams_and_drags() -> None:
     shapes = bar_of(main, flam)
     assert (letters(shapes, "l"), letters(shapes, "R")) == (1, 1), "lR, as drummers write a flam"
     drag = [dataclasses.replace(flam, lead_ms=ms, ornament=Ornament.DRAG) for ms in (80.0, 40.0)]
-    places = of_kind(bar_of(main, *drag), Kind.ELLIPSE)["centre"][:, 0]
+    places = of_kind(bar_of(main, *drag), ShapeKind.ELLIPSE)["centre"][:, 0]
     assert len(set(places.tolist())) == 3
 
 
@@ -190,13 +190,13 @@ def test_a_single_eighth_has_a_flag_and_two_have_a_beam() -> None:
 def test_secondary_beams_and_stubs() -> None:
     shapes = bar_of(Note(0, Piece.SNARE), Note(3 * PPQ // 4, Piece.SNARE))
     assert beams(shapes) == pytest.approx([0.375])
-    stubs = (shapes["kind"] == Kind.BOX) & np.isclose(shapes["half"], [0.55, 0.25]).all(axis=1)
+    stubs = (shapes["kind"] == ShapeKind.BOX) & np.isclose(shapes["half"], [0.55, 0.25]).all(axis=1)
     assert stubs.sum() == 1
 
 
 def test_a_silent_bar_has_a_whole_rest() -> None:
     shapes = bar_of(Note(BAR, Piece.SNARE), bar=0)
-    blocks = shapes[(shapes["kind"] == Kind.BOX) & np.isclose(shapes["half"], [0.6, 0.25]).all(axis=1)]
+    blocks = shapes[(shapes["kind"] == ShapeKind.BOX) & np.isclose(shapes["half"], [0.6, 0.25]).all(axis=1)]
     assert len(blocks) == 1
     assert blocks["time_s"][0, 0] == 1.0, "in the middle of the bar"
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 av = pytest.importorskip("av", reason="av is not installed: pip install av")
-from station.render.gif_file import GifTimes, gif_times, pixels_of, write_gif  # noqa: E402 - only where av is
+from station.render.files.gif_file import GifTimes, gif_times, pixels_of, write_gif  # noqa: E402 - only where av is
 
 COLOURS = ((200, 30, 40), (20, 180, 60), (30, 60, 220))
 

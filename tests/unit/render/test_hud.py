@@ -3,9 +3,9 @@
 import pytest
 
 from station.drills.library import find_lesson, lesson_names
-from station.render.atlas import Atlas
 from station.render.hud import hud_lines
 from station.render.snapshot import Hud
+from station.render.text.atlas import Atlas
 
 SMALL = (640.0, 252.0)  # the scene of a picture of 640x360, over the score
 TITLES = sorted((find_lesson(name).title for name in lesson_names()), key=len)

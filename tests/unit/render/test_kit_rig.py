@@ -5,12 +5,12 @@ import pytest
 from numpy.typing import ArrayLike, NDArray
 
 from station.core.pieces import Piece
-from station.motion.figure import figure_of
-from station.motion.kit import load_kit
-from station.motion.pose import LEFT, RIGHT, Pose
-from station.render.drums import STICK_M, Detail, cymbal, drum
-from station.render.kit_rig import WORLD, KitRig, bone_matrices, build_kit, floor_discs
-from station.render.materials import Material
+from station.motion.kinematics.figure import figure_of
+from station.motion.kinematics.pose import LEFT, RIGHT, Pose
+from station.motion.kit.kit import load_kit
+from station.render.geometry.materials import Material
+from station.render.kit.instrument_meshes import STICK_M, Detail, cymbal, drum
+from station.render.kit.kit_rig import WORLD, KitRig, bone_matrices, build_kit, floor_discs
 from tests.unit.render.poses import pose_of
 
 KIT = load_kit()
@@ -103,9 +103,9 @@ def test_nothing_of_the_hardware_is_under_the_floor() -> None:
 
 
 def test_the_palette_holds_the_largest_kit() -> None:
-    from station.motion.kit import kit_names
-    from station.render.light_shader import MAX_BONES
-    from station.render.skeleton import Bone
+    from station.motion.kit.kit import kit_names
+    from station.render.figure.skeleton import Bone
+    from station.render.gpu.light_shader import MAX_BONES
 
     for name in kit_names():
         rig = build_kit(load_kit(name), Detail(12, hardware=False))

@@ -7,10 +7,10 @@ import pytest
 from numpy.typing import NDArray
 
 from station.core.errors import BadInput
-from station.render.atlas import ATLAS_SIZE, Atlas, distance_field
-from station.render.fonts import Face, font, font_path
-from station.render.outlines import SIGNS, sign
-from station.render.truetype import TrueType
+from station.render.text.atlas import ATLAS_SIZE, Atlas, distance_field
+from station.render.text.fonts import Face, font, font_path
+from station.render.text.sign_outlines import SIGNS, sign
+from station.render.text.truetype import TrueType
 
 
 def area(polygon: NDArray[np.float64]) -> float:

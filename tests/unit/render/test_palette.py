@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from station.render.ink import Colour
 from station.render.palette import (
     BRAND,
     EARLY,
@@ -29,6 +28,7 @@ from station.render.palette import (
     over_picture,
     with_opacity,
 )
+from station.render.text.draw_list import Colour
 
 GRAB = 0.55
 """Opacity of a slider's grab (`app.theme`)."""

@@ -8,16 +8,16 @@ from hypothesis import strategies as st
 
 from station.core.units import PPQ
 from station.music.tempo import MeterChange
-from station.render.rhythm import Group, Value, beat_groups, spell
+from station.render.notation.rhythm import BeatGroup, Value, beat_groups, spell
 
 Q = PPQ
 
 
-def values(group: Group) -> list[tuple[int, int]]:
+def values(group: BeatGroup) -> list[tuple[int, int]]:
     return [(s.value.base, s.value.dots) for s in group.strokes]
 
 
-def rests(group: Group) -> list[tuple[int, int]]:
+def rests(group: BeatGroup) -> list[tuple[int, int]]:
     return [(r.tick, r.value.base) for r in group.rests]
 
 

@@ -4,16 +4,16 @@ import numpy as np
 import pytest
 
 from station.core.pieces import Piece
-from station.motion.figure import figure_of
-from station.motion.kit import load_kit
+from station.motion.kinematics.figure import figure_of
+from station.motion.kit.kit import load_kit
 from station.music.judgement import Judgement, Label
-from station.render.atlas import Atlas
-from station.render.highway import Highway, lanes
-from station.render.ink import Ink, Kind
-from station.render.judgement_marks import draw_dynamics, draw_mark, off_db, timing_colour
+from station.render.notation.highway import Highway, lanes
+from station.render.notation.judgement_marks import draw_dynamics, draw_mark, off_db, timing_colour
+from station.render.notation.score_view import ScorePlace, pages, visible_bars
 from station.render.palette import EARLY, GOOD, LATE
-from station.render.score_view import Place, pages, visible_bars
 from station.render.snapshot import MARK_DTYPE, PENDING, Snapshot, mark, no_marks
+from station.render.text.atlas import Atlas
+from station.render.text.draw_list import DrawList, ShapeKind
 from tests.unit.render.scores import rock
 
 
@@ -33,33 +33,33 @@ def test_timing_colours() -> None:
 
 
 def test_the_staff_fills_its_place() -> None:
-    place = Place(0, 100, 1600, 306)
+    place = ScorePlace(0, 100, 1600, 306)
     assert place.space == pytest.approx(20.0)  # 15.3 spaces from above the bar numbers to below the sticking
     assert place.middle_line == pytest.approx(100 + 8.3 * 20)
 
 
-def marked(label: Label, asynchrony_ms: float = np.nan) -> set[Kind]:
+def marked(label: Label, asynchrony_ms: float = np.nan) -> set[ShapeKind]:
     row = np.zeros(1, MARK_DTYPE)
     row["label"], row["asynchrony_ms"] = label, asynchrony_ms
-    ink = Ink(Atlas())
+    ink = DrawList(Atlas())
     draw_mark(ink, row[0], 0.0, 12.0)
-    return {Kind(int(k)) for k in ink.shapes()["kind"]}
+    return {ShapeKind(int(k)) for k in ink.shapes()["kind"]}
 
 
 def test_each_judgement_has_a_shape_of_its_own() -> None:
     on_time, early, missed = marked(Label.MATCH, 5), marked(Label.MATCH, -40), marked(Label.MISS)
-    assert Kind.TRIANGLE in early
-    assert Kind.TRIANGLE not in on_time | missed
-    assert marked(Label.WRONG_PIECE, 5) == {Kind.BOX}
+    assert ShapeKind.TRIANGLE in early
+    assert ShapeKind.TRIANGLE not in on_time | missed
+    assert marked(Label.WRONG_PIECE, 5) == {ShapeKind.BOX}
 
 
 @pytest.mark.parametrize(("asynchrony_ms", "side"), [(-40.0, -1), (40.0, 1)])
 def test_arrows_point_where_the_hit_fell(asynchrony_ms: float, side: int) -> None:
     row = np.zeros(1, MARK_DTYPE)
     row["label"], row["asynchrony_ms"] = Label.MATCH, asynchrony_ms
-    ink = Ink(Atlas())
+    ink = DrawList(Atlas())
     draw_mark(ink, row[0], 0.0, 12.0)
-    arrow = ink.shapes()[ink.shapes()["kind"] == Kind.TRIANGLE][0]
+    arrow = ink.shapes()[ink.shapes()["kind"] == ShapeKind.TRIANGLE][0]
     assert np.sign(arrow["centre"][0]) == side
     assert np.sign(arrow["axis"][0]) == side
 
@@ -77,7 +77,7 @@ def test_marks_take_judgements_of_notes_alone() -> None:
 
 
 def test_every_piece_has_a_name_of_its_own() -> None:
-    from station.core.names import piece_name
+    from station.core.labels import piece_name
 
     assert len({piece_name(piece) for piece in Piece}) == len(Piece)
     assert piece_name(Piece.HIHAT) == "hi-hat"
@@ -85,7 +85,7 @@ def test_every_piece_has_a_name_of_its_own() -> None:
 
 def test_a_right_note_whose_time_is_not_told_is_neither_early_nor_late() -> None:
     assert timing_colour(np.nan) == GOOD
-    assert marked(Label.MATCH) == {Kind.ELLIPSE}
+    assert marked(Label.MATCH) == {ShapeKind.ELLIPSE}
 
 
 @pytest.mark.parametrize(
@@ -99,7 +99,7 @@ def test_how_much_louder_than_written(written: int, error: float, expected_db: f
 def test_no_strength_is_no_wedge() -> None:
     assert off_db(80, float("nan")) is None
     for nothing in (None, 3.0, -3.0):
-        ink = Ink(Atlas())
+        ink = DrawList(Atlas())
         draw_dynamics(ink, nothing, 0.0)
         assert len(ink) == 0
 
@@ -107,10 +107,10 @@ def test_no_strength_is_no_wedge() -> None:
 @pytest.mark.parametrize(("louder_db", "way"), [(9.0, -1), (-9.0, 1)])
 def test_the_wedge_points_up_when_too_loud_and_down_when_too_soft(louder_db: float, way: int) -> None:
     """Heights run downwards: above the head is negative."""
-    ink = Ink(Atlas())
+    ink = DrawList(Atlas())
     draw_dynamics(ink, louder_db, 0.0)
     wedge = ink.shapes()[0]
-    assert wedge["kind"] == Kind.TRIANGLE
+    assert wedge["kind"] == ShapeKind.TRIANGLE
     assert np.sign(wedge["centre"][1]) == way
     assert np.sign(wedge["axis"][1]) == way
 
@@ -132,7 +132,7 @@ def test_the_highway_s_notes_roll_at_their_times_in_their_lanes() -> None:
     score = rock(1)
     kit, figure = load_kit(), figure_of()
     shapes = Highway(Snapshot(score, 0.0, kit, figure), Atlas(), 40.0).rolling((-1.0, 3.0))
-    notes = shapes[(shapes["kind"] == Kind.BOX) & (shapes["half"][:, 0] > 0.1)]
+    notes = shapes[(shapes["kind"] == ShapeKind.BOX) & (shapes["half"][:, 0] > 0.1)]
     assert len(notes) == len(score)
     snares = notes[np.isclose(notes["centre"][:, 1], 1.5)]
     assert snares["time_s"][:, 0].tolist() == pytest.approx([0.5, 1.5])
@@ -140,7 +140,7 @@ def test_the_highway_s_notes_roll_at_their_times_in_their_lanes() -> None:
 
 @pytest.mark.parametrize(("width", "height", "space"), [(1280.0, 216.0, 216 / 15.3), (300.0, 180.0, 300 / 48)])
 def test_a_narrow_score_is_engraved_smaller_in_the_middle(width: float, height: float, space: float) -> None:
-    place = Place(0.0, 420.0, width, height)
+    place = ScorePlace(0.0, 420.0, width, height)
     assert place.space == pytest.approx(space)
     above, below = place.middle_line - 420 - 8.3 * space, 420 + height - place.middle_line - 7.0 * space
     assert above == pytest.approx(below, abs=1e-9)  # 8.3 spaces are engraved above the middle line, 7 below

@@ -12,14 +12,14 @@ from station.core.units import PPQ
 from station.drills.library import find_lesson
 from station.music.score import Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
-from station.render.fonts import Face
-from station.render.ink import Ink, Type
+from station.render.files.pdf_file import pdf
+from station.render.notation.line_breaks import ruler, systems
+from station.render.notation.sheet import MARGIN, PAPERS, SPACES, SheetWords, sheet
+from station.render.notation.sheet_key import notes_used, signs_used
 from station.render.palette import INK, INK_FAINT
-from station.render.paper import Filled, OutlineAtlas, Spot, filled
-from station.render.pdf import pdf
-from station.render.sheet import MARGIN, PAPERS, SPACES, SheetWords, sheet
-from station.render.sheet_key import notes_used, signs_used
-from station.render.systems import ruler, systems
+from station.render.text.draw_list import DrawList, TypeStyle
+from station.render.text.fonts import Face
+from station.render.text.paper import Filled, OutlineAtlas, PaperSpot, filled
 
 A4 = PAPERS["a4"]
 WORDS = SheetWords("Title", "Author", 80.0)
@@ -33,9 +33,9 @@ def area(shape: Filled) -> float:
     return abs(total)
 
 
-def drawn(ink: Ink, unit: float = 1.0) -> list[Filled]:
+def drawn(ink: DrawList, unit: float = 1.0) -> list[Filled]:
     assert isinstance(ink.atlas, OutlineAtlas)
-    return list(filled(ink.shapes(), ink.atlas, Spot((0.0, 0.0), unit)))
+    return list(filled(ink.shapes(), ink.atlas, PaperSpot((0.0, 0.0), unit)))
 
 
 def points(areas: list[Filled]) -> NDArray[np.float64]:
@@ -43,7 +43,7 @@ def points(areas: list[Filled]) -> NDArray[np.float64]:
 
 
 def test_areas_are_those_of_the_shapes() -> None:
-    ink = Ink(OutlineAtlas())
+    ink = DrawList(OutlineAtlas())
     ink.box((1.0, 2.0), (3.0, 4.0), INK)
     ink.line((0.0, 0.0), (3.0, 4.0), 0.5, INK)
     ink.ellipse((0.0, 0.0), (2.0, 1.0), INK, 0.4)
@@ -60,22 +60,22 @@ def test_areas_are_those_of_the_shapes() -> None:
 
 
 def test_a_shape_that_spans_a_time_reaches_from_one_place_to_the_other() -> None:
-    ink = Ink(OutlineAtlas())
+    ink = DrawList(OutlineAtlas())
     ink.time_s, ink.span_s = 2.0, 3.0
     ink.box((-0.5, 0.0), (1.0, 1.0), INK)
-    shapes = list(filled(ink.shapes(), ink.atlas, Spot((10.0, 0.0), 1.0, lambda s: 4.0 * s)))  # type: ignore[arg-type]
+    shapes = list(filled(ink.shapes(), ink.atlas, PaperSpot((10.0, 0.0), 1.0, lambda s: 4.0 * s)))  # type: ignore[arg-type]
     assert (points(shapes)[:, 0].min(), points(shapes)[:, 0].max()) == (10 + 8 - 0.5, 10 + 20 + 0.5)
 
 
 def test_letters_and_signs_lie_where_their_outlines_do() -> None:
-    ink = Ink(OutlineAtlas())
-    width = ink.text("HH", (5.0, 7.0), Type(10.0, INK, Face.BOLD))
+    ink = DrawList(OutlineAtlas())
+    width = ink.text("HH", (5.0, 7.0), TypeStyle(10.0, INK, Face.BOLD))
     found = points(drawn(ink))
     assert found[:, 1].max() == pytest.approx(7.0), "an H stands on the base line"
     assert 6.5 < 7.0 - found[:, 1].min() < 7.6, "capitals are 0.71 em high in Roboto"
     assert 5.0 < found[:, 0].min() < found[:, 0].max() < 5.0 + width
     for mirrored, low, high in ((False, 0.0, 2.62), (True, -2.62, 0.0)):
-        flag = Ink(ink.atlas)
+        flag = DrawList(ink.atlas)
         flag.sign("flag", (0.0, 0.0), INK, mirrored=mirrored)
         y = points(drawn(flag))[:, 1]
         assert (y.min(), y.max()) == pytest.approx((low, high)), "a flag hangs 2.62 spaces from its stem's end"

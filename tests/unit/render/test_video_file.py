@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from station.core.errors import DeviceError
 
 av = pytest.importorskip("av", reason="av is not installed: pip install av")
-from station.render.video_file import VideoFormat, video_file  # noqa: E402 - only where av is
+from station.render.files.video_file import VideoFormat, video_file  # noqa: E402 - only where av is
 
 SIZE = (96, 64)
 RATE_HZ = 48_000
@@ -149,7 +149,7 @@ def test_a_disk_that_fills_up_is_one_clear_line_and_leaves_the_old_file(tmp_path
         from pathlib import Path
         import numpy as np
         from station.core.errors import DeviceError
-        from station.render.video_file import VideoFormat, video_file
+        from station.render.files.video_file import VideoFormat, video_file
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[2]),) * 2)
         noise = np.random.default_rng(1).integers(16, 235, (30, 288, 256), np.uint8)

@@ -11,7 +11,7 @@ from station.music.performance import Performance
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.scoring.align import align
-from station.scoring.alignment import Alignment, Reference, judgements
+from station.scoring.matching.alignment import Alignment, Reference, judgements
 from tests.fakes.scores import flams, rock_beat
 
 EIGHTH_MS = 250  # at 120 bpm

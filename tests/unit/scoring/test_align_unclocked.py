@@ -13,7 +13,7 @@ from station.music.judgement import Label
 from station.music.performance import Performance
 from station.music.score import Score
 from station.scoring.align import align
-from station.scoring.alignment import Alignment, Reference
+from station.scoring.matching.alignment import Alignment, Reference
 from tests.fakes.played import played, varied_groove, with_noise
 from tests.fakes.scores import even_snare
 

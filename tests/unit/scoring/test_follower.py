@@ -8,8 +8,8 @@ from station.core.units import NS_PER_MS, PPQ
 from station.music.judgement import Judgement, Label
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
-from station.scoring.follower import Follower
-from station.scoring.windows import LEVELS
+from station.scoring.following.follower import Follower
+from station.scoring.matching.hit_windows import LEVELS
 
 
 def snares(count: int, other: Piece | None = None) -> Score:

@@ -10,7 +10,7 @@ from station.core.units import NS_PER_MS
 from station.music.judgement import Judgement, Label
 from station.music.performance import Performance
 from station.scoring.align import align
-from station.scoring.follower import Follower
+from station.scoring.following.follower import Follower
 from tests.fakes.journeys import Journey, Leg, Slips, through_composed, travel
 
 BARS = 24

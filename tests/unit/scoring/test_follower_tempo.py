@@ -6,13 +6,13 @@ The truth of the workload is its generator's (`bench.scoring_work`: which note e
 import numpy as np
 import pytest
 
-from station.bench.scoring_work import Player, f1, grooves, play
+from station.bench.rigs.scoring_work import WorkPlayer, f1, grooves, play
 from station.core.pieces import Piece
 from station.core.units import NS_PER_S, PPQ
 from station.music.judgement import Label
 from station.music.performance import Performance
 from station.music.score import Note, Score
-from station.scoring.follower import Follower
+from station.scoring.following.follower import Follower
 from tests.fakes.scores import swing_ride
 
 
@@ -33,7 +33,7 @@ def test_a_drifting_tempo_is_followed(drift: float) -> None:
     said = []
     for seed in range(3):
         score = grooves(1_000, seed)
-        played = play(score, Player(drift=drift), seed)
+        played = play(score, WorkPlayer(drift=drift), seed)
         said.append(f1(np.array(live_pairs(score, played.performance)), played))
     assert float(np.mean(said)) >= 0.995
 
@@ -41,7 +41,7 @@ def test_a_drifting_tempo_is_followed(drift: float) -> None:
 @pytest.mark.parametrize("tempo", [0.8, 0.9, 1.1, 1.2])
 def test_another_tempo_that_drifts_is_followed_from_the_first_bars_on(tempo: float) -> None:
     score = grooves(1_000, 4)
-    played = play(score, Player(tempo=tempo, drift=0.03), 4)
+    played = play(score, WorkPlayer(tempo=tempo, drift=0.03), 4)
     assert f1(np.array(live_pairs(score, played.performance)), played) >= 0.99
 
 

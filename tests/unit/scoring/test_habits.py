@@ -13,13 +13,13 @@ from station.core.units import NS_PER_MS, PPQ
 from station.music import passages
 from station.music.performance import HIT_DTYPE, Performance
 from station.music.score import Score
-from station.scoring.advice import Advice, advise
 from station.scoring.align import align
-from station.scoring.habits import Habits, habits
-from station.scoring.losses import wilson
-from station.scoring.points import Feel
-from station.scoring.regression import Column, fit
-from station.scoring.summary import Summary, View, summarise
+from station.scoring.analysis.error_rates import wilson
+from station.scoring.analysis.habits import Habits, habits
+from station.scoring.analysis.points import Feel
+from station.scoring.analysis.regression import Column, fit
+from station.scoring.analysis.summary import Summary, SummaryView, summarise
+from station.scoring.report.advice import Advice, advise
 from tests.fakes.scores import beat_and_fill, double_strokes, flams, rock_beat, swing_ride
 
 Floats = NDArray[np.float64]
@@ -41,7 +41,7 @@ def performed(
     seed: int = 1,
     shift_ms: Floats | float = 0.0,
     level_db: Floats | float = 0.0,
-    view: View | None = None,
+    view: SummaryView | None = None,
 ) -> Summary:
     rng = np.random.default_rng(1000 + seed)
     hits = np.zeros(len(score), HIT_DTYPE)
@@ -129,7 +129,7 @@ def test_a_swing_within_feel_is_not_scolded_and_costs_nothing() -> None:
 
 def test_a_goal_makes_feel_a_fault() -> None:
     """The same lean and the same swing, where a lesson allows 10 ms and a ratio 0.2 off."""
-    strict = View(feel=Feel(lean_ms=10.0, swing_error=0.2))
+    strict = SummaryView(feel=Feel(lean_ms=10.0, swing_error=0.2))
     laid_back = 18.0 * (ROCK.notes["piece"] == Piece.SNARE)
     assert first(advise(performed(ROCK, 3, shift_ms=laid_back, view=strict))) == "late_snare"
     softer: Floats = (1.6 / 2.6 - 2 / 3) * 500.0 * passages.swung(SWING).flags.astype(np.float64)
@@ -146,7 +146,7 @@ def test_the_spread_is_the_same_number_in_sentence_and_table() -> None:
 
 def test_tempi_are_told_in_the_beat_of_the_lesson() -> None:
     """100 quarters a minute are 66.7 dotted quarters; 85 % of them 56.7."""
-    view = View(beat_ticks=PPQ * 3 // 2)
+    view = SummaryView(beat_ticks=PPQ * 3 // 2)
     said = advise(performed(FILL, 1, shift_ms=-25.0 * passages.fill_ramp(FILL), view=view))[0]
     assert "57 bpm" in said.text
 

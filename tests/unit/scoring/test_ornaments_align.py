@@ -11,8 +11,8 @@ from station.music.performance import Performance
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.scoring.align import align
-from station.scoring.alignment import Alignment
-from station.scoring.follower import Follower
+from station.scoring.following.follower import Follower
+from station.scoring.matching.alignment import Alignment
 from tests.fakes.scores import flams
 
 

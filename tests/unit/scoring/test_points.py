@@ -10,7 +10,7 @@ from station.music.performance import HIT_DTYPE, Performance
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.scoring.align import align
-from station.scoring.summary import summarise
+from station.scoring.analysis.summary import summarise
 from tests.fakes.scores import beat_and_fill, double_strokes, even_snare, flams, rock_beat, swing_ride
 
 Array = NDArray[np.generic]

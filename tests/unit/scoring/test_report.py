@@ -13,9 +13,9 @@ from station.core.units import NS_PER_MS
 from station.music.performance import Performance
 from station.music.score import Score
 from station.scoring.align import align
-from station.scoring.document import Json, assessment
-from station.scoring.pairs import COLUMNS, pairs_csv, write_pairs
-from station.scoring.summary import Summary, View, WrongPiece, summarise
+from station.scoring.analysis.summary import Summary, SummaryView, WrongPiece, summarise
+from station.scoring.report.assessment_document import Json, assessment
+from station.scoring.report.pairs_table import COLUMNS, pairs_csv, write_pairs
 from tests.fakes.scores import flams, rock_beat
 
 
@@ -37,7 +37,7 @@ def small() -> tuple[Score, Performance]:
     return rock_beat(1), Performance.from_hits(hats + drums + more)
 
 
-def summed(score: Score, performance: Performance, view: View | None = None) -> Summary:
+def summed(score: Score, performance: Performance, view: SummaryView | None = None) -> Summary:
     return summarise(score, performance, align(score, performance, clocked=True), view)
 
 
@@ -88,7 +88,7 @@ def test_bars_of_a_loop_fold_onto_the_lessons_bars() -> None:
     performance = Performance.from_hits(
         [hit(at / NS_PER_MS, note.piece) for at, note in zip(score.onset_ns, score, strict=True)]
     )
-    table = summed(score, performance, View(pass_bars=2, first_bar=4)).by_bar
+    table = summed(score, performance, SummaryView(pass_bars=2, first_bar=4)).by_bar
     assert {bar: group.notes for bar, group in table.items()} == {4: 26, 5: 26}
 
 
@@ -115,7 +115,7 @@ def test_document_of_silence_has_no_zeroes_for_unknowns() -> None:
 
 
 def test_keys_without_velocity_have_no_dynamics() -> None:
-    assert assessment(summed(*small(), View(hears_velocity=False)))["dynamics"] is None
+    assert assessment(summed(*small(), SummaryView(hears_velocity=False)))["dynamics"] is None
 
 
 def rows_of(text: str) -> list[dict[str, str]]:

@@ -1,7 +1,7 @@
 import pytest
 
 from station.sound.drum_kit import DrumKit
-from station.sound.kit_synth import synth_kit
+from station.sound.synth.synth_kits import synth_kit
 from tests.unit.sound.kits import RATE_HZ
 
 

@@ -5,7 +5,7 @@ import pytest
 import soundfile
 
 from station.core.errors import BadInput
-from station.sound.audio_file import read_audio, resampled, to_stereo
+from station.sound.samples.audio_file import read_audio, resampled, to_stereo
 from tests.fakes.sound_files import steady, wav
 
 

@@ -7,17 +7,17 @@ from scipy import signal
 
 from station.core.errors import DeviceError
 from station.sound.calibration.chirp import HIGH_HZ, LENGTH_S, LOW_HZ, RULER, chirp, coherence
-from station.sound.calibration.estimate import Estimate
-from station.sound.calibration.loopback import Round, loopback
-from station.sound.calibration.timeline import Recording
+from station.sound.calibration.latency_estimate import LatencyEstimate
+from station.sound.calibration.loopback import LoopbackRound, loopback
+from station.sound.calibration.timeline import TimedRecording
 from tests.fakes.rooms import Room, chirps_played_ns, room_with_chirps
 
 
-def rounds(room: Room, *delays_ms: float) -> list[Round]:
-    return [Round(chirps_played_ns(), room_with_chirps(room, delay)) for delay in delays_ms]
+def rounds(room: Room, *delays_ms: float) -> list[LoopbackRound]:
+    return [LoopbackRound(chirps_played_ns(), room_with_chirps(room, delay)) for delay in delays_ms]
 
 
-def measured(room: Room, delay_ms: float) -> Estimate:
+def measured(room: Room, delay_ms: float) -> LatencyEstimate:
     return loopback(rounds(room, delay_ms, delay_ms))
 
 
@@ -70,7 +70,7 @@ def test_few_chirps_are_doubted() -> None:
     whole = rounds(Room(), 10.0)[0]
     sound = whole.recording.sound.copy()
     sound[: len(sound) // 2] = 0.0
-    found = loopback([Round(whole.played_ns, Recording(sound, whole.recording.timeline))])
+    found = loopback([LoopbackRound(whole.played_ns, TimedRecording(sound, whole.recording.timeline))])
     assert found.value_ms == pytest.approx(10.0, abs=0.05)
     assert any("came back alike" in doubt for doubt in found.doubts)
 
@@ -78,14 +78,14 @@ def test_few_chirps_are_doubted() -> None:
 def test_a_delay_that_moves_is_doubted() -> None:
     """Half of the chirps left 0.8 ms sooner than reported."""
     slipping = chirps_played_ns() - np.array([0, 0, 0, 800_000, 800_000, 800_000])
-    found = loopback([Round(slipping, room_with_chirps(Room(), 10.0))])
+    found = loopback([LoopbackRound(slipping, room_with_chirps(Room(), 10.0))])
     assert any("moved by 0.8 ms" in doubt for doubt in found.doubts)
 
 
 def test_chirps_that_each_come_back_at_another_time_are_no_measurement() -> None:
     stalled = chirps_played_ns() - np.array([0, 30, 7, 90, 55, 120]) * 1_000_000
     with pytest.raises(DeviceError, match="another delay"):
-        loopback([Round(stalled, room_with_chirps(Room(), 10.0))])
+        loopback([LoopbackRound(stalled, room_with_chirps(Room(), 10.0))])
 
 
 def test_an_impossible_delay_is_doubted() -> None:

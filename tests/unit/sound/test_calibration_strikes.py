@@ -5,8 +5,8 @@ import pytest
 
 from station.core.errors import DeviceError
 from station.core.pieces import Piece
-from station.sound.calibration.onsets import onsets
 from station.sound.calibration.strikes import Strikes, strikes
+from station.sound.calibration.stroke_onsets import onsets
 from tests.fakes.rooms import Room, room_with_strokes, stamps_ns, strokes_at_s
 
 PADS = (Piece.SNARE, Piece.RIDE)

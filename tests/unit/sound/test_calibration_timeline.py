@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from station.sound.calibration.timeline import Timeline
-from station.sound.dac_clock import DacClock
+from station.sound.output.dac_clock import DacClock
 
 BEGIN_NS = 3_000_000_000_000
 

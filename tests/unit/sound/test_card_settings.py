@@ -6,8 +6,8 @@ from typing import Literal
 import numpy as np
 import pytest
 
-from station.sound.card_output import fit_channels
-from station.sound.card_stream import SoundDevice, accepted_settings
+from station.sound.output.card_output import fit_channels
+from station.sound.output.card_stream import SoundDevice, accepted_settings
 
 
 class PortAudioError(Exception):

@@ -5,7 +5,7 @@ import pytest
 from numpy.typing import NDArray
 
 from station.core.units import NS_PER_S
-from station.sound.dac_clock import CLIP_NS, JUMP_BLOCKS, JUMP_NS, DacClock
+from station.sound.output.dac_clock import CLIP_NS, JUMP_BLOCKS, JUMP_NS, DacClock
 
 START_NS = 5_000_000_000_000_000  # a computer that has been up for two months
 

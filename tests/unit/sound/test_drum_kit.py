@@ -1,9 +1,9 @@
 import pytest
 
-from station.core.kitmap import Strike
+from station.core.note_map import NoteMeaning
 from station.core.pieces import Piece, Zone
 from station.sound.drum_kit import DrumKit, Layer, Sound, level_of
-from station.sound.sounds import SoundName
+from station.sound.sound_names import SoundName
 from tests.unit.sound.kits import RATE_HZ, constant, impulse, kit_of, sound_of
 
 # MIDI velocity to level after Dannenberg's square law, in dB, worked out by hand: 40·log10(v/127).
@@ -47,17 +47,17 @@ def test_what_a_kit_has_plays_itself() -> None:
 @pytest.mark.parametrize(
     ("has", "asked", "heard"),
     [
-        (SoundName.CRASH_1, Strike(Piece.CRASH_2, Zone.EDGE), SoundName.CRASH_1),
-        (SoundName.CRASH_2, Strike(Piece.CRASH_1, Zone.EDGE), SoundName.CRASH_2),
-        (SoundName.CRASH_1, Strike(Piece.SPLASH, Zone.EDGE), SoundName.CRASH_1),
-        (SoundName.RIDE_BOW, Strike(Piece.RIDE, Zone.BELL), SoundName.RIDE_BOW),
-        (SoundName.FLOOR_TOM_1, Strike(Piece.TOM_1), SoundName.FLOOR_TOM_1),
-        (SoundName.HIHAT_OPEN, Strike(Piece.HIHAT, openness=0.5), SoundName.HIHAT_OPEN),
-        (SoundName.CRASH_1, Strike(Piece.HIHAT_PEDAL, Zone.PEDAL), SoundName.HIHAT_CLOSED),
-        (SoundName.CRASH_1, Strike(Piece.SNARE, Zone.RIM), SoundName.SNARE),
+        (SoundName.CRASH_1, NoteMeaning(Piece.CRASH_2, Zone.EDGE), SoundName.CRASH_1),
+        (SoundName.CRASH_2, NoteMeaning(Piece.CRASH_1, Zone.EDGE), SoundName.CRASH_2),
+        (SoundName.CRASH_1, NoteMeaning(Piece.SPLASH, Zone.EDGE), SoundName.CRASH_1),
+        (SoundName.RIDE_BOW, NoteMeaning(Piece.RIDE, Zone.BELL), SoundName.RIDE_BOW),
+        (SoundName.FLOOR_TOM_1, NoteMeaning(Piece.TOM_1), SoundName.FLOOR_TOM_1),
+        (SoundName.HIHAT_OPEN, NoteMeaning(Piece.HIHAT, openness=0.5), SoundName.HIHAT_OPEN),
+        (SoundName.CRASH_1, NoteMeaning(Piece.HIHAT_PEDAL, Zone.PEDAL), SoundName.HIHAT_CLOSED),
+        (SoundName.CRASH_1, NoteMeaning(Piece.SNARE, Zone.RIM), SoundName.SNARE),
     ],
 )
-def test_a_missing_piece_is_played_by_its_substitute(has: SoundName, asked: Strike, heard: SoundName) -> None:
+def test_a_missing_piece_is_played_by_its_substitute(has: SoundName, asked: NoteMeaning, heard: SoundName) -> None:
     kit = kit_of({has: impulse()})
     name, sound, _ = kit.choose(asked)
     assert name is heard
@@ -68,7 +68,7 @@ def test_the_barest_kit_answers_every_stroke() -> None:
     kit = kit_of()
     for piece in Piece:
         for zone in Zone:
-            assert kit.choose(Strike(piece, zone))[0] in kit.sounds
+            assert kit.choose(NoteMeaning(piece, zone))[0] in kit.sounds
 
 
 def test_a_kit_without_a_kick_is_no_kit() -> None:

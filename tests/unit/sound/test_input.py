@@ -3,9 +3,9 @@ from dataclasses import dataclass
 import pytest
 
 from station.core.errors import DeviceError
-from station.sound.card_input import reported_adc_ns
-from station.sound.card_stream import SoundDevice
-from station.sound.output import choose_device
+from station.sound.output.card_input import reported_adc_ns
+from station.sound.output.card_stream import SoundDevice
+from station.sound.output.sound_output import choose_device
 
 NOW_NS = 1_000_000_000_000
 

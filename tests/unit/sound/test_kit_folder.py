@@ -5,10 +5,10 @@ import pytest
 
 from station.core.errors import BadInput
 from station.sound.drum_kit import DrumKit, Frames
-from station.sound.kits import samples
-from station.sound.kits.load import kit_names, load_kit
-from station.sound.kits.samples import loudness_of
-from station.sound.sounds import SoundName
+from station.sound.samples import recordings
+from station.sound.samples.load_kit import kit_names, load_kit
+from station.sound.samples.recordings import loudness_of
+from station.sound.sound_names import SoundName
 from tests.fakes.sound_files import steady, stroke
 
 RATE_HZ = 48_000
@@ -144,7 +144,7 @@ def test_a_folder_without_drums_is_refused(tmp_path: Path) -> None:
 
 
 def test_memory_is_bounded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(samples, "MAX_KIT_BYTES", 400_000)
+    monkeypatch.setattr(recordings, "MAX_KIT_BYTES", 400_000)
     takes = "[" + ", ".join(["'a.wav'"] * 5) + "]"  # 5 × 0.4 s × 48 000 × 8 bytes = 768 kB
     with pytest.raises(BadInput, match="larger than"):
         kit_in(folder_of(tmp_path, {"a.wav": stroke()}, f"[sounds.snare]\nlayers=[{{takes={takes}}}]"))

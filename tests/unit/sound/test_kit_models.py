@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from station.sound.drum_kit import Frames
-from station.sound.kit_synth import MODELS, synth_sound
-from station.sound.kits.samples import loudness_of
-from station.sound.sounds import SoundName
+from station.sound.samples.recordings import loudness_of
+from station.sound.sound_names import SoundName
+from station.sound.synth.synth_kits import MODELS, synth_sound
 from tests.unit.sound.kits import RATE_HZ
 
 OTHERS = ["brushes", "electronic"]

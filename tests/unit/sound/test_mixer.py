@@ -6,11 +6,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from station.core.kitmap import Strike
+from station.core.note_map import NoteMeaning
 from station.core.pieces import Articulation, Piece, Zone
+from station.sound.bus_levels import LEVEL_SLEW_S
 from station.sound.buses import Bus, ClickVoice
 from station.sound.drum_kit import DrumKit, Frames
-from station.sound.levels import LEVEL_SLEW_S
 from station.sound.limiter import KNEE
 from station.sound.mixer import (
     CHOKE_S,
@@ -22,17 +22,17 @@ from station.sound.mixer import (
     STEAL_S,
     Mixer,
 )
-from station.sound.sounds import SoundName
+from station.sound.sound_names import SoundName
 from tests.unit.sound.kits import RATE_HZ, constant, impulse, mixer_of, sound_of
 
-KICK = Strike(Piece.KICK)
-SNARE = Strike(Piece.SNARE)
-OPEN_HAT = Strike(Piece.HIHAT, Zone.EDGE, openness=1.0)
-HALF_HAT = Strike(Piece.HIHAT, Zone.EDGE, openness=0.5)
-CLOSED_HAT = Strike(Piece.HIHAT, Zone.EDGE, openness=0.0)
-CHICK = Strike(Piece.HIHAT_PEDAL, Zone.PEDAL, Articulation.CHICK, 0.0)
-FOOT_SPLASH = Strike(Piece.HIHAT_PEDAL, Zone.PEDAL, Articulation.SPLASH)
-CRASH = Strike(Piece.CRASH_1, Zone.EDGE)
+KICK = NoteMeaning(Piece.KICK)
+SNARE = NoteMeaning(Piece.SNARE)
+OPEN_HAT = NoteMeaning(Piece.HIHAT, Zone.EDGE, openness=1.0)
+HALF_HAT = NoteMeaning(Piece.HIHAT, Zone.EDGE, openness=0.5)
+CLOSED_HAT = NoteMeaning(Piece.HIHAT, Zone.EDGE, openness=0.0)
+CHICK = NoteMeaning(Piece.HIHAT_PEDAL, Zone.PEDAL, Articulation.CHICK, 0.0)
+FOOT_SPLASH = NoteMeaning(Piece.HIHAT_PEDAL, Zone.PEDAL, Articulation.SPLASH)
+CRASH = NoteMeaning(Piece.CRASH_1, Zone.EDGE)
 
 
 def frames_in(seconds: float) -> int:
@@ -170,7 +170,7 @@ def test_a_click_has_a_velocity() -> None:
 # --- chokes and the hi-hat's pedal -----------------------------------------------------------------------------------
 
 
-def ringing(*strikes: Strike, bus: Bus = Bus.STUDENT) -> Mixer:
+def ringing(*strikes: NoteMeaning, bus: Bus = Bus.STUDENT) -> Mixer:
     """A mixer in which these ring at level 0.1 each, some milliseconds after their strokes, all sounds constant."""
     mixer = mixer_of(default=constant(0.1, 5 * RATE_HZ))
     for strike in strikes:
@@ -196,7 +196,7 @@ def test_a_choke_fades_in_a_straight_line_within_its_time() -> None:
 
 
 def test_a_choke_grabs_only_its_piece_and_bus() -> None:
-    mixer = ringing(CRASH, Strike(Piece.RIDE))
+    mixer = ringing(CRASH, NoteMeaning(Piece.RIDE))
     mixer.trigger(Bus.DEMONSTRATION, CRASH, 127)
     mixer.choke(Bus.STUDENT, Piece.CRASH_1)
     mixer.render(frames_in(0.1))
@@ -213,7 +213,7 @@ def test_a_second_choke_does_not_lengthen_the_first() -> None:
 
 
 @pytest.mark.parametrize("closer", [CLOSED_HAT, CHICK])
-def test_closing_the_hihat_cuts_the_open_one(closer: Strike) -> None:
+def test_closing_the_hihat_cuts_the_open_one(closer: NoteMeaning) -> None:
     mixer = ringing(OPEN_HAT)
     mixer.trigger(Bus.STUDENT, closer, 127)
     mixer.render(frames_in(CLOSE_S) + 1)
@@ -313,8 +313,8 @@ def full_mixer(level: float) -> Mixer:
     mixer = mixer_of({SoundName.RIDE_BOW: constant(level / 4), SoundName.COWBELL: impulse(0.5)}, constant(level))
     others = [piece for piece in PIECES if piece not in (Piece.RIDE, Piece.COWBELL)]
     for index in range(MAX_VOICES - 1):
-        mixer.trigger(Bus.STUDENT, Strike(others[index % len(others)]), 127)
-    mixer.trigger(Bus.STUDENT, Strike(Piece.RIDE), 127)
+        mixer.trigger(Bus.STUDENT, NoteMeaning(others[index % len(others)]), 127)
+    mixer.trigger(Bus.STUDENT, NoteMeaning(Piece.RIDE), 127)
     mixer.render(300)
     return mixer
 
@@ -322,7 +322,7 @@ def full_mixer(level: float) -> Mixer:
 def test_the_quietest_voice_makes_room() -> None:
     mixer = full_mixer(0.01)
     assert mixer.ringing == MAX_VOICES
-    mixer.trigger(Bus.STUDENT, Strike(Piece.COWBELL), 127)
+    mixer.trigger(Bus.STUDENT, NoteMeaning(Piece.COWBELL), 127)
     mixer.render(frames_in(STEAL_S) + 100)
     assert mixer.render(1)[0, 0] == pytest.approx(0.01 * (MAX_VOICES - 1), rel=1e-4)  # the ride went
 
@@ -330,7 +330,7 @@ def test_the_quietest_voice_makes_room() -> None:
 def test_a_stolen_voice_fades_without_a_step() -> None:
     mixer = full_mixer(0.02)
     sound = mixer.render(100)
-    mixer.trigger(Bus.STUDENT, Strike(Piece.TOM_1), 1, 0)  # itself a step of 0.02/127²
+    mixer.trigger(Bus.STUDENT, NoteMeaning(Piece.TOM_1), 1, 0)  # itself a step of 0.02/127²
     sound = np.concatenate([sound, *(mixer.render(64) for _ in range(10))])
     assert largest_step(sound) <= 0.005 / frames_in(STEAL_S) + 2e-6
     assert sound[99, 0] - sound[-1, 0] == pytest.approx(0.005, abs=1e-5)
@@ -339,7 +339,7 @@ def test_a_stolen_voice_fades_without_a_step() -> None:
 def test_a_burst_of_strokes_never_exceeds_the_voices_nor_full_scale() -> None:
     mixer = mixer_of(default=constant(0.5, 20_000))
     for index in range(500):
-        mixer.trigger(Bus(index % 3), Strike(PIECES[index % len(PIECES)]), 127, index)
+        mixer.trigger(Bus(index % 3), NoteMeaning(PIECES[index % len(PIECES)]), 127, index)
     for _ in range(40):
         block = mixer.render(64)
         assert mixer.ringing <= MAX_VOICES
@@ -357,11 +357,11 @@ def test_a_roll_on_one_piece_keeps_to_its_share() -> None:
 def test_too_loud_is_bent_and_loud_enough_is_not() -> None:
     mixer = mixer_of(default=constant(0.39))
     for piece in (Piece.KICK, Piece.SNARE):
-        mixer.trigger(Bus.STUDENT, Strike(piece), 127)
+        mixer.trigger(Bus.STUDENT, NoteMeaning(piece), 127)
     assert mixer.render(10)[-1, 0] == np.float32(0.39) + np.float32(0.39)
     assert KNEE > 0.78
     for piece in (Piece.TOM_1, Piece.TOM_2, Piece.CRASH_1):
-        mixer.trigger(Bus.STUDENT, Strike(piece), 127)
+        mixer.trigger(Bus.STUDENT, NoteMeaning(piece), 127)
     assert KNEE < mixer.render(10)[-1, 0] <= 1.0
 
 
@@ -370,7 +370,7 @@ def test_too_loud_is_bent_and_loud_enough_is_not() -> None:
 Action = Callable[[Mixer, int], None]
 
 
-def _trigger(bus: Bus, strike: Strike, velocity: int) -> Action:
+def _trigger(bus: Bus, strike: NoteMeaning, velocity: int) -> Action:
     return lambda mixer, at: mixer.trigger(bus, strike, velocity, at)
 
 
@@ -425,7 +425,7 @@ def test_playing_on_holds_no_more_memory() -> None:
 
     def play(strokes: int) -> None:
         for index in range(strokes):
-            mixer.trigger(Bus.STUDENT, Strike(PIECES[index % len(PIECES)]), 100, index % 64)
+            mixer.trigger(Bus.STUDENT, NoteMeaning(PIECES[index % len(PIECES)]), 100, index % 64)
             mixer.render(64)
 
     play(100)

@@ -1,16 +1,16 @@
 import numpy as np
 
-from station.core.kitmap import Strike
+from station.core.note_map import NoteMeaning
 from station.core.pieces import Piece, Zone
 from station.sound.buses import Bus, ClickVoice
 from station.sound.drum_kit import DrumKit, Layer, Sound
 from station.sound.mixer import MUTE_S, Mixer
-from station.sound.sounds import SoundName
+from station.sound.sound_names import SoundName
 from tests.unit.sound.kits import RATE_HZ, constant, impulse
 
-CRASH = Strike(Piece.CRASH_1, Zone.EDGE)
-SPLASH = Strike(Piece.SPLASH, Zone.EDGE)
-SNARE = Strike(Piece.SNARE)
+CRASH = NoteMeaning(Piece.CRASH_1, Zone.EDGE)
+SPLASH = NoteMeaning(Piece.SPLASH, Zone.EDGE)
+SNARE = NoteMeaning(Piece.SNARE)
 MUTED = round(MUTE_S * RATE_HZ)
 
 

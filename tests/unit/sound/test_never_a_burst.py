@@ -7,15 +7,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from station.core.kitmap import Strike
+from station.core.note_map import NoteMeaning
 from station.core.pieces import Articulation, Piece, Zone
+from station.sound.bus_levels import LEVEL_SLEW_S
 from station.sound.buses import Bus, ClickVoice
-from station.sound.click import click_sounds
+from station.sound.click_sounds import click_sounds
 from station.sound.drum_kit import DrumKit, Layer, Sound
-from station.sound.kit_synth import synth_kit
-from station.sound.levels import LEVEL_SLEW_S
 from station.sound.mixer import CHOKE_S, STEAL_S, Mixer
-from station.sound.sounds import SoundName
+from station.sound.sound_names import SoundName
+from station.sound.synth.synth_kits import synth_kit
 from station.sound.track import EDGE_S, Track
 
 RATES_HZ = [44_100, 48_000, 88_200, 96_000]
@@ -32,7 +32,7 @@ def mixer_of(rate_hz: int, level: float, seconds: float = 1.0) -> Mixer:
 
 
 strikes = st.builds(
-    Strike,
+    NoteMeaning,
     st.sampled_from(Piece),
     st.sampled_from(Zone),
     st.sampled_from(Articulation),
@@ -82,7 +82,7 @@ def steps(mixer: Mixer, frames: int) -> float:
 @pytest.mark.parametrize("rate_hz", RATES_HZ)
 def test_what_ends_ends_without_a_click_in_the_same_time_at_any_rate(rate_hz: int) -> None:
     level = 0.2
-    crash, splash = Strike(Piece.CRASH_1, Zone.EDGE), Strike(Piece.CRASH_2, Zone.EDGE)
+    crash, splash = NoteMeaning(Piece.CRASH_1, Zone.EDGE), NoteMeaning(Piece.CRASH_2, Zone.EDGE)
     mixer = mixer_of(rate_hz, level, 5.0)
     mixer.trigger(Bus.STUDENT, crash, 127)
     mixer.render(rate_hz // 10)
@@ -110,9 +110,9 @@ def test_a_stolen_voice_leaves_without_a_click(rate_hz: int) -> None:
         Piece.TOM_3,
         Piece.KICK,
     ):
-        mixer.trigger(Bus.STUDENT, Strike(piece, Zone.EDGE), 127)
+        mixer.trigger(Bus.STUDENT, NoteMeaning(piece, Zone.EDGE), 127)
         mixer.render(100)
-    mixer.trigger(Bus.STUDENT, Strike(Piece.SNARE), 1)
+    mixer.trigger(Bus.STUDENT, NoteMeaning(Piece.SNARE), 1)
     assert steps(mixer, 4000) <= 1.05 * level / (STEAL_S * rate_hz) + level / 127**2
 
 
@@ -130,11 +130,11 @@ def test_a_mixer_that_is_listened_to_again_goes_on_with_nothing_old() -> None:
     """A card that is lost while a crash rings comes back into silence, not into the middle of the crash."""
     mixer = Mixer(synth_kit(48_000), click_sounds(48_000))
     for _ in range(40):  # some voices are stolen, some wait
-        mixer.trigger(Bus.STUDENT, Strike(Piece.CRASH_1), 127)
-        mixer.trigger(Bus.STUDENT, Strike(Piece.RIDE), 127)
+        mixer.trigger(Bus.STUDENT, NoteMeaning(Piece.CRASH_1), 127)
+        mixer.trigger(Bus.STUDENT, NoteMeaning(Piece.RIDE), 127)
     mixer.click(ClickVoice.ACCENT, at_frame=100)
     assert mixer.render(64).any()
     mixer.silence()
     assert not mixer.render(4800).any()
-    mixer.trigger(Bus.STUDENT, Strike(Piece.SNARE), 127)
+    mixer.trigger(Bus.STUDENT, NoteMeaning(Piece.SNARE), 127)
     assert mixer.render(480).any()

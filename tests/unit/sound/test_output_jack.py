@@ -13,7 +13,7 @@ from typing import IO
 import numpy as np
 import pytest
 
-from station.sound.gate import FADE_S
+from station.sound.output.fade_gate import FADE_S
 from tests.fakes.jack_recorder import JackRecorder
 from tests.fakes.jack_server import JackServer, jackd_is_installed, joined
 
@@ -70,7 +70,7 @@ def test_blocks_are_asked_for_with_the_time_at_which_they_are_heard() -> None:
     program = """
         import json, time
         import numpy as np
-        from station.sound.output import open_output
+        from station.sound.output.sound_output import open_output
         asked = []
 
         def render(frames, dac_ns):
@@ -110,7 +110,7 @@ def test_a_server_that_dies_is_told_of_and_not_waited_for() -> None:
         import sys, time
         import numpy as np
         from station.core.errors import DeviceError
-        from station.sound.output import list_outputs, open_output
+        from station.sound.output.sound_output import list_outputs, open_output
         output = open_output("", 0, 48_000)
         output.start(lambda frames, dac_ns: np.zeros((frames, 2), np.float32))
         time.sleep(0.2)
@@ -138,7 +138,7 @@ def test_a_server_that_starts_later_is_found() -> None:
     program = """
         import os, sys
         from station.core.errors import DeviceError
-        from station.sound.output import list_outputs, open_output
+        from station.sound.output.sound_output import list_outputs, open_output
         os.environ["JACK_NO_START_SERVER"] = "1"
         os.environ["JACK_DEFAULT_SERVER"] = "drum-test-nobody"
         print(any("JACK" in device.host for device in list_outputs()), flush=True)
@@ -158,7 +158,7 @@ def test_a_stream_that_pauses_does_not_click(tmp_path: Path) -> None:
     program = """
         import sys, time
         import numpy as np
-        from station.sound.output import open_output
+        from station.sound.output.sound_output import open_output
         output = open_output("system", 0, 48_000)
         output.start(lambda frames, dac_ns: np.full((frames, 2), 0.5, np.float32))
         print("plays", flush=True)

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from station.core.errors import DeviceError
-from station.core.kitmap import Strike
+from station.core.note_map import NoteMeaning
 from station.core.pieces import Piece
 from station.sound.buses import Bus
 from station.sound.track import EDGE_S, SEAM_S, TRACK_JUMP_S, PreparedTrack, Track, TrackVoice, load
@@ -126,7 +126,7 @@ def test_a_track_begins_on_its_frame_and_has_its_own_bus() -> None:
 def test_strokes_and_track_add_up() -> None:
     mixer = mixer_of(default=impulse(0.5))
     mixer.play_track(ramp_track())
-    mixer.trigger(Bus.STUDENT, Strike(Piece.SNARE), 127, 100)
+    mixer.trigger(Bus.STUDENT, NoteMeaning(Piece.SNARE), 127, 100)
     assert mixer.render(200)[100, 0] == pytest.approx(0.5 + 100 / 32768, abs=1e-6)
 
 

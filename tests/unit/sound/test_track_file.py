@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from station.core.errors import BadInput, DeviceError
 from station.sound.track import load
-from station.sound.track_file import TRACK_DB, TrackWish, pcm_of, prepare, prepare_in_background, stretched
+from station.sound.track_file import TRACK_DB, TrackRequest, pcm_of, prepare, prepare_in_background, stretched
 
 RATE_HZ = 48_000
 
@@ -53,7 +53,7 @@ def test_beats_stay_where_they_belong(speed: float) -> None:
 @pytest.mark.parametrize("ending", ["wav", "flac", "ogg", "mp3"])
 def test_a_file_is_prepared_and_loaded(tmp_path: Path, ending: str) -> None:
     song = file_of(tmp_path, name=f"song.{ending}", rate_hz=44_100)
-    prepared = prepare(TrackWish(song, RATE_HZ, 0.8, start_s=1.0, loop_s=(1.0, 3.0)), tmp_path / "kept")
+    prepared = prepare(TrackRequest(song, RATE_HZ, 0.8, start_s=1.0, loop_s=(1.0, 3.0)), tmp_path / "kept")
     track = load(prepared)
     assert len(track.pcm) / RATE_HZ == pytest.approx(5.0, abs=0.1)
     assert track.start == round(1.0 / 0.8 * RATE_HZ)
@@ -64,13 +64,13 @@ def test_a_file_is_prepared_and_loaded(tmp_path: Path, ending: str) -> None:
 
 def test_the_same_wish_finds_its_file_and_another_does_not(tmp_path: Path) -> None:
     song = file_of(tmp_path)
-    first = prepare(TrackWish(song, RATE_HZ, start_s=1.0), tmp_path / "kept")
+    first = prepare(TrackRequest(song, RATE_HZ, start_s=1.0), tmp_path / "kept")
     made_ns = first.file.stat().st_mtime_ns
-    assert prepare(TrackWish(song, RATE_HZ, start_s=2.0), tmp_path / "kept").file == first.file
+    assert prepare(TrackRequest(song, RATE_HZ, start_s=2.0), tmp_path / "kept").file == first.file
     assert first.file.stat().st_mtime_ns == made_ns
-    assert prepare(TrackWish(song, 44_100), tmp_path / "kept").file != first.file
+    assert prepare(TrackRequest(song, 44_100), tmp_path / "kept").file != first.file
     song.write_bytes(song.read_bytes()[:-4000])
-    assert prepare(TrackWish(song, RATE_HZ), tmp_path / "kept").file != first.file
+    assert prepare(TrackRequest(song, RATE_HZ), tmp_path / "kept").file != first.file
 
 
 def test_loud_music_lies_below_the_kit_and_never_clips() -> None:
@@ -98,24 +98,24 @@ def test_loud_music_lies_below_the_kit_and_never_clips() -> None:
 )
 def test_wishes_that_cannot_be_are_refused(tmp_path: Path, wish: dict[str, object], fault: str) -> None:
     with pytest.raises(BadInput, match=fault):
-        prepare(TrackWish(file_of(tmp_path), RATE_HZ, **wish), tmp_path)  # type: ignore[arg-type]
+        prepare(TrackRequest(file_of(tmp_path), RATE_HZ, **wish), tmp_path)  # type: ignore[arg-type]
 
 
 def test_what_is_no_music_is_refused_by_name(tmp_path: Path) -> None:
     (tmp_path / "song.mp3").write_bytes(b"nothing")
     with pytest.raises(BadInput, match=r"song\.mp3: .*cannot be read as sound"):
-        prepare(TrackWish(tmp_path / "song.mp3", RATE_HZ), tmp_path)
+        prepare(TrackRequest(tmp_path / "song.mp3", RATE_HZ), tmp_path)
 
 
 def test_a_disk_that_refuses_is_told(tmp_path: Path) -> None:
     (tmp_path / "file").write_bytes(b"")
     with pytest.raises(DeviceError, match="folder"):
-        prepare(TrackWish(file_of(tmp_path), RATE_HZ), tmp_path / "file" / "folder")
+        prepare(TrackRequest(file_of(tmp_path), RATE_HZ), tmp_path / "file" / "folder")
 
 
 def test_it_is_prepared_in_a_process_of_its_own(tmp_path: Path) -> None:
-    good = prepare_in_background(TrackWish(file_of(tmp_path, 1.0), RATE_HZ), tmp_path / "kept")
-    bad = prepare_in_background(TrackWish(tmp_path / "none.wav", RATE_HZ), tmp_path / "kept")
+    good = prepare_in_background(TrackRequest(file_of(tmp_path, 1.0), RATE_HZ), tmp_path / "kept")
+    bad = prepare_in_background(TrackRequest(tmp_path / "none.wav", RATE_HZ), tmp_path / "kept")
     assert good.result(60).file.exists()
     with pytest.raises(BadInput, match=r"none\.wav"):
         bad.result(60)

@@ -2,8 +2,18 @@
 
 from station.core.pieces import Articulation, Piece, Zone, word
 from station.core.units import NS_PER_MS, ns_from_ms
-from station.devices.wizard.steps import HALF_BOW, OPEN_BOW, OPEN_EDGE, SHUT_BOW, SHUT_EDGE, SPLASH, STEPS, Ask, Step
 from station.devices.wizard.wizard import Wizard
+from station.devices.wizard.wizard_steps import (
+    HALF_BOW,
+    OPEN_BOW,
+    OPEN_EDGE,
+    SHUT_BOW,
+    SHUT_EDGE,
+    SPLASH,
+    STEPS,
+    WizardQuestion,
+    WizardStep,
+)
 from tests.fakes.module import FakeModule, Sent
 
 _PAUSE_MS = 400.0
@@ -11,7 +21,7 @@ _SOFT, _FIRM = 3, 100
 _HATS = {OPEN_BOW: "open", OPEN_EDGE: "open edge", SHUT_BOW: "closed", SHUT_EDGE: "closed edge", HALF_BOW: "half"}
 
 
-def name(step: Step) -> str:
+def name(step: WizardStep) -> str:
     """What the fake module calls what a step asks for."""
     if step in _HATS:
         return _HATS[step]
@@ -21,21 +31,21 @@ def name(step: Step) -> str:
     return f"{word(step.piece)}{zone}"
 
 
-def answer(module: FakeModule, step: Step, ms: float) -> list[Sent]:
+def answer(module: FakeModule, step: WizardStep, ms: float) -> list[Sent]:
     """What the module sends when its owner does what the step asks."""
-    if step.ask is Ask.SWEEP:
+    if step.ask is WizardQuestion.SWEEP:
         return list(module.way(ms, 1.0, 0.0, 1500))
     times = [
         (ms + stroke * _PAUSE_MS, _FIRM if stroke < step.firm else _SOFT) for stroke in range(step.firm + step.soft)
     ]
-    if step.ask is Ask.GRAB:
+    if step.ask is WizardQuestion.GRAB:
         return [sent for at_ms, _ in times for sent in module.grabbed(name(step).removesuffix(" edge"), 2 * at_ms - ms)]
     if step.piece is Piece.HIHAT_PEDAL:
         return [s for at_ms, v in times for s in module.stomp(v, at_ms + 100, splash=step is SPLASH)]
     return [sent for at_ms, v in times for sent in module.strike(name(step), v, at_ms, step.openness)]
 
 
-def teach(module: FakeModule, port: str = "USB Kit", steps: tuple[Step, ...] = STEPS) -> Wizard:
+def teach(module: FakeModule, port: str = "USB Kit", steps: tuple[WizardStep, ...] = STEPS) -> Wizard:
     """A wizard that has asked everything; what the module does not send is skipped."""
     wizard, ms = Wizard(port, steps), 1000.0
     while not wizard.over:

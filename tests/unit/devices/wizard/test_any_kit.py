@@ -11,8 +11,8 @@ import pytest
 
 from station.core.pieces import Piece, word
 from station.core.units import ns_from_ms
-from station.devices.wizard.steps import STEPS, Ask, Step
 from station.devices.wizard.wizard import Wizard
+from station.devices.wizard.wizard_steps import STEPS, WizardQuestion, WizardStep
 from tests.fakes.module import FakeModule, Sent
 from tests.unit.devices.wizard.drummer import answer, name
 
@@ -45,7 +45,7 @@ def made(rng: random.Random) -> FakeModule:
     return FakeModule(notes, controller, pedal, places, crosstalk, doubles, least=rng.randint(1, 15))
 
 
-def strokes(module: FakeModule, step: Step, ms: float, rng: random.Random) -> Iterator[tuple[float, list[Sent]]]:
+def strokes(module: FakeModule, step: WizardStep, ms: float, rng: random.Random) -> Iterator[tuple[float, list[Sent]]]:
     """Stroke after stroke of what the step asks, with slips and some that are not heard, until nobody asks any more."""
     for count in range(24):
         ms += rng.uniform(150, 800)
@@ -61,7 +61,7 @@ def strokes(module: FakeModule, step: Step, ms: float, rng: random.Random) -> It
 def taught(module: FakeModule, rng: random.Random) -> Wizard:
     wizard, ms = Wizard("no make"), 1000.0
     for number, step in enumerate(STEPS, 1):
-        struck = step.ask is Ask.STRIKE and step.piece is not Piece.HIHAT_PEDAL
+        struck = step.ask is WizardQuestion.STRIKE and step.piece is not Piece.HIHAT_PEDAL
         by_hand = strokes(module, step, ms, rng) if struck and name(step) in module.notes else iter(())
         at_once = [] if struck else [(ms, answer(module, step, ms))]
         for at_ms, sent in (*at_once, *by_hand):

@@ -7,18 +7,18 @@ import pytest
 
 from station.core.errors import BadInput
 from station.core.events import Hit
-from station.core.kitmap import Strike
+from station.core.note_map import NoteMeaning
 from station.core.pieces import Articulation, Piece, Zone
 from station.core.units import NS_PER_MS
-from station.devices.kit import Pad
-from station.devices.kit_file import parse_kit
-from station.devices.kit_text import kit_text
-from station.devices.presets import GENERAL_MIDI_PRESET, preset_named
+from station.devices.mapping.device_file import parse_kit
+from station.devices.mapping.device_map import Pad
+from station.devices.mapping.device_writer import kit_text
+from station.devices.mapping.presets import GENERAL_MIDI_PRESET, preset_named
 from station.devices.wizard.one_hit import PadEar, in_words, taught
-from station.devices.wizard.pads import PADS, all_pads, pad_name, pad_named
-from station.devices.wizard.touch_learning import TouchLearning
+from station.devices.wizard.pad_choices import PADS, all_pads, pad_name, pad_named
+from station.devices.wizard.velocity_learning import TouchLearning
 
-RIM = Strike(Piece.TOM_1, Zone.RIM)
+RIM = NoteMeaning(Piece.TOM_1, Zone.RIM)
 MS = NS_PER_MS
 
 
@@ -68,7 +68,7 @@ def test_a_note_is_the_pad_from_then_on_and_the_file_keeps_it() -> None:
 def test_a_number_that_comes_on_two_channels_is_learnt_for_one() -> None:
     ear = heard((0, "99 26 40"), (300, "92 26 60"))
     assert [ear.is_shared((3, 38)), ear.is_shared((10, 40))] == [True, False]
-    kit = taught(GENERAL_MIDI_PRESET, (3, 38), Strike(Piece.COWBELL), is_shared=True)
+    kit = taught(GENERAL_MIDI_PRESET, (3, 38), NoteMeaning(Piece.COWBELL), is_shared=True)
     assert [kit.strike(channel, 38).piece for channel in (3, 10)] == [Piece.COWBELL, Piece.SNARE]
     assert taught(kit, (3, 38), RIM).strike(3, 38) == RIM, "what was learnt last holds"
 
@@ -95,7 +95,7 @@ def test_every_pad_has_a_name_that_finds_it() -> None:
     names = list(all_pads())
     assert len({pad_named(name) for name in names}) == len(names)
     assert set(PADS) == set(Piece) - {Piece.PERCUSSION}
-    assert pad_named("snare/cross_stick") == Strike(Piece.SNARE, Zone.RIM, Articulation.CROSS_STICK)
+    assert pad_named("snare/cross_stick") == NoteMeaning(Piece.SNARE, Zone.RIM, Articulation.CROSS_STICK)
     assert [pad_name(pad_named(name)) for name in ("kick", "ride/bell", "hihat/half_open")] == [
         "kick",
         "ride, bell",

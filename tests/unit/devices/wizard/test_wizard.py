@@ -3,16 +3,16 @@
 import pytest
 
 from station.core.events import Choke, DeviceEvent, Hit
-from station.core.kitmap import Strike, strike_of
+from station.core.note_map import NoteMeaning, strike_of
 from station.core.pieces import Articulation, Piece, Zone
 from station.core.units import NS_PER_MS, ns_from_ms
 from station.devices.decoders import DecoderBank
-from station.devices.kit import KitPreset, PedalRange
-from station.devices.kit_file import parse_kit
-from station.devices.kit_text import kit_text
-from station.devices.presets import preset_named
-from station.devices.wizard.steps import STEPS
+from station.devices.mapping.device_file import parse_kit
+from station.devices.mapping.device_map import DeviceMap, PedalRange
+from station.devices.mapping.device_writer import kit_text
+from station.devices.mapping.presets import preset_named
 from station.devices.wizard.wizard import Wizard
+from station.devices.wizard.wizard_steps import STEPS
 from tests.fakes.module import FakeModule, Sent
 from tests.unit.devices.wizard.drummer import answer, teach
 
@@ -38,11 +38,11 @@ CRIMSON = {
 }
 
 
-def learned(module: FakeModule, port: str = "USB Kit") -> KitPreset:
+def learned(module: FakeModule, port: str = "USB Kit") -> DeviceMap:
     return teach(module, port).learned().kit
 
 
-def played(kit: KitPreset, sent: list[Sent]) -> list[DeviceEvent]:
+def played(kit: DeviceMap, sent: list[Sent]) -> list[DeviceEvent]:
     bank, told = DecoderBank(), list[DeviceEvent]()
     bank.add("kit", kit)
     for ms, data in sorted(sent):
@@ -50,7 +50,7 @@ def played(kit: KitPreset, sent: list[Sent]) -> list[DeviceEvent]:
     return told + bank.flush()
 
 
-def hits(kit: KitPreset, sent: list[Sent]) -> list[tuple[Piece, int]]:
+def hits(kit: DeviceMap, sent: list[Sent]) -> list[tuple[Piece, int]]:
     return [(event.piece, event.velocity) for event in played(kit, sent) if isinstance(event, Hit)]
 
 
@@ -80,8 +80,8 @@ def test_what_differs_from_the_preset_is_learned() -> None:
     result = teach(FakeModule({**TD17, "ride edge": 66, "tom_2": 61}), "TD-17").learned()
     assert result.guess.preset.name == "roland-td-17"
     assert result.guess.differing == 2
-    assert result.kit.notes[66] == Strike(Piece.RIDE, Zone.EDGE)
-    assert result.kit.notes[61] == Strike(Piece.TOM_2)
+    assert result.kit.notes[66] == NoteMeaning(Piece.RIDE, Zone.EDGE)
+    assert result.kit.notes[61] == NoteMeaning(Piece.TOM_2)
     assert {"second tom, on the head: note 61", "ride, on the edge: note 66"} <= set(result.findings)
     assert parse_kit(kit_text(result.kit), result.kit.name) == result.kit
 
@@ -105,12 +105,12 @@ def test_numbers_that_no_preset_has_are_learned_all_the_same() -> None:
         "ride bell": 10,
     }
     notes = learned(FakeModule(odd)).notes
-    assert notes[1] == Strike(Piece.KICK)
-    assert notes[3] == Strike(Piece.HIHAT, Zone.BOW, openness=1.0)
-    assert notes[4] == Strike(Piece.HIHAT, Zone.BOW, openness=0.0)
-    assert notes[5] == Strike(Piece.HIHAT, Zone.BOW, openness=0.5)
-    assert notes[6] == Strike(Piece.HIHAT_PEDAL, Zone.PEDAL, Articulation.CHICK, 0.0)
-    assert notes[10] == Strike(Piece.RIDE, Zone.BELL)
+    assert notes[1] == NoteMeaning(Piece.KICK)
+    assert notes[3] == NoteMeaning(Piece.HIHAT, Zone.BOW, openness=1.0)
+    assert notes[4] == NoteMeaning(Piece.HIHAT, Zone.BOW, openness=0.0)
+    assert notes[5] == NoteMeaning(Piece.HIHAT, Zone.BOW, openness=0.5)
+    assert notes[6] == NoteMeaning(Piece.HIHAT_PEDAL, Zone.PEDAL, Articulation.CHICK, 0.0)
+    assert notes[10] == NoteMeaning(Piece.RIDE, Zone.BELL)
 
 
 # --- the hi-hat ------------------------------------------------------------------------------------------------------
@@ -270,7 +270,7 @@ def test_a_pad_that_sends_nothing_soft_is_learned_all_the_same() -> None:
     strike(wizard, 61, 0, 3)
     wizard.skip()
     assert wizard.view().step == 2
-    assert wizard.learned().kit.notes[61] == Strike(Piece.KICK)
+    assert wizard.learned().kit.notes[61] == NoteMeaning(Piece.KICK)
 
 
 def test_a_pad_that_was_another_before_is_told_and_asked_again() -> None:

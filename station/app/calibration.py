@@ -1,0 +1,196 @@
+"""Measuring latency from the window: in a process of its own, while the engine rests; nothing is stored unasked.
+
+The engine has the sound card and the kit for itself: it is put to rest before and woken after. What was told and found
+is kept here for the page; `keep` subtracts it from then on, only when the user says so. What measures is heavy, and not
+imported before it is wanted: the window would open later by a fifth.
+"""
+
+import multiprocessing as mp
+from collections.abc import Callable
+from dataclasses import dataclass
+from datetime import date
+from multiprocessing.connection import Connection
+from pathlib import Path
+from typing import TYPE_CHECKING, Protocol, TypeAlias
+
+from station.core.errors import DeviceError, StationError
+from station.core.measured_latency import load_calibration, save_calibration
+
+if TYPE_CHECKING:
+    from station.app.calibration_results import CalibrationResult, CalibrationResults
+    from station.app.latency_methods import MeasureRequest
+
+REPORT, LOOPBACK, STRIKE, TAP = "report", "loopback", "strike", "tap"
+"""The ways to measure (docs/calibration.md)."""
+_ENDED = "the measurement ended without a result"
+
+
+@dataclass(frozen=True, slots=True)
+class Failed:
+    """Why nothing could be measured, in a line."""
+
+    why: str
+
+
+Told: TypeAlias = "str | CalibrationResults | Failed"
+"""What a measurement says: lines for the user, and at last what it found or why it did not."""
+
+
+class Running(Protocol):
+    """A measurement that runs."""
+
+    def told(self) -> "list[Told]":
+        """What it has said since the last call."""
+        ...
+
+    def end(self) -> None:
+        """End it, wherever it is."""
+        ...
+
+
+class MeasuringProcess:
+    """A measurement in a process of its own; raises `DeviceError` where the system has none to give."""
+
+    def __init__(self, wish: "MeasureRequest") -> None:
+        context = mp.get_context("spawn")
+        self._from, to = context.Pipe(duplex=False)
+        self._process = context.Process(target=_measure, args=(to, wish), daemon=True)
+        try:
+            self._process.start()
+        except OSError as fault:
+            raise DeviceError(f"nothing can be measured: {fault.strerror or fault}") from fault
+        finally:
+            to.close()
+
+    def told(self) -> "list[Told]":
+        """What has come through the pipe; a process that died has failed."""
+        said: list[Told] = []
+        try:
+            while self._from.poll():
+                said.append(self._from.recv())
+        except (EOFError, OSError):
+            said.append(Failed(_ENDED))
+        return said
+
+    def end(self) -> None:
+        """Kill it if it still runs."""
+        self._process.kill()
+        self._process.join()
+        self._from.close()
+
+
+def _measure(to: Connection, wish: "MeasureRequest") -> None:
+    """What the process does."""
+    from station.app.latency_methods import measured
+
+    try:
+        to.send(measured(wish, load_calibration(), to.send))
+    except StationError as fault:
+        to.send(Failed(str(fault)))
+
+
+class Calibration:
+    """One measurement after the other; `rest` and `wake` are the engine's, `start` begins a measurement.
+
+    `rest` returns what says whether the engine has let its devices go.
+    """
+
+    def __init__(
+        self,
+        rest: Callable[[], Callable[[], bool]],
+        wake: Callable[[], None],
+        start: "Callable[[MeasureRequest], Running]" = MeasuringProcess,
+        path: Path | None = None,
+    ) -> None:
+        self._rest, self._wake, self.start, self._path = rest, wake, start, path
+        self._running: Running | None = None
+        self._wish: MeasureRequest | None = None  # what waits for the devices
+        self._are_free: Callable[[], bool] = lambda: True
+        self._by = ""
+        self.lines: list[str] = []
+        self.fault = ""
+        self.findings: CalibrationResults | None = None
+
+    @property
+    def runs(self) -> bool:
+        """Whether something is being measured."""
+        return self._running is not None or self._wish is not None
+
+    def measure(self, wish: "MeasureRequest") -> None:
+        """Begin as soon as the engine rests; raises `DeviceError` where that cannot be."""
+        self.refuse()
+        self._are_free = self._rest()
+        self.drop()
+        self._by, self._wish = wish.by, wish
+        self._begin()
+
+    def _begin(self) -> None:
+        """Begin with what waits for the devices, if they are free."""
+        if self._wish is None or not self._are_free():
+            return
+        wish, self._wish = self._wish, None
+        try:
+            self._running = self.start(wish)
+        except DeviceError:
+            self._wake()
+            raise
+
+    def advance(self) -> None:
+        """Take in what was said; at its end the engine wakes. Raises `DeviceError` where it does not."""
+        self._begin()
+        if self._running is None:
+            return
+        for told in self._running.told():
+            if isinstance(told, str):
+                self.lines.append(told)
+                continue
+            if isinstance(told, Failed):
+                self.fault = told.why
+            else:
+                self.findings = told
+            self.cancel()
+            return
+
+    def cancel(self) -> None:
+        """End what runs, and wake the engine; what was found stays."""
+        if self.runs:
+            self.close()
+            self._wake()
+
+    def close(self) -> None:
+        """End what runs, and let the engine sleep: the window closes."""
+        self._wish = None
+        if self._running is not None:
+            self._running.end()
+            self._running = None
+
+    def refuse(self) -> None:
+        """Raise `DeviceError` while something is being measured: nothing else may sound."""
+        if self.runs:
+            raise DeviceError("a device is being measured: wait for it, or cancel it on the Devices page")
+
+    def drop(self) -> None:
+        """Forget what was told and found."""
+        self.lines, self.fault, self.findings = [], "", None
+
+    @property
+    def worth(self) -> "list[CalibrationResult]":
+        """What judgement could subtract; pads that are in doubt go with their kit."""
+        rows = () if self.findings is None else self.findings.rows
+        return [row for row in rows if row.storable and (row.estimate.trusted or row.what != "pad")]
+
+    @property
+    def trusted(self) -> bool:
+        """Whether nothing speaks against any of that."""
+        return all(row.estimate.trusted for row in self.worth)
+
+    def keep(self) -> str:
+        """Subtract it from now on; returns what to tell. Raises `StationError` if the file refuses."""
+        from station.app.calibration_results import outdated, with_rows
+
+        before, rows = load_calibration(self._path), self.worth
+        path = save_calibration(with_rows(before, rows, self._by, date.today()), self._path)
+        forgotten = outdated(before, rows)
+        self.drop()
+        also = f"; what was tapped on {', '.join(forgotten)} is forgotten: tap again" if forgotten else ""
+        return f"kept in {path}{also}"

@@ -1,0 +1,59 @@
+"""What there is to practise, and how far the student is with it: lessons, courses, progress."""
+
+from collections.abc import Callable, Mapping, Sequence
+
+from station.app.lesson_cards import all_lessons, card
+from station.app.model import LessonCard
+from station.core.settings import Settings
+from station.drills.course import Course
+from station.drills.lesson import Lesson
+from station.drills.library import courses_in, find_lesson, shipped_courses
+from station.practice.records.lesson_progress import LessonProgress, progress_of
+
+
+class Catalog:
+    """The lessons that ship, those of the user's own courses, and `first`, which the window was opened on.
+
+    `settings` are asked for whose progress it is, `tell` hears what is wrong with a course that is left out.
+    """
+
+    def __init__(self, settings: Callable[[], Settings], first: Lesson, tell: Callable[[str], None]) -> None:
+        self._settings, self._first, self._tell = settings, first, tell
+        self._lessons: dict[str, Lesson] | None = None
+        self._courses: Sequence[Course] | None = None
+        self._progress: tuple[str, Mapping[str, LessonProgress]] | None = None
+
+    def first_card(self) -> LessonCard:
+        """The lesson that is chosen when the window opens, which is there sooner than all others."""
+        return card(self._first)
+
+    def cards(self) -> Sequence[LessonCard]:
+        """Every lesson that can be chosen, in the order in which they are shown; the first call takes a moment."""
+        if self._lessons is None:
+            self._lessons = all_lessons(self._first, self.courses())
+        return [card(lesson) for lesson in self._lessons.values()]
+
+    def courses(self) -> Sequence[Course]:
+        """The user's own courses, then those that ship; a file that cannot be read is left out."""
+        if self._courses is None:
+            own, faults = courses_in(self._settings().courses_dir)
+            self._courses = (*own, *shipped_courses())
+            for fault in faults:
+                self._tell(str(fault))
+        return self._courses
+
+    def progress(self) -> Mapping[str, LessonProgress]:
+        """How far the student is, by the names of lessons, when a session was kept last."""
+        settings = self._settings()
+        if self._progress is None or self._progress[0] != settings.student:
+            self._progress = settings.student, progress_of(settings.sessions_dir, settings.student)
+        return self._progress[1]
+
+    def learnt(self) -> None:
+        """A session was kept: what is known of the progress is out of date."""
+        self._progress = None
+
+    def lesson(self, name: str) -> Lesson:
+        """The lesson of a name or a file; raises `BadInput`."""
+        known = {self._first.name: self._first} | (self._lessons or {})
+        return known.get(name) or find_lesson(name)

@@ -1,0 +1,242 @@
+"""The demonstration of the chosen lesson on its player: its picture at any time, and its sound through the engine.
+
+Whatever the user does gives a new `SongPlayer`; where that one is heard, the engine gets its cues and the player waits
+for the moment at which the engine says that they sound, so that picture and sound stay together. Backwards, wound and
+stepped through, it is silent: drums cannot sound backwards.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from station.core.units import NS_PER_MS, NS_PER_S, PPQ
+from station.drills.lesson import Lesson
+from station.engine.messages import Command, Play, Stop
+from station.motion.drummer import Drummer
+from station.motion.kit.kit import Kit
+from station.motion.sticking.hand_notes import Hands
+from station.music.score import Score
+from station.practice.demonstration.song_cues import SOUNDED_NS, CountIn, after, count_in_of, song_cues
+from station.practice.demonstration.song_player import FLAGS, Song, SongPlayer, SongStep
+from station.practice.session.click_pattern import PLAIN, ClickPattern
+from station.practice.session.plan import with_sticking
+from station.render.snapshot import BarNumbers, Hud, Snapshot
+from station.scenes.curves import ScoreCurves
+from station.scenes.demonstrator import Demonstrator
+
+LEAD_NS = 50 * NS_PER_MS
+"""How long after a change the sound begins: the engine's way and a block of sound fit in (our choice)."""
+
+_WAITING_NS = 1 << 62
+"""A session time that never comes: until its sound is asked for, the player stands."""
+
+Control = Callable[[SongPlayer, int], SongPlayer]
+"""What a control does with a player at a session time."""
+
+
+@dataclass(frozen=True, eq=False)
+class DemonstratedLesson:
+    """What is demonstrated: a lesson, on which kit and by whose leading hand, and what clicks."""
+
+    lesson: Lesson
+    kit: Kit
+    hands: Hands | None = None
+    click: ClickPattern = PLAIN
+
+
+class DemoPlayer:
+    """One lesson's demonstration by `who`; commands for the engine go through `send`, which may not raise.
+
+    `step`, `click` and `counts_in` are what the user has chosen for steps and sound; flags are kept for every lesson.
+    """
+
+    def __init__(
+        self, send: Callable[[Command], None], watched: DemonstratedLesson, who: Demonstrator | None = None
+    ) -> None:
+        self._send = send
+        self._watched = watched
+        self._who = who or Demonstrator()
+        self._drummer: Drummer | None = None
+        self._flags: dict[str, tuple[int | None, ...]] = {}
+        self._sounding_until_ns: int | None = None
+        self._due = False
+        self.now_ns = 0
+        self._counting: CountIn | None = None  # what is counted before it goes on
+        self.step, self.click = SongStep.BEAT, True
+        self.counts_in = False
+        """Whether a bar is counted before it plays."""
+        self.player = SongPlayer(Song.of(self.score))
+
+    # --- what it plays -----------------------------------------------------------------------------------------------
+
+    @property
+    def lesson(self) -> Lesson:
+        """What is demonstrated."""
+        return self._watched.lesson
+
+    @property
+    def score(self) -> Score:
+        """The whole lesson at its own tempo."""
+        return self._watched.lesson.score
+
+    def load(self, watched: DemonstratedLesson, bars: tuple[int, int] | None) -> None:
+        """Take a lesson, its `bars` (first, last, from 1) as the loop; the same lesson stays where it is."""
+        before, self._watched = self._watched, watched
+        if watched.lesson is not before.lesson or watched.hands != before.hands:
+            self._drummer = None
+        if watched.lesson is not before.lesson:
+            self.halt()
+            self._flags[before.lesson.name] = self.player.flags
+            flags = self._flags.get(watched.lesson.name, (None,) * FLAGS)
+            self.player = SongPlayer(Song.of(self.score), speed_percent=self.player.speed_percent, flags=flags)
+        self.repeat(bars)
+
+    def repeat(self, bars: tuple[int, int] | None) -> None:
+        """Repeat these bars (first, last, from 1), None for the whole lesson once."""
+        loop = None if bars is None else (bars[0] - 1, bars[1] - 1)
+        if loop != self.player.loop:
+            self.do(lambda player, now_ns: player.looped(now_ns, loop))
+
+    def perform_as(self, who: Demonstrator) -> None:
+        """Let another body or manner demonstrate from now on."""
+        if who.figure is not self._who.figure:
+            self._drummer = None
+        self._who = who
+
+    @property
+    def drummer(self) -> Drummer:
+        """Who plays the whole lesson, in the present style; made, and made anew, when asked for."""
+        if self._drummer is None:
+            watched, who = self._watched, self._who
+            score = with_sticking(self.score, watched.kit, watched.hands)
+            self._drummer = Drummer(score, watched.kit, who.figure, who.style)
+        if self._drummer.style is not self._who.style:
+            self._drummer = self._drummer.with_style(self._who.style)
+        return self._drummer
+
+    # --- what the user does ------------------------------------------------------------------------------------------
+
+    def do(self, control: Control, held: bool = False) -> None:
+        """Use a control; while it is `held` (a slider that is dragged), nothing sounds."""
+        before, left_ns = self.player, self._left_ns
+        self.player = control(before, self.now_ns)
+        begins = self.player.is_heard and (left_ns > 0 or not before.is_heard)
+        self._counting = self._count_in() if begins else None
+        if held or self._sounding_until_ns is None or _course(self.player) != _course(before):
+            self._sound(held)
+
+    def set_click(self, click: bool) -> None:
+        """Let the click sound with the strokes, or the strokes alone."""
+        self.click = click
+        self._sound_on()
+
+    def count_in(self, counts_in: bool) -> None:
+        """Let a bar be counted before it plays, or not, from the next time on."""
+        self.counts_in = counts_in
+
+    def halt(self) -> None:
+        """Stop, where the user turns to something else."""
+        if self.player.playing or self.player.wind:
+            self.do(lambda player, now_ns: player.stopped(now_ns))
+
+    # --- as time goes by ---------------------------------------------------------------------------------------------
+
+    def advance(self, now_ns: int) -> None:
+        """Move to `now_ns`; once a frame."""
+        self.now_ns = now_ns
+        if self._due:
+            self._begin_sound()
+        self.player = self.player.settled(now_ns)
+        if not self.player.playing:
+            self._sounding_until_ns = None
+        elif self._sounding_until_ns is not None and now_ns >= self._sounding_until_ns:
+            self._sound_on()
+
+    def started(self, zero_ns: int) -> None:
+        """The engine's transport runs from `zero_ns`: what was asked for sounds from then on."""
+        if self._sounding_until_ns is not None:
+            self.player = self.player.started(zero_ns + self._counted_ns)
+
+    def _sound_on(self) -> None:
+        """The same once more from where it is: only a count-in that still runs begins anew."""
+        self._counting = self._counting if self._left_ns else None
+        self._sound(held=False)
+
+    def _sound(self, held: bool) -> None:
+        """Let sound what the player plays from where it is, from the next frame on, or nothing."""
+        if self._sounding_until_ns is not None:
+            self._sounding_until_ns = None
+            self._send(Stop())
+        self._due = self.player.is_heard and not held
+        if self._due:
+            at_ns = self.player.position_ns(self.now_ns)
+            self.player = replace(self.player, at_ns=at_ns, since_ns=_WAITING_NS)
+            self._drummer = self.drummer  # who may have to be made: then sound and picture begin together
+
+    def _begin_sound(self) -> None:
+        self._due = False
+        cues = song_cues(self.score, self.player, self._watched.click if self.click else None)
+        cues = cues if self._counting is None else after(self._counting, cues)
+        lead_ns = LEAD_NS + max(-int(cues["at_ns"].min(initial=0)), 0)  # a counted word begins before its beat
+        self.player = self.player.started(self.now_ns + lead_ns + self._counted_ns)
+        self._sounding_until_ns = self.now_ns + SOUNDED_NS + self._counted_ns
+        self._send(Play(cues, lead_ns))
+
+    # --- the count-in ------------------------------------------------------------------------------------------------
+
+    def _count_in(self) -> CountIn | None:
+        return count_in_of(self.player, self._watched.click) if self.counts_in else None
+
+    @property
+    def _counted_ns(self) -> int:
+        return 0 if self._counting is None else self._counting.length_ns
+
+    @property
+    def _left_ns(self) -> int:
+        """How much of the count-in is left."""
+        return 0 if self._counting is None else min(max(self.player.since_ns - self.now_ns, 0), self._counted_ns)
+
+    # --- the picture -------------------------------------------------------------------------------------------------
+
+    @property
+    def is_shown(self) -> bool:
+        """Whether the player has been used: it runs, or stands elsewhere than at the start."""
+        return bool(self.player.rate_percent) or self.player.position_ns(self.now_ns) > 0
+
+    def snapshot(self) -> Snapshot:
+        """The picture of the demonstration."""
+        drummer, position_s = self.drummer, self.player.position_ns(self.now_ns) / NS_PER_S
+        raising_s = self._left_ns / NS_PER_S if position_s == 0 else 0.0  # while the beginning is counted in
+        return Snapshot(
+            score=self.score,
+            position_s=position_s,
+            kit=drummer.kit,
+            figure=drummer.figure,
+            pose=drummer.pose(position_s - raising_s),
+            limbs=drummer.assignment.limbs,
+            hud=self._hud(),
+        )
+
+    def graphed(self) -> ScoreCurves:
+        """The same for the graph."""
+        return ScoreCurves(self.drummer, self.player.position_ns(self.now_ns) / NS_PER_S, BarNumbers())
+
+    def _hud(self) -> Hud:
+        player, place = self.player, self.player.place(self.now_ns)
+        start = self.score.tempo_map.bar_start(place.bar)
+        speed = "" if player.speed_percent == 100 else f" at {player.speed_percent} %"
+        quarters = self.score.tempo_map.bpm_at(player.song.tick_at(player.position_ns(self.now_ns)))
+        return Hud(
+            title=self.lesson.title,
+            phase="Count-in" if self._left_ns else f"Demonstration{speed}",
+            count_in=None if self._counting is None else self._counting.beat(self._left_ns),
+            bar=place.bar + 1,
+            beat=place.beat + 1,
+            beats=self.score.tempo_map.meter_at(start).beats,
+            bar_count=self.score.bar_count,
+            beats_a_minute=quarters * PPQ / self.lesson.beat_ticks * player.speed_percent / 100,
+        )
+
+
+def _course(player: SongPlayer) -> tuple[object, ...]:
+    """What makes up the sound; a flag does not."""
+    return player.at_ns, player.since_ns, player.rate_percent, player.loop

@@ -1,0 +1,115 @@
+"""The engine as the room holds it: woken when it is needed, and what it says of kits and sound, in words.
+
+It is an `EngineLink` that remembers its own death: after the `DeviceError` of `events` that tells of it nothing more is
+heard, and `wake` starts another engine. A command that fails is no death yet: what was said before it is still to hear.
+"""
+
+from collections.abc import Callable
+from threading import Thread
+from typing import Protocol
+
+from station.core.errors import DeviceError
+from station.core.events import DeviceFound, DeviceLost, Hit
+from station.engine.messages import Command, EngineEvent, Ready, SetLevel, Sounding, WatchRawBytes
+from station.practice.session.live import EngineLink
+
+
+class RoomEngine(EngineLink, Protocol):
+    """An engine that can be ended, so that its devices are free."""
+
+    def close(self) -> object:
+        """End it."""
+        ...
+
+
+WakeEngine = Callable[[], RoomEngine]
+_WAKING = "the engine is waking"
+
+
+class EngineClient:
+    """One engine after the other; `rate_hz` is the card's as far as is known."""
+
+    def __init__(self, wake: WakeEngine, rate_hz: int) -> None:
+        self._wake = wake
+        self._engine = wake()
+        self._resting: Thread | None = None
+        self.rate_hz = rate_hz
+        self.alive = True
+        self.sound = _WAKING
+        self.struck_ns: int | None = None
+        """When the last stroke was played that was heard of."""
+        self._kits: list[str] = []
+        self._standing: dict[object, Command] = {}
+
+    @property
+    def kits(self) -> str:
+        """The kits that are connected, in words."""
+        return ", ".join(self._kits)
+
+    def wake(self) -> None:
+        """Have an engine: another one where the last has died. Raises `DeviceError`."""
+        if self._resting is not None:
+            self._resting.join()
+            self._resting = None
+        if not self.alive:
+            self._engine, self.alive, self.sound = self._wake(), True, _WAKING
+            for command in self._standing.values():
+                self.send(command)
+
+    def rest(self) -> list[str]:
+        """Let the engine end, so that others can have its devices, until it is woken; returns the kits that were here.
+
+        It may take seconds where a sound server hangs: a thread waits for it, and `has_rested` says when it is done.
+        """
+        if self.alive:
+            self._resting = Thread(target=self._engine.close, name="engine rests")
+            self._resting.start()
+        kits, self._kits, self.alive, self.sound = self._kits, [], False, "the engine rests"
+        return kits
+
+    def has_rested(self) -> bool:
+        """Whether no engine that ends still holds a device."""
+        return self._resting is None or not self._resting.is_alive()
+
+    def stand(self, command: Command) -> None:
+        """What this engine and every later one is told; a dead engine is told when it has been woken."""
+        self._standing[command.bus if isinstance(command, SetLevel) else type(command)] = command
+        if self.alive:
+            self.send(command)
+
+    def tell(self, command: Command) -> None:
+        """Send what is for now; what asks for something lasting stands. Raises `DeviceError` as `send`."""
+        self.stand(command) if isinstance(command, WatchRawBytes) else self.send(command)
+
+    def send(self, command: Command) -> None:
+        """Hand the engine a command; raises `DeviceError` where it has ended."""
+        if not self.alive:
+            raise DeviceError(self.sound)
+        self._engine.send(command)
+
+    def events(self, wait_s: float = 0.0) -> list[EngineEvent]:
+        """What has happened since the last call, nothing from a dead engine; its death is raised once."""
+        if not self.alive:
+            return []
+        try:
+            events = self._engine.events(wait_s)
+        except DeviceError:
+            self.alive, self.sound, self._kits = False, "the engine has ended", []
+            raise
+        for event in events:
+            self._take(event)
+        return events
+
+    def _take(self, event: EngineEvent) -> None:
+        match event:
+            case DeviceFound(_, device):
+                self._kits = [*(kit for kit in self._kits if kit != device), device]
+            case DeviceLost(_, device):
+                self._kits = [kit for kit in self._kits if kit != device]
+            case Hit(at_ns):
+                self.struck_ns = at_ns
+            case Ready(output, rate_hz) | Sounding(output, rate_hz):
+                self.sound = output or "silent"
+                self.rate_hz = rate_hz or self.rate_hz
+            case _:
+                pass

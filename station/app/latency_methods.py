@@ -1,0 +1,64 @@
+"""The four ways to measure latency, for the command and for the window: what is asked for in, findings out.
+
+docs/calibration.md says how to set each up.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+from station.app.calibration import LOOPBACK, REPORT, STRIKE, TAP
+from station.app.calibration_results import CalibrationResult, CalibrationResults, rows_of_taps
+from station.core.measured_latency import StoredCalibration
+from station.core.settings import Settings
+from station.devices.device_ports import DeviceRequest, parse_kits
+from station.engine.latency_measurement import SoundRequest, Tell, loopback_rounds, stream_report, struck, tapped
+
+
+@dataclass(frozen=True, slots=True)
+class MeasureRequest:
+    """What is measured `by` which way, on which devices; `distance_m` from the pads to the microphone."""
+
+    by: str
+    sound: SoundRequest
+    kit: DeviceRequest
+    distance_m: float = 0.0
+
+    @classmethod
+    def of(cls, settings: Settings, by: str, distance_m: float = 0.0) -> "MeasureRequest":
+        """On the devices of the settings, the kit the first that they name."""
+        sound = SoundRequest(settings.output, "", settings.block_frames, settings.rate_hz)
+        return cls(by, sound, parse_kits(settings.kit)[0], distance_m)
+
+
+def measured(wish: MeasureRequest, before: StoredCalibration, tell: Tell) -> CalibrationResults:
+    """Measure; `before` is what is known, `tell` hears what the user has to do. Raises `DeviceError`."""
+    return _WAYS[wish.by](wish, before, tell)
+
+
+def _by_report(wish: MeasureRequest, _: StoredCalibration, tell: Tell) -> CalibrationResults:
+    devices, stream = stream_report(wish.sound, tell)
+    return CalibrationResults(devices, stream=stream)
+
+
+def _by_loopback(wish: MeasureRequest, _: StoredCalibration, tell: Tell) -> CalibrationResults:
+    devices, estimate = loopback_rounds(wish.sound, tell)
+    return CalibrationResults(devices, (CalibrationResult("output", devices.output or "", estimate),))
+
+
+def _by_strikes(wish: MeasureRequest, _: StoredCalibration, tell: Tell) -> CalibrationResults:
+    devices, found = struck(wish.sound, wish.kit, tell, wish.distance_m)
+    kit = devices.kit or ""
+    pads = (CalibrationResult("pad", kit, estimate, piece) for piece, estimate in found.pads.items())
+    return CalibrationResults(devices, (CalibrationResult("kit", kit, found.kit), *pads))
+
+
+def _by_taps(wish: MeasureRequest, before: StoredCalibration, tell: Tell) -> CalibrationResults:
+    devices, piece, found = tapped(wish.sound, wish.kit, tell)
+    return CalibrationResults(devices, rows_of_taps(found, piece, devices, before))
+
+
+_Way = Callable[[MeasureRequest, StoredCalibration, Tell], CalibrationResults]
+_WAYS: Mapping[str, _Way] = MappingProxyType(
+    {REPORT: _by_report, LOOPBACK: _by_loopback, STRIKE: _by_strikes, TAP: _by_taps}
+)

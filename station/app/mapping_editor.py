@@ -1,0 +1,301 @@
+"""The devices page without its picture: the kits that are here, their last strokes and lines, and their rules on trial.
+
+While the page is open the engine tells every byte besides (`WatchRawBytes`). They are understood here once more, by rules
+that may be set by looking; `save` keeps them in the kit's own file and lets the engine take it, so that what counts as
+a stroke changes for sound and judgement only then. What is learnt from strokes, what a pad is and how loud its ghosts
+and accents count, is kept at once, and can be undone.
+"""
+
+from collections import deque
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from station.core.errors import DeviceError, StationError
+from station.core.events import DeviceFound, DeviceLost, Hit
+from station.core.note_map import NoteMeaning
+from station.core.pieces import Piece, word
+from station.core.units import NS_PER_MS
+from station.devices.edit_mapping import obey
+from station.devices.mapping.device_map import DeviceMap, Sent
+from station.devices.mapping.suspect_hits import Suspicion
+from station.devices.mapping.trigger_filter import HeldBack
+from station.devices.mapping.velocity_curve import VelocityCurve
+from station.devices.monitor import DeviceMonitor, MonitorLine, rule_against
+from station.devices.wizard.one_hit import PadEar, in_words, taught
+from station.devices.wizard.pad_choices import pad_name
+from station.devices.wizard.velocity_learning import TouchLearning
+from station.engine.messages import Command, EngineEvent, RawBytes, ReloadDevice, WatchRawBytes
+
+LINES_SHOWN, STROKES_SHOWN, SUSPICIONS_SHOWN = 8, 24, 4
+"""Our choice: what a glance takes in."""
+_SHOWN_LATE_NS = 200 * NS_PER_MS
+"""Bytes come to the page with its frames: what the clock makes certain is shown so much later (our choice: four frames
+of a slow machine)."""
+
+
+@dataclass(frozen=True, slots=True)
+class PadStroke:
+    """A hit on a pad; `why` it is no stroke, None for one that counts."""
+
+    velocity: int
+    why: HeldBack | None = None
+
+
+def _lines() -> deque[MonitorLine]:
+    return deque(maxlen=LINES_SHOWN)
+
+
+def _suspicions() -> deque[Suspicion]:
+    return deque(maxlen=SUSPICIONS_SHOWN)
+
+
+@dataclass(slots=True)
+class SeenKit:
+    """What one kit did of late, the newest last, and what is wrong with its file.
+
+    `before` is how it was kept, and how it was on trial, before each thing that was learnt.
+    """
+
+    lines: deque[MonitorLine] = field(default_factory=_lines)
+    suspicions: deque[Suspicion] = field(default_factory=_suspicions)
+    strokes: dict[Piece, deque[PadStroke]] = field(default_factory=dict)
+    fault: str = ""
+    ear: PadEar = field(default_factory=PadEar)
+    before: list[tuple[DeviceMap, DeviceMap]] = field(default_factory=list)
+
+    def take(self, line: MonitorLine) -> None:
+        """One more line."""
+        self.lines.append(line)
+        hit = line.ghost.hit if line.ghost is not None else line.event
+        if isinstance(hit, Hit):
+            why = None if line.ghost is None else line.ghost.why
+            self.strokes.setdefault(hit.piece, deque(maxlen=STROKES_SHOWN)).append(PadStroke(hit.velocity, why))
+        self.suspicions.extend(line.suspicions)
+
+
+class MappingEditor:
+    """Kits by name; `device` is the one that is shown, empty while there is none."""
+
+    def __init__(self, send: Callable[[Command], None], folder: Path | None = None) -> None:
+        """`send` reaches the engine; `folder` holds the user's own kits, None for this user's."""
+        self._send = send
+        self._monitor = DeviceMonitor(folder)
+        self._seen: dict[str, SeenKit] = {}
+        self._kept: dict[str, DeviceMap] = {}
+        self._listens = False
+        self._pad: NoteMeaning | None = None
+        self._touch: TouchLearning | None = None
+        self.device = ""
+        self.learnt = ""
+        """What was learnt last, or why it was not."""
+
+    @property
+    def devices(self) -> list[str]:
+        """The kits that are here."""
+        return list(self._seen)
+
+    @property
+    def seen(self) -> SeenKit:
+        """What the kit that is shown did."""
+        return self._seen[self.device]
+
+    @property
+    def kit(self) -> DeviceMap:
+        """The kit that is shown, by the rules on trial."""
+        return self._monitor.kit(self.device)
+
+    @property
+    def is_changed(self) -> bool:
+        """Whether the rules on trial are others than those that are kept."""
+        return self.kit != self._kept[self.device]
+
+    @property
+    def pads(self) -> list[Piece]:
+        """The pads that were struck, or of which something is known."""
+        return sorted({*self.seen.strokes, *self.kit.pads} - {Piece.PERCUSSION})
+
+    @property
+    def unknown(self) -> list[Sent]:
+        """The notes that came and that mean nothing yet."""
+        return self.seen.ear.unknown(self.kit)
+
+    @property
+    def learns(self) -> bool:
+        """Whether strokes are taken for what they teach: they command nothing meanwhile."""
+        return self._pad is not None or self._touch is not None
+
+    @property
+    def asks(self) -> str:
+        """What to play now, empty while nothing is learnt."""
+        if self._touch is not None:
+            return self._touch.asks
+        return "" if self._pad is None else f"hit it now, once: {pad_name(self._pad)}"
+
+    @property
+    def can_undo(self) -> bool:
+        """Whether something was learnt since the kit is here."""
+        return bool(self.seen.before)
+
+    # --- from the engine ---------------------------------------------------------------------------------------------
+
+    def show(self, device: str) -> None:
+        """Show another kit."""
+        self.give_up()
+        self.device = device
+
+    def listen(self, on: bool) -> None:
+        """Have the bytes told, or no longer; a dead engine is not asked."""
+        if on != self._listens:
+            self._listens = on
+            self.give_up()
+            with suppress(DeviceError):
+                self._send(WatchRawBytes(on))
+
+    def take(self, event: EngineEvent) -> None:
+        """What the engine says."""
+        match event:
+            case DeviceFound(at_ns, device):
+                lines, fault = self._monitor.found(device, at_ns)
+                self._seen[device] = SeenKit(fault=fault)
+                self._kept[device] = self._monitor.kit(device)
+                self.device = self.device or device
+                self._show(lines)
+            case DeviceLost(at_ns, device):
+                if self.device == device:
+                    self.give_up()
+                self._monitor.lost(device, at_ns)
+                self._seen.pop(device, None)
+                if self.device == device:
+                    self.device = next(iter(self._seen), "")
+            case RawBytes(at_ns, device, data):
+                if device in self._seen:
+                    self._seen[device].ear.feed(data, at_ns)
+                self._show(self._monitor.bytes_came(device, data, at_ns))
+            case _:
+                pass
+
+    def advance(self, now_ns: int) -> None:
+        """Show what the clock has made certain."""
+        self._show(self._monitor.settle(now_ns - _SHOWN_LATE_NS))
+        if self._pad is not None:
+            sent = self.seen.ear.hit(now_ns - _SHOWN_LATE_NS)
+            if sent is not None:
+                pad, self._pad = self._pad, None
+                self.name(sent, pad)
+
+    def _show(self, lines: list[MonitorLine]) -> None:
+        for line in lines:
+            if line.device in self._seen:
+                self._seen[line.device].take(line)
+            if self._touch is not None and line.device == self.device:
+                self._touched(line)
+
+    def _touched(self, line: MonitorLine) -> None:
+        """A stroke for the touch that is learnt; those that are too soft to count are strokes too."""
+        hit = line.event if line.ghost is None or line.ghost.why is not HeldBack.TOO_SOFT else line.ghost.hit
+        if self._touch is None or not isinstance(hit, Hit):
+            return
+        self._touch.take(hit)
+        if self._touch.is_over:
+            touch, self._touch = self._touch, None
+            self._learn(touch.learnt, touch.in_words())
+
+    # --- learning ----------------------------------------------------------------------------------------------------
+
+    def learn_pad(self, pad: NoteMeaning) -> None:
+        """The next hit is on `pad`."""
+        self.give_up()
+        self._pad = pad
+        self.seen.ear.listen(on=True)
+
+    def learn_touch(self, piece: Piece) -> None:
+        """The next strokes are five ghosts and five accents on `piece`."""
+        self.give_up()
+        self._touch = TouchLearning(piece)
+
+    def give_up(self) -> None:
+        """Learn no longer; what was played meanwhile changes nothing."""
+        self._pad = self._touch = None
+        self.learnt = ""
+        if self.device:
+            self.seen.ear.listen(on=False)
+
+    def name(self, sent: Sent, pad: NoteMeaning) -> None:
+        """The note that was `sent` is `pad` from now on."""
+        is_shared = self.seen.ear.is_shared(sent)
+        words = in_words(self._kept[self.device], sent, pad)
+        self._learn(lambda kit: taught(kit, sent, pad, is_shared), words)
+
+    def _learn(self, change: Callable[[DeviceMap], DeviceMap], words: str) -> None:
+        """Keep a change at once, beside what is on trial; `learnt` says what came of it."""
+        before = self._kept[self.device], self.kit
+        try:
+            self._keep(change(before[0]))
+            self._monitor.trial(self.device, change(before[1]))
+        except StationError as fault:
+            self.learnt = str(fault)
+            return
+        self.seen.before.append(before)
+        self.learnt = words
+
+    def undo(self) -> None:
+        """What was learnt last is as it was before."""
+        kept, trial = self.seen.before[-1]
+        try:
+            self._keep(kept)
+        except StationError as fault:
+            self.learnt = str(fault)
+            return
+        self.seen.before.pop()
+        self._monitor.trial(self.device, trial)
+        self.learnt = "as it was before"
+
+    def _keep(self, kit: DeviceMap) -> Path:
+        """Keep `kit`, and let the engine take it; raises `DeviceError`, for a faulty file of the user's too."""
+        if self.seen.fault:
+            raise DeviceError(f"nothing is kept while the kit's file has a fault: {self.seen.fault}")
+        path = self._monitor.keep(self.device, kit)
+        self._kept[self.device] = kit
+        with suppress(DeviceError):
+            self._send(ReloadDevice(self.device))
+        return path
+
+    # --- from the page -----------------------------------------------------------------------------------------------
+
+    def threshold(self, piece: Piece, velocity: int) -> None:
+        """Softer than this is no stroke."""
+        self._obey(f"threshold {word(piece)} {velocity}")
+
+    def mask(self, piece: Piece, milliseconds: int) -> None:
+        """For so long after a stroke there is no other."""
+        self._obey(f"mask {word(piece)} {milliseconds}")
+
+    def share(self, source: Piece, victim: Piece, share: float) -> None:
+        """A stroke on `source` makes `victim` send ghosts up to so loud; 0 for no longer."""
+        self._obey(f"ghost {word(source)} {word(victim)} {share:.2f}")
+
+    def curve(self, piece: Piece, curve: VelocityCurve) -> None:
+        """How loud strokes count."""
+        self._obey(f"curve {word(piece)} {curve.softest} {curve.loudest} {curve.bend}")
+
+    def hold_back(self, suspicion: Suspicion) -> None:
+        """Take hits such as this one for what they are suspected to be."""
+        self._obey(rule_against(suspicion))
+        self.seen.suspicions.clear()
+
+    def _obey(self, order: str) -> None:
+        self._monitor.trial(self.device, obey(self.kit, order))
+
+    def back(self) -> None:
+        """The rules as they are kept."""
+        self._monitor.trial(self.device, self._kept[self.device])
+
+    def save(self) -> Path:
+        """Keep the rules, and let the engine take them; returns where. Raises `DeviceError` if the disk refuses.
+
+        What was learnt before is kept with them, and not undone any more.
+        """
+        self.seen.before.clear()
+        return self._keep(self.kit)

@@ -1,0 +1,98 @@
+"""What the last session left: its report, the question before it, what the graph and the ear take from it.
+
+A student who first judges the own error learns more (`practice.own_ear`): while the question is open nothing of the
+result is shown.
+"""
+
+from collections.abc import Mapping
+
+from station.app.lesson_session import SavedSession
+from station.app.model import ShownResult
+from station.core.events import Hit
+from station.engine.messages import EngineEvent
+from station.practice.demonstration.compare_by_ear import Whose, bar_by_ear, earlier_bar, students_bar
+from station.practice.session.listening import Listening
+from station.practice.session.self_estimate import GUESS_OF, QUESTION, SelfEstimate, answered, is_worth_asking
+from station.render.snapshot import Snapshot
+from station.scenes.comparison import Comparison
+from station.scenes.curves import ScoreCurves
+from station.scenes.demonstrator import Demonstrator
+from station.scenes.session_scene import graphed_result
+
+
+class LastResult:
+    """The session that ended last, none at first; `is_asking` while its question is open."""
+
+    def __init__(self) -> None:
+        self._kept: SavedSession | None = None
+        self._graphed: ScoreCurves | None = None
+        self._asked: set[str] = set()
+        self._compared: Comparison | None = None
+        self._from_ns = 0
+        self.is_asking = False
+
+    def keep(self, kept: SavedSession, may_ask: bool) -> None:
+        """From now on this is the last one; a question is opened where the student `may` be asked one."""
+        self._kept, self._graphed, self._compared = kept, None, None
+        self.is_asking = may_ask and self._is_new(kept.result.plan.lesson.name, kept.report.document)
+
+    def _is_new(self, lesson: str, document: Mapping[str, object]) -> bool:
+        """Whether to ask: at most once a lesson, and only what the report can answer."""
+        if lesson in self._asked or not is_worth_asking(document):
+            return False
+        self._asked.add(lesson)
+        return True
+
+    @property
+    def question(self) -> str:
+        """What is to be answered first, empty where nothing is."""
+        return QUESTION if self.is_asking else ""
+
+    @property
+    def report(self) -> ShownResult | None:
+        """What may be shown of it now."""
+        return None if self.is_asking or self._kept is None else self._kept.report
+
+    def answer(self, guess: SelfEstimate) -> str | None:
+        """Close the question; returns the guess beside what was measured, None where nothing was asked."""
+        if not self.is_asking or self._kept is None:
+            return None
+        self.is_asking = False
+        return answered(guess, self._kept.report.document)
+
+    def guess_of(self, event: EngineEvent) -> SelfEstimate | None:
+        """What a stroke answers while the question is open."""
+        return GUESS_OF.get(event.piece) if self.is_asking and isinstance(event, Hit) else None
+
+    def leave(self) -> None:
+        """The student turns to something else: a question stays unanswered."""
+        self.is_asking = False
+
+    def graphed(self, who: Demonstrator) -> ScoreCurves | None:
+        """The whole of it as the graph shows it, demonstrated by `who`, once it may be seen."""
+        if self._graphed is None and self._kept is not None and not self.is_asking:
+            self._graphed = graphed_result(self._kept.result, who)
+        return self._graphed
+
+    def hear(self, bar: int, whose: Whose, who: Demonstrator) -> Listening | None:
+        """A bar (from 0) of its score, to be heard and, demonstrated by `who`, to be seen; None where there is none."""
+        if self._kept is None or self.is_asking:
+            return None
+        result, before = self._kept.result, self._kept.report.before
+        played, words = None, "the teacher"
+        if whose is Whose.STUDENT:
+            played, words = students_bar(result, bar), "you"
+        elif whose is Whose.EARLIER:
+            if isinstance(before, str):
+                return None
+            played, words = earlier_bar(result, bar, before), f"you, {before.day}"
+        self._compared = Comparison(result, bar, played, who, words)
+        listening = bar_by_ear(result, bar, played)
+        self._from_ns = listening.from_ns
+        return listening
+
+    def compared(self, heard_ns: int | None) -> Snapshot | None:
+        """The picture of what is heard, at its place in the result's score; None before it has begun there."""
+        if self._compared is None:
+            return None
+        return self._compared.snapshot(self._from_ns if heard_ns is None else heard_ns)

@@ -1,0 +1,83 @@
+"""What is made ready before a session: its lesson, the plan as the settings ask for it, what is remembered, the track.
+
+It holds the settings that sessions go by; whoever changes them sets `settings` anew, and what follows goes by those.
+"""
+
+from dataclasses import dataclass
+from datetime import date
+from typing import TYPE_CHECKING
+
+from station.app.demo_player import DemonstratedLesson
+from station.app.model import SessionRequest
+from station.core.errors import DeviceError
+from station.core.settings import Settings, setting_source
+from station.drills.lesson import Lesson
+from station.motion.kit.kit import Kit
+from station.practice.records.memory import Memory, Remembered
+from station.practice.session.click_options import parse_click
+from station.practice.session.click_pattern import ClickPattern
+from station.practice.session.leading_hand import hands_of
+from station.practice.session.plan import Plan, PlanOptions, plan_practice
+from station.sound.track import PreparedTrack
+
+if TYPE_CHECKING:
+    from station.practice.session.backing_track import Backing, BackingRequest
+
+
+@dataclass(frozen=True, eq=False)
+class PreparedSession:
+    """A session that can begin; where the tempo follows the student, `followed` lays out what comes after `plan`."""
+
+    plan: Plan
+    followed: Remembered | None = None
+
+
+def _backing_of(wish: "BackingRequest") -> "Backing":
+    """Its keeper, which comes with libraries of sound: the window opens sooner without."""
+    from station.practice.session.backing_track import Backing
+
+    return Backing(wish)
+
+
+class SessionPreparation:
+    """Lays out what is wished for by `settings`; sessions whose tempo stays play along to `backing`."""
+
+    def __init__(self, settings: Settings, backing: "BackingRequest | None") -> None:
+        self.settings = settings
+        self._backing = None if backing is None else _backing_of(backing)
+
+    @property
+    def has_tracks(self) -> bool:
+        """Whether sessions may play along to a track."""
+        return self._backing is not None
+
+    def laid_out(self, lesson: Lesson, wish: SessionRequest) -> PreparedSession:
+        """What is wished for of a lesson, from what is remembered where the tempo follows; raises `StationError`."""
+        settings = self.settings
+        tempo_bpm = None if wish.adapt else wish.tempo_bpm
+        click = self._click() if wish.click else None
+        hands = hands_of(settings)
+        wishes = PlanOptions(tempo_bpm, wish.loops, wish.bars, wish.demonstrations, click, settings.guide, hands)
+        plan = plan_practice(lesson, wishes)
+        if not wish.adapt:
+            return PreparedSession(plan)
+        memory = Memory.of(settings.sessions_dir, settings.student, lesson.name, plan.bars)
+        followed = Remembered.of(lesson, wishes, date.today(), memory)
+        return PreparedSession(followed.adaptation.plan, followed)
+
+    def watched(self, lesson: Lesson, kit: Kit) -> DemonstratedLesson:
+        """The lesson as its demonstration is played; raises `BadInput` for a click that is none."""
+        return DemonstratedLesson(lesson, kit, hands_of(self.settings), self._click())
+
+    def track(self, plan: Plan, rate_hz: int) -> PreparedTrack | None:
+        """The track to play along to; raises `DeviceError` while it is being made ready, `BadInput` if it cannot be."""
+        if self._backing is None:
+            return None
+        self._backing.ask(plan, rate_hz)
+        track = self._backing.take()
+        if track is None:
+            raise DeviceError("the track is being made ready for this tempo: start again in a moment")
+        return track
+
+    def _click(self) -> ClickPattern:
+        return parse_click(self.settings.click_pattern, setting_source("click_pattern"))

@@ -1,0 +1,118 @@
+"""Listening to kits from the terminal: what they bring, poll by poll, and their events in words."""
+
+import argparse
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from queue import SimpleQueue
+
+from station.cli.console import say
+from station.cli.device_option import wanted_kits
+from station.core.clock import monotonic_ns
+from station.core.errors import DeviceError
+from station.core.events import Choke, DeviceEvent, DeviceFound, DeviceLost, Hit, PedalMoved, Switched
+from station.core.labels import piece_name
+from station.core.pieces import word
+from station.core.settings import load_settings
+from station.core.units import NS_PER_S, ns_from_s
+from station.devices.port_watch import PortPoll, PortWatch
+
+POLL_S = 0.0005
+"""Pause between two looks at the kit: the engine's own pace."""
+NAMED_WITHIN_S = 3.0
+"""So long a kit is awaited that is asked for by name: a USB kit announces itself within two seconds (our choice)."""
+
+
+class TypedLines:
+    """What a person types, line by line, read in a thread of its own; `ended` once there is no more to come."""
+
+    def __init__(self) -> None:
+        self._lines: SimpleQueue[str] = SimpleQueue()
+        self.ended = False
+        threading.Thread(target=self._run, name="keys", daemon=True).start()
+
+    def _run(self) -> None:
+        with suppress(OSError, ValueError):  # there is no standard input, or it was closed
+            for line in sys.stdin or ():
+                self._lines.put(line.strip())
+        self.ended = True
+
+    def take(self) -> list[str]:
+        """The lines since the last call."""
+        return [self._lines.get() for _ in range(self._lines.qsize())]
+
+
+@contextmanager
+def listening(arguments: argparse.Namespace) -> Iterator[tuple[PortWatch, ...]]:
+    """The chosen kits; raises `DeviceError` where none can be heard. Ctrl-C, wherever it falls, ends the block."""
+    from station.devices.device_ports import no_kit, parse_kits, watch_kits
+
+    wishes = parse_kits(wanted_kits(arguments.kit, load_settings().kit))
+    watches = watch_kits(wishes)
+    if not watches.kits:
+        raise DeviceError(no_kit(wishes))
+    if watches.fault is not None:
+        say(f"station: {watches.fault}")
+    try:
+        yield watches.kits
+    except KeyboardInterrupt:
+        pass
+    finally:
+        watches.close()
+
+
+def polls(kits: tuple[PortWatch, ...], seconds: float | None) -> Iterator[PortPoll]:
+    """What the kits bring, poll by poll, until the time is up; each is looked at once at the least.
+
+    Raises `DeviceError` where no kit comes: any kit is awaited to the end, a kit with a name not long.
+    """
+    from station.devices.device_ports import DeviceRequest, no_kit
+
+    begun_ns, found = monotonic_ns(), False
+    end_ns = None if seconds is None else begun_ns + ns_from_s(seconds)
+    names = " and ".join(f"a kit called {kit.wanted!r}" if kit.wanted else "a kit" for kit in kits)
+    say(f"waiting for {names}; Ctrl-C ends")
+    is_named = all(kit.wanted for kit in kits)
+    while True:
+        for kit in kits:
+            findings = kit.poll(monotonic_ns())
+            found = found or findings.found
+            if findings.fault and not found and is_named and len(kits) == 1:
+                raise DeviceError(findings.fault)
+            if findings.fault:
+                say(f"station: {findings.fault}")
+            yield findings
+        now_ns = monotonic_ns()
+        if end_ns is not None and now_ns >= end_ns:
+            break
+        if not found and is_named and now_ns - begun_ns > ns_from_s(NAMED_WITHIN_S):
+            break
+        time.sleep(POLL_S)
+    if not found:
+        raise DeviceError(no_kit(tuple(DeviceRequest(kit.wanted) for kit in kits)))
+
+
+def event_line(event: DeviceEvent, start_ns: int) -> str:
+    """One event in words, its time in seconds from `start_ns`."""
+    return f"{(event.at_ns - start_ns) / NS_PER_S:10.4f}  {_words(event)}"
+
+
+def _words(event: DeviceEvent) -> str:
+    match event:
+        case Hit():
+            openness = "" if event.openness is None else f"  openness {event.openness:.2f}"
+            how = f"{word(event.zone)}, {word(event.articulation)}"
+            fraction = f"{event.velocity_fraction:.2f}"[1:] if event.velocity_fraction else ""
+            return f"{piece_name(event.piece):16} {how:18} velocity {event.velocity:3}{fraction}{openness}"
+        case Choke():
+            return f"{piece_name(event.piece):16} choked"
+        case PedalMoved():
+            return f"hi-hat pedal  openness {event.openness:.2f}"
+        case Switched():
+            return f"switch           {event.switch}"
+        case DeviceLost():
+            return f"{event.device} is gone"
+        case DeviceFound():
+            return f"{event.device} is here"

@@ -1,0 +1,132 @@
+"""Reading what the user names: a SCORE (lesson or music file), a PERFORMANCE (MIDI file or capture)."""
+
+from __future__ import annotations
+
+from argparse import ArgumentTypeError
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from station.core.errors import BadInput
+from station.music.performance import Performance
+from station.music.score import Score
+
+if TYPE_CHECKING:
+    from station.motion.kit.kit import Kit
+    from station.motion.sticking.hand_notes import Hands
+    from station.practice.session.click_pattern import Gap
+
+TEXT_ENDING = ".txt"
+"""Of a text score: see `station.music.formats.text_score`."""
+MIDI_ENDINGS = (".mid", ".midi", ".smf", ".kar")
+CAPTURE_ENDING = ".capture"
+
+
+def is_midi(name: str) -> bool:
+    """Whether `name` ends as MIDI files do."""
+    return Path(name).suffix.lower() in MIDI_ENDINGS
+
+
+def is_capture(name: str) -> bool:
+    """Whether `name` ends as captures do, or is a file that begins as they do: `devices record` takes any name."""
+    return Path(name).suffix.lower() == CAPTURE_ENDING or _begins_as_capture(Path(name))
+
+
+def _begins_as_capture(path: Path) -> bool:
+    try:
+        if not path.is_file():  # whoever looks into a pipe waits, and takes what is there
+            return False
+        with path.open("rb") as file:
+            from station.devices.capture.capture import MAGIC
+
+            return file.read(len(MAGIC)) == MAGIC
+    except OSError:  # a name longer than the file system takes
+        return False
+
+
+def is_lesson(name: str) -> bool:
+    """Whether `name` means a lesson, and not music in another file."""
+    return not is_midi(name) and not is_capture(name) and Path(name).suffix.lower() != TEXT_ENDING
+
+
+def existing(name: str) -> Path:
+    """The path `name`; raises `BadInput` when there is no such file."""
+    path = Path(name)
+    if not path.is_file():
+        raise BadInput(name, "", "is a folder, not a file" if path.is_dir() else "no such file")
+    return path
+
+
+def load_score(name: str) -> Score:
+    """The score that `name` means: a MIDI file, a text score or a take by its ending, else a lesson by name or path."""
+    if is_capture(name):
+        from station.cli.read_takes import take_as_score
+
+        return take_as_score(existing(name))
+    if is_midi(name):
+        from station.music.formats.smf.standard_midi import read_midi, score_from_midi
+
+        return score_from_midi(read_midi(existing(name)))
+    if Path(name).suffix.lower() == TEXT_ENDING:
+        from station.music.formats.text_score import read_text_score
+
+        return read_text_score(existing(name))
+    from station.drills.library import find_lesson
+
+    return find_lesson(name).score
+
+
+def load_led_score(name: str, kit: Kit, hands: Hands | None = None, as_written: bool = False) -> Score:
+    """The score that `name` means, a lesson's sticking read for the `hands` that play `kit` unless `as_written`."""
+    score = load_score(name)
+    if as_written or not is_lesson(name):
+        return score
+    from station.motion.sticking.limbs import as_led
+
+    return as_led(score, kit, hands)
+
+
+def kit_of_lesson(name: str) -> str:
+    """The drummer's kit that the lesson `name` asks for; empty where it asks for none or `name` is a music file."""
+    if not is_lesson(name):
+        return ""
+    from station.drills.library import find_lesson
+
+    return find_lesson(name).kit
+
+
+def load_score_and_performance(score_name: str, performance_name: str) -> tuple[Score, Performance]:
+    """Both; of two MIDI files each helps to tell which maker's note numbers the other uses."""
+    if not is_midi(performance_name):
+        return load_score(score_name), performance_of_capture(existing(performance_name))
+    from station.music.formats.smf.standard_midi import guess_kit_map, performance_from_midi, read_midi, score_from_midi
+
+    performance = read_midi(existing(performance_name))
+    if not is_midi(score_name):
+        return load_score(score_name), performance_from_midi(performance)
+    score = read_midi(existing(score_name))
+    score_map, performance_map = guess_kit_map(score, performance), guess_kit_map(performance, score)
+    return score_from_midi(score, score_map), performance_from_midi(performance, performance_map)
+
+
+def performance_of_capture(path: Path) -> Performance:
+    """All strokes of the capture at `path`, from the first on; raises `BadInput`."""
+    from station.core.events import Choke, Hit
+    from station.devices.capture.capture import read_capture
+    from station.devices.capture.replay import replay
+
+    if not _begins_as_capture(path):
+        raise BadInput(path, "", f"neither a MIDI file ({', '.join(MIDI_ENDINGS)}) nor a capture")
+    events = list(replay(read_capture(path)))
+    hits = [event for event in events if isinstance(event, Hit)]
+    start_ns = hits[0].at_ns if hits else 0
+    return Performance.from_hits(hits, [event for event in events if isinstance(event, Choke)]).shifted(-start_ns)
+
+
+def bars_of_gap(text: str) -> Gap:
+    """`2/1`: two bars with a click, one without; raises `ArgumentTypeError` for anything else."""
+    from station.practice.session.click_pattern import Gap
+
+    sounding, _, quiet = text.partition("/")
+    if not (sounding.isdecimal() and quiet.isdecimal() and int(sounding) and int(quiet)):
+        raise ArgumentTypeError(f"{text!r}: expected bars with and without a click such as 2/1")
+    return Gap(int(sounding), int(quiet))

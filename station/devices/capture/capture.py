@@ -1,0 +1,201 @@
+"""The capture: every byte of every device with its time, in one append-only file that checks itself.
+
+    capture = "DRUMCAP1" record*
+    record  = kind u8, device u16, size u32, at_ns i64, payload (size bytes), check u32      little-endian
+
+`check` is the CRC-32 of everything before it in the record, begun with the check of the record before (for the first,
+with the CRC-32 of the first eight bytes), so that a record that was damaged, dropped or moved shows. A reader stops at
+the first fault and has everything before it. Kinds that it does not know it passes over. Times are session time.
+
+| kind | device | at_ns | payload |
+|---|---|---|---|
+| START | 0 | when writing began | unix time in ns, i64 |
+| DEVICE | its number from now on | when it was first heard | JSON: `name`, `preset`; `kit`, its own file, if any |
+| BYTES | number | when they came | the bytes as they came |
+| LOST, FOUND | number | when | none |
+| STROKE | number | when it was played | a hit that had no bytes (computer keyboard): `_STROKE` |
+| ZERO | 0 | when cue time 0 was heard | none |
+| END | 0 | when the capture was closed | none |
+| SETTLED | number | until when its hits had been told | none; only before bytes from earlier, that came late |
+| OUTPUT | 0 | when the sound went there | the name of what sounds from now on, UTF-8; empty: nothing does |
+| REMARK | 0 | when it came | what whoever records wishes to be kept, UTF-8; sessions: `station.practice.session.event_log` |
+"""
+
+import json
+import math
+import struct
+import zlib
+from dataclasses import dataclass
+from enum import IntEnum
+from pathlib import Path
+from typing import NamedTuple
+
+from station.core.errors import BadInput, DeviceError
+from station.core.events import Hit
+from station.core.pieces import Articulation, Piece, Zone
+
+MAGIC = b"DRUMCAP1"
+_HEAD = struct.Struct("<BHIq")
+_CHECK = struct.Struct("<I")
+_HARDEST = 127
+FURTHEST_NS = 2**62
+"""No clock says so much (146 years): two times lie within 64 bits of each other."""
+_UNIX = struct.Struct("<q")
+_STROKE = struct.Struct("<BBBBf")  # piece, zone, articulation, velocity, openness (NaN: cannot tell)
+
+
+class RecordKind(IntEnum):
+    """What a record holds; a number, once given, is never given again."""
+
+    START = 0
+    DEVICE = 1
+    BYTES = 2
+    LOST = 3
+    FOUND = 4
+    STROKE = 5
+    ZERO = 6
+    END = 7
+    SETTLED = 8
+    OUTPUT = 9
+    REMARK = 10
+
+
+@dataclass(frozen=True, slots=True)
+class CaptureRecord:
+    """One entry of a capture; `kind` is a plain number, for a later version may write kinds that we do not know."""
+
+    kind: int
+    device: int
+    at_ns: int
+    payload: bytes = b""
+
+
+class RecordWriter:
+    """Turns records into the bytes that follow those already written; keeps the running check."""
+
+    def __init__(self, check: int | None = None) -> None:
+        self._check = zlib.crc32(MAGIC) if check is None else check
+
+    def encode(self, record: CaptureRecord) -> bytes:
+        """The bytes of one record."""
+        body = _HEAD.pack(record.kind, record.device, len(record.payload), record.at_ns) + record.payload
+        self._check = zlib.crc32(body, self._check)
+        return body + _CHECK.pack(self._check)
+
+
+@dataclass(frozen=True, slots=True)
+class Capture:
+    """What could be read: `records` in the order of writing.
+
+    `good_bytes` is the length of the sound part, `lost_bytes` what follows it and cannot be read, `check` the running
+    check at its end.
+    """
+
+    records: tuple[CaptureRecord, ...]
+    good_bytes: int
+    lost_bytes: int
+    check: int
+
+    @property
+    def complete(self) -> bool:
+        """Whether the capture was closed in order and all of it can be read."""
+        return not self.lost_bytes and bool(self.records) and self.records[-1].kind == RecordKind.END
+
+
+def read_capture(path: Path) -> Capture:
+    """Everything sound in the capture at `path`.
+
+    Raises `BadInput` where there is none and `DeviceError` where the disk refuses.
+    """
+    try:
+        data = path.read_bytes()
+    except FileNotFoundError:
+        raise BadInput(path, "", "no such file") from None
+    except OSError as fault:
+        raise DeviceError(f"{path}: cannot be read: {fault.strerror or fault}") from fault
+    return parse_capture(data, path)
+
+
+def parse_capture(data: bytes, source: str | Path = "capture") -> Capture:
+    """The capture in `data`, up to the first fault; raises `BadInput` where it does not even begin as one.
+
+    What was cut within its first eight bytes, even before the first, is a capture with nothing in it.
+    """
+    if not data.startswith(MAGIC):
+        if MAGIC.startswith(data):
+            return Capture((), 0, len(data), zlib.crc32(MAGIC))
+        raise BadInput(source, "byte 0", "no capture of a drum kit: it does not begin with DRUMCAP1")
+    records: list[CaptureRecord] = []
+    check = zlib.crc32(MAGIC)
+    at = len(MAGIC)
+    while at + _HEAD.size + _CHECK.size <= len(data):
+        kind, device, size, at_ns = _HEAD.unpack_from(data, at)
+        body_end = at + _HEAD.size + size
+        if body_end + _CHECK.size > len(data):
+            break
+        expected = zlib.crc32(data[at:body_end], check)
+        if _CHECK.unpack_from(data, body_end)[0] != expected or abs(at_ns) > FURTHEST_NS:
+            break
+        records.append(CaptureRecord(kind, device, at_ns, data[at + _HEAD.size : body_end]))
+        check, at = expected, body_end + _CHECK.size
+    return Capture(tuple(records), at, len(data) - at, check)
+
+
+# --- payloads --------------------------------------------------------------------------------------------------------
+
+
+def start_record(at_ns: int, unix_ns: int) -> CaptureRecord:
+    """Writing began at session time `at_ns`, which was `unix_ns` by the wall clock."""
+    return CaptureRecord(RecordKind.START, 0, at_ns, _UNIX.pack(unix_ns))
+
+
+class DeviceWord(NamedTuple):
+    """What a DEVICE record says: the device's name, its preset's, and the text of a kit of the user's own, if any."""
+
+    name: str
+    preset: str
+    kit: str | None = None
+
+
+def device_record(number: int, at_ns: int, name: str, preset: str, kit: str | None = None) -> CaptureRecord:
+    """From now on `number` stands for the device `name`, understood by `preset` or by the text of an own `kit`."""
+    said = {"name": name, "preset": preset} | ({} if kit is None else {"kit": kit})
+    return CaptureRecord(RecordKind.DEVICE, number, at_ns, json.dumps(said, ensure_ascii=False).encode())
+
+
+def device_of(record: CaptureRecord) -> DeviceWord:
+    """What a DEVICE record says; raises `BadInput` where its payload is not ours."""
+    try:
+        fields = json.loads(record.payload)
+        name, preset, kit = fields["name"], fields["preset"], fields.get("kit")
+        if not (isinstance(name, str) and isinstance(preset, str) and isinstance(kit, str | None)):
+            raise TypeError
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
+        raise BadInput("capture", f"device {record.device}", "its name and preset cannot be read") from None
+    return DeviceWord(name, preset, kit)
+
+
+def stroke_record(number: int, hit: Hit) -> CaptureRecord:
+    """A hit that came without bytes."""
+    openness = math.nan if hit.openness is None else hit.openness
+    payload = _STROKE.pack(hit.piece, hit.zone, hit.articulation, hit.velocity, openness)
+    return CaptureRecord(RecordKind.STROKE, number, hit.at_ns, payload)
+
+
+def stroke_of(record: CaptureRecord, device: str) -> Hit:
+    """The hit of a STROKE record; raises `BadInput` where its payload is not ours."""
+    try:
+        piece, zone, articulation, velocity, openness = _STROKE.unpack(record.payload)
+        if not (1 <= velocity <= _HARDEST and (math.isnan(openness) or 0.0 <= openness <= 1.0)):
+            raise ValueError
+        return Hit(
+            at_ns=record.at_ns,
+            piece=Piece(piece),
+            zone=Zone(zone),
+            velocity=velocity,
+            articulation=Articulation(articulation),
+            openness=None if math.isnan(openness) else openness,
+            device=device,
+        )
+    except (struct.error, ValueError):
+        raise BadInput("capture", f"stroke at {record.at_ns} ns", "it cannot be read") from None

@@ -1,0 +1,166 @@
+"""All ports at which a kit may be, MIDI and serial in one list, and the word with which a user asks for one.
+
+    KIT = PART | PART@BAUD | serial:PATH | serial:PATH@BAUD          KITS = KIT; KIT; …
+
+PART is part of a port's name in any case of letters, empty for the first MIDI kit found. A serial port is never opened
+unless it is asked for: there may be a motion sensor, a modem or a robot behind it.
+"""
+
+import re
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+from station.core.clock import monotonic_ns
+from station.core.errors import BadInput, DeviceError
+from station.devices.mapping.presets import stable_name
+from station.devices.midi.midi_clients import SoundServer
+from station.devices.midi.midi_ports import MidiDirectory
+from station.devices.port_watch import ClaimedPorts, PortWatch, choose_port
+from station.devices.serial.serial_names import SERIAL, device_of_port
+from station.devices.serial.serial_ports import FASTEST_BAUD, MIDI_BAUD, SLOWEST_BAUD, SerialDirectory
+from station.devices.transport import PortDirectory, Transport
+
+BETWEEN_KITS = ";"
+"""Stands between several kits in the settings: no driver puts one into a port's name."""
+
+_BAUD = re.compile(r"(.*)@(\d+)", re.DOTALL)
+
+
+@dataclass(frozen=True, slots=True)
+class DeviceRequest:
+    """A kit that a user asks for: `part` of its port's name, and the `baud` at which to open it if it is serial."""
+
+    part: str
+    baud: int = MIDI_BAUD
+
+    @property
+    def path(self) -> str:
+        """The path of a serial port, empty where none is asked for by its path."""
+        return self.part.removeprefix(SERIAL) if self.part.startswith(SERIAL) else ""
+
+
+def parse_kit(text: str) -> DeviceRequest:
+    """The wish that `text` says; raises `BadInput` for a rate that no serial port has."""
+    wish = text.strip()
+    rated = _BAUD.fullmatch(wish)
+    if rated is None:
+        if wish.startswith(SERIAL) and "@" in wish:
+            raise BadInput(f"kit {wish}", "", "expected serial:PATH@BAUD, such as serial:/dev/ttyUSB0@115200")
+        return DeviceRequest(wish)
+    baud = int(rated[2])
+    if not SLOWEST_BAUD <= baud <= FASTEST_BAUD:
+        raise BadInput(f"kit {wish}", "", f"{baud} baud: expected {SLOWEST_BAUD} to {FASTEST_BAUD}")
+    return DeviceRequest(rated[1], baud)
+
+
+def parse_kits(text: str) -> tuple[DeviceRequest, ...]:
+    """All the wishes in `text`; a wish for any kit counts only alone. Raises `BadInput` as `parse_kit` does."""
+    return tuple(parse_kit(part) for part in text.split(BETWEEN_KITS) if part.strip()) or (DeviceRequest(""),)
+
+
+class DevicePorts:
+    """MIDI and serial ports in one list; `midi` is None where no MIDI driver works."""
+
+    def __init__(self, midi: PortDirectory | None, serial: SerialDirectory) -> None:
+        self._midi = midi
+        self._serial = serial
+
+    def names(self) -> list[str]:
+        """The ports that are there now, MIDI before serial."""
+        return [*(self._midi.names() if self._midi is not None else ()), *self._serial.names()]
+
+    def open(self, port: str) -> Transport:
+        """Open one of `names()`; raises `DeviceError` where it cannot be had."""
+        if SERIAL in port:
+            return self._serial.open(port)
+        if self._midi is None:
+            raise DeviceError(f"{port}: no MIDI driver works")
+        return self._midi.open(port)
+
+
+def ports_for(wish: DeviceRequest, midi: PortDirectory | None) -> PortDirectory:
+    """Where to look for the kit that is wished for: not on serial ports unless it has a name."""
+    if not wish.part and midi is not None:
+        return midi
+    serial = SerialDirectory(wish.baud, wish.path)
+    return serial if wish.path else DevicePorts(midi, serial)
+
+
+@dataclass(frozen=True, slots=True)
+class Watches:
+    """The watches over the kits that were asked for, and the `fault` of a MIDI driver that one of them would need.
+
+    `midi` are the MIDI ports among which they look, None where there are none.
+    """
+
+    kits: tuple[PortWatch, ...]
+    fault: str | None = None
+    midi: MidiDirectory | None = None
+
+    def close(self) -> None:
+        """Leave every kit, then the driver: JACK's server waits for a client that ends without a word."""
+        for kit in self.kits:
+            kit.close()
+        if self.midi is not None:
+            self.midi.close()
+
+
+def watch_kits(
+    wishes: tuple[DeviceRequest, ...],
+    driver: str = "auto",
+    now_ns: Callable[[], int] = monotonic_ns,
+    sound: SoundServer | None = None,
+) -> Watches:
+    """A watch a wish, none of which takes another's port; without a MIDI driver serial ports are heard all the same.
+
+    Raises `BadInput` for a driver that there is not; the other parameters stand as in `MidiDirectory`.
+    """
+    midi, fault = None, None
+    if any(not wish.path for wish in wishes):
+        try:
+            midi = MidiDirectory(driver, now_ns, sound)
+        except DeviceError as error:
+            fault = str(error)
+    claims = ClaimedPorts()
+    heard = [wish for wish in wishes if midi is not None or wish.path or _is_serial(wish)]
+    return Watches(tuple(PortWatch(ports_for(wish, midi), wish.part, claims) for wish in heard), fault, midi)
+
+
+def devices_there(wishes: tuple[DeviceRequest, ...]) -> list[str]:
+    """The names of the kits that would be opened now, as far as the lists of ports tell."""
+    with midi_now() as (midi, _):
+        wanted = [wish for wish in wishes if wish.part or midi is not None]
+        chosen = [choose_port(ports_for(wish, midi).names(), wish.part) for wish in wanted]
+    return [device_of_port(stable_name(port)) for port in chosen if port is not None]
+
+
+def no_kit(wishes: tuple[DeviceRequest, ...]) -> str:
+    """What to tell a user none of whose `wishes` is there: what was looked for, and which ports there are."""
+    with midi_now() as (midi, fault):
+        ports = DevicePorts(midi, SerialDirectory()).names()
+    named = " or ".join(repr(wish.part) for wish in wishes if wish.part)
+    if not named and fault is not None:
+        return f"no kit can be heard: {fault}"
+    there = f"these are there: {', '.join(ports)}" if ports else "there is neither a MIDI nor a serial port"
+    needs_midi = any(not wish.path for wish in wishes)
+    driverless = " (no MIDI driver works: station doctor says why)" if fault is not None and needs_midi else ""
+    return f"{f'no port is called {named}' if named else 'no MIDI kit is plugged in'}; {there}{driverless}"
+
+
+@contextmanager
+def midi_now() -> Iterator[tuple[MidiDirectory | None, str | None]]:
+    """The MIDI ports for a look at them, or why there are none; JACK's server waits for clients that never leave."""
+    try:
+        midi = MidiDirectory()
+    except DeviceError as fault:
+        yield None, str(fault)
+        return
+    try:
+        yield midi, None
+    finally:
+        midi.close()
+
+
+def _is_serial(wish: DeviceRequest) -> bool:
+    return choose_port(SerialDirectory().names(), wish.part) is not None

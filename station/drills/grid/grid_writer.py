@@ -1,0 +1,253 @@
+"""Strokes of a score set into the grid: the way back from `grid` and `cell_strokes`.
+
+For each bar a *skeleton* is chosen, a bar of rests such as `---- (---) ---- ----`, the simplest one on whose cells all
+strokes of the bar fall. The skeleton is read by the reader itself, so whatever is written here is read back alike,
+swing included; then the letters are put in their places. All lines of a bar share one skeleton where one fits all.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cache
+
+from station.core.errors import BadInput
+from station.drills.grid.cell_strokes import CellPlace
+from station.drills.grid.grid import Bar, GridFrame, parse_line
+from station.drills.grid.swing import Swing
+from station.drills.grid.tab_symbols import CHOKE, HOLD
+from station.music.tempo import MeterChange
+
+PLAIN_CELLS = (1, 2, 3, 4, 6, 8)
+"""Cells a beat of the meter, in the order in which they are tried."""
+_PLAIN_BESIDE_TUPLETS = (1, 2, 4, 8, 16)
+TUPLET_CELLS = (3, 6, 5, 7, 2, 4, 9, 10, 12, 8, 14, 15, 16, 20, 21, 24, 28, 30, 32, 35, 40, 42, 48, 56, 60, 64)
+_RARE_CELLS = (12, 16, 5, 7, 10, 24, 32)
+MOST_SHARED_CELLS = 12
+"""Beyond so many cells a beat each line is cut for itself: finer bars are hard to read. Our choice."""
+_COUNTS = {1: "", 2: "&", 3: "ta", 4: "e&a", 6: "·t·a·", 8: "·e·&·a·"}
+"""How drummers count the cells after the beat's number."""
+REST = "-"
+REPEAT = "%"
+
+
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """A letter to be set at tick `at` of its bar (as played, swing and all).
+
+    `second` is where a diddle's other stroke falls; `until` where a buzz ends or a cymbal is grabbed, in ticks from the
+    same bar's start, perhaps in a later bar.
+    """
+
+    letter: str
+    at: int
+    second: int | None = None
+    until: int | None = None
+    holds: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class GridSetting:
+    """How bars are cut in a section."""
+
+    frame: GridFrame
+    swing: Swing
+
+
+@dataclass(slots=True)
+class LineText:
+    """The bars of one line as they are being written."""
+
+    name: str
+    marks: dict[int, list[Mark]]  # by bar
+    bars: list[str]
+
+
+def write_lines(lines: list[LineText], bar_count: int, setting: GridSetting) -> list[str]:
+    """Fill `bars` of every line; returns the skeleton of each bar that all lines share, "" where they do not.
+
+    Raises `BadInput` where a bar's strokes lie on no cell of any skeleton.
+    """
+    shared: list[str] = []
+    for bar in range(bar_count):
+        needed = [_needs(line, bar, setting) for line in lines]
+        common = _skeleton([mark for marks in needed for mark in marks], setting, MOST_SHARED_CELLS)
+        shared.append(common or "")
+        for line, marks in zip(lines, needed, strict=True):
+            skeleton = common or _skeleton(marks, setting, max(TUPLET_CELLS))
+            if not skeleton:
+                raise BadInput(line.name, f"bar {bar + 1}", "strokes lie between the cells that the grid can write")
+            line.bars.append(_filled(skeleton, marks, setting))
+    return shared
+
+
+def with_repeats(bars: Sequence[str], new_bar: Sequence[bool]) -> str:
+    """The bars between bar lines; one that is not new is written as a repeat of the one before it."""
+    cells = [bar if new else REPEAT.ljust(len(bar)) for bar, new in zip(bars, new_bar, strict=True)]
+    return "| " + " | ".join(cells) + " |"
+
+
+def counted(skeleton: str, setting: GridSetting) -> str:
+    """How a drummer counts the cells of this bar, beneath each other: `1e&a 2e&a …`; blank where no count is usual."""
+    cells = _cells(skeleton, setting.frame).cells
+    unit = setting.frame.meter.beat_ticks
+    starts = [c.tick for c in cells]
+    out = [" "] * len(skeleton)
+    for beat in range(setting.frame.meter.beats):
+        inside = [c for c in cells if beat * unit <= c.tick < (beat + 1) * unit]
+        if not inside or beat * unit not in starts:
+            continue
+        names = f"{(beat + 1) % 10}" + _COUNTS.get(len(inside), "·" * (len(inside) - 1))
+        for cell, name in zip(inside, names, strict=True):
+            out[cell.char] = name
+    return "".join(out)
+
+
+_Point = tuple[int, int | None]
+"""A tick of the bar at which a cell must start, and the tick that must be that cell's middle (None: any)."""
+
+# --- marks ------------------------------------------------------------------------------------------------------------
+
+
+def _needs(line: LineText, bar: int, setting: GridSetting) -> list[Mark]:
+    """The marks of this bar, with buzz rolls that come from earlier bars and chokes that fall into it."""
+    length = setting.frame.meter.bar_ticks
+    found = list(line.marks.get(bar, []))
+    for other, marks in line.marks.items():
+        for mark in marks:
+            if mark.until is None:
+                continue
+            end = mark.until - (bar - other) * length
+            if mark.holds and other < bar and end > 0:
+                found.append(Mark(HOLD, 0, until=end, holds=True))
+            if not mark.holds and 0 <= end < length:
+                found.append(Mark(CHOKE, end))
+    return found
+
+
+@dataclass(frozen=True, slots=True)
+class _Slot:
+    """A cell as played: its start, its middle, its end, and where its character stands in the skeleton."""
+
+    at: int
+    middle: int
+    end: int
+    char: int
+
+
+@cache
+def _slots(skeleton: str, setting: GridSetting) -> tuple[_Slot, ...]:
+    length = setting.frame.meter.bar_ticks
+    slots: list[_Slot] = []
+    for cell in _cells(skeleton, setting.frame).cells:
+        here = CellPlace(0, length, cell.tick, cell.swings)
+        at, middle, end = (
+            here.later(ticks).played(setting.swing) for ticks in (0, cell.length_ticks // 2, cell.length_ticks)
+        )
+        slots.append(_Slot(at, middle, end, cell.char))
+    return tuple(slots)
+
+
+@cache
+def _cells(skeleton: str, frame: GridFrame) -> Bar:
+    faults: list[str] = []
+    (bar,) = parse_line(skeleton, frame, lambda _, text: faults.append(text))
+    return bar
+
+
+def _points(marks: Iterable[Mark], bar_ticks: int) -> list[_Point]:
+    """What a skeleton must have to hold these marks."""
+    ends = [m.until for m in marks if m.holds and m.until is not None and m.until < bar_ticks]
+    return [*((m.at, m.second) for m in marks), *((end, None) for end in ends)]
+
+
+def _holds_all(skeleton: str, points: Iterable[_Point], setting: GridSetting) -> bool:
+    """Whether the skeleton has the cell that each point asks for."""
+    middles = {slot.at: slot.middle for slot in _slots(skeleton, setting)}
+    return all(at in middles and second in (None, middles[at]) for at, second in points)
+
+
+def _filled(skeleton: str, marks: Sequence[Mark], setting: GridSetting) -> str:
+    out = list(skeleton)
+    slots = _slots(skeleton, setting)
+    for mark in marks:
+        for slot in slots:
+            if slot.at == mark.at:
+                out[slot.char] = mark.letter
+            elif mark.holds and mark.at < slot.at < (mark.until or 0):
+                out[slot.char] = HOLD
+    return "".join(out)
+
+
+# --- skeletons --------------------------------------------------------------------------------------------------------
+
+
+def _skeleton(marks: Sequence[Mark], setting: GridSetting, most: int) -> str | None:
+    """The simplest skeleton whose cells, at most `most` a beat, hold all marks of a bar."""
+    points = _points(marks, setting.frame.meter.bar_ticks)
+    candidates = (
+        *(_plain(setting.frame, cells) for cells in PLAIN_CELLS),
+        _with_tuplets(points, setting, most),
+        *(_plain(setting.frame, cells) for cells in _RARE_CELLS if cells <= most),
+    )
+    return next((s for s in candidates if s and _holds_all(s, points, setting)), None)
+
+
+def _plain(frame: GridFrame, cells: int) -> str | None:
+    """A bar of `cells` equal cells a beat of the meter, blanks between the beats that are counted."""
+    unit = frame.meter.beat_ticks
+    if unit % cells:
+        return None
+    length = unit // cells
+    return _spaced([REST] * (frame.meter.beats * cells), [length] * (frame.meter.beats * cells), frame)
+
+
+def _spaced(words: Sequence[str], lengths: Sequence[int], frame: GridFrame) -> str:
+    """The words with a blank before each that starts on a beat."""
+    out, tick = "", 0
+    for word, length in zip(words, lengths, strict=True):
+        out += (" " if out and tick % _group_ticks(frame) == 0 else "") + word
+        tick += length
+    return out
+
+
+def _group_ticks(frame: GridFrame) -> int:
+    """The beat that is counted where it is made of the meter's beats; else the meter's beat."""
+    unit = frame.meter.beat_ticks
+    return frame.beat_ticks if frame.beat_ticks % unit == 0 else unit
+
+
+def _with_tuplets(points: Sequence[_Point], setting: GridSetting, most: int) -> str | None:
+    """Plain cells with `(…)` in those beats that they do not suit; as few of these as can be."""
+    frame = setting.frame
+    if frame.meter.bar_ticks % frame.beat_ticks:
+        return None
+    options = [_tupled(points, setting, cells, most) for cells in _PLAIN_BESIDE_TUPLETS]
+    found = [s for s in options if s]
+    return min(found, key=lambda s: s.count("(")) if found else None
+
+
+def _tupled(points: Sequence[_Point], setting: GridSetting, cells: int, most: int) -> str | None:
+    """A bar of `cells` plain cells a beat of the meter, and tuplets where these do not fit; None if neither does."""
+    frame = setting.frame
+    plain = _plain(frame, cells)
+    length = frame.meter.beat_ticks // cells
+    if plain is None or frame.beat_ticks % length:
+        return None
+    beats = frame.meter.bar_ticks // frame.beat_ticks
+    words: list[str] = []
+    for beat in range(beats):
+        here = [p for p in points if beat * frame.beat_ticks <= p[0] < (beat + 1) * frame.beat_ticks]
+        tuplets = (f"({REST * n})" for n in TUPLET_CELLS if n <= most and frame.beat_ticks % n == 0)
+        rest = f"({REST})"
+        word = REST * (frame.beat_ticks // length)
+        if not _holds_all(plain, here, setting):
+            alone = (t for t in tuplets if _holds_all(rest * beat + t + rest * (beats - beat - 1), here, setting))
+            word = next(alone, "")
+        if not word:
+            return None
+        words.append(word)
+    return " ".join(words)
+
+
+def frame_of(meter: MeterChange, beat_ticks: int) -> GridFrame:
+    """The frame of a bar of `meter`, its tick left out."""
+    return GridFrame(MeterChange(0, meter.beats, meter.unit), beat_ticks)

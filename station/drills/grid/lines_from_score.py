@@ -1,0 +1,144 @@
+"""The lines of the grid that a stretch of a score is written with: letters, sticking and limb tables.
+
+The reverse of `cell_strokes` and `sticking`. Strokes whose hands a sticking line can say are written with one; the others go
+to `right_hand.…` and `left_hand.…` lines. Whatever has no letter raises `BadInput` with its bar.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+from station.core.errors import BadInput
+from station.core.pieces import Articulation, Limb, Ornament, Piece, word
+from station.drills.grid.cell_strokes import GRACE_LEADS_MS
+from station.drills.grid.grid_writer import LineText, Mark
+from station.drills.grid.sticking_line import BOTH, HANDS, RIGHT_FIRST, STICKING
+from station.drills.grid.tab_symbols import ALIASES, FOOT_OF, LETTER_OF, LINE_ORDER, TabSymbol, family_of
+from station.music.score import Note, Score
+
+_HAND_LETTER = {limb: letter for letter, limb in HANDS.items()}
+_SHORT_NAME = {piece: name for name, piece in ALIASES.items()}
+
+
+@dataclass(frozen=True, slots=True)
+class WrittenStroke:
+    """One letter to be: the note that it stands on, and the second stroke of a diddle."""
+
+    note: Note
+    bar: int
+    start: int  # tick of the bar
+    second_tick: int | None = None
+
+    @property
+    def letter(self) -> str:
+        """The letter that plays it; raises `BadInput` if none does."""
+        note = self.note
+        is_diddle = self.second_tick is not None
+        ornament = Ornament.DIDDLE if is_diddle else note.ornament
+        meaning = TabSymbol(note.zone, note.articulation, note.dynamic, note.openness, ornament)
+        found = LETTER_OF[family_of(note.piece)].get(meaning)
+        if found is None:
+            what = f"{word(note.piece)}: {word(note.zone)}, {word(note.articulation)}, {word(note.dynamic)}"
+            raise BadInput("score", f"bar {self.bar + 1}", f"no letter of the grid plays this stroke ({what})")
+        return found
+
+    @property
+    def mark(self) -> Mark:
+        """The letter with its ticks from the start of the bar."""
+        note, at = self.note, self.note.tick - self.start
+        lasts = note.duration_ticks or note.choke_ticks
+        is_buzz = note.articulation is Articulation.BUZZ
+        return Mark(
+            self.letter,
+            at,
+            second=None if self.second_tick is None else self.second_tick - self.start,
+            until=at + lasts if lasts else None,
+            holds=is_buzz,
+        )
+
+
+def strokes_by_bar(score: Score) -> dict[int, list[WrittenStroke]]:
+    """The letters to be written for a score, by bar from 0."""
+    by_bar: dict[int, list[WrittenStroke]] = {}
+    for stroke in _strokes(score):
+        by_bar.setdefault(stroke.bar, []).append(stroke)
+    return by_bar
+
+
+def lines_of(by_bar: Mapping[int, Sequence[WrittenStroke]], first_bar: int, last_bar: int) -> list[LineText]:
+    """The lines for bars `first_bar` to `last_bar`, top to bottom; in a line bars count from 0 at its start."""
+    by_tick: dict[int, list[WrittenStroke]] = {}
+    for bar in range(first_bar, last_bar + 1):
+        for stroke in by_bar.get(bar, ()):
+            by_tick.setdefault(stroke.note.tick, []).append(stroke)
+    lines: dict[str, LineText] = {}
+    sticking = LineText(STICKING, {}, [])
+    for together in by_tick.values():
+        hands = [s for s in together if not _is_foot(s.note.limb) and s.note.piece not in FOOT_OF]
+        said = _sticking_letter(hands)
+        bar = together[0].bar - first_bar
+        if said:
+            sticking.marks.setdefault(bar, []).append(Mark(said, together[0].mark.at))
+        for stroke in together:
+            name = _line_name(stroke.note, said_below=bool(said) and stroke in hands)
+            line = lines.setdefault(name, LineText(name, {}, []))
+            line.marks.setdefault(bar, []).append(stroke.mark)
+    if sticking.marks:
+        lines[STICKING] = sticking
+    return sorted(lines.values(), key=_height)
+
+
+def _strokes(score: Score) -> Iterable[WrittenStroke]:
+    """The main strokes of a score, those of diddles paired; grace strokes follow from the letter."""
+    bars, starts = score.bar, [score.tempo_map.bar_start(b) for b in range(score.bar_count)]
+    half: dict[Piece, WrittenStroke] = {}
+    for i, note in enumerate(score):
+        bar = int(bars[i])
+        if note.lead_ms > 0:
+            if note.lead_ms not in GRACE_LEADS_MS.get(note.ornament, ()):
+                raise BadInput("score", f"bar {bar + 1}", f"a grace stroke {note.lead_ms:g} ms before its note")
+            continue
+        stroke = WrittenStroke(note, bar, starts[bar])
+        is_open = note.ornament in (Ornament.DIDDLE, Ornament.ROLL) and note.articulation is not Articulation.BUZZ
+        if not is_open:
+            yield stroke
+        elif note.piece in half:
+            first = half.pop(note.piece)
+            yield WrittenStroke(first.note, first.bar, first.start, note.tick)
+        else:
+            half[note.piece] = stroke
+    for alone in half.values():
+        raise BadInput("score", f"bar {alone.bar + 1}", "a diddle of one stroke")
+
+
+def _is_foot(limb: Limb) -> bool:
+    return limb in (Limb.RIGHT_FOOT, Limb.LEFT_FOOT)
+
+
+def _sticking_letter(hands: Sequence[WrittenStroke]) -> str:
+    """R, L or B where a sticking line can say who plays these strokes of one moment; else empty."""
+    limbs = [s.note.limb for s in hands]
+    if len(hands) == 1:
+        return _HAND_LETTER.get(limbs[0], "")
+    if len(hands) == 2:
+        right = min(hands, key=lambda s: RIGHT_FIRST.index(s.note.piece))
+        if all(s.note.limb is (Limb.RIGHT_HAND if s is right else Limb.LEFT_HAND) for s in hands):
+            return BOTH
+    return ""
+
+
+def _line_name(note: Note, *, said_below: bool) -> str:
+    """`snare`, or `left_hand.snare` where neither custom nor the sticking line says the limb."""
+    name = _SHORT_NAME.get(note.piece, word(note.piece))
+    if said_below or note.limb in (Limb.UNKNOWN, FOOT_OF.get(note.piece)):
+        return name
+    return f"{word(note.limb)}.{name}"
+
+
+def _height(line: LineText) -> tuple[int, str]:
+    """Where a line stands on the page; the sticking stands between hands and feet."""
+    name = line.name.rpartition(".")[2]
+    feet = LINE_ORDER.index(Piece.KICK)
+    if name == STICKING:
+        return 2 * feet - 1, name
+    piece = next(p for p in LINE_ORDER if name in (word(p), _SHORT_NAME.get(p)))
+    return 2 * LINE_ORDER.index(piece), line.name

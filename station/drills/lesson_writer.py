@@ -1,0 +1,191 @@
+"""Lessons written as files: what `lesson show`, `import` and the editor put out.
+
+The text is a lesson file with its lines aligned and the count above them. It is read again before it is given away:
+whoever gets a text gets the same lesson back (all strokes but the MIDI numbers that they once came from).
+"""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from station.core.errors import BadInput
+from station.core.pieces import word
+from station.core.units import PPQ
+from station.drills.grid.cell_strokes import Velocities
+from station.drills.grid.grid_writer import GridSetting, counted, frame_of, with_repeats, write_lines
+from station.drills.grid.lines_from_score import WrittenStroke, lines_of, strokes_by_bar
+from station.drills.lesson import Goals, Lesson, Section, tidy_bpm
+from station.drills.lesson_file import parse_lesson
+from station.music.score import NOTE_DTYPE, Score
+
+_DYNAMICS = ("ghost", "normal", "accent")
+
+
+def write_lesson(lesson: Lesson) -> str:
+    """The text of a lesson file that reads as `lesson`.
+
+    Raises `BadInput` for music that the grid cannot write (times between its cells, velocities beside the lesson's
+    dynamics, strokes without a letter): see `fit.fit_score`, which brings any score onto the grid.
+    """
+    text = "\n".join([*_head(lesson), "", *_dynamics(lesson.velocities), *_goals(lesson), *_grids(lesson)]) + "\n"
+    read = parse_lesson(text, lesson.name, lesson.name)
+    if read.lesson is None:
+        raise BadInput(lesson.name, "", f"cannot be written as a lesson: {read.faults[0].text}")
+    difference = first_difference(lesson.score, read.lesson.score)
+    if difference:
+        raise BadInput(lesson.name, "", f"cannot be written as a lesson: {difference}")
+    return text
+
+
+def first_difference(a: Score, b: Score) -> str:
+    """What the first stroke is that differs, for people; empty if the scores sound and read alike."""
+    if a.tempo_map != b.tempo_map or a.end_tick != b.end_tick:
+        return "tempo, meter or length differ"
+    if len(a) != len(b):
+        return f"{len(a)} strokes became {len(b)}"
+    for name in NOTE_DTYPE.names or ():
+        if name == "midi_note":
+            continue
+        left, right = a.notes[name], b.notes[name]
+        same = (left == right) | (np.isnan(left) & np.isnan(right))
+        if not np.all(same):
+            i = int(np.flatnonzero(~same)[0])
+            note = a[i]
+            place = a.tempo_map.position_at(note.tick)
+            return f"bar {place.bar + 1}, beat {place.beat + 1}, {word(note.piece)}: {name} {left[i]} became {right[i]}"
+    return ""
+
+
+def _head(lesson: Lesson) -> list[str]:
+    defaults = Lesson("", "", lesson.score)
+    lines = [f"title = {quoted(lesson.title)}"]
+    lines += [f"author = {quoted(lesson.author)}"] if lesson.author else []
+    lines += [f"level = {lesson.level}"]
+    lines += [f"tags = [{', '.join(quoted(t) for t in lesson.tags)}]"] if lesson.tags else []
+    lines += [f"about = {_paragraph(lesson.about)}"] if lesson.about else []
+    lines += [f"kit = {quoted(lesson.kit)}"] if lesson.kit else []
+    lines += [f"tempo_bpm = {number(lesson.beats_a_minute)}", f"meter = {quoted(lesson.meter)}"]
+    lines += [f"beat = {quoted(note_length(lesson.beat_ticks))}"] if lesson.beat_ticks != PPQ else []
+    lines += [f"swing_ratio = {number(lesson.swing.ratio)}"] if lesson.is_swung else []
+    if lesson.swing.unit_ticks != defaults.swing.unit_ticks:
+        lines += [f"swing_unit = {quoted(note_length(lesson.swing.unit_ticks))}"]
+    first, last = lesson.loop
+    lines += [f"loop = [{first + 1}, {last + 1}]"] if lesson.loop != (0, lesson.score.bar_count - 1) else []
+    return [
+        *lines,
+        f"passes = {lesson.passes}",
+        f"count_in_bars = {lesson.count_in_bars}",
+        f"demonstrations = {lesson.demonstrations}",
+    ]
+
+
+def _dynamics(velocities: Velocities) -> list[str]:
+    usual = Velocities().usual
+    lines: list[str] = []
+    if velocities.usual != usual:
+        lines += ["[dynamics]", *_three(velocities.usual, usual), ""]
+    for piece, own in velocities.of_piece.items():
+        lines += [f"[dynamics.{word(piece)}]", *_three(own, velocities.usual), ""]
+    return lines
+
+
+def _three(values: tuple[int, int, int], usual: tuple[int, int, int]) -> list[str]:
+    return [f"{key} = {v}" for key, v, u in zip(_DYNAMICS, values, usual, strict=True) if v != u]
+
+
+def _goals(lesson: Lesson) -> list[str]:
+    goals, defaults = lesson.goals, Goals()
+    if goals == defaults:
+        return []
+    values = {
+        "min_accuracy": goals.min_accuracy if goals.min_accuracy != defaults.min_accuracy else None,
+        "max_sd_ms": goals.max_sd_ms,
+        "max_lean_ms": goals.max_lean_ms,
+        "max_swing_error": goals.max_swing_error,
+        "target_tempo_bpm": goals.target_tempo_bpm and goals.target_tempo_bpm * PPQ / lesson.beat_ticks,
+        "min_score": goals.min_score,
+    }
+    return ["[goals]", *(f"{key} = {number(v)}" for key, v in values.items() if v is not None), ""]
+
+
+def _grids(lesson: Lesson) -> list[str]:
+    sections = lesson.sections or (Section("", 0, lesson.score.bar_count - 1),)
+    single = len(sections) == 1 and not sections[0].name
+    by_bar = strokes_by_bar(lesson.score)
+    out: list[str] = []
+    for i, section in enumerate(sections):
+        out += ["[grid]" if single else "[[grid]]"]
+        out += [f"name = {quoted(section.name)}"] if section.name else []
+        out += _changes(lesson, section) if i else []
+        out += [*_lines(lesson, section, by_bar), ""]
+    return out[:-1]
+
+
+def _changes(lesson: Lesson, section: Section) -> list[str]:
+    """Meter and tempo where they differ from those before the section."""
+    tempo_map = lesson.score.tempo_map
+    start = tempo_map.bar_start(section.first_bar)
+    meter, before = tempo_map.meter_at(start), tempo_map.meter_at(start - 1)
+    changed = (meter.beats, meter.unit) != (before.beats, before.unit)
+    lines = [f'meter = "{meter.beats}/{meter.unit}"'] if changed else []
+    here = next((t for t in tempo_map.tempos if t.tick == start), None)
+    return lines + ([f"tempo_bpm = {number(tidy_bpm(here.us_per_quarter, lesson.beat_ticks))}"] if here else [])
+
+
+def _lines(lesson: Lesson, section: Section, by_bar: Mapping[int, Sequence[WrittenStroke]]) -> list[str]:
+    """The lines of one section: the count as a comment where all bars have one, then line by line."""
+    start = lesson.score.tempo_map.bar_start(section.first_bar)
+    setting = GridSetting(frame_of(lesson.score.tempo_map.meter_at(start), lesson.beat_ticks), lesson.swing)
+    lines = lines_of(by_bar, section.first_bar, section.last_bar)
+    count = section.last_bar - section.first_bar + 1
+    if not lines:
+        return [f'snare = "{"| -" * count} |"']
+    shared = write_lines(lines, count, setting)
+    new = [True] + [any(line.bars[i] != line.bars[i - 1] for line in lines) for i in range(1, count)]
+    width = max(len(line.name) for line in lines)
+    out = []
+    if all(shared):
+        counts = [counted(s, setting) for s in shared]
+        out.append((f"#{'':{width + 3}}" + with_repeats(counts, [True] * count).replace("|", " ")).rstrip())
+    out += [f'{line.name:<{width}} = "{with_repeats(line.bars, new)}"' for line in lines]
+    return out
+
+
+# --- TOML -------------------------------------------------------------------------------------------------------------
+
+
+def quoted(text: str) -> str:
+    """A TOML basic string."""
+    escaped = "".join(_escape(c) for c in text)
+    return f'"{escaped}"'
+
+
+_ESCAPES = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\t": "\\t"}
+
+
+def _escape(char: str) -> str:
+    if char in _ESCAPES:
+        return _ESCAPES[char]
+    return f"\\u{ord(char):04X}" if ord(char) < 0x20 or ord(char) == 0x7F else char
+
+
+def _paragraph(text: str) -> str:
+    """A string of several lines between three quotes, if it has several."""
+    if "\n" not in text:
+        return quoted(text)
+    body = "\n".join("".join(c if c == '"' else _escape(c) for c in line) for line in text.split("\n"))
+    body = body.replace('""', '"\\"')
+    return f'"""\n{body}\n"""'
+
+
+def number(value: float) -> str:
+    """A number without needless decimals."""
+    return str(int(value)) if value == int(value) else repr(value)
+
+
+def note_length(ticks: int) -> str:
+    """Ticks as a note length such as 1/4 or 3/8."""
+    for bottom in (1, 2, 4, 8, 16, 32):
+        if ticks * bottom % (4 * PPQ) == 0:
+            return f"{ticks * bottom // (4 * PPQ)}/{bottom}"
+    raise AssertionError(f"{ticks} ticks are no note length")

@@ -1,0 +1,64 @@
+"""What the engine process opens, and what it is told before anything else."""
+
+from dataclasses import dataclass
+from typing import Self
+
+from station.core.settings import Settings, setting_source
+from station.devices.device_ports import DeviceRequest, parse_kits
+from station.engine.level_words import parse_levels
+from station.engine.messages import Bus, Command, SetLevel, SetMidiOut, SetPiece
+
+_CHOSEN = Settings()
+
+
+@dataclass(frozen=True, slots=True)
+class Prepare:
+    """What a process that waits as a spare makes ready meanwhile: the drums and the click of that name at a rate."""
+
+    drums: str
+    click: str
+    rate_hz: int
+
+
+@dataclass(frozen=True, slots=True)
+class EngineConfig:
+    """What the engine process opens.
+
+    `kits` are those to listen to, none for an engine without; `midi_driver` is "auto" or one of
+    `station.devices.midi.midi_ports.compiled_drivers()`; `output`, `block_frames`, `rate_hz`, `drums`, `click`
+    `own_sound`, `levels` and `midi_out` stand as in `Settings`; without `sound` no card is opened.
+    """
+
+    kits: tuple[DeviceRequest, ...] = (DeviceRequest(""),)
+    midi_driver: str = "auto"
+    sound: bool = True
+    output: str = ""
+    block_frames: int = 0
+    rate_hz: int = _CHOSEN.rate_hz
+    drums: str = _CHOSEN.drums
+    click: str = _CHOSEN.click
+    own_sound: bool = True
+    levels: tuple[SetLevel | SetPiece, ...] = ()
+    midi_out: str = ""
+
+    @classmethod
+    def from_settings(cls, settings: Settings) -> Self:
+        """What a user has chosen; raises `BadInput` for kits and levels that cannot be meant."""
+        return cls(
+            kits=parse_kits(settings.kit),
+            output=settings.output,
+            block_frames=settings.block_frames,
+            rate_hz=settings.rate_hz,
+            drums=settings.drums,
+            click=settings.click,
+            own_sound=settings.own_sound,
+            levels=parse_levels(settings.levels, setting_source("levels")),
+            midi_out=settings.midi_out,
+        )
+
+    @property
+    def first_commands(self) -> tuple[Command, ...]:
+        """What the engine is told before anything else."""
+        silent = () if self.own_sound else (SetLevel(Bus.STUDENT, 0.0),)
+        port = (SetMidiOut(self.midi_out),) if self.midi_out else ()
+        return (*self.levels, *silent, *port)

@@ -1,0 +1,83 @@
+"""What stands beside a result: the heat map, a row a bar and a column a limb, and a bar to be compared."""
+
+from imgui_bundle import imgui
+
+from station.app.model import ShownResult
+from station.core.pieces import Limb
+from station.gui import theme
+from station.gui.panels.playback_row import PlaybackRow
+from station.gui.widgets.flow_row import FlowRow
+from station.render import palette
+from station.scenes.heat_map import HeatMap
+
+_NAMES = {
+    Limb.LEFT_HAND: ("LH", "left hand"),
+    Limb.RIGHT_HAND: ("RH", "right hand"),
+    Limb.LEFT_FOOT: ("LF", "left foot"),
+    Limb.RIGHT_FOOT: ("RF", "right foot"),
+}
+_COMPARING, _HEADING, _LINE, _LEAST = 134.0, 34.0, 27.0, 90.0
+"""Design pixels: the height of the part below the map, of the wrong pads' heading and lines, the least of the map."""
+_CONFUSIONS = 3
+"""So many confusions are named; our choice, the most frequent are worth a look."""
+_BEST, _WORST = palette.with_opacity(palette.GOOD, 0.16), palette.with_opacity(palette.MISSED, 0.75)
+"""Of the night; the theme dyes them."""
+
+
+def bars_panel(report: ShownResult, ear: PlaybackRow) -> int | None:
+    """Draw both; returns the bar (from 1) that the user wants to drill, None for none."""
+    confused = report.wrong_pads[:_CONFUSIONS]
+    below = theme.points(_COMPARING + (_HEADING + _LINE * len(confused) if confused else 0.0))
+    below = below if len(report.hits.dots) else 0.0
+    chosen = _heat(report.heat, imgui.get_content_region_avail().y - below)
+    if below:
+        imgui.set_cursor_pos_y(max(imgui.get_cursor_pos_y(), imgui.get_window_height() - below))
+        if confused:
+            imgui.separator_text("Wrong pads")
+        for pad in confused:
+            if imgui.selectable(f"{pad.words}##wrong-{pad.words}", False)[0]:
+                ear.show(report, pad.bar, pad.pass_number)
+            theme.tooltip(f"Most in bar {pad.bar}. Click to see it: the drummer's arm goes to the right pad, and glows")
+        imgui.separator_text("Hear and see a bar")
+        ear.gui(report, FlowRow())
+    return chosen
+
+
+def _heat(heat: HeatMap, height: float) -> int | None:
+    top = imgui.get_cursor_pos_y()
+    theme.heading("Bar by bar", 20)
+    theme.soft("Notes right, in percent. Click a bar to practise it alone.")
+    chosen = None
+    limbs = heat.limbs
+    flags = imgui.TableFlags_.sizing_stretch_same | imgui.TableFlags_.scroll_y
+    room = max(height - (imgui.get_cursor_pos_y() - top), theme.points(_LEAST))
+    if limbs and imgui.begin_table("##heat", len(limbs) + 1, flags, imgui.ImVec2(0, room)):
+        imgui.table_setup_scroll_freeze(0, 1)
+        imgui.table_setup_column("bar")
+        for limb in limbs:
+            imgui.table_setup_column(_NAMES[limb][0])
+        imgui.table_headers_row()
+        for bar in heat.bars:
+            if _row(heat, bar, limbs):
+                chosen = bar
+        imgui.end_table()
+    return chosen
+
+
+def _row(heat: HeatMap, bar: int, limbs: list[Limb]) -> bool:
+    """One bar; returns whether it was pressed."""
+    imgui.table_next_row()
+    imgui.table_next_column()
+    pressed = imgui.button(f"{bar}##bar{bar}", imgui.ImVec2(-1, 0))
+    theme.tooltip(f"Practise bar {bar} alone, at the same tempo")
+    for limb in limbs:
+        imgui.table_next_column()
+        cell = heat.cells.get((bar, limb))
+        if cell is None:
+            continue
+        colour = palette.mixed(theme.dyed(_WORST), theme.dyed(_BEST), cell.share)
+        imgui.push_style_color(imgui.Col_.button, imgui.ImVec4(*colour))
+        pressed |= imgui.button(f"{100 * cell.share:.0f}##{bar}-{limb.name}", imgui.ImVec2(-1, 0))
+        imgui.pop_style_color()
+        theme.tooltip(f"Bar {bar}, {_NAMES[limb][1]}: {cell.right} of {cell.notes} right. Click to practise the bar")
+    return bool(pressed)

@@ -1,0 +1,69 @@
+"""What the lessons panel knows of courses: the list that chooses one, and the mark of progress beside a lesson."""
+
+import math
+from datetime import date
+
+from imgui_bundle import imgui
+
+from station.app.selection import Selection
+from station.gui import theme
+from station.practice.records.lesson_progress import LessonProgress
+from station.render import palette
+from station.render.text.draw_list import Colour
+
+ALL_LESSONS = "All lessons"
+_RADIUS, _LINE = 7.0, 2.0
+"""Design pixels of the mark."""
+
+
+def course_picker(choice: Selection) -> None:
+    """The list of courses, with how much of each is mastered."""
+    if not choice.courses:
+        return
+    chosen = choice.course
+    words = ALL_LESSONS if chosen is None else f"{chosen.title}: {choice.mastered(chosen)} of {len(chosen.lessons)}"
+    imgui.set_next_item_width(-1)
+    if imgui.begin_combo("##course", words, imgui.ComboFlags_.height_large):
+        for course in (None, *choice.courses):
+            label = ALL_LESSONS if course is None else f"{course.title}##{course.name}"
+            if imgui.selectable(label, course is chosen)[0]:
+                choice.follow(course)
+            if course is not None:
+                theme.tooltip(f"{course.about}\n{choice.mastered(course)} of {len(course.lessons)} lessons mastered")
+        imgui.end_combo()
+    theme.tooltip(chosen.about if chosen else "A course has lessons in the order in which a teacher gives them")
+
+
+def mark(progress: LessonProgress | None, today: date) -> None:
+    """Beside the line that was drawn last: a ring that fills, a disc with a tick, a ring with one when it is due."""
+    if progress is None:
+        return
+    radius = theme.points(_RADIUS)
+    low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
+    middle = imgui.ImVec2(high.x - radius - theme.points(4), (low.y + high.y) / 2)
+    brush = imgui.get_window_draw_list()
+    if progress.is_due(today):
+        brush.add_circle(middle, radius, _ink(palette.BRAND), 0, theme.points(_LINE))
+        _tick(middle, radius, _ink(palette.BRAND))
+    elif progress.is_mastered:
+        brush.add_circle_filled(middle, radius, _ink(palette.GOOD))
+        _tick(middle, radius, _ink(palette.NIGHT))
+    else:
+        brush.add_circle(middle, radius, _ink(palette.INK_FAINT), 0, theme.points(_LINE))
+        brush.path_arc_to(middle, radius, -math.pi / 2, (progress.shown_pct / 50.0 - 0.5) * math.pi)
+        brush.path_stroke(_ink(palette.GOOD), theme.points(_LINE))
+
+
+def mark_width() -> float:
+    """Pixels that a mark takes at the right end of a line."""
+    return theme.points(2 * _RADIUS + 8)
+
+
+def _tick(middle: imgui.ImVec2, radius: float, ink: int) -> None:
+    corners = [(-0.5, 0.0), (-0.1, 0.4), (0.5, -0.4)]
+    points = [(middle.x + x * radius, middle.y + y * radius) for x, y in corners]
+    imgui.get_window_draw_list().add_polyline([*points], ink, theme.points(_LINE), imgui.ImDrawFlags_.none)
+
+
+def _ink(colour: Colour) -> int:
+    return int(imgui.get_color_u32(imgui.ImVec4(*theme.dyed(colour))))

@@ -1,0 +1,286 @@
+"""The devices panel: what the kit sends, live, and pad by pad what of it counts, set by looking.
+
+A view over `MappingEditor`. The bars of a pad are its last strokes against its threshold; hollow ones are held back.
+"""
+
+from collections.abc import Callable, Iterable
+
+from imgui_bundle import imgui
+
+from station.app.latency_lines import latency_lines
+from station.app.mapping_editor import STROKES_SHOWN, MappingEditor, PadStroke
+from station.core.events import Choke, Hit, PedalMoved, Switched
+from station.core.labels import piece_name
+from station.core.measured_latency import StoredCalibration, load_calibration
+from station.core.pieces import Piece, word
+from station.core.units import NS_PER_MS
+from station.devices.mapping.trigger_filter import HeldBack
+from station.devices.monitor import MonitorLine, suspected
+from station.gui import theme
+from station.gui.panels.calibration_part import CalibrationPart
+from station.gui.panels.pads_part import PadsPart
+from station.gui.panels.velocity_part import VelocityPart
+from station.render import palette
+
+DEVICES = "Devices"
+ABOUT = "The kits that were found, what they send, and what of it counts as a stroke"
+HELP = (
+    "Strike a pad: a line says what was understood, with the raw bytes, and a bar how hard. Raise a pad's threshold"
+    " until bars that you did not play are hollow, and its mask until double triggers are. What looks like crosstalk is"
+    " named with a button that holds it back. Learn a pad: choose what it is, hit it once. A pad's name shows how loud"
+    " its strokes count; five ghosts and five accents teach that. Changes show here at once; Save keeps them for this"
+    " kit, and from then on the station plays and judges by them."
+)
+SAVE_LABEL = "Save##save-kit"
+BACK_LABEL = "As it was##back-kit"
+_WHY = {
+    HeldBack.TOO_SOFT: "too soft",
+    HeldBack.DOUBLE: "double",
+    HeldBack.CROSSTALK: "crosstalk",
+    HeldBack.FALSE_STOMP: "false stomp",
+    HeldBack.GRAB: "a grab",
+}
+_MOST_THRESHOLD, _MOST_MASK_MS = 60, 60
+"""The sliders' ends; our choice, twice what any pad needed that was read of."""
+_BAR_LEAST = 3
+"""Design pixels."""
+_LOUDEST = 127
+_LIVE_SHARES = (0.38, 0.10, 0.27, 0.25)
+"""What each column of the live lines takes of the width."""
+_NO_KIT = "No kit is here. Plug it in and switch it on: it is found within a second."
+_GIVEN_UP = "Nothing comes from it? `station devices list` and `station doctor` in a terminal say what is there."
+
+
+class DevicesPanel:
+    """The panel over one desk; `tried` does something or says why it could not be done, `tell` says a line."""
+
+    def __init__(
+        self,
+        desk: MappingEditor,
+        tried: Callable[[Callable[[], object]], None],
+        tell: Callable[[str], None],
+        calibration: CalibrationPart,
+    ) -> None:
+        self._desk = desk
+        self._tried = tried
+        self._tell = tell
+        self._calibration = calibration
+        self._pads, self._touch = PadsPart(desk), VelocityPart(desk)
+        self._known: StoredCalibration | None = None
+
+    def gui(self, may_measure: bool) -> None:
+        """Draw the panel and do what the user does in it; `may_measure` while nobody plays."""
+        desk = self._desk
+        if self._calibration.runs:
+            theme.heading("How late they are")
+            self._calibration.gui(may_measure)
+            return
+        if not desk.device:
+            theme.heading(DEVICES)
+            imgui.text_wrapped(_NO_KIT)
+            theme.soft(_GIVEN_UP)
+            self._latency(may_measure)
+            return
+        if self._pads.runs:
+            self._pads.running(may_measure)
+            return
+        self._kits()
+        imgui.separator_text("What it sends")
+        _live(desk.seen.lines)
+        imgui.separator_text("Pads")
+        self._pads.gui(may_measure)
+        self._table()
+        self._touch.gui(may_measure)
+        self._crosstalk()
+        self._keeping()
+        self._latency(may_measure)
+
+    def _latency(self, may_measure: bool) -> None:
+        """How late the devices are, as far as was measured, and what measures it."""
+        if imgui.is_window_appearing() or self._known is None or self._calibration.has_changed():
+            self._known = StoredCalibration()
+            self._tried(self._read_calibration)
+        imgui.separator_text("How late they are")
+        for line in latency_lines(self._known, self._desk.devices):
+            imgui.text_wrapped(f"{line.what}: {line.words}")
+            theme.soft(line.trust)
+        theme.tooltip("Judgement subtracts these; what is not measured has the settings' word")
+        self._calibration.gui(may_measure)
+
+    def _read_calibration(self) -> None:
+        self._known = load_calibration()
+
+    def _kits(self) -> None:
+        desk = self._desk
+        for device in desk.devices:
+            if imgui.radio_button(f"{device}##kit", desk.device == device):
+                desk.show(device)
+            theme.tooltip("Show this kit")
+        theme.soft(f"understood as {desk.kit.title}")
+        if desk.seen.fault:
+            imgui.text_wrapped(desk.seen.fault)
+
+    def _table(self) -> None:
+        desk = self._desk
+        if not desk.pads:
+            theme.soft("Strike every pad once: each then has its line here.")
+            return
+        if theme.is_narrow():
+            for piece in desk.pads:
+                self._pad(piece, _below)
+            return
+        if not imgui.begin_table("##pads", 4, imgui.TableFlags_.sizing_stretch_prop):
+            return
+        for name, share in (("pad", 0.24), ("last strokes", 0.34), ("threshold", 0.21), ("mask", 0.21)):
+            imgui.table_setup_column(name, imgui.TableColumnFlags_.width_stretch, share)
+        imgui.table_headers_row()
+        for piece in desk.pads:
+            imgui.table_next_row()
+            self._pad(piece, _next_cell)
+        imgui.end_table()
+
+    def _pad(self, piece: Piece, place: Callable[[int], None]) -> None:
+        """One pad's four controls; `place` goes to where one of them is, from 0."""
+        desk = self._desk
+        pad = desk.kit.pad(piece)
+        place(0)
+        imgui.align_text_to_frame_padding()
+        if imgui.selectable(f"{piece_name(piece)}##pad-{word(piece)}", self._touch.piece is piece)[0]:
+            self._touch.turn(piece)
+        theme.tooltip("Show or hide how loud its strokes count")
+        place(1)
+        _bars(desk.seen.strokes.get(piece, ()), pad.threshold)
+        theme.tooltip("The last strokes, the newest on the right, and the threshold; hollow ones are held back")
+        place(2)
+        moved, threshold = theme.slider_int(f"##threshold-{word(piece)}", pad.threshold, 1, _MOST_THRESHOLD)
+        if moved:
+            desk.threshold(piece, min(max(threshold, 1), _LOUDEST))
+        theme.tooltip(f"{piece_name(piece)}: softer than this velocity is no stroke")
+        place(3)
+        moved, mask = theme.slider_int(f"##mask-{word(piece)}", pad.mask_ns // NS_PER_MS, 0, _MOST_MASK_MS, "%d ms")
+        if moved:
+            desk.mask(piece, min(max(mask, 0), _MOST_MASK_MS))
+        theme.tooltip(f"{piece_name(piece)}: for so long after a stroke there is no other; 0 lets every one pass")
+
+    def _crosstalk(self) -> None:
+        desk = self._desk
+        rules, suspicions = desk.kit.crosstalk, tuple(desk.seen.suspicions)
+        if rules or suspicions:
+            imgui.separator_text("Crosstalk")
+        for rule in rules:
+            pair = f"{word(rule.source)}-{word(rule.victim)}"
+            imgui.set_next_item_width(theme.points(110))
+            moved, percent = theme.slider_int(f"##share-{pair}", round(100 * rule.share), 0, 100, "%d %%")
+            if moved:
+                desk.share(rule.source, rule.victim, min(max(percent, 0), 100) / 100)
+            theme.tooltip("Up to so loud, beside its cause, it is a ghost; 0 takes the rule away")
+            imgui.same_line()
+            imgui.text_wrapped(f"{piece_name(rule.source)} makes {piece_name(rule.victim)} send")
+        for index, suspicion in enumerate(reversed(suspicions)):
+            if imgui.button(f"Hold back##suspicion{index}"):
+                desk.hold_back(suspicion)
+            theme.tooltip("Take hits such as this one for no strokes")
+            imgui.same_line()
+            imgui.text_wrapped(suspected(suspicion))
+
+    def _keeping(self) -> None:
+        desk = self._desk
+        imgui.spacing()
+        imgui.begin_disabled(not desk.is_changed)
+        if imgui.button(SAVE_LABEL, imgui.ImVec2(theme.points(110), 0)):
+            self._tried(lambda: self._tell(f"kept in {desk.save()}"))
+        theme.tooltip("Keep these rules for this kit: from now on the station plays and judges by them")
+        imgui.same_line()
+        if imgui.button(BACK_LABEL, imgui.ImVec2(theme.points(110), 0)):
+            desk.back()
+        theme.tooltip("The rules as they were kept last")
+        imgui.end_disabled()
+
+
+def _next_cell(index: int) -> None:
+    """The next control stands in the next column of the table."""
+    del index
+    imgui.table_next_column()
+    imgui.set_next_item_width(-1)
+
+
+def _below(index: int) -> None:
+    """The next control stands below the last one, and the fourth beside the third."""
+    if index == 3:
+        imgui.same_line()
+    half = (imgui.get_content_region_avail().x - imgui.get_style().item_spacing.x) / 2
+    imgui.set_next_item_width(half if index == 2 else -1)
+
+
+def _live(lines: Iterable[MonitorLine]) -> None:
+    """The last lines, the newest first."""
+    shown = list(lines)[::-1]
+    if not shown:
+        theme.soft("Strike a pad.")
+        return
+    if theme.is_narrow():
+        for line in shown:
+            words = ", ".join(filter(None, cells(line)))
+            theme.soft(words) if _is_quiet(line) else imgui.text_wrapped(words)
+        return
+    if imgui.begin_table("##live", len(_LIVE_SHARES), imgui.TableFlags_.sizing_stretch_prop):
+        for index, share in enumerate(_LIVE_SHARES):
+            imgui.table_setup_column(f"live{index}", imgui.TableColumnFlags_.width_stretch, share)
+        for line in shown:
+            imgui.table_next_row()
+            for text in cells(line):
+                imgui.table_next_column()
+                theme.soft(text) if _is_quiet(line) else imgui.text_wrapped(text)
+        imgui.end_table()
+
+
+def _is_quiet(line: MonitorLine) -> bool:
+    """Whether it is no stroke and nothing else that the station plays by."""
+    return line.ghost is not None or line.event is None
+
+
+def cells(line: MonitorLine) -> tuple[str, str, str, str]:
+    """A line in four cells: piece and zone; velocity; openness, position or why it is no stroke; raw bytes."""
+    event = line.ghost.hit if line.ghost is not None else line.event
+    match event:
+        case Hit():
+            told = [_WHY[line.ghost.why]] if line.ghost is not None else []
+            told += [] if event.openness is None else [f"open {event.openness:.2f}"]
+            told += [] if event.position is None else [f"at {event.position:.2f}"]
+            return f"{piece_name(event.piece)}, {word(event.zone)}", str(event.velocity), ", ".join(told), line.raw
+        case Choke():
+            return f"{piece_name(event.piece)} choked", "", "", line.raw
+        case PedalMoved():
+            return "hi-hat pedal", "", f"open {event.openness:.2f}", line.raw
+        case Switched():
+            return "switch", "", event.switch, line.raw
+        case None:
+            return "no event", "", "", line.raw
+        case _:
+            return f"{event.device} is here", "", "", line.raw
+
+
+def _bars(strokes: Iterable[PadStroke], threshold: int) -> None:
+    """The strokes as bars, the newest on the right, and the threshold across."""
+    size = imgui.ImVec2(max(imgui.get_content_region_avail().x, 1.0), imgui.get_frame_height())
+    left, top = imgui.get_cursor_screen_pos()
+    imgui.dummy(size)
+    ink = imgui.get_window_draw_list()
+    low = top + size.y
+    ink.add_rect_filled((left, top), (left + size.x, low), _u32(palette.with_opacity(theme.dyed(palette.INK), 0.06)))
+    step = size.x / STROKES_SHOWN
+    shown = list(strokes)
+    for k, stroke in enumerate(shown):
+        x = left + size.x - (len(shown) - k) * step
+        high = max(size.y * stroke.velocity / _LOUDEST, theme.points(_BAR_LEAST))
+        corners = (x + 0.15 * step, low - high), (x + 0.85 * step, low)
+        if stroke.why is None:
+            ink.add_rect_filled(*corners, _u32(theme.dyed(palette.GOOD)))
+        else:
+            ink.add_rect(*corners, _u32(theme.dyed(palette.MISSED)))
+    y = low - size.y * threshold / _LOUDEST
+    ink.add_line((left, y), (left + size.x, y), _u32(theme.dyed(palette.BRAND)), theme.points(1.5))
+
+
+def _u32(colour: tuple[float, float, float, float]) -> int:
+    return int(imgui.color_convert_float4_to_u32(imgui.ImVec4(*colour)))

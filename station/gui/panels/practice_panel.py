@@ -1,0 +1,78 @@
+"""The practice panel: how sessions begin, wait, pause and end; what pauses is learnt from the kit."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+from imgui_bundle import imgui
+
+from station.app.preferences import PracticePreferences, Preferences, pause_in_words
+from station.core.settings import load_settings, save_settings
+from station.gui import theme
+
+PRACTICE = "Practice"
+ABOUT = "What starts and pauses a session, whether it waits for you, what you are asked"
+HELP = (
+    "Ticks hold from now on and are kept. To pause by a gesture of your own press Learn, then strike two pads at once"
+    " or press a foot switch; the same gesture goes on. Two pads that a lesson wants nearly at once never pause in it."
+)
+LEARN_LABEL, GIVE_UP_LABEL = "Learn from the kit##learn", "Give up##learn"
+_TICKS = (
+    ("kicks_start", "two kicks start", "Two kicks within a second do what Enter does, between sessions"),
+    (
+        "auto_pause",
+        "wait when I stop",
+        "After two silent bars that have notes the score waits for you",
+    ),
+    ("ask_first", "ask me before a result", "Did you rush or drag? At most once a lesson; pads answer"),
+    ("guide", "the drummer sounds along", "The demonstration's strokes sound in the passes too, from the next session"),
+)
+
+
+class PracticePanel:
+    """The panel over one desk; `tried` does something or says why it could not, `path` is the settings' file."""
+
+    def __init__(self, desk: Preferences, path: Path | None, tried: Callable[[Callable[[], object]], None]) -> None:
+        self._desk, self._path, self._tried = desk, path, tried
+        self._kept = desk.now
+
+    def gui(self) -> None:
+        """Draw the panel and do what the user does in it."""
+        habits = self._desk.now
+        theme.heading("How sessions go", 20)
+        for name, label, told in _TICKS:
+            changed, on = theme.checkbox(label, bool(getattr(habits, name)))
+            theme.tooltip(told)
+            if changed:
+                habits = replace(habits, **{name: on})  # type: ignore[arg-type] # every tick is a yes or no
+        theme.part("What pauses and goes on")
+        habits = self._pauses(habits)
+        self._desk.put(habits)
+        self._learn()
+
+    def _pauses(self, habits: PracticePreferences) -> PracticePreferences:
+        """Each gesture with a button that takes it away."""
+        theme.soft("Backspace always does." if habits.pauses else "Backspace alone.")
+        for word in habits.pauses:
+            if imgui.button(f"×##no-{word}"):
+                habits = habits.without(word)
+            theme.tooltip("No longer pauses")
+            imgui.same_line()
+            imgui.align_text_to_frame_padding()
+            imgui.text_wrapped(pause_in_words(word))
+        return habits
+
+    def _learn(self) -> None:
+        desk = self._desk
+        if imgui.button(GIVE_UP_LABEL if desk.learns else LEARN_LABEL, imgui.ImVec2(-1, theme.points(38))):
+            desk.learn(not desk.learns)
+        theme.tooltip("One more gesture that pauses: press here, then make it on the kit")
+        if desk.learns:
+            imgui.text_wrapped("Now strike two pads at once, or press the foot switch.")
+
+    def keep(self) -> None:
+        """Write the habits to the settings where they have changed."""
+        habits = self._desk.now
+        if habits != self._kept:
+            self._kept = habits
+            self._tried(lambda: save_settings(habits.within(load_settings(self._path)), self._path))

@@ -1,0 +1,240 @@
+"""The figure panel: how the demonstrator moves, control by control, in eight slots, and over the bars.
+
+A view over `StyleEditor`; what it changes moves the demonstrator from the next picture on. What was set last is
+written to the settings when the mouse is let go, never while somebody plays.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from imgui_bundle import imgui
+
+from station.app.model import Stage
+from station.app.practice_model import PracticeModel
+from station.app.style_controls import TABS, WORD_LABELS, Control, ControlGroup
+from station.app.style_editor import PIECES, StyleEditor
+from station.core.errors import StationError
+from station.core.labels import name_of
+from station.core.settings import load_settings, save_settings
+from station.gui import theme
+from station.gui.panels.lanes_editor import LanesEditor
+from station.gui.panels.styles_head import StylesHead, Tried
+from station.motion.kinematics.figure import figure_names, load_figure
+from station.motion.motion_plan import bar_places
+from station.motion.sticking.hand_notes import Hands
+from station.motion.style.style import HOLDS, WORDS, range_of
+
+FIGURE = "Figure"
+ABOUT = "How the demonstrator moves: arms, head, body, hands, over the bars; styles of your own"
+HELP = (
+    "Sliders change how the drummer moves at once: let the demonstration play meanwhile (W). × beside a control goes"
+    " back to the style that was chosen, ~ lets it change over the bars, where its line can be drawn. The gain moves"
+    " wrist, elbow and shoulder together; each has a share, and one's gain is the others' loss unless each is set for"
+    " itself. Save makes a style of your own, a file; eight slots keep what you want at hand. Whose hand leads holds"
+    " for what you are asked to play too."
+)
+FREE_LABEL = "each for itself"
+BARS_TAB = "Bars"
+_LABEL_WIDTH, _VALUE_WIDTH, _WORD_WIDTH, _SMALL = 112, 38, 180, 28
+"""Design pixels."""
+_LEADS = {
+    Hands.RIGHT: ("Right-handed", "The right hand leads, over the left on the hi-hat"),
+    Hands.LEFT: ("Left-handed", "The kit stands mirrored and the left hand leads; stickings change sides"),
+    Hands.OPEN: ("Open-handed", "A right-handed kit whose hi-hat the left hand plays, uncrossed"),
+}
+_STATURES = {name: f"{name}, {100 * load_figure(name).stature_m:.0f} cm" for name in figure_names()}
+
+
+class StylePanel:
+    """The panel over one model; `settings` is the file that keeps what was set, None for this user's."""
+
+    def __init__(self, model: PracticeModel, settings: Path | None, tried: Tried, preview: Callable[[], None]) -> None:
+        self._model, self._cast = model, model.casting
+        self._settings = settings
+        self._tried = tried
+        self._preview = preview
+        self.options = StyleEditor(model.casting.who.style)
+        self._head = StylesHead(self.options, settings, tried)
+        self._lanes = LanesEditor(self.options)
+        self._opens_bars = False
+        self._figure = load_settings(settings).figure
+
+    def gui(self) -> None:
+        """Draw the panel and do what the user does in it."""
+        before = self.options.style
+        self._head.gui(self._model.score())
+        if _tabs():
+            for tab in TABS:
+                if _tab(tab.title):
+                    if tab is TABS[0]:
+                        self._constraint()
+                    for group in tab.groups:
+                        self._group(group)
+                    imgui.end_tab_item()
+            if _tab("Hands"):
+                self._hands()
+                imgui.end_tab_item()
+            if _tab("Pieces"):
+                self._pieces()
+                imgui.end_tab_item()
+            opens, self._opens_bars = self._opens_bars, False
+            if _tab(BARS_TAB, opens):
+                self._lanes.gui(self._model.score(), self._place())
+                imgui.end_tab_item()
+            imgui.end_tab_bar()
+        if self.options.style is not before:
+            self._cast.move_as(self.options.style)
+
+    def keep(self) -> None:
+        """Write to the settings what was changed since the last time."""
+        self._head.keep()
+
+    def _place(self) -> float | None:
+        """Where the music is, in bars from 1; None where none is played or shown."""
+        clock, deck, score = self._model.room().clock, self._model.deck, self._model.score()
+        if clock is not None and clock.bar is not None and clock.beat is not None:
+            return clock.bar + (clock.beat - 1) / score.tempo_map.meters[0].beats
+        if clock is not None or not deck.is_shown:
+            return None
+        tick = deck.player.song.tick_at(deck.player.position_ns(deck.now_ns))
+        return float(bar_places(score, np.array([tick]))[0])
+
+    # --- controls -----------------------------------------------------------------------------------------------------
+
+    def _constraint(self) -> None:
+        changed, free = imgui.checkbox(FREE_LABEL, self.options.unconstrained)
+        if changed:
+            self.options.constrain(not free)
+        theme.tooltip("Off: wrist, elbow and shoulder share the gain, and one's gain is the others' loss")
+
+    def _group(self, group: ControlGroup) -> None:
+        theme.part(group.title)
+        for control in group.controls:
+            self._number(control)
+
+    def _number(self, control: Control) -> None:
+        """A slider between its label and its value, what resets it, and what lets it change over the bars."""
+        options, name = self.options, control.name
+        factor, has_lane, narrow = options.factor(name), options.lane(name) is not None, theme.is_narrow()
+        gap, small = imgui.get_style().item_spacing.x, theme.points(_SMALL)
+        label = control.label if factor is None or has_lane else f"{control.label} ×{factor:.1f}"
+        value = "in bars" if has_lane else control.form % options.value(name)
+        imgui.align_text_to_frame_padding()
+        imgui.text(label)
+        imgui.same_line(0 if narrow else theme.points(_LABEL_WIDTH))
+        if narrow:
+            imgui.text_disabled(value)
+        value_width = 0.0 if narrow else theme.points(_VALUE_WIDTH) + gap
+        imgui.set_next_item_width(-value_width - 2 * (small + gap))
+        flags = imgui.SliderFlags_.always_clamp | imgui.SliderFlags_.no_round_to_format
+        if control.is_curved:
+            flags |= imgui.SliderFlags_.logarithmic
+        imgui.begin_disabled(has_lane)
+        moved, wanted = imgui.slider_float(f"##{name}", options.value(name), *range_of(name), "", flags)
+        imgui.end_disabled()
+        if moved:
+            options.put(name, round(wanted, 2))
+        theme.tooltip(f"{control.about}. Ctrl+click to type")
+        imgui.same_line()
+        if not narrow:
+            edge = imgui.get_cursor_pos_x()
+            imgui.text_disabled(value)
+            imgui.same_line(edge + value_width)
+        self._beside(name, small)
+
+    def _beside(self, name: str, width: float) -> None:
+        """What sets a control back, and what lets it change over the bars."""
+        imgui.begin_disabled(not self.options.can_reset(name))
+        if imgui.button(f"×##reset-{name}", imgui.ImVec2(width, 0)):
+            self.options.reset(name)
+        imgui.end_disabled()
+        theme.tooltip("Back to the style that was chosen")
+        imgui.same_line()
+        if imgui.button(f"~##bars-{name}", imgui.ImVec2(width, 0)):
+            self._lanes.control = name
+            self._opens_bars = True
+        theme.tooltip("Let it change over the bars")
+
+    def _pieces(self) -> None:
+        theme.soft("How large the strokes on one piece are, beside the arm's amplitude.")
+        for name in PIECES:
+            words = name_of(name)
+            self._number(Control(name, words, f"Strokes on the {words}"))
+
+    def _hands(self) -> None:
+        playing = self._model.room().stage is Stage.PLAYING
+        waits = "; not while a pass is played" if playing else ""
+        imgui.separator_text("Who plays")
+        imgui.begin_disabled(playing)
+        for hands, (words, about) in _LEADS.items():
+            if imgui.radio_button(f"{words}##lead", self._cast.hands is hands):
+                self._tried(lambda hands=hands: self._lead(hands))  # type: ignore[misc] # mypy knows no such default
+            theme.tooltip(f"{about}. It holds for what you are asked to play too{waits}")
+        self._body(waits)
+        imgui.end_disabled()
+        imgui.separator_text("Hands and feet")
+        for name, (label, about) in WORD_LABELS.items():
+            imgui.begin_disabled(playing and name in HOLDS)
+            self._word(name, label, about + (waits if name in HOLDS else ""))
+            imgui.end_disabled()
+        imgui.set_next_item_width(theme.points(_WORD_WIDTH))
+        sown, seed = imgui.input_int("chance##seed", self.options.style.seed)
+        if sown:
+            self.options.sow(seed)
+        theme.tooltip("Another number, other blinks, looks and spun sticks; the same number, the same ones")
+
+    def _body(self, waits: str) -> None:
+        imgui.set_next_item_width(theme.points(_WORD_WIDTH))
+        if imgui.begin_combo("figure##body", _STATURES.get(self._figure, self._figure)):
+            for name, words in _STATURES.items():
+                if imgui.selectable(f"{words}##{name}", name == self._figure)[0]:
+                    self._tried(lambda name=name: self._embody(name))  # type: ignore[misc] # mypy knows no such default
+            imgui.end_combo()
+        theme.tooltip(f"How tall the drummer is{waits}")
+
+    def _word(self, name: str, label: str, about: str) -> None:
+        imgui.set_next_item_width(theme.points(_WORD_WIDTH))
+        words = list(WORDS[name])
+        changed, index = imgui.combo(f"{label}##{name}", words.index(getattr(self.options.style, name)), words)
+        if changed:
+            self.options.say(name, words[index])
+        theme.tooltip(about)
+
+    def _lead(self, hands: Hands) -> None:
+        self._cast.lead_with(hands)
+        save_settings(replace(load_settings(self._settings), hands=hands.value), self._settings)
+        self._preview()
+
+    def _embody(self, name: str) -> None:
+        self._cast.embody(name)
+        try:
+            self._preview()
+        except StationError:  # out of reach
+            self._cast.embody(self._figure)
+            raise
+        self._figure = name
+        save_settings(replace(load_settings(self._settings), figure=name), self._settings)
+
+
+def _tabs() -> bool:
+    """Begin the bar of narrow tabs; returns whether it is seen."""
+    imgui.push_style_var(imgui.StyleVar_.frame_padding, _narrow())
+    narrow = imgui.TabBarFlags_.fitting_policy_scroll | imgui.TabBarFlags_.tab_list_popup_button
+    flags = narrow if theme.is_narrow() else imgui.TabBarFlags_.fitting_policy_shrink
+    seen = imgui.begin_tab_bar("##figure", flags)
+    imgui.pop_style_var()
+    return bool(seen)
+
+
+def _narrow() -> imgui.ImVec2:
+    return imgui.ImVec2(theme.points(6), theme.points(7))
+
+
+def _tab(title: str, opens: bool = False) -> bool:
+    """Begin a narrow tab, which comes to the front if it `opens`; returns whether it is in front."""
+    imgui.push_style_var(imgui.StyleVar_.frame_padding, _narrow())
+    front, _ = imgui.begin_tab_item(title, None, imgui.TabItemFlags_.set_selected if opens else 0)
+    imgui.pop_style_var()
+    return bool(front)

@@ -1,0 +1,205 @@
+"""The strip below the picture: the ruler and the player between sessions, progress during one, where one looks from.
+
+The picture has most of the window: the strip takes two lines, and one while somebody plays. What has no room in them,
+in a narrow window or with large panels, is behind a button. It says how high it is.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from imgui_bundle import imgui
+
+from station.app.demo_player import DemoPlayer
+from station.app.model import RoomState, Stage
+from station.app.view_settings import ViewSettings
+from station.gui import theme
+from station.gui.panels.panel import PANELS_WIDTH
+from station.gui.panels.player_controls import PlayerControls, counter
+from station.gui.panels.ruler import Ruler
+from station.gui.panels.view_popup import LOOK_LABEL, POPUP, ViewActions, look_popup
+from station.gui.widgets.flow_row import LINE_HEIGHT, FlowRow
+from station.practice.session.self_estimate import SelfEstimate
+from station.render.camera import VIEW_NAMES, NamedView
+
+PAUSE_LABEL, GO_ON_LABEL = "Pause##hold", "Go on##hold"
+VETO_LABEL = "As it was##veto"
+STOP_LABEL = "Stop##stop"
+AGAIN_LABEL = "Once more##again"
+BACK_LABEL = "Back to the lessons##back"
+
+_PAUSE = "The score waits (Backspace; both crashes at once or a foot switch, as the Practice panel says)"
+_GO_ON = "A bar of count-in, then on from the bar of your last stroke (Backspace, or two kicks)"
+NO_KIT = "no kit: the keys play (F1)"
+VIEW_LABEL = "View##views"
+_VIEW_POPUP = "##view-popup"
+_MIRROR = "mirror"
+_LEAST_LEFT = 260.0
+"""Design pixels below which panels and views leave their place to the ruler, and are behind a button."""
+_LEAST_TOLD, _LEAST_PROGRESS = 108.0, 60.0
+"""Design pixels: narrower words and a shorter bar tell nothing (our choice)."""
+_BUTTON, _VIEW = 64.0, 178.0
+"""Design pixels: buttons of one word, the list of views."""
+
+
+def found(room: RoomState) -> tuple[str, ...]:
+    """The kit and the sound card in words; without a kit, what plays instead."""
+    return tuple(part for part in (room.kit or NO_KIT, room.sound) if part)
+
+
+@dataclass(frozen=True, slots=True)
+class TransportParts:
+    """What the strip is made of; `actions` by name, `tools` draws the list of panels."""
+
+    actions: dict[str, Callable[[], None]]
+    viewpoints: ViewActions
+    tools: Callable[[], None]
+    ruler: Ruler
+    controls: PlayerControls
+
+
+class TransportBar:
+    """The strip; `height` is what it needs in pixels, as of the last frame."""
+
+    def __init__(self, parts: TransportParts) -> None:
+        self._parts = parts
+        self.height = 0.0
+
+    def gui(self, room: RoomState, deck: DemoPlayer, look: ViewSettings) -> ViewSettings:
+        """Draw it; returns the look that was chosen."""
+        spacing, whole = imgui.get_style().item_spacing, imgui.get_content_region_avail().x
+        is_short = whole - _views_width() - spacing.x < theme.points(_LEAST_LEFT)
+        view_px = theme.points(_BUTTON) if is_short else _views_width()
+        top = imgui.get_cursor_pos_y()
+        imgui.begin_group()
+        imgui.dummy(imgui.ImVec2(0, theme.points(LINE_HEIGHT)))
+        imgui.same_line(0, 0)
+        self._first_line(room, deck, FlowRow(whole - view_px - spacing.x))
+        imgui.end_group()
+        below = imgui.get_cursor_pos_y()
+        imgui.set_cursor_pos((imgui.get_window_width() - imgui.get_style().window_padding.x - view_px, top))
+        look = self._views_popup(look) if is_short else self._views(look)
+        if self._has_second_line(room):
+            imgui.set_cursor_pos_y(below)
+            self._second_line(room, deck)
+            below = imgui.get_cursor_pos_y()
+        self.height = below - spacing.y + imgui.get_style().window_padding.y
+        return look
+
+    @staticmethod
+    def _has_second_line(room: RoomState) -> bool:
+        return (room.stage is Stage.IDLE and not room.free) or (room.stage is Stage.RESULT and bool(room.question))
+
+    def _second_line(self, room: RoomState, deck: DemoPlayer) -> None:
+        """The player's controls, or the question that the first line's buttons answer."""
+        if room.stage is Stage.RESULT:
+            imgui.text_wrapped(room.question)
+            return
+        row = FlowRow()
+        self._parts.controls.gui(deck, row)
+        _told(found(room), row)
+
+    def _first_line(self, room: RoomState, deck: DemoPlayer, row: FlowRow) -> None:
+        """Where one is in the music, or what is to be answered or done."""
+        if room.stage is Stage.PLAYING:
+            self._session(room, row)
+        elif room.stage is Stage.RESULT and room.question:
+            for guess in SelfEstimate:
+                if row.button(guess.value, 96):
+                    self._parts.actions[guess.value]()
+                theme.tooltip(room.question)
+        elif room.stage is Stage.RESULT:
+            row.place(theme.points(150))
+            if theme.main_button(AGAIN_LABEL, (theme.points(150), theme.points(LINE_HEIGHT))):
+                self._parts.actions["again"]()
+            theme.tooltip("The same lesson, the same tempo (Enter)")
+            if row.button(BACK_LABEL, 190):
+                self._parts.actions["back"]()
+            theme.tooltip("Choose another lesson (Esc)")
+            _told(found(room), row)
+        elif room.free:
+            _told(found(room), row)
+        else:
+            self._parts.ruler.gui(deck.player, deck.now_ns, row.left_px)
+
+    def _session(self, room: RoomState, row: FlowRow) -> None:
+        """How to end the session, its time, how far it is."""
+        if row.button(STOP_LABEL, 96):
+            self._parts.actions["stop"]()
+        theme.tooltip("End the session here; what was played is kept (Esc)")
+        if room.can_pause or room.paused:
+            if row.button(GO_ON_LABEL if room.paused else PAUSE_LABEL, 96):
+                self._parts.actions["pause"]()
+            theme.tooltip(_GO_ON if room.paused else _PAUSE)
+        if room.can_veto:
+            if row.button(VETO_LABEL, 110):
+                self._parts.actions["veto"]()
+            theme.tooltip(f"{room.why} Press to play the last pass once more instead")
+        if room.clock is not None:
+            row.place(theme.points(150))
+            counter(room.clock.time_s, room.clock.bar, room.clock.beat)
+        if row.fits(theme.points(_LEAST_PROGRESS)):
+            row.place(0)
+            imgui.progress_bar(room.progress or 0.0, imgui.ImVec2(row.left_px, theme.points(LINE_HEIGHT)), "")
+            theme.tooltip("How much of the session is over")
+
+    def _views_popup(self, look: ViewSettings) -> ViewSettings:
+        """A button for what has no room beside a ruler."""
+        if imgui.button(VIEW_LABEL, imgui.ImVec2(theme.points(_BUTTON), theme.points(LINE_HEIGHT))):
+            imgui.open_popup(_VIEW_POPUP)
+        theme.tooltip("Panels, and how the picture is seen")
+        if imgui.begin_popup(_VIEW_POPUP):
+            look = self._views(look)
+            imgui.end_popup()
+        return look
+
+    def _views(self, look: ViewSettings) -> ViewSettings:
+        imgui.begin_group()
+        self._parts.tools()
+        _, mirrored = imgui.checkbox(_MIRROR, look.mirrored)
+        theme.tooltip("Left and right swapped, to learn face to face as from a mirror (M)")
+        imgui.same_line()
+        if imgui.button(LOOK_LABEL, imgui.ImVec2(theme.points(_BUTTON), 0)):
+            imgui.open_popup(POPUP)
+        theme.tooltip("A second picture, pages or a highway for the score, viewpoints of your own")
+        chosen = look_popup(look, self._parts.viewpoints)
+        imgui.same_line()
+        imgui.set_next_item_width(theme.points(_VIEW))
+        changed, index = imgui.combo("##view", int(look.view), list(VIEW_NAMES.values()))
+        theme.tooltip(
+            "Where you look from (F2 to F9); drag in the picture to turn, right drag to shift, wheel to come nearer"
+        )
+        imgui.end_group()
+        return replace(chosen, view=NamedView(index) if changed else look.view, mirrored=bool(mirrored))
+
+
+def _views_width() -> float:
+    """What panels, mirror, look and view take side by side, in pixels."""
+    style = imgui.get_style()
+    mirror = imgui.get_frame_height() + style.item_inner_spacing.x + imgui.calc_text_size(_MIRROR).x
+    return float(theme.points(PANELS_WIDTH + _BUTTON + _VIEW) + mirror + 3 * style.item_spacing.x)
+
+
+def _told(lines: tuple[str, ...], row: FlowRow) -> None:
+    """Lines one under the other where the row has room; what is too long ends in dots, its tooltip has it whole."""
+    width = min(max(imgui.calc_text_size(line).x for line in lines), theme.points(_LEAST_TOLD))
+    if not row.fits(width):
+        return
+    row.place(width)
+    room = row.left_px
+    imgui.begin_group()
+    imgui.push_style_var(imgui.StyleVar_.item_spacing, imgui.ImVec2(0, 1))
+    for line in lines:
+        imgui.text_disabled(elided(line, room, lambda text: imgui.calc_text_size(text).x))
+    imgui.pop_style_var()
+    imgui.end_group()
+    theme.tooltip("Found: " + ", ".join(lines))
+
+
+def elided(text: str, room: float, width_of: Callable[[str], float]) -> str:
+    """`text`, or as much of its beginning as leaves room for dots."""
+    if width_of(text) <= room:
+        return text
+    kept = len(text)
+    while kept and width_of(text[:kept] + "…") > room:
+        kept -= 1
+    return text[:kept].rstrip() + "…"

@@ -1,0 +1,131 @@
+"""What the Look button opens: the second picture, the score's form, the user's viewpoints, colours and size."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import TypeVar
+
+from imgui_bundle import imgui
+
+from station.app.view_settings import INSETS, ViewSettings
+from station.gui import theme
+from station.gui.widgets.slots import Use, popup_grid, slot_rows
+from station.render.camera import VIEW_NAMES
+from station.render.gpu.moving_parts import DoublePlace
+from station.render.notation.score_view import ScoreForm
+from station.render.palette import THEME_NAMES, Theme
+
+T = TypeVar("T")
+
+_HIGH, _TITLE_WIDTH = 500, 150
+"""Design pixels that the popup is high, and that its titles take beside its rows."""
+LOOK_LABEL = "Look##look"
+POPUP = "##look-popup"
+_INSET_TOLD = "Hands or feet in a corner of the picture, whatever the picture itself shows (P)"
+_INSETS = {view: ("None" if view is None else VIEW_NAMES[view], _INSET_TOLD) for view in INSETS}
+_FORMS = {
+    ScoreForm.SCROLLING: ("Scrolling", "The notes pass a line that stands still (N)"),
+    ScoreForm.PAGED: ("Pages", "The line crosses bars that stand still (N)"),
+    ScoreForm.HIGHWAY: ("Highway", "A lane for every piece, for those who do not read music (N)"),
+}
+_DOUBLES = {
+    DoublePlace.NOWHERE: ("None", "The demonstrator alone (E)"),
+    DoublePlace.OVER: ("Over", "You, translucent, over the demonstrator: a limb glows where it parts from his (E)"),
+    DoublePlace.BESIDE: (
+        "Beside",
+        "You on a kit of your own beside the demonstrator's, seen from the same place (E)",
+    ),
+}
+_THEMES = {
+    Theme.NIGHT: (THEME_NAMES[Theme.NIGHT], "Light on dark, for a dim room"),
+    Theme.DAY: (THEME_NAMES[Theme.DAY], "Dark on light, for a bright room"),
+    Theme.CONTRAST: (THEME_NAMES[Theme.CONTRAST], "White on black, and the strongest colours"),
+    Theme.APART: (
+        THEME_NAMES[Theme.APART],
+        "Judgements in colours that everybody tells apart; each has a shape of its own besides",
+    ),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class ViewActions:
+    """What the user does with viewpoints: `keep` the present one as a slot (from 0), `go` to a slot's."""
+
+    keep: Callable[[int], None]
+    go: Callable[[int], None]
+
+
+def look_popup(look: ViewSettings, actions: ViewActions) -> ViewSettings:
+    """Draw the popup where it is open; returns the look that was chosen."""
+    if not imgui.begin_popup(POPUP):
+        return look
+    if not _is_low():
+        theme.heading("ViewSettings", 20)
+    look = replace(look, inset=_one_of("Second picture", _INSETS, look.inset))
+    look = replace(look, score=_one_of("Score", _FORMS, look.score))
+    look = replace(look, double=_one_of("Your double", _DOUBLES, look.double))
+    if not _is_low():
+        theme.soft("Your own viewpoints")
+    _slots(look, actions)
+    look = _worn(look)
+    imgui.end_popup()
+    return look
+
+
+def _worn(look: ViewSettings) -> ViewSettings:
+    """The colours and the size of the panels."""
+    look = replace(look, theme=_one_of("Colours", _THEMES, look.theme))
+    _title("Size of the panels")
+    for label, steps, told in (("Smaller##scale", -1, "Ctrl+−"), ("Larger##scale", 1, "Ctrl+=")):
+        imgui.begin_disabled(look.scaled(steps) == look)
+        if imgui.button(label, imgui.ImVec2(theme.points(96), 0)):
+            look = look.scaled(steps)
+        imgui.end_disabled()
+        theme.tooltip(f"Letters, buttons and lists ({told}); the picture keeps its size")
+        imgui.same_line()
+    imgui.align_text_to_frame_padding()
+    imgui.text(f"{look.scale:.0%}")
+    return look
+
+
+def _one_of(title: str, choices: Mapping[T, tuple[str, str]], chosen: T) -> T:
+    """A row of buttons, one for each choice (its name, and what the tooltip says); returns the one that is chosen."""
+    _title(title)
+    for choice, (name, words) in choices.items():
+        if imgui.radio_button(f"{name}##{title}", choice is chosen):
+            chosen = choice
+        theme.tooltip(words)
+        imgui.same_line()
+    imgui.new_line()
+    return chosen
+
+
+def _is_low() -> bool:
+    """Whether the screen has no room for a line above each row."""
+    return bool(imgui.get_io().display_size.y < theme.points(_HIGH))
+
+
+def _title(words: str) -> None:
+    """What a row is about: above it, or before it where there is little room."""
+    if not _is_low():
+        theme.soft(words)
+        return
+    imgui.align_text_to_frame_padding()
+    theme.soft(words)
+    imgui.same_line(theme.points(_TITLE_WIDTH))
+
+
+def _slots(look: ViewSettings, actions: ViewActions) -> None:
+    cameras = look.viewpoints
+
+    def told(slot: int) -> str:
+        is_there = cameras[slot] is not None
+        return f"Viewpoint {slot + 1} ({slot + 1})" if is_there else f"Viewpoint {slot + 1} is not kept yet"
+
+    def told_of_keeping(slot: int) -> str:
+        return f"Keeps where you look from now as viewpoint {slot + 1} (Ctrl+{slot + 1})"
+
+    uses = (
+        Use("Go to", "go", actions.go, told, needs_filled=True),
+        Use("Keep as", "keep", actions.keep, told_of_keeping),
+    )
+    slot_rows(uses, [camera is not None for camera in cameras], popup_grid(len(cameras)))

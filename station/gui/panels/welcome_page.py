@@ -1,0 +1,99 @@
+"""The page of the first start: three questions, one button, nothing else on the screen.
+
+The keyboard alone answers it: the name is being typed when the page opens, Enter or Tab go on, Space chooses, and Enter
+on the last button begins. Escape puts the questions aside for good.
+"""
+
+from dataclasses import replace
+
+from imgui_bundle import imgui
+
+from station.app.first_start import LONGEST_NAME, FirstAnswers
+from station.gui import theme
+from station.motion.sticking.hand_notes import Hands
+
+WELCOME = "Welcome"
+BEGIN_LABEL = "Begin##begin"
+_WIDE = 620
+"""Design pixels of the column of questions; our choice: a line that is read at a glance."""
+_SOUNDS = (
+    (True, "Yes, from its module or headphones", "The station stays silent when you strike: the module sounds"),
+    (False, "No, or I have no kit yet", "The station sounds your strokes; without a kit the keyboard plays (F1)"),
+)
+_LEADS = (
+    (Hands.RIGHT, "Right", "The drummer plays a right-handed kit"),
+    (Hands.LEFT, "Left", "The drummer plays a left-handed kit, and every sticking changes sides"),
+    (Hands.OPEN, "Open-handed", "A right-handed kit whose hi-hat the left hand plays, uncrossed"),
+)
+
+
+class WelcomePage:
+    """The page while it is open; `answers` as they stand."""
+
+    def __init__(self, answers: FirstAnswers) -> None:
+        self.answers = answers
+        self._is_new = True
+        self._go_on = False
+        self._high = 0.0  # pixels that the questions took in the last frame
+
+    def gui(self) -> bool | None:
+        """Draw the page over the whole window; returns True for begin, False for put aside, None while it is open."""
+        viewport = imgui.get_main_viewport()
+        imgui.set_next_window_pos(viewport.pos)
+        imgui.set_next_window_size(viewport.size)
+        imgui.set_next_window_bg_alpha(1.0)
+        flags = imgui.WindowFlags_.no_decoration | imgui.WindowFlags_.no_move | imgui.WindowFlags_.no_docking
+        flags &= ~imgui.WindowFlags_.no_scrollbar
+        imgui.begin(WELCOME, None, flags | imgui.WindowFlags_.no_saved_settings)
+        if self._is_new:
+            imgui.set_window_focus()
+        wide = min(theme.points(_WIDE), imgui.get_content_region_avail().x)
+        imgui.set_cursor_pos(
+            imgui.ImVec2((viewport.size.x - wide) / 2, max((viewport.size.y - self._high) / 2, theme.points(14)))
+        )
+        imgui.begin_group()
+        imgui.push_text_wrap_pos(imgui.get_cursor_pos_x() + wide)
+        imgui.push_item_width(wide)
+        done = self._questions(wide)
+        imgui.pop_item_width()
+        imgui.pop_text_wrap_pos()
+        imgui.end_group()
+        self._high = imgui.get_item_rect_size().y
+        imgui.end()
+        self._is_new = False
+        return False if imgui.is_key_pressed(imgui.Key.escape, repeat=False) else done
+
+    def _questions(self, wide: float) -> bool | None:
+        theme.heading("Welcome to the drum station", 30)
+        theme.soft("Three questions, then you play. All of it can be changed later.")
+        imgui.spacing()
+        theme.heading("Who are you?", 22)
+        if self._is_new:
+            imgui.set_keyboard_focus_here()
+        entered, name = imgui.input_text_with_hint(
+            "##name", "Your name: lessons and progress are kept under it", self.answers.student,
+            imgui.InputTextFlags_.enter_returns_true,
+        )  # fmt: skip
+        theme.tooltip(f"Up to {LONGEST_NAME} letters; blank is fine")
+        self.answers = replace(self.answers, student=name)
+        theme.heading("Do you hear your kit when you strike it, without the station?", 22)
+        if self._go_on:  # a frame later: the field gives the keyboard back first
+            imgui.set_keyboard_focus_here()
+            imgui.set_nav_cursor_visible(True)
+        self._go_on = entered
+        for sounds, words, told in _SOUNDS:
+            if imgui.radio_button(f"{words}##sounds", self.answers.module_sounds is sounds):
+                self.answers = replace(self.answers, module_sounds=sounds)
+            theme.tooltip(told)
+        theme.heading("Which hand leads?", 22)
+        for index, (hands, words, told) in enumerate(_LEADS):
+            if index:
+                imgui.same_line(0, theme.points(24))
+            if imgui.radio_button(f"{words}##leads", self.answers.hands is hands):
+                self.answers = replace(self.answers, hands=hands)
+            theme.tooltip(told)
+        theme.soft(next(told for hands, _, told in _LEADS if hands is self.answers.hands) + ".")
+        imgui.spacing()
+        begun = theme.main_button(BEGIN_LABEL, (wide, theme.points(52)))
+        theme.tooltip("To the lessons: the first one is chosen, Start plays it")
+        return True if begun else None

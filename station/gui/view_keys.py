@@ -1,0 +1,56 @@
+"""The keys that change where the user looks from, and what of it is kept."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from imgui_bundle import imgui
+
+from station.app.view_settings import ViewSettings
+from station.gui.keyboard_kit import slot_pressed, view_pressed
+from station.gui.viewport import Viewport
+
+_LOOKS: tuple[tuple[imgui.Key, Callable[[ViewSettings], ViewSettings]], ...] = (
+    (imgui.Key.m, lambda look: replace(look, mirrored=not look.mirrored)),
+    (imgui.Key.p, ViewSettings.next_inset),
+    (imgui.Key.n, ViewSettings.next_score),
+    (imgui.Key.e, ViewSettings.next_double),
+)
+"""What a plain key makes of the look."""
+_SIZES = ((imgui.Key.equal, 1), (imgui.Key.minus, -1))
+"""Ctrl and these make the panels larger or smaller."""
+
+
+class ViewKeys:
+    """The viewpoints' keys over one backdrop; `tell` says in a line what was kept, or what is not there."""
+
+    def __init__(self, backdrop: Viewport, tell: Callable[[str], None]) -> None:
+        self._backdrop = backdrop
+        self._tell = tell
+
+    def take(self) -> None:
+        """Do what was pressed since the last frame."""
+        io, backdrop = imgui.get_io(), self._backdrop
+        slot, view = slot_pressed(), view_pressed()
+        if slot is not None and io.key_ctrl and not io.key_shift:
+            self.keep(slot)
+        elif io.key_ctrl and (way := next((way for key, way in _SIZES if imgui.is_key_pressed(key)), 0)):
+            backdrop.look_from(backdrop.look.scaled(way))
+        elif io.key_ctrl or io.key_shift or io.key_alt or io.key_super:
+            return
+        elif slot is not None:
+            self.go(slot)
+        elif view is not None:
+            backdrop.back_to(view)
+        else:
+            for change in (change for key, change in _LOOKS if imgui.is_key_pressed(key, repeat=False)):
+                backdrop.look_from(change(backdrop.look))
+
+    def keep(self, slot: int) -> None:
+        """Keep where the user looks from as a slot (from 0)."""
+        self._backdrop.keep(slot)
+        self._tell(f"viewpoint {slot + 1} is kept: {slot + 1} comes back to it")
+
+    def go(self, slot: int) -> None:
+        """Look from a slot's viewpoint, or say that none is kept there."""
+        if not self._backdrop.go(slot):
+            self._tell(f"no viewpoint {slot + 1} is kept yet: Ctrl+{slot + 1} keeps where you look from")

@@ -1,0 +1,211 @@
+"""The picture behind the panels: the practice room or the results page, its viewpoint, and its quality.
+
+The quality is measured: the first frames are drawn at the lowest, and where they take far less than a frame's time the
+next level is tried. While somebody plays nothing is rebuilt.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+from statistics import median
+from time import perf_counter
+
+import moderngl
+import numpy as np
+from imgui_bundle import imgui
+from numpy.typing import NDArray
+
+from station.app.model import ShownResult
+from station.app.view_settings import ViewSettings
+from station.core.errors import DeviceError
+from station.gui import theme
+from station.render.camera import Camera, NamedView, named
+from station.render.gpu.gl import GL_VERSION, RenderTarget
+from station.render.painter import Area, Arrangement, Painter
+from station.render.palette import NIGHT, dyed
+from station.render.quality import QUALITIES
+from station.render.report.report_layout import ReportPage, page_for
+from station.render.report.report_picture import report_shapes, report_sheet
+from station.render.snapshot import Snapshot
+
+_GONE = "GL_UNKNOWN_ERROR"
+"""What moderngl calls GL_CONTEXT_LOST (KHR_robustness), which OpenGL 3.3 has no number for yet."""
+_LOST = "the graphics driver has lost the window: start the station again; what was played is kept"
+_MEASURED_FRAMES = 12
+_FAST_MS, _VERY_FAST_MS = 6.0, 2.0
+"""A machine that draws the lowest level so fast can afford the middle and the highest at 60 Hz (our choice)."""
+_MEASURED = replace(QUALITIES[0], is_layered=False)
+"""What is measured draws everything anew, as the higher levels do."""
+_LEAST_LETTERS = 0.9
+"""How large a result's letters are at the least, of the panels' own (our choice)."""
+_ORBIT_PER_PIXEL, _PAN_PER_PIXEL, _ZOOM_PER_STEP = 0.006, 0.0022, 1.12
+
+
+class Viewport:
+    """Draws with the window's own OpenGL context, which it takes over at the first frame; `news` is `Arrangement`'s."""
+
+    def __init__(
+        self, quality: int | None, look: ViewSettings, news: Callable[[], Snapshot | None] | None = None
+    ) -> None:
+        self._wanted = quality
+        self._news = news
+        self._painter: Painter | None = None
+        self._ctx: moderngl.Context | None = None
+        self._target: RenderTarget | None = None
+        self._samples = 0
+        self._times_ms: list[float] = []
+        self._page: tuple[ShownResult, ReportPage, NDArray[np.void]] | None = None
+        self.look = look
+        self._left_handed = False
+        self.camera: Camera = replace(named(look.view), mirrored=look.mirrored)
+        self._seen_from = self.camera
+
+    def look_from(self, look: ViewSettings) -> None:
+        """Go to a named viewpoint, swap the sides or not, choose the second picture; what is so already stays turned.
+
+        The viewpoints that are kept stay as they are: `keep` alone changes them.
+        """
+        if look.view is not self.look.view:
+            self.camera = named(look.view, self._left_handed)
+        self.look = replace(look, viewpoints=self.look.viewpoints)
+        self.camera = replace(self.camera, mirrored=look.mirrored)
+
+    def keep(self, slot: int) -> None:
+        """Keep where the user looks from as the viewpoint `slot`, from 0."""
+        self.look = self.look.keeping(slot, self.camera)
+
+    def go(self, slot: int) -> bool:
+        """Look from the viewpoint `slot`, from 0; returns whether it was kept."""
+        camera = self.look.viewpoints[slot]
+        if camera is not None:
+            self.camera = replace(camera, mirrored=self.look.mirrored)
+        return camera is not None
+
+    def back_to(self, view: NamedView) -> None:
+        """Go to a named view, even where it was turned."""
+        self.look = replace(self.look, view=view)
+        self._back_to_the_view()
+
+    @property
+    def _inset(self) -> Camera | None:
+        """The camera of the second picture."""
+        if self.look.inset is None:
+            return None
+        return replace(named(self.look.inset, self._left_handed), mirrored=self.look.mirrored)
+
+    def _back_to_the_view(self) -> None:
+        self.camera = replace(named(self.look.view, self._left_handed), mirrored=self.look.mirrored)
+
+    def steer(self, io: imgui.IO) -> None:
+        """Turn, shift or approach with the mouse; a double click goes back to the named view."""
+        dx, dy = io.mouse_delta
+        way = -1 if self.camera.mirrored else 1
+        if imgui.is_mouse_dragging(imgui.MouseButton_.left):
+            self.camera = self.camera.orbited(dx * way * _ORBIT_PER_PIXEL, dy * _ORBIT_PER_PIXEL)
+        elif imgui.is_mouse_dragging(imgui.MouseButton_.right):
+            self.camera = self.camera.panned(-dx * way * _PAN_PER_PIXEL, dy * _PAN_PER_PIXEL)
+        if io.mouse_wheel:
+            self.camera = self.camera.zoomed(_ZOOM_PER_STEP**io.mouse_wheel)
+        if imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
+            self._back_to_the_view()
+
+    def draw(self, snapshot: Snapshot, report: ShownResult | None, area: Area) -> None:
+        """Fill the window's framebuffer; `area` is what the panels leave free. Raises `DeviceError` if OpenGL fails."""
+        ctx, painter = self._ready()
+        screen, whole = self.clear()
+        painter.theme = self.look.theme
+        if min(area[2:]) < 16:
+            return
+        try:
+            if report is not None:
+                self._draw_report(report, painter, ctx, area)
+            else:
+                self._draw_room(snapshot, painter, ctx, screen, whole, area)
+        except moderngl.Error as fault:
+            raise DeviceError(f"{_LOST} ({fault})") from fault
+        ctx.viewport = (0, 0, *whole)
+        if ctx.error == _GONE:
+            raise DeviceError(_LOST)
+
+    def clear(self) -> tuple[moderngl.Framebuffer, tuple[int, int]]:
+        """Make the window's framebuffer dark; returns it and its size in pixels."""
+        ctx, _ = self._ready()
+        screen = ctx.detect_framebuffer(0)
+        screen.use()
+        size = imgui.get_io().display_size
+        scale = imgui.get_io().display_framebuffer_scale
+        whole = (round(size.x * scale.x), round(size.y * scale.y))
+        ctx.viewport = (0, 0, *whole)
+        ctx.scissor = None
+        screen.clear(*dyed(NIGHT, self.look.theme), depth=1.0)
+        return screen, whole
+
+    def release(self) -> None:
+        """Give the driver its memory back before the window goes."""
+        if self._target is not None:
+            self._target.release()
+            self._target = None
+
+    def _ready(self) -> tuple[moderngl.Context, Painter]:
+        if self._ctx is None or self._painter is None:
+            try:
+                self._ctx = moderngl.create_context(require=GL_VERSION)
+            except Exception as fault:
+                raise DeviceError(f"the window has no OpenGL 3.3: {fault}") from fault
+            self._painter = Painter(self._ctx, _MEASURED if self._wanted is None else QUALITIES[self._wanted])
+        return self._ctx, self._painter
+
+    def _draw_room(
+        self,
+        snapshot: Snapshot,
+        painter: Painter,
+        ctx: moderngl.Context,
+        screen: moderngl.Framebuffer,
+        whole: tuple[int, int],
+        area: Area,
+    ) -> None:
+        if snapshot.kit.left_handed != self._left_handed:
+            self._left_handed = snapshot.kit.left_handed
+            self._back_to_the_view()
+        began = perf_counter()
+        target = self._target_for(painter, ctx, whole)
+        is_rough = self.camera != self._seen_from
+        arrangement = Arrangement(self._inset, self.look.score, is_rough, self.look.double, self._news)
+        self._seen_from = self.camera
+        painter.draw(snapshot, target.framebuffer, area, self.camera, arrangement=arrangement)
+        target.show(screen)
+        screen.use()  # the panels are drawn into what is bound
+        self._measure(began)
+
+    def _target_for(self, painter: Painter, ctx: moderngl.Context, whole: tuple[int, int]) -> RenderTarget:
+        """Where the picture is made: off the screen, with as many samples a pixel as the quality asks for."""
+        if self._target is None or self._target.size != whole or self._samples != painter.quality.samples:
+            self.release()
+            self._samples = painter.quality.samples
+            self._target = RenderTarget(ctx, whole, self._samples)
+        if not painter.quality.is_layered:
+            self._target.framebuffer.clear(*dyed(NIGHT, painter.theme), depth=1.0)
+        return self._target
+
+    def _measure(self, began: float) -> None:
+        if self._wanted is not None or self._ctx is None or len(self._times_ms) >= _MEASURED_FRAMES:
+            return
+        self._ctx.finish()
+        self._times_ms.append((perf_counter() - began) * 1000)
+        if len(self._times_ms) == _MEASURED_FRAMES and self._painter is not None:
+            self._painter.draw_at(QUALITIES[quality_for(median(self._times_ms[2:]))])
+
+    def _draw_report(self, report: ShownResult, painter: Painter, ctx: moderngl.Context, area: Area) -> None:
+        letters = theme.points(_LEAST_LETTERS) * imgui.get_io().display_framebuffer_scale.y
+        page = page_for(area[2:], letters)
+        if self._page is None or self._page[0] is not report or self._page[1] != page:
+            self._page = report, page, report_shapes(report.facts, painter.atlas, page)
+        ctx.viewport = area
+        painter.printer.theme = painter.theme
+        painter.printer.draw(self._page[2], report_sheet(area[2:], page))
+
+
+def quality_for(lowest_ms: float) -> int:
+    """The quality for a machine that draws a frame of the lowest in `lowest_ms`."""
+    if lowest_ms <= _VERY_FAST_MS:
+        return 2
+    return 1 if lowest_ms <= _FAST_MS else 0

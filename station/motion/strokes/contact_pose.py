@@ -1,0 +1,243 @@
+"""How a hand lies when its stick touches: from the kit's targets to the numbers that the arm is solved from.
+
+The kit's wrist radius and height give the slope of the line from the struck point up to the wrist. What they leave
+open, the elbow's wing and the way the hand points, is chosen once for each target so that the wrist is bent least, at
+the natural posture of the body for that target: drummers lift the elbow for a high hi-hat and keep the wrist straight.
+"""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.pieces import Articulation, Limb, Piece
+from station.motion.kinematics.arm import Arm, ArmLengths, Contact, Offsets, solve
+from station.motion.kinematics.collisions import depth_in_kit
+from station.motion.kinematics.figure import Figure
+from station.motion.kinematics.joint_limits import Limits
+from station.motion.kinematics.maths import MANY, ONE, Point
+from station.motion.kinematics.posture import natural_shoulder
+from station.motion.kit.kit import Kit
+from station.motion.kit.piece import RIM_ABOVE_HEAD_M, Target
+from station.motion.strokes.grip import Grip, Hold
+from station.motion.strokes.hand_events import GRAB, SHOW, WAIT
+from station.motion.strokes.targets import Strike, laid_azimuth, target_of
+
+Array = NDArray[np.float64]
+
+_WINGS = np.radians(np.arange(0.0, 81.0, 8.0))
+_HAND_YAWS = np.radians(np.arange(-60.0, 61.0, 6.0))
+_EXTENSION_EASE, _DEVIATION_EASE = np.radians(25.0), np.radians(12.0)
+_NATURAL_WING, _WING_EASE = np.radians(12.0), np.radians(40.0)
+_CROSSING_EASE = np.radians(35.0)
+_SPARE, _BEYOND_EASE = np.radians(8.0), np.radians(1.0)
+"""What is called comfortable: how far the wrist bends, the elbow leaves its place and the stick crosses the palm
+before each costs as much as the others; near its limits no wrist is comfortable, for strokes and styles need room (our
+choice, within the limits of HUMANS)."""
+
+SHOULDER_OF_STICK = 0.25
+"""From the tip back to the part that meets a cymbal's edge or a rim, as a share of the stick (our choice)."""
+_LAID_AHEAD = 0.55
+_LAID_RISE, _LAID_PALM = math.radians(2.0), math.radians(12.0)
+"""A cross-stick strikes the rim so far ahead of the fulcrum as a share of its length; the wrist is a little higher than
+the fingers, else it would be bent to its limit (our choice)."""
+
+_RIDES = (Piece.RIDE, Piece.RIDE_2)
+THUMB_UP_TURNS = 0.5
+"""On a ride the thumb comes up: half of the wrist's part of a stroke is the forearm's roll (our choice)."""
+
+
+LEANS_RAD = np.radians([6.0, 12.0, 18.0, 24.0, 30.0])
+"""How far the trunk may lean for a distant target, the least that serves (our choice)."""
+PROTRACTION_M = 0.08
+"""A shoulder comes forward by so much for what is still out of reach; the rest is missing (our choice)."""
+
+
+@dataclass(frozen=True, slots=True)
+class ContactPose:
+    """One kind of strike, solved at the natural posture.
+
+    `root` is the shoulder with the torso facing the target and leaning to it as little as is needed, `missing_m` how
+    far it is still from reaching; `angles` those of upper arm, forearm, hand and stick from hanging straight down, and
+    `ceiling` how far shoulder, elbow, wrist and stick may rise from there within their limits.
+    """
+
+    contact: Contact
+    root: Point
+    wrist: Point
+    angles: tuple[float, float, float, float]
+    ceiling: tuple[float, float, float, float]
+    missing_m: float
+    shoulder_of_stick: bool
+
+
+def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike) -> ContactPose:
+    """The most comfortable way for `strike` with `hold`."""
+    if strike.articulation == WAIT and not hold.held.rest_m:  # a brush waits on the head
+        strike = replace(strike, articulation=Articulation.NORMAL)
+    target = target_of(kit, strike)
+    if kit.stand_in(strike.piece) in _RIDES and hold.held.name == "stick":
+        hold = replace(hold, grip=replace(hold.grip, turns_hand=min(hold.grip.turns_hand, THUMB_UP_TURNS)))
+    right = strike.limb == Limb.RIGHT_HAND
+    side = 1.0 if right else -1.0
+    lengths = hold.lengths(figure, right)
+    slopes = _slopes(lengths, target, hold, strike, hold.length_m(figure))
+    if strike.articulation == Articulation.CROSS_STICK:
+        azimuth = laid_azimuth(kit, kit.pieces[kit.stand_in(strike.piece)], strike.limb)
+        slopes = replace(slopes, azimuth=azimuth)
+    faced = np.array([0.0, 1.0, 0.0]) if strike.articulation in (WAIT, SHOW) else target.point_m  # for anything
+    for lean in LEANS_RAD.tolist():
+        root = natural_shoulder(kit, figure, strike.limb, faced, lean)
+        touch, stretched = _easiest(lengths, root, target, slopes, hold.grip, (side, figure.limits))
+        if not stretched:
+            break
+    arm = solve(ONE, lengths, root, touch, Offsets(0.0, 0.0, 0.0, 0.0))
+    for share in _STRAIGHTER:  # the butt may be in the way of a neighbour: the stick is turned until it is not
+        if not _caught(kit, lengths, root, touch):
+            break
+        grip = replace(hold.grip, yaw=share * hold.grip.yaw, crossing=share * hold.grip.crossing)
+        touch, _ = _easiest(lengths, root, target, slopes, grip, (side, figure.limits))
+        arm = solve(ONE, lengths, root, touch, Offsets(0.0, 0.0, 0.0, 0.0))
+    limits = figure.limits
+    return ContactPose(
+        contact=touch,
+        root=root,
+        wrist=arm.wrist,
+        angles=(arm.shoulder, arm.shoulder + arm.elbow_bend, _UPRIGHT - touch.hand_rise, _UPRIGHT - touch.stick_rise),
+        ceiling=(
+            max(limits.shoulder_flexion - arm.shoulder, 0.0),
+            max(limits.elbow_flexion - arm.elbow_bend, 0.0),
+            max(limits.wrist_extension - arm.extension, _LEAST_ROOM),
+            max(limits.fingers - arm.palm, _LEAST_ROOM),
+        ),
+        missing_m=arm.missing_m,
+        shoulder_of_stick=target.shoulder,
+    )
+
+
+def _caught(kit: Kit, lengths: ArmLengths, root: Point, touch: Contact) -> bool:
+    """Whether the stick meets any piece of the kit while it is raised from `touch`: its butt goes down meanwhile."""
+    raised = Offsets(*(_RAISING * part for part in _RAISED))
+    arm = solve(MANY, lengths, root, Contact(*(np.full(len(_RAISING), c) for c in touch)), raised)
+    return float(depth_in_kit(kit, np.stack(arm.butt, 1), np.stack(arm.tip, 1)).max()) > _TOUCHING_M
+
+
+_STRAIGHTER = (0.7, 0.4, 0.1, -0.2, -0.5)
+_TOUCHING_M = 0.002
+_RAISED = Offsets(0.0, 0.05, 0.35, 0.15)
+"""A middling stroke at its top."""
+_RAISING = np.linspace(0.0, 1.0, 12)
+_UPRIGHT = math.pi / 2
+_LEAST_ROOM = 0.1
+"""Even a bent wrist has this much left (our choice)."""
+_EASY = 0.95
+"""The trunk leans before an arm is straighter than this share of its length (our choice)."""
+
+
+def _easiest(
+    lengths: ArmLengths, root: Point, target: Target, slopes: "_Slopes", grip: Grip, arm_of: tuple[float, Limits]
+) -> tuple[Contact, bool]:
+    """Among all wings and ways to point the hand the easiest one, and whether the arm is stretched for it.
+
+    `arm_of` is the arm's side, 1 right and −1 left, and its limits.
+    """
+    side, limits = arm_of
+    wing, yaw = (g.ravel() for g in np.meshgrid(side * _WINGS, _HAND_YAWS, indexing="ij"))
+    x, y, z = target.point_m.tolist()
+    stick_yaw = side * grip.yaw if slopes.azimuth is None else _turn(root, target, slopes.azimuth)
+    stick_rise = _over_the_piece(target, root, stick_yaw, slopes)
+    hand_rise = stick_rise + slopes.palm
+    trial = Contact(x, y, z, stick_rise, hand_rise, stick_yaw, stick_yaw + yaw, slopes.ahead_m, wing, grip.turns_hand)
+    arm = solve(MANY, lengths, root, trial, Offsets(0.0, 0.0, 0.0, 0.0))
+    price = (
+        (arm.extension / _EXTENSION_EASE) ** 2
+        + (arm.deviation / _DEVIATION_EASE) ** 2
+        + ((side * wing - _NATURAL_WING) / _WING_EASE) ** 2
+        + ((yaw + side * grip.crossing) / _CROSSING_EASE) ** 2
+        + 100.0 * arm.missing_m
+        + (_beyond(arm, side, limits) / _BEYOND_EASE) ** 2
+    )
+    best = int(np.argmin(price))
+    wx, wy, wz = (float(np.broadcast_to(w, price.shape)[best]) for w in arm.wrist)
+    stretched = math.dist((wx, wy, wz), root) > _EASY * (lengths.upper + lengths.fore)
+    return trial._replace(hand_yaw=stick_yaw + float(yaw[best]), wing=float(wing[best])), stretched
+
+
+def _beyond(arm: Arm, side: float, limits: Limits) -> Array:
+    """By how much the wrist is bent beyond what its limits leave to strokes and styles, radians."""
+    over = (
+        arm.extension - limits.wrist_extension,
+        -arm.extension - limits.wrist_flexion,
+        side * arm.deviation - limits.wrist_radial,
+        -side * arm.deviation - limits.wrist_ulnar,
+    )
+    return np.asarray(sum(np.maximum(o + _SPARE, 0.0) for o in over))
+
+
+@dataclass(frozen=True, slots=True)
+class _Slopes:
+    """How the stick wants to lie.
+
+    What touches and how much stick is beyond it, its slope, its angle in the hand, its way in plan where that is fixed,
+    and whether its shaft lies on the rim.
+    """
+
+    ahead_m: float
+    beyond_m: float
+    rise: float
+    palm: float
+    azimuth: float | None = None
+    on_rim: bool = False
+
+
+def _slopes(lengths: ArmLengths, target: Target, hold: Hold, strike: Strike, length_m: float) -> _Slopes:
+    h, palm, ahead = lengths.hand, hold.grip.palm, lengths.ahead
+    if strike.articulation == GRAB:
+        return _Slopes(0.0, lengths.ahead, target.rise_rad, palm)
+    if strike.articulation == Articulation.CROSS_STICK:
+        laid = _LAID_AHEAD * length_m
+        return _Slopes(laid, ahead - laid, _LAID_RISE, _LAID_PALM)
+    if target.shoulder:
+        ahead -= SHOULDER_OF_STICK * length_m
+    lean = math.atan2(h * math.sin(palm), ahead + h * math.cos(palm))  # between the stick and the line to the wrist
+    rise = target.rise_rad - lean
+    on_rim = strike.articulation == Articulation.RIM_SHOT
+    return _Slopes(ahead, lengths.ahead - ahead, rise, palm, on_rim=on_rim)
+
+
+def _over_the_piece(target: Target, root: Point, stick_yaw: float, slopes: _Slopes) -> float:
+    """The stick's slope, bent as little as is needed for its shaft and its end to stay over the struck surface.
+
+    With the plan direction u towards the player the shaft leaves the plane by cos e · (u·n) + sin e · n_z, which is
+    R sin(e + ψ): for the shaft it must be positive, for the end beyond the touch negative by what the zone is raised.
+    """
+    nx, ny, nz = target.normal.tolist()
+    towards = math.atan2(root[1] - float(target.point_m[1]), root[0] - float(target.point_m[0])) + stick_yaw
+    lean = math.cos(towards) * nx + math.sin(towards) * ny
+    size, turn = math.hypot(lean, nz), math.atan2(lean, nz)
+    if slopes.on_rim:
+        to_rim_m = _way_to_the_rim(target, math.cos(towards), math.sin(towards))
+        return math.asin(math.sin(math.atan2(RIM_ABOVE_HEAD_M, to_rim_m)) / size) - turn
+    if slopes.beyond_m <= 0 or not target.shoulder:
+        return max(slopes.rise, math.asin(_SHAFT_CLEAR / size) - turn) if slopes.azimuth is None else slopes.rise
+    over = (_END_CLEAR_M - target.raised_m) / slopes.beyond_m
+    return min(slopes.rise, math.asin(max(min(-over / size, 1.0), -1.0)) - turn)
+
+
+def _way_to_the_rim(target: Target, ux: float, uy: float) -> float:
+    """How far it is in plan from the struck point to the rim, along the unit direction (`ux`, `uy`)."""
+    x, y = (float(d) for d in (target.point_m - target.centre_m)[:2])
+    along = x * ux + y * uy
+    return math.sqrt(max(along * along - x * x - y * y + target.radius_m**2, 0.0)) - along
+
+
+_SHAFT_CLEAR = math.sin(math.radians(2.5))
+_END_CLEAR_M = 0.006
+"""How far shaft and end stay off the surface that is not struck by them (our choice)."""
+
+
+def _turn(root: Point, target: Target, azimuth: float) -> float:
+    """The yaw that makes the stick point to `azimuth` (from straight ahead, to the left positive)."""
+    towards = math.atan2(root[1] - float(target.point_m[1]), root[0] - float(target.point_m[0]))
+    return math.remainder(azimuth - math.pi / 2 - towards, 2 * math.pi)

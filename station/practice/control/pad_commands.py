@@ -1,0 +1,44 @@
+"""All that the kit and its foot switches may command, as the settings ask for it; what they mean the room decides."""
+
+from collections.abc import Sequence
+
+from station.core.events import Hit, Switched
+from station.core.settings import Settings, setting_source
+from station.engine.messages import EngineEvent
+from station.music.score import Score
+from station.practice.control.pad_gestures import FootSwitch, PadsTogether, TwoKicks
+from station.practice.control.pause_options import parse_pause
+
+
+class PadCommands:
+    """Hand it every event that may command something; raises `BadInput` for a pause in `settings` that is none."""
+
+    def __init__(self, settings: Settings, score: Score) -> None:
+        self._wish = parse_pause(settings.pause, setting_source("pause"))
+        self._kicks_start = settings.kicks_start
+        self._foot = FootSwitch(self._wish.switches)
+        self._score: Score | None = None
+        self._kicks, self._together = TwoKicks(), PadsTogether((), score)
+        self.practise(score)
+
+    def practise(self, score: Score) -> None:
+        """From now on `score` is played: what it asks for commands nothing."""
+        if score is self._score:
+            return
+        self._score = score
+        self._kicks, self._together = TwoKicks(), PadsTogether(self._wish.pairs, score)
+
+    def forget(self) -> None:
+        """What was struck so far means nothing."""
+        self._kicks.forget()
+        self._together.forget()
+
+    def starts(self, event: EngineEvent) -> bool:
+        """Whether two kicks are complete."""
+        return self._kicks_start and isinstance(event, Hit) and self._kicks.take(event)
+
+    def pauses(self, event: EngineEvent) -> Sequence[Hit] | None:
+        """The strokes that ask for a pause, none where a switch does; None where nothing does."""
+        if isinstance(event, Switched):
+            return () if self._foot.take(event) else None
+        return (self._together.take(event) or None) if isinstance(event, Hit) else None

@@ -1,0 +1,39 @@
+"""What pauses a session, as a setting says it: `crash_1+crash_2 cc=64`.
+
+Words between spaces: two pads that are struck at once, a foot switch by its MIDI controller (`cc=64`) or its program
+(`program=5`). Any of them pauses and goes on; without a word there is the window alone.
+"""
+
+from dataclasses import dataclass
+
+from station.core.errors import BadInput
+from station.core.pieces import Piece, word
+
+_PIECES = {word(piece): piece for piece in Piece}
+_SWITCHES = ("cc", "program")
+_MOST = 127
+
+
+@dataclass(frozen=True, slots=True)
+class PauseOptions:
+    """Pairs of pads, and switches as `Switched` calls them."""
+
+    pairs: tuple[frozenset[Piece], ...] = ()
+    switches: frozenset[str] = frozenset()
+
+
+def parse_pause(text: str, source: str = "pause") -> PauseOptions:
+    """What `text` says; raises `BadInput` that names `source` and the word at fault."""
+    pairs: list[frozenset[Piece]] = []
+    switches: set[str] = set()
+    for entry in text.split():
+        kind, _, number = entry.partition("=")
+        names = entry.split("+")
+        if kind in _SWITCHES and number.isdecimal() and int(number) <= _MOST:
+            switches.add(f"{kind}={int(number)}")
+        elif len(set(names)) == len(names) == 2 and all(name in _PIECES for name in names):
+            pairs.append(frozenset(_PIECES[name] for name in names))
+        else:
+            expected = f"expected two pads such as crash_1+crash_2, cc=0…{_MOST} or program=0…{_MOST}"
+            raise BadInput(source, entry, expected)
+    return PauseOptions(tuple(pairs), frozenset(switches))

@@ -1,0 +1,85 @@
+"""A bar of a session to be heard: as the teacher plays it, as the student did, and as he did in an earlier session.
+
+All begin alike, to the click, a breath before the bar, so that a stroke that came early is heard. A stroke of the
+student's belongs to the bar of the note that it answers, else to the bar of its own time. Those of an earlier session
+fall as many seconds from their beats as they fell then, whatever the tempo.
+"""
+
+from dataclasses import replace
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.units import NS_PER_MS, NS_PER_S
+from station.music.performance import Performance
+from station.practice.records.previous_session import PreviousSession
+from station.practice.session.adaptation import lesson_bars
+from station.practice.session.click_pattern import PLAIN, click_cues
+from station.practice.session.listening import RING_NS, Listening, played_cues, stretch
+from station.practice.session.plan import demonstration_cues
+from station.practice.session.session import SessionResult
+
+BREATH_NS = 250 * NS_PER_MS
+"""How long before the bar it begins; our choice: as early as a stroke is judged."""
+
+
+class Whose(Enum):
+    """Who is heard: `EARLIER` is the student in an earlier session."""
+
+    TEACHER = "teacher"
+    STUDENT = "student"
+    EARLIER = "earlier"
+
+
+def bar_by_ear(result: SessionResult, bar: int, played: Performance | None) -> Listening:
+    """The result's `bar`, from 0, as it was `played` (in the time of the result's score), or as it is written."""
+    start_ns, end_ns = _span_ns(result, bar)
+    from_ns = start_ns - BREATH_NS
+    pattern = replace(result.plan.click or PLAIN, gap=None)
+    one = result.score.bars(bar, bar)
+    clicks = _moved(click_cues(one.tempo_map, one.end_tick, pattern), start_ns)
+    strokes = _moved(demonstration_cues(one), start_ns) if played is None else played_cues(played)
+    cues = np.concatenate([clicks, strokes])
+    cues = stretch(cues[np.argsort(cues["at_ns"], kind="stable")], from_ns, end_ns + RING_NS)
+    return Listening(cues, end_ns - from_ns + RING_NS, from_ns)
+
+
+def students_bar(result: SessionResult, bar: int) -> Performance:
+    """What the student played in `bar`, from 0, of the result's score."""
+    tempo_map, performance = result.score.tempo_map, result.performance
+    hits, note = performance.hits, result.alignment.note_of_hit
+    ticks = _ticks(result, hits["at_ns"])
+    ticks[note >= 0] = result.score.notes["tick"][note[note >= 0]]
+    mine = hits[tempo_map.bars_at(np.maximum(ticks, 0)) == bar]
+    chokes = performance.chokes
+    grabbed = chokes[tempo_map.bars_at(np.maximum(_ticks(result, chokes["at_ns"]), 0)) == bar]
+    return Performance.from_array(mine.copy(), grabbed.copy())
+
+
+def earlier_bar(result: SessionResult, bar: int, earlier: PreviousSession) -> Performance:
+    """What was played earlier in the lesson's bar that is `bar`, from 0, of the result's score, laid over it."""
+    tempo_map = result.score.tempo_map
+    start = tempo_map.bar_start(bar)
+    at, strokes = earlier.in_bar(lesson_bars(result.plan)[bar] + 1)
+    ticks = start + np.round((at[:, 0] - 1) * tempo_map.meter_at(start).beat_ticks).astype(np.int64)
+    strokes = strokes.copy()
+    strokes["at_ns"] = tempo_map.ns_at(ticks) + np.round(at[:, 1] * NS_PER_S).astype(np.int64)
+    return Performance.from_array(strokes)
+
+
+def _span_ns(result: SessionResult, bar: int) -> tuple[int, int]:
+    """From and until when `bar` is played."""
+    tempo_map = result.score.tempo_map
+    start_ns, end_ns = tempo_map.ns_at([tempo_map.bar_start(bar), tempo_map.bar_start(bar + 1)])
+    return int(start_ns), int(end_ns)
+
+
+def _ticks(result: SessionResult, at_ns: NDArray[np.int64]) -> NDArray[np.int64]:
+    return np.asarray(result.score.tempo_map.ticks_at_ns(at_ns), np.int64)
+
+
+def _moved(cues: NDArray[np.void], by_ns: int) -> NDArray[np.void]:
+    moved = cues.copy()
+    moved["at_ns"] += by_ns
+    return moved

@@ -1,0 +1,271 @@
+"""Practice that follows the student: each pass is laid out by what the mastery policy made of the one before.
+
+A pass is a plan and a session of its own, with its own count-in, for tempo and bars may change between two passes and
+never inside one; nothing carries over from pass to pass. `Adaptation` says what comes next and hears how it went;
+`whole` puts all passes in a row, so that a session has one report. Pure: no clock, no device, no file.
+"""
+
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+from datetime import date
+from functools import cached_property
+from math import ceil
+
+import numpy as np
+
+from station.core.units import PPQ
+from station.drills.lesson import Lesson
+from station.drills.mastery.equipment_faults import rewired
+from station.drills.mastery.mastery_state import ItemState
+from station.drills.mastery.pass_facts import PassResult, measure_pass
+from station.drills.mastery.policy import begin, fix_tempo, new_item, next_step, veto
+from station.drills.mastery.practice_steps import PassKind, PracticeItem, PracticeStep, item_of
+from station.drills.mastery.rules import Rules
+from station.drills.orchestration import revoiced
+from station.music.performance import Performance
+from station.music.score import Score
+from station.music.tempo import TempoMap
+from station.practice.session.click_pattern import PLAIN, Gap
+from station.practice.session.device_latency import Latency
+from station.practice.session.plan import (
+    MAX_TEMPO_BPM,
+    MIN_TEMPO_BPM,
+    Phase,
+    Plan,
+    PlanOptions,
+    Rounds,
+    Segment,
+    plan_practice,
+)
+from station.practice.session.session import Session, SessionResult
+from station.scoring.align import align
+
+REST_S = 1.5
+"""At least so much silence lies between two passes of the joined score: more than a session listens before its first
+bar and after its last (`session.EARLIEST_NS`, `plan.TAIL_S`), so that no stroke is near two passes."""
+SILENT_TO_STOP = 2
+"""So many passes without a stroke, and nobody is there (TEACHING: auto-pause after two)."""
+
+
+@dataclass(frozen=True, eq=False)
+class PlayedPass:
+    """A pass: what was asked, what came of it, and what the policy measured, None where it was stopped early."""
+
+    step: PracticeStep
+    result: SessionResult
+    measured: PassResult | None
+
+
+@dataclass(eq=False)
+class Adaptation:
+    """The passes of one student over one lesson today: play `plan`, hand `take` its result, until `over`.
+
+    `known` is what the last session left, None for a student who is new to the lesson. A tempo in `wishes` stays.
+    Raises `BadInput` for wishes that cannot be.
+    """
+
+    lesson: Lesson
+    wishes: PlanOptions
+    today: date
+    known: ItemState | None = None
+    rounds: list[PlayedPass] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.rules = Rules().for_lesson(self.lesson)
+        first = plan_practice(self.lesson, self.wishes)  # names what cannot be
+        self.loops = first.passes
+        item = item_of(self.lesson, (first.first_bar, first.first_bar + first.section.bar_count - 1))
+        if self.known is None or self.known.item != item:
+            self.state = new_item(item, self.today, self.rules)
+        else:
+            self.state = begin(self.known, self.today, self.rules)
+        if self.wishes.tempo_bpm is not None:
+            self.state, _ = fix_tempo(self.state, self.wishes.tempo_bpm, self.rules)
+        elif self.state.fixed_pct is not None:
+            self.state, _ = fix_tempo(self.state, None, self.rules)
+        self.step = self.state.step
+        self._plan = self._laid_out()
+
+    @property
+    def plan(self) -> Plan:
+        """The next pass, laid out."""
+        return self._plan
+
+    def session(self, latency: Latency) -> Session:
+        """The next pass as a session, ready to start."""
+        return Session(self.plan, latency, feedback=self.step.feedback, message=self.words)
+
+    @property
+    def words(self) -> str:
+        """What the student should read before the next pass: why it is so, and a fault of the kit that was found."""
+        return self.step.why if self.step.notice is None else f"{self.step.why} {self.step.notice}"
+
+    @property
+    def over(self) -> bool:
+        """Whether enough was played: all that was asked for, all that helps today, or nobody is there."""
+        silent = [r.measured is not None and r.measured.is_silent for r in self.rounds[-SILENT_TO_STOP:]]
+        has_left = len(silent) == SILENT_TO_STOP and all(silent)
+        is_stopped = bool(self.rounds) and not self.rounds[-1].result.complete
+        is_enough = bool(self.rounds) and self.step.kind is PassKind.LEAVE
+        return len(self.rounds) >= self.loops or has_left or is_stopped or is_enough
+
+    def take(self, result: SessionResult) -> PracticeStep:
+        """Hear the pass that was asked for last; returns the next. What was stopped early is kept and not judged."""
+        measured = self._measured(result) if result.complete else None
+        self.rounds.append(PlayedPass(self.step, result, measured))
+        if measured is not None:
+            self.state, self.step = next_step(self.state, measured, self.rules)
+            self._plan = self._laid_out()
+        return self.step
+
+    def veto(self) -> PracticeStep:
+        """The student refuses what comes next: all stays as it was."""
+        self.state, self.step = veto(self.state, self.rules)
+        self._plan = self._laid_out()
+        return self.step
+
+    def result(self) -> SessionResult:
+        """All passes as one session; at least one was played."""
+        return whole([one.result for one in self.rounds], self.state.item)
+
+    def row(self) -> "ScoreRow":
+        """What was judged of all passes, in a row."""
+        return ScoreRow(tuple(one.result.score for one in self.rounds))
+
+    def _laid_out(self) -> Plan:
+        step, played, click = self.step, bool(self.rounds), self.wishes.click
+        wishes = replace(
+            self.wishes,
+            tempo_bpm=min(max(step.tempo_bpm, MIN_TEMPO_BPM), MAX_TEMPO_BPM),
+            loops=step.repeats,
+            bars=(step.bars[0] + 1, step.bars[1] + 1),
+            demonstrations=0 if played else self.wishes.demonstrations,
+            click=click if step.gap is None else replace(click or PLAIN, gap=Gap(*step.gap)),
+        )
+        lesson = replace(self.lesson, score=revoiced(self.lesson.score)) if step.revoiced else self.lesson
+        return plan_practice(lesson, wishes)
+
+    def _measured(self, result: SessionResult) -> PassResult:
+        swap = self.state.equipment.swap
+        performance = rewired(result.performance, swap)
+        alignment = result.alignment if swap is None else align(result.score, performance, clocked=True)
+        return measure_pass(result.score, performance, alignment, lesson_bars(result.plan))
+
+
+def lesson_bars(plan: Plan) -> tuple[int, ...]:
+    """The lesson's bar (from 0) of each bar of the plan's score."""
+    if plan.rounds is not None:
+        return plan.rounds.bars
+    return tuple(range(plan.first_bar, plan.first_bar + plan.section.bar_count)) * plan.passes
+
+
+# --- all passes in a row ----------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, eq=False)
+class ScoreRow:
+    """Scores in a row, a silence of some bars before each but the first: `score`, and where each begins."""
+
+    parts: tuple[Score, ...]
+
+    @cached_property
+    def _joined(self) -> tuple[Score, tuple[int, ...]]:
+        """The score, and the bar in which each part begins."""
+        row: list[Score] = [self.parts[0]]
+        starts, bars = [0], self.parts[0].bar_count
+        for part in self.parts[1:]:
+            rest = _rest(part)
+            starts.append(bars + rest.bar_count)
+            bars = starts[-1] + part.bar_count
+            row += [rest, part]
+        return Score.joined(row), tuple(starts)
+
+    @property
+    def score(self) -> Score:
+        """All parts and the silences between them."""
+        return self._joined[0]
+
+    @property
+    def start_bars(self) -> tuple[int, ...]:
+        """The bar of `score` in which each part begins."""
+        return self._joined[1]
+
+    @cached_property
+    def start_ns(self) -> tuple[int, ...]:
+        """When each part begins."""
+        tempo_map = self.score.tempo_map
+        return tuple(int(ns) for ns in tempo_map.ns_at([tempo_map.bar_start(bar) for bar in self.start_bars]))
+
+    def performance(self, played: Iterable[Performance]) -> Performance:
+        """What was played to each part, in the time of `score`."""
+        moved = [one.shifted(at_ns) for one, at_ns in zip(played, self.start_ns, strict=True)]
+        hits, chokes = ([getattr(one, name) for one in moved] for name in ("hits", "chokes"))
+        return Performance.from_array(np.concatenate(hits), np.concatenate(chokes))
+
+
+def _rest(part: Score) -> Score:
+    """Whole bars of silence in the tempo and meter of `part`, long enough to keep it from what was before."""
+    tempo, meter = part.tempo_map.tempos[0], part.tempo_map.meters[0]
+    bar_s = tempo.us_per_quarter / 1e6 * meter.bar_ticks / PPQ
+    tempo_map = TempoMap.build([replace(tempo, tick=0)], [replace(meter, tick=0)])
+    return Score.from_notes([], tempo_map, ceil(REST_S / bar_s) * meter.bar_ticks)
+
+
+def whole(results: list[SessionResult], item: PracticeItem) -> SessionResult:
+    """Several sessions of one lesson as one."""
+    assert results, "nothing was played"
+    row = ScoreRow(tuple(result.score for result in results))
+    score, performance = row.score, row.performance(result.performance for result in results)
+    last = results[-1]
+    return SessionResult(
+        plan=_whole_plan([result.plan for result in results], row, item),
+        score=score,
+        performance=performance,
+        alignment=align(score, performance, clocked=True),
+        latency=last.latency,
+        complete=last.complete,
+        device=_played_on(results),
+        output=last.output,
+        pauses=tuple(
+            replace(pause, bar=start + pause.bar)
+            for start, result in zip(row.start_bars, results, strict=True)
+            for pause in result.pauses
+        ),
+    )
+
+
+def _whole_plan(plans: list[Plan], row: ScoreRow, item: PracticeItem) -> Plan:
+    """A plan whose one section is all that was played; its bars bear the lesson's names."""
+    score, last = row.score, plans[-1]
+    names = np.full(score.bar_count, item.first_bar, np.int64)
+    for start, plan in zip(row.start_bars, plans, strict=True):
+        bars = lesson_bars(plan)
+        names[start : start + len(bars)] = bars
+    silences = tuple(
+        (start_ns + begin_ns, start_ns + end_ns)
+        for start_ns, plan in zip(row.start_ns, plans, strict=True)
+        for begin_ns, end_ns in plan.silences
+    )
+    ends = (*row.start_ns[1:], score.length_ns)
+    segments = tuple(Segment(Phase.PASS, i, *span) for i, span in enumerate(zip(row.start_ns, ends, strict=True)))
+    return replace(
+        last,
+        section=score,
+        score=score,
+        first_bar=item.first_bar,
+        passes=len(plans),
+        segments=segments,
+        passes_start_ns=0,
+        end_ns=score.length_ns,
+        rounds=Rounds(tuple(names.tolist()), row.start_bars, item.bars, silences),
+    )
+
+
+def _played_on(results: list[SessionResult]) -> str | None:
+    """What most hits were played on."""
+    devices: Counter[str] = Counter()
+    for result in results:
+        if result.device is not None:
+            devices[result.device] += len(result.performance)
+    return devices.most_common(1)[0][0] if devices else None

@@ -1,0 +1,79 @@
+"""What the engine has said so far, as every kind of session needs it: kits, output, zero, last strokes, notices.
+
+Transport time is what the student heard and played: a stamp less its pad's latency, less the zero and the output's
+latency (`practice.latency`). The transport may start several times; its last zero holds.
+"""
+
+from collections import deque
+from dataclasses import dataclass, field
+
+from station.core.events import Choke, DeviceFound, DeviceLost, Hit
+from station.engine.messages import CaptureSaved, EngineEvent, Notice, Ready, Sounding, Started
+from station.practice.session.device_latency import Latency
+
+RECENT_HITS = 32
+"""How many hits a window may look back on to show what was struck just now; our choice."""
+
+
+@dataclass(eq=False)
+class EngineState:
+    """Hand `take` every event of the engine.
+
+    `devices` are the kits that are connected, the newest last; `output` is what the click is heard on, or was last;
+    `capture_fault` why the capture lacks what came after, if it does; `rate_hz` the sound card's, None where there is
+    none; `notices` what a user should read once, in order; `recent` the last hits, the newest last; `zero_ns` when cue
+    time 0 was heard, None while the transport has not started; `strokes` counts the strokes and the grabbed cymbals
+    since the capture began.
+    """
+
+    latency: Latency = field(default_factory=Latency)
+    devices: list[str] = field(default_factory=list)
+    output: str | None = None
+    capture_fault: str | None = None
+    rate_hz: int | None = None
+    notices: list[str] = field(default_factory=list)
+    recent: deque[Hit] = field(default_factory=lambda: deque(maxlen=RECENT_HITS))
+    zero_ns: int | None = None
+    strokes: int = 0
+
+    def take(self, event: EngineEvent) -> None:
+        """Take in one event."""
+        match event:
+            case Hit():
+                self.recent.append(event)
+                self.strokes += 1
+            case Choke():
+                self.strokes += 1
+            case Started(zero_ns, output):
+                self.zero_ns, self.output = zero_ns, output
+            case DeviceLost(_, device):
+                self.devices = [other for other in self.devices if other != device]
+                self.notices.append(f"{device} is gone; plug it in again, the session goes on")
+            case DeviceFound(_, device):
+                self.devices = [*(other for other in self.devices if other != device), device]
+                self.notices.append(f"{device} is here")
+            case CaptureSaved(_, fault) if fault is not None:
+                self.capture_fault = fault
+                self.notices.append(f"nothing more is recorded: {fault}")
+            case CaptureSaved(path) if path is not None:
+                self.strokes = 0
+            case Ready(output, rate_hz) | Sounding(output, rate_hz):
+                self.rate_hz = rate_hz
+                self.output = output or self.output  # whoever plays on in silence keeps the beat that he heard
+            case Notice(text):
+                self.notices.append(text)
+            case _:
+                pass
+
+    def go_on_from(self, before: "EngineState") -> None:
+        """Know what a session knew that ran before on the same engine."""
+        self.devices, self.capture_fault, self.rate_hz = before.devices, before.capture_fault, before.rate_hz
+        self.strokes = before.strokes
+
+    def transport_ns(self, at_ns: int) -> int | None:
+        """The transport's time that was heard at session time `at_ns`; None before it has started."""
+        return None if self.zero_ns is None else at_ns - self.zero_ns - self.latency.of_output(self.output)
+
+    def played_ns(self, stroke: Hit | Choke) -> int | None:
+        """The transport's time at which `stroke` was played; None before it has started."""
+        return self.transport_ns(stroke.at_ns - self.latency.of_stroke(stroke.device, stroke.piece))

@@ -1,0 +1,261 @@
+"""What a session has written into its capture beside the bytes, so that the capture alone can be judged again.
+
+Each remark is one JSON object: `said` (`pass`, `pause`, `go_on`, `end`), and `strokes`, how many strokes and grabbed
+cymbals the session had heard since the capture began (or went on in another engine's hand). By that count, and not by
+the clock, a remark has its place among the strokes: the session heard them later than the engine did.
+
+| `said` | besides |
+|---|---|
+| `pass` | what is to be played and judged: `lesson`, `title`, `tempo_bpm`, `beat_ticks`, `first_bar`, `passes`, `click`, `notes` (rows of `NOTE_DTYPE`), `tempos`, `meters`, `end_tick` of one pass, `passes_start_ns`, `end_ns`; `latency`, `waits` |
+| `pause` | `now_ns`, the session time that it knew; `command`: the strokes that asked for it, each as `stroke_key` has it |
+| `go_on` | `asked`, `whole`, as `Session.resume` takes them |
+| `end` | `now_ns`, the session time at which nothing more was awaited |
+
+The score is kept as it was judged, strokes and tempo, so that a lesson that has changed since changes nothing.
+"""  # noqa: E501 - a table
+
+import json
+import math
+from dataclasses import dataclass
+from types import MappingProxyType
+
+import numpy as np
+
+from station.core.errors import BadInput
+from station.core.events import Hit
+from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone
+from station.devices.capture.replay import LoggedText
+from station.drills.lesson import Lesson
+from station.engine.messages import CUE_DTYPE
+from station.motion.kit.kit import DEFAULT_KIT, load_kit
+from station.music.score import NOTE_DTYPE, Note, Score
+from station.music.tempo import MeterChange, TempoChange, TempoMap
+from station.practice.session.click_pattern import PLAIN
+from station.practice.session.device_latency import KitLatency, Latency
+from station.practice.session.plan import MAX_LOOPS, Plan
+
+StrokeKey = tuple[int, str, int, int]
+"""A stroke's session time, device, piece and velocity."""
+
+
+def stroke_key(hit: Hit) -> StrokeKey:
+    """What tells one stroke from all others."""
+    return hit.at_ns, hit.device, int(hit.piece), hit.velocity
+
+
+@dataclass(frozen=True, slots=True)
+class PassBegan:
+    """A session was laid out as `plan` and set going."""
+
+    strokes: int
+    plan: Plan
+    latency: Latency
+    waits: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Paused:
+    """It stood still at `now_ns`; the strokes of the `command` were not played to the score."""
+
+    strokes: int
+    now_ns: int
+    command: tuple[StrokeKey, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class WentOn:
+    """It went on, as `Session.resume` says."""
+
+    strokes: int
+    asked: bool
+    whole: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Ended:
+    """It was over, or was stopped, at `now_ns`."""
+
+    strokes: int
+    now_ns: int
+
+
+Said = PassBegan | Paused | WentOn | Ended
+
+
+# --- writing ----------------------------------------------------------------------------------------------------------
+
+
+def text_of(said: Said) -> str:
+    """The remark as it is kept."""
+    match said:
+        case PassBegan():
+            fields = {"said": "pass", **_plan_fields(said.plan), "latency": _latency_fields(said.latency)}
+            fields["waits"] = said.waits
+        case Paused():
+            fields = {"said": "pause", "now_ns": said.now_ns, "command": [list(key) for key in said.command]}
+        case WentOn():
+            fields = {"said": "go_on", "asked": said.asked, "whole": said.whole}
+        case Ended():
+            fields = {"said": "end", "now_ns": said.now_ns}
+    return json.dumps({**fields, "strokes": said.strokes}, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+
+
+def _plan_fields(plan: Plan) -> dict[str, object]:
+    section, tempo_map = plan.section, plan.section.tempo_map
+    return {
+        "lesson": plan.lesson.name,
+        "title": plan.lesson.title,
+        "tempo_bpm": plan.tempo_bpm,
+        "beat_ticks": plan.lesson.beat_ticks,
+        "first_bar": plan.first_bar,
+        "passes": plan.passes,
+        "click": plan.click is not None,
+        "notes": [_without_nan(row) for row in section.notes.tolist()],
+        "tempos": [[change.tick, change.us_per_quarter] for change in tempo_map.tempos],
+        "meters": [[change.tick, change.beats, change.unit] for change in tempo_map.meters],
+        "end_tick": section.end_tick,
+        "passes_start_ns": plan.passes_start_ns,
+        "end_ns": plan.end_ns,
+    }
+
+
+def _without_nan(row: tuple[float | int, ...]) -> list[float | int | None]:
+    return [None if isinstance(value, float) and math.isnan(value) else value for value in row]
+
+
+def _latency_fields(latency: Latency) -> dict[str, object]:
+    kits = {
+        name: {"kit_ns": kit.kit_ns, "pads_ns": {str(int(piece)): ns for piece, ns in kit.pads_ns.items()}}
+        for name, kit in latency.kits.items()
+    }
+    return {
+        "input_ns": latency.input_ns,
+        "output_ns": latency.output_ns,
+        "kits": kits,
+        "outputs_ns": dict(latency.outputs_ns),
+    }
+
+
+_MOST_TICKS = 2**32
+"""So long may what is judged be (our choice: five hours at 120 bpm); what is longer is damage."""
+_MOST_LEAD_MS = 10_000.0
+"""No grace stroke lies so far from its note."""
+
+# --- reading ----------------------------------------------------------------------------------------------------------
+
+
+def said_in(remark: LoggedText) -> Said | None:
+    """What a session said; None for what no session of this version says. Raises `BadInput` where it is damaged."""
+    try:
+        fields = json.loads(remark.text)
+        match fields.get("said"):
+            case "pass":
+                return PassBegan(
+                    _whole(fields["strokes"]), _plan(fields), _latency(fields["latency"]), bool(fields["waits"])
+                )
+            case "pause":
+                keys = ((_whole(at), str(device), _whole(p), _whole(v)) for at, device, p, v in fields["command"])
+                return Paused(_whole(fields["strokes"]), _whole(fields["now_ns"]), tuple(keys))
+            case "go_on":
+                return WentOn(_whole(fields["strokes"]), bool(fields["asked"]), bool(fields["whole"]))
+            case "end":
+                return Ended(_whole(fields["strokes"]), _whole(fields["now_ns"]))
+            case _:
+                return None
+    except (ValueError, TypeError, KeyError, AttributeError, OverflowError, RecursionError):
+        raise BadInput("capture", f"remark at {remark.at_ns} ns", "it cannot be read") from None
+
+
+def _plan(fields: dict[str, object]) -> Plan:
+    """As much of the plan as judgement needs: nothing sounds, and nobody demonstrates."""
+    section = _section(fields)
+    passes, start_ns, end_ns = (_whole(fields[key]) for key in ("passes", "passes_start_ns", "end_ns"))
+    beat_ticks, tempo_bpm = _whole(fields["beat_ticks"]), float(str(fields["tempo_bpm"]))
+    if not (1 <= passes <= MAX_LOOPS and 0 < beat_ticks <= _MOST_TICKS and 0 < tempo_bpm < math.inf):
+        raise ValueError
+    lesson = Lesson(name=str(fields["lesson"]), title=str(fields["title"]), score=section, beat_ticks=beat_ticks)
+    return Plan(
+        lesson=lesson,
+        kit=load_kit(DEFAULT_KIT),
+        tempo_bpm=tempo_bpm,
+        section=section,
+        score=section.repeated(passes),
+        first_bar=_whole(fields["first_bar"]),
+        passes=passes,
+        segments=(),
+        passes_start_ns=start_ns,
+        end_ns=end_ns,
+        cues=np.zeros(0, CUE_DTYPE),
+        click=PLAIN if fields["click"] else None,
+    )
+
+
+def _section(fields: dict[str, object]) -> Score:
+    rows, tempos, meters = (_list(fields[key]) for key in ("notes", "tempos", "meters"))
+    tempo_map = TempoMap.build(
+        [TempoChange(*map(_whole, _list(change))) for change in tempos],
+        [MeterChange(*map(_whole, _list(change))) for change in meters],
+    )
+    end_tick, notes = _whole(fields["end_tick"]), [_note(_list(row)) for row in rows]
+    if not 0 < end_tick <= _MOST_TICKS or any(not 0 <= note.tick < end_tick for note in notes):
+        raise ValueError
+    if any(meter.beats > _MOST_TICKS for meter in tempo_map.meters):
+        raise ValueError
+    return Score.from_notes(notes, tempo_map, end_tick)
+
+
+def _note(row: list[object]) -> Note:
+    value = dict(zip(NOTE_DTYPE.names or (), row, strict=True))
+    openness, lead_ms = value["openness"], value["lead_ms"]
+    if not isinstance(openness, float | int | None) or not isinstance(lead_ms, float | int):
+        raise TypeError
+    if not abs(lead_ms) <= _MOST_LEAD_MS or (openness is not None and not 0 <= openness <= 1):
+        raise ValueError
+    return Note(
+        tick=_whole(value["tick"]),
+        piece=Piece(_whole(value["piece"])),
+        zone=Zone(_whole(value["zone"])),
+        velocity=_whole(value["velocity"]),
+        articulation=Articulation(_whole(value["articulation"])),
+        dynamic=Dynamic(_whole(value["dynamic"])),
+        limb=Limb(_whole(value["limb"])),
+        openness=openness,
+        ornament=Ornament(_whole(value["ornament"])),
+        lead_ms=lead_ms,
+        duration_ticks=_whole(value["duration_ticks"]),
+        choke_ticks=_whole(value["choke_ticks"]),
+        midi_note=_whole(value["midi_note"]),
+    )
+
+
+def _latency(fields: dict[str, object]) -> Latency:
+    kits, outputs = (_table(fields[key]) for key in ("kits", "outputs_ns"))
+    return Latency(
+        _whole(fields["input_ns"]),
+        _whole(fields["output_ns"]),
+        MappingProxyType({name: _kit_latency(_table(kit)) for name, kit in kits.items()}),
+        MappingProxyType({name: _whole(ns) for name, ns in outputs.items()}),
+    )
+
+
+def _kit_latency(fields: dict[str, object]) -> KitLatency:
+    pads = {Piece(int(piece)): _whole(ns) for piece, ns in _table(fields["pads_ns"]).items()}
+    return KitLatency(_whole(fields["kit_ns"]), MappingProxyType(pads))
+
+
+def _whole(value: object) -> int:
+    if not isinstance(value, int) or isinstance(value, bool) or abs(value) >= 2**62:
+        raise TypeError
+    return value
+
+
+def _list(value: object) -> list[object]:
+    if not isinstance(value, list):
+        raise TypeError
+    return value
+
+
+def _table(value: object) -> dict[str, object]:
+    if not isinstance(value, dict):
+        raise TypeError
+    return value

@@ -1,0 +1,43 @@
+"""Where in the lesson something of a session lies: bar, beat and pass, which count from 1."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.practice.session.adaptation import lesson_bars
+from station.practice.session.session import SessionResult
+
+PLACE_DTYPE = np.dtype(
+    [
+        ("place", np.float64),  # the lesson's bar from 1, and how much of it is over
+        ("beat", np.float64),
+        ("bar", np.int32),  # of the lesson
+        ("row_bar", np.int32),  # of the result's score, from 0
+        ("pass", np.int32),
+    ]
+)
+
+
+def places_of(result: SessionResult, ticks: NDArray[np.int64]) -> NDArray[np.void]:
+    """Where `ticks` (n,) of the result's score lie, (n,) of `PLACE_DTYPE`; what comes after the last bar is in it."""
+    places = np.zeros(len(ticks), PLACE_DTYPE)
+    if not len(ticks):
+        return places
+    tempo_map, plan = result.score.tempo_map, result.plan
+    names = np.asarray(lesson_bars(plan))
+    row = np.minimum(tempo_map.bars_at(ticks), len(names) - 1)
+    starts = np.asarray([tempo_map.bar_start(bar) for bar in range(int(row.max()) + 2)])
+    within = np.minimum((ticks - starts[row]) / np.diff(starts)[row], 1.0)
+    beats = np.asarray([tempo_map.meter_at(int(start)).beats for start in starts[:-1]])[row]
+    places["row_bar"], places["bar"], places["beat"] = row, names[row] + 1, within * beats + 1
+    places["place"] = places["bar"] + within
+    if plan.rounds is not None:
+        places["pass"] = np.searchsorted(np.asarray(plan.rounds.starts), row, "right")
+    else:
+        places["pass"] = row // plan.section.bar_count + 1
+    return places
+
+
+def ticks_of_hits(result: SessionResult, at_ns: NDArray[np.int64]) -> NDArray[np.int64]:
+    """The tick of the score at which each hit fell, shape (n,), within the score."""
+    inside_ns = np.clip(at_ns, 0, max(result.score.length_ns - 1, 0))
+    return np.asarray(result.score.tempo_map.ticks_at_ns(inside_ns), np.int64)

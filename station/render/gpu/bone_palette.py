@@ -1,0 +1,78 @@
+"""Where every bone is and how it glows, as the one buffer that the shaders read.
+
+The kit's bones come first, then the drummer's, the student's double's, and the double's two sticks.
+"""
+
+from dataclasses import dataclass, field
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.pieces import Limb, Piece
+from station.motion.kinematics.pose import Pose
+from station.render.figure.skeleton import LIMB_BONES, Bone, Skeleton
+from station.render.geometry.transforms import Matrix
+from station.render.gpu.light_shader import MAX_BONES
+from station.render.kit import kit_rig
+from station.render.kit.kit_rig import KitRig
+
+Colour = NDArray[np.float64]
+"""Linear red, green and blue, (3,)."""
+
+
+@dataclass(frozen=True, eq=False)
+class BoneFrame:
+    """What changes from one picture to the next: poses of the drummer and of the student's double, and what glows.
+
+    `pose` None: nobody plays; `double` None: no double. `glow` lights pieces, `double_glow` the double's limbs.
+    """
+
+    pose: Pose | None = None
+    glow: dict[Piece, Colour] = field(default_factory=dict)
+    double: Pose | None = None
+    double_glow: dict[Limb, Colour] = field(default_factory=dict)
+
+
+class BonePalette:
+    """The buffers of one kit and one figure: how they are now, and the kit at rest."""
+
+    def __init__(self, ctx: moderngl.Context, rig: KitRig, skeleton: Skeleton) -> None:
+        self._rig, self._skeleton = rig, skeleton
+        self.figure = rig.bone_count
+        self.double = self.figure + len(Bone)
+        self.double_sticks = self.double + len(Bone)
+        assert self.double_sticks + 2 <= MAX_BONES, "the kit has more pieces than a palette holds"
+        self._matrices = np.tile(np.eye(4), (MAX_BONES, 1, 1))
+        self._glow = np.zeros((MAX_BONES, 4), np.float32)
+        self._now = ctx.buffer(reserve=MAX_BONES * 64, dynamic=True)
+        self._rest = ctx.buffer(_rows(self._matrices) + self._glow.tobytes())
+
+    def set(self, frame: BoneFrame) -> None:
+        """Pose all bones as `frame` says."""
+        matrices, glow, rig = self._matrices, self._glow, self._rig
+        glow[:] = 0.0
+        matrices[: self.figure] = kit_rig.bone_matrices(rig, frame.pose)
+        for piece, colour in frame.glow.items():
+            glow[rig.piece_bones[piece], :3] = colour
+        if frame.pose is not None:
+            matrices[self.figure : self.double] = self._skeleton.matrices(frame.pose)
+        if frame.double is not None:
+            matrices[self.double : self.double_sticks] = self._skeleton.matrices(frame.double)
+            matrices[self.double_sticks : self.double_sticks + 2] = kit_rig.stick_matrices(frame.double)
+            for limb, colour in frame.double_glow.items():
+                glow[[self.double + bone for bone in LIMB_BONES[limb]], :3] = colour
+        self._now.write(_rows(matrices) + glow.tobytes())
+
+    def use(self) -> None:
+        """Let the shaders read how the bones are now."""
+        self._now.bind_to_uniform_block(0)
+
+    def use_rest(self) -> None:
+        """Let the shaders read the kit at rest and the figure as it was made."""
+        self._rest.bind_to_uniform_block(0)
+
+
+def _rows(matrices: Matrix) -> bytes:
+    """The upper three rows of affine matrices (n, 4, 4), as the shaders' `mat3x4`."""
+    return matrices[:, :3].astype(np.float32).tobytes()

@@ -1,0 +1,132 @@
+"""What a scene is made of, kept on disk: solids and pictures take most of a second to make and a hundredth to read.
+
+A file holds named arrays: a checksum of all that follows (CRC-32, 4 bytes, the least first), then numpy's `.npz`, which
+alone would leave its table of contents unguarded. Its name bears a digest of what was asked for and of the code of
+drummers and pictures, so that it never outlives what made it. Nothing depends on the files: one that cannot be read is
+made anew, one that cannot be written costs time alone.
+"""
+
+import hashlib
+import io
+import os
+import zlib
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import suppress
+from dataclasses import fields
+from functools import lru_cache
+from importlib.resources import files
+from importlib.resources.abc import Traversable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.disk_cache import cache_folder, forget_oldest
+from station.core.errors import DeviceError
+from station.core.files import write_whole
+from station.motion.kinematics.figure import Figure
+from station.motion.kit.kit import Kit
+from station.render.figure.body import Skin, build_body
+from station.render.geometry.light import Light
+from station.render.geometry.mesh import Mesh
+from station.render.kit.instrument_meshes import Detail
+from station.render.kit.kit_rig import KitRig, floor_discs, kit_mesh, rig_of
+from station.render.kit.room import floor_picture, wall_picture
+
+Arrays = Mapping[str, NDArray[Any]]
+
+KEPT_FILES = 16
+"""The oldest go first (our choice: a few kits and figures at three qualities, some 60 MB)."""
+_ENDING = ".scene"
+_CHECKSUM_BYTES = 4
+_PICTURE = "picture"
+
+
+def kept_kit(kit: Kit, detail: Detail) -> KitRig:
+    """`build_kit`, its mesh from disk where it was made before."""
+    return rig_of(kit, Mesh(**kept("kit", (kit, detail), lambda: _arrays(kit_mesh(kit, detail)))))
+
+
+def kept_body(figure: Figure, fineness: float) -> Skin:
+    """`build_body`, from disk where it was made before."""
+    return Skin(**kept("body", (figure, fineness), lambda: _arrays(build_body(figure, fineness))))
+
+
+def kept_floor(kit: Kit, light: Light, texels: int) -> NDArray[np.uint8]:
+    """`floor_picture` under a kit, from disk where it was made before."""
+    discs = floor_discs(kit)
+    return kept("floor", (discs, light, texels), lambda: {_PICTURE: floor_picture(discs, light, texels)})[_PICTURE]
+
+
+def kept_wall() -> NDArray[np.uint8]:
+    """`wall_picture`, from disk where it was made before."""
+    return kept("wall", None, lambda: {_PICTURE: wall_picture()})[_PICTURE]
+
+
+def kept(name: str, wanted: object, make: Callable[[], Arrays], folder: Path | None = None) -> Arrays:
+    """What `make` makes of `wanted`, which its `repr` tells from all else; from disk where it was made before."""
+    path = (folder or cache_folder("scenes")) / f"{name}-{_digest(wanted)}{_ENDING}"
+    found = _read(path)
+    if found is None:
+        found = make()
+        with suppress(DeviceError):
+            write_whole(path, _packed(found))
+            forget_oldest(path.parent, _ENDING, KEPT_FILES)
+    return found
+
+
+def _arrays(solid: Mesh | Skin) -> Arrays:
+    return {field.name: getattr(solid, field.name) for field in fields(solid)}
+
+
+def _digest(wanted: object) -> str:
+    words = repr(wanted)
+    assert " at 0x" not in words, "an address tells nothing apart"
+    return hashlib.sha256(f"{_code()} {words}".encode()).hexdigest()[:24]
+
+
+@lru_cache
+def _code() -> str:
+    """A digest of all code that what is kept may depend on."""
+    digest = hashlib.sha256(np.__version__.encode())
+    for source in _sources("station.motion", "station.render"):
+        digest.update(source)
+    return digest.hexdigest()
+
+
+def _sources(*packages: str) -> Iterable[bytes]:
+    for package in packages:
+        yield from _code_in(files(package))
+
+
+def _code_in(folder: Traversable) -> Iterator[bytes]:
+    for entry in sorted(folder.iterdir(), key=lambda entry: entry.name):
+        if entry.is_dir():
+            yield from _code_in(entry)
+        elif entry.name.endswith(".py"):
+            yield entry.read_bytes()
+
+
+def _read(path: Path) -> Arrays | None:
+    """The arrays at `path`; None where there are none, or no whole ones."""
+    try:
+        whole = path.read_bytes()
+    except OSError:
+        return None
+    if whole[:_CHECKSUM_BYTES] != _checksum(memoryview(whole)[_CHECKSUM_BYTES:]):
+        return None
+    with suppress(OSError):  # a folder that may only be read
+        os.utime(path)
+    with np.load(io.BytesIO(whole[_CHECKSUM_BYTES:]), allow_pickle=False) as file:
+        return dict(file)
+
+
+def _packed(arrays: Arrays) -> bytes:
+    file = io.BytesIO()
+    np.savez(file, **arrays)  # type: ignore[arg-type] # numpy's stub thinks of a flag
+    return _checksum(file.getbuffer()) + file.getvalue()
+
+
+def _checksum(data: memoryview) -> bytes:
+    return zlib.crc32(data).to_bytes(_CHECKSUM_BYTES, "little")

@@ -1,0 +1,172 @@
+"""What a scene is drawn from: textures, corners and programs, uploaded once.
+
+Every solid can be drawn in several ways, each a program of its own over the same corners.
+"""
+
+from collections.abc import Collection
+from dataclasses import dataclass
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.pieces import Limb
+from station.motion.kinematics.figure import Figure
+from station.motion.kit.kit import Kit
+from station.render.figure.body import Skin
+from station.render.figure.skeleton import LIMB_BONES, Bone
+from station.render.geometry.light import Light
+from station.render.geometry.materials import shader_table
+from station.render.geometry.mesh import Mesh
+from station.render.geometry.transforms import gl_bytes, unit
+from station.render.gpu import corner_shaders, pixel_shaders
+from station.render.gpu.scene_cache import kept_body, kept_floor, kept_wall
+from station.render.gpu.vertex_layouts import RIGID, RIGID_PLACES, SKIN, SKIN_PLACES, rigid_rows, skin_rows
+from station.render.kit import room
+from station.render.kit.kit_rig import KitRig
+from station.render.palette import GOOD
+from station.render.quality import Quality
+
+_KEY = Light()
+_TO_TEXTURE = np.array([[0.5, 0, 0, 0.5], [0, 0.5, 0, 0.5], [0, 0, 0.5, 0.5], [0, 0, 0, 1.0]])
+"""From clip space −1 … 1 to texture space 0 … 1."""
+_RIM_WAY = unit([-0.55, -0.65, 0.52])
+_RIM_COLOUR = (0.20, 0.34, 0.52)
+_GROUND = (0.060, 0.045, 0.040)
+_GHOST_OPACITY = 0.42
+"""How opaque the student's double is where one looks straight at it (our choice: the demonstrator shows through)."""
+ANISOTROPY = 8.0
+_LIMBS = frozenset(bone for bones in LIMB_BONES.values() for bone in bones)
+_BUT_ARMS = frozenset(Bone) - {*LIMB_BONES[Limb.RIGHT_HAND], *LIMB_BONES[Limb.LEFT_HAND]}
+
+
+@dataclass(frozen=True, slots=True)
+class KitAndFigure:
+    """Kit and figure by one kind of program."""
+
+    rigid: moderngl.VertexArray
+    skin: moderngl.VertexArray
+
+
+class SceneParts:
+    """`solid`, `quick`, `ghost`: kit and figure pixel by pixel, corner by corner, and the student's double's limbs.
+
+    `glow` lays light over the kit; `floor`, `wall` are the room; `rigid_depth`, `skin_depth` and, without the arms,
+    `resting_depth` cast shadows into `shadow_buffer`.
+    """
+
+    def __init__(self, ctx: moderngl.Context, rig: KitRig, figure: Figure, quality: Quality) -> None:
+        self._ctx = ctx
+        self._quality = quality
+        self._textures(rig.kit)
+        self._upload(rig.mesh, kept_body(figure, quality.figure_cell))
+        fragment = pixel_shaders.solid_fragment(quality.level)
+        self.solid = self._pair(pixel_shaders.RIGID_VERTEX, pixel_shaders.SKIN_VERTEX, fragment)
+        self.quick = self._pair(corner_shaders.RIGID_QUICK, corner_shaders.SKIN_QUICK, corner_shaders.QUICK_FRAGMENT)
+        self.ghost = KitAndFigure(
+            self._rigid_part(corner_shaders.RIGID_GHOST, corner_shaders.QUICK_FRAGMENT),
+            self._skin_part(corner_shaders.SKIN_GHOST, corner_shaders.QUICK_FRAGMENT, self._limb_faces),
+        )
+        self.glow = self._rigid_part(corner_shaders.RIGID_GLOW, corner_shaders.QUICK_FRAGMENT)
+        self.floor = self._room_part(pixel_shaders.floor_fragment(quality.level), room.floor_mesh())
+        self.wall = self._room_part(pixel_shaders.WALL_FRAGMENT, room.wall_mesh())
+        for part in (self.solid.skin, self.quick.skin, self.skin_depth):
+            part.program["first_bone"] = rig.bone_count
+
+    def use_textures(self) -> None:
+        """Let the shaders read the room's pictures and the shadow map."""
+        self.floor_map.use(0)
+        self._wall_map.use(1)
+        self._shadow.use(2)
+
+    def _textures(self, kit: Kit) -> None:
+        ctx = self._ctx
+        floor, wall = kept_floor(kit, _KEY, self._quality.floor_texels), kept_wall()
+        self.floor_map = ctx.texture(floor.shape[1::-1], 4, floor.tobytes())
+        self.floor_map.build_mipmaps()
+        self.floor_map.filter = moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR
+        self.floor_map.anisotropy = ANISOTROPY
+        self._wall_map = ctx.texture(wall.shape[1::-1], 3, wall.tobytes())
+        self._wall_map.repeat_y = False
+        size = (self._quality.shadow_texels,) * 2
+        self._shadow = ctx.depth_texture(size)
+        self._shadow.compare_func = "<="
+        self._shadow.repeat_x = self._shadow.repeat_y = False
+        self.shadow_buffer = ctx.framebuffer(depth_attachment=self._shadow)
+
+    def _upload(self, mesh: Mesh, skin: Skin) -> None:
+        ctx = self._ctx
+        self._rigid_data = ctx.buffer(rigid_rows(mesh).tobytes()), ctx.buffer(mesh.faces.tobytes())
+        self._skin_data = ctx.buffer(skin_rows(skin).tobytes()), ctx.buffer(skin.faces.tobytes())
+        rigid, skinned = (
+            self._program(vertex, pixel_shaders.SHADOW_FRAGMENT)
+            for vertex in (pixel_shaders.RIGID_SHADOW, pixel_shaders.SKIN_SHADOW)
+        )
+        for program in (rigid, skinned):
+            write(program, "light_projection", gl_bytes(_KEY.matrix()))
+        places = [(self._skin_data[0], *SKIN_PLACES)]
+        self.rigid_depth = ctx.vertex_array(rigid, [(self._rigid_data[0], *RIGID_PLACES)], self._rigid_data[1])
+        self.skin_depth = ctx.vertex_array(skinned, places, self._skin_data[1])
+        self.resting_depth = ctx.vertex_array(skinned, places, _some(ctx, skin, _BUT_ARMS))
+        self._limb_faces = _some(ctx, skin, _LIMBS)
+        self.triangles = len(mesh.faces) + len(skin.faces)
+
+    def _pair(self, rigid: str, skin: str, fragment: str) -> KitAndFigure:
+        return KitAndFigure(self._rigid_part(rigid, fragment), self._skin_part(skin, fragment, self._skin_data[1]))
+
+    def _skin_part(self, vertex: str, fragment: str, faces: moderngl.Buffer) -> moderngl.VertexArray:
+        content = [(self._skin_data[0], *SKIN)]
+        return self._ctx.vertex_array(self._program(vertex, fragment), content, faces, skip_errors=True)
+
+    def _rigid_part(self, vertex: str, fragment: str) -> moderngl.VertexArray:
+        corners, faces = self._rigid_data
+        return self._ctx.vertex_array(self._program(vertex, fragment), [(corners, *RIGID)], faces, skip_errors=True)
+
+    def _room_part(self, fragment: str, mesh: Mesh) -> moderngl.VertexArray:
+        rows = np.concatenate([mesh.position, mesh.uv], axis=1).astype(np.float32)
+        content = [(self._ctx.buffer(rows.tobytes()), "3f 2f", "position", "uv")]
+        faces = self._ctx.buffer(mesh.faces.tobytes())
+        return self._ctx.vertex_array(
+            self._program(pixel_shaders.ROOM_VERTEX, fragment), content, faces, skip_errors=True
+        )
+
+    def _program(self, vertex: str, fragment: str) -> moderngl.Program:
+        program = self._ctx.program(vertex, fragment)
+        self._constants(program)
+        return program
+
+    def _constants(self, program: moderngl.Program) -> None:
+        first, second = shader_table()
+        values: dict[str, object] = {
+            "look_a": first,
+            "look_b": second,
+            "key_at": _KEY.at,
+            "key_axis": _KEY.axis,
+            "key_colour": _KEY.colour,
+            "rim_way": _RIM_WAY,
+            "rim_colour": _RIM_COLOUR,
+            "sky": _KEY.sky,
+            "ground": _GROUND,
+            "light_projection": (_TO_TEXTURE @ _KEY.matrix()).T,
+            "tint": GOOD[:3],
+            "opacity": _GHOST_OPACITY,
+        }
+        for name, value in values.items():
+            if name in program:
+                write(program, name, np.ascontiguousarray(value, np.float32).tobytes())
+        for unit_index, name in enumerate(("floor_map", "wall_map", "shadow_map")):
+            if name in program:
+                program[name] = unit_index
+
+
+def _some(ctx: moderngl.Context, skin: Skin, bones: Collection[Bone]) -> moderngl.Buffer:
+    """The faces that hang on some bones above all."""
+    strongest: NDArray[np.uint8] = skin.bones[:, 0]
+    return ctx.buffer(skin.faces[np.isin(strongest[skin.faces[:, 0]], list(bones))].tobytes())
+
+
+def write(program: moderngl.Program, name: str, data: bytes) -> None:
+    """Set a uniform from its bytes."""
+    uniform = program[name]
+    assert isinstance(uniform, moderngl.Uniform), f"{name} is no uniform"
+    uniform.write(data)

@@ -1,0 +1,117 @@
+"""What joins the stems of a group of notes: beams, flags, and a tuplet's number under its bracket.
+
+Units are staff spaces, y down; x counts from a note's time, to which an `Anchor` ties what is drawn. Proportions follow
+Gould, "Behind Bars" (2011): beams half a space, a stem right of its head when up.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from station.music.tempo import TempoMap
+from station.render.palette import INK, INK_SOFT
+from station.render.text.draw_list import DrawList, TypeStyle
+from station.render.text.fonts import Face
+
+STEM, STEM_X = 0.13, 0.56
+"""A stem's thickness, and how far from its head's middle it stands."""
+_BEAM = 0.50
+_BEAM_STEP = 0.78
+_FLAG_STEP = 0.85
+_STUB = 1.1
+_GAP = 0.7
+"""What a bracket leaves free on either side of its number's middle."""
+
+
+@dataclass(frozen=True, slots=True)
+class StaffVoice:
+    """Hands or feet: `way` −1 stems up, +1 stems down; `rest_y` where its rests stand."""
+
+    way: int
+    rest_y: float
+
+    @property
+    def is_up(self) -> bool:
+        """Whether its stems go up."""
+        return self.way < 0
+
+    @property
+    def stem_x(self) -> float:
+        """Where its stems stand beside the middle of a head."""
+        return -self.way * STEM_X
+
+
+@dataclass(frozen=True, slots=True)
+class Anchor:
+    """Ties what `ink` draws to the score's time."""
+
+    ink: DrawList
+    tempo: TempoMap
+
+    def at(self, tick: int) -> None:
+        """What follows hangs on `tick` of the score."""
+        self.ink.time_s, self.ink.span_s = self.seconds(tick), 0.0
+
+    def until(self, tick: int) -> None:
+        """What follows stretches from where it hangs to `tick` of the score."""
+        self.ink.span_s = self.seconds(tick) - self.ink.time_s
+
+    def seconds(self, tick: int) -> float:
+        """The score's time at `tick`."""
+        return float(self.tempo.seconds_at(tick))
+
+
+def draw_flags(anchor: Anchor, tick: int, count: int, voice: StaffVoice, beam_y: float) -> None:
+    """So many flags at the end of the stem at `tick`, which is at `beam_y`."""
+    anchor.at(tick)
+    for k in range(count):
+        y = beam_y - voice.way * k * _FLAG_STEP
+        anchor.ink.sign("flag", (voice.stem_x, y), INK, 0.95, mirrored=not voice.is_up)
+
+
+def draw_beams(anchor: Anchor, stems: Sequence[tuple[int, int]], voice: StaffVoice, beam_y: float) -> None:
+    """Beams over `stems`, the tick and the number of beams of each, the outermost at `beam_y`."""
+    for level in range(max(count for _, count in stems)):
+        y = beam_y - voice.way * level * _BEAM_STEP - (0.0 if voice.is_up else _BEAM)
+        for first, last in _runs([count > level for _, count in stems]):
+            anchor.at(stems[first][0])
+            if first == last:  # broken off: towards the stroke before, or after where there is none before
+                anchor.ink.box((voice.stem_x - (_STUB if first else 0.0), y), (_STUB, _BEAM), INK)
+            else:
+                anchor.until(stems[last][0])
+                anchor.ink.box((voice.stem_x - STEM / 2, y), (STEM, _BEAM), INK)
+                anchor.ink.span_s = 0.0
+
+
+def draw_tuplet(
+    anchor: Anchor, number: int, ends: tuple[int, int], voice: StaffVoice, y: float, with_bracket: bool
+) -> None:
+    """A tuplet's `number` midway between two ticks, its baseline at `y`; the bracket is for one without a beam."""
+    start_s, end_s = anchor.seconds(ends[0]), anchor.seconds(ends[1])
+    if with_bracket:
+        _bracket(anchor.ink, (start_s, end_s), voice, y - 0.45)
+    anchor.ink.time_s, anchor.ink.span_s = (start_s + end_s) / 2, 0.0
+    anchor.ink.text(str(number), (voice.stem_x, y), TypeStyle(1.35, INK, Face.BOLD, 0.5))
+
+
+def _bracket(ink: DrawList, ends_s: tuple[float, float], voice: StaffVoice, y: float) -> None:
+    """A line over a tuplet with a hook at each end, and a gap in the middle for its number."""
+    (start_s, end_s), tip = ends_s, 0.5 * -voice.way
+    centre_s, right = (start_s + end_s) / 2, 0.5 + voice.stem_x
+    for begin_s, x, end_x in ((start_s, -0.5, voice.stem_x - _GAP), (centre_s, voice.stem_x + _GAP, right)):
+        ink.time_s, ink.span_s = begin_s, centre_s - start_s
+        ink.box((x, y - 0.05), (end_x - x, 0.1), INK_SOFT)
+    ink.span_s = 0.0
+    for at_s, x in ((start_s, -0.5), (end_s, right)):
+        ink.time_s = at_s
+        ink.line((x, y), (x, y + tip), 0.1, INK_SOFT)
+
+
+def _runs(flags: Sequence[bool]) -> Iterator[tuple[int, int]]:
+    """First and last index of every run of True."""
+    start: int | None = None
+    for i, flag in enumerate([*flags, False]):
+        if flag and start is None:
+            start = i
+        elif not flag and start is not None:
+            yield start, i - 1
+            start = None

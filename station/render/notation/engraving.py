@@ -1,0 +1,313 @@
+"""Engraves bars of drum notation as flat shapes, anchored in time so that the score can scroll.
+
+Units are staff spaces, y down, 0 on the staff's middle line. The horizontal place of everything is its time; only what
+hangs on a note (stems, brackets, grace notes) is shifted by spaces. A bar is laid out once and kept by the caller.
+Proportions follow Gould, "Behind Bars" (2011): stems 3½ spaces, beams half a space, stem right of the head when up.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.pieces import Articulation, Dynamic, Limb, Piece, Zone
+from station.music.score import Score
+from station.render.notation.beams import STEM, STEM_X, Anchor, StaffVoice, draw_beams, draw_flags, draw_tuplet
+from station.render.notation.note_shapes import STAFF_LINE, draw_hat_sign, draw_head
+from station.render.notation.rhythm import BeatGroup, TimedValue, beat_groups, spell
+from station.render.notation.staff import FOOT_PIECES, PLACES, head_of, height, ledger_steps
+from station.render.palette import BRAND, INK, INK_SOFT
+from station.render.snapshot import BarNumbers
+from station.render.text.atlas import Atlas
+from station.render.text.draw_list import DrawList, TypeStyle
+from station.render.text.fonts import Face
+
+STAFF_TOP, STAFF_BOTTOM = -2.0, 2.0
+STICKING_Y = 6.5
+"""Baseline of the R and L below the staff."""
+BAR_NUMBER_Y = -7.4
+_NUMBER_X = 0.35
+"""A bar's number begins so far left of its line: clear of what stands over the first beat."""
+TOP_Y, BOTTOM_Y = -8.3, 7.0
+"""What a staff takes with everything above and below it."""
+
+_UP_BEAM_Y, _DOWN_BEAM_Y = -5.4, 4.35
+"""Stems of a voice reach at least here, so that beams stand level along the line."""
+_TUPLET_OFF = {-1: 1.0, 1: 0.4}
+"""How far a tuplet's number stands from the stems' ends: below there are the sticking's letters."""
+_TUPLET_FAR = 2.0
+"""And where an accent stands between: no farther, for there the staff's room ends (`TOP_Y`)."""
+_GRACE = 0.62
+_GRACE_STEP = 1.0
+_GRACE_GAP = 1.5
+
+
+_HANDS, _FEET = StaffVoice(-1, 0.0), StaffVoice(1, 2.5)
+
+
+@dataclass(frozen=True, slots=True)
+class _Chord:
+    """The main strokes of one voice at one tick, and the grace strokes before it: indices into the score."""
+
+    tick: int
+    mains: tuple[int, ...]
+    graces: tuple[int, ...]
+
+
+class Engraver:
+    """Engraves the bars of one score; `limbs` (n,) of `Limb` writes the sticking, None that of the score itself."""
+
+    def __init__(
+        self, score: Score, atlas: Atlas, limbs: NDArray[np.int8] | None = None, numbers: BarNumbers | None = None
+    ) -> None:
+        self.score = score
+        self.numbers = numbers or BarNumbers()
+        self._atlas = atlas
+        self._limbs = score.notes["limb"] if limbs is None else limbs
+        self._closing = _closing_hats(score)
+        feet = [int(p) for p in FOOT_PIECES]
+        self._is_foot = np.isin(score.notes["piece"], feet)
+
+    def bar(self, bar: int, with_line: bool = True) -> NDArray[np.void]:
+        """The shapes of one bar, `with_line` the bar line on its left, dtype `ink.SHAPE_DTYPE`."""
+        return _BarEngraver(self, bar, with_line).shapes()
+
+    # --- what a bar asks ------------------------------------------------------------------------------------------
+
+    def rows(self, start: int, end: int) -> range:
+        """Indices of the strokes in [start, end) ticks."""
+        first, last = np.searchsorted(self.score.notes["tick"], [start, end])
+        return range(int(first), int(last))
+
+    def chords(self, rows: range, feet: bool) -> list[_Chord]:
+        """The strokes of one voice, gathered by tick."""
+        notes = self.score.notes
+        ticks: dict[int, tuple[list[int], list[int]]] = {}
+        for i in rows:
+            if self._is_foot[i] == feet:
+                mains, graces = ticks.setdefault(int(notes["tick"][i]), ([], []))
+                (graces if notes["lead_ms"][i] > 0 else mains).append(i)
+        return [_Chord(tick, tuple(mains), tuple(graces)) for tick, (mains, graces) in sorted(ticks.items())]
+
+    def limb(self, index: int) -> Limb:
+        """Who plays stroke `index`."""
+        return Limb(int(self._limbs[index]))
+
+    def closes_hat(self, index: int) -> bool:
+        """Whether stroke `index` is the first closed one after an open hi-hat."""
+        return bool(self._closing[index])
+
+    def ink(self) -> DrawList:
+        """An empty sheet on the common letters."""
+        return DrawList(self._atlas)
+
+
+def _closing_hats(score: Score) -> NDArray[np.bool_]:
+    hats = np.flatnonzero(score.notes["piece"] == Piece.HIHAT)
+    opened = score.notes["openness"][hats] >= _OPEN_FROM
+    closing = np.zeros(len(score), np.bool_)
+    closing[hats[1:]] = opened[:-1] & (score.notes["openness"][hats[1:]] < _OPEN_FROM)
+    return closing
+
+
+_LETTERS = {Limb.RIGHT_HAND: "R", Limb.LEFT_HAND: "L"}
+_OPEN_FROM, _WIDE_FROM = 0.25, 0.75
+"""Openness from which a hat is written half open and open (our choice)."""
+
+
+class _BarEngraver:
+    """The work of one bar."""
+
+    def __init__(self, engraver: Engraver, bar: int, with_line: bool) -> None:
+        self._with_line = with_line
+        self._e = engraver
+        self._tempo = engraver.score.tempo_map
+        self._bar = bar
+        self._start, self._end = self._tempo.bar_start(bar), self._tempo.bar_start(bar + 1)
+        self._ink = engraver.ink()
+        self._anchor = Anchor(self._ink, self._tempo)
+
+    def shapes(self) -> NDArray[np.void]:
+        self._bar_line()
+        rows = self._e.rows(self._start, self._end)
+        hands, feet = self._e.chords(rows, feet=False), self._e.chords(rows, feet=True)
+        if not hands and not feet:
+            self._silent_bar()
+        else:
+            self._voice(hands, _HANDS, beside=bool(feet))
+            if feet:
+                self._voice(feet, _FEET, beside=True)
+        return self._ink.shapes()
+
+    # --- bars ---------------------------------------------------------------------------------------------------------
+
+    def _bar_line(self) -> None:
+        self._anchor.at(self._start)
+        x = -1.25
+        if self._with_line:
+            self._ink.line((x, STAFF_TOP), (x, STAFF_BOTTOM), 0.16, INK_SOFT)
+        if self._start >= self._e.score.end_tick:
+            return
+        number = str(self._e.numbers.of(self._bar))
+        x += _NUMBER_X + self._ink.text(
+            number, (x - _NUMBER_X, BAR_NUMBER_Y + 0.6), TypeStyle(1.25, INK_SOFT, Face.BOLD)
+        )
+        meter = self._tempo.meter_at(self._start)
+        if self._bar > 0 and meter.tick == self._start:  # above the staff: time leaves no room for it between notes
+            self._ink.text(f"{meter.beats}/{meter.unit}", (x, BAR_NUMBER_Y + 0.6), TypeStyle(1.5, BRAND, Face.BOLD))
+
+    def _silent_bar(self) -> None:
+        if self._start < self._e.score.end_tick:
+            self._anchor.at((self._start + self._end) // 2)
+            self._ink.box((-0.6, -1.0), (1.2, 0.5), INK_SOFT)
+
+    # --- a voice ------------------------------------------------------------------------------------------------------
+
+    def _voice(self, chords: Sequence[_Chord], voice: StaffVoice, beside: bool) -> None:
+        mains = [c for c in chords if c.mains]
+        for start, end in beat_groups(self._tempo.meter_at(self._start), self._end - self._start):
+            inside = [c for c in mains if start <= c.tick - self._start < end]
+            group = spell([c.tick - self._start for c in inside], start, end)
+            if inside or voice is _HANDS:
+                self._rests(group, voice, beside and bool(inside))
+            self._group(group, inside, voice)
+        for chord in chords:
+            self._graces(chord, voice)
+
+    def _rests(self, group: BeatGroup, voice: StaffVoice, beside: bool) -> None:
+        for rest in group.rests:
+            self._anchor.at(self._start + rest.tick)
+            y = voice.rest_y - (1.0 if beside and voice is _HANDS else 0.0)
+            name = f"rest_{min(rest.value.base, 32)}"
+            self._ink.sign(name, (0.0, y), INK_SOFT)
+            if rest.value.dots:
+                self._ink.ellipse((0.95, y - 0.5), (0.2, 0.2), INK_SOFT)
+
+    def _group(self, group: BeatGroup, chords: Sequence[_Chord], voice: StaffVoice) -> None:
+        if not chords:
+            return
+        beam_y = self._beam_y(chords, voice)
+        for chord, stroke in zip(chords, group.strokes, strict=True):
+            self._anchor.at(chord.tick)
+            self._chord(chord, stroke, voice, beam_y)
+        flagged = [(c, s) for c, s in zip(chords, group.strokes, strict=True) if s.value.beams]
+        if len(flagged) == 1:
+            draw_flags(self._anchor, flagged[0][0].tick, flagged[0][1].value.beams, voice, beam_y)
+        elif flagged:
+            draw_beams(self._anchor, [(c.tick, s.value.beams) for c, s in flagged], voice, beam_y)
+        if group.tuplet:
+            self._tuplet(group, chords, voice, beam_y, len(flagged) == len(chords) > 1 and not group.rests)
+
+    def _beam_y(self, chords: Sequence[_Chord], voice: StaffVoice) -> float:
+        """Where the stems of a group end: level, clear of every head."""
+        heights = [height(self._step(i)) for c in chords for i in c.mains]
+        if voice is _HANDS:
+            return min(_UP_BEAM_Y, min(heights) - 1.8)
+        return max(_DOWN_BEAM_Y, max(heights) + 2.0)
+
+    def _step(self, index: int) -> int:
+        return PLACES[Piece(int(self._e.score.notes["piece"][index]))].step
+
+    # --- a chord ------------------------------------------------------------------------------------------------------
+
+    def _chord(self, chord: _Chord, stroke: TimedValue, voice: StaffVoice, beam_y: float) -> None:
+        heights = [height(self._step(i)) for i in chord.mains]
+        root = max(heights) if voice is _HANDS else min(heights)
+        self._ink.line((voice.stem_x, root), (voice.stem_x, beam_y), STEM, INK)
+        for i in chord.mains:
+            self._head(i, 0.0, 1.0)
+            if stroke.value.dots:
+                dot_y = height(self._step(i) | 1)
+                self._ink.ellipse((1.15, dot_y), (0.2, 0.2), INK)
+        self._above(chord, voice, beam_y)
+        self._sticking(chord)
+
+    def _head(self, index: int, x: float, scale: float) -> None:
+        row = self._e.score.notes[index]
+        piece, zone, how = Piece(int(row["piece"])), Zone(int(row["zone"])), Articulation(int(row["articulation"]))
+        step = PLACES[piece].step
+        y = height(step)
+        for line in ledger_steps(step):
+            self._ink.line((x - 1.05 * scale, height(line)), (x + 1.05 * scale, height(line)), STAFF_LINE, INK_SOFT)
+        draw_head(self._ink, head_of(piece, zone, how), (x, y), scale)
+        if row["dynamic"] == Dynamic.GHOST and row["lead_ms"] == 0:  # grace strokes are soft by themselves
+            self._ink.sign("bracket_left", (x - 1.0 * scale, y), INK, scale)
+            self._ink.sign("bracket_right", (x + 1.0 * scale, y), INK, scale)
+        if how is Articulation.RIM_SHOT:
+            self._ink.sign("slash", (x, y), INK, scale)
+        if row["choke_ticks"] > 0:
+            self._ink.sign("choke", (x + 1.3, y - 0.7), INK)
+
+    def _above(self, chord: _Chord, voice: StaffVoice, beam_y: float) -> None:
+        """Hi-hat signs, accents and buzz strokes, stacked outward from the stem's end."""
+        notes, way = self._e.score.notes, voice.way
+        if any(notes["articulation"][i] == Articulation.BUZZ for i in chord.mains):
+            self._ink.sign("buzz", (voice.stem_x, beam_y - way * 1.4), INK)
+        y = beam_y + way * (0.85 if voice is _HANDS else 0.65)
+        for kind in self._hat_signs(chord):
+            draw_hat_sign(self._ink, kind, (voice.stem_x, y))
+            y += way * 1.15
+        if any(notes["dynamic"][i] == Dynamic.ACCENT for i in chord.mains):
+            self._ink.sign("accent", (voice.stem_x * 0.4, y), INK, 0.95)
+
+    def _hat_signs(self, chord: _Chord) -> Iterator[str]:
+        notes = self._e.score.notes
+        for i in chord.mains:
+            piece = notes["piece"][i]
+            if piece == Piece.HIHAT and notes["openness"][i] >= _OPEN_FROM:
+                yield "open" if notes["openness"][i] >= _WIDE_FROM else "half"
+            elif piece == Piece.HIHAT and self._e.closes_hat(i):
+                yield "closed"
+            elif piece == Piece.HIHAT_PEDAL and notes["articulation"][i] == Articulation.SPLASH:
+                yield "open"
+
+    def _sticking(self, chord: _Chord) -> None:
+        """The hands' letters, grace strokes small before the main stroke as drummers write them (lR, llR)."""
+        graces = sorted(chord.graces, key=lambda i: -self._e.score.notes["lead_ms"][i])
+        text = "".join(_LETTERS.get(self._e.limb(i), "").lower() for i in graces)
+        text += "".join(sorted({_LETTERS.get(self._e.limb(i), "") for i in chord.mains}, reverse=True))
+        if text:
+            self._ink.text(text, (0.0, STICKING_Y), TypeStyle(1.3, INK_SOFT, Face.BOLD, 0.5))
+
+    # --- tuplets ------------------------------------------------------------------------------------------------------
+
+    def _tuplet(
+        self, group: BeatGroup, chords: Sequence[_Chord], voice: StaffVoice, beam_y: float, beamed: bool
+    ) -> None:
+        off = voice.way * (_TUPLET_FAR if self._crowded(chords) else _TUPLET_OFF[voice.way])
+        y = beam_y + off + (0.3 if voice.is_up else 0.45)
+        start = self._start + group.start if not beamed else chords[0].tick
+        end = max(chords[-1].tick, self._start + group.start + (group.end - group.start) * 2 // 3)
+        draw_tuplet(self._anchor, group.tuplet, (start, end), voice, y, with_bracket=not beamed)
+
+    def _crowded(self, chords: Sequence[_Chord]) -> bool:
+        """Whether signs stand where the tuplet's number would."""
+        notes = self._e.score.notes
+        return any(
+            notes["dynamic"][i] == Dynamic.ACCENT or notes["openness"][i] >= _OPEN_FROM for c in chords for i in c.mains
+        )
+
+    # --- grace notes --------------------------------------------------------------------------------------------------
+
+    def _graces(self, chord: _Chord, voice: StaffVoice) -> None:
+        if not chord.graces:
+            return
+        self._anchor.at(chord.tick)
+        count = len(chord.graces)
+        notes = self._e.score.notes
+        top = min(height(self._step(i)) for i in chord.graces) - 2.4
+        stems: list[float] = []
+        for k, i in enumerate(sorted(chord.graces, key=lambda i: -notes["lead_ms"][i])):
+            x = -_GRACE_GAP - (count - 1 - k) * _GRACE_STEP
+            self._head(i, x, _GRACE)
+            stems.append(x + STEM_X * _GRACE)
+            self._ink.line((stems[-1], height(self._step(i))), (stems[-1], top), STEM * 0.8, INK)
+        if count == 1:
+            self._ink.sign("flag", (stems[0], top), INK, 0.55)
+            self._ink.line((stems[0] - 0.55, top + 1.35), (stems[0] + 0.75, top + 0.45), 0.1, INK)
+        else:
+            for level in range(2):
+                self._ink.box((stems[0], top + 0.5 * level), (stems[-1] - stems[0], 0.3), INK)
+        low = max(height(self._step(i)) for i in chord.graces)
+        self._ink.sign("slur", (-_GRACE_GAP / 2 - 0.1, low + 0.7), INK_SOFT, 0.95)

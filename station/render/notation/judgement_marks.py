@@ -1,0 +1,77 @@
+"""The signs of judgements on notes: on time, early, late, missed, another piece, too loud, too soft.
+
+A judged note bears a shape as well as a colour: a ring on time, an arrow that points left when early and right when
+late, a barred ring when missed, a square when the wrong piece was struck. The tick or arrow stands where the hit fell,
+stretched by `TICK_ZOOM` so that a few milliseconds can be seen across a room. A wedge above the head that points up
+says too loud, one below that points down too soft. Units are staff spaces unless a size is given, y down.
+"""
+
+import numpy as np
+
+from station.music.judgement import Label
+from station.render.palette import EARLY, GOOD, INK, LATE, MISSED, WRONG, with_opacity
+from station.render.text.draw_list import Colour, DrawList
+
+ON_TIME_MS = 25.0
+"""Within this a stroke counts as on time in the picture (HUMANS: mild to 25 ms)."""
+TICK_ZOOM = 5.0
+"""The tick's distance from its head is the asynchrony stretched so much (our choice: 10 ms is half a head)."""
+_NEAREST_ARROW, _FARTHEST_ARROW = 1.65, 2.1
+"""Spaces: beside the head, and still nearer to it than to the next."""
+LOUD_OFF_DB = 6.0
+"""So far from the written level is told on the note: half the step from one dynamic to the next (`scoring.dynamics`),
+and beyond a professional's own scatter of about 4 dB (HUMANS: SD 15-21 of 127)."""
+_WEDGE_AWAY = 1.6
+"""Spaces from the head's middle to the wedge's; our choice, clear of the ring."""
+_WEDGE = 0.42
+
+
+def draw_mark(ink: DrawList, row: np.void, y: float, spaces_per_s: float) -> None:
+    """The judgement of one note whose head stands at height `y`."""
+    label = Label(int(row["label"]))
+    if label is Label.MISS:
+        ink.ellipse((0.0, y), (1.05, 1.05), MISSED, 0.0, (0.0, 0.2, 0.0))
+        ink.line((-0.75, y + 0.75), (0.75, y - 0.75), 0.2, MISSED)
+    elif label is Label.WRONG_PIECE:
+        ink.box((-1.0, y - 1.0), (2.0, 2.0), WRONG, None, (0.3, 0.2, 0.0))
+    else:
+        _draw_timing(ink, float(row["asynchrony_ms"]), y, spaces_per_s)
+
+
+def _draw_timing(ink: DrawList, asynchrony_ms: float, y: float, spaces_per_s: float) -> None:
+    colour = timing_colour(asynchrony_ms)
+    if np.isnan(asynchrony_ms):  # right, and its time is not told
+        ink.ellipse((0.0, y), (1.0, 0.86), colour, 0.0, (0.0, 0.22, 0.0))
+        return
+    shift = asynchrony_ms / 1000 * spaces_per_s * TICK_ZOOM
+    if abs(asynchrony_ms) <= ON_TIME_MS:
+        ink.ellipse((0.0, y), (1.0, 0.86), colour, 0.0, (0.0, 0.22, 0.0))
+        ink.line((shift, y - 0.95), (shift, y + 0.95), 0.24, colour)
+    else:
+        way = 1.0 if asynchrony_ms > 0 else -1.0
+        tip = way * min(max(abs(shift), _NEAREST_ARROW), _FARTHEST_ARROW)
+        ink.ellipse((0.0, y), (1.0, 0.86), with_opacity(colour, 0.5), 0.0, (0.0, 0.16, 0.0))
+        ink.triangle((tip, y), (0.52, 0.66), colour, 0.0 if way > 0 else np.pi)
+
+
+def timing_colour(asynchrony_ms: float) -> Colour:
+    """The signal colour of an asynchrony in ms; NaN, a right note whose time is not told, has that of one on time."""
+    if not abs(asynchrony_ms) > ON_TIME_MS:
+        return GOOD
+    return EARLY if asynchrony_ms < 0 else LATE
+
+
+def off_db(written: int, error: float) -> float | None:
+    """How many dB louder (negative: softer) than `written` (velocity) a hit was that is `error` off; None for NaN."""
+    if np.isnan(error) or written < 1:
+        return None
+    return float(40 * np.log10(max(written + error, 1.0) / written))
+
+
+def draw_dynamics(ink: DrawList, louder_db: float | None, y: float, size: float = 1.0) -> None:
+    """The wedge of a note at height `y` that was `louder_db` off, if that is much; `size` units a staff space."""
+    if louder_db is None or abs(louder_db) < LOUD_OFF_DB:
+        return
+    up = louder_db > 0
+    at = (0.0, y - (_WEDGE_AWAY if up else -_WEDGE_AWAY) * size)
+    ink.triangle(at, (_WEDGE * size, _WEDGE * size), INK, -np.pi / 2 if up else np.pi / 2)

@@ -1,0 +1,129 @@
+"""The key of a sheet: what each note and sign that the score uses means. Units are staff spaces, y down."""
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from station.core.labels import piece_name
+from station.core.pieces import Articulation, Dynamic, Ornament, Piece, Zone
+from station.music.score import Score
+from station.render.notation import note_shapes
+from station.render.notation.staff import PLACES, NoteHead, head_of, height, ledger_steps
+from station.render.palette import INK, INK_SOFT
+from station.render.text.draw_list import DrawList, TypeStyle
+from station.render.text.fonts import Face
+
+KEY_HEIGHT = 17.6
+_STAFF_Y = 3.6
+_NAMES_Y, _LINE = 8.4, 1.8
+_SIGNS_Y = 13.6
+_SLOT = 9.0
+_NAME = 1.45
+_OPEN_FROM, _WIDE_FROM = 0.25, 0.75
+
+Draw = Callable[[DrawList, tuple[float, float]], None]
+
+
+def draw_key(ink: DrawList, score: Score, width: float, with_sticking: bool) -> None:
+    """Draw the key, `width` wide, from y = 0 down to `KEY_HEIGHT`; nothing where nothing is used."""
+    used = list(notes_used(score))
+    if not used:
+        return
+    slot = min(_SLOT, width / len(used))
+    _staff(ink, len(used) * slot)
+    for k, (piece, head, name) in enumerate(used):
+        x, step = (k + 0.5) * slot, PLACES[piece].step
+        y = _STAFF_Y + height(step)
+        for line in ledger_steps(step):
+            ledger = _STAFF_Y + height(line)
+            ink.line((x - 1.05, ledger), (x + 1.05, ledger), note_shapes.STAFF_LINE, INK_SOFT)
+        note_shapes.draw_head(ink, head, (x, y), 1.0)
+        style = TypeStyle(_NAME, INK, Face.REGULAR, 0.5)
+        for row, words in enumerate(ink.broken(name, style, slot - 0.6)):
+            ink.text(words, (x, _NAMES_Y + _LINE * row), style)
+    _signs(ink, list(signs_used(score, with_sticking)), width)
+
+
+def _staff(ink: DrawList, width: float) -> None:
+    for k in range(-2, 3):
+        y = _STAFF_Y + k - note_shapes.STAFF_LINE / 2
+        ink.box((0.0, y), (width, note_shapes.STAFF_LINE), INK_SOFT)
+
+
+def notes_used(score: Score) -> Iterator[tuple[Piece, NoteHead, str]]:
+    """The pieces and heads of the score, from the lowest on the staff up, with their names."""
+    rows = np.unique(score.notes[["piece", "zone", "articulation"]])
+    found: dict[tuple[Piece, NoteHead], str] = {}
+    for row in rows:
+        piece, zone, how = Piece(int(row["piece"])), Zone(int(row["zone"])), Articulation(int(row["articulation"]))
+        head = head_of(piece, zone, how)
+        plain = head is PLACES[piece].head
+        special = "cross-stick" if how is Articulation.CROSS_STICK else "bell"
+        found[piece, head] = piece_name(piece) if plain else f"{piece_name(piece)}, {special}"
+    for (piece, head), name in sorted(found.items(), key=lambda item: (PLACES[item[0][0]].step, item[0])):
+        yield piece, head, name
+
+
+def signs_used(score: Score, with_sticking: bool) -> Iterator[tuple[Draw, str]]:
+    """The other signs of the score, each as what draws it and what it means."""
+    notes = score.notes
+    hat = notes[notes["piece"] == Piece.HIHAT]["openness"]
+    graced = notes["ornament"][score.is_grace]
+    if (notes["dynamic"] == Dynamic.ACCENT).any():
+        yield lambda ink, at: ink.sign("accent", at, INK, 0.95), "accent: loud"
+    if (notes["dynamic"][~score.is_grace] == Dynamic.GHOST).any():
+        yield _ghost, "ghost: very soft"
+    if (hat >= _WIDE_FROM).any():
+        yield lambda ink, at: note_shapes.draw_hat_sign(ink, "open", at), "hi-hat open"
+    if ((hat >= _OPEN_FROM) & (hat < _WIDE_FROM)).any():
+        yield lambda ink, at: note_shapes.draw_hat_sign(ink, "half", at), "hi-hat half open"
+    if ((hat[:-1] >= _OPEN_FROM) & (hat[1:] < _OPEN_FROM)).any():
+        yield lambda ink, at: note_shapes.draw_hat_sign(ink, "closed", at), "closed again"
+    if (graced == Ornament.FLAM).any():
+        yield lambda ink, at: _graces(ink, at, 1), "flam"
+    if (graced == Ornament.DRAG).any():
+        yield lambda ink, at: _graces(ink, at, 2), "drag"
+    if (notes["articulation"] == Articulation.RIM_SHOT).any():
+        yield _rim_shot, "rim shot"
+    if (notes["articulation"] == Articulation.BUZZ).any():
+        yield lambda ink, at: ink.sign("buzz", at, INK), "buzz roll"
+    if (notes["choke_ticks"] > 0).any():
+        yield lambda ink, at: ink.sign("choke", at, INK), "choke: grab it"
+    if with_sticking and (notes["limb"] >= 0).any():
+        yield _letters, "right and left hand"
+
+
+def _signs(ink: DrawList, signs: list[tuple[Draw, str]], width: float) -> None:
+    """The signs side by side, in as many lines as they need."""
+    x, y = 0.0, _SIGNS_Y
+    style = TypeStyle(_NAME, INK)
+    for draw, words in signs:
+        wide = 3.6 + ink.width(words, style) + 2.0
+        if x + wide > width:
+            x, y = 0.0, y + 2.8
+        draw(ink, (x + 1.4, y))
+        ink.text(words, (x + 3.6, y + 0.5), style)
+        x += wide
+
+
+def _ghost(ink: DrawList, at: tuple[float, float]) -> None:
+    note_shapes.draw_head(ink, NoteHead.ROUND, at, 0.9)
+    for name, side in (("bracket_left", -0.95), ("bracket_right", 0.95)):
+        ink.sign(name, (at[0] + side, at[1]), INK, 0.95)
+
+
+def _graces(ink: DrawList, at: tuple[float, float], count: int) -> None:
+    note_shapes.draw_head(ink, NoteHead.ROUND, (at[0] + 0.9, at[1]), 0.9)
+    for k in range(count):
+        x = at[0] - 0.5 - 0.9 * k
+        note_shapes.draw_head(ink, NoteHead.ROUND, (x, at[1]), 0.55)
+        ink.line((x + 0.3, at[1]), (x + 0.3, at[1] - 1.6), 0.1, INK)
+
+
+def _rim_shot(ink: DrawList, at: tuple[float, float]) -> None:
+    note_shapes.draw_head(ink, NoteHead.ROUND, at, 0.9)
+    ink.sign("slash", at, INK, 0.9)
+
+
+def _letters(ink: DrawList, at: tuple[float, float]) -> None:
+    ink.text("R L", (at[0], at[1] + 0.5), TypeStyle(1.3, INK_SOFT, Face.BOLD, 0.5))

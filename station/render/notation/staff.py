@@ -1,0 +1,80 @@
+"""Where each piece stands on the staff, and with which head.
+
+Steps count half spaces up from the bottom line (E4 on a treble staff, which percussion parts are read against): kick
+F4, snare C5, toms E5 D5 A4, hi-hat G5, ride F5, crash A5, foot hi-hat D4. Source: Weinberg, "Guidelines for Drumset
+Notation" (Percussive Arts Society, 1994), and our choice for pieces that it leaves open. Hands' stems point up, feet's
+down.
+"""
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+from station.core.pieces import Articulation, Piece, Zone
+
+MIDDLE_LINE = 4
+TOP_LINE = 8
+
+
+class NoteHead(IntEnum):
+    """The shape of a note's head."""
+
+    ROUND = 0
+    CROSS = 1
+    DIAMOND = 2
+    TRIANGLE = 3
+    RINGED_CROSS = 4
+
+
+@dataclass(frozen=True, slots=True)
+class StaffPlace:
+    """A piece's step on the staff and its usual head."""
+
+    step: int
+    head: NoteHead = NoteHead.ROUND
+
+
+PLACES: dict[Piece, StaffPlace] = {
+    Piece.KICK: StaffPlace(1),
+    Piece.SNARE: StaffPlace(5),
+    Piece.HIHAT: StaffPlace(9, NoteHead.CROSS),
+    Piece.HIHAT_PEDAL: StaffPlace(-1, NoteHead.CROSS),
+    Piece.RIDE: StaffPlace(8, NoteHead.CROSS),
+    Piece.RIDE_2: StaffPlace(8, NoteHead.RINGED_CROSS),
+    Piece.CRASH_1: StaffPlace(10, NoteHead.CROSS),
+    Piece.CRASH_2: StaffPlace(11, NoteHead.CROSS),
+    Piece.SPLASH: StaffPlace(12, NoteHead.CROSS),
+    Piece.CHINA: StaffPlace(11, NoteHead.RINGED_CROSS),
+    Piece.TOM_1: StaffPlace(7),
+    Piece.TOM_2: StaffPlace(6),
+    Piece.TOM_3: StaffPlace(4),
+    Piece.TOM_4: StaffPlace(2),
+    Piece.FLOOR_TOM_1: StaffPlace(3),
+    Piece.FLOOR_TOM_2: StaffPlace(0),
+    Piece.COWBELL: StaffPlace(7, NoteHead.TRIANGLE),
+    Piece.TAMBOURINE: StaffPlace(10, NoteHead.TRIANGLE),
+    Piece.CLAP: StaffPlace(5, NoteHead.TRIANGLE),
+    Piece.PERCUSSION: StaffPlace(12, NoteHead.TRIANGLE),
+}
+
+FOOT_PIECES = frozenset({Piece.KICK, Piece.HIHAT_PEDAL})
+
+
+def head_of(piece: Piece, zone: Zone, articulation: Articulation) -> NoteHead:
+    """The head that a stroke is written with."""
+    if articulation is Articulation.CROSS_STICK:
+        return NoteHead.CROSS
+    if zone is Zone.BELL:
+        return NoteHead.DIAMOND
+    return PLACES[piece].head
+
+
+def height(step: float) -> float:
+    """Staff spaces **down** from the middle line to `step`."""
+    return (MIDDLE_LINE - step) / 2
+
+
+def ledger_steps(step: int) -> range:
+    """The steps of the short extra lines that a head at `step` needs above or below the staff."""
+    if step > TOP_LINE:
+        return range(TOP_LINE + 2, step + 1, 2)
+    return range(-2, step - 1, -2)

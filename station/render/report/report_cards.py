@@ -1,0 +1,190 @@
+"""The cards of a result's page: every stroke over the bars, and piece by piece lean, spread and craft.
+
+Units are the page's (`report_layout`).
+"""
+
+import numpy as np
+
+from station.music.judgement import Label
+from station.render.notation.judgement_marks import ON_TIME_MS, timing_colour
+from station.render.palette import (
+    BRAND,
+    EXTRA,
+    GOOD,
+    INK,
+    INK_FAINT,
+    INK_SOFT,
+    MISSED,
+    PANEL,
+    PANEL_EDGE,
+    WRONG,
+    with_opacity,
+)
+from station.render.report.report_layout import ReportBox
+from station.render.report.result_facts import PieceLean, ResultFacts, in_words, leans, ticks
+from station.render.text.draw_list import DrawList, TypeStyle
+from station.render.text.fonts import Face
+
+PADDING = 20.0
+"""Units between a card's edge and what is in it."""
+_REACH_MS = 80.0
+"""The plot's half height; strokes farther out stand on its edge (our choice)."""
+_LEAN_REACH_MS = 60.0
+_ROW, _NAME, _SAID = 30.0, 130.0, 206.0
+"""Of a piece: the height of its row, the width of its name, and of what is said of it."""
+_COUNT = 84.0
+"""Width of how many were hit, where there is room for it."""
+_CRAFT_LINE, _CRAFT_WIDTH = 23.0, 500.0
+_CRAFT_FIRST = 3
+"""So many lines of craft come before a further piece."""
+
+
+class Plot:
+    """Every stroke over the bars: late is up, for later means more."""
+
+    def __init__(self, facts: ResultFacts, ink: DrawList, box: ReportBox) -> None:
+        self._facts, self._ink, self._box = facts, ink, box
+        self._left, self._right = box.left + 92, box.right - 22
+        self._top, self._low = box.top + 38, box.bottom - 46
+
+    def draw(self) -> None:
+        """The card, its lines, and the strokes."""
+        paper(self._ink, self._box)
+        self._ink.text("Every stroke", (self._box.left + PADDING, self._box.top + 27), TypeStyle(18, INK, Face.BOLD))
+        band = self._height_of(-ON_TIME_MS) - self._height_of(ON_TIME_MS)
+        left, width = self._left - 8, self._right - self._left + 16
+        self._ink.box((left, self._height_of(ON_TIME_MS)), (width, band), with_opacity(GOOD, 0.10))
+        for ms in (-60, -30, 0, 30, 60):
+            y = self._height_of(ms)
+            self._ink.box((left, y - 0.5), (width, 1.0), INK_FAINT if ms else INK_SOFT)
+            text = "0 ms" if ms == 0 else f"{abs(ms)} {'late' if ms > 0 else 'early'}"
+            self._ink.text(text, (left - 8, y + 5), TypeStyle(15, INK_SOFT, Face.REGULAR, 1.0))
+        self._bars()
+        self._strokes()
+
+    def _height_of(self, asynchrony_ms: float) -> float:
+        clipped = float(np.clip(asynchrony_ms, -_REACH_MS, _REACH_MS))
+        return self._top + (self._low - self._top) * (0.5 - clipped / (2 * _REACH_MS))
+
+    def _place_of(self, time_s: float) -> float:
+        """Across the plot; what was struck before the first bar or after the last stands on its edge."""
+        start, end = float(self._facts.bar_s[0]), float(self._facts.bar_s[-1])
+        time_s = min(max(time_s, start), end)
+        return self._left + (self._right - self._left) * (time_s - start) / max(end - start, 1e-9)
+
+    def _bars(self) -> None:
+        low, style = self._box.bottom - 12, TypeStyle(15, INK_SOFT, Face.REGULAR, 0.5)
+        counted, marks = ticks(self._facts)
+        for bar, number in marks:
+            x = self._place_of(float(self._facts.bar_s[bar]))
+            self._ink.box((x - 0.5, self._top), (1.0, self._low - self._top), with_opacity(INK_FAINT, 0.6))
+            self._ink.text(number, (x, low), style)
+        self._ink.text(counted, (self._left - 16, low), TypeStyle(15, INK_SOFT, Face.REGULAR, 1.0))
+
+    def _strokes(self) -> None:
+        facts = self._facts
+        size = float(np.clip(900 / max(len(facts.label), 1), 2.6, 5.2))
+        floor = self._box.bottom - 38
+        for time_s, label, late_ms in zip(facts.time_s, facts.label, facts.asynchrony_ms, strict=True):
+            x = self._place_of(float(time_s))
+            if label == Label.MISS:
+                barred_ring(self._ink, (x, floor), max(size, 4.0), MISSED)
+                continue
+            at = (x, self._height_of(float(late_ms)))
+            if label == Label.WRONG_PIECE:
+                self._ink.box((at[0] - size, at[1] - size), (2 * size, 2 * size), WRONG, None, (1.0, 1.8, 0.0))
+            elif abs(late_ms) <= ON_TIME_MS:
+                self._ink.ellipse(at, (size, size), with_opacity(GOOD, 0.9))
+            else:
+                turn = -np.pi / 2 if late_ms > 0 else np.pi / 2
+                self._ink.triangle(at, (size * 1.1, size * 1.15), timing_colour(float(late_ms)), turn)
+        for time_s in facts.extra_s:
+            self._ink.cross((self._place_of(float(time_s)), floor + 9), (size * 0.7, size * 0.7), 1.6, EXTRA)
+
+
+class Pieces:
+    """Piece by piece its lean and spread, and below what hands and feet did."""
+
+    def __init__(self, facts: ResultFacts, ink: DrawList, box: ReportBox) -> None:
+        self._facts, self._ink, self._box = facts, ink, box
+        self._said = box.right - _SAID
+        has_counts = self._said - box.left - PADDING - _NAME - _COUNT > 200
+        first = box.left + PADDING + _NAME + (_COUNT if has_counts else 0.0)
+        self._count = first if has_counts else None
+        self._centre, self._reach = (first + self._said) / 2, (self._said - first) / 2 - 18
+
+    def draw(self) -> None:
+        """The card; the pieces with the most notes come first."""
+        box, craft = self._box, self._facts.words.craft
+        paper(self._ink, box)
+        heading = "Piece by piece: where it leans, and how far it spreads"
+        self._ink.text(heading, (box.left + PADDING, box.top + 28), TypeStyle(18, INK, Face.BOLD))
+        top = box.top + 42
+        for_craft = min(len(craft), _CRAFT_FIRST) * _CRAFT_LINE + 34 if craft else 8.0
+        most = max(int((box.bottom - top - for_craft) / _ROW), 1)
+        rows = sorted(leans(self._facts), key=lambda lean: -lean.notes)[:most]
+        self._ink.box((self._centre - 0.75, top), (1.5, _ROW * len(rows)), INK_SOFT)
+        for i, lean in enumerate(rows):
+            self._row(lean, top + _ROW * (i + 0.5))
+        self._craft(craft, top + _ROW * len(rows))
+
+    def _row(self, lean: PieceLean, y: float) -> None:
+        name, said = TypeStyle(18, INK), TypeStyle(16, INK_SOFT)
+        left = self._box.left + PADDING
+        self._ink.text(self._ink.fitted(lean.name, name, _NAME - 8), (left, y + 6), name)
+        if self._count is not None:
+            counted = TypeStyle(16, INK_SOFT, Face.REGULAR, 1.0)
+            self._ink.text(f"{lean.hits} of {lean.notes}", (self._count, y + 6), counted)
+        if lean.mean_ms is None:
+            return
+        scale = self._reach / _LEAN_REACH_MS
+        at = self._centre + scale * float(np.clip(lean.mean_ms, -_LEAN_REACH_MS, _LEAN_REACH_MS))
+        colour = timing_colour(lean.mean_ms)
+        if lean.sd_ms is not None:  # what spreads farther ends where the counts and the words begin
+            left = max(at - lean.sd_ms * scale, self._centre - self._reach)
+            right = min(at + lean.sd_ms * scale, self._centre + self._reach)
+            self._ink.box((left, y - 6), (right - left, 12), with_opacity(colour, 0.30), None, (6.0, 0.0, 0.0))
+        self._ink.ellipse((at, y), (6.5, 6.5), colour)
+        self._ink.text(self._ink.fitted(in_words(lean), said, _SAID - 12), (self._said, y + 6), said)
+
+    def _craft(self, lines: tuple[str, ...], top: float) -> None:
+        """As many lines as there is room for, column by column."""
+        columns = max(int((self._box.width - 2 * PADDING) / _CRAFT_WIDTH), 1)
+        fit = int((self._box.bottom - 10 - top - 24) / _CRAFT_LINE)
+        shown = lines[: max(fit, 0) * columns]
+        if not shown:
+            return
+        left, width = self._box.left + PADDING, (self._box.width - 2 * PADDING) / columns
+        self._ink.text("HANDS AND FEET", (left, top + 18), TypeStyle(14, BRAND, Face.BOLD))
+        style, each = TypeStyle(16, INK_SOFT), -(-len(shown) // columns)
+        for i, line in enumerate(shown):
+            column, row = divmod(i, each)
+            at = left + column * width, top + 24 + (row + 0.75) * _CRAFT_LINE
+            self._ink.text(self._ink.fitted(line, style, width - 10), at, style)
+
+
+def paper(ink: DrawList, box: ReportBox) -> None:
+    """A card: its ground and its edge."""
+    ink.box((box.left, box.top), (box.width, box.height), PANEL, None, (14.0, 0.0, 0.0))
+    ink.box((box.left, box.top), (box.width, box.height), PANEL_EDGE, None, (14.0, 1.2, 0.0))
+
+
+def badge(ink: DrawList, kind: int, at: tuple[float, float], colour: tuple[float, float, float, float]) -> None:
+    """The shapes that judgements have in the score."""
+    if kind == 0:
+        ink.ellipse(at, (7, 7), colour, 0.0, (0.0, 2.4, 0.0))
+    elif kind == 1:
+        barred_ring(ink, at, 7.0, colour)
+    elif kind == 2:
+        ink.box((at[0] - 7, at[1] - 7), (14, 14), colour, None, (2.0, 2.2, 0.0))
+    else:
+        ink.cross(at, (5, 5), 2.6, colour)
+
+
+def barred_ring(
+    ink: DrawList, at: tuple[float, float], radius: float, colour: tuple[float, float, float, float]
+) -> None:
+    """The sign of a miss."""
+    thick, reach = 0.29 * radius, 0.71 * radius
+    ink.ellipse(at, (radius, radius), colour, 0.0, (0.0, thick, 0.0))
+    ink.line((at[0] - reach, at[1] + reach), (at[0] + reach, at[1] - reach), thick, colour)

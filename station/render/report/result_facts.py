@@ -1,0 +1,151 @@
+"""What came out of a session, as the results page and its picture show it.
+
+Asynchrony is played − written in ms, negative is early. Numbers without data are None and are not drawn.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.labels import piece_name
+from station.core.pieces import Piece
+from station.music.judgement import Label
+from station.music.score import Score
+
+ON_THE_BEAT_MS = 10.0
+"""Full marks within 10 ms (HUMANS, Velocity and ears)."""
+STEADY_MS, FAIRLY_STEADY_MS = 20.0, 35.0
+"""Spread that is called steady, and fairly steady: the bounds of a good pass (TEACHING, Defaults)."""
+
+NEARLY_ALL = 0.9
+"""Share of the notes from which only their timing is spoken of (TEACHING, Defaults: a pass is at least 90 % right)."""
+MOST_TICKS = 16
+"""Numbers that have room on the time axis; our choice."""
+
+
+@dataclass(frozen=True, eq=False)
+class ResultFacts:
+    """A session's result.
+
+    Rows of the arrays are the notes that were judged: `time_s`, `piece`, `label` of `Label`, `asynchrony_ms` NaN where
+    nothing was played. `extra_s` when unwritten hits fell, `bar_s` where bars begin and the last ends, `points` 0–100.
+    """
+
+    words: "ResultWords"
+    time_s: NDArray[np.float64]
+    piece: NDArray[np.uint8]
+    label: NDArray[np.uint8]
+    asynchrony_ms: NDArray[np.float64]
+    extra_s: NDArray[np.float64]
+    bar_s: NDArray[np.float64]
+
+    def count(self, label: Label) -> int:
+        """How many notes bear `label`; extras are counted apart."""
+        return len(self.extra_s) if label is Label.EXTRA else int(np.count_nonzero(self.label == label))
+
+
+@dataclass(frozen=True, slots=True)
+class ResultWords:
+    """What is written on a result beside its numbers.
+
+    `points` 0–100, `advice` sentences on what to do next, `craft` lines on what hands and feet did; a pass has
+    `pass_bars` bars (0: all are one pass), the first is the lesson's `first_bar`, from 0; passes that differ begin in
+    the bars `starts`.
+    """
+
+    title: str
+    subtitle: str
+    points: float | None
+    advice: tuple[str, ...] = ()
+    craft: tuple[str, ...] = ()
+    pass_bars: int = 0
+    first_bar: int = 0
+    starts: tuple[int, ...] = ()
+
+
+def result_facts(
+    score: Score,
+    label: NDArray[np.uint8],
+    asynchrony_ns: NDArray[np.int64],
+    extra_s: NDArray[np.float64],
+    words: ResultWords,
+) -> ResultFacts:
+    """The facts of one alignment: `label` and `asynchrony_ns` (n,) belong to the rows of `score`."""
+    paired = (label == Label.MATCH) | (label == Label.WRONG_PIECE)
+    bars = [score.tempo_map.bar_start(bar) for bar in range(score.bar_count + 1)]
+    return ResultFacts(
+        words,
+        score.onset_s,
+        score.notes["piece"],
+        label,
+        np.where(paired, asynchrony_ns / 1e6, np.nan),
+        extra_s,
+        score.tempo_map.seconds_at(bars),
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class PieceLean:
+    """How one piece lies: its name, notes and hits, and of these the mean and spread in ms."""
+
+    name: str
+    notes: int
+    hits: int
+    mean_ms: float | None
+    sd_ms: float | None
+
+
+def leans(facts: ResultFacts) -> Iterator[PieceLean]:
+    """One lean a piece, in the order of `Piece`."""
+    for piece in np.unique(facts.piece):
+        mine = facts.piece == piece
+        yield _lean(piece_name(Piece(int(piece))), facts, mine)
+
+
+def whole_lean(facts: ResultFacts) -> PieceLean:
+    """The lean of all notes together."""
+    return _lean("all", facts, np.ones(len(facts.piece), np.bool_))
+
+
+def headline(facts: ResultFacts) -> str:
+    """The whole in a few words: how much was right where that is less than nearly all, then bias and spread."""
+    if not facts.count(Label.MATCH):
+        return "nothing to judge"
+    share = facts.count(Label.MATCH) / len(facts.label)
+    return f"{'' if share >= NEARLY_ALL else f'{100 * share:.0f} % right; '}{in_words(whole_lean(facts))}"
+
+
+def ticks(facts: ResultFacts) -> tuple[str, list[tuple[int, str]]]:
+    """What the time axis counts, and its marks: row of `bar_s` and number. Passes if several, else bars."""
+    if facts.words.starts:
+        every = max(1, round(len(facts.words.starts) / MOST_TICKS))
+        return "pass", [(bar, str(number)) for number, bar in enumerate(facts.words.starts, 1)][::every]
+    bars, pass_bars = len(facts.bar_s) - 1, facts.words.pass_bars
+    several = 0 < pass_bars < bars
+    step, first = (pass_bars, 0) if several else (1, facts.words.first_bar)
+    every = step * max(1, round(bars / step / MOST_TICKS))
+    return "pass" if several else "bar", [(bar, str(first + bar // step + 1)) for bar in range(0, bars, every)]
+
+
+def _lean(name: str, facts: ResultFacts, rows: NDArray[np.bool_]) -> PieceLean:
+    played = facts.asynchrony_ms[rows & (facts.label == Label.MATCH)]
+    mean = float(played.mean()) if len(played) else None
+    spread = float(played.std(ddof=1)) if len(played) > 1 else None
+    return PieceLean(name, int(rows.sum()), len(played), mean, spread)
+
+
+def in_words(lean: PieceLean) -> str:
+    """Bias and spread apart, as a teacher would say it: "steady but 14 ms late"."""
+    if lean.mean_ms is None:
+        return "nothing to judge"
+    on = abs(lean.mean_ms) <= ON_THE_BEAT_MS
+    where = "on the beat" if on else f"{abs(lean.mean_ms):.0f} ms {'late' if lean.mean_ms > 0 else 'early'}"
+    if lean.sd_ms is None:
+        return where
+    if lean.sd_ms <= STEADY_MS:
+        return f"steady {'and' if on else 'but'} {where}"
+    if lean.sd_ms <= FAIRLY_STEADY_MS:
+        return f"fairly steady, {where}"
+    return f"uneven, {where}"

@@ -1,0 +1,84 @@
+"""A bar of a result to be seen as it is heard: the demonstrator, and over him the student as he played it.
+
+The student's sticks are those of his double (`student_figure`): a limb shows the demonstrator's stroke when the student
+struck, and glows where that was early or late. Times are those of the result's score.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from station.core.events import Hit
+from station.core.pieces import Limb
+from station.core.units import NS_PER_MS, NS_PER_S
+from station.motion.drummer import Drummer
+from station.motion.style.lanes import in_passes
+from station.music.performance import Performance
+from station.practice.session.adaptation import lesson_bars
+from station.practice.session.session import SessionResult
+from station.render.snapshot import BarNumbers, Hud, Snapshot, StudentShown, TimingCue
+from station.scenes.demonstrator import Demonstrator
+from station.scenes.session_scene import CUE_OF_LEAN, strikes
+from station.scenes.student_figure import StudentFigure, nearest_note
+from station.scoring.matching.hit_windows import DEFAULT_LEVEL
+
+FAR_NS = 150 * NS_PER_MS
+"""A stroke so far from every note of its piece was meant for another (our choice: a sixteenth at 100 a minute)."""
+
+
+class Comparison:
+    """One bar, from 0, of `result`, demonstrated by `who`; `played` is laid over it, None for nothing but him."""
+
+    def __init__(
+        self, result: SessionResult, bar: int, played: Performance | None, who: Demonstrator, words: str
+    ) -> None:
+        plan, tempo_map = result.plan, result.score.tempo_map
+        self._lesson_bar = lesson_bars(plan)[bar]
+        self._start_ns = int(tempo_map.ns_at(tempo_map.bar_start(bar)))
+        style = in_passes(who.style, self._lesson_bar, 1, 1)
+        self._drummer = Drummer(result.score.bars(bar, bar), plan.kit, who.figure, style)
+        hits = () if played is None else tuple(played)
+        self._hits = [replace(hit, at_ns=hit.at_ns - self._start_ns) for hit in hits]
+        self._is_alone = played is None
+        self._hud = Hud(
+            plan.lesson.title,
+            f"Bar {self._lesson_bar + 1}: {words}",
+            bar=self._lesson_bar + 1,
+            bar_count=plan.lesson.score.bar_count,
+            beats=tempo_map.meter_at(tempo_map.bar_start(bar)).beats,
+            beats_a_minute=plan.beats_a_minute,
+        )
+
+    def snapshot(self, at_ns: int) -> Snapshot:
+        """The picture at a time of the result's score."""
+        drummer, now_ns = self._drummer, at_ns - self._start_ns
+        past = [hit for hit in self._hits if hit.at_ns <= now_ns] if len(drummer.score) else []
+        return Snapshot(
+            score=drummer.score,
+            position_s=now_ns / NS_PER_S,
+            kit=drummer.kit,
+            figure=drummer.figure,
+            pose=drummer.pose(now_ns / NS_PER_S),
+            limbs=drummer.assignment.limbs,
+            strikes=strikes(past, now_ns),
+            hud=self._hud,
+            bar_numbers=BarNumbers(self._lesson_bar, 1),
+            double=None if self._is_alone else self._double(past, now_ns),
+        )
+
+    def _parting(self, hit: Hit) -> tuple[int, TimingCue]:
+        """The note that `hit` was meant for, and how it parts from it; far from all of its piece it is a wrong pad."""
+        onset_ns = self._drummer.score.onset_ns
+        row = nearest_note(hit.piece, self._drummer, hit.at_ns / NS_PER_S)
+        if row is not None and abs(hit.at_ns - int(onset_ns[row])) <= FAR_NS:
+            return row, CUE_OF_LEAN[DEFAULT_LEVEL.lean((hit.at_ns - int(onset_ns[row])) / NS_PER_MS)]
+        return int(np.argmin(np.abs(onset_ns - hit.at_ns))), TimingCue.WRONG_PIECE
+
+    def _double(self, past: list[Hit], now_ns: int) -> StudentShown:
+        """The student as he stands after the strokes of the `past`."""
+        double, drummer = StudentFigure(), self._drummer
+        double.heard(past, drummer, now_ns / NS_PER_S, now_ns)
+        for hit in past:
+            row, cue = self._parting(hit)
+            double.parted(Limb(drummer.assignment.limbs[row]), cue, hit.at_ns)
+        return replace(double.double(drummer, now_ns / NS_PER_S, now_ns), is_compared=True)

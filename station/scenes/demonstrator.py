@@ -1,0 +1,38 @@
+"""Who demonstrates: a body and a manner, as the user has chosen them."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TypeVar
+
+from station.core.errors import BadInput
+from station.core.settings import Settings
+from station.motion.kinematics.figure import Figure, figure_of, load_figure
+from station.motion.style.style import Style
+from station.motion.style.style_file import load_style
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True, slots=True)
+class Demonstrator:
+    """A body, and how it moves; the lanes of `style` count the lesson's bars."""
+
+    figure: Figure = field(default_factory=figure_of)
+    style: Style = field(default_factory=Style)
+
+
+def kept_demonstrator(settings: Settings, tell: Callable[[str], None]) -> Demonstrator:
+    """The one of the settings; what cannot be had is told, and as natural as can be."""
+    natural = Demonstrator()
+    return Demonstrator(
+        _or(natural.figure, lambda: load_figure(settings.figure), tell),
+        _or(natural.style, lambda: load_style(settings.style), tell),
+    )
+
+
+def _or(default: T, load: Callable[[], T], tell: Callable[[str], None]) -> T:
+    try:
+        return load()
+    except BadInput as fault:
+        tell(str(fault))
+        return default

@@ -1,0 +1,124 @@
+"""The drummer who plays a score as a video with sound, as a GIF that loops, as numbered pictures, or as one picture."""
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import islice
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.errors import DeviceError
+from station.core.units import NS_PER_S
+from station.motion.drummer import Drummer
+from station.music.score import Score
+from station.render.picture import Shot
+from station.render.quality import QUALITIES
+from station.render.render_pool import artist
+from station.render.snapshot import BarNumbers, Snapshot
+from station.scenes.pictures import picture_of
+from station.scenes.soundtrack import Sounds, Soundtrack
+
+Tell = Callable[[int], None]
+"""Is told how many pictures are done."""
+
+
+@dataclass(frozen=True, slots=True)
+class FilmStretch:
+    """Which stretch is filmed: `pictures` of them, `fps` a second, the first at `start_s` of the score."""
+
+    start_s: float
+    pictures: int
+    fps: Fraction
+
+    @property
+    def times_s(self) -> NDArray[np.float64]:
+        """The score's time of every picture, shape (pictures,)."""
+        return self.start_s + np.arange(self.pictures) / float(self.fps)
+
+
+def encoder() -> str:
+    """What encodes videos here; raises `DeviceError` that says what to do where nothing does."""
+    try:
+        from station.render.files.video_file import encoder_name
+    except ImportError as fault:
+        raise DeviceError(f"videos need FFmpeg's libraries ({fault}): pip install av") from fault
+    return encoder_name()
+
+
+def write_film(drummer: Drummer, take: FilmStretch, shot: Shot, sounds: Sounds, path: Path, tell: Tell) -> None:
+    """A video at `path`, whole or not at all; raises `DeviceError` without OpenGL, disk or encoder."""
+    encoder()
+    from station.render.files.video_file import EFFORTS, VideoFormat, video_file
+
+    soundtrack = Soundtrack(drummer.score, take.start_s, sounds)
+    effort = EFFORTS[QUALITIES.index(shot.quality)]
+    video = VideoFormat(shot.size, take.fps, soundtrack.rate_hz, effort)
+    with artist(shot, take.pictures) as who, video_file(path, video) as sink:
+        for done, planes in enumerate(who.film(_snapshots(drummer, take)), 1):
+            sink.add_picture(planes)
+            sink.add_sound(soundtrack.until(float(done / take.fps)))
+            tell(done)
+
+
+def write_pictures(drummer: Drummer, take: FilmStretch, shot: Shot, paths: Iterable[Path], tell: Tell) -> None:
+    """A PNG a picture, each whole or not at all; raises `DeviceError` without OpenGL or disk."""
+    with artist(shot, take.pictures) as who:
+        for done, _ in enumerate(who.pngs(_snapshots(drummer, take), paths), 1):
+            tell(done)
+
+
+@dataclass(frozen=True, slots=True)
+class FilmLoop:
+    """Bars that are played for ever: the score of `drummer` is three passes in a row of `length_s`, the second is seen.
+
+    So the motion has no seam, nor the notes that pass. `first_bar` (from 0) and `bar_count` are the whole score's.
+    """
+
+    length_s: float
+    first_bar: int
+    bar_count: int
+
+    @classmethod
+    def of(cls, drummer: Drummer, first_bar: int, bar_count: int) -> "FilmLoop":
+        """The loop of a drummer who plays what `score` gave."""
+        return cls(drummer.score.length_ns / NS_PER_S / _PASSES, first_bar, bar_count)
+
+    @staticmethod
+    def score(score: Score, first_bar: int, last_bar: int) -> Score:
+        """What the drummer of a loop of these bars plays."""
+        return score.bars(first_bar, last_bar).repeated(_PASSES)
+
+
+_PASSES = 3
+_SAMPLES = 12
+"""So many pictures choose a GIF's colours (our choice: more of them chose the same)."""
+
+
+def write_loop(drummer: Drummer, loop: FilmLoop, fps: float, shot: Shot, path: Path, tell: Tell) -> None:
+    """A GIF at `path`, whole or not at all; raises `DeviceError` without OpenGL, disk or encoder."""
+    encoder()
+    from station.render.files.gif_file import gif_times, pixels_of, write_gif
+
+    times = gif_times(loop.length_s, fps)
+    seen = [loop.length_s * (1 + begin / times.end) for begin in times.begins]
+    samples = seen[:: -(-len(seen) // _SAMPLES)]
+    shown = (_in_loop(picture_of(drummer, at_s), loop) for at_s in [*samples, *seen])
+    with artist(shot, len(samples) + len(seen)) as who:
+        drawn = map(pixels_of, who.film(shown))
+        for done in write_gif(path, drawn, list(islice(drawn, len(samples))), times):
+            tell(done)
+
+
+def _in_loop(snapshot: Snapshot, loop: FilmLoop) -> Snapshot:
+    """The snapshot with the bars' own numbers."""
+    numbers = BarNumbers(loop.first_bar, snapshot.score.bar_count // _PASSES)
+    hud = snapshot.hud
+    if hud.bar is not None:
+        hud = replace(hud, bar=numbers.of(hud.bar - 1), bar_count=loop.bar_count)
+    return replace(snapshot, hud=hud, bar_numbers=numbers)
+
+
+def _snapshots(drummer: Drummer, take: FilmStretch) -> Iterator[Snapshot]:
+    return (picture_of(drummer, float(at_s)) for at_s in take.times_s)

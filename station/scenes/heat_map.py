@@ -1,0 +1,65 @@
+"""How right each limb was in each bar of the lesson, over all passes: where it hurts, to be drilled with one click.
+
+A note is right when it was played on its piece within `CLEAR_FAULT_MS` of its time. Bars are the lesson's, from 1.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from station.core.pieces import Limb
+from station.core.units import NS_PER_MS
+from station.music.judgement import Label
+from station.practice.session.places import places_of
+from station.practice.session.session import SessionResult
+
+CLEAR_FAULT_MS = 40.0
+"""Beyond it a stroke is clearly off (HUMANS: clear fault beyond 40 ms)."""
+LIMBS = (Limb.LEFT_HAND, Limb.RIGHT_HAND, Limb.LEFT_FOOT, Limb.RIGHT_FOOT)
+
+
+@dataclass(frozen=True, slots=True)
+class HeatCell:
+    """One limb in one bar: its notes, and how many of them were right."""
+
+    right: int
+    notes: int
+
+    @property
+    def share(self) -> float:
+        """Right notes as a share of all, 0–1."""
+        return self.right / self.notes
+
+
+@dataclass(frozen=True, slots=True)
+class HeatMap:
+    """`cells` by bar (from 1) and limb; what has no notes is not there. `limbs` are those that play."""
+
+    cells: dict[tuple[int, Limb], HeatCell]
+
+    @property
+    def bars(self) -> list[int]:
+        """The lesson's bars that have notes, in order."""
+        return sorted({bar for bar, _ in self.cells})
+
+    @property
+    def limbs(self) -> list[Limb]:
+        """The limbs that have notes, left before right, hands before feet."""
+        return [limb for limb in LIMBS if any(limb == played for _, played in self.cells)]
+
+
+def heat_map(result: SessionResult) -> HeatMap:
+    """The map of a session's result."""
+    score, alignment = result.score, result.alignment
+    if not len(score):
+        return HeatMap({})
+    bars = places_of(result, score.notes["tick"])["bar"]
+    near = np.abs(alignment.asynchrony_ns) <= CLEAR_FAULT_MS * NS_PER_MS
+    right = (alignment.note_label == Label.MATCH) & near
+    cells: dict[tuple[int, Limb], HeatCell] = {}
+    for limb in LIMBS:
+        mine = score.notes["limb"] == limb
+        for bar in np.unique(bars[mine]).tolist():
+            here = mine & (bars == bar)
+            cells[bar, limb] = HeatCell(int(right[here].sum()), int(here.sum()))
+    return HeatMap(cells)

@@ -1,0 +1,59 @@
+"""Pictures of sessions and scores without a window."""
+
+from dataclasses import replace
+from pathlib import Path
+
+from station.core.units import NS_PER_S
+from station.motion.drummer import Drummer
+from station.motion.style.lanes import in_passes
+from station.music.judgement import Label
+from station.practice.session.session import SessionResult
+from station.render.picture import draw_png
+from station.render.snapshot import ExtraHit, Hud, Snapshot, mark, no_marks
+from station.scenes.demonstrator import Demonstrator
+from station.scenes.session_scene import bar_numbers
+from station.scoring.matching.alignment import judgements
+
+
+def drummer_of(result: SessionResult, who: Demonstrator) -> Drummer:
+    """The one who demonstrated it, over all its passes."""
+    plan = result.plan
+    passes = result.score.bar_count // plan.section.bar_count
+    style = in_passes(who.style, plan.first_bar, plan.section.bar_count, passes)
+    return Drummer(result.score, plan.kit, who.figure, style)
+
+
+def draw_session(result: SessionResult, path: Path, who: Demonstrator) -> None:
+    """The last pass of a session, half into its first bar, every note with its judgement; raises `DeviceError`."""
+    plan = result.plan
+    last_pass_s = (result.score.length_ns - plan.section.length_ns) / NS_PER_S
+    bar_s = plan.section.length_ns / NS_PER_S / plan.section.bar_count
+    snapshot = picture_of(drummer_of(result, who), last_pass_s + bar_s / 2)
+    marks = no_marks(result.score)
+    extras = []
+    for judgement in judgements(result.score, result.performance, result.alignment):
+        mark(marks, judgement)
+        if judgement.label is Label.EXTRA and judgement.hit_index is not None:
+            hit = result.performance[judgement.hit_index]
+            extras.append(ExtraHit(hit.at_ns / NS_PER_S, hit.piece))
+    right = int((result.alignment.note_label == Label.MATCH).sum())
+    hud = Hud(
+        title=plan.lesson.title,
+        phase="1 pass played" if plan.passes == 1 else f"{plan.passes} passes played",
+        beats_a_minute=plan.beats_a_minute,
+        right=right,
+        judged=len(result.score),
+    )
+    shown = replace(snapshot, marks=marks, extras=tuple(extras), hud=hud, bar_numbers=bar_numbers(plan))
+    draw_png(shown, path)
+
+
+def picture_of(drummer: Drummer, at_s: float) -> Snapshot:
+    """The drummer at `at_s` seconds of the score; bar and beat are told while it is played."""
+    score = drummer.score
+    hud = Hud(title=score.title, bar_count=score.bar_count)
+    if 0 <= at_s * NS_PER_S < score.length_ns:
+        place = score.tempo_map.position_at(int(score.tempo_map.ticks_at(at_s)))
+        hud = replace(hud, bar=place.bar + 1, beat=place.beat + 1)
+    pose, limbs = drummer.pose(at_s), drummer.assignment.limbs
+    return Snapshot(score, at_s, drummer.kit, drummer.figure, pose, limbs, hud=hud)

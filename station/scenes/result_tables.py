@@ -1,0 +1,47 @@
+"""A session's result as the results page shows it."""
+
+import numpy as np
+
+from station.core.units import NS_PER_S
+from station.music.judgement import Label
+from station.practice.session.session import SessionResult
+from station.render.report.result_facts import ResultFacts, ResultWords, result_facts
+from station.scoring.report.assessment_document import Json
+from station.scoring.report.technique_text import craft_lines
+
+
+def session_facts(result: SessionResult, document: dict[str, Json]) -> ResultFacts:
+    """The facts of `result`; `document` is its report."""
+    plan = result.plan
+    extra = result.alignment.hit_label == Label.EXTRA
+    points, session = document["score"], document["session"]
+    assert isinstance(session, dict), "the report is ours"
+    steps = session["next"]
+    assert isinstance(steps, list), "the report is ours"
+    first, last = plan.bars[0] + 1, plan.bars[1] + 1
+    bars = f"bars {first}–{last}" if first != last else f"bar {first}"
+    stopped = "" if result.complete else ", stopped early"
+    passes = "1 pass" if plan.passes == 1 else f"{plan.passes} passes"
+    words = ResultWords(
+        title=plan.lesson.title,
+        subtitle=f"{passes} of {bars} at {round(plan.beats_a_minute, 3):g} bpm{stopped}{_standing(document)}",
+        points=float(points) if isinstance(points, float | int) else None,
+        advice=tuple(map(str, steps)),
+        craft=tuple(craft_lines(document)),
+        pass_bars=plan.section.bar_count,
+        first_bar=plan.first_bar,
+        starts=() if plan.rounds is None else plan.rounds.starts,
+    )
+    return result_facts(
+        result.score,
+        result.alignment.note_label,
+        result.alignment.asynchrony_ns,
+        np.asarray(result.performance.hits["at_ns"][extra] / NS_PER_S),
+        words,
+    )
+
+
+def _standing(document: dict[str, Json]) -> str:
+    """Where the student stands in the lesson, in words, where the tempo followed him."""
+    mastery = document.get("mastery")
+    return f" · {mastery['words']}" if isinstance(mastery, dict) else ""

@@ -1,0 +1,241 @@
+"""Fills snapshots: what the drummer, the score and the words over them show at one instant of a session.
+
+The drummer demonstrates, then plays along. The score shown is the demonstration's, then that of all passes in a row.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.events import Hit
+from station.core.pieces import Limb
+from station.core.units import NS_PER_MS, NS_PER_S
+from station.drills.mastery.feedback_fading import Feedback
+from station.engine.engine import KEYBOARD
+from station.motion.drummer import Drummer
+from station.motion.style.style import Style
+from station.music.judgement import Judgement, Label
+from station.practice.session.plan import Phase, Plan
+from station.practice.session.session import Session, SessionResult
+from station.render.snapshot import BarNumbers, ExtraHit, Hud, SeenStrike, Snapshot, TimingCue, mark, no_marks
+from station.scenes.curves import ScoreCurves, played_of_marks, played_of_result
+from station.scenes.demonstrator import Demonstrator
+from station.scenes.session_part import SessionPart
+from station.scenes.student_figure import StudentFigure
+from station.scoring.matching.hit_windows import Windows
+
+STRIKE_SHOWN_NS = 600 * NS_PER_MS
+"""How long a stroke may show on the kit; our choice."""
+WAITING_S = -2.0
+"""A time before the score at which the drummer does nothing yet; our choice."""
+CUE_SHOWN_NS = 1200 * NS_PER_MS
+"""How long the coarse cue stays after what caused it; our choice."""
+
+CUE_OF_LEAN = {-1: TimingCue.EARLY, 0: TimingCue.ON_TIME, 1: TimingCue.LATE}
+"""The cue of a stroke that leans so (`Windows.lean`)."""
+_CUE_OF = {Label.MISS: TimingCue.MISSED, Label.WRONG_PIECE: TimingCue.WRONG_PIECE}
+
+
+class SessionView:
+    """One session's pictures: the demonstrator, `who`, on the plan's kit."""
+
+    def __init__(self, plan: Plan, who: Demonstrator | None = None, before: "SessionView | None" = None) -> None:
+        """`before` is the view that was shown last: its drummer sits there while this one's is made."""
+        self.plan = plan
+        self._who = who or Demonstrator()
+        self._sits = None if before is None else before.sitting
+        demonstrations = [s for s in plan.segments if s.phase is Phase.DEMONSTRATION]
+        self._passes = SessionPart(plan, plan.score, plan.passes_start_ns, self._who)
+        self._demonstration = (
+            SessionPart(plan, plan.section.repeated(len(demonstrations)), demonstrations[0].start_ns, self._who)
+            if demonstrations
+            else self._passes
+        )
+        self.bar_numbers = bar_numbers(plan)
+        self._marks = no_marks(plan.score)
+        self._cue: TimingCue = TimingCue.NONE
+        self._cue_ns = 0
+        self._double = StudentFigure()
+
+    @property
+    def style(self) -> Style:
+        """How the demonstrator moves."""
+        return self._who.style
+
+    def move_as(self, style: Style, hands_stay: bool = False) -> None:
+        """Let the demonstrator move in another style from now on; with `hands_stay` they hold what they held."""
+        self._who = replace(self._who, style=style.holding_as(self.style) if hands_stay else style)
+
+    def judged(self, verdicts: tuple[Judgement, ...], hits: Sequence[Hit], now_ns: int, windows: Windows) -> None:
+        """Take in judgements of `hits` that the student may see; marks that older snapshots hold stay as they were."""
+        if not verdicts:
+            return
+        self._marks = self._marks.copy()
+        limbs = self.plan.score.notes["limb"]
+        for verdict in verdicts:
+            if verdict.note_index is not None:
+                self._double.parted(Limb(limbs[verdict.note_index]), cue_of(verdict, windows), now_ns)
+            mark(self._marks, verdict, loudness=not _by_key(verdict, hits))
+            cue = cue_of(verdict, windows)
+            if cue is not TimingCue.NONE:
+                self._cue, self._cue_ns = cue, now_ns
+
+    def judged_anew(self, session: Session) -> None:
+        """Some of the session was taken back: show what is left of its judgements."""
+        self._marks, self._cue = no_marks(self.plan.score), TimingCue.NONE
+        for verdict in session.told(session.verdicts.values()):
+            mark(self._marks, verdict, loudness=not _by_key(verdict, session.hits))
+
+    def snapshot(self, session: Session, now_ns: int, message: str = "") -> Snapshot:
+        """The picture at session time `now_ns`."""
+        state = session.state()
+        if state.transport_ns is None:
+            return self._ready(message)
+        part, position_s = self._part_at(state.transport_ns)
+        if not part.is_ready and self._sits is not None:
+            return replace(
+                self._waiting(part, self._sits),
+                position_s=position_s,
+                strikes=strikes(session.heard.recent, now_ns),
+                hud=self._hud(session, now_ns, message or _why(session)),
+            )
+        drummer = part.drummer(self._who.style)
+        double = None
+        if part is self._passes:
+            self._double.heard(session.heard.recent, drummer, position_s, now_ns)
+            double = self._double.double(drummer, position_s, now_ns)
+        return Snapshot(
+            score=part.score,
+            position_s=position_s,
+            kit=drummer.kit,
+            figure=drummer.figure,
+            pose=drummer.pose(position_s),
+            limbs=drummer.assignment.limbs,
+            marks=self._marks if part is self._passes else None,
+            extras=self._extras(session) if part is self._passes and session.feedback is not Feedback.NONE else (),
+            strikes=strikes(session.heard.recent, now_ns),
+            hud=self._hud(session, now_ns, message or _why(session)),
+            bar_numbers=self.bar_numbers,
+            double=double,
+        )
+
+    def graphed(self, session: Session) -> ScoreCurves | None:
+        """The drummer who is seen, and what the student is shown of his own strokes; None while he is made."""
+        transport_ns = session.state().transport_ns
+        part, position_s = (self._demonstration, 0.0) if transport_ns is None else self._part_at(transport_ns)
+        if not part.is_ready:
+            return None
+        played = played_of_marks(part.score, self._marks) if part is self._passes else None
+        return ScoreCurves(part.drummer(self._who.style), position_s, self.bar_numbers, played)
+
+    def make_ahead(self) -> None:
+        """Let whoever plays be made while nobody waits for him."""
+        self._demonstration.ahead()
+        self._passes.ahead()
+
+    @property
+    def sitting(self) -> Drummer | None:
+        """A drummer who is made, to sit there before anything is played; None while there is none."""
+        part = next((part for part in (self._demonstration, self._passes) if part.is_made), None)
+        return self._sits if part is None else part.drummer(self._who.style)
+
+    def _part_at(self, transport_ns: int) -> tuple[SessionPart, float]:
+        """Who plays at a transport time, and where in his score he is."""
+        part = self._passes if transport_ns >= self.plan.demonstrations_end_ns else self._demonstration
+        return part, part.position_s(transport_ns)
+
+    def _ready(self, message: str) -> Snapshot:
+        """The picture before anything runs: the drummer waits, the score stands at its first bar."""
+        part, plan, drummer = self._demonstration, self.plan, self._sits
+        if drummer is None or part.is_ready:
+            drummer = part.drummer(self._who.style)
+        hud = Hud(plan.lesson.title, "Ready", beats_a_minute=plan.beats_a_minute, message=message)
+        return replace(self._waiting(part, drummer), hud=hud)
+
+    def _waiting(self, part: SessionPart, drummer: Drummer) -> Snapshot:
+        """Somebody sits there, and the score of `part` stands at its first bar."""
+        return Snapshot(
+            score=part.score,
+            position_s=0.0,
+            kit=self.plan.kit,
+            figure=drummer.figure,
+            pose=drummer.pose(WAITING_S),
+            limbs=part.score.notes["limb"],
+            bar_numbers=self.bar_numbers,
+        )
+
+    def _extras(self, session: Session) -> tuple[ExtraHit, ...]:
+        hits = [session.hits[index] for index in session.extras()]
+        return tuple(ExtraHit(hit.at_ns / NS_PER_S, hit.piece) for hit in hits)
+
+    # --- words -------------------------------------------------------------------------------------------------------
+
+    def _hud(self, session: Session, now_ns: int, message: str) -> Hud:
+        plan, state = self.plan, session.state()
+        segment = state.segment
+        within_ns = (state.transport_ns or 0) - segment.start_ns
+        tempo_map = plan.section.tempo_map
+        place = None
+        if state.transport_ns is not None and within_ns >= 0 and segment.phase is not Phase.OVER:
+            place = tempo_map.position_at(int(tempo_map.ticks_at_ns(within_ns)))
+        counting = segment.phase is Phase.COUNT_IN
+        right, judged = self._counts(segment.index) if segment.phase is Phase.PASS else (0, 0)
+        age_ns = now_ns - self._cue_ns
+        return Hud(
+            title=plan.lesson.title,
+            phase=plan.words(segment),
+            bar=None if place is None or counting else plan.first_bar + place.bar + 1,
+            beat=None if place is None else place.beat + 1,
+            beats=tempo_map.meters[0].beats,
+            bar_count=plan.lesson.score.bar_count,
+            beats_a_minute=plan.beats_a_minute,
+            count_in=place.beat + 1 if counting and place is not None else None,
+            right=right,
+            judged=judged,
+            message=message,
+            cue=self._cue if age_ns < CUE_SHOWN_NS else TimingCue.NONE,
+            cue_age_s=age_ns / NS_PER_S,
+        )
+
+    def _counts(self, pass_index: int) -> tuple[int, int]:
+        """Notes right and notes judged of one pass."""
+        per_pass = len(self.plan.section)
+        labels: NDArray[np.int8] = self._marks["label"][pass_index * per_pass : (pass_index + 1) * per_pass]
+        return int((labels == Label.MATCH).sum()), int((labels >= 0).sum())
+
+
+def graphed_result(result: SessionResult, who: Demonstrator) -> ScoreCurves:
+    """The whole of a session that is over: who demonstrated it, and every stroke of the student."""
+    plan = result.plan
+    part = SessionPart(plan, result.score, 0, who)
+    return ScoreCurves(part.drummer(who.style), None, bar_numbers(plan), played_of_result(result))
+
+
+def strikes(hits: Iterable[Hit], now_ns: int) -> tuple[SeenStrike, ...]:
+    """What of `hits` still shows on the kit at `now_ns`."""
+    ages = ((hit, now_ns - hit.at_ns) for hit in hits)
+    return tuple(SeenStrike(h.piece, h.velocity, age / NS_PER_S) for h, age in ages if 0 <= age < STRIKE_SHOWN_NS)
+
+
+def _by_key(verdict: Judgement, hits: Sequence[Hit]) -> bool:
+    """Whether a key of the computer was struck: it cannot tell how hard."""
+    return verdict.hit_index is not None and hits[verdict.hit_index].device == KEYBOARD
+
+
+def _why(session: Session) -> str:
+    """The reason for the pass, while it is counted in."""
+    return session.message if session.state().segment.phase is not Phase.PASS else ""
+
+
+def bar_numbers(plan: Plan) -> BarNumbers:
+    """The lesson's own numbers in every pass."""
+    return BarNumbers(plan.first_bar, plan.section.bar_count)
+
+
+def cue_of(verdict: Judgement, windows: Windows) -> TimingCue:
+    """The coarse cue that a judgement gives; extras and ignored hits give none."""
+    if verdict.label is Label.MATCH and verdict.asynchrony_ns is not None:
+        return CUE_OF_LEAN[windows.lean(verdict.asynchrony_ns / NS_PER_MS)]
+    return _CUE_OF.get(verdict.label, TimingCue.NONE)

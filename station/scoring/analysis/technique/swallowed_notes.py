@@ -1,0 +1,111 @@
+"""Notes that nobody answered and that a kit might have swallowed: of them it cannot be told whether they were played.
+
+Two things swallow strokes. A pad sends nothing below its threshold: a written ghost beneath the measured one may have
+been played. And for its mask time after a stroke a pad hears no other (PEERS: 6 ms, 7–9 by pad): the second bounce of a
+double, or the main stroke's grace, may have fallen into it where the student's other ones come nearly as close. What a
+pad was heard to tell apart in this performance, it can tell apart.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import IntEnum
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.pieces import Dynamic, Ornament, Piece
+from station.core.units import NS_PER_MS
+from station.music import passages
+from station.music.judgement import Label
+from station.music.performance import Performance
+from station.music.score import Score
+from station.scoring.matching.alignment import Alignment
+from station.scoring.matching.slow_drift import robust_sd
+
+USUAL_MASK_MS = 9.0
+"""The longest that PEERS names; what is taken for a kit of which nobody has measured it."""
+
+_NEAR_SDS = 2.0
+"""So many SDs below the usual gap one stroke in forty falls."""
+
+_FEWEST_GAPS = 4
+
+
+class SwallowedNotes(IntEnum):
+    """Why it cannot be told whether a note was played."""
+
+    TOLD = 0
+    THRESHOLD = 1
+    MASK = 2
+
+
+@dataclass(frozen=True, slots=True)
+class KitFacts:
+    """What is known of the student's kit, by measurement.
+
+    `threshold` of a pad: the least velocity that it sends; `mask_ms` how long after a stroke it hears none;
+    `tells_chokes` whether it sends them, None where that shows only in the playing.
+    """
+
+    threshold: Mapping[Piece, int] = field(default_factory=lambda: MappingProxyType({}))
+    mask_ms: float = USUAL_MASK_MS
+    tells_chokes: bool | None = None
+
+
+def untold_notes(score: Score, performance: Performance, alignment: Alignment, kit: KitFacts) -> NDArray[np.uint8]:
+    """`SwallowedNotes` of each note (n,): `TOLD` for all that were answered and for what was surely left out."""
+    untold = np.full(len(score), SwallowedNotes.TOLD, np.uint8)
+    missed, notes = alignment.note_label == Label.MISS, score.notes
+    for piece, least in kit.threshold.items():
+        soft = (notes["piece"] == piece) & (notes["dynamic"] == Dynamic.GHOST) & (notes["velocity"] < least)
+        untold[missed & soft] = SwallowedNotes.THRESHOLD
+    close = _close_followers(score)
+    if len(close) and missed.any():
+        for piece in np.unique(notes["piece"][close[:, 1]]).tolist():
+            pairs = close[notes["piece"][close[:, 1]] == piece]
+            mask_ms = min(kit.mask_ms, _closest_ms(performance, piece))
+            for kind in (True, False):
+                own = pairs[score.is_grace[pairs[:, 0]] == kind]
+                if len(own) and _nearest_usual_ms(score, performance, alignment, own) < mask_ms:
+                    lost = own[missed[own].sum(axis=1) == 1]  # the other one was heard
+                    untold[lost[missed[lost]]] = SwallowedNotes.MASK
+    return untold
+
+
+def _close_followers(score: Score) -> NDArray[np.int64]:
+    """Pairs (k, 2) of rows that one drop of the hands plays: grace and what follows it, first and second of doubles."""
+    notes, second = score.notes, passages.second_of_doubles(score) | second_of_pairs(score)
+    order = np.lexsort((score.onset_ns, notes["piece"]))
+    before, after = order[:-1], order[1:]
+    same = notes["piece"][before] == notes["piece"][after]
+    led = score.is_grace[before] & (notes["tick"][before] == notes["tick"][after])
+    doubled = second[after] & ~score.is_grace[before] & ~score.is_grace[after]
+    pairs: NDArray[np.int64] = np.stack([before, after], 1)[same & (led | doubled)]
+    return pairs
+
+
+def second_of_pairs(score: Score) -> NDArray[np.bool_]:
+    """Every second stroke of the rows that a diddle or an open roll stands for, piece by piece."""
+    notes, flags = score.notes, np.zeros(len(score), np.bool_)
+    two = np.isin(notes["ornament"], (Ornament.DIDDLE, Ornament.ROLL)) & (notes["duration_ticks"] == 0)
+    for piece in np.unique(notes["piece"][two]):
+        flags[np.flatnonzero(two & (notes["piece"] == piece) & ~score.is_grace)[1::2]] = True
+    return flags
+
+
+def _closest_ms(performance: Performance, piece: int) -> float:
+    """The smallest gap between two hits of a piece that were heard apart."""
+    gaps = np.diff(performance.hits["at_ns"][performance.hits["piece"] == piece])
+    return float(gaps.min()) / NS_PER_MS if len(gaps) else np.inf
+
+
+def _nearest_usual_ms(score: Score, performance: Performance, alignment: Alignment, pairs: NDArray[np.int64]) -> float:
+    """How close the two strokes of a pair come with this student, but for one in forty."""
+    written = np.diff(score.onset_ns[pairs], axis=1)[:, 0] / NS_PER_MS
+    heard = (alignment.note_label[pairs] == Label.MATCH).all(axis=1)
+    played = np.diff(performance.hits["at_ns"][alignment.hit_of_note[pairs[heard]]], axis=1)[:, 0] / NS_PER_MS
+    if len(played) < _FEWEST_GAPS:
+        return float(written.min())
+    usual = float(np.median(written) + np.median(played - written[heard]))
+    return usual - _NEAR_SDS * (robust_sd(played - written[heard]) or 0.0)

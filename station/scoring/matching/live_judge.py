@@ -1,0 +1,292 @@
+"""Live verdicts on hits whose place in the score is known: each as it comes, corrected when later ones prove it wrong.
+
+The verdict on every note and hit is a function of the hits and their places alone, never of when or how often `advance`
+is called, so that one performance is judged alike at any frame rate. `advance` only says aloud which notes are too late
+to be played; a hit that was delivered late takes such a miss back.
+
+A hit and the few hits and notes of its piece around it are paired by least cost, as the final alignment does; where a
+note and a hit surely belong together (`pairing`) nothing else needs to be looked at. What is older than `_MEMORY`
+reaches is settled for good, which bounds the cost of a hit whatever the score's length. A hit that its own piece does
+not want goes to a waiting note of another piece close by, until that note's own piece claims it.
+
+Where the student turns out to be elsewhere, `move` judges the last hits anew. When he goes back, what he played before
+counts until he plays it again; then the new hit does, and the old one is an extra, as in the final alignment.
+
+Times are ns on the score's axis; asynchronies and windows are real time, of which the pace makes score time.
+"""
+
+from bisect import bisect_left, bisect_right
+from collections.abc import Collection
+from dataclasses import replace
+from typing import NamedTuple
+
+from station.core.events import Hit
+from station.core.pieces import Piece
+from station.core.units import NS_PER_MS
+from station.music.judgement import Judgement, Label
+from station.music.score import Score
+from station.scoring.matching.hit_windows import DEFAULT_LEVEL, Windows
+from station.scoring.matching.ignored_hits import Unwritten
+from station.scoring.matching.match_classes import match_classes
+from station.scoring.matching.note_lane import Lane
+from station.scoring.matching.pairing import least_cost
+
+_MEMORY = 2
+"""Reaches back in time within which a verdict may still change (our choice; a longer tangle is a roll)."""
+
+_WRONG_REACH_NS = 50 * NS_PER_MS
+"""How near another piece's note must be (our choice: less than half a 16th at 140 bpm)."""
+
+
+class Moved(NamedTuple):
+    """Hits `first` … to the newest are at `places_ns` of the score, of which `pace` s pass in a real second."""
+
+    first: int
+    places_ns: list[int]
+    pace: float = 1.0
+
+
+_NOBODY = -1
+_FAR = 2**62
+
+
+class Judge:
+    """Judges one run through `score`; `kit` names the student's pieces, None for a complete kit."""
+
+    def __init__(self, score: Score, windows: Windows = DEFAULT_LEVEL, kit: Collection[Piece] | None = None) -> None:
+        self._real_reach_ns = self._reach_ns = round(windows.reach_ms * NS_PER_MS)
+        self._pace = 1.0
+        self._class_of: list[int] = match_classes(kit).tolist()
+        self._onset_ns: list[int] = score.onset_ns.tolist()
+        self._velocity: list[int] = score.notes["velocity"].tolist()
+        self._note_class: list[int] = [self._class_of[piece] for piece in score.notes["piece"].tolist()]
+        self._order = sorted(range(len(score)), key=self._onset_ns.__getitem__)
+        self._ordered_ns = [self._onset_ns[note] for note in self._order]
+        self._lanes = self._split()
+        self._unwritten = Unwritten(score)
+        self._own_of_note = [_NOBODY] * len(score)
+        self._other_of_note = [_NOBODY] * len(score)
+        self._note_is_told = bytearray(len(score))
+        self._hits: list[Hit] = []
+        self._hit_ns: list[int] = []
+        self._note_of_hit: list[int] = []
+        self._hit_is_told = bytearray()
+        self._stretch = 0  # the first hit since the student last went back
+        self._begin = self._passed = 0
+
+    def _split(self) -> dict[int, Lane]:
+        rows: dict[int, list[int]] = {}
+        for note in self._order:
+            rows.setdefault(self._note_class[note], []).append(note)
+        return {c: Lane(notes, [self._onset_ns[note] for note in notes]) for c, notes in rows.items()}
+
+    def hit(self, hit: Hit, moved: Moved) -> tuple[Judgement, ...]:
+        """Judge `hit`, the last of `moved`: its own verdict and every older one that it changes.
+
+        Hits are numbered from 0 in the order of these calls. A judgement replaces all earlier ones on its note and on
+        its hit.
+        """
+        index = len(self._hits)
+        self._hits.append(hit)
+        self._hit_ns.append(moved.places_ns[-1])
+        self._note_of_hit.append(_NOBODY)
+        self._hit_is_told.append(False)
+        if moved.pace != self._pace:
+            self._pace, self._reach_ns = moved.pace, round(self._real_reach_ns * moved.pace)
+        return self._told(self._judged(index) if moved.first == index else self._judged_anew(moved))
+
+    def advance(self, score_ns: int) -> tuple[Judgement, ...]:
+        """The misses that are certain at `score_ns` unless an older hit is still on its way."""
+        until = self._before(score_ns - self._reach_ns)
+        if until <= self._passed:
+            return ()
+        due, self._passed = self._order[self._passed : until], until
+        return self._told([Judgement(Label.MISS, note, None) for note in due if self._is_waiting(note)])
+
+    def begin(self, score_ns: int) -> tuple[Judgement, ...]:
+        """The student turns out to have begun at `score_ns`: what is written before is nobody's. Takes misses back."""
+        before, self._begin = self._begin, self._before(score_ns - self._reach_ns) if score_ns else 0
+        self._passed = self._begin if self._begin < before else max(self._passed, self._begin)
+        early = [n for n in self._order[before : self._begin] if self._note_is_told[n] and self._is_waiting(n)]
+        return self._told([Judgement(Label.PENDING, note, None) for note in early])
+
+    # --- pairing ----------------------------------------------------------------------------------------------------
+
+    def _judged(self, index: int) -> list[Judgement]:
+        """Put a hit in its place; returns what changes."""
+        lane = self._lanes.get(self._class_of[self._hits[index].piece])
+        if lane is None:
+            return [self._left_alone(index)]
+        lane.put(index, self._hit_ns[index])
+        note = self._sure_note(lane, index)
+        if note == _NOBODY:
+            return self._pair_around(lane, index)
+        said: list[Judgement] = []
+        self._give(index, note, said)
+        return said
+
+    def _sure_note(self, lane: Lane, index: int) -> int:
+        """The free note that surely belongs to the hit `index`, by the first rule of `pairing`; −1 if none does."""
+        at_ns, note_ns, hit_ns, reach = self._hit_ns[index], lane.note_ns, lane.hit_ns, self._reach_ns
+        right = bisect_left(note_ns, at_ns)
+        to_right = note_ns[right] - at_ns if right < len(note_ns) else _FAR
+        to_left = at_ns - note_ns[right - 1] if right else _FAR
+        nearest, near, second = (right, to_right, to_left) if to_right < to_left else (right - 1, to_left, to_right)
+        note = lane.notes[nearest]
+        if near > reach or self._own_of_note[note] != _NOBODY:
+            return _NOBODY
+        if nearest == right and right + 1 < len(note_ns):
+            second = min(second, note_ns[right + 1] - at_ns)
+        elif nearest < right and nearest:
+            second = min(second, at_ns - note_ns[nearest - 1])
+        written, place = note_ns[nearest], bisect_left(hit_ns, at_ns)
+        other = _FAR
+        if place:
+            other = abs(hit_ns[place - 1] - written)
+        if place + 1 < len(hit_ns):
+            other = min(other, abs(hit_ns[place + 1] - written))
+        surely = near < other and other * other + second * second >= (reach + 1) * (reach + 1) + near * near
+        return note if surely else _NOBODY
+
+    def _pair_around(self, lane: Lane, index: int) -> list[Judgement]:
+        """Pair anew what is near the hit `index` in its lane; returns what changed."""
+        at_ns, reach = self._hit_ns[index], self._reach_ns
+        near = lane.hits_between(at_ns - _MEMORY * reach, at_ns + _MEMORY * reach)
+        hits, hit_ns = lane.hits[near], lane.hit_ns[near]
+        around = lane.notes_between(hit_ns[0] - reach, hit_ns[-1] + reach)
+        among = set(hits)
+        notes = [n for n in lane.notes[around] if (own := self._own_of_note[n]) < self._stretch or own in among]
+        pairs = least_cost([self._onset_ns[n] for n in notes], hit_ns, reach)
+        now = dict.fromkeys(hits, _NOBODY) | {hits[j]: notes[i] for i, j in pairs}
+        changed = [h for h in hits if h == index or now[h] != self._own_note(h)]
+        return self._apply(changed, now)
+
+    def _apply(self, changed: list[int], now: dict[int, int]) -> list[Judgement]:
+        """Give each hit of `changed` the note that `now` names."""
+        freed = {self._release(hit) for hit in changed}
+        said: list[Judgement] = []
+        for hit in changed:
+            if now[hit] != _NOBODY:
+                self._give(hit, now[hit], said)
+        said += [self._left_alone(hit) for hit in changed if now[hit] == _NOBODY]
+        said += [Judgement(Label.MISS, n, None) for n in freed if n != _NOBODY and self._is_missed(n)]
+        return said
+
+    def _give(self, hit: int, note: int, said: list[Judgement]) -> None:
+        """Pair them; whoever had the note before is left alone."""
+        rivals = self._own_of_note[note], self._other_of_note[note]
+        for rival in rivals:
+            if rival != _NOBODY:
+                self._release(rival)
+        self._own_of_note[note], self._note_of_hit[hit] = hit, note
+        said.append(self._pair(Label.MATCH, note, hit))
+        said += [self._left_alone(rival) for rival in rivals if rival != _NOBODY]
+
+    def _release(self, hit: int) -> int:
+        """Take the hit from its note; returns the note."""
+        note = self._note_of_hit[hit]
+        self._note_of_hit[hit] = _NOBODY
+        if note != _NOBODY:
+            table = self._own_of_note if self._own_of_note[note] == hit else self._other_of_note
+            table[note] = _NOBODY
+        return note
+
+    def _left_alone(self, hit: int) -> Judgement:
+        """The verdict on a hit that no note of its own piece wants: another piece's note, or nobody's."""
+        played, at_ns = self._hits[hit], self._hit_ns[hit]
+        if hit >= self._stretch and not self._unwritten.is_own_only(played.piece, at_ns):
+            note = self._waiting_note_near(at_ns, self._class_of[played.piece])
+            if note != _NOBODY:
+                self._other_of_note[note], self._note_of_hit[hit] = hit, note
+                return self._pair(Label.WRONG_PIECE, note, hit)
+        quiet = self._unwritten.is_quiet(played.piece, played.velocity, at_ns)
+        return Judgement(Label.IGNORED if quiet else Label.EXTRA, None, hit)
+
+    def _waiting_note_near(self, at_ns: int, but_class: int) -> int:
+        start = bisect_left(self._ordered_ns, at_ns - _WRONG_REACH_NS)
+        end = bisect_right(self._ordered_ns, at_ns + _WRONG_REACH_NS)
+        waiting = [n for n in self._order[start:end] if self._note_class[n] != but_class and self._is_waiting(n)]
+        return min(waiting, key=lambda n: abs(self._onset_ns[n] - at_ns), default=_NOBODY)
+
+    # --- moving -----------------------------------------------------------------------------------------------------
+
+    def _judged_anew(self, moved: Moved) -> list[Judgement]:
+        """Put the hits of `moved` in their new places; returns what changes."""
+        first, places_ns = moved.first, moved.places_ns
+        freed = {self._take_out(hit) for hit in range(first, len(self._hits))} - {_NOBODY}
+        if first and places_ns[0] < self._hit_ns[first - 1] - self._reach_ns:
+            self._go_back(first, places_ns[0])
+        said: list[Judgement] = []
+        for hit, place_ns in enumerate(places_ns, first):
+            self._hit_ns[hit] = place_ns
+            said += self._judged(hit)
+        said += [Judgement(self._unplayed(note), note, None) for note in freed if self._is_waiting(note)]
+        return _last_words(said)
+
+    def _take_out(self, hit: int) -> int:
+        """Take a hit from its lane and its note; returns the note."""
+        lane = self._lanes.get(self._class_of[self._hits[hit].piece])
+        if lane is not None:
+            lane.take_out(hit, self._hit_ns[hit])
+        return self._release(hit)
+
+    def _go_back(self, first: int, to_ns: int) -> None:
+        """From hit `first` on the score is played again from `to_ns`: the hits of the time before stay out of it."""
+        self._stretch = first
+        self._passed = max(self._before(to_ns - self._reach_ns), self._begin)
+        for lane in self._lanes.values():
+            lane.forget_from(to_ns - self._reach_ns)
+
+    # --- what is so -------------------------------------------------------------------------------------------------
+
+    def _before(self, score_ns: int) -> int:
+        """How many notes are written before `score_ns`."""
+        return bisect_left(self._ordered_ns, score_ns)
+
+    def _own_note(self, hit: int) -> int:
+        note = self._note_of_hit[hit]
+        return note if note != _NOBODY and self._own_of_note[note] == hit else _NOBODY
+
+    def _is_missed(self, note: int) -> bool:
+        return self._is_waiting(note) and self._unplayed(note) is Label.MISS
+
+    def _unplayed(self, note: int) -> Label:
+        """What a note is that nobody plays: missed, or still to come."""
+        at_ns, passed, begin = self._onset_ns[note], self._passed, self._begin
+        is_past = passed > 0 and at_ns <= self._ordered_ns[passed - 1]
+        return Label.MISS if is_past and (begin == 0 or at_ns > self._ordered_ns[begin - 1]) else Label.PENDING
+
+    def _is_waiting(self, note: int) -> bool:
+        return self._own_of_note[note] == _NOBODY and self._other_of_note[note] == _NOBODY
+
+    def _pair(self, label: Label, note: int, hit: int) -> Judgement:
+        off_ns = self._hit_ns[hit] - self._onset_ns[note]
+        asynchrony_ns = off_ns if self._pace == 1.0 else round(off_ns / self._pace)
+        return Judgement(label, note, hit, asynchrony_ns, self._hits[hit].velocity - self._velocity[note])
+
+    def _told(self, said: list[Judgement]) -> tuple[Judgement, ...]:
+        """`said`, each marked if it corrects what was told before of its note or hit."""
+        for i, verdict in enumerate(said):
+            note, hit = verdict.note_index, verdict.hit_index
+            before = False
+            if note is not None:
+                before, self._note_is_told[note] = bool(self._note_is_told[note]), verdict.label is not Label.PENDING
+            if hit is not None:
+                before, self._hit_is_told[hit] = before or bool(self._hit_is_told[hit]), True
+            if before:
+                said[i] = replace(verdict, corrects=True)
+        return tuple(said)
+
+
+def _last_words(said: list[Judgement]) -> list[Judgement]:
+    """The judgements of `said` that no later one replaces."""
+    notes: set[int | None] = set()
+    hits: set[int | None] = set()
+    last = []
+    for verdict in reversed(said):
+        note, hit = verdict.note_index, verdict.hit_index
+        if (hit is not None and hit not in hits) or (hit is None and note not in notes):
+            last.append(verdict)
+        notes.add(note)
+        hits.add(hit)
+    return last[::-1]

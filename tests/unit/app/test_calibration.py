@@ -1,0 +1,201 @@
+"""Latency measured from the window: the engine rests meanwhile, and nothing is stored before the user says so."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from station.app.calibration import LOOPBACK, STRIKE, TAP, Calibration, Failed, MeasuringProcess, Told
+from station.app.calibration_results import CalibrationResult, CalibrationResults
+from station.app.latency_methods import MeasureRequest
+from station.app.model import FreeRequest
+from station.core.errors import DeviceError
+from station.core.events import DeviceFound
+from station.core.measured_latency import load_calibration
+from station.core.pieces import Piece
+from station.core.settings import Settings
+from station.engine.latency_measurement import Devices
+from station.engine.messages import Ready
+from station.sound.calibration.latency_estimate import LatencyEstimate
+from tests.unit.app.test_practice_room import WISH, Line, room_on
+
+GOOD = LatencyEstimate(4.0, 3.5, 4.5, 0.8, 20)
+POOR = GOOD.doubted("it scatters")
+
+
+class Measurement:
+    """A measurement that says what it is given to say."""
+
+    def __init__(self, *says: Told) -> None:
+        self.says = list(says)
+        self.ended = False
+
+    def told(self) -> list[Told]:
+        said, self.says = self.says, []
+        return said
+
+    def end(self) -> None:
+        self.ended = True
+
+
+def desk_over(measurement: Measurement, path: Path) -> tuple[Calibration, list[str]]:
+    done: list[str] = []
+    desk = Calibration(resting(done), lambda: done.append("wake"), lambda _: measurement, path)
+    return desk, done
+
+
+def resting(done: list[str]) -> Callable[[], Callable[[], bool]]:
+    """An engine that rests at once."""
+
+    def rest() -> Callable[[], bool]:
+        done.append("rest")
+        return lambda: True
+
+    return rest
+
+
+def wish_by(by: str) -> MeasureRequest:
+    return MeasureRequest.of(Settings(), by)
+
+
+def test_the_engine_rests_while_it_is_measured_and_nothing_is_stored_unasked(tmp_path: Path) -> None:
+    path = tmp_path / "calibration.toml"
+    measurement = Measurement("chirps, 1 of 3")
+    desk, done = desk_over(measurement, path)
+    desk.measure(wish_by(LOOPBACK))
+    desk.advance()
+    assert (desk.runs, desk.lines, done) == (True, ["chirps, 1 of 3"], ["rest"])
+    with pytest.raises(DeviceError, match="being measured"):
+        desk.refuse()
+    measurement.says = [
+        "chirps, 2 of 3",
+        CalibrationResults(Devices(output="card"), (CalibrationResult("output", "card", GOOD),)),
+    ]
+    desk.advance()
+    assert (desk.runs, done, measurement.ended) == (False, ["rest", "wake"], True)
+    assert desk.trusted
+    assert not path.exists()
+    assert desk.keep() == f"kept in {path}"
+    assert load_calibration(path).outputs["card"].latency_ms == 4.0
+    assert desk.findings is None
+
+
+def test_what_measures_waits_until_the_engine_has_let_its_devices_go(tmp_path: Path) -> None:
+    are_free, begun = [False], list[str]()
+
+    def start(wish: MeasureRequest) -> Measurement:
+        begun.append(wish.by)
+        return Measurement()
+
+    desk = Calibration(lambda: lambda: are_free[0], lambda: begun.append("wake"), start, tmp_path / "c.toml")
+    desk.measure(wish_by(TAP))
+    desk.advance()
+    assert (desk.runs, begun) == (True, [])
+    are_free[0] = True
+    desk.advance()
+    assert (desk.runs, begun) == (True, ["tap"])
+    desk.cancel()
+    are_free[0] = False
+    desk.measure(wish_by(TAP))
+    desk.cancel()
+    desk.advance()
+    assert (desk.runs, begun) == (False, ["tap", "wake", "wake"])
+
+
+def test_a_window_that_closes_ends_the_measurement_and_wakes_nothing(tmp_path: Path) -> None:
+    measurement = Measurement("chirps, 1 of 3")
+    desk, done = desk_over(measurement, tmp_path / "calibration.toml")
+    desk.measure(wish_by(LOOPBACK))
+    desk.close()
+    assert (measurement.ended, desk.runs, done) == (True, False, ["rest"])
+    desk.close()
+
+
+def test_what_is_in_doubt_is_stored_with_its_doubts_and_a_doubtful_pad_not_at_all(tmp_path: Path) -> None:
+    rows = (
+        CalibrationResult("kit", "TD-17", POOR),
+        CalibrationResult("pad", "TD-17", GOOD, Piece.SNARE),
+        CalibrationResult("pad", "TD-17", POOR, Piece.KICK),
+    )
+    desk, _ = desk_over(Measurement(CalibrationResults(Devices(kit="TD-17"), rows)), tmp_path / "calibration.toml")
+    desk.measure(wish_by(STRIKE))
+    desk.advance()
+    assert not desk.trusted
+    desk.keep()
+    kept = load_calibration(tmp_path / "calibration.toml").kits["TD-17"]
+    assert (kept.kit.doubts, kept.kit.by) == ("it scatters", "strike")
+    assert list(kept.pads) == [Piece.SNARE]
+
+
+def test_a_failure_is_one_line_and_the_engine_wakes(tmp_path: Path) -> None:
+    desk, done = desk_over(Measurement(Failed("no kit is plugged in")), tmp_path / "calibration.toml")
+    desk.measure(wish_by(TAP))
+    desk.advance()
+    assert (desk.fault, desk.runs, done) == ("no kit is plugged in", False, ["rest", "wake"])
+    assert desk.worth == []
+
+
+def test_a_measurement_can_be_cancelled_and_forgotten(tmp_path: Path) -> None:
+    measurement = Measurement("strike one pad")
+    desk, done = desk_over(measurement, tmp_path / "calibration.toml")
+    desk.measure(wish_by(TAP))
+    desk.advance()
+    desk.cancel()
+    assert (measurement.ended, desk.runs, done) == (True, False, ["rest", "wake"])
+    desk.drop()
+    assert (desk.lines, desk.findings) == ([], None)
+
+
+def test_a_process_that_dies_has_failed() -> None:
+    """No way of that name is known: the child ends without a word."""
+    process = MeasuringProcess(wish_by("no such way"))
+    said: list[Told] = []
+    while not said:
+        said = process.told()
+    process.end()
+    assert said == [Failed("the measurement ended without a result")]
+
+
+def test_the_room_lets_its_devices_go_and_takes_them_again(tmp_path: Path) -> None:
+    first, second = Line(), Line()
+    room = room_on([first, second], tmp_path)
+    measurement = Measurement("strike one pad")
+    room.calibration.start = lambda _: measurement
+    first.says += [Ready("Speakers", 48_000), DeviceFound(0, "TD-17")]
+    room.snapshot(1)
+    assert (room.room().kit, room.desk.devices) == ("TD-17", ["TD-17"])
+    room.measure(TAP, 0.0)
+    while not first.dead:  # on a thread: no frame waits for it
+        room.snapshot(1)
+    assert (room.room().kit, room.desk.devices) == ("", [])
+    room.snapshot(2)
+    with pytest.raises(DeviceError, match="being measured"):
+        room.start(WISH)
+    with pytest.raises(DeviceError, match="being measured"):
+        room.just_play(FreeRequest(90.0))
+    with pytest.raises(DeviceError, match="being measured"):
+        room.measure(TAP, 0.0)
+    measurement.says.append(Failed("no kit"))
+    while room.calibration.runs:
+        room.snapshot(3)
+    second.says += [Ready("Speakers", 48_000), DeviceFound(4, "TD-17")]
+    room.snapshot(5)
+    assert (room.room().kit, room.room().sound) == ("TD-17", "Speakers")
+
+
+def test_nothing_is_measured_while_somebody_plays(tmp_path: Path) -> None:
+    room = room_on([Line()], tmp_path)
+    room.start(WISH)
+    with pytest.raises(DeviceError, match="end the session first"):
+        room.measure(TAP, 0.0)
+
+
+def test_a_measurement_that_cannot_begin_lets_the_engine_wake(tmp_path: Path) -> None:
+    def start(_: MeasureRequest) -> Measurement:
+        raise DeviceError("nothing can be measured: too many processes")
+
+    done: list[str] = []
+    desk = Calibration(resting(done), lambda: done.append("wake"), start, tmp_path / "c.toml")
+    with pytest.raises(DeviceError, match="too many processes"):
+        desk.measure(wish_by(TAP))
+    assert (desk.runs, done) == (False, ["rest", "wake"])

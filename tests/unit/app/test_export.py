@@ -1,0 +1,160 @@
+"""What is taken along from a lesson; a small program stands in for the one that films."""
+
+import sys
+import time
+from argparse import ArgumentParser
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from station.app.export import LOOP, Export
+from station.app.view_settings import ViewSettings
+from station.cli.animate import add_options
+from station.core.errors import DeviceError
+from station.core.settings import Settings
+from station.drills.lesson_writer import first_difference
+from station.drills.library import find_lesson
+from station.gui.panels.export_panel import film_words
+from station.music.formats.smf.standard_midi import read_midi
+from station.render.camera import NamedView
+
+ROCK = find_lesson("rock-1")
+PATIENCE_S = 60.0
+FILMS = "import sys; words = sys.argv; open(words[words.index('--out') + 1], 'w').write(' '.join(words[4:]))"
+FAILS = "import sys; sys.exit('no graphics\\nno OpenGL: install it')"
+WAITS = """
+import pathlib, sys, time
+pathlib.Path(sys.argv[sys.argv.index('--out') + 1]).write_text('half')
+time.sleep(600)
+"""
+
+HELPER = """
+import pathlib, sys, time
+path = pathlib.Path(sys.argv[1])
+path.touch()
+while path.exists():
+    time.sleep(0.01)
+"""
+HELPED = "import subprocess, sys, time; subprocess.Popen([sys.executable, '-c', *sys.argv[1:3]]); time.sleep(600)"
+
+
+def settings(folder: Path) -> Settings:
+    return Settings(sessions=str(folder), student="Ann")
+
+
+def ended(files: Export) -> str | None:
+    assert files.process is not None
+    files.process.wait(PATIENCE_S)
+    return files.news()
+
+
+def test_bars_as_midi(tmp_path: Path) -> None:
+    """The first bar of Rock 1: eight hi-hats, two kicks, two snares."""
+    path = Export().midi(ROCK, (0, 0), settings(tmp_path))
+    assert path == tmp_path / "Ann" / "take-along" / "rock-1_1-1.mid"
+    assert sum(len(track.notes) for track in read_midi(path).tracks) == 12
+
+
+def test_a_lesson_file_is_the_lesson_with_those_bars_as_its_loop(tmp_path: Path) -> None:
+    path = Export().lesson(ROCK, (1, 1), settings(tmp_path))
+    read = find_lesson(str(path))
+    assert read.loop == (1, 1)
+    assert first_difference(read.score, ROCK.score) == ""
+
+
+def test_a_video_is_filmed_by_another_process_and_told_of_once(tmp_path: Path) -> None:
+    files = Export((sys.executable, "-c", FILMS))
+    files.film(ROCK, (0, 1), settings(tmp_path), ("--quality", "low"))
+    path = tmp_path / "Ann" / "take-along" / "rock-1_1-2.mp4"
+    assert ended(files) == f"kept in {path}"
+    assert path.read_text() == "--start-bar 1 --end-bar 2 --click --quality low"
+    assert (files.news(), files.path) == (None, None)
+
+
+def test_a_take_is_filmed_beside_its_capture(tmp_path: Path) -> None:
+    files = Export((sys.executable, "-c", FILMS))
+    (tmp_path / "session.capture").write_bytes(b"")
+    files.film_take(tmp_path / "session.capture", ("--quality", "low"))
+    with pytest.raises(DeviceError, match="one video at a time"):
+        files.film_take(tmp_path / "session.capture")
+    assert ended(files) == f"kept in {tmp_path / 'session.mp4'}"
+    assert (tmp_path / "session.mp4").read_text() == "--quality low"
+
+
+def test_it_is_filmed_as_it_is_seen() -> None:
+    """Every word is one that the command knows."""
+    look = ViewSettings(view=NamedView.EYES, mirrored=True)
+    words = film_words(look, replace(Settings(), hands="left"))
+    parser = ArgumentParser()
+    add_options(parser)
+    read = parser.parse_args(["rock-1", "--out", "x.mp4", *words])
+    assert (read.view, read.mirror, read.hands, read.style, read.quality) == ("eyes", True, "left", "natural", "low")
+
+
+def test_a_video_that_fails_says_why_in_one_line(tmp_path: Path) -> None:
+    files = Export((sys.executable, "-c", FAILS))
+    files.film(ROCK, (0, 1), settings(tmp_path))
+    assert ended(files) == "no video: no OpenGL: install it"
+
+
+def test_a_program_that_is_not_there_is_said(tmp_path: Path) -> None:
+    files = Export(("no-such-program",))
+    with pytest.raises(DeviceError, match="no video can be made"):
+        files.film(ROCK, (0, 1), settings(tmp_path))
+    assert files.path is None
+
+
+def test_one_video_at_a_time_and_cancelled_it_is_gone(tmp_path: Path) -> None:
+    files = Export((sys.executable, "-c", WAITS))
+    files.film(ROCK, (0, 1), settings(tmp_path))
+    with pytest.raises(DeviceError, match="one video at a time"):
+        files.film(ROCK, (0, 1), settings(tmp_path))
+    files.cancel()
+    assert (files.process, files.path, files.news()) == (None, None, None)
+    assert list((tmp_path / "Ann" / "take-along").iterdir()) == []
+    files.cancel()
+
+
+def test_cancelling_does_not_wait_for_who_helps_to_draw(tmp_path: Path) -> None:
+    """A helper holds what the film says its errors to, and ends only when this test is over."""
+    helper = tmp_path / "helper"
+    files = Export((sys.executable, "-c", HELPED, HELPER, str(helper)))
+    files.film(ROCK, (0, 1), settings(tmp_path))
+    try:
+        while not helper.exists():
+            time.sleep(0.01)
+        files.cancel()
+        assert (files.process, files.path) == (None, None)
+    finally:
+        helper.unlink()
+
+
+def test_a_film_that_says_more_than_a_pipe_holds_ends(tmp_path: Path) -> None:
+    files = Export((sys.executable, "-c", "import sys; sys.exit('x' * 10**6 + '\\nthe end')"))
+    files.film(ROCK, (0, 1), settings(tmp_path))
+    assert ended(files) == "no video: the end"
+
+
+def test_a_video_whose_place_is_taken_is_not_kept_elsewhere(tmp_path: Path) -> None:
+    files = Export((sys.executable, "-c", FILMS))
+    place = tmp_path / "Ann" / "take-along" / "rock-1_1-2.mp4"
+    place.mkdir(parents=True)
+    files.film(ROCK, (0, 1), settings(tmp_path))
+    assert ended(files) == f"no video: {place}: cannot be written: it is no plain file"
+    assert list(place.iterdir()) == []
+
+
+def test_a_gif_is_filmed_without_a_click(tmp_path: Path) -> None:
+    files = Export((sys.executable, "-c", FILMS, "animate"))
+    files.film(ROCK, (0, 1), settings(tmp_path), ending=LOOP)
+    told = ended(files)
+    path = tmp_path / "Ann" / "take-along" / "rock-1_1-2.gif"
+    assert told == f"kept in {path}"
+    assert "--click" not in path.read_text()
+
+
+def test_the_bars_as_a_sheet(tmp_path: Path) -> None:
+    path = Export().sheet(ROCK, (1, 1), settings(tmp_path))
+    assert path == tmp_path / "Ann" / "take-along" / "rock-1_2-2.pdf"
+    assert path.read_bytes().startswith(b"%PDF-")

@@ -1,0 +1,53 @@
+"""`station sheet`: the file, which bars, what is refused."""
+
+import os
+import sys
+from pathlib import Path
+
+import pytest
+
+from station.cli.command_line import main
+from station.drills.library import find_lesson
+from station.scenes.sheets import words_of_lesson
+from tests.unit.cli.test_cli import refused
+
+UNTITLED = bytes.fromhex("4d546864 00000006 0000 0001 01e0  4d54726b 0000000d 00 992640 8360 892640 00 ff2f00")
+"""A MIDI file of one stroke on the snare, a beat long."""
+
+
+def test_a_lesson_on_paper(tmp_path: Path) -> None:
+    small, whole = tmp_path / "a.pdf", tmp_path / "b.pdf"
+    assert main(["sheet", "rock-1", "--out", str(whole)]) == 0
+    assert main(["sheet", "rock-1", "--out", str(small), "--end-bar", "1", "--paper", "letter", "--no-sticking"]) == 0
+    assert b"[0 0 595.28 841.89]" in whole.read_bytes()
+    assert b"[0 0 612 792]" in small.read_bytes()
+    assert len(small.read_bytes()) < len(whole.read_bytes())
+
+
+def test_the_words_are_the_lesson_s() -> None:
+    words = words_of_lesson(find_lesson("six-eight-fill-1"), (0, 3))
+    assert (words.author, words.beats_a_minute, words.repeat) == ("The drum station", 50.0, (0, 3))
+    assert words.sections == ((0, "groove"), (3, "fill"))
+    part = words_of_lesson(find_lesson("six-eight-fill-1"), (2, 3))
+    assert (part.sections, part.repeat, part.first_bar) == (((1, "fill"),), None, 3), "not all of the loop is there"
+    assert words_of_lesson(find_lesson("jazz-ride-1"), (0, 1)).feel == "swing 2 : 1"
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere names of files are Unicode")
+def test_a_file_may_have_a_name_that_is_no_text(tmp_path: Path) -> None:
+    path = tmp_path / os.fsdecode(b"caf\xe9.mid")  # Latin-1's
+    path.write_bytes(UNTITLED)
+    assert main(["sheet", str(path), "--out", str(tmp_path / "x.pdf")]) == 0
+    assert "caf?".encode("utf-16-be").hex().encode() in (tmp_path / "x.pdf").read_bytes()
+
+
+def test_what_cannot_be_is_refused_in_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    def said(name: str, *words: str) -> str:
+        return refused(capsys, "sheet", "rock-1", "--out", str(tmp_path / name), *words)
+
+    assert "expected a name that ends in .pdf" in said("x.png")
+    assert "expected bars within 1-2" in said("x.pdf", "--start-bar", "3")
+    assert "expected bars within 1-2" in said("x.pdf", "--start-bar", "2", "--end-bar", "1")
+    assert "expected bars within 1-2" in said("x.pdf", "--end-bar", "0")
+    assert "no such choice" in said("x.pdf", "--paper", "a3")
+    assert list(tmp_path.iterdir()) == []

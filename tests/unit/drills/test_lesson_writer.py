@@ -1,0 +1,149 @@
+"""Written lessons, letter by letter as a teacher would write them, and read back."""
+
+import numpy as np
+import pytest
+
+from station.core.errors import BadInput
+from station.core.pieces import Articulation, Limb, Ornament, Piece, Zone
+from station.drills.lesson_file import parse_lesson
+from station.drills.lesson_writer import first_difference, note_length, quoted, write_lesson
+from station.drills.library import find_lesson, lesson_names
+from station.drills.quantise import lesson_of
+from station.music.score import Note, Score
+from station.music.tempo import TempoMap
+from tests.unit.drills.reading import QUARTER, SIXTEENTH, TRIPLET, WHOLE, read
+
+
+def grid_of(grid: str, head: str = "tempo_bpm = 60") -> list[str]:
+    """The lines below [grid] that a lesson of this grid is written with."""
+    text = write_lesson(read(grid, head))
+    return text.split("[grid]\n")[1].splitlines()
+
+
+def test_lines_are_aligned_under_the_count() -> None:
+    assert grid_of('kick="o--- | ----"\nhihat="x-xxx-x- | x-x-x-xx"\nhihat_pedal = "x---|-x--"') == [
+        "#                1& 2& 3& 4&   1& 2& 3& 4&",
+        'hihat       = "| x- xx x- x- | x- x- x- xx |"',
+        'kick        = "| o- -- -- -- | -- -- -- -- |"',
+        'hihat_pedal = "| x- -- -- -- | -- x- -- -- |"',
+    ]
+
+
+def test_the_simplest_cells_are_chosen() -> None:
+    assert grid_of('snare = "o---o---o---o---"') == ["#          1 2 3 4", 'snare = "| o o o o |"']
+    assert grid_of('snare = "ooo ooo ooo ooo"')[1] == 'snare = "| ooo ooo ooo ooo |"'
+
+
+def test_mixed_beats_are_written_with_parentheses() -> None:
+    assert grid_of('snare = "oooo (ooo) oo-- o---"') == [
+        "#          1e&a  2ta  3e&a 4e&a",
+        'snare = "| oooo (ooo) oo-- o--- |"',
+    ]
+
+
+def test_lines_that_no_cells_suit_together_are_cut_apart() -> None:
+    lines = grid_of('snare = "ooo ooo ooo ooo"\nkick = "oooo oooo oooo oooo"\ncrash = "(xxxxx) - - -"')
+    assert not lines[0].startswith("#")
+    assert lines[1] == 'snare = "| ooo ooo ooo ooo |"'
+    assert lines[2] == 'kick  = "| oooo oooo oooo oooo |"'
+
+
+def test_a_bar_like_the_one_before_it_is_a_percent() -> None:
+    assert grid_of('snare = "oo-- | oo-- | oo-o"')[1] == 'snare = "| o o - - | %       | o o - o |"'
+
+
+def test_ornaments_go_back_to_their_letters() -> None:
+    grid = 'snare    = "| fgdO ttTb ~~~r BxX- |"'
+    assert grid_of(grid)[1] == grid.replace("snare    =", "snare =")
+
+
+def test_hands_go_back_to_the_sticking_line() -> None:
+    lines = grid_of('snare = "oo--"\nride = "-xx-"\nsticking = "LBR-"')
+    assert lines[-1] == 'sticking = "| L B R - |"'
+
+
+def test_hands_that_a_sticking_line_cannot_say_go_to_limb_tables() -> None:
+    lines = grid_of('left_hand.hihat = "xx--"\nright_hand.snare = "oo--"')
+    assert lines[1:] == ['left_hand.hihat  = "| x x - - |"', 'right_hand.snare = "| o o - - |"']
+
+
+def test_swung_music_is_written_straight() -> None:
+    lines = grid_of('snare = "oo -o oo --"', "swing_ratio = 2.0")
+    assert lines == ["#          1& 2& 3& 4&", 'snare = "| oo -o oo -- |"']
+    assert grid_of('snare = "ooo --- --- ---"', "swing_ratio = 2.0")[1] == 'snare = "| ooo --- --- --- |"'
+
+
+def test_chokes_and_rolls_over_the_bar_line() -> None:
+    assert grid_of('crash = "---x | #---"\nsnare = "---b | ~---"')[1:] == [
+        'crash = "| - - - x | # - - - |"',
+        'snare = "| - - - b | ~ - - - |"',
+    ]
+
+
+@pytest.mark.parametrize("name", lesson_names())
+def test_every_shipped_lesson_is_written_and_read_alike(name: str) -> None:
+    lesson = find_lesson(name)
+    again = parse_lesson(write_lesson(lesson), name, name).lesson
+    assert again
+    assert first_difference(lesson.score, again.score) == ""
+    for field in ("title", "author", "level", "about", "tags", "kit", "loop", "passes", "count_in_bars", "goals"):
+        assert getattr(again, field) == getattr(lesson, field)
+    for field in ("demonstrations", "swing", "beat_ticks", "sections", "tempo_bpm", "meter"):
+        assert getattr(again, field) == getattr(lesson, field)
+
+
+def test_awkward_texts_survive() -> None:
+    about = 'Say "one" \\ two\n"""three"""\n\tfour\x01'
+    lesson = read('snare = "o"')
+    from dataclasses import replace
+
+    changed = replace(lesson, title='A "title" \\ é', about=about, tags=('a"b',))
+    again = parse_lesson(write_lesson(changed), "x", "x").lesson
+    assert again
+    assert (again.title, again.about, again.tags) == ('A "title" \\ é', about, ('a"b',))
+
+
+SNARE = Note(0, Piece.SNARE)
+
+
+@pytest.mark.parametrize(
+    ("notes", "words"),
+    [
+        ([Note(TRIPLET // 11, Piece.SNARE)], "bar 1: strokes lie between the cells"),
+        ([Note(WHOLE, Piece.SNARE, Zone.BELL)], "bar 2: no letter of the grid plays this stroke"),
+        ([Note(0, Piece.SNARE, velocity=81)], "bar 1, beat 1, snare: velocity 81 became 80"),
+        ([Note(0, Piece.SNARE, lead_ms=20, ornament=Ornament.FLAM), SNARE], "a grace stroke 20 ms before its note"),
+        ([Note(0, Piece.SNARE, ornament=Ornament.DIDDLE)], "a diddle of one stroke"),
+        ([Note(0, Piece.KICK)], "kick: limb -1 became 2"),
+        ([SNARE, Note(0, Piece.TOM_1), Note(0, Piece.TOM_2)], "3 hands needed at once"),
+        ([], "nothing to play"),
+    ],
+)
+def test_what_the_grid_cannot_say_is_named(notes: list[Note], words: str) -> None:
+    score = Score.from_notes(notes, TempoMap.constant(60))
+    with pytest.raises(BadInput, match=words):
+        write_lesson(lesson_of(score, "x", "x"))
+
+
+def test_no_word_is_lost_between_equal_scores() -> None:
+    a = Score.from_notes([SNARE, Note(SIXTEENTH, Piece.HIHAT, Zone.BOW, openness=0.0)], TempoMap.constant(60))
+    b = Score.from_array(a.notes.copy(), a.tempo_map)
+    assert first_difference(a, b) == ""
+    rows = a.notes.copy()
+    rows["openness"][1] = np.nan
+    assert "openness 0.0 became nan" in first_difference(a, Score.from_array(rows, a.tempo_map))
+    assert "2 strokes became 1" in first_difference(a, Score.from_array(rows[:1], a.tempo_map))
+    assert "tempo" in first_difference(a, Score.from_array(rows, TempoMap.constant(61)))
+
+
+def test_note_lengths() -> None:
+    assert [note_length(t) for t in (QUARTER, QUARTER // 2, QUARTER * 3 // 2, WHOLE)] == ["1/4", "1/8", "3/8", "1/1"]
+
+
+def test_quotes() -> None:
+    assert quoted('a"b\\c\n\x07') == '"a\\"b\\\\c\\n\\u0007"'
+
+
+def test_a_buzz_by_a_named_hand() -> None:
+    found = read('snare = "b~"\nsticking = "R-"').score[0]
+    assert (found.limb, found.articulation) == (Limb.RIGHT_HAND, Articulation.BUZZ)

@@ -1,0 +1,160 @@
+"""The demonstrator in the session's pictures: what another style, lane or leading hand changes at once.
+
+A drummer made from nothing for the demonstrated bars says where the sticks must be.
+"""
+
+import subprocess
+import sys
+from collections.abc import Iterator
+from threading import Event
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from station.core.settings import Settings
+from station.core.units import NS_PER_S
+from station.drills.library import find_lesson
+from station.engine.messages import Started
+from station.motion.drummer import Drummer
+from station.motion.sticking.hand_notes import Hands
+from station.motion.style.style import Style
+from station.practice.session.plan import Phase, Plan, PlanOptions, plan_practice
+from station.practice.session.session import Session
+from station.scenes.demonstrator import Demonstrator, kept_demonstrator
+from station.scenes.session_part import AHEAD
+from station.scenes.session_scene import SessionView
+
+PLAN = plan_practice(find_lesson("rock-2"), PlanOptions(loops=2, demonstrations=1))
+LARGE = Style(amplitude_gain=90.0, amplitude_neck=90.0)
+AT_S = (0.31, 0.77, 1.9)
+"""Places of the demonstration, away from its first stroke."""
+
+
+def tips(view: SessionView, plan: Plan, start_ns: int) -> NDArray[np.float64]:
+    """Where the sticks' tips are `AT_S` after a place of the transport."""
+    found = []
+    for at_s in AT_S:
+        now_ns = start_ns + round(at_s * NS_PER_S)
+        session = Session(plan)
+        session.handle(Started(0, None))
+        session.advance(now_ns)
+        pose = view.snapshot(session, now_ns).pose
+        assert pose is not None
+        found.append(pose.tip_m)
+    return np.array(found)
+
+
+def expected(plan: Plan, style: Style) -> NDArray[np.float64]:
+    drummer = Drummer(plan.section, plan.kit, style=style)
+    return np.array([drummer.pose(at_s).tip_m for at_s in AT_S])
+
+
+def start_of(plan: Plan, phase: Phase, index: int = 0) -> int:
+    return next(s.start_ns for s in plan.segments if s.phase is phase and s.index == index)
+
+
+def test_another_style_moves_the_demonstrator_from_the_next_picture_on() -> None:
+    view = SessionView(PLAN)
+    start_ns = start_of(PLAN, Phase.DEMONSTRATION)
+    assert tips(view, PLAN, start_ns) == pytest.approx(expected(PLAN, Style()), abs=1e-9)
+    view.move_as(LARGE)
+    assert tips(view, PLAN, start_ns) == pytest.approx(expected(PLAN, LARGE), abs=1e-9)
+    view.move_as(Style())
+    assert tips(view, PLAN, start_ns) == pytest.approx(expected(PLAN, Style()), abs=1e-9)
+    assert tips(SessionView(PLAN, Demonstrator(style=LARGE)), PLAN, start_ns) == pytest.approx(expected(PLAN, LARGE))
+
+
+def test_lanes_count_the_lesson_s_bars_in_every_pass_and_in_a_section() -> None:
+    """Bar 2 alone is practised, twice: the lane's bar 2 is what is seen, in the second pass too."""
+    lane = {"amplitude_gain": ((1.0, 10.0), (2.0, 10.0), (2.01, 95.0), (3.0, 95.0))}
+    style = Style(automation=lane)
+    plan = plan_practice(find_lesson("rock-2"), PlanOptions(loops=2, demonstrations=1, bars=(2, 2)))
+    view = SessionView(plan, Demonstrator(style=style))
+    large = expected(plan, Style(amplitude_gain=95.0))
+    assert np.abs(large - expected(plan, Style(amplitude_gain=10.0))).max() > 0.05
+    demonstrated = tips(view, plan, start_of(plan, Phase.DEMONSTRATION))
+    assert demonstrated == pytest.approx(large, abs=0.02)
+    again = tips(view, plan, start_of(plan, Phase.PASS, 1))
+    assert again == pytest.approx(large, abs=0.05), "the pass before it ends in a preparation of its own"
+
+
+def test_the_kit_is_the_plan_s_for_the_hand_that_leads() -> None:
+    plan = plan_practice(find_lesson("rock-2"), PlanOptions(loops=1, demonstrations=1, hands=Hands.LEFT))
+    view = SessionView(plan)
+    kit = view.snapshot(Session(plan), 0).kit
+    assert kit.left_handed
+    assert kit == PLAN.kit.mirrored
+    right = tips(SessionView(PLAN), PLAN, start_of(PLAN, Phase.DEMONSTRATION))
+    left = tips(view, plan, start_of(plan, Phase.DEMONSTRATION))
+    mirrored = right[:, ::-1] * np.array([-1.0, 1.0, 1.0])
+    assert left == pytest.approx(mirrored, abs=0.02)
+
+
+def test_hands_that_stay_hold_what_they_held_while_sliders_move_on() -> None:
+    view = SessionView(PLAN)
+    for gain in (80.0, 90.0):
+        view.move_as(Style(amplitude_gain=gain, grip_left="traditional", held="brush"), hands_stay=True)
+        assert (view.style.amplitude_gain, view.style.grip_left, view.style.held) == (gain, "american", "stick")
+    view.move_as(Style(held="brush"))
+    assert view.style.held == "brush"
+
+
+def test_a_style_that_is_gone_is_told_and_the_rest_is_kept() -> None:
+    told: list[str] = []
+    who = kept_demonstrator(Settings(style="/gone/mine.toml", figure="tall", hands="left"), told.append)
+    assert who.style == Style()
+    assert who.figure.stature_m == 1.90
+    assert len(told) == 1
+    assert "mine.toml" in told[0]
+
+
+# --- made ahead -------------------------------------------------------------------------------------------------------
+
+
+def began(plan: Plan, now_ns: int) -> Session:
+    session = Session(plan)
+    session.handle(Started(0, None))
+    session.advance(now_ns)
+    return session
+
+
+@pytest.fixture
+def gate() -> Iterator[Event]:
+    """Opened at the end in any case: the thread that waits for it would keep the process."""
+    closed = Event()
+    yield closed
+    closed.set()
+
+
+def test_until_a_drummer_is_made_ahead_the_one_before_sits_there_and_nobody_waits(gate: Event) -> None:
+    """The thread that makes him does nothing before the gate is opened."""
+    before = SessionView(PLAN)
+    sits = before.snapshot(Session(PLAN), 0).pose
+    AHEAD.submit(gate.wait)
+    try:
+        view, session = SessionView(PLAN, before=before), began(PLAN, 5 * NS_PER_S)
+        view.make_ahead()
+        meanwhile = view.snapshot(session, 5 * NS_PER_S).pose
+        shown = view.graphed(session)
+    finally:
+        gate.set()
+    assert sits is not None
+    assert meanwhile is not None
+    assert np.array_equal(meanwhile.row, sits.row)
+    assert shown is None
+    AHEAD.submit(gate.wait).result()
+    assert tips(view, PLAN, start_of(PLAN, Phase.DEMONSTRATION)) == pytest.approx(expected(PLAN, Style()), abs=1e-9)
+
+
+def test_a_program_that_ends_waits_for_no_drummer() -> None:
+    """One that is never made would keep a program for ever whose end waits for its threads."""
+    words = "from threading import Event; from station.scenes.session_part import AHEAD; AHEAD.submit(Event().wait)"
+    subprocess.run([sys.executable, "-c", words], check=True, timeout=60)
+
+
+def test_the_stickings_that_are_shown_are_those_of_the_drummer() -> None:
+    view = SessionView(PLAN)
+    shown = view.snapshot(began(PLAN, start_of(PLAN, Phase.PASS) + 1), start_of(PLAN, Phase.PASS) + 1).limbs
+    assert shown is not None
+    assert shown.tolist() == PLAN.score.notes["limb"].tolist()
