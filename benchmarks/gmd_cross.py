@@ -1,6 +1,6 @@
 """Drummers against each other: the five grooves that four drummers of the Groove MIDI Dataset played to one click.
 
-    .venv/bin/python benchmarks/gmd_cross.py [--data ../shared/data/gmd] [--out docs/gmd-cross.md] [--show GROOVE A B]
+    .venv/bin/python benchmarks/gmd_cross.py [--data tests/data/gmd] [--out docs/gmd-cross.md] [--show GROOVE A B]
 
 Each drummer's file is the score, as it was played, and each other's file the performance, aligned without a click. The
 truth: a note and a hit belong together that lie on the same slot (the nearest 1/16 or 1/24 of a whole note on the
@@ -31,7 +31,7 @@ from station.scoring.matching.alignment import Alignment
 from station.scoring.matching.match_classes import match_classes
 
 Indices = NDArray[np.int64]
-_DATA = Path("../shared/data/gmd")
+_DATA = Path(__file__).resolve().parents[1] / "tests/data/gmd"
 _CLASSES = match_classes()
 
 

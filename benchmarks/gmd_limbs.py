@@ -70,7 +70,10 @@ def main() -> None:
     """Count and print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", type=Path, default=Path("../shared/data/gmd"))
-    files = sorted(parser.parse_args().data.rglob("*.mid"))
+    data = parser.parse_args().data
+    files = sorted(data.rglob("*.mid"))
+    if not files:
+        parser.error(f"{data}: no MIDI files of the Groove MIDI Dataset in it; --data says where they are")
     total = dict.fromkeys(METHODS, Tally())
     kit, worse = load_kit(), []
     for path in files:

@@ -13,9 +13,9 @@ from station.drills.quantise import fit_score, lesson_of
 from station.music.formats.smf.standard_midi import read_midi, score_from_midi
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
+from tests.real_data import real_files
 from tests.unit.drills.reading import EIGHTH, QUARTER, SIXTEENTH, TRIPLET, WHOLE
 
-DATA = Path(__file__).parents[4] / "shared" / "data"
 TEMPO = TempoMap.constant(120)
 MS = QUARTER // 500
 """Ticks in a millisecond at 120 bpm (to within 0.02 %)."""
@@ -175,8 +175,7 @@ def test_a_bar_cut_where_no_meter_can_is_refused() -> None:
         fit_score(Score.from_notes([snare(0), snare(1001)], tempo_map))
 
 
-@pytest.mark.skipif(not DATA.is_dir(), reason="the folder of real data is not here")
-@pytest.mark.parametrize("path", sorted(DATA.glob("gmd/*/eval_session/*.mid")), ids=lambda p: f"{p.parts[-3]}-{p.stem}")
+@pytest.mark.parametrize("path", real_files("gmd/*/eval_session/*.mid"))
 def test_what_people_played_becomes_a_lesson(path: Path) -> None:
     score = score_from_midi(read_midi(path))
     found = fit_score(score)

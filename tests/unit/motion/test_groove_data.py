@@ -1,4 +1,4 @@
-"""Limbs on the Groove MIDI Dataset that is here, against the thesis' own algorithm and every other choice of hands.
+"""Limbs on recordings of the Groove MIDI Dataset, against the thesis' own algorithm and every other choice of hands.
 
 What is counted here, and the fewest impossible places that any choice leaves, are worked out by code of their own.
 """
@@ -14,7 +14,7 @@ from station.motion.sticking.limbs import METHODS, assign_limbs
 from station.motion.strokes.targets import strike_points
 from station.music.formats.smf.standard_midi import read_midi, score_from_midi
 from station.music.score import Score
-from tests.real_data import real_file, real_files
+from tests.real_data import DATA, real_files
 
 KIT = load_kit("four_piece")
 AT_ONCE_S = (0.005, 0.01, 0.025, 0.05)
@@ -95,9 +95,9 @@ def test_no_hand_is_in_two_places_where_another_way_exists(path: Path) -> None:
 
 
 def test_ours_crosses_and_travels_less_than_smed() -> None:
-    """Over every sixth file."""
+    """Over every third file; `benchmarks/gmd_limbs.py` counts over all."""
     totals = {method: np.zeros(2) for method in METHODS}
-    for path in sorted(real_file("gmd").rglob("*.mid"))[::6]:
+    for path in sorted((DATA / "gmd").rglob("*.mid"))[::3]:
         score = score_from_midi(read_midi(path))
         for method in METHODS:
             totals[method] += crossings_and_travel(score, assign_limbs(score, KIT, method).limbs)

@@ -1,7 +1,5 @@
 """Strokes against the measured one and against the table of heights, for a plain arm."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -10,6 +8,7 @@ from station.motion.kinematics.arm import ArmLengths
 from station.motion.strokes.amplitudes import amplitudes
 from station.motion.strokes.stroke import Sliders, StrokePlan, Strokes
 from station.motion.strokes.stroke_heights import INCH_M, stroke_height_m
+from tests.real_data import DATA
 
 Array = NDArray[np.float64]
 
@@ -17,7 +16,6 @@ LENGTHS = ArmLengths(upper=0.353, fore=0.277, hand=0.163, ahead=0.27, behind=0.1
 CONTACT = np.radians([-20.0, 78.0, 80.0, 92.0])
 """Upper arm, forearm, hand, stick from hanging straight down: a plain posture over a snare."""
 NATURAL = Sliders(np.ones((4, 1)), np.ones((4, 1)), np.ones((1, 1)))
-DATA = Path("../shared/data/stroke")
 
 
 def plan_of(times: list[float], heights: list[float], most: float = np.inf) -> StrokePlan:
@@ -109,9 +107,7 @@ def test_a_cap_holds_whatever_the_sliders_say() -> None:
 
 def measured() -> tuple[Array, Array]:
     """Times and tip heights of the measured stroke, its lowest point at 0."""
-    if not DATA.exists():
-        pytest.skip("../shared/data/stroke is not here")
-    table = [np.genfromtxt(DATA / f"JointCenters_{a}Pose_cm.csv", delimiter=",", skip_header=1) for a in "XY"]
+    table = [np.genfromtxt(DATA / f"stroke/JointCenters_{a}Pose_cm.csv", delimiter=",", skip_header=1) for a in "XY"]
     tip = table[1][:, 5] / 100
     lowest = int(np.nanargmin(tip))
     return table[0][:, 0] - table[0][lowest, 0], tip - tip[lowest]

@@ -11,8 +11,8 @@ import pytest
 from station.scoring.align import align
 from station.scoring.analysis.technique.synchrony import together
 from station.scoring.analysis.technique.wing_kristofferson import WingKristofferson, keeper
-from tests.data.test_assess_gmd import quantised
 from tests.real_data import real_files
+from tests.recordings.test_assess_gmd import quantised
 
 FILES = real_files("gmd/*/eval_session/*.mid")
 

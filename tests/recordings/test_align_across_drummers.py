@@ -7,7 +7,7 @@ plays the time on another piece throughout.
 import pytest
 
 from benchmarks.gmd_cross import compared, f1, read
-from tests.real_data import real_file
+from tests.real_data import DATA
 
 
 @pytest.mark.parametrize(
@@ -24,7 +24,7 @@ from tests.real_data import real_file
     ],
 )
 def test_bars_of_another_drummer_are_found(groove: str, one: int, other: int) -> None:
-    takes = [read(real_file(f"gmd/drummer{n}/eval_session/{groove}_beat_4-4.mid")) for n in (one, other)]
+    takes = [read(DATA / f"gmd/drummer{n}/eval_session/{groove}_beat_4-4.mid") for n in (one, other)]
     alignment, truth, _ = compared(takes[0], takes[1])
     assert len(truth) > 100
     assert f1(alignment, truth) > 0.98

@@ -4,7 +4,6 @@ from dataclasses import replace
 from types import MappingProxyType
 
 import mido
-import pytest
 
 from station.core.events import DeviceEvent, Hit
 from station.core.pieces import TOMS, Piece
@@ -14,8 +13,15 @@ from station.devices.mapping.device_map import Crosstalk, DeviceMap, Foot, Pad
 from station.devices.mapping.presets import preset_named
 from tests.real_data import DATA
 
-_ALL = sorted((DATA / "gmd").rglob("*.mid"))
-TAKES = [*_ALL[::20], *(take for take in _ALL if take.stem == "1_rock_130_beat_4-4")]  # the last tells positions
+TAKES = [
+    DATA / "gmd" / take
+    for take in (
+        "drummer1/eval_session/1_funk-groove1_138_beat_4-4.mid",
+        "drummer2/session2/1_rock_130_beat_4-4.mid",  # tells positions
+        "drummer8/session2/14_afrobeat_103_beat_4-4.mid",
+        "drummer9/session1/13_rock_120_beat_4-4.mid",
+    )
+]
 TD_11 = preset_named("roland-td-11")
 RULES = replace(
     TD_11,
@@ -27,8 +33,6 @@ RULES = replace(
     ),
     foot=Foot(least_travel=0.3),
 )
-
-pytestmark = pytest.mark.skipif(not TAKES, reason="the Groove MIDI Dataset is not here")
 
 
 def told(kit: DeviceMap) -> list[DeviceEvent]:

@@ -10,8 +10,8 @@ import pytest
 
 from station.music.judgement import Label
 from station.scoring.following.follower import Follower
-from tests.data.test_assess_gmd import quantised
 from tests.real_data import real_files
+from tests.recordings.test_assess_gmd import quantised
 
 FILES = real_files("gmd/*/eval_session/*.mid")
 

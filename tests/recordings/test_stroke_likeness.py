@@ -1,4 +1,4 @@
-"""The drummer's full stroke, as it is exported, against the real one that was measured (`data/stroke`, Pearl 2023).
+"""The drummer's full stroke, as it is exported, against the real one that was measured (Pearl 2023).
 
 The measured player is 1.9 m tall and raises the tip by 56 cm at 100 bpm; time zero of the measurement is the tip's
 lowest sample. The peaks' times are those of HUMANS, One real stroke.
@@ -18,7 +18,7 @@ from station.motion.kinematics.figure import figure_of
 from station.motion.style.style import Style
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
-from tests.real_data import real_file
+from tests.real_data import DATA
 
 Array = NDArray[np.float64]
 
@@ -63,8 +63,7 @@ def exported(style: Style, stature_m: float, limb: Limb) -> Stroke:
 def measured() -> tuple[Array, Array]:
     """Times and tip heights of the real stroke."""
     x, y = (
-        np.genfromtxt(real_file(f"stroke/JointCenters_{axis}Pose_cm.csv"), delimiter=",", skip_header=1)
-        for axis in "XY"
+        np.genfromtxt(DATA / f"stroke/JointCenters_{axis}Pose_cm.csv", delimiter=",", skip_header=1) for axis in "XY"
     )
     lowest = int(np.nanargmin(y[:, 5]))
     return x[:, 0] - x[lowest, 0], (y[:, 5] - y[lowest, 5]) / 100
@@ -97,7 +96,6 @@ def test_the_tips_height_over_the_stroke_is_like_the_measured_one(style: Style, 
 def test_elbow_wrist_and_stick_peak_in_this_order_when_the_measured_ones_do(
     style: Style, stature_m: float, limb: Limb
 ) -> None:
-    real_file("stroke")
     ours = exported(style, stature_m, limb)
     peaks = [ours.peak_s(joint) for joint in ("elbow", ours.struck_by, "stick")]
     assert peaks == pytest.approx([-0.062, -0.023, -0.008], abs=0.015)
@@ -106,7 +104,6 @@ def test_elbow_wrist_and_stick_peak_in_this_order_when_the_measured_ones_do(
 
 @CASES
 def test_it_rebounds_with_about_half_its_speed(style: Style, stature_m: float, limb: Limb) -> None:
-    real_file("stroke")
     ours = exported(style, stature_m, limb)
     speed = np.diff(ours.height_m) * RATE_HZ
     falling, rising = -speed[596:600].mean(), speed[600:615].max()
@@ -124,7 +121,6 @@ def test_it_rebounds_with_about_half_its_speed(style: Style, stature_m: float, l
     ],
 )
 def test_from_the_measured_height_the_tip_falls_as_fast_as_the_measured_one(style: Style, limb: Limb) -> None:
-    real_file("stroke")
     ours = exported(style, 1.9, limb)
     assert ours.height_m.max() == pytest.approx(0.56, abs=0.02)
     assert -(np.diff(ours.height_m) * RATE_HZ)[596:600].mean() == pytest.approx(9.4, rel=0.2)
