@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 EXTRAS := $(wildcard benchmarks examples)
 
-.PHONY: practice test check format lint types imports unit setup setup-test bench soak clean help
+.PHONY: practice test check format lint types imports unit setup setup-test oracles bench soak clean help
 
 help:  ## list the targets
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -41,6 +41,9 @@ imports: $(READY)
 
 unit: $(READY)
 	@$(BIN)/python -m pytest -q -n 2 --dist loadgroup
+
+oracles: $(READY)  ## comparisons with files that may not be passed on, read from ORACLES=../shared/data (tests/oracles)
+	@ORACLES=$(or $(ORACLES),../shared/data) $(BIN)/python -m pytest -q -r fE -m oracle tests/oracles
 
 bench: $(READY)  ## the benchmarks, at most five minutes
 	@$(BIN)/station bench
