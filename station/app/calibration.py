@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from station.app.calibration_results import CalibrationResult, CalibrationResults
     from station.app.latency_methods import MeasureRequest
 
-REPORT, LOOPBACK, STRIKE, TAP = "report", "loopback", "strike", "tap"
-"""The ways to measure (docs/calibration.md)."""
 _ENDED = "the measurement ended without a result"
 
 

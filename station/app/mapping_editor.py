@@ -1,9 +1,9 @@
 """The devices page without its picture: the kits that are here, their last strokes and lines, and their rules on trial.
 
-While the page is open the engine tells every byte besides (`WatchRawBytes`). They are understood here once more, by rules
-that may be set by looking; `save` keeps them in the kit's own file and lets the engine take it, so that what counts as
-a stroke changes for sound and judgement only then. What is learnt from strokes, what a pad is and how loud its ghosts
-and accents count, is kept at once, and can be undone.
+While the page is open the engine tells every byte besides (`WatchRawBytes`). They are understood here once more, by
+rules that may be set by looking; `save` keeps them in the kit's own file and lets the engine take it, so that what
+counts as a stroke changes for sound and judgement only then. What is learnt from strokes, what a pad is and how loud
+its ghosts and accents count, is kept at once, and can be undone.
 """
 
 from collections import deque

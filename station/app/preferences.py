@@ -1,7 +1,7 @@
 """How a student likes sessions to go, as the practice panel shows it: what starts and pauses them, what is asked.
 
-Every habit is a setting of the same name; `Preferences` holds them for the room and for the panel alike, and learns what
-shall pause from the kit.
+Every habit is a setting of the same name; `Preferences` holds them for the room and for the panel alike, and learns
+what shall pause from the kit.
 """
 
 from collections.abc import Callable

@@ -11,6 +11,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Measure and print."""
+    from station.bench import rows
     from station.bench.harness.run import main
 
-    return main(as_json=arguments.json, soak=arguments.soak)
+    return main(rows, as_json=arguments.json, soak=arguments.soak)

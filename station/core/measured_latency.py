@@ -20,6 +20,8 @@ from station.core.toml_table import parse_toml
 from station.core.toml_write import toml_text, toml_value
 
 FILE_NAME = "calibration.toml"
+REPORT, LOOPBACK, STRIKE, TAP = "report", "loopback", "strike", "tap"
+"""The ways to measure (docs/calibration.md)."""
 MOST_MS = 1_000.0
 """No latency is greater (our choice: the settings' own bound)."""
 

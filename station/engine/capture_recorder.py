@@ -1,7 +1,7 @@
 """What the engine writes into a capture: numbers the devices, says how each stands when the capture begins.
 
-A `Recorder` belongs to one capture; the engine's `RunningCapture` is there always, and takes what comes while none is open
-for nothing.
+A `Recorder` belongs to one capture; the engine's `RunningCapture` is there always, and takes what comes while none is
+open for nothing.
 """
 
 from collections.abc import Callable, Iterable

@@ -1,4 +1,4 @@
-"""What the engine process opens, and what it is told before anything else."""
+"""What the engine process opens, what it is told before anything else, and how it says that it cannot go on."""
 
 from dataclasses import dataclass
 from typing import Self
@@ -9,6 +9,9 @@ from station.engine.level_words import parse_levels
 from station.engine.messages import Bus, Command, SetLevel, SetMidiOut, SetPiece
 
 _CHOSEN = Settings()
+
+WORN_OUT = 3
+"""The exit status of an engine that ended because only a new process will sound again."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,8 +21,7 @@ from station.devices.mapping.device_file import own_kit
 from station.devices.midi.midi_out import open_midi_output
 from station.engine.card import Card
 from station.engine.engine import Engine
-from station.engine.engine_config import EngineConfig, Prepare
-from station.engine.engine_process import WORN_OUT
+from station.engine.engine_config import WORN_OUT, EngineConfig, Prepare
 from station.engine.engine_step import Runner
 from station.engine.hotplug import Hotplug
 from station.engine.messages import Command, EngineEvent, Notice, Ready

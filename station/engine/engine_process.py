@@ -1,7 +1,7 @@
 """The engine in a process of its own, which renders no picture: stamps and sound never wait for the window.
 
-`station.engine.engine_main` is what runs there. It ends when it is told, or when its parent is gone, however that came about;
-the parent learns of a child's end by the next call of `events` or `send`.
+`station.engine.engine_main` is what runs there. It ends when it is told, or when its parent is gone, however that came
+about; the parent learns of a child's end by the next call of `events` or `send`.
 """
 
 import threading
@@ -19,9 +19,6 @@ from station.engine.messages import Command, EngineEvent, Quit
 
 QUIT_WITHIN_S = 3.0
 """How long the child may take to write its capture and leave before it is ended by force (our choice)."""
-
-WORN_OUT = 3
-"""The exit status of an engine that ended because only a new process will sound again."""
 
 
 class EngineProcess:

@@ -2,8 +2,8 @@
 
 The engine's other half beside `Player`: that one sounds cues by the card's blocks, this one sends them when the engine
 is advanced past their time. Cues are made into bytes only when they are due, so that a long session costs nothing at
-its start. One that lies further back than `station.engine.cue_queue.LATE_NS` is left out, as a sound would be. Where the
-output fails once it is left alone, and its fault is there to be told.
+its start. One that lies further back than `station.engine.cue_queue.LATE_NS` is left out, as a sound would be. Where
+the output fails once it is left alone, and its fault is there to be told.
 """
 
 import heapq

@@ -19,8 +19,8 @@ from station.core.errors import DeviceError
 from station.core.events import DeviceFound, DeviceLost
 from station.core.pieces import Piece
 from station.core.units import NS_PER_S
-from station.engine.engine_config import EngineConfig, Prepare
-from station.engine.engine_process import WORN_OUT, EngineProcess
+from station.engine.engine_config import WORN_OUT, EngineConfig, Prepare
+from station.engine.engine_process import EngineProcess
 from station.engine.messages import (
     Bus,
     CaptureSaved,

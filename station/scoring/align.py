@@ -1,8 +1,8 @@
 """The final alignment of a performance with a score: hits to notes one to one by least cost.
 
-With a click the hits come in score time already; the player's lean must be found (`click_offset`), and the bars that were
-skipped or played again (`warp`). Without one tempo, drift and the place where the recording begins are unknown as well,
-and `free_tempo` says what was due. Both ways end in `settle`, which pairs.
+With a click the hits come in score time already; the player's lean must be found (`click_offset`), and the bars that
+were skipped or played again (`warp`). Without one tempo, drift and the place where the recording begins are unknown as
+well, and `free_tempo` says what was due. Both ways end in `assignment`, which pairs.
 """
 
 from collections.abc import Collection

@@ -1,9 +1,9 @@
 """What a benchmark is: a row of a table, and a function that measures it.
 
-An area of the station is a module of this package with a tuple `BENCHMARKS`; `station.bench.harness.run` finds it by that. Each
-benchmark runs in a process of its own, or of its group's, so it may import, allocate and fail as it likes. It measures
-with real work, in seconds rather than minutes, and times a peer's way of doing the same work beside its own wherever
-there is one.
+An area of the station is a module of this package with a tuple `BENCHMARKS`; `station.bench.harness.run` finds it by
+that. Each benchmark runs in a process of its own, or of its group's, so it may import, allocate and fail as it likes.
+It measures with real work, in seconds rather than minutes, and times a peer's way of doing the same work beside its own
+wherever there is one.
 """
 
 import statistics

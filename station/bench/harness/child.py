@@ -1,4 +1,4 @@
-"""Benchmarks in a process of their own: `python -m station.bench.harness.child MODULE NAME…` prints their results as JSON.
+"""Benchmarks in a process of their own: `python -m station.bench.harness.child MODULE NAME…` prints JSON.
 
 Standard output belongs to the result; whatever else the work prints goes to standard error.
 """

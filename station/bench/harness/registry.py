@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from functools import partial
 from types import ModuleType
 
-import station.bench.rows
 from station.bench.harness.benchmark import Benchmark, Measurement
 
 
@@ -18,7 +17,7 @@ class BenchEntry:
     benchmark: Benchmark
 
 
-def entries(package: ModuleType = station.bench.rows) -> list[BenchEntry]:
+def entries(package: ModuleType) -> list[BenchEntry]:
     """Every benchmark of `package`, module by module in alphabetical order.
 
     A module that cannot be imported is one benchmark that says so: nothing is left out in silence.

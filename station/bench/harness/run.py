@@ -17,7 +17,6 @@ from itertools import groupby
 from types import ModuleType
 from typing import TextIO
 
-import station.bench.rows
 from station.bench.harness.benchmark import Benchmark, Measurement
 from station.bench.harness.registry import BenchEntry, entries
 
@@ -50,9 +49,7 @@ class Result:
         return row | ({"note": self.measured.note} if self.measured.note else {})
 
 
-def main(
-    as_json: bool = False, soak: bool = False, out: TextIO | None = None, package: ModuleType = station.bench.rows
-) -> int:
+def main(package: ModuleType, as_json: bool = False, soak: bool = False, out: TextIO | None = None) -> int:
     """Run everything in `package` (`soak`: the long ones too); print a table, or one JSON document, to `out`.
 
     `out` is standard output if it is not given. The exit status is 0: what is short of its target is no fault.

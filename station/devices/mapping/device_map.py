@@ -1,7 +1,7 @@
 """How one kit is understood: what its notes and controllers mean, and what of it is no stroke.
 
-A module's table (`presets`) says what every kit of its kind sends; a user's own (`device_file`) what this one does. Times
-are nanoseconds, velocities 1–127, openness 0 closed … 1 open.
+A module's table (`presets`) says what every kit of its kind sends; a user's own (`device_file`) what this one does.
+Times are nanoseconds, velocities 1–127, openness 0 closed … 1 open.
 
 Sources of the rules: what users of drum modules and of the open trigger module edrumulus report (issues 109, 111, 112
 and 145 there): crosstalk that arrives before the stroke itself, grabs that fire rim notes, stomps that fire hi-hat

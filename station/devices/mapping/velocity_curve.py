@@ -1,9 +1,9 @@
 """A pad's touch: how loud a stroke counts for the velocity that the pad sent.
 
-Pads answer differently: on one a ghost stroke sends 8, on another 50. A `VelocityCurve` is straight between `softest`, which
-counts as 1, and `loudest`, which counts as 127, and bends in between: t ↦ t^(2^(−2·bend)), t the share of the way from
-softest to loudest. A bend above 0 makes soft strokes count for more, below 0 for less. Five ghosts and five accents
-are enough to find the curve of a pad: their medians then count as what lessons write.
+Pads answer differently: on one a ghost stroke sends 8, on another 50. A `VelocityCurve` is straight between `softest`,
+which counts as 1, and `loudest`, which counts as 127, and bends in between: t ↦ t^(2^(−2·bend)), t the share of the way
+from softest to loudest. A bend above 0 makes soft strokes count for more, below 0 for less. Five ghosts and five
+accents are enough to find the curve of a pad: their medians then count as what lessons write.
 
 Captures hold what the pad sent and the kit's file with the curve, so that a replay gives the same velocities.
 """

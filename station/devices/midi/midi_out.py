@@ -1,7 +1,7 @@
 """MIDI ports that we play to: the score and the demonstration on the student's own module, or any synthesiser.
 
-Opening and closing are kept from a sound callback as those of inputs are (`station.devices.midi.midi_clients`); sending is
-not, for it neither waits nor changes a driver's graph.
+Opening and closing are kept from a sound callback as those of inputs are (`station.devices.midi.midi_clients`); sending
+is not, for it neither waits nor changes a driver's graph.
 """
 
 from collections.abc import Callable

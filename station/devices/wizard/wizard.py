@@ -131,7 +131,8 @@ class Wizard:
             return step.text
         if step.soft and self._done() >= step.firm:
             return f"{step.text}: now as softly as you can, {step.soft} times"
-        return f"{step.text}: {step.firm} {'times' if step.ask is WizardQuestion.GRAB else 'firm single strokes, with a pause'}"
+        how = "times" if step.ask is WizardQuestion.GRAB else "firm single strokes, with a pause"
+        return f"{step.text}: {step.firm} {how}"
 
     def _surety(self, found: ModuleGuess) -> str:
         if found.agreeing >= SURE_OF and not found.differing and not self.over:

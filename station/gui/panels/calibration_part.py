@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING
 
 from imgui_bundle import imgui
 
-from station.app.calibration import LOOPBACK, REPORT, STRIKE, TAP, Calibration
-from station.core.measured_latency import load_calibration
+from station.app.calibration import Calibration
+from station.core.measured_latency import LOOPBACK, REPORT, STRIKE, TAP, load_calibration
 from station.gui import theme
 from station.gui.widgets.flow_row import FlowRow
 

@@ -1,6 +1,7 @@
 """The part of the devices panel where pads are learnt: one hit says which note a pad sends.
 
-A view over `MappingEditor`. While something is learnt it has the panel for itself, in letters that are read from the throne.
+A view over `MappingEditor`. While something is learnt it has the panel for itself, in letters that are read from the
+throne.
 """
 
 from imgui_bundle import imgui

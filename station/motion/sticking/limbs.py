@@ -1,7 +1,8 @@
 """Who plays what: a limb for every stroke of a score.
 
-`station` (the default) chooses the hands that are cheapest together over the whole score (`hand_choice`), `smed` runs the
-five passes of the thesis (`smed_limbs`). Both leave the feet where the pedals are and a written limb as it is written.
+`station` (the default) chooses the hands that are cheapest together over the whole score (`hand_choice`), `smed` runs
+the five passes of the thesis (`smed_limbs`). Both leave the feet where the pedals are and a written limb as it is
+written.
 """
 
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""How far each joint goes, so that the tip rises as high as a stroke needs: shares of the measured stroke (`stroke_template`).
+"""How far each joint goes so that the tip rises as a stroke needs: shares of the measured one (`stroke_template`).
 
 Lower strokes are made by the distal joints, and the second strokes of doubles and a pressed stick's bounces by the
 fingers alone. Radians and metres; joints in the order of `arm.Offsets`.

@@ -44,8 +44,8 @@ class HandPart:
 
     `lies` are the kinds of contact that occur, `which` (n,) the kind of each event, `wrist_m` (n, 3) where the wrist is
     at each, naturally, and `contacts` (n, fields) what its arm is solved from; the plan of its strokes; `bump`
-    (n − 1, 4) how each stretch between two events goes round (`HandPath.of`), and whether it is travelled `early` (n − 1,);
-    how it `gives` (n, 6) way after each event; `show`, where its stick is spun and tossed.
+    (n − 1, 4) how each stretch between two events goes round (`HandPath.of`), and whether it is travelled `early` (n −
+    1,); how it `gives` (n, 6) way after each event; `show`, where its stick is spun and tossed.
     """
 
     limb: Limb

@@ -1,7 +1,7 @@
 """What a session leaves for people and programs: the report as a JSON document and as text.
 
-The document is the assessment of `station.scoring.report.assessment_document` with the session's own facts under `session`, and with a
-virtual student its own account under `truth`. docs/report.md describes it.
+The document is the assessment of `station.scoring.report.assessment_document` with the session's own facts under
+`session`, and with a virtual student its own account under `truth`. docs/report.md describes it.
 """
 
 from collections.abc import Iterable

@@ -2,8 +2,8 @@
 
 With a click the score is where the click is (`click_chase`), without one where the student is (`chase`): his tempo and
 phase are tracked, and the score waits when he stops. Either way he is found again after a skip or a restart, and the
-hits that were judged in the wrong place meanwhile are judged anew (`live_judge`); a judgement that takes an older one back
-says so.
+hits that were judged in the wrong place meanwhile are judged anew (`live_judge`); a judgement that takes an older one
+back says so.
 
 Everything is a function of the hits and their own times alone; frames decide nothing. With a click, notes that nobody
 plays are missed as time passes; without one, as the student passes them, for silence is no mistake of his.

@@ -1,8 +1,8 @@
 """From performance time to score time when tempo and place are unknown: the whole way of a performance through a score.
 
 The beginning is found (`beginning`) and the tempo followed from there, through pauses, restarts and bars that are left
-out or played again (`ways`). What is played without a break is a *stretch*; within it the way is smoothed (`slow_drift`).
-Times are seconds.
+out or played again (`ways`). What is played without a break is a *stretch*; within it the way is smoothed
+(`slow_drift`). Times are seconds.
 """
 
 from dataclasses import dataclass

@@ -1,8 +1,8 @@
 """Judgement windows: how far from its time a stroke still earns what. A table of named levels.
 
 All widths are half widths in real milliseconds, at any practice speed, and inclusive: a stroke exactly on an edge is
-inside. They grade; they never pair hits with notes in the final alignment (`assignment` does, by least cost). Live, a hit
-is taken for a note within `reach_ms`.
+inside. They grade; they never pair hits with notes in the final alignment (`assignment` does, by least cost). Live, a
+hit is taken for a note within `reach_ms`.
 """
 
 from dataclasses import dataclass

@@ -1,8 +1,8 @@
 """What an output's stream reports of itself: its latency, and how its clock runs against the computer's.
 
 Both are corrected already wherever the station plays: every block has the time at which the driver says that it is
-heard, and the drift is followed (`station.sound.output.dac_clock`). What the driver does not know, the converter's own delay
-or that of wireless headphones, only `loopback` finds.
+heard, and the drift is followed (`station.sound.output.dac_clock`). What the driver does not know, the converter's own
+delay or that of wireless headphones, only `loopback` finds.
 """
 
 from dataclasses import dataclass

@@ -5,13 +5,13 @@ from pathlib import Path
 
 import pytest
 
-from station.app.calibration import LOOPBACK, STRIKE, TAP, Calibration, Failed, MeasuringProcess, Told
+from station.app.calibration import Calibration, Failed, MeasuringProcess, Told
 from station.app.calibration_results import CalibrationResult, CalibrationResults
 from station.app.latency_methods import MeasureRequest
 from station.app.model import FreeRequest
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound
-from station.core.measured_latency import load_calibration
+from station.core.measured_latency import LOOPBACK, STRIKE, TAP, load_calibration
 from station.core.pieces import Piece
 from station.core.settings import Settings
 from station.engine.latency_measurement import Devices

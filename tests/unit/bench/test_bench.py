@@ -6,6 +6,7 @@ import time
 
 import pytest
 
+from station.bench import rows
 from station.bench.harness.benchmark import Benchmark, Measurement, median_s
 from station.bench.harness.registry import entries
 from station.bench.harness.run import BUDGET_S, Result, document, main, run, write_table
@@ -24,11 +25,11 @@ def one(name: str, budget_s: float = 60) -> Measurement:
 def test_every_table_of_a_package_is_found_and_helpers_are_not() -> None:
     assert next(iter(FAKES)) == "broken"
     assert FAKES["noisy"].module == "tests.fakes.benches.rows"
-    assert "midi_read_100k_notes" in {e.benchmark.name for e in entries()}
+    assert "midi_read_100k_notes" in {e.benchmark.name for e in entries(rows)}
 
 
 def test_names_are_told_apart() -> None:
-    names = [e.benchmark.name for e in entries()]
+    names = [e.benchmark.name for e in entries(rows)]
     assert len(set(names)) == len(names)
 
 
@@ -131,7 +132,7 @@ def test_without_a_target_nothing_is_reached_or_missed() -> None:
 
 def test_the_whole_run_prints_one_document_with_every_row() -> None:
     out = io.StringIO()
-    assert main(as_json=True, soak=True, out=out, package=benches) == 0
+    assert main(benches, as_json=True, soak=True, out=out) == 0
     rows = json.loads(out.getvalue())["results"]
     assert {row["name"] for row in rows} == set(FAKES)
     measured = ["noisy", "first_together", "second_together", "alone", "long"]
@@ -141,7 +142,7 @@ def test_the_whole_run_prints_one_document_with_every_row() -> None:
 
 def test_the_long_ones_run_only_when_they_are_asked_for() -> None:
     out = io.StringIO()
-    main(as_json=True, out=out, package=benches)
+    main(benches, as_json=True, out=out)
     assert {row["name"] for row in json.loads(out.getvalue())["results"]} == set(FAKES) - {"long"}
 
 

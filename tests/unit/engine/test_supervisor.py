@@ -9,8 +9,7 @@ from station.core.errors import DeviceError
 from station.core.events import DeviceFound, DeviceLost, Hit
 from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_MS, NS_PER_S
-from station.engine.engine_config import EngineConfig, Prepare
-from station.engine.engine_process import WORN_OUT
+from station.engine.engine_config import WORN_OUT, EngineConfig, Prepare
 from station.engine.messages import (
     Bus,
     CaptureSaved,

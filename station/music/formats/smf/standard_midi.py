@@ -2,8 +2,8 @@
 
 Our own reader, because it must be quick, keep polyphonic aftertouch and controllers, know formats 0, 1 and 2 and SMPTE
 time, and say of a broken file which byte is wrong; `docs/decisions` says what else was weighed. The parts: `contents`
-what a file holds, `chunk_reader` and `track_events` its bytes, `drum_channels` which notes are drums, `drum_tracks` what they mean,
-`track_writer` and `track_bytes` the way out.
+what a file holds, `chunk_reader` and `track_events` its bytes, `drum_channels` which notes are drums, `drum_tracks`
+what they mean, `track_writer` and `track_bytes` the way out.
 """
 
 from pathlib import Path

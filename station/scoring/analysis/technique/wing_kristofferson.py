@@ -61,8 +61,8 @@ class ClockShare:
 class WingKristofferson:
     """`strokes` of one series `interval_ms` apart and what they tell; None where not known.
 
-    `lag_1` is their autocorrelation, of asynchronies with a click and of intervals without; then the two `ClockShare`s and
-    the share that is corrected, or why they cannot be told.
+    `lag_1` is their autocorrelation, of asynchronies with a click and of intervals without; then the two `ClockShare`s
+    and the share that is corrected, or why they cannot be told.
     """
 
     with_click: bool
