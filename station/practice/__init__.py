@@ -1,1 +1,7 @@
-"""The practice session as a state machine, and the virtual student."""
+"""Practice: a session laid out, played, judged and kept, with no window.
+
+In: a lesson and what the student asks of it, events of the engine, time. Out: judgements, a report, a capture.
+`session` is the practice session as a state machine and the loop that moves it on, `control` what pads and pedals may
+command, `demonstration` the player of a lesson, `records` what is kept of a session.
+Read `session.plan`, then `session.session`.
+"""
