@@ -19,18 +19,18 @@ __all__ = [
     "CUE_DTYPE",
     "Annotate",
     "Bus",
+    "CaptureSaved",
     "ClickVoice",
     "Command",
-    "WatchRawBytes",
     "EngineEvent",
     "KeyHit",
     "Notice",
-    "RawBytes",
     "Play",
     "Quit",
+    "RawBytes",
     "Ready",
     "RecordCapture",
-    "CaptureSaved",
+    "ReloadDevice",
     "Resume",
     "SetBacking",
     "SetLevel",
@@ -40,7 +40,7 @@ __all__ = [
     "Started",
     "Status",
     "Stop",
-    "ReloadDevice",
+    "WatchRawBytes",
 ]
 
 CUE_DTYPE = np.dtype(
@@ -193,7 +193,7 @@ class Sounding:
 
 @dataclass(frozen=True, slots=True)
 class CaptureSaved:
-    """A `RecordCapture` command was obeyed: what was played before it has been told, and is on the disk where one was open.
+    """A `RecordCapture` was obeyed: what was played before it has been told, and is on the disk where one was open.
 
     `path` is that of the command; `fault` says why nothing is recorded, or what the capture that ended lacks.
     """
