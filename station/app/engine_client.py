@@ -11,7 +11,7 @@ from typing import Protocol
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound, DeviceLost, Hit
 from station.engine.messages import Command, EngineEvent, Ready, SetLevel, Sounding, WatchRawBytes
-from station.practice.session.live import EngineLink
+from station.practice.headless.live import EngineLink
 
 
 class RoomEngine(EngineLink, Protocol):

@@ -18,11 +18,11 @@ from station.motion.kit.kit import Kit
 from station.music.performance import Performance
 from station.music.score import Score
 from station.music.tempo import TempoMap
+from station.practice.headless.live import EngineLink, begin, end
 from station.practice.session.click_options import parse_click
 from station.practice.session.device_latency import Latency
 from station.practice.session.free_play import BEATS, FreeClick, FreePlay, listening_back, take_of
 from station.practice.session.listening import Listening
-from station.practice.session.live import EngineLink, begin, end
 from station.render.snapshot import Hud, SeenStrike, Snapshot, Strip
 from station.scenes.keep_session import SessionFolder
 from station.scenes.session_scene import STRIKE_SHOWN_NS, strikes

@@ -17,12 +17,12 @@ from station.core.settings import Settings
 from station.core.units import NS_PER_S
 from station.engine.messages import Command, EngineEvent
 from station.music.judgement import Judgement
+from station.practice.headless.live import begin, end, next_session
 from station.practice.records.mastery_report import with_mastery
 from station.practice.records.previous_session import NONE_KEPT, find_earlier
 from station.practice.records.session_report import practice_document
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.device_latency import Latency
-from station.practice.session.live import begin, end, next_session
 from station.practice.session.plan import Phase
 from station.practice.session.session import Session, SessionResult
 from station.render.snapshot import Hud, Snapshot

@@ -104,7 +104,7 @@ def _virtual(plan: Plan, wishes: PlanOptions, spec: str, arguments: argparse.Nam
     """A virtual student is new to every lesson, and forgotten, unless it practises under a name."""
     if arguments.midi_out is not None or arguments.track is not None:
         say("a virtual student practises without sound: nothing is sent to a MIDI output, and no track plays")
-    from station.practice.session.headless import practise_adaptively, practise_virtually
+    from station.practice.headless.virtual_session import practise_adaptively, practise_virtually
     from station.simulation.student_spec import parse_spec
 
     student = parse_spec(spec)

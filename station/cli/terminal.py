@@ -13,10 +13,10 @@ from station.engine.engine_config import EngineConfig
 from station.engine.supervisor import EngineSupervisor
 from station.music.judgement import Judgement, Label
 from station.practice.control.pad_pause import PadPause
+from station.practice.headless.live import LiveOutcome, Room, practise_live, practise_rounds, wait_for_kits
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.backing_track import Backing, BackingRequest
 from station.practice.session.device_latency import latency_of
-from station.practice.session.live import LiveOutcome, Room, practise_live, practise_rounds, wait_for_kits
 from station.practice.session.plan import Plan, Segment
 from station.practice.session.session import Session
 from station.scoring.matching.hit_windows import Windows

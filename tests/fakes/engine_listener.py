@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 from station.core.events import Hit
 from station.engine.messages import EngineEvent, Status
-from station.practice.session.live import EngineLink
+from station.practice.headless.live import EngineLink
 
 
 class EngineListener:

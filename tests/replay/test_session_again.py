@@ -31,11 +31,11 @@ from station.engine.messages import Command, EngineEvent, Started
 from station.engine.messages import RecordCapture as SetRecord
 from station.music.judgement import Judgement
 from station.music.score import NOTE_DTYPE
+from station.practice.headless.virtual_session import practise_adaptively, practise_virtually
 from station.practice.records.rejudge import judge_again
 from station.practice.session.adaptation import Adaptation, ScoreRow
 from station.practice.session.device_latency import KitLatency, Latency
 from station.practice.session.event_log import PassBegan, said_in, text_of
-from station.practice.session.headless import practise_adaptively, practise_virtually
 from station.practice.session.pausing import start_of
 from station.practice.session.plan import Plan, PlanOptions, plan_practice
 from station.practice.session.session import Session, SessionResult

@@ -31,7 +31,7 @@ from station.scoring.report.assessment_document import Json, assessment
 from station.scoring.report.technique_text import craft_lines
 
 if TYPE_CHECKING:
-    from station.practice.session.headless import VirtualSession
+    from station.practice.headless.virtual_session import VirtualSession
     from station.simulation.virtual_student import VirtualPerformance
 
 

@@ -17,10 +17,10 @@ from station.drills.library import find_lesson
 from station.drills.mastery.feedback_fading import Feedback
 from station.drills.mastery.practice_steps import PassKind
 from station.music.judgement import Judgement, Label
+from station.practice.headless.virtual_session import VirtualSession, practise_adaptively
 from station.practice.records.mastery_report import with_mastery
 from station.practice.records.session_report import practice_document, report_text, with_truth
 from station.practice.session.adaptation import SILENT_TO_STOP, Adaptation, ScoreRow, lesson_bars
-from station.practice.session.headless import VirtualSession, practise_adaptively
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.practice.session.session import Session
 from station.simulation.student_spec import parse_spec

@@ -11,9 +11,9 @@ from station.core.units import NS_PER_S
 from station.drills.library import find_lesson
 from station.engine.messages import CaptureSaved, Command, EngineEvent, Play, RecordCapture, Started
 from station.music.judgement import Judgement
+from station.practice.headless.live import Room, practise_rounds
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.device_latency import Latency
-from station.practice.session.live import Room, practise_rounds
 from station.practice.session.plan import PlanOptions
 from station.practice.session.session import Session
 

@@ -15,8 +15,8 @@ from station.core.units import NS_PER_S
 from station.drills.library import find_lesson
 from station.engine.messages import CaptureSaved, Command, EngineEvent, Play, RecordCapture, Started, Stop
 from station.practice.control.pad_pause import PadPause
+from station.practice.headless.live import LiveOutcome, Room, practise_live
 from station.practice.session.device_latency import Latency
-from station.practice.session.live import LiveOutcome, Room, practise_live
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.practice.session.session import Session
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from station.drills.library import find_lesson
 from station.motion.kinematics.figure import load_figure
 from station.motion.style.style import Style
-from station.practice.session.headless import practise_virtually
+from station.practice.headless.virtual_session import practise_virtually
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.scenes.demonstrator import Demonstrator
 from station.scenes.pictures import drummer_of
