@@ -1,6 +1,7 @@
 """`station practice [LESSON]`: a practice session in the window, in the terminal, or with a virtual student."""
 
 import argparse
+import sys
 from dataclasses import replace
 from datetime import date
 from pathlib import Path
@@ -13,10 +14,11 @@ from station.cli.device_option import KIT_HELP, wanted_kits
 from station.cli.read_scores import bars_of_gap
 from station.cli.sound_options import add_sound_options, backing_of, said_of
 from station.cli.tapping import TAP, tapped_tempo
-from station.core.errors import BadInput, StationError
+from station.core.errors import BadInput, DeviceError, StationError
 from station.core.settings import Settings, load_settings, save_settings, setting_source, with_said
 from station.core.units import PPQ
 from station.drills.lesson import Lesson
+from station.practice.headless.telling import Telling
 from station.practice.records.mastery_report import with_mastery
 from station.practice.records.memory import Memory, Remembered
 from station.practice.records.session_files import TEXT_NAME
@@ -174,24 +176,40 @@ def _leave(
             remembered.keep()
     except StationError as error:
         fault = rescued(error, result, document)
+    telling = Telling()
     if may_ask:
-        ask_first(document)
-    if arguments.json:
-        print_json(document)
-    else:
-        print(report_text(document), end="", flush=True)
-        if "pairs_csv" in document:
-            print(f"\n{document['pairs_csv']}", end="", flush=True)
+        telling.attempt(ask_first, document)
+    telling.attempt(_print_report, document, as_json=arguments.json)
     if fault is not None:
         raise fault
-    say(f"\nreport   {folder.path / TEXT_NAME}")
-    if arguments.no_pictures:
+    telling.attempt(say, f"\nreport   {folder.path / TEXT_NAME}")
+    if not arguments.no_pictures:
+        _draw(folder, result, document, telling)
+    if isinstance(telling.failure, BrokenPipeError):  # whoever read has gone, and wants no word of it
+        raise telling.failure
+    unsaid = telling.fault(f"the session is kept in {folder.path}, but not all could be printed")
+    if unsaid is not None:
+        raise unsaid
+
+
+def _print_report(document: dict[str, Json], as_json: bool) -> None:
+    if sys.__stdout__ is None:  # closed before we were started: `print` would say nothing, and nobody would know
+        raise DeviceError("standard output is closed")
+    if as_json:
+        print_json(document)
+        sys.stdout.flush()
         return
+    print(report_text(document), end="", flush=True)
+    if "pairs_csv" in document:
+        print(f"\n{document['pairs_csv']}", end="", flush=True)
+
+
+def _draw(folder: SessionFolder, result: SessionResult, document: dict[str, Json], telling: Telling) -> None:
     try:
         for picture in folder.draw(result, document):
-            say(f"picture  {picture}")
+            telling.attempt(say, f"picture  {picture}")
     except StationError as error:
-        say(f"no picture: {error}")
+        telling.attempt(say, f"no picture: {error}")
 
 
 # --- what was asked --------------------------------------------------------------------------------------------------

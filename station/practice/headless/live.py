@@ -7,7 +7,7 @@ import signal
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Protocol
 
@@ -17,6 +17,7 @@ from station.core.units import ns_from_s
 from station.engine.messages import CaptureSaved, Command, EngineEvent, Ready, RecordCapture
 from station.music.judgement import Judgement
 from station.practice.control.pad_pause import PadPause
+from station.practice.headless.telling import Telling
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.engine_state import EngineState
 from station.practice.session.session import Session, SessionResult
@@ -70,12 +71,16 @@ class LiveOutcome:
 
 @dataclass(frozen=True, slots=True)
 class Room:
-    """Where a session is played: its `engine` and `clock`, who hears every round of judgements, what the pads ask."""
+    """Where a session is played: its `engine` and `clock`, who hears every round of judgements, what the pads ask.
+
+    A `tell` that fails costs no session: `telling` remembers it.
+    """
 
     engine: EngineLink
     clock: Clock
     tell: Tell
     pads: PadPause | None = None
+    telling: Telling = field(default_factory=Telling)
 
     def begin(self, session: Session, capture: Path) -> None:
         """Have everything recorded, and start the transport."""
@@ -90,7 +95,13 @@ class Room:
             self._obey(() if self.pads is None else self.pads.take(session, event))
         judged += session.advance(self.clock.now_ns())
         self._obey(() if self.pads is None else self.pads.look(session))
-        self.tell(session, judged)
+        self.telling.attempt(self.tell, session, judged)
+
+    def fault(self, session: Session) -> StationError | None:
+        """What the user must know at the end of `session` that nobody has raised."""
+        if not session.heard.devices:
+            return DeviceError("the kit was unplugged and did not come back; what was played until then is kept")
+        return self.telling.fault("not all could be shown while you played, the session is kept")
 
     def _obey(self, commands: Sequence[Command]) -> None:
         for command in commands:
@@ -113,9 +124,7 @@ def practise_live(room: Room, session: Session, capture: Path) -> LiveOutcome:
         if not session.started:
             raise
         fault = error
-    if fault is None and not session.heard.devices:
-        fault = DeviceError("the kit was unplugged and did not come back; what was played until then is kept")
-    return LiveOutcome(session.result(), fault)
+    return LiveOutcome(session.result(), fault or room.fault(session))
 
 
 def practise_rounds(room: Room, adaptation: Adaptation, first: Session, capture: Path) -> LiveOutcome:
@@ -143,9 +152,7 @@ def practise_rounds(room: Room, adaptation: Adaptation, first: Session, capture:
         fault = error
     if not taken:
         adaptation.take(session.result())
-    if fault is None and not session.heard.devices:
-        fault = DeviceError("the kit was unplugged and did not come back; what was played until then is kept")
-    return LiveOutcome(adaptation.result(), fault)
+    return LiveOutcome(adaptation.result(), fault or room.fault(session))
 
 
 def next_session(engine: EngineLink, adaptation: Adaptation, before: Session) -> Session:
