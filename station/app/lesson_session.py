@@ -18,8 +18,8 @@ from station.core.units import NS_PER_S
 from station.engine.messages import Command, EngineEvent
 from station.music.judgement import Judgement
 from station.practice.headless.live import begin, end, next_session
-from station.practice.records.mastery_report import with_mastery
-from station.practice.records.previous_session import NONE_KEPT, find_earlier
+from station.practice.records.keeping import SavedSession, SessionFolder, save
+from station.practice.records.previous_session import find_earlier
 from station.practice.records.session_report import practice_document
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.device_latency import Latency
@@ -30,11 +30,9 @@ from station.scenes.curves import ScoreCurves
 from station.scenes.demonstrator import Demonstrator
 from station.scenes.heat_map import heat_map
 from station.scenes.hit_table import every_hit
-from station.scenes.keep_session import SessionFolder, rescued
 from station.scenes.result_tables import session_facts
 from station.scenes.session_scene import SessionView
 from station.scenes.wrong_pads import wrong_pads
-from station.scoring.report.assessment_document import Json
 from station.sound.track import PreparedTrack
 
 PAUSED = "Paused: two kicks, or Go on"
@@ -76,7 +74,7 @@ class LessonSession:
 
     def begin(self, settings: Settings, track: PreparedTrack | None) -> None:
         """Start the transport and the capture; raises `StationError`, and leaves nothing behind then."""
-        folder = SessionFolder(None, settings, self.plan.lesson.name)
+        folder = SessionFolder.make(None, settings, self.plan.lesson.name)
         self.session.backing, self.session.waits = track, settings.auto_pause
         try:
             begin(self._engine, self.session, folder.capture)
@@ -212,32 +210,29 @@ class LessonSession:
                 fault = end(self._engine, self.session)
             except DeviceError as dead:
                 fault = dead
-        result, document = self._whole(settings)
-        path = ""
-        if self._folder is not None:
-            path = str(self._folder.path)
-            try:
-                self._folder.write(result, document)
-                if self._followed is not None:
-                    self._followed.keep()
-            except StationError as refused:
-                fault = rescued(refused, result, document)
-        facts = session_facts(result, document)
-        before = NONE_KEPT if self._folder is None else find_earlier(self._folder.path, self.plan.lesson.name)
-        return SavedSession(
-            result,
-            ShownResult(facts, document, path, heat_map(result), every_hit(result), before, wrong_pads(result)),
-            fault,
+        assert self._folder is not None, "it was begun"
+        result, followed = self._result(), self._followed
+        saved = save(self._folder, result, practice_document(result, settings), followed)
+        return SavedSession(result, self._report(saved, self._folder), saved.fault or fault)
+
+    def _report(self, saved: SavedSession, folder: SessionFolder) -> ShownResult:
+        result = saved.result
+        return ShownResult(
+            session_facts(result, saved.document),
+            saved.document,
+            str(folder.path),
+            heat_map(result),
+            every_hit(result),
+            find_earlier(folder.path, self.plan.lesson.name),
+            wrong_pads(result),
         )
 
-    def _whole(self, settings: Settings) -> tuple[SessionResult, dict[str, Json]]:
-        """The result and its report, over all passes where there were several sessions."""
+    def _result(self) -> SessionResult:
+        """The result over all passes where there were several sessions."""
         if self._followed is None:
-            result = self.session.result()
-            return result, practice_document(result, settings)
+            return self.session.result()
         adaptation = self._followed.adaptation
         if self._taken is not self.session:
             adaptation.take(self.session.result())
             self._taken = self.session
-        result = adaptation.result()
-        return result, with_mastery(practice_document(result, settings), adaptation, self._followed.next_turn())
+        return adaptation.result()

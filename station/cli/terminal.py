@@ -1,6 +1,7 @@
 """A live session in the terminal: the engine's process plays and hears, every stroke is shown as it is judged."""
 
 import sys
+from contextlib import ExitStack
 from pathlib import Path
 
 from station.core.clock import MonotonicClock
@@ -11,6 +12,7 @@ from station.devices.device_ports import no_kit
 from station.engine.engine_config import EngineConfig
 from station.engine.supervisor import EngineSupervisor
 from station.practice.control.pad_pause import PadPause
+from station.practice.headless.end_signals import end_asked
 from station.practice.headless.live import LiveOutcome, Room, practise_live, practise_rounds, wait_for_kits
 from station.practice.headless.live_text import LEGEND, LiveText
 from station.practice.headless.telling import Telling
@@ -26,9 +28,15 @@ KIT_WAIT_S = 5.0
 
 
 def practise_in_terminal(
-    asked: Plan | Adaptation, settings: Settings, capture: Path, wish: BackingRequest | None = None
+    asked: Plan | Adaptation,
+    settings: Settings,
+    capture: Path,
+    until_kept: ExitStack,
+    wish: BackingRequest | None = None,
 ) -> LiveOutcome:
     """Practise a plan, along to a track if one is wished for, or what an adaptation asks for pass by pass.
+
+    From the first count-in on nothing ends the program before the session is kept: `until_kept` is left then.
 
     Raises `BadInput` for a track that cannot be had, `DeviceError` where there is no kit, or where the engine dies
     before it began.
@@ -52,7 +60,7 @@ def practise_in_terminal(
             if wish is not None:
                 telling.attempt(_write, "\nmaking the track ready …\n")
                 session.backing = _track(wish, session, settings)
-            room = Room(engine, clock, text.tell, pads, telling)
+            room = Room(engine, clock, text.tell, pads, telling, until_kept.enter_context(end_asked()))
             if isinstance(asked, Plan):
                 return practise_live(room, session, capture)
             return practise_rounds(room, asked, session, capture)

@@ -3,10 +3,7 @@
 The capture is written by the engine as the bytes come, so that nothing that follows can lose a hit.
 """
 
-import signal
-import threading
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Protocol
@@ -17,6 +14,7 @@ from station.core.units import ns_from_s
 from station.engine.messages import CaptureSaved, Command, EngineEvent, Ready, RecordCapture
 from station.music.judgement import Judgement
 from station.practice.control.pad_pause import PadPause
+from station.practice.headless.end_signals import EndAsked
 from station.practice.headless.telling import Telling
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.engine_state import EngineState
@@ -63,10 +61,14 @@ class Listener(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class LiveOutcome:
-    """A live session's result and, where something went wrong that the user must know, the `fault`."""
+    """A live session's result and, where something went wrong that the user must know, the `fault`.
+
+    `is_attended` whether the student may still be there, to be asked something.
+    """
 
     result: SessionResult
     fault: StationError | None
+    is_attended: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,6 +83,7 @@ class Room:
     tell: Tell
     pads: PadPause | None = None
     telling: Telling = field(default_factory=Telling)
+    asked: EndAsked = field(default_factory=EndAsked)
 
     def begin(self, session: Session, capture: Path) -> None:
         """Have everything recorded, and start the transport."""
@@ -109,50 +112,48 @@ class Room:
 
 
 def practise_live(room: Room, session: Session, capture: Path) -> LiveOutcome:
-    """Run `session` to its end, or until Ctrl-C or the engine's death.
+    """Run `session` to its end, or until the end is `asked` for or the engine dies.
 
     Raises `DeviceError` if the engine dies before the transport runs: then there is nothing to report.
     """
     fault: StationError | None = None
     try:
         room.begin(session, capture)
-        with _ctrl_c() as pressed:
-            while not session.over and not pressed.is_set():
-                room.step(session)
-            fault = end(room.engine, session)
+        while not session.over and not room.asked:
+            room.step(session)
+        fault = end(room.engine, session)
     except DeviceError as error:
         if not session.started:
             raise
         fault = error
-    return LiveOutcome(session.result(), fault or room.fault(session))
+    return LiveOutcome(session.result(), fault or room.fault(session), room.asked.is_attended)
 
 
 def practise_rounds(room: Room, adaptation: Adaptation, first: Session, capture: Path) -> LiveOutcome:
-    """Run pass after pass of `adaptation`, beginning with the session `first`, until it is over, or Ctrl-C.
+    """Run pass after pass of `adaptation`, the session `first` to begin with, until it is over, or the end is `asked`.
 
     The capture goes on from pass to pass. Raises `DeviceError` if the engine dies before the transport runs.
     """
     session, fault, taken = first, None, False
     try:
         room.begin(session, capture)
-        with _ctrl_c() as pressed:
-            while not pressed.is_set():
-                room.step(session)
-                if not session.over:
-                    continue
-                adaptation.take(session.result())
-                taken = True
-                if adaptation.over:
-                    break
-                session, taken = next_session(room.engine, adaptation, session), False
-            fault = end(room.engine, session)
+        while not room.asked:
+            room.step(session)
+            if not session.over:
+                continue
+            adaptation.take(session.result())
+            taken = True
+            if adaptation.over:
+                break
+            session, taken = next_session(room.engine, adaptation, session), False
+        fault = end(room.engine, session)
     except DeviceError as error:
         if not session.started and not adaptation.rounds:
             raise
         fault = error
     if not taken:
         adaptation.take(session.result())
-    return LiveOutcome(adaptation.result(), fault or room.fault(session))
+    return LiveOutcome(adaptation.result(), fault or room.fault(session), room.asked.is_attended)
 
 
 def next_session(engine: EngineLink, adaptation: Adaptation, before: Session) -> Session:
@@ -183,20 +184,6 @@ def end(engine: EngineLink, session: Listener) -> StationError | None:
         if any(isinstance(event, CaptureSaved) and event.path is None for event in events):
             break
     return None if session.heard.capture_fault is None else DeviceError(session.heard.capture_fault)
-
-
-@contextmanager
-def _ctrl_c() -> Iterator[threading.Event]:
-    """Ctrl-C sets the event meanwhile, so that it never strikes in the middle of a message."""
-    pressed = threading.Event()
-    if threading.current_thread() is not threading.main_thread():
-        yield pressed
-        return
-    before = signal.signal(signal.SIGINT, lambda *_: pressed.set())
-    try:
-        yield pressed
-    finally:
-        signal.signal(signal.SIGINT, before)
 
 
 def wait_for_kits(engine: EngineLink, session: Session, clock: Clock, wait_s: float, kits: int = 1) -> None:
