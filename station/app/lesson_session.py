@@ -16,14 +16,13 @@ from station.core.events import Hit
 from station.core.settings import Settings
 from station.core.units import NS_PER_S
 from station.engine.messages import Command, EngineEvent
-from station.music.judgement import Judgement
-from station.practice.headless.live import begin, end, next_session
+from station.practice.headless.live import begin, end
 from station.practice.records.keeping import SavedSession, SessionFolder, save
 from station.practice.records.previous_session import find_earlier
 from station.practice.records.session_report import practice_document
-from station.practice.session.adaptation import Adaptation
 from station.practice.session.device_latency import Latency
-from station.practice.session.plan import Phase
+from station.practice.session.plan import Phase, Plan
+from station.practice.session.runner import SessionRunner, Update
 from station.practice.session.session import Session, SessionResult
 from station.render.snapshot import Hud, Snapshot
 from station.scenes.curves import ScoreCurves
@@ -63,21 +62,28 @@ class LessonSession:
         before: "LessonSession | None" = None,
     ) -> None:
         self._engine, self._who, self._tell = engine, who, tell
-        self.plan, self._followed = laid.plan, laid.followed
-        followed = None if laid.followed is None else laid.followed.adaptation
-        self.session = Session(laid.plan, latency) if followed is None else followed.session(latency)
-        self.view: SessionView = SessionView(laid.plan, who, None if before is None else before.view)
+        self._followed = laid.followed
+        self._runner = SessionRunner(laid.plan if laid.followed is None else laid.followed.adaptation, latency)
+        self.view: SessionView = SessionView(self.plan, who, None if before is None else before.view)
         self._folder: SessionFolder | None = None
-        self._taken: Session | None = None
-        self._was_asked = False
         self._hud = Hud()
+
+    @property
+    def session(self) -> Session:
+        """The session that runs: the newest pass."""
+        return self._runner.session
+
+    @property
+    def plan(self) -> Plan:
+        """What is played in it."""
+        return self._runner.session.plan
 
     def begin(self, settings: Settings, track: PreparedTrack | None) -> None:
         """Start the transport and the capture; raises `StationError`, and leaves nothing behind then."""
         folder = SessionFolder.make(None, settings, self.plan.lesson.name)
         self.session.backing, self.session.waits = track, settings.auto_pause
         try:
-            begin(self._engine, self.session, folder.capture)
+            begin(self._engine, self._runner, folder.capture)
         except StationError:
             folder.discard()
             raise
@@ -88,55 +94,47 @@ class LessonSession:
 
     def take(self, event: EngineEvent, now_ns: int) -> None:
         """Take one event of the engine."""
-        told = len(self.session.heard.notices)
-        verdicts = self.session.handle(event)
-        self._judged(verdicts, now_ns)
-        for notice in self.session.heard.notices[told:]:
+        notices = self._runner.heard.notices
+        told = len(notices)
+        self._follow(self._runner.handle(event), now_ns)
+        for notice in notices[told:]:
             self._tell(notice)
 
     def advance(self, now_ns: int) -> bool:
         """Move on, or wait for a student who has stopped; returns whether the session is over."""
-        self._judged(self.session.advance(now_ns), now_ns)
-        if self.session.waits and self.session.is_left:
-            self.hold(asked=False)
-        return self.session.over and self._is_last()
-
-    def _judged(self, verdicts: tuple[Judgement, ...], now_ns: int) -> None:
-        """Show what the student is to see of `verdicts`."""
-        session = self.session
-        self.view.judged(session.told(verdicts), session.hits, now_ns, session.windows)
-
-    def _is_last(self) -> bool:
-        """On to the next pass where the tempo follows the student and there is one; whether there is none."""
-        if self._followed is None:
-            return True
-        adaptation = self._followed.adaptation
-        step = adaptation.take(self.session.result())
-        self._taken = self.session
-        if step.notice is not None:
-            self._tell(step.notice)
-        return adaptation.over or not self._next_pass(adaptation)
-
-    def _next_pass(self, adaptation: Adaptation) -> bool:
-        """Begin it; returns whether there was an engine for it."""
-        try:
-            self.session = next_session(self._engine, adaptation, self.session)
-        except DeviceError as fault:
-            self._tell(str(fault))
-            return False
-        self.plan = adaptation.plan
-        self.view = SessionView(self.plan, self._who, self.view)
-        self.view.make_ahead()
-        return True
+        self._follow(self._runner.advance(now_ns), now_ns)
+        return self._runner.over
 
     def veto(self) -> bool:
         """Refuse what the next pass would change, the last one once more; returns whether there was an engine."""
-        assert self._followed is not None, "the room asks where it may"
-        self._followed.adaptation.veto()
-        has_begun = self._next_pass(self._followed.adaptation)
-        if not has_begun:
-            self._taken = self.session  # it was refused: no pass of anybody's
-        return has_begun
+        try:
+            self._send(self._runner.veto())
+        except DeviceError as fault:
+            self._tell(str(fault))
+            return False
+        self._see_next_pass()
+        return True
+
+    def _follow(self, update: Update, now_ns: int) -> None:
+        """Do what a step asks for, and show the student what they are to see of it."""
+        with suppress(DeviceError):  # a dead engine says so itself
+            self._send(update.commands)
+        session = update.session
+        self.view.judged(session.told(update.judged), session.hits, now_ns, session.windows)
+        if update.is_anew:
+            self.view.judged_anew(session)
+        if update.notice is not None:
+            self._tell(update.notice)
+        if session is not self.session:
+            self._see_next_pass()
+
+    def _see_next_pass(self) -> None:
+        self.view = SessionView(self.plan, self._who, self.view)
+        self.view.make_ahead()
+
+    def _send(self, commands: Sequence[Command]) -> None:
+        for command in commands:
+            self._engine.send(command)
 
     # --- pauses ------------------------------------------------------------------------------------------------------
 
@@ -145,21 +143,13 @@ class LessonSession:
         """Whether it stands still."""
         return self.session.paused
 
-    def hold(self, command: Sequence[Hit] = (), asked: bool = True) -> None:
+    def hold(self, command: Sequence[Hit] = ()) -> None:
         """Pause; `command` are the strokes that asked for it, where some did."""
-        self._was_asked = asked
-        self._send(self.session.pause(command))
-        self.view.judged_anew(self.session)
+        self._follow(self._runner.pause(command), 0)
 
     def go_on(self) -> None:
-        """Out of a pause: a pass that moves the tempo is taken whole, else from the bar of the last stroke."""
-        self._send(self.session.resume(self._was_asked, whole=self._followed is not None))
-        self.view.judged_anew(self.session)
-
-    def _send(self, commands: Sequence[Command]) -> None:
-        for command in commands:
-            with suppress(DeviceError):  # a dead engine says so itself
-                self._engine.send(command)
+        """Out of a pause."""
+        self._follow(self._runner.resume(), 0)
 
     # --- what is seen ------------------------------------------------------------------------------------------------
 
@@ -207,12 +197,12 @@ class LessonSession:
         fault: StationError | None = None
         if self._engine.alive:
             try:
-                fault = end(self._engine, self.session)
+                fault = end(self._engine, self._runner)
             except DeviceError as dead:
                 fault = dead
         assert self._folder is not None, "it was begun"
-        result, followed = self._result(), self._followed
-        saved = save(self._folder, result, practice_document(result, settings), followed)
+        result = self._runner.finish()
+        saved = save(self._folder, result, practice_document(result, settings), self._followed)
         return SavedSession(result, self._report(saved, self._folder), saved.fault or fault)
 
     def _report(self, saved: SavedSession, folder: SessionFolder) -> ShownResult:
@@ -226,13 +216,3 @@ class LessonSession:
             find_earlier(folder.path, self.plan.lesson.name),
             wrong_pads(result),
         )
-
-    def _result(self) -> SessionResult:
-        """The result over all passes where there were several sessions."""
-        if self._followed is None:
-            return self.session.result()
-        adaptation = self._followed.adaptation
-        if self._taken is not self.session:
-            adaptation.take(self.session.result())
-            self._taken = self.session
-        return adaptation.result()

@@ -11,15 +11,16 @@ from station.core.settings import Settings
 from station.devices.device_ports import no_kit
 from station.engine.engine_config import EngineConfig
 from station.engine.supervisor import EngineSupervisor
-from station.practice.control.pad_pause import PadPause
+from station.practice.control.pad_commands import PadCommands, ways_to_go_on
 from station.practice.headless.end_signals import end_asked
-from station.practice.headless.live import LiveOutcome, Room, practise_live, practise_rounds, wait_for_kits
+from station.practice.headless.live import LiveOutcome, Room, practise_live, wait_for_kits
 from station.practice.headless.live_text import LEGEND, LiveText
 from station.practice.headless.telling import Telling
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.backing_track import Backing, BackingRequest
 from station.practice.session.device_latency import latency_of
 from station.practice.session.plan import Plan
+from station.practice.session.runner import SessionRunner
 from station.practice.session.session import Session
 from station.sound.track import PreparedTrack
 
@@ -41,31 +42,29 @@ def practise_in_terminal(
     Raises `BadInput` for a track that cannot be had, `DeviceError` where there is no kit, or where the engine dies
     before it began.
     """
-    latency = latency_of(settings, load_calibration())
-    session = Session(asked, latency) if isinstance(asked, Plan) else asked.session(latency)
-    pads = PadPause(settings, session.plan.score, whole=isinstance(asked, Adaptation), attended=_is_attended())
-    text, telling = LiveText(_write, pads.words), Telling()
+    pads = PadCommands(settings, asked.plan.score if isinstance(asked, Adaptation) else asked.score)
+    runner, ways_on = SessionRunner(asked, latency_of(settings, load_calibration()), pads), ways_to_go_on(settings)
+    text, telling = LiveText(_write, ways_on), Telling()
     clock = MonotonicClock()
     config = EngineConfig.from_settings(settings)
     telling.attempt(_write, "looking for a kit and a sound output …\n")
     with EngineSupervisor(config) as engine:
-        wait_for_kits(engine, session, clock, KIT_WAIT_S, len(config.kits))
-        if not session.heard.devices:
+        wait_for_kits(engine, runner, clock, KIT_WAIT_S, len(config.kits))
+        if not runner.heard.devices:
             raise DeviceError(f"{no_kit(config.kits)}; station practice --virtual-student intermediate needs none")
         try:
-            if len(session.heard.devices) < len(config.kits):
-                here = ", ".join(session.heard.devices)
+            if len(runner.heard.devices) < len(config.kits):
+                here = ", ".join(runner.heard.devices)
                 telling.attempt(_write, f"\nof {len(config.kits)} kits there is {here}; the others may come")
             telling.attempt(_write, f"\n{LEGEND}\n")
+            runner.session.waits = settings.auto_pause and bool(ways_on) and _is_attended()
             if wish is not None:
                 telling.attempt(_write, "\nmaking the track ready …\n")
-                session.backing = _track(wish, session, settings)
-            room = Room(engine, clock, text.tell, pads, telling, until_kept.enter_context(end_asked()))
-            if isinstance(asked, Plan):
-                return practise_live(room, session, capture)
-            return practise_rounds(room, asked, session, capture)
+                runner.session.backing = _track(wish, runner.session, settings)
+            room = Room(engine, clock, text.tell, telling, until_kept.enter_context(end_asked()))
+            return practise_live(room, runner, capture)
         finally:
-            telling.attempt(text.last_words, session)
+            telling.attempt(text.last_words, runner.session)
 
 
 def _write(words: str) -> None:

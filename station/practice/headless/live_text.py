@@ -1,6 +1,6 @@
 """A session as a terminal shows it while it is played: a line a segment, a mark a judgement, notices between."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import assert_never
 
 from station.core.units import NS_PER_MS
@@ -39,10 +39,11 @@ def mark_of(verdict: Judgement, windows: Windows) -> str:
 
 
 class LiveText:
-    """Hands `write` what is new; `paused_words` say how a session that is paused goes on."""
+    """Hands `write` what is new; `ways_on` are the ways out of a pause, in words."""
 
-    def __init__(self, write: Callable[[str], None], paused_words: str) -> None:
-        self._write, self._paused_words = write, paused_words
+    def __init__(self, write: Callable[[str], None], ways_on: Sequence[str]) -> None:
+        self._write = write
+        self._paused_words = f"paused: {' or '.join(ways_on)} to go on, Ctrl-C to end"
         self._paused = False
         self._session: Session | None = None
         self._segment: Segment | None = None

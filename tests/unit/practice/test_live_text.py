@@ -33,7 +33,7 @@ JOURNEYS = {
 def told(plan: Plan, legs: list[Leg], seed: int) -> tuple[str, set[Label]]:
     """What the terminal has written when all was played, and the labels that were judged."""
     session, written, labels = Session(plan), list[str](), set[Label]()
-    text = LiveText(written.append, "paused")
+    text = LiveText(written.append, ["two kicks"])
     session.handle(Started(0))
     strokes = travel(plan.score, legs, seed, Slips()).strokes
     hits = iter([s.hit for s in strokes])
