@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from station.app.model import FreeRequest
-from station.core.errors import DeviceError, StationError
+from station.core.errors import StationError
 from station.core.settings import Settings, setting_source
 from station.core.units import NS_PER_S
 from station.devices.capture.capture import read_capture
@@ -99,11 +99,7 @@ class FreeSession:
 
     def finish(self, engine: EngineLink) -> StationError | None:
         """End the take and keep it; returns what went wrong."""
-        fault: StationError | None = None
-        try:
-            fault = end(engine, self._play)
-        except DeviceError as dead:
-            fault = dead
+        fault = end(engine, self._play)
         self._end_ns = self._play.at_ns or 0
         self.runs = False
         self._take = Performance.from_hits(self._play.hits)

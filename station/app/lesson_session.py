@@ -17,14 +17,14 @@ from station.core.settings import Settings
 from station.core.units import NS_PER_S
 from station.engine.messages import Command, EngineEvent
 from station.practice.headless.live import begin, end
-from station.practice.records.keeping import SavedSession, SessionFolder, save
+from station.practice.records.keeping import SessionFolder, SessionRecord, save
 from station.practice.records.previous_session import find_earlier
 from station.practice.records.session_report import practice_document
 from station.practice.session.device_latency import Latency
 from station.practice.session.plan import Phase, Plan
 from station.practice.session.runner import SessionRunner, Update
 from station.practice.session.session import Session, SessionResult
-from station.render.snapshot import Hud, Snapshot
+from station.render.snapshot import Snapshot
 from station.scenes.curves import ScoreCurves
 from station.scenes.demonstrator import Demonstrator
 from station.scenes.heat_map import heat_map
@@ -66,7 +66,6 @@ class LessonSession:
         self._runner = SessionRunner(laid.plan if laid.followed is None else laid.followed.adaptation, latency)
         self.view: SessionView = SessionView(self.plan, who, None if before is None else before.view)
         self._folder: SessionFolder | None = None
-        self._hud = Hud()
 
     @property
     def session(self) -> Session:
@@ -155,9 +154,7 @@ class LessonSession:
 
     def snapshot(self, now_ns: int) -> Snapshot:
         """The picture at `now_ns`."""
-        shown = self.view.snapshot(self.session, now_ns, PAUSED if self.paused else "")
-        self._hud = shown.hud
-        return shown
+        return self.view.snapshot(self.session, now_ns, PAUSED if self.paused else "")
 
     def graphed(self) -> ScoreCurves | None:
         """What the graph shows of it."""
@@ -179,7 +176,7 @@ class LessonSession:
             progress = (len(adaptation.rounds) + progress) / adaptation.loops
         clock = None
         if progress is not None and state.transport_ns is not None:
-            clock = PlaceNow(max(state.transport_ns, 0) / NS_PER_S, self._hud.bar, self._hud.beat)
+            clock = PlaceNow(max(state.transport_ns, 0) / NS_PER_S, *self.view.place(self.session))
         return replace(
             room,
             progress=progress,
@@ -194,18 +191,13 @@ class LessonSession:
 
     def finish(self, settings: Settings) -> SavedSession:
         """End the session, judge what was played and keep it."""
-        fault: StationError | None = None
-        if self._engine.alive:
-            try:
-                fault = end(self._engine, self._runner)
-            except DeviceError as dead:
-                fault = dead
+        fault = end(self._engine, self._runner) if self._engine.alive else None
         assert self._folder is not None, "it was begun"
         result = self._runner.finish()
         saved = save(self._folder, result, practice_document(result, settings), self._followed)
         return SavedSession(result, self._report(saved, self._folder), saved.fault or fault)
 
-    def _report(self, saved: SavedSession, folder: SessionFolder) -> ShownResult:
+    def _report(self, saved: SessionRecord, folder: SessionFolder) -> ShownResult:
         result = saved.result
         return ShownResult(
             session_facts(result, saved.document),

@@ -20,7 +20,7 @@ from station.core.settings import Settings, load_settings, save_settings, settin
 from station.core.units import PPQ
 from station.drills.lesson import Lesson
 from station.practice.headless.telling import Telling
-from station.practice.records.keeping import SavedSession, SessionFolder, save
+from station.practice.records.keeping import SessionFolder, SessionRecord, save
 from station.practice.records.memory import Memory, Remembered
 from station.practice.records.recovery import offer, recovered
 from station.practice.records.session_files import TEXT_NAME
@@ -171,7 +171,7 @@ def _recover(folder: SessionFolder, arguments: argparse.Namespace, settings: Set
 
 def _leave(
     folder: SessionFolder,
-    saved: SavedSession,
+    saved: SessionRecord,
     arguments: argparse.Namespace,
     settings: Settings,
     may_ask: bool = False,
@@ -208,11 +208,11 @@ def _print_report(document: dict[str, Json], as_json: bool) -> None:
         print(f"\n{document['pairs_csv']}", end="", flush=True)
 
 
-def _draw(folder: SessionFolder, saved: SavedSession, settings: Settings, telling: Telling) -> None:
-    from station.scenes.pictures import draw_saved
+def _draw(folder: SessionFolder, saved: SessionRecord, settings: Settings, telling: Telling) -> None:
+    from station.scenes.pictures import draw_record
 
     try:
-        for picture in draw_saved(saved, folder.path, settings):
+        for picture in draw_record(saved, folder.path, settings):
             telling.attempt(say, f"picture  {picture}")
     except StationError as error:
         telling.attempt(say, f"no picture: {error}")

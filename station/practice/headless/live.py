@@ -106,21 +106,21 @@ def practise_live(room: Room, runner: SessionRunner, capture: Path) -> LiveOutco
 
     Raises `DeviceError` if the engine dies before the transport runs: then there is nothing to report.
     """
-    fault: StationError | None = None
     try:
         begin(room.engine, runner, capture)
         while not runner.over and not room.asked:
             room.step(runner)
-        fault = end(room.engine, runner)
     except DeviceError as error:
         if not runner.started:
             raise
-        fault = error
+        fault: StationError | None = error
+    else:
+        fault = end(room.engine, runner)
     return LiveOutcome(runner.finish(), fault or room.fault(runner.heard), room.asked.is_attended)
 
 
 def begin(engine: EngineLink, listener: Listener, capture: Path | None) -> None:
-    """Have everything recorded, if it is to be captured, and start the transport."""
+    """Have everything recorded, if it is to be captured, and start the transport; raises `DeviceError`."""
     if capture is not None:
         engine.send(RecordCapture(capture))
     for command in listener.start():
@@ -128,16 +128,26 @@ def begin(engine: EngineLink, listener: Listener, capture: Path | None) -> None:
 
 
 def end(engine: EngineLink, listener: Listener) -> StationError | None:
-    """Stop, close the capture and take in every hit that was still on its way; returns why the capture lacks some."""
-    for command in (*listener.stop(), RecordCapture(None)):
-        engine.send(command)
+    """Stop, close the capture and take in every hit that was still on its way; returns why the capture lacks some.
+
+    An engine that is dead, or dies meanwhile, is such a reason: what it said until then was taken in.
+    """
+    try:
+        for command in (*listener.stop(), RecordCapture(None)):
+            engine.send(command)
+        _hear_out(engine, listener)
+    except DeviceError as dead:
+        return dead
+    return None if listener.heard.capture_fault is None else DeviceError(listener.heard.capture_fault)
+
+
+def _hear_out(engine: EngineLink, listener: Listener) -> None:
     for _ in range(round(LAST_WORDS_S / POLL_S)):
         events = engine.events(POLL_S)
         for event in events:
             listener.handle(event)
         if any(isinstance(event, CaptureSaved) and event.path is None for event in events):
             break
-    return None if listener.heard.capture_fault is None else DeviceError(listener.heard.capture_fault)
 
 
 def wait_for_kits(engine: EngineLink, listener: Listener, clock: Clock, wait_s: float, kits: int = 1) -> None:

@@ -85,7 +85,7 @@ class SessionFolder:
 
 
 @dataclass(frozen=True, eq=False)
-class SavedSession:
+class SessionRecord:
     """What a session leaves: its `result`, the report as a `document`, and the `fault` where the disk refused some."""
 
     result: SessionResult
@@ -95,7 +95,7 @@ class SavedSession:
 
 def save(
     folder: SessionFolder, result: SessionResult, document: dict[str, Json], followed: Remembered | None = None
-) -> SavedSession:
+) -> SessionRecord:
     """Keep a session that is over; where the tempo has `followed` the student the report tells of every pass."""
     if followed is not None:
         document = with_mastery(document, followed.adaptation, followed.next_turn())
@@ -106,7 +106,7 @@ def save(
             followed.keep()
     except StationError as refused:
         fault = _rescued(refused, result, document)
-    return SavedSession(result, document, fault)
+    return SessionRecord(result, document, fault)
 
 
 def _rescued(fault: StationError, result: SessionResult, document: dict[str, Json]) -> StationError:

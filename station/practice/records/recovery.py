@@ -6,7 +6,7 @@ All that was played is in the capture, so that they can be judged as they would 
 import shlex
 from pathlib import Path
 
-from station.core.errors import BadInput
+from station.core.errors import BadInput, StationError
 from station.core.settings import Settings
 from station.devices.capture.capture import RecordKind, read_capture
 from station.practice.records.rejudge import judge_again
@@ -16,6 +16,9 @@ from station.practice.session.session import SessionResult
 
 MOST_READ = 20
 """So many captures without a report are looked into, the newest; our choice, a fraction of a second of reading."""
+
+LARGEST = 64 * 2**20
+"""A larger capture is looked into only when it is named; our choice: hours of strokes are a few megabytes."""
 
 
 def cut_off(sessions: Path, student: str) -> list[Path]:
@@ -59,7 +62,9 @@ def _is_told(folder: Path) -> bool:
 def _is_worth_it(capture: Path) -> bool:
     """Whether a session was begun in it, and anything struck."""
     try:
+        if capture.stat().st_size > LARGEST:
+            return False
         kinds = {record.kind for record in read_capture(capture).records}
-    except BadInput:
+    except (StationError, OSError):
         return False
     return RecordKind.REMARK in kinds and bool(kinds & {RecordKind.BYTES, RecordKind.STROKE})
