@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from station.app.model import FreeRequest
-from station.core.errors import DeviceError, StationError
+from station.core.errors import StationError
 from station.core.settings import Settings, setting_source
 from station.core.units import NS_PER_S
 from station.devices.capture.capture import read_capture
@@ -19,12 +19,12 @@ from station.music.performance import Performance
 from station.music.score import Score
 from station.music.tempo import TempoMap
 from station.practice.headless.live import EngineLink, begin, end
+from station.practice.records.keeping import SessionFolder
 from station.practice.session.click_options import parse_click
 from station.practice.session.device_latency import Latency
 from station.practice.session.free_play import BEATS, FreeClick, FreePlay, listening_back, take_of
 from station.practice.session.listening import Listening
 from station.render.snapshot import Hud, SeenStrike, Snapshot, Strip
-from station.scenes.keep_session import SessionFolder
 from station.scenes.session_scene import STRIKE_SHOWN_NS, strikes
 
 IN_SIGHT = 256
@@ -77,7 +77,7 @@ class FreeSession:
         """Record from now on, to the click that is wished for; raises `StationError`."""
         pattern = parse_click(self._settings.click_pattern, setting_source("click_pattern")) if wish.click else None
         play = FreePlay(FreeClick(wish.tempo_bpm, pattern), self._latency)
-        folder = SessionFolder(None, self._settings, FOLDER)
+        folder = SessionFolder.make(None, self._settings, FOLDER)
         try:
             begin(engine, play, folder.capture)
         except StationError:
@@ -99,11 +99,7 @@ class FreeSession:
 
     def finish(self, engine: EngineLink) -> StationError | None:
         """End the take and keep it; returns what went wrong."""
-        fault: StationError | None = None
-        try:
-            fault = end(engine, self._play)
-        except DeviceError as dead:
-            fault = dead
+        fault = end(engine, self._play)
         self._end_ns = self._play.at_ns or 0
         self.runs = False
         self._take = Performance.from_hits(self._play.hits)

@@ -16,25 +16,22 @@ from station.core.events import Hit
 from station.core.settings import Settings
 from station.core.units import NS_PER_S
 from station.engine.messages import Command, EngineEvent
-from station.music.judgement import Judgement
-from station.practice.headless.live import begin, end, next_session
-from station.practice.records.mastery_report import with_mastery
-from station.practice.records.previous_session import NONE_KEPT, find_earlier
+from station.practice.headless.live import begin, end
+from station.practice.records.keeping import SessionFolder, SessionRecord, save
+from station.practice.records.previous_session import find_earlier
 from station.practice.records.session_report import practice_document
-from station.practice.session.adaptation import Adaptation
 from station.practice.session.device_latency import Latency
-from station.practice.session.plan import Phase
+from station.practice.session.plan import Phase, Plan
+from station.practice.session.runner import SessionRunner, Update
 from station.practice.session.session import Session, SessionResult
-from station.render.snapshot import Hud, Snapshot
+from station.render.snapshot import Snapshot
 from station.scenes.curves import ScoreCurves
 from station.scenes.demonstrator import Demonstrator
 from station.scenes.heat_map import heat_map
 from station.scenes.hit_table import every_hit
-from station.scenes.keep_session import SessionFolder, rescued
 from station.scenes.result_tables import session_facts
 from station.scenes.session_scene import SessionView
 from station.scenes.wrong_pads import wrong_pads
-from station.scoring.report.assessment_document import Json
 from station.sound.track import PreparedTrack
 
 PAUSED = "Paused: two kicks, or Go on"
@@ -65,21 +62,27 @@ class LessonSession:
         before: "LessonSession | None" = None,
     ) -> None:
         self._engine, self._who, self._tell = engine, who, tell
-        self.plan, self._followed = laid.plan, laid.followed
-        followed = None if laid.followed is None else laid.followed.adaptation
-        self.session = Session(laid.plan, latency) if followed is None else followed.session(latency)
-        self.view: SessionView = SessionView(laid.plan, who, None if before is None else before.view)
+        self._followed = laid.followed
+        self._runner = SessionRunner(laid.plan if laid.followed is None else laid.followed.adaptation, latency)
+        self.view: SessionView = SessionView(self.plan, who, None if before is None else before.view)
         self._folder: SessionFolder | None = None
-        self._taken: Session | None = None
-        self._was_asked = False
-        self._hud = Hud()
+
+    @property
+    def session(self) -> Session:
+        """The session that runs: the newest pass."""
+        return self._runner.session
+
+    @property
+    def plan(self) -> Plan:
+        """What is played in it."""
+        return self._runner.session.plan
 
     def begin(self, settings: Settings, track: PreparedTrack | None) -> None:
         """Start the transport and the capture; raises `StationError`, and leaves nothing behind then."""
-        folder = SessionFolder(None, settings, self.plan.lesson.name)
+        folder = SessionFolder.make(None, settings, self.plan.lesson.name)
         self.session.backing, self.session.waits = track, settings.auto_pause
         try:
-            begin(self._engine, self.session, folder.capture)
+            begin(self._engine, self._runner, folder.capture)
         except StationError:
             folder.discard()
             raise
@@ -90,55 +93,47 @@ class LessonSession:
 
     def take(self, event: EngineEvent, now_ns: int) -> None:
         """Take one event of the engine."""
-        told = len(self.session.heard.notices)
-        verdicts = self.session.handle(event)
-        self._judged(verdicts, now_ns)
-        for notice in self.session.heard.notices[told:]:
+        notices = self._runner.heard.notices
+        told = len(notices)
+        self._follow(self._runner.handle(event), now_ns)
+        for notice in notices[told:]:
             self._tell(notice)
 
     def advance(self, now_ns: int) -> bool:
         """Move on, or wait for a student who has stopped; returns whether the session is over."""
-        self._judged(self.session.advance(now_ns), now_ns)
-        if self.session.waits and self.session.is_left:
-            self.hold(asked=False)
-        return self.session.over and self._is_last()
-
-    def _judged(self, verdicts: tuple[Judgement, ...], now_ns: int) -> None:
-        """Show what the student is to see of `verdicts`."""
-        session = self.session
-        self.view.judged(session.told(verdicts), session.hits, now_ns, session.windows)
-
-    def _is_last(self) -> bool:
-        """On to the next pass where the tempo follows the student and there is one; whether there is none."""
-        if self._followed is None:
-            return True
-        adaptation = self._followed.adaptation
-        step = adaptation.take(self.session.result())
-        self._taken = self.session
-        if step.notice is not None:
-            self._tell(step.notice)
-        return adaptation.over or not self._next_pass(adaptation)
-
-    def _next_pass(self, adaptation: Adaptation) -> bool:
-        """Begin it; returns whether there was an engine for it."""
-        try:
-            self.session = next_session(self._engine, adaptation, self.session)
-        except DeviceError as fault:
-            self._tell(str(fault))
-            return False
-        self.plan = adaptation.plan
-        self.view = SessionView(self.plan, self._who, self.view)
-        self.view.make_ahead()
-        return True
+        self._follow(self._runner.advance(now_ns), now_ns)
+        return self._runner.over
 
     def veto(self) -> bool:
         """Refuse what the next pass would change, the last one once more; returns whether there was an engine."""
-        assert self._followed is not None, "the room asks where it may"
-        self._followed.adaptation.veto()
-        has_begun = self._next_pass(self._followed.adaptation)
-        if not has_begun:
-            self._taken = self.session  # it was refused: no pass of anybody's
-        return has_begun
+        try:
+            self._send(self._runner.veto())
+        except DeviceError as fault:
+            self._tell(str(fault))
+            return False
+        self._see_next_pass()
+        return True
+
+    def _follow(self, update: Update, now_ns: int) -> None:
+        """Do what a step asks for, and show the student what they are to see of it."""
+        with suppress(DeviceError):  # a dead engine says so itself
+            self._send(update.commands)
+        session = update.session
+        self.view.judged(session.told(update.judged), session.hits, now_ns, session.windows)
+        if update.is_anew:
+            self.view.judged_anew(session)
+        if update.notice is not None:
+            self._tell(update.notice)
+        if session is not self.session:
+            self._see_next_pass()
+
+    def _see_next_pass(self) -> None:
+        self.view = SessionView(self.plan, self._who, self.view)
+        self.view.make_ahead()
+
+    def _send(self, commands: Sequence[Command]) -> None:
+        for command in commands:
+            self._engine.send(command)
 
     # --- pauses ------------------------------------------------------------------------------------------------------
 
@@ -147,29 +142,19 @@ class LessonSession:
         """Whether it stands still."""
         return self.session.paused
 
-    def hold(self, command: Sequence[Hit] = (), asked: bool = True) -> None:
+    def hold(self, command: Sequence[Hit] = ()) -> None:
         """Pause; `command` are the strokes that asked for it, where some did."""
-        self._was_asked = asked
-        self._send(self.session.pause(command))
-        self.view.judged_anew(self.session)
+        self._follow(self._runner.pause(command), 0)
 
     def go_on(self) -> None:
-        """Out of a pause: a pass that moves the tempo is taken whole, else from the bar of the last stroke."""
-        self._send(self.session.resume(self._was_asked, whole=self._followed is not None))
-        self.view.judged_anew(self.session)
-
-    def _send(self, commands: Sequence[Command]) -> None:
-        for command in commands:
-            with suppress(DeviceError):  # a dead engine says so itself
-                self._engine.send(command)
+        """Out of a pause."""
+        self._follow(self._runner.resume(), 0)
 
     # --- what is seen ------------------------------------------------------------------------------------------------
 
     def snapshot(self, now_ns: int) -> Snapshot:
         """The picture at `now_ns`."""
-        shown = self.view.snapshot(self.session, now_ns, PAUSED if self.paused else "")
-        self._hud = shown.hud
-        return shown
+        return self.view.snapshot(self.session, now_ns, PAUSED if self.paused else "")
 
     def graphed(self) -> ScoreCurves | None:
         """What the graph shows of it."""
@@ -191,7 +176,7 @@ class LessonSession:
             progress = (len(adaptation.rounds) + progress) / adaptation.loops
         clock = None
         if progress is not None and state.transport_ns is not None:
-            clock = PlaceNow(max(state.transport_ns, 0) / NS_PER_S, self._hud.bar, self._hud.beat)
+            clock = PlaceNow(max(state.transport_ns, 0) / NS_PER_S, *self.view.place(self.session))
         return replace(
             room,
             progress=progress,
@@ -206,38 +191,20 @@ class LessonSession:
 
     def finish(self, settings: Settings) -> SavedSession:
         """End the session, judge what was played and keep it."""
-        fault: StationError | None = None
-        if self._engine.alive:
-            try:
-                fault = end(self._engine, self.session)
-            except DeviceError as dead:
-                fault = dead
-        result, document = self._whole(settings)
-        path = ""
-        if self._folder is not None:
-            path = str(self._folder.path)
-            try:
-                self._folder.write(result, document)
-                if self._followed is not None:
-                    self._followed.keep()
-            except StationError as refused:
-                fault = rescued(refused, result, document)
-        facts = session_facts(result, document)
-        before = NONE_KEPT if self._folder is None else find_earlier(self._folder.path, self.plan.lesson.name)
-        return SavedSession(
-            result,
-            ShownResult(facts, document, path, heat_map(result), every_hit(result), before, wrong_pads(result)),
-            fault,
-        )
+        fault = end(self._engine, self._runner) if self._engine.alive else None
+        assert self._folder is not None, "it was begun"
+        result = self._runner.finish()
+        saved = save(self._folder, result, practice_document(result, settings), self._followed)
+        return SavedSession(result, self._report(saved, self._folder), saved.fault or fault)
 
-    def _whole(self, settings: Settings) -> tuple[SessionResult, dict[str, Json]]:
-        """The result and its report, over all passes where there were several sessions."""
-        if self._followed is None:
-            result = self.session.result()
-            return result, practice_document(result, settings)
-        adaptation = self._followed.adaptation
-        if self._taken is not self.session:
-            adaptation.take(self.session.result())
-            self._taken = self.session
-        result = adaptation.result()
-        return result, with_mastery(practice_document(result, settings), adaptation, self._followed.next_turn())
+    def _report(self, saved: SessionRecord, folder: SessionFolder) -> ShownResult:
+        result = saved.result
+        return ShownResult(
+            session_facts(result, saved.document),
+            saved.document,
+            str(folder.path),
+            heat_map(result),
+            every_hit(result),
+            find_earlier(folder.path, self.plan.lesson.name),
+            wrong_pads(result),
+        )

@@ -34,6 +34,7 @@ from station.core.units import NS_PER_S
 from station.engine.messages import EngineEvent, KeyHit, Started
 from station.music.score import Score
 from station.practice.demonstration.compare_by_ear import Whose
+from station.practice.records.recovery import offer
 from station.practice.session.device_latency import Latency, latency_of
 from station.practice.session.listening import Listening
 from station.practice.session.plan import Plan
@@ -71,7 +72,7 @@ class PracticeRoom:
         self._prepared = SessionPreparation(settings, backing)
         self._latency = latency or latency_of(settings, StoredCalibration())
         self._first = replace(request_of(first), adapt=adapt)
-        self._notices: list[str] = []
+        self._notices = [] if (cut_off := offer(settings)) is None else [cut_off]
         self.shelf = Catalog(lambda: self._prepared.settings, first.lesson, self._notices.append)
         who = kept_demonstrator(settings, self._notices.append)
         run = LessonSession(self._engine, PreparedSession(first), who, self._latency, self._notices.append)

@@ -1,6 +1,8 @@
 """`station practice [LESSON]`: a practice session in the window, in the terminal, or with a virtual student."""
 
 import argparse
+import sys
+from contextlib import ExitStack
 from dataclasses import replace
 from datetime import date
 from pathlib import Path
@@ -13,20 +15,20 @@ from station.cli.device_option import KIT_HELP, wanted_kits
 from station.cli.read_scores import bars_of_gap
 from station.cli.sound_options import add_sound_options, backing_of, said_of
 from station.cli.tapping import TAP, tapped_tempo
-from station.core.errors import BadInput, StationError
+from station.core.errors import BadInput, DeviceError, StationError
 from station.core.settings import Settings, load_settings, save_settings, setting_source, with_said
 from station.core.units import PPQ
 from station.drills.lesson import Lesson
-from station.practice.records.mastery_report import with_mastery
+from station.practice.headless.telling import Telling
+from station.practice.records.keeping import SessionFolder, SessionRecord, save
 from station.practice.records.memory import Memory, Remembered
+from station.practice.records.recovery import offer, recovered
 from station.practice.records.session_files import TEXT_NAME
 from station.practice.records.session_report import practice_document, report_text, with_truth
 from station.practice.session.backing_track import BackingRequest
 from station.practice.session.click_options import parse_click
 from station.practice.session.leading_hand import hands_of
 from station.practice.session.plan import Plan, PlanOptions, plan_practice
-from station.practice.session.session import SessionResult
-from station.scenes.keep_session import SessionFolder, rescued
 from station.scoring.report.assessment_document import Json
 
 STAND_IN = "intermediate,seed=1"
@@ -64,6 +66,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--report", type=Path, metavar="DIR", help="where to leave the session; practises in the terminal"
     )
     parser.add_argument("--no-pictures", action="store_true", help="leave a report, but no pictures")
+    parser.add_argument("--recover", type=Path, metavar="DIR", help="judge and keep a session that was cut off")
     parser.add_argument("--student", metavar="NAME", help="whose session it is")
     parser.add_argument("--json", action="store_true", help="print the report as one JSON document; in the terminal")
     add_sound_options(parser)
@@ -72,6 +75,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Practise."""
     settings = _wanted(arguments, load_settings())
+    if arguments.recover is not None:
+        return _recover(SessionFolder.left_over(arguments.recover), arguments, settings)
     backing = backing_of(arguments)
     if arguments.no_click and arguments.adapt:
         raise BadInput("--no-click", "--adapt", "the tempo follows you either within a pass or from pass to pass")
@@ -109,13 +114,13 @@ def _virtual(plan: Plan, wishes: PlanOptions, spec: str, arguments: argparse.Nam
 
     student = parse_spec(spec)
     remembered = _remembered(plan, wishes, settings, arguments.student is not None) if arguments.adapt else None
-    with SessionFolder(arguments.report, settings, plan.lesson.name) as folder:
+    with SessionFolder.make(arguments.report, settings, plan.lesson.name) as folder:
         if remembered is None:
             virtual = practise_virtually(plan, student, folder.capture)
         else:
             virtual = practise_adaptively(remembered.adaptation, student, folder.capture)
         document = with_truth(practice_document(virtual.result, settings), virtual, settings)
-        _leave(folder, virtual.result, document, arguments, remembered)
+        _leave(folder, save(folder, virtual.result, document, remembered), arguments, settings)
     if virtual.fault is not None:
         raise virtual.fault
     return 0
@@ -126,13 +131,17 @@ def _live(
 ) -> int:
     from station.cli.terminal import practise_in_terminal
 
+    cut_off = offer(settings)
+    if cut_off is not None:
+        say(cut_off)
     remembered = _remembered(plan, wishes, settings, keeps=True) if arguments.adapt else None
-    with SessionFolder(arguments.report, settings, plan.lesson.name) as folder:
-        outcome = practise_in_terminal(
-            plan if remembered is None else remembered.adaptation, settings, folder.capture, backing
-        )
-        may_ask = settings.ask_first and not arguments.json
-        _leave(folder, outcome.result, practice_document(outcome.result, settings), arguments, remembered, may_ask)
+    with SessionFolder.make(arguments.report, settings, plan.lesson.name) as folder:
+        with ExitStack() as until_kept:
+            asked = plan if remembered is None else remembered.adaptation
+            outcome = practise_in_terminal(asked, settings, folder.capture, until_kept, backing)
+            saved = save(folder, outcome.result, practice_document(outcome.result, settings), remembered)
+        may_ask = settings.ask_first and outcome.is_attended and not arguments.json
+        _leave(folder, saved, arguments, settings, may_ask)
     if outcome.fault is not None:
         raise outcome.fault
     return 0
@@ -153,45 +162,60 @@ def _is_kit_there(wanted: str) -> bool:
     return bool(devices_there(parse_kits(wanted)))
 
 
+def _recover(folder: SessionFolder, arguments: argparse.Namespace, settings: Settings) -> int:
+    """Judge a session that was cut off, and leave what it would have left; what is remembered stays as it is."""
+    result = recovered(folder.capture)
+    _leave(folder, save(folder, result, practice_document(result, settings)), arguments, settings)
+    return 0
+
+
 def _leave(
     folder: SessionFolder,
-    result: SessionResult,
-    document: dict[str, Json],
+    saved: SessionRecord,
     arguments: argparse.Namespace,
-    remembered: Remembered | None,
+    settings: Settings,
     may_ask: bool = False,
 ) -> None:
-    """Write everything, then print the report; what the disk refused is said after the report was printed.
+    """Print the report of what was kept, and draw it; what the disk refused is said after the report was printed.
 
     `may_ask`: a person played, who may be asked for an opinion before the report is there.
     """
-    fault = None
-    if remembered is not None:
-        document = with_mastery(document, remembered.adaptation, remembered.next_turn())
-    try:
-        folder.write(result, document)
-        if remembered is not None:
-            remembered.keep()
-    except StationError as error:
-        fault = rescued(error, result, document)
+    telling = Telling()
     if may_ask:
-        ask_first(document)
-    if arguments.json:
+        telling.attempt(ask_first, saved.document)
+    telling.attempt(_print_report, saved.document, as_json=arguments.json)
+    if saved.fault is not None:
+        raise saved.fault
+    telling.attempt(say, f"\nreport   {folder.path / TEXT_NAME}")
+    if not arguments.no_pictures:
+        _draw(folder, saved, settings, telling)
+    if isinstance(telling.failure, BrokenPipeError):  # whoever read has gone, and wants no word of it
+        raise telling.failure
+    unsaid = telling.fault(f"the session is kept in {folder.path}, but not all could be printed")
+    if unsaid is not None:
+        raise unsaid
+
+
+def _print_report(document: dict[str, Json], as_json: bool) -> None:
+    if sys.__stdout__ is None:  # closed before we were started: `print` would say nothing, and nobody would know
+        raise DeviceError("standard output is closed")
+    if as_json:
         print_json(document)
-    else:
-        print(report_text(document), end="", flush=True)
-        if "pairs_csv" in document:
-            print(f"\n{document['pairs_csv']}", end="", flush=True)
-    if fault is not None:
-        raise fault
-    say(f"\nreport   {folder.path / TEXT_NAME}")
-    if arguments.no_pictures:
+        sys.stdout.flush()
         return
+    print(report_text(document), end="", flush=True)
+    if "pairs_csv" in document:
+        print(f"\n{document['pairs_csv']}", end="", flush=True)
+
+
+def _draw(folder: SessionFolder, saved: SessionRecord, settings: Settings, telling: Telling) -> None:
+    from station.scenes.pictures import draw_record
+
     try:
-        for picture in folder.draw(result, document):
-            say(f"picture  {picture}")
+        for picture in draw_record(saved, folder.path, settings):
+            telling.attempt(say, f"picture  {picture}")
     except StationError as error:
-        say(f"no picture: {error}")
+        telling.attempt(say, f"no picture: {error}")
 
 
 # --- what was asked --------------------------------------------------------------------------------------------------

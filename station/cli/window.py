@@ -37,7 +37,7 @@ def open_window(
     backing: "BackingRequest | None" = None,
     shown: Callable[[Snapshot | None], bool] | None = None,
 ) -> int:
-    """Show the practice room until it is closed; what was played until then is kept.
+    """Show the practice room until it is closed, or the system wants it to end; what was played until then is kept.
 
     `adapt` whether the tempo follows the student, until another choice is made in the window; `backing` a track to
     play along to in every session whose tempo stays; `shown` is called after each frame, with what
@@ -50,14 +50,16 @@ def open_window(
     from station.engine.supervisor import EngineSupervisor
     from station.gui.layout import WindowOptions
     from station.gui.window import run_window
+    from station.practice.headless.end_signals import end_asked
     from station.practice.session.device_latency import latency_of
 
     latency = latency_of(settings, load_calibration())
-    with ExitStack() as engines:
+    with ExitStack() as engines, end_asked() as asked:
         wake = lambda: engines.enter_context(EngineSupervisor(EngineConfig.from_settings(settings)))  # noqa: E731
         room = PracticeRoom(wake, settings, first, adapt, latency, backing)
         try:
-            run_window(room, WindowOptions(shown=shown))
+            goes_on = lambda drawn: not asked and (shown is None or shown(drawn))  # noqa: E731
+            run_window(room, WindowOptions(shown=goes_on))
         finally:
             fault = room.close()
         if fault is not None:

@@ -1,18 +1,34 @@
 """Pictures of sessions and scores without a window."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
+from station.core.settings import Settings
 from station.core.units import NS_PER_S
 from station.motion.drummer import Drummer
 from station.motion.style.lanes import in_passes
 from station.music.judgement import Label
+from station.practice.records.keeping import SessionRecord
+from station.practice.records.session_files import DRUMMER_NAME, PICTURE_NAME
 from station.practice.session.session import SessionResult
 from station.render.picture import draw_png
+from station.render.report.report_picture import draw_report_png
 from station.render.snapshot import ExtraHit, Hud, Snapshot, mark, no_marks
-from station.scenes.demonstrator import Demonstrator
+from station.scenes.demonstrator import Demonstrator, kept_demonstrator
+from station.scenes.result_tables import session_facts
 from station.scenes.session_scene import bar_numbers
 from station.scoring.matching.alignment import judgements
+
+
+def draw_record(record: SessionRecord, folder: Path, settings: Settings) -> Iterator[Path]:
+    """Draw a session's report and its drummer into `folder`, and say each that is there; raises `DeviceError`."""
+    report, drummer = folder / PICTURE_NAME, folder / DRUMMER_NAME
+    draw_report_png(session_facts(record.result, record.document), report)
+    yield report
+    who = kept_demonstrator(settings, lambda _: None)  # a style that is none was told when practice began
+    draw_session(record.result, drummer, who)
+    yield drummer
 
 
 def drummer_of(result: SessionResult, who: Demonstrator) -> Drummer:

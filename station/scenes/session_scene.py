@@ -173,31 +173,35 @@ class SessionView:
     # --- words -------------------------------------------------------------------------------------------------------
 
     def _hud(self, session: Session, now_ns: int, message: str) -> Hud:
-        plan, state = self.plan, session.state()
-        segment = state.segment
-        within_ns = (state.transport_ns or 0) - segment.start_ns
-        tempo_map = plan.section.tempo_map
-        place = None
-        if state.transport_ns is not None and within_ns >= 0 and segment.phase is not Phase.OVER:
-            place = tempo_map.position_at(int(tempo_map.ticks_at_ns(within_ns)))
-        counting = segment.phase is Phase.COUNT_IN
+        plan, segment = self.plan, session.state().segment
+        bar, beat = self.place(session)
         right, judged = self._counts(segment.index) if segment.phase is Phase.PASS else (0, 0)
         age_ns = now_ns - self._cue_ns
         return Hud(
             title=plan.lesson.title,
             phase=plan.words(segment),
-            bar=None if place is None or counting else plan.first_bar + place.bar + 1,
-            beat=None if place is None else place.beat + 1,
-            beats=tempo_map.meters[0].beats,
+            bar=bar,
+            beat=beat,
+            beats=plan.section.tempo_map.meters[0].beats,
             bar_count=plan.lesson.score.bar_count,
             beats_a_minute=plan.beats_a_minute,
-            count_in=place.beat + 1 if counting and place is not None else None,
+            count_in=beat if segment.phase is Phase.COUNT_IN else None,
             right=right,
             judged=judged,
             message=message,
             cue=self._cue if age_ns < CUE_SHOWN_NS else TimingCue.NONE,
             cue_age_s=age_ns / NS_PER_S,
         )
+
+    def place(self, session: Session) -> tuple[int | None, int | None]:
+        """The lesson's bar and its beat, from 1, None where none is played; a count-in has beats alone."""
+        state = session.state()
+        segment, tempo_map = state.segment, self.plan.section.tempo_map
+        if state.transport_ns is None or state.transport_ns < segment.start_ns or segment.phase is Phase.OVER:
+            return None, None
+        at = tempo_map.position_at(int(tempo_map.ticks_at_ns(state.transport_ns - segment.start_ns)))
+        is_count_in = segment.phase is Phase.COUNT_IN
+        return None if is_count_in else self.plan.first_bar + at.bar + 1, at.beat + 1
 
     def _counts(self, pass_index: int) -> tuple[int, int]:
         """Notes right and notes judged of one pass."""

@@ -1,4 +1,7 @@
-"""All that the kit and its foot switches may command, as the settings ask for it; what they mean the room decides."""
+"""All that the kit and its foot switches may command, as the settings ask for it.
+
+Two pads at once or a switch pause and go on, two kicks go on, and start what is quiet.
+"""
 
 from collections.abc import Sequence
 
@@ -42,3 +45,16 @@ class PadCommands:
         if isinstance(event, Switched):
             return () if self._foot.take(event) else None
         return (self._together.take(event) or None) if isinstance(event, Hit) else None
+
+    def asks(self, event: EngineEvent, score: Score, is_paused: bool) -> Sequence[Hit] | None:
+        """The strokes with which `event` asks a session of `score` to pause or go on; None where it asks nothing."""
+        self.practise(score)
+        asked = () if is_paused and self.starts(event) else self.pauses(event)
+        if asked is not None:
+            self.forget()
+        return asked
+
+
+def ways_to_go_on(settings: Settings) -> tuple[str, ...]:
+    """What ends a pause from the kit, in words; empty where nothing does."""
+    return (*(["two kicks"] if settings.kicks_start else []), *settings.pause.split())

@@ -1,13 +1,10 @@
-"""A session in real time without a window: the engine process plays and hears, this loop judges and tells.
+"""A session in real time without a window: the engine process plays and hears, a runner moves it on, a text is told.
 
 The capture is written by the engine as the bytes come, so that nothing that follows can lose a hit.
 """
 
-import signal
-import threading
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Protocol
 
@@ -16,9 +13,10 @@ from station.core.errors import DeviceError, StationError
 from station.core.units import ns_from_s
 from station.engine.messages import CaptureSaved, Command, EngineEvent, Ready, RecordCapture
 from station.music.judgement import Judgement
-from station.practice.control.pad_pause import PadPause
-from station.practice.session.adaptation import Adaptation
+from station.practice.headless.end_signals import EndAsked
+from station.practice.headless.telling import Telling
 from station.practice.session.engine_state import EngineState
+from station.practice.session.runner import SessionRunner
 from station.practice.session.session import Session, SessionResult
 
 POLL_S = 0.02
@@ -45,7 +43,10 @@ class EngineLink(Protocol):
 class Listener(Protocol):
     """What is recorded: a session, or a free take."""
 
-    heard: EngineState
+    @property
+    def heard(self) -> EngineState:
+        """What the engine has said."""
+        ...
 
     def start(self) -> tuple[Command, ...]:
         """The commands that set the engine going."""
@@ -62,141 +63,98 @@ class Listener(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class LiveOutcome:
-    """A live session's result and, where something went wrong that the user must know, the `fault`."""
+    """A live session's result and, where something went wrong that the user must know, the `fault`.
+
+    `is_attended` whether the student may still be there, to be asked something.
+    """
 
     result: SessionResult
     fault: StationError | None
+    is_attended: bool = True
 
 
 @dataclass(frozen=True, slots=True)
 class Room:
-    """Where a session is played: its `engine` and `clock`, who hears every round of judgements, what the pads ask."""
+    """Where a session is played: its `engine` and `clock`, who hears every round of judgements, who may end it.
+
+    A `tell` that fails costs no session: `telling` remembers it.
+    """
 
     engine: EngineLink
     clock: Clock
     tell: Tell
-    pads: PadPause | None = None
+    telling: Telling = field(default_factory=Telling)
+    asked: EndAsked = field(default_factory=EndAsked)
 
-    def begin(self, session: Session, capture: Path) -> None:
-        """Have everything recorded, and start the transport."""
-        session.waits = self.pads is not None and self.pads.waits
-        begin(self.engine, session, capture)
-
-    def step(self, session: Session) -> None:
-        """Take in what the engine has heard, move on to the present, and obey the pads."""
-        judged: tuple[Judgement, ...] = ()
-        for event in self.engine.events(POLL_S):
-            judged += session.handle(event)
-            self._obey(() if self.pads is None else self.pads.take(session, event))
-        judged += session.advance(self.clock.now_ns())
-        self._obey(() if self.pads is None else self.pads.look(session))
-        self.tell(session, judged)
-
-    def _obey(self, commands: Sequence[Command]) -> None:
-        for command in commands:
+    def step(self, runner: SessionRunner) -> None:
+        """Take in what the engine has heard, move on to the present, tell of it and do what it asks for."""
+        events = self.engine.events(POLL_S)
+        update = runner.update(self.clock.now_ns(), events)
+        self.telling.attempt(self.tell, update.session, update.judged)
+        for command in update.commands:
             self.engine.send(command)
 
+    def fault(self, heard: EngineState) -> StationError | None:
+        """What the user must know at the end that nobody has raised."""
+        if not heard.devices:
+            return DeviceError("the kit was unplugged and did not come back; what was played until then is kept")
+        return self.telling.fault("not all could be shown while you played, the session is kept")
 
-def practise_live(room: Room, session: Session, capture: Path) -> LiveOutcome:
-    """Run `session` to its end, or until Ctrl-C or the engine's death.
+
+def practise_live(room: Room, runner: SessionRunner, capture: Path) -> LiveOutcome:
+    """Play what `runner` has to play until it is over, the end is `asked` for, or the engine dies.
 
     Raises `DeviceError` if the engine dies before the transport runs: then there is nothing to report.
     """
-    fault: StationError | None = None
     try:
-        room.begin(session, capture)
-        with _ctrl_c() as pressed:
-            while not session.over and not pressed.is_set():
-                room.step(session)
-            fault = end(room.engine, session)
+        begin(room.engine, runner, capture)
+        while not runner.over and not room.asked:
+            room.step(runner)
     except DeviceError as error:
-        if not session.started:
+        if not runner.started:
             raise
-        fault = error
-    if fault is None and not session.heard.devices:
-        fault = DeviceError("the kit was unplugged and did not come back; what was played until then is kept")
-    return LiveOutcome(session.result(), fault)
+        fault: StationError | None = error
+    else:
+        fault = end(room.engine, runner)
+    return LiveOutcome(runner.finish(), fault or room.fault(runner.heard), room.asked.is_attended)
 
 
-def practise_rounds(room: Room, adaptation: Adaptation, first: Session, capture: Path) -> LiveOutcome:
-    """Run pass after pass of `adaptation`, beginning with the session `first`, until it is over, or Ctrl-C.
+def begin(engine: EngineLink, listener: Listener, capture: Path | None) -> None:
+    """Have everything recorded, if it is to be captured, and start the transport; raises `DeviceError`."""
+    if capture is not None:
+        engine.send(RecordCapture(capture))
+    for command in listener.start():
+        engine.send(command)
 
-    The capture goes on from pass to pass. Raises `DeviceError` if the engine dies before the transport runs.
+
+def end(engine: EngineLink, listener: Listener) -> StationError | None:
+    """Stop, close the capture and take in every hit that was still on its way; returns why the capture lacks some.
+
+    An engine that is dead, or dies meanwhile, is such a reason: what it said until then was taken in.
     """
-    session, fault, taken = first, None, False
     try:
-        room.begin(session, capture)
-        with _ctrl_c() as pressed:
-            while not pressed.is_set():
-                room.step(session)
-                if not session.over:
-                    continue
-                adaptation.take(session.result())
-                taken = True
-                if adaptation.over:
-                    break
-                session, taken = next_session(room.engine, adaptation, session), False
-            fault = end(room.engine, session)
-    except DeviceError as error:
-        if not session.started and not adaptation.rounds:
-            raise
-        fault = error
-    if not taken:
-        adaptation.take(session.result())
-    if fault is None and not session.heard.devices:
-        fault = DeviceError("the kit was unplugged and did not come back; what was played until then is kept")
-    return LiveOutcome(adaptation.result(), fault)
+        for command in (*listener.stop(), RecordCapture(None)):
+            engine.send(command)
+        _hear_out(engine, listener)
+    except DeviceError as dead:
+        return dead
+    return None if listener.heard.capture_fault is None else DeviceError(listener.heard.capture_fault)
 
 
-def next_session(engine: EngineLink, adaptation: Adaptation, before: Session) -> Session:
-    """Start the pass that `adaptation` asks for, on what the session `before` knows of the kit."""
-    session = adaptation.session(before.latency)
-    session.heard.go_on_from(before.heard)
-    session.waits = before.waits
-    for command in session.start():
-        engine.send(command)
-    return session
-
-
-def begin(engine: EngineLink, session: Listener, capture: Path) -> None:
-    """Have everything recorded, and start the transport."""
-    engine.send(RecordCapture(capture))
-    for command in session.start():
-        engine.send(command)
-
-
-def end(engine: EngineLink, session: Listener) -> StationError | None:
-    """Stop, close the capture and take in every hit that was still on its way; returns why the capture lacks some."""
-    for command in (*session.stop(), RecordCapture(None)):
-        engine.send(command)
+def _hear_out(engine: EngineLink, listener: Listener) -> None:
     for _ in range(round(LAST_WORDS_S / POLL_S)):
         events = engine.events(POLL_S)
         for event in events:
-            session.handle(event)
+            listener.handle(event)
         if any(isinstance(event, CaptureSaved) and event.path is None for event in events):
             break
-    return None if session.heard.capture_fault is None else DeviceError(session.heard.capture_fault)
 
 
-@contextmanager
-def _ctrl_c() -> Iterator[threading.Event]:
-    """Ctrl-C sets the event meanwhile, so that it never strikes in the middle of a message."""
-    pressed = threading.Event()
-    if threading.current_thread() is not threading.main_thread():
-        yield pressed
-        return
-    before = signal.signal(signal.SIGINT, lambda *_: pressed.set())
-    try:
-        yield pressed
-    finally:
-        signal.signal(signal.SIGINT, before)
-
-
-def wait_for_kits(engine: EngineLink, session: Session, clock: Clock, wait_s: float, kits: int = 1) -> None:
-    """Let the engine wake and find so many `kits`, for at most `wait_s` after it is ready; `session` hears of it."""
+def wait_for_kits(engine: EngineLink, listener: Listener, clock: Clock, wait_s: float, kits: int = 1) -> None:
+    """Let the engine wake and find so many `kits`, for at most `wait_s` after it is ready; `listener` hears of it."""
     until_ns: int | None = None
-    while len(session.heard.devices) < kits and (until_ns is None or clock.now_ns() < until_ns):
+    while len(listener.heard.devices) < kits and (until_ns is None or clock.now_ns() < until_ns):
         for event in engine.events(POLL_S):
-            session.handle(event)
+            listener.handle(event)
             if isinstance(event, Ready):
                 until_ns = clock.now_ns() + ns_from_s(wait_s)

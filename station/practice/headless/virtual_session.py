@@ -1,5 +1,6 @@
-"""A session with a virtual student: the same engine, decoder and session, on a clock that is moved by hand."""
+"""A session with a virtual student: the same engine, decoder and runner, on a clock that is moved by hand."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -7,10 +8,13 @@ from station.core.clock import ManualClock
 from station.core.errors import DeviceError, StationError
 from station.devices.mapping.presets import GENERAL_MIDI_PRESET
 from station.engine.engine import Engine
-from station.engine.messages import Command, RecordCapture
+from station.engine.messages import Command, EngineEvent
+from station.practice.headless.live import begin, end
 from station.practice.session.adaptation import Adaptation
+from station.practice.session.device_latency import Latency
 from station.practice.session.plan import TAIL_NS, Plan
-from station.practice.session.session import LEAD_IN_NS, Session, SessionResult
+from station.practice.session.runner import SessionRunner
+from station.practice.session.session import LEAD_IN_NS, SessionResult
 from station.simulation.student_spec import StudentSpec
 from station.simulation.virtual_student import VirtualPerformance, VirtualStudent, joined, play
 
@@ -32,67 +36,76 @@ def practise_virtually(plan: Plan, spec: StudentSpec, capture: Path | None = Non
     Raises `BadInput` where the lesson asks for a piece that General MIDI has no number for, `DeviceError` where the
     capture cannot be begun.
     """
-    student, room = play(plan.score, spec), _Room()
-    result = room.practise(plan, student, capture)
-    return VirtualSession(result, student, room.end())
+    runner, student = SessionRunner(plan, Latency()), play(plan.score, spec)
+    fault = _practise(runner, lambda _: student, capture)
+    return VirtualSession(runner.finish(), student, fault)
 
 
 def practise_adaptively(adaptation: Adaptation, spec: StudentSpec, capture: Path | None = None) -> VirtualSession:
     """Let a virtual student practise, pass by pass, what `adaptation` asks for; raises as `practise_virtually` does."""
-    student, room, parts = VirtualStudent(spec), _Room(), list[VirtualPerformance]()
-    while not adaptation.over:
-        plan = adaptation.plan
+    runner, student, parts = SessionRunner(adaptation, Latency()), VirtualStudent(spec), list[VirtualPerformance]()
+
+    def perform(plan: Plan) -> VirtualPerformance:
         parts.append(student.play(plan.score))
-        adaptation.take(room.practise(plan, parts[-1], capture if len(parts) == 1 else None))
+        return parts[-1]
+
+    fault = _practise(runner, perform, capture)
     row = adaptation.row()
     performance = row.performance(part.performance for part in parts)
-    return VirtualSession(adaptation.result(), joined(parts, row.score, performance), room.end())
+    return VirtualSession(runner.finish(), joined(parts, row.score, performance), fault)
 
 
-class _Room:
-    """One engine on one clock, for one plan after the other."""
+def _practise(
+    runner: SessionRunner, perform: Callable[[Plan], VirtualPerformance], capture: Path | None
+) -> StationError | None:
+    """Play every pass of `runner` as the student would `perform` it; returns why the capture lacks some, if it does."""
+    engine, session = _EngineHere(), None
+    begin(engine, runner, capture)
+    engine.step(runner, 0)
+    if runner.heard.capture_fault is not None:
+        raise DeviceError(runner.heard.capture_fault)
+    while not runner.over and runner.session is not session:  # one without a click may wait for more than is played
+        session = runner.session
+        engine.play(runner, perform(session.plan))
+    return end(engine, runner)
+
+
+class _EngineHere:
+    """An engine in this process, on a clock that is moved by hand, and a kit to play on."""
 
     def __init__(self) -> None:
         self._engine, self._clock = Engine(), ManualClock()
-        self._session: Session | None = None
-        self._step(0)
+        self._engine.advance(self._clock.now_ns())
         self._engine.use_preset(DEVICE, GENERAL_MIDI_PRESET)
         self._engine.device_found(DEVICE, self._clock.now_ns())
 
-    def practise(self, plan: Plan, student: VirtualPerformance, capture: Path | None) -> SessionResult:
-        """What the session makes of `plan` as the student played it; the capture begins before it."""
-        session, before = Session(plan), self._session
-        if before is not None:
-            session.heard.go_on_from(before.heard)
-        self._session = session
-        commands: tuple[Command, ...] = session.start()
-        for command in commands if capture is None else (RecordCapture(capture), *commands):
-            self._engine.handle(command)
-        zero_ns = self._clock.now_ns() + LEAD_IN_NS
-        self._step(zero_ns)
-        if session.heard.capture_fault is not None:
-            raise DeviceError(session.heard.capture_fault)
+    def send(self, command: Command) -> None:
+        """Hand the engine a command."""
+        self._engine.handle(command)
+
+    def events(self, wait_s: float = 0.0) -> list[EngineEvent]:
+        """What has happened since the last call: nothing happens while anybody waits."""
+        del wait_s
+        return self._engine.advance(self._clock.now_ns())
+
+    def play(self, runner: SessionRunner, student: VirtualPerformance) -> None:
+        """Play a pass that has just been started, and let it end."""
+        session, zero_ns = runner.session, self._clock.now_ns() + LEAD_IN_NS
+        plan = session.plan
+        self.step(runner, zero_ns)
+        played_until_ns = plan.passes_start_ns
         for at_ns, data in student.midi:
+            if runner.session is not session:  # the pass ended while they were still playing
+                return
+            played_until_ns = max(plan.passes_start_ns + at_ns, played_until_ns)
             now_ns = zero_ns + plan.passes_start_ns + at_ns
             self._engine.feed(DEVICE, data, now_ns)
-            self._step(now_ns)
-        played_until_ns = plan.passes_start_ns + max((at_ns for at_ns, _ in student.midi), default=0)
-        self._step(zero_ns + max(plan.end_ns, played_until_ns) + TAIL_NS)
-        return session.result()
+            self.step(runner, now_ns)
+        if runner.session is session:
+            self.step(runner, zero_ns + max(plan.end_ns, played_until_ns) + TAIL_NS)
 
-    def end(self) -> StationError | None:
-        """Close the capture; returns why it lacks some of what was played, if it does."""
-        assert self._session is not None, "something was practised"
-        for command in (*self._session.stop(), RecordCapture(None)):
-            self._engine.handle(command)
-        self._step(self._clock.now_ns())
-        fault = self._session.heard.capture_fault
-        return None if fault is None else DeviceError(fault)
-
-    def _step(self, now_ns: int) -> None:
+    def step(self, runner: SessionRunner, now_ns: int) -> None:
+        """Let the runner hear and do what comes until then."""
         self._clock.advance_to(max(now_ns, self._clock.now_ns()))
-        for event in self._engine.advance(self._clock.now_ns()):
-            if self._session is not None:
-                self._session.handle(event)
-        if self._session is not None:
-            self._session.advance(self._clock.now_ns())
+        for command in runner.update(self._clock.now_ns(), self.events()).commands:
+            self.send(command)

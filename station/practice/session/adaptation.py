@@ -20,7 +20,7 @@ from station.drills.mastery.equipment_faults import rewired
 from station.drills.mastery.mastery_state import ItemState
 from station.drills.mastery.pass_facts import PassResult, measure_pass
 from station.drills.mastery.policy import begin, fix_tempo, new_item, next_step, veto
-from station.drills.mastery.practice_steps import PassKind, PracticeItem, PracticeStep, item_of
+from station.drills.mastery.practice_steps import PassKind, PracticeStep, item_of
 from station.drills.mastery.rules import Rules
 from station.drills.orchestration import revoiced
 from station.music.performance import Performance
@@ -127,7 +127,7 @@ class Adaptation:
 
     def result(self) -> SessionResult:
         """All passes as one session; at least one was played."""
-        return whole([one.result for one in self.rounds], self.state.item)
+        return whole([one.result for one in self.rounds], self.state.item.bars)
 
     def row(self) -> "ScoreRow":
         """What was judged of all passes, in a row."""
@@ -212,14 +212,14 @@ def _rest(part: Score) -> Score:
     return Score.from_notes([], tempo_map, ceil(REST_S / bar_s) * meter.bar_ticks)
 
 
-def whole(results: list[SessionResult], item: PracticeItem) -> SessionResult:
-    """Several sessions of one lesson as one."""
+def whole(results: list[SessionResult], bars: tuple[int, int]) -> SessionResult:
+    """Several sessions of one lesson as one; what was practised of it are the `bars` (first, last, from 0)."""
     assert results, "nothing was played"
     row = ScoreRow(tuple(result.score for result in results))
     score, performance = row.score, row.performance(result.performance for result in results)
     last = results[-1]
     return SessionResult(
-        plan=_whole_plan([result.plan for result in results], row, item),
+        plan=_whole_plan([result.plan for result in results], row, bars),
         score=score,
         performance=performance,
         alignment=align(score, performance, clocked=True),
@@ -235,13 +235,13 @@ def whole(results: list[SessionResult], item: PracticeItem) -> SessionResult:
     )
 
 
-def _whole_plan(plans: list[Plan], row: ScoreRow, item: PracticeItem) -> Plan:
+def _whole_plan(plans: list[Plan], row: ScoreRow, bars: tuple[int, int]) -> Plan:
     """A plan whose one section is all that was played; its bars bear the lesson's names."""
     score, last = row.score, plans[-1]
-    names = np.full(score.bar_count, item.first_bar, np.int64)
+    names = np.full(score.bar_count, bars[0], np.int64)
     for start, plan in zip(row.start_bars, plans, strict=True):
-        bars = lesson_bars(plan)
-        names[start : start + len(bars)] = bars
+        played = lesson_bars(plan)
+        names[start : start + len(played)] = played
     silences = tuple(
         (start_ns + begin_ns, start_ns + end_ns)
         for start_ns, plan in zip(row.start_ns, plans, strict=True)
@@ -253,12 +253,12 @@ def _whole_plan(plans: list[Plan], row: ScoreRow, item: PracticeItem) -> Plan:
         last,
         section=score,
         score=score,
-        first_bar=item.first_bar,
+        first_bar=bars[0],
         passes=len(plans),
         segments=segments,
         passes_start_ns=0,
         end_ns=score.length_ns,
-        rounds=Rounds(tuple(names.tolist()), row.start_bars, item.bars, silences),
+        rounds=Rounds(tuple(names.tolist()), row.start_bars, bars, silences),
     )
 
 

@@ -1,6 +1,7 @@
 """The room behind the window when the engine fails: nothing that was played is lost, and a new engine is woken."""
 
 import json
+from datetime import datetime
 from pathlib import Path
 
 import pytest
@@ -28,8 +29,11 @@ from station.engine.messages import (
 )
 from station.motion.sticking.hand_notes import Hands
 from station.practice.demonstration.compare_by_ear import Whose
+from station.practice.headless.virtual_session import practise_virtually
+from station.practice.records.session_files import CAPTURE_NAME, session_folder
 from station.practice.session.backing_track import BackingRequest
 from station.practice.session.plan import PlanOptions, plan_practice
+from station.simulation.student_spec import parse_spec
 
 TARGET_BPM = find_lesson("rock-1").target_tempo_bpm
 PLAN = plan_practice(find_lesson("rock-1"), PlanOptions(loops=1, demonstrations=0))
@@ -369,3 +373,11 @@ def test_what_is_played_in_a_session_is_never_learnt_as_a_gesture(tmp_path: Path
     room.snapshot(at_ns + 10)
     assert room.habits.now == before
     assert not room.habits.learns
+
+
+def test_a_session_that_was_cut_off_is_told_of_when_the_window_opens(tmp_path: Path) -> None:
+    assert room_on([Line()], tmp_path).room().notices == ()
+    folder = session_folder(tmp_path, Settings().student, "rock-1", datetime(2026, 3, 1, 10))
+    practise_virtually(PLAN, parse_spec("pro"), folder / CAPTURE_NAME)
+    (told,) = room_on([Line()], tmp_path).room().notices
+    assert told.startswith("a session was cut off before it was judged: 2026-03-01T10-00-00_rock-1; station practice")

@@ -14,11 +14,11 @@ from station.core.settings import Settings
 from station.core.units import NS_PER_S
 from station.drills.library import find_lesson
 from station.engine.messages import CaptureSaved, Command, EngineEvent, Play, RecordCapture, Started, Stop
-from station.practice.control.pad_pause import PadPause
+from station.practice.control.pad_commands import PadCommands, ways_to_go_on
 from station.practice.headless.live import LiveOutcome, Room, practise_live
 from station.practice.session.device_latency import Latency
 from station.practice.session.plan import PlanOptions, plan_practice
-from station.practice.session.session import Session
+from station.practice.session.runner import SessionRunner
 
 PLAN = plan_practice(find_lesson("rock-1"), PlanOptions(tempo_bpm=80.0, loops=4, demonstrations=0))
 BAR_NS = 3 * NS_PER_S
@@ -70,13 +70,13 @@ class Engine:
 
 
 def played(
-    tmp_path: Path, first: list[Planned], later: list[Planned], attended: bool = False, **chosen: object
+    tmp_path: Path, first: list[Planned], later: list[Planned], waits: bool = False, **chosen: object
 ) -> tuple[LiveOutcome, Engine]:
     clock = ManualClock()
     engine, settings = Engine(clock, first, later), Settings(**chosen)  # type: ignore[arg-type] # what a test chooses
-    pads = PadPause(settings, PLAN.score, attended=attended)
-    room = Room(engine, clock, lambda *_: None, pads)
-    return practise_live(room, Session(PLAN, Latency()), tmp_path / "x"), engine
+    runner = SessionRunner(PLAN, Latency(), PadCommands(settings, PLAN.score))
+    runner.session.waits = waits
+    return practise_live(Room(engine, clock, lambda *_: None), runner, tmp_path / "x"), engine
 
 
 @pytest.mark.parametrize(
@@ -101,14 +101,12 @@ def test_silence_waits_only_for_somebody(tmp_path: Path) -> None:
     """Played until the second bar; after two silent ones, and a look or two, two kicks go on there."""
     strokes: list[Planned] = [(0, KICK), (1.25, Piece.SNARE)]
     again: list[Planned] = [(3, KICK), (3.1, KICK), *((4 + bar, Piece.SNARE) for bar in range(40))]
-    outcome, engine = played(tmp_path, strokes, again, attended=True)
+    outcome, engine = played(tmp_path, strokes, again, waits=True)
     assert [(one.bar, one.asked) for one in outcome.result.pauses] == [(1, False)]
     _, engine = played(tmp_path, strokes, [])
     assert engine.sent.count(Play) == 1
-    _, engine = played(tmp_path, strokes, [], attended=True, kicks_start=False, pause="")
-    assert engine.sent.count(Play) == 1, "nothing could go on"
 
 
 def test_it_is_said_what_goes_on() -> None:
-    words = PadPause(Settings(), PLAN.score).words
-    assert words == "paused: two kicks or crash_1+crash_2 or cc=64 to go on, Ctrl-C to end"
+    assert ways_to_go_on(Settings()) == ("two kicks", "crash_1+crash_2", "cc=64")
+    assert ways_to_go_on(Settings(kicks_start=False, pause="")) == ()

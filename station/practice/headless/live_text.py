@@ -1,0 +1,80 @@
+"""A session as a terminal shows it while it is played: a line a segment, a mark a judgement, notices between."""
+
+from collections.abc import Callable, Sequence
+from typing import assert_never
+
+from station.core.units import NS_PER_MS
+from station.music.judgement import Judgement, Label
+from station.practice.session.plan import Segment
+from station.practice.session.session import Session
+from station.scoring.matching.hit_windows import Windows
+
+_EARLY, _ON_TIME, _LATE = "<", "|", ">"
+_OF_LEAN = {-1: _EARLY, 0: _ON_TIME, 1: _LATE}
+_UNTIMED, _MISS, _WRONG_PIECE, _EXTRA, _TAKEN_BACK, _IGNORED = "·", "o", "x", "+", "~", ""
+LEGEND = (
+    f"{_ON_TIME} on time  {_EARLY} early  {_LATE} late  {_MISS} missed  {_WRONG_PIECE} wrong piece  {_EXTRA} extra  "
+    f"{_TAKEN_BACK} taken back  {_UNTIMED} hit, its time not shown"
+)
+
+
+def mark_of(verdict: Judgement, windows: Windows) -> str:
+    """The mark of a verdict; none of a hit that nobody counts."""
+    match verdict.label:
+        case Label.MATCH:
+            asynchrony_ns = verdict.asynchrony_ns
+            return _UNTIMED if asynchrony_ns is None else _OF_LEAN[windows.lean(asynchrony_ns / NS_PER_MS)]
+        case Label.MISS:
+            return _MISS
+        case Label.EXTRA:
+            return _EXTRA
+        case Label.WRONG_PIECE:
+            return _WRONG_PIECE
+        case Label.IGNORED:
+            return _IGNORED
+        case Label.PENDING:
+            return _TAKEN_BACK
+        case _:
+            assert_never(verdict.label)
+
+
+class LiveText:
+    """Hands `write` what is new; `ways_on` are the ways out of a pause, in words."""
+
+    def __init__(self, write: Callable[[str], None], ways_on: Sequence[str]) -> None:
+        self._write = write
+        self._paused_words = f"paused: {' or '.join(ways_on)} to go on, Ctrl-C to end"
+        self._paused = False
+        self._session: Session | None = None
+        self._segment: Segment | None = None
+        self._told = 0
+
+    def tell(self, session: Session, judged: tuple[Judgement, ...]) -> None:
+        """Show what is new in `session`."""
+        if session is not self._session:
+            self._session, self._segment, self._told = session, None, 0
+        notices = session.heard.notices[self._told :]
+        self._told += len(notices)
+        for notice in notices:
+            self._write(f"\n{notice}")
+        self._tell_segment(session)
+        marks = "".join(mark_of(verdict, session.windows) for verdict in session.told(judged))
+        if marks:
+            self._write(marks)
+        if session.paused and not self._paused:
+            self._write(f"\n{self._paused_words}\n")
+        self._paused = session.paused
+
+    def _tell_segment(self, session: Session) -> None:
+        state = session.state()
+        if state.transport_ns is None or state.segment == self._segment:
+            return
+        if self._segment is None and session.message:
+            self._write(f"\n{session.message}")
+        self._segment = state.segment
+        self._write(f"\n{session.plan.words(state.segment):14}")
+
+    def last_words(self, first: Session) -> None:
+        """Show what is still untold of the session that ran last, `first` where none did, and end the line."""
+        self.tell(self._session or first, ())
+        self._write("\n")

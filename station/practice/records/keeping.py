@@ -1,0 +1,130 @@
+"""Keeps a session: the folder with its capture and report, what is remembered of it, and a way out of a full disk.
+
+Pictures need the drummer, who lives above: whoever has one draws them into the folder (`station.scenes.pictures`).
+"""
+
+import tempfile
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+
+from station.core.errors import BadInput, StationError
+from station.core.files import write_whole
+from station.core.settings import Settings
+from station.music.formats.smf.track_writer import write_performance
+from station.practice.records.mastery_report import with_mastery
+from station.practice.records.memory import Remembered
+from station.practice.records.session_files import (
+    CAPTURE_NAME,
+    DOCUMENT_NAME,
+    PAIRS_NAME,
+    TAKE_NAME,
+    TEXT_NAME,
+    session_folder,
+    write_document,
+)
+from station.practice.records.session_pairs import session_pairs_csv
+from station.practice.records.session_report import report_text
+from station.practice.session.session import SessionResult
+from station.scoring.report.assessment_document import Json
+
+
+@dataclass(frozen=True, slots=True)
+class SessionFolder:
+    """One session's folder at `path`; as a context manager it takes one that `is_new` away again if it stayed empty."""
+
+    path: Path
+    is_new: bool
+
+    @classmethod
+    def make(cls, wanted: Path | None, settings: Settings, name: str) -> "SessionFolder":
+        """One made at the start, so that a disk that refuses shows before anybody plays.
+
+        `name` says what is practised, `wanted` is a folder that the user named, None for a new one of the student's.
+        Raises `BadInput` or `DeviceError` where it cannot be made.
+        """
+        if wanted is None:
+            return cls(session_folder(settings.sessions_dir, settings.student, name, datetime.now()), is_new=True)
+        is_new = not wanted.exists()
+        return cls(_made(wanted), is_new)
+
+    @classmethod
+    def left_over(cls, path: Path) -> "SessionFolder":
+        """That of a session that was cut off; raises `BadInput` where none was begun in it, or it has its report."""
+        if (path / DOCUMENT_NAME).exists():
+            raise BadInput(path, "", "this session has its report")
+        if not (path / CAPTURE_NAME).is_file():
+            raise BadInput(path, "", f"no session was begun in this folder: it holds no {CAPTURE_NAME}")
+        return cls(path, is_new=False)
+
+    @property
+    def capture(self) -> Path:
+        """Where the capture is kept."""
+        return self.path / CAPTURE_NAME
+
+    def __enter__(self) -> "SessionFolder":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.discard()
+
+    def discard(self) -> None:
+        """Take the folder away again if nothing is in it."""
+        if self.is_new and self.path.is_dir() and not any(self.path.iterdir()):
+            self.path.rmdir()
+
+    def write(self, result: SessionResult, document: dict[str, Json]) -> None:
+        """Write the report as document, text and table; raises `DeviceError`."""
+        write_document(self.path / DOCUMENT_NAME, document)
+        write_whole(self.path / TEXT_NAME, report_text(document).encode())
+        write_whole(self.path / PAIRS_NAME, session_pairs_csv(result).encode())
+
+    def keep_take(self, document: dict[str, object]) -> None:
+        """Write what is kept of a free take beside its capture; raises `DeviceError`."""
+        write_document(self.path / TAKE_NAME, document)
+
+
+@dataclass(frozen=True, eq=False)
+class SessionRecord:
+    """What a session leaves: its `result`, the report as a `document`, and the `fault` where the disk refused some."""
+
+    result: SessionResult
+    document: dict[str, Json]
+    fault: StationError | None
+
+
+def save(
+    folder: SessionFolder, result: SessionResult, document: dict[str, Json], followed: Remembered | None = None
+) -> SessionRecord:
+    """Keep a session that is over; where the tempo has `followed` the student the report tells of every pass."""
+    if followed is not None:
+        document = with_mastery(document, followed.adaptation, followed.next_turn())
+    fault = None
+    try:
+        folder.write(result, document)
+        if followed is not None:
+            followed.keep()
+    except StationError as refused:
+        fault = _rescued(refused, result, document)
+    return SessionRecord(result, document, fault)
+
+
+def _rescued(fault: StationError, result: SessionResult, document: dict[str, Json]) -> StationError:
+    """The fault, with word of where the hits are safe: on another disk, or else in the document itself."""
+    spare = Path(tempfile.gettempdir()) / f"drum-station-{datetime.now():%Y-%m-%dT%H-%M-%S-%f}.mid"
+    try:
+        write_performance(result.performance, spare)
+    except StationError:
+        document["pairs_csv"] = session_pairs_csv(result)
+        return StationError(f"{fault}; no disk takes the hits: they are printed with the report")
+    return StationError(f"{fault}; every hit is safe in {spare}")
+
+
+def _made(path: Path) -> Path:
+    if (path / CAPTURE_NAME).exists() or (path / DOCUMENT_NAME).exists():
+        raise BadInput(path, "", "there is a session in this folder already")
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as fault:
+        raise BadInput(path, "", f"no folder can be made: {fault.strerror or fault}") from fault
+    return path

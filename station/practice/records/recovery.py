@@ -1,0 +1,70 @@
+"""Sessions that were cut off (the power went, the program was killed): their capture is there, and no report.
+
+All that was played is in the capture, so that they can be judged as they would have been at their end.
+"""
+
+import shlex
+from pathlib import Path
+
+from station.core.errors import BadInput, StationError
+from station.core.settings import Settings
+from station.devices.capture.capture import RecordKind, read_capture
+from station.practice.records.rejudge import judge_again
+from station.practice.records.session_files import CAPTURE_NAME, DOCUMENT_NAME, TAKE_NAME, folder_name
+from station.practice.session.adaptation import whole
+from station.practice.session.session import SessionResult
+
+MOST_READ = 20
+"""So many captures without a report are looked into, the newest; our choice, a fraction of a second of reading."""
+
+LARGEST = 64 * 2**20
+"""A larger capture is looked into only when it is named; our choice: hours of strokes are a few megabytes."""
+
+
+def cut_off(sessions: Path, student: str) -> list[Path]:
+    """The folders of a student's sessions that were cut off after a stroke, the newest first.
+
+    `sessions` is the folder of all sessions. One that runs in another program right now is among them.
+    """
+    captures = sorted((sessions / folder_name(student)).glob(f"*/{CAPTURE_NAME}"), reverse=True)
+    without = [path.parent for path in captures if not _is_told(path.parent)]
+    return [folder for folder in without[:MOST_READ] if _is_worth_it(folder / CAPTURE_NAME)]
+
+
+def offer(settings: Settings) -> str | None:
+    """The line that tells the student of sessions that were cut off; None where there are none."""
+    folders = cut_off(settings.sessions_dir, settings.student)
+    if not folders:
+        return None
+    more = f" (and {len(folders) - 1} more)" if len(folders) > 1 else ""
+    command = f"station practice --recover {shlex.quote(str(folders[0]))}"
+    return f"a session was cut off before it was judged: {folders[0].name}{more}; {command} judges it"
+
+
+def recovered(capture: Path) -> SessionResult:
+    """The result of the session in a capture; all passes in a row where the tempo followed the student.
+
+    Raises `BadInput` where the capture cannot be read, or holds no session.
+    """
+    results = [session.result() for session in judge_again(read_capture(capture))]
+    if not results:
+        raise BadInput(capture, "", "there is no session in this capture")
+    if len(results) == 1:
+        return results[0]
+    bars = [result.plan.bars for result in results]
+    return whole(results, (min(first for first, _ in bars), max(last for _, last in bars)))
+
+
+def _is_told(folder: Path) -> bool:
+    return (folder / DOCUMENT_NAME).exists() or (folder / TAKE_NAME).exists()
+
+
+def _is_worth_it(capture: Path) -> bool:
+    """Whether a session was begun in it, and anything struck."""
+    try:
+        if capture.stat().st_size > LARGEST:
+            return False
+        kinds = {record.kind for record in read_capture(capture).records}
+    except (StationError, OSError):
+        return False
+    return RecordKind.REMARK in kinds and bool(kinds & {RecordKind.BYTES, RecordKind.STROKE})
