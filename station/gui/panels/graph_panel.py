@@ -14,7 +14,7 @@ from station.gui import theme
 from station.gui.widgets import plots
 from station.gui.widgets.flow_row import FlowRow
 from station.render import palette
-from station.render.report.stroke_plot import AXIS_MS, LINES_MS, line_words
+from station.render.report.stroke_plot import AXIS_MS, LINES, line_words
 from station.scenes.curves import ScoreCurves, StudentStrokes
 from station.scenes.joint_curves import CURVES, JointCurves
 from station.scenes.music_ticks import music_ticks
@@ -152,7 +152,7 @@ class GraphPanel:
             low, high = AXIS_MS[0], AXIS_MS[1] + (_LEGEND_MS if has_legend else 0.0)
             plots.axis(implot.ImAxis_.y1)
             words = line_words(imgui.get_font_size() / room.y * (high - low))
-            implot.setup_axis_ticks(implot.ImAxis_.y1, [*map(float, LINES_MS)], words)
+            implot.setup_axis_ticks(implot.ImAxis_.y1, [*LINES], words)
             implot.setup_axis_limits(implot.ImAxis_.y1, low, high, implot.Cond_.once)
             plots.fixed(implot.ImAxis_.y2, 0.0, _LOUDEST, implot.AxisFlags_.opposite | plots.BARE)
             _draw_strokes(played)

@@ -13,7 +13,7 @@ from station.gui.widgets import plots
 from station.gui.widgets.flow_row import FlowRow
 from station.render import palette
 from station.render.notation.judgement_marks import ON_TIME_MS
-from station.render.report.stroke_plot import AXIS_MS, LINES_MS, heights_ms, line_words
+from station.render.report.stroke_plot import AXIS_MS, LINES, heights_ms, line_words
 from station.render.text.draw_list import Colour
 from station.scenes.hit_table import EveryHit, nearest, words_of
 
@@ -98,7 +98,7 @@ def _axes(bars: tuple[int, int], height: float) -> None:
     implot.setup_axis_ticks(implot.ImAxis_.x1, [*map(float, range(first, last + 2))], [*numbers, ""])
     plots.fixed(implot.ImAxis_.y1, *AXIS_MS)
     letter_ms = imgui.get_font_size() / height * (AXIS_MS[1] - AXIS_MS[0])
-    implot.setup_axis_ticks(implot.ImAxis_.y1, [*map(float, LINES_MS)], line_words(letter_ms))
+    implot.setup_axis_ticks(implot.ImAxis_.y1, [*LINES], line_words(letter_ms))
 
 
 def _paper(bars: tuple[int, int], chosen: int) -> None:

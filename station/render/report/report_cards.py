@@ -10,7 +10,7 @@ from station.render.notation.judgement_marks import ON_TIME_MS, timing_colour
 from station.render.palette import BRAND, GOOD, INK, INK_FAINT, INK_SOFT, PANEL, PANEL_EDGE, with_opacity
 from station.render.report.report_layout import ReportBox
 from station.render.report.result_facts import PieceLean, ResultFacts, in_words, leans, ticks
-from station.render.report.stroke_plot import AXIS_MS, LINES_MS, Kind, Mark, by_kind, heights_ms, line_words
+from station.render.report.stroke_plot import AXIS_MS, LINES, Kind, Mark, by_kind, heights_ms
 from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face
 
@@ -41,7 +41,7 @@ class Plot:
         band = self._height_of(-ON_TIME_MS) - self._height_of(ON_TIME_MS)
         left, width = self._left - 8, self._right - self._left + 16
         self._ink.box((left, self._height_of(ON_TIME_MS)), (width, band), with_opacity(GOOD, 0.10))
-        for ms, words in zip(LINES_MS, line_words(), strict=True):
+        for ms, words in LINES.items():
             y = self._height_of(ms)
             self._ink.box((left, y - 0.5), (width, 1.0), INK_FAINT if ms else INK_SOFT)
             self._ink.text(words, (left - 8, y + 5), TypeStyle(15, INK_SOFT, Face.REGULAR, 1.0))

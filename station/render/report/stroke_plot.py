@@ -17,8 +17,9 @@ from station.render.palette import EARLY, EXTRA, GOOD, LATE, MISSED, WRONG, with
 from station.render.text.draw_list import Colour
 
 REACH_MS = 80.0
-"""Our choice: beyond it a stroke is taken for another note's at quick tempos."""
-LINES_MS = (-60, -30, 0, 30, 60)
+"""Our choice."""
+LINES = {-60.0: "60 early", -30.0: "30 early", 0.0: "0 ms", 30.0: "30 late", 60.0: "60 late"}
+"""Where lines lie, in ms, and what they are called."""
 _MISSED_MS, _NOT_WRITTEN_MS = -92.0, -107.0
 AXIS_MS = (-116.0, 90.0)
 """The lower and the upper end of the axis."""
@@ -74,11 +75,6 @@ def heights_ms(label: NDArray[np.uint8], asynchrony_ms: NDArray[np.float64]) -> 
     return np.select([label == Label.MISS, label == Label.EXTRA], [_MISSED_MS, _NOT_WRITTEN_MS], reached)
 
 
-def line_words(letter_ms: float = 0.0) -> list[str]:
-    """What each of `LINES_MS` is called, "" for every second where a letter is higher than they are apart."""
-    step = LINES_MS[1] - LINES_MS[0]
-    return ["" if ms % (2 * step) and letter_ms > step else _line(ms) for ms in LINES_MS]
-
-
-def _line(ms: int) -> str:
-    return "0 ms" if ms == 0 else f"{abs(ms)} {'late' if ms > 0 else 'early'}"
+def line_words(letter_ms: float) -> list[str]:
+    """What each of `LINES` is called, "" for every second where a letter is higher than they are apart."""
+    return ["" if ms % 60 and letter_ms > 30 else words for ms, words in LINES.items()]

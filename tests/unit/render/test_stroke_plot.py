@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from station.music.judgement import Label
-from station.render.report.stroke_plot import AXIS_MS, KINDS, LINES_MS, Mark, by_kind, heights_ms, line_words
+from station.render.report.stroke_plot import AXIS_MS, KINDS, LINES, Mark, by_kind, heights_ms, line_words
 
 LABEL = np.array([*[Label.MATCH] * 5, Label.WRONG_PIECE, Label.MISS, Label.EXTRA], np.uint8)
 LATE_MS = np.array([-25.0, 25.0, -26.0, 26.0, 300.0, -10.0, np.nan, np.nan])
@@ -41,5 +41,5 @@ def test_strokes_stand_at_their_time_up_to_the_edge_and_others_below() -> None:
     ],
 )
 def test_lines_are_called_early_and_late_as_far_as_there_is_room(letter_ms: float, words: list[str]) -> None:
-    assert len(words) == len(LINES_MS)
+    assert len(words) == len(LINES)
     assert line_words(letter_ms) == words
