@@ -8,7 +8,7 @@ from bisect import bisect_left
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-from imgui_bundle import hello_imgui, imgui
+from imgui_bundle import hello_imgui, imgui, implot
 
 from station.render import palette
 from station.render.palette import Theme
@@ -17,6 +17,8 @@ from station.render.text.fonts import Face, font_path
 
 FONT_SIZE = 17.0
 LARGE_FONT_SIZE = 26.0
+_ICONS, _ICON_SIZE = "fonts/fontawesome-webfont.ttf", 15.0
+"""The signs' file among imgui-bundle's, and their size beside letters."""
 _TOOLTIP_WIDTH = 420.0
 """Design pixels; our choice: some sixty letters, a good line to read."""
 _ROUND, _LESS_ROUND = 10.0, 7.0
@@ -30,8 +32,12 @@ _MARK_HIGH = 4.0
 
 
 def load_fonts() -> None:
-    """Make Roboto the panels' font; hello_imgui calls this once, when fonts may be loaded."""
+    """Make Roboto, and the signs of Font Awesome, the panels' font; hello_imgui calls this once, when it may be loaded.
+
+    Both come with imgui-bundle; Font Awesome Free is under the SIL Open Font License.
+    """
     imgui.get_io().fonts.add_font_from_file_ttf(str(font_path(Face.REGULAR)), FONT_SIZE)
+    hello_imgui.load_font(_ICONS, _ICON_SIZE, hello_imgui.FontLoadingParams(merge_to_last_font=True))
 
 
 class _Worn:
@@ -70,6 +76,26 @@ def apply() -> None:
     style.grab_min_size = points(12)
     for slot, colour in _colours().items():
         style.set_color_(slot, _vec(colour))
+    _apply_to_plots()
+
+
+def _apply_to_plots() -> None:
+    """The same for ImPlot. Named lines are all minor ones to it, the panel is behind its plots."""
+    style, ink = implot.get_style(), dyed(palette.INK)
+    style.plot_padding = imgui.ImVec2(points(4), points(2))
+    style.plot_min_size = imgui.ImVec2(points(10), points(10))
+    style.legend_spacing = imgui.ImVec2(points(14), 0)
+    style.minor_alpha = 0.7
+    for slot, opacity in (
+        (implot.Col_.plot_bg, 0.04),
+        (implot.Col_.plot_border, 0.0),
+        (implot.Col_.legend_bg, 0.0),
+        (implot.Col_.legend_border, 0.0),
+        (implot.Col_.inlay_text, 0.66),
+        (implot.Col_.axis_text, 0.66),
+        (implot.Col_.axis_grid, 0.30),
+    ):
+        style.set_color_(slot, _vec(palette.with_opacity(ink, opacity)))
 
 
 def _colours() -> dict[imgui.Col_, Colour]:
@@ -126,6 +152,17 @@ def main_button(label: str, size: tuple[float, float], enabled: bool = True) -> 
     pressed = imgui.button(label, imgui.ImVec2(*size))
     imgui.end_disabled()
     imgui.pop_style_color(len(slots))
+    return bool(pressed)
+
+
+def icon_button(label: str, size: tuple[float, float], lit: bool = False) -> bool:
+    """A button that bears a sign of the icon font; returns whether it was pressed. `lit` shows that it is on."""
+    is_on = _vec(palette.with_opacity(dyed(palette.BRAND), 0.55))
+    imgui.push_style_color(imgui.Col_.button, is_on if lit else imgui.get_style_color_vec4(imgui.Col_.button))
+    imgui.push_style_var(imgui.StyleVar_.frame_padding, imgui.ImVec2(0.0, imgui.get_style().frame_padding.y))
+    pressed = imgui.button(label, imgui.ImVec2(*size))
+    imgui.pop_style_var()
+    imgui.pop_style_color()
     return bool(pressed)
 
 

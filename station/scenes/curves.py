@@ -21,9 +21,13 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class StudentStrokes:
-    """The student's strokes, one a judged note (n,): `asynchrony_ms` NaN where it was missed, `velocity` 1–127."""
+    """The student's strokes, one a judged note (n,): `asynchrony_ms` NaN where it was missed, `velocity` 1–127.
+
+    `label` of `Label`.
+    """
 
     time_s: Array
+    label: NDArray[np.uint8]
     asynchrony_ms: Array
     velocity: Array
     written: Array
@@ -49,7 +53,10 @@ def played_of_marks(score: Score, marks: NDArray[np.void]) -> StudentStrokes:
     judged = marks["label"] != PENDING
     written = score.notes["velocity"][judged].astype(np.float64)
     asynchrony_ms = marks["asynchrony_ms"][judged].astype(np.float64)
-    return StudentStrokes(score.onset_s[judged], asynchrony_ms, written + marks["velocity_error"][judged], written)
+    label = marks["label"][judged].astype(np.uint8)
+    return StudentStrokes(
+        score.onset_s[judged], label, asynchrony_ms, written + marks["velocity_error"][judged], written
+    )
 
 
 def played_of_result(result: SessionResult) -> StudentStrokes:
@@ -61,4 +68,4 @@ def played_of_result(result: SessionResult) -> StudentStrokes:
     if result.device != KEYBOARD:  # keys cannot tell how hard they are struck
         velocity[paired] = result.performance.hits["velocity"][hit[paired]]
     written = result.score.notes["velocity"].astype(np.float64)
-    return StudentStrokes(result.score.onset_s, asynchrony_ms, velocity, written)
+    return StudentStrokes(result.score.onset_s, result.alignment.note_label, asynchrony_ms, velocity, written)

@@ -678,10 +678,18 @@ def by_ear(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
         ctx.item_click(HITS_STOP)
         ctx.yield_(2)
     drive.seen["quiet"] = not drive.room.room().listening
-    x, y = drive.window.pages.hits.at[0].tolist()
+    panel, report = drive.window.pages.hits, drive.room.report()
+    assert report is not None
+    x, y = panel.at[0].tolist()
     ctx.mouse_move_to_pos(imgui.ImVec2(x, y))
     ctx.yield_(2)
-    drive.seen["pointed"] = drive.window.pages.hits.pointed
+    drive.seen["pointed"] = panel.pointed
+    x, y = min(panel.at[report.hits.dots["bar"] == 2].tolist(), key=lambda at: at[1])  # the lowest are scrolled away
+    ctx.mouse_move_to_pos(imgui.ImVec2(x, y))
+    ctx.yield_(2)
+    ctx.mouse_click(0)
+    ctx.yield_(2)
+    drive.seen["clicked"] = panel.ear.bar
 
 
 def closes(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
@@ -764,20 +772,20 @@ def player(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
         return round(deck.player.position_ns(deck.now_ns) / 1e6)
 
     ctx.set_ref("//Transport")
-    ctx.item_click("##play")
+    ctx.item_click("###play")
     ctx.yield_(6)
     seen["plays"], seen["moves"] = deck.player.playing, at_ms() > 300
     ctx.key_press(imgui.Key.w)
     ctx.yield_(2)
     seen["stands"] = not deck.player.playing
     stepped = []
-    for button in ("##start", "##step", "##step", "##back", "##end"):
+    for button in ("###start", "###step", "###step", "###back", "###end"):
         ctx.item_click(button)
         ctx.yield_(1)
         stepped.append(at_ms())
     seen["stepped"] = stepped
     ctx.key_press(chord(imgui.Key._3, imgui.Key.mod_ctrl, imgui.Key.mod_shift))
-    ctx.item_click("##reverse")
+    ctx.item_click("###reverse")
     ctx.key_press(imgui.Key.w)
     ctx.yield_(4)
     seen["back"] = at_ms() < stepped[-1]
@@ -820,9 +828,9 @@ def graph(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.item_click("//$FOCUSED/Graph")
     ctx.popup_close_all()
     ctx.yield_(3)
-    ctx.item_click("##start")
+    ctx.item_click("###start")
     low, high = panel.span_s
-    ctx.item_click("##step")
+    ctx.item_click("###step")
     ctx.yield_(2)
     seen["beat"] = deck.player.at_ns % 1_500_000_000
     seen["middle"] = sum(panel.span_s) / 2 - deck.player.at_ns / 1e9

@@ -38,7 +38,19 @@ def figure(drive: "Drive", ctx: imgui.test_engine.TestContext) -> None:
     seen["slot"] = options.value("amplitude_gain")
     ctx.item_click("##figure/Arms/~##bars-amplitude_gain")
     ctx.yield_(3)
-    draw(ctx, "##figure/Bars/##lane")
+    ctx.mouse_move("##figure/Bars/##lane")
+    ctx.yield_(3)
+    draw(drive, ctx)
+    seen["drawn"] = options.lane("amplitude_gain")
+    ctx.mouse_move_to_pos(in_lane(drive, 0.375, 0.5))
+    ctx.mouse_down(0)
+    ctx.mouse_move_to_pos(in_lane(drive, 0.375, 0.9))
+    ctx.mouse_up(0)
+    ctx.yield_(2)
+    seen["dragged"] = options.lane("amplitude_gain")
+    ctx.mouse_move_to_pos(in_lane(drive, 0.5, 0.75))
+    ctx.mouse_click(1)
+    ctx.yield_(2)
     seen["lane"] = options.lane("amplitude_gain")
     own_styles(drive, ctx)
     ctx.item_click("##figure/Hands")
@@ -86,15 +98,16 @@ def seen_path(drive: "Drive") -> str:
     return str(saved[0]).replace("/", "\\/")
 
 
-def draw(ctx: imgui.test_engine.TestContext, canvas: str) -> None:
-    """Draw in the lane's picture, from a quarter of its width up to the middle."""
-    ctx.mouse_move(canvas)
-    ctx.yield_(3)
-    info = ctx.item_info(canvas)
-    low, high = info.rect_full.min, info.rect_full.max
-    width, height = high.x - low.x, high.y - low.y
-    ctx.mouse_move_to_pos(imgui.ImVec2(low.x + 0.25 * width, low.y + 0.75 * height))
+def draw(drive: "Drive", ctx: imgui.test_engine.TestContext) -> None:
+    """Draw in the lane's picture, from a quarter of its bars up to the middle."""
+    ctx.mouse_move_to_pos(in_lane(drive, 0.25, 0.25))
     ctx.mouse_down(0)
-    ctx.mouse_move_to_pos(imgui.ImVec2(low.x + 0.5 * width, low.y + 0.25 * height))
+    ctx.mouse_move_to_pos(in_lane(drive, 0.5, 0.75))
     ctx.mouse_up(0)
     ctx.yield_(2)
+
+
+def in_lane(drive: "Drive", across: float, up: float) -> imgui.ImVec2:
+    """A place in the lane's picture, as shares of its bars and of its values."""
+    (left, low), (right, high) = drive.window.pages.figure.lanes.ends.tolist()
+    return imgui.ImVec2(left + across * (right - left), low + up * (high - low))

@@ -145,9 +145,13 @@ def the_demonstrator_is_made_to_move_otherwise(seen: dict[str, Any]) -> None:
     assert seen["chosen"] == ["jazz", False]
     assert seen["kept"] == "jazz"
     assert seen["slot"] == 90.0
-    bars, values = zip(*seen["lane"], strict=True)
+    bars, values = zip(*seen["drawn"], strict=True)
     assert bars == (1.5, 1.75, 2.0), "a point on every beat from a quarter to the middle of two bars"
     assert values == pytest.approx((25, 50, 75), abs=3)
+    bars, values = zip(*seen["dragged"], strict=True)
+    assert bars == (1.5, 1.75, 2.0)
+    assert values == pytest.approx((25, 90, 75), abs=3)
+    assert seen["lane"] == seen["dragged"][:2], "a right click takes a point away"
     assert seen["kept lane"] == seen["lane"]
     assert seen["saved"][0].endswith("styles/My own.toml")
     assert seen["saved"][1:] == ["My own", False]
@@ -275,6 +279,7 @@ def test_a_click_on_a_bar_of_the_result_drills_it(environment: dict[str, str], t
     assert [seen["seen Teacher"], seen["seen You"]] == [False, True], "one's own sticks over the teacher's"
     assert seen["quiet"]
     assert seen["pointed"].startswith("Bar 1, beat 1, ")
+    assert seen["clicked"] == 2, "the bar of the stroke"
     assert seen["stage"] == "PLAYING"
     assert seen["subtitle"].startswith("1 pass of bar 2 at")
 

@@ -48,7 +48,7 @@ def _heat(heat: HeatMap, height: float) -> int | None:
     theme.heading("Bar by bar", 20)
     theme.soft("Notes right, in percent. Click a bar to practise it alone.")
     chosen = None
-    limbs = heat.limbs
+    limbs = heat.limbs  # buttons in a table: no cell of ImPlot's heat map is empty, or reached by the keyboard
     flags = imgui.TableFlags_.sizing_stretch_same | imgui.TableFlags_.scroll_y
     room = max(height - (imgui.get_cursor_pos_y() - top), theme.points(_LEAST))
     if limbs and imgui.begin_table("##heat", len(limbs) + 1, flags, imgui.ImVec2(0, room)):

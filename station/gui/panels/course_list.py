@@ -3,6 +3,7 @@
 import math
 from datetime import date
 
+from imgui_bundle import icons_fontawesome_4 as icons
 from imgui_bundle import imgui
 
 from station.app.selection import Selection
@@ -35,20 +36,18 @@ def course_picker(choice: Selection) -> None:
 
 
 def mark(progress: LessonProgress | None, today: date) -> None:
-    """Beside the line that was drawn last: a ring that fills, a disc with a tick, a ring with one when it is due."""
+    """Beside the line that was drawn last: a ring that fills, a disc with a tick, a clock turned back when due."""
     if progress is None:
         return
     radius = theme.points(_RADIUS)
     low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
-    middle = imgui.ImVec2(high.x - radius - theme.points(4), (low.y + high.y) / 2)
+    middle = imgui.ImVec2(high.x - radius - theme.points(8), (low.y + high.y) / 2)
     brush = imgui.get_window_draw_list()
     if progress.is_due(today):
-        brush.add_circle(middle, radius, _ink(palette.BRAND), 0, theme.points(_LINE))
-        _tick(middle, radius, _ink(palette.BRAND))
+        _icon(brush, middle, icons.ICON_FA_HISTORY, palette.BRAND)
     elif progress.is_mastered:
-        brush.add_circle_filled(middle, radius, _ink(palette.GOOD))
-        _tick(middle, radius, _ink(palette.NIGHT))
-    else:
+        _icon(brush, middle, icons.ICON_FA_CHECK_CIRCLE, palette.GOOD)
+    else:  # no icon fills by degrees
         brush.add_circle(middle, radius, _ink(palette.INK_FAINT), 0, theme.points(_LINE))
         brush.path_arc_to(middle, radius, -math.pi / 2, (progress.shown_pct / 50.0 - 0.5) * math.pi)
         brush.path_stroke(_ink(palette.GOOD), theme.points(_LINE))
@@ -59,10 +58,9 @@ def mark_width() -> float:
     return theme.points(2 * _RADIUS + 8)
 
 
-def _tick(middle: imgui.ImVec2, radius: float, ink: int) -> None:
-    corners = [(-0.5, 0.0), (-0.1, 0.4), (0.5, -0.4)]
-    points = [(middle.x + x * radius, middle.y + y * radius) for x, y in corners]
-    imgui.get_window_draw_list().add_polyline([*points], ink, theme.points(_LINE), imgui.ImDrawFlags_.none)
+def _icon(brush: imgui.ImDrawList, middle: imgui.ImVec2, icon: str, colour: Colour) -> None:
+    size = imgui.calc_text_size(icon)
+    brush.add_text(imgui.ImVec2(middle.x - size.x / 2, middle.y - size.y / 2), _ink(colour), icon)
 
 
 def _ink(colour: Colour) -> int:

@@ -5,7 +5,8 @@ A view over `MappingEditor`. The bars of a pad are its last strokes against its 
 
 from collections.abc import Callable, Iterable
 
-from imgui_bundle import imgui
+import numpy as np
+from imgui_bundle import imgui, implot
 
 from station.app.latency_lines import latency_lines
 from station.app.mapping_editor import STROKES_SHOWN, MappingEditor, PadStroke
@@ -20,6 +21,7 @@ from station.gui import theme
 from station.gui.panels.calibration_part import CalibrationPart
 from station.gui.panels.pads_part import PadsPart
 from station.gui.panels.velocity_part import VelocityPart
+from station.gui.widgets import plots
 from station.render import palette
 
 DEVICES = "Devices"
@@ -42,8 +44,8 @@ _WHY = {
 }
 _MOST_THRESHOLD, _MOST_MASK_MS = 60, 60
 """The sliders' ends; our choice, twice what any pad needed that was read of."""
-_BAR_LEAST = 3
-"""Design pixels."""
+_BAR_LEAST, _BAR_WIDE = 14.0, 0.7
+"""Velocities that the softest stroke is high, so that it is seen; a bar's share of its place."""
 _LOUDEST = 127
 _LIVE_SHARES = (0.38, 0.10, 0.27, 0.25)
 """What each column of the live lines takes of the width."""
@@ -149,7 +151,7 @@ class DevicesPanel:
             self._touch.turn(piece)
         theme.tooltip("Show or hide how loud its strokes count")
         place(1)
-        _bars(desk.seen.strokes.get(piece, ()), pad.threshold)
+        _bars(f"##strokes-{word(piece)}", desk.seen.strokes.get(piece, ()), pad.threshold)
         theme.tooltip("The last strokes, the newest on the right, and the threshold; hollow ones are held back")
         place(2)
         moved, threshold = theme.slider_int(f"##threshold-{word(piece)}", pad.threshold, 1, _MOST_THRESHOLD)
@@ -260,27 +262,18 @@ def cells(line: MonitorLine) -> tuple[str, str, str, str]:
             return f"{event.device} is here", "", "", line.raw
 
 
-def _bars(strokes: Iterable[PadStroke], threshold: int) -> None:
-    """The strokes as bars, the newest on the right, and the threshold across."""
-    size = imgui.ImVec2(max(imgui.get_content_region_avail().x, 1.0), imgui.get_frame_height())
-    left, top = imgui.get_cursor_screen_pos()
-    imgui.dummy(size)
-    ink = imgui.get_window_draw_list()
-    low = top + size.y
-    ink.add_rect_filled((left, top), (left + size.x, low), _u32(palette.with_opacity(theme.dyed(palette.INK), 0.06)))
-    step = size.x / STROKES_SHOWN
+def _bars(label: str, strokes: Iterable[PadStroke], threshold: int) -> None:
+    """The strokes as bars, the newest on the right, hollow where they do not count, and the threshold across."""
     shown = list(strokes)
-    for k, stroke in enumerate(shown):
-        x = left + size.x - (len(shown) - k) * step
-        high = max(size.y * stroke.velocity / _LOUDEST, theme.points(_BAR_LEAST))
-        corners = (x + 0.15 * step, low - high), (x + 0.85 * step, low)
-        if stroke.why is None:
-            ink.add_rect_filled(*corners, _u32(theme.dyed(palette.GOOD)))
-        else:
-            ink.add_rect(*corners, _u32(theme.dyed(palette.MISSED)))
-    y = low - size.y * threshold / _LOUDEST
-    ink.add_line((left, y), (left + size.x, y), _u32(theme.dyed(palette.BRAND)), theme.points(1.5))
-
-
-def _u32(colour: tuple[float, float, float, float]) -> int:
-    return int(imgui.color_convert_float4_to_u32(imgui.ImVec4(*colour)))
+    newest = STROKES_SHOWN - np.arange(len(shown), 0.0, -1.0)
+    loud = np.array([max(stroke.velocity, _BAR_LEAST) for stroke in shown], np.float64)
+    counts = np.array([stroke.why is None for stroke in shown], np.bool_)
+    if implot.begin_plot(label, imgui.ImVec2(-1, imgui.get_frame_height()), plots.SEEN):
+        plots.fixed(implot.ImAxis_.x1, -0.5, STROKES_SHOWN - 0.5, plots.BARE)
+        plots.fixed(implot.ImAxis_.y1, 0, _LOUDEST, plots.BARE)
+        implot.plot_bars("##count", newest[counts], loud[counts], _BAR_WIDE, plots.spec(palette.GOOD))
+        hollow = plots.spec(palette.MISSED)
+        hollow.fill_alpha = 0.0
+        implot.plot_bars("##ignored", newest[~counts], loud[~counts], _BAR_WIDE, hollow)
+        plots.across("##threshold", [threshold], plots.spec(palette.BRAND, 1.5))
+        implot.end_plot()

@@ -11,9 +11,10 @@ from imgui_bundle import imgui, implot
 
 from station.core.units import NS_PER_S
 from station.gui import theme
+from station.gui.widgets import plots
 from station.gui.widgets.flow_row import FlowRow
 from station.render import palette
-from station.render.text.draw_list import Colour
+from station.render.report.stroke_plot import AXIS_MS, LINES, line_words
 from station.scenes.curves import ScoreCurves, StudentStrokes
 from station.scenes.joint_curves import CURVES, JointCurves
 from station.scenes.music_ticks import music_ticks
@@ -31,7 +32,6 @@ _BEHIND_S = 4.0
 _STANDS_S = 1e-6
 """A play line that moves less stands: it is where it was dragged to, but for rounding."""
 _DEGREES = ([-90.0, 0.0, 90.0, 180.0], ["-90°", "0°", "90°", "180°"])
-_MILLISECONDS = ([-100.0, -50.0, 0.0, 50.0, 100.0], ["-100", "-50 ms", "0", "50 ms", "100"])
 _LEGEND = (640.0, 170.0)
 """Design pixels, wide and high, that a panel needs for a legend of every curve."""
 _LEAST = 84.0
@@ -40,12 +40,19 @@ _MARGIN_S, _RESULT_S = 0.3, 24.0
 """Of a result so much is seen at first (our choice: three passes of a two-bar loop)."""
 _COLOUR_OF_JOINT = {"shoulder": palette.WRONG, "elbow": palette.GOOD, "wrist": palette.BRAND}
 _LEFT_OPACITY = 0.5
-_STRIP_SHARE = 0.42
-_MOST_EARLY_MS, _MOST_LATE_MS = -70.0, 130.0
-"""The strip's edges at first; our choice: three times what is just noticed, and above it room for the legend."""
+_STRIP_SHARE = 0.48
+_STRIP_LEGEND, _LEGEND_MS = (760.0, 110.0), 60.0
+"""Design pixels, wide and high, that the strip needs for a legend; and the room for it above the strokes."""
+_LOUDEST = 300.0
+"""What loudness would be as high as the strip (our choice)."""
+_DOT = 4.0
 _TOLD = (
     "Wheel: nearer. Drag: to and fro. Double click: all of it. Drag the orange line to go there. A click on a name"
     " hides its curve"
+)
+_TOLD_OF_STROKES = (
+    "Dots and arrows: how early (below) or late (above) you were; squares: on a wrong pad; barred rings: missed. Bars:"
+    " how hard you struck, over how loud it is written"
 )
 
 
@@ -75,28 +82,21 @@ class GraphPanel:
             self._curves, self._degrees = JointCurves(graphed.drummer), (np.inf, -np.inf)
         self._follow(graphed)
         room = imgui.get_content_region_avail()
-        has_legend = room.x >= theme.points(_LEGEND[0]) and room.y >= theme.points(_LEGEND[1])
+        has_legend = _fits(room, _LEGEND)
         if not has_legend:
             _short_legend()
             room = imgui.get_content_region_avail()
         strip = 0.0 if graphed.played is None else max(room.y * _STRIP_SHARE, theme.points(_LEAST))
         gap = imgui.get_style().item_spacing.y if strip else 0.0
         high = max(room.y - strip - gap, theme.points(_LEAST))
-        flags = implot.Flags_.no_mouse_text | (0 if has_legend else implot.Flags_.no_legend)
-        _push_style()
         if implot.begin_aligned_plots("##graphs"):
-            if implot.begin_plot(PLOT, imgui.ImVec2(-1, high), flags):
+            if implot.begin_plot(PLOT, imgui.ImVec2(-1, high), _flags(has_legend)):
                 self._angles(graphed, self._curves, can_seek, bare=strip > 0)
                 implot.end_plot()
             theme.tooltip(_TOLD)
             if graphed.played is not None:
-                if implot.begin_plot(STRIP, imgui.ImVec2(-1, strip), flags):
-                    self._strokes(graphed, graphed.played)
-                    implot.end_plot()
-                theme.tooltip("Dots: how early (below) or late (above) you were. Bars: how hard you struck")
+                self._strokes(graphed, graphed.played, imgui.ImVec2(room.x, strip))
             implot.end_aligned_plots()
-        implot.pop_style_var(3)
-        implot.pop_style_color(_COLOURS)
 
     def _follow(self, graphed: ScoreCurves) -> None:
         """Bring the play line to the middle whenever it has moved; a result is shown from its beginning."""
@@ -110,10 +110,7 @@ class GraphPanel:
             self._low.value, self._high.value = position_s - half, position_s + half
 
     def _time_axis(self, graphed: ScoreCurves, bare: bool) -> None:
-        flags = implot.AxisFlags_.no_label | implot.AxisFlags_.no_menus | implot.AxisFlags_.no_highlight
-        if bare:
-            flags |= implot.AxisFlags_.no_tick_labels
-        implot.setup_axis(implot.ImAxis_.x1, "", flags)
+        plots.axis(implot.ImAxis_.x1, implot.AxisFlags_.no_tick_labels if bare else 0)
         implot.setup_axis_links(implot.ImAxis_.x1, self._low, self._high)
         implot.setup_axis_zoom_constraints(implot.ImAxis_.x1, 0.1, 120.0)
         values, words = music_ticks(graphed.score, graphed.bar_numbers, *self.span_s)
@@ -125,20 +122,16 @@ class GraphPanel:
         low, high = min(self._degrees[0], float(degrees.min())), max(self._degrees[1], float(degrees.max()))
         grown, self._degrees = (low, high) != self._degrees, (low, high)
         self._time_axis(graphed, bare)
-        implot.setup_axis(implot.ImAxis_.y1, "", implot.AxisFlags_.no_label | implot.AxisFlags_.no_menus)
+        plots.axis(implot.ImAxis_.y1)
         implot.setup_axis_ticks(implot.ImAxis_.y1, *_DEGREES)
         cond = implot.Cond_.always if grown else implot.Cond_.once
         implot.setup_axis_limits(implot.ImAxis_.y1, low - 5.0, high + 5.0, cond)
         implot.setup_legend(implot.Location_.north, implot.LegendFlags_.horizontal | implot.LegendFlags_.outside)
         for column, curve in enumerate(CURVES):
-            colour = theme.dyed(_COLOUR_OF_JOINT[curve.joint])
-            shown = colour if curve.right else palette.with_opacity(colour, _LEFT_OPACITY)
-            implot.plot_line(
-                curve.label,
-                time_s,
-                np.ascontiguousarray(degrees[:, column]),
-                _spec(shown, weight=theme.points(2.0 if curve.right else 1.5)),
-            )
+            colour = _COLOUR_OF_JOINT[curve.joint]
+            opacity, weight = (1.0, 2.0) if curve.right else (_LEFT_OPACITY, 1.5)
+            look = plots.spec(palette.with_opacity(colour, opacity), weight)
+            implot.plot_line(curve.label, time_s, np.ascontiguousarray(degrees[:, column]), look)
         self._play_line(graphed.position_s, can_seek)
 
     def _play_line(self, position_s: float | None, can_seek: bool) -> None:
@@ -146,35 +139,49 @@ class GraphPanel:
             return
         self.line_x = implot.plot_to_pixels(position_s, 0.0).x
         flags = implot.DragToolFlags_.none if can_seek else implot.DragToolFlags_.no_inputs
-        moved, to_s, *_ = implot.drag_line_x(0, position_s, _vec(palette.BRAND), theme.points(2.0), flags)
+        moved, to_s, *_ = implot.drag_line_x(0, position_s, plots.vec(palette.BRAND), theme.points(2.0), flags)
         if moved:
             self._seek(to_s)
             self._position_s = to_s  # the graph stays under the hand that drags
 
-    def _strokes(self, graphed: ScoreCurves, played: StudentStrokes) -> None:
-        self._time_axis(graphed, bare=False)
-        implot.setup_axis(implot.ImAxis_.y1, "", implot.AxisFlags_.no_label | implot.AxisFlags_.no_menus)
-        implot.setup_axis_ticks(implot.ImAxis_.y1, *_MILLISECONDS)
-        implot.setup_axis_limits(implot.ImAxis_.y1, _MOST_EARLY_MS, _MOST_LATE_MS, implot.Cond_.once)
-        hidden = implot.AxisFlags_.opposite | implot.AxisFlags_.no_decorations | implot.AxisFlags_.lock
-        implot.setup_axis(implot.ImAxis_.y2, "", hidden)
-        implot.setup_axis_limits(implot.ImAxis_.y2, 0.0, 300.0, implot.Cond_.always)
-        implot.setup_legend(implot.Location_.north_east, implot.LegendFlags_.horizontal)
-        implot.set_axes(implot.ImAxis_.x1, implot.ImAxis_.y2)
-        for words, velocity, colour in (
-            ("written loudness", played.written, palette.INK_FAINT),
-            ("yours", played.velocity, palette.GOOD),
-        ):
-            there = ~np.isnan(velocity)
-            spec = _spec(theme.dyed(colour), weight=theme.points(4.0 if velocity is played.written else 2.0))
-            implot.plot_stems(words, played.time_s[there], velocity[there], 0.0, spec)
-        implot.set_axes(implot.ImAxis_.x1, implot.ImAxis_.y1)
-        hit = ~np.isnan(played.asynchrony_ms)
-        spec = _spec(theme.dyed(palette.BRAND), size=theme.points(3.5), marker=implot.Marker_.circle)
-        implot.plot_scatter("timing", played.time_s[hit], played.asynchrony_ms[hit], spec)
-        spec = _spec(theme.dyed(palette.MISSED), size=theme.points(4.5), marker=implot.Marker_.cross)
-        implot.plot_scatter("missed", played.time_s[~hit], np.zeros(int((~hit).sum())), spec)
-        self._play_line(graphed.position_s, can_seek=False)
+    def _strokes(self, graphed: ScoreCurves, played: StudentStrokes, room: imgui.ImVec2) -> None:
+        """The strip below the angles, as high as `room`."""
+        has_legend = _fits(room, _STRIP_LEGEND)
+        if implot.begin_plot(STRIP, imgui.ImVec2(-1, room.y), _flags(has_legend)):
+            self._time_axis(graphed, bare=False)
+            low, high = AXIS_MS[0], AXIS_MS[1] + (_LEGEND_MS if has_legend else 0.0)
+            plots.axis(implot.ImAxis_.y1)
+            words = line_words(imgui.get_font_size() / room.y * (high - low))
+            implot.setup_axis_ticks(implot.ImAxis_.y1, [*LINES], words)
+            implot.setup_axis_limits(implot.ImAxis_.y1, low, high, implot.Cond_.once)
+            plots.fixed(implot.ImAxis_.y2, 0.0, _LOUDEST, implot.AxisFlags_.opposite | plots.BARE)
+            _draw_strokes(played)
+            self._play_line(graphed.position_s, can_seek=False)
+            implot.end_plot()
+        theme.tooltip(_TOLD_OF_STROKES)
+
+
+def _draw_strokes(played: StudentStrokes) -> None:
+    """How loud they were, on the second axis, and when they fell, on the first."""
+    implot.setup_legend(implot.Location_.north_east, implot.LegendFlags_.horizontal)
+    implot.set_axes(implot.ImAxis_.x1, implot.ImAxis_.y2)
+    for words, velocity, look in (
+        ("written loudness", played.written, plots.spec(palette.INK_FAINT, 4.0)),
+        ("yours", played.velocity, plots.spec(palette.GOOD, 2.0)),
+    ):
+        there = ~np.isnan(velocity)
+        implot.plot_stems(words, played.time_s[there], velocity[there], 0.0, look)
+    implot.set_axes(implot.ImAxis_.x1, implot.ImAxis_.y1)
+    plots.strokes(played.time_s, played.label, played.asynchrony_ms, _DOT)
+
+
+def _flags(has_legend: bool) -> int:
+    return plots.FREE | (0 if has_legend else implot.Flags_.no_legend)
+
+
+def _fits(room: imgui.ImVec2, needed: tuple[float, float]) -> bool:
+    """Whether `room`, in pixels, is as wide and high as `needed`, in design pixels."""
+    return bool(room.x >= theme.points(needed[0]) and room.y >= theme.points(needed[1]))
 
 
 def _short_legend() -> None:
@@ -182,37 +189,6 @@ def _short_legend() -> None:
     row = FlowRow()
     for joint, colour in _COLOUR_OF_JOINT.items():
         row.place(imgui.calc_text_size(joint).x)
-        imgui.text_colored(_vec(colour), joint)
+        imgui.text_colored(plots.vec(colour), joint)
     row.place(imgui.calc_text_size("(left: paler)").x)
     imgui.text_disabled("(left: paler)")
-
-
-def _spec(colour: Colour, weight: float = 1.0, size: float = 4.0, marker: int = implot.Marker_.none) -> implot.Spec:
-    spec = implot.Spec()
-    packed = imgui.ImVec4(*colour)
-    spec.line_color = spec.marker_line_color = spec.marker_fill_color = packed
-    spec.line_weight, spec.marker_size, spec.marker = weight, size, marker
-    return spec
-
-
-_COLOURS = 5
-
-
-def _push_style() -> None:
-    """The panels' own colours for the plots."""
-    clear = (0.0, 0.0, 0.0, 0.0)
-    for slot, colour in (
-        (implot.Col_.frame_bg, clear),
-        (implot.Col_.plot_bg, palette.with_opacity(palette.INK, 0.04)),
-        (implot.Col_.plot_border, clear),
-        (implot.Col_.legend_bg, clear),
-        (implot.Col_.legend_border, clear),
-    ):
-        implot.push_style_color(slot, _vec(colour))
-    implot.push_style_var(implot.StyleVar_.plot_padding, imgui.ImVec2(theme.points(4), theme.points(2)))
-    implot.push_style_var(implot.StyleVar_.plot_min_size, imgui.ImVec2(theme.points(60), theme.points(40)))
-    implot.push_style_var(implot.StyleVar_.legend_spacing, imgui.ImVec2(theme.points(14), 0))
-
-
-def _vec(colour: Colour) -> imgui.ImVec4:
-    return imgui.ImVec4(*theme.dyed(colour))

@@ -1,11 +1,7 @@
-"""Every hit of the result over the bars of the lesson, and a bar by ear: the teacher's, and one's own.
-
-Shapes and colours are those of the page and the score: a dot on time, arrows up late and down early, a square on a
-wrong pad, barred rings missed and crosses not written on the floor of the plot.
-"""
+"""Every hit of the result over the bars of the lesson, and a bar by ear: the teacher's, and one's own."""
 
 import numpy as np
-from imgui_bundle import imgui
+from imgui_bundle import imgui, implot
 from numpy.typing import NDArray
 
 from station.app.model import ShownResult
@@ -13,30 +9,30 @@ from station.core.labels import piece_name
 from station.core.pieces import Piece
 from station.gui import theme
 from station.gui.panels.playback_row import PlaybackRow
+from station.gui.widgets import plots
 from station.gui.widgets.flow_row import FlowRow
-from station.music.judgement import Label
 from station.render import palette
-from station.render.notation.judgement_marks import ON_TIME_MS, timing_colour
+from station.render.notation.judgement_marks import ON_TIME_MS
+from station.render.report.stroke_plot import AXIS_MS, LINES, heights_ms, line_words
 from station.render.text.draw_list import Colour
 from station.scenes.hit_table import EveryHit, nearest, words_of
 
 HITS = "Every hit"
 ABOUT = "How early or late every stroke was, over the bars of the lesson; and a bar to hear: the teacher's and yours"
-_REACH_MS = 80.0
-"""Half the plot's height; what lies farther out stands on its edge, as on the page."""
-_LINES_MS = (-60, -30, 0, 30, 60)
-_LEFT, _FLOOR, _NUMBERS = 66.0, 22.0, 20.0
-"""Design pixels: the labels beside the plot, the floor of misses, the bars' numbers below."""
 _DOT, _NEAR = 4.5, 12.0
 """Design pixels: a dot's radius, and how near the mouse must come to ask."""
 _LEAST_HEIGHT = 110.0
+_MARGIN = 0.01
+"""Of the bars, beyond the first and the last: what stands on their lines is whole (our choice)."""
+_LIT = 0.10
+"""Opacity of the bar that is chosen, and of the band that is on time."""
 
 
 class HitsPanel:
     """The plot; `piece` is shown alone where it is not None, `ear` chooses what is heard."""
 
     def __init__(self, ear: PlaybackRow) -> None:
-        self._ear = ear
+        self.ear = ear
         self._shown: EveryHit | None = None
         self.piece: Piece | None = None
         self.at = np.empty((0, 2))
@@ -54,7 +50,7 @@ class HitsPanel:
             self._shown, self.piece = hits, None
         row = FlowRow()
         self._pieces(hits, row)
-        self._ear.gui(report, row)
+        self.ear.gui(report, row)
         self._plot(hits, hits.of(self.piece))
 
     def _pieces(self, hits: EveryHit, row: FlowRow) -> None:
@@ -68,21 +64,19 @@ class HitsPanel:
     # --- the plot -----------------------------------------------------------------------------------------------------
 
     def _plot(self, hits: EveryHit, dots: NDArray[np.void]) -> None:
-        room = imgui.get_content_region_avail()
-        size = imgui.ImVec2(max(room.x, 1.0), max(room.y, theme.points(_LEAST_HEIGHT)))
-        pressed = imgui.invisible_button("##plot", size)
-        corner = imgui.get_item_rect_min()
-        frame = _Frame(hits, (corner.x, corner.y), (size.x, size.y))
-        frame.paper(self._ear.bar)
-        self.at = frame.places(dots)
-        for (x, y), dot in zip(self.at.tolist(), dots, strict=True):
-            _draw(imgui.get_window_draw_list(), (x, y), dot)
-        self._point(dots, pressed)
+        height = max(imgui.get_content_region_avail().y, theme.points(_LEAST_HEIGHT))
+        if implot.begin_plot("##hits", imgui.ImVec2(-1, height), plots.STILL):
+            _axes(hits.bars, height)
+            _paper(hits.bars, self.ear.bar)
+            plots.strokes(dots["place"], dots["label"], dots["late_ms"], _DOT)
+            self.at = plots.pixels(dots["place"], heights_ms(dots["label"], dots["late_ms"]))
+            self._point(dots)
+            implot.end_plot()
 
-    def _point(self, dots: NDArray[np.void], pressed: bool) -> None:
+    def _point(self, dots: NDArray[np.void]) -> None:
         """Tell of the dot under the mouse; a click on it chooses its bar."""
         self.pointed = ""
-        if not imgui.is_item_hovered():
+        if not implot.is_plot_hovered():
             return
         mouse = imgui.get_mouse_pos()
         index = nearest(self.at, (mouse.x, mouse.y), theme.points(_NEAR))
@@ -90,85 +84,31 @@ class HitsPanel:
             return
         self.pointed = words_of(dots[index])
         imgui.set_tooltip(self.pointed)
-        if pressed:
-            self._ear.bar, self._ear.pass_number = int(dots["bar"][index]), int(dots["pass"][index])
+        if imgui.is_mouse_clicked(imgui.MouseButton_.left):
+            self.ear.bar, self.ear.pass_number = int(dots["bar"][index]), int(dots["pass"][index])
 
 
-class _Frame:
-    """Where things lie in the plot, in pixels."""
-
-    def __init__(self, hits: EveryHit, corner: tuple[float, float], size: tuple[float, float]) -> None:
-        self._first, last = hits.bars
-        self._bars = last - self._first + 1
-        self._left = corner[0] + theme.points(_LEFT)
-        self._width = max(size[0] - theme.points(_LEFT + 12), 1.0)
-        self._top = corner[1] + theme.points(8)
-        self._floor = corner[1] + size[1] - theme.points(_NUMBERS + _FLOOR)
-        self._numbers = corner[1] + size[1] - theme.points(_NUMBERS)
-
-    def places(self, dots: NDArray[np.void]) -> NDArray[np.float64]:
-        """Where each dot lies, (n, 2); late is up."""
-        late_ms = np.clip(dots["late_ms"], -_REACH_MS, _REACH_MS)
-        below = np.where(dots["label"] == Label.EXTRA, 0.85, 0.4) * theme.points(_FLOOR)
-        y = np.where(np.isnan(late_ms), self._floor + below, self._height(late_ms))
-        return np.column_stack([self._across(dots["place"]), y])
-
-    def _across(self, place: NDArray[np.float64]) -> NDArray[np.float64]:
-        return np.asarray(self._left + (place - self._first) / self._bars * self._width)
-
-    def _height(self, late_ms: NDArray[np.float64]) -> NDArray[np.float64]:
-        return np.asarray(self._top + (self._floor - self._top) * (0.5 - late_ms / (2 * _REACH_MS)))
-
-    def paper(self, chosen: int) -> None:
-        """Lines of early and late, bars and their numbers; the chosen bar is lit."""
-        ink = imgui.get_window_draw_list()
-        edges = self._across(np.arange(self._first, self._first + self._bars + 1, dtype=np.float64))
-        gap = float(self._height(np.array(0.0)) - self._height(np.array(30.0)))
-        band = self._height(np.array([ON_TIME_MS, -ON_TIME_MS]))
-        lit = edges[chosen - self._first : chosen - self._first + 2]
-        if len(lit) == 2:
-            ink.add_rect_filled((lit[0], self._top), (lit[1], self._numbers), _ink(palette.BRAND, 0.10))
-        ink.add_rect_filled((edges[0], band[0]), (edges[-1], band[1]), _ink(palette.GOOD, 0.10))
-        step = 30 if gap >= imgui.get_font_size() else 60
-        for ms in _LINES_MS:
-            y = float(self._height(np.array(float(ms))))
-            ink.add_line((edges[0], y), (edges[-1], y), _ink(palette.INK_FAINT if ms else palette.INK_SOFT))
-            text = "0 ms" if ms == 0 else f"{abs(ms)} {'late' if ms > 0 else 'early'}"
-            size = imgui.calc_text_size(text)
-            if ms % step:
-                continue
-            ink.add_text((edges[0] - size.x - theme.points(8), y - size.y / 2), _ink(palette.INK_SOFT), text)
-        wide = imgui.calc_text_size("000").x
-        every = max(1, int(np.ceil(wide * self._bars / self._width)))
-        for index, x in enumerate(edges.tolist()):
-            ink.add_line((x, self._top), (x, self._numbers), _ink(palette.INK_FAINT))
-            if index < self._bars and index % every == 0:
-                at = (x + theme.points(4), self._numbers + theme.points(2))
-                ink.add_text(at, _ink(palette.INK_SOFT), str(self._first + index))
+def _axes(bars: tuple[int, int], height: float) -> None:
+    """Bars across, early and late up, as much as `height` pixels have room for."""
+    (first, last), room = bars, imgui.get_content_region_avail().x
+    margin = _MARGIN * (last + 1 - first)
+    plots.fixed(implot.ImAxis_.x1, first - margin, last + 1 + margin)
+    every = max(1, int(np.ceil(1.5 * imgui.calc_text_size("000").x * (last + 1 - first) / room)))
+    numbers = [str(bar) if (bar - first) % every == 0 else "" for bar in range(first, last + 1)]
+    implot.setup_axis_ticks(implot.ImAxis_.x1, [*map(float, range(first, last + 2))], [*numbers, ""])
+    plots.fixed(implot.ImAxis_.y1, *AXIS_MS)
+    letter_ms = imgui.get_font_size() / height * (AXIS_MS[1] - AXIS_MS[0])
+    implot.setup_axis_ticks(implot.ImAxis_.y1, [*LINES], line_words(letter_ms))
 
 
-def _draw(ink: imgui.ImDrawList, at: tuple[float, float], dot: np.void) -> None:
-    """One dot in its shape and colour."""
-    (x, y), r, late_ms = at, theme.points(_DOT), float(dot["late_ms"])
-    match Label(int(dot["label"])):
-        case Label.MISS:
-            colour = _ink(palette.MISSED)
-            ink.add_circle(at, r, colour, 0, theme.points(1.6))
-            ink.add_line((x - 0.7 * r, y + 0.7 * r), (x + 0.7 * r, y - 0.7 * r), colour, theme.points(1.6))
-        case Label.EXTRA:
-            colour, s = _ink(palette.EXTRA), 0.7 * r
-            ink.add_line((x - s, y - s), (x + s, y + s), colour, theme.points(1.8))
-            ink.add_line((x - s, y + s), (x + s, y - s), colour, theme.points(1.8))
-        case Label.WRONG_PIECE:
-            ink.add_rect((x - r, y - r), (x + r, y + r), _ink(palette.WRONG), 0.0, theme.points(1.8))
-        case _ if abs(late_ms) <= ON_TIME_MS:
-            ink.add_circle_filled(at, r, _ink(timing_colour(late_ms), 0.9))
-        case _:
-            up = -1.0 if late_ms > 0 else 1.0
-            tip, base = (x, y + up * 1.2 * r), y - up * 0.8 * r
-            ink.add_triangle_filled(tip, (x - 1.1 * r, base), (x + 1.1 * r, base), _ink(timing_colour(late_ms)))
+def _paper(bars: tuple[int, int], chosen: int) -> None:
+    """What is on time, and the chosen bar."""
+    _band("##on time", (bars[0], bars[1] + 1), (-ON_TIME_MS, ON_TIME_MS), palette.GOOD)
+    if bars[0] <= chosen <= bars[1]:
+        _band("##chosen", (chosen, chosen + 1), AXIS_MS, palette.BRAND)
+    plots.across("##0", [0.0], plots.spec(palette.INK_SOFT))
 
 
-def _ink(colour: Colour, opacity: float = 1.0) -> int:
-    dyed = theme.dyed(colour)
-    return int(imgui.get_color_u32(imgui.ImVec4(*palette.with_opacity(dyed, opacity))))
+def _band(name: str, across: tuple[float, float], up: tuple[float, float], colour: Colour) -> None:
+    look = plots.spec(palette.with_opacity(colour, _LIT))
+    implot.plot_shaded(name, np.array(across, np.float64), np.full(2, up[1]), up[0], look)

@@ -4,23 +4,24 @@ A press on a point drags it, a press beside one draws, a right click takes a poi
 the keyboard.
 """
 
-from itertools import pairwise
-
-from imgui_bundle import imgui
+import numpy as np
+from imgui_bundle import imgui, implot
 
 from station.app.style_controls import CONTROLS
 from station.app.style_editor import PIECES, StyleEditor
 from station.core.labels import name_of
 from station.gui import theme
+from station.gui.widgets import plots
 from station.gui.widgets.lane_frame import LaneFrame
 from station.motion.style.lanes import drawn, value_at, with_moved, with_point, without_point
 from station.motion.style.style import Automation, range_of
 from station.music.score import Score
 from station.render import palette
-from station.render.text.draw_list import Colour
 
 CANVAS = "##lane"
-_HEIGHT, _LIST, _POINT_PX = 170, 160, 5.0
+_HEIGHT, _LIST, _POINT_PX = 190, 160, 6.0
+_MARGIN = 0.02
+"""Of the bars, and half as much as of the values, beyond the ends (our choice)."""
 _MOST_BAR_LINES = 40
 """More bars than this have a line every few bars only (our choice)."""
 
@@ -40,10 +41,11 @@ class LanesEditor:
     def __init__(self, options: StyleEditor) -> None:
         self._options = options
         self.control = "amplitude_gain"
-        self._grabbed: int | None = None
         self._under: Automation = ()
         self._stroke: list[tuple[float, float]] = []
-        self._last = (0.0, 0.0)
+        self._last: tuple[float, float] | None = None
+        self.ends = np.zeros((2, 2))
+        """Where the first bar begins, at the least value, and the last one ends, at the greatest; window pixels."""
 
     def gui(self, score: Score, place: float | None) -> None:
         """Draw the editor for the bars of `score` and do what the user does in it; `place` is where the music is."""
@@ -67,66 +69,55 @@ class LanesEditor:
     # --- the picture --------------------------------------------------------------------------------------------------
 
     def _canvas(self, bars: int, beats: int, place: float | None) -> None:
-        corner, width = imgui.get_cursor_screen_pos(), max(imgui.get_content_region_avail().x, 50.0)
-        height = theme.points(_HEIGHT)
-        frame = LaneFrame(corner.x, corner.y, width, height, bars, beats, *range_of(self.control))
-        imgui.invisible_button(CANVAS, imgui.ImVec2(width, height))
-        self._mouse(frame)
-        lane = self._options.lane(self.control)
-        self._draw(frame, lane)
-        if place is not None:
-            x, _ = frame.pixel(place, frame.low)
-            low = imgui.ImVec2(x, frame.top + height)
-            imgui.get_window_draw_list().add_line(imgui.ImVec2(x, frame.top), low, _ink(palette.INK), 1.5)
-        if imgui.is_item_hovered() and not imgui.is_item_active():
-            bar, value = frame.point(*imgui.get_mouse_pos())
-            imgui.set_tooltip(f"bar {int(bar)}, beat {1 + round((bar % 1) * beats)}: {value:.1f}\n{_HELP}")
-
-    def _mouse(self, frame: LaneFrame) -> None:
-        at = imgui.get_mouse_pos()
-        here = (at.x, at.y)
+        frame = LaneFrame(bars, beats, *range_of(self.control))
         lane = self._options.lane(self.control) or ()
-        if imgui.is_item_hovered() and imgui.is_mouse_clicked(imgui.MouseButton_.right):
-            meant = frame.nearest(lane, *here)
-            if meant is not None:
-                self._options.draw_lane(self.control, without_point(lane, meant))
-        elif imgui.is_item_activated():
-            self._grabbed = frame.nearest(lane, *here)
-            self._under, self._stroke, self._last = lane, [], here
-            self._drag(frame, here, lane)
-        elif imgui.is_item_active() and here != self._last:
-            self._drag(frame, here, lane)
+        if implot.begin_plot(CANVAS, imgui.ImVec2(-1, theme.points(_HEIGHT)), plots.STILL):
+            _axes(frame)
+            self.ends = plots.pixels(np.array([1.0, bars + 1.0]), np.array([frame.low, frame.high]))
+            self._line(frame, lane)
+            if place is not None:
+                implot.plot_inf_lines("##place", np.array([place]), plots.spec(palette.INK, 1.5))
+            if not self._drag_points(frame, lane) or self._last is not None:
+                self._draw(frame, lane)
+            implot.end_plot()
 
-    def _drag(self, frame: LaneFrame, here: tuple[float, float], lane: Automation) -> None:
-        if self._grabbed is None:
-            self._stroke += frame.stroke(self._last, here)
-            lane = drawn(self._under, self._stroke)
-        elif here != self._last:
-            lane = with_moved(lane, self._grabbed, *frame.point(*here))
-        self._last = here
-        self._options.draw_lane(self.control, lane)
-
-    def _draw(self, frame: LaneFrame, lane: Automation | None) -> None:
-        ink = imgui.get_window_draw_list()
-        left, top, right, low = frame.left, frame.top, frame.left + frame.width, frame.top + frame.height
-        ink.add_rect_filled(
-            imgui.ImVec2(left, top), imgui.ImVec2(right, low), _ink(palette.with_opacity(palette.INK, 0.06)), 6.0
-        )
-        every = -(-frame.bars // _MOST_BAR_LINES)
-        ink.push_clip_rect(imgui.ImVec2(left, top), imgui.ImVec2(right, low), True)
-        for bar in range(0, frame.bars, every):
-            x, _ = frame.pixel(bar + 1, frame.low)
-            ink.add_line(imgui.ImVec2(x, top), imgui.ImVec2(x, low), _ink(palette.with_opacity(palette.INK, 0.16)))
-            ink.add_text(imgui.ImVec2(x + 4, top + 2), _ink(palette.INK_SOFT), str(bar + 1))
+    def _line(self, frame: LaneFrame, lane: Automation) -> None:
+        """The lane from the first bar to the last; one that is not drawn is level."""
         points = lane or ((1.0, self._options.value(self.control)),)
-        edges = [(1.0, value_at(points, 1.0)), *points, (frame.bars + 1.0, value_at(points, frame.bars + 1.0))]
-        colour = _ink(palette.BRAND if lane else palette.INK_SOFT)
-        pixels = [imgui.ImVec2(*frame.pixel(*point)) for point in edges]
-        for start, end in pairwise(pixels):
-            ink.add_line(start, end, colour, 2.5)
-        for place in pixels[1:-1] if lane else ():
-            ink.add_circle_filled(place, theme.points(_POINT_PX), colour)
-        ink.pop_clip_rect()
+        last = frame.bars + 1.0
+        ends = [(1.0, value_at(points, 1.0)), *points, (last, value_at(points, last))]
+        bars, values = (np.array(numbers) for numbers in zip(*ends, strict=True))
+        implot.plot_line("##line", bars, values, plots.spec(palette.BRAND if lane else palette.INK_SOFT, 2.5))
+
+    def _drag_points(self, frame: LaneFrame, lane: Automation) -> bool:
+        """The lane's points, dragged, or taken away by a right click; returns whether the mouse is on one of them."""
+        meant = False
+        for index, (bar, value) in enumerate(lane):
+            moved, to_bar, to_value, _, is_hovered, is_held = implot.drag_point(
+                index, bar, value, plots.vec(palette.BRAND), theme.points(_POINT_PX), 0, False, False, False
+            )
+            meant |= bool(is_hovered or is_held)
+            if is_hovered and imgui.is_mouse_clicked(imgui.MouseButton_.right):
+                self._options.draw_lane(self.control, without_point(lane, index))
+            elif moved:
+                self._options.draw_lane(self.control, with_moved(lane, index, *frame.point(to_bar, to_value)))
+        return meant
+
+    def _draw(self, frame: LaneFrame, lane: Automation) -> None:
+        """Draw from a press beside the points on, until it is let go."""
+        at, hovered = implot.get_plot_mouse_pos(), implot.is_plot_hovered()
+        here = at.x, at.y
+        if hovered and imgui.is_mouse_clicked(imgui.MouseButton_.left):
+            self._under, self._stroke, self._last = lane, [], here
+        elif not imgui.is_mouse_down(imgui.MouseButton_.left):
+            self._last = None
+        if self._last is None and hovered:
+            bar, value = frame.point(*here)
+            imgui.set_tooltip(f"bar {int(bar)}, beat {1 + round((bar % 1) * frame.beats)}: {value:.1f}\n{_HELP}")
+        elif self._last is not None and (here != self._last or not self._stroke):
+            self._stroke += frame.stroke(self._last, here)
+            self._last = here
+            self._options.draw_lane(self.control, drawn(self._under, self._stroke))
 
     # --- the list -----------------------------------------------------------------------------------------------------
 
@@ -172,8 +163,14 @@ class LanesEditor:
         theme.tooltip("Take this point away")
 
 
+def _axes(frame: LaneFrame) -> None:
+    """Bars across and values up, and a little more, so that points at the ends are whole."""
+    margin = _MARGIN * frame.bars
+    plots.fixed(implot.ImAxis_.x1, 1 - margin, frame.bars + 1 + margin)
+    lines = range(1, frame.bars + 1, -(-frame.bars // _MOST_BAR_LINES))
+    implot.setup_axis_ticks(implot.ImAxis_.x1, [*map(float, lines)], [*map(str, lines)])
+    margin = 2 * _MARGIN * (frame.high - frame.low)
+    plots.fixed(implot.ImAxis_.y1, frame.low - margin, frame.high + margin)
+
+
 _HELP = "Press beside a point and draw, drag a point, right click takes it away"
-
-
-def _ink(colour: Colour) -> int:
-    return int(imgui.get_color_u32(imgui.ImVec4(*theme.dyed(colour))))

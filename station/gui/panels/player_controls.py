@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
+from imgui_bundle import icons_fontawesome_4 as icons
 from imgui_bundle import imgui
 
 from station.app.demo_player import Control, DemoPlayer
@@ -14,11 +15,9 @@ from station.core.units import NS_PER_S
 from station.gui import theme
 from station.gui.panels.ruler import Bars
 from station.gui.widgets.flow_row import LINE_HEIGHT, FlowRow
-from station.gui.widgets.icon_button import Sign, icon_button
 from station.gui.widgets.slots import Use, popup_grid, slot_rows
 from station.practice.demonstration.song_player import FLAGS, MAX_SPEED_PERCENT, MIN_SPEED_PERCENT, SongPlayer, SongStep
 
-PLAY_LABEL = "##play"
 COUNT_IN_LABEL = "count-in##demo"
 FLAGS_LABEL = "Flags##flags"
 MORE_LABEL = "More##player"
@@ -102,18 +101,20 @@ class PlayerControls:
         imgui.begin_group()
         imgui.push_style_var(imgui.StyleVar_.item_spacing, imgui.ImVec2(theme.points(_GAP), 0))
         player, step = deck.player, deck.step
-        _button(deck, "##start", Sign.START, to_start, "To the start (Home)")
-        back = self._wind_button("##rewind", Sign.REWIND, f"Rewind while it is held ([); {_SILENT}")
+        _button(deck, f"{icons.ICON_FA_FAST_BACKWARD}###start", to_start, "To the start (Home)")
+        back = self._wind_button(f"{icons.ICON_FA_BACKWARD}###rewind", f"Rewind while it is held ([); {_SILENT}")
         words = f"{step.words} {{}} ({{}}); {_SILENT}"
-        _button(deck, "##back", Sign.STEP_BACK, _stepping(step, -1), words.format("back", ","))
-        sign, told = (Sign.STOP, "Stop here (W)") if player.playing else (Sign.PLAY, "Watch the demonstration (W)")
-        _button(deck, PLAY_LABEL, sign, play_or_stop, told)
-        _button(deck, "##step", Sign.STEP, _stepping(step, 1), words.format("on", "."))
-        on = self._wind_button("##forward", Sign.FORWARD, f"Forward while it is held (]); {_SILENT}")
-        _button(deck, "##end", Sign.END, to_end, "To the end (End)")
+        _button(deck, f"{icons.ICON_FA_STEP_BACKWARD}###back", _stepping(step, -1), words.format("back", ","))
+        stop, play = (icons.ICON_FA_STOP, "Stop here (W)"), (icons.ICON_FA_PLAY, "Watch the demonstration (W)")
+        icon, told = stop if player.playing else play
+        _button(deck, f"{icon}###play", play_or_stop, told)
+        _button(deck, f"{icons.ICON_FA_STEP_FORWARD}###step", _stepping(step, 1), words.format("on", "."))
+        on = self._wind_button(f"{icons.ICON_FA_FORWARD}###forward", f"Forward while it is held (]); {_SILENT}")
+        _button(deck, f"{icons.ICON_FA_FAST_FORWARD}###end", to_end, "To the end (End)")
         told = f"Backwards (R); {_SILENT}"
         turned = not player.reverse
-        _button(deck, "##reverse", Sign.REVERSE, lambda p, now_ns: p.reversed(now_ns, turned), told, lit=player.reverse)
+        label = f"{icons.ICON_FA_ARROW_LEFT}###reverse"
+        _button(deck, label, lambda p, now_ns: p.reversed(now_ns, turned), told, lit=player.reverse)
         imgui.pop_style_var()
         imgui.end_group()
         wind = self.key_wind or on - back
@@ -121,9 +122,9 @@ class PlayerControls:
             deck.do(lambda p, now_ns: p.wound(now_ns, wind))
 
     @staticmethod
-    def _wind_button(label: str, sign: Sign, told: str) -> int:
+    def _wind_button(label: str, told: str) -> int:
         """Whether it is held."""
-        icon_button(label, sign, (theme.points(BUTTON[0]), theme.points(BUTTON[1])))
+        theme.icon_button(label, (theme.points(BUTTON[0]), theme.points(BUTTON[1])))
         held = imgui.is_item_active()
         theme.tooltip(told)
         imgui.same_line()
@@ -195,8 +196,8 @@ def _stepping(step: SongStep, way: int) -> Control:
     return lambda player, now_ns: player.stepped(now_ns, step, way)
 
 
-def _button(deck: DemoPlayer, label: str, sign: Sign, control: Control, told: str, *, lit: bool = False) -> None:
-    if icon_button(label, sign, (theme.points(BUTTON[0]), theme.points(BUTTON[1])), lit):
+def _button(deck: DemoPlayer, label: str, control: Control, told: str, *, lit: bool = False) -> None:
+    if theme.icon_button(label, (theme.points(BUTTON[0]), theme.points(BUTTON[1])), lit):
         deck.do(control)
     theme.tooltip(told)
     imgui.same_line()

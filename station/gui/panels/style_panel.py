@@ -57,7 +57,7 @@ class StylePanel:
         self._preview = preview
         self.options = StyleEditor(model.casting.who.style)
         self._head = StylesHead(self.options, settings, tried)
-        self._lanes = LanesEditor(self.options)
+        self.lanes = LanesEditor(self.options)
         self._opens_bars = False
         self._figure = load_settings(settings).figure
 
@@ -81,7 +81,7 @@ class StylePanel:
                 imgui.end_tab_item()
             opens, self._opens_bars = self._opens_bars, False
             if _tab(BARS_TAB, opens):
-                self._lanes.gui(self._model.score(), self._place())
+                self.lanes.gui(self._model.score(), self._place())
                 imgui.end_tab_item()
             imgui.end_tab_bar()
         if self.options.style is not before:
@@ -153,7 +153,7 @@ class StylePanel:
         theme.tooltip("Back to the style that was chosen")
         imgui.same_line()
         if imgui.button(f"~##bars-{name}", imgui.ImVec2(width, 0)):
-            self._lanes.control = name
+            self.lanes.control = name
             self._opens_bars = True
         theme.tooltip("Let it change over the bars")
 

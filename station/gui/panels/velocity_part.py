@@ -5,7 +5,8 @@ A view over `MappingEditor`. Right is how hard the pad says it was struck, up wh
 
 from collections.abc import Iterable
 
-from imgui_bundle import imgui
+import numpy as np
+from imgui_bundle import imgui, implot
 
 from station.app.mapping_editor import MappingEditor, PadStroke
 from station.core.labels import piece_name
@@ -21,9 +22,9 @@ from station.devices.mapping.velocity_curve import (
     VelocityCurve,
 )
 from station.gui import theme
+from station.gui.widgets import plots
 from station.gui.widgets.flow_row import FlowRow
 from station.render import palette
-from station.render.text.draw_list import Colour
 
 LEARN_LABEL = "Learn ghosts and accents##touch"
 _HIGH, _MOST_WIDE = 150.0, 300.0
@@ -117,30 +118,18 @@ def _numbers(piece: Piece, curve: VelocityCurve) -> VelocityCurve:
 def _plot(pad: Pad, strokes: Iterable[PadStroke]) -> None:
     """The curve, what ghosts and accents count as, the threshold, and the strokes as dots, the newest the brightest."""
     wide = min(imgui.get_content_region_avail().x, theme.points(_MOST_WIDE))
-    high = theme.points(_HIGH)
-    left, top = imgui.get_cursor_screen_pos()
-    imgui.dummy(imgui.ImVec2(max(wide, 1.0), high))
-    ink, table = imgui.get_window_draw_list(), pad.curve.table
-
-    def at(sent: float, counts: float) -> tuple[float, float]:
-        return left + wide * sent / HARDEST, top + high * (1 - counts / HARDEST)
-
-    ink.add_rect_filled((left, top), (left + wide, top + high), _u32(palette.INK, 0.06))
-    beside, under = theme.points(6), imgui.get_text_line_height()
-    for counts, name, is_right in ((GHOST_COUNTS, "ghost", True), (ACCENT_COUNTS, "accent", False)):  # off the curve
-        ink.add_line(at(0, counts), at(HARDEST, counts), _u32(palette.INK, 0.25), theme.points(1))
-        x, y = at(HARDEST if is_right else 0, counts)
-        x += -beside - imgui.calc_text_size(name).x if is_right else beside
-        ink.add_text((x, y - under if is_right else y), _u32(palette.INK, 0.6), name)
-    ink.add_line(at(pad.threshold, 0), at(pad.threshold, HARDEST), _u32(palette.BRAND, 0.5), theme.points(1.5))
-    points: list[imgui.ImVec2Like] = [imgui.ImVec2(*at(sent, table[sent])) for sent in range(1, HARDEST + 1)]
-    ink.add_polyline(points, _u32(palette.INK), theme.points(_LINE), 0)
-    shown = list(strokes)
+    if not implot.begin_plot("##touch", imgui.ImVec2(wide, theme.points(_HIGH)), plots.SEEN):
+        return
+    plots.fixed(implot.ImAxis_.x1, 0, HARDEST, plots.BARE)
+    plots.fixed(implot.ImAxis_.y1, 0, HARDEST)
+    implot.setup_axis_ticks(implot.ImAxis_.y1, [*map(float, (GHOST_COUNTS, ACCENT_COUNTS))], ["ghost", "accent"])
+    threshold = np.array([pad.threshold], np.float64)
+    implot.plot_inf_lines("##threshold", threshold, plots.spec(palette.with_opacity(palette.BRAND, 0.5), 1.5))
+    table, shown = np.array(pad.curve.table, np.float64), list(strokes)
+    implot.plot_line("##curve", np.arange(1.0, HARDEST + 1), table[1:], plots.spec(palette.INK, _LINE))
     for k, stroke in enumerate(shown):
         colour = palette.GOOD if stroke.why is None else palette.MISSED
-        opacity = 0.25 + 0.75 * (k + 1) / len(shown)
-        ink.add_circle_filled(at(stroke.velocity, table[stroke.velocity]), theme.points(_DOT), _u32(colour, opacity))
-
-
-def _u32(colour: Colour, opacity: float = 1.0) -> int:
-    return int(imgui.color_convert_float4_to_u32(imgui.ImVec4(*palette.with_opacity(theme.dyed(colour), opacity))))
+        colour = palette.with_opacity(colour, 0.25 + 0.75 * (k + 1) / len(shown))
+        at = np.array([stroke.velocity, table[stroke.velocity]])
+        implot.plot_scatter("##strokes", at[:1], at[1:], plots.spec(colour, 1.0, _DOT, implot.Marker_.circle))
+    implot.end_plot()

@@ -7,28 +7,15 @@ import numpy as np
 
 from station.music.judgement import Label
 from station.render.notation.judgement_marks import ON_TIME_MS, timing_colour
-from station.render.palette import (
-    BRAND,
-    EXTRA,
-    GOOD,
-    INK,
-    INK_FAINT,
-    INK_SOFT,
-    MISSED,
-    PANEL,
-    PANEL_EDGE,
-    WRONG,
-    with_opacity,
-)
+from station.render.palette import BRAND, GOOD, INK, INK_FAINT, INK_SOFT, PANEL, PANEL_EDGE, with_opacity
 from station.render.report.report_layout import ReportBox
 from station.render.report.result_facts import PieceLean, ResultFacts, in_words, leans, ticks
+from station.render.report.stroke_plot import AXIS_MS, LINES, Kind, Mark, by_kind, heights_ms
 from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face
 
 PADDING = 20.0
 """Units between a card's edge and what is in it."""
-_REACH_MS = 80.0
-"""The plot's half height; strokes farther out stand on its edge (our choice)."""
 _LEAN_REACH_MS = 60.0
 _ROW, _NAME, _SAID = 30.0, 130.0, 206.0
 """Of a piece: the height of its row, the width of its name, and of what is said of it."""
@@ -40,12 +27,12 @@ _CRAFT_FIRST = 3
 
 
 class Plot:
-    """Every stroke over the bars: late is up, for later means more."""
+    """Every stroke over the bars, as `stroke_plot` says."""
 
     def __init__(self, facts: ResultFacts, ink: DrawList, box: ReportBox) -> None:
         self._facts, self._ink, self._box = facts, ink, box
         self._left, self._right = box.left + 92, box.right - 22
-        self._top, self._low = box.top + 38, box.bottom - 46
+        self._top, self._low = box.top + 36, box.bottom - 28
 
     def draw(self) -> None:
         """The card, its lines, and the strokes."""
@@ -54,17 +41,15 @@ class Plot:
         band = self._height_of(-ON_TIME_MS) - self._height_of(ON_TIME_MS)
         left, width = self._left - 8, self._right - self._left + 16
         self._ink.box((left, self._height_of(ON_TIME_MS)), (width, band), with_opacity(GOOD, 0.10))
-        for ms in (-60, -30, 0, 30, 60):
+        for ms, words in LINES.items():
             y = self._height_of(ms)
             self._ink.box((left, y - 0.5), (width, 1.0), INK_FAINT if ms else INK_SOFT)
-            text = "0 ms" if ms == 0 else f"{abs(ms)} {'late' if ms > 0 else 'early'}"
-            self._ink.text(text, (left - 8, y + 5), TypeStyle(15, INK_SOFT, Face.REGULAR, 1.0))
+            self._ink.text(words, (left - 8, y + 5), TypeStyle(15, INK_SOFT, Face.REGULAR, 1.0))
         self._bars()
         self._strokes()
 
-    def _height_of(self, asynchrony_ms: float) -> float:
-        clipped = float(np.clip(asynchrony_ms, -_REACH_MS, _REACH_MS))
-        return self._top + (self._low - self._top) * (0.5 - clipped / (2 * _REACH_MS))
+    def _height_of(self, ms: float) -> float:
+        return self._low - (self._low - self._top) * (ms - AXIS_MS[0]) / (AXIS_MS[1] - AXIS_MS[0])
 
     def _place_of(self, time_s: float) -> float:
         """Across the plot; what was struck before the first bar or after the last stands on its edge."""
@@ -82,24 +67,15 @@ class Plot:
         self._ink.text(counted, (self._left - 16, low), TypeStyle(15, INK_SOFT, Face.REGULAR, 1.0))
 
     def _strokes(self) -> None:
-        facts = self._facts
+        facts, extras = self._facts, len(self._facts.extra_s)
         size = float(np.clip(900 / max(len(facts.label), 1), 2.6, 5.2))
-        floor = self._box.bottom - 38
-        for time_s, label, late_ms in zip(facts.time_s, facts.label, facts.asynchrony_ms, strict=True):
-            x = self._place_of(float(time_s))
-            if label == Label.MISS:
-                barred_ring(self._ink, (x, floor), max(size, 4.0), MISSED)
-                continue
-            at = (x, self._height_of(float(late_ms)))
-            if label == Label.WRONG_PIECE:
-                self._ink.box((at[0] - size, at[1] - size), (2 * size, 2 * size), WRONG, None, (1.0, 1.8, 0.0))
-            elif abs(late_ms) <= ON_TIME_MS:
-                self._ink.ellipse(at, (size, size), with_opacity(GOOD, 0.9))
-            else:
-                turn = -np.pi / 2 if late_ms > 0 else np.pi / 2
-                self._ink.triangle(at, (size * 1.1, size * 1.15), timing_colour(float(late_ms)), turn)
-        for time_s in facts.extra_s:
-            self._ink.cross((self._place_of(float(time_s)), floor + 9), (size * 0.7, size * 0.7), 1.6, EXTRA)
+        time_s = np.concatenate([facts.time_s, facts.extra_s])
+        label = np.concatenate([facts.label, np.full(extras, Label.EXTRA, np.uint8)])
+        asynchrony_ms = np.concatenate([facts.asynchrony_ms, np.full(extras, np.nan)])
+        at_ms = heights_ms(label, asynchrony_ms)
+        for kind, rows in by_kind(label, asynchrony_ms):
+            for x, ms in zip(time_s[rows].tolist(), at_ms[rows].tolist(), strict=True):
+                stroke(self._ink, kind, (self._place_of(x), self._height_of(ms)), size)
 
 
 class Pieces:
@@ -167,6 +143,23 @@ def paper(ink: DrawList, box: ReportBox) -> None:
     """A card: its ground and its edge."""
     ink.box((box.left, box.top), (box.width, box.height), PANEL, None, (14.0, 0.0, 0.0))
     ink.box((box.left, box.top), (box.width, box.height), PANEL_EDGE, None, (14.0, 1.2, 0.0))
+
+
+def stroke(ink: DrawList, kind: Kind, at: tuple[float, float], size: float) -> None:
+    """The mark of a stroke; `size` is a dot's radius."""
+    radius, half = kind.radius * size, kind.radius * size / np.sqrt(2)
+    match kind.mark:
+        case Mark.DISC:
+            ink.ellipse(at, (radius, radius), kind.colour)
+        case Mark.SQUARE:
+            ink.box((at[0] - half, at[1] - half), (2 * half, 2 * half), kind.colour, None, (1.0, 1.8, 0.0))
+        case Mark.BARRED_RING:
+            barred_ring(ink, at, max(radius, 4.0), kind.colour)
+        case Mark.CROSS:
+            ink.cross(at, (half, half), 1.6, kind.colour)
+        case Mark.UP | Mark.DOWN:
+            turn = -np.pi / 2 if kind.mark is Mark.UP else np.pi / 2
+            ink.triangle(at, (0.9 * radius, 0.9 * radius), kind.colour, turn)
 
 
 def badge(ink: DrawList, kind: int, at: tuple[float, float], colour: tuple[float, float, float, float]) -> None:

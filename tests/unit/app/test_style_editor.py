@@ -153,29 +153,20 @@ def test_a_folder_that_cannot_be_made_is_told(tmp_path: Path) -> None:
 
 # --- the lane's picture -----------------------------------------------------------------------------------------------
 
-FRAME = LaneFrame(left=100.0, top=50.0, width=400.0, height=200.0, bars=2, beats=4, low=0.0, high=100.0)
-"""A bar is 200 pixels wide, a beat 50; two pixels are one of value."""
+FRAME = LaneFrame(bars=2, beats=4, low=0.0, high=100.0)
 
 
-def test_bars_and_values_are_where_they_are_drawn() -> None:
-    assert FRAME.pixel(1.0, 100.0) == (100.0, 50.0)
-    assert FRAME.pixel(2.5, 25.0) == (400.0, 200.0)
-    assert FRAME.point(400.0, 200.0) == (2.5, 25.0)
-    assert FRAME.point(414.0, 200.0) == (2.5, 25.0), "on the nearest beat"
-    assert FRAME.point(9999.0, -50.0) == (3.0, 100.0)
-
-
-def test_the_nearest_point_is_meant_and_none_from_afar() -> None:
-    lane = ((1.0, 50.0), (2.0, 50.0))
-    assert FRAME.nearest(lane, 306.0, 144.0) == 1
-    assert FRAME.nearest(lane, 200.0, 150.0) is None
-    assert FRAME.nearest((), 100.0, 150.0) is None
+def test_a_place_is_meant_on_the_nearest_beat_and_within_the_frame() -> None:
+    assert FRAME.point(2.5, 25.0) == (2.5, 25.0)
+    assert FRAME.point(2.57, 25.0) == (2.5, 25.0)
+    assert FRAME.point(99.0, 125.0) == (3.0, 100.0)
+    assert FRAME.point(-1.0, -5.0) == (1.0, 0.0)
 
 
 def test_a_drag_draws_a_point_on_every_beat_that_it_passes() -> None:
     """From the first beat at 0 to the fourth at 75, a line that rises by 25 a beat; drawn back, the same."""
     line = [(1.0, 0.0), (1.25, 25.0), (1.5, 50.0), (1.75, 75.0)]
-    assert np.array(FRAME.stroke((100.0, 250.0), (250.0, 100.0))) == pytest.approx(np.array(line))
-    assert np.array(FRAME.stroke((250.0, 100.0), (100.0, 250.0))) == pytest.approx(np.array(line[::-1]))
-    (one,) = FRAME.stroke((103.0, 150.0), (98.0, 140.0))
+    assert np.array(FRAME.stroke((1.0, 0.0), (1.75, 75.0))) == pytest.approx(np.array(line))
+    assert np.array(FRAME.stroke((1.75, 75.0), (1.0, 0.0))) == pytest.approx(np.array(line[::-1]))
+    (one,) = FRAME.stroke((1.02, 50.0), (0.99, 55.0))
     assert one == pytest.approx((1.0, 55.0))

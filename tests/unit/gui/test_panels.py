@@ -6,7 +6,6 @@ from station.app.model import RoomState
 from station.core.units import NS_PER_S, PPQ
 from station.gui.panels.player_controls import time_words
 from station.gui.panels.transport_bar import elided, found
-from station.gui.widgets.icon_button import SHAPES
 from station.gui.widgets.ruler_scale import RulerScale
 from station.music.tempo import TempoMap
 from station.practice.demonstration.song_player import Song
@@ -61,8 +60,3 @@ def test_text_that_is_too_long_ends_in_dots() -> None:
     assert elided("drums", 5, len) == "drums"
     assert elided("loud speakers", 9, len) == "loud spe…"
     assert elided("a b", 2, len) == "a…"
-
-
-def test_every_sign_stays_within_its_square() -> None:
-    points = [point for polygons in SHAPES.values() for polygon in polygons for point in polygon]
-    assert all(0.0 <= x <= 1.0 and 0.0 <= y <= 1.0 for x, y in points)
