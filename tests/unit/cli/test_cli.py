@@ -190,7 +190,10 @@ def test_check_names_every_fault_and_exits_with_2(capsys: pytest.CaptureFixture[
         (("practice", "rock-1", "--tempo", "fast"), "--tempo"),
         (("practice", "rock-1", "--loops", "-1"), "--loops: -1"),
         (("practice", "rock-1", "--bars", "3-9"), "--bars: 3-9"),
-        (("practice", "rock-1", "--tempo", "80bpm"), "argument --tempo: expected a number, found '80bpm'"),
+        (
+            ("practice", "rock-1", "--tempo", "80bpm"),
+            "argument --tempo: expected a number, or tap to tap it, found '80bpm'",
+        ),
         (("practice", "rock-1", "--loops", "2.5"), "argument --loops: expected a whole number, found '2.5'"),
         (("practice", "rock-1", "--virtual-student", "seed=x"), "expected a whole number from 0 to 4294967295"),
         (("assess", "rock-1", "pyproject.toml"), "pyproject.toml: neither a MIDI file (.mid, .midi, .smf, .kar) nor"),
@@ -365,7 +368,7 @@ def test_what_sounds_is_chosen_checked_and_remembered(
 
 def test_a_distance_that_is_none_is_refused_by_its_own_name(capsys: pytest.CaptureFixture[str]) -> None:
     said = refused(capsys, "devices", "calibrate", "--by", "strike", "--distance", "x")
-    assert "--distance: x: expected 0 to 10 metres" in said
+    assert "--distance: expected 0 to 10 metres, found 'x'" in said
 
 
 @pytest.mark.parametrize(
