@@ -52,7 +52,9 @@ def _run(words: list[str]) -> int:
     top.add_argument("--version", action="version", version=_version())
     name = chosen(top, "COMMAND", _COMMANDS, words)
     command: Command[Any] | Verbs = importlib.import_module(f"station.cli.{name or _WINDOW}").COMMAND
-    return command.main(f"station {name or ''}".strip(), sentence(_COMMANDS.get(name or "", "")), words[1:])
+    return command.main(
+        f"station {name or ''}".strip(), sentence(_COMMANDS.get(name or "", "")), words[1:] if name else words
+    )
 
 
 def _version() -> str:

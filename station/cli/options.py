@@ -215,10 +215,7 @@ def chosen(menu: Parser, metavar: str, summaries: Mapping[str, str], words: Sequ
     first = words[0] if words else ""
     if first and not first.startswith("-") and first not in summaries:
         menu.error(f"no such {metavar.lower()}: {first}{did_you_mean(first, summaries)}")
-    found, unknown = menu.parse_known_args(words[:1])
-    if unknown:
-        menu.error(f"not understood: {unknown[0]}")
-    name = found.chosen
+    name = menu.parse_known_args(words[:1])[0].chosen
     assert name is None or isinstance(name, str)
     return name
 

@@ -4,7 +4,8 @@ from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
 from station.app.diagnostics import has_screen
-from station.cli.options import Command, NoOptions
+from station.cli.options import Command
+from station.cli.watch_options import WatchOptions
 from station.core.errors import DeviceError
 from station.core.measured_latency import load_calibration
 from station.core.settings import Settings, load_settings
@@ -16,13 +17,13 @@ if TYPE_CHECKING:
     from station.practice.session.backing_track import BackingRequest
 
 
-def run(_: NoOptions) -> int:
+def run(options: WatchOptions) -> int:
     """Open the window on the first lesson."""
     from station.drills.library import FIRST_LESSON, find_lesson
 
     settings = load_settings()
     first = plan_practice(find_lesson(FIRST_LESSON), PlanOptions(hands=hands_of(settings)))
-    return open_window(settings, first, adapt=True)
+    return open_window(settings, first, adapt=True, watch=options.watch())
 
 
 def open_window(
@@ -61,4 +62,4 @@ def open_window(
     return 0
 
 
-COMMAND = Command(NoOptions, run)
+COMMAND = Command(WatchOptions, run)

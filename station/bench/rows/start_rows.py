@@ -1,8 +1,8 @@
 """Benchmarks of starting, from the shell's view: `station --help`, and the window's first frame and first picture.
 
-The window opens as a program of its own (`station practice`), with its engine, on the screen that is there or else on
-one of Xvfb's. What is measured is a second start: one before it leaves Python's bytecode, as an installed program has
-it, and what the station keeps in the user's folder for caches.
+The window opens as a program of its own (`station`), with its engine, on the screen that is there or else on one of
+Xvfb's. What is measured is a second start: one before it leaves Python's bytecode, as an installed program has it, and
+what the station keeps in the user's folder for caches.
 """
 
 import json
@@ -56,7 +56,7 @@ def _opening(frame: int) -> Measurement:
 
 def _opened(frame: int, environment: dict[str, str]) -> tuple[float, float]:
     begun_ns = monotonic_ns()
-    words = [sys.executable, "-m", "station.cli.command_line", "practice", "--watch-frames", str(frame)]
+    words = [sys.executable, "-m", "station.cli.command_line", "--watch-frames", str(frame)]
     done = subprocess.run(words, check=True, capture_output=True, text=True, env=environment, timeout=_WITHIN_S)
     seen = json.loads(done.stdout.splitlines()[-1])
     return (seen["shown_ns"][frame - 1] - begun_ns) / NS_PER_S, seen["worked_s"][frame - 1]

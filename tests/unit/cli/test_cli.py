@@ -512,3 +512,36 @@ def test_a_recording_without_a_stroke_is_assessed_as_nothing_but_misses(
     told = capsys.readouterr()
     assert json.loads(told.out)["counts"]["hits"] == 0
     assert told.err == ""
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [
+        (("pracitce",), "no such command: pracitce; did you mean practice? (see station --help)"),
+        (("--juggle",), "no such option: --juggle"),
+        (("devices",), "devices: say what to do: list, monitor,"),
+        (("devices", "lst"), "devices: no such verb: lst; did you mean list?"),
+        (("practice", "--temop", "80"), "no such option: --temop; did you mean --tempo?"),
+        (("sheet", "rock-1", "--out", "x.pdf", "--paper", "leter"), "'leter'; did you mean letter?"),
+        (("devices", "learn", "--touch", "snaer"), "no such piece: 'snaer'; did you mean snare?"),
+    ],
+)
+def test_what_was_meant_is_asked(capsys: pytest.CaptureFixture[str], words: tuple[str, ...], named: str) -> None:
+    assert named in refused(capsys, *words)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("practice", "x" * 7_000),
+        ("practice", "rock-1", "--virtual-student", "x" * 7_000),
+        ("practice", "rock-1", "--click", "x" * 7_000),
+        ("animate", "rock-1", "--out", "x.png", "--view", "x" * 7_000),
+        ("x" * 7_000,),
+        ("practice", f"--{'x' * 7_000}"),
+    ],
+)
+def test_a_wrong_word_of_any_length_is_a_line_that_can_be_read(
+    capsys: pytest.CaptureFixture[str], words: tuple[str, ...]
+) -> None:
+    assert len(refused(capsys, *words)) < 420
