@@ -3,12 +3,12 @@
 import json
 from pathlib import Path
 
+from station.cli.captures import performance_of_capture
 from station.core.errors import BadInput
-from station.core.events import Choke, Hit
 from station.core.measured_latency import load_calibration
 from station.core.settings import load_settings
-from station.devices.capture.capture import MAGIC, read_capture
-from station.devices.capture.replay import replay, transport_zeros_ns
+from station.devices.capture.capture import read_capture
+from station.devices.capture.replay import transport_zeros_ns
 from station.drills.library import find_lesson
 from station.music.as_played import score_as_played
 from station.music.performance import Performance
@@ -18,34 +18,9 @@ from station.practice.records.session_files import DOCUMENT_NAME, TAKE_NAME
 from station.practice.session.device_latency import latency_of
 from station.practice.session.free_play import take_of
 
-CAPTURE_ENDING = ".capture"
 FREE_TITLE = "Just play"
 _NO_TEMPO_BPM = 120.0
 """Where nothing says a tempo bars are of two seconds."""
-
-
-def is_capture(name: str) -> bool:
-    """Whether `name` ends as captures do, or is a file that begins as they do: `devices record` takes any name."""
-    return Path(name).suffix.lower() == CAPTURE_ENDING or begins_as_capture(Path(name))
-
-
-def begins_as_capture(path: Path) -> bool:
-    """Whether the file at `path` begins as captures do."""
-    try:
-        if not path.is_file():  # whoever looks into a pipe waits, and takes what is there
-            return False
-        with path.open("rb") as file:
-            return file.read(len(MAGIC)) == MAGIC
-    except OSError:  # a name longer than the file system takes
-        return False
-
-
-def performance_of_capture(path: Path) -> Performance:
-    """All strokes of the capture at `path`, from the first on; raises `BadInput`."""
-    events = list(replay(read_capture(path)))
-    hits = [event for event in events if isinstance(event, Hit)]
-    start_ns = hits[0].at_ns if hits else 0
-    return Performance.from_hits(hits, [event for event in events if isinstance(event, Choke)]).shifted(-start_ns)
 
 
 def take_as_score(path: Path) -> Score:

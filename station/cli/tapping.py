@@ -54,7 +54,7 @@ def _enter_keys() -> NextTap:
     pressed: queue.SimpleQueue[int | None] = queue.SimpleQueue()
 
     def listen() -> None:
-        while sys.stdin.readline():
+        for _ in sys.stdin or ():  # there may be no standard input
             pressed.put(monotonic_ns())
         pressed.put(None)
 
