@@ -53,7 +53,9 @@ def _run(words: list[str]) -> int:
     name = chosen(top, "COMMAND", _COMMANDS, words)
     command: Command[Any] | Verbs = importlib.import_module(f"station.cli.{name or _WINDOW}").COMMAND
     return command.main(
-        f"station {name or ''}".strip(), sentence(_COMMANDS.get(name or "", "")), words[1:] if name else words
+        f"station {name or ''}".strip(),
+        sentence(_COMMANDS.get(name or "", "open the practice room")),
+        words[1:] if name else words,
     )
 
 
