@@ -1,23 +1,25 @@
 """What `station animate` draws: one picture, numbered pictures, a GIF that loops, or a video with sound."""
 
-import argparse
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
-from station.cli.animate import LEVELS, NUMBER
-from station.cli.progress_line import ProgressLine
+from station.cli.animate_options import AnimateOptions, PictureOptions
+from station.cli.console import Progress
 from station.core.settings import load_settings
 from station.motion.drummer import Drummer
 from station.music.score import Score
-from station.render.camera import NamedView, named
+from station.render.camera import named
 from station.render.picture import Shot
 from station.render.quality import QUALITIES
 from station.scenes.film import FilmLoop, FilmStretch, write_film, write_loop, write_pictures
 from station.scenes.soundtrack import Sounds
 from station.sound.samples.load_kit import load_kit
 
+_NUMBER = re.compile(r"(%0?\d*d)")
+"""What numbers pictures in a name."""
 RATE_HZ = 48_000
 """Of a video's sound: what players and sites take as it is."""
 _MOST_DENOMINATOR = 1001
@@ -27,42 +29,42 @@ Stretch = tuple[float, float]
 """From which second of the score on, and for how many seconds."""
 
 
-def draw_still(drummer: Drummer, at_s: float, arguments: argparse.Namespace) -> None:
+def draw_still(drummer: Drummer, at_s: float, options: AnimateOptions) -> None:
     """The picture of one instant."""
     write_pictures(
-        drummer, FilmStretch(at_s, 1, Fraction(1)), _shot(drummer, arguments), [arguments.out], lambda _: None
+        drummer, FilmStretch(at_s, 1, Fraction(1)), _shot(drummer, options.picture), [options.out], lambda _: None
     )
 
 
-def draw_sequence(drummer: Drummer, stretch: Stretch, arguments: argparse.Namespace) -> None:
+def draw_sequence(drummer: Drummer, stretch: Stretch, options: AnimateOptions) -> None:
     """Numbered pictures, from 1."""
-    take = _take(stretch, arguments.fps)
-    shot = _shot(drummer, arguments)
-    _with_progress(take, lambda tell: write_pictures(drummer, take, shot, _numbered(arguments.out, take), tell))
+    take = _take(stretch, options.fps)
+    shot = _shot(drummer, options.picture)
+    _with_progress(take, lambda tell: write_pictures(drummer, take, shot, _numbered(options.out, take), tell))
 
 
-def draw_loop(drummer: Drummer, whole: Score, first_bar: int, arguments: argparse.Namespace) -> None:
+def draw_loop(drummer: Drummer, whole: Score, first_bar: int, options: AnimateOptions) -> None:
     """A GIF of bars of the `whole` score from `first_bar` (from 0) on, which `drummer` plays over and over."""
     loop = FilmLoop.of(drummer, first_bar, whole.bar_count)
-    shot = _shot(drummer, arguments)
-    progress = ProgressLine(round(loop.length_s * arguments.fps))
+    shot = _shot(drummer, options.picture)
+    progress = Progress(round(loop.length_s * options.fps))
     try:
-        write_loop(drummer, loop, arguments.fps, shot, arguments.out, progress.tell)
+        write_loop(drummer, loop, options.fps, shot, options.out, progress.tell)
     finally:
         progress.close()
 
 
-def draw_film(drummer: Drummer, stretch: Stretch, arguments: argparse.Namespace) -> None:
+def draw_film(drummer: Drummer, stretch: Stretch, options: AnimateOptions) -> None:
     """A video with sound."""
-    take = _take(stretch, arguments.fps)
+    take = _take(stretch, options.fps)
     settings = load_settings()
-    sounds = Sounds(load_kit(settings.drums, RATE_HZ), settings.click if arguments.click else None)
-    shot = _shot(drummer, arguments)
-    _with_progress(take, lambda tell: write_film(drummer, take, shot, sounds, arguments.out, tell))
+    sounds = Sounds(load_kit(settings.drums, RATE_HZ), settings.click if options.picture.click else None)
+    shot = _shot(drummer, options.picture)
+    _with_progress(take, lambda tell: write_film(drummer, take, shot, sounds, options.out, tell))
 
 
 def _with_progress(take: FilmStretch, work: Callable[[Callable[[int], None]], None]) -> None:
-    progress = ProgressLine(take.pictures)
+    progress = Progress(take.pictures)
     try:
         work(progress.tell)
     finally:
@@ -76,11 +78,10 @@ def _take(stretch: Stretch, fps: float) -> FilmStretch:
 
 
 def _numbered(out: Path, take: FilmStretch) -> Iterator[Path]:
-    before, number, after = NUMBER.split(out.name, maxsplit=1)
+    before, number, after = _NUMBER.split(out.name, maxsplit=1)
     return (out.with_name(f"{before}{number % k}{after}") for k in range(1, take.pictures + 1))
 
 
-def _shot(drummer: Drummer, arguments: argparse.Namespace) -> Shot:
-    camera = named(NamedView[arguments.view.upper()], drummer.kit.left_handed)
-    camera = replace(camera, mirrored=arguments.mirror)
-    return Shot(arguments.size, QUALITIES[LEVELS.index(arguments.quality)], camera, not arguments.no_score)
+def _shot(drummer: Drummer, picture: PictureOptions) -> Shot:
+    camera = replace(named(picture.view, drummer.kit.left_handed), mirrored=picture.mirror)
+    return Shot(picture.size, QUALITIES[picture.quality], camera, not picture.no_score)

@@ -1,17 +1,26 @@
 """`station bench`: how fast and exact the station is on this computer."""
 
-import argparse
+from dataclasses import dataclass
+from functools import partial
+
+from station.cli.console import write
+from station.cli.options import Command, flag
 
 
-def add_options(parser: argparse.ArgumentParser) -> None:
-    """Add this command's words."""
-    parser.add_argument("--soak", action="store_true", help="add the long ones")
-    parser.add_argument("--json", action="store_true", help="print one JSON document")
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BenchOptions:
+    """Which benchmarks, and how they are told."""
+
+    soak: bool = flag("add the long ones")
+    json: bool = flag("print one JSON document")
 
 
-def run(arguments: argparse.Namespace) -> int:
+def run(options: BenchOptions) -> int:
     """Measure and print."""
     from station.bench import rows
     from station.bench.harness.run import main
 
-    return main(rows, as_json=arguments.json, soak=arguments.soak)
+    return main(rows, partial(write, flush=True), options.json, options.soak)
+
+
+COMMAND = Command(BenchOptions, run)

@@ -1,15 +1,16 @@
 """Listening to kits from the terminal: what they bring, poll by poll, and their events in words."""
 
-import argparse
 import sys
 import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from queue import SimpleQueue
 
 from station.cli.console import say
-from station.cli.device_option import wanted_kits
+from station.cli.device_option import devices_option, wanted_kits
+from station.cli.options import option, unread
 from station.core.clock import monotonic_ns
 from station.core.errors import DeviceError
 from station.core.events import Choke, DeviceEvent, DeviceFound, DeviceLost, Hit, PedalMoved, Switched
@@ -23,6 +24,26 @@ POLL_S = 0.0005
 """Pause between two looks at the kit: the engine's own pace."""
 NAMED_WITHIN_S = 3.0
 """So long a kit is awaited that is asked for by name: a USB kit announces itself within two seconds (our choice)."""
+LONGEST_S = 7 * 24 * 3_600.0
+"""The longest that ends by itself: a week (our choice)."""
+
+
+def _length_s(text: str) -> float:
+    try:
+        seconds = float(text)
+    except ValueError:
+        seconds = 0.0
+    if not 0.0 < seconds <= LONGEST_S:
+        raise unread(f"seconds above 0, {LONGEST_S:.0f} at most", text)
+    return seconds
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ListenOptions:
+    """Which kits are listened to, and for how long."""
+
+    device: tuple[str, ...] = devices_option()
+    seconds: float | None = option("S", "end by itself after so long", _length_s, None)
 
 
 class TypedLines:
@@ -45,11 +66,11 @@ class TypedLines:
 
 
 @contextmanager
-def listening(arguments: argparse.Namespace) -> Iterator[tuple[PortWatch, ...]]:
+def listening(options: ListenOptions) -> Iterator[tuple[PortWatch, ...]]:
     """The chosen kits; raises `DeviceError` where none can be heard. Ctrl-C, wherever it falls, ends the block."""
     from station.devices.device_ports import no_kit, parse_kits, watch_kits
 
-    wishes = parse_kits(wanted_kits(arguments.kit, load_settings().kit))
+    wishes = parse_kits(wanted_kits(options.device, load_settings().kit))
     watches = watch_kits(wishes)
     if not watches.kits:
         raise DeviceError(no_kit(wishes))

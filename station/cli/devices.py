@@ -1,19 +1,16 @@
 """`station devices`: list kits and sound outputs, watch a kit live, record it, replay a capture."""
 
-import argparse
-import math
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from enum import IntEnum
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from station.cli import devices_calibrate
-from station.cli.console import print_json, say
-from station.cli.device_listening import event_line, listening, polls
-from station.cli.device_option import KIT_HELP
-from station.cli.devices_learn import learn
-from station.cli.devices_learn_pad import add_pad_options, learn_one
+from station.cli.console import print_json, say, write
+from station.cli.device_listening import ListenOptions, event_line, listening, polls
+from station.cli.devices_learn_pad import LearnOptions, learn_kit_or_pad
 from station.cli.devices_monitor import monitor
+from station.cli.options import Command, Verbs, argument, flag
 from station.core.clock import monotonic_ns
 from station.core.errors import BadInput, DeviceError
 from station.core.events import DeviceEvent, DeviceFound, DeviceLost, Hit
@@ -25,56 +22,31 @@ if TYPE_CHECKING:
 
 SCHEMA = "drum-station/devices/1"
 REPLAY_SCHEMA = "drum-station/replay/1"
-POLL_S = 0.0005
-"""Pause between two looks at the kit: the engine's own pace."""
-
-LONGEST_S = 7 * 24 * 3_600.0
-"""The longest recording that ends by itself: a week (our choice)."""
 
 
-def add_options(parser: argparse.ArgumentParser) -> None:
-    """Add this command's words."""
-    verbs = parser.add_subparsers(dest="verb", required=True, metavar="VERB")
-    listing = verbs.add_parser("list", help="the kits and sound outputs that this computer sees")
-    listing.add_argument("--json", action="store_true", help="print one JSON document")
-    watch = verbs.add_parser("monitor", help="every hit with its raw bytes, and what looks like a ghost; Ctrl-C ends")
-    teach = verbs.add_parser("learn", help="teach the station your kit: strike what is asked for")
-    add_pad_options(teach)
-    record = verbs.add_parser("record", help="keep every byte of a kit with its time; Ctrl-C ends")
-    record.add_argument("file", metavar="FILE", type=Path, help="the capture to write; one that is there goes on")
-    for verb in (watch, teach, record):
-        verb.add_argument("--kit", metavar="PORT", action="append", help=KIT_HELP)
-        verb.add_argument("--seconds", type=_seconds, metavar="S", help="end by itself after so long")
-    devices_calibrate.add_options(verbs.add_parser("calibrate", help="measure the latency of a kit or a sound output"))
-    replay = verbs.add_parser("replay", help="the hits of a capture, as they were, and a session's judgements")
-    replay.add_argument("file", metavar="FILE", type=Path, help="a capture")
-    replay.add_argument("--json", action="store_true", help="print one JSON document")
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PortsOptions:
+    """How the ports are told."""
+
+    json: bool = flag("print one JSON document")
 
 
-def _seconds(text: str) -> float:
-    try:
-        seconds = float(text)
-    except ValueError:
-        seconds = math.nan
-    if not 0.0 < seconds <= LONGEST_S:
-        raise argparse.ArgumentTypeError(f"{text} is no length of time; give seconds above 0, {LONGEST_S:.0f} at most")
-    return seconds
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RecordOptions(ListenOptions):
+    """Where what is heard is kept."""
+
+    file: Path = argument("FILE", "the capture to write; one that is there goes on", Path)
 
 
-def run(arguments: argparse.Namespace) -> int:
-    """Do what the verb says."""
-    verbs = {
-        "list": _list,
-        "monitor": monitor,
-        "learn": learn_one if "pad" in arguments and (arguments.pad or arguments.touch) else learn,
-        "calibrate": devices_calibrate.run,
-        "record": _record,
-        "replay": _replay,
-    }
-    return verbs[arguments.verb](arguments)
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ReplayOptions:
+    """Which capture, and how its hits are told."""
+
+    file: Path = argument("FILE", "a capture", Path)
+    json: bool = flag("print one JSON document")
 
 
-def _list(arguments: argparse.Namespace) -> int:
+def _list(options: PortsOptions) -> int:
     from station.sound.output.sound_output import list_outputs
 
     kits, faults = _ports()
@@ -83,12 +55,12 @@ def _list(arguments: argparse.Namespace) -> int:
         outputs = [asdict(output) for output in list_outputs()]
     except DeviceError as fault:
         faults.append(str(fault))
-    if arguments.json:
+    if options.json:
         print_json({"schema": SCHEMA, "kits": kits, "outputs": outputs, "faults": faults})
         return 0
     rows = [f"  {kit['port']}  [{kit['preset']}]" for kit in kits]
-    print("Kits (MIDI inputs and serial ports)", *rows or ["  none"], sep="\n")
-    print("Sound outputs", *[f"  {output['name']}" for output in outputs] or ["  none"], sep="\n")
+    write("\n".join(["Kits (MIDI inputs and serial ports)", *(rows or ["  none"])]))
+    write("\n".join(["Sound outputs", *([f"  {output['name']}" for output in outputs] or ["  none"])]))
     for text in faults:
         say(f"station: {text}")
     return 0
@@ -127,25 +99,25 @@ def _ports() -> tuple[list[dict[str, str]], list[str]]:
 # --- record ----------------------------------------------------------------------------------------------------------
 
 
-def _record(arguments: argparse.Namespace) -> int:
+def _record(options: RecordOptions) -> int:
     from station.devices.mapping.device_file import own_kit
     from station.engine.engine import Engine
     from station.engine.messages import RecordCapture
 
     engine, hits, records = Engine(own_kit=own_kit), 0, False
-    with listening(arguments) as kits:
+    with listening(options) as kits:
         try:
-            for findings in polls(kits, arguments.seconds):
+            for findings in polls(kits, options.seconds):
                 if findings.found and not records:  # no sooner: where nothing can be heard, no file is left behind
                     engine.advance(monotonic_ns())
-                    engine.handle(RecordCapture(arguments.file))
+                    engine.handle(RecordCapture(options.file))
                     records = True
                 _feed(engine, findings)
                 hits += _tell(engine)
         finally:
             engine.handle(RecordCapture(None))
     hits += _tell(engine)
-    say(f"{hits} hits in {arguments.file}" if records else "no kit came: nothing was recorded")
+    say(f"{hits} hits in {options.file}" if records else "no kit came: nothing was recorded")
     return 0
 
 
@@ -181,30 +153,30 @@ def _tell(engine: "Engine") -> int:
 # --- replay ----------------------------------------------------------------------------------------------------------
 
 
-def _replay(arguments: argparse.Namespace) -> int:
+def _replay(options: ReplayOptions) -> int:
     from station.devices.capture.capture import read_capture
     from station.devices.capture.replay import replay
     from station.practice.records.rejudge import judge_again, session_document, session_line
 
-    capture = read_capture(arguments.file)
+    capture = read_capture(options.file)
     if capture.good_bytes == capture.lost_bytes == 0:
-        raise BadInput(arguments.file, "", "the file is empty")
+        raise BadInput(options.file, "", "the file is empty")
     events = list(replay(capture))
     try:
         sessions = judge_again(capture)
     except BadInput as fault:  # the strokes are there all the same
         sessions = []
-        say(f"{arguments.file}: {fault.place}: {fault.fault}; its sessions are not judged again")
+        say(f"{options.file}: {fault.place}: {fault.fault}; its sessions are not judged again")
     start_ns = capture.records[0].at_ns if capture.records else 0
     if not capture.complete:
-        say(f"{arguments.file}: was not closed in order; {capture.lost_bytes} bytes at its end cannot be read")
-    if arguments.json:
+        say(f"{options.file}: was not closed in order; {capture.lost_bytes} bytes at its end cannot be read")
+    if options.json:
         rows = [{"event": type(event).__name__, **_plain(event)} for event in events]
         judged = [session_document(session.result()) for session in sessions]
         print_json({"schema": REPLAY_SCHEMA, "complete": capture.complete, "events": rows, "sessions": judged})
     else:
         for event in events:
-            print(event_line(event, start_ns))
+            write(event_line(event, start_ns))
         for session in sessions:
             say(session_line(session.result()))
     return 0
@@ -212,3 +184,23 @@ def _replay(arguments: argparse.Namespace) -> int:
 
 def _plain(event: DeviceEvent) -> dict[str, object]:
     return {name: word(value) if isinstance(value, IntEnum) else value for name, value in asdict(event).items()}
+
+
+COMMAND = Verbs(
+    (
+        ("list", "the kits and sound outputs that this computer sees", Command(PortsOptions, _list)),
+        (
+            "monitor",
+            "every hit with its raw bytes, and what looks like a false trigger; Ctrl-C ends",
+            Command(ListenOptions, monitor),
+        ),
+        ("learn", "teach the station your kit: strike what is asked for", Command(LearnOptions, learn_kit_or_pad)),
+        ("record", "keep every byte of a kit with its time; Ctrl-C ends", Command(RecordOptions, _record)),
+        (
+            "calibrate",
+            "measure the latency of a kit or a sound output",
+            Command(devices_calibrate.CalibrateOptions, devices_calibrate.run),
+        ),
+        ("replay", "the hits of a capture, as they were, and a session's judgements", Command(ReplayOptions, _replay)),
+    )
+)

@@ -1,11 +1,10 @@
 """`station devices learn`: the kit wizard in the terminal; a line typed is a key, for a drummer's hands are busy."""
 
-import argparse
 from collections.abc import Callable
 from pathlib import Path
 
-from station.cli.console import say
-from station.cli.device_listening import TypedLines, event_line, listening, polls
+from station.cli.console import say, write
+from station.cli.device_listening import ListenOptions, TypedLines, event_line, listening, polls
 from station.core.clock import monotonic_ns
 from station.core.events import DeviceEvent, Hit
 from station.core.units import NS_PER_MS
@@ -19,12 +18,12 @@ SHOW_EVERY_NS = 50 * NS_PER_MS
 DONE_KEYS = "Play, and see whether it is right. Enter keeps it, b goes back, q keeps nothing"
 
 
-def learn(arguments: argparse.Namespace) -> int:
+def learn(options: ListenOptions) -> int:
     """Teach the station one kit."""
     typed = TypedLines()
     page = LearnPage(lambda: not typed.ended)
-    with listening(arguments) as kits:
-        for findings in polls(kits, arguments.seconds):
+    with listening(options) as kits:
+        for findings in polls(kits, options.seconds):
             page.take(findings)
             for line in typed.take():
                 page.key(line)
@@ -70,7 +69,7 @@ class LearnPage:
     def _try(self, events: list[DeviceEvent]) -> None:
         for event in events:
             if isinstance(event, Hit):
-                print(event_line(event, self._start_ns), flush=True)
+                write(event_line(event, self._start_ns), flush=True)
 
     def key(self, line: str) -> None:
         """A line that was typed."""
@@ -107,15 +106,15 @@ class LearnPage:
 
     def _show(self, view: WizardView) -> None:
         if view.text and (view.step, view.text) != self._shown[:2]:
-            print(f"\n{view.step}/{view.steps}  {view.text}", flush=True)
+            write(f"\n{view.step}/{view.steps}  {view.text}", flush=True)
         if view.text and (view.done, view.hint) != self._shown[2:]:
             heard = "".join(f"  {number}:{velocity}" for number, velocity in view.heard)
-            print(f"       {view.done}/{view.needed}{heard}  {view.hint}".rstrip(), flush=True)
+            write(f"       {view.done}/{view.needed}{heard}  {view.hint}".rstrip(), flush=True)
         self._shown = (view.step, view.text, view.done, view.hint)
 
     def _tell_learned(self, wizard: Wizard) -> None:
         learned = wizard.learned()
-        print("", *learned.findings, "", sep="\n")
+        write("\n".join(("", *learned.findings, "")))
         self._trial = DecoderBank()
         self._trial.add(wizard.port, learned.kit)
         if not self._is_attended():

@@ -3,16 +3,17 @@
 The same desk as the window's page; what was learnt is kept at once.
 """
 
-import argparse
 from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from station.app.mapping_editor import MappingEditor
-from station.cli.console import say
-from station.cli.device_listening import listening, polls
+from station.cli.console import say, write
+from station.cli.device_listening import ListenOptions, listening, polls
+from station.cli.devices_learn import learn
+from station.cli.options import checked, one_of, option
 from station.core.clock import monotonic_ns
-from station.core.did_you_mean import did_you_mean
-from station.core.errors import BadInput
 from station.core.events import DeviceFound, DeviceLost
 from station.core.note_map import NoteMeaning
 from station.core.pieces import Piece, word
@@ -24,42 +25,39 @@ from station.engine.messages import RawBytes
 _PIECES = {word(piece): piece for piece in PADS}
 
 
-def add_pad_options(parser: argparse.ArgumentParser) -> None:
-    """Add what asks for one pad alone."""
-    one = parser.add_mutually_exclusive_group()
-    one.add_argument(
-        "--pad", type=_pad, metavar="PAD", help="learn one pad with one hit: kick, snare/rim_shot, tom_1/rim, ride/bell"
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LearnOptions(ListenOptions):
+    """What is learnt: a whole kit, or one pad alone."""
+
+    pad: NoteMeaning | None = option(
+        "PAD",
+        "learn one pad with one hit: kick, snare/rim_shot, tom_1/rim, ride/bell",
+        checked(pad_named),
+        None,
+        rivals="pad",
     )
-    one.add_argument(
-        "--touch", type=_piece, metavar="PIECE", help="learn a pad's velocity curve from five ghosts and five accents"
+    touch: Piece | None = option(
+        "PIECE",
+        "learn a pad's velocity curve from five ghosts and five accents",
+        one_of(_PIECES, "piece"),
+        None,
+        rivals="pad",
     )
 
 
-def _pad(text: str) -> NoteMeaning:
-    try:
-        return pad_named(text)
-    except BadInput as fault:
-        raise argparse.ArgumentTypeError(str(fault)) from None
-
-
-def _piece(text: str) -> Piece:
-    if text not in _PIECES:
-        raise argparse.ArgumentTypeError(f"{text}: no such piece{did_you_mean(text, _PIECES)}")
-    return _PIECES[text]
-
-
-def learn_one(arguments: argparse.Namespace) -> int:
+def learn_kit_or_pad(options: LearnOptions) -> int:
     """Learn what the options ask for from the first kit that is found."""
+    if options.pad is not None:
+        return _learn_one(options, partial(MappingEditor.learn_pad, pad=options.pad))
+    if options.touch is not None:
+        return _learn_one(options, partial(MappingEditor.learn_touch, piece=options.touch))
+    return learn(options)
 
-    def begin(desk: MappingEditor) -> None:
-        if arguments.pad is not None:
-            desk.learn_pad(arguments.pad)
-        else:
-            desk.learn_touch(arguments.touch)
 
+def _learn_one(options: ListenOptions, begin: Callable[[MappingEditor], None]) -> int:
     page = OnePadPage(begin)
-    with listening(arguments) as kits:
-        for findings in polls(kits, arguments.seconds):
+    with listening(options) as kits:
+        for findings in polls(kits, options.seconds):
             page.take(findings)
             page.advance(monotonic_ns())
             if page.over:
@@ -108,9 +106,9 @@ class OnePadPage:
             return
         desk.advance(now_ns)
         if desk.learnt:
-            print(desk.learnt, flush=True)
+            write(desk.learnt, flush=True)
         if not desk.learns and not self.over:
             self._begin(desk)
         if desk.asks and desk.asks != self._shown:
             self._shown = desk.asks
-            print(desk.asks, flush=True)
+            write(desk.asks, flush=True)

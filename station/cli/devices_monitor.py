@@ -4,9 +4,8 @@ Each hit is a line: time in s, piece, zone, velocity, openness, position, bytes.
 that would make a rule of it; typed in, they hold at once, and `save` keeps them in the kit's own file.
 """
 
-import argparse
-
-from station.cli.device_listening import TypedLines, event_line, listening, polls
+from station.cli.console import write
+from station.cli.device_listening import ListenOptions, TypedLines, event_line, listening, polls
 from station.core.clock import monotonic_ns
 from station.core.errors import StationError
 from station.core.events import DeviceEvent, Hit
@@ -19,14 +18,14 @@ from station.devices.monitor import DeviceMonitor, MonitorLine, rule_against, su
 from station.devices.port_watch import PortPoll
 
 
-def monitor(arguments: argparse.Namespace) -> int:
+def monitor(options: ListenOptions) -> int:
     """Show what the kits send until Ctrl-C."""
     page, typed = MonitorPage(monotonic_ns()), TypedLines()
-    with listening(arguments) as kits:
-        for findings in polls(kits, arguments.seconds):
+    with listening(options) as kits:
+        for findings in polls(kits, options.seconds):
             lines = page.take(findings) + page.settle(monotonic_ns())
             for line in lines + [answer for order in typed.take() for answer in page.obey(order)]:
-                print(line, flush=True)
+                write(line, flush=True)
     return 0
 
 

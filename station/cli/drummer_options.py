@@ -1,50 +1,44 @@
-"""The drummer's furniture and leading hand as words of a command: `--drums` and `--hands`.
+"""The drummer's kit and leading hand as options of a command: `--drums` and `--hands`.
 
-`--kit` is another thing: the MIDI port of the kit that the user plays.
+`--device` is another thing: the kit that is plugged in.
 """
 
-import argparse
+from dataclasses import dataclass
 
+from station.cli.options import choice, flag, option
 from station.cli.read_scores import kit_of_lesson, load_led_score
-from station.motion.kinematics.figure import Figure
 from station.motion.kit.kit import DEFAULT_KIT, Kit, kit_names, load_kit
-from station.motion.motion_plan import MotionPlan
 from station.motion.sticking.hand_notes import Hands
 from station.motion.sticking.limbs import METHODS, Assignment, assign_limbs
 from station.music.score import Score
 
 
-def add_drums_options(parser: argparse.ArgumentParser) -> None:
-    """Add `--drums`, `--hands`, `--as-written` and `--method`: who plays what, and on which kit."""
-    drums = f"the drummer's kit: {', '.join(kit_names())}, or a file (the lesson's, else {DEFAULT_KIT})"
-    parser.add_argument("--drums", default="", metavar="NAME", help=drums)
-    hands = "which hand leads; open: the left hand plays a right-handed kit's hi-hat (as the kit is built)"
-    parser.add_argument("--hands", choices=[h.value for h in Hands], help=hands)
-    as_written = "leave the sides of a lesson's sticking on a left-handed kit, and for open hands"
-    parser.add_argument("--as-written", action="store_true", help=as_written)
-    parser.add_argument("--method", choices=METHODS, default=METHODS[0], help="how limbs are assigned (%(default)s)")
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DrumsOptions:
+    """Who plays what, and on which kit."""
+
+    drums: str = option(
+        "NAME", f"the drummer's kit: {', '.join(kit_names())}, or a file (the lesson's, else {DEFAULT_KIT})", str, ""
+    )
+    hands: Hands | None = choice(
+        {hands.value: hands for hands in Hands},
+        "which hand leads; open: the left hand plays a right-handed kit's hi-hat (as the kit is built)",
+        None,
+    )
+    as_written: bool = flag("leave the sides of a lesson's sticking on a left-handed kit, and for open hands")
+    method: str = choice(dict(zip(METHODS, METHODS, strict=True)), f"how limbs are assigned ({METHODS[0]})", METHODS[0])
 
 
-def assigned(score: Score, kit: Kit, arguments: argparse.Namespace) -> Assignment:
-    """The limbs of `score` on `kit` as the arguments ask for them."""
-    return assign_limbs(score, kit, arguments.method, _hands_of(arguments))
+def assigned(score: Score, kit: Kit, options: DrumsOptions) -> Assignment:
+    """The limbs of `score` on `kit` as the options ask for them."""
+    return assign_limbs(score, kit, options.method, options.hands)
 
 
-def _hands_of(arguments: argparse.Namespace) -> Hands | None:
-    return Hands(arguments.hands) if arguments.hands else None
+def drums_of(name: str, options: DrumsOptions) -> Kit:
+    """The kit that `--drums` names, else that of the lesson `name`; raises `BadInput` if there is none of that name."""
+    return load_kit(options.drums or kit_of_lesson(name) or DEFAULT_KIT)
 
 
-def drums_of(arguments: argparse.Namespace) -> Kit:
-    """The kit that `--drums` names, else the lesson's own; raises `BadInput` if there is none of that name."""
-    return load_kit(arguments.drums or kit_of_lesson(arguments.score) or DEFAULT_KIT)
-
-
-def led_score(arguments: argparse.Namespace) -> Score:
-    """The score that is asked for, a lesson's sticking read for who plays it unless `--as-written`."""
-    return load_led_score(arguments.score, drums_of(arguments), _hands_of(arguments), arguments.as_written)
-
-
-def planned(score: Score, figure: Figure, arguments: argparse.Namespace) -> MotionPlan:
-    """The plan of `score` on the kit and with the hands that the arguments ask for."""
-    kit = drums_of(arguments)
-    return MotionPlan.of(score, kit, figure, assigned(score, kit, arguments))
+def led_score(name: str, options: DrumsOptions) -> Score:
+    """The score that `name` means, a lesson's sticking read for who plays it unless `--as-written`."""
+    return load_led_score(name, drums_of(name, options), options.hands, options.as_written)

@@ -1,48 +1,61 @@
 """`station lesson`: list, show, check, write, import and export lessons."""
 
-import argparse
-import sys
+from dataclasses import dataclass
 from pathlib import Path
 
-from station.cli.console import print_json, say
-from station.cli.read_scores import existing, is_capture, is_midi, load_score
+from station.cli.captures import is_capture
+from station.cli.console import print_json, say, write
+from station.cli.options import Command, NoOptions, Verbs, argument, arguments, flag, required
+from station.cli.read_scores import existing, is_midi, load_score
 from station.core.errors import BadInput
 from station.core.files import write_whole
 
 SCHEMA = "drum-station/lessons/1"
 
 
-def add_options(parser: argparse.ArgumentParser) -> None:
-    """Add this command's words."""
-    verbs = parser.add_subparsers(dest="verb", required=True, metavar="VERB")
-    listing = verbs.add_parser("list", help="the lessons and courses that are shipped")
-    listing.add_argument("--json", action="store_true", help="print one JSON document")
-    show = verbs.add_parser("show", help="a lesson, written out")
-    show.add_argument("lesson", metavar="LESSON", help="a lesson's name or file")
-    check = verbs.add_parser("check", help="every fault of lesson and course files, with line and column")
-    check.add_argument("paths", metavar="PATH", nargs="+", help="lesson and course files, or folders of them")
-    verbs.add_parser("new", help="print a lesson to start from")
-    importing = verbs.add_parser("import", help="write a lesson from a MIDI file or a take")
-    importing.add_argument("source", metavar="SOURCE", help="a MIDI file, or a take")
-    exporting = verbs.add_parser("export", help="write a lesson as a MIDI file")
-    exporting.add_argument("lesson", metavar="LESSON", help="a lesson's name or file")
-    for verb in (importing, exporting):
-        verb.add_argument("--out", metavar="FILE", type=Path, required=True, help="the file to write")
-    importing.add_argument("--overwrite", action="store_true", help="write FILE even if there is one already")
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LessonsOptions:
+    """How the lessons are told."""
+
+    json: bool = flag("print one JSON document")
 
 
-def run(arguments: argparse.Namespace) -> int:
-    """Do what the verb says."""
-    verbs = {"list": _list, "show": _show, "check": _check, "new": _new, "import": _import, "export": _export}
-    return verbs[arguments.verb](arguments)
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LessonOptions:
+    """Which lesson is meant."""
+
+    lesson: str = argument("LESSON", "a lesson's name or file", str)
 
 
-def _list(arguments: argparse.Namespace) -> int:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PathsOptions:
+    """Which files are checked."""
+
+    paths: tuple[str, ...] = arguments("PATH", "lesson and course files, or folders of them")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ImportOptions:
+    """Of what a lesson is made, and where it is written."""
+
+    source: str = argument("SOURCE", "a MIDI file, or a take", str)
+    out: Path = required("FILE", "the file to write", Path)
+    overwrite: bool = flag("write FILE even if there is one already")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ExportOptions(LessonOptions):
+    """Where a lesson is written."""
+
+    out: Path = required("FILE", "the file to write", Path)
+
+
+def _list(options: LessonsOptions) -> int:
     from station.drills.lesson import LEVELS
     from station.drills.library import lesson_rows, shipped_courses
 
     rows = lesson_rows()
-    if arguments.json:
+    if options.json:
         lessons = [
             {
                 "name": row.name,
@@ -64,32 +77,32 @@ def _list(arguments: argparse.Namespace) -> int:
     folder = None
     for row in rows:
         if row.folder != folder:
-            print(f"{'' if folder is None else chr(10)}{row.folder}")
+            write(f"{'' if folder is None else chr(10)}{row.folder}")
             folder = row.folder
         bars = f"{row.bars:2} bar{' ' if row.bars == 1 else 's'}"
         facts = f"{row.meter}  {row.beats_a_minute:5g} bpm  {bars}  {LEVELS[row.level]:12}"
-        print(f"  {row.name:26}{facts}  {row.title}")
-    print("\ncourses")
+        write(f"  {row.name:26}{facts}  {row.title}")
+    write("\ncourses")
     for course in shipped_courses():
-        print(f"  {course.title}: {', '.join(course.lessons)}")
+        write(f"  {course.title}: {', '.join(course.lessons)}")
     return 0
 
 
-def _show(arguments: argparse.Namespace) -> int:
+def _show(options: LessonOptions) -> int:
     from station.drills.lesson_writer import write_lesson
     from station.drills.library import find_lesson
 
-    sys.stdout.write(write_lesson(find_lesson(arguments.lesson)))
+    write(write_lesson(find_lesson(options.lesson)), end="")
     return 0
 
 
-def _check(arguments: argparse.Namespace) -> int:
+def _check(options: PathsOptions) -> int:
     """Faults go to standard output, a line each; the summary and the exit status say whether there were any."""
     from station.drills.authoring import check_lessons
 
-    faults, count = check_lessons(arguments.paths)
+    faults, count = check_lessons(options.paths)
     for fault in faults:
-        print(fault)
+        write(str(fault))
     say(f"{_counted(count, 'lesson')}: {_counted(len(faults), 'fault') if faults else 'no fault'}")
     return 2 if faults else 0
 
@@ -98,25 +111,25 @@ def _counted(count: int, noun: str) -> str:
     return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
-def _new(_: argparse.Namespace) -> int:
+def _new(_: NoOptions) -> int:
     from station.drills.authoring import NEW_LESSON
 
-    sys.stdout.write(NEW_LESSON)
+    write(NEW_LESSON, end="")
     return 0
 
 
-def _import(arguments: argparse.Namespace) -> int:
+def _import(options: ImportOptions) -> int:
     from station.drills.lesson_writer import write_lesson
     from station.drills.quantise import fit_score, lesson_of
 
-    if not is_midi(arguments.source) and not is_capture(arguments.source):
-        raise BadInput(arguments.source, "", "expected a MIDI file (.mid) or a take (.capture)")
-    out: Path = arguments.out
+    if not is_midi(options.source) and not is_capture(options.source):
+        raise BadInput(options.source, "", "expected a MIDI file (.mid) or a take (.capture)")
+    out = options.out
     if out.suffix != ".toml":
         raise BadInput(out, "", "expected a name that ends in .toml")
-    if out.exists() and not arguments.overwrite:
+    if out.exists() and not options.overwrite:
         raise BadInput(out, "", "is there already: choose another name, or say --overwrite")
-    source = existing(arguments.source)
+    source = existing(options.source)
     score = load_score(str(source))
     if not len(score):
         raise BadInput(source, "", "there is no drum note in it")
@@ -130,12 +143,24 @@ def _import(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _export(arguments: argparse.Namespace) -> int:
+def _export(options: ExportOptions) -> int:
     from station.drills.library import find_lesson
     from station.music.formats.smf.standard_midi import write_score
 
-    if not is_midi(str(arguments.out)):
-        raise BadInput(arguments.out, "", "expected a name that ends in .mid")
-    write_score(find_lesson(arguments.lesson).score, arguments.out)
-    say(f"MIDI     {arguments.out}")
+    if not is_midi(str(options.out)):
+        raise BadInput(options.out, "", "expected a name that ends in .mid")
+    write_score(find_lesson(options.lesson).score, options.out)
+    say(f"MIDI     {options.out}")
     return 0
+
+
+COMMAND = Verbs(
+    (
+        ("list", "the lessons and courses that are shipped", Command(LessonsOptions, _list)),
+        ("show", "a lesson, written out", Command(LessonOptions, _show)),
+        ("check", "every fault of lesson and course files, with line and column", Command(PathsOptions, _check)),
+        ("new", "print a lesson to start from", Command(NoOptions, _new)),
+        ("import", "write a lesson from a MIDI file or a take", Command(ImportOptions, _import)),
+        ("export", "write a lesson as a MIDI file", Command(ExportOptions, _export)),
+    )
+)

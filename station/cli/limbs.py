@@ -1,10 +1,11 @@
 """`station limbs SCORE`: who plays what."""
 
-import argparse
+from dataclasses import dataclass
 from pathlib import Path
 
-from station.cli.console import print_json, say, say_beyond
-from station.cli.drummer_options import add_drums_options, assigned, drums_of, led_score
+from station.cli.console import print_json, say, say_beyond, write
+from station.cli.drummer_options import DrumsOptions, assigned, drums_of, led_score
+from station.cli.options import Command, argument, flag, group, option
 from station.cli.read_scores import TEXT_ENDING
 from station.core.errors import BadInput
 from station.core.labels import limb_name, piece_name
@@ -16,26 +17,29 @@ from station.music.score import Score
 SCHEMA = "drum-station/limbs/1"
 
 
-def add_options(parser: argparse.ArgumentParser) -> None:
-    """Add this command's words."""
-    parser.add_argument("score", metavar="SCORE", help="a lesson, a MIDI file, a text score or a take (.capture)")
-    add_drums_options(parser)
-    text = "write a text score whose limbs can be edited and that every command reads again"
-    parser.add_argument("--text", type=Path, metavar=f"FILE{TEXT_ENDING}", help=text)
-    parser.add_argument("--json", action="store_true", help="print one JSON document")
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LimbsOptions:
+    """Whose limbs are told, and how."""
+
+    score: str = argument("SCORE", "a lesson, a MIDI file, a text score or a take (.capture)", str)
+    drums: DrumsOptions = group(DrumsOptions)
+    text: Path | None = option(
+        f"FILE{TEXT_ENDING}", "write a text score whose limbs can be edited, for every command to read", Path, None
+    )
+    json: bool = flag("print one JSON document")
 
 
-def run(arguments: argparse.Namespace) -> int:
+def run(options: LimbsOptions) -> int:
     """Assign limbs and print them, or write them as a text score."""
-    text: Path | None = arguments.text
+    text = options.text
     if text is not None and text.suffix.lower() != TEXT_ENDING:
         raise BadInput(text, "", f"expected a name that ends in {TEXT_ENDING}")
-    score = led_score(arguments)
-    who = assigned(score, drums_of(arguments), arguments)
+    score = led_score(options.score, options.drums)
+    who = assigned(score, drums_of(options.score, options.drums), options.drums)
     if text is not None:
         write_text_score(score, who.limbs, text)
         say(f"score    {text}")
-    if arguments.json:
+    if options.json:
         print_json(_document(score, who))
     elif text is None:
         _print(score, who)
@@ -64,10 +68,13 @@ def _print(score: Score, who: Assignment) -> None:
     for i, why in enumerate(who.why):
         place = f"{score.bar[i] + 1}:{_beat(score, i):.2f}"
         piece, limb = piece_name(Piece(score.notes["piece"][i])), limb_name(Limb(who.limbs[i]))
-        print(f"{place:>9} {score.onset_s[i]:9.3f} s  {piece:16} {limb:11} {why}")
+        write(f"{place:>9} {score.onset_s[i]:9.3f} s  {piece:16} {limb:11} {why}")
 
 
 def _beat(score: Score, row: int) -> float:
     """The beat of its bar, from 1, that a note is written on."""
     place = score.tempo_map.position_at(int(score.notes["tick"][row]))
     return 1 + place.beat + place.tick / score.tempo_map.meter_at(int(score.notes["tick"][row])).beat_ticks
+
+
+COMMAND = Command(LimbsOptions, run)

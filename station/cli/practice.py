@@ -1,21 +1,22 @@
 """`station practice [LESSON]`: a practice session in the window, in the terminal, or with a virtual student."""
 
-import argparse
-import sys
 from contextlib import ExitStack
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from datetime import date
 from pathlib import Path
+from typing import Literal
 
 from station.app.diagnostics import has_screen
 from station.app.session_checks import check_settings
 from station.cli.asking import ask_first
-from station.cli.console import print_json, say
-from station.cli.device_option import KIT_HELP, wanted_kits
+from station.cli.console import print_json, say, write
+from station.cli.device_option import devices_option, wanted_kits
+from station.cli.options import Command, flag, group, option, optional_argument, switch, unread, whole_number
 from station.cli.read_scores import bars_of_gap
-from station.cli.sound_options import add_sound_options, backing_of, said_of
+from station.cli.sound_options import SoundOptions, TrackOptions
 from station.cli.tapping import TAP, tapped_tempo
-from station.core.errors import BadInput, DeviceError, StationError
+from station.cli.watch_options import WatchOptions
+from station.core.errors import BadInput, StationError
 from station.core.settings import Settings, load_settings, save_settings, setting_source, with_said
 from station.core.units import PPQ
 from station.drills.lesson import Lesson
@@ -27,6 +28,7 @@ from station.practice.records.session_files import TEXT_NAME
 from station.practice.records.session_report import practice_document, report_text, with_truth
 from station.practice.session.backing_track import BackingRequest
 from station.practice.session.click_options import parse_click
+from station.practice.session.click_pattern import Gap
 from station.practice.session.leading_hand import hands_of
 from station.practice.session.plan import Plan, PlanOptions, plan_practice
 from station.scoring.report.assessment_document import Json
@@ -35,113 +37,124 @@ STAND_IN = "intermediate,seed=1"
 """Who practises where there is neither a screen nor a kit."""
 
 
-def add_options(parser: argparse.ArgumentParser) -> None:
-    """Add this command's words."""
-    parser.add_argument("lesson", metavar="LESSON", nargs="?", help="a lesson's name or file (the first lesson)")
-    parser.add_argument(
-        "--tempo",
-        type=_tempo,
-        metavar="BPM",
-        help="quarter notes a minute, in any meter, or tap to tap it on the Enter key (the lesson's)",
-    )
-    parser.add_argument(
-        "--adapt",
-        action=argparse.BooleanOptionalAction,
-        help="let tempo, bars and feedback follow the student from pass to pass (on in the window, unless --tempo)",
-    )
-    parser.add_argument("--loops", type=int, metavar="N", help="how often the loop is played (the lesson's)")
-    parser.add_argument("--bars", type=_bars, metavar="A-B", help="bars to practise, from 1 (the lesson's loop)")
-    click = parser.add_mutually_exclusive_group()
-    click.add_argument("--gap", type=bars_of_gap, metavar="ON/OFF", help="bars with a click and bars without, in turn")
-    click.add_argument(
-        "--no-click", action="store_true", help="no click after the count-in: the score follows you, and waits"
-    )
-    parser.add_argument("--kit", metavar="PORT", action="append", help=KIT_HELP)
-    parser.add_argument("--virtual-student", metavar="SPEC", help="who plays instead of a person, such as pro,seed=3")
-    parser.add_argument(
-        "--headless", action="store_true", help="no window; a virtual student plays faster than real time"
-    )
-    parser.add_argument("--no-demonstration", action="store_true", help="count in and play at once")
-    parser.add_argument(
-        "--report", type=Path, metavar="DIR", help="where to leave the session; practises in the terminal"
-    )
-    parser.add_argument("--no-pictures", action="store_true", help="leave a report, but no pictures")
-    parser.add_argument("--recover", type=Path, metavar="DIR", help="judge and keep a session that was cut off")
-    parser.add_argument("--student", metavar="NAME", help="whose session it is")
-    parser.add_argument("--json", action="store_true", help="print the report as one JSON document; in the terminal")
-    add_sound_options(parser)
+def _tempo(text: str) -> float | Literal["tap"]:
+    if text == TAP:
+        return TAP
+    try:
+        return float(text)
+    except ValueError:
+        raise unread(f"a number, or {TAP} to tap it", text) from None
 
 
-def run(arguments: argparse.Namespace) -> int:
+def _bars(text: str) -> tuple[int, int]:
+    first, dash, last = text.partition("-")
+    try:
+        return int(first), int(last if dash else first)
+    except ValueError:
+        raise unread("two bars such as 1-4", text) from None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PracticeOptions:
+    """What is practised, by whom, and what is left of it; None leaves the choice to the lesson or the settings."""
+
+    lesson: str | None = optional_argument("LESSON", "a lesson's name or file (the first lesson)")
+    tempo: float | Literal["tap"] | None = option(
+        "BPM",
+        "quarter notes a minute, in any meter, or tap to tap it on the Enter key (the lesson's)",
+        _tempo,
+        None,
+    )
+    adapt: bool | None = switch(
+        "let tempo, bars and feedback follow the student from pass to pass (on in the window, unless --tempo)"
+    )
+    loops: int | None = option("N", "how often the loop is played (the lesson's)", whole_number, None)
+    bars: tuple[int, int] | None = option("A-B", "bars to practise, from 1 (the lesson's loop)", _bars, None)
+    gap: Gap | None = option("ON/OFF", "bars with a click and bars without, in turn", bars_of_gap, None, rivals="click")
+    no_click: bool = flag("no click after the count-in: the score follows you, and waits", rivals="click")
+    device: tuple[str, ...] = devices_option()
+    virtual_student: str | None = option("SPEC", "who plays instead of a person, such as pro,seed=3", str, None)
+    headless: bool = flag("no window; a virtual student plays faster than real time")
+    no_demonstration: bool = flag("count in and play at once")
+    report: Path | None = option("DIR", "where to leave the session; practises in the terminal", Path, None)
+    no_pictures: bool = flag("leave a report, but no pictures")
+    recover: Path | None = option("DIR", "judge and keep a session that was cut off", Path, None)
+    student: str | None = option("NAME", "whose session it is", str, None)
+    json: bool = flag("print the report as one JSON document; in the terminal")
+    sound: SoundOptions = group(SoundOptions, "sound")
+    track: TrackOptions = group(TrackOptions, "a track to play along to")
+    remember: bool = flag("keep what was said of student, kit and sound for the next time")
+    watch: WatchOptions = group(WatchOptions)
+
+
+def run(options: PracticeOptions) -> int:
     """Practise."""
-    settings = _wanted(arguments, load_settings())
-    if arguments.recover is not None:
-        return _recover(SessionFolder.left_over(arguments.recover), arguments, settings)
-    backing = backing_of(arguments)
-    if arguments.no_click and arguments.adapt:
+    settings = _wanted(options, load_settings())
+    if options.recover is not None:
+        return _recover(SessionFolder.left_over(options.recover), options, settings)
+    backing = options.track.backing(adapts=bool(options.adapt))
+    if options.no_click and options.adapt:
         raise BadInput("--no-click", "--adapt", "the tempo follows you either within a pass or from pass to pass")
-    lesson = _lesson(arguments.lesson)
-    if arguments.tempo == TAP:
-        arguments.tempo = tapped_tempo(lesson.beat_ticks / PPQ)
-    wishes = _wishes(arguments, settings)
+    lesson = _lesson(options.lesson)
+    wishes = _wishes(options, lesson, settings)
     plan = plan_practice(lesson, wishes)
     if backing is not None:
         backing.check(plan, settings.rate_hz)
-    if arguments.virtual_student is not None:
-        return _virtual(plan, wishes, arguments.virtual_student, arguments, settings)
-    in_terminal = arguments.headless or arguments.json or arguments.report is not None
+    if options.virtual_student is not None:
+        return _virtual(plan, wishes, options.virtual_student, options, settings)
+    in_terminal = options.headless or options.json or options.report is not None
     if not in_terminal and has_screen():
         from station.cli.window import open_window
 
-        by_default = arguments.tempo is None and not arguments.no_click and backing is None
-        adapt = by_default if arguments.adapt is None else arguments.adapt
-        return open_window(settings, plan, adapt, backing)
-    if not in_terminal and arguments.kit is None and not _is_kit_there(settings.kit):
+        by_default = options.tempo is None and not options.no_click and backing is None
+        adapt = by_default if options.adapt is None else options.adapt
+        return open_window(settings, plan, adapt, backing, options.watch.watch())
+    if not in_terminal and not options.device and not _is_kit_there(settings.kit):
         say("no screen and no kit here: a virtual student practises instead")
-        return _virtual(plan, wishes, STAND_IN, arguments, settings)
-    return _live(plan, wishes, arguments, settings, backing)
+        return _virtual(plan, wishes, STAND_IN, options, settings)
+    return _live(plan, wishes, options, settings, backing)
 
 
 # --- ways to practise ------------------------------------------------------------------------------------------------
 
 
-def _virtual(plan: Plan, wishes: PlanOptions, spec: str, arguments: argparse.Namespace, settings: Settings) -> int:
+def _virtual(plan: Plan, wishes: PlanOptions, spec: str, options: PracticeOptions, settings: Settings) -> int:
     """A virtual student is new to every lesson, and forgotten, unless it practises under a name."""
-    if arguments.midi_out is not None or arguments.track is not None:
+    if options.sound.midi_out is not None or options.track.track is not None:
         say("a virtual student practises without sound: nothing is sent to a MIDI output, and no track plays")
     from station.practice.headless.virtual_session import practise_adaptively, practise_virtually
     from station.simulation.student_spec import parse_spec
 
     student = parse_spec(spec)
-    remembered = _remembered(plan, wishes, settings, arguments.student is not None) if arguments.adapt else None
-    with SessionFolder.make(arguments.report, settings, plan.lesson.name) as folder:
+    remembered = _remembered(plan, wishes, settings, options.student is not None) if options.adapt else None
+    with SessionFolder.make(options.report, settings, plan.lesson.name) as folder:
         if remembered is None:
             virtual = practise_virtually(plan, student, folder.capture)
         else:
             virtual = practise_adaptively(remembered.adaptation, student, folder.capture)
         document = with_truth(practice_document(virtual.result, settings), virtual, settings)
-        _leave(folder, save(folder, virtual.result, document, remembered), arguments, settings)
+        _leave(folder, save(folder, virtual.result, document, remembered), options, settings)
     if virtual.fault is not None:
         raise virtual.fault
     return 0
 
 
 def _live(
-    plan: Plan, wishes: PlanOptions, arguments: argparse.Namespace, settings: Settings, backing: BackingRequest | None
+    plan: Plan, wishes: PlanOptions, options: PracticeOptions, settings: Settings, backing: BackingRequest | None
 ) -> int:
     from station.cli.terminal import practise_in_terminal
 
     cut_off = offer(settings)
     if cut_off is not None:
         say(cut_off)
-    remembered = _remembered(plan, wishes, settings, keeps=True) if arguments.adapt else None
-    with SessionFolder.make(arguments.report, settings, plan.lesson.name) as folder:
+    remembered = _remembered(plan, wishes, settings, keeps=True) if options.adapt else None
+    with SessionFolder.make(options.report, settings, plan.lesson.name) as folder:
         with ExitStack() as until_kept:
             asked = plan if remembered is None else remembered.adaptation
             outcome = practise_in_terminal(asked, settings, folder.capture, until_kept, backing)
             saved = save(folder, outcome.result, practice_document(outcome.result, settings), remembered)
-        may_ask = settings.ask_first and outcome.is_attended and not arguments.json
-        _leave(folder, saved, arguments, settings, may_ask)
+        may_ask = settings.ask_first and outcome.is_attended and not options.json
+        _leave(folder, saved, options, settings, may_ask)
     if outcome.fault is not None:
         raise outcome.fault
     return 0
@@ -162,17 +175,17 @@ def _is_kit_there(wanted: str) -> bool:
     return bool(devices_there(parse_kits(wanted)))
 
 
-def _recover(folder: SessionFolder, arguments: argparse.Namespace, settings: Settings) -> int:
+def _recover(folder: SessionFolder, options: PracticeOptions, settings: Settings) -> int:
     """Judge a session that was cut off, and leave what it would have left; what is remembered stays as it is."""
     result = recovered(folder.capture)
-    _leave(folder, save(folder, result, practice_document(result, settings)), arguments, settings)
+    _leave(folder, save(folder, result, practice_document(result, settings)), options, settings)
     return 0
 
 
 def _leave(
     folder: SessionFolder,
     saved: SessionRecord,
-    arguments: argparse.Namespace,
+    options: PracticeOptions,
     settings: Settings,
     may_ask: bool = False,
 ) -> None:
@@ -183,11 +196,11 @@ def _leave(
     telling = Telling()
     if may_ask:
         telling.attempt(ask_first, saved.document)
-    telling.attempt(_print_report, saved.document, as_json=arguments.json)
+    telling.attempt(_print_report, saved.document, as_json=options.json)
     if saved.fault is not None:
         raise saved.fault
     telling.attempt(say, f"\nreport   {folder.path / TEXT_NAME}")
-    if not arguments.no_pictures:
+    if not options.no_pictures:
         _draw(folder, saved, settings, telling)
     if isinstance(telling.failure, BrokenPipeError):  # whoever read has gone, and wants no word of it
         raise telling.failure
@@ -197,15 +210,12 @@ def _leave(
 
 
 def _print_report(document: dict[str, Json], as_json: bool) -> None:
-    if sys.__stdout__ is None:  # closed before we were started: `print` would say nothing, and nobody would know
-        raise DeviceError("standard output is closed")
     if as_json:
         print_json(document)
-        sys.stdout.flush()
         return
-    print(report_text(document), end="", flush=True)
+    write(report_text(document), end="", flush=True)
     if "pairs_csv" in document:
-        print(f"\n{document['pairs_csv']}", end="", flush=True)
+        write(f"\n{document['pairs_csv']}", end="", flush=True)
 
 
 def _draw(folder: SessionFolder, saved: SessionRecord, settings: Settings, telling: Telling) -> None:
@@ -227,38 +237,25 @@ def _lesson(name: str | None) -> Lesson:
     return find_lesson(FIRST_LESSON if name is None else name)
 
 
-def _wishes(arguments: argparse.Namespace, settings: Settings) -> PlanOptions:
-    demonstrations = 0 if arguments.no_demonstration else None
+def _wishes(options: PracticeOptions, lesson: Lesson, settings: Settings) -> PlanOptions:
+    tempo_bpm = tapped_tempo(lesson.beat_ticks / PPQ) if options.tempo == TAP else options.tempo
+    demonstrations = 0 if options.no_demonstration else None
     pattern = parse_click(settings.click_pattern, setting_source("click_pattern"))
-    click = None if arguments.no_click else replace(pattern, gap=arguments.gap)
+    click = None if options.no_click else replace(pattern, gap=options.gap)
     hands = hands_of(settings)
-    return PlanOptions(arguments.tempo, arguments.loops, arguments.bars, demonstrations, click, settings.guide, hands)
+    return PlanOptions(tempo_bpm, options.loops, options.bars, demonstrations, click, settings.guide, hands)
 
 
-def _wanted(arguments: argparse.Namespace, settings: Settings) -> Settings:
+def _wanted(options: PracticeOptions, settings: Settings) -> Settings:
     """The settings with what the command line says instead, kept where that is asked for."""
-    said = {**said_of(arguments), "kit": wanted_kits(arguments.kit, settings.kit)}
-    if arguments.student is not None:
-        said["student"] = arguments.student
+    said = {**options.sound.settings(), "kit": wanted_kits(options.device, settings.kit)}
+    if options.student is not None:
+        said["student"] = options.student
     wanted = with_said(settings, said, "practice")
     check_settings(wanted)
-    if arguments.remember:
+    if options.remember:
         say(f"remembered in {save_settings(wanted)}")
     return wanted
 
 
-def _tempo(text: str) -> float | str:
-    if text == TAP:
-        return text
-    try:
-        return float(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"expected a number, found {text!r} (or {TAP}, to tap it)") from None
-
-
-def _bars(text: str) -> tuple[int, int]:
-    first, dash, last = text.partition("-")
-    try:
-        return int(first), int(last if dash else first)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r}: expected two bars such as 1-4") from None
+COMMAND = Command(PracticeOptions, run)

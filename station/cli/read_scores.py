@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentTypeError
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from station.cli.captures import begins_as_capture, is_capture, performance_of_capture
+from station.cli.options import unread
 from station.core.errors import BadInput
 from station.music.performance import Performance
 from station.music.score import Score
@@ -18,29 +19,11 @@ if TYPE_CHECKING:
 TEXT_ENDING = ".txt"
 """Of a text score: see `station.music.formats.text_score`."""
 MIDI_ENDINGS = (".mid", ".midi", ".smf", ".kar")
-CAPTURE_ENDING = ".capture"
 
 
 def is_midi(name: str) -> bool:
     """Whether `name` ends as MIDI files do."""
     return Path(name).suffix.lower() in MIDI_ENDINGS
-
-
-def is_capture(name: str) -> bool:
-    """Whether `name` ends as captures do, or is a file that begins as they do: `devices record` takes any name."""
-    return Path(name).suffix.lower() == CAPTURE_ENDING or _begins_as_capture(Path(name))
-
-
-def _begins_as_capture(path: Path) -> bool:
-    try:
-        if not path.is_file():  # whoever looks into a pipe waits, and takes what is there
-            return False
-        with path.open("rb") as file:
-            from station.devices.capture.capture import MAGIC
-
-            return file.read(len(MAGIC)) == MAGIC
-    except OSError:  # a name longer than the file system takes
-        return False
 
 
 def is_lesson(name: str) -> bool:
@@ -97,7 +80,7 @@ def kit_of_lesson(name: str) -> str:
 def load_score_and_performance(score_name: str, performance_name: str) -> tuple[Score, Performance]:
     """Both; of two MIDI files each helps to tell which maker's note numbers the other uses."""
     if not is_midi(performance_name):
-        return load_score(score_name), performance_of_capture(existing(performance_name))
+        return load_score(score_name), _performance_of_capture(existing(performance_name))
     from station.music.formats.smf.standard_midi import guess_kit_map, performance_from_midi, read_midi, score_from_midi
 
     performance = read_midi(existing(performance_name))
@@ -108,18 +91,10 @@ def load_score_and_performance(score_name: str, performance_name: str) -> tuple[
     return score_from_midi(score, score_map), performance_from_midi(performance, performance_map)
 
 
-def performance_of_capture(path: Path) -> Performance:
-    """All strokes of the capture at `path`, from the first on; raises `BadInput`."""
-    from station.core.events import Choke, Hit
-    from station.devices.capture.capture import read_capture
-    from station.devices.capture.replay import replay
-
-    if not _begins_as_capture(path):
+def _performance_of_capture(path: Path) -> Performance:
+    if not begins_as_capture(path):
         raise BadInput(path, "", f"neither a MIDI file ({', '.join(MIDI_ENDINGS)}) nor a capture")
-    events = list(replay(read_capture(path)))
-    hits = [event for event in events if isinstance(event, Hit)]
-    start_ns = hits[0].at_ns if hits else 0
-    return Performance.from_hits(hits, [event for event in events if isinstance(event, Choke)]).shifted(-start_ns)
+    return performance_of_capture(path)
 
 
 def bars_of_gap(text: str) -> Gap:
@@ -128,5 +103,5 @@ def bars_of_gap(text: str) -> Gap:
 
     sounding, _, quiet = text.partition("/")
     if not (sounding.isdecimal() and quiet.isdecimal() and int(sounding) and int(quiet)):
-        raise ArgumentTypeError(f"{text!r}: expected bars with and without a click such as 2/1")
+        raise unread("bars with and without a click such as 2/1", text)
     return Gap(int(sounding), int(quiet))

@@ -4,6 +4,7 @@ import queue
 import sys
 import threading
 from collections.abc import Callable
+from typing import Final
 
 from station.cli.console import say
 from station.core.clock import monotonic_ns
@@ -11,7 +12,7 @@ from station.core.errors import BadInput
 from station.core.units import NS_PER_S
 from station.practice.control.tap_tempo import PAUSE_NS, TapTempo
 
-TAP = "tap"
+TAP: Final = "tap"
 LEAST_TAPS = 4
 """Fewer say too little (our choice: a bar of four)."""
 DONE_AFTER_S = 2.0
@@ -53,7 +54,7 @@ def _enter_keys() -> NextTap:
     pressed: queue.SimpleQueue[int | None] = queue.SimpleQueue()
 
     def listen() -> None:
-        while sys.stdin.readline():
+        for _ in sys.stdin or ():  # there may be no standard input
             pressed.put(monotonic_ns())
         pressed.put(None)
 

@@ -1,9 +1,10 @@
 """A live session in the terminal: the engine's process plays and hears, every stroke is shown as it is judged."""
 
-import sys
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 
+from station.cli.console import is_attended, say
 from station.core.clock import MonotonicClock
 from station.core.errors import DeviceError
 from station.core.measured_latency import load_calibration
@@ -44,10 +45,10 @@ def practise_in_terminal(
     """
     pads = PadCommands(settings, asked.plan.score if isinstance(asked, Adaptation) else asked.score)
     runner, ways_on = SessionRunner(asked, latency_of(settings, load_calibration()), pads), ways_to_go_on(settings)
-    text, telling = LiveText(_write, ways_on), Telling()
+    text, telling = LiveText(partial(say, end=""), ways_on), Telling()
     clock = MonotonicClock()
     config = EngineConfig.from_settings(settings)
-    telling.attempt(_write, "looking for a kit and a sound output …\n")
+    telling.attempt(say, "looking for a kit and a sound output …")
     with EngineSupervisor(config) as engine:
         wait_for_kits(engine, runner, clock, KIT_WAIT_S, len(config.kits))
         if not runner.heard.devices:
@@ -55,26 +56,16 @@ def practise_in_terminal(
         try:
             if len(runner.heard.devices) < len(config.kits):
                 here = ", ".join(runner.heard.devices)
-                telling.attempt(_write, f"\nof {len(config.kits)} kits there is {here}; the others may come")
-            telling.attempt(_write, f"\n{LEGEND}\n")
-            runner.session.waits = settings.auto_pause and bool(ways_on) and _is_attended()
+                telling.attempt(say, f"\nof {len(config.kits)} kits there is {here}; the others may come", end="")
+            telling.attempt(say, f"\n{LEGEND}")
+            runner.session.waits = settings.auto_pause and bool(ways_on) and is_attended()
             if wish is not None:
-                telling.attempt(_write, "\nmaking the track ready …\n")
+                telling.attempt(say, "\nmaking the track ready …")
                 runner.session.backing = _track(wish, runner.session, settings)
             room = Room(engine, clock, text.tell, telling, until_kept.enter_context(end_asked()))
             return practise_live(room, runner, capture)
         finally:
             telling.attempt(text.last_words, runner.session)
-
-
-def _write(words: str) -> None:
-    sys.stderr.write(words)
-    sys.stderr.flush()
-
-
-def _is_attended() -> bool:
-    """Whether somebody sits at the terminal who reads and may answer."""
-    return all(stream is not None and stream.isatty() for stream in (sys.stdin, sys.stderr))
 
 
 def _track(wish: BackingRequest, session: Session, settings: Settings) -> PreparedTrack | None:

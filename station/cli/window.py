@@ -1,33 +1,29 @@
 """`station` without a command: opens the practice room."""
 
-import argparse
-from collections.abc import Callable
 from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
 from station.app.diagnostics import has_screen
+from station.cli.options import Command
+from station.cli.watch_options import WatchOptions
 from station.core.errors import DeviceError
 from station.core.measured_latency import load_calibration
 from station.core.settings import Settings, load_settings
 from station.practice.session.leading_hand import hands_of
 from station.practice.session.plan import Plan, PlanOptions, plan_practice
-from station.render.snapshot import Snapshot
 
 if TYPE_CHECKING:
+    from station.app.opening import Watch
     from station.practice.session.backing_track import BackingRequest
 
 
-def add_options(_: argparse.ArgumentParser) -> None:
-    """Nothing but --help: what a window needs is chosen in it."""
-
-
-def run(_: argparse.Namespace) -> int:
+def run(options: WatchOptions) -> int:
     """Open the window on the first lesson."""
     from station.drills.library import FIRST_LESSON, find_lesson
 
     settings = load_settings()
     first = plan_practice(find_lesson(FIRST_LESSON), PlanOptions(hands=hands_of(settings)))
-    return open_window(settings, first, adapt=True)
+    return open_window(settings, first, adapt=True, watch=options.watch())
 
 
 def open_window(
@@ -35,13 +31,12 @@ def open_window(
     first: Plan,
     adapt: bool,
     backing: "BackingRequest | None" = None,
-    shown: Callable[[Snapshot | None], bool] | None = None,
+    watch: "Watch | None" = None,
 ) -> int:
     """Show the practice room until it is closed, or the system wants it to end; what was played until then is kept.
 
     `adapt` whether the tempo follows the student, until another choice is made in the window; `backing` a track to
-    play along to in every session whose tempo stays; `shown` is called after each frame, with what
-    it shows behind the panels, and says whether to go on.
+    play along to in every session whose tempo stays; a `watch` sees each frame, and says when the window closes.
     """
     if not has_screen():
         raise DeviceError("no screen: `station practice --headless` practises in the terminal")
@@ -58,10 +53,15 @@ def open_window(
         wake = lambda: engines.enter_context(EngineSupervisor(EngineConfig.from_settings(settings)))  # noqa: E731
         room = PracticeRoom(wake, settings, first, adapt, latency, backing)
         try:
-            goes_on = lambda drawn: not asked and (shown is None or shown(drawn))  # noqa: E731
+            goes_on = lambda drawn: not asked and (watch is None or watch.shown(drawn))  # noqa: E731
             run_window(room, WindowOptions(shown=goes_on))
         finally:
             fault = room.close()
         if fault is not None:
             raise fault
+    if watch is not None:
+        watch.close()
     return 0
+
+
+COMMAND = Command(WatchOptions, run)

@@ -5,11 +5,20 @@ A broken promise of our own is an `assert`. The command line prints either error
 
 from pathlib import Path
 
+LONGEST_LINE = 400
+"""Characters of an error: who and where stand at its beginning, what is wrong at its end (our choice: five lines)."""
+
 
 class StationError(Exception):
-    """An error that a user can read: one line, no traceback, whatever characters a file's name has."""
+    """An error that a user can read: one line, no traceback, whatever characters a file's name has.
+
+    A longer line than `LONGEST_LINE` is shortened in the middle.
+    """
 
     def __init__(self, line: str) -> None:
+        if len(line) > LONGEST_LINE:
+            half = (LONGEST_LINE - 1) // 2
+            line = f"{line[:half]}…{line[-half:]}"
         super().__init__("".join(c if c.isprintable() else " " for c in line))
 
 

@@ -1,5 +1,6 @@
 """What a teacher does with lesson and course files: check them, look at them, begin a new one."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from station.core.errors import BadInput
@@ -45,7 +46,7 @@ kick     = "| o- -- o- -- | o- -o o- -- |"
 """The text that a new lesson starts from; it is a lesson already."""
 
 
-def check_lessons(paths: list[str]) -> tuple[list[Fault], int]:
+def check_lessons(paths: Sequence[str]) -> tuple[list[Fault], int]:
     """Every fault of lessons and courses at `paths` (files, or folders of `.toml` files), and how many were read.
 
     A path that cannot be read is a fault at line 1. A folder without lessons is one too.

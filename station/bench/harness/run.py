@@ -11,11 +11,10 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from itertools import groupby
 from types import ModuleType
-from typing import TextIO
 
 from station.bench.harness.benchmark import Benchmark, Measurement
 from station.bench.harness.registry import BenchEntry, entries
@@ -49,19 +48,17 @@ class Result:
         return row | ({"note": self.measured.note} if self.measured.note else {})
 
 
-def main(package: ModuleType, as_json: bool = False, soak: bool = False, out: TextIO | None = None) -> int:
-    """Run everything in `package` (`soak`: the long ones too); print a table, or one JSON document, to `out`.
+def main(package: ModuleType, write: Callable[[str], object], as_json: bool = False, soak: bool = False) -> int:
+    """Run everything in `package` (`soak`: the long ones too); `write` a table's lines, or one JSON document.
 
-    `out` is standard output if it is not given. The exit status is 0: what is short of its target is no fault.
+    The exit status is 0: what is short of its target is no fault.
     """
-    to = sys.stdout if out is None else out
     chosen = [entry for entry in entries(package) if soak or not entry.benchmark.is_soak]
     results = run(chosen)
     if as_json:
-        json.dump(document(results), to, ensure_ascii=False, indent=2)
-        to.write("\n")
+        write(json.dumps(document(results), ensure_ascii=False, indent=2))
     else:
-        write_table(results, [entry.benchmark for entry in chosen], to)
+        write_table(results, [entry.benchmark for entry in chosen], write)
     return 0
 
 
@@ -133,13 +130,12 @@ def _end(child: "subprocess.Popen[str]") -> None:
 # --- a table ----------------------------------------------------------------------------------------------------------
 
 
-def write_table(results: Iterable[Result], chosen: list[Benchmark], to: TextIO) -> None:
+def write_table(results: Iterable[Result], chosen: list[Benchmark], write: Callable[[str], object]) -> None:
     """A line for every result as it comes: name, value, whether it reaches its target, the peer's value, the note."""
     width = max((len(b.name) for b in chosen), default=0)
-    to.write(f"{'benchmark':<{width}}  {'value':>18}  {'target':>12}         peer\n")
+    write(f"{'benchmark':<{width}}  {'value':>18}  {'target':>12}         peer")
     for result in results:
-        to.write(_line(result, width) + "\n")
-        to.flush()
+        write(_line(result, width))
 
 
 def _line(result: Result, width: int) -> str:

@@ -31,22 +31,6 @@ LEAD_NS = NS_PER_S
 AFTER_NS = NS_PER_S // 2
 """How long after the last stroke everything has been told; the engine's guard holds a hit back for 60 ms at most."""
 
-_DRAW = (
-    "import time\n"
-    "from station.bench.rows.drawing_rows import SIZE, snapshots\n"
-    "from station.render.picture import PictureMaker\n"
-    "from station.render.quality import QUALITIES\n"
-    "frames, maker = snapshots(12), PictureMaker(SIZE, QUALITIES[0])\n"
-    "maker.draw(frames[0])\n"
-    "print('draws', flush=True)\n"
-    "while True:\n"
-    "    for frame in frames:\n"
-    "        began = time.monotonic()\n"
-    "        maker.draw(frame)\n"
-    "        time.sleep(max(0.0, began + 1 / 60 - time.monotonic()))\n"
-)
-"""The app's picture at 60 frames a second, as a process beside the engine."""
-
 
 @dataclass(frozen=True, slots=True)
 class Wire:
@@ -130,7 +114,10 @@ def read_barely(baud: int, step_ns: int, count: int) -> tuple[list[int], list[in
 
 @contextlib.contextmanager
 def _drawing() -> Iterator[None]:
-    with subprocess.Popen([sys.executable, "-c", _DRAW], stdout=subprocess.PIPE, text=True) as drawer:
+    """The app's picture at 60 frames a second, as a process beside the engine."""
+    with subprocess.Popen(
+        [sys.executable, "-m", "station.bench.rigs.drawer"], stdout=subprocess.PIPE, text=True
+    ) as drawer:
         assert drawer.stdout is not None
         try:
             if not drawer.stdout.readline():

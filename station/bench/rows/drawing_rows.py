@@ -37,12 +37,6 @@ _MEMORY = Path("/proc/self/statm")
 """Linux's account of this process: its second number counts the resident pages."""
 _FRAMES = 12
 _ROUNDS = 3
-_FIRST = (
-    "from station.bench.rows.drawing_rows import snapshots, SIZE\n"
-    "from station.render.picture import PictureMaker\n"
-    "from station.render.quality import QUALITIES\n"
-    "PictureMaker(SIZE, QUALITIES[0]).draw(snapshots(1)[0])\n"
-)
 
 
 def snapshots(count: int) -> list[Snapshot]:
@@ -107,7 +101,7 @@ def _memory_bytes() -> int:
 
 
 def _first_picture() -> Measurement:
-    words = [sys.executable, "-c", _FIRST]
+    words = [sys.executable, "-m", "station.bench.rigs.drawer", "1"]
     return Measurement(median_s(lambda: subprocess.run(words, check=True, capture_output=True), _ROUNDS))
 
 

@@ -1,8 +1,8 @@
 """Benchmarks of the window while a session is played in it: its frames, its strokes' way to the screen, its memory.
 
-The window opens as `station` opens it, with its engine, on the screen that is there or else on one of Xvfb's. A kit on
-a serial line begins the session by two kicks and plays on; each of its strokes is known again by its velocity. It is
-`rock-1` at its own tempo: the score scrolls, the drummer plays along, marks and words change.
+The window opens as a program of its own (`station practice`), with its engine, on the screen that is there or else on
+one of Xvfb's. A kit on a serial line begins the session by two kicks and plays on; each of its strokes is known again
+by its velocity. It is `rock-1` at its own tempo: the score scrolls, the drummer plays along, marks and words change.
 """
 
 import json
@@ -15,6 +15,7 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
+from math import ceil
 from pathlib import Path
 
 import numpy as np
@@ -40,6 +41,8 @@ _GAP_S = (0.15, 0.25)
 """Between strokes: about the sixteenths of 75 beats a minute."""
 _VELOCITIES = range(40, 128)
 _LOST_NS = 500 * NS_PER_MS
+_PASS_S = 6.0
+"""The first lesson's two bars at its own tempo."""
 _MINUTE_S = 60.0
 _MINUTES = 10
 
@@ -102,7 +105,8 @@ def _played(seconds: float, each_minute: list[Counter[str]] | None = None) -> _P
         settings = f"welcomed = true\nsessions = '{home}/sessions'\nkit = '{kit.wish}'\n"
         (folder / "settings.toml").write_text(settings, "utf-8")
         environment = {**installed(home), **screen, "XDG_CONFIG_HOME": home}
-        words = [sys.executable, "-c", f"from station.app.opening import open_for; open_for({seconds})"]
+        words = [sys.executable, "-m", "station.cli.command_line", "practice", "--watch-seconds", str(seconds)]
+        words += ["--loops", str(ceil(seconds / _PASS_S)), "--no-demonstration", "--no-adapt"]
         with subprocess.Popen(words, stdout=subprocess.PIPE, text=True, env=environment) as window:
             assert window.stdout is not None
             window.stdout.readline()

@@ -2,7 +2,6 @@
 
 import sys
 import time
-from argparse import ArgumentParser
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,12 +9,14 @@ import pytest
 
 from station.app.export import LOOP, Export
 from station.app.view_settings import ViewSettings
-from station.cli.animate import add_options
+from station.cli.animate_options import LEVELS, AnimateOptions
+from station.cli.options import read_options
 from station.core.errors import DeviceError
 from station.core.settings import Settings
 from station.drills.lesson_writer import first_difference
 from station.drills.library import find_lesson
 from station.gui.panels.export_panel import film_words
+from station.motion.sticking.hand_notes import Hands
 from station.music.formats.smf.standard_midi import read_midi
 from station.render.camera import NamedView
 
@@ -86,10 +87,9 @@ def test_it_is_filmed_as_it_is_seen() -> None:
     """Every word is one that the command knows."""
     look = ViewSettings(view=NamedView.EYES, mirrored=True)
     words = film_words(look, replace(Settings(), hands="left"))
-    parser = ArgumentParser()
-    add_options(parser)
-    read = parser.parse_args(["rock-1", "--out", "x.mp4", *words])
-    assert (read.view, read.mirror, read.hands, read.style, read.quality) == ("eyes", True, "left", "natural", "low")
+    read = read_options(AnimateOptions, ["rock-1", "--out", "x.mp4", *words])
+    assert (read.style, read.drums.hands) == ("natural", Hands.LEFT)
+    assert (read.picture.view, read.picture.mirror, read.picture.quality) == (NamedView.EYES, True, LEVELS["low"])
 
 
 def test_a_video_that_fails_says_why_in_one_line(tmp_path: Path) -> None:

@@ -110,7 +110,7 @@ def test_the_document_has_the_designs_keys() -> None:
 
 def test_the_table_has_a_line_for_each() -> None:
     out = io.StringIO()
-    write_table([GOOD, FAILED], [GOOD.benchmark, FAILED.benchmark], out)
+    write_table([GOOD, FAILED], [GOOD.benchmark, FAILED.benchmark], lambda line: out.write(f"{line}\n"))
     header, good, failed = out.getvalue().splitlines()
     assert header.split() == ["benchmark", "value", "target", "peer"]
     assert good.split() == ["noisy", "12.5", "ms", "≤", "20", "ok", "rival", "50"]
@@ -132,7 +132,7 @@ def test_without_a_target_nothing_is_reached_or_missed() -> None:
 
 def test_the_whole_run_prints_one_document_with_every_row() -> None:
     out = io.StringIO()
-    assert main(benches, as_json=True, soak=True, out=out) == 0
+    assert main(benches, out.write, as_json=True, soak=True) == 0
     rows = json.loads(out.getvalue())["results"]
     assert {row["name"] for row in rows} == set(FAKES)
     measured = ["noisy", "first_together", "second_together", "alone", "long"]
@@ -142,7 +142,7 @@ def test_the_whole_run_prints_one_document_with_every_row() -> None:
 
 def test_the_long_ones_run_only_when_they_are_asked_for() -> None:
     out = io.StringIO()
-    main(benches, as_json=True, out=out)
+    main(benches, out.write, as_json=True)
     assert {row["name"] for row in json.loads(out.getvalue())["results"]} == set(FAKES) - {"long"}
 
 

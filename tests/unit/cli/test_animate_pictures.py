@@ -8,7 +8,7 @@ import pytest
 
 from station.app.diagnostics import check_video
 from station.cli.command_line import main
-from station.cli.progress_line import progress_line
+from station.cli.console import progress_line
 from station.drills.library import find_lesson
 from station.scenes.film import FilmLoop
 from tests.fakes.sound_files import stroke

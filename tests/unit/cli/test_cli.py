@@ -190,7 +190,10 @@ def test_check_names_every_fault_and_exits_with_2(capsys: pytest.CaptureFixture[
         (("practice", "rock-1", "--tempo", "fast"), "--tempo"),
         (("practice", "rock-1", "--loops", "-1"), "--loops: -1"),
         (("practice", "rock-1", "--bars", "3-9"), "--bars: 3-9"),
-        (("practice", "rock-1", "--tempo", "80bpm"), "argument --tempo: expected a number, found '80bpm'"),
+        (
+            ("practice", "rock-1", "--tempo", "80bpm"),
+            "argument --tempo: expected a number, or tap to tap it, found '80bpm'",
+        ),
         (("practice", "rock-1", "--loops", "2.5"), "argument --loops: expected a whole number, found '2.5'"),
         (("practice", "rock-1", "--virtual-student", "seed=x"), "expected a whole number from 0 to 4294967295"),
         (("assess", "rock-1", "pyproject.toml"), "pyproject.toml: neither a MIDI file (.mid, .midi, .smf, .kar) nor"),
@@ -365,7 +368,7 @@ def test_what_sounds_is_chosen_checked_and_remembered(
 
 def test_a_distance_that_is_none_is_refused_by_its_own_name(capsys: pytest.CaptureFixture[str]) -> None:
     said = refused(capsys, "devices", "calibrate", "--by", "strike", "--distance", "x")
-    assert "--distance: x: expected 0 to 10 metres" in said
+    assert "--distance: expected 0 to 10 metres, found 'x'" in said
 
 
 @pytest.mark.parametrize(
@@ -509,3 +512,36 @@ def test_a_recording_without_a_stroke_is_assessed_as_nothing_but_misses(
     told = capsys.readouterr()
     assert json.loads(told.out)["counts"]["hits"] == 0
     assert told.err == ""
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [
+        (("pracitce",), "no such command: pracitce; did you mean practice? (see station --help)"),
+        (("--juggle",), "no such option: --juggle"),
+        (("devices",), "devices: say what to do: list, monitor,"),
+        (("devices", "lst"), "devices: no such verb: lst; did you mean list?"),
+        (("practice", "--temop", "80"), "no such option: --temop; did you mean --tempo?"),
+        (("sheet", "rock-1", "--out", "x.pdf", "--paper", "leter"), "'leter'; did you mean letter?"),
+        (("devices", "learn", "--touch", "snaer"), "no such piece: 'snaer'; did you mean snare?"),
+    ],
+)
+def test_what_was_meant_is_asked(capsys: pytest.CaptureFixture[str], words: tuple[str, ...], named: str) -> None:
+    assert named in refused(capsys, *words)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("practice", "x" * 7_000),
+        ("practice", "rock-1", "--virtual-student", "x" * 7_000),
+        ("practice", "rock-1", "--click", "x" * 7_000),
+        ("animate", "rock-1", "--out", "x.png", "--view", "x" * 7_000),
+        ("x" * 7_000,),
+        ("practice", f"--{'x' * 7_000}"),
+    ],
+)
+def test_a_wrong_word_of_any_length_is_a_line_that_can_be_read(
+    capsys: pytest.CaptureFixture[str], words: tuple[str, ...]
+) -> None:
+    assert len(refused(capsys, *words)) < 420
