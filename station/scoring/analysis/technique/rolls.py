@@ -23,7 +23,6 @@ from station.music.performance import Performance
 from station.music.score import Score
 from station.scoring.analysis.loudness import level_db
 from station.scoring.analysis.technique.estimates import Estimate, Scatter, figure, scatter
-from station.scoring.analysis.technique.swallowed_notes import second_of_pairs
 from station.scoring.analysis.timing_spread import asynchrony_ms, timed_notes
 from station.scoring.matching.alignment import Alignment
 from station.scoring.matching.ignored_hits import BUZZ_REACH_NS
@@ -117,7 +116,7 @@ def _seconds(
     score: Score, performance: Performance, alignment: Alignment, runs: list[Indices]
 ) -> tuple[Estimate, Estimate]:
     """How second strokes of doubles stand in time and loudness."""
-    second = passages.second_of_doubles(score) | second_of_pairs(score)
+    second = passages.second_of_doubles(score)
     off, timed = asynchrony_ms(alignment), timed_notes(score, alignment)
     level = np.full(len(score), np.nan)
     level[timed] = level_db(performance.fine_velocity[alignment.hit_of_note[timed]])
