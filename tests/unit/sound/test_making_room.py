@@ -8,6 +8,7 @@ from station.core.pieces import Articulation, Piece, Zone
 from station.sound.buses import Bus, ClickVoice
 from station.sound.drum_kit import DrumKit, Frames, Layer, Sound
 from station.sound.mixer import (
+    CHOKE_S,
     CLOSE_S,
     HALF_OPEN_RING_S,
     MAX_VOICES,
@@ -159,6 +160,26 @@ def test_how_long_a_closing_hat_rings(openness: float, ring_s: float) -> None:
     falling = mixer.render(frames_in(ring_s))[:, 0]
     assert falling[-1] == pytest.approx(LEVEL / frames_in(ring_s), rel=0.01)
     assert heard(mixer) == 0.0
+
+
+def test_a_choke_cuts_short_what_fades_slowly() -> None:
+    mixer = open_hat()
+    mixer.pedal(Bus.STUDENT, 0.5)
+    mixer.render(100)
+    mixer.choke(Bus.STUDENT, Piece.HIHAT)
+    mixer.render(frames_in(CHOKE_S))
+    assert mixer.ringing == 0
+
+
+def test_what_would_end_before_its_fade_fades_until_then() -> None:
+    """A quarter of the fade's length is left: it ends at three quarters of its level."""
+    count = frames_in(CHOKE_S)
+    mixer = mixer_of({SoundName.CRASH_1: constant(LEVEL, 100 + count // 4)})
+    struck(mixer, 127)
+    mixer.choke(Bus.STUDENT, Piece.CRASH_1)
+    falling = mixer.render(count)[:, 0]
+    assert falling[: count // 4] == pytest.approx(LEVEL * (1 - np.arange(count // 4) / count), abs=1e-7)
+    assert not falling[count // 4 :].any()
 
 
 def layered() -> Mixer:
