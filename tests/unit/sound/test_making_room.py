@@ -162,6 +162,15 @@ def test_how_long_a_closing_hat_rings(openness: float, ring_s: float) -> None:
     assert heard(mixer) == 0.0
 
 
+def test_a_soft_stroke_takes_as_long_to_choke_as_a_hard_one() -> None:
+    mixer = steady()
+    struck(mixer, 90)
+    mixer.choke(Bus.STUDENT, Piece.CRASH_1)
+    count = frames_in(CHOKE_S)
+    assert mixer.render(count)[:, 0] == pytest.approx(level_of(90) * (1 - np.arange(count) / count), abs=1e-7)
+    assert mixer.ringing == 0
+
+
 def test_a_choke_cuts_short_what_fades_slowly() -> None:
     mixer = open_hat()
     mixer.pedal(Bus.STUDENT, 0.5)
