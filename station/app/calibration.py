@@ -100,7 +100,7 @@ class Calibration:
         start: "Callable[[MeasureRequest], Running]" = MeasuringProcess,
         path: Path | None = None,
     ) -> None:
-        self._rest, self._wake, self.start, self._path = rest, wake, start, path
+        self._rest, self._wake, self._start, self._path = rest, wake, start, path
         self._running: Running | None = None
         self._wish: MeasureRequest | None = None  # what waits for the devices
         self._are_free: Callable[[], bool] = lambda: True
@@ -128,7 +128,7 @@ class Calibration:
             return
         wish, self._wish = self._wish, None
         try:
-            self._running = self.start(wish)
+            self._running = self._start(wish)
         except DeviceError:
             self._wake()
             raise

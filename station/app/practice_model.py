@@ -10,6 +10,7 @@ from station.app.calibration import Calibration
 from station.app.casting import Casting
 from station.app.catalog import Catalog
 from station.app.demo_player import DemoPlayer
+from station.app.export import Export
 from station.app.first_start import FirstAnswers
 from station.app.mapping_editor import MappingEditor
 from station.app.model import FreeRequest, RoomState, SessionRequest, ShownResult
@@ -129,6 +130,11 @@ class PracticeModel(Protocol):
     @property
     def calibration(self) -> Calibration:
         """What measures how late the devices are."""
+        ...
+
+    @property
+    def films(self) -> Export:
+        """What writes files to take along."""
         ...
 
     @property

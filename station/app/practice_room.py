@@ -13,7 +13,8 @@ from station.app.calibration import Calibration
 from station.app.casting import Casting
 from station.app.catalog import Catalog
 from station.app.demo_player import DemoPlayer
-from station.app.engine_client import EngineClient, WakeEngine
+from station.app.engine_client import EngineClient
+from station.app.export import Export
 from station.app.first_start import FirstAnswers, student_level
 from station.app.first_start import answered as met
 from station.app.free_session import FreeSession
@@ -25,6 +26,7 @@ from station.app.mapping_editor import MappingEditor
 from station.app.model import FreeRequest, RoomState, SessionRequest, ShownResult, Stage
 from station.app.playback import Playback
 from station.app.preferences import Preferences
+from station.app.processes import Processes
 from station.app.session_preparation import PreparedSession, SessionPreparation
 from station.core.errors import DeviceError, StationError
 from station.core.events import DeviceLost
@@ -55,20 +57,20 @@ LIVELY_NS = 5 * NS_PER_S
 class PracticeRoom:
     """The `PracticeModel` of the real window; `first` is shown, and not yet played, when it opens.
 
-    `wake` starts an engine: once now, and again when a session is begun after one has died. `latency` is what was
+    `processes` start an engine: once now, and again when a session is begun after one has died. `latency` is what was
     measured of the devices, the settings' word where nothing was. Sessions whose tempo stays play along to `backing`.
     """
 
     def __init__(
         self,
-        wake: WakeEngine,
+        processes: Processes,
         settings: Settings,
         first: Plan,
         adapt: bool = False,
         latency: Latency | None = None,
         backing: "BackingRequest | None" = None,
     ) -> None:
-        self._engine = EngineClient(wake, settings.rate_hz)
+        self._engine = EngineClient(processes.engine, settings.rate_hz)
         self._prepared = SessionPreparation(settings, backing)
         self._latency = latency or latency_of(settings, StoredCalibration())
         self._first = replace(request_of(first), adapt=adapt)
@@ -78,7 +80,8 @@ class PracticeRoom:
         run = LessonSession(self._engine, PreparedSession(first), who, self._latency, self._notices.append)
         self._goings_on = GoingsOn(self._engine, run, FreeSession(settings, self._latency), self._notices.append)
         self.desk = MappingEditor(self._engine.tell)
-        self.calibration = Calibration(self._rest, self._engine.wake)
+        self.calibration = Calibration(self._rest, self._engine.wake, processes.measure)
+        self.films = Export(processes.animate)
         self._ear = Playback(self._engine, self._prepared.has_tracks)
         self._kit = KitCommands(self._prepared, self._goings_on)
         self.deck = DemoPlayer(self._ear.demonstrate, self._prepared.watched(first.lesson, first.kit), who)

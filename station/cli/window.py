@@ -41,6 +41,7 @@ def open_window(
     if not has_screen():
         raise DeviceError("no screen: `station practice --headless` practises in the terminal")
     from station.app.practice_room import PracticeRoom
+    from station.app.processes import Processes
     from station.engine.engine_config import EngineConfig
     from station.engine.supervisor import EngineSupervisor
     from station.gui.layout import WindowOptions
@@ -51,7 +52,7 @@ def open_window(
     latency = latency_of(settings, load_calibration())
     with ExitStack() as engines, end_asked() as asked:
         wake = lambda: engines.enter_context(EngineSupervisor(EngineConfig.from_settings(settings)))  # noqa: E731
-        room = PracticeRoom(wake, settings, first, adapt, latency, backing)
+        room = PracticeRoom(Processes(wake), settings, first, adapt, latency, backing)
         try:
             goes_on = lambda drawn: not asked and (watch is None or watch.shown(drawn))  # noqa: E731
             run_window(room, WindowOptions(shown=goes_on))

@@ -9,9 +9,10 @@ from station.core.pieces import Articulation, Limb, Piece, Zone
 class Hit:
     """A stroke that was played.
 
-    `velocity` 1–127, to which `velocity_fraction` adds 0 ≤ f < 1 where the kit tells it finer; `openness` of the hi-hat
-    0 closed … 1 open, None where the kit cannot tell; `midi_note` the number as sent (0 where there was none);
-    `position` 0 head's centre … 1 edge; `device` names the port.
+    `velocity` 1–127, to which `velocity_fraction` adds 0 ≤ f < 1 where the kit tells it finer: sound and judgement go
+    by `fine_velocity`, their sum. `openness` of the hi-hat 0 closed … 1 open, None where the kit cannot tell;
+    `midi_note` the number as sent (0 where there was none); `position` 0 head's centre … 1 edge; `device` names the
+    port.
     """
 
     at_ns: int
@@ -25,6 +26,11 @@ class Hit:
     limb: Limb = Limb.UNKNOWN
     device: str = ""
     velocity_fraction: float = 0.0
+
+    @property
+    def fine_velocity(self) -> float:
+        """The velocity as finely as the kit tells it, 1 ≤ v < 128."""
+        return self.velocity + self.velocity_fraction
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,12 +1,31 @@
-"""Student's t, for intervals of means of a few values."""
+"""Student's t, for intervals of means of a few values.
 
-_Z_95 = 1.959964
+With t = √v·tan θ the density of t becomes that of θ, proportional to cos^(v−1) θ within ±π/2, whatever the degrees of
+freedom v. Its area from 0 is concave, so that Newton's steps from 0 climb to the point and never beyond.
+"""
+
+from functools import lru_cache
+from math import cos, exp, lgamma, pi, sqrt, tan
+
+import numpy as np
+
+_SHARE = 0.95
+_STEPS = 8
+"""So many stand still in the ninth digit for any freedom."""
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)
 
 
+@lru_cache(maxsize=1024)
 def t_quantile_95(freedom: float) -> float:
-    """Two-sided 95 % point of Student's t (Abramowitz & Stegun 26.7.5: off by under 2 % from 3 degrees up)."""
-    z, v = _Z_95, max(freedom, 1.0)
-    g1 = (z**3 + z) / 4
-    g2 = (5 * z**5 + 16 * z**3 + 3 * z) / 96
-    g3 = (3 * z**7 + 19 * z**5 + 17 * z**3 - 15 * z) / 384
-    return z + g1 / v + g2 / v**2 + g3 / v**3
+    """Two-sided 95 % point of Student's t for any `freedom`; less than one degree counts as one."""
+    v = max(freedom, 1.0)
+    wanted = _SHARE * sqrt(pi) / 2 * exp(lgamma(v / 2) - lgamma((v + 1) / 2))
+    angle = 0.0
+    for _ in range(_STEPS):
+        angle += (wanted - _area(angle, v - 1)) / cos(angle) ** (v - 1)
+    return sqrt(v) * tan(angle)
+
+
+def _area(angle: float, power: float) -> float:
+    """The integral of cos^`power` from 0 to `angle`, by Gauss and Legendre."""
+    return float(angle / 2 * (_WEIGHTS @ np.cos(angle / 2 * (_NODES + 1)) ** power))

@@ -107,7 +107,9 @@ class SoundPlayer:
         """Sound what the student did with the next block."""
         match event:
             case Hit():
-                self.strike(NoteMeaning(event.piece, event.zone, event.articulation, event.openness), event.velocity)
+                self.strike(
+                    NoteMeaning(event.piece, event.zone, event.articulation, event.openness), event.fine_velocity
+                )
             case Choke():
                 self.choke(event.piece)
             case PedalMoved():
@@ -115,7 +117,7 @@ class SoundPlayer:
             case _:
                 pass
 
-    def strike(self, strike: NoteMeaning, velocity: int) -> None:
+    def strike(self, strike: NoteMeaning, velocity: float) -> None:
         """Sound the student's stroke with the next block."""
         self._to_mixer(lambda mixer: mixer.trigger(Bus.STUDENT, strike, velocity))
 

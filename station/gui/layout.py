@@ -7,6 +7,8 @@ from pathlib import Path
 from imgui_bundle import hello_imgui, imgui
 
 from station.gui import theme
+from station.gui.display import Screen
+from station.gui.glfw_screen import glfw_screen
 from station.gui.panels.panel import DockSide, Panel
 from station.render.painter import Area
 from station.render.snapshot import Snapshot
@@ -29,7 +31,8 @@ class WindowOptions:
     `settings` is the file that keeps the look, None for this user's. `tests` registers tests with imgui's test engine
     and makes it run, without a pause between frames; `picture_every` draws the picture in every so manieth frame alone
     and leaves it dark between them, for whoever watches the panels. `shown` is called whenever a frame is on the
-    screen, with what it shows behind the panels; the window closes when it says no.
+    screen, with what it shows behind the panels; the window closes when it says no. `screen` is asked for the monitors
+    once the window is open: None where windows cannot be placed.
     """
 
     size: tuple[int, int] = (1280, 720)
@@ -39,6 +42,7 @@ class WindowOptions:
     tests: Callable[[], None] | None = None
     picture_every: int = 1
     shown: Callable[[Snapshot | None], bool] | None = None
+    screen: Callable[[], Screen | None] = glfw_screen
 
 
 @dataclass(frozen=True, slots=True)

@@ -51,7 +51,8 @@ class Pages:
         self.take = export_panel.ExportPanel(
             export_panel.ExportActions(
                 deeds.to_take, lambda: load_settings(settings), lambda: backdrop.look, tried, tell
-            )
+            ),
+            model.films,
         )
         actions = LessonActions(deeds.start, lambda: tried(model.listen), self.take.film_take, model.room)
         self._lessons = LessonsPanel(deeds.choice, actions)

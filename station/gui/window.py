@@ -18,7 +18,6 @@ from station.core.errors import DeviceError
 from station.core.settings import load_settings, save_settings
 from station.gui import theme
 from station.gui.display import MonitorWatch
-from station.gui.glfw_screen import glfw_screen
 from station.gui.keyboard_kit import pressed
 from station.gui.layout import Calls, WindowOptions, central_area, runner, splits
 from station.gui.panel_table import Pages
@@ -82,7 +81,7 @@ class Window:
 
     def _opened(self) -> None:
         """The window is there, and nothing drawn yet."""
-        screen = glfw_screen()
+        screen = self._options.screen()
         self.monitors = None if screen is None else MonitorWatch(screen)
 
     def _before_frame(self) -> None:

@@ -36,7 +36,7 @@ class Judgement:
     note_index: int | None
     hit_index: int | None
     asynchrony_ns: int | None = None
-    velocity_error: int | None = None
+    velocity_error: float | None = None
     corrects: bool = False
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import TOMS, Limb, Ornament, Piece
+from station.core.pieces import TOMS, Articulation, Limb, Ornament, Piece
 from station.core.units import NS_PER_MS, PPQ
 from station.music.score import Score
 
@@ -31,6 +31,8 @@ LONGEST_DOUBLE_MS = 250
 """Beyond, two strokes of one hand are two strokes and no double; our choice."""
 _DOUBLE_REACH = 1.5
 """The other hand is beside a double if it strikes within so many of its intervals: triplets mix with eighths."""
+_OF_TWO = (Ornament.DIDDLE, Ornament.ROLL)
+"""The ornaments whose letter plays two strokes, but for the buzz, a roll that is one."""
 _OTHER_HAND = {int(Limb.RIGHT_HAND): int(Limb.LEFT_HAND), int(Limb.LEFT_HAND): int(Limb.RIGHT_HAND)}
 _BOTH_HANDS = -2
 """Stands for a limb where the hands strike together."""
@@ -134,11 +136,15 @@ def _swing_span(within: set[int]) -> int | None:
 
 
 def second_of_doubles(score: Score) -> Flags:
-    """Second strokes of doubles: two quick strokes of one hand, alone in their slots, beside a stroke of the other.
+    """Second strokes of doubles, by what is written: diddles and open rolls, and what the sticking makes doubles.
 
-    Needs written sticking; rows of diddles without it pair up in order.
+    The rows that a diddle or an open roll stands for pair up in order, piece by piece. By sticking a double is two
+    quick strokes of one hand, alone in their slots, beside a stroke of the other.
     """
     notes, flags = score.notes, np.zeros(len(score), bool)
+    two = ~score.is_grace & np.isin(notes["ornament"], _OF_TWO) & (notes["articulation"] != Articulation.BUZZ)
+    for piece in np.unique(notes["piece"][two]):
+        flags[np.flatnonzero(two & (notes["piece"] == piece))[1::2]] = True
     hands = ~score.is_grace & np.isin(notes["limb"], (Limb.RIGHT_HAND, Limb.LEFT_HAND))
     rows = np.flatnonzero(hands)
     at_ns = score.onset_ns[rows]
@@ -149,8 +155,6 @@ def second_of_doubles(score: Score) -> Flags:
     for run in np.split(np.arange(len(rows)), np.flatnonzero(ends) + 1):
         if len(run) == 2 and _beside_other_hand(hand, at_ns, int(run[0])):
             flags[rows[run[1]]] = True
-    diddles = np.flatnonzero(~score.is_grace & (notes["ornament"] == Ornament.DIDDLE) & ~hands)
-    flags[diddles[1::2]] = True
     return flags
 
 

@@ -14,6 +14,7 @@ HIT_DTYPE = np.dtype(
         ("at_ns", np.int64),
         ("openness", np.float32),  # hi-hat 0 closed … 1 open; NaN where the kit cannot tell
         ("position", np.float32),  # 0 centre … 1 edge; NaN where the kit cannot tell
+        ("velocity_fraction", np.float32),  # 0 ≤ f < 1, on top of the velocity
         ("piece", np.uint8),
         ("zone", np.uint8),
         ("articulation", np.uint8),
@@ -58,6 +59,7 @@ class Performance:
                 h.at_ns,
                 _nan(h.openness),
                 _nan(h.position),
+                h.velocity_fraction,
                 h.piece,
                 h.zone,
                 h.articulation,
@@ -85,10 +87,16 @@ class Performance:
             midi_note=int(row["midi_note"]),
             position=_none(row["position"]),
             limb=Limb(row["limb"]),
+            velocity_fraction=float(row["velocity_fraction"]),
         )
 
     def __iter__(self) -> Iterator[Hit]:
         return (self[i] for i in range(len(self)))
+
+    @property
+    def fine_velocity(self) -> NDArray[np.float64]:
+        """The velocity of each hit (n,) as finely as the kit tells it, 1 ≤ v < 128."""
+        return self.hits["velocity"] + self.hits["velocity_fraction"].astype(np.float64)
 
     def shifted(self, by_ns: int) -> "Performance":
         """The same performance `by_ns` later."""

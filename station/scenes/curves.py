@@ -66,6 +66,6 @@ def played_of_result(result: SessionResult) -> StudentStrokes:
     asynchrony_ms, velocity = np.full((2, len(hit)), np.nan)
     asynchrony_ms[paired] = result.alignment.asynchrony_ns[paired] / NS_PER_MS
     if result.device != KEYBOARD:  # keys cannot tell how hard they are struck
-        velocity[paired] = result.performance.hits["velocity"][hit[paired]]
+        velocity[paired] = result.performance.fine_velocity[hit[paired]]
     written = result.score.notes["velocity"].astype(np.float64)
     return StudentStrokes(result.score.onset_s, result.alignment.note_label, asynchrony_ms, velocity, written)

@@ -54,10 +54,21 @@ class Sound:
         assert reaches[-1] >= MAX_VELOCITY, "the hardest layer reaches velocity 127"
         assert len(self.levels) == MAX_VELOCITY + 1, "a level for every velocity"
 
+    def level(self, velocity: float) -> float:
+        """The level of `velocity` 1 ≤ v < 128: straight between two whole ones that are of one layer."""
+        whole = int(velocity)
+        level = self.levels[whole]
+        if velocity > whole and whole < MAX_VELOCITY and self._layer(whole) is self._layer(whole + 1):
+            level += (velocity - whole) * (self.levels[whole + 1] - level)
+        return level
+
     def take(self, velocity: float, count: int) -> Frames:
         """The frames to play for `velocity` (1–127), the `count`-th time in turn."""
-        layer = next((layer for layer in self.layers if velocity <= layer.to_velocity), self.layers[-1])
-        return layer.takes[count % len(layer.takes)]
+        takes = self._layer(velocity).takes
+        return takes[count % len(takes)]
+
+    def _layer(self, velocity: float) -> Layer:
+        return next((layer for layer in self.layers if velocity <= layer.to_velocity), self.layers[-1])
 
 
 @dataclass(frozen=True, slots=True, eq=False)

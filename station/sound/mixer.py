@@ -72,13 +72,13 @@ class Mixer:
 
     # --- what to play --------------------------------------------------------------------------------------------
 
-    def trigger(self, bus: Bus, strike: NoteMeaning, velocity: int, at_frame: int = 0) -> None:
-        """Sound a stroke of `velocity` 1–127 on `bus`, `at_frame` frames after the start of the next block.
+    def trigger(self, bus: Bus, strike: NoteMeaning, velocity: float, at_frame: int = 0) -> None:
+        """Sound a stroke of `velocity` 1 ≤ v < 128 on `bus`, `at_frame` frames after the start of the next block.
 
         `strike.openness` (None counts as closed) chooses the hi-hat's sound and damps one that rings more open; the
         foot's chick stops it.
         """
-        assert 1 <= velocity <= MAX_VELOCITY, "a stroke has a MIDI velocity"
+        assert 1 <= velocity < MAX_VELOCITY + 1, "a stroke has a MIDI velocity"
         self._at(at_frame, partial(self._strike, bus, strike, velocity))
 
     def click(self, voice: ClickVoice, velocity: int = MAX_VELOCITY, at_frame: int = 0) -> None:
@@ -205,7 +205,7 @@ class Mixer:
         while self._pending and self._pending[0][0] <= self.frame:
             heapq.heappop(self._pending)[2]()
 
-    def _strike(self, bus: Bus, strike: NoteMeaning, velocity: int) -> None:
+    def _strike(self, bus: Bus, strike: NoteMeaning, velocity: float) -> None:
         name, sound, timbre = self.kit.choose(strike)
         turn = self._turns.get(name, 0)
         self._turns[name] = turn + 1
@@ -217,8 +217,8 @@ class Mixer:
             self._damp_hihat(bus, openness)
             piece, openness = Piece.HIHAT, 1.0 if splashes else openness
         level, sides = self._of_pieces.get(strike.piece, (1.0, None))
-        gain = level * sound.levels[velocity]
-        voice = Voice(sound.take(max(1.0, velocity * timbre), turn), bus, gain, piece, openness)
+        gain = level * sound.level(velocity)
+        voice = Voice(sound.take(max(1.0, int(velocity) * timbre), turn), bus, gain, piece, openness)
         voice.sides = sides
         if sound.mute_group is not None:
             self._mute_group(bus, sound)

@@ -49,7 +49,7 @@ def take(score: Score, how: Played | None = None, clocked: bool = True) -> Take:
         rows[name] = score.notes[name]
     rows["at_ns"] = score.onset_ns + np.rint(np.broadcast_to(how.off_ms, len(score)) * NS_PER_MS).astype(np.int64)
     if how.velocity is not None:
-        rows["velocity"] = how.velocity
+        rows["velocity_fraction"], rows["velocity"] = np.modf(how.velocity)
     if how.openness is not None:
         rows["openness"] = how.openness
     rows["limb"] = Limb.UNKNOWN if how.limbs is None else how.limbs

@@ -15,27 +15,23 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+import moderngl
 import numpy as np
 from imgui_bundle import hello_imgui, imgui
 from numpy.typing import NDArray
 
-from station.app.calibration import Told
-from station.app.calibration_results import CalibrationResult, CalibrationResults
-from station.app.export import Export
 from station.app.help_topics import topic_of
-from station.app.latency_methods import MeasureRequest
 from station.app.model import Stage
 from station.app.view_settings import view_settings_of
-from station.core.errors import BadInput
 from station.core.measured_latency import load_calibration
 from station.core.pieces import Piece
 from station.core.settings import Settings, load_settings, save_settings
 from station.core.units import ns_from_ms
 from station.devices.mapping.device_file import own_kit
 from station.drills.library import find_lesson
-from station.engine.latency_measurement import Devices
 from station.engine.messages import Play, SetLevel, WatchRawBytes
-from station.gui.display import GONE, Rectangle, Screen, home_for
+from station.gui.display import GONE, Rectangle, home_for
+from station.gui.glfw_screen import glfw_screen
 from station.gui.keyboard_kit import VIEW_KEYS
 from station.gui.layout import WindowOptions
 from station.gui.panels.calibration_part import ANYWAY_LABEL, MEASURE_LABEL
@@ -60,7 +56,6 @@ from station.render.files.png_file import write_png
 from station.render.notation.score_view import ScoreForm
 from station.render.snapshot import Snapshot
 from station.simulation.student_spec import parse_spec
-from station.sound.calibration.latency_estimate import LatencyEstimate
 from tests.gui.figure import figure
 from tests.gui.legible import present_faults
 from tests.gui.room import KIT, practice_room
@@ -83,10 +78,30 @@ STUDENTS = {
 }
 PATIENCE_S = 600.0  # the parent's own limit is what ends a run that hangs
 
-FILMS = "import sys; words = sys.argv; open(words[words.index('--out') + 1], 'w').write(words[1])"
-"""Stands in for what films: its video says what was filmed."""
-
 Scenario = Callable[["Drive", imgui.test_engine.TestContext], None]
+
+
+class TwoMonitors:
+    """The screen that there is, and to the right of it a second monitor while one is plugged in."""
+
+    NAME, AREA = 2, Rectangle(3000, 0, 1920, 1080)
+
+    def __init__(self) -> None:
+        screen = glfw_screen()
+        assert screen is not None, "an X server can be asked for windows and monitors"
+        self.first, self.is_plugged = screen, False
+
+    def monitors(self) -> Sequence[int]:
+        return [*self.first.monitors(), *([self.NAME] if self.is_plugged else [])]
+
+    def area(self, monitor: int) -> Rectangle:
+        return self.AREA if monitor == self.NAME else self.first.area(monitor)
+
+    def window(self) -> Rectangle:
+        return self.first.window()
+
+    def move(self, place: Rectangle) -> None:
+        self.first.move(place)
 
 
 class Drive:
@@ -101,8 +116,12 @@ class Drive:
         settings = Settings(sessions=str(sessions), welcomed=student != NEWCOMER)
         self.settings = save_settings(settings, sessions / "settings.toml")
         options = WindowOptions(size, quality=0, remember_layout=False, settings=self.settings, tests=self._register)
-        options = replace(options, picture_every=picture_every, shown=self._frame_is_shown)
+        options = replace(
+            options, picture_every=picture_every, shown=self._frame_is_shown, screen=self._monitors_are_asked_for
+        )
         self.window = Window(self.room, options, self.clock)
+        self.monitors: TwoMonitors | None = None
+        """There once the window is open."""
         self.all_seen: list[dict[str, object]] = []
         self._wants_shot = self._wants_faults = False
         self._pixels = np.empty((0, 0, 3), np.uint8)
@@ -137,12 +156,16 @@ class Drive:
         assert not self._wants_faults
         return self.faults
 
+    def _monitors_are_asked_for(self) -> TwoMonitors:
+        self.monitors = TwoMonitors()
+        return self.monitors
+
     def _frame_is_shown(self, snapshot: Snapshot | None) -> bool:
         """Whether the window shall stay."""
         del snapshot
         if self._wants_shot:
-            assert self.window.monitors is not None
-            self._pixels = screen_shot(self.window.monitors.screen.window())
+            assert self.monitors is not None
+            self._pixels = screen_shot(self.monitors.window())
         if self._wants_shot or self._wants_faults:
             self.faults = present_faults()
         self._wants_shot = self._wants_faults = False
@@ -253,7 +276,7 @@ def just_play(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
             break
         ctx.yield_()
     drive.seen["ended"] = not drive.room.room().listening
-    films = drive.window.pages.take.files = Export((sys.executable, "-c", FILMS))
+    films = drive.room.films
     ctx.item_click(FILM_LABEL)
     drive.seen["filming"] = films.process is not None
     if films.process is not None:
@@ -473,28 +496,9 @@ def habits(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     open_panel(ctx, TAKE_ALONG)
 
 
-class Measurement:
-    """A measurement by strikes whose devices answer at once: it says so, then what it found."""
-
-    def __init__(self, wish: MeasureRequest) -> None:
-        doubtful = LatencyEstimate(4.0, -1.0, 9.0, 8.0, 12, ("the strokes scatter by 8 ms",))
-        self._says: list[Told] = [
-            "strike each pad",
-            CalibrationResults(Devices(kit=KIT), (CalibrationResult("kit", KIT, doubtful),)),
-        ]
-        self.by = wish.by
-
-    def told(self) -> list[Told]:
-        return [self._says.pop(0)] if self._says else []
-
-    def end(self) -> None:
-        pass
-
-
 def calibration(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """Latency is measured on the devices page; what is found is kept only when it is asked for, doubts are said."""
     room = drive.room
-    room.calibration.start = Measurement
     open_panel(ctx, DEVICES)
     ctx.set_ref(f"//{DEVICES}")
     ctx.item_click("Strike##by")
@@ -700,58 +704,23 @@ def closes(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.seen["at_the_end"] = drive.room.room().stage.name
 
 
-class SecondMonitor:
-    """The screen, and a monitor to the right of it that may be unplugged: at our border to the system."""
-
-    NAME, AREA = 2, Rectangle(3000, 0, 1920, 1080)
-
-    def __init__(self, screen: Screen) -> None:
-        self._screen, self.is_plugged = screen, True
-
-    def monitors(self) -> Sequence[int]:
-        return [*self._screen.monitors(), *([self.NAME] if self.is_plugged else [])]
-
-    def area(self, monitor: int) -> Rectangle:
-        return self.AREA if monitor == self.NAME else self._screen.area(monitor)
-
-    def window(self) -> Rectangle:
-        return self._screen.window()
-
-    def move(self, place: Rectangle) -> None:
-        self._screen.move(place)
-
-
 def unplugged(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """A second monitor is unplugged in mid-session, and the window is on it."""
     drive.choose(ctx, passes=4)
     ctx.item_click("Start##start")
-    watch = drive.window.monitors
-    assert watch is not None, "an X server can be asked for windows and monitors"
-    screen = watch.screen
-    second = watch.screen = SecondMonitor(screen)
+    assert drive.monitors is not None, "the window is open"
+    screen = drive.monitors.first
+    drive.monitors.is_plugged = True
     screen.move(Rectangle(3100, 100, *SIZE))
     ctx.yield_(12)
     drive.seen["outside"] = home_for(screen.window(), [screen.area(name) for name in screen.monitors()]) is not None
     drive.seen["told before"] = drive.window.news.text == GONE
-    second.is_plugged = False
+    drive.monitors.is_plugged = False
     ctx.yield_(3)
     seen = [screen.window().shared(screen.area(name)) for name in screen.monitors()]
     drive.seen["shown"] = max(seen) / (SIZE[0] * SIZE[1])
     drive.seen["told"] = drive.window.news.text
     drive.seen["stage"] = drive.room.room().stage.name
-    watch.screen = screen
-
-
-class LostContext:
-    """An OpenGL context that has been lost: it does what it is told, which has no effect, and says so when asked."""
-
-    error = "GL_UNKNOWN_ERROR"
-
-    def __init__(self, ctx: object) -> None:
-        self._ctx = ctx
-
-    def __getattr__(self, name: str) -> object:
-        return getattr(self._ctx, name)
 
 
 def lost(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
@@ -759,8 +728,7 @@ def lost(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.choose(ctx, passes=4)
     ctx.item_click("Start##start")
     ctx.yield_(30)
-    backdrop = drive.window.backdrop
-    backdrop._ctx = LostContext(backdrop._ctx)  # type: ignore[assignment] # a driver that fails, at our border to it
+    moderngl.Context.error = "GL_UNKNOWN_ERROR"  # what the library says of a context that its driver has lost
     ctx.yield_(MOST_FRAMES)
 
 
@@ -871,18 +839,13 @@ def legible(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
 
 def fault(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """A session that cannot begin is said in one line, and nothing else happens."""
-    room = drive.room
-
-    def refuse(wish: object) -> None:
-        raise BadInput("lesson", "bar 3", "no such thing")
-
-    room.start = refuse  # type: ignore[method-assign] # stands for any of the model's faults
+    drive.engine.refuses = "the engine has ended"
     ctx.set_ref("//Lessons")
     ctx.item_click("Start##start")
     ctx.yield_(2)
     drive.seen["news"] = drive.window.news.text
     drive.seen["after"] = drive.room.room().stage.name
-    del room.start
+    drive.engine.refuses = ""
 
 
 SCENARIOS = {

@@ -262,7 +262,7 @@ def the_score_s_three_forms(seen: dict[str, Any]) -> None:
 
 
 def a_fault_is_said_in_one_line(seen: dict[str, Any]) -> None:
-    assert seen["news"] == "lesson: bar 3: no such thing"
+    assert seen["news"] == "the engine has ended"
     assert seen["after"] == "IDLE"
 
 

@@ -41,9 +41,9 @@ class ExportActions:
 class ExportPanel:
     """Three buttons, and what has come of the video."""
 
-    def __init__(self, actions: ExportActions) -> None:
+    def __init__(self, actions: ExportActions, files: Export) -> None:
         self._actions = actions
-        self.files = Export()
+        self.files = files
 
     def gui(self) -> None:
         """Draw the panel and do what the user does in it."""

@@ -132,8 +132,9 @@ def _strokes(rows: list[dict[str, str]]) -> NDArray[np.void]:
     for stroke, row in zip(strokes, rows, strict=True):
         stroke["piece"], stroke["zone"] = Piece[row["hit_piece"].upper()], Zone[row["hit_zone"].upper()]
         stroke["articulation"] = Articulation[row["hit_articulation"].upper()]
-        velocity, openness = int(row["hit_velocity"]), float(row["hit_openness"] or "nan")
-        if not 1 <= velocity <= _HARDEST or not (np.isnan(openness) or 0.0 <= openness <= 1.0):
+        velocity, openness = float(row["hit_velocity"]), float(row["hit_openness"] or "nan")
+        if not 1 <= velocity < _HARDEST + 1 or not (np.isnan(openness) or 0.0 <= openness <= 1.0):
             raise ValueError(row)
-        stroke["velocity"], stroke["openness"] = velocity, openness
+        stroke["velocity_fraction"], stroke["velocity"] = np.modf(velocity)
+        stroke["openness"] = openness
     return strokes

@@ -38,8 +38,8 @@ def _place(place: np.void) -> tuple[int, int, str]:
     return int(place["pass"]), int(place["bar"]), f"{float(place['beat']):.6g}"
 
 
-def _stroke(performance: Performance, index: int) -> tuple[str, str, str, int, str]:
+def _stroke(performance: Performance, index: int) -> tuple[str, str, str, str, str]:
     row = performance.hits[index]
     openness = "" if np.isnan(row["openness"]) else f"{float(row['openness']):.3g}"
     names = word(Piece(int(row["piece"]))), word(Zone(int(row["zone"]))), word(Articulation(int(row["articulation"])))
-    return (*names, int(row["velocity"]), openness)
+    return (*names, f"{performance.fine_velocity[index]:.6g}", openness)

@@ -171,7 +171,7 @@ def _off_db(score: Score, performance: Performance, alignment: Alignment) -> Flo
     """How much louder than written each note (n,) was struck, NaN where it was not."""
     off = np.full(len(score), np.nan)
     rows = np.flatnonzero(alignment.note_label == Label.MATCH)
-    played = performance.hits["velocity"][alignment.hit_of_note[rows]]
+    played = performance.fine_velocity[alignment.hit_of_note[rows]]
     off[rows] = level_db(played) - level_db(score.notes["velocity"][rows])
     return off
 

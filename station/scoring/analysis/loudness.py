@@ -51,7 +51,7 @@ class Loudness:
 
 
 def level_db(velocity: NDArray[np.generic] | Floats) -> Floats:
-    """Level of velocities 1–127 in dB below full scale."""
+    """Level of velocities 1–127 in dB against full scale."""
     return np.asarray(_DB_PER_DECADE * np.log10(np.maximum(velocity.astype(np.float64), 1.0) / _FULL_SCALE))
 
 
@@ -73,7 +73,7 @@ def judged_notes(score: Score) -> Flags:
 def dynamics(score: Score, performance: Performance, alignment: Alignment) -> Loudness:
     """Sum up the loudness of what was matched."""
     matched = np.flatnonzero(alignment.note_label == Label.MATCH)
-    played = performance.hits["velocity"][alignment.hit_of_note[matched]].astype(np.float64)
+    played = performance.fine_velocity[alignment.hit_of_note[matched]]
     written = score.notes["velocity"][matched].astype(np.float64)
     error = played - written
     off_db = np.full(len(score), np.nan)

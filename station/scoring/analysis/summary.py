@@ -216,8 +216,8 @@ def _grouper(score: Score, performance: Performance, alignment: Alignment) -> _G
     """A function that sums up the notes of one mask and counts the extras of another."""
     timed, off_ms = timed_notes(score, alignment), asynchrony_ms(alignment)
     hit = np.maximum(alignment.hit_of_note, 0)
-    played = performance.hits["velocity"][hit] if len(performance) else np.zeros(len(score), np.uint8)
-    error = played.astype(np.float64) - score.notes["velocity"]
+    played = performance.fine_velocity[hit] if len(performance) else np.zeros(len(score))
+    error = played - score.notes["velocity"]
 
     def group(notes: Flags, hits: Flags | None) -> SummaryGroup:
         label = alignment.note_label[notes]

@@ -78,14 +78,13 @@ def labelled(settled: Settled, timed: Timed, quiet: NDArray[np.bool_]) -> Alignm
 
 def judgements(score: Score, performance: Performance, alignment: Alignment) -> list[Judgement]:
     """The alignment as single judgements: a note each with its hit, then the hits without a note, both in order."""
-    velocity_error = performance.hits["velocity"].astype(np.int64)
+    played, written = performance.fine_velocity.tolist(), score.notes["velocity"].tolist()
     said = []
     for note, hit in enumerate(alignment.hit_of_note.tolist()):
         label = Label(alignment.note_label[note])
         if hit < 0:
             said.append(Judgement(label, note, None))
         else:
-            error = int(velocity_error[hit]) - int(score.notes["velocity"][note])
-            said.append(Judgement(label, note, hit, int(alignment.asynchrony_ns[note]), error))
+            said.append(Judgement(label, note, hit, int(alignment.asynchrony_ns[note]), played[hit] - written[note]))
     alone = np.flatnonzero(alignment.note_of_hit < 0).tolist()
     return said + [Judgement(Label(alignment.hit_label[hit]), None, hit) for hit in alone]

@@ -262,7 +262,7 @@ class Judge:
     def _pair(self, label: Label, note: int, hit: int) -> Judgement:
         off_ns = self._hit_ns[hit] - self._onset_ns[note]
         asynchrony_ns = off_ns if self._pace == 1.0 else round(off_ns / self._pace)
-        return Judgement(label, note, hit, asynchrony_ns, self._hits[hit].velocity - self._velocity[note])
+        return Judgement(label, note, hit, asynchrony_ns, self._hits[hit].fine_velocity - self._velocity[note])
 
     def _told(self, said: list[Judgement]) -> tuple[Judgement, ...]:
         """`said`, each marked if it corrects what was told before of its note or hit."""

@@ -66,7 +66,7 @@ class CardInput(CardStream):
     def close(self) -> None:
         """Stop and give the device back; harmless when closed already."""
         if self._is_open:
-            self._give_back(self._stream.close)
+            self._give_back()
 
     def _callback(self, heard: NDArray[np.float32], frames: int, times: InputTimes, status: InputStatus) -> None:
         begun_ns = monotonic_ns()

@@ -38,7 +38,7 @@ class CardOutput(CardStream):
         self.host = device.host
         self.underflows = 0
         self.load = 0.0
-        self._fault: DeviceError | None = None
+        self._fault = ""
         self._abort: type[Exception] = sd.CallbackAbort
         self._render: Renderer | None = None
         self._is_asking = False
@@ -47,9 +47,9 @@ class CardOutput(CardStream):
     @property
     def fault(self) -> DeviceError | None:
         """Why the stream ended by itself; None while it runs, or was stopped by us."""
-        if self._fault is None and self._is_asking and not self._stream.active:
-            self._fault = DeviceError(f"{self._title} stopped: it was unplugged, or its server ended")
-        return self._fault
+        if not self._fault and self._is_asking and not self._stream.active:
+            self._fault = f"{self._title} stopped: it was unplugged, or its server ended"
+        return DeviceError(self._fault) if self._fault else None  # one that is raised would hold us by its traceback
 
     def start(self, render: Renderer) -> None:
         """Begin to ask `render` for blocks, in the driver's thread; raises `DeviceError`."""
@@ -80,7 +80,7 @@ class CardOutput(CardStream):
             return
         self._fade_out()
         self._is_asking = False
-        self._give_back(self._end)
+        self._give_back()
 
     def _fade_out(self) -> None:
         """Let what sounds fade, so that the end of the stream is no click."""
@@ -89,10 +89,10 @@ class CardOutput(CardStream):
             self._gate.wait_until_shut(SHUT_WITHIN_S)
 
     def _end(self) -> None:
-        if self._fault is None:
+        if not self._fault:
             with suppress(self._error):
                 self._stream.stop()  # closing alone would throw away what was faded and not yet played
-        self._stream.close()
+        super()._end()
 
     def _callback(self, out: NDArray[np.float32], frames: int, times: "DriverTimes", status: "DriverStatus") -> None:
         begun_ns = monotonic_ns()
@@ -105,7 +105,7 @@ class CardOutput(CardStream):
             fit_channels(self._gate.through(self._render(frames, self._clock.block(frames, reported_ns))), out)
         except Exception as fault:
             out.fill(0.0)
-            self._fault = DeviceError(f"the sound stopped: {fault!r}")
+            self._fault = f"the sound stopped: {fault!r}"
             raise self._abort from fault
         used = (monotonic_ns() - begun_ns) * self.rate_hz / (NS_PER_S * frames)
         self.load += LOAD_SMOOTHING * (used - self.load)

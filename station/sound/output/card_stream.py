@@ -1,6 +1,5 @@
 """What a stream on a sound card is, whichever way it goes: how it is opened and begun, and how it is given back."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from threading import Thread
 from types import ModuleType
@@ -76,10 +75,15 @@ class CardStream:
         except self._error as fault:
             raise DeviceError(f"{self._title} does not start: {fault}; choose another") from fault
 
-    def _give_back(self, end: Callable[[], None]) -> None:
-        """Do `end`, which closes the stream, and leave PortAudio; a driver that hangs is left as it is."""
+    def _end(self) -> None:
+        """Close the stream; it and the callback that it made for the driver no longer hold each other, nor us."""
+        self._stream.close()
+        vars(self._stream).clear()
+
+    def _give_back(self) -> None:
+        """Close the stream and leave PortAudio; a driver that hangs is left as it is."""
         self._is_open = False
-        closing = Thread(target=end, name=f"close {self._title}", daemon=True)
+        closing = Thread(target=self._end, name=f"close {self._title}", daemon=True)
         closing.start()
         if not ends_within(closing, CLOSE_WITHIN_S):
             PORTAUDIO.abandon()

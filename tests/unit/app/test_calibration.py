@@ -158,9 +158,8 @@ def test_a_process_that_dies_has_failed() -> None:
 
 def test_the_room_lets_its_devices_go_and_takes_them_again(tmp_path: Path) -> None:
     first, second = Line(), Line()
-    room = room_on([first, second], tmp_path)
     measurement = Measurement("strike one pad")
-    room.calibration.start = lambda _: measurement
+    room = room_on([first, second], tmp_path, lambda _: measurement)
     first.says += [Ready("Speakers", 48_000), DeviceFound(0, "TD-17")]
     room.snapshot(1)
     assert (room.room().kit, room.desk.devices) == ("TD-17", ["TD-17"])

@@ -8,6 +8,7 @@ import pytest
 
 from station.app.model import SessionRequest, Stage
 from station.app.practice_room import PracticeRoom
+from station.app.processes import Processes
 from station.core.errors import BadInput
 from station.core.events import DeviceFound, Hit, Switched
 from station.core.pieces import Piece, Zone
@@ -29,7 +30,7 @@ ZERO_NS = NS_PER_S
 def room_with(sessions: Path, **chosen: object) -> tuple[PracticeRoom, Line]:
     line = Line()
     settings = Settings(sessions=str(sessions), **chosen)  # type: ignore[arg-type] # what a test chooses
-    return PracticeRoom(lambda: line, settings, PLAN), line
+    return PracticeRoom(Processes(lambda: line), settings, PLAN), line
 
 
 def playing(sessions: Path, **chosen: object) -> tuple[PracticeRoom, Line]:

@@ -1,14 +1,18 @@
 """The room behind the window when the engine fails: nothing that was played is lost, and a new engine is woken."""
 
 import json
+from collections.abc import Callable
 from datetime import datetime
 from pathlib import Path
 
 import pytest
 
+from station.app.calibration import MeasuringProcess, Running
 from station.app.first_start import FirstAnswers
+from station.app.latency_methods import MeasureRequest
 from station.app.model import FreeRequest, SessionRequest, Stage
 from station.app.practice_room import LIVELY_NS, PracticeRoom
+from station.app.processes import Processes
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound, Hit
 from station.core.pieces import Piece, Zone
@@ -68,9 +72,11 @@ class Line:
             raise DeviceError("the engine has ended")
 
 
-def room_on(lines: list[Line], sessions: Path) -> PracticeRoom:
+def room_on(
+    lines: list[Line], sessions: Path, measure: Callable[[MeasureRequest], Running] = MeasuringProcess
+) -> PracticeRoom:
     waiting = iter(lines)
-    return PracticeRoom(lambda: next(waiting), Settings(sessions=str(sessions)), PLAN)
+    return PracticeRoom(Processes(lambda: next(waiting), measure), Settings(sessions=str(sessions)), PLAN)
 
 
 def downbeat(offset_ns: int = 0) -> Hit:
@@ -241,7 +247,7 @@ def test_the_student_is_asked_before_the_result_and_answers_with_a_pad(tmp_path:
 
 def test_who_does_not_want_to_be_asked_is_not(tmp_path: Path) -> None:
     line = Line()
-    room = PracticeRoom(lambda: line, Settings(sessions=str(tmp_path), ask_first=False), PLAN)
+    room = PracticeRoom(Processes(lambda: line), Settings(sessions=str(tmp_path), ask_first=False), PLAN)
     played_early(room, line, NS_PER_S)
     assert room.room().question == ""
     assert room.report() is not None
@@ -321,7 +327,7 @@ def test_a_free_take_has_no_track_of_a_lesson(tmp_path: Path) -> None:
     """A track sounds whenever the transport runs, so it is taken away first."""
     line = Line()
     wish = BackingRequest(tmp_path / "song.mp3")
-    room = PracticeRoom(lambda: line, Settings(sessions=str(tmp_path)), PLAN, backing=wish)
+    room = PracticeRoom(Processes(lambda: line), Settings(sessions=str(tmp_path)), PLAN, backing=wish)
     room.just_play(FreeRequest(100.0))
     line.says += [Started(NS_PER_S), Hit(2 * NS_PER_S, Piece.SNARE, Zone.HEAD, 90)]
     room.snapshot(2 * NS_PER_S + 1)
@@ -335,7 +341,7 @@ def test_a_free_take_has_no_track_of_a_lesson(tmp_path: Path) -> None:
 
 def test_a_bar_is_heard_and_ends_by_itself(tmp_path: Path) -> None:
     line = Line()
-    room = PracticeRoom(lambda: line, Settings(sessions=str(tmp_path), ask_first=False), PLAN)
+    room = PracticeRoom(Processes(lambda: line), Settings(sessions=str(tmp_path), ask_first=False), PLAN)
     played_early(room, line, NS_PER_S)
     for whose in Whose:
         room.hear_bar(1, whose)

@@ -81,6 +81,14 @@ def test_a_stroke_sounds_from_the_next_blocks_first_frame() -> None:
     assert np.flatnonzero(rig.sink.sound[:, 0]).tolist() == [before]
 
 
+def test_a_velocity_between_two_numbers_sounds_between_them() -> None:
+    """Controller 88 says 64 of 128: 100.5. The sound is LEVEL·(100.5/127)² loud."""
+    rig = Rig()
+    rig.engine.feed(KIT, bytes.fromhex("b9 58 40 99 26 64"), 0)
+    rig.run_ms(5)
+    assert rig.sink.sound.max() == pytest.approx(LEVEL * (100.5 / 127) ** 2, rel=1e-4)
+
+
 def test_a_stroke_is_told_with_its_own_time() -> None:
     rig = Rig()
     rig.engine.feed(KIT, SNARE, 12_345)

@@ -1,8 +1,9 @@
 """Expected rows are counted by hand from the written music."""
 
 import numpy as np
+import pytest
 
-from station.core.pieces import Dynamic, Limb, Ornament, Piece
+from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece
 from station.core.units import PPQ
 from station.music import passages
 from station.music.score import Note, Score
@@ -98,6 +99,19 @@ def test_diddles_without_sticking_pair_up() -> None:
     notes = [Note(i * PPQ // 8, Piece.SNARE, ornament=Ornament.DIDDLE) for i in range(4)]
     score = Score.from_notes([*notes, Note(PPQ // 2, Piece.SNARE)], TempoMap.constant(100))
     assert passages.second_of_doubles(score).tolist() == [False, True, False, True, False]
+
+
+@pytest.mark.parametrize("ornament", [Ornament.DIDDLE, Ornament.ROLL])
+def test_pairs_on_two_pieces_at_once_pair_up_on_each(ornament: Ornament) -> None:
+    """Rows in order: snare and tom on the first place, both on the second."""
+    notes = [Note(i * PPQ // 8, piece, ornament=ornament) for i in range(2) for piece in (Piece.SNARE, Piece.TOM_1)]
+    score = Score.from_notes(notes, TempoMap.constant(100))
+    assert passages.second_of_doubles(score).tolist() == [False, False, True, True]
+
+
+def test_buzz_rolls_are_no_pairs() -> None:
+    notes = [Note(i * PPQ, Piece.SNARE, articulation=Articulation.BUZZ, ornament=Ornament.ROLL) for i in range(4)]
+    assert not passages.second_of_doubles(Score.from_notes(notes, TempoMap.constant(100))).any()
 
 
 def test_grace_strokes_are_never_flagged() -> None:

@@ -1,5 +1,7 @@
 """Performances and matchings as values."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -19,6 +21,12 @@ def test_hits_are_ordered_by_time_and_come_back_as_they_were() -> None:
 def test_hits_of_one_time_keep_their_order() -> None:
     hits = [Hit(5, Piece(piece), Zone.HEAD, 80) for piece in (9, 0, 3, 1)]
     assert [h.piece for h in Performance.from_hits(hits)] == [9, 0, 3, 1]
+
+
+def test_a_velocity_between_two_numbers_is_kept() -> None:
+    performance = Performance.from_hits([replace(EARLY, velocity_fraction=0.25), LATE])
+    assert performance.fine_velocity.tolist() == [90.25, 60.0]
+    assert performance[0].fine_velocity == 90.25
 
 
 def test_what_the_kit_cannot_tell_is_none() -> None:

@@ -31,7 +31,7 @@ ROWS = (
     "miss,1,0.500000,38,,,,1,1,2,,,,,",
     "match,8,4.000000,38,1,3.990000,38,2,1,1,snare,rim,cross_stick,70,",
     "match,9,4.500000,38,2,4.530000,38,2,1,2,snare,head,normal,60,",
-    "extra,,,,3,4.750000,42,2,1,2.5,hihat,bow,normal,50,0.25",
+    "extra,,,,3,4.750000,42,2,1,2.5,hihat,bow,normal,50.5,0.25",
 )
 """Bar 1 in two passes at 120: in the second the first beat 10 ms early, the next 30 ms late, a hi-hat between."""
 
@@ -123,11 +123,11 @@ def test_its_last_pass_is_laid_over_a_bar_at_another_tempo(tmp_path: Path) -> No
     earlier = found(tmp_path)
     assert isinstance(earlier, PreviousSession)
     laid = earlier_bar(result(60, *[0.0] * 8), 0, earlier)
-    hits = [(hit.at_ns, hit.piece, hit.zone, hit.velocity) for hit in laid]
+    hits = [(hit.at_ns, hit.piece, hit.zone, hit.fine_velocity) for hit in laid]
     assert hits == [
         (-10 * NS_PER_MS, Piece.SNARE, Zone.RIM, 70),
         (1030 * NS_PER_MS, Piece.SNARE, Zone.HEAD, 60),
-        (1500 * NS_PER_MS, Piece.HIHAT, Zone.BOW, 50),
+        (1500 * NS_PER_MS, Piece.HIHAT, Zone.BOW, 50.5),
     ]
     assert laid.hits["openness"][2] == 0.25
     assert not earlier.has_bar(2)

@@ -1,5 +1,7 @@
 """Alignment with a click, on scores small enough to pair by hand."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -174,10 +176,10 @@ def test_nothing_played_and_nothing_written() -> None:
 
 
 def test_judgements_name_everyone_once() -> None:
-    score, hits = snares(4), [hit(0), hit(500, velocity=90), hit(625), hit(750)]
+    score, hits = snares(4), [hit(0), replace(hit(500, velocity=90), velocity_fraction=0.5), hit(625), hit(750)]
     performance = Performance.from_hits(hits)
     said = judgements(score, performance, align(score, performance, clocked=True))
     assert sorted(j.note_index for j in said if j.note_index is not None) == [0, 1, 2, 3]
     assert sorted(j.hit_index for j in said if j.hit_index is not None) == [0, 1, 2, 3]
-    assert next(j for j in said if j.note_index == 2).velocity_error == 10
+    assert next(j for j in said if j.note_index == 2).velocity_error == 10.5
     assert next(j for j in said if j.label is Label.MISS).hit_index is None

@@ -28,6 +28,12 @@ def test_a_hit_is_judged_at_once() -> None:
     assert said == Judgement(Label.MATCH, 1, 0, 12 * NS_PER_MS, -10)
 
 
+def test_a_velocity_is_judged_as_finely_as_it_was_sent() -> None:
+    hit = Hit(0, Piece.SNARE, Zone.HEAD, 70, velocity_fraction=0.25)
+    (said,) = Follower(snares(1)).hit(hit, 0)
+    assert said == Judgement(Label.MATCH, 0, 0, 0, -9.75)
+
+
 def test_reach_is_inclusive() -> None:
     reach_ms = LEVELS["intermediate"].reach_ms
     (inside,) = strike(Follower(snares(1)), -reach_ms)

@@ -20,6 +20,7 @@ from station.scoring.analysis.points import Feel
 from station.scoring.analysis.regression import Column, fit
 from station.scoring.analysis.summary import Summary, SummaryView, summarise
 from station.scoring.report.advice import Advice, advise
+from tests.fakes.answers import Played, take
 from tests.fakes.scores import beat_and_fill, double_strokes, flams, rock_beat, swing_ride
 
 Floats = NDArray[np.float64]
@@ -51,6 +52,15 @@ def performed(
     hits["velocity"] = np.clip(np.rint(loud), 1, 127)
     performance = Performance.from_array(hits)
     return summarise(score, performance, align(score, performance, clocked=True), view)
+
+
+def test_levels_are_heard_as_finely_as_they_were_sent() -> None:
+    """The left hand at 79.5, the right at 80: 40·log10(79.5/80) = −0.109 dB; half a step too soft in half the notes."""
+    left = HANDS.notes["limb"] == Limb.LEFT_HAND
+    played = take(HANDS, Played(velocity=np.where(left, 79.5, 80)))
+    found = summarise(played.score, played.performance, played.alignment)
+    assert found.habits.effects["left_level"].value == pytest.approx(-0.109, abs=1e-3)
+    assert found.by_piece[Piece.SNARE].velocity_error == pytest.approx(-0.25)
 
 
 def first(advice: tuple[Advice, ...]) -> str | None:

@@ -1,5 +1,7 @@
 """Loudness: levels by hand, own level, classes."""
 
+from collections.abc import Sequence
+
 import numpy as np
 import pytest
 
@@ -20,8 +22,11 @@ def snares(*strokes: tuple[int, Dynamic]) -> Score:
     return Score.from_notes(notes, TempoMap.constant(120))
 
 
-def loudness(score: Score, velocities: list[int]) -> Loudness:
-    hits = [Hit(int(at), Piece.SNARE, Zone.HEAD, v) for at, v in zip(score.onset_ns.tolist(), velocities, strict=True)]
+def loudness(score: Score, velocities: Sequence[float]) -> Loudness:
+    hits = [
+        Hit(at_ns, Piece.SNARE, Zone.HEAD, int(velocity), velocity_fraction=velocity % 1)
+        for at_ns, velocity in zip(score.onset_ns.tolist(), velocities, strict=True)
+    ]
     performance = Performance.from_hits(hits)
     return dynamics(score, performance, align(score, performance, clocked=True))
 
@@ -38,6 +43,13 @@ def test_errors_by_hand() -> None:
     result = loudness(snares(NORMAL, NORMAL, NORMAL), [90, 80, 73])
     assert result.mean_velocity_error == pytest.approx(1.0)
     assert result.sd_velocity_error == pytest.approx((((10 - 1) ** 2 + 1 + (-7 - 1) ** 2) / 2) ** 0.5)
+
+
+def test_a_velocity_counts_as_finely_as_it_was_sent() -> None:
+    """The accent at 110.5 is 40·log10(110.5/110) = 0.0788 dB over the others' level."""
+    result = loudness(snares(*[NORMAL] * 5, ACCENT), [80.0] * 5 + [110.5])
+    assert result.mean_velocity_error == pytest.approx(0.5 / 6)
+    assert result.off_db[5] == pytest.approx(0.0788, abs=1e-4)
 
 
 def test_only_marked_notes_and_those_beside_them_are_judged() -> None:

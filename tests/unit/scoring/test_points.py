@@ -61,11 +61,11 @@ def test_a_score_without_notes_has_no_points() -> None:
 
 @pytest.mark.parametrize("score", SCORES)
 def test_less_scatter_never_scores_less(score: Score) -> None:
-    """Averaged over 30 seeds, the same draws scaled."""
+    """Averaged over ten seeds, the same draws scaled."""
     means = []
     for sd_ms in (40, 30, 20, 12, 6, 2):
         scores = []
-        for seed in range(30):
+        for seed in range(10):
             noise = np.random.default_rng(seed).normal(0, 1, len(score)) * sd_ms * NS_PER_MS
             scores.append(points(score, score.onset_ns + np.rint(noise).astype(np.int64), score.notes["piece"]))
         means.append(np.mean(scores))

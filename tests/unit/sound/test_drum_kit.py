@@ -26,6 +26,13 @@ def test_a_velocity_plays_the_layer_that_reaches_it() -> None:
     assert sound.take(127, 0) is hard
 
 
+def test_between_two_velocities_of_a_layer_the_level_is_between_theirs() -> None:
+    sound = Sound((Layer(90, (impulse(),)), Layer(127, (impulse(),))), tuple(v % 91 / 100 for v in range(128)))
+    assert sound.level(80.25) == pytest.approx(0.8025)
+    assert sound.level(90.5) == pytest.approx(0.9)  # the next layer is louder by itself
+    assert sound.level(127.5) == sound.level(127)
+
+
 def test_takes_are_played_in_turn() -> None:
     first, second, third = impulse(), impulse(), impulse()
     sound = sound_of(first, second, third)

@@ -157,7 +157,7 @@ def _choke_rows(drums: Drums, meaning: _Meaning, start_ns: int) -> NDArray[np.vo
 def _hit_rows(drums: Drums, meaning: _Meaning, start_ns: int) -> NDArray[np.void]:
     notes = drums.notes
     numbers = notes["number"]
-    rows = np.empty(len(notes), HIT_DTYPE)
+    rows = np.zeros(len(notes), HIT_DTYPE)
     rows["at_ns"] = drums.sequence.ns_at(notes["tick"]) + start_ns
     rows["openness"] = _openness(drums, meaning)
     position = _latest(drums, SNARE_POSITION_CONTROLLER) / _FULL

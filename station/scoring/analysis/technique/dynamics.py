@@ -88,7 +88,7 @@ def shades(score: Score, performance: Performance, alignment: Alignment, hands: 
     """All shades of what was matched, no grace strokes; `hands` is what `habits` says of the left hand's level."""
     heard = (alignment.note_label == Label.MATCH) & ~score.is_grace
     level = np.full(len(score), np.nan)
-    level[heard] = level_db(performance.hits["velocity"][alignment.hit_of_note[heard]])
+    level[heard] = level_db(performance.fine_velocity[alignment.hit_of_note[heard]])
     return DynamicShades(
         _own(score, level, heard),
         _contrasts(score, level, heard & judged_notes(score)),

@@ -66,7 +66,7 @@ def loud_graces(score: Score, performance: Performance, alignment: Alignment) ->
     main, matched = main_of_grace(score), alignment.note_label == Label.MATCH
     graces = graces[(main[graces] >= 0) & matched[graces] & matched[main[graces]]]
     graces = graces[score.notes["velocity"][graces] < score.notes["velocity"][main[graces]]]
-    played, hit = performance.hits["velocity"], alignment.hit_of_note
+    played, hit = performance.fine_velocity, alignment.hit_of_note
     loud[graces] = played[hit[graces]] >= played[hit[main[graces]]]
     return loud
 
@@ -84,7 +84,8 @@ def _of_kind(
     low, high = USUAL_MS[kind]
     limbs = np.full(len(score), Limb.UNKNOWN, np.int8)
     limbs[matched] = hits["limb"][hit[matched]]
-    softness = level_db(hits["velocity"][hit[heard]]) - level_db(hits["velocity"][hit[main[heard]]])
+    level = level_db(performance.fine_velocity)
+    softness = level[hit[heard]] - level[hit[main[heard]]]
     return Ornaments(
         graces=len(graces),
         heard=len(heard),

@@ -23,7 +23,6 @@ from station.music.performance import Performance
 from station.music.score import Score
 from station.scoring.analysis.loudness import level_db
 from station.scoring.analysis.technique.estimates import Estimate, Scatter, figure, scatter
-from station.scoring.analysis.technique.swallowed_notes import second_of_pairs
 from station.scoring.analysis.timing_spread import asynchrony_ms, timed_notes
 from station.scoring.matching.alignment import Alignment
 from station.scoring.matching.ignored_hits import BUZZ_REACH_NS
@@ -117,10 +116,10 @@ def _seconds(
     score: Score, performance: Performance, alignment: Alignment, runs: list[Indices]
 ) -> tuple[Estimate, Estimate]:
     """How second strokes of doubles stand in time and loudness."""
-    second = passages.second_of_doubles(score) | second_of_pairs(score)
+    second = passages.second_of_doubles(score)
     off, timed = asynchrony_ms(alignment), timed_notes(score, alignment)
     level = np.full(len(score), np.nan)
-    level[timed] = level_db(performance.hits["velocity"][alignment.hit_of_note[timed]])
+    level[timed] = level_db(performance.fine_velocity[alignment.hit_of_note[timed]])
     level -= level_db(score.notes["velocity"])
     off[~timed] = np.nan
     trios = np.concatenate([np.stack([run[:-2], run[1:-1], run[2:]], 1) for run in runs])
@@ -189,6 +188,6 @@ def _end_ms(score: Score, alignment: Alignment, row: int, hits: Indices, gaps_ms
 
 def _shape_db(performance: Performance, hits: Indices) -> float:
     """Second half of the bounces less the first in dB; NaN of too few."""
-    bounces = level_db(performance.hits["velocity"][hits[1:]])
+    bounces = level_db(performance.fine_velocity[hits[1:]])
     half = len(bounces) // 2
     return float(bounces[-half:].mean() - bounces[:half].mean()) if len(bounces) >= _FEWEST_FOR_SHAPE else np.nan

@@ -14,7 +14,7 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Dynamic, Ornament, Piece
+from station.core.pieces import Dynamic, Piece
 from station.core.units import NS_PER_MS
 from station.music import passages
 from station.music.judgement import Label
@@ -75,7 +75,7 @@ def untold_notes(score: Score, performance: Performance, alignment: Alignment, k
 
 def _close_followers(score: Score) -> NDArray[np.int64]:
     """Pairs (k, 2) of rows that one drop of the hands plays: grace and what follows it, first and second of doubles."""
-    notes, second = score.notes, passages.second_of_doubles(score) | second_of_pairs(score)
+    notes, second = score.notes, passages.second_of_doubles(score)
     order = np.lexsort((score.onset_ns, notes["piece"]))
     before, after = order[:-1], order[1:]
     same = notes["piece"][before] == notes["piece"][after]
@@ -83,15 +83,6 @@ def _close_followers(score: Score) -> NDArray[np.int64]:
     doubled = second[after] & ~score.is_grace[before] & ~score.is_grace[after]
     pairs: NDArray[np.int64] = np.stack([before, after], 1)[same & (led | doubled)]
     return pairs
-
-
-def second_of_pairs(score: Score) -> NDArray[np.bool_]:
-    """Every second stroke of the rows that a diddle or an open roll stands for, piece by piece."""
-    notes, flags = score.notes, np.zeros(len(score), np.bool_)
-    two = np.isin(notes["ornament"], (Ornament.DIDDLE, Ornament.ROLL)) & (notes["duration_ticks"] == 0)
-    for piece in np.unique(notes["piece"][two]):
-        flags[np.flatnonzero(two & (notes["piece"] == piece) & ~score.is_grace)[1::2]] = True
-    return flags
 
 
 def _closest_ms(performance: Performance, piece: int) -> float:

@@ -38,14 +38,14 @@ def db(loud: float, soft: float) -> float:
 
 
 def test_contrast_by_hand() -> None:
-    """100 against 80 is 40·log10(1.25) = 3.9 dB where 40·log10(1.4) = 5.8 dB are written; exact playing, no width."""
+    """100.5 against 80 is 40·log10(1.256) = 4.0 dB where 40·log10(1.4) = 5.8 are written; exact playing, no width."""
     score = accents(8)
-    found = of(score, Played(velocity=np.where(score.notes["dynamic"] == Dynamic.ACCENT, 100, 80)))
+    found = of(score, Played(velocity=np.where(score.notes["dynamic"] == Dynamic.ACCENT, 100.5, 80)))
     (contrast,) = found.contrasts
     assert (contrast.piece, contrast.loud, contrast.soft) == (SNARE, Dynamic.ACCENT, Dynamic.NORMAL)
-    assert contrast.played_db == pytest.approx(db(100, 80))
+    assert contrast.played_db == pytest.approx(db(100.5, 80))
     assert contrast.written_db == pytest.approx(db(112, 80))
-    assert contrast.ci == pytest.approx((db(100, 80), db(100, 80)))
+    assert contrast.ci == pytest.approx((db(100.5, 80), db(100.5, 80)))
 
 
 def test_contrast_is_against_the_players_own_level() -> None:

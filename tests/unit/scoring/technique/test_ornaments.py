@@ -46,6 +46,13 @@ def test_softness_by_hand() -> None:
     assert found.level_db.mean == pytest.approx(11 / 12 * 40 * np.log10(0.35), abs=1e-6)
 
 
+def test_half_a_step_softer_is_softer() -> None:
+    """100 before 100.5: 40·log10(100/100.5) = −0.087 dB."""
+    found = told(Played(velocity=np.where(flams(3).is_grace, 100, 100.5)))
+    assert found.softer == 12
+    assert found.level_db.mean == pytest.approx(-0.087, abs=1e-3)
+
+
 def test_a_grace_stroke_as_loud_as_its_main_stroke_costs_a_tenth() -> None:
     """Six of 24 notes: 100·(1 − 0.1/4); keys that have no velocity lose nothing."""
     velocity = flams(3).notes["velocity"].copy()

@@ -60,12 +60,12 @@ def test_second_strokes_early_by_hand() -> None:
 
 
 def test_second_strokes_softer_by_hand() -> None:
-    """64 after 80: HUMANS' table has −11.9 and −8.0 dB, 3.88 dB softer."""
+    """64.5 after 80: 40·log10(64.5/80) = −3.74 dB."""
     score = thirty_seconds(32)
-    played = take(score, Played(velocity=np.tile([80, 64], 16)))
+    played = take(score, Played(velocity=np.tile([80, 64.5], 16)))
     rolls = open_rolls(score, played.performance, played.alignment)
     assert rolls is not None
-    assert rolls.second_db.mean == pytest.approx(40 * np.log10(64 / 80))
+    assert rolls.second_db.mean == pytest.approx(40 * np.log10(64.5 / 80))
 
 
 # --- buzz rolls -------------------------------------------------------------------------------------------------------

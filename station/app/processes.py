@@ -1,0 +1,21 @@
+"""What the station starts beside itself, each in a process of its own."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from station.app.calibration import MeasuringProcess, Running
+from station.app.engine_client import WakeEngine
+from station.app.export import ANIMATE
+
+if TYPE_CHECKING:
+    from station.app.latency_methods import MeasureRequest
+
+
+@dataclass(frozen=True, slots=True)
+class Processes:
+    """How each is started: `engine` wakes an engine, `measure` begins a measurement, `animate` is a film's command."""
+
+    engine: WakeEngine
+    measure: "Callable[[MeasureRequest], Running]" = MeasuringProcess
+    animate: Sequence[str] = ANIMATE
