@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from station.app.calibration import Told
 from station.app.calibration_results import CalibrationResult, CalibrationResults
-from station.app.export import Export
+from station.app.export import Exporter
 from station.app.help_topics import topic_of
 from station.app.latency_methods import MeasureRequest
 from station.app.model import Stage
@@ -253,7 +253,7 @@ def just_play(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
             break
         ctx.yield_()
     drive.seen["ended"] = not drive.room.room().listening
-    films = drive.window.pages.take.files = Export((sys.executable, "-c", FILMS))
+    films = drive.window.pages.take.files = Exporter((sys.executable, "-c", FILMS))
     ctx.item_click(FILM_LABEL)
     drive.seen["filming"] = films.process is not None
     if films.process is not None:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from imgui_bundle import imgui
 
-from station.app.export import FILM, LOOP, Bars, Export
+from station.app.export import FILM, LOOP, Bars, Exporter
 from station.app.view_settings import ViewSettings
 from station.core.settings import Settings
 from station.drills.lesson import Lesson
@@ -43,7 +43,7 @@ class ExportPanel:
 
     def __init__(self, actions: ExportActions) -> None:
         self._actions = actions
-        self.files = Export()
+        self.files = Exporter()
 
     def gui(self) -> None:
         """Draw the panel and do what the user does in it."""

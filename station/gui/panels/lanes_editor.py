@@ -9,7 +9,7 @@ from itertools import pairwise
 from imgui_bundle import imgui
 
 from station.app.style_controls import CONTROLS
-from station.app.style_editor import PIECES, StyleEditor
+from station.app.style_options import PIECES, StyleOptions
 from station.core.labels import name_of
 from station.gui import theme
 from station.gui.widgets.lane_frame import LaneFrame
@@ -37,7 +37,7 @@ LABELS = _labels()
 class LanesEditor:
     """One control's lane at a time; `control` is its name."""
 
-    def __init__(self, options: StyleEditor) -> None:
+    def __init__(self, options: StyleOptions) -> None:
         self._options = options
         self.control = "amplitude_gain"
         self._grabbed: int | None = None
