@@ -35,7 +35,7 @@ Bars = tuple[int, int]
 """First and last bar of the lesson, from 0."""
 
 
-class Export:
+class Exporter:
     """Writes the files; one video at a time, which `animate` (the first words of a command line) films."""
 
     def __init__(self, animate: Sequence[str] = ANIMATE) -> None:

@@ -18,13 +18,13 @@ from station.core.errors import DeviceError
 from station.core.settings import load_settings, save_settings
 from station.gui import theme
 from station.gui.display import MonitorWatch
+from station.gui.draw_toasts import ABOVE_RESULT, Toasts
 from station.gui.keyboard_kit import pressed
 from station.gui.layout import Calls, WindowOptions, central_area, runner, splits
 from station.gui.panel_table import Pages
 from station.gui.panels.help_window import help_window
 from station.gui.panels.welcome_page import WelcomePage
 from station.gui.player_keys import player_keys
-from station.gui.toasts import ABOVE_RESULT, Toasts
 from station.gui.viewport import Viewport
 from station.render.snapshot import Snapshot
 

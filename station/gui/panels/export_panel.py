@@ -6,7 +6,7 @@ from pathlib import Path
 
 from imgui_bundle import imgui
 
-from station.app.export import FILM, LOOP, Bars, Export
+from station.app.export import FILM, LOOP, Bars, Exporter
 from station.app.view_settings import ViewSettings
 from station.core.settings import Settings
 from station.drills.lesson import Lesson
@@ -41,7 +41,7 @@ class ExportActions:
 class ExportPanel:
     """Three buttons, and what has come of the video."""
 
-    def __init__(self, actions: ExportActions, files: Export) -> None:
+    def __init__(self, actions: ExportActions, files: Exporter) -> None:
         self._actions = actions
         self.files = files
 

@@ -8,7 +8,7 @@ import numpy as np
 from imgui_bundle import imgui, implot
 
 from station.app.style_controls import CONTROLS
-from station.app.style_editor import PIECES, StyleEditor
+from station.app.style_options import PIECES, StyleOptions
 from station.core.labels import name_of
 from station.gui import theme
 from station.gui.widgets import plots
@@ -38,7 +38,7 @@ LABELS = _labels()
 class LanesEditor:
     """One control's lane at a time; `control` is its name."""
 
-    def __init__(self, options: StyleEditor) -> None:
+    def __init__(self, options: StyleOptions) -> None:
         self._options = options
         self.control = "amplitude_gain"
         self._under: Automation = ()

@@ -1,6 +1,6 @@
 """The figure panel: how the demonstrator moves, control by control, in eight slots, and over the bars.
 
-A view over `StyleEditor`; what it changes moves the demonstrator from the next picture on. What was set last is
+A view over `StyleOptions`; what it changes moves the demonstrator from the next picture on. What was set last is
 written to the settings when the mouse is let go, never while somebody plays.
 """
 
@@ -14,7 +14,7 @@ from imgui_bundle import imgui
 from station.app.model import Stage
 from station.app.practice_model import PracticeModel
 from station.app.style_controls import TABS, WORD_LABELS, Control, ControlGroup
-from station.app.style_editor import PIECES, StyleEditor
+from station.app.style_options import PIECES, StyleOptions
 from station.core.errors import StationError
 from station.core.labels import name_of
 from station.core.settings import load_settings, save_settings
@@ -55,7 +55,7 @@ class StylePanel:
         self._settings = settings
         self._tried = tried
         self._preview = preview
-        self.options = StyleEditor(model.casting.who.style)
+        self.options = StyleOptions(model.casting.who.style)
         self._head = StylesHead(self.options, settings, tried)
         self.lanes = LanesEditor(self.options)
         self._opens_bars = False

@@ -10,8 +10,8 @@ from pathlib import Path
 
 from imgui_bundle import imgui
 
-from station.app.style_editor import StyleEditor
 from station.app.style_library import StyleEntry, StyleLibrary
+from station.app.style_options import StyleOptions
 from station.core.settings import load_settings, save_settings
 from station.gui import theme
 from station.gui.widgets.slots import Grid, Use, slot_rows
@@ -32,7 +32,7 @@ Tried = Callable[[Callable[[], object]], None]
 class StylesHead:
     """Styles and slots of `options`; `settings` is the file that keeps what was set, None for this user's."""
 
-    def __init__(self, options: StyleEditor, settings: Path | None, tried: Tried) -> None:
+    def __init__(self, options: StyleOptions, settings: Path | None, tried: Tried) -> None:
         self._options = options
         self._settings = settings
         self._tried = tried

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from station.app.export import LOOP, Export
+from station.app.export import LOOP, Exporter
 from station.app.view_settings import ViewSettings
 from station.cli.animate_options import LEVELS, AnimateOptions
 from station.cli.options import read_options
@@ -44,7 +44,7 @@ def settings(folder: Path) -> Settings:
     return Settings(sessions=str(folder), student="Ann")
 
 
-def ended(files: Export) -> str | None:
+def ended(files: Exporter) -> str | None:
     assert files.process is not None
     files.process.wait(PATIENCE_S)
     return files.news()
@@ -52,20 +52,20 @@ def ended(files: Export) -> str | None:
 
 def test_bars_as_midi(tmp_path: Path) -> None:
     """The first bar of Rock 1: eight hi-hats, two kicks, two snares."""
-    path = Export().midi(ROCK, (0, 0), settings(tmp_path))
+    path = Exporter().midi(ROCK, (0, 0), settings(tmp_path))
     assert path == tmp_path / "Ann" / "take-along" / "rock-1_1-1.mid"
     assert sum(len(track.notes) for track in read_midi(path).tracks) == 12
 
 
 def test_a_lesson_file_is_the_lesson_with_those_bars_as_its_loop(tmp_path: Path) -> None:
-    path = Export().lesson(ROCK, (1, 1), settings(tmp_path))
+    path = Exporter().lesson(ROCK, (1, 1), settings(tmp_path))
     read = find_lesson(str(path))
     assert read.loop == (1, 1)
     assert first_difference(read.score, ROCK.score) == ""
 
 
 def test_a_video_is_filmed_by_another_process_and_told_of_once(tmp_path: Path) -> None:
-    files = Export((sys.executable, "-c", FILMS))
+    files = Exporter((sys.executable, "-c", FILMS))
     files.film(ROCK, (0, 1), settings(tmp_path), ("--quality", "low"))
     path = tmp_path / "Ann" / "take-along" / "rock-1_1-2.mp4"
     assert ended(files) == f"kept in {path}"
@@ -74,7 +74,7 @@ def test_a_video_is_filmed_by_another_process_and_told_of_once(tmp_path: Path) -
 
 
 def test_a_take_is_filmed_beside_its_capture(tmp_path: Path) -> None:
-    files = Export((sys.executable, "-c", FILMS))
+    files = Exporter((sys.executable, "-c", FILMS))
     (tmp_path / "session.capture").write_bytes(b"")
     files.film_take(tmp_path / "session.capture", ("--quality", "low"))
     with pytest.raises(DeviceError, match="one video at a time"):
@@ -93,20 +93,20 @@ def test_it_is_filmed_as_it_is_seen() -> None:
 
 
 def test_a_video_that_fails_says_why_in_one_line(tmp_path: Path) -> None:
-    files = Export((sys.executable, "-c", FAILS))
+    files = Exporter((sys.executable, "-c", FAILS))
     files.film(ROCK, (0, 1), settings(tmp_path))
     assert ended(files) == "no video: no OpenGL: install it"
 
 
 def test_a_program_that_is_not_there_is_said(tmp_path: Path) -> None:
-    files = Export(("no-such-program",))
+    files = Exporter(("no-such-program",))
     with pytest.raises(DeviceError, match="no video can be made"):
         files.film(ROCK, (0, 1), settings(tmp_path))
     assert files.path is None
 
 
 def test_one_video_at_a_time_and_cancelled_it_is_gone(tmp_path: Path) -> None:
-    files = Export((sys.executable, "-c", WAITS))
+    files = Exporter((sys.executable, "-c", WAITS))
     files.film(ROCK, (0, 1), settings(tmp_path))
     with pytest.raises(DeviceError, match="one video at a time"):
         files.film(ROCK, (0, 1), settings(tmp_path))
@@ -119,7 +119,7 @@ def test_one_video_at_a_time_and_cancelled_it_is_gone(tmp_path: Path) -> None:
 def test_cancelling_does_not_wait_for_who_helps_to_draw(tmp_path: Path) -> None:
     """A helper holds what the film says its errors to, and ends only when this test is over."""
     helper = tmp_path / "helper"
-    files = Export((sys.executable, "-c", HELPED, HELPER, str(helper)))
+    files = Exporter((sys.executable, "-c", HELPED, HELPER, str(helper)))
     files.film(ROCK, (0, 1), settings(tmp_path))
     try:
         while not helper.exists():
@@ -131,13 +131,13 @@ def test_cancelling_does_not_wait_for_who_helps_to_draw(tmp_path: Path) -> None:
 
 
 def test_a_film_that_says_more_than_a_pipe_holds_ends(tmp_path: Path) -> None:
-    files = Export((sys.executable, "-c", "import sys; sys.exit('x' * 10**6 + '\\nthe end')"))
+    files = Exporter((sys.executable, "-c", "import sys; sys.exit('x' * 10**6 + '\\nthe end')"))
     files.film(ROCK, (0, 1), settings(tmp_path))
     assert ended(files) == "no video: the end"
 
 
 def test_a_video_whose_place_is_taken_is_not_kept_elsewhere(tmp_path: Path) -> None:
-    files = Export((sys.executable, "-c", FILMS))
+    files = Exporter((sys.executable, "-c", FILMS))
     place = tmp_path / "Ann" / "take-along" / "rock-1_1-2.mp4"
     place.mkdir(parents=True)
     files.film(ROCK, (0, 1), settings(tmp_path))
@@ -146,7 +146,7 @@ def test_a_video_whose_place_is_taken_is_not_kept_elsewhere(tmp_path: Path) -> N
 
 
 def test_a_gif_is_filmed_without_a_click(tmp_path: Path) -> None:
-    files = Export((sys.executable, "-c", FILMS, "animate"))
+    files = Exporter((sys.executable, "-c", FILMS, "animate"))
     files.film(ROCK, (0, 1), settings(tmp_path), ending=LOOP)
     told = ended(files)
     path = tmp_path / "Ann" / "take-along" / "rock-1_1-2.gif"
@@ -155,6 +155,6 @@ def test_a_gif_is_filmed_without_a_click(tmp_path: Path) -> None:
 
 
 def test_the_bars_as_a_sheet(tmp_path: Path) -> None:
-    path = Export().sheet(ROCK, (1, 1), settings(tmp_path))
+    path = Exporter().sheet(ROCK, (1, 1), settings(tmp_path))
     assert path == tmp_path / "Ann" / "take-along" / "rock-1_2-2.pdf"
     assert path.read_bytes().startswith(b"%PDF-")

@@ -19,7 +19,7 @@ _WHOLE, _NEARLY = 100.0, 0.5
 PIECES: Mapping[str, Piece] = {word(piece): piece for piece in Piece}
 
 
-class StyleEditor:
+class StyleOptions:
     """What the user makes of a style; `base` is the one that was chosen, which a reset goes back to."""
 
     def __init__(self, style: Style, slots: Slots | None = None) -> None:

@@ -2,7 +2,7 @@
 
 import pytest
 
-from station.gui.toasts import Toasts, new_of
+from station.gui.draw_toasts import Toasts, new_of
 
 
 @pytest.mark.parametrize(
