@@ -1,13 +1,15 @@
 #!/bin/sh
-# Sets the station up on a computer that has only git, make and Python 3.11 or newer.
+# Sets the station up on a computer that has only git, make and Python 3.11 to 3.13.
 #
 #   tools/setup.sh DIR              system packages the station needs, a virtual environment in DIR, the station in it
 #   tools/setup.sh --test-packages  the system packages that only the tests need
 #
 # On Debian and Ubuntu missing packages come through apt (with sudo when not root); elsewhere a line says what to install.
+# A compiler comes only where a library has no ready-made wheel for this Python and computer (docs/decisions/0038).
 set -eu
 
 RUN_PACKAGES='libportaudio2 libegl1 libgl1 libgl1-mesa-dri libxrandr2 libxinerama1 libxcursor1 libxi6 libxkbcommon0'
+BUILD_PACKAGES='g++ pkg-config libasound2-dev libjack-jackd2-dev'
 TEST_PACKAGES='xvfb jackd2'
 
 missing_of() {
@@ -21,6 +23,7 @@ as_root() {
 }
 
 install_system() {
+    [ "$(uname -s)" = Linux ] || return 0
     if ! command -v apt-get >/dev/null 2>&1; then
         echo "setup: not a Debian or Ubuntu; please see that what these bring is installed: $1" >&2
         return 0
@@ -49,20 +52,36 @@ find_python() {
     return 2
 }
 
+python_package() {
+    "$python" -c 'import sys; print("python%d.%d-%s" % (*sys.version_info[:2], sys.argv[1]))' "$1"
+}
+
+install_station() {
+    "$venv/bin/python" -m pip install --quiet --disable-pip-version-check -c constraints.txt "$@" -e '.[dev]'
+}
+
+install_compiler() {
+    if ! "$python" -c 'import os, sysconfig; os.stat(sysconfig.get_path("include") + "/Python.h")' 2>/dev/null; then
+        BUILD_PACKAGES="$BUILD_PACKAGES $(python_package dev)"
+    fi
+    install_system "$BUILD_PACKAGES"
+}
+
 if [ "${1:-}" = --test-packages ]; then
-    [ "$(uname -s)" = Linux ] || exit 0
     install_system "$TEST_PACKAGES"
     exit 0
 fi
 
 venv=${1:?usage: tools/setup.sh DIR}
 python=$(find_python)
-if [ "$(uname -s)" = Linux ]; then
-    if ! "$python" -c 'import ensurepip' >/dev/null 2>&1; then
-        RUN_PACKAGES="$RUN_PACKAGES $("$python" -c 'import sys; print("python%d.%d-venv" % sys.version_info[:2])')"
-    fi
-    install_system "$RUN_PACKAGES"
+if [ "$(uname -s)" = Linux ] && ! "$python" -c 'import ensurepip' >/dev/null 2>&1; then
+    RUN_PACKAGES="$RUN_PACKAGES $(python_package venv)"
 fi
+install_system "$RUN_PACKAGES"
 [ -x "$venv/bin/python" ] || "$python" -m venv "$venv"
 echo "setup: installing the station into $venv"
-"$venv/bin/python" -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[dev]'
+if ! install_station --only-binary=:all: 2>/dev/null; then
+    echo "setup: not every library comes ready-made for this Python; building what does not"
+    install_compiler
+    install_station
+fi

@@ -10,6 +10,9 @@ from station.core.errors import BadInput, DeviceError, StationError
 from station.core.measured_latency import load_calibration
 from station.core.settings import Settings, load_settings, settings_path
 
+_RTMIDI_NEEDS = "g++ pkg-config python3-dev libasound2-dev libjack-jackd2-dev"
+"""Debian's packages with which rtmidi is built where it has no wheel; tools/setup.sh installs the same."""
+
 
 @dataclass(frozen=True, slots=True)
 class Check:
@@ -21,10 +24,15 @@ class Check:
     remedy: str = ""
 
 
-def all_checks() -> tuple[Callable[[], Check], ...]:
-    """Every check, in the order in which a user meets what it checks."""
+def all_findings() -> list[Check]:
+    """What every check finds, in the order in which a user meets what it checks."""
+    return [_found(check) for check in _all_checks()]
+
+
+def _all_checks() -> tuple[Callable[[], Check], ...]:
     return (
         check_python,
+        check_midi_library,
         check_settings,
         check_midi,
         check_serial,
@@ -38,9 +46,34 @@ def all_checks() -> tuple[Callable[[], Check], ...]:
     )
 
 
+def _found(check: Callable[[], Check]) -> Check:
+    try:
+        return check()
+    except ImportError as fault:
+        name = check.__name__.removeprefix("check_").replace("_", " ")
+        return Check(name, False, f"cannot be looked at: {fault}", "see to the library that cannot be loaded")
+
+
 def check_python() -> Check:
     """The interpreter and the system."""
     return Check("Python", True, f"{platform.python_version()} on {platform.platform(terse=True)}")
+
+
+def check_midi_library() -> Check:
+    """The library behind every MIDI port: whether it loads, and has the drivers of this system."""
+    try:
+        from station.devices.midi.midi_clients import compiled_drivers, lacking_drivers
+    except ImportError as fault:
+        return Check("MIDI library", False, f"rtmidi cannot be loaded: {fault}", _rebuild_rtmidi())
+    built, lacking = ", ".join(compiled_drivers()) or "no driver", ", ".join(lacking_drivers())
+    if lacking:
+        return Check("MIDI library", False, f"rtmidi was built with {built}, without {lacking}", _rebuild_rtmidi())
+    return Check("MIDI library", True, f"rtmidi with {built}")
+
+
+def _rebuild_rtmidi() -> str:
+    install = f"{sys.executable} -m pip install --force-reinstall --no-cache-dir --no-deps python-rtmidi"
+    return f"sudo apt install {_RTMIDI_NEEDS}; {install}" if sys.platform == "linux" else install
 
 
 def check_settings() -> Check:

@@ -10,7 +10,7 @@ from station.app.calibration import Calibration
 from station.app.casting import Casting
 from station.app.catalog import Catalog
 from station.app.demo_player import DemoPlayer
-from station.app.export import Export
+from station.app.export import Exporter
 from station.app.first_start import FirstAnswers
 from station.app.mapping_editor import MappingEditor
 from station.app.model import FreeRequest, RoomState, SessionRequest, ShownResult
@@ -133,7 +133,7 @@ class PracticeModel(Protocol):
         ...
 
     @property
-    def films(self) -> Export:
+    def films(self) -> Exporter:
         """What writes files to take along."""
         ...
 

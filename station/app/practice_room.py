@@ -14,7 +14,7 @@ from station.app.casting import Casting
 from station.app.catalog import Catalog
 from station.app.demo_player import DemoPlayer
 from station.app.engine_client import EngineClient
-from station.app.export import Export
+from station.app.export import Exporter
 from station.app.first_start import FirstAnswers, student_level
 from station.app.first_start import answered as met
 from station.app.free_session import FreeSession
@@ -81,7 +81,7 @@ class PracticeRoom:
         self._goings_on = GoingsOn(self._engine, run, FreeSession(settings, self._latency), self._notices.append)
         self.desk = MappingEditor(self._engine.tell)
         self.calibration = Calibration(self._rest, self._engine.wake, processes.measure)
-        self.films = Export(processes.animate)
+        self.films = Exporter(processes.animate)
         self._ear = Playback(self._engine, self._prepared.has_tracks)
         self._kit = KitCommands(self._prepared, self._goings_on)
         self.deck = DemoPlayer(self._ear.demonstrate, self._prepared.watched(first.lesson, first.kit), who)

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from station.app.diagnostics import Check, all_checks
+from station.app.diagnostics import Check, all_findings
 from station.cli.console import print_json, write
 from station.cli.options import Command, flag
 
@@ -18,7 +18,7 @@ class DoctorOptions:
 
 def run(options: DoctorOptions) -> int:
     """Look at everything; a missing convenience is no failure, so the exit status is 0."""
-    checks = [check() for check in all_checks()]
+    checks = all_findings()
     if options.json:
         rows = [{"name": c.name, "works": c.works, "finding": c.finding, "remedy": c.remedy} for c in checks]
         print_json({"schema": SCHEMA, "checks": rows})

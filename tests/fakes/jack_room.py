@@ -15,6 +15,7 @@ import sys
 import threading
 import time
 from collections import deque
+from contextlib import suppress
 
 import numpy as np
 
@@ -136,8 +137,11 @@ def _burst(rate_hz: int) -> "np.ndarray[tuple[int], np.dtype[np.float32]]":
 
 
 def _plug_on(room: _Room, ended: threading.Event) -> None:
+    import jack
+
     while not ended.is_set():
-        room.plug()
+        with suppress(jack.JackError):  # a port has gone since it was listed
+            room.plug()
         time.sleep(0.02)
 
 

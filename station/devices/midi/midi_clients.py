@@ -35,6 +35,8 @@ APIS = {
     "coremidi": rtmidi.API_MACOSX_CORE,
     "windows": rtmidi.API_WINDOWS_MM,
 }
+_SYSTEM_DRIVERS = {"linux": ("alsa", "jack"), "darwin": ("coremidi",), "win32": ("windows",)}
+"""The drivers that rtmidi's own wheels have, by Python's name of the system."""
 _TITLES = {"alsa": "ALSA", "jack": "JACK", "coremidi": "CoreMIDI", "windows": "Windows MIDI"}
 _REMEDIES = {
     "alsa": "/dev/snd/seq cannot be opened: sudo modprobe snd-seq, and be in the group audio",
@@ -76,6 +78,12 @@ def compiled_drivers() -> tuple[str, ...]:
     """The drivers that this rtmidi was built with, in the order in which they are tried."""
     compiled = rtmidi.get_compiled_api()
     return tuple(name for name, api in APIS.items() if api in compiled)
+
+
+def lacking_drivers() -> tuple[str, ...]:
+    """The drivers of this system that this rtmidi was built without: their headers were not there."""
+    compiled = compiled_drivers()
+    return tuple(name for name in _SYSTEM_DRIVERS.get(sys.platform, ()) if name not in compiled)
 
 
 class DriverClient:

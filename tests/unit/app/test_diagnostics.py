@@ -1,10 +1,14 @@
-"""What the doctor says of settings."""
+"""What the doctor says of settings, and of a MIDI library that does not do."""
 
+import json
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
+import rtmidi
 
-from station.app.diagnostics import check_settings
+from station.app.diagnostics import check_midi_library, check_settings
 
 
 @pytest.mark.parametrize(
@@ -28,3 +32,23 @@ def test_a_setting_that_means_nothing_is_named(
     check = check_settings()
     assert not check.works
     assert finding in check.finding
+
+
+def test_a_midi_library_that_was_built_without_a_driver_is_told_how_to_get_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "platform", "linux")
+    monkeypatch.setattr(rtmidi, "get_compiled_api", lambda: [rtmidi.API_LINUX_ALSA])
+    check = check_midi_library()
+    assert not check.works
+    assert check.finding == "rtmidi was built with alsa, without jack"
+    assert "libjack-jackd2-dev" in check.remedy
+    assert f"{sys.executable} -m pip install" in check.remedy
+
+
+def test_the_doctor_examines_a_computer_on_which_the_midi_library_cannot_be_loaded() -> None:
+    program = "import sys; sys.modules['rtmidi'] = None; from station.cli.command_line import main; sys.exit(main(['doctor', '--json']))"
+    told = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    checks = {check["name"]: check for check in json.loads(told.stdout)["checks"]}
+    assert not checks["MIDI library"]["works"]
+    assert "rtmidi cannot be loaded" in checks["MIDI library"]["finding"]
+    assert checks["Python"]["works"]
+    assert "pictures" in checks
