@@ -5,7 +5,7 @@
 #   tools/setup.sh --test-packages  the system packages that only the tests need
 #
 # On Debian and Ubuntu missing packages come through apt (with sudo when not root); elsewhere a line says what to install.
-# A compiler comes only where a library has no ready-made wheel for this Python and computer (docs/decisions/0038).
+# A compiler comes only where a library has no ready-made wheel for this Python and computer (docs/decisions/0039).
 set -eu
 
 RUN_PACKAGES='libportaudio2 libegl1 libgl1 libgl1-mesa-dri libxrandr2 libxinerama1 libxcursor1 libxi6 libxkbcommon0'
