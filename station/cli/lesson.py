@@ -19,8 +19,13 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     listing.add_argument("--json", action="store_true", help="print one JSON document")
     show = verbs.add_parser("show", help="a lesson, written out")
     show.add_argument("lesson", metavar="LESSON", help="a lesson's name or file")
-    check = verbs.add_parser("check", help="every fault of lesson and course files, with line and column")
-    check.add_argument("paths", metavar="PATH", nargs="+", help="lesson and course files, or folders of them")
+    check = verbs.add_parser("check", help="every fault of lessons, courses and other TOML files, with line and column")
+    check.add_argument(
+        "paths",
+        metavar="PATH",
+        nargs="+",
+        help="lessons, courses, kits, styles, settings …, or folders",
+    )
     verbs.add_parser("new", help="print a lesson to start from")
     importing = verbs.add_parser("import", help="write a lesson from a MIDI file or a take")
     importing.add_argument("source", metavar="SOURCE", help="a MIDI file, or a take")
@@ -85,12 +90,12 @@ def _show(arguments: argparse.Namespace) -> int:
 
 def _check(arguments: argparse.Namespace) -> int:
     """Faults go to standard output, a line each; the summary and the exit status say whether there were any."""
-    from station.drills.authoring import check_lessons
+    from station.app.toml_files import check_files
 
-    faults, count = check_lessons(arguments.paths)
+    faults, count = check_files(arguments.paths)
     for fault in faults:
         print(fault)
-    say(f"{_counted(count, 'lesson')}: {_counted(len(faults), 'fault') if faults else 'no fault'}")
+    say(f"{_counted(count, 'file')}: {_counted(len(faults), 'fault') if faults else 'no fault'}")
     return 2 if faults else 0
 
 
