@@ -12,7 +12,7 @@ from datetime import date, datetime
 from enum import IntEnum
 from typing import Any, Generic, TypeVar
 
-from station.core.did_you_mean import FEW, did_you_mean, nearest
+from station.core.did_you_mean import did_you_mean, nearest
 from station.core.errors import BadInput
 from station.core.pieces import word
 from station.core.toml_places import KeyPath, Places
@@ -25,6 +25,8 @@ Reader = Callable[[object], T]
 MOST_FAULTS = 1000
 """More are not told: whoever mends a file mends these first (our choice)."""
 _LONGEST_SHOWN = 40
+_LONGEST_LISTED = 80
+"""Letters of a value, and of the words to choose from, that a message repeats (our choice)."""
 
 
 # --- what is wrong ----------------------------------------------------------------------------------------------------
@@ -88,13 +90,23 @@ class Faults:
     def __len__(self) -> int:
         return len(self.noted)
 
+    @property
+    def are_many(self) -> bool:
+        """Whether no more of them are told."""
+        return len(self.noted) >= MOST_FAULTS
+
     def check(self) -> None:
         """Raise `Wrong` with all of them if there is any."""
         if self.noted:
             raise Wrong(*self.noted)
 
     def attempt(self, read: Reader[T], value: object, default: T, *path: str | int) -> T:
-        """What `value`, which stands at `path`, means; `default`, and its faults noted, where it is wrong."""
+        """What `value`, which stands at `path`, means; `default`, and its faults noted, where it is wrong.
+
+        Where there are too many faults already nothing more is read.
+        """
+        if self.are_many:
+            return default
         try:
             return read(value)
         except Wrong as found:
@@ -141,7 +153,7 @@ def taken(raw: object, fields: Fields, noun: str = "key") -> tuple[dict[str, Any
     for key, value in table.items():
         if key in fields:
             values[key] = faults.attempt(fields[key].read, value, fields[key].default, key)
-        else:
+        elif not faults.are_many:
             faults.add((key,), no_such(noun, key, fields), at_key=True)
     for key, each in fields.items():
         if key not in table:
@@ -180,6 +192,8 @@ def table_of(read_key: Reader[K], read: Reader[T]) -> Reader[dict[K, T]]:
         found: dict[K, Any] = {}
         faults = Faults()
         for key, value in _table(raw).items():
+            if faults.are_many:
+                break
             try:
                 name = read_key(key)
             except Wrong as fault:
@@ -331,14 +345,17 @@ def whole_key(low: int, high: int) -> Reader[int]:
 
 def choice(choices: Mapping[str, T], noun: str) -> Reader[T]:
     """What one of some words stands for; `noun` is what they are called."""
+    words = either(choices)
+    listed = words if len(words) <= _LONGEST_LISTED else ""
 
     def read(value: object) -> T:
-        if isinstance(value, str) and value in choices:
+        if not isinstance(value, str):
+            raise wrong(f"expected {listed or f'a {noun}'}, found {shown(value)}")
+        if value in choices:
             return choices[value]
-        if isinstance(value, str) and len(choices) > FEW:
+        if not listed:
             raise wrong(no_such(noun, value, choices))
-        near = nearest(value, choices) if isinstance(value, str) else ""
-        raise wrong(f"expected {either(choices) if len(choices) <= FEW else f'a {noun}'}, found {shown(value)}{near}")
+        raise wrong(f"expected {listed}, found {shown(value)}{nearest(value, choices)}")
 
     return read
 

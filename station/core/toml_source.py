@@ -23,7 +23,7 @@ _MOST_KEYS = 100
 
 _PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
 _KEY = r"""(?:[A-Za-z0-9_-]+|"[^"\n]*"|'[^'\n]*')"""
-_ENDLESS_KEY = re.compile(rf"(?:^[ \t]*\[?\[?|[{{,])[ \t]*+(?:{_KEY}[ \t]*+\.[ \t]*+){{{_MOST_KEYS}}}", re.MULTILINE)
+_ENDLESS_KEY = re.compile(rf"(?:^[ \t]*+\[?+\[?+|[{{,])[ \t]*+(?:{_KEY}[ \t]*+\.[ \t]*+){{{_MOST_KEYS}}}", re.MULTILINE)
 _WHOLE = re.compile(r"[+-]?[0-9_]+\s*")
 
 _PLAIN_WORDS = (

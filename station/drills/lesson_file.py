@@ -40,7 +40,16 @@ from station.core.toml_places import KeyPath
 from station.core.toml_source import MAX_FILE_BYTES, Source, source_of, text_source
 from station.core.units import PPQ
 from station.drills.grid.cell_strokes import Origin, Velocities, WrittenCell, expand
-from station.drills.grid.grid_reader import TIMING, CellTiming, GridSection, note_length, read_grid, timing_of
+from station.drills.grid.grid_reader import (
+    MAX_BARS,
+    MAX_CELLS,
+    TIMING,
+    CellTiming,
+    GridSection,
+    note_length,
+    read_grid,
+    timing_of,
+)
 from station.drills.grid.swing import MAX_RATIO, MIN_RATIO, STRAIGHT, Swing
 from station.drills.grid.tab_symbols import LINE_PIECES
 from station.drills.lesson import (
@@ -61,6 +70,8 @@ _MIDI = b"MThd"
 MAX_PASSES = 1000
 MAX_COUNT_IN_BARS = 8
 MAX_DEMONSTRATIONS = 20
+MAX_STROKES = 20_000
+"""Half an hour at ten strokes a second; a session with more takes longer to prepare than anyone waits (our choice)."""
 DEFAULT_TIMING = CellTiming(80.0, MeterChange(0, 4, 4), PPQ)
 """Where a file says no tempo: a slow walk, our choice."""
 DEFAULT_SWING_TICKS = PPQ // 2
@@ -165,7 +176,8 @@ def _lesson(name: str, values: Mapping[str, Any], faults: Faults) -> Lesson:
     """The lesson that these values make; raises `Wrong` for their `faults` and all that is found on the way."""
     timing = timing_of(values, DEFAULT_TIMING, faults)
     swing = Swing(values["swing_ratio"], DEFAULT_SWING_TICKS if values["swing_unit"] is None else values["swing_unit"])
-    sections = _sections(values["grid"], timing, faults)
+    nothing: list[GridSection] = []
+    sections = faults.attempt(lambda grids: _sections(grids, timing, faults), values["grid"], nothing)
     if _crosses(swing, timing, sections):
         key = "swing_ratio" if values["swing_unit"] is None else "swing_unit"
         faults.add((key,), "the beat is no whole number of pairs to swing; expected a shorter swing_unit")
@@ -189,19 +201,38 @@ def _lesson(name: str, values: Mapping[str, Any], faults: Faults) -> Lesson:
 
 
 def _sections(grids: object, timing: CellTiming, faults: Faults) -> list[GridSection]:
-    """The grids of the file, one after the other; there may be one `[grid]` or several `[[grid]]`."""
+    """The grids of the file, one after the other; there may be one `[grid]` or several `[[grid]]`.
+
+    Raises `Wrong` where there is more than anyone practises, before much time is spent on it.
+    """
     if grids is None:
         return []
     several = isinstance(grids, list)
     if grids == []:
         faults.add(("grid",), "no grid to play; expected a table [grid] with lines in it")
+    if (letters := _letters(grids)) > MAX_CELLS:
+        raise wrong(f"{letters} letters; a lesson has at most {MAX_CELLS}", "grid")
     sections: list[GridSection] = []
+    bars = strokes = 0
     for i, raw in enumerate(grids if isinstance(grids, list) else [grids]):
         path: KeyPath = ("grid", i) if several else ("grid",)
         sections.append(read_grid(raw, path, sections[-1] if sections else timing, faults))
+        bars, strokes = bars + sections[-1].bars, strokes + len(sections[-1].strokes)
+        if bars > MAX_BARS:
+            raise wrong(f"{bars} bars up to here; a lesson has at most {MAX_BARS}", *path)
+        if strokes > MAX_STROKES:
+            raise wrong(f"{strokes} strokes up to here; a lesson has at most {MAX_STROKES}", *path)
     if sections and not any(s.strokes for s in sections) and not faults:
         faults.add(("grid",), "nothing to play: every cell is a rest", at_key=True)
     return sections
+
+
+def _letters(raw: object) -> int:
+    """The length of all texts in a raw value."""
+    if isinstance(raw, str):
+        return len(raw)
+    parts = raw.values() if isinstance(raw, dict) else raw if isinstance(raw, list) else ()
+    return sum(map(_letters, parts))
 
 
 def _crosses(swing: Swing, timing: CellTiming, sections: Sequence[GridSection]) -> bool:

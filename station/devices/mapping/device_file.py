@@ -63,7 +63,7 @@ from station.devices.mapping.device_map import (
     PedalRange,
 )
 from station.devices.mapping.device_writer import kit_text
-from station.devices.mapping.presets import GENERAL_MIDI_PRESET, preset_named, stable_name
+from station.devices.mapping.presets import GENERAL_MIDI_PRESET, PRESETS, stable_name
 from station.devices.mapping.velocity_curve import (
     LEAST_SPAN,
     LOUDEST_FROM,
@@ -170,13 +170,7 @@ def _kit(name: str, base: DeviceMap, values: Mapping[str, Any]) -> DeviceMap:
     )
 
 
-def _preset(value: object) -> DeviceMap:
-    try:
-        return preset_named(text(value))
-    except BadInput as fault:
-        raise wrong(fault.fault) from None
-
-
+_preset = choice(PRESETS, "kit preset")
 _PIECES = words_of(Piece)
 _NOTE = whole_key(0, 127)
 _PIECE = choice(_PIECES, "piece")

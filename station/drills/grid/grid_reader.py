@@ -33,6 +33,9 @@ MAX_BEATS = 32
 UNITS = (1, 2, 4, 8, 16, 32)
 MAX_BARS = 2000
 """Our choice: no lesson is an hour long; a longer one is a slip of the finger."""
+MAX_CELLS = 200_000
+"""Letters of all lines, repeated bars too, that are read within half a second: five lines of 800 bars of 48 (our
+choice)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,6 +213,9 @@ class _Builder:
         parsed = [(raw, parse_line(raw.text, frame, self._report(raw.line))) for raw in self.lines]
         under = parse_line(self.sticking.text, frame, self._report(self.sticking.line)) if self.sticking else []
         count = self._bar_count(parsed, under)
+        cells = sum(len(bar.cells) for _, bars in parsed for bar in bars[:count]) * self.times
+        if cells > MAX_CELLS:
+            raise wrong(f"{cells} cells; a lesson has at most {MAX_CELLS}", *self.lines[0].line.path)
         length = self.timing.meter.bar_ticks
         places = [(self.start_tick + i * length, length) for i in range(count * self.times)]
         before = len(self.faults)

@@ -1,5 +1,6 @@
 """Files read into lessons; expected values are what the text says, places counted by eye."""
 
+import time
 from pathlib import Path
 
 import pytest
@@ -170,6 +171,28 @@ def test_reading_a_file_raises_its_first_fault(tmp_path: Path) -> None:
         match=r"bad\.toml: line 3, column 11: 'q'.*\(and 1 more: `station lesson check .*bad\.toml` lists them\)$",
     ):
         read_lesson(path)
+
+
+FINE = "o" * 3840  # a bar of 4/4 in cells of one tick
+LONG = {
+    "letters": ("snare = '" + "|".join([FINE] * 200) + "'", "768199 letters; a lesson has at most 200000"),
+    "cells": (f"snare = '{FINE} | %99'", "384000 cells; a lesson has at most 200000"),
+    "strokes": (f"snare = '{FINE} | %9'", "38400 strokes up to here; a lesson has at most 20000"),
+    "bars": (
+        "snare = 'o | %199'\ntimes = 10\n[[grid]]\nsnare = 'o'",
+        "2001 bars up to here; a lesson has at most",
+    ),
+}
+
+
+@pytest.mark.parametrize("what", LONG)
+def test_a_lesson_of_more_than_anyone_practises_is_refused_at_once(what: str) -> None:
+    """Nobody waits for it: less than a second of the processor's time, and of a slow one's three."""
+    grid, words = LONG[what]
+    began_s = time.process_time()
+    found = faults(f'title = "T"\ntempo_bpm = 40\n[[grid]]\n{grid}\n')
+    assert words in " ".join(fault.text for fault in found)
+    assert time.process_time() - began_s < 3
 
 
 def test_a_file_of_windows_notepad_reads(tmp_path: Path) -> None:
