@@ -6,7 +6,8 @@ from pathlib import Path
 
 from station.core import measured_latency, settings
 from station.core.errors import BadInput
-from station.core.schema import Fault, Reader, reading
+from station.core.schema import Reader, reading
+from station.core.toml_faults import Fault
 from station.core.toml_source import Source
 from station.devices.mapping import device_file
 from station.drills import course, lesson_file

@@ -14,24 +14,8 @@ from platformdirs import user_config_path, user_documents_path
 from station.core.errors import BadInput
 from station.core.files import NoSuchFile, write_whole
 from station.core.pieces import Piece
-from station.core.schema import (
-    Fault,
-    Field,
-    Fields,
-    Reader,
-    Wrong,
-    flag,
-    number,
-    placed,
-    record,
-    refused,
-    shown,
-    taken,
-    text,
-    whole,
-    words_of,
-    wrong,
-)
+from station.core.schema import Field, Fields, Reader, flag, number, record, shown, taken, text, whole, words_of
+from station.core.toml_faults import Fault, Wrong, placed, refused, wrong
 from station.core.toml_source import read_source
 from station.core.toml_write import toml_value
 

@@ -8,7 +8,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from station.core.schema import Faults, Field, Fields, Reader, list_of, prose, read, taken, title, whole
+from station.core.schema import Field, Fields, Reader, list_of, prose, read, taken, title, whole
+from station.core.toml_faults import Faults
 from station.core.toml_source import read_source
 from station.drills.lesson import LEVELS
 

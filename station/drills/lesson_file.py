@@ -16,8 +16,6 @@ import numpy as np
 from station.core.errors import BadInput
 from station.core.files import read_regular
 from station.core.schema import (
-    Fault,
-    Faults,
     Field,
     Fields,
     Reader,
@@ -34,8 +32,8 @@ from station.core.schema import (
     taken,
     title,
     whole,
-    wrong,
 )
+from station.core.toml_faults import Fault, Faults, wrong
 from station.core.toml_places import KeyPath
 from station.core.toml_source import MAX_FILE_BYTES, Source, source_of, text_source
 from station.core.units import PPQ

@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 
 from station.app.toml_files import KINDS
 from station.core.errors import BadInput
-from station.core.schema import Fault, reading
+from station.core.schema import reading
+from station.core.toml_faults import Fault
 from station.core.toml_source import Source, source_of
 from tests.toml_kinds import GOOD, read_as
 

@@ -30,7 +30,6 @@ from station.core.files import write_whole
 from station.core.note_map import NoteMeaning
 from station.core.pieces import Articulation, Piece, Zone
 from station.core.schema import (
-    Faults,
     Field,
     Fields,
     Reader,
@@ -48,9 +47,9 @@ from station.core.schema import (
     whole,
     whole_key,
     words_of,
-    wrong,
 )
 from station.core.settings import settings_path
+from station.core.toml_faults import Faults, wrong
 from station.core.toml_source import read_source, text_source
 from station.core.units import ns_from_ms
 from station.devices.mapping.device_map import (

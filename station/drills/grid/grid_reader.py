@@ -6,20 +6,8 @@ from itertools import chain
 from typing import Any
 
 from station.core.pieces import Limb, Piece, word
-from station.core.schema import (
-    Faults,
-    Field,
-    Fields,
-    Reader,
-    anything,
-    number,
-    optional,
-    shown,
-    taken,
-    title,
-    whole,
-    wrong,
-)
+from station.core.schema import Field, Fields, Reader, anything, number, optional, shown, taken, title, whole
+from station.core.toml_faults import Faults, wrong
 from station.core.toml_places import KeyPath
 from station.core.units import PPQ
 from station.drills.grid.cell_strokes import GridLine, WrittenCell, line_strokes

@@ -33,9 +33,9 @@ from station.core.schema import (
     table_of,
     text,
     words_of,
-    wrong,
 )
 from station.core.shipped import find_shipped, shipped
+from station.core.toml_faults import wrong
 from station.core.toml_source import read_source
 from station.motion.kit.piece import SPOTS, KitPiece, Target, ZoneSpot
 

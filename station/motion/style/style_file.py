@@ -28,9 +28,9 @@ from station.core.schema import (
     text,
     whole,
     words_of,
-    wrong,
 )
 from station.core.shipped import find_shipped, shipped
+from station.core.toml_faults import wrong
 from station.core.toml_source import read_source
 from station.core.toml_write import toml_text
 from station.motion.style.style import NUMBERS, WORDS, Automation, Style, range_of

@@ -35,8 +35,8 @@ from station.core.schema import (
     table_of,
     text,
     whole,
-    wrong,
 )
+from station.core.toml_faults import wrong
 from station.core.toml_source import read_source
 from station.sound.drum_kit import LEVEL_LAW, MAX_VELOCITY, DrumKit, Frames, Layer, Sound, level_of
 from station.sound.samples.audio_file import ENDINGS

@@ -6,7 +6,6 @@ import pytest
 
 from station.core.errors import BadInput
 from station.core.schema import (
-    MOST_FAULTS,
     Field,
     Reader,
     choice,
@@ -24,8 +23,8 @@ from station.core.schema import (
     table_of,
     text,
     whole,
-    wrong,
 )
+from station.core.toml_faults import MOST_FAULTS, wrong
 from station.core.toml_source import source_of, text_source
 
 
