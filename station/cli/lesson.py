@@ -31,7 +31,7 @@ class LessonOptions:
 class PathsOptions:
     """Which files are checked."""
 
-    paths: tuple[str, ...] = arguments("PATH", "lesson and course files, or folders of them")
+    paths: tuple[str, ...] = arguments("PATH", "lessons, courses, kits, styles, settings …, or folders")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -98,12 +98,12 @@ def _show(options: LessonOptions) -> int:
 
 def _check(options: PathsOptions) -> int:
     """Faults go to standard output, a line each; the summary and the exit status say whether there were any."""
-    from station.drills.authoring import check_lessons
+    from station.app.toml_files import check_files
 
-    faults, count = check_lessons(options.paths)
+    faults, count = check_files(options.paths)
     for fault in faults:
         write(str(fault))
-    say(f"{_counted(count, 'lesson')}: {_counted(len(faults), 'fault') if faults else 'no fault'}")
+    say(f"{_counted(count, 'file')}: {_counted(len(faults), 'fault') if faults else 'no fault'}")
     return 2 if faults else 0
 
 
@@ -158,7 +158,11 @@ COMMAND = Verbs(
     (
         ("list", "the lessons and courses that are shipped", Command(LessonsOptions, _list)),
         ("show", "a lesson, written out", Command(LessonOptions, _show)),
-        ("check", "every fault of lesson and course files, with line and column", Command(PathsOptions, _check)),
+        (
+            "check",
+            "every fault of lessons, courses and other TOML files, with line and column",
+            Command(PathsOptions, _check),
+        ),
         ("new", "print a lesson to start from", Command(NoOptions, _new)),
         ("import", "write a lesson from a MIDI file or a take", Command(ImportOptions, _import)),
         ("export", "write a lesson as a MIDI file", Command(ExportOptions, _export)),

@@ -1,4 +1,4 @@
-"""Files that are written whole or not at all."""
+"""Files that are read whole, and files that are written whole or not at all."""
 
 import os
 import secrets
@@ -7,7 +7,34 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from station.core.errors import DeviceError
+from station.core.errors import BadInput, DeviceError
+
+
+class NoSuchFile(BadInput):
+    """There is no file of that name."""
+
+    def __init__(self, source: str | Path, place: str = "", fault: str = "no such file") -> None:
+        super().__init__(source, place, fault)
+
+
+def read_regular(path: Path, most_bytes: int) -> bytes:
+    """What the file at `path` holds; raises `NoSuchFile`, or `BadInput` if it is too large or no regular file.
+
+    A pipe or a terminal would make the reader wait for ever, `/dev/zero` never ends: none of them is opened.
+    """
+    try:
+        if not stat.S_ISREG(path.stat().st_mode):
+            what = "Is a directory" if path.is_dir() else "not a regular file"
+            raise BadInput(path, "", f"cannot be read: {what}")
+        with path.open("rb") as file:
+            data = file.read(most_bytes + 1)
+    except (FileNotFoundError, ValueError):  # or a name that no file can have
+        raise NoSuchFile(path) from None
+    except OSError as fault:
+        raise BadInput(path, "", f"cannot be read: {fault.strerror or fault}") from fault
+    if len(data) > most_bytes:
+        raise BadInput(path, "", f"longer than {most_bytes} bytes")
+    return data
 
 
 def write_whole(path: Path, data: bytes) -> None:

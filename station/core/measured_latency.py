@@ -6,17 +6,30 @@ reports. A file that does not exist says nothing; a fault in it is named with it
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
-from datetime import date, datetime
+from dataclasses import dataclass, field, replace
+from datetime import date
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any
 
-from station.core.did_you_mean import did_you_mean
-from station.core.errors import BadInput
-from station.core.files import write_whole
+from station.core.files import NoSuchFile, write_whole
 from station.core.pieces import Piece, word
+from station.core.schema import (
+    Field,
+    Fields,
+    Reader,
+    day,
+    key_of,
+    needed,
+    number,
+    read,
+    record,
+    table_of,
+    text,
+    words_of,
+)
 from station.core.settings import settings_path
-from station.core.toml_table import parse_toml
+from station.core.toml_source import read_source
 from station.core.toml_write import toml_text, toml_value
 
 FILE_NAME = "calibration.toml"
@@ -77,81 +90,40 @@ def calibration_path() -> Path:
 
 def load_calibration(path: Path | None = None) -> StoredCalibration:
     """What was measured, from `path` (this user's by default); raises `BadInput` for a file that is not ours."""
-    source = path or calibration_path()
     try:
-        data = source.read_bytes()
-    except FileNotFoundError:
+        source = read_source(path or calibration_path())
+    except NoSuchFile:
         return StoredCalibration()
-    except OSError as fault:
-        raise BadInput(source, "", fault.strerror or str(fault)) from fault
-    raw = parse_toml(data, source)
-    for key in raw:
-        if key not in ("outputs", "kits"):
-            raise BadInput(source, key, "no such table; there are outputs, kits")
-    tables = _Tables(source)
-    outputs = {name: tables.measured(table, f"outputs.{name}") for name, table in tables.of(raw, "outputs").items()}
-    kits = {name: tables.kit(table, f"kits.{name}") for name, table in tables.of(raw, "kits").items()}
+    return read(source, CALIBRATION)
+
+
+def _kit(pads: Mapping[Piece, MeasuredLatency], **kit: Any) -> DeviceLatency:  # noqa: ANN401 - the fields of `MeasuredLatency`
+    return DeviceLatency(MeasuredLatency(**kit), MappingProxyType(pads))
+
+
+def _calibration(outputs: Mapping[str, MeasuredLatency], kits: Mapping[str, DeviceLatency]) -> StoredCalibration:
     return StoredCalibration(MappingProxyType(outputs), MappingProxyType(kits))
 
 
-@dataclass(frozen=True, slots=True)
-class _Tables:
-    """Reads the tables of one file and names the place of a fault."""
-
-    source: Path
-
-    def of(self, raw: Mapping[str, object], key: str, place: str = "") -> dict[str, dict[str, object]]:
-        found = raw.get(key, {})
-        where = f"{place}.{key}" if place else key
-        if not isinstance(found, dict):
-            raise BadInput(self.source, where, "expected a table")
-        for name, table in found.items():
-            if not isinstance(table, dict):
-                raise BadInput(self.source, f"{where}.{name}", "expected a table")
-        return found
-
-    def kit(self, table: Mapping[str, object], place: str) -> DeviceLatency:
-        pads = {}
-        for name, pad in self.of(table, "pads", place).items():
-            if name not in _PIECES:
-                raise BadInput(self.source, f"{place}.pads.{name}", f"no such piece{did_you_mean(name, _PIECES)}")
-            pads[_PIECES[name]] = self.measured(pad, f"{place}.pads.{name}")
-        rest = {key: value for key, value in table.items() if key != "pads"}
-        return DeviceLatency(self.measured(rest, place), MappingProxyType(pads))
-
-    def measured(self, table: Mapping[str, object], place: str) -> MeasuredLatency:
-        for key in table:
-            if key not in _KEYS:
-                raise BadInput(self.source, f"{place}.{key}", f"no such key{did_you_mean(key, _KEYS)}")
-        return MeasuredLatency(
-            self._number(table, "latency_ms", place, -MOST_MS),
-            self._number(table, "half_ms", place, 0.0),
-            self._text(table, "by", place),
-            self._day(table, "on", place),
-            self._text({"doubts": "", **table}, "doubts", place),
-        )
-
-    def _number(self, table: Mapping[str, object], key: str, place: str, least: float) -> float:
-        value = table.get(key)
-        if not isinstance(value, int | float) or isinstance(value, bool) or not least <= value <= MOST_MS:
-            raise BadInput(self.source, f"{place}.{key}", f"expected {least:g} to {MOST_MS:g}, found {value!r}")
-        return float(value)
-
-    def _text(self, table: Mapping[str, object], key: str, place: str) -> str:
-        value = table.get(key)
-        if not isinstance(value, str):
-            raise BadInput(self.source, f"{place}.{key}", f"expected a text in quotes, found {value!r}")
-        return value
-
-    def _day(self, table: Mapping[str, object], key: str, place: str) -> date:
-        value = table.get(key)
-        if not isinstance(value, date) or isinstance(value, datetime):
-            raise BadInput(self.source, f"{place}.{key}", f"expected a day such as 2026-01-31, found {value!r}")
-        return value
-
-
-_KEYS = tuple(each.name for each in fields(MeasuredLatency))
-_PIECES = {word(piece): piece for piece in Piece}
+_MEASURED: Fields = MappingProxyType(
+    {
+        "latency_ms": needed(number(-MOST_MS, MOST_MS)),
+        "half_ms": needed(number(0.0, MOST_MS)),
+        "by": needed(text),
+        "on": needed(day),
+        "doubts": Field(text, ""),
+    }
+)
+_measured = record(MeasuredLatency, _MEASURED)
+_pads = table_of(key_of(words_of(Piece), "piece"), _measured)
+FIELDS: Fields = MappingProxyType(
+    {
+        "outputs": Field(table_of(text, _measured), {}),
+        "kits": Field(table_of(text, record(_kit, {**_MEASURED, "pads": Field(_pads, {})})), {}),
+    }
+)
+CALIBRATION: Reader[StoredCalibration] = record(_calibration, FIELDS, "table")
+"""The schema of the file."""
 
 
 # --- writing ---------------------------------------------------------------------------------------------------------
@@ -171,6 +143,6 @@ def save_calibration(calibration: StoredCalibration, path: Path | None = None) -
 
 
 def _table(place: str, measured: MeasuredLatency) -> str:
-    values = {key: getattr(measured, key) for key in _KEYS}
+    values = {key: getattr(measured, key) for key in _MEASURED}
     lines = [f"{key} = {toml_value(value)}\n" for key, value in values.items() if (key, value) != ("doubts", "")]
     return f"[{place}]\n{''.join(lines)}"

@@ -1,20 +1,22 @@
 """The user's settings: one TOML file, read whole and written whole.
 
-An unknown key or a value of another type is the file's fault and named with its key; a file that does not exist is the
-defaults. Writing goes through a temporary file beside it, so that a full disk never leaves half a file.
+An unknown key or a value of another type is the file's fault and named with its line; a file that does not exist is
+the defaults. Writing goes through a temporary file beside it, so that a full disk never leaves half a file.
 """
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
+from types import MappingProxyType
 
 from platformdirs import user_config_path, user_documents_path
 
-from station.core.did_you_mean import did_you_mean
 from station.core.errors import BadInput
-from station.core.files import write_whole
-from station.core.pieces import Piece, word
-from station.core.toml_table import parse_toml
+from station.core.files import NoSuchFile, write_whole
+from station.core.pieces import Piece
+from station.core.schema import Field, Fields, Reader, flag, number, record, shown, taken, text, whole, words_of
+from station.core.toml_faults import Fault, Wrong, placed, refused, wrong
+from station.core.toml_source import read_source
 from station.core.toml_write import toml_value
 
 APP_NAME = "drum-station"
@@ -22,15 +24,6 @@ APP_NAME = "drum-station"
 
 SMALLEST_PANELS, LARGEST_PANELS = 0.75, 2.5
 """How small and how large the window's panels may be (our choice: read at arm's length, and from across the room)."""
-_RANGES: dict[str, tuple[float, float]] = {
-    "panel_scale": (SMALLEST_PANELS, LARGEST_PANELS),
-    "block_frames": (0, 8192),
-    "rate_hz": (8_000, 384_000),
-    "input_latency_ms": (-1000, 1000),
-    "output_latency_ms": (-1000, 1000),
-    "mask_ms": (0, 100),
-}
-"""What a sound card or a person could mean; our choice, wide enough for every device on sale."""
 LEAST_BLOCK_FRAMES = 16
 """Less is beyond any driver here (our choice); 0 leaves the size to it."""
 
@@ -100,7 +93,10 @@ class Settings:
     @property
     def threshold_of(self) -> dict[Piece, int]:
         """The least velocity that each pad in `thresholds` sends."""
-        return _thresholds(self.thresholds, settings_path())
+        try:
+            return _thresholds(self.thresholds)
+        except Wrong as fault:
+            raise BadInput(settings_path(), "thresholds", str(fault)) from None
 
     @property
     def sessions_dir(self) -> Path:
@@ -133,6 +129,61 @@ def settings_path() -> Path:
     return user_config_path(APP_NAME, appauthor=False) / "settings.toml"
 
 
+# --- reading ----------------------------------------------------------------------------------------------------------
+
+_PIECES = words_of(Piece)
+_LOUDEST = 127
+
+
+def _thresholds(written: str) -> dict[Piece, int]:
+    """`snare=20 tom_1=15` as a table."""
+    found: dict[Piece, int] = {}
+    for entry in written.split():
+        name, _, velocity = entry.partition("=")
+        sent = int(velocity) if velocity.isdecimal() and len(velocity) < 4 else 0
+        if name not in _PIECES or not 1 <= sent <= _LOUDEST:
+            raise wrong(f"expected PIECE=1…{_LOUDEST}, such as snare=20, found {shown(entry)}")
+        found[_PIECES[name]] = sent
+    return found
+
+
+def _threshold_text(value: object) -> str:
+    """A text that `_thresholds` understands."""
+    _thresholds(text(value))
+    return text(value)
+
+
+def _block(value: object) -> int:
+    """Frames of one audio block, or 0."""
+    frames = whole(0, 8192)(value)
+    if 0 < frames < LEAST_BLOCK_FRAMES:
+        raise wrong(f"expected 0 (the driver's choice) or {LEAST_BLOCK_FRAMES} to 8192, found {frames}")
+    return frames
+
+
+_SPECIAL: Mapping[str, Reader[object]] = MappingProxyType(
+    {
+        "panel_scale": number(SMALLEST_PANELS, LARGEST_PANELS),
+        "block_frames": _block,
+        "rate_hz": whole(8_000, 384_000),
+        "input_latency_ms": number(-1000, 1000),
+        "output_latency_ms": number(-1000, 1000),
+        "mask_ms": number(0, 100),
+        "thresholds": _threshold_text,
+    }
+)
+"""What a sound card or a person could mean; our choice, wide enough for every device on sale. The others are texts and
+truths."""
+FIELDS: Fields = MappingProxyType(
+    {
+        each.name: Field(_SPECIAL.get(each.name, flag if isinstance(each.default, bool) else text), each.default)
+        for each in fields(Settings)
+    }
+)
+SETTINGS: Reader[Settings] = record(Settings, FIELDS, "setting")
+"""The schema of the file."""
+
+
 def setting_source(key: str) -> str:
     """How a complaint of the setting `key` begins: where it is kept, and which it is."""
     return f"{settings_path()}: {key}"
@@ -140,65 +191,34 @@ def setting_source(key: str) -> str:
 
 def load_settings(path: Path | None = None) -> Settings:
     """Settings from `path` (this user's by default); raises `BadInput` for a file that is not ours."""
-    source = path or settings_path()
+    settings, faults = read_settings(path)
+    if faults:
+        raise refused(faults)
+    return settings
+
+
+def read_settings(path: Path | None = None) -> tuple[Settings, list[Fault]]:
+    """Settings from `path` (this user's by default), the default where one is wrong or not said, and all faults.
+
+    Raises `BadInput` where there is a file that cannot be read.
+    """
     try:
-        data = source.read_bytes()
-    except FileNotFoundError:
-        return Settings()
-    except OSError as fault:
-        raise BadInput(source, "", fault.strerror or str(fault)) from fault
-    return _checked(parse_toml(data, source), source)
-
-
-_WORDS: dict[type, str] = {str: "a text in quotes", int: "a whole number", float: "a number", bool: "true or false"}
-
-
-def _checked(raw: dict[str, object], source: Path) -> Settings:
-    types = {f.name: type(getattr(Settings(), f.name)) for f in fields(Settings)}
-    values: dict[str, object] = {}
-    for key, value in raw.items():
-        if key not in types:
-            raise BadInput(source, key, f"no such setting{did_you_mean(key, types)}")
-        if types[key] is float and type(value) is int:
-            value = float(value)  # noqa: PLW2901 - TOML writes 5.0 and 5 alike for a person
-        if type(value) is not types[key]:
-            raise BadInput(source, key, f"expected {_WORDS[types[key]]}, found {value!r}")
-        _check_range(key, value, source)
-        values[key] = value
-    _thresholds(str(values.get("thresholds", "")), source)
-    return Settings(**values)  # type: ignore[arg-type] # each value's type was compared with its field's default
+        source = read_source(path or settings_path())
+    except NoSuchFile:
+        return Settings(), []
+    values, faults = taken(source.raw, FIELDS, "setting")
+    return Settings(**values), placed(source, faults.noted)
 
 
 def with_said(settings: Settings, said: Mapping[str, object], source: str) -> Settings:
     """The settings with what `said` has instead; raises `BadInput` that names `source` for a value out of range."""
-    for key, value in said.items():
-        _check_range(key, value, source)
-    return replace(settings, **said)  # type: ignore[arg-type] # whoever says it has parsed it
+    values, faults = taken(dict(said), FIELDS, "setting")
+    for fault in faults.noted:
+        raise BadInput(source, "", fault.words)
+    return replace(settings, **{key: values[key] for key in said})
 
 
-def _thresholds(text: str, source: str | Path) -> dict[Piece, int]:
-    """`snare=20 tom_1=15` as a table; raises `BadInput` that says what is expected."""
-    found: dict[Piece, int] = {}
-    for entry in text.split():
-        name, _, velocity = entry.partition("=")
-        if name not in _PIECES or not velocity.isdecimal() or not 1 <= int(velocity) <= _LOUDEST:
-            raise BadInput(source, "thresholds", f"expected PIECE=1…{_LOUDEST}, such as snare=20, found {entry!r}")
-        found[_PIECES[name]] = int(velocity)
-    return found
-
-
-_PIECES = {word(piece): piece for piece in Piece}
-_LOUDEST = 127
-
-
-def _check_range(key: str, value: object, source: str | Path) -> None:
-    if key in _RANGES and isinstance(value, int | float):
-        least, most = _RANGES[key]
-        if key == "block_frames" and 0 < value < LEAST_BLOCK_FRAMES:
-            limits = f"expected 0 (the driver's choice) or {LEAST_BLOCK_FRAMES} to {most}"
-            raise BadInput(source, key, f"{limits}, found {value!r}")
-        if not least <= value <= most:
-            raise BadInput(source, key, f"expected {least} to {most}, found {value!r}")
+# --- writing ----------------------------------------------------------------------------------------------------------
 
 
 def save_settings(settings: Settings, path: Path | None = None) -> Path:

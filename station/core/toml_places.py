@@ -5,6 +5,8 @@ line feeds as line ends. Source: TOML v1.0.0, sections "Keys", "String", "Array"
 """
 
 import re
+from bisect import bisect_right
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 KeyPath = tuple[str | int, ...]
@@ -25,11 +27,13 @@ class Places:
     keys: dict[KeyPath, int] = field(default_factory=dict)
     values: dict[KeyPath, int] = field(default_factory=dict)
     chars: dict[KeyPath, list[int]] = field(default_factory=dict)
+    line_starts: list[int] = field(default_factory=list)
 
     @classmethod
     def of(cls, text: str) -> "Places":
         """The places of a text that `tomllib` accepts."""
         places = cls(text.replace("\r\n", "\n"))
+        places.line_starts = [0, *(match.end() for match in re.finditer("\n", places.text))]
         _Scanner(places).document()
         return places
 
@@ -48,16 +52,31 @@ class Places:
         return self._line_column(first.get(path, second.get(path, 0)))
 
     def _line_column(self, offset: int) -> tuple[int, int]:
-        before = self.text[:offset]
-        return before.count("\n") + 1, offset - (before.rfind("\n") + 1) + 1
+        line = bisect_right(self.line_starts, offset)
+        return line, offset - self.line_starts[line - 1] + 1
+
+
+def first_value(text: str, wanted: Callable[[str], bool]) -> tuple[int, str]:
+    """Offset and text of the first number, date or truth that is `wanted`; `tomllib` accepts all that precedes it."""
+    try:
+        _Scanner(Places(text), wanted).document()
+    except _FoundError as found:
+        return found.offset, found.value
+    raise AssertionError("there is such a value")
+
+
+class _FoundError(Exception):
+    def __init__(self, offset: int, value: str) -> None:
+        self.offset, self.value = offset, value
 
 
 class _Scanner:
-    """Walks the text once and fills `Places`."""
+    """Walks the text once and fills `Places`; stops at a bare value that is `wanted`."""
 
-    def __init__(self, places: Places) -> None:
+    def __init__(self, places: Places, wanted: Callable[[str], bool] = lambda _: False) -> None:
         self.places = places
         self.text = places.text
+        self.wanted = wanted
         self.at = 0
         self.tables_in: dict[KeyPath, int] = {}  # last index of each array of tables
 
@@ -129,6 +148,8 @@ class _Scanner:
         else:
             bare = _BARE_VALUE.match(self.text, self.at)
             assert bare, "tomllib accepted a value that is none"
+            if self.wanted(bare.group()):
+                raise _FoundError(self.at, bare.group())
             self.at = bare.end()
 
     def _list(self, path: KeyPath) -> None:

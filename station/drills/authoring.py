@@ -1,15 +1,4 @@
-"""What a teacher does with lesson and course files: check them, look at them, begin a new one."""
-
-from collections.abc import Sequence
-from pathlib import Path
-
-from station.core.errors import BadInput
-from station.drills.course import is_course, parse_course
-from station.drills.faults import Fault
-from station.drills.lesson_file import lesson_text, parse_lesson
-from station.drills.library import lessons_for
-
-_ENDING = "*.toml"
+"""The lesson that a teacher starts from."""
 
 NEW_LESSON = '''\
 # A lesson of the drum station. Lines that start with # are notes to yourself.
@@ -44,32 +33,3 @@ sticking = "| RR BR RR BR | RR BR RR BR |"
 kick     = "| o- -- o- -- | o- -o o- -- |"
 '''
 """The text that a new lesson starts from; it is a lesson already."""
-
-
-def check_lessons(paths: Sequence[str]) -> tuple[list[Fault], int]:
-    """Every fault of lessons and courses at `paths` (files, or folders of `.toml` files), and how many were read.
-
-    A path that cannot be read is a fault at line 1. A folder without lessons is one too.
-    """
-    faults: list[Fault] = []
-    count = 0
-    for given in paths:
-        path = Path(given)
-        files = sorted(path.rglob(_ENDING)) if path.is_dir() else [path]
-        if not files:
-            faults.append(Fault(given, 1, 1, "no lesson in this folder; expected .toml files"))
-        for file in files:
-            count += 1
-            faults += _check(file)
-    return faults, count
-
-
-def _check(file: Path) -> list[Fault]:
-    try:
-        text = lesson_text(file)
-    except BadInput as fault:
-        line = fault.place.removeprefix("line ")
-        return [Fault(str(file), int(line) if line.isdecimal() else 1, 1, fault.fault)]
-    if is_course(file):
-        return parse_course(text, file, lessons_for(file.parent))[1]
-    return parse_lesson(text, str(file), file.stem).faults

@@ -4,15 +4,14 @@ The format is described for teachers in docs/lessons.md. A lesson is named as `s
 file, whose path counts from the course's folder. Faults are told as those of a lesson: by line and column.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from station.drills.faults import Fault, Faults, raise_first
+from station.core.schema import Field, Fields, Reader, list_of, prose, read, taken, title, whole
+from station.core.toml_faults import Faults
+from station.core.toml_source import read_source
 from station.drills.lesson import LEVELS
-from station.drills.lesson_file import lesson_text
-from station.drills.table import Table, text, texts, title, whole
-from station.drills.toml_syntax import load
 
 ENDING = ".course.toml"
 MAX_LESSONS = 200
@@ -52,54 +51,50 @@ def is_course(path: Path) -> bool:
 
 def read_course(path: Path, where: Where) -> Course:
     """The course in the file at `path`; raises `BadInput` with the place of the first fault."""
-    course, faults = parse_course(lesson_text(path), path, where)
-    raise_first(faults, path)
-    assert course
-    return course
+    return read(read_source(path), course_reader(path.name.removesuffix(ENDING), where))
 
 
-def parse_course(words: str, path: Path, where: Where) -> tuple[Course | None, list[Fault]]:
-    """The course that the `words` of the file at `path` say, or None and every fault that prevented it."""
-    raw, syntax, words = load(words)
-    faults = Faults()
-    course = _course(Table(raw, (), faults), path, where) if raw or not syntax else None
-    found = faults.found(syntax, words, str(path))
-    return (None if found else course), found
+FIELDS: Fields = {
+    "title": Field(title, "", 'title = "First beats"'),
+    "about": Field(prose, ""),
+    "author": Field(prose, ""),
+    "level": Field(whole(1, len(LEVELS)), 1),
+    "lessons": Field(list_of(title, f"a list such as {_EXPECTED}"), (), _EXPECTED),
+}
+"""The schema of the file; whether the lessons are there is asked afterwards."""
 
 
-def _course(top: Table, path: Path, where: Where) -> Course:
-    course = Course(
-        name=path.name.removesuffix(ENDING),
-        title=top.require("title", title, "?", 'title = "First beats"'),
-        about=top.take("about", text, ""),
-        author=top.take("author", text, ""),
-        level=top.take("level", whole(1, len(LEVELS)), 1),
-        lessons=_lessons(top, where),
-    )
-    top.close()
-    return course
+def course_reader(name: str, where: Where) -> Reader[Course]:
+    """The schema of the file of the course called `name`, whose lessons are found by `where`."""
+
+    def read_table(raw: object) -> Course:
+        values, faults = taken(raw, FIELDS)
+        if not faults and not values["lessons"]:
+            faults.add(("lessons",), f"the list is empty; expected {_EXPECTED}")
+        lessons = _lessons(values["lessons"], where, faults)
+        faults.check()
+        return Course(**{**values, "name": name, "lessons": lessons})
+
+    return read_table
 
 
-def _lessons(top: Table, where: Where) -> tuple[str, ...]:
-    none: tuple[str, ...] = ()
-    written = top.require("lessons", texts, none, _EXPECTED)
-    if top.has("lessons") and not written and top.raw["lessons"] == []:
-        top.fault("lessons", f"lessons: the list is empty; expected {_EXPECTED}")
+def _lessons(written: Sequence[str], where: Where, faults: Faults) -> tuple[str, ...]:
+    """What the lessons of a course are found by."""
     if len(written) > MAX_LESSONS:
-        top.fault("lessons", f"lessons: {len(written)} of them; a course has at most {MAX_LESSONS}")
+        faults.add(("lessons",), f"{len(written)} of them; a course has at most {MAX_LESSONS}")
     found: dict[str, str] = {}
     for index, lesson in enumerate(written[:MAX_LESSONS]):
         at = where(lesson)
         name = None if at is None else lesson_name(at)
         if name is None:
             advice = "a file is named from the course's folder" if "/" in lesson else "`station lesson list` shows all"
-            top.faults.add((*top.path, "lessons", index), f"no such lesson: {lesson}; {advice}")
+            fault = f"no such lesson: {lesson}; {advice}"
         elif at != name and where(name) == name:  # progress is remembered by the name alone
-            top.faults.add(
-                (*top.path, "lessons", index), f"{lesson} has the name of a lesson that ships; name the file otherwise"
-            )
+            fault = f"{lesson} has the name of a lesson that ships; name the file otherwise"
         elif name in found:
-            top.faults.add((*top.path, "lessons", index), f"{lesson} is in the course already")
+            fault = f"{lesson} is in the course already"
         else:
             found[name] = str(at)
+            continue
+        faults.add(("lessons", index), fault)
     return tuple(found.values())

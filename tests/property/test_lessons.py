@@ -15,7 +15,7 @@ from station.drills.grid.grid import GridFrame, parse_line
 from station.drills.grid.swing import MAX_RATIO, Swing
 from station.drills.grid.tab_symbols import LETTERS, LINE_PIECES, family_of
 from station.drills.lesson import Goals, Lesson
-from station.drills.lesson_file import KEYS, parse_lesson
+from station.drills.lesson_file import FIELDS, parse_lesson
 from station.drills.lesson_writer import first_difference, write_lesson
 from station.drills.quantise import fit_score, lesson_of
 from station.music.score import Note, Score
@@ -155,7 +155,7 @@ pieces_of_files = st.sampled_from(
     [
         *('"', "'", '"""', "[", "]", "[[grid]]", "[grid]", "=", "\n", "\n", "#", "{", "}", ",", "\\", " ", "é", "\x00"),
         *("snare", "sticking", "right_hand.", "o-o-", "(", ")", "|", "%", "%3", "~", "RLB", "1.5", "-7", "true", "1/4"),
-        *KEYS,
+        *FIELDS,
         *list(LINE_PIECES)[:6],
     ]
 )

@@ -20,18 +20,38 @@
 
 import re
 from collections.abc import Mapping
-from enum import IntEnum
+from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import TypeVar
+from typing import Any
 
 from station.core.errors import BadInput
 from station.core.files import write_whole
-from station.core.note_map import KitMap, NoteMeaning
-from station.core.pieces import Articulation, Piece, Zone, word
+from station.core.note_map import NoteMeaning
+from station.core.pieces import Articulation, Piece, Zone
+from station.core.schema import (
+    Field,
+    Fields,
+    Reader,
+    choice,
+    flag,
+    list_of,
+    needed,
+    number,
+    optional,
+    read,
+    record,
+    said,
+    table_of,
+    text,
+    whole,
+    whole_key,
+    words_of,
+)
 from station.core.settings import settings_path
-from station.core.toml_table import Table, located, parse_toml, read_toml
-from station.core.units import ms_from_ns, ns_from_ms
+from station.core.toml_faults import Faults, wrong
+from station.core.toml_source import read_source, text_source
+from station.core.units import ns_from_ms
 from station.devices.mapping.device_map import (
     GHOST_BEFORE_NS,
     GHOST_WITHIN_NS,
@@ -40,10 +60,9 @@ from station.devices.mapping.device_map import (
     Foot,
     Pad,
     PedalRange,
-    Sent,
 )
 from station.devices.mapping.device_writer import kit_text
-from station.devices.mapping.presets import GENERAL_MIDI_PRESET, preset_named, stable_name
+from station.devices.mapping.presets import GENERAL_MIDI_PRESET, PRESETS, stable_name
 from station.devices.mapping.velocity_curve import (
     LEAST_SPAN,
     LOUDEST_FROM,
@@ -55,12 +74,10 @@ from station.devices.mapping.velocity_curve import (
     VelocityCurve,
 )
 
-_KEYS = {"title", "base", "notes", "pedal", "foot", "choke", "positions", "pads", "crosstalk", "channels"}
 _NONE = "none"
 _LONGEST_MS = 500.0
 _LONGEST_NAME = 60
 """A file's name may have 255 bytes on most systems, and a letter up to four; JACK's ports have up to 320 letters."""
-_Member = TypeVar("_Member", bound=IntEnum)
 
 
 def kits_folder() -> Path:
@@ -86,13 +103,12 @@ def own_kit(device: str, folder: Path | None = None) -> DeviceMap | None:
 
 def read_kit(path: Path) -> DeviceMap:
     """The kit in the file at `path`; raises `BadInput`."""
-    with located(path):
-        return _kit(Table(read_toml(path), path, ""), path.stem)
+    return read(read_source(path), kit_reader(path.stem))
 
 
 def parse_kit(text: str, name: str) -> DeviceMap:
     """The kit in a text that `kit_text` wrote; raises `BadInput`."""
-    return _kit(Table(parse_toml(text.encode(errors="replace"), name), Path(name), ""), name)
+    return read(text_source(text, name), kit_reader(name))
 
 
 def save_kit(kit: DeviceMap, device: str, folder: Path | None = None) -> Path:
@@ -102,175 +118,194 @@ def save_kit(kit: DeviceMap, device: str, folder: Path | None = None) -> Path:
     return path
 
 
-# --- reading ---------------------------------------------------------------------------------------------------------
+# --- reading ----------------------------------------------------------------------------------------------------------
 
 
-def _kit(table: Table, name: str) -> DeviceMap:
-    table.only(_KEYS)
-    base = _base(table)
-    choke = table.table("choke", {})
-    choke.only({"from", "notes", "grab_velocity"})
+def kit_reader(name: str) -> Reader[DeviceMap]:
+    """The schema of the file of the kit called `name`; what it does not say is as in the preset that it is built on."""
+
+    def read_file(raw: object) -> DeviceMap:
+        said_base = raw.get("base") if isinstance(raw, dict) else None
+        base = Faults().attempt(_preset, said_base, GENERAL_MIDI_PRESET)
+        return record(lambda **values: _kit(name, base, values), _fields(base))(raw)
+
+    return read_file
+
+
+def _fields(base: DeviceMap) -> Fields:
+    return {
+        "title": optional(text),
+        "base": Field(_preset, GENERAL_MIDI_PRESET),
+        "notes": Field(table_of(_NOTE, _note), {}),
+        "pedal": Field(_pedal(base.pedal), base.pedal),
+        "foot": Field(_foot(base.foot), base.foot),
+        "choke": Field(said(_CHOKE), {}),
+        "positions": Field(table_of(_NOTE, _position), base.position_controllers),
+        "channels": Field(table_of(whole_key(1, 16), _channel), {}),
+        "pads": Field(said({key: optional(_pad(base.pad(piece))) for key, piece in _PIECES.items()}, "pad"), {}),
+        "crosstalk": Field(list_of(_CROSSTALK, "an array of tables: [[crosstalk]]"), base.crosstalk),
+    }
+
+
+def _kit(name: str, base: DeviceMap, values: Mapping[str, Any]) -> DeviceMap:
+    notes = {number: strike for number, strike in {**base.notes, **values["notes"]}.items() if strike is not None}
+    channels = values["channels"].items()
+    on_channel = {(channel, number): strike for channel, notes in channels for number, strike in notes.items()}
+    choke, pads = values["choke"], {_PIECES[key]: pad for key, pad in values["pads"].items()}
     return DeviceMap(
         name=name,
-        title=_text(table, "title", name),
+        title=name if values["title"] is None else values["title"],
         base=base.name,
-        notes=_notes(table.table("notes", {}), base.notes),
-        channel_notes=_channel_notes(table.table("channels", {})),
-        pedal=_pedal(table.table("pedal", {}), base.pedal) if "pedal" in table.raw else base.pedal,
-        choke_from=choke.whole("from", 1, 127, base.choke_from),
-        choke_notes=_choke_notes(choke, base),
-        grab_velocity=choke.whole("grab_velocity", 0, 127, base.grab_velocity),
-        position_controllers=_positions(table, base),
-        foot=_foot(table.table("foot", {}), base.foot),
-        pads=_pads(table, base),
-        crosstalk=tuple(map(_crosstalk, table.tables("crosstalk"))) if "crosstalk" in table.raw else base.crosstalk,
+        notes=MappingProxyType(notes),
+        channel_notes=MappingProxyType(on_channel),
+        pedal=values["pedal"],
+        choke_from=choke.get("from", base.choke_from),
+        choke_notes=MappingProxyType(choke.get("notes", base.choke_notes)),
+        grab_velocity=choke.get("grab_velocity", base.grab_velocity),
+        position_controllers=MappingProxyType(values["positions"]),
+        foot=values["foot"],
+        pads=MappingProxyType({**base.pads, **pads}),
+        crosstalk=values["crosstalk"],
     )
 
 
-def _text(table: Table, key: str, default: str) -> str:
-    value = table.raw.get(key, default)
-    if not isinstance(value, str):
-        raise BadInput(table.source, key, f"expected a text in quotes, found {value!r}")
-    return value
+_preset = choice(PRESETS, "kit preset")
+_PIECES = words_of(Piece)
+_NOTE = whole_key(0, 127)
+_PIECE = choice(_PIECES, "piece")
+_VELOCITY = whole(1, 127)
 
 
-def _base(table: Table) -> DeviceMap:
-    try:
-        return preset_named(_text(table, "base", GENERAL_MIDI_PRESET.name))
-    except BadInput as fault:
-        raise BadInput(table.source, "base", fault.fault) from None
+def _ns(value: object) -> int:
+    """A time that the file has in milliseconds, in nanoseconds."""
+    return ns_from_ms(number(0.0, _LONGEST_MS)(value))
 
 
-def _member(table: Table, key: str, kind: type[_Member], default: str = "") -> _Member:
-    words = {word(member): member for member in kind}
-    if key not in table.raw and not default:
-        raise BadInput(table.source, f"{table.place}.{key}", "is missing")
-    return words[table.word(key, tuple(words), default)]
+# --- what a note means ------------------------------------------------------------------------------------------------
+
+_STRIKE: Fields = {
+    "piece": needed(_PIECE, 'piece = "snare"'),
+    "zone": Field(choice(words_of(Zone), "zone"), Zone.HEAD),
+    "articulation": Field(choice(words_of(Articulation), "articulation"), Articulation.NORMAL),
+    "openness": optional(number(0.0, 1.0)),
+}
+_ON_CHANNEL = table_of(_NOTE, record(NoteMeaning, _STRIKE))
+_channel = record(lambda notes: notes, {"notes": needed(_ON_CHANNEL, 'notes.36 = { piece = "kick" }')})
 
 
-def _notes(table: Table, base: KitMap) -> KitMap:
-    notes = dict(base)
-    for number, key in table.numbers(0, 127):
-        entry = table.table(key)
-        if entry.raw.get("piece") == _NONE:
-            notes.pop(number, None)
-        else:
-            notes[number] = _strike(entry)
-    return MappingProxyType(notes)
+def _strike(piece: Piece | None, zone: Zone, articulation: Articulation, openness: float | None) -> NoteMeaning | None:
+    return None if piece is None else NoteMeaning(piece, zone, articulation, openness)
 
 
-def _strike(entry: Table) -> NoteMeaning:
-    entry.only({"piece", "zone", "articulation", "openness"})
-    return NoteMeaning(
-        _member(entry, "piece", Piece),
-        _member(entry, "zone", Zone, "head"),
-        _member(entry, "articulation", Articulation, "normal"),
-        entry.number("openness", 0.0, 1.0) if "openness" in entry.raw else None,
-    )
+_PIECE_OR_NONE: Mapping[str, Piece | None] = {**_PIECES, _NONE: None}
+_note = record(_strike, {**_STRIKE, "piece": needed(choice(_PIECE_OR_NONE, "piece"), 'piece = "snare"')})
+_CHOKE: Fields = {
+    "from": optional(_VELOCITY),
+    "grab_velocity": optional(whole(0, 127)),
+    "notes": optional(table_of(_NOTE, record(lambda piece: piece, {"piece": needed(_PIECE)}))),
+}
+_PIECES_THERE = list_of(_PIECE, 'pieces such as ["snare"]')
 
 
-def _channel_notes(table: Table) -> Mapping[Sent, NoteMeaning]:
-    found: dict[Sent, NoteMeaning] = {}
-    for channel, key in table.numbers(1, 16):
-        entry = table.table(key)
-        entry.only({"notes"})
-        notes = entry.table("notes")
-        found |= {(channel, number): _strike(notes.table(name)) for number, name in notes.numbers(0, 127)}
-    return MappingProxyType(found)
+def _position_of(pieces: tuple[Piece, ...]) -> frozenset[Piece]:
+    if not pieces:
+        raise wrong('expected pieces such as ["snare"], found none', "pieces")
+    return frozenset(pieces)
 
 
-def _pedal(table: Table, base: PedalRange | None) -> PedalRange | None:
-    table.only({"present", "controller", "open", "shut", "steps"})
-    if not table.flag("present", True):
-        return None
+_position = record(_position_of, {"pieces": needed(_PIECES_THERE, 'pieces = ["snare"]')})
+
+
+# --- pedal and pads ---------------------------------------------------------------------------------------------------
+
+
+_STEPS = "values such as [0, 56, 127]"
+_PEDAL: Fields = {
+    "present": optional(flag),
+    "controller": optional(whole(0, 127)),
+    "open": Field(whole(0, 127), None, called="wide_open"),
+    "shut": optional(whole(0, 127)),
+    "steps": optional(list_of(whole(0, 127), _STEPS)),
+}
+
+
+def _pedal(base: PedalRange | None) -> Reader[PedalRange | None]:
+    """The pedal's range; what is not said is as in `base`."""
     usual = base or PedalRange()
-    wide_open, shut = table.whole("open", 0, 127, usual.wide_open), table.whole("shut", 0, 127, usual.shut)
-    if wide_open == shut:
-        raise BadInput(table.source, f"{table.place}.shut", f"open and shut are both {shut}: the pedal tells nothing")
-    usual_steps = () if {"open", "shut"} & set(table.raw) else usual.steps  # other ends are those of another way
-    steps = table.raw.get("steps", list(usual_steps))
-    if not isinstance(steps, list) or len(steps) == 1 or not all(type(s) is int and 0 <= s <= 127 for s in steps):
-        raise BadInput(table.source, f"{table.place}.steps", f"expected values such as [0, 56, 127], found {steps!r}")
-    return PedalRange(wide_open, shut, table.whole("controller", 0, 127, usual.controller), tuple(steps))
+    table = said(_PEDAL)
+
+    def read_pedal(raw: object) -> PedalRange | None:
+        found = table(raw)
+        if not found.pop("present", True):
+            return None
+        if {"wide_open", "shut"} & set(found):  # other ends are those of another way
+            found.setdefault("steps", ())
+        pedal = replace(usual, **found)
+        if pedal.wide_open == pedal.shut:
+            raise wrong(f"open and shut are both {pedal.shut}: the pedal tells nothing", "shut")
+        if len(pedal.steps) == 1:
+            raise wrong(f"expected {_STEPS}, found one", "steps")
+        return pedal
+
+    return read_pedal
 
 
-def _foot(table: Table, base: Foot) -> Foot:
-    table.only({"least_travel", "splash_ms", "by_controller"})
-    return Foot(
-        least_travel=table.number("least_travel", 0.0, 1.0, base.least_travel),
-        splash_ns=_ns(table, "splash_ms", base.splash_ns),
-        by_controller=table.flag("by_controller", base.by_controller),
-    )
+def _foot(base: Foot) -> Reader[Foot]:
+    fields: Fields = {
+        "least_travel": Field(number(0.0, 1.0), base.least_travel),
+        "splash_ms": Field(_ns, base.splash_ns, called="splash_ns"),
+        "by_controller": Field(flag, base.by_controller),
+    }
+    return record(Foot, fields)
 
 
-def _ns(table: Table, key: str, default_ns: int) -> int:
-    return ns_from_ms(table.number(key, 0.0, _LONGEST_MS, ms_from_ns(default_ns)))
+def _pad(usual: Pad) -> Reader[Pad]:
+    fields: Fields = {
+        "threshold": Field(_VELOCITY, usual.threshold),
+        "mask_ms": Field(_ns, usual.mask_ns, called="mask_ns"),
+        "least_velocity": Field(_VELOCITY, usual.least_velocity),
+        "curve": Field(_curve, usual.curve),
+    }
+    return record(Pad, fields)
 
 
-def _choke_notes(choke: Table, base: DeviceMap) -> Mapping[int, Piece]:
-    if "notes" not in choke.raw:
-        return base.choke_notes
-    notes = choke.table("notes")
-    found = {}
-    for number, key in notes.numbers(0, 127):
-        entry = notes.table(key)
-        entry.only({"piece"})
-        found[number] = _member(entry, "piece", Piece)
-    return MappingProxyType(found)
-
-
-def _positions(table: Table, base: DeviceMap) -> Mapping[int, frozenset[Piece]]:
-    if "positions" not in table.raw:
-        return base.position_controllers
-    positions = table.table("positions")
-    found = {}
-    for number, key in positions.numbers(0, 127):
-        entry = positions.table(key)
-        entry.only({"pieces"})
-        found[number] = frozenset(_pieces(entry))
-    return MappingProxyType(found)
-
-
-def _pieces(entry: Table) -> list[Piece]:
-    words, names = {word(piece): piece for piece in Piece}, entry.raw.get("pieces")
-    if not isinstance(names, list) or not names or not all(name in words for name in names):
-        raise BadInput(entry.source, f"{entry.place}.pieces", f'expected pieces such as ["snare"], found {names!r}')
-    return [words[name] for name in names]
-
-
-def _pads(table: Table, base: DeviceMap) -> Mapping[Piece, Pad]:
-    words, pads = {word(piece): piece for piece in Piece}, dict(base.pads)
-    found = table.table("pads", {})
-    found.only(set(words))
-    for name in found.raw:
-        entry, usual = found.table(name), base.pad(words[name])
-        entry.only({"threshold", "mask_ms", "least_velocity", "curve"})
-        least = entry.whole("least_velocity", 1, 127, 1) if "least_velocity" in entry.raw else usual.least_velocity
-        threshold = entry.whole("threshold", 1, 127, usual.threshold)
-        curve = _curve(entry) if "curve" in entry.raw else usual.curve
-        pads[words[name]] = Pad(threshold, _ns(entry, "mask_ms", usual.mask_ns), least, curve)
-    return MappingProxyType(pads)
-
-
-def _curve(entry: Table) -> VelocityCurve:
+def _curve(raw: object) -> VelocityCurve:
     """A curve by its name, or by its numbers."""
-    if isinstance(entry.raw["curve"], str):
-        return SHAPES[entry.word("curve", tuple(SHAPES), "")]
-    table = entry.table("curve")
-    table.only({"softest", "loudest", "bend"})
-    usual = VelocityCurve()
-    softest = table.number("softest", SOFTEST_FROM, SOFTEST_TO, usual.softest)
-    loudest = table.number("loudest", LOUDEST_FROM, LOUDEST_TO, usual.loudest)
+    return _SHAPE(raw) if isinstance(raw, str) else _numbers(raw)
+
+
+def _curve_of(softest: float, loudest: float, bend: float) -> VelocityCurve:
     if loudest < softest + LEAST_SPAN:
-        raise BadInput(table.source, f"{table.place}.loudest", f"expected {LEAST_SPAN:g} or more above softest")
-    return VelocityCurve(softest, loudest, table.number("bend", -MOST_BEND, MOST_BEND, usual.bend))
+        raise wrong(f"expected {LEAST_SPAN:g} or more above softest", "loudest")
+    return VelocityCurve(softest, loudest, bend)
 
 
-def _crosstalk(entry: Table) -> Crosstalk:
-    entry.only({"source", "victim", "share", "within_ms", "before_ms"})
-    source, victim = _member(entry, "source", Piece), _member(entry, "victim", Piece)
+_SHAPE = choice(SHAPES, "curve")
+_numbers = record(
+    _curve_of,
+    {
+        "softest": Field(number(SOFTEST_FROM, SOFTEST_TO), VelocityCurve().softest),
+        "loudest": Field(number(LOUDEST_FROM, LOUDEST_TO), VelocityCurve().loudest),
+        "bend": Field(number(-MOST_BEND, MOST_BEND), VelocityCurve().bend),
+    },
+)
+
+
+def _crosstalk(source: Piece, victim: Piece, **values: Any) -> Crosstalk:  # noqa: ANN401 - the others as they are
     if source is victim:
-        raise BadInput(entry.source, f"{entry.place}.victim", "a pad is not its own crosstalk; its mask_ms is for that")
-    share = entry.number("share", 0.0, 1.0)
-    within_ns, before_ns = _ns(entry, "within_ms", GHOST_WITHIN_NS), _ns(entry, "before_ms", GHOST_BEFORE_NS)
-    return Crosstalk(source, victim, share, within_ns, before_ns)
+        raise wrong("a pad is not its own crosstalk; its mask_ms is for that", "victim")
+    return Crosstalk(source, victim, **values)
+
+
+_CROSSTALK = record(
+    _crosstalk,
+    {
+        "source": needed(_PIECE, 'source = "kick"'),
+        "victim": needed(_PIECE, 'victim = "snare"'),
+        "share": needed(number(0.0, 1.0), "share = 0.3"),
+        "within_ms": Field(_ns, GHOST_WITHIN_NS, called="within_ns"),
+        "before_ms": Field(_ns, GHOST_BEFORE_NS, called="before_ns"),
+    },
+)
+KEYS = frozenset(_fields(GENERAL_MIDI_PRESET))
+"""Every key of the top table."""

@@ -1,18 +1,19 @@
 """Reading one `[grid]` table: its meter, tempo and name, its lines, and the strokes that they write."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import chain
+from typing import Any
 
-from station.core.did_you_mean import nearest
 from station.core.pieces import Limb, Piece, word
+from station.core.schema import Field, Fields, Reader, anything, number, optional, shown, taken, title, whole
+from station.core.toml_faults import Faults, wrong
 from station.core.toml_places import KeyPath
 from station.core.units import PPQ
-from station.drills.faults import Faults
 from station.drills.grid.cell_strokes import GridLine, WrittenCell, line_strokes
 from station.drills.grid.grid import Bar, GridFrame, Report, parse_line
 from station.drills.grid.sticking_line import STICKING, apply_sticking
 from station.drills.grid.tab_symbols import FOOT_OF, LIMB_TABLES, LINE_PIECES
-from station.drills.table import Table, fraction, number, title, whole
 from station.music.tempo import MAX_BPM, MIN_BPM, MeterChange
 
 MAX_TIMES = 100
@@ -20,8 +21,9 @@ MAX_BEATS = 32
 UNITS = (1, 2, 4, 8, 16, 32)
 MAX_BARS = 2000
 """Our choice: no lesson is an hour long; a longer one is a slip of the finger."""
-
-_GRID_KEYS = ("name", "tempo_bpm", "meter", "beat", "times", STICKING, *LIMB_TABLES)
+MAX_CELLS = 200_000
+"""Letters of all lines, repeated bars too, that are read within half a second: five lines of 800 bars of 48 (our
+choice)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,50 +51,104 @@ class GridSection:
         return self.start_tick + self.bars * self.timing.meter.bar_ticks
 
 
+# --- the schema -------------------------------------------------------------------------------------------------------
+
+
 def meter(value: object) -> MeterChange:
     """A meter such as "6/8"; its tick is 0."""
-    beats, unit = fraction(value)
+    beats, unit = _fraction(value)
     if not 1 <= beats <= MAX_BEATS or unit not in UNITS:
-        raise ValueError(f"expected a meter of 1 to {MAX_BEATS} beats of 1/1 to 1/32, such as 4/4 or 6/8")
+        raise wrong(f"expected a meter of 1 to {MAX_BEATS} beats of 1/1 to 1/32, such as 4/4 or 6/8")
     return MeterChange(0, beats, unit)
 
 
 def note_length(value: object) -> int:
     """Ticks of a note length such as "1/4" or "3/8"."""
-    top, bottom = fraction(value)
+    top, bottom = _fraction(value)
     if not 1 <= top <= 3 or bottom not in UNITS:
-        raise ValueError('expected a note length such as "1/4", "1/8" or "3/8" (a dotted quarter)')
+        raise wrong('expected a note length such as "1/4", "1/8" or "3/8" (a dotted quarter)')
     return 4 * PPQ * top // bottom
 
 
-def read_timing(table: Table, before: CellTiming) -> CellTiming:
-    """Meter, beat and tempo as this table says them, and as it was `before` where it does not."""
-    new_meter = table.take("meter", meter, before.meter)
-    beat_ticks = table.take("beat", note_length, before.beat_ticks)
-    tempo = before.tempo_bpm
-    if table.has("tempo_bpm"):
-        beats = table.take("tempo_bpm", number(MIN_BPM, MAX_BPM), tempo * PPQ / beat_ticks)
+def _fraction(value: object) -> tuple[int, int]:
+    """Two whole numbers such as "6/8"."""
+    top, slash, bottom = value.partition("/") if isinstance(value, str) else ("", "", "")
+    if not (slash and top.strip().isdecimal() and bottom.strip().isdecimal() and len(top + bottom) < 8):
+        raise wrong(f'expected two numbers such as "4/4", found {shown(value)}')
+    return int(top), int(bottom)
+
+
+def _cells(value: object) -> str:
+    """A line of the grid."""
+    if not isinstance(value, str) or not value.strip():
+        raise wrong('expected a line of the grid in quotes, such as "o---o---"')
+    return value
+
+
+def _cells_of(piece: Piece, limb: Limb) -> Reader[str]:
+    """A line that one limb plays alone."""
+
+    def read(value: object) -> str:
+        if piece in _PEDALS and limb.is_hand:
+            raise wrong(f"a hand plays no {_PEDALS[piece]}; expected right_foot or left_foot")
+        if piece not in _PEDALS and not limb.is_hand:
+            raise wrong(f"a foot plays no {word(piece)}; expected right_hand or left_hand")
+        return _cells(value)
+
+    return read
+
+
+_PEDALS = {Piece.KICK: "kick", Piece.HIHAT_PEDAL: "pedal"}
+TIMING: Fields = {
+    "tempo_bpm": optional(number(MIN_BPM, MAX_BPM)),
+    "meter": optional(meter),
+    "beat": optional(note_length),
+}
+"""What a lesson says for all its grids, and each grid for itself and those after it."""
+_LINES: Fields = {key: optional(_cells) for key in LINE_PIECES}
+_LIMB_LINES: Mapping[str, Fields] = {
+    name: {key: optional(_cells_of(piece, limb)) for key, piece in LINE_PIECES.items()}
+    for name, limb in LIMB_TABLES.items()
+}
+_GRID: Fields = {
+    "name": Field(title, ""),
+    **TIMING,
+    "times": Field(whole(1, MAX_TIMES), 1),
+    STICKING: optional(_cells),
+    **{name: optional(anything) for name in LIMB_TABLES},
+    **_LINES,
+}
+
+
+# --- reading ----------------------------------------------------------------------------------------------------------
+
+
+def timing_of(values: Mapping[str, Any], before: CellTiming, faults: Faults) -> CellTiming:
+    """Meter, beat and tempo as a table says them, and as it was `before` where it does not."""
+    beat_ticks = before.beat_ticks if values["beat"] is None else values["beat"]
+    tempo, beats = before.tempo_bpm, values["tempo_bpm"]
+    if beats is not None:
         asked = beats * beat_ticks / PPQ
         if MIN_BPM <= asked <= MAX_BPM:
             tempo = asked
         else:
-            table.fault("tempo_bpm", f"{asked:g} quarter notes a minute; expected {MIN_BPM:g} to {MAX_BPM:g}")
-    return CellTiming(tempo, new_meter, beat_ticks)
+            faults.add(("tempo_bpm",), f"{asked:g} quarter notes a minute; expected {MIN_BPM:g} to {MAX_BPM:g}")
+    return CellTiming(tempo, before.meter if values["meter"] is None else values["meter"], beat_ticks)
 
 
 def read_grid(raw: object, path: KeyPath, before: "CellTiming | GridSection", faults: Faults) -> GridSection:
     """One grid after `before`: the lesson's own timing, or the section that precedes it."""
-    table = Table(raw, path, faults)
     start = before.end_tick if isinstance(before, GridSection) else 0
-    timing = read_timing(table, before.timing if isinstance(before, GridSection) else before)
-    name = table.take("name", title, "")
-    times = table.take("times", whole(1, MAX_TIMES), 1)
-    lines, sticking = _lines(table)
-    table.allow(k for k in LINE_PIECES if k in table.raw)
-    _close(table)
-    if table.is_table and not lines:
-        faults.add(path, 'no line to play; expected one such as snare = "----o-------o---"', at_key=True)
-    return _Builder(timing, start, times, lines, sticking, faults).section(name)
+    values, found = taken(raw, _GRID, "line")
+    timing = timing_of(values, before.timing if isinstance(before, GridSection) else before, found)
+    lines = _lines(values, path, found)
+    if not lines and not found:
+        found.add((), 'no line to play; expected one such as snare = "----o-------o---"', at_key=True)
+    faults.take(found, *path)
+    _no_twins(lines, faults)
+    under = values[STICKING]
+    sticking = None if under is None else _RawLine(GridLine(Piece.SNARE, Limb.UNKNOWN, (*path, STICKING)), under)
+    return _Builder(timing, start, values["times"], lines, sticking, faults).section(values["name"])
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,44 +157,24 @@ class _RawLine:
     text: str
 
 
-def _lines(table: Table) -> tuple[list[_RawLine], _RawLine | None]:
-    """The lines of pieces, those under limb tables too, and the sticking line."""
+def _lines(values: Mapping[str, Any], path: KeyPath, faults: Faults) -> list[_RawLine]:
+    """The lines of pieces of the grid at `path`, then those under limb tables."""
     found = [
-        raw_line
+        _RawLine(GridLine(piece, FOOT_OF.get(piece, Limb.UNKNOWN), (*path, key)), values[key])
         for key, piece in LINE_PIECES.items()
-        if (raw_line := _raw_line(table, key, GridLine(piece, FOOT_OF.get(piece, Limb.UNKNOWN), (*table.path, key))))
+        if values[key] is not None
     ]
     for name, limb in LIMB_TABLES.items():
-        if table.has(name):
-            inner = Table(table.raw[name], (*table.path, name), table.faults)
-            for key, piece in LINE_PIECES.items():
-                raw_line = _raw_line(inner, key, GridLine(piece, limb, (*inner.path, key)))
-                if raw_line:
-                    _check_limb(inner, key, raw_line.line)
-                    found.append(raw_line)
-            inner.allow(k for k in LINE_PIECES if k in inner.raw)
-            _close(inner)
-    _no_twins(found, table.faults)
-    return found, _raw_line(table, STICKING, GridLine(Piece.SNARE, Limb.UNKNOWN, (*table.path, STICKING)))
-
-
-def _raw_line(table: Table, key: str, line: GridLine) -> _RawLine | None:
-    if not table.has(key):
-        return None
-    value = table.raw[key]
-    if isinstance(value, str) and value.strip():
-        return _RawLine(line, value)
-    table.fault(key, f'{key}: expected a line of the grid in quotes, such as "o---o---"')
-    return None
-
-
-def _check_limb(table: Table, key: str, line: GridLine) -> None:
-    if line.piece is Piece.HIHAT_PEDAL and line.limb.is_hand:
-        table.fault(key, "a hand plays no pedal; expected right_foot or left_foot")
-    elif line.piece is not Piece.KICK and line.piece is not Piece.HIHAT_PEDAL and not line.limb.is_hand:
-        table.fault(key, f"a foot plays no {word(line.piece)}; expected right_hand or left_hand")
-    elif line.piece is Piece.KICK and line.limb.is_hand:
-        table.fault(key, "a hand plays no kick; expected right_foot or left_foot")
+        if values[name] is None:
+            continue
+        own, inner = taken(values[name], _LIMB_LINES[name], "line")
+        faults.take(inner, name)
+        found += [
+            _RawLine(GridLine(piece, limb, (*path, name, key)), own[key])
+            for key, piece in LINE_PIECES.items()
+            if own[key] is not None
+        ]
+    return found
 
 
 def _no_twins(lines: list[_RawLine], faults: Faults) -> None:
@@ -147,15 +183,6 @@ def _no_twins(lines: list[_RawLine], faults: Faults) -> None:
         twin = seen.setdefault((raw.line.piece, raw.line.limb), raw.line)
         if twin is not raw.line:
             faults.add(raw.line.path, f"{raw.line.path[-1]} and {twin.path[-1]} are one line", at_key=True)
-
-
-def _close(table: Table) -> None:
-    """Note unknown keys; the nearest may be a piece."""
-    known = [*LINE_PIECES, *(_GRID_KEYS if table.path[-1] not in LIMB_TABLES else ())]
-    for key in table.raw:
-        if key not in known:
-            hint = nearest(key, known) or f"; the lines are {', '.join(LINE_PIECES)}"
-            table.faults.add((*table.path, key), f"no such line: {key}{hint}", at_key=True)
 
 
 @dataclass(slots=True)
@@ -174,6 +201,9 @@ class _Builder:
         parsed = [(raw, parse_line(raw.text, frame, self._report(raw.line))) for raw in self.lines]
         under = parse_line(self.sticking.text, frame, self._report(self.sticking.line)) if self.sticking else []
         count = self._bar_count(parsed, under)
+        cells = sum(len(bar.cells) for _, bars in parsed for bar in bars[:count]) * self.times
+        if cells > MAX_CELLS:
+            raise wrong(f"{cells} cells; a lesson has at most {MAX_CELLS}", *self.lines[0].line.path)
         length = self.timing.meter.bar_ticks
         places = [(self.start_tick + i * length, length) for i in range(count * self.times)]
         before = len(self.faults)

@@ -13,7 +13,9 @@ from enum import IntEnum
 from math import radians
 from pathlib import Path
 
-from station.core.toml_table import Table, find_shipped, located, read_toml, shipped
+from station.core.schema import Field, Fields, Reader, needed, number, optional, read, record, said, text
+from station.core.shipped import find_shipped, shipped
+from station.core.toml_source import read_source
 from station.motion.kinematics.joint_limits import Limits
 
 
@@ -133,16 +135,24 @@ def load_figure(name_or_path: str | Path) -> Figure:
     metres and a table `limits` of angles in degrees, both by the names of the fields here.
     """
     path = find_shipped(name_or_path, FIGURES, "figure")
-    with located(path):
-        return _figure(Table(read_toml(path), path, ""))
+    return read(read_source(path), FIGURE)
 
 
-def _figure(table: Table) -> Figure:
-    table.only({"title", "stature_m", "segments", "limits"})
-    figure = figure_of(table.number("stature_m", LEAST_STATURE_M, GREATEST_STATURE_M))
-    segments, limits = table.table("segments", {}), table.table("limits", {})
-    segments.only(set(_SHARES))
-    limits.only({f.name for f in fields(Limits)})
-    angles = {name: radians(limits.number(name, 0.0, 200.0)) for name in limits.raw}
-    lengths = {name: segments.number(name, 0.01, 1.5) for name in segments.raw}
-    return replace(figure, limits=replace(Limits(), **angles), **lengths)
+def _angle(value: object) -> float:
+    """An angle that the file has in degrees, in radians."""
+    return radians(number(0.0, 200.0)(value))
+
+
+def _figure(title: str, stature_m: float, segments: Mapping[str, float], limits: Mapping[str, float]) -> Figure:
+    """The figure that a file describes; its title is for people alone."""
+    return replace(figure_of(stature_m), limits=replace(Limits(), **limits), **segments)
+
+
+FIELDS: Fields = {
+    "title": Field(text, ""),
+    "stature_m": needed(number(LEAST_STATURE_M, GREATEST_STATURE_M), "stature_m = 1.76"),
+    "segments": Field(said({name: optional(number(0.01, 1.5)) for name in _SHARES}, "segment"), {}),
+    "limits": Field(said({each.name: optional(_angle) for each in fields(Limits)}, "limit"), {}),
+}
+FIGURE: Reader[Figure] = record(_figure, FIELDS)
+"""The schema of the file."""

@@ -1,23 +1,42 @@
 """The drum kit: its pieces, its pedals, which piece stands in for one that it lacks, and its TOML file.
 
 A file holds `title`, `handed` ("right" or "left"), `seat_m`, the tables `pedals.kick` and `pedals.hihat`, and a table
-for each piece, named as `core.pieces` names it. Angles are degrees in the file. Every fault is named by its key;
+for each piece, named as `core.pieces` names it. Angles are degrees in the file. Every fault is named by its place;
 `station/motion/data/kits/four_piece.toml` is a commented example.
 """
 
-import difflib
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 
-from station.core.errors import BadInput
 from station.core.pieces import Limb, Piece, Zone, word
-from station.core.toml_table import Table, find_shipped, located, read_toml, shipped
+from station.core.schema import (
+    Field,
+    Fields,
+    Reader,
+    flag,
+    key_of,
+    needed,
+    number,
+    one_of,
+    optional,
+    point,
+    read,
+    record,
+    said,
+    table_of,
+    text,
+    words_of,
+)
+from station.core.shipped import find_shipped, shipped
+from station.core.toml_faults import wrong
+from station.core.toml_source import read_source
 from station.motion.kit.piece import SPOTS, KitPiece, Target, ZoneSpot
 
 KITS = Path(__file__).parents[1] / "data" / "kits"
@@ -104,17 +123,9 @@ class Kit:
         return self.pieces[self.stand_in(piece)].target(zone, limb)
 
 
-_PIECES = {word(p): p for p in Piece}
-_ZONES = {word(z): z for z in Zone}
-_PIECE_KEYS = {
-    "radius_m": "radius_m",
-    "depth_m": "depth_m",
-    "tilt_x_deg": "tilt_x_rad",
-    "tilt_y_deg": "tilt_y_rad",
-    "wrist_radius_m": "wrist_radius_m",
-    "wrist_height_m": "wrist_height_m",
-}
+_PIECES = words_of(Piece)
 _MAX_TILT_DEG = 80.0
+_MAX_LENGTH_M = 3.0
 _LEAST_APART_M, _MOST_INSIDE_M = 0.04, 0.03
 """Nearer centres, or a surface deeper in another's shell, are no kit that stands (our choice; hoops may touch)."""
 _LEAST_BOARD_M = 0.1
@@ -133,40 +144,98 @@ def kit_names() -> list[str]:
 def load_kit(name_or_path: str | Path = DEFAULT_KIT) -> Kit:
     """A shipped kit by its name, or a kit file; raises `BadInput` with the place of the first fault."""
     path = find_shipped(name_or_path, KITS, "kit")
-    with located(path):
-        return _kit(read_toml(path), path)
+    return read(read_source(path), kit_reader(path.stem))
 
 
-def _kit(raw: Mapping[str, object], source: Path) -> Kit:
-    top = Table(raw, source, "")
-    handed = top.word("handed", ("right", "left"), "right")
-    pedals = top.table("pedals")
-    named = {key: _piece(Table(top.raw[key], source, key), key) for key in raw if key in _PIECES}
-    unknown = set(raw) - set(named) - {"title", "handed", "seat_m", "pedals"}
-    if unknown:
-        key = min(unknown)
-        near = difflib.get_close_matches(key, [*_PIECES, "title", "handed", "seat_m", "pedals"], n=1)
-        raise BadInput(source, key, "no such piece or key" + (f"; meant {near[0]}?" if near else ""))
-    for needed in ("kick", "snare"):
-        if needed not in named:
-            raise BadInput(source, "", f"a kit needs a {needed}")
-    _apart(list(named.values()), source)
+def _degrees(low: float, high: float) -> Reader[float]:
+    """An angle that the file has in degrees, in radians."""
+    return lambda value: math.radians(number(low, high)(value))
+
+
+_LENGTHS = point(_MAX_LENGTH_M)
+_TILT = _degrees(-_MAX_TILT_DEG, _MAX_TILT_DEG)
+_SHARE = number(-1.0, 1.0)
+_SPOT: Fields = {each.name: optional(flag if each.name == "shoulder" else _SHARE) for each in fields(ZoneSpot)}
+_PIECE: Fields = {
+    "kind": Field(one_of(SPOTS, "kind"), "drum"),
+    "centre_m": needed(_LENGTHS, "centre_m = [right, forward, up] in metres"),
+    "radius_m": needed(number(0.02, 1.0), "radius_m = 0.18"),
+    "depth_m": Field(number(0.0, 1.0), 0.02),
+    "tilt_x_deg": Field(_TILT, 0.0, called="tilt_x_rad"),
+    "tilt_y_deg": Field(_TILT, 0.0, called="tilt_y_rad"),
+    "wrist_radius_m": Field(number(0.05, 1.0), 0.40),
+    "wrist_height_m": Field(number(-0.5, 0.5), 0.06),
+    "zones": Field(table_of(key_of(words_of(Zone), "zone"), said(_SPOT)), {}),
+}
+_PEDAL: Fields = {
+    "heel_m": needed(_LENGTHS, "heel_m = [right, forward, up] in metres"),
+    "toe_m": needed(_LENGTHS, "toe_m = [right, forward, up] in metres"),
+    "raised_deg": Field(_degrees(0.0, 60.0), math.radians(18.0), called="raised_rad"),
+}
+
+
+def kit_reader(name: str) -> Reader[Kit]:
+    """The schema of the file of the kit called `name`."""
+    return record(partial(_kit, name), FIELDS, "piece or key")
+
+
+def _kit(name: str, title: str | None, handed: str, pedals: Mapping[Piece, Pedal], **others: Any) -> Kit:  # noqa: ANN401
+    """A kit of what its file says; `others` are its seat and its pieces, None for those that it lacks."""
+    pieces = {_PIECES[key]: piece for key, piece in others.items() if piece is not None and key in _PIECES}
+    _apart(list(pieces.values()))
     return Kit(
-        name=source.stem,
-        title=str(raw.get("title", source.stem)),
+        name=name,
+        title=name if title is None else title,
         left_handed=handed == "left",
-        seat_m=top.point("seat_m", (0.0, 0.0, 0.5)),
-        pieces=MappingProxyType({_PIECES[key]: piece for key, piece in named.items()}),
-        pedals=MappingProxyType(
-            {
-                Piece.KICK: _pedal(pedals.table("kick")),
-                Piece.HIHAT_PEDAL: _pedal(pedals.table("hihat")),
-            }
-        ),
+        seat_m=others["seat_m"],
+        pieces=MappingProxyType(pieces),
+        pedals=pedals,
     )
 
 
-def _apart(pieces: list[KitPiece], source: Path) -> None:
+def _piece(piece: Piece) -> Reader[KitPiece]:
+    def build(zones: Mapping[Zone, Mapping[str, Any]], **values: Any) -> KitPiece:  # noqa: ANN401 - its other fields
+        plain = KitPiece(piece, **values)
+        return replace(plain, spots=MappingProxyType(_spots(plain, zones)))
+
+    return record(build, _PIECE)
+
+
+def _spots(piece: KitPiece, zones: Mapping[Zone, Mapping[str, Any]]) -> dict[Zone, ZoneSpot]:
+    """Where each zone is struck: as on any piece of its kind, but for what the file says in `zones`."""
+    inward = max(-1.0, min(1.0, -piece.centre_m[0] / _ASIDE_M))
+    usual = {zone: replace(spot, right=inward * spot.right) for zone, spot in SPOTS[piece.kind].items()}
+    return usual | {zone: replace(usual.get(zone, ZoneSpot(0.0, 0.0)), **changes) for zone, changes in zones.items()}
+
+
+def _pedal(**values: Any) -> Pedal:  # noqa: ANN401 - the fields of a pedal
+    pedal = Pedal(**values)
+    length_m = math.dist(pedal.heel_m, pedal.toe_m)
+    if length_m < _LEAST_BOARD_M:
+        raise wrong(f"the toe end is {length_m:.2f} m from the heel, expected at least {_LEAST_BOARD_M:g} m", "toe_m")
+    return pedal
+
+
+def _pedals(kick: Pedal, hihat: Pedal) -> Mapping[Piece, Pedal]:
+    return MappingProxyType({Piece.KICK: kick, Piece.HIHAT_PEDAL: hihat})
+
+
+_NEEDED = ("kick", "snare")
+_BOTH_PEDALS: Fields = {
+    "kick": needed(record(_pedal, _PEDAL), "a table [pedals.kick]"),
+    "hihat": needed(record(_pedal, _PEDAL), "a table [pedals.hihat]"),
+}
+FIELDS: Fields = {
+    "title": optional(text),
+    "handed": Field(one_of(("right", "left"), "hand"), "right"),
+    "seat_m": Field(_LENGTHS, (0.0, 0.0, 0.5)),
+    "pedals": needed(record(_pedals, _BOTH_PEDALS), "tables [pedals.kick] and [pedals.hihat]"),
+    **{key: Field(_piece(each), None, f"a table [{key}]" if key in _NEEDED else None) for key, each in _PIECES.items()},
+}
+"""The schema of the file; a kit needs a kick and a snare."""
+
+
+def _apart(pieces: list[KitPiece]) -> None:
     """Refuse pieces in one place, or of which one's head or bow is inside another's shell."""
     for k, one in enumerate(pieces):
         for other in pieces[:k]:
@@ -175,7 +244,7 @@ def _apart(pieces: list[KitPiece], source: Path) -> None:
             if apart_m < _LEAST_APART_M or deep_m > _MOST_INSIDE_M:
                 how = f"{100 * deep_m:.0f} cm deep" if deep_m > _MOST_INSIDE_M else "their centres are in one place"
                 fault = f"overlaps the {word(other.piece)}: {how}"
-                raise BadInput(source, f"{word(one.piece)}.centre_m", fault)
+                raise wrong(fault, word(one.piece), "centre_m")
 
 
 def _inside_m(one: KitPiece, other: KitPiece) -> float:
@@ -187,51 +256,3 @@ def _inside_m(one: KitPiece, other: KitPiece) -> float:
     height = off @ other.normal
     radial = np.sqrt(np.maximum((off**2).sum(1) - height**2, 0.0))
     return float(np.minimum(np.minimum(-height, height + other.depth_m), other.radius_m - radial).max())
-
-
-def _piece(table: "Table", name: str) -> KitPiece:
-    kind = table.word("kind", tuple(SPOTS), "drum")
-    table.only({"kind", "centre_m", "zones", *_PIECE_KEYS})
-    piece = KitPiece(
-        piece=_PIECES[name],
-        kind=kind,
-        centre_m=table.point("centre_m"),
-        radius_m=table.number("radius_m", 0.02, 1.0),
-        depth_m=table.number("depth_m", 0.0, 1.0, 0.02),
-        tilt_x_rad=math.radians(table.number("tilt_x_deg", -_MAX_TILT_DEG, _MAX_TILT_DEG, 0.0)),
-        tilt_y_rad=math.radians(table.number("tilt_y_deg", -_MAX_TILT_DEG, _MAX_TILT_DEG, 0.0)),
-        wrist_radius_m=table.number("wrist_radius_m", 0.05, 1.0, 0.40),
-        wrist_height_m=table.number("wrist_height_m", -0.5, 0.5, 0.06),
-    )
-    return replace(piece, spots=MappingProxyType(_spots(table, piece)))
-
-
-def _spots(table: "Table", piece: KitPiece) -> dict[Zone, ZoneSpot]:
-    inward = max(-1.0, min(1.0, -piece.centre_m[0] / _ASIDE_M))
-    spots = {zone: replace(spot, right=inward * spot.right) for zone, spot in SPOTS[piece.kind].items()}
-    zones = table.table("zones", {})
-    for key in zones.raw:
-        if key not in _ZONES:
-            raise BadInput(table.source, f"{zones.place}.{key}", f"no such zone; there are {', '.join(_ZONES)}")
-        spots[_ZONES[key]] = _spot(zones.table(key), spots.get(_ZONES[key], ZoneSpot(0.0, 0.0)))
-    return spots
-
-
-def _spot(table: "Table", default: ZoneSpot) -> ZoneSpot:
-    table.only({f.name for f in fields(ZoneSpot)})
-    with_shoulder = replace(default, shoulder=table.flag("shoulder", default.shoulder))
-    numbers: dict[str, float] = {key: table.number(key, -1.0, 1.0) for key in table.raw if key != "shoulder"}
-    return replace(with_shoulder, **numbers)  # type: ignore[arg-type] # the one key that is no number was taken out
-
-
-def _pedal(table: "Table") -> Pedal:
-    table.only({"heel_m", "toe_m", "raised_deg"})
-    heel_m, toe_m = table.point("heel_m"), table.point("toe_m")
-    if math.dist(heel_m, toe_m) < _LEAST_BOARD_M:
-        fault = f"the toe end is {math.dist(heel_m, toe_m):.2f} m from the heel, expected at least {_LEAST_BOARD_M:g} m"
-        raise BadInput(table.source, f"{table.place}.toe_m", fault)
-    return Pedal(
-        heel_m=heel_m,
-        toe_m=toe_m,
-        raised_rad=math.radians(table.number("raised_deg", 0.0, 60.0, 18.0)),
-    )

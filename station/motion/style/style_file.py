@@ -2,26 +2,43 @@
 
 A file holds the controls of `style.Style` by their names, each with its natural value where it is not said; a table
 `pieces` of amplitudes by piece; and a table `automation` with, for a control, a list of [bar, value]. Reading names
-every fault by its key; what is written reads back the same.
+every fault by its place; what is written reads back the same.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from pathlib import Path
 from types import MappingProxyType
 
-from station.core.errors import BadInput
-from station.core.files import write_whole
+from station.core.files import NoSuchFile, write_whole
 from station.core.pieces import Piece, word
-from station.core.toml_table import Table, find_shipped, located, read_toml, shipped
-from station.motion.style.style import NUMBERS, WORDS, Automation, Style, checked, range_of
+from station.core.schema import (
+    Fields,
+    Reader,
+    key_of,
+    list_of,
+    number,
+    one_of,
+    optional,
+    read,
+    record,
+    row_of,
+    said,
+    table_of,
+    text,
+    whole,
+    words_of,
+)
+from station.core.shipped import find_shipped, shipped
+from station.core.toml_faults import wrong
+from station.core.toml_source import read_source
+from station.core.toml_write import toml_text
+from station.motion.style.style import NUMBERS, WORDS, Automation, Style, range_of
 
 STYLES = Path(__file__).parents[1] / "data" / "styles"
 SLOTS = 8
 """As many as SMED's window stored (thesis § 4.1.1)."""
 
-_PIECES = {word(p): p for p in Piece}
 _MAX_BAR = 100_000.0
 
 
@@ -33,8 +50,7 @@ def style_names() -> list[str]:
 def load_style(name_or_path: str | Path) -> Style:
     """A shipped style by its name, or a style file; raises `BadInput` with the place of the first fault."""
     path = find_shipped(name_or_path, STYLES, "style")
-    with located(path):
-        return _style(Table(read_toml(path), path, ""), path.stem)
+    return read(read_source(path), style_reader(path.stem))
 
 
 def save_style(style: Style, path: Path) -> None:
@@ -62,45 +78,44 @@ def _lines(style: Style, prefix: str) -> list[str]:
     return lines
 
 
-def _style(table: Table, name: str) -> Style:
-    table.only({f.name for f in fields(Style)} - {"name"} | {"title"})
-    style = Style(name=name)
-    values: dict[str, object] = {}
-    for key in table.raw:
-        if key in NUMBERS:
-            values[key] = table.number(key, *range_of(key))
-        elif key in WORDS:
-            values[key] = table.word(key, WORDS[key], "")
-    values["seed"] = table.whole("seed", 0, 2**31, style.seed)
-    values["pieces"] = _amplitudes(table.table("pieces", {}))
-    values["automation"] = _automation(table.table("automation", {}))
-    return checked(replace(style, **values))  # type: ignore[arg-type] # each was read as its field's type
+def _points(control: str) -> Reader[Automation]:
+    """How a control changes over the bars: its value at some of them, which rise."""
+    point = row_of([number(1.0, _MAX_BAR), number(*range_of(control))], "[bar, value]")
+    points = list_of(point, "a list of [bar, value]")
+
+    def read_points(raw: object) -> Automation:
+        found = points(raw)
+        if not found or any(a[0] >= b[0] for a, b in pairwise(found)):
+            raise wrong("the bars must rise" if found else "expected a list of [bar, value], found none")
+        return tuple((bar, value) for bar, value in found)
+
+    return read_points
 
 
-def _amplitudes(table: Table) -> Mapping[Piece, float]:
-    table.only(set(_PIECES))
-    return MappingProxyType({_PIECES[key]: table.number(key, 0.0, 100.0) for key in table.raw})
+_PIECES = words_of(Piece)
+FIELDS: Fields = {
+    "title": optional(text),
+    **{name: optional(number(*range_of(name))) for name in NUMBERS},
+    **{name: optional(one_of(words, "word")) for name, words in WORDS.items()},
+    "seed": optional(whole(0, 2**31)),
+    "pieces": optional(table_of(key_of(_PIECES, "piece"), number(0.0, 100.0))),
+    "automation": optional(said({name: optional(_points(name)) for name in (*NUMBERS, *_PIECES)}, "control")),
+}
+"""The schema of a style."""
+_CHANGES = said(FIELDS)
 
 
-def _automation(table: Table) -> Mapping[str, Automation]:
-    table.only({*NUMBERS, *_PIECES})
-    return MappingProxyType({key: _points(table, key) for key in table.raw})
+def style_reader(name: str, titled: bool = False) -> Reader[Style]:
+    """The schema of the style called `name` or, where it is `titled` and says one, by its title."""
 
+    def read_style(raw: object) -> Style:
+        changes = _CHANGES(raw)
+        title = changes.pop("title", name)
+        pieces, automation = (MappingProxyType(changes.pop(key, {})) for key in ("pieces", "automation"))
+        style = Style(name=title if titled else name, pieces=pieces, automation=automation)
+        return replace(style, **changes)
 
-def _points(table: Table, key: str) -> Automation:
-    raw = table.raw[key]
-    place = f"{table.place}.{key}"
-    if not isinstance(raw, list) or not raw:
-        raise BadInput(table.source, place, f"expected a list of [bar, value], found {raw!r}")
-    points = []
-    for point in raw:
-        if not isinstance(point, list) or len(point) != 2:
-            raise BadInput(table.source, place, f"expected [bar, value], found {point!r}")
-        bar = Table({key: point[0]}, table.source, table.place).number(key, 1.0, _MAX_BAR)
-        points.append((bar, Table({key: point[1]}, table.source, table.place).number(key, *range_of(key))))
-    if any(a[0] >= b[0] for a, b in pairwise(points)):
-        raise BadInput(table.source, place, "the bars must rise")
-    return tuple(points)
+    return read_style
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,30 +133,23 @@ class Slots:
     @classmethod
     def load(cls, path: Path) -> "Slots":
         """The slots in a file; all empty where there is none. Raises `BadInput` with the place of the first fault."""
-        if not path.exists():
+        try:
+            return read(read_source(path), SLOTS_FILE)
+        except NoSuchFile:
             return cls()
-        filled = [f"slot_{i + 1}" for i in range(SLOTS)]
-        with located(path):
-            table = Table(read_toml(path), path, "")
-            table.only(set(filled))
-            return cls(tuple(_named(table.table(key), key) if key in table.raw else None for key in filled))
 
     def save(self, path: Path) -> None:
         """Write all slots whole to `path`; raises `DeviceError` if the disk refuses."""
         blocks = []
         for i, style in enumerate(self.styles):
             if style is not None:
-                head = [f"[slot_{i + 1}]", f"title = {_quoted(style.name)}"]
+                head = [f"[slot_{i + 1}]", f"title = {toml_text(style.name)}"]
                 blocks.append("\n".join([*head, *_lines(style, f"slot_{i + 1}.")]))
         write_whole(path, ("\n\n".join(blocks) + "\n").encode())
 
 
-def _named(table: Table, key: str) -> Style:
-    style = _style(table, key)
-    title = table.raw.get("title")
-    return replace(style, name=title) if isinstance(title, str) else style
-
-
-def _quoted(text: str) -> str:
-    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
-    return f'"{escaped}"'
+SLOT_FIELDS: Fields = {
+    key: optional(style_reader(key, titled=True)) for key in (f"slot_{number}" for number in range(1, SLOTS + 1))
+}
+SLOTS_FILE: Reader[Slots] = record(lambda **styles: Slots(tuple(styles[key] for key in SLOT_FIELDS)), SLOT_FIELDS)
+"""The schema of the file of slots."""

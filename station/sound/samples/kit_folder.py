@@ -13,15 +13,31 @@ layers is no more than `MOST_RANKS`, they are ranks and share the velocities eve
 """
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from itertools import groupby
 from pathlib import Path
-from typing import Any, NamedTuple
 
 import numpy as np
 
-from station.core.did_you_mean import did_you_mean
 from station.core.errors import BadInput
-from station.core.toml_table import parse_toml
+from station.core.schema import (
+    Field,
+    Fields,
+    Reader,
+    key_of,
+    list_of,
+    needed,
+    number,
+    one_of,
+    optional,
+    read,
+    record,
+    table_of,
+    text,
+    whole,
+)
+from station.core.toml_faults import wrong
+from station.core.toml_source import read_source
 from station.sound.drum_kit import LEVEL_LAW, MAX_VELOCITY, DrumKit, Frames, Layer, Sound, level_of
 from station.sound.samples.audio_file import ENDINGS
 from station.sound.samples.recordings import Recordings, balance_of, even, kit_of
@@ -30,14 +46,10 @@ from station.sound.sound_names import SoundName
 
 TABLE_NAME = "kit.toml"
 MAX_FILES = 4096
-MAX_TABLE_BYTES = 2**20
 MOST_RANKS = 10
 """A hardest layer for velocities up to 10 alone makes no sense: such numbers count the layers (our choice)."""
-_KIT_KEYS = frozenset({"name", "loudness", "sounds"})
-_SOUND_KEYS = frozenset({"gain_db", "pan", "mute_group", "layers"})
-_LAYER_KEYS = frozenset({"to_velocity", "takes", "pitch", "gain_db"})
-_GAIN_DB = (-60.0, 24.0)
-_PITCH = (-24.0, 24.0)
+_MOST_GROUPS = 1000
+"""Of sounds that mute each other: more than a kit has sounds (our choice)."""
 
 
 def folder_kit(folder: Path, rate_hz: int) -> DrumKit:
@@ -46,7 +58,7 @@ def folder_kit(folder: Path, rate_hz: int) -> DrumKit:
     recordings = Recordings(str(folder), rate_hz, files)
     table = folder / TABLE_NAME
     if table.exists():
-        return _Table(table, rate_hz, recordings).kit()
+        return _kit(read(read_source(table), KIT_TABLE), folder, rate_hz, recordings)
     return kit_of(folder.name, rate_hz, _sounds_by_name(folder, rate_hz, files, recordings))
 
 
@@ -68,7 +80,7 @@ def audio_files(folder: Path) -> dict[str, Path | bytes]:
 def _sounds_by_name(
     folder: Path, rate_hz: int, files: Mapping[str, Path | bytes], recordings: Recordings
 ) -> dict[SoundName, Sound]:
-    named = [(did_you_mean, path) for path in files if (did_you_mean := file_named(Path(path).stem)) is not None]
+    named = [(meant, path) for path in files if (meant := file_named(Path(path).stem)) is not None]
     if not named:
         raise BadInput(folder, "", "no sound file here is named after a piece of a drum kit, such as snare.wav")
     named.sort()
@@ -99,112 +111,109 @@ def _reaches(layers: list[int]) -> dict[int, int]:
     return {layer: layer if 0 < layer < layers[-1] else MAX_VELOCITY for layer in layers}
 
 
-class _Row(NamedTuple):
-    """A layer as the table has it: the velocity it reaches, its takes, and the factor on them."""
-
-    reach: int
-    takes: list[Frames]
-    gain: float
+# --- the table --------------------------------------------------------------------------------------------------------
 
 
-class _Table:
-    """Reads `kit.toml`; every fault names the key."""
+@dataclass(frozen=True, slots=True)
+class LayerRow:
+    """A layer as the table has it: the velocity it reaches, its files, its pitch in semitones and its gain."""
 
-    def __init__(self, path: Path, rate_hz: int, recordings: Recordings) -> None:
-        self._path = path
-        self._rate_hz = rate_hz
-        self._recordings = recordings
-        self._raw = self._load()
-        self._check_keys(self._raw, _KIT_KEYS, "")
-        self._is_evened = self._choice("loudness", ("evened", "recorded")) == "evened"
+    to_velocity: int
+    takes: tuple[str, ...]
+    pitch: float
+    gain_db: float
 
-    def kit(self) -> DrumKit:
-        """The kit that the table describes."""
-        sounds = self._raw.get("sounds")
-        if not isinstance(sounds, dict) or not sounds:
-            raise self._fault("sounds", "a kit needs at least one table such as [sounds.snare]")
-        name = self._raw.get("name", self._path.parent.name)
-        if not isinstance(name, str):
-            raise self._fault("name", "expected a text")
-        return kit_of(name, self._rate_hz, {self._sound_name(key): self._sound(key, sounds[key]) for key in sounds})
 
-    def _load(self) -> dict[str, Any]:
-        try:
-            data = self._path.read_bytes()
-            if len(data) > MAX_TABLE_BYTES:
-                raise self._fault("", f"larger than {MAX_TABLE_BYTES} bytes is no table of a kit")
-            return parse_toml(data, self._path)
-        except OSError as fault:
-            raise self._fault("", fault.strerror or str(fault)) from fault
+@dataclass(frozen=True, slots=True)
+class SoundRow:
+    """A sound as the table has it."""
 
-    def _sound_name(self, key: str) -> SoundName:
-        if key not in set(SoundName):
-            raise self._fault(f"sounds.{key}", f"no such sound{did_you_mean(key, SoundName)}")
-        return SoundName(key)
+    gain_db: float
+    pan: float
+    mute_group: int | None
+    layers: tuple[LayerRow, ...]
 
-    def _sound(self, key: str, raw: object) -> Sound:
-        place = f"sounds.{key}"
-        table = self._table(raw, place)
-        self._check_keys(table, _SOUND_KEYS, place)
-        rows = table.get("layers")
-        if not isinstance(rows, list) or not rows:
-            raise self._fault(f"{place}.layers", "expected a list of layers")
-        layers = [self._layer(row, f"{place}.layers[{index}]") for index, row in enumerate(rows)]
-        reaches = [layer.reach for layer in layers]
-        if reaches != sorted(set(reaches)) or reaches[-1] != MAX_VELOCITY:
-            raise self._fault(f"{place}.layers", f"to_velocity rises from layer to layer, to {MAX_VELOCITY}")
-        group = table.get("mute_group")
-        if group is not None and (type(group) is not int or group < 0):
-            raise self._fault(f"{place}.mute_group", "expected a number from 0")
-        levels = LEVEL_LAW if self._is_evened else recorded_levels(reaches)
-        if self._is_evened:
-            even([layer.takes for layer in layers], self._rate_hz)
-        gain = self._gain(table, place)
-        pan = self._number(table, "pan", (-1.0, 1.0), place)
-        for layer in layers:
-            for take in layer.takes:
-                take *= np.float32(gain * layer.gain) * balance_of(pan)  # noqa: PLW2901 - in place
-        return Sound(tuple(Layer(layer.reach, tuple(layer.takes)) for layer in layers), levels, group)
 
-    def _layer(self, raw: object, place: str) -> "_Row":
-        table = self._table(raw, place)
-        self._check_keys(table, _LAYER_KEYS, place)
-        reach = table.get("to_velocity", MAX_VELOCITY)
-        if type(reach) is not int or not 1 <= reach <= MAX_VELOCITY:
-            raise self._fault(f"{place}.to_velocity", f"expected 1 to {MAX_VELOCITY}")
-        names = table.get("takes")
-        if not isinstance(names, list) or not names or not all(isinstance(name, str) for name in names):
-            raise self._fault(f"{place}.takes", "expected a list of file names")
-        pitch = self._number(table, "pitch", _PITCH, place)
-        return _Row(reach, [self._recordings.take(name, pitch) for name in names], self._gain(table, place))
+@dataclass(frozen=True, slots=True)
+class KitTable:
+    """What a `kit.toml` says; an empty `name` is the folder's."""
 
-    def _gain(self, table: dict[str, Any], place: str) -> float:
-        return float(10.0 ** (self._number(table, "gain_db", _GAIN_DB, place) / 20.0))
+    name: str
+    loudness: str
+    sounds: Mapping[SoundName, SoundRow]
 
-    def _choice(self, key: str, choices: tuple[str, ...]) -> str:
-        value = self._raw.get(key, choices[0])
-        if value not in choices:
-            raise self._fault(key, f"expected one of {', '.join(choices)}")
-        return str(value)
 
-    def _number(self, table: dict[str, Any], key: str, within: tuple[float, float], place: str) -> float:
-        value = table.get(key, 0.0)
-        if type(value) not in (int, float) or not within[0] <= value <= within[1]:
-            raise self._fault(f"{place}.{key}", f"expected {within[0]:g} to {within[1]:g}")
-        return float(value)
+def _layers_that_rise(raw: object) -> tuple[LayerRow, ...]:
+    rows = _LAYERS(raw)
+    reaches = [row.to_velocity for row in rows]
+    if not rows:
+        raise wrong(f"expected {_A_LIST}, found none")
+    if reaches != sorted(set(reaches)) or reaches[-1] != MAX_VELOCITY:
+        raise wrong(f"to_velocity rises from layer to layer, to {MAX_VELOCITY}")
+    return rows
 
-    def _table(self, raw: object, place: str) -> dict[str, Any]:
-        if not isinstance(raw, dict):
-            raise self._fault(place, "expected a table")
-        return raw
 
-    def _check_keys(self, table: Mapping[str, object], known: frozenset[str], place: str) -> None:
-        for key in table:
-            if key not in known:
-                raise self._fault(f"{place}.{key}".lstrip("."), f"no such key{did_you_mean(key, sorted(known))}")
+def _takes(raw: object) -> tuple[str, ...]:
+    names = list_of(text, "a list of file names")(raw)
+    if not names:
+        raise wrong("expected a list of file names, found none")
+    return names
 
-    def _fault(self, place: str, fault: str) -> BadInput:
-        return BadInput(self._path, place, fault)
+
+def _kit_table(name: str, loudness: str, sounds: Mapping[SoundName, SoundRow]) -> KitTable:
+    if not sounds:
+        raise wrong("a kit needs at least one table such as [sounds.snare]", "sounds")
+    return KitTable(name, loudness, sounds)
+
+
+_A_LIST = "a list of layers"
+_GAIN = Field(number(-60.0, 24.0), 0.0)
+_LAYER: Fields = {
+    "to_velocity": Field(whole(1, MAX_VELOCITY), MAX_VELOCITY),
+    "takes": needed(_takes, 'takes = ["snare.wav"]'),
+    "pitch": Field(number(-24.0, 24.0), 0.0),
+    "gain_db": _GAIN,
+}
+_LAYERS = list_of(record(LayerRow, _LAYER), _A_LIST)
+_SOUND: Fields = {
+    "gain_db": _GAIN,
+    "pan": Field(number(-1.0, 1.0), 0.0),
+    "mute_group": optional(whole(0, _MOST_GROUPS)),
+    "layers": needed(_layers_that_rise, 'layers = [{ takes = ["snare.wav"] }]'),
+}
+_SOUNDS = table_of(key_of({each.value: each for each in SoundName}, "sound"), record(SoundRow, _SOUND))
+FIELDS: Fields = {
+    "name": Field(text, ""),
+    "loudness": Field(one_of(("evened", "recorded"), "loudness"), "evened"),
+    "sounds": needed(_SOUNDS, "a table such as [sounds.snare]"),
+}
+KIT_TABLE: Reader[KitTable] = record(_kit_table, FIELDS)
+"""The schema of the file."""
+
+
+def _kit(table: KitTable, folder: Path, rate_hz: int, recordings: Recordings) -> DrumKit:
+    """The kit that the table describes."""
+    is_evened = table.loudness == "evened"
+    sounds = {name: _sound(row, recordings, rate_hz if is_evened else None) for name, row in table.sounds.items()}
+    return kit_of(table.name or folder.name, rate_hz, sounds)
+
+
+def _sound(row: SoundRow, recordings: Recordings, even_at_hz: int | None) -> Sound:
+    """One sound; its layers are made equally loud at the rate `even_at_hz`, or stay as recorded where that is None."""
+    layers = [[recordings.take(name, layer.pitch) for name in layer.takes] for layer in row.layers]
+    reaches = [layer.to_velocity for layer in row.layers]
+    if even_at_hz is not None:
+        even(layers, even_at_hz)
+    for layer, takes in zip(row.layers, layers, strict=True):
+        for take in takes:
+            take *= np.float32(_gain(row) * _gain(layer)) * balance_of(row.pan)  # noqa: PLW2901 - in place
+    levels = LEVEL_LAW if even_at_hz is not None else recorded_levels(reaches)
+    made = tuple(Layer(reach, tuple(takes)) for reach, takes in zip(reaches, layers, strict=True))
+    return Sound(made, levels, row.mute_group)
+
+
+def _gain(row: SoundRow | LayerRow) -> float:
+    return float(10.0 ** (row.gain_db / 20.0))
 
 
 def recorded_levels(reaches: list[int]) -> tuple[float, ...]:

@@ -240,7 +240,9 @@ def test_bad_settings_name_the_key(capsys: pytest.CaptureFixture[str], tmp_path:
     settings = tmp_path / "config" / "drum-station" / "settings.toml"
     settings.parent.mkdir(parents=True)
     settings.write_text('kitt = "TD-17"\n')
-    assert "kitt: no such setting" in refused(capsys, "practice", "rock-1", "--virtual-student", "pro")
+    assert "line 1, column 1: no such setting: kitt; did you mean kit?" in refused(
+        capsys, "practice", "rock-1", "--virtual-student", "pro"
+    )
 
 
 def test_help_needs_no_command(capsys: pytest.CaptureFixture[str]) -> None:
@@ -457,7 +459,7 @@ def test_a_file_that_is_no_text_is_told_in_a_teachers_words(
     binary = tmp_path / "binary.toml"
     binary.write_bytes(b"\n\xff\xfe")
     words = ("animate", "rock-1", option, str(binary), "--out", str(tmp_path / "x.npz"))
-    assert "binary.toml: line 2: not UTF-8 text" in refused(capsys, *words)
+    assert "binary.toml: line 2, column 1: not UTF-8 text" in refused(capsys, *words)
 
 
 @pytest.mark.parametrize("command", [("practice",), ("lesson", "show")])

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from station.core.errors import BadInput
 from station.core.pieces import Piece
-from station.core.settings import Settings, load_settings, save_settings
+from station.core.settings import Settings, load_settings, read_settings, save_settings, with_said
 
 
 def written(tmp_path: Path, text: str) -> Path:
@@ -33,21 +33,21 @@ def test_a_whole_number_does_where_a_fraction_is_expected(tmp_path: Path) -> Non
 @pytest.mark.parametrize(
     ("text", "fault"),
     [
-        ("kti = 1", "kti: no such setting; did you mean kit?"),
-        ("rate_hz = true", "rate_hz: expected a whole number, found True"),
-        ('block_frames = "64"', "block_frames: expected a whole number, found '64'"),
-        ("student = 3", "student: expected a text in quotes, found 3"),
-        ('output_latency_ms = "8"', "output_latency_ms: expected a number, found '8'"),
+        ("kti = 1", "line 1, column 1: no such setting: kti; did you mean kit?"),
+        ("rate_hz = true", "line 1, column 11: rate_hz: expected a whole number from 8000 to 384000, found true"),
+        ('block_frames = "64"', 'block_frames: expected a whole number from 0 to 8192, found "64"'),
+        ("student = 3", 'student: expected text in quotes, such as "…", found 3'),
+        ('output_latency_ms = "8"', 'output_latency_ms: expected a number from -1000 to 1000, found "8"'),
         ("own_sound = 1", "own_sound: expected true or false, found 1"),
-        ("block_frames = -1", "block_frames: expected 0 to 8192, found -1"),
+        ("block_frames = -1", "block_frames: expected a whole number from 0 to 8192, found -1"),
         ("block_frames = 15", "block_frames: expected 0 (the driver's choice) or 16 to 8192, found 15"),
-        ("rate_hz = 0", "rate_hz: expected 8000 to 384000, found 0"),
-        ("input_latency_ms = nan", "input_latency_ms: expected -1000 to 1000, found nan"),
-        ("output_latency_ms = 1e9", "output_latency_ms: expected -1000 to 1000, found 1000000000.0"),
-        ("mask_ms = 101", "mask_ms: expected 0 to 100, found 101"),
-        ('thresholds = "snaer=20"', "thresholds: expected PIECE=1…127, such as snare=20, found 'snaer=20'"),
-        ('thresholds = "snare=128"', "thresholds: expected PIECE=1…127, such as snare=20, found 'snare=128'"),
-        ('thresholds = "snare"', "thresholds: expected PIECE=1…127, such as snare=20, found 'snare'"),
+        ("rate_hz = 0", "rate_hz: expected a whole number from 8000 to 384000, found 0"),
+        ("input_latency_ms = nan", "input_latency_ms: expected a number from -1000 to 1000, found nan"),
+        ("output_latency_ms = 1e9", "output_latency_ms: expected a number from -1000 to 1000, found 1000000000.0"),
+        ("mask_ms = 101", "mask_ms: expected a number from 0 to 100, found 101"),
+        ('thresholds = "snaer=20"', 'thresholds: expected PIECE=1…127, such as snare=20, found "snaer=20"'),
+        ('thresholds = "snare=128"', 'thresholds: expected PIECE=1…127, such as snare=20, found "snare=128"'),
+        ('thresholds = "snare"', 'thresholds: expected PIECE=1…127, such as snare=20, found "snare"'),
         ("kit = 7x\nrate_hz = 48000\n", "line 1, column 8: "),
     ],
 )
@@ -57,6 +57,23 @@ def test_a_fault_names_the_file_the_key_and_what_was_expected(tmp_path: Path, te
         load_settings(path)
     assert str(raised.value).startswith(f"{path}: ")
     assert fault in str(raised.value)
+
+
+def test_a_fault_loses_neither_the_file_nor_what_its_other_keys_say(tmp_path: Path) -> None:
+    text = 'student = "Ada"\nrate_hz = "fast"\nkti = 3\ntheme = \nown_sound = false\n'
+    path = written(tmp_path, text)
+    settings, faults = read_settings(path)
+    assert settings == Settings(student="Ada", own_sound=False)
+    assert [(one.line, one.column) for one in faults] == [(2, 11), (3, 1), (4, 9)]
+    with pytest.raises(BadInput, match=r"line 2, column 11: rate_hz: .* \(and 2 more: `station lesson check .*` lists"):
+        load_settings(path)
+    assert path.read_text(encoding="utf-8") == text
+
+
+def test_what_the_command_line_says_is_checked_like_the_file() -> None:
+    assert with_said(Settings(), {"mask_ms": 5, "kit": "TD"}, "practice") == Settings(mask_ms=5.0, kit="TD")
+    with pytest.raises(BadInput, match=r"^practice: mask_ms: expected a number from 0 to 100, found 101$"):
+        with_said(Settings(), {"mask_ms": 101}, "practice")
 
 
 def test_a_file_that_is_not_text_is_refused(tmp_path: Path) -> None:
@@ -69,7 +86,7 @@ def test_a_file_that_is_not_text_is_refused(tmp_path: Path) -> None:
 def test_a_folder_in_its_place_is_refused_in_few_words(tmp_path: Path) -> None:
     with pytest.raises(BadInput) as raised:
         load_settings(tmp_path)
-    assert str(raised.value) == f"{tmp_path}: Is a directory"
+    assert str(raised.value) == f"{tmp_path}: cannot be read: Is a directory"
 
 
 any_text = st.text(st.characters(exclude_categories=["Cs"]))

@@ -3,7 +3,7 @@
 import pytest
 
 from station.core.toml_places import Places
-from station.drills.toml_syntax import load
+from station.core.toml_source import load
 
 TEXT = """\
 # a comment with "quotes" and [brackets]
@@ -117,17 +117,17 @@ def test_line_ends_of_windows() -> None:
     ],
 )
 def test_syntax_faults_have_their_place_and_plain_words(text: str, line: int, column: int, words: str) -> None:
-    _, found, _ = load(text)
+    _, _, found = load(text)
     assert found[0][:2] == (line, column), found
     assert words in found[0][2]
 
 
 def test_every_faulty_line_is_named() -> None:
-    raw, found, _ = load('a = 1\nb = \nc = "x\nd 4\ne = 5\n')
+    raw, _, found = load('a = 1\nb = \nc = "x\nd 4\ne = 5\n')
     assert [f[0] for f in found] == [2, 3, 4]
     assert raw == {"a": 1, "e": 5}
 
 
 def test_deep_nesting_is_a_fault() -> None:
-    _, found, _ = load("a = " + "[" * 100_000)
+    _, _, found = load("a = " + "[" * 100_000)
     assert "too deeply" in found[0][2]

@@ -1,7 +1,7 @@
 """Small words that the tests of lessons share."""
 
+from station.core.toml_faults import Fault
 from station.core.units import PPQ
-from station.drills.faults import Fault
 from station.drills.lesson import Lesson
 from station.drills.lesson_file import parse_lesson
 from station.music.score import Note

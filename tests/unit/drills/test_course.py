@@ -4,8 +4,9 @@ from pathlib import Path
 
 import pytest
 
+from station.app.toml_files import check_files
 from station.core.errors import BadInput
-from station.drills.authoring import NEW_LESSON, check_lessons
+from station.drills.authoring import NEW_LESSON
 from station.drills.course import Course
 from station.drills.library import courses_in, find_lesson, lesson_names, shipped_courses
 
@@ -62,7 +63,7 @@ def test_a_course_has_its_lessons_in_their_order_those_of_files_too(tmp_path: Pa
 )
 def test_each_fault_is_told_with_its_place(tmp_path: Path, text: str, line: int, column: int, words: str) -> None:
     path = written(tmp_path, text)
-    faults, count = check_lessons([str(path)])
+    faults, count = check_files([str(path)])
     assert count == 1
     assert [(one.line, one.column) for one in faults] == [(line, column)]
     assert words in faults[0].text

@@ -1,5 +1,6 @@
 """Files read into lessons; expected values are what the text says, places counted by eye."""
 
+import time
 from pathlib import Path
 
 import pytest
@@ -107,7 +108,7 @@ GRID = '\n[grid]\nsnare = "oooo"\n'
         ),
         ('title = "T"\nswing_ratio = 2\nswing_unit = "1/4"' + GRID, 3, 14, "expected a shorter swing_unit"),
         ('title = "T"\ntags = "rock"' + GRID, 2, 8, "expected a list of words"),
-        ('title = "T"\nloop = [0, 1]' + GRID, 2, 8, "loop: expected a whole number from 1 to 1"),
+        ('title = "T"\nloop = [0, 1]' + GRID, 2, 9, "loop: expected a whole number from 1 to 1"),
         ('title = "T"\nloop = [1]' + GRID, 2, 8, "expected two bar numbers"),
         ('title = "T"\nloop = [2, 1]\n[grid]\nsnare = "o|o"', 2, 8, "bar 1 comes before bar 2"),
         ('title = "T"\npasses = 0' + GRID, 2, 10, "expected a whole number from 1 to 1000"),
@@ -115,7 +116,7 @@ GRID = '\n[grid]\nsnare = "oooo"\n'
         ('title = "T"\ncolour = "red"' + GRID, 2, 1, "no such key: colour; the nearest are"),
         ('title = "T"\n[goals]\nmax_sd = 3' + GRID, 3, 1, "no such key: max_sd; did you mean max_sd_ms?"),
         ('title = "T"\n[goals]\nmin_accuracy = 90' + GRID, 3, 16, "expected a number from 0 to 1"),
-        ('title = "T"\ngoals = 3' + GRID, 2, 9, "expected a table: [goals]"),
+        ('title = "T"\ngoals = 3' + GRID, 2, 9, "goals: expected a table, found 3"),
         ('title = "T"\n[dynamics]\nghost = 90' + GRID, 2, 1, "expected rising velocities"),
         ('title = "T"\n[dynamics]\naccent = 128' + GRID, 3, 10, "expected a whole number from 1 to 127"),
         ('title = "T"\n[dynamics.snair]\naccent = 12' + GRID, 2, 1, "no such key: snair; did you mean snare?"),
@@ -165,8 +166,33 @@ def test_a_missing_key_is_not_claimed_where_lines_could_not_be_read() -> None:
 def test_reading_a_file_raises_its_first_fault(tmp_path: Path) -> None:
     path = tmp_path / "bad.toml"
     path.write_text('title = "T"\n[grid]\nsnare = "oq"\nkick = "oq"\n')
-    with pytest.raises(BadInput, match=r"bad\.toml: line 3, column 11: 'q' is no letter.*\(and 1 more\)"):
+    with pytest.raises(
+        BadInput,
+        match=r"bad\.toml: line 3, column 11: 'q'.*\(and 1 more: `station lesson check .*bad\.toml` lists them\)$",
+    ):
         read_lesson(path)
+
+
+FINE = "o" * 3840  # a bar of 4/4 in cells of one tick
+LONG = {
+    "letters": ("snare = '" + "|".join([FINE] * 200) + "'", "768199 letters; a lesson has at most 200000"),
+    "cells": (f"snare = '{FINE} | %99'", "384000 cells; a lesson has at most 200000"),
+    "strokes": (f"snare = '{FINE} | %9'", "38400 strokes up to here; a lesson has at most 20000"),
+    "bars": (
+        "snare = 'o | %199'\ntimes = 10\n[[grid]]\nsnare = 'o'",
+        "2001 bars up to here; a lesson has at most",
+    ),
+}
+
+
+@pytest.mark.parametrize("what", LONG)
+def test_a_lesson_of_more_than_anyone_practises_is_refused_at_once(what: str) -> None:
+    """Nobody waits for it: less than a second of the processor's time, and of a slow one's three."""
+    grid, words = LONG[what]
+    began_s = time.process_time()
+    found = faults(f'title = "T"\ntempo_bpm = 40\n[[grid]]\n{grid}\n')
+    assert words in " ".join(fault.text for fault in found)
+    assert time.process_time() - began_s < 3
 
 
 def test_a_file_of_windows_notepad_reads(tmp_path: Path) -> None:
@@ -178,9 +204,9 @@ def test_a_file_of_windows_notepad_reads(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("data", "words"),
     [
-        (b'title = "T"\n\xff\xfe', r"line 2: not UTF-8 text"),
+        (b'title = "T"\n\xff\xfe', r"line 2, column 1: not UTF-8 text"),
         (b"#" * 1_000_001, "longer than 1000000 bytes"),
-        (b"", "grid is missing.*and 1 more"),
+        (b"", "title is missing.*and 1 more"),
         (b"\x00", "line 1, column 1"),
     ],
 )

@@ -57,7 +57,7 @@ def test_a_file_sets_segments_and_limits(tmp_path: Path) -> None:
     [
         ("stature_m = 5", "stature_m"),
         ("title = 'x'", "stature_m"),
-        ("stature_m = 1.8\n[limits]\nwrist = 3", "limits.wrist"),
+        ("stature_m = 1.8\n[limits]\nwrist = 3", "no such limit: wrist"),
         ("stature_m = 1.8\n[segments]\nforearm_m = 'long'", "segments.forearm_m"),
     ],
 )

@@ -1,4 +1,5 @@
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -93,25 +94,33 @@ def test_a_missing_piece_has_a_stand_in(piece: Piece, played: Piece) -> None:
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "place", "fault"),
+    ("old", "new", "there", "fault"),
     [
-        ("radius_m = 0.178\ndepth_m = 0.14", "radius_m = -1\ndepth_m = 0.14", "snare.radius_m", "expected a number"),
-        ("[snare]", "[snair]", "snair", "meant snare?"),
-        ('kind = "hihat"', 'kind = "hat"', "hihat.kind", "expected drum or"),
-        ("centre_m = [-0.07, 0.45, 0.66]", "centre_m = [-0.07, 0.45]", "snare.centre_m", "[right, forward, up]"),
-        ("depth_m = 0.14", "deep_m = 0.14", "snare.deep_m", "no such key"),
-        ("[pedals.kick]", "[pedals.drum]", "pedals", "kick is missing"),
-        ("toe_m = [0.20, 0.71, 0.03]", "toe_m = [0.20, 0.44, 0.03]", "pedals.kick.toe_m", "expected at least 0.1 m"),
-        ("centre_m = [-0.42, 0.62, 0.86]", "centre_m = [-0.07, 0.46, 0.67]", "hihat.centre_m", "overlaps the snare"),
-        ("centre_m = [-0.02, 0.80, 0.80]", "centre_m = [0.45, 0.38, 0.58]", "floor_tom_1.centre_m", "cm deep"),
-        ("[ride]", "[ride.zones.top]\nright = 0\n\n[ride]", "ride.zones.top", "no such zone"),
+        ("radius_m = 0.178\ndepth_m", "radius_m = -1\ndepth_m", "-1\n", "snare.radius_m: expected a number from 0.02"),
+        ("[snare]", "[snair]", "[snair]", "no such piece or key: snair; did you mean snare?"),
+        ('kind = "hihat"', 'kind = "hat"', '"hat"', "hihat.kind: expected drum, cymbal, hihat, kick or block"),
+        ("[-0.07, 0.45, 0.66]", "[-0.07, 0.45]", "[-0.07, 0.45]", "snare.centre_m: expected [right, forward, up]"),
+        ("depth_m = 0.14", "deep_m = 0.14", "deep_m = 0.14", "no such key: deep_m; did you mean depth_m?"),
+        ("[pedals.kick]", "[pedals.drum]", "[pedals.drum]", "no such key: drum; there are kick, hihat"),
+        ("[0.20, 0.71, 0.03]", "[0.20, 0.44, 0.03]", "[0.20, 0.44", "pedals.kick.toe_m: the toe end is 0.00 m from"),
+        ("[-0.42, 0.62, 0.86]", "[-0.07, 0.46, 0.67]", "[-0.07, 0.46, 0.67]", "hihat.centre_m: overlaps the snare"),
+        ("[-0.02, 0.80, 0.80]", "[0.45, 0.38, 0.58]", "[0.55, 0.38, 0.62]", "floor_tom_1.centre_m: overlaps the tom_1"),
+        ("[ride]", "[ride.zones.top]\nright = 0\n\n[ride]", "[ride.zones.top]", "no such zone: top"),
     ],
 )
-def test_a_faulty_kit_names_the_place(tmp_path: Path, old: str, new: str, place: str, fault: str) -> None:
+def test_a_faulty_kit_names_the_place(tmp_path: Path, old: str, new: str, there: str, fault: str) -> None:
+    path = edited(tmp_path, old, new)
     with pytest.raises(BadInput) as caught:
-        load_kit(edited(tmp_path, old, new))
-    assert caught.value.place.endswith(place)
+        load_kit(path)
+    line, column = map(int, re.findall(r"\d+", caught.value.place))
+    assert "\n".join(path.read_text().split("\n")[line - 1 :])[column - 1 :].startswith(there)
     assert fault in caught.value.fault
+
+
+@pytest.mark.parametrize("piece", ["kick", "snare"])
+def test_a_kit_without_kick_or_snare_is_none(tmp_path: Path, piece: str) -> None:
+    with pytest.raises(BadInput, match=rf"line 1, column 1: {piece} is missing; expected a table \[{piece}\]"):
+        load_kit(edited(tmp_path, f"[{piece}]", "[crash_2]"))
 
 
 def test_an_unknown_kit_names_those_there_are() -> None:

@@ -125,26 +125,28 @@ def test_a_style_written_reads_back(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "place"),
+    ("text", "place", "fault"),
     [
-        ("amplitude_gain = 101", "line 1, column 18, amplitude_gain"),
-        ("title = 'x'\namplitude_gain = 'big'", "line 2, column 18, amplitude_gain"),
-        ("# a\n\n  amplitude = 5", "line 3, column 15, amplitude"),
-        ("held = 'hammer'", "line 1, column 8, held"),
-        ("seed = 1.5", "line 1, column 8, seed"),
-        ("[pieces]\nsnair = 5", "line 2, column 9, pieces.snair"),
-        ("[automation]\nstand = [[1, 0], [1, 1]]", "line 2, column 9, automation.stand"),
-        ("[automation]\nstand = [[2, 5]]", "line 2, column 9, automation.stand"),
-        ("[automation]\nheld = [[2, 5]]", "line 2, column 8, automation.held"),
-        ("stand = 1\nshrug = = 5", "line 2, column 9"),
+        ("amplitude_gain = 101", "line 1, column 18", "amplitude_gain: expected a number from 0 to 100, found 101"),
+        ("title = 'x'\namplitude_gain = 'big'", "line 2, column 18", "amplitude_gain: expected a number"),
+        ("# a\n\n  amplitude = 5", "line 3, column 3", "no such key: amplitude; did you mean amplitude_"),
+        ("held = 'hammer'", "line 1, column 8", "held: expected stick, brush, mallet or hand"),
+        ("seed = 1.5", "line 1, column 8", "seed: expected a whole number from 0 to 2147483648, found 1.5"),
+        ("[pieces]\nsnair = 5", "line 2, column 1", "no such piece: snair; did you mean snare?"),
+        ("[automation]\nstand = [[1, 0], [1, 1]]", "line 2, column 9", "automation.stand: the bars must rise"),
+        ("[automation]\nstand = [[2, 5]]", "line 2, column 14", "automation.stand: expected a number from 0 to 1"),
+        ("[automation]\nstand = [[2]]", "line 2, column 10", "expected [bar, value], found 1 entries"),
+        ("[automation]\nheld = [[2, 5]]", "line 2, column 1", "no such control: held"),
+        ("stand = 1\nshrug = = 5", "line 2, column 9", "expected a value"),
     ],
 )
-def test_a_faulty_style_names_the_place(tmp_path: Path, text: str, place: str) -> None:
+def test_a_faulty_style_names_the_place(tmp_path: Path, text: str, place: str, fault: str) -> None:
     path = tmp_path / "mine.toml"
     path.write_text(text)
     with pytest.raises(BadInput) as caught:
         load_style(path)
     assert caught.value.place == place
+    assert fault in caught.value.fault
 
 
 def test_eight_slots_keep_what_is_stored(tmp_path: Path) -> None:

@@ -1,0 +1,81 @@
+"""Every kind of TOML file that the station reads, how a file tells which it is, and the faults of files of any kind."""
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from station.core import measured_latency, settings
+from station.core.errors import BadInput
+from station.core.schema import Reader, reading
+from station.core.toml_faults import Fault
+from station.core.toml_source import Source
+from station.devices.mapping import device_file
+from station.drills import course, lesson_file
+from station.drills.library import lessons_for
+from station.motion.kinematics import figure
+from station.motion.kit import kit
+from station.motion.style import style_file
+from station.sound.samples import kit_folder
+
+_ENDING = "*.toml"
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """One kind of file: what it is called, the keys of its top table, its schema, and how its files are often named."""
+
+    name: str
+    keys: Iterable[str]
+    reader: Callable[[Path], Reader[object]]
+    names: tuple[str, ...] = ()
+
+
+def _course(path: Path) -> Reader[object]:
+    return course.course_reader(path.name.removesuffix(course.ENDING), lessons_for(path.parent))
+
+
+LESSON = Kind("lesson", lesson_file.FIELDS, lambda path: lesson_file.lesson_reader(path.stem))
+COURSE = Kind("course", course.FIELDS, _course)
+KINDS = (
+    LESSON,
+    COURSE,
+    Kind("device kit", device_file.KEYS, lambda path: device_file.kit_reader(path.stem), ("kits/*.toml",)),
+    Kind("drummer's kit", kit.FIELDS, lambda path: kit.kit_reader(path.stem)),
+    Kind("figure", figure.FIELDS, lambda _: figure.FIGURE),
+    Kind("style", style_file.FIELDS, lambda path: style_file.style_reader(path.stem), ("styles/*.toml",)),
+    Kind("slots of styles", style_file.SLOT_FIELDS, lambda _: style_file.SLOTS_FILE, ("slots.toml",)),
+    Kind("sounds", kit_folder.FIELDS, lambda _: kit_folder.KIT_TABLE, (kit_folder.TABLE_NAME,)),
+    Kind("settings", settings.FIELDS, lambda _: settings.SETTINGS, ("settings.toml",)),
+    Kind("calibration", measured_latency.FIELDS, lambda _: measured_latency.CALIBRATION, (measured_latency.FILE_NAME,)),
+)
+
+
+def kind_of(path: Path, source: Source) -> Kind:
+    """The kind that knows most of the file's keys; where several do, the one whose files are named so, or a lesson."""
+    if course.is_course(path):
+        return COURSE
+    return max(KINDS, key=lambda kind: (len(set(kind.keys) & set(source.raw)), any(map(path.match, kind.names))))
+
+
+def check_files(paths: Sequence[str]) -> tuple[list[Fault], int]:
+    """Every fault of the files at `paths` (TOML files of any kind, or folders of them), and how many were read."""
+    faults: list[Fault] = []
+    count = 0
+    for given in paths:
+        path = Path(given)
+        files = sorted(path.rglob(_ENDING)) if path.is_dir() else [path]
+        if not files:
+            faults.append(Fault(given, 0, 0, "no lesson in this folder; expected .toml files"))
+        for file in files:
+            count += 1
+            faults += faults_of(file)
+    return faults, count
+
+
+def faults_of(path: Path) -> list[Fault]:
+    """Every fault of one file."""
+    try:
+        source = lesson_file.lesson_source(path)
+    except BadInput as fault:
+        return [Fault(str(path), 0, 0, fault.fault)]
+    return reading(source, kind_of(path, source).reader(path))[1]

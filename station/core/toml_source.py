@@ -1,0 +1,146 @@
+"""The TOML file as it was read: what it says, its text, and every fault of its syntax with line and column.
+
+`tomllib` stops at the first fault. To name the others too, the faulty line is set aside and the rest read again, as
+long as that line does not open a table (without it, later keys would land in the wrong one).
+"""
+
+import re
+import sys
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+
+from station.core.files import read_regular
+from station.core.toml_places import first_value
+
+MAX_FILE_BYTES = 1_000_000
+"""Our choice: no file that a person writes is longer."""
+MAX_SYNTAX_FAULTS = 50
+_MOST_READ = 5_000_000
+"""So many characters are read again and again for the sake of further faults: about two seconds (our choice)."""
+_MOST_KEYS = 100
+"""A longer dotted key is a slip or an attack: what `tomllib` remembers of it grows with its square (our choice)."""
+
+_PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
+_KEY = r"""(?:[A-Za-z0-9_-]+|"[^"\n]*"|'[^'\n]*')"""
+_ENDLESS_KEY = re.compile(rf"(?:^[ \t]*+\[?+\[?+|[{{,])[ \t]*+(?:{_KEY}[ \t]*+\.[ \t]*+){{{_MOST_KEYS}}}", re.MULTILINE)
+_WHOLE = re.compile(r"[+-]?[0-9_]+\s*")
+
+_PLAIN_WORDS = (
+    ("Expected '=' after a key", "expected = after the key"),
+    ("Invalid value", 'expected a value: text in quotes, a number, true, false or a list such as ["a", "b"]'),
+    ("Expected newline or end of document after a statement", "expected the end of the line after the value"),
+    ("Illegal character '\\n'", "a text in quotes is not closed on its line; expected a closing quote"),
+    ("Unclosed array", "a list is not closed; expected , or ]"),
+    ("Unclosed inline table", "a table in braces is not closed; expected , or }"),
+    ("Unterminated string", "a text is not closed; expected its closing quotes"),
+    ("Invalid statement", "expected a key, [a table] or a # comment"),
+    ("Invalid initial character for a key part", "expected a key: letters, digits, _ or -"),
+    ("Cannot overwrite a value", "this key was given before"),
+    ("Duplicate inline table key", "this key was given before"),
+    ("Cannot declare", "this table was given before"),
+    ("Expected ']' at the end of a table declaration", "expected ] after the table's name"),
+    ("Expected ']]' at the end of an array declaration", "expected ]] after the table's name"),
+    ("Unescaped '\\' in a string", 'a \\ in quotes starts an escape such as \\n or \\"; write \\\\ for itself'),
+)
+
+_AT_LINE_START = ("Cannot overwrite a value", "Cannot declare")
+"""Complaints that `tomllib` places after the statement that they are about."""
+_AFTER_ESCAPE = "Unescaped '\\' in a string"
+"""Placed after the backslash and its letter."""
+
+SyntaxFault = tuple[int, int, str]
+"""Line and column from 1, and what was expected."""
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """A file or a text by its `name`: `raw` is what it says, `text` what was read in the end (faulty lines blanked)."""
+
+    name: str
+    raw: dict[str, object]
+    text: str
+    syntax: tuple[SyntaxFault, ...] = ()
+    is_file: bool = True
+
+    @property
+    def is_read(self) -> bool:
+        """Whether anything can be said about its values."""
+        return bool(self.raw) or not self.syntax
+
+
+def read_source(path: Path) -> Source:
+    """The TOML file at `path`; raises `BadInput` if it cannot be read or is too large."""
+    return source_of(read_regular(path, MAX_FILE_BYTES), str(path))
+
+
+def source_of(data: bytes, name: str) -> Source:
+    """What the bytes of the file called `name` say."""
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as fault:
+        before = data[: fault.start].decode("utf-8-sig")
+        return Source(name, {}, before, ((*_end(before), "not UTF-8 text; expected TOML, saved as UTF-8"),))
+    return Source(name, *load(text))
+
+
+def text_source(text: str, name: str) -> Source:
+    """What a text says that is no file of its own; `name` names it in faults."""
+    if len(text) > MAX_FILE_BYTES:
+        return Source(name, {}, "", ((1, 1, f"longer than {MAX_FILE_BYTES} letters"),), is_file=False)
+    return Source(name, *load(text), is_file=False)
+
+
+def load(text: str) -> tuple[dict[str, object], str, tuple[SyntaxFault, ...]]:
+    """What the text says, the text as it was read in the end (faulty lines blanked), and its syntax faults."""
+    text = text.replace("\r\n", "\n")
+    if endless := _ENDLESS_KEY.search(text):
+        return {}, "", ((*_end(text[: endless.start()]), f"a key of more than {_MOST_KEYS} parts"),)
+    faults: list[SyntaxFault] = []
+    while len(faults) < min(MAX_SYNTAX_FAULTS, 1 + _MOST_READ // (len(text) + 1)):
+        try:
+            return tomllib.loads(text), text, tuple(faults)
+        except tomllib.TOMLDecodeError as error:
+            faults.append(_told(str(error), text))
+        except ValueError:  # Python reads no longer whole number
+            faults.append(_too_long(text))
+        except RecursionError:
+            return {}, "", ((1, 1, "lists or tables nested too deeply"),)
+        lines = text.split("\n")
+        line = faults[-1][0] - 1
+        if not lines[line].strip() or lines[line].lstrip().startswith("["):
+            break
+        lines[line] = ""
+        text = "\n".join(lines)
+    return {}, "", tuple(faults)
+
+
+def _told(message: str, text: str) -> SyntaxFault:
+    """Line, column and plain words of a complaint of `tomllib`."""
+    place = _PLACE.search(message)
+    complaint = message[: place.start()] if place else message
+    words = next((plain for start, plain in _PLAIN_WORDS if complaint.startswith(start)), complaint)
+    if place and place.group(1):
+        line, column = int(place.group(1)), int(place.group(2))
+    else:
+        line, column = _end(text.rstrip())
+    if complaint.startswith(_AT_LINE_START):
+        statement = text.split("\n")[line - 1]
+        column = len(statement) - len(statement.lstrip()) + 1
+    return line, column - 2 * complaint.startswith(_AFTER_ESCAPE), words
+
+
+def _too_long(text: str) -> SyntaxFault:
+    """The first number that has more digits than Python reads."""
+    most = sys.get_int_max_str_digits()
+    at, number = first_value(text, lambda value: _WHOLE.fullmatch(value) is not None and _digits(value) > most)
+    return *_end(text[:at]), f"a number of {_digits(number)} digits; no number here is as long"
+
+
+def _digits(number: str) -> int:
+    return sum(map(str.isdecimal, number))
+
+
+def _end(text: str) -> tuple[int, int]:
+    """Line and column just after `text`."""
+    return text.count("\n") + 1, len(text) - text.rfind("\n")
