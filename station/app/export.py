@@ -13,7 +13,10 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
+from typing import assert_never
 
+from station.app.actions import ExportKind
+from station.app.view_settings import ViewSettings
 from station.core.errors import DeviceError, StationError
 from station.core.files import growing, write_whole
 from station.core.settings import Settings
@@ -45,6 +48,22 @@ class Exporter:
         self._made = Path()
         self.path: Path | None = None
         """The video or GIF that is filmed now."""
+
+    def export(self, kind: ExportKind, lesson: Lesson, bars: Bars, settings: Settings, look: ViewSettings) -> str:
+        """Write the bars, or begin to film them; returns what to tell, empty for nothing. Raises `StationError`."""
+        match kind:
+            case ExportKind.MIDI:
+                return f"kept in {self.midi(lesson, bars, settings)}"
+            case ExportKind.LESSON:
+                return f"kept in {self.lesson(lesson, bars, settings)}"
+            case ExportKind.SHEET:
+                return f"kept in {self.sheet(lesson, bars, settings)}"
+            case ExportKind.FILM | ExportKind.LOOP:
+                ending = FILM if kind is ExportKind.FILM else LOOP
+                self.film(lesson, bars, settings, film_words(look, settings), ending)
+                return ""
+            case _:
+                assert_never(kind)
 
     def midi(self, lesson: Lesson, bars: Bars, settings: Settings) -> Path:
         """The bars as a MIDI file; raises `DeviceError`."""
@@ -158,6 +177,15 @@ def _place(lesson: Lesson, bars: Bars, settings: Settings, ending: str) -> Path:
     except OSError as fault:
         raise DeviceError(f"{folder}: no folder can be made: {fault.strerror or fault}") from fault
     return folder / f"{folder_name(lesson.name)}_{bars[0] + 1}-{bars[1] + 1}{ending}"
+
+
+def film_words(look: ViewSettings, settings: Settings) -> tuple[str, ...]:
+    """How `station animate` is to film what is seen in the window."""
+    words = ["--quality", "low", "--view", look.view.name.lower()]
+    words += ["--style", settings.style, "--figure", settings.figure]
+    words += ["--mirror"] if look.mirrored else []
+    words += ["--hands", settings.hands] if settings.hands else []
+    return tuple(words)
 
 
 def _last_line(said: Path) -> str:

@@ -1,4 +1,4 @@
-"""What is chosen but not begun: the lesson, its tempo and passes, which lessons are listed. A value: changes give another."""
+"""What is chosen but not begun: the lesson, its tempo and passes, which lessons are listed. A value."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace

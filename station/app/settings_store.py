@@ -51,7 +51,7 @@ class SettingsStore:
         return self._is_due
 
     def write(self) -> None:
-        """Put into the file what was changed, and nothing else; raises `StationError` where it cannot be read or written.
+        """Put into the file what was changed, and nothing else; raises `StationError` where the file refuses.
 
         What could not be written is tried again with the next change.
         """

@@ -1,8 +1,9 @@
 """The state of the figure panel: the demonstrator's controls, their lanes over the bars, and the eight slots.
 
 A value: no window, no file, no drummer. Each change gives other options with a `style` that a drummer is renewed with;
-what has not changed stays the same object. A share of an arm's joint gives and takes from the other two, which keep their ratio
-(thesis § 4.1.1), unless `unconstrained`: then each is set for itself, as half of the thesis's users asked for.
+what has not changed stays the same object. A share of an arm's joint gives and takes from the other two, which keep
+their ratio (thesis § 4.1.1), unless `unconstrained`: then each is set for itself, as half of the thesis's users asked
+for.
 """
 
 from collections.abc import Mapping
