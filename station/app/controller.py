@@ -302,9 +302,9 @@ class Controller:
 
     def close(self) -> StationError | None:
         """Keep what runs and what was set, end a measurement and a video; returns what nobody can be shown any more."""
+        self._view, fault = None, None
         self.calibration.close()
         self.films.cancel()
-        fault = None
         if self.sessions.practice.is_playing:
             self.sessions.practice.end()
             fault = self.sessions.practice.fault

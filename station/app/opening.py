@@ -5,9 +5,9 @@ import sys
 import time
 from math import ceil
 
+from station.app.settings_store import SettingsStore
 from station.cli.window import open_window
 from station.core.clock import monotonic_ns
-from station.core.settings import load_settings
 from station.core.units import NS_PER_S
 from station.drills.library import FIRST_LESSON, find_lesson
 from station.practice.session.plan import PlanOptions, plan_practice
@@ -25,7 +25,7 @@ def open_until(frame: int) -> None:
         seen.append((monotonic_ns(), time.process_time()))
         return len(seen) < frame
 
-    open_window(load_settings(), plan_practice(find_lesson(FIRST_LESSON), PlanOptions()), adapt=True, shown=shown)
+    open_window(SettingsStore(), plan_practice(find_lesson(FIRST_LESSON), PlanOptions()), adapt=True, shown=shown)
     at_ns, worked_s = seen[frame - 1]
     sys.stdout.write(f"{at_ns} {worked_s}\n")
 
@@ -54,7 +54,7 @@ def open_for(seconds: float) -> None:
         return now_ns - shown_ns[0] < seconds * NS_PER_S
 
     plan = plan_practice(find_lesson(FIRST_LESSON), PlanOptions(loops=ceil(seconds / PASS_S), demonstrations=0))
-    open_window(load_settings(), plan, adapt=False, shown=shown)
+    open_window(SettingsStore(), plan, adapt=False, shown=shown)
     _say(json.dumps({"shown_ns": shown_ns, "worked_s": worked_s, "lit": lit}))
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 from station.core.errors import StationError
-from station.core.settings import Settings, load_settings, save_settings, with_said
+from station.core.settings import Settings, load_settings, save_settings, settings_path, with_said
 
 _NOTHING: Mapping[str, object] = MappingProxyType({})
 
@@ -50,12 +50,14 @@ class SettingsStore:
         """Whether something was changed since `write` was called last."""
         return self._is_due
 
-    def write(self) -> None:
-        """Put into the file what was changed, and nothing else; raises `StationError` where the file refuses.
+    def write(self) -> Path:
+        """Put into the file what was changed, and nothing else; returns where that is. Raises `StationError`.
 
         What could not be written is tried again with the next change.
         """
         self._is_due = False
         if self._unwritten:
-            save_settings(replace(load_settings(self._path), **self._unwritten), self._path)  # type: ignore[arg-type] # fields
+            kept = load_settings(self._path)
+            save_settings(replace(kept, **self._unwritten), self._path)  # type: ignore[arg-type] # fields
             self._unwritten = {}
+        return self._path or settings_path()

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from station.app.diagnostics import has_screen
 from station.app.session_checks import check_settings
+from station.app.settings_store import SettingsStore
 from station.cli.asking import ask_first
 from station.cli.console import print_json, say
 from station.cli.device_option import KIT_HELP, wanted_kits
@@ -14,7 +15,7 @@ from station.cli.read_scores import bars_of_gap
 from station.cli.sound_options import add_sound_options, backing_of, said_of
 from station.cli.tapping import TAP, tapped_tempo
 from station.core.errors import BadInput, StationError
-from station.core.settings import Settings, load_settings, save_settings, setting_source, with_said
+from station.core.settings import Settings, setting_source, with_said
 from station.core.units import PPQ
 from station.drills.lesson import Lesson
 from station.practice.records.mastery_report import with_mastery
@@ -71,7 +72,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Practise."""
-    settings = _wanted(arguments, load_settings())
+    store = _wanted(arguments)
+    settings = store.now
     backing = backing_of(arguments)
     if arguments.no_click and arguments.adapt:
         raise BadInput("--no-click", "--adapt", "the tempo follows you either within a pass or from pass to pass")
@@ -90,7 +92,7 @@ def run(arguments: argparse.Namespace) -> int:
 
         by_default = arguments.tempo is None and not arguments.no_click and backing is None
         adapt = by_default if arguments.adapt is None else arguments.adapt
-        return open_window(settings, plan, adapt, backing)
+        return open_window(store, plan, adapt, backing)
     if not in_terminal and arguments.kit is None and not _is_kit_there(settings.kit):
         say("no screen and no kit here: a virtual student practises instead")
         return _virtual(plan, wishes, STAND_IN, arguments, settings)
@@ -211,16 +213,22 @@ def _wishes(arguments: argparse.Namespace, settings: Settings) -> PlanOptions:
     return PlanOptions(arguments.tempo, arguments.loops, arguments.bars, demonstrations, click, settings.guide, hands)
 
 
-def _wanted(arguments: argparse.Namespace, settings: Settings) -> Settings:
-    """The settings with what the command line says instead, kept where that is asked for."""
-    said = {**said_of(arguments), "kit": wanted_kits(arguments.kit, settings.kit)}
+def _wanted(arguments: argparse.Namespace) -> SettingsStore:
+    """The settings with what the command line says instead for this once, kept where that is asked for."""
+    kept = SettingsStore()
+    if kept.fault is not None:
+        if arguments.remember:
+            raise kept.fault
+        say(f"{kept.fault}; the settings are those of the first start")
+    said = {**said_of(arguments), "kit": wanted_kits(arguments.kit, kept.now.kit)}
     if arguments.student is not None:
         said["student"] = arguments.student
-    wanted = with_said(settings, said, "practice")
-    check_settings(wanted)
+    store = SettingsStore(said=said, source="practice")
+    check_settings(store.now)
     if arguments.remember:
-        say(f"remembered in {save_settings(wanted)}")
-    return wanted
+        kept.update(lambda settings: with_said(settings, said, "practice"))
+        say(f"remembered in {kept.write()}")
+    return store
 
 
 def _tempo(text: str) -> float | str:

@@ -78,7 +78,7 @@ def load_calibration(path: Path | None = None) -> StoredCalibration:
     source = path or calibration_path()
     try:
         data = source.read_bytes()
-    except FileNotFoundError:
+    except (FileNotFoundError, NotADirectoryError):
         return StoredCalibration()
     except OSError as fault:
         raise BadInput(source, "", fault.strerror or str(fault)) from fault

@@ -2,12 +2,11 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 from imgui_bundle import hello_imgui, imgui
 
 from station.gui import theme
-from station.gui.panels.panel import DockSide, Panel
+from station.gui.panels.panel import DockSide
 from station.render.painter import Area
 from station.render.snapshot import Snapshot
 
@@ -26,7 +25,7 @@ _SPLITS = (
 class WindowOptions:
     """How the window opens: `size` in pixels, `quality` 0–2 or None to measure, whether the layout is remembered.
 
-    `settings` is the file that keeps the look, None for this user's. `tests` registers tests with imgui's test engine
+    `tests` registers tests with imgui's test engine
     and makes it run, without a pause between frames; `picture_every` draws the picture in every so manieth frame alone
     and leaves it dark between them, for whoever watches the panels. `shown` is called whenever a frame is on the
     screen, with what it shows behind the panels; the window closes when it says no.
@@ -35,7 +34,6 @@ class WindowOptions:
     size: tuple[int, int] = (1280, 720)
     quality: int | None = None
     remember_layout: bool = True
-    settings: Path | None = None
     tests: Callable[[], None] | None = None
     picture_every: int = 1
     shown: Callable[[Snapshot | None], bool] | None = None
@@ -53,8 +51,10 @@ class Calls:
     leaving: Callable[[], None]
 
 
-def runner(options: WindowOptions, calls: Calls, pages: Sequence[Panel], scale: float) -> hello_imgui.RunnerParams:
-    """What hello_imgui runs: a window with `pages`, whose panels are `scale` times their plain size."""
+def runner(
+    options: WindowOptions, calls: Calls, windows: Sequence[hello_imgui.DockableWindow], scale: float
+) -> hello_imgui.RunnerParams:
+    """What hello_imgui runs: a window with `windows` docked in it, whose panels are `scale` times their plain size."""
     params = hello_imgui.RunnerParams()
     params.app_window_params.window_title = TITLE
     params.app_window_params.window_geometry.size = options.size
@@ -79,7 +79,7 @@ def runner(options: WindowOptions, calls: Calls, pages: Sequence[Panel], scale: 
     docking = params.docking_params
     docking.layout_condition = hello_imgui.DockingLayoutCondition.application_start
     docking.docking_splits = splits(scale)
-    docking.dockable_windows = [page.window() for page in pages]
+    docking.dockable_windows = [*windows]
     if options.tests is not None:
         params.use_imgui_test_engine = True
         params.fps_idling.fps_idle = 0.0

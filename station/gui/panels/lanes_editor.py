@@ -37,25 +37,24 @@ LABELS = _labels()
 class LanesEditor:
     """One control's lane at a time; `control` is its name."""
 
-    def __init__(self, options: StyleOptions) -> None:
-        self._options = options
+    def __init__(self) -> None:
         self.control = "amplitude_gain"
         self._grabbed: int | None = None
         self._under: Automation = ()
         self._stroke: list[tuple[float, float]] = []
         self._last = (0.0, 0.0)
 
-    def gui(self, score: Score, place: float | None) -> None:
-        """Draw the editor for the bars of `score` and do what the user does in it; `place` is where the music is."""
-        self._choose()
+    def gui(self, options: StyleOptions, score: Score, place: float | None) -> StyleOptions:
+        """Draw the editor for the bars of `score`; `place` is where the music is. Returns what the user has made."""
+        self._choose(options)
         beats = score.tempo_map.meters[0].beats
         bars = max(score.bar_count, 1)
-        self._canvas(bars, beats, place)
-        self._points(bars, beats)
+        options = self._canvas(options, bars, beats, place)
+        return self._points(options, bars, beats)
 
-    def _choose(self) -> None:
+    def _choose(self, options: StyleOptions) -> None:
         imgui.set_next_item_width(-1)
-        lanes = self._options.style.automation
+        lanes = options.style.automation
         if imgui.begin_combo("##lane-control", LABELS[self.control]):
             for name, label in LABELS.items():
                 mark = "  over the bars" if name in lanes else ""
@@ -66,14 +65,13 @@ class LanesEditor:
 
     # --- the picture --------------------------------------------------------------------------------------------------
 
-    def _canvas(self, bars: int, beats: int, place: float | None) -> None:
+    def _canvas(self, options: StyleOptions, bars: int, beats: int, place: float | None) -> StyleOptions:
         corner, width = imgui.get_cursor_screen_pos(), max(imgui.get_content_region_avail().x, 50.0)
         height = theme.points(_HEIGHT)
         frame = LaneFrame(corner.x, corner.y, width, height, bars, beats, *range_of(self.control))
         imgui.invisible_button(CANVAS, imgui.ImVec2(width, height))
-        self._mouse(frame)
-        lane = self._options.lane(self.control)
-        self._draw(frame, lane)
+        options = self._mouse(options, frame)
+        self._draw(frame, options)
         if place is not None:
             x, _ = frame.pixel(place, frame.low)
             low = imgui.ImVec2(x, frame.top + height)
@@ -81,32 +79,35 @@ class LanesEditor:
         if imgui.is_item_hovered() and not imgui.is_item_active():
             bar, value = frame.point(*imgui.get_mouse_pos())
             imgui.set_tooltip(f"bar {int(bar)}, beat {1 + round((bar % 1) * beats)}: {value:.1f}\n{_HELP}")
+        return options
 
-    def _mouse(self, frame: LaneFrame) -> None:
+    def _mouse(self, options: StyleOptions, frame: LaneFrame) -> StyleOptions:
         at = imgui.get_mouse_pos()
         here = (at.x, at.y)
-        lane = self._options.lane(self.control) or ()
+        lane = options.lane(self.control) or ()
         if imgui.is_item_hovered() and imgui.is_mouse_clicked(imgui.MouseButton_.right):
             meant = frame.nearest(lane, *here)
             if meant is not None:
-                self._options.draw_lane(self.control, without_point(lane, meant))
+                return options.draw_lane(self.control, without_point(lane, meant))
         elif imgui.is_item_activated():
             self._grabbed = frame.nearest(lane, *here)
             self._under, self._stroke, self._last = lane, [], here
-            self._drag(frame, here, lane)
+            return options.draw_lane(self.control, self._dragged(frame, here, lane))
         elif imgui.is_item_active() and here != self._last:
-            self._drag(frame, here, lane)
+            return options.draw_lane(self.control, self._dragged(frame, here, lane))
+        return options
 
-    def _drag(self, frame: LaneFrame, here: tuple[float, float], lane: Automation) -> None:
+    def _dragged(self, frame: LaneFrame, here: tuple[float, float], lane: Automation) -> Automation:
         if self._grabbed is None:
             self._stroke += frame.stroke(self._last, here)
             lane = drawn(self._under, self._stroke)
         elif here != self._last:
             lane = with_moved(lane, self._grabbed, *frame.point(*here))
         self._last = here
-        self._options.draw_lane(self.control, lane)
+        return lane
 
-    def _draw(self, frame: LaneFrame, lane: Automation | None) -> None:
+    def _draw(self, frame: LaneFrame, options: StyleOptions) -> None:
+        lane = options.lane(self.control)
         ink = imgui.get_window_draw_list()
         left, top, right, low = frame.left, frame.top, frame.left + frame.width, frame.top + frame.height
         ink.add_rect_filled(
@@ -118,7 +119,7 @@ class LanesEditor:
             x, _ = frame.pixel(bar + 1, frame.low)
             ink.add_line(imgui.ImVec2(x, top), imgui.ImVec2(x, low), _ink(palette.with_opacity(palette.INK, 0.16)))
             ink.add_text(imgui.ImVec2(x + 4, top + 2), _ink(palette.INK_SOFT), str(bar + 1))
-        points = lane or ((1.0, self._options.value(self.control)),)
+        points = lane or ((1.0, options.value(self.control)),)
         edges = [(1.0, value_at(points, 1.0)), *points, (frame.bars + 1.0, value_at(points, frame.bars + 1.0))]
         colour = _ink(palette.BRAND if lane else palette.INK_SOFT)
         pixels = [imgui.ImVec2(*frame.pixel(*point)) for point in edges]
@@ -130,19 +131,19 @@ class LanesEditor:
 
     # --- the list -----------------------------------------------------------------------------------------------------
 
-    def _points(self, bars: int, beats: int) -> None:
-        options, control = self._options, self.control
+    def _points(self, options: StyleOptions, bars: int, beats: int) -> StyleOptions:
+        control = self.control
         lane = options.lane(control) or ()
         if imgui.button("Add a point##add-point"):
             after = lane[-1][0] + 1.0 if lane else 1.0
             value = lane[-1][1] if lane else options.value(control)
-            options.draw_lane(control, with_point(lane, min(after, bars + 1.0), value))
+            options = options.draw_lane(control, with_point(lane, min(after, bars + 1.0), value))
         theme.tooltip("A point a bar after the last one")
         if not theme.is_narrow():
             imgui.same_line()
         imgui.begin_disabled(not lane)
         if imgui.button("Same in all bars##end-lane"):
-            options.end_lane(control)
+            options = options.end_lane(control)
         imgui.end_disabled()
         theme.tooltip("Take the lane away")
         # a child of its own, so that the picture stays where it is while points come and go under the mouse
@@ -150,11 +151,12 @@ class LanesEditor:
         if not lane:
             theme.soft("The same in all bars. Draw in the picture, or add a point, to let it change.")
         for index, point in enumerate(lane):
-            self._point(lane, index, point, beats)
+            options = self._point(options, index, point, beats)
         imgui.end_child()
+        return options
 
-    def _point(self, lane: Automation, index: int, point: tuple[float, float], beats: int) -> None:
-        options, control = self._options, self.control
+    def _point(self, options: StyleOptions, index: int, point: tuple[float, float], beats: int) -> StyleOptions:
+        control, lane = self.control, options.lane(self.control) or ()
         narrow = theme.is_narrow()
         imgui.set_next_item_width(-1 if narrow else theme.points(140))
         moved, bar = imgui.input_float(f"##bar-of-{index}", point[0], 1 / beats, 1.0, "%.2f")
@@ -166,10 +168,11 @@ class LanesEditor:
         theme.tooltip("What the control is there")
         imgui.same_line()
         if imgui.button(f"×##point-{index}", imgui.ImVec2(-1, 0)):
-            options.draw_lane(control, without_point(lane, index))
+            options = options.draw_lane(control, without_point(lane, index))
         elif moved or set_to:
-            options.draw_lane(control, with_moved(lane, index, bar, value))
+            options = options.draw_lane(control, with_moved(lane, index, bar, value))
         theme.tooltip("Take this point away")
+        return options
 
 
 _HELP = "Press beside a point and draw, drag a point, right click takes it away"

@@ -233,11 +233,21 @@ def test_a_folder_that_cannot_be_made_is_told_before_anybody_plays(
     assert "no folder can be made" in refused(capsys, *words)
 
 
-def test_bad_settings_name_the_key(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+def test_bad_settings_name_the_key_and_are_not_written_over(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     settings = tmp_path / "config" / "drum-station" / "settings.toml"
     settings.parent.mkdir(parents=True)
     settings.write_text('kitt = "TD-17"\n')
-    assert "kitt: no such setting" in refused(capsys, "practice", "rock-1", "--virtual-student", "pro")
+    assert main(["practice", "rock-1", "--headless", "--virtual-student", "pro", "--no-pictures"]) == 0
+    assert "kitt: no such setting" in capsys.readouterr().err
+    assert "kitt: no such setting" in refused(capsys, "practice", "rock-1", "--headless", "--remember", "--guide")
+
+
+def test_a_settings_folder_that_is_a_file_keeps_nobody_from_practising(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    (tmp_path / "config").write_text("a file")
+    assert main(["practice", "rock-1", "--headless", "--virtual-student", "pro", "--no-pictures"]) == 0
+    assert "settings.toml: Not a directory" in capsys.readouterr().err
 
 
 def test_help_needs_no_command(capsys: pytest.CaptureFixture[str]) -> None:
