@@ -8,14 +8,13 @@ from pathlib import Path
 
 import pytest
 
-from station.app.export import LOOP, Exporter
+from station.app.export import LOOP, Exporter, film_words
 from station.app.view_settings import ViewSettings
 from station.cli.animate import add_options
 from station.core.errors import DeviceError
 from station.core.settings import Settings
 from station.drills.lesson_writer import first_difference
 from station.drills.library import find_lesson
-from station.gui.panels.export_panel import film_words
 from station.music.formats.smf.standard_midi import read_midi
 from station.render.camera import NamedView
 
