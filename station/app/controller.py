@@ -14,7 +14,7 @@ from station.app import actions as do
 from station.app.calibration import Calibration, CalibrationView
 from station.app.chooser import Chooser
 from station.app.engine_client import EngineClient, WakeEngine
-from station.app.export import Exporter, film_words
+from station.app.export import Exporter
 from station.app.first_start import answered, student_level
 from station.app.kit_seen import MappingView
 from station.app.mapping_editor import MappingEditor
@@ -46,7 +46,7 @@ class Controller:
         self._store, self._toasts = store, Toasts()
         notify = self._toasts.notify
         if store.fault is not None:
-            notify(f"{store.fault}; the settings are those of the first start")
+            notify(f"{store.fault}; the default settings hold")
         self._look = view_settings_of(store.now)
         self._engine = EngineClient(wake, store.now.rate_hz)
         self._style = StyleEditor(store, notify)
@@ -55,7 +55,7 @@ class Controller:
         self.calibration = Calibration(self._rest, self._engine.wake)
         self.habits = Preferences(store)
         self._pads = PadControl(store, self.habits, launch.plan.score)
-        self.films = Exporter()
+        self.export = Exporter()
         self._chooser = Chooser(self.sessions, store, launch)
         self._shown = do.Show()
         self._now_ns = 0
@@ -72,7 +72,7 @@ class Controller:
         asked = [action for event in events if (action := self._take(event)) is not None]
         self.mapping.advance(now_ns)
         self.sessions.advance(now_ns)
-        told = self.films.news()
+        told = self.export.news()
         if told is not None:
             self._toasts.notify(told)
         for action in asked:
@@ -129,14 +129,14 @@ class Controller:
             hands=sessions.hands,
             score=sessions.practice.run.plan.lesson.score,
             habits=self.habits.now,
-            mapping=self.mapping.view() if shown.devices else MappingView(learns=self.mapping.learns),
+            mapping=self.mapping.view() if shown.devices else MappingView(),
             calibration=self.calibration.view() if shown.devices else _NO_CALIBRATION,
             snapshot=snapshot,
             report=sessions.practice.outcome.report,
             curves=sessions.curves() if shown.curves else None,
             learns_pause=self.habits.learns,
             export_bars=self._chooser.bars,
-            is_filming=self.films.path is not None,
+            is_filming=self.export.path is not None,
             toast=self._toasts.text,
             is_lively=sessions.is_lively(self._now_ns),
         )
@@ -172,7 +172,8 @@ class Controller:
         elif isinstance(action, do.SettingsAction):
             self._set(action)
         elif isinstance(action, do.FileAction):
-            self._export(action)
+            lesson, bars = self.sessions.player.lesson, self._chooser.bars
+            self._toasts.notify(self.export.act(action, lesson, bars, self._store.now, self._look))
         elif isinstance(action, do.Show):
             self._show(action)
         elif isinstance(action, do.Notify):
@@ -287,26 +288,17 @@ class Controller:
             self.mapping.take(DeviceLost(0, kit))
         return self._engine.has_rested
 
-    def _export(self, action: do.FileAction) -> None:
-        settings, lesson = self._store.now, self.sessions.player.lesson
-        match action:
-            case do.Export(kind):
-                self._toasts.notify(self.films.export(kind, lesson, self._chooser.bars, settings, self._look))
-            case do.FilmTake(capture):
-                self.films.film_take(capture, film_words(self._look, settings))
-                self._toasts.notify("the video is being filmed; you may go on (Take along cancels it)")
-            case do.CancelFilm():
-                self.films.cancel()
-            case _:
-                assert_never(action)
-
     def close(self) -> StationError | None:
         """Keep what runs and what was set, end a measurement and a video; returns what nobody can be shown any more."""
         self._view, fault = None, None
         self.calibration.close()
-        self.films.cancel()
+        self.export.cancel()
         if self.sessions.practice.is_playing:
             self.sessions.practice.end()
             fault = self.sessions.practice.fault
-        self._keep()
+        try:
+            self._style.keep()
+            self._store.write()
+        except StationError as refused:
+            fault = fault or refused
         return fault

@@ -15,7 +15,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import assert_never
 
-from station.app.actions import ExportKind
+from station.app.actions import CancelFilm, Export, ExportKind, FileAction, FilmTake
 from station.app.view_settings import ViewSettings
 from station.core.errors import DeviceError, StationError
 from station.core.files import growing, write_whole
@@ -49,21 +49,26 @@ class Exporter:
         self.path: Path | None = None
         """The video or GIF that is filmed now."""
 
-    def export(self, kind: ExportKind, lesson: Lesson, bars: Bars, settings: Settings, look: ViewSettings) -> str:
-        """Write the bars, or begin to film them; returns what to tell, empty for nothing. Raises `StationError`."""
-        match kind:
-            case ExportKind.MIDI:
-                return f"kept in {self.midi(lesson, bars, settings)}"
-            case ExportKind.LESSON:
-                return f"kept in {self.lesson(lesson, bars, settings)}"
-            case ExportKind.SHEET:
-                return f"kept in {self.sheet(lesson, bars, settings)}"
-            case ExportKind.FILM | ExportKind.LOOP:
-                ending = FILM if kind is ExportKind.FILM else LOOP
-                self.film(lesson, bars, settings, film_words(look, settings), ending)
+    def act(self, action: FileAction, lesson: Lesson, bars: Bars, settings: Settings, look: ViewSettings) -> str:
+        """Write the bars of a lesson, or film; returns what to tell, empty for nothing. Raises `StationError`."""
+        match action:
+            case Export(ExportKind.FILM):
+                self.film(lesson, bars, settings, film_words(look, settings), FILM)
+                return ""
+            case Export(ExportKind.LOOP):
+                self.film(lesson, bars, settings, film_words(look, settings), LOOP)
+                return ""
+            case Export(kind):
+                write = {ExportKind.MIDI: self.midi, ExportKind.LESSON: self.lesson, ExportKind.SHEET: self.sheet}[kind]
+                return f"kept in {write(lesson, bars, settings)}"
+            case FilmTake(capture):
+                self.film_take(capture, film_words(look, settings))
+                return "the video is being filmed; you may go on (Take along cancels it)"
+            case CancelFilm():
+                self.cancel()
                 return ""
             case _:
-                assert_never(kind)
+                assert_never(action)
 
     def midi(self, lesson: Lesson, bars: Bars, settings: Settings) -> Path:
         """The bars as a MIDI file; raises `DeviceError`."""

@@ -219,7 +219,7 @@ def _wanted(arguments: argparse.Namespace) -> SettingsStore:
     if kept.fault is not None:
         if arguments.remember:
             raise kept.fault
-        say(f"{kept.fault}; the settings are those of the first start")
+        say(f"{kept.fault}; the default settings hold")
     said = {**said_of(arguments), "kit": wanted_kits(arguments.kit, kept.now.kit)}
     if arguments.student is not None:
         said["student"] = arguments.student

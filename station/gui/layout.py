@@ -1,7 +1,10 @@
 """The window as hello_imgui is told of it: its size, OpenGL, where panels dock, and which part the picture keeps."""
 
+import os
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from pathlib import Path
 
 from imgui_bundle import hello_imgui, imgui
 
@@ -11,6 +14,7 @@ from station.render.painter import Area
 from station.render.snapshot import Snapshot
 
 TITLE = "Drum station"
+_LAYOUT_FOLDER = hello_imgui.IniFolderType.app_user_config_folder
 _DOCK = "MainDockSpace"
 _SPLITS = (
     (DockSide.BELOW, imgui.Dir.down, 0.28, 0.56),
@@ -63,8 +67,8 @@ def runner(
     imgui_window.default_imgui_window_type = hello_imgui.DefaultImGuiWindowType.provide_full_screen_dock_space
     imgui_window.enable_viewports = False
     imgui_window.show_menu_bar = imgui_window.show_status_bar = False
-    params.ini_disable = not options.remember_layout
-    params.ini_folder_type = hello_imgui.IniFolderType.app_user_config_folder
+    params.ini_disable = not (options.remember_layout and _has_layout_folder())
+    params.ini_folder_type = _LAYOUT_FOLDER
     params.fps_idling.fps_idle = 20.0
     _use_opengl_3_3(params)
     callbacks = params.callbacks
@@ -85,6 +89,14 @@ def runner(
         params.fps_idling.fps_idle = 0.0
         callbacks.register_tests = options.tests
     return params
+
+
+def _has_layout_folder() -> bool:
+    """Whether there is a folder that the layout can be kept in: hello_imgui opens no window without."""
+    folder = Path(hello_imgui.ini_folder_location(_LAYOUT_FOLDER))
+    with suppress(OSError):
+        folder.mkdir(parents=True, exist_ok=True)
+    return folder.is_dir() and os.access(folder, os.W_OK | os.X_OK)
 
 
 def _use_opengl_3_3(params: hello_imgui.RunnerParams) -> None:

@@ -273,7 +273,7 @@ def just_play(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
             break
         ctx.yield_()
     drive.seen["ended"] = not drive.room.listening
-    films = drive.station.films = Exporter((sys.executable, "-c", FILMS))
+    films = drive.station.export = Exporter((sys.executable, "-c", FILMS))
     ctx.item_click(FILM_LABEL)
     drive.seen["filming"] = films.process is not None
     if films.process is not None:

@@ -437,3 +437,11 @@ def test_escape_leaves_a_session_then_its_result(tmp_path: Path) -> None:
         stages.append(room(station).stage)
         station.dispatch(Leave())
     assert stages == [Stage.PLAYING, Stage.RESULT, Stage.IDLE]
+
+
+def test_what_cannot_be_written_any_more_is_told_when_the_window_is_closed(tmp_path: Path) -> None:
+    station = station_at([Line()], tmp_path)
+    station.dispatch(Begin())
+    station.dispatch(SetView(replace(station.view().look, mirrored=True)))
+    (tmp_path / "settings.toml").write_text('kitt = "TD-17"\n')
+    assert "kitt: no such setting" in str(station.close())
