@@ -29,11 +29,10 @@ class SettingsStore:
         self._unwritten: dict[str, object] = {}
         self._is_due = False
         self.fault: StationError | None = None
-        kept = Settings()
         try:
             kept = load_settings(path)
         except StationError as fault:
-            self.fault = fault
+            kept, self.fault = Settings(welcomed=True), fault  # who has a file is no newcomer
         self.now = with_said(kept, said, source)
 
     def update(self, change: Callable[[Settings], Settings]) -> None:

@@ -62,7 +62,7 @@ def test_a_faulty_file_is_told_and_left_alone_and_changes_hold_for_this_run(path
     path.write_text('kitt = "TD-17"\n')
     store = SettingsStore(path)
     assert "kitt: no such setting" in str(store.fault)
-    assert store.now == Settings()
+    assert store.now == Settings(welcomed=True), "the questions of the first start are not asked again"
     with pytest.raises(BadInput, match="kitt"):
         put(store, theme="day")
     assert store.now.theme == "day"
@@ -84,7 +84,7 @@ def test_a_change_that_could_not_be_written_is_written_with_the_next(path: Path)
 def test_where_the_folder_is_a_file_the_defaults_hold(tmp_path: Path) -> None:
     (tmp_path / "config").write_text("a file")
     store = SettingsStore(tmp_path / "config" / "drum-station" / "settings.toml")
-    assert store.now == Settings()
+    assert store.now == Settings(welcomed=True), "the questions of the first start are not asked again"
     assert store.fault is not None
     with pytest.raises((BadInput, DeviceError)):
         put(store, theme="day")
