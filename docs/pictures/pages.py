@@ -20,8 +20,9 @@ from imgui_bundle import imgui
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT))
 
+from station.app.actions import EditStyle, SetView  # noqa: E402
 from station.app.model import Stage  # noqa: E402
-from station.core.settings import load_settings, save_settings  # noqa: E402
+from station.core.settings import load_settings  # noqa: E402
 from station.drills.library import find_lesson  # noqa: E402
 from station.drills.mastery.policy import new_item  # noqa: E402
 from station.drills.mastery.practice_steps import item_of  # noqa: E402
@@ -88,7 +89,7 @@ def _playing(drive: Drive, ctx: Context) -> None:
     ctx.item_click("Start##start")
     for _ in range(1000):
         ctx.yield_()
-        if drive.room.snapshot(drive.clock.now_ns()).hud.judged > ENOUGH_JUDGED:
+        if drive.picture.hud.judged > ENOUGH_JUDGED:
             break
 
 
@@ -98,7 +99,7 @@ def _result(drive: Drive, ctx: Context) -> None:
     drive.wait_for(ctx, Stage.RESULT)
     ctx.yield_(2)
     ctx.set_ref("//Transport")
-    if drive.room.room().question:
+    if drive.room.question:
         ctx.item_click("**/on")
     ctx.yield_(3)
 
@@ -146,7 +147,7 @@ def _which_pad(drive: Drive, ctx: Context) -> None:
 
 
 def _calibration(drive: Drive, ctx: Context) -> None:
-    drive.room.calibration.start = Measurement
+    drive.station.calibration.start = Measurement
     open_panel(ctx, DEVICES)
     ctx.set_ref(f"//{DEVICES}")
     ctx.item_click("Strike##by")
@@ -156,14 +157,14 @@ def _calibration(drive: Drive, ctx: Context) -> None:
 
 
 def _double(drive: Drive, ctx: Context) -> None:
-    backdrop = drive.window.backdrop
-    backdrop.look_from(replace(backdrop.look, double=DoublePlace.BESIDE))
+    drive.station.dispatch(SetView(replace(drive.state.look, double=DoublePlace.BESIDE)))
     _playing(drive, ctx)
 
 
 def _lanes(drive: Drive, ctx: Context) -> None:
     open_panel(ctx, FIGURE)
-    drive.window.pages.figure.options.draw_lane("amplitude_gain", ((1.0, 30.0), (1.75, 45.0), (2.0, 85.0), (3.0, 60.0)))
+    lane = ((1.0, 30.0), (1.75, 45.0), (2.0, 85.0), (3.0, 60.0))
+    drive.station.dispatch(EditStyle(drive.state.style.options.draw_lane("amplitude_gain", lane)))
     ctx.set_ref(f"//{FIGURE}")
     ctx.item_click("##figure/Bars")
 
@@ -215,12 +216,11 @@ def draw(pages: Sequence[str], size: tuple[int, int], scale: float, folder: Path
     """Open a window of `size`, go to each of `pages` and keep its picture in `folder`."""
     with tempfile.TemporaryDirectory() as sessions:
         drive = Drive(Path(sessions), _STUDENTS.get(pages[0]), size=size)
-        drive.window.backdrop.look_from(replace(drive.window.backdrop.look, scale=scale))
-        save_settings(replace(load_settings(drive.settings), panel_scale=scale), drive.settings)
+        drive.station.dispatch(SetView(replace(drive.state.look, scale=scale)))
         if "courses" in pages:
             _learnt(drive)
         drive.run([_shown(page, size, folder / f"{page}.png") for page in pages])
-        drive.room.close()
+        drive.station.close()
         for page, seen in zip(pages, drive.all_seen, strict=False):
             if "traceback" in seen:
                 raise SystemExit(f"{page}: {seen['traceback']}")

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 from station.core.errors import DeviceError, StationError
-from station.core.measured_latency import load_calibration, save_calibration
+from station.core.measured_latency import StoredCalibration, load_calibration, save_calibration
 
 if TYPE_CHECKING:
     from station.app.calibration_results import CalibrationResult, CalibrationResults
@@ -87,6 +87,23 @@ def _measure(to: Connection, wish: "MeasureRequest") -> None:
         to.send(Failed(str(fault)))
 
 
+@dataclass(frozen=True, slots=True)
+class CalibrationView:
+    """What the devices page shows: `known` of the devices, and of a measurement that `runs` the `lines` told.
+
+    After it `found` says in lines what was found, or `fault` why nothing was; `is_worth` whether judgement could
+    subtract it, `trusted` whether nothing speaks against that.
+    """
+
+    known: StoredCalibration
+    runs: bool = False
+    lines: tuple[str, ...] = ()
+    fault: str = ""
+    found: tuple[str, ...] = ()
+    is_worth: bool = False
+    trusted: bool = True
+
+
 class Calibration:
     """One measurement after the other; `rest` and `wake` are the engine's, `start` begins a measurement.
 
@@ -108,6 +125,20 @@ class Calibration:
         self.lines: list[str] = []
         self.fault = ""
         self.findings: CalibrationResults | None = None
+        self._found: tuple[str, ...] = ()
+        self._known = StoredCalibration()
+
+    def view(self) -> CalibrationView:
+        """What the page shows now."""
+        is_worth = bool(self.worth)
+        return CalibrationView(
+            self._known, self.runs, tuple(self.lines), self.fault, self._found, is_worth, self.trusted
+        )
+
+    def look_up(self) -> None:
+        """Read anew what is known of the devices; raises `BadInput` for a file that is not ours."""
+        self._known = StoredCalibration()
+        self._known = load_calibration(self._path)
 
     @property
     def runs(self) -> bool:
@@ -134,7 +165,7 @@ class Calibration:
             raise
 
     def advance(self) -> None:
-        """Take in what was said; at its end the engine wakes. Raises `DeviceError` where it does not."""
+        """Take in what was said; at its end the engine wakes. Raises `StationError` where it does not."""
         self._begin()
         if self._running is None:
             return
@@ -142,12 +173,20 @@ class Calibration:
             if isinstance(told, str):
                 self.lines.append(told)
                 continue
-            if isinstance(told, Failed):
-                self.fault = told.why
-            else:
-                self.findings = told
-            self.cancel()
+            try:
+                self._end_with(told)
+            finally:
+                self.cancel()
             return
+
+    def _end_with(self, told: "CalibrationResults | Failed") -> None:
+        if isinstance(told, Failed):
+            self.fault = told.why
+            return
+        from station.app.calibration_results import text
+
+        self.findings = told
+        self._found = tuple(line.strip() for line in text(told, load_calibration(self._path)).splitlines())
 
     def cancel(self) -> None:
         """End what runs, and wake the engine; what was found stays."""
@@ -169,7 +208,7 @@ class Calibration:
 
     def drop(self) -> None:
         """Forget what was told and found."""
-        self.lines, self.fault, self.findings = [], "", None
+        self.lines, self.fault, self.findings, self._found = [], "", None, ()
 
     @property
     def worth(self) -> "list[CalibrationResult]":

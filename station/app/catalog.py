@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from station.app.lesson_cards import all_lessons, card
 from station.app.model import LessonCard
-from station.core.settings import Settings
+from station.app.settings_store import SettingsStore
 from station.drills.course import Course
 from station.drills.lesson import Lesson
 from station.drills.library import courses_in, find_lesson, shipped_courses
@@ -14,11 +14,11 @@ from station.practice.records.lesson_progress import LessonProgress, progress_of
 class Catalog:
     """The lessons that ship, those of the user's own courses, and `first`, which the window was opened on.
 
-    `settings` are asked for whose progress it is, `tell` hears what is wrong with a course that is left out.
+    The settings of `store` say whose progress it is, `notify` hears what is wrong with a course that is left out.
     """
 
-    def __init__(self, settings: Callable[[], Settings], first: Lesson, tell: Callable[[str], None]) -> None:
-        self._settings, self._first, self._tell = settings, first, tell
+    def __init__(self, store: SettingsStore, first: Lesson, notify: Callable[[str], None]) -> None:
+        self._store, self._first, self._notify = store, first, notify
         self._lessons: dict[str, Lesson] | None = None
         self._courses: Sequence[Course] | None = None
         self._progress: tuple[str, Mapping[str, LessonProgress]] | None = None
@@ -36,15 +36,15 @@ class Catalog:
     def courses(self) -> Sequence[Course]:
         """The user's own courses, then those that ship; a file that cannot be read is left out."""
         if self._courses is None:
-            own, faults = courses_in(self._settings().courses_dir)
+            own, faults = courses_in(self._store.now.courses_dir)
             self._courses = (*own, *shipped_courses())
             for fault in faults:
-                self._tell(str(fault))
+                self._notify(str(fault))
         return self._courses
 
     def progress(self) -> Mapping[str, LessonProgress]:
         """How far the student is, by the names of lessons, when a session was kept last."""
-        settings = self._settings()
+        settings = self._store.now
         if self._progress is None or self._progress[0] != settings.student:
             self._progress = settings.student, progress_of(settings.sessions_dir, settings.student)
         return self._progress[1]

@@ -7,7 +7,22 @@ stepped through, it is silent: drums cannot sound backwards.
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import assert_never
 
+from station.app.actions import (
+    GoToFlag,
+    KeepFlag,
+    PlayerAction,
+    PlayOrStop,
+    Seek,
+    SetCountIn,
+    SetDemoClick,
+    SetReverse,
+    SetSpeed,
+    SetStep,
+    StepOnce,
+    Wind,
+)
 from station.core.units import NS_PER_MS, NS_PER_S, PPQ
 from station.drills.lesson import Lesson
 from station.engine.messages import Command, Play, Stop
@@ -29,6 +44,8 @@ LEAD_NS = 50 * NS_PER_MS
 _WAITING_NS = 1 << 62
 """A session time that never comes: until its sound is asked for, the player stands."""
 
+_Controls = Seek | GoToFlag | KeepFlag | StepOnce | Wind | SetReverse
+
 Control = Callable[[SongPlayer, int], SongPlayer]
 """What a control does with a player at a session time."""
 
@@ -41,6 +58,24 @@ class DemonstratedLesson:
     kit: Kit
     hands: Hands | None = None
     click: ClickPattern = PLAIN
+
+
+@dataclass(frozen=True, slots=True)
+class PlayerView:
+    """The player at `now_ns`, its `lesson`, and what is chosen for steps and sound; `is_shown` once it is used."""
+
+    lesson: Lesson
+    player: SongPlayer
+    now_ns: int
+    step: SongStep
+    click: bool
+    counts_in: bool
+    is_shown: bool
+
+    @property
+    def position_ns(self) -> int:
+        """Where in the song it is."""
+        return self.player.position_ns(self.now_ns)
 
 
 class DemoPlayer:
@@ -114,6 +149,39 @@ class DemoPlayer:
         return self._drummer
 
     # --- what the user does ------------------------------------------------------------------------------------------
+
+    def act(self, action: PlayerAction) -> None:
+        """Do what the user asks of the player."""
+        match action:
+            case SetStep(step):
+                self.step = step
+            case SetDemoClick(click):
+                self.set_click(click)
+            case SetCountIn(counts_in):
+                self.count_in(counts_in)
+            case PlayOrStop():
+                self.do(_play_or_stop)
+            case SetSpeed(percent, held):
+                self.do(lambda player, now_ns: player.at_speed(now_ns, percent), held)
+            case _:
+                self.do(lambda player, now_ns: self._controlled(action, player, now_ns))
+
+    def _controlled(self, action: _Controls, player: SongPlayer, now_ns: int) -> SongPlayer:
+        match action:
+            case Seek(at_ns):
+                return player.sought(now_ns, at_ns)
+            case GoToFlag(slot):
+                return player.at_flag(now_ns, slot)
+            case KeepFlag(slot):
+                return player.flagged(now_ns, slot)
+            case StepOnce(way):
+                return player.stepped(now_ns, self.step, way)
+            case Wind(way):
+                return player.wound(now_ns, way)
+            case SetReverse(reverse):
+                return player.reversed(now_ns, reverse)
+            case _:
+                assert_never(action)
 
     def do(self, control: Control, held: bool = False) -> None:
         """Use a control; while it is `held` (a slider that is dragged), nothing sounds."""
@@ -202,6 +270,10 @@ class DemoPlayer:
         """Whether the player has been used: it runs, or stands elsewhere than at the start."""
         return bool(self.player.rate_percent) or self.player.position_ns(self.now_ns) > 0
 
+    def view(self) -> PlayerView:
+        """What its controls show."""
+        return PlayerView(self.lesson, self.player, self.now_ns, self.step, self.click, self.counts_in, self.is_shown)
+
     def snapshot(self) -> Snapshot:
         """The picture of the demonstration."""
         drummer, position_s = self.drummer, self.player.position_ns(self.now_ns) / NS_PER_S
@@ -240,3 +312,7 @@ class DemoPlayer:
 def _course(player: SongPlayer) -> tuple[object, ...]:
     """What makes up the sound; a flag does not."""
     return player.at_ns, player.since_ns, player.rate_percent, player.loop
+
+
+def _play_or_stop(player: SongPlayer, now_ns: int) -> SongPlayer:
+    return player.stopped(now_ns) if player.playing else player.played(now_ns)

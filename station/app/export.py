@@ -13,7 +13,10 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
+from typing import assert_never
 
+from station.app.actions import CancelFilm, Export, ExportKind, FileAction, FilmTake
+from station.app.view_settings import ViewSettings
 from station.core.errors import DeviceError, StationError
 from station.core.files import growing, write_whole
 from station.core.settings import Settings
@@ -45,6 +48,27 @@ class Exporter:
         self._made = Path()
         self.path: Path | None = None
         """The video or GIF that is filmed now."""
+
+    def act(self, action: FileAction, lesson: Lesson, bars: Bars, settings: Settings, look: ViewSettings) -> str:
+        """Write the bars of a lesson, or film; returns what to tell, empty for nothing. Raises `StationError`."""
+        match action:
+            case Export(ExportKind.FILM):
+                self.film(lesson, bars, settings, film_words(look, settings), FILM)
+                return ""
+            case Export(ExportKind.LOOP):
+                self.film(lesson, bars, settings, film_words(look, settings), LOOP)
+                return ""
+            case Export(kind):
+                write = {ExportKind.MIDI: self.midi, ExportKind.LESSON: self.lesson, ExportKind.SHEET: self.sheet}[kind]
+                return f"kept in {write(lesson, bars, settings)}"
+            case FilmTake(capture):
+                self.film_take(capture, film_words(look, settings))
+                return "the video is being filmed; you may go on (Take along cancels it)"
+            case CancelFilm():
+                self.cancel()
+                return ""
+            case _:
+                assert_never(action)
 
     def midi(self, lesson: Lesson, bars: Bars, settings: Settings) -> Path:
         """The bars as a MIDI file; raises `DeviceError`."""
@@ -158,6 +182,15 @@ def _place(lesson: Lesson, bars: Bars, settings: Settings, ending: str) -> Path:
     except OSError as fault:
         raise DeviceError(f"{folder}: no folder can be made: {fault.strerror or fault}") from fault
     return folder / f"{folder_name(lesson.name)}_{bars[0] + 1}-{bars[1] + 1}{ending}"
+
+
+def film_words(look: ViewSettings, settings: Settings) -> tuple[str, ...]:
+    """How `station animate` is to film what is seen in the window."""
+    words = ["--quality", "low", "--view", look.view.name.lower()]
+    words += ["--style", settings.style, "--figure", settings.figure]
+    words += ["--mirror"] if look.mirrored else []
+    words += ["--hands", settings.hands] if settings.hands else []
+    return tuple(words)
 
 
 def _last_line(said: Path) -> str:

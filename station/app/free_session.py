@@ -8,8 +8,9 @@ from pathlib import Path
 import numpy as np
 
 from station.app.model import FreeRequest
+from station.app.settings_store import SettingsStore
 from station.core.errors import StationError
-from station.core.settings import Settings, setting_source
+from station.core.settings import setting_source
 from station.core.units import NS_PER_S
 from station.devices.capture.capture import read_capture
 from station.engine.messages import EngineEvent
@@ -35,10 +36,10 @@ _NO_SCORE = Score.from_notes([], TempoMap())
 
 
 class FreeSession:
-    """The take that runs or ran last."""
+    """The take that runs or ran last, kept by the settings of `store`."""
 
-    def __init__(self, settings: Settings, latency: Latency, figure: Figure | None = None) -> None:
-        self._settings, self._latency = settings, latency
+    def __init__(self, store: SettingsStore, latency: Latency, figure: Figure | None = None) -> None:
+        self._store, self._latency = store, latency
         self._figure = figure or figure_of()
         self._play = FreePlay(FreeClick(100.0, None), latency)
         self._folder: SessionFolder | None = None
@@ -46,10 +47,6 @@ class FreeSession:
         self._shown = 0, Performance.from_hits([])
         self._end_ns = 0
         self.runs = False
-
-    def meet(self, settings: Settings) -> None:
-        """Keep the takes that follow by other settings."""
-        self._settings = settings
 
     def delayed_by(self, latency: Latency) -> None:
         """Take devices to be so late from the next take on."""
@@ -75,9 +72,10 @@ class FreeSession:
 
     def begin(self, engine: EngineLink, wish: FreeRequest) -> None:
         """Record from now on, to the click that is wished for; raises `StationError`."""
-        pattern = parse_click(self._settings.click_pattern, setting_source("click_pattern")) if wish.click else None
+        settings = self._store.now
+        pattern = parse_click(settings.click_pattern, setting_source("click_pattern")) if wish.click else None
         play = FreePlay(FreeClick(wish.tempo_bpm, pattern), self._latency)
-        folder = SessionFolder.make(None, self._settings, FOLDER)
+        folder = SessionFolder.make(None, settings, FOLDER)
         try:
             begin(engine, play, folder.capture)
         except StationError:
@@ -105,7 +103,7 @@ class FreeSession:
         self._take = Performance.from_hits(self._play.hits)
         if self._folder is not None:
             try:
-                self._folder.keep_take(self._play.document(self._settings.student))
+                self._folder.keep_take(self._play.document(self._store.now.student))
             except StationError as refused:
                 fault = refused
         return fault

@@ -6,12 +6,29 @@ counts as a stroke changes for sound and judgement only then. What is learnt fro
 its ghosts and accents count, is kept at once, and can be undone.
 """
 
-from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, field
 from pathlib import Path
+from typing import assert_never
 
+from station.app.actions import (
+    GiveUp,
+    HoldBack,
+    LearnPad,
+    LearnVelocity,
+    MappingAction,
+    NameNote,
+    RevertRules,
+    RuleAction,
+    SaveRules,
+    SetCurve,
+    SetMask,
+    SetShare,
+    SetThreshold,
+    ShowKit,
+    UndoLearning,
+)
+from station.app.kit_seen import MappingView, SeenKit
 from station.core.errors import DeviceError, StationError
 from station.core.events import DeviceFound, DeviceLost, Hit
 from station.core.note_map import NoteMeaning
@@ -19,60 +36,16 @@ from station.core.pieces import Piece, word
 from station.core.units import NS_PER_MS
 from station.devices.edit_mapping import obey
 from station.devices.mapping.device_map import DeviceMap, Sent
-from station.devices.mapping.suspect_hits import Suspicion
 from station.devices.mapping.trigger_filter import HeldBack
-from station.devices.mapping.velocity_curve import VelocityCurve
 from station.devices.monitor import DeviceMonitor, MonitorLine, rule_against
-from station.devices.wizard.one_hit import PadEar, in_words, taught
+from station.devices.wizard.one_hit import in_words, taught
 from station.devices.wizard.pad_choices import pad_name
 from station.devices.wizard.velocity_learning import TouchLearning
 from station.engine.messages import Command, EngineEvent, RawBytes, ReloadDevice, WatchRawBytes
 
-LINES_SHOWN, STROKES_SHOWN, SUSPICIONS_SHOWN = 8, 24, 4
-"""Our choice: what a glance takes in."""
 _SHOWN_LATE_NS = 200 * NS_PER_MS
 """Bytes come to the page with its frames: what the clock makes certain is shown so much later (our choice: four frames
 of a slow machine)."""
-
-
-@dataclass(frozen=True, slots=True)
-class PadStroke:
-    """A hit on a pad; `why` it is no stroke, None for one that counts."""
-
-    velocity: int
-    why: HeldBack | None = None
-
-
-def _lines() -> deque[MonitorLine]:
-    return deque(maxlen=LINES_SHOWN)
-
-
-def _suspicions() -> deque[Suspicion]:
-    return deque(maxlen=SUSPICIONS_SHOWN)
-
-
-@dataclass(slots=True)
-class SeenKit:
-    """What one kit did of late, the newest last, and what is wrong with its file.
-
-    `before` is how it was kept, and how it was on trial, before each thing that was learnt.
-    """
-
-    lines: deque[MonitorLine] = field(default_factory=_lines)
-    suspicions: deque[Suspicion] = field(default_factory=_suspicions)
-    strokes: dict[Piece, deque[PadStroke]] = field(default_factory=dict)
-    fault: str = ""
-    ear: PadEar = field(default_factory=PadEar)
-    before: list[tuple[DeviceMap, DeviceMap]] = field(default_factory=list)
-
-    def take(self, line: MonitorLine) -> None:
-        """One more line."""
-        self.lines.append(line)
-        hit = line.ghost.hit if line.ghost is not None else line.event
-        if isinstance(hit, Hit):
-            why = None if line.ghost is None else line.ghost.why
-            self.strokes.setdefault(hit.piece, deque(maxlen=STROKES_SHOWN)).append(PadStroke(hit.velocity, why))
-        self.suspicions.extend(line.suspicions)
 
 
 class MappingEditor:
@@ -137,6 +110,28 @@ class MappingEditor:
     def can_undo(self) -> bool:
         """Whether something was learnt since the kit is here."""
         return bool(self.seen.before)
+
+    def view(self) -> MappingView:
+        """What the page shows now."""
+        if not self.device:
+            return MappingView(learnt=self.learnt)
+        seen = self.seen
+        return MappingView(
+            devices=tuple(self._seen),
+            device=self.device,
+            kit=self.kit,
+            fault=seen.fault,
+            lines=tuple(seen.lines),
+            suspicions=tuple(seen.suspicions),
+            strokes={piece: tuple(strokes) for piece, strokes in seen.strokes.items()},
+            pads=tuple(self.pads),
+            unknown=tuple(self.unknown),
+            is_changed=self.is_changed,
+            learns=self.learns,
+            asks=self.asks,
+            learnt=self.learnt,
+            can_undo=self.can_undo,
+        )
 
     # --- from the engine ---------------------------------------------------------------------------------------------
 
@@ -264,26 +259,45 @@ class MappingEditor:
 
     # --- from the page -----------------------------------------------------------------------------------------------
 
-    def threshold(self, piece: Piece, velocity: int) -> None:
-        """Softer than this is no stroke."""
-        self._obey(f"threshold {word(piece)} {velocity}")
+    def act(self, action: MappingAction) -> str:
+        """Do what the user asks; returns what to tell, empty for nothing. Raises `DeviceError` if the disk refuses."""
+        match action:
+            case ShowKit(device):
+                self.show(device)
+            case LearnPad(pad):
+                self.learn_pad(pad)
+            case LearnVelocity(piece):
+                self.learn_touch(piece)
+            case GiveUp():
+                self.give_up()
+            case NameNote(sent, pad):
+                self.name(sent, pad)
+            case UndoLearning():
+                self.undo()
+            case _:
+                return self._rule(action)
+        return ""
 
-    def mask(self, piece: Piece, milliseconds: int) -> None:
-        """For so long after a stroke there is no other."""
-        self._obey(f"mask {word(piece)} {milliseconds}")
-
-    def share(self, source: Piece, victim: Piece, share: float) -> None:
-        """A stroke on `source` makes `victim` send ghosts up to so loud; 0 for no longer."""
-        self._obey(f"ghost {word(source)} {word(victim)} {share:.2f}")
-
-    def curve(self, piece: Piece, curve: VelocityCurve) -> None:
-        """How loud strokes count."""
-        self._obey(f"curve {word(piece)} {curve.softest} {curve.loudest} {curve.bend}")
-
-    def hold_back(self, suspicion: Suspicion) -> None:
-        """Take hits such as this one for what they are suspected to be."""
-        self._obey(rule_against(suspicion))
-        self.seen.suspicions.clear()
+    def _rule(self, action: RuleAction) -> str:
+        match action:
+            case SetThreshold(piece, velocity):
+                self._obey(f"threshold {word(piece)} {velocity}")
+            case SetMask(piece, milliseconds):
+                self._obey(f"mask {word(piece)} {milliseconds}")
+            case SetShare(source, victim, share):
+                self._obey(f"ghost {word(source)} {word(victim)} {share:.2f}")
+            case SetCurve(piece, curve):
+                self._obey(f"curve {word(piece)} {curve.softest} {curve.loudest} {curve.bend}")
+            case HoldBack(suspicion):
+                self._obey(rule_against(suspicion))
+                self.seen.suspicions.clear()
+            case RevertRules():
+                self.back()
+            case SaveRules():
+                return f"kept in {self.save()}"
+            case _:
+                assert_never(action)
+        return ""
 
     def _obey(self, order: str) -> None:
         self._monitor.trial(self.device, obey(self.kit, order))

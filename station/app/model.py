@@ -84,7 +84,7 @@ class PlaceNow:
 
 @dataclass(frozen=True, slots=True)
 class RoomState:
-    """What surrounds the picture: `stage`, the kit and the sound in words, `notices` newest last, `progress` 0–1.
+    """What surrounds the picture: `stage`, the kit and the sound in words, `progress` 0–1.
 
     `progress` None while nothing plays. `why` is the reason for the pass that is counted in, and `can_veto` whether the
     student may still refuse it. `question` is to be answered before the result is shown, empty where none is open.
@@ -97,7 +97,6 @@ class RoomState:
     stage: Stage = Stage.IDLE
     kit: str = ""
     sound: str = ""
-    notices: tuple[str, ...] = ()
     progress: float | None = None
     why: str = ""
     can_veto: bool = False

@@ -1,12 +1,11 @@
 """How a student likes sessions to go, as the practice panel shows it: what starts and pauses them, what is asked.
 
-Every habit is a setting of the same name; `Preferences` holds them for the room and for the panel alike, and learns
-what shall pause from the kit.
+Every habit is a setting of the same name; `Preferences` changes them, and learns what shall pause from the kit.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+from station.app.settings_store import SettingsStore
 from station.core.labels import name_of
 from station.core.settings import Settings
 from station.engine.messages import EngineEvent
@@ -33,14 +32,15 @@ class PracticePreferences:
         )
 
     def within(self, settings: Settings) -> Settings:
-        """The settings with these habits."""
+        """The settings with these habits; words of `pause` that mean the same stay as they are written."""
+        is_same = self.pauses == tuple(settings.pause.split())
         return replace(
             settings,
             kicks_start=self.kicks_start,
             auto_pause=self.auto_pause,
             ask_first=self.ask_first,
             guide=self.guide,
-            pause=" ".join(self.pauses),
+            pause=settings.pause if is_same else " ".join(self.pauses),
         )
 
     def pausing_by(self, word: str) -> "PracticePreferences":
@@ -61,18 +61,20 @@ def pause_in_words(word: str) -> str:
 
 
 class Preferences:
-    """The habits of `now`; `changed` is called with others; `learns` while the kit may say what pauses."""
+    """The habits of the settings `store`; `learns` while the kit may say what pauses."""
 
-    def __init__(self, settings: Settings, changed: Callable[[PracticePreferences], None]) -> None:
-        self.now = PracticePreferences.of(settings)
-        self._changed = changed
+    def __init__(self, store: SettingsStore) -> None:
+        self._store = store
         self._learning: PauseLearning | None = None
+
+    @property
+    def now(self) -> PracticePreferences:
+        """The habits as they are."""
+        return PracticePreferences.of(self._store.now)
 
     def put(self, habits: PracticePreferences) -> None:
         """These from now on."""
-        if habits != self.now:
-            self.now = habits
-            self._changed(habits)
+        self._store.update(habits.within)
 
     @property
     def learns(self) -> bool:

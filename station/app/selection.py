@@ -1,12 +1,11 @@
-"""What the user has chosen but not begun: the lesson, its tempo and passes, what the list shows of it."""
+"""What is chosen but not begun: the lesson, its tempo and passes, which lessons are listed. A value."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
 from station.app.model import FreeRequest, LessonCard, SessionRequest
 from station.drills.course import Course
-from station.practice.control.tap_tempo import TapTempo
 from station.practice.records.lesson_progress import LessonProgress
 
 MIN_TEMPO_BPM, MAX_TEMPO_BPM = 30, 260
@@ -14,50 +13,54 @@ MIN_TEMPO_BPM, MAX_TEMPO_BPM = 30, 260
 MAX_LOOPS = 32
 
 
+@dataclass(frozen=True, slots=True)
 class Selection:
-    """The state of the lessons page; `bars` (first, last, from 1) are to be practised, None for the lesson's own."""
+    """What the lessons page shows: of `lessons` the `card` that is chosen, or `free`, just playing, in its place.
 
-    def __init__(self, lessons: Sequence[LessonCard], first: SessionRequest | None = None) -> None:
+    `course` is the one whose lessons are listed, None for all; `progress` how far the student is, by the names of
+    lessons; `bars` (first, last, from 1) are to be practised, None for the lesson's own; `first` what the window was
+    opened on.
+    """
+
+    lessons: tuple[LessonCard, ...] = ()
+    first: SessionRequest | None = None
+    courses: tuple[Course, ...] = ()
+    course: Course | None = None
+    progress: Mapping[str, LessonProgress] = field(default_factory=lambda: MappingProxyType({}))
+    search: str = ""
+    free: bool = False
+    card: LessonCard | None = None
+    tempo_bpm: float = 100.0
+    loops: int = 4
+    bars: tuple[int, int] | None = None
+    adapt: bool = True
+    click: bool = True
+
+    @classmethod
+    def of(cls, lessons: Sequence[LessonCard], first: SessionRequest | None = None) -> "Selection":
         """Begin with `first` where it is there, else with the first lesson."""
-        self._lessons = tuple(lessons)
-        self._first = first
-        self._taps = TapTempo()
-        self.courses: tuple[Course, ...] = ()
-        self.course: Course | None = None
-        """The one whose lessons are listed, None for all lessons."""
-        self.progress: Mapping[str, LessonProgress] = MappingProxyType({})
-        """How far the student is, by the names of lessons."""
-        self.search = ""
-        self.free = False
-        """Whether just playing is chosen, in place of a lesson."""
-        self.card: LessonCard | None = None
-        self.tempo_bpm = 100.0
-        self.loops = 4
-        self.bars: tuple[int, int] | None = None
-        self.adapt = True
-        self.click = first is None or first.click
-        if self._lessons:
-            named = [card for card in self._lessons if first is not None and card.name == first.lesson]
-            self.choose(named[0] if named else self._lessons[0])
-            if first is not None and named:
-                self.tempo_bpm, self.loops, self.adapt = first.tempo_bpm, first.loops, first.adapt
-                self.bars = first.bars
+        choice = cls(tuple(lessons), first, click=first is None or first.click)
+        if not lessons:
+            return choice
+        named = [card for card in lessons if first is not None and card.name == first.lesson]
+        choice = choice.choose(named[0] if named else lessons[0])
+        if first is None or not named:
+            return choice
+        return replace(choice, tempo_bpm=first.tempo_bpm, loops=first.loops, adapt=first.adapt, bars=first.bars)
 
-    def offer(self, lessons: Sequence[LessonCard], courses: Sequence[Course] = (), course: str = "") -> None:
+    def offer(self, lessons: Sequence[LessonCard], courses: Sequence[Course] = (), course: str = "") -> "Selection":
         """Choose among these from now on; the lesson that is chosen stays, and `course` is listed if there is one."""
-        self._lessons = tuple(lessons)
-        self.courses = tuple(courses)
-        self.course = next((one for one in self.courses if one.name == course), None)
+        followed = next((one for one in courses if one.name == course), None)
+        return replace(self, lessons=tuple(lessons), courses=tuple(courses), course=followed)
 
-    def follow(self, course: Course | None) -> None:
+    def follow(self, course: Course | None) -> "Selection":
         """List a course, and choose its first lesson that is not mastered yet, the last where all are."""
-        self.course, self.search = course, ""
+        listed = replace(self, course=course, search="")
         if course is None:
-            return
-        cards = self.visible()
+            return listed
+        cards = listed.visible()
         ahead = [card for card in cards if not self._is_mastered(card.name)] or cards[-1:]
-        if ahead:
-            self.choose(ahead[0])
+        return listed.choose(ahead[0]) if ahead else listed
 
     def mastered(self, course: Course) -> int:
         """How many lessons of a course are mastered."""
@@ -66,17 +69,26 @@ class Selection:
     def _is_mastered(self, name: str) -> bool:
         return name in self.progress and self.progress[name].is_mastered
 
-    def choose(self, card: LessonCard) -> None:
+    def choose(self, card: LessonCard) -> "Selection":
         """Take a lesson at the tempo, with the passes and the bars that its author wants."""
-        self.free = False
-        self.card, self.tempo_bpm, self.loops = card, card.tempo_bpm, min(card.passes, MAX_LOOPS)
-        self.bars = None
+        loops = min(card.passes, MAX_LOOPS)
+        return replace(self, free=False, card=card, tempo_bpm=card.tempo_bpm, loops=loops, bars=None)
 
-    def tap(self, at_ns: int, within: tuple[float, float]) -> None:
-        """Take a tap of the tempo, in beats of the lesson; a tempo outside `within` beats a minute is the nearest."""
-        beats = self._taps.tap(at_ns)
-        if beats is not None:
-            self.tempo_bpm = min(within[1], max(within[0], beats)) * self.beat_quarters
+    def at_beats(self, beats_a_minute: float) -> "Selection":
+        """At a tempo in the beat that is counted; one that the slider does not reach is the nearest."""
+        low, high = self.tempo_range
+        return replace(self, tempo_bpm=min(high, max(low, beats_a_minute)) * self.beat_quarters)
+
+    @property
+    def tempo_range(self) -> tuple[int, int]:
+        """The ends of the tempo's slider, in beats a minute."""
+        beats = 100.0 if self.free or self.card is None else self.card.beats_a_minute
+        return min(MIN_TEMPO_BPM, int(beats)), max(MAX_TEMPO_BPM, int(beats) + 1)
+
+    @property
+    def beats_a_minute(self) -> float:
+        """The tempo in the beat that is counted."""
+        return self.tempo_bpm / self.beat_quarters
 
     @property
     def beat_quarters(self) -> float:
@@ -89,9 +101,9 @@ class Selection:
 
     def visible(self) -> list[LessonCard]:
         """The lessons, in a course's order or the list's, whose words contain every word of the search."""
-        lessons: Sequence[LessonCard] = self._lessons
+        lessons: Sequence[LessonCard] = self.lessons
         if self.course is not None:
-            known = {card.name: card for card in self._lessons}
+            known = {card.name: card for card in self.lessons}
             lessons = [known[name] for name in self.course.lesson_names if name in known]
         words = self.search.casefold().split()
         return [card for card in lessons if all(word in _text(card) for word in words)]
@@ -104,8 +116,8 @@ class Selection:
         wish = SessionRequest(
             self.card.name, float(self.tempo_bpm), self.loops, self.bars, adapt=adapt, click=self.click
         )
-        if self._first is not None and self._first.lesson == self.card.name:
-            return replace(wish, demonstrations=self._first.demonstrations)
+        if self.first is not None and self.first.lesson == self.card.name:
+            return replace(wish, demonstrations=self.first.demonstrations)
         return wish
 
 

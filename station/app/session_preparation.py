@@ -1,6 +1,6 @@
 """What is made ready before a session: its lesson, the plan as the settings ask for it, what is remembered, the track.
 
-It holds the settings that sessions go by; whoever changes them sets `settings` anew, and what follows goes by those.
+What is laid out goes by the settings as they are then.
 """
 
 from dataclasses import dataclass
@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 
 from station.app.demo_player import DemonstratedLesson
 from station.app.model import SessionRequest
+from station.app.settings_store import SettingsStore
 from station.core.errors import DeviceError
-from station.core.settings import Settings, setting_source
+from station.core.settings import setting_source
 from station.drills.lesson import Lesson
 from station.motion.kit.kit import Kit
 from station.practice.records.memory import Memory, Remembered
@@ -40,10 +41,10 @@ def _backing_of(wish: "BackingRequest") -> "Backing":
 
 
 class SessionPreparation:
-    """Lays out what is wished for by `settings`; sessions whose tempo stays play along to `backing`."""
+    """Lays out what is wished for by the settings of `store`; sessions whose tempo stays play along to `backing`."""
 
-    def __init__(self, settings: Settings, backing: "BackingRequest | None") -> None:
-        self.settings = settings
+    def __init__(self, store: SettingsStore, backing: "BackingRequest | None") -> None:
+        self._store = store
         self._backing = None if backing is None else _backing_of(backing)
 
     @property
@@ -53,7 +54,7 @@ class SessionPreparation:
 
     def laid_out(self, lesson: Lesson, wish: SessionRequest) -> PreparedSession:
         """What is wished for of a lesson, from what is remembered where the tempo follows; raises `StationError`."""
-        settings = self.settings
+        settings = self._store.now
         tempo_bpm = None if wish.adapt else wish.tempo_bpm
         click = self._click() if wish.click else None
         hands = hands_of(settings)
@@ -67,7 +68,7 @@ class SessionPreparation:
 
     def watched(self, lesson: Lesson, kit: Kit) -> DemonstratedLesson:
         """The lesson as its demonstration is played; raises `BadInput` for a click that is none."""
-        return DemonstratedLesson(lesson, kit, hands_of(self.settings), self._click())
+        return DemonstratedLesson(lesson, kit, hands_of(self._store.now), self._click())
 
     def track(self, plan: Plan, rate_hz: int) -> PreparedTrack | None:
         """The track to play along to; raises `DeviceError` while it is being made ready, `BadInput` if it cannot be."""
@@ -80,4 +81,4 @@ class SessionPreparation:
         return track
 
     def _click(self) -> ClickPattern:
-        return parse_click(self.settings.click_pattern, setting_source("click_pattern"))
+        return parse_click(self._store.now.click_pattern, setting_source("click_pattern"))

@@ -1,12 +1,13 @@
 """The state of the figure panel: the demonstrator's controls, their lanes over the bars, and the eight slots.
 
-Pure: no window, no file, no drummer. Each change gives `style` anew, a value that a drummer is renewed with; what has
-not changed stays the same object. A share of an arm's joint gives and takes from the other two, which keep their ratio
-(thesis § 4.1.1), unless `unconstrained`: then each is set for itself, as half of the thesis's users asked for.
+A value: no window, no file, no drummer. Each change gives other options with a `style` that a drummer is renewed with;
+what has not changed stays the same object. A share of an arm's joint gives and takes from the other two, which keep
+their ratio (thesis § 4.1.1), unless `unconstrained`: then each is set for itself, as half of the thesis's users asked
+for.
 """
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 
 from station.core.pieces import Piece, word
 from station.motion.style.style import JOINTS, NATURAL, NUMBERS, WORDS, Automation, Style, range_of
@@ -19,35 +20,40 @@ _WHOLE, _NEARLY = 100.0, 0.5
 PIECES: Mapping[str, Piece] = {word(piece): piece for piece in Piece}
 
 
+@dataclass(frozen=True, slots=True)
 class StyleOptions:
     """What the user makes of a style; `base` is the one that was chosen, which a reset goes back to."""
 
-    def __init__(self, style: Style, slots: Slots | None = None) -> None:
-        self.slots = slots or Slots()
-        self.choose(style)
+    style: Style = field(default_factory=Style)
+    base: Style = field(default_factory=Style)
+    unconstrained: bool = False
+    slots: Slots = field(default_factory=Slots)
+
+    @classmethod
+    def of(cls, style: Style, slots: Slots | None = None) -> "StyleOptions":
+        """A style as it was chosen."""
+        return cls(slots=slots or Slots()).choose(style)
 
     # --- styles -------------------------------------------------------------------------------------------------------
 
-    def choose(self, style: Style) -> None:
+    def choose(self, style: Style) -> "StyleOptions":
         """Take a style whole."""
-        self.base = self.style = style
-        self.unconstrained = not all(self._is_shared(kind) for kind in KINDS)
+        chosen = replace(self, style=style, base=style)
+        return replace(chosen, unconstrained=not all(chosen._is_shared(kind) for kind in KINDS))
 
     @property
     def is_changed(self) -> bool:
         """Whether anything differs from the style that was chosen."""
         return self.style != self.base
 
-    def store(self, slot: int, name: str = "") -> None:
+    def store(self, slot: int, name: str = "") -> "StyleOptions":
         """Keep the style in a slot, from 0; it is called `name` there, or as it is."""
-        self.slots = self.slots.stored(slot, replace(self.style, name=name or self.style.name))
+        return replace(self, slots=self.slots.stored(slot, replace(self.style, name=name or self.style.name)))
 
-    def recall(self, slot: int) -> bool:
-        """Take the style of a slot, from 0; returns whether there was one."""
+    def recall(self, slot: int) -> "StyleOptions":
+        """Take the style of a slot, from 0, if there is one."""
         style = self.slots.styles[slot]
-        if style is not None:
-            self.choose(style)
-        return style is not None
+        return self if style is None else self.choose(style)
 
     # --- controls -----------------------------------------------------------------------------------------------------
 
@@ -57,26 +63,25 @@ class StyleOptions:
             return float(self.style.pieces.get(PIECES[name], NATURAL))
         return float(getattr(self.style, name))
 
-    def put(self, name: str, value: float) -> None:
+    def put(self, name: str, value: float) -> "StyleOptions":
         """Set a number, or a piece's amplitude; what is out of its range is set to the nearest end."""
         low, high = range_of(name)
         value = min(max(value, low), high)
         if name in PIECES:
-            self.style = replace(self.style, pieces={**self.style.pieces, PIECES[name]: value})
-        elif name in _SHARES and not self.unconstrained:
-            self.style = self.style.with_share(*_SHARES[name], value)
-        else:
-            assert name in NUMBERS, name
-            self.style = replace(self.style, **{name: value})  # type: ignore[arg-type] # a number's field
+            return self._styled(pieces={**self.style.pieces, PIECES[name]: value})
+        if name in _SHARES and not self.unconstrained:
+            return replace(self, style=self.style.with_share(*_SHARES[name], value))
+        assert name in NUMBERS, name
+        return self._styled(**{name: value})
 
-    def say(self, name: str, said: str) -> None:
+    def say(self, name: str, said: str) -> "StyleOptions":
         """Set a control that is a word."""
         assert said in WORDS[name], said
-        self.style = replace(self.style, **{name: said})  # type: ignore[arg-type] # a word's field
+        return self._styled(**{name: said})
 
-    def sow(self, seed: int) -> None:
+    def sow(self, seed: int) -> "StyleOptions":
         """Let chance decide anew what it decides: blinks, looks, spun sticks."""
-        self.style = replace(self.style, seed=max(seed, 0))
+        return self._styled(seed=max(seed, 0))
 
     def can_reset(self, name: str) -> bool:
         """Whether a control differs from the style that was chosen."""
@@ -85,29 +90,32 @@ class StyleOptions:
             return self.style.pieces.get(piece) != self.base.pieces.get(piece)
         return bool(getattr(self.style, name) != getattr(self.base, name))
 
-    def reset(self, name: str) -> None:
+    def reset(self, name: str) -> "StyleOptions":
         """Set one control back to the style that was chosen."""
         if name in PIECES:
             piece = PIECES[name]
             others = {p: v for p, v in self.style.pieces.items() if p is not piece}
             had = self.base.pieces.get(piece)
-            self.style = replace(self.style, pieces=others if had is None else {**others, piece: had})
-        elif name in NUMBERS:
-            self.put(name, float(getattr(self.base, name)))
-        else:
-            self.style = replace(self.style, **{name: getattr(self.base, name)})
+            return self._styled(pieces=others if had is None else {**others, piece: had})
+        if name in NUMBERS:
+            return self.put(name, float(getattr(self.base, name)))
+        return self._styled(**{name: getattr(self.base, name)})
+
+    def _styled(self, **changed: object) -> "StyleOptions":
+        return replace(self, style=replace(self.style, **changed))  # type: ignore[arg-type] # fields of a style
 
     # --- the arm's shares ---------------------------------------------------------------------------------------------
 
-    def constrain(self, constrained: bool) -> None:
+    def constrain(self, constrained: bool) -> "StyleOptions":
         """Share the gain among the joints, or let each be set for itself.
 
         Where shares are made of what was set, the gain takes the rest, so that the movement stays while it can.
         """
-        self.unconstrained = not constrained
+        options = replace(self, unconstrained=not constrained)
         if constrained:
             for kind in KINDS:
-                self._share(kind)
+                options = options._share(kind)
+        return options
 
     def factor(self, name: str) -> float | None:
         """What a joint's share comes to: its movement against the natural one in bar 1; None for other controls."""
@@ -121,16 +129,15 @@ class StyleOptions:
     def _is_shared(self, kind: str) -> bool:
         return abs(sum(self._set_to(kind).values()) - _WHOLE) < _NEARLY
 
-    def _share(self, kind: str) -> None:
+    def _share(self, kind: str) -> "StyleOptions":
         had = self._set_to(kind)
         total = sum(had.values())
         if abs(total - _WHOLE) < _NEARLY:
-            return
+            return self
         gain = f"{kind}_gain"
         natural = {name: float(getattr(Style(), name)) for name in had}
         shares = {name: _WHOLE * value / total for name, value in had.items()} if total else natural
-        self.style = replace(self.style, **shares)  # type: ignore[arg-type] # numbers' fields
-        self.put(gain, self.value(gain) * total / _WHOLE)
+        return self._styled(**shares).put(gain, self.value(gain) * total / _WHOLE)
 
     # --- lanes --------------------------------------------------------------------------------------------------------
 
@@ -138,14 +145,14 @@ class StyleOptions:
         """The lane of a control or a piece; None where it is the same in all bars."""
         return self.style.automation.get(name)
 
-    def draw_lane(self, name: str, lane: Automation) -> None:
+    def draw_lane(self, name: str, lane: Automation) -> "StyleOptions":
         """Put a lane in the place of the control's; a lane without points is none."""
         low, high = range_of(name)
         kept = {other: points for other, points in self.style.automation.items() if other != name}
         if lane:
             kept[name] = tuple((bar, min(max(value, low), high)) for bar, value in lane)
-        self.style = replace(self.style, automation=kept)
+        return self._styled(automation=kept)
 
-    def end_lane(self, name: str) -> None:
+    def end_lane(self, name: str) -> "StyleOptions":
         """Let a control be the same in all bars again."""
-        self.draw_lane(name, ())
+        return self.draw_lane(name, ())

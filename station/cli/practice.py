@@ -8,6 +8,7 @@ from typing import Literal
 
 from station.app.diagnostics import has_screen
 from station.app.session_checks import check_settings
+from station.app.settings_store import SettingsStore
 from station.cli.asking import ask_first
 from station.cli.console import print_json, say, write
 from station.cli.device_option import devices_option, wanted_kits
@@ -17,7 +18,7 @@ from station.cli.sound_options import SoundOptions, TrackOptions
 from station.cli.tapping import TAP, tapped_tempo
 from station.cli.watch_options import WatchOptions
 from station.core.errors import BadInput, StationError
-from station.core.settings import Settings, load_settings, save_settings, setting_source, with_said
+from station.core.settings import Settings, setting_source, with_said
 from station.core.units import PPQ
 from station.drills.lesson import Lesson
 from station.practice.headless.telling import Telling
@@ -89,7 +90,8 @@ class PracticeOptions:
 
 def run(options: PracticeOptions) -> int:
     """Practise."""
-    settings = _wanted(options, load_settings())
+    store = _wanted(options)
+    settings = store.now
     if options.recover is not None:
         return _recover(SessionFolder.left_over(options.recover), options, settings)
     backing = options.track.backing(adapts=bool(options.adapt))
@@ -108,7 +110,7 @@ def run(options: PracticeOptions) -> int:
 
         by_default = options.tempo is None and not options.no_click and backing is None
         adapt = by_default if options.adapt is None else options.adapt
-        return open_window(settings, plan, adapt, backing, options.watch.watch())
+        return open_window(store, plan, adapt, backing, options.watch.watch())
     if not in_terminal and not options.device and not _is_kit_there(settings.kit):
         say("no screen and no kit here: a virtual student practises instead")
         return _virtual(plan, wishes, STAND_IN, options, settings)
@@ -246,16 +248,22 @@ def _wishes(options: PracticeOptions, lesson: Lesson, settings: Settings) -> Pla
     return PlanOptions(tempo_bpm, options.loops, options.bars, demonstrations, click, settings.guide, hands)
 
 
-def _wanted(options: PracticeOptions, settings: Settings) -> Settings:
-    """The settings with what the command line says instead, kept where that is asked for."""
-    said = {**options.sound.settings(), "kit": wanted_kits(options.device, settings.kit)}
+def _wanted(options: PracticeOptions) -> SettingsStore:
+    """The settings with what the command line says instead for this once, kept where that is asked for."""
+    kept = SettingsStore()
+    if kept.fault is not None:
+        if options.remember:
+            raise kept.fault
+        say(f"{kept.fault}; the defaults hold for what is wrong")
+    said = {**options.sound.settings(), "kit": wanted_kits(options.device, kept.now.kit)}
     if options.student is not None:
         said["student"] = options.student
-    wanted = with_said(settings, said, "practice")
-    check_settings(wanted)
+    store = SettingsStore(said=said, source="practice")
+    check_settings(store.now)
     if options.remember:
-        say(f"remembered in {save_settings(wanted)}")
-    return wanted
+        kept.update(lambda settings: with_said(settings, said, "practice"))
+        say(f"remembered in {kept.write()}")
+    return store
 
 
 COMMAND = Command(PracticeOptions, run)

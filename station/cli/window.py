@@ -4,11 +4,11 @@ from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
 from station.app.diagnostics import has_screen
+from station.app.settings_store import SettingsStore
 from station.cli.options import Command
 from station.cli.watch_options import WatchOptions
 from station.core.errors import DeviceError
 from station.core.measured_latency import load_calibration
-from station.core.settings import Settings, load_settings
 from station.practice.session.leading_hand import hands_of
 from station.practice.session.plan import Plan, PlanOptions, plan_practice
 
@@ -21,27 +21,30 @@ def run(options: WatchOptions) -> int:
     """Open the window on the first lesson."""
     from station.drills.library import FIRST_LESSON, find_lesson
 
-    settings = load_settings()
-    first = plan_practice(find_lesson(FIRST_LESSON), PlanOptions(hands=hands_of(settings)))
-    return open_window(settings, first, adapt=True, watch=options.watch())
+    store = SettingsStore()
+    first = plan_practice(find_lesson(FIRST_LESSON), PlanOptions(hands=hands_of(store.now)))
+    return open_window(store, first, adapt=True, watch=options.watch())
 
 
 def open_window(
-    settings: Settings,
+    store: SettingsStore,
     first: Plan,
     adapt: bool,
     backing: "BackingRequest | None" = None,
     watch: "Watch | None" = None,
 ) -> int:
-    """Show the practice room until it is closed, or the system wants it to end; what was played until then is kept.
+    """Show the practice room, by the settings of `store`, until it is closed, or the system wants it to end.
+
+    What was played until then is kept.
 
     `adapt` whether the tempo follows the student, until another choice is made in the window; `backing` a track to
     play along to in every session whose tempo stays; a `watch` sees each frame, and says when the window closes.
     """
     if not has_screen():
         raise DeviceError("no screen: `station practice --headless` practises in the terminal")
-    from station.app.practice_room import PracticeRoom
+    from station.app.controller import Controller
     from station.app.processes import Processes
+    from station.app.session_control import Launch
     from station.engine.engine_config import EngineConfig
     from station.engine.supervisor import EngineSupervisor
     from station.gui.layout import WindowOptions
@@ -49,15 +52,15 @@ def open_window(
     from station.practice.headless.end_signals import end_asked
     from station.practice.session.device_latency import latency_of
 
-    latency = latency_of(settings, load_calibration())
+    launch = Launch(first, adapt, latency_of(store.now, load_calibration()), backing)
     with ExitStack() as engines, end_asked() as asked:
-        wake = lambda: engines.enter_context(EngineSupervisor(EngineConfig.from_settings(settings)))  # noqa: E731
-        room = PracticeRoom(Processes(wake), settings, first, adapt, latency, backing)
+        wake = lambda: engines.enter_context(EngineSupervisor(EngineConfig.from_settings(store.now)))  # noqa: E731
+        controller = Controller(Processes(wake), store, launch)
         try:
             goes_on = lambda drawn: not asked and (watch is None or watch.shown(drawn))  # noqa: E731
-            run_window(room, WindowOptions(shown=goes_on))
+            run_window(controller, WindowOptions(shown=goes_on))
         finally:
-            fault = room.close()
+            fault = controller.close()
         if fault is not None:
             raise fault
     if watch is not None:

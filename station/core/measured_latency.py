@@ -90,8 +90,11 @@ def calibration_path() -> Path:
 
 def load_calibration(path: Path | None = None) -> StoredCalibration:
     """What was measured, from `path` (this user's by default); raises `BadInput` for a file that is not ours."""
+    path = path or calibration_path()
+    if not path.parent.is_dir():  # no settings are there, either, and whoever reads those says so
+        return StoredCalibration()
     try:
-        source = read_source(path or calibration_path())
+        source = read_source(path)
     except NoSuchFile:
         return StoredCalibration()
     return read(source, CALIBRATION)

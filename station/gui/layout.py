@@ -1,6 +1,8 @@
 """The window as hello_imgui is told of it: its size, OpenGL, where panels dock, and which part the picture keeps."""
 
+import os
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -9,11 +11,12 @@ from imgui_bundle import hello_imgui, imgui
 from station.gui import theme
 from station.gui.display import Screen
 from station.gui.glfw_screen import glfw_screen
-from station.gui.panels.panel import DockSide, Panel
+from station.gui.panels.panel import DockSide
 from station.render.painter import Area
 from station.render.snapshot import Snapshot
 
 TITLE = "Drum station"
+_LAYOUT_FOLDER = hello_imgui.IniFolderType.app_user_config_folder
 _DOCK = "MainDockSpace"
 _SPLITS = (
     (DockSide.BELOW, imgui.Dir.down, 0.28, 0.56),
@@ -28,7 +31,7 @@ _SPLITS = (
 class WindowOptions:
     """How the window opens: `size` in pixels, `quality` 0–2 or None to measure, whether the layout is remembered.
 
-    `settings` is the file that keeps the look, None for this user's. `tests` registers tests with imgui's test engine
+    `tests` registers tests with imgui's test engine
     and makes it run, without a pause between frames; `picture_every` draws the picture in every so manieth frame alone
     and leaves it dark between them, for whoever watches the panels. `shown` is called whenever a frame is on the
     screen, with what it shows behind the panels; the window closes when it says no. `screen` is asked for the monitors
@@ -38,7 +41,6 @@ class WindowOptions:
     size: tuple[int, int] = (1280, 720)
     quality: int | None = None
     remember_layout: bool = True
-    settings: Path | None = None
     tests: Callable[[], None] | None = None
     picture_every: int = 1
     shown: Callable[[Snapshot | None], bool] | None = None
@@ -57,8 +59,10 @@ class Calls:
     leaving: Callable[[], None]
 
 
-def runner(options: WindowOptions, calls: Calls, pages: Sequence[Panel], scale: float) -> hello_imgui.RunnerParams:
-    """What hello_imgui runs: a window with `pages`, whose panels are `scale` times their plain size."""
+def runner(
+    options: WindowOptions, calls: Calls, windows: Sequence[hello_imgui.DockableWindow], scale: float
+) -> hello_imgui.RunnerParams:
+    """What hello_imgui runs: a window with `windows` docked in it, whose panels are `scale` times their plain size."""
     params = hello_imgui.RunnerParams()
     params.app_window_params.window_title = TITLE
     params.app_window_params.window_geometry.size = options.size
@@ -67,8 +71,8 @@ def runner(options: WindowOptions, calls: Calls, pages: Sequence[Panel], scale: 
     imgui_window.default_imgui_window_type = hello_imgui.DefaultImGuiWindowType.provide_full_screen_dock_space
     imgui_window.enable_viewports = False
     imgui_window.show_menu_bar = imgui_window.show_status_bar = False
-    params.ini_disable = not options.remember_layout
-    params.ini_folder_type = hello_imgui.IniFolderType.app_user_config_folder
+    params.ini_disable = not (options.remember_layout and _has_layout_folder())
+    params.ini_folder_type = _LAYOUT_FOLDER
     params.fps_idling.fps_idle = 20.0
     _use_opengl_3_3(params)
     callbacks = params.callbacks
@@ -83,12 +87,20 @@ def runner(options: WindowOptions, calls: Calls, pages: Sequence[Panel], scale: 
     docking = params.docking_params
     docking.layout_condition = hello_imgui.DockingLayoutCondition.application_start
     docking.docking_splits = splits(scale)
-    docking.dockable_windows = [page.window() for page in pages]
+    docking.dockable_windows = [*windows]
     if options.tests is not None:
         params.use_imgui_test_engine = True
         params.fps_idling.fps_idle = 0.0
         callbacks.register_tests = options.tests
     return params
+
+
+def _has_layout_folder() -> bool:
+    """Whether there is a folder that the layout can be kept in: hello_imgui opens no window without."""
+    folder = Path(hello_imgui.ini_folder_location(_LAYOUT_FOLDER))
+    with suppress(OSError):
+        folder.mkdir(parents=True, exist_ok=True)
+    return folder.is_dir() and os.access(folder, os.W_OK | os.X_OK)
 
 
 def _use_opengl_3_3(params: hello_imgui.RunnerParams) -> None:

@@ -1,77 +1,78 @@
 """The keys of the demonstration's player, which hold between sessions."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
 
 from imgui_bundle import imgui
 
-from station.app.demo_player import DemoPlayer
+from station.app.actions import (
+    Action,
+    ChooseBars,
+    GoToFlag,
+    KeepFlag,
+    PlayOrStop,
+    Seek,
+    SetCountIn,
+    SetDemoClick,
+    SetReverse,
+    SetSpeed,
+    SetStep,
+    StepOnce,
+)
+from station.app.demo_player import PlayerView
 from station.gui.keyboard_kit import slot_pressed
-from station.gui.panels.player_controls import PlayerControls, play_or_stop, to_end, to_start
-from station.gui.panels.ruler import Bars
-from station.practice.demonstration.song_player import SongPlayer, SongStep
+from station.practice.demonstration.song_player import SongStep
 
 SPEED_STEP_PERCENT = 5
 
 
-def player_keys(deck: DemoPlayer, controls: PlayerControls, choose: Callable[[Bars], None]) -> None:
-    """Do what the keys say that went down since the last frame; nobody types text."""
+def player_keys(view: PlayerView, dispatch: Callable[[Action], None]) -> int:
+    """Do what the keys say that went down since the last frame; nobody types text. Returns which way a key winds."""
     io = imgui.get_io()
-    controls.key_wind = 0
     slot = slot_pressed()
     if io.key_shift and slot is not None and not (io.key_alt or io.key_super):
-        keeps = io.key_ctrl
-        deck.do(lambda p, now_ns: p.flagged(now_ns, slot) if keeps else p.at_flag(now_ns, slot))
+        dispatch(KeepFlag(slot) if io.key_ctrl else GoToFlag(slot))
     if io.key_ctrl or io.key_alt or io.key_super or io.key_shift:
-        return
-    controls.key_wind = int(imgui.is_key_down(imgui.Key.right_bracket)) - int(imgui.is_key_down(imgui.Key.left_bracket))
+        return 0
     for key, action in _ACTIONS.items():
         if imgui.is_key_pressed(key, repeat=key in _REPEATED):
-            action(deck)
+            dispatch(action(view))
     if not io.nav_visible:  # there they go from control to control
         if imgui.is_key_pressed(imgui.Key.home, repeat=False):
-            deck.do(to_start)
+            dispatch(Seek(0))
         elif imgui.is_key_pressed(imgui.Key.end, repeat=False):
-            deck.do(to_end)
-    _loop_keys(deck, choose)
+            dispatch(Seek(view.player.song.length_ns))
+    _loop_keys(view, dispatch)
+    return int(imgui.is_key_down(imgui.Key.right_bracket)) - int(imgui.is_key_down(imgui.Key.left_bracket))
 
 
-def _loop_keys(deck: DemoPlayer, choose: Callable[[Bars], None]) -> None:
-    player = deck.player
-    bar = player.place(deck.now_ns).bar
-    first, last = player.loop or (0, player.song.bar_count - 1)
+def _loop_keys(view: PlayerView, dispatch: Callable[[Action], None]) -> None:
+    bar = view.player.place(view.now_ns).bar
+    first, last = view.player.loop or (0, view.player.song.bar_count - 1)
     if imgui.is_key_pressed(imgui.Key.i, repeat=False):
-        choose((bar, max(bar, last)))
+        dispatch(ChooseBars((bar, max(bar, last))))
     elif imgui.is_key_pressed(imgui.Key.o, repeat=False):
-        choose((min(bar, first), bar))
+        dispatch(ChooseBars((min(bar, first), bar)))
     elif imgui.is_key_pressed(imgui.Key.u, repeat=False):
-        choose(None)
+        dispatch(ChooseBars(None))
 
 
-def _stepped(way: int) -> Callable[[DemoPlayer], None]:
-    return lambda deck: deck.do(lambda player, now_ns: player.stepped(now_ns, deck.step, way))
-
-
-def _faster(percent: int) -> Callable[[DemoPlayer], None]:
-    def change(player: SongPlayer, now_ns: int) -> SongPlayer:
-        return player.at_speed(now_ns, player.speed_percent + percent)
-
-    return lambda deck: deck.do(change)
-
-
-def _next_step(deck: DemoPlayer) -> None:
+def _next_step(view: PlayerView) -> Action:
     steps = list(SongStep)
-    deck.step = steps[(steps.index(deck.step) + 1) % len(steps)]
+    return SetStep(steps[(steps.index(view.step) + 1) % len(steps)])
 
 
-_ACTIONS: dict[imgui.Key, Callable[[DemoPlayer], None]] = {
-    imgui.Key.w: lambda deck: deck.do(play_or_stop),
-    imgui.Key.r: lambda deck: deck.do(lambda player, now_ns: player.reversed(now_ns, not player.reverse)),
-    imgui.Key.c: lambda deck: deck.set_click(not deck.click),
-    imgui.Key.q: lambda deck: deck.count_in(not deck.counts_in),
-    imgui.Key.x: _next_step,
-    imgui.Key.comma: _stepped(-1),
-    imgui.Key.period: _stepped(1),
-    imgui.Key.minus: _faster(-SPEED_STEP_PERCENT),
-    imgui.Key.equal: _faster(SPEED_STEP_PERCENT),
-}
+_ACTIONS: Mapping[imgui.Key, Callable[[PlayerView], Action]] = MappingProxyType(
+    {
+        imgui.Key.w: lambda _: PlayOrStop(),
+        imgui.Key.r: lambda view: SetReverse(not view.player.reverse),
+        imgui.Key.c: lambda view: SetDemoClick(not view.click),
+        imgui.Key.q: lambda view: SetCountIn(not view.counts_in),
+        imgui.Key.x: _next_step,
+        imgui.Key.comma: lambda _: StepOnce(-1),
+        imgui.Key.period: lambda _: StepOnce(1),
+        imgui.Key.minus: lambda view: SetSpeed(view.player.speed_percent - SPEED_STEP_PERCENT),
+        imgui.Key.equal: lambda view: SetSpeed(view.player.speed_percent + SPEED_STEP_PERCENT),
+    }
+)
 _REPEATED = (imgui.Key.comma, imgui.Key.period, imgui.Key.minus, imgui.Key.equal)

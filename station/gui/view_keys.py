@@ -5,6 +5,7 @@ from dataclasses import replace
 
 from imgui_bundle import imgui
 
+from station.app.actions import Action, KeepViewpoint, Notify, SetView
 from station.app.view_settings import ViewSettings
 from station.gui.keyboard_kit import slot_pressed, view_pressed
 from station.gui.viewport import Viewport
@@ -21,36 +22,37 @@ _SIZES = ((imgui.Key.equal, 1), (imgui.Key.minus, -1))
 
 
 class ViewKeys:
-    """The viewpoints' keys over one backdrop; `tell` says in a line what was kept, or what is not there."""
+    """The viewpoints' keys over one backdrop; what is chosen goes to `dispatch`."""
 
-    def __init__(self, backdrop: Viewport, tell: Callable[[str], None]) -> None:
+    def __init__(self, backdrop: Viewport, dispatch: Callable[[Action], None]) -> None:
         self._backdrop = backdrop
-        self._tell = tell
+        self._dispatch = dispatch
 
-    def take(self) -> None:
-        """Do what was pressed since the last frame."""
-        io, backdrop = imgui.get_io(), self._backdrop
+    def take(self, look: ViewSettings) -> None:
+        """Do what was pressed since the last frame, which `look` is from."""
+        io = imgui.get_io()
         slot, view = slot_pressed(), view_pressed()
         if slot is not None and io.key_ctrl and not io.key_shift:
             self.keep(slot)
         elif io.key_ctrl and (way := next((way for key, way in _SIZES if imgui.is_key_pressed(key)), 0)):
-            backdrop.look_from(backdrop.look.scaled(way))
+            self._dispatch(SetView(look.scaled(way)))
         elif io.key_ctrl or io.key_shift or io.key_alt or io.key_super:
             return
         elif slot is not None:
             self.go(slot)
         elif view is not None:
-            backdrop.back_to(view)
+            self._backdrop.back_to(view)
+            self._dispatch(SetView(replace(look, view=view)))
         else:
             for change in (change for key, change in _LOOKS if imgui.is_key_pressed(key, repeat=False)):
-                backdrop.look_from(change(backdrop.look))
+                look = change(look)
+                self._dispatch(SetView(look))
 
     def keep(self, slot: int) -> None:
         """Keep where the user looks from as a slot (from 0)."""
-        self._backdrop.keep(slot)
-        self._tell(f"viewpoint {slot + 1} is kept: {slot + 1} comes back to it")
+        self._dispatch(KeepViewpoint(slot, self._backdrop.camera))
 
     def go(self, slot: int) -> None:
         """Look from a slot's viewpoint, or say that none is kept there."""
         if not self._backdrop.go(slot):
-            self._tell(f"no viewpoint {slot + 1} is kept yet: Ctrl+{slot + 1} keeps where you look from")
+            self._dispatch(Notify(f"no viewpoint {slot + 1} is kept yet: Ctrl+{slot + 1} keeps where you look from"))

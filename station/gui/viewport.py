@@ -1,10 +1,15 @@
 """The picture behind the panels: the practice room or the results page, its viewpoint, and its quality.
 
+It keeps where one looks from; how the picture is shown follows the look of each frame (`look_from`). The room is drawn
+in two steps: `begin` draws all that moves, the longest part, and what it returns the rest, which may know of strokes
+that were heard meanwhile.
+
 The quality is measured: the first frames are drawn at the lowest, and where they take far less than a frame's time the
 next level is tried. While somebody plays nothing is rebuilt.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from statistics import median
 from time import perf_counter
@@ -37,17 +42,19 @@ _MEASURED = replace(QUALITIES[0], is_layered=False)
 """What is measured draws everything anew, as the higher levels do."""
 _LEAST_LETTERS = 0.9
 """How large a result's letters are at the least, of the panels' own (our choice)."""
+_LEAST_AREA = 16
+"""Pixels of the free middle's shorter side below which nothing is drawn there (our choice)."""
 _ORBIT_PER_PIXEL, _PAN_PER_PIXEL, _ZOOM_PER_STEP = 0.006, 0.0022, 1.12
+
+Finish = Callable[[Snapshot], None]
+"""Draws the rest of a picture, with what has been struck since it was begun."""
 
 
 class Viewport:
-    """Draws with the window's own OpenGL context, which it takes over at the first frame; `news` is `Arrangement`'s."""
+    """Draws with the window's own OpenGL context, which it takes over at the first frame."""
 
-    def __init__(
-        self, quality: int | None, look: ViewSettings, news: Callable[[], Snapshot | None] | None = None
-    ) -> None:
+    def __init__(self, quality: int | None, look: ViewSettings) -> None:
         self._wanted = quality
-        self._news = news
         self._painter: Painter | None = None
         self._ctx: moderngl.Context | None = None
         self._target: RenderTarget | None = None
@@ -60,18 +67,11 @@ class Viewport:
         self._seen_from = self.camera
 
     def look_from(self, look: ViewSettings) -> None:
-        """Go to a named viewpoint, swap the sides or not, choose the second picture; what is so already stays turned.
-
-        The viewpoints that are kept stay as they are: `keep` alone changes them.
-        """
+        """Show the picture so; another named view, or the other side, turns it, and what is so already stays turned."""
         if look.view is not self.look.view:
             self.camera = named(look.view, self._left_handed)
-        self.look = replace(look, viewpoints=self.look.viewpoints)
+        self.look = look
         self.camera = replace(self.camera, mirrored=look.mirrored)
-
-    def keep(self, slot: int) -> None:
-        """Keep where the user looks from as the viewpoint `slot`, from 0."""
-        self.look = self.look.keeping(slot, self.camera)
 
     def go(self, slot: int) -> bool:
         """Look from the viewpoint `slot`, from 0; returns whether it was kept."""
@@ -108,22 +108,58 @@ class Viewport:
         if imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
             self._back_to_the_view()
 
-    def draw(self, snapshot: Snapshot, report: ShownResult | None, area: Area) -> None:
-        """Fill the window's framebuffer; `area` is what the panels leave free. Raises `DeviceError` if OpenGL fails."""
+    def begin(self, snapshot: Snapshot, area: Area) -> Finish:
+        """Draw all that moves in the room; returns what draws the rest of the picture.
+
+        `area` is what the panels leave free. Both raise `DeviceError` if OpenGL fails.
+        """
         ctx, painter = self._ready()
         screen, whole = self.clear()
         painter.theme = self.look.theme
-        if min(area[2:]) < 16:
+        if min(area[2:]) < _LEAST_AREA:
+            return lambda _: None
+        if snapshot.kit.left_handed != self._left_handed:
+            self._left_handed = snapshot.kit.left_handed
+            self._back_to_the_view()
+        began = perf_counter()
+        target = self._target_for(painter, ctx, whole)
+        is_rough = self.camera != self._seen_from
+        arrangement = Arrangement(self._inset, self.look.score, is_rough, self.look.double)
+        self._seen_from = self.camera
+        with self._watched():
+            rest = painter.begin(snapshot, target.framebuffer, area, self.camera, arrangement=arrangement)
+            if painter.quality.is_layered:
+                ctx.finish()  # else what is drawn would still be to do when the engine is asked what it has heard
+
+        def finish(newest: Snapshot) -> None:
+            with self._watched():
+                rest(newest)
+                target.show(screen)
+                screen.use()  # the panels are drawn into what is bound
+                self._measure(began)
+                ctx.viewport = (0, 0, *whole)
+
+        return finish
+
+    def draw_report(self, report: ShownResult, area: Area) -> None:
+        """Draw a result in place of the room; raises `DeviceError` if OpenGL fails."""
+        ctx, painter = self._ready()
+        _, whole = self.clear()
+        painter.theme = self.look.theme
+        if min(area[2:]) < _LEAST_AREA:
             return
+        with self._watched():
+            self._draw_report(report, painter, ctx, area)
+            ctx.viewport = (0, 0, *whole)
+
+    @contextmanager
+    def _watched(self) -> Iterator[None]:
+        """Raises `DeviceError` where OpenGL fails or the driver has lost the window."""
         try:
-            if report is not None:
-                self._draw_report(report, painter, ctx, area)
-            else:
-                self._draw_room(snapshot, painter, ctx, screen, whole, area)
+            yield
         except moderngl.Error as fault:
             raise DeviceError(f"{_LOST} ({fault})") from fault
-        ctx.viewport = (0, 0, *whole)
-        if ctx.error == _GONE:
+        if self._ctx is not None and self._ctx.error == _GONE:
             raise DeviceError(_LOST)
 
     def clear(self) -> tuple[moderngl.Framebuffer, tuple[int, int]]:
@@ -153,28 +189,6 @@ class Viewport:
                 raise DeviceError(f"the window has no OpenGL 3.3: {fault}") from fault
             self._painter = Painter(self._ctx, _MEASURED if self._wanted is None else QUALITIES[self._wanted])
         return self._ctx, self._painter
-
-    def _draw_room(
-        self,
-        snapshot: Snapshot,
-        painter: Painter,
-        ctx: moderngl.Context,
-        screen: moderngl.Framebuffer,
-        whole: tuple[int, int],
-        area: Area,
-    ) -> None:
-        if snapshot.kit.left_handed != self._left_handed:
-            self._left_handed = snapshot.kit.left_handed
-            self._back_to_the_view()
-        began = perf_counter()
-        target = self._target_for(painter, ctx, whole)
-        is_rough = self.camera != self._seen_from
-        arrangement = Arrangement(self._inset, self.look.score, is_rough, self.look.double, self._news)
-        self._seen_from = self.camera
-        painter.draw(snapshot, target.framebuffer, area, self.camera, arrangement=arrangement)
-        target.show(screen)
-        screen.use()  # the panels are drawn into what is bound
-        self._measure(began)
 
     def _target_for(self, painter: Painter, ctx: moderngl.Context, whole: tuple[int, int]) -> RenderTarget:
         """Where the picture is made: off the screen, with as many samples a pixel as the quality asks for."""

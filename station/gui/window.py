@@ -1,24 +1,23 @@
 """The window: hello_imgui owns it and its loop, the picture is its background, panels dock round the picture.
 
-A view and nothing else: it asks its `PracticeModel` for a snapshot a frame, draws it, and passes on what the user does.
-It starts no thread of its own, and nothing that happens here can change a judgement.
+A view and nothing else. Each frame it lets the controller take in what has happened, draws the one state that it gets
+back, and hands over what the user does. It starts no thread of its own, and nothing that happens here can change a
+judgement.
 """
 
 from imgui_bundle import hello_imgui, imgui, implot
 
-from station.app.deeds import Deeds
-from station.app.first_start import FirstAnswers, answered
+from station.app.actions import Begin, Leave, Meet, Notify, Pause, Show, StrikeKey
+from station.app.controller import Controller
+from station.app.first_start import FirstAnswers
 from station.app.help_topics import topic_of
 from station.app.model import Stage
-from station.app.practice_model import PracticeModel
-from station.app.selection import Selection
-from station.app.view_settings import view_settings_of, with_view_settings
+from station.app.state import State
 from station.core.clock import Clock, MonotonicClock
 from station.core.errors import DeviceError
-from station.core.settings import load_settings, save_settings
 from station.gui import theme
 from station.gui.display import MonitorWatch
-from station.gui.draw_toasts import ABOVE_RESULT, Toasts
+from station.gui.draw_toasts import ABOVE_RESULT, draw_toast
 from station.gui.keyboard_kit import pressed
 from station.gui.layout import Calls, WindowOptions, central_area, runner, splits
 from station.gui.panel_table import Pages
@@ -34,21 +33,21 @@ _FIRST_PICTURE = 1
 
 
 class Window:
-    """One window over one model; raises `BadInput` for a look in the settings that is none."""
+    """One window over one controller."""
 
-    def __init__(self, model: PracticeModel, options: WindowOptions, clock: Clock | None = None) -> None:
-        self._model = model
+    def __init__(self, controller: Controller, options: WindowOptions, clock: Clock | None = None) -> None:
+        self._controller = controller
         self._options = options
         self._clock = clock or MonotonicClock()
-        settings = load_settings(options.settings)
-        self.news = Toasts()
-        self.choice = Selection([model.shelf.first_card()], model.first())
-        self._deeds = Deeds(model, self.choice, self.news.tell)
-        self.backdrop = Viewport(options.quality, view_settings_of(settings), self._news)
-        self.pages = Pages(self._deeds, self.backdrop, options.settings)
+        self._shown = Show(picture=False)
+        controller.dispatch(self._shown)
+        self.state: State = controller.view()
+        """What this frame shows."""
+        self.backdrop = Viewport(options.quality, self.state.look)
+        self.pages = Pages(controller.dispatch, self.backdrop)
+        settings = self.state.settings
         self.welcome = None if settings.welcomed else WelcomePage(FirstAnswers.of(settings))
-        self._kept = self.backdrop.look
-        self._worn = self._kept.theme, self._kept.scale
+        self._worn = self.state.look.theme, self.state.look.scale
         self._show_help = False
         self._frame_ms = 0.0
         self._drawn: Snapshot | None = None
@@ -57,7 +56,8 @@ class Window:
         self._fault: DeviceError | None = None
         self.monitors: MonitorWatch | None = None
         calls = Calls(self._opened, self._before_frame, self._background, self._over_all, self._swapped, self._leaving)
-        self.params = runner(options, calls, self.pages.table, self.backdrop.look.scale)
+        windows = [page.window(lambda: self.state) for page in self.pages.table]
+        self.params = runner(options, calls, windows, self.state.look.scale)
         self.pages.docking = self.params.docking_params
         theme.choose(*self._worn)
 
@@ -85,19 +85,30 @@ class Window:
         self.monitors = None if screen is None else MonitorWatch(screen)
 
     def _before_frame(self) -> None:
-        stage = self._model.room().stage
+        """Take in what has happened: the state that this frame shows."""
+        self._show()
+        self._controller.update(self._clock.now_ns())
+        self.state = self._controller.view()
+        self.backdrop.look_from(self.state.look)
         self._wear()
-        self.pages.show(None if self.welcome is not None else stage)
-        self.params.fps_idling.enable_idling = not self._model.is_lively(self._clock.now_ns())
+        self.pages.show(self.state, self.welcome is None)
+        self.params.fps_idling.enable_idling = not self.state.is_lively
         io = imgui.get_io()
         nav = imgui.ConfigFlags_.nav_enable_keyboard
-        io.config_flags = io.config_flags & ~nav if stage is Stage.PLAYING else io.config_flags | nav
-        if stage is not Stage.PLAYING:
-            self._keep()
+        is_playing = self.state.room.stage is Stage.PLAYING
+        io.config_flags = io.config_flags & ~nav if is_playing else io.config_flags | nav
+
+    def _show(self) -> None:
+        """Say what the window shows: first the panels alone, for the picture takes half a second to build."""
+        shown = Show(picture=self.frames >= _FIRST_PICTURE, catalog=self.frames > _FIRST_PICTURE)
+        shown = self.pages.seen(shown)
+        if shown != self._shown:
+            self._shown = shown
+            self._controller.dispatch(shown)
 
     def _wear(self) -> None:
         """Show the panels in the colours and the size that were chosen; larger ones dock anew."""
-        look = self.backdrop.look
+        look = self.state.look
         if (look.theme, look.scale) != self._worn:
             if look.scale != self._worn[1]:
                 self.params.docking_params.docking_splits = splits(look.scale)
@@ -107,66 +118,36 @@ class Window:
             theme.apply()
 
     def _leaving(self) -> None:
-        self._keep()
-        self.pages.take.files.cancel()
         self.backdrop.release()
 
-    def _keep(self) -> None:
-        """Write to the settings what was chosen in the window."""
-        self._keep_look()
-        self.pages.keep()
-
-    def _keep_look(self) -> None:
-        """Write the look to the settings when it has changed; never while somebody plays."""
-        look = self.backdrop.look
-        if look != self._kept:
-            self._kept = look
-            path = self._options.settings
-            self._deeds.tried(lambda: save_settings(with_view_settings(load_settings(path), look), path))
-
     def _background(self) -> None:
-        """Draw the picture behind the panels, which are there before it: it takes half a second to build."""
-        if self.frames < _FIRST_PICTURE:
-            self.backdrop.clear()
-            self.frames += 1
-            return
-        if self.frames > _FIRST_PICTURE:
-            self._offer()
-        now_ns = self._clock.now_ns()
-        self._deeds.preview()
-        self._drawn = snapshot = self._model.snapshot(now_ns)
-        left, low, width, height = central_area(self.params.docking_params)
-        report = self._model.report() if self._deeds.shows_result and not self._model.room().listening else None
-        if report is not None:
-            height -= round(theme.points(ABOVE_RESULT) * imgui.get_io().display_framebuffer_scale.y)
-        if self._model.wants_start():
-            self._deeds.start()
-        if self.frames % self.picture_every:
-            self.backdrop.clear()
-        else:
-            try:
-                self.backdrop.draw(snapshot, report, (left, low, width, height))
-            except DeviceError as fault:
-                self._fault, self.params.app_shall_exit = fault, True
+        """Draw the picture behind the panels."""
+        self._drawn = self.state.snapshot
+        try:
+            self._draw(self.state)
+        except DeviceError as fault:
+            self._fault, self.params.app_shall_exit = fault, True
         self.frames += 1
 
-    def _news(self) -> Snapshot | None:
-        """What was struck while the frame was drawn."""
-        news = self._model.news(self._clock.now_ns())
-        self._drawn = news or self._drawn
-        return news
+    def _draw(self, state: State) -> None:
+        """Draw a result or the room, and in this what was struck while all that moves was drawn, the longest part."""
+        left, low, width, height = central_area(self.params.docking_params)
+        if state.snapshot is None or self.frames % self.picture_every:
+            self.backdrop.clear()
+        elif state.report is not None and state.shows_result and not state.room.listening:
+            height -= round(theme.points(ABOVE_RESULT) * imgui.get_io().display_framebuffer_scale.y)
+            self.backdrop.draw_report(state.report, (left, low, width, height))
+        else:
+            finish = self.backdrop.begin(state.snapshot, (left, low, width, height))
+            if self._controller.update(self._clock.now_ns()):
+                self.state = self._controller.view()
+            self._drawn = self.state.snapshot or state.snapshot
+            finish(self._drawn)
 
     def _swapped(self) -> None:
         """The frame is on the screen."""
         if self._options.shown is not None and not self._options.shown(self._drawn):
             self.params.app_shall_exit = True
-
-    def _offer(self) -> None:
-        """What can be chosen, and how far the student is: read from files once, after the first picture."""
-        if self.frames == _FIRST_PICTURE + 1:
-            course = load_settings(self._options.settings).course
-            self.choice.offer(self._model.shelf.cards(), self._model.shelf.courses(), course)
-        self.choice.progress = self._model.shelf.progress()
 
     def _over_all(self) -> None:
         """Keys, mouse and what floats over the picture."""
@@ -175,49 +156,42 @@ class Window:
         if self.welcome is not None:
             self._ask(self.welcome)
             return
-        self.pages.take.advance()
-        self.news.follow(self._model.room().notices, io.delta_time)
         moved = "" if self.monitors is None else self.monitors.check(self._clock.now_ns())
         if moved:
-            self.news.tell(moved)
+            self._controller.dispatch(Notify(moved))
         self._keys()
         if not io.want_capture_mouse:
             self.backdrop.steer(io)
         if self._show_help:
             self._help()
         else:
-            self.news.gui(central_area(self.params.docking_params), self._deeds.shows_result)
+            draw_toast(self.state.toast, central_area(self.params.docking_params), self.state.shows_result)
 
     def _ask(self, page: WelcomePage) -> None:
         """The questions of the first start, until they are answered or put aside."""
         begun = page.gui()
-        if begun is None:
-            return
-        path, answers = self._options.settings, page.answers if begun else None
-        self._deeds.tried(lambda: save_settings(answered(load_settings(path), answers), path))
-        if answers is not None:
-            self._deeds.tried(lambda: self._model.meet(answers))
-            self._deeds.tried(self._deeds.preview_anew)
-        self.welcome = None
+        if begun is not None:
+            self._controller.dispatch(Meet(page.answers if begun else None))
+            self.welcome = None
 
     def _keys(self) -> None:
-        room = self._model.room()
+        room, dispatch = self.state.room, self._controller.dispatch
         if imgui.is_key_pressed(imgui.Key.f1, repeat=False):
             self._show_help = not self._show_help
         if room.stage is Stage.PLAYING or not imgui.get_io().nav_visible:
             for hit in pressed(self._clock.now_ns()):
-                self._model.key(hit)
+                dispatch(StrikeKey(hit))
         if imgui.get_io().want_text_input:
             return
         if room.stage is Stage.IDLE and not room.free:
-            player_keys(self._model.deck, self.pages.controls, self._deeds.choose_bars)
-        self.pages.view_keys.take()
+            self.pages.controls.key_wind = player_keys(self.state.player, dispatch)
+        self.pages.view_keys.take(self.state.look)
         if imgui.is_key_pressed(imgui.Key.escape, repeat=False):
-            self._deeds.leave()
+            dispatch(Leave())
         elif imgui.is_key_pressed(imgui.Key.backspace, repeat=False):
-            self._model.pause()
+            dispatch(Pause())
         elif imgui.is_key_pressed(imgui.Key.enter, repeat=False) and self._enter_starts(room.stage):
-            self._deeds.start()
+            dispatch(Begin())
 
     @staticmethod
     def _enter_starts(stage: Stage) -> bool:
@@ -226,10 +200,10 @@ class Window:
 
     def _help(self) -> None:
         is_open = [page for page in self.pages.tools if self.pages.is_open(page.name)]
-        topic = topic_of(self._model.room(), self.choice.free)
+        topic = topic_of(self.state.room, self.state.choice.free)
         self._show_help = help_window(topic, is_open, self._frame_ms)
 
 
-def run_window(model: PracticeModel, options: WindowOptions | None = None) -> None:
-    """Open the window over `model` and return when it is closed; raises `DeviceError` where there is no screen."""
-    Window(model, options or WindowOptions()).run()
+def run_window(controller: Controller, options: WindowOptions | None = None) -> None:
+    """Open the window over `controller` and return when it is closed; raises `DeviceError` where there is no screen."""
+    Window(controller, options or WindowOptions()).run()

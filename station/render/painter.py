@@ -12,7 +12,6 @@ from station.motion.kinematics.figure import Figure
 from station.motion.kit.kit import Kit
 from station.render import hud
 from station.render.camera import Camera, NamedView, named
-from station.render.gpu.bone_palette import BoneFrame
 from station.render.gpu.cached_layer import CachedLayer
 from station.render.gpu.gl import RenderTarget, give_back
 from station.render.gpu.moving_parts import DoublePlace, frames_of
@@ -51,15 +50,13 @@ class Arrangement:
     """What else a picture has: the camera of a second, small picture in its corner, and the score's form.
 
     `is_rough`: the camera moves, so that at the lowest quality the room may be drawn more simply. `double`: where the
-    student's double is, where the snapshot has one. `news` is asked at the lowest quality when all that moves is drawn,
-    the longest part: a snapshot of the same scene that knows of more strokes, or None where there were none.
+    student's double is, where the snapshot has one.
     """
 
     inset: Camera | None = None
     form: ScoreForm = ScoreForm.SCROLLING
     is_rough: bool = False
     double: DoublePlace = DoublePlace.NOWHERE
-    news: Callable[[], Snapshot | None] | None = None
 
 
 class Painter:
@@ -97,6 +94,21 @@ class Painter:
         arrangement: Arrangement = Arrangement(),
     ) -> None:
         """Draw `snapshot` into `area` of `target`, over what is there."""
+        self.begin(snapshot, target, area, camera, with_score, arrangement)(snapshot)
+
+    def begin(
+        self,
+        snapshot: Snapshot,
+        target: moderngl.Framebuffer,
+        area: Area,
+        camera: Camera | None = None,
+        with_score: bool = True,
+        arrangement: Arrangement = Arrangement(),
+    ) -> Callable[[Snapshot], None]:
+        """Draw all that moves, the longest part; returns what draws the rest: strokes that glow, the score, the words.
+
+        That takes `snapshot`, or one of the same scene that knows of more strokes.
+        """
         self.printer.theme = self.theme
         left, low, width, height = area
         score_height = round(height * SCORE_SHARE) if with_score else 0
@@ -138,31 +150,33 @@ class Painter:
             key = (scene, camera, area, with_score, is_staff, shown, self.theme, arrangement.is_rough)
             self._worded.under(target, (key, corners), lay_words)
             each(scene.draw_moving, target)
-            snapshot, frames = self._newest(snapshot, frames, arrangement)
-            each(scene.draw_glow, target)
         else:
             lay(target, scene.draw)
-        if arrangement.inset is not None:
-            self._draw_inset(scene, target, arrangement.inset, places[0])
-        self._ctx.viewport = area
-        if with_score:
-            self._score.draw(snapshot, place, (width, height), arrangement.form)
-        self.printer.theme = over_picture(self.theme)
-        if len(frames) > 1:
-            self.printer.draw(self._names(words), Transform((width, height)))
-        if not self.quality.is_layered:
-            self.printer.draw(self._lines.of(corners, words), Transform((width, height)))
-        self.printer.draw(self._calls.of(snapshot.hud, words), Transform((width, height)))
 
-    def _newest(
-        self, snapshot: Snapshot, frames: list[BoneFrame], arrangement: Arrangement
-    ) -> tuple[Snapshot, list[BoneFrame]]:
-        """What has been struck while all that moves was drawn, else what is known."""
-        if arrangement.news is None or len(frames) > 1:
-            return snapshot, frames
-        self._ctx.finish()  # else what is drawn would still be to do when the news is read
-        news = arrangement.news()
-        return (snapshot, frames) if news is None else (news, frames_of(news, arrangement.double, self.theme)[:1])
+        def finish(newest: Snapshot) -> None:
+            nonlocal frames
+            newest = newest if newest.score is snapshot.score and newest.kit is snapshot.kit else snapshot
+            if self.quality.is_layered:
+                if newest is not snapshot and len(frames) == 1:
+                    frames = frames_of(newest, arrangement.double, self.theme)[:1]
+                each(scene.draw_glow, target)
+            if arrangement.inset is not None:
+                self._draw_inset(scene, target, arrangement.inset, places[0])
+            self._ctx.viewport = area
+            if with_score:
+                self._score.draw(newest, place, (width, height), arrangement.form)
+            self._print_words(newest.hud, (width, height), words, len(frames) > 1)
+
+        return finish
+
+    def _print_words(self, shown: Hud, size: tuple[int, int], words: tuple[int, int], has_names: bool) -> None:
+        """Print what stands over the picture; the upper lines lie below what moves where that is drawn in layers."""
+        self.printer.theme = over_picture(self.theme)
+        if has_names:
+            self.printer.draw(self._names(words), Transform(size))
+        if not self.quality.is_layered:
+            self.printer.draw(self._lines.of(hud.corners(shown), words), Transform(size))
+        self.printer.draw(self._calls.of(shown, words), Transform(size))
 
     def _draw_veil(self, size: tuple[int, int], height: int) -> None:
         """What darkens the scene, `height` pixels high, behind the upper lines."""

@@ -20,8 +20,11 @@ import numpy as np
 from imgui_bundle import hello_imgui, imgui
 from numpy.typing import NDArray
 
+from station.app.actions import Dismiss, SetView, Stop
 from station.app.help_topics import topic_of
-from station.app.model import Stage
+from station.app.model import RoomState, Stage
+from station.app.settings_store import SettingsStore
+from station.app.state import State
 from station.app.view_settings import view_settings_of
 from station.core.measured_latency import load_calibration
 from station.core.pieces import Piece
@@ -58,7 +61,7 @@ from station.render.snapshot import Snapshot
 from station.simulation.student_spec import parse_spec
 from tests.gui.figure import figure
 from tests.gui.legible import present_faults
-from tests.gui.room import KIT, practice_room
+from tests.gui.room import KIT, station
 from tests.gui.screen_shot import screen_shot
 
 STEP_NS = ns_from_ms(100)
@@ -112,14 +115,15 @@ class Drive:
     ) -> None:
         spec = None if student in (None, NEWCOMER) else parse_spec(str(student))
         self.picture_every = picture_every
-        self.room, self.engine, self.clock = practice_room("rock-1", PlanOptions(), sessions, spec, STEP_NS)
         settings = Settings(sessions=str(sessions), welcomed=student != NEWCOMER)
         self.settings = save_settings(settings, sessions / "settings.toml")
-        options = WindowOptions(size, quality=0, remember_layout=False, settings=self.settings, tests=self._register)
+        store = SettingsStore(self.settings)
+        self.station, self.engine, self.clock = station("rock-1", PlanOptions(), store, spec, STEP_NS)
+        options = WindowOptions(size, quality=0, remember_layout=False, tests=self._register)
         options = replace(
             options, picture_every=picture_every, shown=self._frame_is_shown, screen=self._monitors_are_asked_for
         )
-        self.window = Window(self.room, options, self.clock)
+        self.window = Window(self.station, options, self.clock)
         self.monitors: TwoMonitors | None = None
         """There once the window is open."""
         self.all_seen: list[dict[str, object]] = []
@@ -133,6 +137,22 @@ class Drive:
     def seen(self) -> dict[str, object]:
         """What the scenario that runs has seen."""
         return self.all_seen[-1]
+
+    @property
+    def state(self) -> State:
+        """What the window shows, or will in the next frame."""
+        return self.station.view()
+
+    @property
+    def room(self) -> RoomState:
+        """What goes on."""
+        return self.state.room
+
+    @property
+    def picture(self) -> Snapshot:
+        """What is seen behind the panels."""
+        assert self.state.snapshot is not None
+        return self.state.snapshot
 
     def run(self, scenarios: "Sequence[Scenario]") -> None:
         """Open the window and play them in turn, each from the lessons page with no popup open."""
@@ -186,8 +206,8 @@ class Drive:
             self.all_seen.append({})
             try:
                 ctx.popup_close_all()
-                self.room.stop()
-                self.room.dismiss()
+                self.station.dispatch(Stop())
+                self.station.dispatch(Dismiss())
                 ctx.yield_(2)
                 scenario(self, ctx)
             except Exception:
@@ -199,7 +219,7 @@ class Drive:
     def wait_for(self, ctx: imgui.test_engine.TestContext, stage: Stage) -> int:
         """Let frames pass until the room is at `stage`; returns how many went by."""
         for frame in range(MOST_FRAMES):
-            if self.room.room().stage is stage:
+            if self.room.stage is stage:
                 return frame
             ctx.yield_()
         raise AssertionError(f"{stage!r} did not come in {MOST_FRAMES} frames")
@@ -218,22 +238,22 @@ def practise(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """A whole session, from the list to the results and back."""
     drive.choose(ctx, passes=1)
     ctx.item_click("Start##start")
-    drive.seen["started"] = drive.room.room().stage.name
+    drive.seen["started"] = drive.room.stage.name
     drive.seen["frames"] = drive.wait_for(ctx, Stage.RESULT)
-    drive.seen["asked"] = drive.room.room().question
-    drive.seen["told before"] = drive.room.report() is not None
+    drive.seen["asked"] = drive.room.question
+    drive.seen["told before"] = drive.state.report is not None
     ctx.yield_(3)
     ctx.set_ref("//Transport")
     ctx.item_click("on")
     ctx.yield_(2)
-    report = drive.room.report()
+    report = drive.state.report
     assert report is not None
     drive.seen["points"] = report.facts.words.points
     drive.seen["notes"] = len(report.facts.label)
     drive.seen["title"] = report.facts.words.title
     ctx.item_click("Back to the lessons##back")
     ctx.yield_(2)
-    drive.seen["after"] = drive.room.room().stage.name
+    drive.seen["after"] = drive.room.stage.name
 
 
 def keys(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
@@ -248,7 +268,7 @@ def keys(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.seen["rising"] = sorted({hit.at_ns for hit in drive.engine.keys}) == [hit.at_ns for hit in drive.engine.keys]
     ctx.key_press(imgui.Key.escape)
     ctx.yield_(3)
-    drive.seen["after"] = drive.room.room().stage.name
+    drive.seen["after"] = drive.room.stage.name
 
 
 def just_play(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
@@ -260,29 +280,29 @@ def just_play(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     for key in (imgui.Key.f, imgui.Key.space, imgui.Key.d):
         ctx.key_press(key)
         ctx.yield_(3)
-    drive.seen["stage"] = drive.room.room().stage.name
-    strip = drive.room.snapshot(drive.clock.now_ns()).strip
+    drive.seen["stage"] = drive.room.stage.name
+    strip = drive.picture.strip
     assert strip is not None
     drive.seen["pieces"] = [hit.piece.name for hit in strip.played]
     ctx.key_press(imgui.Key.escape)
     ctx.yield_(3)
-    drive.seen["after"] = drive.room.room().stage.name
+    drive.seen["after"] = drive.room.stage.name
     ctx.item_click(LISTEN_LABEL)
     ctx.yield_(8)
-    drive.seen["listening"] = drive.room.room().listening
-    drive.seen["lit"] = [strike.piece.name for strike in drive.room.snapshot(drive.clock.now_ns()).strikes]
+    drive.seen["listening"] = drive.room.listening
+    drive.seen["lit"] = [strike.piece.name for strike in drive.picture.strikes]
     for _ in range(MOST_FRAMES):
-        if not drive.room.room().listening:
+        if not drive.room.listening:
             break
         ctx.yield_()
-    drive.seen["ended"] = not drive.room.room().listening
-    films = drive.room.films
+    drive.seen["ended"] = not drive.room.listening
+    films = drive.station.export
     ctx.item_click(FILM_LABEL)
     drive.seen["filming"] = films.process is not None
     if films.process is not None:
         films.process.wait(PATIENCE_S)
     ctx.yield_(3)
-    capture = drive.room.room().take
+    capture = drive.room.take
     drive.seen["filmed"] = capture is not None and capture.with_suffix(".mp4").read_text() == str(capture)
 
 
@@ -293,14 +313,14 @@ def search(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.key_chars("paradiddle")
     ctx.yield_(2)
     drive.seen["keys"] = len(drive.engine.keys)
-    drive.seen["shown"] = [card.title for card in drive.window.choice.visible()]
+    drive.seen["shown"] = [card.title for card in drive.state.choice.visible()]
     for course in ("Funk: ghosts and sixteenths##funk", ALL_LESSONS):
         ctx.item_click("##course")
         ctx.item_click(f"//$FOCUSED/{course}")
         ctx.yield_(2)
         kept = load_settings(drive.settings).course
-        drive.seen[kept or "none"] = [card.name for card in drive.window.choice.visible()]
-        drive.seen[f"chosen in {kept or 'none'}"] = drive.window.choice.card and drive.window.choice.card.name
+        drive.seen[kept or "none"] = [card.name for card in drive.state.choice.visible()]
+        drive.seen[f"chosen in {kept or 'none'}"] = drive.state.choice.card and drive.state.choice.card.name
 
 
 def look(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
@@ -352,7 +372,7 @@ def viewpoints(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     turned = backdrop.camera
     ctx.key_press(chord(imgui.Key._3, imgui.Key.mod_ctrl))
     ctx.yield_(2)
-    drive.seen["told"] = drive.window.news.text
+    drive.seen["told"] = drive.state.toast
     ctx.key_press(imgui.Key.f5)
     ctx.yield_(2)
     drive.seen["left"] = backdrop.camera != turned
@@ -402,7 +422,7 @@ def score(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
 def devices(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """The devices page: live lines, a threshold and a rule set by looking, kept and taken by the engine."""
     open_panel(ctx, DEVICES)
-    desk = drive.room.desk
+    desk = drive.station.mapping
     for text in ("99 26 50", "99 24 64", "99 26 0a", "99 2e 40"):
         drive.engine.play_bytes(text)
         ctx.yield_(2)
@@ -419,7 +439,7 @@ def devices(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     kept = own_kit(KIT)
     drive.seen["kept"] = None if kept is None else kept.pad(Piece.SNARE).threshold
     drive.seen["taken"] = [type(command).__name__ for command in drive.engine.sent]
-    drive.seen["told"] = drive.window.news.text
+    drive.seen["told"] = drive.state.toast
     pads_are_learnt(drive, ctx)
     open_panel(ctx, DEVICES)  # and close it again
     ctx.yield_(2)
@@ -428,7 +448,7 @@ def devices(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
 
 def pads_are_learnt(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """An unknown note gets a name, a pad is learnt with one hit and undone, Esc gives up, ten strokes make a curve."""
-    desk = drive.room.desk
+    desk = drive.station.mapping
     drive.engine.play_bytes("99 0e 40")
     ctx.yield_(2)
     drive.seen["unknown"] = desk.unknown
@@ -442,7 +462,7 @@ def pads_are_learnt(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.seen["asks"] = desk.asks
     drive.engine.play_bytes("99 24 60")
     ctx.yield_(6)
-    drive.seen["learnt"] = [desk.learnt, drive.room.room().stage.name]
+    drive.seen["learnt"] = [desk.learnt, drive.room.stage.name]
     ctx.set_ref(f"//{DEVICES}")
     ctx.item_click(UNDO_LABEL)
     ctx.yield_(2)
@@ -478,44 +498,43 @@ def habits(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.yield_(5)
     drive.engine.play_bytes("99 24 50")
     ctx.yield_(2)
-    drive.seen["stage"] = drive.room.room().stage.name
+    drive.seen["stage"] = drive.room.stage.name
     ctx.item_click(LEARN_LABEL)
     ctx.yield_(2)
-    drive.seen["learns"] = drive.room.habits.learns
+    drive.seen["learns"] = drive.state.learns_pause
     open_panel(ctx, PRACTICE)  # and close it again
     ctx.yield_(2)
-    drive.seen["learns unseen"] = drive.room.habits.learns
+    drive.seen["learns unseen"] = drive.state.learns_pause
     open_panel(ctx, TAKE_ALONG)
     ctx.set_ref(f"//{TAKE_ALONG}")
     ctx.item_click(MIDI_LABEL)
     ctx.yield_(2)
-    drive.seen["taken"] = drive.window.news.text
+    drive.seen["taken"] = drive.state.toast
     ctx.item_click(SHEET_LABEL)
     ctx.yield_(2)
-    drive.seen["printed"] = drive.window.news.text
+    drive.seen["printed"] = drive.state.toast
     open_panel(ctx, TAKE_ALONG)
 
 
 def calibration(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """Latency is measured on the devices page; what is found is kept only when it is asked for, doubts are said."""
-    room = drive.room
     open_panel(ctx, DEVICES)
     ctx.set_ref(f"//{DEVICES}")
     ctx.item_click("Strike##by")
     ctx.item_click(MEASURE_LABEL)
-    drive.seen["rests"] = [room.calibration.runs, room.room().kit]
+    drive.seen["rests"] = [drive.state.calibration.runs, drive.room.kit]
     for _ in range(MOST_FRAMES):
-        if not room.calibration.runs:
+        if not drive.state.calibration.runs:
             break
         ctx.yield_()
     ctx.yield_(6)
-    drive.seen["found"] = [room.calibration.runs, room.room().kit, room.calibration.trusted]
+    drive.seen["found"] = [drive.state.calibration.runs, drive.room.kit, drive.state.calibration.trusted]
     drive.seen["kept unasked"] = bool(load_calibration().kits)
     ctx.item_click(ANYWAY_LABEL)
     ctx.yield_(3)
     kept = load_calibration().kits[KIT].kit
     drive.seen["kept"] = [kept.latency_ms, kept.by, kept.doubts]
-    drive.seen["told"] = drive.window.news.text
+    drive.seen["told"] = drive.state.toast
     open_panel(ctx, DEVICES)  # and close it again
 
 
@@ -559,12 +578,12 @@ def newcomer(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.seen["kept"] = [kept.student, kept.own_sound, kept.hands, kept.welcomed]
     drive.seen["levels"] = [[c.bus.name, c.level] for c in drive.engine.sent if isinstance(c, SetLevel)]
     drive.seen["keys"] = len(drive.engine.keys)
-    drive.seen["left-handed"] = drive.room.snapshot(drive.clock.now_ns()).kit.left_handed
+    drive.seen["left-handed"] = drive.picture.kit.left_handed
     drive.seen["helped"] = helped(drive, ctx)
     ctx.set_ref("//Lessons")
     ctx.item_click("Start##start")
     ctx.yield_(2)
-    drive.seen["stage"] = drive.room.room().stage.name
+    drive.seen["stage"] = drive.room.stage.name
     drive.seen["helped playing"] = helped(drive, ctx)
 
 
@@ -573,7 +592,7 @@ def helped(drive: Drive, ctx: imgui.test_engine.TestContext) -> str:
     ctx.key_press(imgui.Key.f1)
     ctx.yield_(3)
     shown = ctx.window_info("//Help").window
-    topic = topic_of(drive.room.room(), drive.window.choice.free).value if shown is not None else ""
+    topic = topic_of(drive.room, drive.state.choice.free).value if shown is not None else ""
     ctx.key_press(imgui.Key.f1)
     ctx.yield_(2)
     return topic
@@ -617,7 +636,7 @@ def behind_buttons(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.yield_(2)
     ctx.item_input_value("//$FOCUSED/##speed", 70)
     ctx.yield_(2)
-    drive.seen["speed"] = drive.room.deck.player.speed_percent
+    drive.seen["speed"] = drive.state.player.player.speed_percent
     ctx.popup_close_all()
 
 
@@ -631,13 +650,13 @@ def highway(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """The highway while a virtual student plays: the last frame is looked at."""
     drive.choose(ctx, passes=4)
     ctx.key_press(imgui.Key.escape)
-    drive.window.backdrop.look_from(replace(drive.window.backdrop.look, score=ScoreForm.HIGHWAY))
+    drive.station.dispatch(SetView(replace(drive.state.look, score=ScoreForm.HIGHWAY)))
     ctx.item_click("Start##start")
     for _ in range(MOST_FRAMES):
         ctx.yield_()
-        if drive.room.snapshot(drive.clock.now_ns()).hud.judged > 15:
+        if drive.picture.hud.judged > 15:
             break
-    drive.seen["stage"] = drive.room.room().stage.name
+    drive.seen["stage"] = drive.room.stage.name
 
 
 def drill(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
@@ -648,10 +667,10 @@ def drill(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.wait_for(ctx, Stage.RESULT)
     ctx.yield_(2)
     for guess in SelfEstimate:
-        if drive.room.room().question:
+        if drive.room.question:
             ctx.item_click(f"//Transport/{guess.value}")
             ctx.yield_(2)
-    report = drive.room.report()
+    report = drive.state.report
     assert report is not None
     drive.seen["cells"] = {f"{bar} {limb.name}": cell.notes for (bar, limb), cell in report.heat.cells.items()}
     ctx.yield_(3)
@@ -659,10 +678,10 @@ def drill(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.set_ref("//Bars")
     ctx.item_click("**/2##bar2")
     ctx.yield_(3)
-    drive.seen["stage"] = drive.room.room().stage.name
-    kept = drive.room.close()
+    drive.seen["stage"] = drive.room.stage.name
+    kept = drive.station.close()
     assert kept is None, kept
-    drilled = drive.room.report()
+    drilled = drive.state.report
     drive.seen["subtitle"] = None if drilled is None else drilled.facts.words.subtitle
 
 
@@ -676,13 +695,13 @@ def by_ear(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     for label in (TEACHER_LABEL, STUDENT_LABEL):
         ctx.item_click(label)
         ctx.yield_(2)
-        drive.seen[f"heard {label.split('#')[0]}"] = drive.room.room().listening
-        double = drive.room.snapshot(drive.clock.now_ns()).double
+        drive.seen[f"heard {label.split('#')[0]}"] = drive.room.listening
+        double = drive.picture.double
         drive.seen[f"seen {label.split('#')[0]}"] = double is not None and double.is_compared
         ctx.item_click(HITS_STOP)
         ctx.yield_(2)
-    drive.seen["quiet"] = not drive.room.room().listening
-    panel, report = drive.window.pages.hits, drive.room.report()
+    drive.seen["quiet"] = not drive.room.listening
+    panel, report = drive.window.pages.hits, drive.state.report
     assert report is not None
     x, y = panel.at[0].tolist()
     ctx.mouse_move_to_pos(imgui.ImVec2(x, y))
@@ -701,7 +720,7 @@ def closes(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.choose(ctx, passes=4)
     ctx.item_click("Start##start")
     ctx.yield_(100)
-    drive.seen["at_the_end"] = drive.room.room().stage.name
+    drive.seen["at_the_end"] = drive.room.stage.name
 
 
 def unplugged(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
@@ -714,13 +733,13 @@ def unplugged(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     screen.move(Rectangle(3100, 100, *SIZE))
     ctx.yield_(12)
     drive.seen["outside"] = home_for(screen.window(), [screen.area(name) for name in screen.monitors()]) is not None
-    drive.seen["told before"] = drive.window.news.text == GONE
+    drive.seen["told before"] = drive.state.toast == GONE
     drive.monitors.is_plugged = False
     ctx.yield_(3)
     seen = [screen.window().shared(screen.area(name)) for name in screen.monitors()]
     drive.seen["shown"] = max(seen) / (SIZE[0] * SIZE[1])
-    drive.seen["told"] = drive.window.news.text
-    drive.seen["stage"] = drive.room.room().stage.name
+    drive.seen["told"] = drive.state.toast
+    drive.seen["stage"] = drive.room.stage.name
 
 
 def lost(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
@@ -734,7 +753,7 @@ def lost(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
 
 def player(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """The demonstration is watched, stepped through, reversed, slowed down and looped; Start practises the loop."""
-    deck, engine, seen = drive.room.deck, drive.engine, drive.seen
+    deck, engine, seen = drive.station.sessions.player, drive.engine, drive.seen
 
     def at_ms() -> int:
         return round(deck.player.position_ns(deck.now_ns) / 1e6)
@@ -770,7 +789,7 @@ def player(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.mouse_drag_with_delta(imgui.ImVec2(0.3 * width, 0))
     ctx.yield_(3)
     seen["loop"] = deck.player.loop
-    wish = drive.window.choice.wish()
+    wish = drive.state.choice.wish()
     seen["bars"] = None if wish is None else wish.bars
     ctx.mouse_move_to_pos(imgui.ImVec2(low.x + 0.75 * width, y))
     ctx.mouse_click(0)
@@ -790,7 +809,7 @@ def player(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
 
 def graph(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """The graph is opened, follows the play line, is zoomed by wheel, its line dragged; a result shows there."""
-    panel, deck, seen = drive.window.pages.graph, drive.room.deck, drive.seen
+    panel, deck, seen = drive.window.pages.graph, drive.station.sessions.player, drive.seen
     ctx.set_ref("//Transport")
     ctx.item_click("Panels##panels")
     ctx.item_click("//$FOCUSED/Graph")
@@ -817,18 +836,18 @@ def graph(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.choose(ctx, passes=1)
     ctx.item_click("Start##start")
     ctx.yield_(4)
-    seen["during"] = drive.room.room().stage.name
-    drive.room.stop()
+    seen["during"] = drive.room.stage.name
+    drive.station.dispatch(Stop())
     ctx.yield_(4)
-    graphed = drive.room.graphed()
+    graphed = drive.state.curves
     seen["result"] = graphed is not None and graphed.played is not None
 
 
 def legible(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """Every tool is opened, at both ends of the usual sizes, and what cannot be read in it is told."""
-    backdrop, docking = drive.window.backdrop, drive.window.params.docking_params
+    docking = drive.window.params.docking_params
     for scale in (1.0, 2.0):
-        backdrop.look_from(replace(backdrop.look, scale=scale))
+        drive.station.dispatch(SetView(replace(drive.state.look, scale=scale)))
         for page in drive.window.pages.tools:
             tool = docking.dockable_window_of_name(page.name)
             tool.is_visible = True
@@ -843,8 +862,8 @@ def fault(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.set_ref("//Lessons")
     ctx.item_click("Start##start")
     ctx.yield_(2)
-    drive.seen["news"] = drive.window.news.text
-    drive.seen["after"] = drive.room.room().stage.name
+    drive.seen["news"] = drive.state.toast
+    drive.seen["after"] = drive.room.stage.name
     drive.engine.refuses = ""
 
 
@@ -881,7 +900,7 @@ def main(names: str, sessions: str, out: str, picture: str | None = None) -> Non
     try:
         drive.run([SCENARIOS[name] for name in scenarios])
     finally:
-        kept = drive.room.close()
+        kept = drive.station.close()
     if picture is not None:
         write_png(np.ascontiguousarray(hello_imgui.final_app_window_screenshot()), Path(picture))
     assert kept is None, kept

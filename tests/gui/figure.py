@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 def figure(drive: "Drive", ctx: imgui.test_engine.TestContext) -> None:
     """Everything in one window; what was set last is what the settings keep."""
-    options, seen = drive.window.pages.figure.options, drive.seen
+    seen = drive.seen
     ctx.set_ref("//Transport")
     ctx.item_click("Panels##panels")
     ctx.yield_(2)
@@ -24,34 +24,34 @@ def figure(drive: "Drive", ctx: imgui.test_engine.TestContext) -> None:
     ctx.set_ref("//Figure")
     ctx.item_input_value("##figure/Arms/##amplitude_gain", 90.0)
     ctx.yield_(2)
-    seen["gain"] = options.value("amplitude_gain")
-    seen["moves so"] = drive.room.casting.who.style.amplitude_gain
+    seen["gain"] = drive.state.style.options.value("amplitude_gain")
+    seen["moves so"] = drive.station.sessions.player.drummer.style.amplitude_gain
     ctx.item_click("1##keep1")
     ctx.item_click("##style")
     ctx.yield_(2)
     ctx.item_click("//$FOCUSED/jazz##jazz")
     ctx.yield_(2)
-    seen["chosen"] = [options.style.name, options.is_changed]
+    seen["chosen"] = [drive.state.style.options.style.name, drive.state.style.options.is_changed]
     seen["kept"] = load_settings(drive.settings).style
     ctx.item_click("1##take1")
     ctx.yield_(2)
-    seen["slot"] = options.value("amplitude_gain")
+    seen["slot"] = drive.state.style.options.value("amplitude_gain")
     ctx.item_click("##figure/Arms/~##bars-amplitude_gain")
     ctx.yield_(3)
     ctx.mouse_move("##figure/Bars/##lane")
     ctx.yield_(3)
     draw(drive, ctx)
-    seen["drawn"] = options.lane("amplitude_gain")
+    seen["drawn"] = drive.state.style.options.lane("amplitude_gain")
     ctx.mouse_move_to_pos(in_lane(drive, 0.375, 0.5))
     ctx.mouse_down(0)
     ctx.mouse_move_to_pos(in_lane(drive, 0.375, 0.9))
     ctx.mouse_up(0)
     ctx.yield_(2)
-    seen["dragged"] = options.lane("amplitude_gain")
+    seen["dragged"] = drive.state.style.options.lane("amplitude_gain")
     ctx.mouse_move_to_pos(in_lane(drive, 0.5, 0.75))
     ctx.mouse_click(1)
     ctx.yield_(2)
-    seen["lane"] = options.lane("amplitude_gain")
+    seen["lane"] = drive.state.style.options.lane("amplitude_gain")
     own_styles(drive, ctx)
     ctx.item_click("##figure/Hands")
     ctx.yield_(2)
@@ -59,36 +59,40 @@ def figure(drive: "Drive", ctx: imgui.test_engine.TestContext) -> None:
     ctx.yield_(2)
     ctx.yield_(drive.picture_every)  # the other kit is drawn meanwhile
     kept = load_settings(drive.settings)
-    seen["hands"] = [kept.hands, drive.room.snapshot(drive.clock.now_ns()).kit.left_handed]
+    seen["hands"] = [kept.hands, drive.picture.kit.left_handed]
     seen["kept lane"] = load_style(kept.style).automation["amplitude_gain"]
 
 
 def own_styles(drive: "Drive", ctx: imgui.test_engine.TestContext) -> None:
     """A style is saved by name, left for others and taken again from the list."""
-    options, seen = drive.window.pages.figure.options, drive.seen
+    seen = drive.seen
     ctx.item_input_value("##style-name", "My own")
     ctx.item_click("Save##save-style")
     ctx.yield_(2)
-    seen["saved"] = [load_settings(drive.settings).style, options.style.name, options.is_changed]
+    seen["saved"] = [
+        load_settings(drive.settings).style,
+        drive.state.style.options.style.name,
+        drive.state.style.options.is_changed,
+    ]
     ctx.item_click("##figure/Arms")
     ctx.item_check("##figure/Arms/each for itself")
     ctx.item_input_value("##figure/Arms/##amplitude_wrist", 80.0)
     ctx.yield_(2)
-    seen["unconstrained"] = [options.value(f"amplitude_{joint}") for joint in JOINTS]
+    seen["unconstrained"] = [drive.state.style.options.value(f"amplitude_{joint}") for joint in JOINTS]
     ctx.item_uncheck("##figure/Arms/each for itself")
     ctx.yield_(2)
-    seen["shared"] = [round(options.value(f"amplitude_{joint}"), 3) for joint in JOINTS]
+    seen["shared"] = [round(drive.state.style.options.value(f"amplitude_{joint}"), 3) for joint in JOINTS]
     ctx.item_click("Reset##all")
     ctx.yield_(2)
-    seen["reset"] = options.is_changed
+    seen["reset"] = drive.state.style.options.is_changed
     ctx.item_click("From the score##propose")
     ctx.yield_(2)
-    seen["proposed"] = options.style.name
+    seen["proposed"] = drive.state.style.options.style.name
     ctx.item_click("##style")
     ctx.yield_(2)
     ctx.item_click(f"//$FOCUSED/your own: My own##{seen_path(drive)}")
     ctx.yield_(2)
-    seen["again"] = options.style.name
+    seen["again"] = drive.state.style.options.style.name
 
 
 def seen_path(drive: "Drive") -> str:

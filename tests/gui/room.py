@@ -1,20 +1,20 @@
-"""A practice room whose engine runs in this process, on a clock that moves by one step a frame.
+"""A station whose engine runs in this process, on a clock that moves by one step a frame.
 
-Everything is the station's own: engine, session, practice room, window. Only time is played: a session takes as many
+Everything is the station's own: engine, session, controller, window. Only time is played: a session takes as many
 frames as it has steps, however slowly they are drawn, and a virtual student's MIDI bytes arrive at their times.
 """
 
 import sys
-from pathlib import Path
 
 from station.app.calibration import Told
 from station.app.calibration_results import CalibrationResult, CalibrationResults
+from station.app.controller import Controller
 from station.app.latency_methods import MeasureRequest
-from station.app.practice_room import PracticeRoom
 from station.app.processes import Processes
+from station.app.session_control import Launch
+from station.app.settings_store import SettingsStore
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound
-from station.core.settings import Settings
 from station.devices.mapping.device_file import own_kit
 from station.devices.mapping.presets import GENERAL_MIDI_PRESET
 from station.drills.library import find_lesson
@@ -113,13 +113,13 @@ class Measurement:
         pass
 
 
-def practice_room(
-    lesson: str, wishes: PlanOptions, sessions: Path, student: StudentSpec | None, step_ns: int
-) -> tuple[PracticeRoom, DirectEngine, FrameClock]:
-    """A room that opens on `lesson`, its engine, and the clock that both go by."""
+def station(
+    lesson: str, wishes: PlanOptions, store: SettingsStore, student: StudentSpec | None, step_ns: int
+) -> tuple[Controller, DirectEngine, FrameClock]:
+    """A station that opens on `lesson`, its engine, and the clock that both go by."""
     clock = FrameClock(step_ns)
     engine = DirectEngine(clock, student)
     plan = plan_practice(find_lesson(lesson), wishes)
     engine.plan = plan
     processes = Processes(lambda: engine, Measurement, (sys.executable, "-c", FILMS))
-    return PracticeRoom(processes, Settings(sessions=str(sessions)), plan), engine, clock
+    return Controller(processes, store, Launch(plan)), engine, clock

@@ -53,6 +53,19 @@ def run_in_turn(scenarios: list[str], environment: dict[str, str], folder: Path)
     return seen
 
 
+def test_a_settings_folder_that_is_a_file_keeps_no_window_from_opening(
+    environment: dict[str, str], tmp_path: Path
+) -> None:
+    (tmp_path / "config").write_text("a file")
+    command = [sys.executable, "-c", "from station.app.opening import open_until; open_until(3)"]
+    at = {**environment, "XDG_CONFIG_HOME": str(tmp_path / "config"), "HOME": str(tmp_path)}
+    done = subprocess.run(
+        command, env=at, cwd=tmp_path, capture_output=True, text=True, timeout=PATIENCE_S, check=False
+    )
+    assert done.returncode == 0, done.stderr[-3000:]
+    assert (tmp_path / "config").read_text() == "a file"
+
+
 def test_a_lesson_is_chosen_played_and_judged(environment: dict[str, str], tmp_path: Path) -> None:
     seen = run("practise", environment, tmp_path)
     assert seen["started"] == "PLAYING"

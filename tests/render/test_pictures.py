@@ -141,12 +141,11 @@ def test_a_stroke_that_comes_while_the_picture_is_drawn_is_in_it(piece: Piece) -
     with standalone_context() as ctx:
         painter, target = Painter(ctx, QUALITIES[0]), RenderTarget(ctx, SIZE)
 
-        def drawn(snapshot: Snapshot, news: Snapshot | None) -> Picture:
-            arrangement = Arrangement(news=lambda: news)
-            painter.draw(snapshot, target.framebuffer, (0, 0, *SIZE), arrangement=arrangement)
+        def drawn(snapshot: Snapshot, newest: Snapshot) -> Picture:
+            painter.begin(snapshot, target.framebuffer, (0, 0, *SIZE))(newest)
             return target.read().astype(np.int16)
 
-        dark, known, late = drawn(before, None), drawn(after, None), drawn(before, after)
+        dark, known, late = drawn(before, before), drawn(after, after), drawn(before, after)
     changed = np.abs(known - dark).max(axis=2) > 8
     assert changed.any()
     assert (late - dark)[changed].mean() > 0.5 * (known - dark)[changed].mean() > 0

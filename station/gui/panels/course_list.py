@@ -17,22 +17,23 @@ _RADIUS, _LINE = 7.0, 2.0
 """Design pixels of the mark."""
 
 
-def course_picker(choice: Selection) -> None:
-    """The list of courses, with how much of each is mastered."""
+def course_picker(choice: Selection) -> Selection:
+    """Draw the list of courses, with how much of each is mastered; returns what is chosen."""
     if not choice.courses:
-        return
-    chosen = choice.course
+        return choice
+    chosen, picked = choice.course, choice
     words = ALL_LESSONS if chosen is None else f"{chosen.title}: {choice.mastered(chosen)} of {len(chosen.lessons)}"
     imgui.set_next_item_width(-1)
     if imgui.begin_combo("##course", words, imgui.ComboFlags_.height_large):
         for course in (None, *choice.courses):
             label = ALL_LESSONS if course is None else f"{course.title}##{course.name}"
             if imgui.selectable(label, course is chosen)[0]:
-                choice.follow(course)
+                picked = choice.follow(course)
             if course is not None:
                 theme.tooltip(f"{course.about}\n{choice.mastered(course)} of {len(course.lessons)} lessons mastered")
         imgui.end_combo()
     theme.tooltip(chosen.about if chosen else "A course has lessons in the order in which a teacher gives them")
+    return picked
 
 
 def mark(progress: LessonProgress | None, today: date) -> None:

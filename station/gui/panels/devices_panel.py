@@ -1,6 +1,6 @@
 """The devices panel: what the kit sends, live, and pad by pad what of it counts, set by looking.
 
-A view over `MappingEditor`. The bars of a pad are its last strokes against its threshold; hollow ones are held back.
+The bars of a pad are its last strokes against its threshold; hollow ones are held back.
 """
 
 from collections.abc import Callable, Iterable
@@ -8,13 +8,25 @@ from collections.abc import Callable, Iterable
 import numpy as np
 from imgui_bundle import imgui, implot
 
+from station.app.actions import (
+    Action,
+    HoldBack,
+    RevertRules,
+    SaveRules,
+    SetMask,
+    SetShare,
+    SetThreshold,
+    ShowKit,
+)
+from station.app.kit_seen import STROKES_SHOWN, MappingView, PadStroke
 from station.app.latency_lines import latency_lines
-from station.app.mapping_editor import STROKES_SHOWN, MappingEditor, PadStroke
+from station.app.model import Stage
+from station.app.state import State
 from station.core.events import Choke, Hit, PedalMoved, Switched
 from station.core.labels import piece_name
-from station.core.measured_latency import StoredCalibration, load_calibration
 from station.core.pieces import Piece, word
 from station.core.units import NS_PER_MS
+from station.devices.mapping.device_map import DeviceMap
 from station.devices.mapping.trigger_filter import HeldBack
 from station.devices.monitor import MonitorLine, suspected
 from station.gui import theme
@@ -54,119 +66,98 @@ _GIVEN_UP = "Nothing comes from it? `station devices list` and `station doctor` 
 
 
 class DevicesPanel:
-    """The panel over one desk; `tried` does something or says why it could not be done, `tell` says a line."""
+    """The panel; what the user does goes to `dispatch`."""
 
-    def __init__(
-        self,
-        desk: MappingEditor,
-        tried: Callable[[Callable[[], object]], None],
-        tell: Callable[[str], None],
-        calibration: CalibrationPart,
-    ) -> None:
-        self._desk = desk
-        self._tried = tried
-        self._tell = tell
-        self._calibration = calibration
-        self._pads, self._touch = PadsPart(desk), VelocityPart(desk)
-        self._known: StoredCalibration | None = None
+    def __init__(self, dispatch: Callable[[Action], None]) -> None:
+        self._dispatch = dispatch
+        self._calibration = CalibrationPart(dispatch)
+        self._pads, self._touch = PadsPart(dispatch), VelocityPart(dispatch)
 
-    def gui(self, may_measure: bool) -> None:
-        """Draw the panel and do what the user does in it; `may_measure` while nobody plays."""
-        desk = self._desk
-        if self._calibration.runs:
+    def gui(self, state: State) -> None:
+        """Draw the panel and do what the user does in it; nothing is learnt or measured while somebody plays."""
+        view, may_learn = state.mapping, state.room.stage is not Stage.PLAYING
+        if state.calibration.runs:
             theme.heading("How late they are")
-            self._calibration.gui(may_measure)
-            return
-        if not desk.device:
+            self._calibration.gui(state.calibration, may_learn)
+        elif view.kit is None:
             theme.heading(DEVICES)
             imgui.text_wrapped(_NO_KIT)
             theme.soft(_GIVEN_UP)
-            self._latency(may_measure)
-            return
-        if self._pads.runs:
-            self._pads.running(may_measure)
-            return
-        self._kits()
-        imgui.separator_text("What it sends")
-        _live(desk.seen.lines)
-        imgui.separator_text("Pads")
-        self._pads.gui(may_measure)
-        self._table()
-        self._touch.gui(may_measure)
-        self._crosstalk()
-        self._keeping()
-        self._latency(may_measure)
+            self._latency(state, may_learn)
+        elif view.learns:
+            self._pads.running(view.asks, may_learn)
+        else:
+            self._kits(view, view.kit)
+            imgui.separator_text("What it sends")
+            _live(view.lines)
+            imgui.separator_text("Pads")
+            self._pads.gui(view, may_learn)
+            self._table(view, view.kit)
+            self._touch.gui(view, may_learn)
+            self._crosstalk(view, view.kit)
+            self._keeping(view.is_changed)
+            self._latency(state, may_learn)
 
-    def _latency(self, may_measure: bool) -> None:
+    def _latency(self, state: State, may_measure: bool) -> None:
         """How late the devices are, as far as was measured, and what measures it."""
-        if imgui.is_window_appearing() or self._known is None or self._calibration.has_changed():
-            self._known = StoredCalibration()
-            self._tried(self._read_calibration)
         imgui.separator_text("How late they are")
-        for line in latency_lines(self._known, self._desk.devices):
+        for line in latency_lines(state.calibration.known, state.mapping.devices):
             imgui.text_wrapped(f"{line.what}: {line.words}")
             theme.soft(line.trust)
         theme.tooltip("Judgement subtracts these; what is not measured has the settings' word")
-        self._calibration.gui(may_measure)
+        self._calibration.gui(state.calibration, may_measure)
 
-    def _read_calibration(self) -> None:
-        self._known = load_calibration()
-
-    def _kits(self) -> None:
-        desk = self._desk
-        for device in desk.devices:
-            if imgui.radio_button(f"{device}##kit", desk.device == device):
-                desk.show(device)
+    def _kits(self, view: MappingView, kit: DeviceMap) -> None:
+        for device in view.devices:
+            if imgui.radio_button(f"{device}##kit", view.device == device):
+                self._dispatch(ShowKit(device))
             theme.tooltip("Show this kit")
-        theme.soft(f"understood as {desk.kit.title}")
-        if desk.seen.fault:
-            imgui.text_wrapped(desk.seen.fault)
+        theme.soft(f"understood as {kit.title}")
+        if view.fault:
+            imgui.text_wrapped(view.fault)
 
-    def _table(self) -> None:
-        desk = self._desk
-        if not desk.pads:
+    def _table(self, view: MappingView, kit: DeviceMap) -> None:
+        if not view.pads:
             theme.soft("Strike every pad once: each then has its line here.")
             return
         if theme.is_narrow():
-            for piece in desk.pads:
-                self._pad(piece, _below)
+            for piece in view.pads:
+                self._pad(view, kit, piece, _below)
             return
         if not imgui.begin_table("##pads", 4, imgui.TableFlags_.sizing_stretch_prop):
             return
         for name, share in (("pad", 0.24), ("last strokes", 0.34), ("threshold", 0.21), ("mask", 0.21)):
             imgui.table_setup_column(name, imgui.TableColumnFlags_.width_stretch, share)
         imgui.table_headers_row()
-        for piece in desk.pads:
+        for piece in view.pads:
             imgui.table_next_row()
-            self._pad(piece, _next_cell)
+            self._pad(view, kit, piece, _next_cell)
         imgui.end_table()
 
-    def _pad(self, piece: Piece, place: Callable[[int], None]) -> None:
+    def _pad(self, view: MappingView, kit: DeviceMap, piece: Piece, place: Callable[[int], None]) -> None:
         """One pad's four controls; `place` goes to where one of them is, from 0."""
-        desk = self._desk
-        pad = desk.kit.pad(piece)
+        pad = kit.pad(piece)
         place(0)
         imgui.align_text_to_frame_padding()
         if imgui.selectable(f"{piece_name(piece)}##pad-{word(piece)}", self._touch.piece is piece)[0]:
             self._touch.turn(piece)
         theme.tooltip("Show or hide how loud its strokes count")
         place(1)
-        _bars(f"##strokes-{word(piece)}", desk.seen.strokes.get(piece, ()), pad.threshold)
+        _bars(f"##strokes-{word(piece)}", view.strokes.get(piece, ()), pad.threshold)
         theme.tooltip("The last strokes, the newest on the right, and the threshold; hollow ones are held back")
         place(2)
         moved, threshold = theme.slider_int(f"##threshold-{word(piece)}", pad.threshold, 1, _MOST_THRESHOLD)
         if moved:
-            desk.threshold(piece, min(max(threshold, 1), _LOUDEST))
+            self._dispatch(SetThreshold(piece, min(max(threshold, 1), _LOUDEST)))
         theme.tooltip(f"{piece_name(piece)}: softer than this velocity is no stroke")
         place(3)
         moved, mask = theme.slider_int(f"##mask-{word(piece)}", pad.mask_ns // NS_PER_MS, 0, _MOST_MASK_MS, "%d ms")
         if moved:
-            desk.mask(piece, min(max(mask, 0), _MOST_MASK_MS))
+            self._dispatch(SetMask(piece, min(max(mask, 0), _MOST_MASK_MS)))
         theme.tooltip(f"{piece_name(piece)}: for so long after a stroke there is no other; 0 lets every one pass")
 
-    def _crosstalk(self) -> None:
-        desk = self._desk
-        rules, suspicions = desk.kit.crosstalk, tuple(desk.seen.suspicions)
+    def _crosstalk(self, view: MappingView, kit: DeviceMap) -> None:
+        rules, suspicions = kit.crosstalk, view.suspicions
         if rules or suspicions:
             imgui.separator_text("Crosstalk")
         for rule in rules:
@@ -174,27 +165,26 @@ class DevicesPanel:
             imgui.set_next_item_width(theme.points(110))
             moved, percent = theme.slider_int(f"##share-{pair}", round(100 * rule.share), 0, 100, "%d %%")
             if moved:
-                desk.share(rule.source, rule.victim, min(max(percent, 0), 100) / 100)
+                self._dispatch(SetShare(rule.source, rule.victim, min(max(percent, 0), 100) / 100))
             theme.tooltip("Up to so loud, beside its cause, it is a ghost; 0 takes the rule away")
             imgui.same_line()
             imgui.text_wrapped(f"{piece_name(rule.source)} makes {piece_name(rule.victim)} send")
         for index, suspicion in enumerate(reversed(suspicions)):
             if imgui.button(f"Hold back##suspicion{index}"):
-                desk.hold_back(suspicion)
+                self._dispatch(HoldBack(suspicion))
             theme.tooltip("Take hits such as this one for no strokes")
             imgui.same_line()
             imgui.text_wrapped(suspected(suspicion))
 
-    def _keeping(self) -> None:
-        desk = self._desk
+    def _keeping(self, is_changed: bool) -> None:
         imgui.spacing()
-        imgui.begin_disabled(not desk.is_changed)
+        imgui.begin_disabled(not is_changed)
         if imgui.button(SAVE_LABEL, imgui.ImVec2(theme.points(110), 0)):
-            self._tried(lambda: self._tell(f"kept in {desk.save()}"))
+            self._dispatch(SaveRules())
         theme.tooltip("Keep these rules for this kit: from now on the station plays and judges by them")
         imgui.same_line()
         if imgui.button(BACK_LABEL, imgui.ImVec2(theme.points(110), 0)):
-            desk.back()
+            self._dispatch(RevertRules())
         theme.tooltip("The rules as they were kept last")
         imgui.end_disabled()
 

@@ -38,8 +38,7 @@ LABELS = _labels()
 class LanesEditor:
     """One control's lane at a time; `control` is its name."""
 
-    def __init__(self, options: StyleOptions) -> None:
-        self._options = options
+    def __init__(self) -> None:
         self.control = "amplitude_gain"
         self._under: Automation = ()
         self._stroke: list[tuple[float, float]] = []
@@ -47,17 +46,17 @@ class LanesEditor:
         self.ends = np.zeros((2, 2))
         """Where the first bar begins, at the least value, and the last one ends, at the greatest; window pixels."""
 
-    def gui(self, score: Score, place: float | None) -> None:
-        """Draw the editor for the bars of `score` and do what the user does in it; `place` is where the music is."""
-        self._choose()
+    def gui(self, options: StyleOptions, score: Score, place: float | None) -> StyleOptions:
+        """Draw the editor for the bars of `score`; `place` is where the music is. Returns what the user has made."""
+        self._choose(options)
         beats = score.tempo_map.meters[0].beats
         bars = max(score.bar_count, 1)
-        self._canvas(bars, beats, place)
-        self._points(bars, beats)
+        options = self._canvas(options, bars, beats, place)
+        return self._points(options, bars, beats)
 
-    def _choose(self) -> None:
+    def _choose(self, options: StyleOptions) -> None:
         imgui.set_next_item_width(-1)
-        lanes = self._options.style.automation
+        lanes = options.style.automation
         if imgui.begin_combo("##lane-control", LABELS[self.control]):
             for name, label in LABELS.items():
                 mark = "  over the bars" if name in lanes else ""
@@ -68,47 +67,48 @@ class LanesEditor:
 
     # --- the picture --------------------------------------------------------------------------------------------------
 
-    def _canvas(self, bars: int, beats: int, place: float | None) -> None:
+    def _canvas(self, options: StyleOptions, bars: int, beats: int, place: float | None) -> StyleOptions:
         frame = LaneFrame(bars, beats, *range_of(self.control))
-        lane = self._options.lane(self.control) or ()
         if implot.begin_plot(CANVAS, imgui.ImVec2(-1, theme.points(_HEIGHT)), plots.STILL):
             _axes(frame)
             self.ends = plots.pixels(np.array([1.0, bars + 1.0]), np.array([frame.low, frame.high]))
-            self._line(frame, lane)
+            self._line(frame, options)
             if place is not None:
                 implot.plot_inf_lines("##place", np.array([place]), plots.spec(palette.INK, 1.5))
-            if not self._drag_points(frame, lane) or self._last is not None:
-                self._draw(frame, lane)
+            is_on_point, moved = self._drag_points(frame, options)
+            options = moved if is_on_point and self._last is None else self._draw(frame, moved)
             implot.end_plot()
+        return options
 
-    def _line(self, frame: LaneFrame, lane: Automation) -> None:
+    def _line(self, frame: LaneFrame, options: StyleOptions) -> None:
         """The lane from the first bar to the last; one that is not drawn is level."""
-        points = lane or ((1.0, self._options.value(self.control)),)
+        lane = options.lane(self.control)
+        points = lane or ((1.0, options.value(self.control)),)
         last = frame.bars + 1.0
         ends = [(1.0, value_at(points, 1.0)), *points, (last, value_at(points, last))]
         bars, values = (np.array(numbers) for numbers in zip(*ends, strict=True))
         implot.plot_line("##line", bars, values, plots.spec(palette.BRAND if lane else palette.INK_SOFT, 2.5))
 
-    def _drag_points(self, frame: LaneFrame, lane: Automation) -> bool:
-        """The lane's points, dragged, or taken away by a right click; returns whether the mouse is on one of them."""
-        meant = False
+    def _drag_points(self, frame: LaneFrame, options: StyleOptions) -> tuple[bool, StyleOptions]:
+        """The lane's points, dragged, or taken away by a right click; also whether the mouse is on one of them."""
+        is_on_point, lane = False, options.lane(self.control) or ()
         for index, (bar, value) in enumerate(lane):
             moved, to_bar, to_value, _, is_hovered, is_held = implot.drag_point(
                 index, bar, value, plots.vec(palette.BRAND), theme.points(_POINT_PX), 0, False, False, False
             )
-            meant |= bool(is_hovered or is_held)
+            is_on_point |= bool(is_hovered or is_held)
             if is_hovered and imgui.is_mouse_clicked(imgui.MouseButton_.right):
-                self._options.draw_lane(self.control, without_point(lane, index))
+                options = options.draw_lane(self.control, without_point(lane, index))
             elif moved:
-                self._options.draw_lane(self.control, with_moved(lane, index, *frame.point(to_bar, to_value)))
-        return meant
+                options = options.draw_lane(self.control, with_moved(lane, index, *frame.point(to_bar, to_value)))
+        return is_on_point, options
 
-    def _draw(self, frame: LaneFrame, lane: Automation) -> None:
+    def _draw(self, frame: LaneFrame, options: StyleOptions) -> StyleOptions:
         """Draw from a press beside the points on, until it is let go."""
         at, hovered = implot.get_plot_mouse_pos(), implot.is_plot_hovered()
         here = at.x, at.y
         if hovered and imgui.is_mouse_clicked(imgui.MouseButton_.left):
-            self._under, self._stroke, self._last = lane, [], here
+            self._under, self._stroke, self._last = options.lane(self.control) or (), [], here
         elif not imgui.is_mouse_down(imgui.MouseButton_.left):
             self._last = None
         if self._last is None and hovered:
@@ -117,23 +117,24 @@ class LanesEditor:
         elif self._last is not None and (here != self._last or not self._stroke):
             self._stroke += frame.stroke(self._last, here)
             self._last = here
-            self._options.draw_lane(self.control, drawn(self._under, self._stroke))
+            return options.draw_lane(self.control, drawn(self._under, self._stroke))
+        return options
 
     # --- the list -----------------------------------------------------------------------------------------------------
 
-    def _points(self, bars: int, beats: int) -> None:
-        options, control = self._options, self.control
+    def _points(self, options: StyleOptions, bars: int, beats: int) -> StyleOptions:
+        control = self.control
         lane = options.lane(control) or ()
         if imgui.button("Add a point##add-point"):
             after = lane[-1][0] + 1.0 if lane else 1.0
             value = lane[-1][1] if lane else options.value(control)
-            options.draw_lane(control, with_point(lane, min(after, bars + 1.0), value))
+            options = options.draw_lane(control, with_point(lane, min(after, bars + 1.0), value))
         theme.tooltip("A point a bar after the last one")
         if not theme.is_narrow():
             imgui.same_line()
         imgui.begin_disabled(not lane)
         if imgui.button("Same in all bars##end-lane"):
-            options.end_lane(control)
+            options = options.end_lane(control)
         imgui.end_disabled()
         theme.tooltip("Take the lane away")
         # a child of its own, so that the picture stays where it is while points come and go under the mouse
@@ -141,11 +142,12 @@ class LanesEditor:
         if not lane:
             theme.soft("The same in all bars. Draw in the picture, or add a point, to let it change.")
         for index, point in enumerate(lane):
-            self._point(lane, index, point, beats)
+            options = self._point(options, index, point, beats)
         imgui.end_child()
+        return options
 
-    def _point(self, lane: Automation, index: int, point: tuple[float, float], beats: int) -> None:
-        options, control = self._options, self.control
+    def _point(self, options: StyleOptions, index: int, point: tuple[float, float], beats: int) -> StyleOptions:
+        control, lane = self.control, options.lane(self.control) or ()
         narrow = theme.is_narrow()
         imgui.set_next_item_width(-1 if narrow else theme.points(140))
         moved, bar = imgui.input_float(f"##bar-of-{index}", point[0], 1 / beats, 1.0, "%.2f")
@@ -157,10 +159,11 @@ class LanesEditor:
         theme.tooltip("What the control is there")
         imgui.same_line()
         if imgui.button(f"×##point-{index}", imgui.ImVec2(-1, 0)):
-            options.draw_lane(control, without_point(lane, index))
+            options = options.draw_lane(control, without_point(lane, index))
         elif moved or set_to:
-            options.draw_lane(control, with_moved(lane, index, bar, value))
+            options = options.draw_lane(control, with_moved(lane, index, bar, value))
         theme.tooltip("Take this point away")
+        return options
 
 
 def _axes(frame: LaneFrame) -> None:

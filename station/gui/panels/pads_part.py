@@ -1,12 +1,14 @@
 """The part of the devices panel where pads are learnt: one hit says which note a pad sends.
 
-A view over `MappingEditor`. While something is learnt it has the panel for itself, in letters that are read from the
-throne.
+While something is learnt it has the panel for itself, in letters that are read from the throne.
 """
+
+from collections.abc import Callable
 
 from imgui_bundle import imgui
 
-from station.app.mapping_editor import MappingEditor
+from station.app.actions import Action, GiveUp, LearnPad, NameNote, UndoLearning
+from station.app.kit_seen import MappingView
 from station.core.labels import piece_name
 from station.core.note_map import NoteMeaning
 from station.core.pieces import Piece, word
@@ -25,31 +27,25 @@ _MOST_UNKNOWN = 4
 
 
 class PadsPart:
-    """It draws over one desk."""
+    """Draws it; what the user does goes to `dispatch`."""
 
-    def __init__(self, desk: MappingEditor) -> None:
-        self._desk = desk
+    def __init__(self, dispatch: Callable[[Action], None]) -> None:
+        self._dispatch = dispatch
 
-    @property
-    def runs(self) -> bool:
-        """Whether something is learnt."""
-        return self._desk.learns
-
-    def running(self, may_learn: bool) -> None:
+    def running(self, asks: str, may_learn: bool) -> None:
         """What to play now; nothing is learnt once it no longer `may`."""
         if not may_learn:
-            self._desk.give_up()
+            self._dispatch(GiveUp())
             return
-        theme.heading(self._desk.asks.capitalize(), _LARGE)
+        theme.heading(asks.capitalize(), _LARGE)
         if imgui.button(CANCEL_LABEL, imgui.ImVec2(theme.points(140), theme.points(44))):
-            self._desk.give_up()
+            self._dispatch(GiveUp())
         theme.tooltip("Learn nothing (Esc); your strokes mean what they meant before")
 
-    def gui(self, may_learn: bool) -> None:
+    def gui(self, view: MappingView, may_learn: bool) -> None:
         """What is not known, what was learnt, and the button; while somebody plays nothing `may` be learnt."""
-        desk = self._desk
         imgui.begin_disabled(not may_learn)
-        for sent in desk.unknown[-_MOST_UNKNOWN:]:
+        for sent in view.unknown[-_MOST_UNKNOWN:]:
             self._unknown(sent)
         row = FlowRow()
         if row.button(LEARN_LABEL, 130):
@@ -57,14 +53,14 @@ class PadsPart:
         theme.tooltip("Choose what it is to be, then hit it once; kept for this kit at once, and can be undone")
         pad = pads_popup(_POPUP)
         if pad is not None:
-            desk.learn_pad(pad)
-        if desk.can_undo:
+            self._dispatch(LearnPad(pad))
+        if view.can_undo:
             if row.button(UNDO_LABEL, 84):
-                desk.undo()
+                self._dispatch(UndoLearning())
             theme.tooltip("The last thing that was learnt is as it was before")
         imgui.end_disabled()
-        if desk.learnt:
-            imgui.text_wrapped(desk.learnt)
+        if view.learnt:
+            imgui.text_wrapped(view.learnt)
 
     def _unknown(self, sent: Sent) -> None:
         channel, number = sent
@@ -77,7 +73,7 @@ class PadsPart:
         imgui.text_wrapped(f"note {number} (channel {channel}): not known")
         pad = pads_popup(popup)
         if pad is not None:
-            self._desk.name(sent, pad)
+            self._dispatch(NameNote(sent, pad))
 
 
 def pads_popup(name: str) -> NoteMeaning | None:

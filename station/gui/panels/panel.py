@@ -10,7 +10,7 @@ from enum import StrEnum
 
 from imgui_bundle import hello_imgui, imgui
 
-from station.app.model import Stage
+from station.app.state import State
 from station.gui import theme
 
 PANELS_LABEL = "Panels##panels"
@@ -37,14 +37,14 @@ class Panel:
 
     name: str
     side: DockSide
-    gui: Callable[[], None]
+    gui: Callable[[State], None]
     about: str = ""
-    shown: Callable[[Stage], bool] | None = None
+    shown: Callable[[State], bool] | None = None
     help: str = ""
 
-    def window(self) -> hello_imgui.DockableWindow:
-        """The panel for hello_imgui."""
-        window = hello_imgui.DockableWindow(self.name, str(self.side), self.gui)
+    def window(self, state: Callable[[], State]) -> hello_imgui.DockableWindow:
+        """The panel for hello_imgui; it shows `state` as it is when it is drawn."""
+        window = hello_imgui.DockableWindow(self.name, str(self.side), lambda: self.gui(state()))
         window.is_visible = False
         window.can_be_closed = self.shown is None
         window.remember_is_visible = self.shown is None

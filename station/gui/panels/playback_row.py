@@ -4,10 +4,10 @@ One row for every panel that shows it: they share the bar and the pass.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 from imgui_bundle import imgui
 
+from station.app.actions import Action, HearBar, Listen
 from station.app.model import ShownResult
 from station.gui import theme
 from station.gui.widgets.flow_row import FlowRow
@@ -21,20 +21,12 @@ EARLIER_LABEL = "###earlier"
 _WIDE = 90.0
 
 
-@dataclass(frozen=True, slots=True)
-class PlaybackActions:
-    """What the user does: `hear` a bar of the result's score, from 0, `stop` it; `listening` says whether it sounds."""
-
-    hear: Callable[[int, Whose], None]
-    stop: Callable[[], None]
-    listening: Callable[[], bool]
-
-
 class PlaybackRow:
-    """The controls; `bar` and `pass_number`, from 1, are chosen to be heard."""
+    """The controls; `bar` and `pass_number`, from 1, are chosen to be heard, `is_listening` while one of them is."""
 
-    def __init__(self, actions: PlaybackActions) -> None:
-        self._actions = actions
+    def __init__(self, dispatch: Callable[[Action], None]) -> None:
+        self._dispatch = dispatch
+        self.is_listening = False
         self._shown: EveryHit | None = None
         self.bar = self.pass_number = 1
 
@@ -59,10 +51,10 @@ class PlaybackRow:
         theme.tooltip("The bar as you played it in this pass, with the click; translucent sticks are yours")
         self._earlier(report.before, row_bar, row)
         imgui.end_disabled()
-        if self._actions.listening():
+        if self.is_listening:
             row.place(theme.points(70))
             if imgui.button(STOP_LABEL, imgui.ImVec2(theme.points(70), 0)):
-                self._actions.stop()
+                self._dispatch(Listen())
             theme.tooltip("Enough")
 
     def show(self, report: ShownResult, bar: int, pass_number: int) -> None:
@@ -70,7 +62,7 @@ class PlaybackRow:
         self._shown, self.bar, self.pass_number = report.hits, bar, pass_number
         here = report.hits.dots[(report.hits.dots["bar"] == bar) & (report.hits.dots["pass"] == pass_number)]
         if len(here):
-            self._actions.hear(int(here["row_bar"][0]), Whose.STUDENT)
+            self._dispatch(HearBar(int(here["row_bar"][0]), Whose.STUDENT))
 
     def _earlier(self, before: PreviousSession | str, row_bar: int, row: FlowRow) -> None:
         if isinstance(before, str):
@@ -90,7 +82,7 @@ class PlaybackRow:
     def _button(self, label: str, whose: Whose, row_bar: int, row: FlowRow) -> None:
         row.place(theme.points(_WIDE))
         if imgui.button(label, imgui.ImVec2(theme.points(_WIDE), 0)):
-            self._actions.hear(row_bar, whose)
+            self._dispatch(HearBar(row_bar, whose))
 
 
 def _slider(label: str, value: int, ends: tuple[int, int], row: FlowRow) -> int:

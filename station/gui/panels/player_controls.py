@@ -10,13 +10,27 @@ from functools import partial
 from imgui_bundle import icons_fontawesome_4 as icons
 from imgui_bundle import imgui
 
-from station.app.demo_player import Control, DemoPlayer
+from station.app.actions import (
+    Action,
+    ChooseBars,
+    GoToFlag,
+    KeepFlag,
+    PlayOrStop,
+    Seek,
+    SetCountIn,
+    SetDemoClick,
+    SetReverse,
+    SetSpeed,
+    SetStep,
+    StepOnce,
+    Wind,
+)
+from station.app.demo_player import PlayerView
 from station.core.units import NS_PER_S
 from station.gui import theme
-from station.gui.panels.ruler import Bars
 from station.gui.widgets.flow_row import LINE_HEIGHT, FlowRow
 from station.gui.widgets.slots import Use, popup_grid, slot_rows
-from station.practice.demonstration.song_player import FLAGS, MAX_SPEED_PERCENT, MIN_SPEED_PERCENT, SongPlayer, SongStep
+from station.practice.demonstration.song_player import FLAGS, MAX_SPEED_PERCENT, MIN_SPEED_PERCENT, SongStep
 
 COUNT_IN_LABEL = "count-in##demo"
 FLAGS_LABEL = "Flags##flags"
@@ -37,36 +51,21 @@ class _Part:
     draw: Callable[[], None]
 
 
-def to_start(player: SongPlayer, now_ns: int) -> SongPlayer:
-    """At the song's start, or the loop's where one is played."""
-    return player.sought(now_ns, 0)
-
-
-def to_end(player: SongPlayer, now_ns: int) -> SongPlayer:
-    """At the song's end."""
-    return player.sought(now_ns, player.song.length_ns)
-
-
-def play_or_stop(player: SongPlayer, now_ns: int) -> SongPlayer:
-    """Playing where it stands, standing where it plays."""
-    return player.stopped(now_ns) if player.playing else player.played(now_ns)
-
-
 class PlayerControls:
-    """The buttons; `choose` takes the bars that are repeated and practised.
+    """The buttons; what the user does goes to `dispatch`.
 
     `key_wind` is 1 or −1 while a key winds: the window says so every frame.
     """
 
-    def __init__(self, choose: Callable[[Bars], None]) -> None:
-        self._choose = choose
+    def __init__(self, dispatch: Callable[[Action], None]) -> None:
+        self._dispatch = dispatch
         self.key_wind = 0
         self._bars: list[int] = []
 
-    def gui(self, deck: DemoPlayer, row: FlowRow) -> None:
+    def gui(self, view: PlayerView, row: FlowRow) -> None:
         """Draw them into `row`, one line; where it is short the less needed are in a popup. Do what the user does."""
         left_out: list[_Part] = []
-        for part in (parts := self._parts(deck)):
+        for part in (parts := self._parts(view)):
             more = 0.0 if part is parts[-1] else theme.points(_MORE) + imgui.get_style().item_spacing.x
             if left_out or not row.fits(part.width + more):
                 left_out.append(part)
@@ -83,43 +82,41 @@ class PlayerControls:
                 part.draw()
             imgui.end_popup()
 
-    def _parts(self, deck: DemoPlayer) -> "list[_Part]":
+    def _parts(self, view: PlayerView) -> "list[_Part]":
         """The most needed first."""
         bars = imgui.calc_text_size("bars").x + imgui.get_style().item_spacing.x
         return [
-            _Part(theme.points(8 * BUTTON[0] + 7 * _GAP), lambda: self._buttons(deck)),
-            _Part(theme.points(150), lambda: _counter(deck)),
-            _Part(theme.points(_SPEED), lambda: _speed(deck)),
-            _Part(_box_width("click"), lambda: _click(deck)),
-            _Part(theme.points(_BARS) + bars, lambda: self._loop(deck)),
-            _Part(_box_width(COUNT_IN_LABEL), lambda: _count_in(deck)),
-            _Part(theme.points(_STEP), lambda: _step(deck)),
-            _Part(theme.points(_FLAGS), lambda: _flags(deck)),
+            _Part(theme.points(8 * BUTTON[0] + 7 * _GAP), lambda: self._buttons(view)),
+            _Part(theme.points(150), lambda: _counter(view)),
+            _Part(theme.points(_SPEED), lambda: self._speed(view)),
+            _Part(_box_width("click"), lambda: self._click(view)),
+            _Part(theme.points(_BARS) + bars, lambda: self._loop(view)),
+            _Part(_box_width(COUNT_IN_LABEL), lambda: self._count_in(view)),
+            _Part(theme.points(_STEP), lambda: self._step(view)),
+            _Part(theme.points(_FLAGS), lambda: self._flags(view)),
         ]
 
-    def _buttons(self, deck: DemoPlayer) -> None:
+    def _buttons(self, view: PlayerView) -> None:
         imgui.begin_group()
         imgui.push_style_var(imgui.StyleVar_.item_spacing, imgui.ImVec2(theme.points(_GAP), 0))
-        player, step = deck.player, deck.step
-        _button(deck, f"{icons.ICON_FA_FAST_BACKWARD}###start", to_start, "To the start (Home)")
+        player, step = view.player, view.step
+        self._button(f"{icons.ICON_FA_FAST_BACKWARD}###start", Seek(0), "To the start (Home)")
         back = self._wind_button(f"{icons.ICON_FA_BACKWARD}###rewind", f"Rewind while it is held ([); {_SILENT}")
         words = f"{step.words} {{}} ({{}}); {_SILENT}"
-        _button(deck, f"{icons.ICON_FA_STEP_BACKWARD}###back", _stepping(step, -1), words.format("back", ","))
+        self._button(f"{icons.ICON_FA_STEP_BACKWARD}###back", StepOnce(-1), words.format("back", ","))
         stop, play = (icons.ICON_FA_STOP, "Stop here (W)"), (icons.ICON_FA_PLAY, "Watch the demonstration (W)")
         icon, told = stop if player.playing else play
-        _button(deck, f"{icon}###play", play_or_stop, told)
-        _button(deck, f"{icons.ICON_FA_STEP_FORWARD}###step", _stepping(step, 1), words.format("on", "."))
+        self._button(f"{icon}###play", PlayOrStop(), told)
+        self._button(f"{icons.ICON_FA_STEP_FORWARD}###step", StepOnce(1), words.format("on", "."))
         on = self._wind_button(f"{icons.ICON_FA_FORWARD}###forward", f"Forward while it is held (]); {_SILENT}")
-        _button(deck, f"{icons.ICON_FA_FAST_FORWARD}###end", to_end, "To the end (End)")
+        self._button(f"{icons.ICON_FA_FAST_FORWARD}###end", Seek(player.song.length_ns), "To the end (End)")
         told = f"Backwards (R); {_SILENT}"
-        turned = not player.reverse
-        label = f"{icons.ICON_FA_ARROW_LEFT}###reverse"
-        _button(deck, label, lambda p, now_ns: p.reversed(now_ns, turned), told, lit=player.reverse)
+        self._button(f"{icons.ICON_FA_ARROW_LEFT}###reverse", SetReverse(not player.reverse), told, lit=player.reverse)
         imgui.pop_style_var()
         imgui.end_group()
         wind = self.key_wind or on - back
         if wind != player.wind:
-            deck.do(lambda p, now_ns: p.wound(now_ns, wind))
+            self._dispatch(Wind(wind))
 
     @staticmethod
     def _wind_button(label: str, told: str) -> int:
@@ -130,9 +127,9 @@ class PlayerControls:
         imgui.same_line()
         return int(held)
 
-    def _loop(self, deck: DemoPlayer) -> None:
+    def _loop(self, view: PlayerView) -> None:
         """The bars that are repeated and practised, as two numbers."""
-        player = deck.player
+        player = view.player
         count = player.song.bar_count
         first, last = player.loop or (0, count - 1)
         imgui.align_text_to_frame_padding()
@@ -145,62 +142,78 @@ class PlayerControls:
             self._bars = bars
         if imgui.is_item_deactivated_after_edit() and self._bars:
             low, high = sorted(min(max(bar, 1), count) - 1 for bar in self._bars)
-            self._choose(None if (low, high) == (0, count - 1) and count > 1 else (low, high))
+            self._dispatch(ChooseBars(None if (low, high) == (0, count - 1) and count > 1 else (low, high)))
         if not imgui.is_item_active():
             self._bars = []
         theme.tooltip("The bars that are repeated and that Start practises (I, O; U for all). Ctrl+click to type")
 
+    def _speed(self, view: PlayerView) -> None:
+        imgui.set_next_item_width(theme.points(_SPEED))
+        moved, percent = theme.slider_int(
+            "##speed", view.player.speed_percent, MIN_SPEED_PERCENT, MAX_SPEED_PERCENT, "speed %d %%"
+        )
+        if moved:
+            self._dispatch(SetSpeed(percent, held=True))
+        if imgui.is_item_deactivated_after_edit():
+            self._dispatch(SetSpeed(percent))
+        theme.tooltip("How fast the demonstration goes, of the lesson's own tempo (- and =). Ctrl+click to type")
 
-def _speed(deck: DemoPlayer) -> None:
-    imgui.set_next_item_width(theme.points(_SPEED))
-    moved, percent = theme.slider_int(
-        "##speed", deck.player.speed_percent, MIN_SPEED_PERCENT, MAX_SPEED_PERCENT, "speed %d %%"
-    )
-    if moved:
-        deck.do(lambda player, now_ns: player.at_speed(now_ns, percent), held=True)
-    if imgui.is_item_deactivated_after_edit():
-        deck.do(lambda player, _: player)
-    theme.tooltip("How fast the demonstration goes, of the lesson's own tempo (- and =). Ctrl+click to type")
+    def _step(self, view: PlayerView) -> None:
+        imgui.set_next_item_width(theme.points(_STEP))
+        steps = list(SongStep)
+        changed, index = imgui.combo("##step size", steps.index(view.step), [step.words for step in steps])
+        if changed:
+            self._dispatch(SetStep(steps[index]))
+        theme.tooltip("How far a step goes (X for the next)")
 
+    def _click(self, view: PlayerView) -> None:
+        changed, click = imgui.checkbox("click##demo", view.click)
+        if changed:
+            self._dispatch(SetDemoClick(click))
+        theme.tooltip("Whether the click sounds with the demonstration (C)")
 
-def _step(deck: DemoPlayer) -> None:
-    imgui.set_next_item_width(theme.points(_STEP))
-    steps = list(SongStep)
-    changed, index = imgui.combo("##step size", steps.index(deck.step), [step.words for step in steps])
-    if changed:
-        deck.step = steps[index]
-    theme.tooltip("How far a step goes (X for the next)")
+    def _count_in(self, view: PlayerView) -> None:
+        changed, counts_in = imgui.checkbox(COUNT_IN_LABEL, view.counts_in)
+        if changed:
+            self._dispatch(SetCountIn(counts_in))
+        theme.tooltip("A bar of clicks before the demonstration plays (Q)")
 
+    def _flags(self, view: PlayerView) -> None:
+        if imgui.button(FLAGS_LABEL, imgui.ImVec2(theme.points(_FLAGS), theme.points(BUTTON[1]))):
+            imgui.open_popup(_POPUP)
+        theme.tooltip(f"Up to {FLAGS} places to come back to (Shift+1 to {FLAGS}; Ctrl+Shift+1 to {FLAGS} keeps one)")
+        self._flags_popup(view)
 
-def _click(deck: DemoPlayer) -> None:
-    changed, click = imgui.checkbox("click##demo", deck.click)
-    if changed:
-        deck.set_click(click)
-    theme.tooltip("Whether the click sounds with the demonstration (C)")
+    def _flags_popup(self, view: PlayerView) -> None:
+        """Go to and keep, for each flag."""
+        if not imgui.begin_popup(_POPUP):
+            return
+        theme.heading("Flags", 20)
+        player = view.player
+        uses = (
+            Use(
+                "Go to",
+                "go",
+                lambda slot: self._dispatch(GoToFlag(slot)),
+                partial(_told, player.flags),
+                needs_filled=True,
+            ),
+            Use("Keep as", "keep", lambda slot: self._dispatch(KeepFlag(slot)), _told_of_keeping),
+        )
+        slot_rows(uses, [at_ns is not None for at_ns in player.flags], popup_grid(len(player.flags)))
+        imgui.end_popup()
 
-
-def _count_in(deck: DemoPlayer) -> None:
-    changed, counts_in = imgui.checkbox(COUNT_IN_LABEL, deck.counts_in)
-    if changed:
-        deck.count_in(counts_in)
-    theme.tooltip("A bar of clicks before the demonstration plays (Q)")
+    def _button(self, label: str, action: Action, told: str, *, lit: bool = False) -> None:
+        if theme.icon_button(label, (theme.points(BUTTON[0]), theme.points(BUTTON[1])), lit):
+            self._dispatch(action)
+        theme.tooltip(told)
+        imgui.same_line()
 
 
 def _box_width(label: str) -> float:
     """What a checkbox and its words take."""
     words = imgui.calc_text_size(label, True).x
     return float(imgui.get_frame_height() + imgui.get_style().item_inner_spacing.x + words)
-
-
-def _stepping(step: SongStep, way: int) -> Control:
-    return lambda player, now_ns: player.stepped(now_ns, step, way)
-
-
-def _button(deck: DemoPlayer, label: str, control: Control, told: str, *, lit: bool = False) -> None:
-    if theme.icon_button(label, (theme.points(BUTTON[0]), theme.points(BUTTON[1])), lit):
-        deck.do(control)
-    theme.tooltip(told)
-    imgui.same_line()
 
 
 def time_words(seconds: float) -> str:
@@ -218,38 +231,9 @@ def counter(seconds: float, bar: int | None, beat: int | None) -> None:
     theme.tooltip("Time; bar and beat")
 
 
-def _counter(deck: DemoPlayer) -> None:
-    place = deck.player.place(deck.now_ns)
-    counter(deck.player.position_ns(deck.now_ns) / NS_PER_S, place.bar + 1, place.beat + 1)
-
-
-def _flags(deck: DemoPlayer) -> None:
-    if imgui.button(FLAGS_LABEL, imgui.ImVec2(theme.points(_FLAGS), theme.points(BUTTON[1]))):
-        imgui.open_popup(_POPUP)
-    theme.tooltip(f"Up to {FLAGS} places to come back to (Shift+1 to {FLAGS}; Ctrl+Shift+1 to {FLAGS} keeps one)")
-    _flags_popup(deck)
-
-
-def _flags_popup(deck: DemoPlayer) -> None:
-    """Go to and keep, for each flag."""
-    if not imgui.begin_popup(_POPUP):
-        return
-    theme.heading("Flags", 20)
-    player = deck.player
-    uses = (
-        Use("Go to", "go", lambda slot: deck.do(_going(slot)), partial(_told, player.flags), needs_filled=True),
-        Use("Keep as", "keep", lambda slot: deck.do(_keeping(slot)), _told_of_keeping),
-    )
-    slot_rows(uses, [at_ns is not None for at_ns in player.flags], popup_grid(len(player.flags)))
-    imgui.end_popup()
-
-
-def _going(slot: int) -> Control:
-    return lambda player, now_ns: player.at_flag(now_ns, slot)
-
-
-def _keeping(slot: int) -> Control:
-    return lambda player, now_ns: player.flagged(now_ns, slot)
+def _counter(view: PlayerView) -> None:
+    place = view.player.place(view.now_ns)
+    counter(view.position_ns / NS_PER_S, place.bar + 1, place.beat + 1)
 
 
 def _told(flags: Sequence[int | None], slot: int) -> str:

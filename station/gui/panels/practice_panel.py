@@ -2,12 +2,12 @@
 
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 
 from imgui_bundle import imgui
 
-from station.app.preferences import PracticePreferences, Preferences, pause_in_words
-from station.core.settings import load_settings, save_settings
+from station.app.actions import Action, LearnPause, SetPreferences
+from station.app.preferences import PracticePreferences, pause_in_words
+from station.app.state import State
 from station.gui import theme
 
 PRACTICE = "Practice"
@@ -30,15 +30,14 @@ _TICKS = (
 
 
 class PracticePanel:
-    """The panel over one desk; `tried` does something or says why it could not, `path` is the settings' file."""
+    """The panel; what the user does goes to `dispatch`."""
 
-    def __init__(self, desk: Preferences, path: Path | None, tried: Callable[[Callable[[], object]], None]) -> None:
-        self._desk, self._path, self._tried = desk, path, tried
-        self._kept = desk.now
+    def __init__(self, dispatch: Callable[[Action], None]) -> None:
+        self._dispatch = dispatch
 
-    def gui(self) -> None:
+    def gui(self, state: State) -> None:
         """Draw the panel and do what the user does in it."""
-        habits = self._desk.now
+        habits = state.habits
         theme.heading("How sessions go", 20)
         for name, label, told in _TICKS:
             changed, on = theme.checkbox(label, bool(getattr(habits, name)))
@@ -47,10 +46,12 @@ class PracticePanel:
                 habits = replace(habits, **{name: on})  # type: ignore[arg-type] # every tick is a yes or no
         theme.part("What pauses and goes on")
         habits = self._pauses(habits)
-        self._desk.put(habits)
-        self._learn()
+        if habits != state.habits:
+            self._dispatch(SetPreferences(habits))
+        self._learn(state.learns_pause)
 
-    def _pauses(self, habits: PracticePreferences) -> PracticePreferences:
+    @staticmethod
+    def _pauses(habits: PracticePreferences) -> PracticePreferences:
         """Each gesture with a button that takes it away."""
         theme.soft("Backspace always does." if habits.pauses else "Backspace alone.")
         for word in habits.pauses:
@@ -62,17 +63,9 @@ class PracticePanel:
             imgui.text_wrapped(pause_in_words(word))
         return habits
 
-    def _learn(self) -> None:
-        desk = self._desk
-        if imgui.button(GIVE_UP_LABEL if desk.learns else LEARN_LABEL, imgui.ImVec2(-1, theme.points(38))):
-            desk.learn(not desk.learns)
+    def _learn(self, learns: bool) -> None:
+        if imgui.button(GIVE_UP_LABEL if learns else LEARN_LABEL, imgui.ImVec2(-1, theme.points(38))):
+            self._dispatch(LearnPause(not learns))
         theme.tooltip("One more gesture that pauses: press here, then make it on the kit")
-        if desk.learns:
+        if learns:
             imgui.text_wrapped("Now strike two pads at once, or press the foot switch.")
-
-    def keep(self) -> None:
-        """Write the habits to the settings where they have changed."""
-        habits = self._desk.now
-        if habits != self._kept:
-            self._kept = habits
-            self._tried(lambda: save_settings(habits.within(load_settings(self._path)), self._path))

@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 from imgui_bundle import imgui
 
+from station.app.actions import Action, Bars, ChooseBars, GoToFlag, Seek
 from station.gui import theme
 from station.gui.widgets.flow_row import LINE_HEIGHT
 from station.gui.widgets.ruler_scale import RulerScale
@@ -20,18 +21,12 @@ _HELP = (
     " (U). A flag that is clicked brings you to it"
 )
 
-Bars = tuple[int, int] | None
-
 
 class Ruler:
-    """Draws the ruler and tells what the user does on it."""
+    """Draws the ruler; what the user does on it goes to `dispatch`."""
 
-    def __init__(
-        self, seek: Callable[[int], None], choose: Callable[[Bars], None], flag: Callable[[int], None]
-    ) -> None:
-        self._seek = seek
-        self._choose = choose
-        self._flag = flag
+    def __init__(self, dispatch: Callable[[Action], None]) -> None:
+        self._dispatch = dispatch
         self._from: float | None = None
 
     def gui(self, player: SongPlayer, now_ns: int, width: float) -> None:
@@ -60,9 +55,9 @@ class Ruler:
             return (low, high) if is_drag else None
         self._from = None
         if is_drag:
-            self._choose((low, high))
+            self._dispatch(ChooseBars((low, high)))
         elif imgui.get_io().mouse_clicked_last_count[0] > 1:
-            self._choose(None)
+            self._dispatch(ChooseBars(None))
         else:
             self._click(player, scale, x)
         return None
@@ -70,9 +65,9 @@ class Ruler:
     def _click(self, player: SongPlayer, scale: RulerScale, x: float) -> None:
         for slot, at_ns in enumerate(player.flags):
             if at_ns is not None and -_FLAG_PX <= (x - scale.x_of(at_ns)) / scale.scale <= _FLAG_WIDTH:
-                self._flag(slot)
+                self._dispatch(GoToFlag(slot))
                 return
-        self._seek(scale.at_of(x))
+        self._dispatch(Seek(scale.at_of(x)))
 
     @staticmethod
     def _paint(player: SongPlayer, now_ns: int, scale: RulerScale, across: tuple[float, float], dragged: Bars) -> None:

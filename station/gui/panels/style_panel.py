@@ -1,26 +1,22 @@
 """The figure panel: how the demonstrator moves, control by control, in eight slots, and over the bars.
 
-A view over `StyleOptions`; what it changes moves the demonstrator from the next picture on. What was set last is
-written to the settings when the mouse is let go, never while somebody plays.
+What it changes moves the demonstrator from the next picture on.
 """
 
 from collections.abc import Callable
-from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 from imgui_bundle import imgui
 
+from station.app.actions import Action, EditStyle, Embody, LeadWith
 from station.app.model import Stage
-from station.app.practice_model import PracticeModel
+from station.app.state import State
 from station.app.style_controls import TABS, WORD_LABELS, Control, ControlGroup
 from station.app.style_options import PIECES, StyleOptions
-from station.core.errors import StationError
 from station.core.labels import name_of
-from station.core.settings import load_settings, save_settings
 from station.gui import theme
 from station.gui.panels.lanes_editor import LanesEditor
-from station.gui.panels.styles_head import StylesHead, Tried
+from station.gui.panels.styles_head import StylesHead
 from station.motion.kinematics.figure import figure_names, load_figure
 from station.motion.motion_plan import bar_places
 from station.motion.sticking.hand_notes import Hands
@@ -48,75 +44,63 @@ _STATURES = {name: f"{name}, {100 * load_figure(name).stature_m:.0f} cm" for nam
 
 
 class StylePanel:
-    """The panel over one model; `settings` is the file that keeps what was set, None for this user's."""
+    """The panel; what the user does goes to `dispatch`."""
 
-    def __init__(self, model: PracticeModel, settings: Path | None, tried: Tried, preview: Callable[[], None]) -> None:
-        self._model, self._cast = model, model.casting
-        self._settings = settings
-        self._tried = tried
-        self._preview = preview
-        self.options = StyleOptions(model.casting.who.style)
-        self._head = StylesHead(self.options, settings, tried)
-        self.lanes = LanesEditor(self.options)
+    def __init__(self, dispatch: Callable[[Action], None]) -> None:
+        self._dispatch = dispatch
+        self._head = StylesHead(dispatch)
+        self.lanes = LanesEditor()
         self._opens_bars = False
-        self._figure = load_settings(settings).figure
+        self._is_held = False
 
-    def gui(self) -> None:
+    def gui(self, state: State) -> None:
         """Draw the panel and do what the user does in it."""
-        before = self.options.style
-        self._head.gui(self._model.score())
+        options = self._head.gui(state.style)
         if _tabs():
             for tab in TABS:
                 if _tab(tab.title):
                     if tab is TABS[0]:
-                        self._constraint()
+                        options = self._constraint(options)
                     for group in tab.groups:
-                        self._group(group)
+                        options = self._group(options, group)
                     imgui.end_tab_item()
             if _tab("Hands"):
-                self._hands()
+                options = self._hands(options, state)
                 imgui.end_tab_item()
             if _tab("Pieces"):
-                self._pieces()
+                options = self._pieces(options)
                 imgui.end_tab_item()
             opens, self._opens_bars = self._opens_bars, False
             if _tab(BARS_TAB, opens):
-                self.lanes.gui(self._model.score(), self._place())
+                options = self.lanes.gui(options, state.score, _place(state))
                 imgui.end_tab_item()
             imgui.end_tab_bar()
-        if self.options.style is not before:
-            self._cast.move_as(self.options.style)
+        self._edit(state.style.options, options)
 
-    def keep(self) -> None:
-        """Write to the settings what was changed since the last time."""
-        self._head.keep()
-
-    def _place(self) -> float | None:
-        """Where the music is, in bars from 1; None where none is played or shown."""
-        clock, deck, score = self._model.room().clock, self._model.deck, self._model.score()
-        if clock is not None and clock.bar is not None and clock.beat is not None:
-            return clock.bar + (clock.beat - 1) / score.tempo_map.meters[0].beats
-        if clock is not None or not deck.is_shown:
-            return None
-        tick = deck.player.song.tick_at(deck.player.position_ns(deck.now_ns))
-        return float(bar_places(score, np.array([tick]))[0])
+    def _edit(self, before: StyleOptions, options: StyleOptions) -> None:
+        """Hand over what was changed, and say when the control that changes it is let go."""
+        is_held = bool(imgui.is_any_item_active())
+        if options is not before or (self._is_held and not is_held):
+            self._dispatch(EditStyle(options, is_held))
+            self._is_held = is_held
 
     # --- controls -----------------------------------------------------------------------------------------------------
 
-    def _constraint(self) -> None:
-        changed, free = imgui.checkbox(FREE_LABEL, self.options.unconstrained)
-        if changed:
-            self.options.constrain(not free)
+    @staticmethod
+    def _constraint(options: StyleOptions) -> StyleOptions:
+        changed, free = imgui.checkbox(FREE_LABEL, options.unconstrained)
         theme.tooltip("Off: wrist, elbow and shoulder share the gain, and one's gain is the others' loss")
+        return options.constrain(not free) if changed else options
 
-    def _group(self, group: ControlGroup) -> None:
+    def _group(self, options: StyleOptions, group: ControlGroup) -> StyleOptions:
         theme.part(group.title)
         for control in group.controls:
-            self._number(control)
+            options = self._number(options, control)
+        return options
 
-    def _number(self, control: Control) -> None:
+    def _number(self, options: StyleOptions, control: Control) -> StyleOptions:
         """A slider between its label and its value, what resets it, and what lets it change over the bars."""
-        options, name = self.options, control.name
+        name = control.name
         factor, has_lane, narrow = options.factor(name), options.lane(name) is not None, theme.is_narrow()
         gap, small = imgui.get_style().item_spacing.x, theme.points(_SMALL)
         label = control.label if factor is None or has_lane else f"{control.label} ×{factor:.1f}"
@@ -135,20 +119,20 @@ class StylePanel:
         moved, wanted = imgui.slider_float(f"##{name}", options.value(name), *range_of(name), "", flags)
         imgui.end_disabled()
         if moved:
-            options.put(name, round(wanted, 2))
+            options = options.put(name, round(wanted, 2))
         theme.tooltip(f"{control.about}. Ctrl+click to type")
         imgui.same_line()
         if not narrow:
             edge = imgui.get_cursor_pos_x()
             imgui.text_disabled(value)
             imgui.same_line(edge + value_width)
-        self._beside(name, small)
+        return self._beside(options, name, small)
 
-    def _beside(self, name: str, width: float) -> None:
+    def _beside(self, options: StyleOptions, name: str, width: float) -> StyleOptions:
         """What sets a control back, and what lets it change over the bars."""
-        imgui.begin_disabled(not self.options.can_reset(name))
+        imgui.begin_disabled(not options.can_reset(name))
         if imgui.button(f"×##reset-{name}", imgui.ImVec2(width, 0)):
-            self.options.reset(name)
+            options = options.reset(name)
         imgui.end_disabled()
         theme.tooltip("Back to the style that was chosen")
         imgui.same_line()
@@ -156,66 +140,63 @@ class StylePanel:
             self.lanes.control = name
             self._opens_bars = True
         theme.tooltip("Let it change over the bars")
+        return options
 
-    def _pieces(self) -> None:
+    def _pieces(self, options: StyleOptions) -> StyleOptions:
         theme.soft("How large the strokes on one piece are, beside the arm's amplitude.")
         for name in PIECES:
             words = name_of(name)
-            self._number(Control(name, words, f"Strokes on the {words}"))
+            options = self._number(options, Control(name, words, f"Strokes on the {words}"))
+        return options
 
-    def _hands(self) -> None:
-        playing = self._model.room().stage is Stage.PLAYING
+    def _hands(self, options: StyleOptions, state: State) -> StyleOptions:
+        playing = state.room.stage is Stage.PLAYING
         waits = "; not while a pass is played" if playing else ""
         imgui.separator_text("Who plays")
         imgui.begin_disabled(playing)
         for hands, (words, about) in _LEADS.items():
-            if imgui.radio_button(f"{words}##lead", self._cast.hands is hands):
-                self._tried(lambda hands=hands: self._lead(hands))  # type: ignore[misc] # mypy knows no such default
+            if imgui.radio_button(f"{words}##lead", state.hands is hands):
+                self._dispatch(LeadWith(hands))
             theme.tooltip(f"{about}. It holds for what you are asked to play too{waits}")
-        self._body(waits)
+        self._body(state.style.figure, waits)
         imgui.end_disabled()
         imgui.separator_text("Hands and feet")
         for name, (label, about) in WORD_LABELS.items():
             imgui.begin_disabled(playing and name in HOLDS)
-            self._word(name, label, about + (waits if name in HOLDS else ""))
+            options = _word(options, name, label, about + (waits if name in HOLDS else ""))
             imgui.end_disabled()
         imgui.set_next_item_width(theme.points(_WORD_WIDTH))
-        sown, seed = imgui.input_int("chance##seed", self.options.style.seed)
-        if sown:
-            self.options.sow(seed)
+        sown, seed = imgui.input_int("chance##seed", options.style.seed)
         theme.tooltip("Another number, other blinks, looks and spun sticks; the same number, the same ones")
+        return options.sow(seed) if sown else options
 
-    def _body(self, waits: str) -> None:
+    def _body(self, figure: str, waits: str) -> None:
         imgui.set_next_item_width(theme.points(_WORD_WIDTH))
-        if imgui.begin_combo("figure##body", _STATURES.get(self._figure, self._figure)):
+        if imgui.begin_combo("figure##body", _STATURES.get(figure, figure)):
             for name, words in _STATURES.items():
-                if imgui.selectable(f"{words}##{name}", name == self._figure)[0]:
-                    self._tried(lambda name=name: self._embody(name))  # type: ignore[misc] # mypy knows no such default
+                if imgui.selectable(f"{words}##{name}", name == figure)[0]:
+                    self._dispatch(Embody(name))
             imgui.end_combo()
         theme.tooltip(f"How tall the drummer is{waits}")
 
-    def _word(self, name: str, label: str, about: str) -> None:
-        imgui.set_next_item_width(theme.points(_WORD_WIDTH))
-        words = list(WORDS[name])
-        changed, index = imgui.combo(f"{label}##{name}", words.index(getattr(self.options.style, name)), words)
-        if changed:
-            self.options.say(name, words[index])
-        theme.tooltip(about)
 
-    def _lead(self, hands: Hands) -> None:
-        self._cast.lead_with(hands)
-        save_settings(replace(load_settings(self._settings), hands=hands.value), self._settings)
-        self._preview()
+def _word(options: StyleOptions, name: str, label: str, about: str) -> StyleOptions:
+    imgui.set_next_item_width(theme.points(_WORD_WIDTH))
+    words = list(WORDS[name])
+    changed, index = imgui.combo(f"{label}##{name}", words.index(getattr(options.style, name)), words)
+    theme.tooltip(about)
+    return options.say(name, words[index]) if changed else options
 
-    def _embody(self, name: str) -> None:
-        self._cast.embody(name)
-        try:
-            self._preview()
-        except StationError:  # out of reach
-            self._cast.embody(self._figure)
-            raise
-        self._figure = name
-        save_settings(replace(load_settings(self._settings), figure=name), self._settings)
+
+def _place(state: State) -> float | None:
+    """Where the music is, in bars from 1; None where none is played or shown."""
+    clock, score = state.room.clock, state.score
+    if clock is not None and clock.bar is not None and clock.beat is not None:
+        return clock.bar + (clock.beat - 1) / score.tempo_map.meters[0].beats
+    if clock is not None or not state.player.is_shown:
+        return None
+    tick = state.player.player.song.tick_at(state.player.position_ns)
+    return float(bar_places(score, np.array([tick]))[0])
 
 
 def _tabs() -> bool:

@@ -5,12 +5,14 @@ in a narrow window or with large panels, is behind a button. It says how high it
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from imgui_bundle import imgui
 
-from station.app.demo_player import DemoPlayer
+from station.app.actions import Action, Answer, Begin, Dismiss, Pause, SetView, Stop, Veto
+from station.app.demo_player import PlayerView
 from station.app.model import RoomState, Stage
+from station.app.state import State
 from station.app.view_settings import ViewSettings
 from station.gui import theme
 from station.gui.panels.panel import PANELS_WIDTH
@@ -46,26 +48,21 @@ def found(room: RoomState) -> tuple[str, ...]:
     return tuple(part for part in (room.kit or NO_KIT, room.sound) if part)
 
 
-@dataclass(frozen=True, slots=True)
-class TransportParts:
-    """What the strip is made of; `actions` by name, `tools` draws the list of panels."""
-
-    actions: dict[str, Callable[[], None]]
-    viewpoints: ViewActions
-    tools: Callable[[], None]
-    ruler: Ruler
-    controls: PlayerControls
-
-
 class TransportBar:
-    """The strip; `height` is what it needs in pixels, as of the last frame."""
+    """The strip; `height` is what it needs in pixels, as of the last frame.
 
-    def __init__(self, parts: TransportParts) -> None:
-        self._parts = parts
+    `viewpoints` goes to and keeps one, `tools` draws the list of panels; all else goes to `dispatch`.
+    """
+
+    def __init__(self, dispatch: Callable[[Action], None], viewpoints: ViewActions, tools: Callable[[], None]) -> None:
+        self._dispatch, self._viewpoints, self._tools = dispatch, viewpoints, tools
+        self._ruler = Ruler(dispatch)
+        self.controls = PlayerControls(dispatch)
         self.height = 0.0
 
-    def gui(self, room: RoomState, deck: DemoPlayer, look: ViewSettings) -> ViewSettings:
-        """Draw it; returns the look that was chosen."""
+    def gui(self, state: State) -> None:
+        """Draw it and do what the user does in it."""
+        room, player = state.room, state.player
         spacing, whole = imgui.get_style().item_spacing, imgui.get_content_region_avail().x
         is_short = whole - _views_width() - spacing.x < theme.points(_LEAST_LEFT)
         view_px = theme.points(_BUTTON) if is_short else _views_width()
@@ -73,66 +70,67 @@ class TransportBar:
         imgui.begin_group()
         imgui.dummy(imgui.ImVec2(0, theme.points(LINE_HEIGHT)))
         imgui.same_line(0, 0)
-        self._first_line(room, deck, FlowRow(whole - view_px - spacing.x))
+        self._first_line(room, player, FlowRow(whole - view_px - spacing.x))
         imgui.end_group()
         below = imgui.get_cursor_pos_y()
         imgui.set_cursor_pos((imgui.get_window_width() - imgui.get_style().window_padding.x - view_px, top))
-        look = self._views_popup(look) if is_short else self._views(look)
+        look = self._views_popup(state.look) if is_short else self._views(state.look)
+        if look != state.look:
+            self._dispatch(SetView(look))
         if self._has_second_line(room):
             imgui.set_cursor_pos_y(below)
-            self._second_line(room, deck)
+            self._second_line(room, player)
             below = imgui.get_cursor_pos_y()
         self.height = below - spacing.y + imgui.get_style().window_padding.y
-        return look
 
     @staticmethod
     def _has_second_line(room: RoomState) -> bool:
         return (room.stage is Stage.IDLE and not room.free) or (room.stage is Stage.RESULT and bool(room.question))
 
-    def _second_line(self, room: RoomState, deck: DemoPlayer) -> None:
+    def _second_line(self, room: RoomState, player: PlayerView) -> None:
         """The player's controls, or the question that the first line's buttons answer."""
         if room.stage is Stage.RESULT:
             imgui.text_wrapped(room.question)
             return
         row = FlowRow()
-        self._parts.controls.gui(deck, row)
+        self.controls.gui(player, row)
         _told(found(room), row)
 
-    def _first_line(self, room: RoomState, deck: DemoPlayer, row: FlowRow) -> None:
+    def _first_line(self, room: RoomState, player: PlayerView, row: FlowRow) -> None:
         """Where one is in the music, or what is to be answered or done."""
         if room.stage is Stage.PLAYING:
             self._session(room, row)
         elif room.stage is Stage.RESULT and room.question:
             for guess in SelfEstimate:
                 if row.button(guess.value, 96):
-                    self._parts.actions[guess.value]()
+                    self._dispatch(Answer(guess))
                 theme.tooltip(room.question)
         elif room.stage is Stage.RESULT:
             row.place(theme.points(150))
             if theme.main_button(AGAIN_LABEL, (theme.points(150), theme.points(LINE_HEIGHT))):
-                self._parts.actions["again"]()
+                self._dispatch(Begin())
             theme.tooltip("The same lesson, the same tempo (Enter)")
             if row.button(BACK_LABEL, 190):
-                self._parts.actions["back"]()
+                self._dispatch(Dismiss())
             theme.tooltip("Choose another lesson (Esc)")
             _told(found(room), row)
         elif room.free:
             _told(found(room), row)
         else:
-            self._parts.ruler.gui(deck.player, deck.now_ns, row.left_px)
+            self._ruler.gui(player.player, player.now_ns, row.left_px)
 
     def _session(self, room: RoomState, row: FlowRow) -> None:
         """How to end the session, its time, how far it is."""
         if row.button(STOP_LABEL, 96):
-            self._parts.actions["stop"]()
+            self._dispatch(Stop())
         theme.tooltip("End the session here; what was played is kept (Esc)")
         if room.can_pause or room.paused:
             if row.button(GO_ON_LABEL if room.paused else PAUSE_LABEL, 96):
-                self._parts.actions["pause"]()
+                self._dispatch(Pause())
             theme.tooltip(_GO_ON if room.paused else _PAUSE)
         if room.can_veto:
             if row.button(VETO_LABEL, 110):
-                self._parts.actions["veto"]()
+                self._dispatch(Veto())
             theme.tooltip(f"{room.why} Press to play the last pass once more instead")
         if room.clock is not None:
             row.place(theme.points(150))
@@ -154,14 +152,14 @@ class TransportBar:
 
     def _views(self, look: ViewSettings) -> ViewSettings:
         imgui.begin_group()
-        self._parts.tools()
+        self._tools()
         _, mirrored = imgui.checkbox(_MIRROR, look.mirrored)
         theme.tooltip("Left and right swapped, to learn face to face as from a mirror (M)")
         imgui.same_line()
         if imgui.button(LOOK_LABEL, imgui.ImVec2(theme.points(_BUTTON), 0)):
             imgui.open_popup(POPUP)
         theme.tooltip("A second picture, pages or a highway for the score, viewpoints of your own")
-        chosen = look_popup(look, self._parts.viewpoints)
+        chosen = look_popup(look, self._viewpoints)
         imgui.same_line()
         imgui.set_next_item_width(theme.points(_VIEW))
         changed, index = imgui.combo("##view", int(look.view), list(VIEW_NAMES.values()))

@@ -1,14 +1,15 @@
 """The part of the devices panel that sets how loud a pad's strokes count: its curve, with the last strokes on it.
 
-A view over `MappingEditor`. Right is how hard the pad says it was struck, up what that counts as; both 1 to 127.
+Right is how hard the pad says it was struck, up what that counts as; both 1 to 127.
 """
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 import numpy as np
 from imgui_bundle import imgui, implot
 
-from station.app.mapping_editor import MappingEditor, PadStroke
+from station.app.actions import Action, LearnVelocity, SetCurve
+from station.app.kit_seen import MappingView, PadStroke
 from station.core.labels import piece_name
 from station.core.pieces import Piece, word
 from station.devices.mapping.device_map import Pad
@@ -41,10 +42,10 @@ _HELP = {
 
 
 class VelocityPart:
-    """It draws over one desk; `piece` is the pad that is shown, None for none."""
+    """`piece` is the pad that is shown, None for none; what the user does goes to `dispatch`."""
 
-    def __init__(self, desk: MappingEditor) -> None:
-        self._desk = desk
+    def __init__(self, dispatch: Callable[[Action], None]) -> None:
+        self._dispatch = dispatch
         self.piece: Piece | None = None
         self._is_new = False
 
@@ -53,29 +54,28 @@ class VelocityPart:
         self._is_new = self.piece is not piece
         self.piece = piece if self._is_new else None
 
-    def gui(self, may_learn: bool) -> None:
+    def gui(self, view: MappingView, may_learn: bool) -> None:
         """Draw the pad that is shown and do what the user does with it; its strokes teach while nobody plays."""
-        desk = self._desk
-        if self.piece not in desk.pads:
-            if desk.pads:
+        if self.piece not in view.pads or view.kit is None:
+            if view.pads:
                 theme.soft("A pad's name opens how loud its strokes count.")
             return
-        piece, pad = self.piece, desk.kit.pad(self.piece)
+        piece, pad = self.piece, view.kit.pad(self.piece)
         imgui.separator_text(f"How loud it counts: {piece_name(piece)}")
         if self._is_new:
             imgui.set_scroll_here_y(0.0)
             self._is_new = False
-        _plot(pad, desk.seen.strokes.get(piece, ()))
+        _plot(pad, view.strokes.get(piece, ()))
         theme.tooltip(
             "Right: how hard the pad says it was struck; up: what that counts as. The dots are your last strokes"
         )
         curve = self._shapes(pad.curve)
         curve = _numbers(piece, curve)
         if curve != pad.curve:
-            desk.curve(piece, curve)
+            self._dispatch(SetCurve(piece, curve))
         imgui.begin_disabled(not may_learn)
         if imgui.button(LEARN_LABEL, imgui.ImVec2(-1, theme.points(38))):
-            desk.learn_touch(piece)
+            self._dispatch(LearnVelocity(piece))
         imgui.end_disabled()
         theme.tooltip("Play five ghost strokes, then five accents: they will count as lessons write them; kept at once")
 

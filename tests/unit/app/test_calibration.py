@@ -5,10 +5,12 @@ from pathlib import Path
 
 import pytest
 
+from station.app.actions import Begin, Measure, Show
 from station.app.calibration import Calibration, Failed, MeasuringProcess, Told
 from station.app.calibration_results import CalibrationResult, CalibrationResults
 from station.app.latency_methods import MeasureRequest
-from station.app.model import FreeRequest
+from station.app.model import Stage
+from station.app.session_control import Launch
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound
 from station.core.measured_latency import LOOPBACK, STRIKE, TAP, load_calibration
@@ -17,7 +19,8 @@ from station.core.settings import Settings
 from station.engine.latency_measurement import Devices
 from station.engine.messages import Ready
 from station.sound.calibration.latency_estimate import LatencyEstimate
-from tests.unit.app.test_practice_room import WISH, Line, room_on
+from tests.fakes.stations import Line, room, station_on, store_with
+from tests.unit.app.test_controller import PLAN
 
 GOOD = LatencyEstimate(4.0, 3.5, 4.5, 0.8, 20)
 POOR = GOOD.doubted("it scatters")
@@ -156,37 +159,39 @@ def test_a_process_that_dies_has_failed() -> None:
     assert said == [Failed("the measurement ended without a result")]
 
 
-def test_the_room_lets_its_devices_go_and_takes_them_again(tmp_path: Path) -> None:
+def test_the_engine_lets_its_devices_go_and_takes_them_again(tmp_path: Path) -> None:
     first, second = Line(), Line()
     measurement = Measurement("strike one pad")
-    room = room_on([first, second], tmp_path, lambda _: measurement)
+    station = station_on([first, second], store_with(tmp_path), Launch(PLAN), lambda _: measurement)
+    station.dispatch(Show(devices=True))
     first.says += [Ready("Speakers", 48_000), DeviceFound(0, "TD-17")]
-    room.snapshot(1)
-    assert (room.room().kit, room.desk.devices) == ("TD-17", ["TD-17"])
-    room.measure(TAP, 0.0)
+    station.update(1)
+    assert (room(station).kit, station.view().mapping.devices) == ("TD-17", ("TD-17",))
+    station.dispatch(Measure(TAP))
     while not first.dead:  # on a thread: no frame waits for it
-        room.snapshot(1)
-    assert (room.room().kit, room.desk.devices) == ("", [])
-    room.snapshot(2)
-    with pytest.raises(DeviceError, match="being measured"):
-        room.start(WISH)
-    with pytest.raises(DeviceError, match="being measured"):
-        room.just_play(FreeRequest(90.0))
-    with pytest.raises(DeviceError, match="being measured"):
-        room.measure(TAP, 0.0)
+        station.update(1)
+    assert (room(station).kit, station.view().mapping.devices) == ("", ())
+    station.update(2)
+    for action in (Begin(), Measure(TAP)):
+        station.dispatch(action)
+        station.update(2)
+        assert "being measured" in station.view().toast
+        assert room(station).stage is Stage.IDLE
     measurement.says.append(Failed("no kit"))
-    while room.calibration.runs:
-        room.snapshot(3)
+    while station.view().calibration.runs:
+        station.update(3)
     second.says += [Ready("Speakers", 48_000), DeviceFound(4, "TD-17")]
-    room.snapshot(5)
-    assert (room.room().kit, room.room().sound) == ("TD-17", "Speakers")
+    station.update(5)
+    assert (room(station).kit, room(station).sound) == ("TD-17", "Speakers")
+    assert station.view().calibration.fault == "no kit"
 
 
 def test_nothing_is_measured_while_somebody_plays(tmp_path: Path) -> None:
-    room = room_on([Line()], tmp_path)
-    room.start(WISH)
-    with pytest.raises(DeviceError, match="end the session first"):
-        room.measure(TAP, 0.0)
+    station = station_on([Line()], store_with(tmp_path), Launch(PLAN))
+    station.dispatch(Begin())
+    station.dispatch(Measure(TAP))
+    station.update(1)
+    assert "end the session first" in station.view().toast
 
 
 def test_a_measurement_that_cannot_begin_lets_the_engine_wake(tmp_path: Path) -> None:

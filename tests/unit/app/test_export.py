@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from station.app.export import LOOP, Exporter
+from station.app.export import LOOP, Exporter, film_words
 from station.app.view_settings import ViewSettings
 from station.cli.animate_options import LEVELS, AnimateOptions
 from station.cli.options import read_options
@@ -15,7 +15,6 @@ from station.core.errors import DeviceError
 from station.core.settings import Settings
 from station.drills.lesson_writer import first_difference
 from station.drills.library import find_lesson
-from station.gui.panels.export_panel import film_words
 from station.motion.sticking.hand_notes import Hands
 from station.music.formats.smf.standard_midi import read_midi
 from station.render.camera import NamedView

@@ -4,7 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from station.app.mapping_editor import MappingEditor, PadStroke
+from station.app.actions import HoldBack, SetCurve, SetMask, SetShare, SetThreshold
+from station.app.kit_seen import PadStroke
+from station.app.mapping_editor import MappingEditor
 from station.core.events import DeviceFound, DeviceLost
 from station.core.pieces import Piece
 from station.core.units import NS_PER_MS
@@ -52,7 +54,7 @@ def test_a_stroke_has_its_line_and_its_bar(bench: Bench) -> None:
 
 
 def test_what_is_softer_than_the_threshold_is_hollow(bench: Bench) -> None:
-    bench.desk.threshold(Piece.SNARE, 20)
+    bench.desk.act(SetThreshold(Piece.SNARE, 20))
     bench.strike(100, f"{SNARE} 13")
     bench.strike(900, f"{SNARE} 14")
     assert list(bench.desk.seen.strokes[Piece.SNARE]) == [PadStroke(19, HeldBack.TOO_SOFT), PadStroke(20)]
@@ -62,7 +64,7 @@ def test_what_is_softer_than_the_threshold_is_hollow(bench: Bench) -> None:
 
 
 def test_a_mask_holds_the_second_of_two_back(bench: Bench) -> None:
-    bench.desk.mask(Piece.SNARE, 30)
+    bench.desk.act(SetMask(Piece.SNARE, 30))
     bench.strike(100, f"{SNARE} 60")
     bench.strike(125, f"{SNARE} 60")
     bench.strike(160, f"{SNARE} 60")
@@ -73,7 +75,7 @@ def test_crosstalk_is_suspected_and_one_press_makes_a_rule(bench: Bench) -> None
     bench.strike(100, f"{KICK} 64")
     bench.strike(104, f"{SNARE} 0a")
     (suspicion,) = bench.desk.seen.suspicions
-    bench.desk.hold_back(suspicion)
+    bench.desk.act(HoldBack(suspicion))
     assert not bench.desk.seen.suspicions
     (rule,) = bench.desk.kit.crosstalk
     assert (rule.source, rule.victim) == (Piece.KICK, Piece.SNARE)
@@ -81,12 +83,12 @@ def test_crosstalk_is_suspected_and_one_press_makes_a_rule(bench: Bench) -> None
     bench.strike(904, f"{SNARE} 0a")
     bench.desk.advance(2000 * NS_PER_MS)
     assert bench.desk.seen.strokes[Piece.SNARE][-1].why is HeldBack.CROSSTALK
-    bench.desk.share(Piece.KICK, Piece.SNARE, 0.0)
+    bench.desk.act(SetShare(Piece.KICK, Piece.SNARE, 0.0))
     assert bench.desk.kit.crosstalk == (), "a share of 0 takes the rule away"
 
 
 def test_rules_are_on_trial_until_they_are_saved(bench: Bench) -> None:
-    bench.desk.threshold(Piece.SNARE, 20)
+    bench.desk.act(SetThreshold(Piece.SNARE, 20))
     changed = [bench.desk.is_changed]
     assert own_kit(KIT, bench.folder) is None
     bench.desk.save()
@@ -96,13 +98,13 @@ def test_rules_are_on_trial_until_they_are_saved(bench: Bench) -> None:
     assert bench.told == [ReloadDevice(KIT)], "the engine plays by it from now on"
     changed.append(bench.desk.is_changed)
     assert changed == [True, False]
-    bench.desk.threshold(Piece.SNARE, 50)
+    bench.desk.act(SetThreshold(Piece.SNARE, 50))
     bench.desk.back()
     assert bench.desk.kit.pad(Piece.SNARE).threshold == 20
 
 
 def test_a_kit_that_comes_back_is_understood_as_it_was_kept(bench: Bench) -> None:
-    bench.desk.mask(Piece.SNARE, 12)
+    bench.desk.act(SetMask(Piece.SNARE, 12))
     bench.desk.save()
     bench.desk.take(DeviceLost(1, KIT))
     assert bench.desk.device == ""
@@ -125,7 +127,7 @@ def kept(bench: Bench) -> DeviceMap:
 
 
 def test_a_pad_is_learnt_with_one_hit_kept_at_once_and_undone(bench: Bench) -> None:
-    bench.desk.threshold(Piece.SNARE, 20)
+    bench.desk.act(SetThreshold(Piece.SNARE, 20))
     bench.desk.learn_pad(pad_named("tom_1/rim"))
     assert (bench.desk.learns, bench.desk.asks) == (True, "hit it now, once: high tom, rim")
     bench.strike(1000, f"{KICK} 14")
@@ -183,7 +185,7 @@ def ten_strokes(bench: Bench, ghost: int, accent: int) -> None:
 
 
 def test_ghosts_below_the_threshold_teach_too(bench: Bench) -> None:
-    bench.desk.threshold(Piece.SNARE, 30)
+    bench.desk.act(SetThreshold(Piece.SNARE, 30))
     bench.desk.save()
     bench.desk.learn_touch(Piece.SNARE)
     ten_strokes(bench, 18, 90)
@@ -211,7 +213,7 @@ def test_a_file_at_fault_is_not_written_over(tmp_path: Path) -> None:
 
 
 def test_a_line_says_what_a_stroke_counts_as_where_that_is_not_what_was_sent(bench: Bench) -> None:
-    bench.desk.curve(Piece.SNARE, SHAPES["very_light"])
+    bench.desk.act(SetCurve(Piece.SNARE, SHAPES["very_light"]))
     bench.strike(100, f"{SNARE} 20")
     bench.strike(400, f"{KICK} 20")
     assert [line.counts for line in bench.desk.seen.lines][-2:] == [63, None]

@@ -1,6 +1,9 @@
 """How sessions go, as the practice panel sets it; what pauses is learnt from strokes and switches by hand."""
 
+from pathlib import Path
+
 from station.app.preferences import PracticePreferences, Preferences, pause_in_words
+from station.app.settings_store import SettingsStore
 from station.core.events import Hit, Switched
 from station.core.pieces import Piece, Zone
 from station.core.settings import Settings
@@ -13,8 +16,12 @@ def stroke(piece: Piece, at_ms: int) -> Hit:
     return Hit(at_ms * NS_PER_MS, piece, Zone.HEAD, 90)
 
 
+def desk_without_pauses() -> Preferences:
+    return Preferences(SettingsStore(Path("none.toml"), {"pause": ""}))
+
+
 def learnt(*events: EngineEvent) -> tuple[str, ...]:
-    desk = Preferences(Settings(pause=""), lambda _: None)
+    desk = desk_without_pauses()
     desk.learn(True)
     for event in events:
         desk.take(event)
@@ -46,13 +53,12 @@ def test_what_is_learnt_is_what_the_setting_reads() -> None:
 
 
 def test_while_it_learns_the_kit_commands_nothing_and_afterwards_it_does() -> None:
-    told: list[PracticePreferences] = []
-    desk = Preferences(Settings(pause=""), told.append)
+    desk = desk_without_pauses()
     assert not desk.take(Switched(0, "cc=64"))
     desk.learn(True)
     assert desk.take(Switched(0, "cc=64"))
     assert not desk.learns
-    assert [habits.pauses for habits in told] == [("cc=64",)]
+    assert desk.now.pauses == ("cc=64",)
     assert not desk.take(Switched(0, "cc=64"))
 
 

@@ -33,25 +33,25 @@ def test_every_control_of_a_style_is_on_the_page_once() -> None:
 
 
 def test_one_share_takes_from_the_other_two_which_keep_their_ratio() -> None:
-    options = StyleOptions(Style(amplitude_wrist=40, amplitude_elbow=40, amplitude_shoulder=20))
-    options.put("amplitude_wrist", 70)
+    options = StyleOptions.of(Style(amplitude_wrist=40, amplitude_elbow=40, amplitude_shoulder=20))
+    options = options.put("amplitude_wrist", 70)
     assert shares(options) == pytest.approx([70, 20, 10])
     assert shares(options, "frequency") == [34, 33, 33]
 
 
 def test_unconstrained_each_is_set_for_itself() -> None:
-    options = StyleOptions(Style())
-    options.constrain(False)
-    options.put("amplitude_wrist", 90)
+    options = StyleOptions.of(Style())
+    options = options.constrain(False)
+    options = options.put("amplitude_wrist", 90)
     assert shares(options) == [90, 30, 30]
-    assert StyleOptions(options.style).unconstrained, "a style says itself that its shares are none"
+    assert StyleOptions.of(options.style).unconstrained, "a style says itself that its shares are none"
 
 
 def test_made_shares_again_the_movement_stays() -> None:
     """60, 60 and 30 under a gain of 50 are 40, 40 and 20 per cent of a gain of 75."""
-    options = StyleOptions(Style(amplitude_wrist=60, amplitude_elbow=60, amplitude_shoulder=30))
+    options = StyleOptions.of(Style(amplitude_wrist=60, amplitude_elbow=60, amplitude_shoulder=30))
     before = [options.factor(f"amplitude_{joint}") for joint in JOINTS]
-    options.constrain(True)
+    options = options.constrain(True)
     assert shares(options) == pytest.approx([40, 40, 20])
     assert options.value("amplitude_gain") == pytest.approx(75)
     assert [options.factor(f"amplitude_{joint}") for joint in JOINTS] == pytest.approx(before)
@@ -59,57 +59,56 @@ def test_made_shares_again_the_movement_stays() -> None:
 
 
 def test_three_joints_set_to_nothing_are_shared_as_in_nature() -> None:
-    options = StyleOptions(Style(amplitude_wrist=0, amplitude_elbow=0, amplitude_shoulder=0))
-    options.constrain(True)
+    options = StyleOptions.of(Style(amplitude_wrist=0, amplitude_elbow=0, amplitude_shoulder=0))
+    options = options.constrain(True)
     assert shares(options) == pytest.approx([40, 30, 30])
     assert options.value("amplitude_gain") == 0, "nothing moved, nothing moves"
 
 
 def test_values_stay_in_their_ranges() -> None:
-    options = StyleOptions(Style())
+    options = StyleOptions.of(Style())
     for name, wanted, found in (("stand", 3.0, 1.0), ("wing_deg", -90.0, -10.0), ("snare", 200.0, 100.0)):
-        options.put(name, wanted)
+        options = options.put(name, wanted)
         assert options.value(name) == found
 
 
 def test_a_reset_goes_back_to_the_chosen_style() -> None:
-    options = StyleOptions(JAZZ)
-    options.put("amplitude_neck", 99)
-    options.put("snare", 70)
-    options.say("grip_left", "french")
-    options.sow(8)
+    options = StyleOptions.of(JAZZ)
+    options = options.put("amplitude_neck", 99)
+    options = options.put("snare", 70)
+    options = options.say("grip_left", "french")
+    options = options.sow(8)
     for name in ("amplitude_neck", "snare", "grip_left", "seed"):
         assert options.can_reset(name)
-        options.reset(name)
+        options = options.reset(name)
         assert not options.can_reset(name)
     assert not options.is_changed
     assert options.style == JAZZ
 
 
 def test_a_piece_s_own_amplitude_of_the_chosen_style_comes_back() -> None:
-    options = StyleOptions(Style(pieces={Piece.RIDE: 30.0}))
-    options.put("ride", 80)
-    options.put("snare", 60)
-    options.reset("ride")
+    options = StyleOptions.of(Style(pieces={Piece.RIDE: 30.0}))
+    options = options.put("ride", 80)
+    options = options.put("snare", 60)
+    options = options.reset("ride")
     assert dict(options.style.pieces) == {Piece.RIDE: 30.0, Piece.SNARE: 60.0}
 
 
 def test_a_lane_is_held_within_its_range_and_ends_without_a_trace() -> None:
-    options = StyleOptions(Style(amplitude_back=35.0))
-    options.draw_lane("amplitude_back", ((1.0, -20.0), (3.0, 400.0)))
+    options = StyleOptions.of(Style(amplitude_back=35.0))
+    options = options.draw_lane("amplitude_back", ((1.0, -20.0), (3.0, 400.0)))
     assert options.lane("amplitude_back") == ((1.0, 0.0), (3.0, 100.0))
-    options.end_lane("amplitude_back")
+    options = options.end_lane("amplitude_back")
     assert not options.is_changed
 
 
 def test_slots_keep_and_give_back() -> None:
-    options = StyleOptions(JAZZ)
-    options.put("amplitude_gain", 20)
-    options.store(2, "small jazz")
-    options.choose(Style())
-    assert not options.recall(1), "empty"
-    assert options.style == Style()
-    assert options.recall(2)
+    options = StyleOptions.of(JAZZ)
+    options = options.put("amplitude_gain", 20)
+    options = options.store(2, "small jazz")
+    options = options.choose(Style())
+    assert options.recall(1) is options, "empty"
+    options = options.recall(2)
     assert options.style.name == "small jazz"
     assert options.style.amplitude_gain == 20
 

@@ -236,13 +236,23 @@ def test_a_folder_that_cannot_be_made_is_told_before_anybody_plays(
     assert "no folder can be made" in refused(capsys, *words)
 
 
-def test_bad_settings_name_the_key(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+def test_bad_settings_name_the_key_and_are_not_written_over(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     settings = tmp_path / "config" / "drum-station" / "settings.toml"
     settings.parent.mkdir(parents=True)
     settings.write_text('kitt = "TD-17"\n')
-    assert "line 1, column 1: no such setting: kitt; did you mean kit?" in refused(
-        capsys, "practice", "rock-1", "--virtual-student", "pro"
+    assert main(["practice", "rock-1", "--headless", "--virtual-student", "pro", "--no-pictures"]) == 0
+    assert "no such setting: kitt; did you mean kit?" in capsys.readouterr().err
+    assert "no such setting: kitt; did you mean kit?" in refused(
+        capsys, "practice", "rock-1", "--headless", "--remember", "--guide"
     )
+
+
+def test_a_settings_folder_that_is_a_file_keeps_nobody_from_practising(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    (tmp_path / "config").write_text("a file")
+    assert main(["practice", "rock-1", "--headless", "--virtual-student", "pro", "--no-pictures"]) == 0
+    assert "settings.toml: cannot be read: Not a directory" in capsys.readouterr().err
 
 
 def test_help_needs_no_command(capsys: pytest.CaptureFixture[str]) -> None:

@@ -1,10 +1,10 @@
-"""What goes on in the room: nothing, a session, a free take, or a result, and how one follows the other.
+"""What is practised now: nothing, a session, a free take, or a result, and how one follows the other.
 
 It owns what is played and what was; who demonstrates, what sounds between sessions and what the pads ask for are the
-room's (`practice_room`).
+controller's.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from station.app.engine_client import EngineClient
@@ -12,21 +12,27 @@ from station.app.free_session import FreeSession
 from station.app.lesson_session import LessonSession
 from station.app.model import FreeRequest, RoomState, Stage
 from station.app.result import LastResult
+from station.app.settings_store import SettingsStore
 from station.core.errors import StationError
-from station.core.settings import Settings
+from station.core.events import Hit
 from station.engine.messages import EngineEvent
 from station.practice.session.self_estimate import SelfEstimate
 from station.render.snapshot import Snapshot
 from station.sound.track import PreparedTrack
 
 
-class GoingsOn:
-    """At first `run` is shown and nothing goes on; `tell` hears what a user should read."""
+class CurrentPractice:
+    """At first `run` is shown and nothing is played; sessions go by `store`, `notify` hears what a user should read."""
 
     def __init__(
-        self, engine: EngineClient, run: LessonSession, free: FreeSession, tell: Callable[[str], None]
+        self,
+        engine: EngineClient,
+        store: SettingsStore,
+        run: LessonSession,
+        free: FreeSession,
+        notify: Callable[[str], None],
     ) -> None:
-        self._engine, self._tell = engine, tell
+        self._engine, self._store, self._notify = engine, store, notify
         self.run, self.free = run, free
         self.outcome = LastResult()
         self.stage = Stage.IDLE
@@ -52,9 +58,9 @@ class GoingsOn:
         self.is_free = run is None
         self.run = run or self.run
 
-    def begin(self, run: LessonSession, settings: Settings, track: PreparedTrack | None) -> None:
+    def begin(self, run: LessonSession, track: PreparedTrack | None) -> None:
         """Play a lesson; raises `StationError`, and goes on as before then."""
-        run.begin(settings, track)
+        run.begin(self._store.now, track)
         self.outcome.leave()
         self.run, self.stage, self.is_free = run, Stage.PLAYING, False
 
@@ -72,9 +78,9 @@ class GoingsOn:
         told = len(self.free.notices)
         self.free.handle(event)
         for notice in self.free.notices[told:]:
-            self._tell(notice)
+            self._notify(notice)
 
-    def advance(self, now_ns: int, settings: Settings) -> None:
+    def advance(self, now_ns: int) -> None:
         """Move on; what is over ends."""
         if self.is_free:
             self.free.advance(now_ns)
@@ -82,35 +88,41 @@ class GoingsOn:
         else:
             is_over = self.is_playing and self.run.advance(now_ns)
         if is_over:
-            self.end(settings)
+            self.end()
 
-    def end(self, settings: Settings) -> None:
+    def end(self) -> None:
         """End the session or the take that runs, if one does: it is judged and kept."""
         if self.is_session:
-            self._finish(settings)
+            self._finish()
         elif self.is_playing:
             self.fault = self.free.finish(self._engine)
-            self._tell(f"{self.fault}" if self.fault is not None else f"kept in {self.free.folder}")
+            self._notify(f"{self.fault}" if self.fault is not None else f"kept in {self.free.folder}")
             self.stage = Stage.IDLE
 
-    def _finish(self, settings: Settings) -> None:
+    def _finish(self) -> None:
+        settings = self._store.now
         kept = self.run.finish(settings)
         self.fault = kept.fault
         if kept.fault is not None:
-            self._tell(str(kept.fault))
+            self._notify(str(kept.fault))
         self.outcome.keep(kept, settings.ask_first)
         self.stage = Stage.RESULT
 
-    def veto(self, settings: Settings) -> None:
+    def veto(self) -> None:
         """Play the last pass once more in place of the one that is counted in."""
         if not self.run.veto():
-            self._finish(settings)
+            self._finish()
+
+    def turn(self, strokes: Sequence[Hit] = ()) -> None:
+        """Pause the session, as these `strokes` asked for, or let it go on; nothing where there is none."""
+        if self.is_session:
+            self.run.go_on() if self.run.paused else self.run.hold(strokes)
 
     def answer(self, guess: SelfEstimate) -> None:
         """What the student believes, where a question is open."""
         told = self.outcome.answer(guess)
         if told is not None:
-            self._tell(told)
+            self._notify(told)
 
     def leave(self, run: LessonSession) -> None:
         """The result was read: `run` is shown again."""

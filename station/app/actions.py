@@ -1,0 +1,513 @@
+"""Everything that can be asked of the controller, by mouse, keys or kit: a closed set of plain values.
+
+`Controller.dispatch` takes them all. The parts that own what is changed take theirs: `PlayerAction` the demonstration's
+player, `MappingAction` the editor of kits, `CalibrationAction` the measuring of latency, `StyleAction` the editor of
+the demonstrator's style. Bars and slots count from 0 where nothing else is said.
+"""
+
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+
+from station.app.first_start import FirstAnswers
+from station.app.preferences import PracticePreferences
+from station.app.selection import Selection
+from station.app.style_options import StyleOptions
+from station.app.view_settings import ViewSettings
+from station.core.events import Hit
+from station.core.note_map import NoteMeaning
+from station.core.pieces import Piece
+from station.devices.mapping.device_map import Sent
+from station.devices.mapping.suspect_hits import Suspicion
+from station.devices.mapping.velocity_curve import VelocityCurve
+from station.engine.messages import KeyHit
+from station.motion.sticking.hand_notes import Hands
+from station.practice.demonstration.compare_by_ear import Whose
+from station.practice.demonstration.song_player import SongStep
+from station.practice.session.self_estimate import SelfEstimate
+from station.render.camera import Camera
+
+Bars = tuple[int, int] | None
+"""First and last bar, from 0; None for the lesson's own."""
+
+# --- what is on the screen --------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Show:
+    """What the window shows from now on: nothing else is computed, and a page that nobody sees does not listen.
+
+    `catalog` is every lesson there is, beside the one that the window was opened on.
+    """
+
+    picture: bool = True
+    catalog: bool = False
+    devices: bool = False
+    practice: bool = False
+    curves: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Notify:
+    """Tell the user a line."""
+
+    line: str
+
+
+# --- what is practised ------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Select:
+    """Another choice of lesson, tempo, passes, or what is listed."""
+
+    choice: Selection
+
+
+@dataclass(frozen=True, slots=True)
+class ChooseBars:
+    """Repeat these bars on the player, and practise them."""
+
+    bars: Bars
+
+
+@dataclass(frozen=True, slots=True)
+class TapTempo:
+    """A tap of the tempo at a monotonic time."""
+
+    at_ns: int
+
+
+ChoiceAction = Select | ChooseBars | TapTempo
+
+
+@dataclass(frozen=True, slots=True)
+class Begin:
+    """Begin what is chosen, ending what runs."""
+
+
+@dataclass(frozen=True, slots=True)
+class Drill:
+    """Practise one bar (from 1) of the lesson alone."""
+
+    bar: int
+
+
+@dataclass(frozen=True, slots=True)
+class Stop:
+    """End the session; what was played is judged and kept."""
+
+
+@dataclass(frozen=True, slots=True)
+class Pause:
+    """Pause the session, or go on; `strokes` are those that asked for it, where some did."""
+
+    strokes: tuple[Hit, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Veto:
+    """Refuse what the next pass would change: the last one once more."""
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What the student believes, where a question is open."""
+
+    guess: SelfEstimate
+
+
+@dataclass(frozen=True, slots=True)
+class Dismiss:
+    """The result was read: back to the lessons."""
+
+
+@dataclass(frozen=True, slots=True)
+class Leave:
+    """Out of what goes on: a pad is not learnt, a session ends, a result was read, the demonstration stops."""
+
+
+@dataclass(frozen=True, slots=True)
+class Listen:
+    """Hear the last free take, or end what is heard."""
+
+
+@dataclass(frozen=True, slots=True)
+class HearBar:
+    """Hear and see a bar of the result's score, as it was written or played."""
+
+    bar: int
+    whose: Whose
+
+
+@dataclass(frozen=True, slots=True)
+class StrikeKey:
+    """A stroke on the computer's keyboard."""
+
+    hit: KeyHit
+
+
+SessionAction = Stop | Veto | Answer | Dismiss | Listen | HearBar
+PracticeAction = Begin | Drill | Pause | Leave | StrikeKey | SessionAction
+
+# --- the demonstration's player ---------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class PlayOrStop:
+    """Play where it stands, stand where it plays."""
+
+
+@dataclass(frozen=True, slots=True)
+class Seek:
+    """Go to a time of the song."""
+
+    at_ns: int
+
+
+@dataclass(frozen=True, slots=True)
+class GoToFlag:
+    """Go to a flag, if it is kept."""
+
+    slot: int
+
+
+@dataclass(frozen=True, slots=True)
+class KeepFlag:
+    """Keep this place as a flag."""
+
+    slot: int
+
+
+@dataclass(frozen=True, slots=True)
+class StepOnce:
+    """A step on (1) or back (−1)."""
+
+    way: int
+
+
+@dataclass(frozen=True, slots=True)
+class Wind:
+    """Wind forward (1), backward (−1), or no longer (0)."""
+
+    way: int
+
+
+@dataclass(frozen=True, slots=True)
+class SetSpeed:
+    """How fast it goes, in percent; while the slider is `held` nothing sounds."""
+
+    percent: int
+    held: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class SetReverse:
+    """Play backwards, or not."""
+
+    reverse: bool
+
+
+@dataclass(frozen=True, slots=True)
+class SetStep:
+    """How far a step goes."""
+
+    step: SongStep
+
+
+@dataclass(frozen=True, slots=True)
+class SetDemoClick:
+    """Let the click sound with the strokes, or the strokes alone."""
+
+    click: bool
+
+
+@dataclass(frozen=True, slots=True)
+class SetCountIn:
+    """Let a bar be counted before it plays, or not."""
+
+    counts_in: bool
+
+
+PlayerAction = (
+    PlayOrStop
+    | Seek
+    | GoToFlag
+    | KeepFlag
+    | StepOnce
+    | Wind
+    | SetSpeed
+    | SetReverse
+    | SetStep
+    | SetDemoClick
+    | SetCountIn
+)
+
+# --- the demonstrator -------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class EditStyle:
+    """The style's controls as they are now; while one is `held` nothing is written."""
+
+    options: StyleOptions
+    held: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class TakeStyle:
+    """Take a style from its source: a shipped name, or a file."""
+
+    source: str
+
+
+@dataclass(frozen=True, slots=True)
+class ProposeStyle:
+    """Take the style that the lesson's tempo, density and dynamics ask for."""
+
+
+@dataclass(frozen=True, slots=True)
+class SaveStyle:
+    """Save what is set as a style of the user's own."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class KeepSlot:
+    """Keep what is set in a slot, under `name`, or as it is called where that is empty."""
+
+    slot: int
+    name: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class ListStyles:
+    """See anew which styles there are."""
+
+
+StyleAction = EditStyle | TakeStyle | ProposeStyle | SaveStyle | KeepSlot | ListStyles
+
+
+@dataclass(frozen=True, slots=True)
+class Embody:
+    """Let another body demonstrate: a name or a file."""
+
+    figure: str
+
+
+@dataclass(frozen=True, slots=True)
+class LeadWith:
+    """Let another hand lead."""
+
+    hands: Hands
+
+
+# --- settings ---------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Meet:
+    """What a newcomer has answered, None where the questions were put aside."""
+
+    answers: FirstAnswers | None
+
+
+@dataclass(frozen=True, slots=True)
+class SetView:
+    """How the picture and the panels look."""
+
+    look: ViewSettings
+
+
+@dataclass(frozen=True, slots=True)
+class KeepViewpoint:
+    """Keep a viewpoint of the user's own."""
+
+    slot: int
+    camera: Camera
+
+
+@dataclass(frozen=True, slots=True)
+class SetPreferences:
+    """How sessions go."""
+
+    habits: PracticePreferences
+
+
+@dataclass(frozen=True, slots=True)
+class LearnPause:
+    """Let the kit say what pauses, or no longer."""
+
+    on: bool
+
+
+SettingsAction = Meet | SetView | KeepViewpoint | SetPreferences | LearnPause | Embody | LeadWith
+
+# --- kits -------------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class ShowKit:
+    """Show another kit on the devices page."""
+
+    device: str
+
+
+@dataclass(frozen=True, slots=True)
+class LearnPad:
+    """The next hit is on this pad."""
+
+    pad: NoteMeaning
+
+
+@dataclass(frozen=True, slots=True)
+class LearnVelocity:
+    """The next strokes are five ghosts and five accents on this piece."""
+
+    piece: Piece
+
+
+@dataclass(frozen=True, slots=True)
+class GiveUp:
+    """Learn no longer."""
+
+
+@dataclass(frozen=True, slots=True)
+class NameNote:
+    """The note that was `sent` is this pad."""
+
+    sent: Sent
+    pad: NoteMeaning
+
+
+@dataclass(frozen=True, slots=True)
+class UndoLearning:
+    """What was learnt last is as it was before."""
+
+
+@dataclass(frozen=True, slots=True)
+class SetThreshold:
+    """Softer than this velocity is no stroke."""
+
+    piece: Piece
+    velocity: int
+
+
+@dataclass(frozen=True, slots=True)
+class SetMask:
+    """For so long after a stroke there is no other."""
+
+    piece: Piece
+    milliseconds: int
+
+
+@dataclass(frozen=True, slots=True)
+class SetShare:
+    """A stroke on `source` makes `victim` send hits up to so loud; 0 for no longer."""
+
+    source: Piece
+    victim: Piece
+    share: float
+
+
+@dataclass(frozen=True, slots=True)
+class SetCurve:
+    """How loud strokes count."""
+
+    piece: Piece
+    curve: VelocityCurve
+
+
+@dataclass(frozen=True, slots=True)
+class HoldBack:
+    """Take hits such as this one for what they are suspected to be."""
+
+    suspicion: Suspicion
+
+
+@dataclass(frozen=True, slots=True)
+class RevertRules:
+    """The rules as they are kept."""
+
+
+@dataclass(frozen=True, slots=True)
+class SaveRules:
+    """Keep the rules for this kit."""
+
+
+RuleAction = SetThreshold | SetMask | SetShare | SetCurve | HoldBack | RevertRules | SaveRules
+MappingAction = ShowKit | LearnPad | LearnVelocity | GiveUp | NameNote | UndoLearning | RuleAction
+
+
+@dataclass(frozen=True, slots=True)
+class Measure:
+    """Measure how late the devices are, `by` one of the ways of `calibration_desk`."""
+
+    by: str
+    distance_m: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class CancelMeasuring:
+    """End the measurement that runs."""
+
+
+@dataclass(frozen=True, slots=True)
+class KeepMeasured:
+    """Subtract what was measured from now on."""
+
+
+@dataclass(frozen=True, slots=True)
+class ForgetMeasured:
+    """Forget what was measured."""
+
+
+CalibrationAction = Measure | CancelMeasuring | KeepMeasured | ForgetMeasured
+
+# --- files ------------------------------------------------------------------------------------------------------------
+
+
+class ExportKind(StrEnum):
+    """What the chosen bars are written as."""
+
+    MIDI = "midi"
+    LESSON = "lesson"
+    SHEET = "sheet"
+    FILM = "film"
+    LOOP = "loop"
+
+
+@dataclass(frozen=True, slots=True)
+class Export:
+    """Write the chosen bars to a file."""
+
+    kind: ExportKind
+
+
+@dataclass(frozen=True, slots=True)
+class FilmTake:
+    """Film a take beside its capture."""
+
+    capture: Path
+
+
+@dataclass(frozen=True, slots=True)
+class CancelFilm:
+    """Give the video up."""
+
+
+FileAction = Export | FilmTake | CancelFilm
+
+Action = (
+    Show
+    | Notify
+    | ChoiceAction
+    | PracticeAction
+    | PlayerAction
+    | StyleAction
+    | SettingsAction
+    | MappingAction
+    | CalibrationAction
+    | FileAction
+)

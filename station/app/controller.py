@@ -1,0 +1,307 @@
+"""The station behind its window: what is practised, chosen, set and measured, and what is shown of it. No window.
+
+`update` takes in what has happened and moves everything on; `dispatch` does what the user asks; nothing else changes
+anything. `view` is what the window shows, one frozen value. Hits carry their own times, so that the frame rate decides
+nothing.
+"""
+
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import replace
+from typing import assert_never
+
+from station.app import actions as do
+from station.app.calibration import Calibration, CalibrationView
+from station.app.chooser import Chooser
+from station.app.engine_client import EngineClient
+from station.app.export import Exporter
+from station.app.first_start import answered, student_level
+from station.app.kit_seen import MappingView
+from station.app.mapping_editor import MappingEditor
+from station.app.model import Stage
+from station.app.pad_control import PadControl
+from station.app.preferences import Preferences
+from station.app.processes import Processes
+from station.app.session_control import Launch, SessionControl
+from station.app.settings_store import SettingsStore
+from station.app.state import State
+from station.app.style_editor import StyleEditor
+from station.app.toasts import Toasts
+from station.app.view_settings import ViewSettings, view_settings_of, with_view_settings
+from station.core.errors import DeviceError, StationError
+from station.core.events import DeviceLost
+from station.core.measured_latency import StoredCalibration, load_calibration
+from station.engine.messages import EngineEvent
+from station.practice.records.recovery import offer
+from station.practice.session.device_latency import latency_of
+
+_NO_CALIBRATION = CalibrationView(StoredCalibration())
+
+
+class Controller:
+    """Owns everything that is not drawn; `processes` start an engine: once now, and again when one has died.
+
+    Sessions go by `store`; `launch` is what it opens on. Raises `BadInput` for settings whose words mean nothing.
+    """
+
+    def __init__(self, processes: Processes, store: SettingsStore, launch: Launch) -> None:
+        self._store, self._toasts = store, Toasts()
+        notify = self._toasts.notify
+        if store.fault is not None:
+            notify(f"{store.fault}; the defaults hold for what is wrong")
+        notify(offer(store.now) or "")
+        self._look = view_settings_of(store.now)
+        self._engine = EngineClient(processes.engine, store.now.rate_hz)
+        self._style = StyleEditor(store, notify)
+        self.sessions = SessionControl(self._engine, store, launch, self._style.who, notify)
+        self.mapping = MappingEditor(self._engine.tell)
+        self.calibration = Calibration(self._rest, self._engine.wake, processes.measure)
+        self.habits = Preferences(store)
+        self._pads = PadControl(store, self.habits, launch.plan.score)
+        self.export = Exporter(processes.animate)
+        self._chooser = Chooser(self.sessions, store, launch)
+        self._shown = do.Show()
+        self._now_ns = 0
+        self._view: State | None = None
+
+    # --- as time goes by ---------------------------------------------------------------------------------------------
+
+    def update(self, now_ns: int) -> bool:
+        """Take in what has happened until `now_ns` and move on; returns whether the engine has said anything."""
+        self._view, self._now_ns = None, now_ns
+        self._tried(self.calibration.advance)
+        self._tried(self._chooser.update)
+        events = self._heard()
+        asked = [action for event in events if (action := self._take(event)) is not None]
+        self.mapping.advance(now_ns)
+        self.sessions.advance(now_ns)
+        told = self.export.news()
+        if told is not None:
+            self._toasts.notify(told)
+        for action in asked:
+            self.dispatch(action)
+        if not self.sessions.practice.is_playing:
+            self._keep()
+        self._toasts.update(now_ns)
+        return bool(events)
+
+    def _heard(self) -> list[EngineEvent]:
+        try:
+            return self._engine.events()
+        except DeviceError as fault:
+            self._toasts.notify(str(fault))
+            self.sessions.died()
+            return []
+
+    def _take(self, event: EngineEvent) -> do.Begin | None:
+        """Take one event; a session that it asks for begins when all others are taken, anything else at once."""
+        self.mapping.take(event)
+        self.sessions.take(event, self._now_ns)
+        if self.mapping.learns:  # strokes teach, and ask for nothing
+            return None
+        asked = self._pads.take(event, self.sessions.practice)
+        if asked is None or isinstance(asked, do.Begin):
+            return asked
+        self.dispatch(asked)
+        return None
+
+    def _keep(self) -> None:
+        """Write what was set; never while somebody plays."""
+        self._tried(self._style.keep)
+        if self._store.is_due:
+            self._tried(self._store.write)
+
+    # --- what is shown -----------------------------------------------------------------------------------------------
+
+    def view(self) -> State:
+        """What the window shows, as of the last update and what was dispatched since."""
+        if self._view is None:
+            self._view = self._seen()
+        return self._view
+
+    def _seen(self) -> State:
+        sessions, shown = self.sessions, self._shown
+        snapshot = sessions.snapshot(self._now_ns) if shown.picture else None
+        return State(
+            room=sessions.room(),
+            choice=self._chooser.choice,
+            player=sessions.player.view(),
+            settings=self._store.now,
+            look=self._look,
+            style=self._style.view(),
+            hands=sessions.hands,
+            score=sessions.practice.run.plan.lesson.score,
+            habits=self.habits.now,
+            mapping=self.mapping.view() if shown.devices else MappingView(),
+            calibration=self.calibration.view() if shown.devices else _NO_CALIBRATION,
+            snapshot=snapshot,
+            report=sessions.practice.outcome.report,
+            curves=sessions.curves() if shown.curves else None,
+            learns_pause=self.habits.learns,
+            export_bars=self._chooser.bars,
+            is_filming=self.export.path is not None,
+            toast=self._toasts.text,
+            is_lively=sessions.is_lively(self._now_ns),
+        )
+
+    # --- what the user does ------------------------------------------------------------------------------------------
+
+    def dispatch(self, action: do.Action) -> None:
+        """Do what the user asks; what cannot be done is said in one line."""
+        self._view = None
+        self._tried(lambda: self._do(action))
+
+    def _tried(self, act: Callable[[], object]) -> None:
+        try:
+            act()
+        except StationError as fault:
+            self._toasts.notify(str(fault))
+
+    def _do(self, action: do.Action) -> None:
+        """Raises `StationError` where it cannot be done."""
+        if isinstance(action, do.PlayerAction):
+            self.sessions.player.act(action)
+        elif isinstance(action, do.ChoiceAction):
+            self._chooser.act(action)
+        elif isinstance(action, do.PracticeAction):
+            self._practise(action)
+        elif isinstance(action, do.MappingAction):
+            self._toasts.notify(self.mapping.act(action))
+        elif isinstance(action, do.CalibrationAction):
+            self._measure(action)
+        elif isinstance(action, do.StyleAction):
+            self._style.act(action, self.sessions.practice.run.plan.lesson.score)
+            self.sessions.perform_as(self._style.who)
+        elif isinstance(action, do.SettingsAction):
+            self._set(action)
+        elif isinstance(action, do.FileAction):
+            lesson, bars = self.sessions.player.lesson, self._chooser.bars
+            self._toasts.notify(self.export.act(action, lesson, bars, self._store.now, self._look))
+        elif isinstance(action, do.Show):
+            self._show(action)
+        elif isinstance(action, do.Notify):
+            self._toasts.notify(action.line)
+        else:
+            assert_never(action)
+
+    def _practise(self, action: do.PracticeAction) -> None:
+        match action:
+            case do.Begin():
+                self._begin()
+            case do.Drill(bar):
+                self._begin(bar)
+            case do.Pause(strokes):
+                self._pads.forget()
+                self.sessions.practice.turn(strokes)
+            case do.Leave():
+                self._leave()
+            case do.StrikeKey(hit):
+                with suppress(DeviceError):  # a dead engine hears none, and has said so
+                    self._engine.send(hit)
+            case _:
+                self.sessions.act(action)
+
+    def _begin(self, bar: int | None = None) -> None:
+        self.calibration.refuse()
+        self.habits.learn(on=False)  # what is played from now on is no gesture to be learnt
+        self._chooser.begin(bar)
+
+    def _leave(self) -> None:
+        stage = self.sessions.practice.stage
+        if self.mapping.learns:
+            self.mapping.give_up()
+        elif stage is Stage.PLAYING:
+            self.sessions.practice.end()
+        elif stage is Stage.RESULT:
+            self.sessions.dismiss()
+        else:
+            self.sessions.player.halt()
+
+    def _show(self, shown: do.Show) -> None:
+        before, self._shown = self._shown, shown
+        self.mapping.listen(shown.devices)
+        if not shown.practice:
+            self.habits.learn(on=False)
+        if shown.catalog:
+            self._chooser.offer_all()
+        if shown.devices and not before.devices:
+            self.calibration.look_up()
+
+    def _set(self, action: do.SettingsAction) -> None:
+        match action:
+            case do.Meet(answers):
+                self._store.update(lambda settings: answered(settings, answers))
+                if answers is not None:
+                    self._tried(lambda: self._engine.stand(student_level(self._store.now)))
+                    self._chooser.show_anew()
+            case do.SetView(look):
+                self._look_as(replace(look, viewpoints=self._look.viewpoints))
+            case do.KeepViewpoint(slot, camera):
+                self._look_as(self._look.keeping(slot, camera))
+                self._toasts.notify(f"viewpoint {slot + 1} is kept: {slot + 1} comes back to it")
+            case do.SetPreferences(habits):
+                self.habits.put(habits)
+            case do.LearnPause(on):
+                self.habits.learn(on)
+            case do.LeadWith(hands):
+                self._store.update(lambda settings: replace(settings, hands=hands.value))
+                self._chooser.show_anew()
+            case do.Embody(figure):
+                self._embody(figure)
+            case _:
+                assert_never(action)
+
+    def _look_as(self, look: ViewSettings) -> None:
+        self._look = look
+        self._store.update(lambda settings: with_view_settings(settings, look))
+
+    def _embody(self, figure: str) -> None:
+        before = self._style.figure
+        self._style.embody(figure)
+        self.sessions.perform_as(self._style.who)
+        try:
+            self._chooser.show_anew()
+        except StationError:  # out of reach
+            self._style.embody(before)
+            self.sessions.perform_as(self._style.who)
+            raise
+        self._store.update(lambda settings: replace(settings, figure=figure))
+
+    def _measure(self, action: do.CalibrationAction) -> None:
+        match action:
+            case do.Measure(by, distance_m):
+                from station.app.latency_methods import MeasureRequest
+
+                self.calibration.measure(MeasureRequest.of(self._store.now, by, distance_m))
+            case do.CancelMeasuring():
+                self.calibration.cancel()
+            case do.KeepMeasured():
+                told = self.calibration.keep()
+                self.sessions.trust(latency_of(self._store.now, load_calibration()))
+                self._toasts.notify(told)
+                self.calibration.look_up()
+            case do.ForgetMeasured():
+                self.calibration.drop()
+            case _:
+                assert_never(action)
+
+    def _rest(self) -> Callable[[], bool]:
+        """Let the engine's devices go; returns what says whether it has. Raises `DeviceError` while somebody plays."""
+        for kit in self.sessions.rest():
+            self.mapping.take(DeviceLost(0, kit))
+        return self._engine.has_rested
+
+    def close(self) -> StationError | None:
+        """Keep what runs and what was set, end a measurement and a video; returns what nobody can be shown any more."""
+        self._view, fault = None, None
+        self.calibration.close()
+        self.export.cancel()
+        if self.sessions.practice.is_playing:
+            self.sessions.practice.end()
+            fault = self.sessions.practice.fault
+        try:
+            self._style.keep()
+            self._store.write()
+        except StationError as refused:
+            fault = fault or refused
+        return fault

@@ -1,0 +1,244 @@
+"""Begins and ends what is practised, and what sounds between: previews, the demonstration, bars and takes heard again.
+
+Only one thing sounds at a time: whoever begins something ends what runs before.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, assert_never
+
+from station.app.actions import Answer, Dismiss, HearBar, Listen, SessionAction, Stop, Veto
+from station.app.catalog import Catalog
+from station.app.current_practice import CurrentPractice
+from station.app.demo_player import DemoPlayer
+from station.app.engine_client import EngineClient
+from station.app.free_session import FreeSession
+from station.app.lesson_session import LessonSession
+from station.app.model import FreeRequest, RoomState, SessionRequest, Stage
+from station.app.playback import Playback
+from station.app.session_preparation import PreparedSession, SessionPreparation
+from station.app.settings_store import SettingsStore
+from station.core.errors import DeviceError
+from station.core.measured_latency import StoredCalibration
+from station.core.units import NS_PER_S
+from station.engine.messages import EngineEvent, Started
+from station.motion.sticking.hand_notes import Hands
+from station.practice.session.device_latency import Latency, latency_of
+from station.practice.session.leading_hand import hands_of
+from station.practice.session.listening import Listening
+from station.practice.session.plan import Plan
+from station.render.snapshot import Snapshot
+from station.scenes.curves import ScoreCurves
+from station.scenes.demonstrator import Demonstrator
+
+if TYPE_CHECKING:
+    from station.practice.session.backing_track import BackingRequest
+
+LIVELY_NS = 5 * NS_PER_S
+"""So long after a stroke another may come at any moment (our choice: a bar or two)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Launch:
+    """What the station opens on: `plan` is shown and not yet played; with `adapt` its tempo will follow the student.
+
+    `latency` is what was measured of the devices, the settings' word where nothing was. Sessions whose tempo stays play
+    along to `backing`.
+    """
+
+    plan: Plan
+    adapt: bool = False
+    latency: Latency | None = None
+    backing: "BackingRequest | None" = None
+
+
+class SessionControl:
+    """What is practised by the settings of `store`, as `launch` begins; `notify` hears what a user should read."""
+
+    def __init__(
+        self,
+        engine: EngineClient,
+        store: SettingsStore,
+        launch: Launch,
+        who: Demonstrator,
+        notify: Callable[[str], None],
+    ) -> None:
+        self._engine, self._store, self._notify = engine, store, notify
+        plan = launch.plan
+        self._who = who
+        self._latency = latency = launch.latency or latency_of(store.now, StoredCalibration())
+        self._prepared = SessionPreparation(store, launch.backing)
+        self.catalog = Catalog(store, plan.lesson, notify)
+        run = LessonSession(engine, PreparedSession(plan), who, latency, notify)
+        self.practice = CurrentPractice(engine, store, run, FreeSession(store, latency), notify)
+        self._playback = Playback(engine, self._prepared.has_tracks)
+        self.player = DemoPlayer(self._playback.demonstrate, self._prepared.watched(plan.lesson, plan.kit), who)
+        self._heard_ns: int | None = None
+
+    # --- what is shown -----------------------------------------------------------------------------------------------
+
+    def room(self) -> RoomState:
+        """What goes on; after `snapshot`, whose place in the music it tells."""
+        state = RoomState(kit=self._engine.kits, sound=self._engine.sound, listening=self._playback.hears)
+        return self.practice.told(state)
+
+    def snapshot(self, now_ns: int) -> Snapshot:
+        """The picture at `now_ns`."""
+        practice = self.practice
+        if not practice.is_free and practice.stage is Stage.IDLE and self.player.is_shown:
+            return self.player.snapshot()
+        return practice.snapshot(now_ns, self._heard_ns, self._playback.hears)
+
+    def curves(self) -> ScoreCurves | None:
+        """What the graph shows: the demonstration, the session, or its whole result once it may be seen."""
+        practice = self.practice
+        if practice.is_free:
+            return None
+        if practice.is_playing:
+            return practice.run.graphed()
+        return self.player.graphed() if practice.stage is Stage.IDLE else practice.outcome.graphed(self._who)
+
+    def is_lively(self, now_ns: int) -> bool:
+        """Whether something moves, or may at any moment: a frame that is spared would be missed."""
+        moves = self.practice.is_playing or self._playback.hears or self.player.player.rate_percent != 0
+        return moves or (self._engine.struck_ns is not None and now_ns - self._engine.struck_ns < LIVELY_NS)
+
+    @property
+    def hands(self) -> Hands:
+        """Whose hand leads: as it was chosen, else as the lesson's kit is built."""
+        built = Hands.LEFT if self.practice.run.plan.kit.left_handed else Hands.RIGHT
+        return hands_of(self._store.now) or built
+
+    # --- as time goes by ---------------------------------------------------------------------------------------------
+
+    def take(self, event: EngineEvent, now_ns: int) -> None:
+        """Take one event of the engine."""
+        if self._playback.hears:
+            self._playback.take(event)
+        elif isinstance(event, Started) and not self.practice.is_playing:
+            self.player.started(event.zero_ns)
+            return
+        self.practice.take(event, now_ns)
+
+    def died(self) -> None:
+        """The engine has ended: what was played is kept."""
+        self._playback.forget()
+        self.practice.end()
+
+    def advance(self, now_ns: int) -> None:
+        """Move on; what is over ends."""
+        self._heard_ns = self._playback.advance(now_ns)
+        self.practice.advance(now_ns)
+        if not self.practice.is_free:
+            self.player.advance(now_ns)
+
+    # --- what the user does ------------------------------------------------------------------------------------------
+
+    def act(self, action: SessionAction) -> None:
+        """Do what the user asks; raises `StationError`."""
+        match action:
+            case Stop():
+                self.practice.end()
+            case Veto():
+                if self.room().can_veto:
+                    self.practice.veto()
+            case Answer(guess):
+                self.practice.answer(guess)
+            case Dismiss():
+                self.dismiss()
+            case Listen():
+                self._listen()
+            case HearBar(bar, whose):
+                if self.practice.stage is Stage.RESULT:
+                    self._hear(self.practice.outcome.hear(bar, whose, self._who))
+            case _:
+                assert_never(action)
+
+    # --- one after the other -----------------------------------------------------------------------------------------
+
+    def preview(self, wish: SessionRequest | None) -> None:
+        """Show a lesson, its bars on the player, or the kit alone, to just play; raises `StationError`."""
+        self._playback.quiet()
+        run = None if wish is None else self._laid_out(wish)
+        self.practice.show(run)
+        if wish is None or run is None:
+            self.player.halt()
+        else:
+            self.player.load(self._prepared.watched(self.catalog.lesson(wish.lesson), run.plan.kit), wish.bars)
+
+    def start(self, wish: SessionRequest) -> None:
+        """Begin a session, ending what runs; wakes a new engine if the old has ended. Raises `StationError`."""
+        run = self._laid_out(wish)
+        self._make_room()
+        track = None if wish.adapt else self._prepared.track(run.plan, self._engine.rate_hz)
+        if track is None:
+            self._playback.without_track()
+        self.practice.begin(run, track)
+
+    def just_play(self, wish: FreeRequest) -> None:
+        """Begin a free take, ending what runs; raises `StationError`."""
+        self._make_room()
+        self._playback.without_track()
+        self.practice.begin_free(wish)
+
+    def _listen(self) -> None:
+        """Hear the last free take from its capture, or end what is heard; raises `StationError`."""
+        if self._playback.hears:
+            self._playback.quiet()
+        elif not self.practice.is_playing:
+            self._hear(self.practice.free.listening())
+
+    def dismiss(self) -> None:
+        """The result was read: back to the lessons."""
+        if self.practice.stage is Stage.RESULT:
+            self._playback.quiet()
+            self.catalog.learnt()
+            self.practice.leave(self._new_run(PreparedSession(self.practice.run.plan)))
+
+    def rest(self) -> list[str]:
+        """Let the engine's devices go; returns the kits that it had. Raises `DeviceError` while somebody plays."""
+        if self.practice.is_playing:
+            raise DeviceError("end the session first: what is measured needs the sound card and the kit")
+        self._playback.quiet()
+        self.player.halt()
+        return self._engine.rest()
+
+    # --- by whom and by what -----------------------------------------------------------------------------------------
+
+    def perform_as(self, who: Demonstrator) -> None:
+        """Let `who` demonstrate: in their style at once, but that hands hold as before while a pass is played.
+
+        Another body comes with the next preview or session.
+        """
+        self._who = who
+        self.practice.run.move_as(who, hands_stay=self.practice.is_session)
+        self.player.perform_as(who)
+
+    def trust(self, latency: Latency) -> None:
+        """Take devices to be so late from the next session on."""
+        self._latency = latency
+        self.practice.free.delayed_by(latency)
+
+    # --- inside ------------------------------------------------------------------------------------------------------
+
+    def _make_room(self) -> None:
+        """End what runs or sounds, and have an engine; raises `DeviceError`."""
+        self._playback.quiet()
+        self.player.halt()
+        self.practice.end()
+        self._engine.wake()
+
+    def _hear(self, listening: Listening | None) -> None:
+        """Let something sound once in place of the demonstration; raises `DeviceError`."""
+        self.player.halt()
+        if listening is not None:
+            self._playback.hear(listening)
+
+    def _laid_out(self, wish: SessionRequest) -> LessonSession:
+        laid = self._prepared.laid_out(self.catalog.lesson(wish.lesson), wish)
+        if laid.followed is not None and laid.followed.fault is not None:
+            self._notify(laid.followed.fault)
+        return self._new_run(laid)
+
+    def _new_run(self, laid: PreparedSession) -> LessonSession:
+        return LessonSession(self._engine, laid, self._who, self._latency, self._notify, self.practice.run)

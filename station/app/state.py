@@ -1,0 +1,54 @@
+"""What the window shows in one frame: everything that the panels and the picture need, in one frozen value."""
+
+from dataclasses import dataclass
+
+from station.app.calibration import CalibrationView
+from station.app.demo_player import PlayerView
+from station.app.kit_seen import MappingView
+from station.app.model import RoomState, ShownResult, Stage
+from station.app.preferences import PracticePreferences
+from station.app.selection import Selection
+from station.app.style_editor import StyleView
+from station.app.view_settings import ViewSettings
+from station.core.settings import Settings
+from station.motion.sticking.hand_notes import Hands
+from station.music.score import Score
+from station.render.snapshot import Snapshot
+from station.scenes.curves import ScoreCurves
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class State:
+    """The station at one time.
+
+    `room` is what goes on; `snapshot` the picture, None while none is shown (`actions.Show`), as are `curves`, the
+    graph's; `mapping` and `calibration` are empty then. `report` is the result of the session that ended last, once the
+    question before it was answered. `score` is the lesson that is shown, at its own tempo, `hands` who leads.
+    `export_bars` (from 0) are what files are made of, `is_filming` whether one is. `toast` is told in passing;
+    `is_lively` whether something moves or may at any moment, so that no frame is to be spared.
+    """
+
+    room: RoomState
+    choice: Selection
+    player: PlayerView
+    settings: Settings
+    look: ViewSettings
+    style: StyleView
+    hands: Hands
+    score: Score
+    habits: PracticePreferences
+    mapping: MappingView
+    calibration: CalibrationView
+    snapshot: Snapshot | None = None
+    report: ShownResult | None = None
+    curves: ScoreCurves | None = None
+    learns_pause: bool = False
+    export_bars: tuple[int, int] = (0, 0)
+    is_filming: bool = False
+    toast: str = ""
+    is_lively: bool = True
+
+    @property
+    def shows_result(self) -> bool:
+        """Whether a result may be seen."""
+        return self.room.stage is Stage.RESULT and self.report is not None
