@@ -50,7 +50,7 @@ MATCH_NS = 25 * NS_PER_MS
 """A sound that comes later than this after a stroke is not its own."""
 _DRAW = """
 import time
-from station.bench.rows.drawing_rows import SIZE, snapshots
+from station.bench.rigs.drawer import SIZE, snapshots
 from station.render.picture import PictureMaker
 from station.render.quality import QUALITIES
 maker, frames = PictureMaker(SIZE, QUALITIES[0]), snapshots(60)

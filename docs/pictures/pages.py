@@ -21,7 +21,7 @@ ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT))
 
 from station.app.actions import EditStyle, SetView  # noqa: E402
-from station.app.model import Stage  # noqa: E402
+from station.app.room_state import Stage  # noqa: E402
 from station.core.settings import load_settings  # noqa: E402
 from station.drills.library import find_lesson  # noqa: E402
 from station.drills.mastery.policy import new_item  # noqa: E402

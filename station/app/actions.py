@@ -12,7 +12,7 @@ from pathlib import Path
 from station.app.first_start import FirstAnswers
 from station.app.preferences import PracticePreferences
 from station.app.selection import Selection
-from station.app.style_options import StyleOptions
+from station.app.style.style_options import StyleOptions
 from station.app.view_settings import ViewSettings
 from station.core.events import Hit
 from station.core.note_map import NoteMeaning
@@ -72,13 +72,13 @@ class ChooseBars:
 
 
 @dataclass(frozen=True, slots=True)
-class TapTempo:
+class TapBeat:
     """A tap of the tempo at a monotonic time."""
 
     at_ns: int
 
 
-ChoiceAction = Select | ChooseBars | TapTempo
+ChoiceAction = Select | ChooseBars | TapBeat
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,7 +94,7 @@ class Drill:
 
 
 @dataclass(frozen=True, slots=True)
-class Stop:
+class EndSession:
     """End the session; what was played is judged and kept."""
 
 
@@ -147,7 +147,7 @@ class StrikeKey:
     hit: KeyHit
 
 
-SessionAction = Stop | Veto | Answer | Dismiss | Listen | HearBar
+SessionAction = EndSession | Veto | Answer | Dismiss | Listen | HearBar
 PracticeAction = Begin | Drill | Pause | Leave | StrikeKey | SessionAction
 
 # --- the demonstration's player ---------------------------------------------------------------------------------------

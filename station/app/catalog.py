@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 
 from station.app.lesson_cards import all_lessons, card
-from station.app.model import LessonCard
+from station.app.room_state import LessonCard
 from station.app.settings_store import SettingsStore
 from station.drills.course import Course
 from station.drills.lesson import Lesson

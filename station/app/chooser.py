@@ -3,11 +3,11 @@
 from dataclasses import replace
 from typing import assert_never
 
-from station.app.actions import ChoiceAction, ChooseBars, Select, TapTempo
+from station.app.actions import ChoiceAction, ChooseBars, Select, TapBeat
 from station.app.lesson_cards import request_of
-from station.app.model import Stage
+from station.app.room_state import Stage
 from station.app.selection import Selection
-from station.app.session_control import Launch, SessionControl
+from station.app.sessions.session_control import Launch, SessionControl
 from station.app.settings_store import SettingsStore
 from station.practice.control.tap_tempo import TapTempo as Taps
 
@@ -39,7 +39,7 @@ class Chooser:
                 self.choice = choice
             case ChooseBars(bars):
                 self.choice = replace(self.choice, bars=None if bars is None else (bars[0] + 1, bars[1] + 1))
-            case TapTempo(at_ns):
+            case TapBeat(at_ns):
                 beats = self._taps.tap(at_ns)
                 self.choice = self.choice if beats is None else self.choice.at_beats(beats)
             case _:

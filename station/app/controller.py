@@ -11,23 +11,23 @@ from dataclasses import replace
 from typing import assert_never
 
 from station.app import actions as do
-from station.app.calibration import Calibration, CalibrationView
 from station.app.chooser import Chooser
 from station.app.engine_client import EngineClient
+from station.app.equipment.calibration import Calibration, CalibrationView
+from station.app.equipment.mapping_editor import MappingEditor
+from station.app.equipment.mapping_view import MappingView
 from station.app.export import Exporter
 from station.app.first_start import answered, student_level
-from station.app.kit_seen import MappingView
-from station.app.mapping_editor import MappingEditor
-from station.app.model import Stage
-from station.app.pad_control import PadControl
 from station.app.preferences import Preferences
 from station.app.processes import Processes
-from station.app.session_control import Launch, SessionControl
+from station.app.room_state import Stage
+from station.app.sessions.pad_control import PadControl
+from station.app.sessions.session_control import Launch, SessionControl
 from station.app.settings_store import SettingsStore
-from station.app.state import State
 from station.app.style_editor import StyleEditor
 from station.app.toasts import Toasts
 from station.app.view_settings import ViewSettings, view_settings_of, with_view_settings
+from station.app.window_state import State
 from station.core.errors import DeviceError, StationError
 from station.core.events import DeviceLost
 from station.core.measured_latency import StoredCalibration, load_calibration
@@ -270,7 +270,7 @@ class Controller:
     def _measure(self, action: do.CalibrationAction) -> None:
         match action:
             case do.Measure(by, distance_m):
-                from station.app.latency_methods import MeasureRequest
+                from station.app.equipment.latency_methods import MeasureRequest
 
                 self.calibration.measure(MeasureRequest.of(self._store.now, by, distance_m))
             case do.CancelMeasuring():

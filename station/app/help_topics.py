@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from enum import Enum
 from types import MappingProxyType
 
-from station.app.model import RoomState, Stage
+from station.app.room_state import RoomState, Stage
 
 
 class Topic(Enum):

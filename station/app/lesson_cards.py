@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
 
-from station.app.model import LessonCard, SessionRequest
+from station.app.room_state import LessonCard, SessionRequest
 from station.core.errors import BadInput
 from station.core.units import PPQ
 from station.drills.course import Course, lesson_name

@@ -4,12 +4,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from station.app.calibration import MeasuringProcess, Running
 from station.app.engine_client import WakeEngine
+from station.app.equipment.calibration import MeasuringProcess, Running
 from station.app.export import ANIMATE
 
 if TYPE_CHECKING:
-    from station.app.latency_methods import MeasureRequest
+    from station.app.equipment.latency_methods import MeasureRequest
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
-from station.app.model import FreeRequest, LessonCard, SessionRequest
+from station.app.room_state import FreeRequest, LessonCard, SessionRequest
 from station.drills.course import Course
 from station.practice.records.lesson_progress import LessonProgress
 

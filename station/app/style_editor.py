@@ -18,8 +18,8 @@ from station.app.actions import (
     TakeStyle,
 )
 from station.app.settings_store import SettingsStore
-from station.app.style_library import StyleEntry, StyleLibrary
-from station.app.style_options import StyleOptions
+from station.app.style.style_library import StyleEntry, StyleLibrary
+from station.app.style.style_options import StyleOptions
 from station.core.errors import StationError
 from station.motion.kinematics.figure import load_figure
 from station.motion.style.proposal import propose_style

@@ -21,7 +21,7 @@ _ENDING = "*.toml"
 
 
 @dataclass(frozen=True, slots=True)
-class Kind:
+class TomlKind:
     """One kind of file: what it is called, the keys of its top table, its schema, and how its files are often named."""
 
     name: str
@@ -34,23 +34,25 @@ def _course(path: Path) -> Reader[object]:
     return course.course_reader(path.name.removesuffix(course.ENDING), lessons_for(path.parent))
 
 
-LESSON = Kind("lesson", lesson_file.FIELDS, lambda path: lesson_file.lesson_reader(path.stem))
-COURSE = Kind("course", course.FIELDS, _course)
+LESSON = TomlKind("lesson", lesson_file.FIELDS, lambda path: lesson_file.lesson_reader(path.stem))
+COURSE = TomlKind("course", course.FIELDS, _course)
 KINDS = (
     LESSON,
     COURSE,
-    Kind("device kit", device_file.KEYS, lambda path: device_file.kit_reader(path.stem), ("kits/*.toml",)),
-    Kind("drummer's kit", kit.FIELDS, lambda path: kit.kit_reader(path.stem)),
-    Kind("figure", figure.FIELDS, lambda _: figure.FIGURE),
-    Kind("style", style_file.FIELDS, lambda path: style_file.style_reader(path.stem), ("styles/*.toml",)),
-    Kind("slots of styles", style_file.SLOT_FIELDS, lambda _: style_file.SLOTS_FILE, ("slots.toml",)),
-    Kind("sounds", kit_folder.FIELDS, lambda _: kit_folder.KIT_TABLE, (kit_folder.TABLE_NAME,)),
-    Kind("settings", settings.FIELDS, lambda _: settings.SETTINGS, ("settings.toml",)),
-    Kind("calibration", measured_latency.FIELDS, lambda _: measured_latency.CALIBRATION, (measured_latency.FILE_NAME,)),
+    TomlKind("device kit", device_file.KEYS, lambda path: device_file.kit_reader(path.stem), ("kits/*.toml",)),
+    TomlKind("drummer's kit", kit.FIELDS, lambda path: kit.kit_reader(path.stem)),
+    TomlKind("figure", figure.FIELDS, lambda _: figure.FIGURE),
+    TomlKind("style", style_file.FIELDS, lambda path: style_file.style_reader(path.stem), ("styles/*.toml",)),
+    TomlKind("slots of styles", style_file.SLOT_FIELDS, lambda _: style_file.SLOTS_FILE, ("slots.toml",)),
+    TomlKind("sounds", kit_folder.FIELDS, lambda _: kit_folder.KIT_TABLE, (kit_folder.TABLE_NAME,)),
+    TomlKind("settings", settings.FIELDS, lambda _: settings.SETTINGS, ("settings.toml",)),
+    TomlKind(
+        "calibration", measured_latency.FIELDS, lambda _: measured_latency.CALIBRATION, (measured_latency.FILE_NAME,)
+    ),
 )
 
 
-def kind_of(path: Path, source: Source) -> Kind:
+def kind_of(path: Path, source: Source) -> TomlKind:
     """The kind that knows most of the file's keys; where several do, the one whose files are named so, or a lesson."""
     if course.is_course(path):
         return COURSE

@@ -10,7 +10,7 @@ from station.cli.animate_motion import WRITERS
 from station.cli.animate_options import ENDINGS, AnimateOptions, check_meant, usual_of_loops
 from station.cli.console import say, say_beyond
 from station.cli.drummer_options import assigned, drums_of, led_score
-from station.cli.options import Command
+from station.cli.options.option_fields import Command
 from station.core.errors import BadInput
 from station.core.units import NS_PER_S
 from station.motion.drummer import Drummer

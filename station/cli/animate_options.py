@@ -4,7 +4,18 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from station.cli.drummer_options import DrumsOptions
-from station.cli.options import argument, choice, flag, group, number, option, required, said, unread, whole_number
+from station.cli.options.option_fields import (
+    argument,
+    choice,
+    flag,
+    group,
+    number,
+    option,
+    required,
+    said,
+    unread,
+    whole_number,
+)
 from station.core.errors import BadInput
 from station.motion.kinematics.figure import figure_names
 from station.motion.style.proposal import PROPOSED

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from station.cli.console import print_json, say, write
-from station.cli.options import Command, argument, choice, flag, option
-from station.cli.read_scores import bars_of_gap, is_lesson, is_midi, load_score_and_performance
+from station.cli.input.read_scores import bars_of_gap, is_lesson, is_midi, load_score_and_performance
+from station.cli.options.option_fields import Command, argument, choice, flag, option
 from station.core.errors import BadInput
 from station.core.settings import load_settings
 from station.core.units import NS_PER_MS

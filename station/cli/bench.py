@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from station.cli.console import write
-from station.cli.options import Command, flag
+from station.cli.options.option_fields import Command, flag
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

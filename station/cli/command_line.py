@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from station.cli.console import say, written_output
-from station.cli.options import Command, Parser, Verbs, chosen, sentence
+from station.cli.options.option_fields import Command, Parser, Verbs, chosen, sentence
 from station.core.errors import StationError
 
 _COMMANDS = {

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 from station.cli import devices_calibrate
 from station.cli.console import print_json, say, write
-from station.cli.device_listening import ListenOptions, event_line, listening, polls
 from station.cli.devices_learn_pad import LearnOptions, learn_kit_or_pad
 from station.cli.devices_monitor import monitor
-from station.cli.options import Command, Verbs, argument, flag
+from station.cli.input.device_listening import ListenOptions, event_line, listening, polls
+from station.cli.options.option_fields import Command, Verbs, argument, flag
 from station.core.clock import monotonic_ns
 from station.core.errors import BadInput, DeviceError
 from station.core.events import DeviceEvent, DeviceFound, DeviceLost, Hit

@@ -9,14 +9,14 @@ from datetime import date
 from typing import TYPE_CHECKING
 
 from station.cli.console import ask, is_attended, print_json, say, write
-from station.cli.device_option import DEVICE_FORM, DEVICE_HELP
-from station.cli.options import choice, flag, option, unread
+from station.cli.options.device_option import DEVICE_FORM, DEVICE_HELP
+from station.cli.options.option_fields import choice, flag, option, unread
 from station.core.measured_latency import load_calibration, save_calibration
 from station.core.settings import Settings, load_settings
 
 if TYPE_CHECKING:
-    from station.app.calibration_results import CalibrationResult
-    from station.app.latency_methods import MeasureRequest
+    from station.app.equipment.calibration_results import CalibrationResult
+    from station.app.equipment.latency_methods import MeasureRequest
 
 WAYS = ("report", "loopback", "strike", "tap")
 MOST_DISTANCE_M = 10.0
@@ -48,8 +48,8 @@ class CalibrateOptions:
 
 def run(options: CalibrateOptions) -> int:
     """Measure, tell, and store what the user wants stored."""
-    from station.app.calibration_results import document, outdated, text, with_rows
-    from station.app.latency_methods import measured
+    from station.app.equipment.calibration_results import document, outdated, text, with_rows
+    from station.app.equipment.latency_methods import measured
 
     settings, before = load_settings(), load_calibration()
     findings = measured(_wish(options, settings), before, say)
@@ -74,7 +74,7 @@ def run(options: CalibrateOptions) -> int:
 
 def _wish(options: CalibrateOptions, settings: Settings) -> "MeasureRequest":
     """On the devices that are asked for, else on the settings'."""
-    from station.app.latency_methods import MeasureRequest
+    from station.app.equipment.latency_methods import MeasureRequest
     from station.devices.device_ports import parse_kit
 
     wish = MeasureRequest.of(settings, options.by, options.distance)

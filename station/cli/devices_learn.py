@@ -4,7 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from station.cli.console import say, write
-from station.cli.device_listening import ListenOptions, TypedLines, event_line, listening, polls
+from station.cli.input.device_listening import ListenOptions, TypedLines, event_line, listening, polls
 from station.core.clock import monotonic_ns
 from station.core.events import DeviceEvent, Hit
 from station.core.units import NS_PER_MS

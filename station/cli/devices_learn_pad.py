@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from station.app.mapping_editor import MappingEditor
+from station.app.equipment.mapping_editor import MappingEditor
 from station.cli.console import say, write
-from station.cli.device_listening import ListenOptions, listening, polls
 from station.cli.devices_learn import learn
-from station.cli.options import checked, one_of, option
+from station.cli.input.device_listening import ListenOptions, listening, polls
+from station.cli.options.option_fields import checked, one_of, option
 from station.core.clock import monotonic_ns
 from station.core.events import DeviceFound, DeviceLost
 from station.core.note_map import NoteMeaning

@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass
 
-from station.app.diagnostics import Check, all_findings
+from station.app.equipment.diagnostics import Check, all_findings
 from station.cli.console import print_json, write
-from station.cli.options import Command, flag
+from station.cli.options.option_fields import Command, flag
 
 SCHEMA = "drum-station/doctor/1"
 

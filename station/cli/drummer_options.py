@@ -5,8 +5,8 @@
 
 from dataclasses import dataclass
 
-from station.cli.options import choice, flag, option
-from station.cli.read_scores import kit_of_lesson, load_led_score
+from station.cli.input.read_scores import kit_of_lesson, load_led_score
+from station.cli.options.option_fields import choice, flag, option
 from station.motion.kit.kit import DEFAULT_KIT, Kit, kit_names, load_kit
 from station.motion.sticking.hand_notes import Hands
 from station.motion.sticking.limbs import METHODS, Assignment, assign_limbs

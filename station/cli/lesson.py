@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from station.cli.captures import is_capture
 from station.cli.console import print_json, say, write
-from station.cli.options import Command, NoOptions, Verbs, argument, arguments, flag, required
-from station.cli.read_scores import existing, is_midi, load_score
+from station.cli.input.read_captures import is_capture
+from station.cli.input.read_scores import existing, is_midi, load_score
+from station.cli.options.option_fields import Command, NoOptions, Verbs, argument, arguments, flag, required
 from station.core.errors import BadInput
 from station.core.files import write_whole
 

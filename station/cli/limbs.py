@@ -5,8 +5,8 @@ from pathlib import Path
 
 from station.cli.console import print_json, say, say_beyond, write
 from station.cli.drummer_options import DrumsOptions, assigned, drums_of, led_score
-from station.cli.options import Command, argument, flag, group, option
-from station.cli.read_scores import TEXT_ENDING
+from station.cli.input.read_scores import TEXT_ENDING
+from station.cli.options.option_fields import Command, argument, flag, group, option
 from station.core.errors import BadInput
 from station.core.labels import limb_name, piece_name
 from station.core.pieces import Limb, Piece, word

@@ -6,17 +6,26 @@ from datetime import date
 from pathlib import Path
 from typing import Literal
 
-from station.app.diagnostics import has_screen
-from station.app.session_checks import check_settings
+from station.app.equipment.diagnostics import has_screen
+from station.app.sessions.session_checks import check_settings
 from station.app.settings_store import SettingsStore
-from station.cli.asking import ask_first
 from station.cli.console import print_json, say, write
-from station.cli.device_option import devices_option, wanted_kits
-from station.cli.options import Command, flag, group, option, optional_argument, switch, unread, whole_number
-from station.cli.read_scores import bars_of_gap
-from station.cli.sound_options import SoundOptions, TrackOptions
-from station.cli.tapping import TAP, tapped_tempo
-from station.cli.watch_options import WatchOptions
+from station.cli.input.read_scores import bars_of_gap
+from station.cli.input.self_estimate_question import ask_first
+from station.cli.input.tapping import TAP, tapped_tempo
+from station.cli.options.device_option import devices_option, wanted_kits
+from station.cli.options.option_fields import (
+    Command,
+    flag,
+    group,
+    option,
+    optional_argument,
+    switch,
+    unread,
+    whole_number,
+)
+from station.cli.options.sound_options import SoundOptions, TrackOptions
+from station.cli.options.watch_options import WatchOptions
 from station.core.errors import BadInput, StationError
 from station.core.settings import Settings, setting_source, with_said
 from station.core.units import PPQ

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from station.cli.console import say
-from station.cli.options import Command, argument, choice, flag, option, required, whole_number
-from station.cli.read_scores import is_lesson, load_score
+from station.cli.input.read_scores import is_lesson, load_score
+from station.cli.options.option_fields import Command, argument, choice, flag, option, required, whole_number
 from station.core.errors import BadInput
 from station.core.files import write_whole
 from station.drills.library import find_lesson

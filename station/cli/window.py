@@ -3,10 +3,10 @@
 from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
-from station.app.diagnostics import has_screen
+from station.app.equipment.diagnostics import has_screen
 from station.app.settings_store import SettingsStore
-from station.cli.options import Command
-from station.cli.watch_options import WatchOptions
+from station.cli.options.option_fields import Command
+from station.cli.options.watch_options import WatchOptions
 from station.core.errors import DeviceError
 from station.core.measured_latency import load_calibration
 from station.practice.session.leading_hand import hands_of
@@ -44,7 +44,7 @@ def open_window(
         raise DeviceError("no screen: `station practice --headless` practises in the terminal")
     from station.app.controller import Controller
     from station.app.processes import Processes
-    from station.app.session_control import Launch
+    from station.app.sessions.session_control import Launch
     from station.engine.engine_config import EngineConfig
     from station.engine.supervisor import EngineSupervisor
     from station.gui.layout import WindowOptions

@@ -10,8 +10,8 @@ from dataclasses import replace
 from imgui_bundle import hello_imgui
 
 from station.app.actions import Action, Drill, Seek, Show
-from station.app.model import Stage
-from station.app.state import State
+from station.app.room_state import Stage
+from station.app.window_state import State
 from station.core.units import ns_from_s
 from station.gui import theme
 from station.gui.panels import devices_panel, export_panel, graph_panel, hits_panel, practice_panel, style_panel

@@ -19,7 +19,7 @@ from station.app.actions import (
     SetStep,
     StepOnce,
 )
-from station.app.demo_player import PlayerView
+from station.app.sessions.demo_player import PlayerView
 from station.gui.keyboard_kit import slot_pressed
 from station.practice.demonstration.song_player import SongStep
 

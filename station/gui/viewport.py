@@ -19,7 +19,7 @@ import numpy as np
 from imgui_bundle import imgui
 from numpy.typing import NDArray
 
-from station.app.model import ShownResult
+from station.app.room_state import ShownResult
 from station.app.view_settings import ViewSettings
 from station.core.errors import DeviceError
 from station.gui import theme

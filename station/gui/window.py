@@ -11,8 +11,8 @@ from station.app.actions import Begin, Leave, Meet, Notify, Pause, Show, StrikeK
 from station.app.controller import Controller
 from station.app.first_start import FirstAnswers
 from station.app.help_topics import topic_of
-from station.app.model import Stage
-from station.app.state import State
+from station.app.room_state import Stage
+from station.app.window_state import State
 from station.core.clock import Clock, MonotonicClock
 from station.core.errors import DeviceError
 from station.gui import theme

@@ -75,7 +75,7 @@ class Slipper:
     def slip(self, sheet: StudentReading, form: Form) -> Slips:
         """The slips in one playing of `sheet` by a student in this `form`."""
         score = sheet.score
-        where = _Where(score)
+        where = _SlipPlace(score)
         label = np.full(len(score), Label.MATCH, np.uint8)
         piece = score.notes["piece"].copy()
         chance, which = self._of_notes.random((len(score), 2)).T
@@ -92,7 +92,7 @@ class Slipper:
         return _wired(Slips(label, piece, ticks, pieces), score, form)
 
     def _extras(
-        self, score: Score, where: "_Where", label: NDArray[np.uint8], extra: float
+        self, score: Score, where: "_SlipPlace", label: NDArray[np.uint8], extra: float
     ) -> tuple[NDArray[np.int64], NDArray[np.uint8]]:
         """Ticks and pieces of the strokes that nobody wrote: the clearest places first, commoner pieces more often."""
         count = int(self._of_extras.binomial(len(score), extra)) if len(score) else 0
@@ -128,7 +128,7 @@ def _wired(slips: Slips, score: Score, form: Form) -> Slips:
     return Slips(label, piece, slips.extra_tick, reported[slips.extra_piece])
 
 
-class _Where:
+class _SlipPlace:
     """What is written where: distances to the strokes of a piece, and each piece's share of the extras."""
 
     def __init__(self, score: Score) -> None:

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from station.app.diagnostics import check_midi
+from station.app.equipment.diagnostics import check_midi
 from station.core.clock import monotonic_ns
 from station.devices.device_ports import DeviceRequest, devices_there, no_kit, watch_kits
 from station.devices.midi.midi_clients import CLIENT_NAME

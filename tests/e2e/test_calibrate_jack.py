@@ -122,7 +122,7 @@ def test_the_doctor_names_what_is_not_measured(tmp_path: Path, measured: bool) -
         (tmp_path / "drum-station" / "calibration.toml").write_text(CALIBRATION)
     program = """
         import json
-        from station.app.diagnostics import check_calibration
+        from station.app.equipment.diagnostics import check_calibration
         check = check_calibration()
         print(json.dumps({"works": check.works, "finding": check.finding, "remedy": check.remedy}))
     """

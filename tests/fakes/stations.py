@@ -5,12 +5,12 @@ from dataclasses import replace
 from pathlib import Path
 
 from station.app.actions import Begin, Select
-from station.app.calibration import MeasuringProcess, Running
 from station.app.controller import Controller
-from station.app.latency_methods import MeasureRequest
-from station.app.model import RoomState
+from station.app.equipment.calibration import MeasuringProcess, Running
+from station.app.equipment.latency_methods import MeasureRequest
 from station.app.processes import Processes
-from station.app.session_control import Launch
+from station.app.room_state import RoomState
+from station.app.sessions.session_control import Launch
 from station.app.settings_store import SettingsStore
 from station.core.errors import DeviceError
 from station.core.settings import Settings, save_settings

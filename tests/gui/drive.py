@@ -20,12 +20,12 @@ import numpy as np
 from imgui_bundle import hello_imgui, imgui
 from numpy.typing import NDArray
 
-from station.app.actions import Dismiss, SetView, Stop
+from station.app.actions import Dismiss, EndSession, SetView
 from station.app.help_topics import topic_of
-from station.app.model import RoomState, Stage
+from station.app.room_state import RoomState, Stage
 from station.app.settings_store import SettingsStore
-from station.app.state import State
 from station.app.view_settings import view_settings_of
+from station.app.window_state import State
 from station.core.measured_latency import load_calibration
 from station.core.pieces import Piece
 from station.core.settings import Settings, load_settings, save_settings
@@ -206,7 +206,7 @@ class Drive:
             self.all_seen.append({})
             try:
                 ctx.popup_close_all()
-                self.station.dispatch(Stop())
+                self.station.dispatch(EndSession())
                 self.station.dispatch(Dismiss())
                 ctx.yield_(2)
                 scenario(self, ctx)
@@ -837,7 +837,7 @@ def graph(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.item_click("Start##start")
     ctx.yield_(4)
     seen["during"] = drive.room.stage.name
-    drive.station.dispatch(Stop())
+    drive.station.dispatch(EndSession())
     ctx.yield_(4)
     graphed = drive.state.curves
     seen["result"] = graphed is not None and graphed.played is not None

@@ -6,12 +6,12 @@ frames as it has steps, however slowly they are drawn, and a virtual student's M
 
 import sys
 
-from station.app.calibration import Told
-from station.app.calibration_results import CalibrationResult, CalibrationResults
 from station.app.controller import Controller
-from station.app.latency_methods import MeasureRequest
+from station.app.equipment.calibration import Told
+from station.app.equipment.calibration_results import CalibrationResult, CalibrationResults
+from station.app.equipment.latency_methods import MeasureRequest
 from station.app.processes import Processes
-from station.app.session_control import Launch
+from station.app.sessions.session_control import Launch
 from station.app.settings_store import SettingsStore
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound

@@ -7,13 +7,34 @@ import sys
 import time
 from itertools import count, islice
 
-from station.bench.rows.drawing_rows import SIZE, snapshots
+from station.core.pieces import Limb, Piece, Zone
+from station.core.units import PPQ
+from station.motion.drummer import Drummer
+from station.motion.kinematics.figure import figure_of
+from station.motion.kit.kit import load_kit
+from station.music.score import Note, Score
+from station.music.tempo import TempoMap
 from station.render.picture import PictureMaker
 from station.render.quality import QUALITIES
+from station.render.snapshot import Hud, Snapshot
+
+SIZE = (1280, 720)
 
 _KEPT = 12
 """So many moments are drawn in turn (our choice: a fifth of a second)."""
 _EVERY_S = 1 / 60
+
+
+def snapshots(count: int) -> list[Snapshot]:
+    """Consecutive frames, 60 a second, of a drummer who plays sixteenths on the hat over kick and snare."""
+    notes = [Note(k * PPQ // 4, Piece.HIHAT, Zone.BOW, limb=Limb.RIGHT_HAND) for k in range(64)]
+    notes += [Note(k * PPQ, Piece.SNARE if k % 2 else Piece.KICK) for k in range(16)]
+    score = Score.from_notes(notes, TempoMap.constant(100.0))
+    kit, figure = load_kit(), figure_of()
+    drummer = Drummer(score, kit, figure)
+    hud = Hud("Sixteenths", "Pass 1 of 4", 1, 2, 4, 4, 100.0, None, 12, 14)
+    times = [1.0 + k / 60 for k in range(count)]
+    return [Snapshot(score, t, kit, figure, drummer.pose(t), hud=hud) for t in times]
 
 
 def draw(pictures: int | None) -> None:

@@ -13,23 +13,16 @@ from functools import partial
 from pathlib import Path
 
 from station.bench.harness.benchmark import Benchmark, Measurement, median_s
-from station.core.pieces import Limb, Piece, Zone
-from station.core.units import PPQ
-from station.motion.drummer import Drummer
-from station.motion.kinematics.figure import figure_of
-from station.motion.kit.kit import load_kit
+from station.bench.rigs.drawer import SIZE, snapshots
 from station.music.judgement import Label
-from station.music.score import Note, Score
-from station.music.tempo import TempoMap
 from station.render.bare_scene import BareScene
 from station.render.camera import NamedView, named
 from station.render.gpu.gl import RenderTarget, standalone_context
 from station.render.painter import Arrangement, Painter
 from station.render.picture import PictureMaker
 from station.render.quality import QUALITIES
-from station.render.snapshot import Hud, Snapshot, no_marks
+from station.render.snapshot import no_marks
 
-SIZE = (1280, 720)
 _SETTLES, _GROWS_FOR = 200, 500
 _SESSION = 10 * 60 * 60
 """Pictures of ten minutes at 60 a second."""
@@ -37,18 +30,6 @@ _MEMORY = Path("/proc/self/statm")
 """Linux's account of this process: its second number counts the resident pages."""
 _FRAMES = 12
 _ROUNDS = 3
-
-
-def snapshots(count: int) -> list[Snapshot]:
-    """Consecutive frames, 60 a second, of a drummer who plays sixteenths on the hat over kick and snare."""
-    notes = [Note(k * PPQ // 4, Piece.HIHAT, Zone.BOW, limb=Limb.RIGHT_HAND) for k in range(64)]
-    notes += [Note(k * PPQ, Piece.SNARE if k % 2 else Piece.KICK) for k in range(16)]
-    score = Score.from_notes(notes, TempoMap.constant(100.0))
-    kit, figure = load_kit(), figure_of()
-    drummer = Drummer(score, kit, figure)
-    hud = Hud("Sixteenths", "Pass 1 of 4", 1, 2, 4, 4, 100.0, None, 12, 14)
-    times = [1.0 + k / 60 for k in range(count)]
-    return [Snapshot(score, t, kit, figure, drummer.pose(t), hud=hud) for t in times]
 
 
 def _pictures() -> Measurement:

@@ -11,7 +11,7 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 from station.bench.harness.benchmark import Benchmark, Measurement, median_s
-from station.bench.rows.drawing_rows import SIZE, snapshots
+from station.bench.rigs.drawer import SIZE, snapshots
 from station.render.files.video_file import VideoFormat, video_file
 from station.render.gpu.nv12 import Planes
 from station.render.picture import Shot

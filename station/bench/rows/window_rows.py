@@ -61,7 +61,7 @@ class _Played:
         return float(np.median(np.diff(self.shown_ns))) / NS_PER_MS
 
 
-class _Kit:
+class _BenchKit:
     """A kit that plays on a thread, and remembers when it sent which velocity."""
 
     def __init__(self, path: Path) -> None:
@@ -99,7 +99,7 @@ def _played(seconds: float, each_minute: list[Counter[str]] | None = None) -> _P
     with a_screen() as screen, tempfile.TemporaryDirectory() as home:
         if screen is None:
             return None
-        kit = _Kit(Path(home) / "kit")
+        kit = _BenchKit(Path(home) / "kit")
         folder = Path(home) / "drum-station"
         folder.mkdir()
         settings = f"welcomed = true\nsessions = '{home}/sessions'\nkit = '{kit.wish}'\n"

@@ -30,7 +30,7 @@ REPEAT = "%"
 
 
 @dataclass(frozen=True, slots=True)
-class Mark:
+class GridMark:
     """A letter to be set at tick `at` of its bar (as played, swing and all).
 
     `second` is where a diddle's other stroke falls; `until` where a buzz ends or a cymbal is grabbed, in ticks from the
@@ -57,7 +57,7 @@ class LineText:
     """The bars of one line as they are being written."""
 
     name: str
-    marks: dict[int, list[Mark]]  # by bar
+    marks: dict[int, list[GridMark]]  # by bar
     bars: list[str]
 
 
@@ -107,7 +107,7 @@ _Point = tuple[int, int | None]
 # --- marks ------------------------------------------------------------------------------------------------------------
 
 
-def _needs(line: LineText, bar: int, setting: GridSetting) -> list[Mark]:
+def _needs(line: LineText, bar: int, setting: GridSetting) -> list[GridMark]:
     """The marks of this bar, with buzz rolls that come from earlier bars and chokes that fall into it."""
     length = setting.frame.meter.bar_ticks
     found = list(line.marks.get(bar, []))
@@ -117,9 +117,9 @@ def _needs(line: LineText, bar: int, setting: GridSetting) -> list[Mark]:
                 continue
             end = mark.until - (bar - other) * length
             if mark.holds and other < bar and end > 0:
-                found.append(Mark(HOLD, 0, until=end, holds=True))
+                found.append(GridMark(HOLD, 0, until=end, holds=True))
             if not mark.holds and 0 <= end < length:
-                found.append(Mark(CHOKE, end))
+                found.append(GridMark(CHOKE, end))
     return found
 
 
@@ -153,7 +153,7 @@ def _cells(skeleton: str, frame: GridFrame) -> Bar:
     return bar
 
 
-def _points(marks: Iterable[Mark], bar_ticks: int) -> list[_Point]:
+def _points(marks: Iterable[GridMark], bar_ticks: int) -> list[_Point]:
     """What a skeleton must have to hold these marks."""
     ends = [m.until for m in marks if m.holds and m.until is not None and m.until < bar_ticks]
     return [*((m.at, m.second) for m in marks), *((end, None) for end in ends)]
@@ -165,7 +165,7 @@ def _holds_all(skeleton: str, points: Iterable[_Point], setting: GridSetting) ->
     return all(at in middles and second in (None, middles[at]) for at, second in points)
 
 
-def _filled(skeleton: str, marks: Sequence[Mark], setting: GridSetting) -> str:
+def _filled(skeleton: str, marks: Sequence[GridMark], setting: GridSetting) -> str:
     out = list(skeleton)
     slots = _slots(skeleton, setting)
     for mark in marks:
@@ -180,7 +180,7 @@ def _filled(skeleton: str, marks: Sequence[Mark], setting: GridSetting) -> str:
 # --- skeletons --------------------------------------------------------------------------------------------------------
 
 
-def _skeleton(marks: Sequence[Mark], setting: GridSetting, most: int) -> str | None:
+def _skeleton(marks: Sequence[GridMark], setting: GridSetting, most: int) -> str | None:
     """The simplest skeleton whose cells, at most `most` a beat, hold all marks of a bar."""
     points = _points(marks, setting.frame.meter.bar_ticks)
     candidates = (

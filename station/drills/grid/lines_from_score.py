@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from station.core.errors import BadInput
 from station.core.pieces import Articulation, Limb, Ornament, Piece, word
 from station.drills.grid.cell_strokes import GRACE_LEADS_MS
-from station.drills.grid.grid_writer import LineText, Mark
+from station.drills.grid.grid_writer import GridMark, LineText
 from station.drills.grid.sticking_line import BOTH, HANDS, RIGHT_FIRST, STICKING
 from station.drills.grid.tab_symbols import ALIASES, FOOT_OF, LETTER_OF, LINE_ORDER, TabSymbol, family_of
 from station.music.score import Note, Score
@@ -42,12 +42,12 @@ class WrittenStroke:
         return found
 
     @property
-    def mark(self) -> Mark:
+    def mark(self) -> GridMark:
         """The letter with its ticks from the start of the bar."""
         note, at = self.note, self.note.tick - self.start
         lasts = note.duration_ticks or note.choke_ticks
         is_buzz = note.articulation is Articulation.BUZZ
-        return Mark(
+        return GridMark(
             self.letter,
             at,
             second=None if self.second_tick is None else self.second_tick - self.start,
@@ -77,7 +77,7 @@ def lines_of(by_bar: Mapping[int, Sequence[WrittenStroke]], first_bar: int, last
         said = _sticking_letter(hands)
         bar = together[0].bar - first_bar
         if said:
-            sticking.marks.setdefault(bar, []).append(Mark(said, together[0].mark.at))
+            sticking.marks.setdefault(bar, []).append(GridMark(said, together[0].mark.at))
         for stroke in together:
             name = _line_name(stroke.note, said_below=bool(said) and stroke in hands)
             line = lines.setdefault(name, LineText(name, {}, []))

@@ -2,7 +2,7 @@
 
 from imgui_bundle import imgui
 
-from station.app.model import ShownResult
+from station.app.room_state import ShownResult
 from station.core.pieces import Limb
 from station.gui import theme
 from station.gui.panels.playback_row import PlaybackRow

@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from imgui_bundle import imgui
 
 from station.app.actions import Action, CancelMeasuring, ForgetMeasured, KeepMeasured, Measure
-from station.app.calibration import CalibrationView
+from station.app.equipment.calibration import CalibrationView
 from station.core.measured_latency import LOOPBACK, REPORT, STRIKE, TAP
 from station.gui import theme
 from station.gui.widgets.flow_row import FlowRow

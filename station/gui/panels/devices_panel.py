@@ -18,10 +18,10 @@ from station.app.actions import (
     SetThreshold,
     ShowKit,
 )
-from station.app.kit_seen import STROKES_SHOWN, MappingView, PadStroke
-from station.app.latency_lines import latency_lines
-from station.app.model import Stage
-from station.app.state import State
+from station.app.equipment.latency_lines import latency_lines
+from station.app.equipment.mapping_view import STROKES_SHOWN, MappingView, PadStroke
+from station.app.room_state import Stage
+from station.app.window_state import State
 from station.core.events import Choke, Hit, PedalMoved, Switched
 from station.core.labels import piece_name
 from station.core.pieces import Piece, word

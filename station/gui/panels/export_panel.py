@@ -5,7 +5,7 @@ from collections.abc import Callable
 from imgui_bundle import imgui
 
 from station.app.actions import Action, CancelFilm, Export, ExportKind
-from station.app.state import State
+from station.app.window_state import State
 from station.gui import theme
 
 TAKE_ALONG = "Take along"

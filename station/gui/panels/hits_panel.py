@@ -4,7 +4,7 @@ import numpy as np
 from imgui_bundle import imgui, implot
 from numpy.typing import NDArray
 
-from station.app.model import ShownResult
+from station.app.room_state import ShownResult
 from station.core.labels import piece_name
 from station.core.pieces import Piece
 from station.gui import theme

@@ -7,8 +7,8 @@ the keyboard.
 import numpy as np
 from imgui_bundle import imgui, implot
 
-from station.app.style_controls import CONTROLS
-from station.app.style_options import PIECES, StyleOptions
+from station.app.style.style_controls import CONTROLS
+from station.app.style.style_options import PIECES, StyleOptions
 from station.core.labels import name_of
 from station.gui import theme
 from station.gui.widgets import plots

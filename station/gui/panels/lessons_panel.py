@@ -10,10 +10,10 @@ from itertools import groupby
 
 from imgui_bundle import imgui
 
-from station.app.actions import Action, Begin, FilmTake, Listen, Select, TapTempo
-from station.app.model import LessonCard, RoomState
+from station.app.actions import Action, Begin, FilmTake, Listen, Select, TapBeat
+from station.app.room_state import LessonCard, RoomState
 from station.app.selection import MAX_LOOPS, Selection
-from station.app.state import State
+from station.app.window_state import State
 from station.core.clock import monotonic_ns
 from station.gui import theme
 from station.gui.panels.course_list import course_picker, mark, mark_width
@@ -170,6 +170,6 @@ class LessonsPanel:
         theme.tooltip("How fast to practise; the lesson's own tempo is set when you choose it. Ctrl+click to type")
         imgui.same_line()
         if imgui.button(TAP_LABEL, imgui.ImVec2(tap, 0)):
-            self._dispatch(TapTempo(monotonic_ns()))
+            self._dispatch(TapBeat(monotonic_ns()))
         theme.tooltip("Click on every beat, twice or more: the tempo follows")
         return choice

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from imgui_bundle import imgui
 
 from station.app.actions import Action, GiveUp, LearnPad, NameNote, UndoLearning
-from station.app.kit_seen import MappingView
+from station.app.equipment.mapping_view import MappingView
 from station.core.labels import piece_name
 from station.core.note_map import NoteMeaning
 from station.core.pieces import Piece, word

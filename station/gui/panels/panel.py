@@ -10,7 +10,7 @@ from enum import StrEnum
 
 from imgui_bundle import hello_imgui, imgui
 
-from station.app.state import State
+from station.app.window_state import State
 from station.gui import theme
 
 PANELS_LABEL = "Panels##panels"

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from imgui_bundle import imgui
 
 from station.app.actions import Action, HearBar, Listen
-from station.app.model import ShownResult
+from station.app.room_state import ShownResult
 from station.gui import theme
 from station.gui.widgets.flow_row import FlowRow
 from station.practice.demonstration.compare_by_ear import Whose

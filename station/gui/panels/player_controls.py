@@ -25,7 +25,7 @@ from station.app.actions import (
     StepOnce,
     Wind,
 )
-from station.app.demo_player import PlayerView
+from station.app.sessions.demo_player import PlayerView
 from station.core.units import NS_PER_S
 from station.gui import theme
 from station.gui.widgets.flow_row import LINE_HEIGHT, FlowRow

@@ -7,7 +7,7 @@ from imgui_bundle import imgui
 
 from station.app.actions import Action, LearnPause, SetPreferences
 from station.app.preferences import PracticePreferences, pause_in_words
-from station.app.state import State
+from station.app.window_state import State
 from station.gui import theme
 
 PRACTICE = "Practice"

@@ -9,10 +9,10 @@ import numpy as np
 from imgui_bundle import imgui
 
 from station.app.actions import Action, EditStyle, Embody, LeadWith
-from station.app.model import Stage
-from station.app.state import State
-from station.app.style_controls import TABS, WORD_LABELS, Control, ControlGroup
-from station.app.style_options import PIECES, StyleOptions
+from station.app.room_state import Stage
+from station.app.style.style_controls import TABS, WORD_LABELS, Control, ControlGroup
+from station.app.style.style_options import PIECES, StyleOptions
+from station.app.window_state import State
 from station.core.labels import name_of
 from station.gui import theme
 from station.gui.panels.lanes_editor import LanesEditor

@@ -6,8 +6,8 @@ from functools import partial
 from imgui_bundle import imgui
 
 from station.app.actions import Action, KeepSlot, ListStyles, ProposeStyle, SaveStyle, TakeStyle
+from station.app.style.style_options import StyleOptions
 from station.app.style_editor import StyleView
-from station.app.style_options import StyleOptions
 from station.gui import theme
 from station.gui.widgets.slots import Grid, Use, slot_rows
 from station.motion.style.style_file import SLOTS

@@ -9,11 +9,11 @@ from dataclasses import replace
 
 from imgui_bundle import imgui
 
-from station.app.actions import Action, Answer, Begin, Dismiss, Pause, SetView, Stop, Veto
-from station.app.demo_player import PlayerView
-from station.app.model import RoomState, Stage
-from station.app.state import State
+from station.app.actions import Action, Answer, Begin, Dismiss, EndSession, Pause, SetView, Veto
+from station.app.room_state import RoomState, Stage
+from station.app.sessions.demo_player import PlayerView
 from station.app.view_settings import ViewSettings
+from station.app.window_state import State
 from station.gui import theme
 from station.gui.panels.panel import PANELS_WIDTH
 from station.gui.panels.player_controls import PlayerControls, counter
@@ -122,7 +122,7 @@ class TransportBar:
     def _session(self, room: RoomState, row: FlowRow) -> None:
         """How to end the session, its time, how far it is."""
         if row.button(STOP_LABEL, 96):
-            self._dispatch(Stop())
+            self._dispatch(EndSession())
         theme.tooltip("End the session here; what was played is kept (Esc)")
         if room.can_pause or room.paused:
             if row.button(GO_ON_LABEL if room.paused else PAUSE_LABEL, 96):

@@ -9,7 +9,7 @@ import numpy as np
 from imgui_bundle import imgui, implot
 
 from station.app.actions import Action, LearnVelocity, SetCurve
-from station.app.kit_seen import MappingView, PadStroke
+from station.app.equipment.mapping_view import MappingView, PadStroke
 from station.core.labels import piece_name
 from station.core.pieces import Piece, word
 from station.devices.mapping.device_map import Pad

@@ -7,7 +7,7 @@ from imgui_bundle import imgui, implot
 from numpy.typing import NDArray
 
 from station.gui import theme
-from station.render.report.stroke_plot import Mark, by_kind, heights_ms
+from station.render.report.stroke_plot import StrokeMark, by_kind, heights_ms
 from station.render.text.draw_list import Colour
 
 Array = NDArray[np.float64]
@@ -22,14 +22,14 @@ _QUIET = implot.AxisFlags_.no_label | implot.AxisFlags_.no_menus | implot.AxisFl
 BARE = implot.AxisFlags_.no_decorations
 _CLEAR = (0.0, 0.0, 0.0, 0.0)
 _MARKERS = {
-    Mark.DISC: implot.Marker_.circle,
-    Mark.UP: implot.Marker_.up,
-    Mark.DOWN: implot.Marker_.down,
-    Mark.SQUARE: implot.Marker_.square,
-    Mark.BARRED_RING: implot.Marker_.circle,
-    Mark.CROSS: implot.Marker_.cross,
+    StrokeMark.DISC: implot.Marker_.circle,
+    StrokeMark.UP: implot.Marker_.up,
+    StrokeMark.DOWN: implot.Marker_.down,
+    StrokeMark.SQUARE: implot.Marker_.square,
+    StrokeMark.BARRED_RING: implot.Marker_.circle,
+    StrokeMark.CROSS: implot.Marker_.cross,
 }
-_FILLED = (Mark.DISC, Mark.UP, Mark.DOWN)
+_FILLED = (StrokeMark.DISC, StrokeMark.UP, StrokeMark.DOWN)
 _EDGE = 1.7
 """Design pixels: the line of a mark that is not filled."""
 
@@ -74,7 +74,7 @@ def strokes(x: Array, label: NDArray[np.uint8], asynchrony_ms: Array, radius: fl
         if is_line:
             look.marker_fill_color = vec(_CLEAR)
         implot.plot_scatter(kind.name, x[rows], at_ms[rows], look)
-        if kind.mark is Mark.BARRED_RING:
+        if kind.mark is StrokeMark.BARRED_RING:
             _bars(kind.name, x[rows], at_ms[rows], look)
 
 

@@ -24,7 +24,7 @@ NEAR_NS = 100 * NS_PER_MS
 
 
 @dataclass(frozen=True, slots=True)
-class Pause:
+class SessionPause:
     """A pause: the bar of the score, from 0, from which the session went on, and how many strokes were played again.
 
     `asked` tells a pause that the student asked for from one that came of silence.

@@ -27,7 +27,7 @@ from station.practice.session.device_latency import Latency
 from station.practice.session.engine_state import EngineState
 from station.practice.session.event_log import Ended, PassBegan, Paused, WentOn, stroke_key, text_of
 from station.practice.session.judging import Judging
-from station.practice.session.pausing import NEAR_NS, SILENT_BARS, Pause, Silence, Stretch, bar_of, from_bar
+from station.practice.session.pausing import NEAR_NS, SILENT_BARS, SessionPause, Silence, Stretch, bar_of, from_bar
 from station.practice.session.plan import TAIL_NS, Phase, Plan, Segment
 from station.scoring.align import align
 from station.scoring.matching.alignment import Alignment
@@ -69,7 +69,7 @@ class SessionResult:
     complete: bool
     device: str | None
     output: str | None = None
-    pauses: tuple[Pause, ...] = ()
+    pauses: tuple[SessionPause, ...] = ()
 
 
 @dataclass(eq=False)
@@ -100,7 +100,7 @@ class Session:
         self._has_left = False  # a stroke has come after so long a silence
         self.paused = False
         """Whether the transport stands and waits for `resume`."""
-        self.pauses: list[Pause] = []
+        self.pauses: list[SessionPause] = []
         """The pauses after which the session went on, in order."""
 
     def start(self) -> tuple[Command, ...]:
@@ -156,7 +156,7 @@ class Session:
             return ()
         bar = 0 if whole else bar_of(self.plan.score, self._judging.last_ns)
         self._run = from_bar(self.plan, bar)
-        self.pauses.append(Pause(bar, asked, self._judging.take_back(self._run.from_ns)))
+        self.pauses.append(SessionPause(bar, asked, self._judging.take_back(self._run.from_ns)))
         self.heard.zero_ns, self.paused = None, False
         self._held_ns = self.plan.passes_start_ns + self._run.from_ns
         return (Annotate(text_of(WentOn(self.heard.strokes, asked, whole))), *self._play())

@@ -10,7 +10,7 @@ from station.render.notation.judgement_marks import ON_TIME_MS, timing_colour
 from station.render.palette import BRAND, GOOD, INK, INK_FAINT, INK_SOFT, PANEL, PANEL_EDGE, with_opacity
 from station.render.report.report_layout import ReportBox
 from station.render.report.result_facts import PieceLean, ResultFacts, in_words, leans, ticks
-from station.render.report.stroke_plot import AXIS_MS, LINES, Kind, Mark, by_kind, heights_ms
+from station.render.report.stroke_plot import AXIS_MS, LINES, StrokeKind, StrokeMark, by_kind, heights_ms
 from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face
 
@@ -145,20 +145,20 @@ def paper(ink: DrawList, box: ReportBox) -> None:
     ink.box((box.left, box.top), (box.width, box.height), PANEL_EDGE, None, (14.0, 1.2, 0.0))
 
 
-def stroke(ink: DrawList, kind: Kind, at: tuple[float, float], size: float) -> None:
+def stroke(ink: DrawList, kind: StrokeKind, at: tuple[float, float], size: float) -> None:
     """The mark of a stroke; `size` is a dot's radius."""
     radius, half = kind.radius * size, kind.radius * size / np.sqrt(2)
     match kind.mark:
-        case Mark.DISC:
+        case StrokeMark.DISC:
             ink.ellipse(at, (radius, radius), kind.colour)
-        case Mark.SQUARE:
+        case StrokeMark.SQUARE:
             ink.box((at[0] - half, at[1] - half), (2 * half, 2 * half), kind.colour, None, (1.0, 1.8, 0.0))
-        case Mark.BARRED_RING:
+        case StrokeMark.BARRED_RING:
             barred_ring(ink, at, max(radius, 4.0), kind.colour)
-        case Mark.CROSS:
+        case StrokeMark.CROSS:
             ink.cross(at, (half, half), 1.6, kind.colour)
-        case Mark.UP | Mark.DOWN:
-            turn = -np.pi / 2 if kind.mark is Mark.UP else np.pi / 2
+        case StrokeMark.UP | StrokeMark.DOWN:
+            turn = -np.pi / 2 if kind.mark is StrokeMark.UP else np.pi / 2
             ink.triangle(at, (0.9 * radius, 0.9 * radius), kind.colour, turn)
 
 

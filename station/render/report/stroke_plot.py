@@ -25,7 +25,7 @@ AXIS_MS = (-116.0, 90.0)
 """The lower and the upper end of the axis."""
 
 
-class Mark(Enum):
+class StrokeMark(Enum):
     """A shape that stands for a stroke."""
 
     DISC = "disc"
@@ -37,28 +37,30 @@ class Mark(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Kind:
+class StrokeKind:
     """Strokes that look alike: `radius` is their circle's in dots' radii, `at_ms` their place if they have no time."""
 
     name: str
-    mark: Mark
+    mark: StrokeMark
     colour: Colour
     radius: float = 1.0
     at_ms: float | None = None
 
 
 KINDS = (
-    Kind("on time", Mark.DISC, with_opacity(GOOD, 0.9)),
-    Kind("early", Mark.DOWN, EARLY, 1.25),
-    Kind("late", Mark.UP, LATE, 1.25),
-    Kind("wrong pad", Mark.SQUARE, WRONG, 1.4),
-    Kind("missed", Mark.BARRED_RING, MISSED, at_ms=_MISSED_MS),
-    Kind("not written", Mark.CROSS, EXTRA, 1.2, at_ms=_NOT_WRITTEN_MS),
+    StrokeKind("on time", StrokeMark.DISC, with_opacity(GOOD, 0.9)),
+    StrokeKind("early", StrokeMark.DOWN, EARLY, 1.25),
+    StrokeKind("late", StrokeMark.UP, LATE, 1.25),
+    StrokeKind("wrong pad", StrokeMark.SQUARE, WRONG, 1.4),
+    StrokeKind("missed", StrokeMark.BARRED_RING, MISSED, at_ms=_MISSED_MS),
+    StrokeKind("not written", StrokeMark.CROSS, EXTRA, 1.2, at_ms=_NOT_WRITTEN_MS),
 )
 _ON_TIME, _EARLY, _LATE, _WRONG, _MISSED, _NOT_WRITTEN = range(len(KINDS))
 
 
-def by_kind(label: NDArray[np.uint8], asynchrony_ms: NDArray[np.float64]) -> Iterator[tuple[Kind, NDArray[np.intp]]]:
+def by_kind(
+    label: NDArray[np.uint8], asynchrony_ms: NDArray[np.float64]
+) -> Iterator[tuple[StrokeKind, NDArray[np.intp]]]:
     """The kinds that occur, with the rows of each; `label` of `Label` and `asynchrony_ms` are (n,)."""
     timed = np.select([asynchrony_ms < -ON_TIME_MS, asynchrony_ms > ON_TIME_MS], [_EARLY, _LATE], _ON_TIME)
     untimed = [label == Label.WRONG_PIECE, label == Label.MISS, label == Label.EXTRA]

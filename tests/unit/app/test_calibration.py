@@ -6,11 +6,11 @@ from pathlib import Path
 import pytest
 
 from station.app.actions import Begin, Measure, Show
-from station.app.calibration import Calibration, Failed, MeasuringProcess, Told
-from station.app.calibration_results import CalibrationResult, CalibrationResults
-from station.app.latency_methods import MeasureRequest
-from station.app.model import Stage
-from station.app.session_control import Launch
+from station.app.equipment.calibration import Calibration, Failed, MeasuringProcess, Told
+from station.app.equipment.calibration_results import CalibrationResult, CalibrationResults
+from station.app.equipment.latency_methods import MeasureRequest
+from station.app.room_state import Stage
+from station.app.sessions.session_control import Launch
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound
 from station.core.measured_latency import LOOPBACK, STRIKE, TAP, load_calibration

@@ -4,7 +4,7 @@ from types import MappingProxyType
 import numpy as np
 import pytest
 
-from station.app.calibration_results import (
+from station.app.equipment.calibration_results import (
     CalibrationResult,
     CalibrationResults,
     document,

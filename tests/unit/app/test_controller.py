@@ -11,6 +11,7 @@ from station.app.actions import (
     Begin,
     ChooseBars,
     Dismiss,
+    EndSession,
     Export,
     ExportKind,
     HearBar,
@@ -21,14 +22,13 @@ from station.app.actions import (
     SetPreferences,
     SetView,
     Show,
-    Stop,
     StrikeKey,
     Veto,
 )
 from station.app.controller import Controller
 from station.app.first_start import FirstAnswers
-from station.app.model import Stage
-from station.app.session_control import LIVELY_NS, Launch
+from station.app.room_state import Stage
+from station.app.sessions.session_control import LIVELY_NS, Launch
 from station.app.settings_store import SettingsStore
 from station.core.events import DeviceFound, Hit
 from station.core.pieces import Piece, Zone
@@ -64,7 +64,7 @@ def test_hits_on_their_way_when_the_session_is_stopped_are_judged(tmp_path: Path
     line.says.append(Started(NS_PER_S))
     station.update(NS_PER_S + PLAN.passes_start_ns + 10)
     line.says.append(downbeat())
-    station.dispatch(Stop())
+    station.dispatch(EndSession())
     report = station.view().report
     assert report is not None
     counts = report.document["counts"]
@@ -264,7 +264,7 @@ def test_a_free_take_is_kept_with_its_capture_and_judges_nothing(tmp_path: Path)
     assert picture.strip.played.hits["at_ns"].tolist() == [NS_PER_S]
     assert [strike.piece for strike in picture.strikes] == [Piece.SNARE]
     assert picture.hud.judged == 0
-    station.dispatch(Stop())
+    station.dispatch(EndSession())
     assert (room(station).stage, station.view().report) == (Stage.IDLE, None)
     assert room(station).take is not None
     assert len(list(tmp_path.glob("*/*_just-play/take.json"))) == 1
@@ -319,7 +319,7 @@ def test_a_free_take_has_no_track_of_a_lesson(tmp_path: Path) -> None:
     just_play(station)
     line.says += [Started(NS_PER_S), Hit(2 * NS_PER_S, Piece.SNARE, Zone.HEAD, 90)]
     station.update(2 * NS_PER_S + 1)
-    station.dispatch(Stop())
+    station.dispatch(EndSession())
     before_play = [
         line.heard[i - 1] for i, command in enumerate(line.heard) if isinstance(command, RecordCapture | Play)
     ]
@@ -403,7 +403,7 @@ def test_nothing_is_written_while_somebody_plays(tmp_path: Path) -> None:
     station.dispatch(SetView(replace(station.view().look, mirrored=True)))
     station.update(1)
     assert not load_settings(tmp_path / "settings.toml").mirrored
-    station.dispatch(Stop())
+    station.dispatch(EndSession())
     station.update(2)
     assert load_settings(tmp_path / "settings.toml").mirrored
 

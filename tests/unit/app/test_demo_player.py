@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from station.app.demo_player import LEAD_NS, Control, DemonstratedLesson, DemoPlayer
+from station.app.sessions.demo_player import LEAD_NS, Control, DemonstratedLesson, DemoPlayer
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.drills.library import find_lesson
 from station.engine.messages import Bus, Command, Play, Stop

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 import rtmidi
 
-from station.app.diagnostics import check_midi_library, check_settings
+from station.app.equipment.diagnostics import check_midi_library, check_settings
 
 
 @pytest.mark.parametrize(

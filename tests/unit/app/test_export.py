@@ -10,7 +10,7 @@ import pytest
 from station.app.export import LOOP, Exporter, film_words
 from station.app.view_settings import ViewSettings
 from station.cli.animate_options import LEVELS, AnimateOptions
-from station.cli.options import read_options
+from station.cli.options.option_fields import read_options
 from station.core.errors import DeviceError
 from station.core.settings import Settings
 from station.drills.lesson_writer import first_difference

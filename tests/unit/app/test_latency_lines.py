@@ -3,7 +3,7 @@
 from datetime import date
 from types import MappingProxyType
 
-from station.app.latency_lines import LatencyLine, latency_lines
+from station.app.equipment.latency_lines import LatencyLine, latency_lines
 from station.core.measured_latency import DeviceLatency, MeasuredLatency, StoredCalibration
 from station.core.pieces import Piece
 

@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 from station.app.actions import HoldBack, SetCurve, SetMask, SetShare, SetThreshold
-from station.app.kit_seen import PadStroke
-from station.app.mapping_editor import MappingEditor
+from station.app.equipment.mapping_editor import MappingEditor
+from station.app.equipment.mapping_view import PadStroke
 from station.core.events import DeviceFound, DeviceLost
 from station.core.pieces import Piece
 from station.core.units import NS_PER_MS

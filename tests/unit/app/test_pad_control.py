@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from station.app.actions import Begin, GiveUp, LearnPause, LearnVelocity, Pause, SetPreferences, Stop
+from station.app.actions import Begin, EndSession, GiveUp, LearnPause, LearnVelocity, Pause, SetPreferences
 from station.app.controller import Controller
-from station.app.model import Stage
-from station.app.session_control import Launch
+from station.app.room_state import Stage
+from station.app.sessions.session_control import Launch
 from station.core.errors import BadInput
 from station.core.events import DeviceFound, Hit, Switched
 from station.core.pieces import Piece, Zone
@@ -121,7 +121,7 @@ def test_a_session_that_is_stopped_in_its_pause_scores_no_silence(tmp_path: Path
     """Of rock 1 a kick and a hi-hat stand on the downbeat: the kick was played."""
     station, _ = playing(tmp_path)
     station.update(at(3 * BAR_NS + 100 * NS_PER_MS))
-    station.dispatch(Stop())
+    station.dispatch(EndSession())
     report = station.view().report
     assert report is not None
     counts = report.document["counts"]
@@ -139,7 +139,7 @@ def test_both_crashes_at_once_pause_and_are_not_scored(tmp_path: Path) -> None:
     station, line = playing(tmp_path)
     strike(station, line, at(NS_PER_S), Piece.CRASH_1, Piece.CRASH_2)
     assert room(station).paused
-    station.dispatch(Stop())
+    station.dispatch(EndSession())
     report = station.view().report
     assert report is not None
     counts = report.document["counts"]
@@ -164,7 +164,7 @@ def test_the_report_tells_of_the_pause(tmp_path: Path) -> None:
     station.dispatch(Pause())
     line.says.append(Started(100 * NS_PER_S))
     station.update(100 * NS_PER_S + 1)
-    station.dispatch(Stop())
+    station.dispatch(EndSession())
     report = station.view().report
     assert report is not None
     session = report.document["session"]
@@ -183,7 +183,7 @@ def test_a_pass_that_moves_the_tempo_is_played_whole_again(tmp_path: Path) -> No
     strike(station, line, at(2 * BAR_NS), Piece.SNARE)
     station.dispatch(Pause())
     station.dispatch(Pause())
-    station.dispatch(Stop())
+    station.dispatch(EndSession())
     report = station.view().report
     assert report is not None
     counts = report.document["counts"]

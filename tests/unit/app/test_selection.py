@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from station.app.model import LessonCard, SessionRequest
+from station.app.room_state import LessonCard, SessionRequest
 from station.app.selection import MAX_LOOPS, Selection
 from station.core.pieces import HAND_PIECES, Piece, Zone
 from station.drills.course import Course

@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from station.app.style_controls import CONTROLS, TABS, WORD_LABELS
-from station.app.style_library import StyleLibrary
-from station.app.style_options import StyleOptions
+from station.app.style.style_controls import CONTROLS, TABS, WORD_LABELS
+from station.app.style.style_library import StyleLibrary
+from station.app.style.style_options import StyleOptions
 from station.core.errors import BadInput, DeviceError
 from station.core.pieces import Piece
 from station.gui.widgets.lane_frame import LaneFrame

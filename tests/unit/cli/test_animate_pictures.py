@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from station.app.diagnostics import check_video
+from station.app.equipment.diagnostics import check_video
 from station.cli.command_line import main
 from station.cli.console import progress_line
 from station.drills.library import find_lesson

@@ -145,7 +145,7 @@ def test_a_kit_with_a_name_is_not_awaited_for_ever(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr("station.devices.device_ports.MidiDirectory", lambda *_: FakeDriver("TD-17 20:0"))
-    monkeypatch.setattr("station.cli.device_listening.NAMED_WITHIN_S", 0.01)
+    monkeypatch.setattr("station.cli.input.device_listening.NAMED_WITHIN_S", 0.01)
     assert main(["devices", "monitor", "--kit", "nothere"]) == 2
     assert "no port is called 'nothere'" in capsys.readouterr().err
 
@@ -168,6 +168,6 @@ def test_a_machine_that_stalls_looks_at_each_kit_before_the_time_is_up(
     """Whoever looks at the clock finds that a second has passed."""
     seconds = count()
     monkeypatch.setattr("station.devices.device_ports.MidiDirectory", lambda *_: FakeDriver("TD-17 20:0"))
-    monkeypatch.setattr("station.cli.device_listening.monotonic_ns", lambda: next(seconds) * NS_PER_S)
+    monkeypatch.setattr("station.cli.input.device_listening.monotonic_ns", lambda: next(seconds) * NS_PER_S)
     assert main(["devices", "record", str(tmp_path / "take.cap"), "--seconds", "0.01"]) == 0
     assert "TD-17 is here" in capsys.readouterr().err

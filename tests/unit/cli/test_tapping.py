@@ -2,7 +2,7 @@
 
 import pytest
 
-from station.cli.tapping import tempo_of
+from station.cli.input.tapping import tempo_of
 from station.core.errors import BadInput
 from station.core.units import NS_PER_S
 

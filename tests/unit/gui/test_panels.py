@@ -2,7 +2,7 @@
 
 import pytest
 
-from station.app.model import RoomState
+from station.app.room_state import RoomState
 from station.core.units import NS_PER_S, PPQ
 from station.gui.panels.player_controls import time_words
 from station.gui.panels.transport_bar import elided, found

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from station.cli.read_scores import bars_of_gap
+from station.cli.input.read_scores import bars_of_gap
 from station.core.settings import Settings
 from station.drills.library import find_lesson
 from station.practice.headless.virtual_session import practise_virtually

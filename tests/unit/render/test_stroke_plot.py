@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from station.music.judgement import Label
-from station.render.report.stroke_plot import AXIS_MS, KINDS, LINES, Mark, by_kind, heights_ms, line_words
+from station.render.report.stroke_plot import AXIS_MS, KINDS, LINES, StrokeMark, by_kind, heights_ms, line_words
 
 LABEL = np.array([*[Label.MATCH] * 5, Label.WRONG_PIECE, Label.MISS, Label.EXTRA], np.uint8)
 LATE_MS = np.array([-25.0, 25.0, -26.0, 26.0, 300.0, -10.0, np.nan, np.nan])
@@ -13,14 +13,14 @@ LATE_MS = np.array([-25.0, 25.0, -26.0, 26.0, 300.0, -10.0, np.nan, np.nan])
 def test_every_stroke_bears_the_mark_of_its_kind() -> None:
     marks = {int(row): kind.mark for kind, rows in by_kind(LABEL, LATE_MS) for row in rows}
     assert [marks[row] for row in range(8)] == [
-        Mark.DISC,
-        Mark.DISC,
-        Mark.DOWN,
-        Mark.UP,
-        Mark.UP,
-        Mark.SQUARE,
-        Mark.BARRED_RING,
-        Mark.CROSS,
+        StrokeMark.DISC,
+        StrokeMark.DISC,
+        StrokeMark.DOWN,
+        StrokeMark.UP,
+        StrokeMark.UP,
+        StrokeMark.SQUARE,
+        StrokeMark.BARRED_RING,
+        StrokeMark.CROSS,
     ]
     assert not list(by_kind(LABEL[:0], LATE_MS[:0]))
     assert len({kind.mark for kind in KINDS}) == len(KINDS), "told apart by shape alone"

@@ -17,8 +17,8 @@ from station.core.errors import DeviceError, StationError
 from station.core.measured_latency import StoredCalibration, load_calibration, save_calibration
 
 if TYPE_CHECKING:
-    from station.app.calibration_results import CalibrationResult, CalibrationResults
-    from station.app.latency_methods import MeasureRequest
+    from station.app.equipment.calibration_results import CalibrationResult, CalibrationResults
+    from station.app.equipment.latency_methods import MeasureRequest
 
 _ENDED = "the measurement ended without a result"
 
@@ -79,7 +79,7 @@ class MeasuringProcess:
 
 def _measure(to: Connection, wish: "MeasureRequest") -> None:
     """What the process does."""
-    from station.app.latency_methods import measured
+    from station.app.equipment.latency_methods import measured
 
     try:
         to.send(measured(wish, load_calibration(), to.send))
@@ -183,7 +183,7 @@ class Calibration:
         if isinstance(told, Failed):
             self.fault = told.why
             return
-        from station.app.calibration_results import text
+        from station.app.equipment.calibration_results import text
 
         self.findings = told
         self._found = tuple(line.strip() for line in text(told, load_calibration(self._path)).splitlines())
@@ -223,7 +223,7 @@ class Calibration:
 
     def keep(self) -> str:
         """Subtract it from now on; returns what to tell. Raises `StationError` if the file refuses."""
-        from station.app.calibration_results import outdated, with_rows
+        from station.app.equipment.calibration_results import outdated, with_rows
 
         before, rows = load_calibration(self._path), self.worth
         path = save_calibration(with_rows(before, rows, self._by, date.today()), self._path)

@@ -9,8 +9,8 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 
 from station.app.engine_client import EngineClient
-from station.app.model import PlaceNow, RoomState, ShownResult, Stage
-from station.app.session_preparation import PreparedSession
+from station.app.room_state import PlaceNow, RoomState, ShownResult, Stage
+from station.app.sessions.session_preparation import PreparedSession
 from station.core.errors import DeviceError, StationError
 from station.core.events import Hit
 from station.core.settings import Settings

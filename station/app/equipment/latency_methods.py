@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from station.app.calibration_results import CalibrationResult, CalibrationResults, rows_of_taps
+from station.app.equipment.calibration_results import CalibrationResult, CalibrationResults, rows_of_taps
 from station.core.measured_latency import LOOPBACK, REPORT, STRIKE, TAP, StoredCalibration
 from station.core.settings import Settings
 from station.devices.device_ports import DeviceRequest, parse_kits

@@ -8,10 +8,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from station.app.engine_client import EngineClient
-from station.app.free_session import FreeSession
-from station.app.lesson_session import LessonSession
-from station.app.model import FreeRequest, RoomState, Stage
-from station.app.result import LastResult
+from station.app.room_state import FreeRequest, RoomState, Stage
+from station.app.sessions.free_session import FreeSession
+from station.app.sessions.last_result import LastResult
+from station.app.sessions.lesson_session import LessonSession
 from station.app.settings_store import SettingsStore
 from station.core.errors import StationError
 from station.core.events import Hit

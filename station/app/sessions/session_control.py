@@ -7,16 +7,16 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, assert_never
 
-from station.app.actions import Answer, Dismiss, HearBar, Listen, SessionAction, Stop, Veto
+from station.app.actions import Answer, Dismiss, EndSession, HearBar, Listen, SessionAction, Veto
 from station.app.catalog import Catalog
-from station.app.current_practice import CurrentPractice
-from station.app.demo_player import DemoPlayer
 from station.app.engine_client import EngineClient
-from station.app.free_session import FreeSession
-from station.app.lesson_session import LessonSession
-from station.app.model import FreeRequest, RoomState, SessionRequest, Stage
-from station.app.playback import Playback
-from station.app.session_preparation import PreparedSession, SessionPreparation
+from station.app.room_state import FreeRequest, RoomState, SessionRequest, Stage
+from station.app.sessions.current_practice import CurrentPractice
+from station.app.sessions.demo_player import DemoPlayer
+from station.app.sessions.free_session import FreeSession
+from station.app.sessions.lesson_session import LessonSession
+from station.app.sessions.playback import Playback
+from station.app.sessions.session_preparation import PreparedSession, SessionPreparation
 from station.app.settings_store import SettingsStore
 from station.core.errors import DeviceError
 from station.core.measured_latency import StoredCalibration
@@ -137,7 +137,7 @@ class SessionControl:
     def act(self, action: SessionAction) -> None:
         """Do what the user asks; raises `StationError`."""
         match action:
-            case Stop():
+            case EndSession():
                 self.practice.end()
             case Veto():
                 if self.room().can_veto:

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from queue import SimpleQueue
 
 from station.cli.console import say
-from station.cli.device_option import devices_option, wanted_kits
-from station.cli.options import option, unread
+from station.cli.options.device_option import devices_option, wanted_kits
+from station.cli.options.option_fields import option, unread
 from station.core.clock import monotonic_ns
 from station.core.errors import DeviceError
 from station.core.events import Choke, DeviceEvent, DeviceFound, DeviceLost, Hit, PedalMoved, Switched

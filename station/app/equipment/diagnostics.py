@@ -78,7 +78,7 @@ def _rebuild_rtmidi() -> str:
 
 def check_settings() -> Check:
     """The settings file."""
-    from station.app import session_checks
+    from station.app.sessions import session_checks
 
     path = settings_path()
     try:

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, fields
 from pathlib import Path
 
-from station.cli.options import choice, number, option, switch, unread, whole_number
+from station.cli.options.option_fields import choice, number, option, switch, unread, whole_number
 from station.core.errors import BadInput
 from station.engine.level_words import LEVELS_HELP, parse_levels
 from station.practice.session.backing_track import BackingRequest

@@ -4,7 +4,7 @@ import io
 
 import pytest
 
-from station.cli.asking import ask_first
+from station.cli.input.self_estimate_question import ask_first
 from station.practice.session.self_estimate import TYPED_QUESTION
 
 REPORT = {"session": {"complete": True, "click": True}, "timing": {"mean_signed_asynchrony_ms": -14.2, "strokes": 100}}

@@ -3,7 +3,7 @@
 import json
 from pathlib import Path
 
-from station.cli.captures import performance_of_capture
+from station.cli.input.read_captures import performance_of_capture
 from station.core.errors import BadInput
 from station.core.measured_latency import load_calibration
 from station.core.settings import load_settings

@@ -6,8 +6,8 @@ result is shown.
 
 from collections.abc import Mapping
 
-from station.app.lesson_session import SavedSession
-from station.app.model import ShownResult
+from station.app.room_state import ShownResult
+from station.app.sessions.lesson_session import SavedSession
 from station.core.events import Hit
 from station.engine.messages import EngineEvent
 from station.practice.demonstration.compare_by_ear import Whose, bar_by_ear, earlier_bar, students_bar

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from station.cli.device_listening import ListenOptions
 from station.cli.devices import RecordOptions
-from station.cli.options import (
+from station.cli.input.device_listening import ListenOptions
+from station.cli.options.option_fields import (
     HIDDEN,
     argument,
     arguments,

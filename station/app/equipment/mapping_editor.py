@@ -28,7 +28,7 @@ from station.app.actions import (
     ShowKit,
     UndoLearning,
 )
-from station.app.kit_seen import MappingView, SeenKit
+from station.app.equipment.mapping_view import MappingView, SeenKit
 from station.core.errors import DeviceError, StationError
 from station.core.events import DeviceFound, DeviceLost, Hit
 from station.core.note_map import NoteMeaning

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from station.app.model import FreeRequest
+from station.app.room_state import FreeRequest
 from station.app.settings_store import SettingsStore
 from station.core.errors import StationError
 from station.core.settings import setting_source

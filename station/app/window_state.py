@@ -2,12 +2,12 @@
 
 from dataclasses import dataclass
 
-from station.app.calibration import CalibrationView
-from station.app.demo_player import PlayerView
-from station.app.kit_seen import MappingView
-from station.app.model import RoomState, ShownResult, Stage
+from station.app.equipment.calibration import CalibrationView
+from station.app.equipment.mapping_view import MappingView
 from station.app.preferences import PracticePreferences
+from station.app.room_state import RoomState, ShownResult, Stage
 from station.app.selection import Selection
+from station.app.sessions.demo_player import PlayerView
 from station.app.style_editor import StyleView
 from station.app.view_settings import ViewSettings
 from station.core.settings import Settings

@@ -35,7 +35,7 @@ class _Spec:
 
 
 @dataclass(frozen=True, slots=True)
-class _Group:
+class _OptionGroup:
     options: type[Any]
     title: str
 
@@ -97,7 +97,7 @@ def switch(words: str) -> bool | None:
 
 def group(options: type[_T], title: str = "") -> _T:
     """Options that several commands share: a dataclass of their own, under a title of their own if they have one."""
-    made: _T = field(metadata={_KEY: _Group(options, title)})
+    made: _T = field(metadata={_KEY: _OptionGroup(options, title)})
     return made
 
 
@@ -236,7 +236,7 @@ def _add(to: "argparse.ArgumentParser | argparse._ArgumentGroup", options: type[
     rivals: dict[str, argparse._MutuallyExclusiveGroup] = {}
     for one in fields(options):
         match one.metadata.get(_KEY):
-            case _Group(options=shared, title=title):
+            case _OptionGroup(options=shared, title=title):
                 _add(to.add_argument_group(title) if title else to, shared)
             case _Spec(is_option=False, keywords=keywords):
                 to.add_argument(one.name, default=argparse.SUPPRESS, **keywords)
@@ -261,7 +261,7 @@ def _names(options: type[Any]) -> Iterator[str]:
     """The names that the help shows."""
     for one in fields(options):
         match one.metadata.get(_KEY):
-            case _Group(options=shared):
+            case _OptionGroup(options=shared):
                 yield from _names(shared)
             case _Spec(is_option=True, keywords=keywords) as spec if keywords["help"] != HIDDEN:
                 yield _name(one.name, spec)
@@ -272,7 +272,7 @@ def _built(options: type[_T], found: Mapping[str, Any]) -> _T:
     values: dict[str, Any] = {}
     for one in fields(options):  # type: ignore[arg-type]
         match one.metadata.get(_KEY):
-            case _Group(options=shared):
+            case _OptionGroup(options=shared):
                 values[one.name] = _built(shared, found)
             case None:
                 values[one.name] = frozenset(found)

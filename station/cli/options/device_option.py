@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from station.cli.options import repeated
+from station.cli.options.option_fields import repeated
 
 DEVICE_FORM = "--device --kit PORT"
 DEVICE_HELP = "the kit that is plugged in: part of its MIDI port's name, or serial:PATH[@BAUD]"

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from station.cli.captures import begins_as_capture, is_capture, performance_of_capture
-from station.cli.options import unread
+from station.cli.input.read_captures import begins_as_capture, is_capture, performance_of_capture
+from station.cli.options.option_fields import unread
 from station.core.errors import BadInput
 from station.music.performance import Performance
 from station.music.score import Score
@@ -42,7 +42,7 @@ def existing(name: str) -> Path:
 def load_score(name: str) -> Score:
     """The score that `name` means: a MIDI file, a text score or a take by its ending, else a lesson by name or path."""
     if is_capture(name):
-        from station.cli.read_takes import take_as_score
+        from station.cli.input.read_takes import take_as_score
 
         return take_as_score(existing(name))
     if is_midi(name):

@@ -5,8 +5,8 @@ else: a gesture to be learnt.
 """
 
 from station.app.actions import Action, Answer, Begin, Pause
-from station.app.current_practice import CurrentPractice
 from station.app.preferences import Preferences
+from station.app.sessions.current_practice import CurrentPractice
 from station.app.settings_store import SettingsStore
 from station.engine.messages import EngineEvent
 from station.music.score import Score

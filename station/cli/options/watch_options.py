@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from station.cli.console import write
-from station.cli.options import HIDDEN, number, option, whole_number
+from station.cli.options.option_fields import HIDDEN, number, option, whole_number
 
 if TYPE_CHECKING:
     from station.app.opening import Watch

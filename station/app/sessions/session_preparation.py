@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from datetime import date
 from typing import TYPE_CHECKING
 
-from station.app.demo_player import DemonstratedLesson
-from station.app.model import SessionRequest
+from station.app.room_state import SessionRequest
+from station.app.sessions.demo_player import DemonstratedLesson
 from station.app.settings_store import SettingsStore
 from station.core.errors import DeviceError
 from station.core.settings import setting_source
