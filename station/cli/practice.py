@@ -210,9 +210,11 @@ def _leave(
     telling.attempt(_print_report, saved.document, as_json=options.json)
     if saved.fault is not None:
         raise saved.fault
-    telling.attempt(say, f"\nreport   {folder.path / TEXT_NAME}")
+    paths = [folder.path / TEXT_NAME]
     if not options.no_pictures:
-        _draw(folder, saved, settings, telling)
+        paths += _draw(folder, saved, settings, telling)
+    if telling.failure is None:
+        say("\n" + "\n".join(f"{'picture' if path.suffix == '.png' else 'report':9}{path}" for path in paths))
     if isinstance(telling.failure, BrokenPipeError):  # whoever read has gone, and wants no word of it
         raise telling.failure
     unsaid = telling.fault(f"the session is kept in {folder.path}, but not all could be printed")
@@ -229,14 +231,14 @@ def _print_report(document: dict[str, Json], as_json: bool) -> None:
         write(f"\n{document['pairs_csv']}", end="", flush=True)
 
 
-def _draw(folder: SessionFolder, saved: SessionRecord, settings: Settings, telling: Telling) -> None:
+def _draw(folder: SessionFolder, saved: SessionRecord, settings: Settings, telling: Telling) -> list[Path]:
     from station.scenes.pictures import draw_record
 
     try:
-        for picture in draw_record(saved, folder.path, settings):
-            telling.attempt(say, f"picture  {picture}")
+        return list(draw_record(saved, folder.path, settings))
     except StationError as error:
         telling.attempt(say, f"no picture: {error}")
+        return []
 
 
 # --- what was asked --------------------------------------------------------------------------------------------------

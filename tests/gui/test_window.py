@@ -57,7 +57,7 @@ def test_a_settings_folder_that_is_a_file_keeps_no_window_from_opening(
     environment: dict[str, str], tmp_path: Path
 ) -> None:
     (tmp_path / "config").write_text("a file")
-    command = [sys.executable, "-c", "from station.app.opening import open_until; open_until(3)"]
+    command = [sys.executable, "-m", "station.cli.command_line", "--watch-frames", "3"]
     at = {**environment, "XDG_CONFIG_HOME": str(tmp_path / "config"), "HOME": str(tmp_path)}
     done = subprocess.run(
         command, env=at, cwd=tmp_path, capture_output=True, text=True, timeout=PATIENCE_S, check=False
@@ -197,7 +197,7 @@ def the_kit_is_seen_and_set_by_looking(seen: dict[str, Any]) -> None:
     assert seen["raw"] == "99 26 0a"
     assert seen["held back"] == [False, False, True], "10 is softer than the threshold of 30, once that is set"
     assert seen["kept"] == 30
-    assert "TakeKit" in seen["taken"]
+    assert "ReloadDevice" in seen["taken"]
     assert seen["told"], "where it is kept, or that the engine took it"
     assert seen["still listens"] == [True, False]
     assert seen["unknown"] == [[10, 14]]

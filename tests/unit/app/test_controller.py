@@ -413,11 +413,11 @@ def test_a_faulty_file_is_told_and_keeps_nobody_from_practising(tmp_path: Path) 
     store = SettingsStore(tmp_path / "settings.toml", {"sessions": str(tmp_path)})
     station = station_on([Line()], store, Launch(PLAN))
     station.update(1)
-    assert "kitt: no such setting" in station.view().toast
+    assert "no such setting: kitt" in station.view().toast
     station.dispatch(SetView(replace(station.view().look, mirrored=True)))
     station.update(2)
     assert station.view().look.mirrored
-    assert "kitt: no such setting" in station.view().toast
+    assert "no such setting: kitt" in station.view().toast
     station.dispatch(Begin())
     assert room(station).stage is Stage.PLAYING
 
@@ -448,7 +448,7 @@ def test_what_cannot_be_written_any_more_is_told_when_the_window_is_closed(tmp_p
     station.dispatch(Begin())
     station.dispatch(SetView(replace(station.view().look, mirrored=True)))
     (tmp_path / "settings.toml").write_text('kitt = "TD-17"\n')
-    assert "kitt: no such setting" in str(station.close())
+    assert "no such setting: kitt" in str(station.close())
 
 
 def test_a_session_that_was_cut_off_is_told_of_when_the_window_opens(tmp_path: Path) -> None:

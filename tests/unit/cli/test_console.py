@@ -43,21 +43,6 @@ def test_a_closed_output_is_one_line(
     assert capsys.readouterr().err == "station: standard output is closed\n"
 
 
-@needs_full
-@pytest.mark.parametrize("json", [("--json",), ()])
-def test_a_session_is_kept_that_cannot_be_printed(
-    json: tuple[str, ...], capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "config"))
-    monkeypatch.setenv("HOME", str(tmp_path))
-    words = ["practice", "rock-1", "--virtual-student", "pro", "--loops", "1", "--report", str(tmp_path / "session")]
-    with full(monkeypatch, "stdout"):
-        assert main([*words, *json]) == 2
-    assert capsys.readouterr().err == "station: standard output: No space left on device\n"
-    kept = {path.name for path in (tmp_path / "session").iterdir()}
-    assert {"session.capture", "report.json", "report.txt", "pairs.csv"} <= kept
-
-
 def test_who_has_gone_is_told_nothing(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     class Gone(io.StringIO):
         def write(self, _: str) -> int:
