@@ -41,7 +41,7 @@ from station.gui.panels.view_popup import LOOK_LABEL  # noqa: E402
 from station.practice.records.memory import Memory  # noqa: E402
 from station.render.files.png_file import write_png  # noqa: E402
 from station.render.gpu.moving_parts import DoublePlace  # noqa: E402
-from tests.gui.drive import NEWCOMER, Drive, Measurement, Scenario, open_panel, press_view  # noqa: E402
+from tests.gui.drive import NEWCOMER, Drive, Scenario, open_panel, press_view  # noqa: E402
 from tests.gui.x_server import screen  # noqa: E402
 
 Context = imgui.test_engine.TestContext
@@ -147,7 +147,6 @@ def _which_pad(drive: Drive, ctx: Context) -> None:
 
 
 def _calibration(drive: Drive, ctx: Context) -> None:
-    drive.station.calibration.start = Measurement
     open_panel(ctx, DEVICES)
     ctx.set_ref(f"//{DEVICES}")
     ctx.item_click("Strike##by")
