@@ -29,14 +29,14 @@ class State:
     """
 
     room: RoomState
-    choice: Selection
+    selection: Selection
     player: PlayerView
     settings: Settings
-    look: ViewSettings
+    view_settings: ViewSettings
     style: StyleView
     hands: Hands
     score: Score
-    habits: PracticePreferences
+    preferences: PracticePreferences
     mapping: MappingView
     calibration: CalibrationView
     snapshot: Snapshot | None = None

@@ -113,10 +113,10 @@ def _record(options: RecordOptions) -> int:
                     engine.handle(RecordCapture(options.file))
                     records = True
                 _feed(engine, findings)
-                hits += _tell(engine)
+                hits += _print_events(engine)
         finally:
             engine.handle(RecordCapture(None))
-    hits += _tell(engine)
+    hits += _print_events(engine)
     say(f"{hits} hits in {options.file}" if records else "no kit came: nothing was recorded")
     return 0
 
@@ -130,7 +130,7 @@ def _feed(engine: "Engine", findings: PortPoll) -> None:
         engine.device_lost(findings.device, monotonic_ns())
 
 
-def _tell(engine: "Engine") -> int:
+def _print_events(engine: "Engine") -> int:
     """Say what happened and count the hits; raises `DeviceError` where the capture did not begin or end well."""
     from station.engine.messages import CaptureSaved, Notice
 

@@ -52,7 +52,7 @@ def run(options: CalibrateOptions) -> int:
     from station.app.equipment.latency_methods import measured
 
     settings, before = load_settings(), load_calibration()
-    findings = measured(_wish(options, settings), before, say)
+    findings = measured(_request(options, settings), before, say)
     worth = [row for row in findings.rows if row.storable and (row.estimate.trusted or _insists(options, row))]
     if not options.json:
         write(text(findings, before), end="")
@@ -72,15 +72,15 @@ def run(options: CalibrateOptions) -> int:
 # --- measuring -------------------------------------------------------------------------------------------------------
 
 
-def _wish(options: CalibrateOptions, settings: Settings) -> "MeasureRequest":
+def _request(options: CalibrateOptions, settings: Settings) -> "MeasureRequest":
     """On the devices that are asked for, else on the settings'."""
     from station.app.equipment.latency_methods import MeasureRequest
     from station.devices.device_ports import parse_kit
 
-    wish = MeasureRequest.of(settings, options.by, options.distance)
+    request = MeasureRequest.of(settings, options.by, options.distance)
     output = settings.output if options.output is None else options.output
-    kit = wish.kit if options.device is None else parse_kit(options.device)
-    return replace(wish, sound=replace(wish.sound, output=output, input=options.input), kit=kit)
+    kit = request.kit if options.device is None else parse_kit(options.device)
+    return replace(request, sound=replace(request.sound, output=output, input=options.input), kit=kit)
 
 
 # --- storing ---------------------------------------------------------------------------------------------------------

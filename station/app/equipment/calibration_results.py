@@ -77,10 +77,10 @@ def rows_of_taps(
     """What taps on `piece` told: what the kit is known to have is not the output's, what both have not the habit."""
     kit, output = before.kits.get(devices.kit or ""), before.outputs.get(devices.output or "")
     known_ms = kit.of_pad(piece).latency_ms if kit is not None else 0.0
-    together = CalibrationResult("together", devices.kit or "", found.total)
+    total = CalibrationResult("together", devices.kit or "", found.total)
     if kit is not None and output is not None and output.by != TAPPED:
-        return together, CalibrationResult("habit", devices.kit or "", found.habit(known_ms + output.latency_ms))
-    return together, CalibrationResult("equipment", devices.output or "", found.equipment.less(known_ms))
+        return total, CalibrationResult("habit", devices.kit or "", found.habit(known_ms + output.latency_ms))
+    return total, CalibrationResult("equipment", devices.output or "", found.equipment.less(known_ms))
 
 
 # --- telling ---------------------------------------------------------------------------------------------------------

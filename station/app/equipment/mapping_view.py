@@ -44,10 +44,10 @@ class SeenKit:
     suspicions: deque[Suspicion] = field(default_factory=_suspicions)
     strokes: dict[Piece, deque[PadStroke]] = field(default_factory=dict)
     fault: str = ""
-    ear: PadEar = field(default_factory=PadEar)
+    listener: PadEar = field(default_factory=PadEar)
     before: list[tuple[DeviceMap, DeviceMap]] = field(default_factory=list)
 
-    def take(self, line: MonitorLine) -> None:
+    def add(self, line: MonitorLine) -> None:
         """One more line."""
         self.lines.append(line)
         hit = line.ghost.hit if line.ghost is not None else line.event

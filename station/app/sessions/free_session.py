@@ -1,4 +1,4 @@
-"""Just play, as the room holds it: a take, its folder, its pictures, and the take to be heard again.
+"""Just play: a take, its folder, its pictures, and the take to be heard again.
 
 Strokes light the kit before, in and after a take; only a take's are kept.
 """
@@ -70,11 +70,11 @@ class FreeSession:
 
     # --- the take ----------------------------------------------------------------------------------------------------
 
-    def begin(self, engine: EngineLink, wish: FreeRequest) -> None:
-        """Record from now on, to the click that is wished for; raises `StationError`."""
+    def begin(self, engine: EngineLink, request: FreeRequest) -> None:
+        """Record from now on, to the click that is asked for; raises `StationError`."""
         settings = self._store.now
-        pattern = parse_click(settings.click_pattern, setting_source("click_pattern")) if wish.click else None
-        play = FreePlay(FreeClick(wish.tempo_bpm, pattern), self._latency)
+        pattern = parse_click(settings.click_pattern, setting_source("click_pattern")) if request.click else None
+        play = FreePlay(FreeClick(request.tempo_bpm, pattern), self._latency)
         folder = SessionFolder.make(None, settings, FOLDER)
         try:
             begin(engine, play, folder.capture)
@@ -84,7 +84,7 @@ class FreeSession:
         self._play, self._folder, self._take, self.runs = play, folder, None, True
 
     def handle(self, event: EngineEvent) -> None:
-        """Take one event of the engine."""
+        """Handle one event of the engine."""
         if self.runs:
             self._play.handle(event)
         else:

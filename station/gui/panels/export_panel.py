@@ -40,16 +40,16 @@ class ExportPanel:
         lesson, (first, last) = state.player.lesson, state.export_bars
         theme.heading(lesson.title, 20)
         theme.soft(f"bars {first + 1} to {last + 1}" if first != last else f"bar {first + 1}")
-        for kind, (label, told) in _FILES.items():
-            self._button(label, told, Export(kind))
+        for kind, (label, tip) in _FILES.items():
+            self._button(label, tip, Export(kind))
         if not state.is_filming:
-            for kind, (label, told) in _FILMS.items():
-                self._button(label, told, Export(kind))
+            for kind, (label, tip) in _FILMS.items():
+                self._button(label, tip, Export(kind))
             return
         self._button(CANCEL_LABEL, "Give it up; nothing is left of it", CancelFilm())
         theme.soft("It is being filmed; you may go on.")
 
-    def _button(self, label: str, told: str, action: Action) -> None:
+    def _button(self, label: str, tip: str, action: Action) -> None:
         if imgui.button(label, imgui.ImVec2(-1, theme.points(40))):
             self._dispatch(action)
-        theme.tooltip(told)
+        theme.tooltip(tip)

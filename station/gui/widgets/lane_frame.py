@@ -29,5 +29,5 @@ class LaneFrame:
         steps = round(abs(last_bar - bar) * self.beats)
         if steps == 0:
             return [(last_bar, last)]
-        along = [step / steps for step in range(steps + 1)]
-        return [(round(bar + a * (last_bar - bar), _DIGITS), value + a * (last - value)) for a in along]
+        fractions = [step / steps for step in range(steps + 1)]
+        return [(round(bar + a * (last_bar - bar), _DIGITS), value + a * (last - value)) for a in fractions]

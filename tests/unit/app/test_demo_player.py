@@ -147,13 +147,15 @@ def test_another_manner_or_body_is_in_the_next_picture() -> None:
     made, _ = deck()
     made.do(lambda player, now_ns: player.sought(now_ns, BAR_NS + 200 * NS_PER_MS))
     large = Demonstrator(style=Style(amplitude_gain=95.0, posture_deg=-5.0))
-    for who in (Demonstrator(), large, Demonstrator(figure_of(1.9), large.style)):
-        made.perform_as(who)
+    for demonstrator in (Demonstrator(), large, Demonstrator(figure_of(1.9), large.style)):
+        made.perform_as(demonstrator)
         shown = made.snapshot()
-        expected = Drummer(with_sticking(ROCK.score, KIT, None), KIT, who.figure, who.style).pose(shown.position_s)
+        expected = Drummer(with_sticking(ROCK.score, KIT, None), KIT, demonstrator.figure, demonstrator.style).pose(
+            shown.position_s
+        )
         assert shown.pose is not None
         assert np.allclose(shown.pose.row, expected.row)
-        assert shown.figure == who.figure
+        assert shown.figure == demonstrator.figure
 
 
 # --- count-in ---------------------------------------------------------------------------------------------------------

@@ -33,6 +33,6 @@ def test_a_report_that_cannot_be_printed_is_kept_and_that_is_said(
     folder = tmp_path / "x"
     monkeypatch.setattr(sys, "stdout", FullDisk())
     assert main(["practice", "rock-1", *VIRTUAL, "--report", str(folder), *words]) == 2
-    fault = f"the session is kept in {folder}, but not all could be printed: No space left on device"
+    fault = f"the session is kept in {folder}, but not all could be printed: standard output: No space left on device"
     assert capsys.readouterr().err.splitlines()[-1] == f"station: {fault}"
     assert {"report.json", "report.txt", "pairs.csv"} <= {path.name for path in folder.iterdir()}

@@ -61,7 +61,7 @@ def test_a_change_to_what_is_already_so_writes_nothing(path: Path) -> None:
 def test_a_faulty_file_is_told_and_left_alone_and_changes_hold_for_this_run(path: Path) -> None:
     path.write_text('kitt = "TD-17"\n')
     store = SettingsStore(path)
-    assert "kitt: no such setting" in str(store.fault)
+    assert "no such setting: kitt" in str(store.fault)
     assert store.now == Settings(welcomed=True), "the questions of the first start are not asked again"
     with pytest.raises(BadInput, match="kitt"):
         put(store, theme="day")
