@@ -49,7 +49,7 @@ class Show:
 
 @dataclass(frozen=True, slots=True)
 class Notify:
-    """Tell the user a line."""
+    """Show the user a line."""
 
     line: str
 

@@ -1,6 +1,6 @@
 """The engine as the controller holds it: woken when it is needed, and what it says of kits and sound, in words.
 
-It is an `EngineLink` that remembers its own death: after the `DeviceError` of `events` that tells of it nothing more is
+It is an `EngineLink` that remembers its own death: after the `DeviceError` of `events` that reports it nothing more is
 heard, and `wake` starts another engine. A command that fails is no death yet: what was said before it is still to hear.
 """
 
@@ -72,7 +72,7 @@ class EngineClient:
         return self._resting is None or not self._resting.is_alive()
 
     def stand(self, command: Command) -> None:
-        """What this engine and every later one is told; a dead engine is told when it has been woken."""
+        """Send what holds for this engine and every later one; a dead engine gets it when it has been woken."""
         self._standing[command.bus if isinstance(command, SetLevel) else type(command)] = command
         if self.alive:
             self.send(command)

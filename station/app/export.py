@@ -1,4 +1,4 @@
-"""Some bars of a lesson to take along: MIDI, a lesson file for the teacher, a sheet to print, a video or a GIF.
+"""Exports some bars of a lesson: MIDI, a lesson file for the teacher, a sheet to print, a video or a GIF.
 
 Files lie in the student's own folder, `take-along`. A video takes its time: another process films it (`station
 animate`) in a folder that goes with it, so that the window goes on and a cancelled video leaves nothing.
@@ -52,7 +52,7 @@ class Exporter:
     def act(
         self, action: FileAction, lesson: Lesson, bars: Bars, settings: Settings, view_settings: ViewSettings
     ) -> str:
-        """Write the bars of a lesson, or film; returns what to tell, empty for nothing. Raises `StationError`."""
+        """Write the bars of a lesson, or film; returns what to show, empty for nothing. Raises `StationError`."""
         match action:
             case Export(ExportKind.FILM):
                 self.film(lesson, bars, settings, film_words(view_settings, settings), FILM)
@@ -65,7 +65,7 @@ class Exporter:
                 return f"kept in {write(lesson, bars, settings)}"
             case FilmTake(capture):
                 self.film_take(capture, film_words(view_settings, settings))
-                return "the video is being filmed; you may go on (Take along cancels it)"
+                return "the video is being filmed; you may go on (Export cancels it)"
             case CancelFilm():
                 self.cancel()
                 return ""

@@ -38,5 +38,5 @@ class Watch:
         return len(self._shown_ns) < self._frames and now_ns - self._shown_ns[0] < self._length_ns
 
     def close(self) -> None:
-        """Tell what was seen."""
+        """Report what was seen."""
         self._report({"shown_ns": self._shown_ns, "worked_s": self._worked_s, "lit": self._highlighted})

@@ -79,7 +79,7 @@ class StyleEditor:
                 entry = self._library.save(self._options.style, name)
                 self._choose(replace(self._options.style, name=entry.label), entry.source)
             case KeepSlot(slot, name):
-                self._load_slots()  # a file that cannot be read is told, and not written over
+                self._load_slots()  # a file that cannot be read is reported, and not written over
                 self._options = self._options.store(slot, name)
                 self._library.keep_slots(self._options.slots)
             case ListStyles():

@@ -87,11 +87,11 @@ def say(text: str, *, end: str = "\n") -> None:
 
 
 def say_infeasible(warnings: tuple[str, ...]) -> None:
-    """Tell what the score asks that no human can play, the rest as a number."""
+    """Say what the score asks that no human can play; beyond `_MOST_WARNINGS` as a number."""
     for warning in warnings[:_MOST_WARNINGS]:
-        say(f"beyond a human: {warning}")
+        say(f"not playable: {warning}")
     if len(warnings) > _MOST_WARNINGS:
-        say(f"beyond a human: {len(warnings) - _MOST_WARNINGS} more such bars")
+        say(f"not playable: {len(warnings) - _MOST_WARNINGS} more such bars")
 
 
 def is_attended() -> bool:

@@ -26,7 +26,7 @@ REPLAY_SCHEMA = "drum-station/replay/1"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PortsOptions:
-    """How the ports are told."""
+    """How the ports are listed."""
 
     json: bool = flag("print one JSON document")
 
@@ -40,7 +40,7 @@ class RecordOptions(ListenOptions):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReplayOptions:
-    """Which capture, and how its hits are told."""
+    """Which capture, and how its hits are printed."""
 
     file: Path = argument("FILE", "a capture", Path)
     json: bool = flag("print one JSON document")

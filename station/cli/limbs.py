@@ -19,7 +19,7 @@ SCHEMA = "drum-station/limbs/1"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LimbsOptions:
-    """Whose limbs are told, and how."""
+    """Whose limbs are printed, and how."""
 
     score: str = argument("SCORE", "a lesson, a MIDI file, a text score or a take (.capture)", str)
     drums: DrumsOptions = group(DrumsOptions)

@@ -58,7 +58,7 @@ class Pages:
             Panel(style_panel.FIGURE, right, self.figure.gui, style_panel.ABOUT, help=style_panel.HELP),
             Panel(practice_panel.PRACTICE, right, self._practice.gui, practice_panel.ABOUT, help=practice_panel.HELP),
             Panel(devices_panel.DEVICES, right, self._devices.gui, devices_panel.ABOUT, help=devices_panel.HELP),
-            Panel(export_panel.TAKE_ALONG, right, self._export.gui, export_panel.ABOUT, help=export_panel.HELP),
+            Panel(export_panel.EXPORT, right, self._export.gui, export_panel.ABOUT, help=export_panel.HELP),
             Panel(GRAPH, strip, self._graph_gui, graph_panel.ABOUT, help=graph_panel.HELP),
             Panel(TRANSPORT, DockSide.BELOW, self._transport_gui, shown=lambda state: True),
         )

@@ -65,7 +65,7 @@ def draw_session(result: SessionResult, path: Path, demonstrator: Demonstrator) 
 
 
 def picture_of(drummer: Drummer, at_s: float) -> Snapshot:
-    """The drummer at `at_s` seconds of the score; bar and beat are told while it is played."""
+    """The drummer at `at_s` seconds of the score; bar and beat are shown while it is played."""
     score = drummer.score
     hud = Hud(title=score.title, bar_count=score.bar_count)
     if 0 <= at_s * NS_PER_S < score.length_ns:

@@ -40,7 +40,7 @@ from station.gui.layout import WindowOptions
 from station.gui.panels.calibration_part import ANYWAY_LABEL, MEASURE_LABEL
 from station.gui.panels.course_list import ALL_LESSONS
 from station.gui.panels.devices_panel import DEVICES
-from station.gui.panels.export_panel import MIDI_LABEL, SHEET_LABEL, TAKE_ALONG
+from station.gui.panels.export_panel import EXPORT, MIDI_LABEL, SHEET_LABEL
 from station.gui.panels.lessons_panel import ADAPT_LABEL, FILM_LABEL, FREE_LABEL, LISTEN_LABEL
 from station.gui.panels.pads_part import LEARN_LABEL as LEARN_PAD_LABEL
 from station.gui.panels.pads_part import UNDO_LABEL
@@ -79,7 +79,7 @@ STUDENTS = {
     "practise": "pro,seed=4",
     "highway": "intermediate,seed=2,velocity_sd=30",
 }
-PATIENCE_S = 600.0  # the parent's own limit is what ends a run that hangs
+TIMEOUT_S = 600.0  # the parent's own limit is what ends a run that hangs
 
 Scenario = Callable[["Drive", imgui.test_engine.TestContext], None]
 
@@ -198,7 +198,7 @@ class Drive:
         io = imgui.test_engine.get_io(engine)
         io.config_run_speed = imgui.test_engine.TestRunSpeed.fast
         io.config_log_to_tty = True
-        io.config_watchdog_warning = io.config_watchdog_kill_test = io.config_watchdog_kill_app = PATIENCE_S
+        io.config_watchdog_warning = io.config_watchdog_kill_test = io.config_watchdog_kill_app = TIMEOUT_S
         imgui.test_engine.queue_test(engine, test)
 
     def _test(self, ctx: imgui.test_engine.TestContext) -> None:
@@ -300,7 +300,7 @@ def just_play(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.item_click(FILM_LABEL)
     drive.seen["filming"] = films.process is not None
     if films.process is not None:
-        films.process.wait(PATIENCE_S)
+        films.process.wait(TIMEOUT_S)
     ctx.yield_(3)
     capture = drive.room.take
     drive.seen["filmed"] = capture is not None and capture.with_suffix(".mp4").read_text() == str(capture)
@@ -507,15 +507,15 @@ def habits(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     open_panel(ctx, PRACTICE)  # and close it again
     ctx.yield_(2)
     drive.seen["learns unseen"] = drive.state.learns_pause
-    open_panel(ctx, TAKE_ALONG)
-    ctx.set_ref(f"//{TAKE_ALONG}")
+    open_panel(ctx, EXPORT)
+    ctx.set_ref(f"//{EXPORT}")
     ctx.item_click(MIDI_LABEL)
     ctx.yield_(2)
     drive.seen["taken"] = drive.state.toast
     ctx.item_click(SHEET_LABEL)
     ctx.yield_(2)
     drive.seen["printed"] = drive.state.toast
-    open_panel(ctx, TAKE_ALONG)
+    open_panel(ctx, EXPORT)
 
 
 def calibration(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:

@@ -89,7 +89,7 @@ def _measure(to: Connection, request: "MeasureRequest") -> None:
 
 @dataclass(frozen=True, slots=True)
 class CalibrationView:
-    """What the devices page shows: `known` of the devices, and of a measurement that `runs` the `lines` told.
+    """What the devices page shows: `known` of the devices, and of a measurement that `runs` its `lines`.
 
     After it `found` says in lines what was found, or `fault` why nothing was; `is_worth` whether judgement could
     subtract it, `trusted` whether nothing speaks against that.
@@ -207,7 +207,7 @@ class Calibration:
             raise DeviceError("a device is being measured: wait for it, or cancel it on the Devices page")
 
     def drop(self) -> None:
-        """Forget what was told and found."""
+        """Forget what was said and found."""
         self.lines, self.fault, self.findings, self._found = [], "", None, ()
 
     @property
@@ -222,7 +222,7 @@ class Calibration:
         return all(row.estimate.trusted for row in self.worth)
 
     def keep(self) -> str:
-        """Subtract it from now on; returns what to tell. Raises `StationError` if the file refuses."""
+        """Subtract it from now on; returns what to show. Raises `StationError` if the file refuses."""
         from station.app.equipment.calibration_results import outdated, with_rows
 
         before, rows = load_calibration(self._path), self.worth

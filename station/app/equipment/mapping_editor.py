@@ -1,6 +1,6 @@
 """The devices page without its picture: the kits that are here, their last strokes and lines, and their rules on trial.
 
-While the page is open the engine tells every byte besides (`WatchRawBytes`). They are understood here once more, by
+While the page is open the engine reports every byte besides (`WatchRawBytes`). They are understood here once more, by
 rules that may be set by looking; `save` keeps them in the kit's own file and lets the engine take it, so that what
 counts as a stroke changes for sound and judgement only then. What is learnt from strokes, what a pad is and how loud
 its ghosts and accents count, is kept at once, and can be undone.
@@ -141,7 +141,7 @@ class MappingEditor:
         self.device = device
 
     def listen(self, on: bool) -> None:
-        """Have the bytes told, or no longer; a dead engine is not asked."""
+        """Have the bytes reported, or no longer; a dead engine is not asked."""
         if on != self._listens:
             self._listens = on
             self.give_up()
@@ -260,7 +260,7 @@ class MappingEditor:
     # --- from the page -----------------------------------------------------------------------------------------------
 
     def act(self, action: MappingAction) -> str:
-        """Do what the user asks; returns what to tell, empty for nothing. Raises `DeviceError` if the disk refuses."""
+        """Do what the user asks; returns what to show, empty for nothing. Raises `DeviceError` if the disk refuses."""
         match action:
             case ShowKit(device):
                 self.show(device)
@@ -292,7 +292,7 @@ class MappingEditor:
                 self._obey(rule_against(suspicion))
                 self.seen.suspicions.clear()
             case RevertRules():
-                self.back()
+                self._monitor.trial(self.device, self._kept[self.device])
             case SaveRules():
                 return f"kept in {self.save()}"
             case _:
@@ -301,10 +301,6 @@ class MappingEditor:
 
     def _obey(self, order: str) -> None:
         self._monitor.trial(self.device, obey(self.kit, order))
-
-    def back(self) -> None:
-        """The rules as they are kept."""
-        self._monitor.trial(self.device, self._kept[self.device])
 
     def save(self) -> Path:
         """Keep the rules, and let the engine take them; returns where. Raises `DeviceError` if the disk refuses.

@@ -156,9 +156,10 @@ class DemoPlayer:
             case SetStep(step):
                 self.step = step
             case SetDemoClick(click):
-                self.set_click(click)
+                self.click = click
+                self._sound_on()
             case SetCountIn(counts_in):
-                self.count_in(counts_in)
+                self.counts_in = counts_in
             case PlayOrStop():
                 self.do(_play_or_stop)
             case SetSpeed(percent, held):
@@ -191,15 +192,6 @@ class DemoPlayer:
         self._counting = self._count_in() if begins else None
         if held or self._sounding_until_ns is None or _course(self.player) != _course(before):
             self._sound(held)
-
-    def set_click(self, click: bool) -> None:
-        """Let the click sound with the strokes, or the strokes alone."""
-        self.click = click
-        self._sound_on()
-
-    def count_in(self, counts_in: bool) -> None:
-        """Let a bar be counted before it plays, or not, from the next time on."""
-        self.counts_in = counts_in
 
     def halt(self) -> None:
         """Stop, where the user turns to something else."""

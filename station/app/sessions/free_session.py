@@ -91,7 +91,7 @@ class FreeSession:
             self._play.heard.take(event)
 
     def advance(self, now_ns: int) -> None:
-        """Tell the session time."""
+        """Move on to `now_ns`."""
         if self.runs:
             self._play.advance(now_ns)
 

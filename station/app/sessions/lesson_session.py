@@ -1,4 +1,4 @@
-"""One session of a lesson as the controller holds it: ready, playing, paused, over; what is seen of it, and what is kept.
+"""One session of a lesson: ready, playing, paused, over; what is seen of it, and what is kept.
 
 The controller owns engine, pads and questions; it hands over every event, says what time it is, and asks for the
 result when the session is over. Where the tempo follows the student, each pass is a session of its own

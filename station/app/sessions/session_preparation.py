@@ -22,7 +22,7 @@ from station.practice.session.plan import Plan, PlanOptions, plan_practice
 from station.sound.track import PreparedTrack
 
 if TYPE_CHECKING:
-    from station.practice.session.backing_track import Backing, BackingRequest
+    from station.practice.session.backing_track import BackingRequest
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,19 +33,16 @@ class PreparedSession:
     followed: Remembered | None = None
 
 
-def _backing_of(request: "BackingRequest") -> "Backing":
-    """What makes tracks; it comes with libraries of sound: the window opens sooner without."""
-    from station.practice.session.backing_track import Backing
-
-    return Backing(request)
-
-
 class SessionPreparation:
     """Lays out what is asked for by the settings of `store`; sessions whose tempo stays play along to `backing`."""
 
     def __init__(self, store: SettingsStore, backing: "BackingRequest | None") -> None:
         self._store = store
-        self._backing = None if backing is None else _backing_of(backing)
+        self._backing = None
+        if backing is not None:  # with libraries of sound: the window opens sooner without
+            from station.practice.session.backing_track import Backing
+
+            self._backing = Backing(backing)
 
     @property
     def has_tracks(self) -> bool:

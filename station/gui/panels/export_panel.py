@@ -1,4 +1,4 @@
-"""The panel of what can be taken along: the chosen bars as MIDI, as a lesson file, as a sheet, as a video, as a GIF."""
+"""The panel that exports the chosen bars: as MIDI, as a lesson file, as a sheet, as a video, as a GIF."""
 
 from collections.abc import Callable
 
@@ -8,7 +8,7 @@ from station.app.actions import Action, CancelFilm, Export, ExportKind
 from station.app.window_state import State
 from station.gui import theme
 
-TAKE_ALONG = "Take along"
+EXPORT = "Export"
 ABOUT = "The chosen bars as MIDI, as a file for your teacher, as a sheet to print, as a video or a GIF"
 HELP = (
     "The bars that the player repeats are written at the lesson's own tempo: MIDI for any other program; a lesson file"

@@ -38,7 +38,7 @@ class HitsPanel:
         self.at = np.empty((0, 2))
         """Where the dots lie in the window, in pixels."""
         self.pointed = ""
-        """What is told of the dot under the mouse."""
+        """The words for the dot under the mouse."""
 
     def gui(self, report: ShownResult | None) -> None:
         """Draw every hit of the `report`, None where there is no result to be seen."""

@@ -29,7 +29,7 @@ _FORMS = {
 }
 _DOUBLES = {
     DoublePlace.NOWHERE: ("None", "The demonstrator alone (E)"),
-    DoublePlace.OVER: ("Over", "You, translucent, over the demonstrator: a limb glows where it parts from his (E)"),
+    DoublePlace.OVER: ("Over", "You, translucent, over the demonstrator: a limb glows where the two part (E)"),
     DoublePlace.BESIDE: (
         "Beside",
         "You on a kit of your own beside the demonstrator's, seen from the same place (E)",

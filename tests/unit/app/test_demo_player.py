@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from station.app.actions import SetCountIn, SetDemoClick
 from station.app.sessions.demo_player import LEAD_NS, Control, DemonstratedLesson, DemoPlayer
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.drills.library import find_lesson
@@ -71,7 +72,7 @@ def test_without_the_click_the_strokes_sound_on_from_where_it_is() -> None:
     use(made, SongPlayer.played)
     made.started(NS_PER_S)
     made.advance(NS_PER_S + BAR_NS)
-    made.set_click(click=False)
+    made.act(SetDemoClick(False))
     made.advance(made.now_ns)
     assert [type(command) for command in sent] == [Play, Stop, Play]
     assert set(plays(sent)[1].cues["bus"].tolist()) == {Bus.DEMONSTRATION}
@@ -166,7 +167,7 @@ def counting_deck(*controls: Control) -> tuple[DemoPlayer, list[Command]]:
     made, sent = deck()
     for control in controls:
         use(made, control)
-    made.count_in(True)
+    made.act(SetCountIn(True))
     use(made, SongPlayer.played)
     return made, sent
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from station.app.actions import HoldBack, SetCurve, SetMask, SetShare, SetThreshold
+from station.app.actions import HoldBack, RevertRules, SetCurve, SetMask, SetShare, SetThreshold
 from station.app.equipment.mapping_editor import MappingEditor
 from station.app.equipment.mapping_view import PadStroke
 from station.core.events import DeviceFound, DeviceLost
@@ -99,7 +99,7 @@ def test_rules_are_on_trial_until_they_are_saved(bench: Bench) -> None:
     changed.append(bench.editor.is_changed)
     assert changed == [True, False]
     bench.editor.act(SetThreshold(Piece.SNARE, 50))
-    bench.editor.back()
+    bench.editor.act(RevertRules())
     assert bench.editor.kit.pad(Piece.SNARE).threshold == 20
 
 
