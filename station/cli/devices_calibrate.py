@@ -1,4 +1,4 @@
-"""`station devices calibrate`: measure the latency of outputs and kits, tell it, and store it only when asked to.
+"""`station devices calibrate`: measure the latency of outputs and kits, print it, and store it only when asked to.
 
 What is stored is subtracted by practice: of an output what its driver does not report, of a kit and its pads how much
 later than played a stroke is stamped. docs/calibration.md says how to set up each way of measuring.
@@ -47,7 +47,7 @@ class CalibrateOptions:
 
 
 def run(options: CalibrateOptions) -> int:
-    """Measure, tell, and store what the user wants stored."""
+    """Measure, print, and store what the user wants stored."""
     from station.app.equipment.calibration_results import document, outdated, text, with_rows
     from station.app.equipment.latency_methods import measured
 

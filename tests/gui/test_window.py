@@ -195,7 +195,7 @@ def the_kit_is_seen_and_set_by_looking(seen: dict[str, Any]) -> None:
     assert seen["raw"] == "99 26 0a"
     assert seen["held back"] == [False, False, True], "10 is softer than the threshold of 30, once that is set"
     assert seen["kept"] == 30
-    assert "TakeKit" in seen["taken"]
+    assert "ReloadDevice" in seen["taken"]
     assert seen["told"], "where it is kept, or that the engine took it"
     assert seen["still listens"] == [True, False]
     assert seen["unknown"] == [[10, 14]]

@@ -1,6 +1,6 @@
 """Measuring latency from the window: in a process of its own, while the engine rests; nothing is stored unasked.
 
-The engine has the sound card and the kit for itself: it is put to rest before and woken after. What was told and found
+The engine has the sound card and the kit for itself: it is put to rest before and woken after. What was said and found
 is kept here for the page; `keep` subtracts it from then on, only when the user says so. What measures is heavy, and not
 imported before it is wanted: the window would open later by a fifth.
 """

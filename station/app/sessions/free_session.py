@@ -127,15 +127,15 @@ class FreeSession:
     def snapshot(self, kit: Kit, now_ns: int, heard_ns: int | None = None) -> Snapshot:
         """The kit, what was struck just now, and the strip; `heard_ns` is the place in the take that sounds."""
         at_ns = self._play.at_ns if self.runs else heard_ns if heard_ns is not None else self._end_ns
-        lit = strikes(self._play.heard.recent, now_ns)
+        shown = strikes(self._play.heard.recent, now_ns)
         if heard_ns is not None:
-            lit += self._sounding(heard_ns)
+            shown += self._sounding(heard_ns)
         return Snapshot(
             score=_NO_SCORE,
             position_s=(at_ns or 0) / NS_PER_S,
             kit=kit,
             figure=self._figure,
-            strikes=lit,
+            strikes=shown,
             hud=self._hud(at_ns, heard_ns is not None),
             strip=Strip(self._strokes(), self._beat_s, BEATS),
         )

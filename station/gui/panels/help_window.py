@@ -40,7 +40,7 @@ def _page(topic: Topic, tools: Sequence[Panel]) -> None:
     imgui.spacing()
     if imgui.begin_table("##parts", 2, imgui.TableFlags_.sizing_stretch_prop):
         imgui.table_setup_column("name", imgui.TableColumnFlags_.width_stretch, 0.27)
-        imgui.table_setup_column("told", imgui.TableColumnFlags_.width_stretch, 0.73)
+        imgui.table_setup_column("about", imgui.TableColumnFlags_.width_stretch, 0.73)
         for name, tip in page.parts:
             imgui.table_next_row()
             imgui.table_next_column()

@@ -1,4 +1,4 @@
-"""Every hit of the result over the bars of the lesson, and a bar by ear: the teacher's, and one's own."""
+"""Every hit of the result over the bars of the lesson, and a bar to be heard: the teacher's, and one's own."""
 
 import numpy as np
 from imgui_bundle import imgui, implot

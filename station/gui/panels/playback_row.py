@@ -15,8 +15,8 @@ from station.practice.demonstration.compare_by_ear import Whose
 from station.practice.records.previous_session import PreviousSession
 from station.scenes.hit_table import EveryHit
 
-TEACHER_LABEL, STUDENT_LABEL, STOP_LABEL = "Teacher##ear", "You##ear", "Stop##ear"
-PREVIOUS_LABEL = "###earlier"
+TEACHER_LABEL, STUDENT_LABEL, STOP_LABEL = "Teacher##playback", "You##playback", "Stop##playback"
+PREVIOUS_LABEL = "###previous"
 """What stands before it is the day."""
 _WIDE = 90.0
 
@@ -88,4 +88,4 @@ class PlaybackRow:
 def _slider(label: str, value: int, ends: tuple[int, int], row: FlowRow) -> int:
     row.place(theme.points(_WIDE))
     imgui.set_next_item_width(theme.points(_WIDE))
-    return theme.slider_int(f"##ear-{label}", value, *ends, f"{label} %d")[1]
+    return theme.slider_int(f"##playback-{label}", value, *ends, f"{label} %d")[1]

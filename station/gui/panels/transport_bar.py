@@ -38,7 +38,7 @@ _MIRROR = "mirror"
 _LEAST_LEFT = 260.0
 """Design pixels below which panels and views leave their place to the ruler, and are behind a button."""
 _MIN_LINE_WIDTH, _LEAST_PROGRESS = 108.0, 60.0
-"""Design pixels: narrower words and a shorter bar tell nothing (our choice)."""
+"""Design pixels: narrower words and a shorter bar say nothing (our choice)."""
 _BUTTON, _VIEW = 64.0, 178.0
 """Design pixels: buttons of one word, the list of views."""
 

@@ -6,7 +6,7 @@ Bars count from 1; a drag draws a point on every beat, so that a phrase begins o
 from dataclasses import dataclass
 
 _DIGITS = 6
-"""So exactly is a bar told: the same beat is the same number, however it was reached."""
+"""So exactly is a bar given: the same beat is the same number, however it was reached."""
 
 
 @dataclass(frozen=True, slots=True)
