@@ -30,11 +30,11 @@ from station.drills.mastery.probes import Probes  # noqa: E402
 from station.drills.mastery.reviews import Review  # noqa: E402
 from station.gui.panels.calibration_part import DROP_LABEL, MEASURE_LABEL  # noqa: E402
 from station.gui.panels.devices_panel import DEVICES  # noqa: E402
-from station.gui.panels.export_panel import TAKE_ALONG  # noqa: E402
+from station.gui.panels.export_panel import EXPORT  # noqa: E402
 from station.gui.panels.hits_panel import HITS  # noqa: E402
 from station.gui.panels.lessons_panel import FREE_LABEL  # noqa: E402
 from station.gui.panels.pads_part import LEARN_LABEL as LEARN_PAD_LABEL  # noqa: E402
-from station.gui.panels.playback_row import EARLIER_LABEL  # noqa: E402
+from station.gui.panels.playback_row import PREVIOUS_LABEL  # noqa: E402
 from station.gui.panels.practice_panel import PRACTICE  # noqa: E402
 from station.gui.panels.style_panel import FIGURE  # noqa: E402
 from station.gui.panels.view_popup import LOOK_LABEL  # noqa: E402
@@ -110,7 +110,7 @@ def _compared(drive: Drive, ctx: Context) -> None:
     drive.wait_for(ctx, Stage.RESULT)
     ctx.yield_(3)
     ctx.set_ref("//Bars")
-    ctx.item_click(f"**/{EARLIER_LABEL}")
+    ctx.item_click(f"**/{PREVIOUS_LABEL}")
     ctx.yield_(14)
 
 
@@ -156,7 +156,7 @@ def _calibration(drive: Drive, ctx: Context) -> None:
 
 
 def _double(drive: Drive, ctx: Context) -> None:
-    drive.station.dispatch(SetView(replace(drive.state.look, double=DoublePlace.BESIDE)))
+    drive.station.dispatch(SetView(replace(drive.state.view_settings, double=DoublePlace.BESIDE)))
     _playing(drive, ctx)
 
 
@@ -188,7 +188,7 @@ PAGES: Mapping[str, Callable[[Drive, Context], None]] = {
     "figure": _tool(FIGURE),
     "graph": _tool("Graph"),
     "practice": _tool(PRACTICE),
-    "take-along": _tool(TAKE_ALONG),
+    "take-along": _tool(EXPORT),
     "devices": _devices,
     "touch": _touch,
     "which-pad": _which_pad,
@@ -215,7 +215,7 @@ def draw(pages: Sequence[str], size: tuple[int, int], scale: float, folder: Path
     """Open a window of `size`, go to each of `pages` and keep its picture in `folder`."""
     with tempfile.TemporaryDirectory() as sessions:
         drive = Drive(Path(sessions), _STUDENTS.get(pages[0]), size=size)
-        drive.station.dispatch(SetView(replace(drive.state.look, scale=scale)))
+        drive.station.dispatch(SetView(replace(drive.state.view_settings, scale=scale)))
         if "courses" in pages:
             _learnt(drive)
         drive.run([_shown(page, size, folder / f"{page}.png") for page in pages])

@@ -49,7 +49,7 @@ class Show:
 
 @dataclass(frozen=True, slots=True)
 class Notify:
-    """Tell the user a line."""
+    """Show the user a line."""
 
     line: str
 
@@ -61,7 +61,7 @@ class Notify:
 class Select:
     """Another choice of lesson, tempo, passes, or what is listed."""
 
-    choice: Selection
+    selection: Selection
 
 
 @dataclass(frozen=True, slots=True)
@@ -255,7 +255,7 @@ class EditStyle:
 
 
 @dataclass(frozen=True, slots=True)
-class TakeStyle:
+class LoadStyle:
     """Take a style from its source: a shipped name, or a file."""
 
     source: str
@@ -286,7 +286,7 @@ class ListStyles:
     """See anew which styles there are."""
 
 
-StyleAction = EditStyle | TakeStyle | ProposeStyle | SaveStyle | KeepSlot | ListStyles
+StyleAction = EditStyle | LoadStyle | ProposeStyle | SaveStyle | KeepSlot | ListStyles
 
 
 @dataclass(frozen=True, slots=True)
@@ -307,7 +307,7 @@ class LeadWith:
 
 
 @dataclass(frozen=True, slots=True)
-class Meet:
+class FinishFirstStart:
     """What a newcomer has answered, None where the questions were put aside."""
 
     answers: FirstAnswers | None
@@ -317,7 +317,7 @@ class Meet:
 class SetView:
     """How the picture and the panels look."""
 
-    look: ViewSettings
+    view_settings: ViewSettings
 
 
 @dataclass(frozen=True, slots=True)
@@ -332,7 +332,7 @@ class KeepViewpoint:
 class SetPreferences:
     """How sessions go."""
 
-    habits: PracticePreferences
+    preferences: PracticePreferences
 
 
 @dataclass(frozen=True, slots=True)
@@ -342,7 +342,7 @@ class LearnPause:
     on: bool
 
 
-SettingsAction = Meet | SetView | KeepViewpoint | SetPreferences | LearnPause | Embody | LeadWith
+SettingsAction = FinishFirstStart | SetView | KeepViewpoint | SetPreferences | LearnPause | Embody | LeadWith
 
 # --- kits -------------------------------------------------------------------------------------------------------------
 
@@ -442,7 +442,7 @@ MappingAction = ShowKit | LearnPad | LearnVelocity | GiveUp | NameNote | UndoLea
 
 @dataclass(frozen=True, slots=True)
 class Measure:
-    """Measure how late the devices are, `by` one of the ways of `calibration_desk`."""
+    """Measure how late the devices are, `by` one of the ways of `latency_methods`."""
 
     by: str
     distance_m: float = 0.0

@@ -50,14 +50,14 @@ class Controller:
         if store.fault is not None:
             notify(f"{store.fault}; the defaults hold for what is wrong")
         notify(offer(store.now) or "")
-        self._look = view_settings_of(store.now)
+        self._view_settings = view_settings_of(store.now)
         self._engine = EngineClient(processes.engine, store.now.rate_hz)
         self._style = StyleEditor(store, notify)
-        self.sessions = SessionControl(self._engine, store, launch, self._style.who, notify)
-        self.mapping = MappingEditor(self._engine.tell)
+        self.sessions = SessionControl(self._engine, store, launch, self._style.demonstrator, notify)
+        self.mapping = MappingEditor(self._engine.forward)
         self.calibration = Calibration(self._rest, self._engine.wake, processes.measure)
-        self.habits = Preferences(store)
-        self._pads = PadControl(store, self.habits, launch.plan.score)
+        self.preferences = Preferences(store)
+        self._pads = PadControl(store, self.preferences, launch.plan.score)
         self.export = Exporter(processes.animate)
         self._chooser = Chooser(self.sessions, store, launch)
         self._shown = do.Show()
@@ -72,12 +72,12 @@ class Controller:
         self._tried(self.calibration.advance)
         self._tried(self._chooser.update)
         events = self._heard()
-        asked = [action for event in events if (action := self._take(event)) is not None]
+        asked = [action for event in events if (action := self._handle(event)) is not None]
         self.mapping.advance(now_ns)
         self.sessions.advance(now_ns)
-        told = self.export.news()
-        if told is not None:
-            self._toasts.notify(told)
+        message = self.export.news()
+        if message is not None:
+            self._toasts.notify(message)
         for action in asked:
             self.dispatch(action)
         if not self.sessions.practice.is_playing:
@@ -93,13 +93,13 @@ class Controller:
             self.sessions.died()
             return []
 
-    def _take(self, event: EngineEvent) -> do.Begin | None:
-        """Take one event; a session that it asks for begins when all others are taken, anything else at once."""
-        self.mapping.take(event)
-        self.sessions.take(event, self._now_ns)
+    def _handle(self, event: EngineEvent) -> do.Begin | None:
+        """Handle one event; a session that it asks for begins when all others are handled, anything else at once."""
+        self.mapping.handle(event)
+        self.sessions.handle(event, self._now_ns)
         if self.mapping.learns:  # strokes teach, and ask for nothing
             return None
-        asked = self._pads.take(event, self.sessions.practice)
+        asked = self._pads.handle(event, self.sessions.practice)
         if asked is None or isinstance(asked, do.Begin):
             return asked
         self.dispatch(asked)
@@ -124,20 +124,20 @@ class Controller:
         snapshot = sessions.snapshot(self._now_ns) if shown.picture else None
         return State(
             room=sessions.room(),
-            choice=self._chooser.choice,
+            selection=self._chooser.selection,
             player=sessions.player.view(),
             settings=self._store.now,
-            look=self._look,
+            view_settings=self._view_settings,
             style=self._style.view(),
             hands=sessions.hands,
-            score=sessions.practice.run.plan.lesson.score,
-            habits=self.habits.now,
+            score=sessions.practice.session.plan.lesson.score,
+            preferences=self.preferences.now,
             mapping=self.mapping.view() if shown.devices else MappingView(),
             calibration=self.calibration.view() if shown.devices else _NO_CALIBRATION,
             snapshot=snapshot,
-            report=sessions.practice.outcome.report,
+            report=sessions.practice.last_result.report,
             curves=sessions.curves() if shown.curves else None,
-            learns_pause=self.habits.learns,
+            learns_pause=self.preferences.learns,
             export_bars=self._chooser.bars,
             is_filming=self.export.path is not None,
             toast=self._toasts.text,
@@ -170,13 +170,13 @@ class Controller:
         elif isinstance(action, do.CalibrationAction):
             self._measure(action)
         elif isinstance(action, do.StyleAction):
-            self._style.act(action, self.sessions.practice.run.plan.lesson.score)
-            self.sessions.perform_as(self._style.who)
+            self._style.act(action, self.sessions.practice.session.plan.lesson.score)
+            self.sessions.perform_as(self._style.demonstrator)
         elif isinstance(action, do.SettingsAction):
             self._set(action)
         elif isinstance(action, do.FileAction):
             lesson, bars = self.sessions.player.lesson, self._chooser.bars
-            self._toasts.notify(self.export.act(action, lesson, bars, self._store.now, self._look))
+            self._toasts.notify(self.export.act(action, lesson, bars, self._store.now, self._view_settings))
         elif isinstance(action, do.Show):
             self._show(action)
         elif isinstance(action, do.Notify):
@@ -203,7 +203,7 @@ class Controller:
 
     def _begin(self, bar: int | None = None) -> None:
         self.calibration.refuse()
-        self.habits.learn(on=False)  # what is played from now on is no gesture to be learnt
+        self.preferences.learn(on=False)  # what is played from now on is no gesture to be learnt
         self._chooser.begin(bar)
 
     def _leave(self) -> None:
@@ -221,7 +221,7 @@ class Controller:
         before, self._shown = self._shown, shown
         self.mapping.listen(shown.devices)
         if not shown.practice:
-            self.habits.learn(on=False)
+            self.preferences.learn(on=False)
         if shown.catalog:
             self._chooser.offer_all()
         if shown.devices and not before.devices:
@@ -229,20 +229,20 @@ class Controller:
 
     def _set(self, action: do.SettingsAction) -> None:
         match action:
-            case do.Meet(answers):
+            case do.FinishFirstStart(answers):
                 self._store.update(lambda settings: answered(settings, answers))
                 if answers is not None:
                     self._tried(lambda: self._engine.stand(student_level(self._store.now)))
                     self._chooser.show_anew()
-            case do.SetView(look):
-                self._look_as(replace(look, viewpoints=self._look.viewpoints))
+            case do.SetView(view_settings):
+                self._set_view(replace(view_settings, viewpoints=self._view_settings.viewpoints))
             case do.KeepViewpoint(slot, camera):
-                self._look_as(self._look.keeping(slot, camera))
+                self._set_view(self._view_settings.keeping(slot, camera))
                 self._toasts.notify(f"viewpoint {slot + 1} is kept: {slot + 1} comes back to it")
-            case do.SetPreferences(habits):
-                self.habits.put(habits)
+            case do.SetPreferences(preferences):
+                self.preferences.put(preferences)
             case do.LearnPause(on):
-                self.habits.learn(on)
+                self.preferences.learn(on)
             case do.LeadWith(hands):
                 self._store.update(lambda settings: replace(settings, hands=hands.value))
                 self._chooser.show_anew()
@@ -251,19 +251,19 @@ class Controller:
             case _:
                 assert_never(action)
 
-    def _look_as(self, look: ViewSettings) -> None:
-        self._look = look
-        self._store.update(lambda settings: with_view_settings(settings, look))
+    def _set_view(self, view_settings: ViewSettings) -> None:
+        self._view_settings = view_settings
+        self._store.update(lambda settings: with_view_settings(settings, view_settings))
 
     def _embody(self, figure: str) -> None:
         before = self._style.figure
         self._style.embody(figure)
-        self.sessions.perform_as(self._style.who)
+        self.sessions.perform_as(self._style.demonstrator)
         try:
             self._chooser.show_anew()
         except StationError:  # out of reach
             self._style.embody(before)
-            self.sessions.perform_as(self._style.who)
+            self.sessions.perform_as(self._style.demonstrator)
             raise
         self._store.update(lambda settings: replace(settings, figure=figure))
 
@@ -276,9 +276,9 @@ class Controller:
             case do.CancelMeasuring():
                 self.calibration.cancel()
             case do.KeepMeasured():
-                told = self.calibration.keep()
+                message = self.calibration.keep()
                 self.sessions.trust(latency_of(self._store.now, load_calibration()))
-                self._toasts.notify(told)
+                self._toasts.notify(message)
                 self.calibration.look_up()
             case do.ForgetMeasured():
                 self.calibration.drop()
@@ -288,7 +288,7 @@ class Controller:
     def _rest(self) -> Callable[[], bool]:
         """Let the engine's devices go; returns what says whether it has. Raises `DeviceError` while somebody plays."""
         for kit in self.sessions.rest():
-            self.mapping.take(DeviceLost(0, kit))
+            self.mapping.handle(DeviceLost(0, kit))
         return self._engine.has_rested
 
     def close(self) -> StationError | None:

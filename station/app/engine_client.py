@@ -1,6 +1,6 @@
-"""The engine as the room holds it: woken when it is needed, and what it says of kits and sound, in words.
+"""The engine as the controller holds it: woken when it is needed, and what it says of kits and sound, in words.
 
-It is an `EngineLink` that remembers its own death: after the `DeviceError` of `events` that tells of it nothing more is
+It is an `EngineLink` that remembers its own death: after the `DeviceError` of `events` that reports it nothing more is
 heard, and `wake` starts another engine. A command that fails is no death yet: what was said before it is still to hear.
 """
 
@@ -72,13 +72,13 @@ class EngineClient:
         return self._resting is None or not self._resting.is_alive()
 
     def stand(self, command: Command) -> None:
-        """What this engine and every later one is told; a dead engine is told when it has been woken."""
+        """Send what holds for this engine and every later one; a dead engine gets it when it has been woken."""
         self._standing[command.bus if isinstance(command, SetLevel) else type(command)] = command
         if self.alive:
             self.send(command)
 
-    def tell(self, command: Command) -> None:
-        """Send what is for now; what asks for something lasting stands. Raises `DeviceError` as `send`."""
+    def forward(self, command: Command) -> None:
+        """Send a command; what later engines need too stands. Raises `DeviceError` as `send`."""
         self.stand(command) if isinstance(command, WatchRawBytes) else self.send(command)
 
     def send(self, command: Command) -> None:
@@ -97,10 +97,10 @@ class EngineClient:
             self.alive, self.sound, self._kits = False, "the engine has ended", []
             raise
         for event in events:
-            self._take(event)
+            self._handle(event)
         return events
 
-    def _take(self, event: EngineEvent) -> None:
+    def _handle(self, event: EngineEvent) -> None:
         match event:
             case DeviceFound(_, device):
                 self._kits = [*(kit for kit in self._kits if kit != device), device]

@@ -1,4 +1,4 @@
-"""Some bars of a lesson to take along: MIDI, a lesson file for the teacher, a sheet to print, a video or a GIF.
+"""Exports some bars of a lesson: MIDI, a lesson file for the teacher, a sheet to print, a video or a GIF.
 
 Files lie in the student's own folder, `take-along`. A video takes its time: another process films it (`station
 animate`) in a folder that goes with it, so that the window goes on and a cancelled video leaves nothing.
@@ -23,7 +23,7 @@ from station.core.settings import Settings
 from station.drills.lesson import Lesson
 from station.drills.lesson_writer import write_lesson
 from station.practice.records.session_files import folder_name
-from station.scenes.sheets import pdf_of, words_of_lesson
+from station.scenes.sheets import lesson_labels, pdf_of
 
 FOLDER = "take-along"
 _PAPER = "a4"
@@ -49,21 +49,23 @@ class Exporter:
         self.path: Path | None = None
         """The video or GIF that is filmed now."""
 
-    def act(self, action: FileAction, lesson: Lesson, bars: Bars, settings: Settings, look: ViewSettings) -> str:
-        """Write the bars of a lesson, or film; returns what to tell, empty for nothing. Raises `StationError`."""
+    def act(
+        self, action: FileAction, lesson: Lesson, bars: Bars, settings: Settings, view_settings: ViewSettings
+    ) -> str:
+        """Write the bars of a lesson, or film; returns what to show, empty for nothing. Raises `StationError`."""
         match action:
             case Export(ExportKind.FILM):
-                self.film(lesson, bars, settings, film_words(look, settings), FILM)
+                self.film(lesson, bars, settings, film_words(view_settings, settings), FILM)
                 return ""
             case Export(ExportKind.LOOP):
-                self.film(lesson, bars, settings, film_words(look, settings), LOOP)
+                self.film(lesson, bars, settings, film_words(view_settings, settings), LOOP)
                 return ""
             case Export(kind):
                 write = {ExportKind.MIDI: self.midi, ExportKind.LESSON: self.lesson, ExportKind.SHEET: self.sheet}[kind]
                 return f"kept in {write(lesson, bars, settings)}"
             case FilmTake(capture):
-                self.film_take(capture, film_words(look, settings))
-                return "the video is being filmed; you may go on (Take along cancels it)"
+                self.film_take(capture, film_words(view_settings, settings))
+                return "the video is being filmed; you may go on (Export cancels it)"
             case CancelFilm():
                 self.cancel()
                 return ""
@@ -87,7 +89,7 @@ class Exporter:
     def sheet(self, lesson: Lesson, bars: Bars, settings: Settings) -> Path:
         """The bars as notation on paper, repeated; raises `DeviceError`."""
         path = _place(lesson, bars, settings, ".pdf")
-        words = words_of_lesson(replace(lesson, loop=bars), bars)
+        words = lesson_labels(replace(lesson, loop=bars), bars)
         write_whole(path, pdf_of(lesson.score, bars, words, _PAPER))
         return path
 
@@ -146,9 +148,11 @@ class Exporter:
         """What has come of the video since it was last asked: where it is, or why there is none; None meanwhile."""
         if self.process is None or self.process.poll() is None:
             return None
-        told = self._kept() if self.process.returncode == 0 else f"no video: {_last_line(self._made.with_name(_SAID))}"
+        message = (
+            self._kept() if self.process.returncode == 0 else f"no video: {_last_line(self._made.with_name(_SAID))}"
+        )
         self._end()
-        return told
+        return message
 
     def _kept(self) -> str:
         assert self.path is not None, "a video has its place from the beginning"
@@ -184,11 +188,11 @@ def _place(lesson: Lesson, bars: Bars, settings: Settings, ending: str) -> Path:
     return folder / f"{folder_name(lesson.name)}_{bars[0] + 1}-{bars[1] + 1}{ending}"
 
 
-def film_words(look: ViewSettings, settings: Settings) -> tuple[str, ...]:
+def film_words(view_settings: ViewSettings, settings: Settings) -> tuple[str, ...]:
     """How `station animate` is to film what is seen in the window."""
-    words = ["--quality", "low", "--view", look.view.name.lower()]
+    words = ["--quality", "low", "--view", view_settings.view.name.lower()]
     words += ["--style", settings.style, "--figure", settings.figure]
-    words += ["--mirror"] if look.mirrored else []
+    words += ["--mirror"] if view_settings.mirrored else []
     words += ["--hands", settings.hands] if settings.hands else []
     return tuple(words)
 

@@ -12,17 +12,17 @@ from station.render.snapshot import Snapshot
 class Watch:
     """Is called for each frame and says when to close the window: after so many `frames`, or so many `seconds`.
 
-    `tell` hears {"open_ns"} when the first frame is there, and at the end when frames were `shown_ns`, the processor's
+    `report` gets {"open_ns"} when the first frame is there, and at the end when frames were `shown_ns`, the processor's
     seconds until then (`worked_s`), and `lit`: pairs of when a frame first showed a stroke and of its velocity.
     """
 
-    def __init__(self, frames: int | None, seconds: float | None, tell: Callable[[dict[str, object]], None]) -> None:
+    def __init__(self, frames: int | None, seconds: float | None, report: Callable[[dict[str, object]], None]) -> None:
         self._frames = inf if frames is None else frames
         self._length_ns = inf if seconds is None else seconds * NS_PER_S
-        self._tell = tell
+        self._report = report
         self._shown_ns: list[int] = []
         self._worked_s: list[float] = []
-        self._lit: list[tuple[int, int]] = []
+        self._highlighted: list[tuple[int, int]] = []
         self._struck: set[int] = set()
 
     def shown(self, snapshot: Snapshot | None) -> bool:
@@ -31,12 +31,12 @@ class Watch:
         self._shown_ns.append(now_ns)
         self._worked_s.append(time.process_time())
         if len(self._shown_ns) == 1:
-            self._tell({"open_ns": now_ns})
+            self._report({"open_ns": now_ns})
         struck = set() if snapshot is None else {strike.velocity for strike in snapshot.strikes if strike.student}
-        self._lit.extend((now_ns, velocity) for velocity in struck - self._struck)
+        self._highlighted.extend((now_ns, velocity) for velocity in struck - self._struck)
         self._struck = struck
         return len(self._shown_ns) < self._frames and now_ns - self._shown_ns[0] < self._length_ns
 
     def close(self) -> None:
-        """Tell what was seen."""
-        self._tell({"shown_ns": self._shown_ns, "worked_s": self._worked_s, "lit": self._lit})
+        """Report what was seen."""
+        self._report({"shown_ns": self._shown_ns, "worked_s": self._worked_s, "lit": self._highlighted})

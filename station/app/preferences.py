@@ -32,7 +32,7 @@ class PracticePreferences:
         )
 
     def within(self, settings: Settings) -> Settings:
-        """The settings with these habits; words of `pause` that mean the same stay as they are written."""
+        """The settings with these preferences; words of `pause` that mean the same stay as they are written."""
         is_same = self.pauses == tuple(settings.pause.split())
         return replace(
             settings,
@@ -61,7 +61,7 @@ def pause_in_words(word: str) -> str:
 
 
 class Preferences:
-    """The habits of the settings `store`; `learns` while the kit may say what pauses."""
+    """The preferences of the settings `store`; `learns` while the kit may say what pauses."""
 
     def __init__(self, store: SettingsStore) -> None:
         self._store = store
@@ -69,12 +69,12 @@ class Preferences:
 
     @property
     def now(self) -> PracticePreferences:
-        """The habits as they are."""
+        """The preferences as they are."""
         return PracticePreferences.of(self._store.now)
 
-    def put(self, habits: PracticePreferences) -> None:
+    def put(self, preferences: PracticePreferences) -> None:
         """These from now on."""
-        self._store.update(habits.within)
+        self._store.update(preferences.within)
 
     @property
     def learns(self) -> bool:
@@ -85,8 +85,8 @@ class Preferences:
         """Let the kit say what pauses, or no longer."""
         self._learning = PauseLearning() if on else None
 
-    def take(self, event: EngineEvent) -> bool:
-        """Take an event; returns whether it is for learning, and commands nothing."""
+    def handle(self, event: EngineEvent) -> bool:
+        """Handle an event; returns whether it is for learning, and commands nothing."""
         if self._learning is None:
             return False
         word = self._learning.take(event)

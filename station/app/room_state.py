@@ -45,7 +45,7 @@ class SessionRequest:
     """What the user chose: a lesson by name, quarter notes a minute, passes, bars from 1 (None: the lesson's).
 
     With `adapt` the tempo follows the student from pass to pass, and `tempo_bpm` says nothing. Without
-    `click` the score follows him within a pass; the two exclude each other.
+    `click` the score follows them within a pass; the two exclude each other.
     """
 
     lesson: str

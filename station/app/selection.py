@@ -39,14 +39,14 @@ class Selection:
     @classmethod
     def of(cls, lessons: Sequence[LessonCard], first: SessionRequest | None = None) -> "Selection":
         """Begin with `first` where it is there, else with the first lesson."""
-        choice = cls(tuple(lessons), first, click=first is None or first.click)
+        selection = cls(tuple(lessons), first, click=first is None or first.click)
         if not lessons:
-            return choice
+            return selection
         named = [card for card in lessons if first is not None and card.name == first.lesson]
-        choice = choice.choose(named[0] if named else lessons[0])
+        selection = selection.choose(named[0] if named else lessons[0])
         if first is None or not named:
-            return choice
-        return replace(choice, tempo_bpm=first.tempo_bpm, loops=first.loops, adapt=first.adapt, bars=first.bars)
+            return selection
+        return replace(selection, tempo_bpm=first.tempo_bpm, loops=first.loops, adapt=first.adapt, bars=first.bars)
 
     def offer(self, lessons: Sequence[LessonCard], courses: Sequence[Course] = (), course: str = "") -> "Selection":
         """Choose among these from now on; the lesson that is chosen stays, and `course` is listed if there is one."""
@@ -95,7 +95,7 @@ class Selection:
         """How many quarter notes make the beat that is counted."""
         return 1.0 if self.free or self.card is None else self.card.beat_quarters
 
-    def free_wish(self) -> FreeRequest | None:
+    def free_request(self) -> FreeRequest | None:
         """What to begin where just playing is chosen."""
         return FreeRequest(float(self.tempo_bpm), self.click) if self.free else None
 
@@ -108,17 +108,17 @@ class Selection:
         words = self.search.casefold().split()
         return [card for card in lessons if all(word in _text(card) for word in words)]
 
-    def wish(self) -> SessionRequest | None:
+    def request(self) -> SessionRequest | None:
         """What to start; None where no lesson is chosen."""
         if self.card is None or self.free:
             return None
         adapt = self.adapt and self.click
-        wish = SessionRequest(
+        request = SessionRequest(
             self.card.name, float(self.tempo_bpm), self.loops, self.bars, adapt=adapt, click=self.click
         )
         if self.first is not None and self.first.lesson == self.card.name:
-            return replace(wish, demonstrations=self.first.demonstrations)
-        return wish
+            return replace(request, demonstrations=self.first.demonstrations)
+        return request
 
 
 def _text(card: LessonCard) -> str:

@@ -12,10 +12,10 @@ from station.app.actions import (
     EditStyle,
     KeepSlot,
     ListStyles,
+    LoadStyle,
     ProposeStyle,
     SaveStyle,
     StyleAction,
-    TakeStyle,
 )
 from station.app.settings_store import SettingsStore
 from station.app.style.style_library import StyleEntry, StyleLibrary
@@ -25,7 +25,7 @@ from station.motion.kinematics.figure import load_figure
 from station.motion.style.proposal import propose_style
 from station.motion.style.style import Style
 from station.music.score import Score
-from station.scenes.demonstrator import Demonstrator, kept_demonstrator
+from station.scenes.demonstrator import Demonstrator, demonstrator_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,14 +47,14 @@ class StyleEditor:
 
     def __init__(self, store: SettingsStore, notify: Callable[[str], None]) -> None:
         self._store = store
-        self._shelf = StyleLibrary(store.now.styles_dir)
-        self.who = kept_demonstrator(store.now, notify)
-        self._options = StyleOptions.of(self.who.style)
+        self._library = StyleLibrary(store.now.styles_dir)
+        self.demonstrator = demonstrator_of(store.now, notify)
+        self._options = StyleOptions.of(self.demonstrator.style)
         self._source: str | None = store.now.style
         self.figure = store.now.figure
         """Which body demonstrates: a name or a file."""
         self._entries: tuple[StyleEntry, ...] = ()
-        self._kept = self.who.style
+        self._kept = self.demonstrator.style
         self._is_held = False
         try:
             self._load_slots()
@@ -63,7 +63,7 @@ class StyleEditor:
 
     def view(self) -> StyleView:
         """What the figure page shows now."""
-        return StyleView(self._options, self._entries, self._source, self.figure, self._shelf.folder)
+        return StyleView(self._options, self._entries, self._source, self.figure, self._library.folder)
 
     def act(self, action: StyleAction, score: Score) -> None:
         """Do what the user asks; `score` is what a style is proposed for. Raises `StationError`."""
@@ -71,27 +71,27 @@ class StyleEditor:
             case EditStyle(options, held):
                 self._source = self._source if options.base is self._options.base else None
                 self._options, self._is_held = options, held
-            case TakeStyle(source):
-                self._choose(self._shelf.load(source), source)
+            case LoadStyle(source):
+                self._choose(self._library.load(source), source)
             case ProposeStyle():
                 self._choose(propose_style(score), None)
             case SaveStyle(name):
-                entry = self._shelf.save(self._options.style, name)
+                entry = self._library.save(self._options.style, name)
                 self._choose(replace(self._options.style, name=entry.label), entry.source)
             case KeepSlot(slot, name):
-                self._load_slots()  # a file that cannot be read is told, and not written over
+                self._load_slots()  # a file that cannot be read is reported, and not written over
                 self._options = self._options.store(slot, name)
-                self._shelf.keep_slots(self._options.slots)
+                self._library.keep_slots(self._options.slots)
             case ListStyles():
-                self._entries = tuple(self._shelf.entries())
+                self._entries = tuple(self._library.entries())
             case _:
                 assert_never(action)
-        if self._options.style is not self.who.style:
-            self.who = replace(self.who, style=self._options.style)
+        if self._options.style is not self.demonstrator.style:
+            self.demonstrator = replace(self.demonstrator, style=self._options.style)
 
     def embody(self, figure: str) -> None:
         """Let another body demonstrate: a name or a file; raises `BadInput`."""
-        self.who = Demonstrator(load_figure(figure), self.who.style)
+        self.demonstrator = Demonstrator(load_figure(figure), self.demonstrator.style)
         self.figure = figure
 
     def keep(self) -> None:
@@ -102,11 +102,11 @@ class StyleEditor:
         self._kept = style
         source = self._source
         if source is None or self._options.is_changed:
-            source = self._shelf.keep(style)
+            source = self._library.keep(style)
         self._store.update(lambda settings: replace(settings, style=source))
 
     def _choose(self, style: Style, source: str | None) -> None:
         self._options, self._source = self._options.choose(style), source
 
     def _load_slots(self) -> None:
-        self._options = replace(self._options, slots=self._shelf.slots())
+        self._options = replace(self._options, slots=self._library.slots())

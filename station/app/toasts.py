@@ -1,4 +1,4 @@
-"""What the window has to tell in passing: one or two lines that go away by themselves."""
+"""What the window shows in passing: one or two lines that go away by themselves."""
 
 from station.core.units import NS_PER_S
 
@@ -17,7 +17,7 @@ class Toasts:
         self._waiting: list[str] = []
 
     def notify(self, line: str) -> None:
-        """Show a line from the next `update` on, with others that come before it; an empty one tells nothing."""
+        """Show a line from the next `update` on, with others that come before it; an empty one is left out."""
         if line:
             self._waiting.append(line)
 

@@ -86,19 +86,21 @@ def view_settings_of(settings: Settings) -> ViewSettings:
     )
 
 
-def with_view_settings(settings: Settings, look: ViewSettings) -> Settings:
-    """The settings with `look` in them."""
+def with_view_settings(settings: Settings, view_settings: ViewSettings) -> Settings:
+    """The settings with `view_settings` in them."""
     return replace(
         settings,
-        view=look.view.name.lower(),
-        mirrored=look.mirrored,
-        inset="" if look.inset is None else look.inset.name.lower(),
-        score=look.score.name.lower(),
-        theme=str(look.theme),
-        panel_scale=look.scale,
-        double=look.double is not DoublePlace.NOWHERE,
-        double_beside=look.double is DoublePlace.BESIDE,
-        viewpoints=" ".join(f"{slot}={_text(c)}" for slot, c in enumerate(look.viewpoints, 1) if c is not None),
+        view=view_settings.view.name.lower(),
+        mirrored=view_settings.mirrored,
+        inset="" if view_settings.inset is None else view_settings.inset.name.lower(),
+        score=view_settings.score.name.lower(),
+        theme=str(view_settings.theme),
+        panel_scale=view_settings.scale,
+        double=view_settings.double is not DoublePlace.NOWHERE,
+        double_beside=view_settings.double is DoublePlace.BESIDE,
+        viewpoints=" ".join(
+            f"{slot}={_text(c)}" for slot, c in enumerate(view_settings.viewpoints, 1) if c is not None
+        ),
     )
 
 

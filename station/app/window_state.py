@@ -24,19 +24,19 @@ class State:
     `room` is what goes on; `snapshot` the picture, None while none is shown (`actions.Show`), as are `curves`, the
     graph's; `mapping` and `calibration` are empty then. `report` is the result of the session that ended last, once the
     question before it was answered. `score` is the lesson that is shown, at its own tempo, `hands` who leads.
-    `export_bars` (from 0) are what files are made of, `is_filming` whether one is. `toast` is told in passing;
+    `export_bars` (from 0) are what files are made of, `is_filming` whether one is. `toast` is shown in passing;
     `is_lively` whether something moves or may at any moment, so that no frame is to be spared.
     """
 
     room: RoomState
-    choice: Selection
+    selection: Selection
     player: PlayerView
     settings: Settings
-    look: ViewSettings
+    view_settings: ViewSettings
     style: StyleView
     hands: Hands
     score: Score
-    habits: PracticePreferences
+    preferences: PracticePreferences
     mapping: MappingView
     calibration: CalibrationView
     snapshot: Snapshot | None = None

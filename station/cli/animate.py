@@ -8,7 +8,7 @@ import numpy as np
 
 from station.cli.animate_motion import WRITERS
 from station.cli.animate_options import ENDINGS, AnimateOptions, check_meant, usual_of_loops
-from station.cli.console import say, say_beyond
+from station.cli.console import say, say_infeasible
 from station.cli.drummer_options import assigned, drums_of, led_score
 from station.cli.options.option_fields import Command
 from station.core.errors import BadInput
@@ -27,7 +27,7 @@ RING_S = 1.0
 """A video goes on so long after the score's end, so that what rings is heard; our choice."""
 MOST_LOOP_S = 60.0
 """No GIF lasts longer: tens of megabytes, in which nobody can stop or go back (our choice)."""
-_STILL, _FILM, _LOOP = ".png", ".mp4", ".gif"
+_PICTURE, _FILM, _LOOP = ".png", ".mp4", ".gif"
 _NUMBER = re.compile(r"%0?\d*d")
 """What numbers pictures in a name."""
 
@@ -36,7 +36,7 @@ def run(options: AnimateOptions) -> int:
     """Draw an instant or some bars, or write the motion of some bars."""
     out = options.out
     ending = out.suffix.lower()
-    if ending not in (_STILL, _FILM, _LOOP, *WRITERS):
+    if ending not in (_PICTURE, _FILM, _LOOP, *WRITERS):
         raise BadInput(out, "", f"expected a name that ends in {ENDINGS}")
     check_meant(options, _made(out))
     if ending == _LOOP:
@@ -56,7 +56,7 @@ def run(options: AnimateOptions) -> int:
         kind = "motion "
     else:
         kind = _draw(drummer, whole, options)
-    say_beyond(drummer.assignment.warnings)
+    say_infeasible(drummer.assignment.warnings)
     say(f"{kind}  {out}")
     return 0
 
@@ -74,7 +74,7 @@ def _made(out: Path) -> str:
         return "a video"
     if ending == _LOOP:
         return "a GIF"
-    if ending != _STILL:
+    if ending != _PICTURE:
         return "motion"
     numbers = out.name.count("%")
     if numbers == 0:
@@ -103,7 +103,7 @@ def _draw(drummer: Drummer, whole: Score, options: AnimateOptions) -> str:
 
     made = _made(options.out)
     if made == "a picture":
-        pictures.draw_still(drummer, _moment_s(drummer.score, options), options)
+        pictures.draw_picture(drummer, _moment_s(drummer.score, options), options)
         return "picture"
     if made == "a GIF":
         pictures.draw_loop(drummer, whole, _bars(whole, options)[0], options)

@@ -29,7 +29,7 @@ Stretch = tuple[float, float]
 """From which second of the score on, and for how many seconds."""
 
 
-def draw_still(drummer: Drummer, at_s: float, options: AnimateOptions) -> None:
+def draw_picture(drummer: Drummer, at_s: float, options: AnimateOptions) -> None:
     """The picture of one instant."""
     write_pictures(
         drummer, FilmStretch(at_s, 1, Fraction(1)), _shot(drummer, options.picture), [options.out], lambda _: None
@@ -38,9 +38,9 @@ def draw_still(drummer: Drummer, at_s: float, options: AnimateOptions) -> None:
 
 def draw_sequence(drummer: Drummer, stretch: Stretch, options: AnimateOptions) -> None:
     """Numbered pictures, from 1."""
-    take = _take(stretch, options.fps)
+    film = _film_stretch(stretch, options.fps)
     shot = _shot(drummer, options.picture)
-    _with_progress(take, lambda tell: write_pictures(drummer, take, shot, _numbered(options.out, take), tell))
+    _with_progress(film, lambda show: write_pictures(drummer, film, shot, _numbered(options.out, film), show))
 
 
 def draw_loop(drummer: Drummer, whole: Score, first_bar: int, options: AnimateOptions) -> None:
@@ -49,37 +49,37 @@ def draw_loop(drummer: Drummer, whole: Score, first_bar: int, options: AnimateOp
     shot = _shot(drummer, options.picture)
     progress = Progress(round(loop.length_s * options.fps))
     try:
-        write_loop(drummer, loop, options.fps, shot, options.out, progress.tell)
+        write_loop(drummer, loop, options.fps, shot, options.out, progress.show)
     finally:
         progress.close()
 
 
 def draw_film(drummer: Drummer, stretch: Stretch, options: AnimateOptions) -> None:
     """A video with sound."""
-    take = _take(stretch, options.fps)
+    film = _film_stretch(stretch, options.fps)
     settings = load_settings()
     sounds = Sounds(load_kit(settings.drums, RATE_HZ), settings.click if options.picture.click else None)
     shot = _shot(drummer, options.picture)
-    _with_progress(take, lambda tell: write_film(drummer, take, shot, sounds, options.out, tell))
+    _with_progress(film, lambda show: write_film(drummer, film, shot, sounds, options.out, show))
 
 
-def _with_progress(take: FilmStretch, work: Callable[[Callable[[int], None]], None]) -> None:
-    progress = Progress(take.pictures)
+def _with_progress(stretch: FilmStretch, work: Callable[[Callable[[int], None]], None]) -> None:
+    progress = Progress(stretch.pictures)
     try:
-        work(progress.tell)
+        work(progress.show)
     finally:
         progress.close()
 
 
-def _take(stretch: Stretch, fps: float) -> FilmStretch:
+def _film_stretch(stretch: Stretch, fps: float) -> FilmStretch:
     start_s, length_s = stretch
     exact = Fraction(fps).limit_denominator(_MOST_DENOMINATOR)
     return FilmStretch(start_s, max(1, round(length_s * exact)), exact)
 
 
-def _numbered(out: Path, take: FilmStretch) -> Iterator[Path]:
+def _numbered(out: Path, stretch: FilmStretch) -> Iterator[Path]:
     before, number, after = _NUMBER.split(out.name, maxsplit=1)
-    return (out.with_name(f"{before}{number % k}{after}") for k in range(1, take.pictures + 1))
+    return (out.with_name(f"{before}{number % k}{after}") for k in range(1, stretch.pictures + 1))
 
 
 def _shot(drummer: Drummer, picture: PictureOptions) -> Shot:

@@ -9,7 +9,7 @@ from station.cli.options.option_fields import Command, flag
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BenchOptions:
-    """Which benchmarks, and how they are told."""
+    """Which benchmarks, and how their results are printed."""
 
     soak: bool = flag("add the long ones")
     json: bool = flag("print one JSON document")

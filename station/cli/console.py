@@ -13,8 +13,8 @@ from typing import TextIO
 
 from station.core.errors import DeviceError
 
-_TOLD = 5
-"""So many warnings are told one by one (our choice)."""
+_MOST_WARNINGS = 5
+"""So many warnings are shown one by one (our choice)."""
 _WIDTH = 30
 _EVERY_S = 0.2
 """So often is a line of progress written anew (our choice: calm to look at)."""
@@ -86,12 +86,12 @@ def say(text: str, *, end: str = "\n") -> None:
         _give_up(sys.stderr)
 
 
-def say_beyond(warnings: tuple[str, ...]) -> None:
-    """Tell what the score asks that no human can play, the rest as a number."""
-    for warning in warnings[:_TOLD]:
-        say(f"beyond a human: {warning}")
-    if len(warnings) > _TOLD:
-        say(f"beyond a human: {len(warnings) - _TOLD} more such bars")
+def say_infeasible(warnings: tuple[str, ...]) -> None:
+    """Say what the score asks that no human can play; beyond `_MOST_WARNINGS` as a number."""
+    for warning in warnings[:_MOST_WARNINGS]:
+        say(f"not playable: {warning}")
+    if len(warnings) > _MOST_WARNINGS:
+        say(f"not playable: {len(warnings) - _MOST_WARNINGS} more such bars")
 
 
 def is_attended() -> bool:
@@ -109,14 +109,14 @@ def ask(question: str) -> str:
 
 
 class Progress:
-    """Tells how many of `total` pictures are done, on standard error if that is a terminal, else not at all."""
+    """Shows how many of `total` pictures are done, on standard error if that is a terminal, else not at all."""
 
     def __init__(self, total: int) -> None:
         self._total = total
         self._is_seen = sys.stderr is not None and sys.stderr.isatty()
         self._began_s = self._next_s = monotonic()
 
-    def tell(self, done: int) -> None:
+    def show(self, done: int) -> None:
         """So many are done."""
         now_s = monotonic()
         if self._is_seen and (now_s >= self._next_s or done == self._total):
@@ -129,14 +129,14 @@ class Progress:
             say("")
 
 
-def progress_line(done: int, total: int, taken_s: float) -> str:
+def progress_line(done: int, total: int, passed_s: float) -> str:
     """Such as `████████░░░░  45 %  270 of 600 pictures, 92 a second, 4 s left`."""
     filled = _WIDTH * done // total
     line = f"{'█' * filled}{'░' * (_WIDTH - filled)} {100 * done // total:3d} %  {done} of {total} pictures"
-    if not done or taken_s < _SURE_AFTER_S:
+    if not done or passed_s < _SURE_AFTER_S:
         return line
-    left_s = taken_s * (total - done) / done
-    return f"{line}, {done / taken_s:.3g} a second, {_duration(left_s)} left"
+    left_s = passed_s * (total - done) / done
+    return f"{line}, {done / passed_s:.3g} a second, {_duration(left_s)} left"
 
 
 def _duration(seconds: float) -> str:

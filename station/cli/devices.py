@@ -26,7 +26,7 @@ REPLAY_SCHEMA = "drum-station/replay/1"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PortsOptions:
-    """How the ports are told."""
+    """How the ports are listed."""
 
     json: bool = flag("print one JSON document")
 
@@ -40,7 +40,7 @@ class RecordOptions(ListenOptions):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReplayOptions:
-    """Which capture, and how its hits are told."""
+    """Which capture, and how its hits are printed."""
 
     file: Path = argument("FILE", "a capture", Path)
     json: bool = flag("print one JSON document")
@@ -113,10 +113,10 @@ def _record(options: RecordOptions) -> int:
                     engine.handle(RecordCapture(options.file))
                     records = True
                 _feed(engine, findings)
-                hits += _tell(engine)
+                hits += _print_events(engine)
         finally:
             engine.handle(RecordCapture(None))
-    hits += _tell(engine)
+    hits += _print_events(engine)
     say(f"{hits} hits in {options.file}" if records else "no kit came: nothing was recorded")
     return 0
 
@@ -130,7 +130,7 @@ def _feed(engine: "Engine", findings: PortPoll) -> None:
         engine.device_lost(findings.device, monotonic_ns())
 
 
-def _tell(engine: "Engine") -> int:
+def _print_events(engine: "Engine") -> int:
     """Say what happened and count the hits; raises `DeviceError` where the capture did not begin or end well."""
     from station.engine.messages import CaptureSaved, Notice
 

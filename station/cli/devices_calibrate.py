@@ -1,4 +1,4 @@
-"""`station devices calibrate`: measure the latency of outputs and kits, tell it, and store it only when asked to.
+"""`station devices calibrate`: measure the latency of outputs and kits, print it, and store it only when asked to.
 
 What is stored is subtracted by practice: of an output what its driver does not report, of a kit and its pads how much
 later than played a stroke is stamped. docs/calibration.md says how to set up each way of measuring.
@@ -47,12 +47,12 @@ class CalibrateOptions:
 
 
 def run(options: CalibrateOptions) -> int:
-    """Measure, tell, and store what the user wants stored."""
+    """Measure, print, and store what the user wants stored."""
     from station.app.equipment.calibration_results import document, outdated, text, with_rows
     from station.app.equipment.latency_methods import measured
 
     settings, before = load_settings(), load_calibration()
-    findings = measured(_wish(options, settings), before, say)
+    findings = measured(_request(options, settings), before, say)
     worth = [row for row in findings.rows if row.storable and (row.estimate.trusted or _insists(options, row))]
     if not options.json:
         write(text(findings, before), end="")
@@ -72,15 +72,15 @@ def run(options: CalibrateOptions) -> int:
 # --- measuring -------------------------------------------------------------------------------------------------------
 
 
-def _wish(options: CalibrateOptions, settings: Settings) -> "MeasureRequest":
+def _request(options: CalibrateOptions, settings: Settings) -> "MeasureRequest":
     """On the devices that are asked for, else on the settings'."""
     from station.app.equipment.latency_methods import MeasureRequest
     from station.devices.device_ports import parse_kit
 
-    wish = MeasureRequest.of(settings, options.by, options.distance)
+    request = MeasureRequest.of(settings, options.by, options.distance)
     output = settings.output if options.output is None else options.output
-    kit = wish.kit if options.device is None else parse_kit(options.device)
-    return replace(wish, sound=replace(wish.sound, output=output, input=options.input), kit=kit)
+    kit = request.kit if options.device is None else parse_kit(options.device)
+    return replace(request, sound=replace(request.sound, output=output, input=options.input), kit=kit)
 
 
 # --- storing ---------------------------------------------------------------------------------------------------------

@@ -24,8 +24,8 @@ def learn(options: ListenOptions) -> int:
     page = LearnPage(lambda: not typed.ended)
     with listening(options) as kits:
         for findings in polls(kits, options.seconds):
-            page.take(findings)
-            for line in typed.take():
+            page.handle(findings)
+            for line in typed.pop():
                 page.key(line)
             page.advance(monotonic_ns())
             if page.over:
@@ -50,7 +50,7 @@ class LearnPage:
         self._start_ns = 0
         self._next_show_ns = 0
 
-    def take(self, findings: PortPoll) -> None:
+    def handle(self, findings: PortPoll) -> None:
         """What the kit brought; another kit than the first is not listened to."""
         if findings.found and self._wizard is None:
             self._wizard = Wizard(findings.device)
@@ -102,7 +102,7 @@ class LearnPage:
             self._next_show_ns = now_ns + SHOW_EVERY_NS
             self._show(wizard.view())
         if wizard.over and self._trial is None:
-            self._tell_learned(wizard)
+            self._show_learned(wizard)
 
     def _show(self, view: WizardView) -> None:
         if view.text and (view.step, view.text) != self._shown[:2]:
@@ -112,7 +112,7 @@ class LearnPage:
             write(f"       {view.done}/{view.needed}{heard}  {view.hint}".rstrip(), flush=True)
         self._shown = (view.step, view.text, view.done, view.hint)
 
-    def _tell_learned(self, wizard: Wizard) -> None:
+    def _show_learned(self, wizard: Wizard) -> None:
         learned = wizard.learned()
         write("\n".join(("", *learned.findings, "")))
         self._trial = DecoderBank()

@@ -1,6 +1,6 @@
 """`station devices learn --pad PAD` and `--touch PIECE`: one pad with one hit, or its ghosts and accents.
 
-The same desk as the window's page; what was learnt is kept at once.
+The same editor as the window's page; what was learnt is kept at once.
 """
 
 from collections.abc import Callable
@@ -50,7 +50,7 @@ def learn_kit_or_pad(options: LearnOptions) -> int:
     if options.pad is not None:
         return _learn_one(options, partial(MappingEditor.learn_pad, pad=options.pad))
     if options.touch is not None:
-        return _learn_one(options, partial(MappingEditor.learn_touch, piece=options.touch))
+        return _learn_one(options, partial(MappingEditor.learn_velocity, piece=options.touch))
     return learn(options)
 
 
@@ -58,7 +58,7 @@ def _learn_one(options: ListenOptions, begin: Callable[[MappingEditor], None]) -
     page = OnePadPage(begin)
     with listening(options) as kits:
         for findings in polls(kits, options.seconds):
-            page.take(findings)
+            page.handle(findings)
             page.advance(monotonic_ns())
             if page.over:
                 break
@@ -67,48 +67,48 @@ def _learn_one(options: ListenOptions, begin: Callable[[MappingEditor], None]) -
 
 
 class OnePadPage:
-    """The first kit that is found, and what is learnt of it; `begin` asks its desk."""
+    """The first kit that is found, and what is learnt of it; `begin` asks its editor."""
 
     def __init__(self, begin: Callable[[MappingEditor], None]) -> None:
         self._begin = begin
-        self._desk = MappingEditor(lambda _: None)
+        self._editor = MappingEditor(lambda _: None)
         self._shown = ""
 
     @property
     def kept(self) -> Path:
         """Where the kit's own file is."""
-        return own_kit_path(self._desk.device)
+        return own_kit_path(self._editor.device)
 
     @property
     def over(self) -> bool:
         """Whether something was learnt and kept."""
-        return bool(self._desk.device) and self._desk.can_undo
+        return bool(self._editor.device) and self._editor.can_undo
 
-    def take(self, findings: PortPoll) -> None:
+    def handle(self, findings: PortPoll) -> None:
         """What the kit brought; another kit than the first is not listened to."""
-        desk, device = self._desk, findings.device
-        if findings.found and not desk.device:
-            desk.take(DeviceFound(monotonic_ns(), device))
-            say(f"{device} is here, understood as {desk.kit.title}")
-            self._begin(desk)
-        if device != desk.device:
+        editor, device = self._editor, findings.device
+        if findings.found and not editor.device:
+            editor.handle(DeviceFound(monotonic_ns(), device))
+            say(f"{device} is here, understood as {editor.kit.title}")
+            self._begin(editor)
+        if device != editor.device:
             return
         for packet in findings.packets:
-            desk.take(RawBytes(packet.at_ns, device, packet.data))
+            editor.handle(RawBytes(packet.at_ns, device, packet.data))
         if findings.lost:
-            desk.take(DeviceLost(monotonic_ns(), device))
+            editor.handle(DeviceLost(monotonic_ns(), device))
             say(f"{device} is gone; plug it in again")
 
     def advance(self, now_ns: int) -> None:
         """Say what is asked and what was learnt; ask once more where it could not be."""
-        desk = self._desk
-        if not desk.device:
+        editor = self._editor
+        if not editor.device:
             return
-        desk.advance(now_ns)
-        if desk.learnt:
-            write(desk.learnt, flush=True)
-        if not desk.learns and not self.over:
-            self._begin(desk)
-        if desk.asks and desk.asks != self._shown:
-            self._shown = desk.asks
-            write(desk.asks, flush=True)
+        editor.advance(now_ns)
+        if editor.learnt:
+            write(editor.learnt, flush=True)
+        if not editor.learns and not self.over:
+            self._begin(editor)
+        if editor.asks and editor.asks != self._shown:
+            self._shown = editor.asks
+            write(editor.asks, flush=True)

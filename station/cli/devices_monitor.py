@@ -23,8 +23,8 @@ def monitor(options: ListenOptions) -> int:
     page, typed = MonitorPage(monotonic_ns()), TypedLines()
     with listening(options) as kits:
         for findings in polls(kits, options.seconds):
-            lines = page.take(findings) + page.settle(monotonic_ns())
-            for line in lines + [answer for order in typed.take() for answer in page.obey(order)]:
+            lines = page.handle(findings) + page.settle(monotonic_ns())
+            for line in lines + [answer for order in typed.pop() for answer in page.obey(order)]:
                 write(line, flush=True)
     return 0
 
@@ -37,7 +37,7 @@ class MonitorPage:
         self._kits = DeviceMonitor()
         self._device = ""
 
-    def take(self, findings: PortPoll) -> list[str]:
+    def handle(self, findings: PortPoll) -> list[str]:
         """What one look at a kit brought."""
         lines, now_ns, device = list[str](), monotonic_ns(), findings.device
         if findings.found:
@@ -76,12 +76,12 @@ class MonitorPage:
         if line.event is None:
             return [f"{s_from_ns(line.at_ns - self._start_ns):10.4f}  {'':60}  {line.raw}"]
         counts = "" if line.counts is None else f"  counts as {line.counts}"
-        told = f"{event_line(line.event, self._start_ns)}{counts}{_position(line.event):16}  {line.raw}".rstrip()
-        return [told, *(f"{'':12}? {_words(suspicion)}" for suspicion in line.suspicions)]
+        shown = f"{event_line(line.event, self._start_ns)}{counts}{_position(line.event):16}  {line.raw}".rstrip()
+        return [shown, *(f"{'':12}? {_words(suspicion)}" for suspicion in line.suspicions)]
 
-    def _held_back(self, ghost: FalseTrigger, raw: str) -> str:
-        source = "" if ghost.source is None else f" of {word(ghost.source)}"
-        return f"{event_line(ghost.hit, self._start_ns)}  - no stroke: {ghost.why.value}{source}  {raw}".rstrip()
+    def _held_back(self, held: FalseTrigger, raw: str) -> str:
+        source = "" if held.source is None else f" of {word(held.source)}"
+        return f"{event_line(held.hit, self._start_ns)}  - no stroke: {held.why.value}{source}  {raw}".rstrip()
 
 
 def _position(event: DeviceEvent) -> str:

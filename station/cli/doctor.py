@@ -11,7 +11,7 @@ SCHEMA = "drum-station/doctor/1"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DoctorOptions:
-    """How the findings are told."""
+    """How the findings are printed."""
 
     json: bool = flag("print one JSON document")
 

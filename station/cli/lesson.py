@@ -15,7 +15,7 @@ SCHEMA = "drum-station/lessons/1"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LessonsOptions:
-    """How the lessons are told."""
+    """How the lessons are listed."""
 
     json: bool = flag("print one JSON document")
 

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from station.cli.console import print_json, say, say_beyond, write
+from station.cli.console import print_json, say, say_infeasible, write
 from station.cli.drummer_options import DrumsOptions, assigned, drums_of, led_score
 from station.cli.input.read_scores import TEXT_ENDING
 from station.cli.options.option_fields import Command, argument, flag, group, option
@@ -19,7 +19,7 @@ SCHEMA = "drum-station/limbs/1"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LimbsOptions:
-    """Whose limbs are told, and how."""
+    """Whose limbs are printed, and how."""
 
     score: str = argument("SCORE", "a lesson, a MIDI file, a text score or a take (.capture)", str)
     drums: DrumsOptions = group(DrumsOptions)
@@ -35,19 +35,19 @@ def run(options: LimbsOptions) -> int:
     if text is not None and text.suffix.lower() != TEXT_ENDING:
         raise BadInput(text, "", f"expected a name that ends in {TEXT_ENDING}")
     score = led_score(options.score, options.drums)
-    who = assigned(score, drums_of(options.score, options.drums), options.drums)
+    assignment = assigned(score, drums_of(options.score, options.drums), options.drums)
     if text is not None:
-        write_text_score(score, who.limbs, text)
+        write_text_score(score, assignment.limbs, text)
         say(f"score    {text}")
     if options.json:
-        print_json(_document(score, who))
+        print_json(_document(score, assignment))
     elif text is None:
-        _print(score, who)
-    say_beyond(who.warnings)
+        _print(score, assignment)
+    say_infeasible(assignment.warnings)
     return 0
 
 
-def _document(score: Score, who: Assignment) -> dict[str, object]:
+def _document(score: Score, assignment: Assignment) -> dict[str, object]:
     notes = [
         {
             "index": i,
@@ -55,19 +55,19 @@ def _document(score: Score, who: Assignment) -> dict[str, object]:
             "bar": int(score.bar[i]) + 1,
             "beat": round(_beat(score, i), 4),
             "piece": word(Piece(score.notes["piece"][i])),
-            "limb": word(Limb(who.limbs[i])),
-            "why": who.why[i],
+            "limb": word(Limb(assignment.limbs[i])),
+            "why": assignment.why[i],
         }
         for i in range(len(score))
     ]
-    return {"schema": SCHEMA, "method": who.method, "notes": notes, "beyond_human": list(who.warnings)}
+    return {"schema": SCHEMA, "method": assignment.method, "notes": notes, "beyond_human": list(assignment.warnings)}
 
 
-def _print(score: Score, who: Assignment) -> None:
+def _print(score: Score, assignment: Assignment) -> None:
     """A line a note: bar:beat, time, piece, limb and reason."""
-    for i, why in enumerate(who.why):
+    for i, why in enumerate(assignment.why):
         place = f"{score.bar[i] + 1}:{_beat(score, i):.2f}"
-        piece, limb = piece_name(Piece(score.notes["piece"][i])), limb_name(Limb(who.limbs[i]))
+        piece, limb = piece_name(Piece(score.notes["piece"][i])), limb_name(Limb(assignment.limbs[i]))
         write(f"{place:>9} {score.onset_s[i]:9.3f} s  {piece:16} {limb:11} {why}")
 
 

@@ -107,12 +107,12 @@ def run(options: PracticeOptions) -> int:
     if options.no_click and options.adapt:
         raise BadInput("--no-click", "--adapt", "the tempo follows you either within a pass or from pass to pass")
     lesson = _lesson(options.lesson)
-    wishes = _wishes(options, lesson, settings)
-    plan = plan_practice(lesson, wishes)
+    plan_options = _plan_options(options, lesson, settings)
+    plan = plan_practice(lesson, plan_options)
     if backing is not None:
         backing.check(plan, settings.rate_hz)
     if options.virtual_student is not None:
-        return _virtual(plan, wishes, options.virtual_student, options, settings)
+        return _virtual(plan, plan_options, options.virtual_student, options, settings)
     in_terminal = options.headless or options.json or options.report is not None
     if not in_terminal and has_screen():
         from station.cli.window import open_window
@@ -122,14 +122,14 @@ def run(options: PracticeOptions) -> int:
         return open_window(store, plan, adapt, backing, options.watch.watch())
     if not in_terminal and not options.device and not _is_kit_there(settings.kit):
         say("no screen and no kit here: a virtual student practises instead")
-        return _virtual(plan, wishes, STAND_IN, options, settings)
-    return _live(plan, wishes, options, settings, backing)
+        return _virtual(plan, plan_options, STAND_IN, options, settings)
+    return _live(plan, plan_options, options, settings, backing)
 
 
 # --- ways to practise ------------------------------------------------------------------------------------------------
 
 
-def _virtual(plan: Plan, wishes: PlanOptions, spec: str, options: PracticeOptions, settings: Settings) -> int:
+def _virtual(plan: Plan, plan_options: PlanOptions, spec: str, options: PracticeOptions, settings: Settings) -> int:
     """A virtual student is new to every lesson, and forgotten, unless it practises under a name."""
     if options.sound.midi_out is not None or options.track.track is not None:
         say("a virtual student practises without sound: nothing is sent to a MIDI output, and no track plays")
@@ -137,7 +137,7 @@ def _virtual(plan: Plan, wishes: PlanOptions, spec: str, options: PracticeOption
     from station.simulation.student_spec import parse_spec
 
     student = parse_spec(spec)
-    remembered = _remembered(plan, wishes, settings, options.student is not None) if options.adapt else None
+    remembered = _remembered(plan, plan_options, settings, options.student is not None) if options.adapt else None
     with SessionFolder.make(options.report, settings, plan.lesson.name) as folder:
         if remembered is None:
             virtual = practise_virtually(plan, student, folder.capture)
@@ -151,18 +151,18 @@ def _virtual(plan: Plan, wishes: PlanOptions, spec: str, options: PracticeOption
 
 
 def _live(
-    plan: Plan, wishes: PlanOptions, options: PracticeOptions, settings: Settings, backing: BackingRequest | None
+    plan: Plan, plan_options: PlanOptions, options: PracticeOptions, settings: Settings, backing: BackingRequest | None
 ) -> int:
     from station.cli.terminal import practise_in_terminal
 
     cut_off = offer(settings)
     if cut_off is not None:
         say(cut_off)
-    remembered = _remembered(plan, wishes, settings, keeps=True) if options.adapt else None
+    remembered = _remembered(plan, plan_options, settings, keeps=True) if options.adapt else None
     with SessionFolder.make(options.report, settings, plan.lesson.name) as folder:
-        with ExitStack() as until_kept:
+        with ExitStack() as until_saved:
             asked = plan if remembered is None else remembered.adaptation
-            outcome = practise_in_terminal(asked, settings, folder.capture, until_kept, backing)
+            outcome = practise_in_terminal(asked, settings, folder.capture, until_saved, backing)
             saved = save(folder, outcome.result, practice_document(outcome.result, settings), remembered)
         may_ask = settings.ask_first and outcome.is_attended and not options.json
         _leave(folder, saved, options, settings, may_ask)
@@ -171,10 +171,10 @@ def _live(
     return 0
 
 
-def _remembered(plan: Plan, wishes: PlanOptions, settings: Settings, keeps: bool) -> Remembered:
+def _remembered(plan: Plan, plan_options: PlanOptions, settings: Settings, keeps: bool) -> Remembered:
     """Practice that follows the student; what could not be read is said at once."""
     memory = Memory.of(settings.sessions_dir, settings.student, plan.lesson.name, plan.bars) if keeps else None
-    remembered = Remembered.of(plan.lesson, wishes, date.today(), memory)
+    remembered = Remembered.of(plan.lesson, plan_options, date.today(), memory)
     if remembered.fault is not None:
         say(remembered.fault)
     return remembered
@@ -250,7 +250,7 @@ def _lesson(name: str | None) -> Lesson:
     return find_lesson(FIRST_LESSON if name is None else name)
 
 
-def _wishes(options: PracticeOptions, lesson: Lesson, settings: Settings) -> PlanOptions:
+def _plan_options(options: PracticeOptions, lesson: Lesson, settings: Settings) -> PlanOptions:
     tempo_bpm = tapped_tempo(lesson.beat_ticks / PPQ) if options.tempo == TAP else options.tempo
     demonstrations = 0 if options.no_demonstration else None
     pattern = parse_click(settings.click_pattern, setting_source("click_pattern"))

@@ -29,7 +29,7 @@ class SheetOptions:
 
 def run(options: SheetOptions) -> int:
     """Engrave it and write the file."""
-    from station.scenes.sheets import pdf_of, words_of_lesson, words_of_score
+    from station.scenes.sheets import lesson_labels, pdf_of, score_labels
 
     out = options.out
     if out.suffix.lower() != ENDING:
@@ -42,7 +42,7 @@ def run(options: SheetOptions) -> int:
         fault = f"expected bars within 1-{score.bar_count}, the first before the last"
         raise BadInput("--start-bar, --end-bar", f"{first}-{last}", fault)
     bars = first - 1, last - 1
-    words = words_of_score(score, bars, Path(options.score).stem) if lesson is None else words_of_lesson(lesson, bars)
+    words = score_labels(score, bars, Path(options.score).stem) if lesson is None else lesson_labels(lesson, bars)
     write_whole(out, pdf_of(score, bars, words, options.paper, not options.no_sticking))
     say(f"sheet  {out}")
     return 0

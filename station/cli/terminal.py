@@ -33,12 +33,12 @@ def practise_in_terminal(
     asked: Plan | Adaptation,
     settings: Settings,
     capture: Path,
-    until_kept: ExitStack,
-    wish: BackingRequest | None = None,
+    until_saved: ExitStack,
+    request: BackingRequest | None = None,
 ) -> LiveOutcome:
-    """Practise a plan, along to a track if one is wished for, or what an adaptation asks for pass by pass.
+    """Practise a plan, along to a track if one is asked for, or what an adaptation asks for pass by pass.
 
-    From the first count-in on nothing ends the program before the session is kept: `until_kept` is left then.
+    From the first count-in on nothing ends the program before the session is kept: `until_saved` is left then.
 
     Raises `BadInput` for a track that cannot be had, `DeviceError` where there is no kit, or where the engine dies
     before it began.
@@ -59,16 +59,16 @@ def practise_in_terminal(
                 telling.attempt(say, f"\nof {len(config.kits)} kits there is {here}; the others may come", end="")
             telling.attempt(say, f"\n{LEGEND}")
             runner.session.waits = settings.auto_pause and bool(ways_on) and is_attended()
-            if wish is not None:
+            if request is not None:
                 telling.attempt(say, "\nmaking the track ready …")
-                runner.session.backing = _track(wish, runner.session, settings)
-            room = Room(engine, clock, text.tell, telling, until_kept.enter_context(end_asked()))
+                runner.session.backing = _track(request, runner.session, settings)
+            room = Room(engine, clock, text.tell, telling, until_saved.enter_context(end_asked()))
             return practise_live(room, runner, capture)
         finally:
             telling.attempt(text.last_words, runner.session)
 
 
-def _track(wish: BackingRequest, session: Session, settings: Settings) -> PreparedTrack | None:
-    backing = Backing(wish)
+def _track(request: BackingRequest, session: Session, settings: Settings) -> PreparedTrack | None:
+    backing = Backing(request)
     backing.ask(session.plan, session.heard.rate_hz or settings.rate_hz)
     return backing.take(wait_s=None)

@@ -1,4 +1,4 @@
-"""Draws what the window has to tell in passing over the picture (`app.toasts`)."""
+"""Draws what the window shows in passing over the picture (`app.toasts`)."""
 
 from imgui_bundle import imgui
 

@@ -71,7 +71,7 @@ COMMANDS: tuple[tuple[str, str], ...] = (
     ("M", "mirror"),
     ("P", "second picture: hands, feet, none"),
     ("N", "score: scrolling, pages, highway"),
-    ("E", "your double over the demonstrator, beside him, or not at all"),
+    ("E", "your double over the demonstrator, beside it, or not at all"),
     ("1 to 8", "your own viewpoints"),
     ("Ctrl+1 to 8", "keep where you look from"),
     ("Ctrl+= and Ctrl+-", "larger and smaller panels"),

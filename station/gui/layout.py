@@ -1,4 +1,4 @@
-"""The window as hello_imgui is told of it: its size, OpenGL, where panels dock, and which part the picture keeps."""
+"""The window as hello_imgui needs it: its size, OpenGL, where panels dock, and which part the picture keeps."""
 
 import os
 from collections.abc import Callable, Sequence

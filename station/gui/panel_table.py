@@ -30,16 +30,16 @@ LESSONS, TRANSPORT, BARS, GRAPH = "Lessons", "Transport", "Bars", "Graph"
 class Pages:
     """The panels; what the user does in them goes to `dispatch`."""
 
-    def __init__(self, dispatch: Callable[[Action], None], backdrop: Viewport) -> None:
+    def __init__(self, dispatch: Callable[[Action], None], viewport: Viewport) -> None:
         self._dispatch = dispatch
-        self.view_keys = ViewKeys(backdrop, dispatch)
+        self.view_keys = ViewKeys(viewport, dispatch)
         self._lessons = LessonsPanel(dispatch)
-        self._ear = PlaybackRow(dispatch)
-        self.hits = hits_panel.HitsPanel(self._ear)
+        self._playback = PlaybackRow(dispatch)
+        self.hits = hits_panel.HitsPanel(self._playback)
         self.figure = style_panel.StylePanel(dispatch)
         self._practice = practice_panel.PracticePanel(dispatch)
         self._devices = devices_panel.DevicesPanel(dispatch)
-        self._take = export_panel.ExportPanel(dispatch)
+        self._export = export_panel.ExportPanel(dispatch)
         self.graph = graph_panel.GraphPanel(lambda to_s: dispatch(Seek(ns_from_s(to_s))))
         viewpoints = ViewActions(self.view_keys.keep, self.view_keys.go)
         self._transport = TransportBar(dispatch, viewpoints, self._open_tools)
@@ -58,7 +58,7 @@ class Pages:
             Panel(style_panel.FIGURE, right, self.figure.gui, style_panel.ABOUT, help=style_panel.HELP),
             Panel(practice_panel.PRACTICE, right, self._practice.gui, practice_panel.ABOUT, help=practice_panel.HELP),
             Panel(devices_panel.DEVICES, right, self._devices.gui, devices_panel.ABOUT, help=devices_panel.HELP),
-            Panel(export_panel.TAKE_ALONG, right, self._take.gui, export_panel.ABOUT, help=export_panel.HELP),
+            Panel(export_panel.EXPORT, right, self._export.gui, export_panel.ABOUT, help=export_panel.HELP),
             Panel(GRAPH, strip, self._graph_gui, graph_panel.ABOUT, help=graph_panel.HELP),
             Panel(TRANSPORT, DockSide.BELOW, self._transport_gui, shown=lambda state: True),
         )
@@ -104,13 +104,13 @@ class Pages:
         panels_popup(self.tools, self.docking)
 
     def _bars_gui(self, state: State) -> None:
-        self._ear.is_listening = state.room.listening
-        bar = None if state.report is None else bars_panel(state.report, self._ear)
+        self._playback.is_listening = state.room.listening
+        bar = None if state.report is None else bars_panel(state.report, self._playback)
         if bar is not None:
             self._dispatch(Drill(bar))
 
     def _hits_gui(self, state: State) -> None:
-        self._ear.is_listening = state.room.listening
+        self._playback.is_listening = state.room.listening
         self.hits.gui(state.report if state.shows_result else None)
 
     def _graph_gui(self, state: State) -> None:

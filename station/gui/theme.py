@@ -40,7 +40,7 @@ def load_fonts() -> None:
     hello_imgui.load_font(_ICONS, _ICON_SIZE, hello_imgui.FontLoadingParams(merge_to_last_font=True))
 
 
-class _Worn:
+class _Current:
     """What the panels wear now; one for the process, as imgui's own style is."""
 
     theme = Theme.NIGHT
@@ -49,12 +49,12 @@ class _Worn:
 
 def choose(theme: Theme, scale: float) -> None:
     """What `apply` shall show: the colours of `theme`, panels `scale` times as large as designed."""
-    _Worn.theme, _Worn.scale = theme, scale
+    _Current.theme, _Current.scale = theme, scale
 
 
-def dyed(colour: Colour) -> Colour:
+def themed(colour: Colour) -> Colour:
     """What the present theme shows for a colour of the night."""
-    return palette.dyed(colour, _Worn.theme)
+    return palette.dyed(colour, _Current.theme)
 
 
 def _vec(colour: Colour) -> imgui.ImVec4:
@@ -64,7 +64,7 @@ def _vec(colour: Colour) -> imgui.ImVec4:
 def apply() -> None:
     """Set colours, roundings and sizes as chosen; hello_imgui calls this when the style may first be set."""
     style = imgui.get_style()
-    style.font_scale_main = _Worn.scale
+    style.font_scale_main = _Current.scale
     style.window_rounding = style.child_rounding = style.popup_rounding = points(_ROUND)
     style.frame_rounding = style.grab_rounding = style.tab_rounding = style.scrollbar_rounding = points(_LESS_ROUND)
     style.window_padding = imgui.ImVec2(points(16), points(14))
@@ -81,7 +81,7 @@ def apply() -> None:
 
 def _apply_to_plots() -> None:
     """The same for ImPlot. Named lines are all minor ones to it, the panel is behind its plots."""
-    style, ink = implot.get_style(), dyed(palette.INK)
+    style, ink = implot.get_style(), themed(palette.INK)
     style.plot_padding = imgui.ImVec2(points(4), points(2))
     style.plot_min_size = imgui.ImVec2(points(10), points(10))
     style.legend_spacing = imgui.ImVec2(points(14), 0)
@@ -100,14 +100,14 @@ def _apply_to_plots() -> None:
 
 def _colours() -> dict[imgui.Col_, Colour]:
     """The colour of each part of a panel."""
-    brand, ink, panel = dyed(palette.BRAND), dyed(palette.INK), dyed(_PANEL)
+    brand, ink, panel = themed(palette.BRAND), themed(palette.INK), themed(_PANEL)
     return {
         imgui.Col_.text: ink,
-        imgui.Col_.text_disabled: dyed(palette.INK_SOFT),
+        imgui.Col_.text_disabled: themed(palette.INK_SOFT),
         imgui.Col_.window_bg: panel,
         imgui.Col_.child_bg: (0.0, 0.0, 0.0, 0.0),
-        imgui.Col_.popup_bg: dyed(_PANEL),
-        imgui.Col_.border: dyed(palette.PANEL_EDGE),
+        imgui.Col_.popup_bg: themed(_PANEL),
+        imgui.Col_.border: themed(palette.PANEL_EDGE),
         imgui.Col_.frame_bg: palette.with_opacity(ink, 0.07),
         imgui.Col_.frame_bg_hovered: palette.with_opacity(ink, 0.12),
         imgui.Col_.frame_bg_active: palette.with_opacity(ink, 0.16),
@@ -134,19 +134,19 @@ def _colours() -> dict[imgui.Col_, Colour]:
         imgui.Col_.header: palette.with_opacity(brand, 0.22),
         imgui.Col_.header_hovered: palette.with_opacity(brand, 0.30),
         imgui.Col_.header_active: palette.with_opacity(brand, 0.38),
-        imgui.Col_.separator: dyed(palette.PANEL_EDGE),
+        imgui.Col_.separator: themed(palette.PANEL_EDGE),
         imgui.Col_.plot_histogram: brand,
         imgui.Col_.nav_cursor: brand,
-        imgui.Col_.docking_empty_bg: dyed(palette.NIGHT),
+        imgui.Col_.docking_empty_bg: themed(palette.NIGHT),
     }
 
 
 def main_button(label: str, size: tuple[float, float], enabled: bool = True) -> bool:
     """The one button of a page that matters; returns whether it was pressed."""
-    brand, night = dyed(palette.BRAND), dyed(palette.NIGHT)
-    lit = palette.mixed(brand, dyed(palette.INK), 0.25)
+    brand, night = themed(palette.BRAND), themed(palette.NIGHT)
+    highlighted = palette.mixed(brand, themed(palette.INK), 0.25)
     slots = (imgui.Col_.button, imgui.Col_.button_hovered, imgui.Col_.button_active, imgui.Col_.text)
-    for slot, colour in zip(slots, (brand, lit, lit, night), strict=True):
+    for slot, colour in zip(slots, (brand, highlighted, highlighted, night), strict=True):
         imgui.push_style_color(slot, _vec(colour))
     imgui.begin_disabled(not enabled)
     pressed = imgui.button(label, imgui.ImVec2(*size))
@@ -155,10 +155,10 @@ def main_button(label: str, size: tuple[float, float], enabled: bool = True) -> 
     return bool(pressed)
 
 
-def icon_button(label: str, size: tuple[float, float], lit: bool = False) -> bool:
-    """A button that bears a sign of the icon font; returns whether it was pressed. `lit` shows that it is on."""
-    is_on = _vec(palette.with_opacity(dyed(palette.BRAND), 0.55))
-    imgui.push_style_color(imgui.Col_.button, is_on if lit else imgui.get_style_color_vec4(imgui.Col_.button))
+def icon_button(label: str, size: tuple[float, float], highlighted: bool = False) -> bool:
+    """A button that bears a sign of the icon font; returns whether it was pressed. `highlighted`: it is on."""
+    is_on = _vec(palette.with_opacity(themed(palette.BRAND), 0.55))
+    imgui.push_style_color(imgui.Col_.button, is_on if highlighted else imgui.get_style_color_vec4(imgui.Col_.button))
     imgui.push_style_var(imgui.StyleVar_.frame_padding, imgui.ImVec2(0.0, imgui.get_style().frame_padding.y))
     pressed = imgui.button(label, imgui.ImVec2(*size))
     imgui.pop_style_var()
@@ -175,7 +175,7 @@ def heading(text: str, size: float = LARGE_FONT_SIZE) -> None:
 
 def soft(text: str) -> None:
     """A line of quiet text, broken where the panel ends."""
-    imgui.push_style_color(imgui.Col_.text, _vec(dyed(palette.INK_SOFT)))
+    imgui.push_style_color(imgui.Col_.text, _vec(themed(palette.INK_SOFT)))
     imgui.text_wrapped(text)
     imgui.pop_style_color()
 
@@ -269,7 +269,7 @@ def _no_grab(label: str, place: Callable[[], float]) -> Iterator[None]:
     at = low.x + min(max(place(), 0.0), 1.0) * (right - low.x)
     line, brush = thick / 2, imgui.get_window_draw_list()
     brush.push_clip_rect(low, imgui.ImVec2(right, bottom), True)
-    ink = imgui.color_convert_float4_to_u32(_vec(dyed(palette.BRAND)))
+    ink = imgui.color_convert_float4_to_u32(_vec(themed(palette.BRAND)))
     brush.add_rect_filled(imgui.ImVec2(low.x, bottom - thick), imgui.ImVec2(max(at, low.x + thick), bottom), ink, line)
     brush.pop_clip_rect()
 
@@ -283,7 +283,7 @@ def fit_height(height: float) -> None:
 
 def points(pixels: float) -> float:
     """Design pixels in the window's own, which grow with the screen's density and the user's scale."""
-    return pixels * float(hello_imgui.dpi_window_size_factor()) * _Worn.scale
+    return pixels * float(hello_imgui.dpi_window_size_factor()) * _Current.scale
 
 
 def is_narrow() -> bool:

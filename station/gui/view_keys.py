@@ -11,7 +11,7 @@ from station.gui.keyboard_kit import slot_pressed, view_pressed
 from station.gui.viewport import Viewport
 
 _LOOKS: tuple[tuple[imgui.Key, Callable[[ViewSettings], ViewSettings]], ...] = (
-    (imgui.Key.m, lambda look: replace(look, mirrored=not look.mirrored)),
+    (imgui.Key.m, lambda view_settings: replace(view_settings, mirrored=not view_settings.mirrored)),
     (imgui.Key.p, ViewSettings.next_inset),
     (imgui.Key.n, ViewSettings.next_score),
     (imgui.Key.e, ViewSettings.next_double),
@@ -22,37 +22,37 @@ _SIZES = ((imgui.Key.equal, 1), (imgui.Key.minus, -1))
 
 
 class ViewKeys:
-    """The viewpoints' keys over one backdrop; what is chosen goes to `dispatch`."""
+    """The viewpoints' keys over one viewport; what is chosen goes to `dispatch`."""
 
-    def __init__(self, backdrop: Viewport, dispatch: Callable[[Action], None]) -> None:
-        self._backdrop = backdrop
+    def __init__(self, viewport: Viewport, dispatch: Callable[[Action], None]) -> None:
+        self._viewport = viewport
         self._dispatch = dispatch
 
-    def take(self, look: ViewSettings) -> None:
-        """Do what was pressed since the last frame, which `look` is from."""
+    def handle(self, view_settings: ViewSettings) -> None:
+        """Do what was pressed since the last frame, which `view_settings` is from."""
         io = imgui.get_io()
         slot, view = slot_pressed(), view_pressed()
         if slot is not None and io.key_ctrl and not io.key_shift:
             self.keep(slot)
         elif io.key_ctrl and (way := next((way for key, way in _SIZES if imgui.is_key_pressed(key)), 0)):
-            self._dispatch(SetView(look.scaled(way)))
+            self._dispatch(SetView(view_settings.scaled(way)))
         elif io.key_ctrl or io.key_shift or io.key_alt or io.key_super:
             return
         elif slot is not None:
             self.go(slot)
         elif view is not None:
-            self._backdrop.back_to(view)
-            self._dispatch(SetView(replace(look, view=view)))
+            self._viewport.back_to(view)
+            self._dispatch(SetView(replace(view_settings, view=view)))
         else:
             for change in (change for key, change in _LOOKS if imgui.is_key_pressed(key, repeat=False)):
-                look = change(look)
-                self._dispatch(SetView(look))
+                view_settings = change(view_settings)
+                self._dispatch(SetView(view_settings))
 
     def keep(self, slot: int) -> None:
         """Keep where the user looks from as a slot (from 0)."""
-        self._dispatch(KeepViewpoint(slot, self._backdrop.camera))
+        self._dispatch(KeepViewpoint(slot, self._viewport.camera))
 
     def go(self, slot: int) -> None:
         """Look from a slot's viewpoint, or say that none is kept there."""
-        if not self._backdrop.go(slot):
+        if not self._viewport.go(slot):
             self._dispatch(Notify(f"no viewpoint {slot + 1} is kept yet: Ctrl+{slot + 1} keeps where you look from"))

@@ -1,6 +1,6 @@
 """The picture behind the panels: the practice room or the results page, its viewpoint, and its quality.
 
-It keeps where one looks from; how the picture is shown follows the look of each frame (`look_from`). The room is drawn
+It keeps where one looks from; how the picture is shown follows the look of each frame (`follow`). The room is drawn
 in two steps: `begin` draws all that moves, the longest part, and what it returns the rest, which may know of strokes
 that were heard meanwhile.
 
@@ -40,7 +40,7 @@ _FAST_MS, _VERY_FAST_MS = 6.0, 2.0
 """A machine that draws the lowest level so fast can afford the middle and the highest at 60 Hz (our choice)."""
 _MEASURED = replace(QUALITIES[0], is_layered=False)
 """What is measured draws everything anew, as the higher levels do."""
-_LEAST_LETTERS = 0.9
+_MIN_TEXT_SIZE = 0.9
 """How large a result's letters are at the least, of the panels' own (our choice)."""
 _LEAST_AREA = 16
 """Pixels of the free middle's shorter side below which nothing is drawn there (our choice)."""
@@ -53,7 +53,7 @@ Finish = Callable[[Snapshot], None]
 class Viewport:
     """Draws with the window's own OpenGL context, which it takes over at the first frame."""
 
-    def __init__(self, quality: int | None, look: ViewSettings) -> None:
+    def __init__(self, quality: int | None, view_settings: ViewSettings) -> None:
         self._wanted = quality
         self._painter: Painter | None = None
         self._ctx: moderngl.Context | None = None
@@ -61,39 +61,39 @@ class Viewport:
         self._samples = 0
         self._times_ms: list[float] = []
         self._page: tuple[ShownResult, ReportPage, NDArray[np.void]] | None = None
-        self.look = look
+        self.view_settings = view_settings
         self._left_handed = False
-        self.camera: Camera = replace(named(look.view), mirrored=look.mirrored)
+        self.camera: Camera = replace(named(view_settings.view), mirrored=view_settings.mirrored)
         self._seen_from = self.camera
 
-    def look_from(self, look: ViewSettings) -> None:
+    def follow(self, view_settings: ViewSettings) -> None:
         """Show the picture so; another named view, or the other side, turns it, and what is so already stays turned."""
-        if look.view is not self.look.view:
-            self.camera = named(look.view, self._left_handed)
-        self.look = look
-        self.camera = replace(self.camera, mirrored=look.mirrored)
+        if view_settings.view is not self.view_settings.view:
+            self.camera = named(view_settings.view, self._left_handed)
+        self.view_settings = view_settings
+        self.camera = replace(self.camera, mirrored=view_settings.mirrored)
 
     def go(self, slot: int) -> bool:
         """Look from the viewpoint `slot`, from 0; returns whether it was kept."""
-        camera = self.look.viewpoints[slot]
+        camera = self.view_settings.viewpoints[slot]
         if camera is not None:
-            self.camera = replace(camera, mirrored=self.look.mirrored)
+            self.camera = replace(camera, mirrored=self.view_settings.mirrored)
         return camera is not None
 
     def back_to(self, view: NamedView) -> None:
         """Go to a named view, even where it was turned."""
-        self.look = replace(self.look, view=view)
+        self.view_settings = replace(self.view_settings, view=view)
         self._back_to_the_view()
 
     @property
     def _inset(self) -> Camera | None:
         """The camera of the second picture."""
-        if self.look.inset is None:
+        if self.view_settings.inset is None:
             return None
-        return replace(named(self.look.inset, self._left_handed), mirrored=self.look.mirrored)
+        return replace(named(self.view_settings.inset, self._left_handed), mirrored=self.view_settings.mirrored)
 
     def _back_to_the_view(self) -> None:
-        self.camera = replace(named(self.look.view, self._left_handed), mirrored=self.look.mirrored)
+        self.camera = replace(named(self.view_settings.view, self._left_handed), mirrored=self.view_settings.mirrored)
 
     def steer(self, io: imgui.IO) -> None:
         """Turn, shift or approach with the mouse; a double click goes back to the named view."""
@@ -115,7 +115,7 @@ class Viewport:
         """
         ctx, painter = self._ready()
         screen, whole = self.clear()
-        painter.theme = self.look.theme
+        painter.theme = self.view_settings.theme
         if min(area[2:]) < _LEAST_AREA:
             return lambda _: None
         if snapshot.kit.left_handed != self._left_handed:
@@ -124,7 +124,7 @@ class Viewport:
         began = perf_counter()
         target = self._target_for(painter, ctx, whole)
         is_rough = self.camera != self._seen_from
-        arrangement = Arrangement(self._inset, self.look.score, is_rough, self.look.double)
+        arrangement = Arrangement(self._inset, self.view_settings.score, is_rough, self.view_settings.double)
         self._seen_from = self.camera
         with self._watched():
             rest = painter.begin(snapshot, target.framebuffer, area, self.camera, arrangement=arrangement)
@@ -145,7 +145,7 @@ class Viewport:
         """Draw a result in place of the room; raises `DeviceError` if OpenGL fails."""
         ctx, painter = self._ready()
         _, whole = self.clear()
-        painter.theme = self.look.theme
+        painter.theme = self.view_settings.theme
         if min(area[2:]) < _LEAST_AREA:
             return
         with self._watched():
@@ -172,7 +172,7 @@ class Viewport:
         whole = (round(size.x * scale.x), round(size.y * scale.y))
         ctx.viewport = (0, 0, *whole)
         ctx.scissor = None
-        screen.clear(*dyed(NIGHT, self.look.theme), depth=1.0)
+        screen.clear(*dyed(NIGHT, self.view_settings.theme), depth=1.0)
         return screen, whole
 
     def release(self) -> None:
@@ -209,8 +209,8 @@ class Viewport:
             self._painter.draw_at(QUALITIES[quality_for(median(self._times_ms[2:]))])
 
     def _draw_report(self, report: ShownResult, painter: Painter, ctx: moderngl.Context, area: Area) -> None:
-        letters = theme.points(_LEAST_LETTERS) * imgui.get_io().display_framebuffer_scale.y
-        page = page_for(area[2:], letters)
+        text_size = theme.points(_MIN_TEXT_SIZE) * imgui.get_io().display_framebuffer_scale.y
+        page = page_for(area[2:], text_size)
         if self._page is None or self._page[0] is not report or self._page[1] != page:
             self._page = report, page, report_shapes(report.facts, painter.atlas, page)
         ctx.viewport = area

@@ -7,7 +7,7 @@ judgement.
 
 from imgui_bundle import hello_imgui, imgui, implot
 
-from station.app.actions import Begin, Leave, Meet, Notify, Pause, Show, StrikeKey
+from station.app.actions import Begin, FinishFirstStart, Leave, Notify, Pause, Show, StrikeKey
 from station.app.controller import Controller
 from station.app.first_start import FirstAnswers
 from station.app.help_topics import topic_of
@@ -43,11 +43,11 @@ class Window:
         controller.dispatch(self._shown)
         self.state: State = controller.view()
         """What this frame shows."""
-        self.backdrop = Viewport(options.quality, self.state.look)
-        self.pages = Pages(controller.dispatch, self.backdrop)
+        self.viewport = Viewport(options.quality, self.state.view_settings)
+        self.pages = Pages(controller.dispatch, self.viewport)
         settings = self.state.settings
         self.welcome = None if settings.welcomed else WelcomePage(FirstAnswers.of(settings))
-        self._worn = self.state.look.theme, self.state.look.scale
+        self._shown_theme = self.state.view_settings.theme, self.state.view_settings.scale
         self._show_help = False
         self._frame_ms = 0.0
         self._drawn: Snapshot | None = None
@@ -57,9 +57,9 @@ class Window:
         self.monitors: MonitorWatch | None = None
         calls = Calls(self._opened, self._before_frame, self._background, self._over_all, self._swapped, self._leaving)
         windows = [page.window(lambda: self.state) for page in self.pages.table]
-        self.params = runner(options, calls, windows, self.state.look.scale)
+        self.params = runner(options, calls, windows, self.state.view_settings.scale)
         self.pages.docking = self.params.docking_params
-        theme.choose(*self._worn)
+        theme.choose(*self._shown_theme)
 
     def run(self) -> None:
         """Show the window until it is closed; raises `DeviceError` where no window can be had, or OpenGL ends."""
@@ -89,7 +89,7 @@ class Window:
         self._show()
         self._controller.update(self._clock.now_ns())
         self.state = self._controller.view()
-        self.backdrop.look_from(self.state.look)
+        self.viewport.follow(self.state.view_settings)
         self._wear()
         self.pages.show(self.state, self.welcome is None)
         self.params.fps_idling.enable_idling = not self.state.is_lively
@@ -108,17 +108,17 @@ class Window:
 
     def _wear(self) -> None:
         """Show the panels in the colours and the size that were chosen; larger ones dock anew."""
-        look = self.state.look
-        if (look.theme, look.scale) != self._worn:
-            if look.scale != self._worn[1]:
-                self.params.docking_params.docking_splits = splits(look.scale)
+        view_settings = self.state.view_settings
+        if (view_settings.theme, view_settings.scale) != self._shown_theme:
+            if view_settings.scale != self._shown_theme[1]:
+                self.params.docking_params.docking_splits = splits(view_settings.scale)
                 self.params.docking_params.layout_reset = True
-            self._worn = look.theme, look.scale
-            theme.choose(*self._worn)
+            self._shown_theme = view_settings.theme, view_settings.scale
+            theme.choose(*self._shown_theme)
             theme.apply()
 
     def _leaving(self) -> None:
-        self.backdrop.release()
+        self.viewport.release()
 
     def _background(self) -> None:
         """Draw the picture behind the panels."""
@@ -133,12 +133,12 @@ class Window:
         """Draw a result or the room, and in this what was struck while all that moves was drawn, the longest part."""
         left, low, width, height = central_area(self.params.docking_params)
         if state.snapshot is None or self.frames % self.picture_every:
-            self.backdrop.clear()
+            self.viewport.clear()
         elif state.report is not None and state.shows_result and not state.room.listening:
             height -= round(theme.points(ABOVE_RESULT) * imgui.get_io().display_framebuffer_scale.y)
-            self.backdrop.draw_report(state.report, (left, low, width, height))
+            self.viewport.draw_report(state.report, (left, low, width, height))
         else:
-            finish = self.backdrop.begin(state.snapshot, (left, low, width, height))
+            finish = self.viewport.begin(state.snapshot, (left, low, width, height))
             if self._controller.update(self._clock.now_ns()):
                 self.state = self._controller.view()
             self._drawn = self.state.snapshot or state.snapshot
@@ -161,7 +161,7 @@ class Window:
             self._controller.dispatch(Notify(moved))
         self._keys()
         if not io.want_capture_mouse:
-            self.backdrop.steer(io)
+            self.viewport.steer(io)
         if self._show_help:
             self._help()
         else:
@@ -171,7 +171,7 @@ class Window:
         """The questions of the first start, until they are answered or put aside."""
         begun = page.gui()
         if begun is not None:
-            self._controller.dispatch(Meet(page.answers if begun else None))
+            self._controller.dispatch(FinishFirstStart(page.answers if begun else None))
             self.welcome = None
 
     def _keys(self) -> None:
@@ -185,7 +185,7 @@ class Window:
             return
         if room.stage is Stage.IDLE and not room.free:
             self.pages.controls.key_wind = player_keys(self.state.player, dispatch)
-        self.pages.view_keys.take(self.state.look)
+        self.pages.view_keys.handle(self.state.view_settings)
         if imgui.is_key_pressed(imgui.Key.escape, repeat=False):
             dispatch(Leave())
         elif imgui.is_key_pressed(imgui.Key.backspace, repeat=False):
@@ -200,7 +200,7 @@ class Window:
 
     def _help(self) -> None:
         is_open = [page for page in self.pages.tools if self.pages.is_open(page.name)]
-        topic = topic_of(self.state.room, self.state.choice.free)
+        topic = topic_of(self.state.room, self.state.selection.free)
         self._show_help = help_window(topic, is_open, self._frame_ms)
 
 

@@ -1,7 +1,7 @@
-"""A bar of a result to be seen as it is heard: the demonstrator, and over him the student as he played it.
+"""A bar of a result to be seen as it is heard: the demonstrator, and over it the student as they played it.
 
-The student's sticks are those of his double (`student_figure`): a limb shows the demonstrator's stroke when the student
-struck, and glows where that was early or late. Times are those of the result's score.
+The student's sticks are those of their double (`student_figure`): a limb shows the demonstrator's stroke when the
+student struck, and glows where that was early or late. Times are those of the result's score.
 """
 
 from dataclasses import replace
@@ -27,16 +27,16 @@ FAR_NS = 150 * NS_PER_MS
 
 
 class Comparison:
-    """One bar, from 0, of `result`, demonstrated by `who`; `played` is laid over it, None for nothing but him."""
+    """One bar, from 0, of `result`, demonstrated by `demonstrator`; `played` is laid over it, None for nothing."""
 
     def __init__(
-        self, result: SessionResult, bar: int, played: Performance | None, who: Demonstrator, words: str
+        self, result: SessionResult, bar: int, played: Performance | None, demonstrator: Demonstrator, words: str
     ) -> None:
         plan, tempo_map = result.plan, result.score.tempo_map
         self._lesson_bar = lesson_bars(plan)[bar]
         self._start_ns = int(tempo_map.ns_at(tempo_map.bar_start(bar)))
-        style = in_passes(who.style, self._lesson_bar, 1, 1)
-        self._drummer = Drummer(result.score.bars(bar, bar), plan.kit, who.figure, style)
+        style = in_passes(demonstrator.style, self._lesson_bar, 1, 1)
+        self._drummer = Drummer(result.score.bars(bar, bar), plan.kit, demonstrator.figure, style)
         hits = () if played is None else tuple(played)
         self._hits = [replace(hit, at_ns=hit.at_ns - self._start_ns) for hit in hits]
         self._is_alone = played is None
@@ -75,7 +75,7 @@ class Comparison:
         return int(np.argmin(np.abs(onset_ns - hit.at_ns))), TimingCue.WRONG_PIECE
 
     def _double(self, past: list[Hit], now_ns: int) -> StudentShown:
-        """The student as he stands after the strokes of the `past`."""
+        """The student as they stand after the strokes of the `past`."""
         double, drummer = StudentFigure(), self._drummer
         double.heard(past, drummer, now_ns / NS_PER_S, now_ns)
         for hit in past:

@@ -1,4 +1,4 @@
-"""What the graph panel shows: a drummer over his score, where the play line is, and what the student played.
+"""What the graph panel shows: a drummer over the score, where the play line is, and what the student played.
 
 Times are seconds from the score's tick 0; asynchronies played − written in ms, negative is early; NaN where there is
 nothing to show.

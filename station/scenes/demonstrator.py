@@ -21,18 +21,18 @@ class Demonstrator:
     style: Style = field(default_factory=Style)
 
 
-def kept_demonstrator(settings: Settings, tell: Callable[[str], None]) -> Demonstrator:
-    """The one of the settings; what cannot be had is told, and as natural as can be."""
+def demonstrator_of(settings: Settings, notify: Callable[[str], None]) -> Demonstrator:
+    """The one of the settings; `notify` hears what cannot be loaded, in whose place the natural one is."""
     natural = Demonstrator()
     return Demonstrator(
-        _or(natural.figure, lambda: load_figure(settings.figure), tell),
-        _or(natural.style, lambda: load_style(settings.style), tell),
+        _or(natural.figure, lambda: load_figure(settings.figure), notify),
+        _or(natural.style, lambda: load_style(settings.style), notify),
     )
 
 
-def _or(default: T, load: Callable[[], T], tell: Callable[[str], None]) -> T:
+def _or(default: T, load: Callable[[], T], notify: Callable[[str], None]) -> T:
     try:
         return load()
     except BadInput as fault:
-        tell(str(fault))
+        notify(str(fault))
         return default

@@ -20,8 +20,8 @@ from station.render.snapshot import BarNumbers, Snapshot
 from station.scenes.pictures import picture_of
 from station.scenes.soundtrack import Sounds, Soundtrack
 
-Tell = Callable[[int], None]
-"""Is told how many pictures are done."""
+ShowProgress = Callable[[int], None]
+"""Shows how many pictures are done."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,26 +47,30 @@ def encoder() -> str:
     return encoder_name()
 
 
-def write_film(drummer: Drummer, take: FilmStretch, shot: Shot, sounds: Sounds, path: Path, tell: Tell) -> None:
+def write_film(
+    drummer: Drummer, stretch: FilmStretch, shot: Shot, sounds: Sounds, path: Path, show: ShowProgress
+) -> None:
     """A video at `path`, whole or not at all; raises `DeviceError` without OpenGL, disk or encoder."""
     encoder()
     from station.render.files.video_file import EFFORTS, VideoFormat, video_file
 
-    soundtrack = Soundtrack(drummer.score, take.start_s, sounds)
+    soundtrack = Soundtrack(drummer.score, stretch.start_s, sounds)
     effort = EFFORTS[QUALITIES.index(shot.quality)]
-    video = VideoFormat(shot.size, take.fps, soundtrack.rate_hz, effort)
-    with artist(shot, take.pictures) as who, video_file(path, video) as sink:
-        for done, planes in enumerate(who.film(_snapshots(drummer, take)), 1):
+    video = VideoFormat(shot.size, stretch.fps, soundtrack.rate_hz, effort)
+    with artist(shot, stretch.pictures) as drawer, video_file(path, video) as sink:
+        for done, planes in enumerate(drawer.film(_snapshots(drummer, stretch)), 1):
             sink.add_picture(planes)
-            sink.add_sound(soundtrack.until(float(done / take.fps)))
-            tell(done)
+            sink.add_sound(soundtrack.until(float(done / stretch.fps)))
+            show(done)
 
 
-def write_pictures(drummer: Drummer, take: FilmStretch, shot: Shot, paths: Iterable[Path], tell: Tell) -> None:
+def write_pictures(
+    drummer: Drummer, stretch: FilmStretch, shot: Shot, paths: Iterable[Path], show: ShowProgress
+) -> None:
     """A PNG a picture, each whole or not at all; raises `DeviceError` without OpenGL or disk."""
-    with artist(shot, take.pictures) as who:
-        for done, _ in enumerate(who.pngs(_snapshots(drummer, take), paths), 1):
-            tell(done)
+    with artist(shot, stretch.pictures) as drawer:
+        for done, _ in enumerate(drawer.pngs(_snapshots(drummer, stretch), paths), 1):
+            show(done)
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +100,7 @@ _SAMPLES = 12
 """So many pictures choose a GIF's colours (our choice: more of them chose the same)."""
 
 
-def write_loop(drummer: Drummer, loop: FilmLoop, fps: float, shot: Shot, path: Path, tell: Tell) -> None:
+def write_loop(drummer: Drummer, loop: FilmLoop, fps: float, shot: Shot, path: Path, show: ShowProgress) -> None:
     """A GIF at `path`, whole or not at all; raises `DeviceError` without OpenGL, disk or encoder."""
     encoder()
     from station.render.files.gif_file import gif_times, pixels_of, write_gif
@@ -105,10 +109,10 @@ def write_loop(drummer: Drummer, loop: FilmLoop, fps: float, shot: Shot, path: P
     seen = [loop.length_s * (1 + begin / times.end) for begin in times.begins]
     samples = seen[:: -(-len(seen) // _SAMPLES)]
     shown = (_in_loop(picture_of(drummer, at_s), loop) for at_s in [*samples, *seen])
-    with artist(shot, len(samples) + len(seen)) as who:
-        drawn = map(pixels_of, who.film(shown))
+    with artist(shot, len(samples) + len(seen)) as drawer:
+        drawn = map(pixels_of, drawer.film(shown))
         for done in write_gif(path, drawn, list(islice(drawn, len(samples))), times):
-            tell(done)
+            show(done)
 
 
 def _in_loop(snapshot: Snapshot, loop: FilmLoop) -> Snapshot:
@@ -120,5 +124,5 @@ def _in_loop(snapshot: Snapshot, loop: FilmLoop) -> Snapshot:
     return replace(snapshot, hud=hud, bar_numbers=numbers)
 
 
-def _snapshots(drummer: Drummer, take: FilmStretch) -> Iterator[Snapshot]:
-    return (picture_of(drummer, float(at_s)) for at_s in take.times_s)
+def _snapshots(drummer: Drummer, stretch: FilmStretch) -> Iterator[Snapshot]:
+    return (picture_of(drummer, float(at_s)) for at_s in stretch.times_s)

@@ -78,8 +78,8 @@ def nearest(at: NDArray[np.float64], point: tuple[float, float], within: float) 
     return index if away[index] <= within else None
 
 
-def words_of(dot: np.void) -> str:
-    """What is told of a dot: bar, beat, piece, ms, pass."""
+def dot_label(dot: np.void) -> str:
+    """The words for a dot: bar, beat, piece, ms, pass."""
     where = f"Bar {dot['bar']}, beat {round(float(dot['beat']), 2):g}, {piece_name(Piece(int(dot['piece'])))}"
     return f"{where}: {_judged(dot)} (pass {dot['pass']})"
 

@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 STRETCH_S = 2.0
 RATE_HZ = 120
 """Twice what a screen shows; strikes have samples of their own, so that no corner is cut off (our choice)."""
-KEPT = 64
+MOST_CACHED = 64
 """Stretches kept: two minutes, more than one looks at together (our choice)."""
 
 
@@ -59,12 +59,12 @@ class JointCurves:
     def between(self, low_s: float, high_s: float) -> tuple[Array, Array]:
         """Times (n,) that cover `low_s` … `high_s`, in order, and the angles then in degrees, (n, 6) by `CURVES`.
 
-        At most `KEPT` stretches from `low_s` on: who looks at more at once sees no curve any more.
+        At most `MOST_CACHED` stretches from `low_s` on: who looks at more at once sees no curve any more.
         """
         first = floor(low_s / STRETCH_S)
-        last = min(ceil(high_s / STRETCH_S), first + KEPT)
+        last = min(ceil(high_s / STRETCH_S), first + MOST_CACHED)
         if (first, last) != self._shown:
-            if len(self._stretches) > KEPT:
+            if len(self._stretches) > MOST_CACHED:
                 self._stretches = {i: s for i, s in self._stretches.items() if first <= i < last}
             parts = [self._stretch(index) for index in range(first, last)]
             self._shown = first, last

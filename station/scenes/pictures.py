@@ -15,7 +15,7 @@ from station.practice.session.session import SessionResult
 from station.render.picture import draw_png
 from station.render.report.report_picture import draw_report_png
 from station.render.snapshot import ExtraHit, Hud, Snapshot, mark, no_marks
-from station.scenes.demonstrator import Demonstrator, kept_demonstrator
+from station.scenes.demonstrator import Demonstrator, demonstrator_of
 from station.scenes.result_tables import session_facts
 from station.scenes.session_scene import bar_numbers
 from station.scoring.matching.alignment import judgements
@@ -26,25 +26,25 @@ def draw_record(record: SessionRecord, folder: Path, settings: Settings) -> Iter
     report, drummer = folder / PICTURE_NAME, folder / DRUMMER_NAME
     draw_report_png(session_facts(record.result, record.document), report)
     yield report
-    who = kept_demonstrator(settings, lambda _: None)  # a style that is none was told when practice began
-    draw_session(record.result, drummer, who)
+    demonstrator = demonstrator_of(settings, lambda _: None)  # a style that is none was reported when practice began
+    draw_session(record.result, drummer, demonstrator)
     yield drummer
 
 
-def drummer_of(result: SessionResult, who: Demonstrator) -> Drummer:
+def drummer_of(result: SessionResult, demonstrator: Demonstrator) -> Drummer:
     """The one who demonstrated it, over all its passes."""
     plan = result.plan
     passes = result.score.bar_count // plan.section.bar_count
-    style = in_passes(who.style, plan.first_bar, plan.section.bar_count, passes)
-    return Drummer(result.score, plan.kit, who.figure, style)
+    style = in_passes(demonstrator.style, plan.first_bar, plan.section.bar_count, passes)
+    return Drummer(result.score, plan.kit, demonstrator.figure, style)
 
 
-def draw_session(result: SessionResult, path: Path, who: Demonstrator) -> None:
+def draw_session(result: SessionResult, path: Path, demonstrator: Demonstrator) -> None:
     """The last pass of a session, half into its first bar, every note with its judgement; raises `DeviceError`."""
     plan = result.plan
     last_pass_s = (result.score.length_ns - plan.section.length_ns) / NS_PER_S
     bar_s = plan.section.length_ns / NS_PER_S / plan.section.bar_count
-    snapshot = picture_of(drummer_of(result, who), last_pass_s + bar_s / 2)
+    snapshot = picture_of(drummer_of(result, demonstrator), last_pass_s + bar_s / 2)
     marks = no_marks(result.score)
     extras = []
     for judgement in judgements(result.score, result.performance, result.alignment):
@@ -65,7 +65,7 @@ def draw_session(result: SessionResult, path: Path, who: Demonstrator) -> None:
 
 
 def picture_of(drummer: Drummer, at_s: float) -> Snapshot:
-    """The drummer at `at_s` seconds of the score; bar and beat are told while it is played."""
+    """The drummer at `at_s` seconds of the score; bar and beat are shown while it is played."""
     score = drummer.score
     hud = Hud(title=score.title, bar_count=score.bar_count)
     if 0 <= at_s * NS_PER_S < score.length_ns:

@@ -42,6 +42,6 @@ def session_facts(result: SessionResult, document: dict[str, Json]) -> ResultFac
 
 
 def _standing(document: dict[str, Json]) -> str:
-    """Where the student stands in the lesson, in words, where the tempo followed him."""
+    """Where the student stands in the lesson, in words, where the tempo followed them."""
     mastery = document.get("mastery")
     return f" · {mastery['words']}" if isinstance(mastery, dict) else ""

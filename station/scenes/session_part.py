@@ -1,7 +1,7 @@
 """A drummer who plays a part of a session: its demonstrations, or its passes.
 
-To plan a drummer takes about a tenth of a second for two bars; asked to be made `ahead`, he is planned on a thread of
-his own, while the part before him is played or counted in, and no frame waits for him; nor does a window that closes.
+To plan a drummer takes about a tenth of a second for two bars; asked to be made `ahead`, one is planned on a thread
+of its own, while the part before is played or counted in: no frame waits for it, nor does a window that closes.
 """
 
 from collections.abc import Callable
@@ -25,7 +25,7 @@ class Ahead:
     """Makes drummers one after the other: two at once would only take each other's time.
 
     On a thread that the end of the program does not wait for, unlike those of `concurrent.futures`: a long drummer
-    takes seconds, and nobody wants him any more.
+    takes seconds, and nobody wants it any more.
     """
 
     def __init__(self) -> None:
@@ -38,7 +38,7 @@ class Ahead:
             self._thread = Thread(target=self._work, name="drummer", daemon=True)
             self._thread.start()
         coming: Future[Made] = Future()
-        self._asked.put(lambda: _settle(coming, make))
+        self._asked.put(lambda: _complete(coming, make))
         return coming
 
     def _work(self) -> None:
@@ -46,7 +46,7 @@ class Ahead:
             self._asked.get()()
 
 
-def _settle(coming: Future[Made], make: Callable[[], Made]) -> None:
+def _complete(coming: Future[Made], make: Callable[[], Made]) -> None:
     try:
         coming.set_result(make())
     except Exception as fault:  # it is raised where the drummer is wanted
@@ -59,12 +59,12 @@ AHEAD = Ahead()
 class SessionPart:
     """The drummer of `score`, the plan's section once or more, which begins at `start_ns` of the transport."""
 
-    def __init__(self, plan: Plan, score: Score, start_ns: int, who: Demonstrator) -> None:
+    def __init__(self, plan: Plan, score: Score, start_ns: int, demonstrator: Demonstrator) -> None:
         self.score = score
         self.start_ns = start_ns
-        self._plan, self._who = plan, who
+        self._plan, self._demonstrator = plan, demonstrator
         self._bars = plan.first_bar, plan.section.bar_count, score.bar_count // plan.section.bar_count
-        self._style = who.style
+        self._style = demonstrator.style
         self._drummer: Drummer | None = None
         self._coming: Future[Drummer] | None = None
 
@@ -75,7 +75,7 @@ class SessionPart:
 
     @property
     def is_ready(self) -> bool:
-        """Whether nobody has to wait for the drummer; he was not asked for ahead, or is made."""
+        """Whether nobody has to wait for the drummer, who was not asked for ahead, or is made."""
         return self._coming is None or self._coming.done()
 
     @property
@@ -96,4 +96,6 @@ class SessionPart:
         return (transport_ns - self.start_ns) / NS_PER_S
 
     def _made(self) -> Drummer:
-        return Drummer(self.score, self._plan.kit, self._who.figure, in_passes(self._who.style, *self._bars))
+        return Drummer(
+            self.score, self._plan.kit, self._demonstrator.figure, in_passes(self._demonstrator.style, *self._bars)
+        )

@@ -39,17 +39,21 @@ _CUE_OF = {Label.MISS: TimingCue.MISSED, Label.WRONG_PIECE: TimingCue.WRONG_PIEC
 
 
 class SessionView:
-    """One session's pictures: the demonstrator, `who`, on the plan's kit."""
+    """One session's pictures: that of `demonstrator` on the plan's kit."""
 
-    def __init__(self, plan: Plan, who: Demonstrator | None = None, before: "SessionView | None" = None) -> None:
+    def __init__(
+        self, plan: Plan, demonstrator: Demonstrator | None = None, before: "SessionView | None" = None
+    ) -> None:
         """`before` is the view that was shown last: its drummer sits there while this one's is made."""
         self.plan = plan
-        self._who = who or Demonstrator()
+        self._demonstrator = demonstrator or Demonstrator()
         self._sits = None if before is None else before.sitting
         demonstrations = [s for s in plan.segments if s.phase is Phase.DEMONSTRATION]
-        self._passes = SessionPart(plan, plan.score, plan.passes_start_ns, self._who)
+        self._passes = SessionPart(plan, plan.score, plan.passes_start_ns, self._demonstrator)
         self._demonstration = (
-            SessionPart(plan, plan.section.repeated(len(demonstrations)), demonstrations[0].start_ns, self._who)
+            SessionPart(
+                plan, plan.section.repeated(len(demonstrations)), demonstrations[0].start_ns, self._demonstrator
+            )
             if demonstrations
             else self._passes
         )
@@ -62,11 +66,11 @@ class SessionView:
     @property
     def style(self) -> Style:
         """How the demonstrator moves."""
-        return self._who.style
+        return self._demonstrator.style
 
     def move_as(self, style: Style, hands_stay: bool = False) -> None:
         """Let the demonstrator move in another style from now on; with `hands_stay` they hold what they held."""
-        self._who = replace(self._who, style=style.holding_as(self.style) if hands_stay else style)
+        self._demonstrator = replace(self._demonstrator, style=style.holding_as(self.style) if hands_stay else style)
 
     def judged(self, verdicts: tuple[Judgement, ...], hits: Sequence[Hit], now_ns: int, windows: Windows) -> None:
         """Take in judgements of `hits` that the student may see; marks that older snapshots hold stay as they were."""
@@ -101,7 +105,7 @@ class SessionView:
                 strikes=strikes(session.heard.recent, now_ns),
                 hud=self._hud(session, now_ns, message or _why(session)),
             )
-        drummer = part.drummer(self._who.style)
+        drummer = part.drummer(self._demonstrator.style)
         double = None
         if part is self._passes:
             self._double.heard(session.heard.recent, drummer, position_s, now_ns)
@@ -121,17 +125,17 @@ class SessionView:
             double=double,
         )
 
-    def graphed(self, session: Session) -> ScoreCurves | None:
-        """The drummer who is seen, and what the student is shown of his own strokes; None while he is made."""
+    def curves(self, session: Session) -> ScoreCurves | None:
+        """The drummer who is seen, and what the student is shown of their own strokes; None while a drummer is made."""
         transport_ns = session.state().transport_ns
         part, position_s = (self._demonstration, 0.0) if transport_ns is None else self._part_at(transport_ns)
         if not part.is_ready:
             return None
         played = played_of_marks(part.score, self._marks) if part is self._passes else None
-        return ScoreCurves(part.drummer(self._who.style), position_s, self.bar_numbers, played)
+        return ScoreCurves(part.drummer(self._demonstrator.style), position_s, self.bar_numbers, played)
 
     def make_ahead(self) -> None:
-        """Let whoever plays be made while nobody waits for him."""
+        """Let whoever plays be made while nobody waits."""
         self._demonstration.ahead()
         self._passes.ahead()
 
@@ -139,10 +143,10 @@ class SessionView:
     def sitting(self) -> Drummer | None:
         """A drummer who is made, to sit there before anything is played; None while there is none."""
         part = next((part for part in (self._demonstration, self._passes) if part.is_made), None)
-        return self._sits if part is None else part.drummer(self._who.style)
+        return self._sits if part is None else part.drummer(self._demonstrator.style)
 
     def _part_at(self, transport_ns: int) -> tuple[SessionPart, float]:
-        """Who plays at a transport time, and where in his score he is."""
+        """Who plays at a transport time, and where in their score they are."""
         part = self._passes if transport_ns >= self.plan.demonstrations_end_ns else self._demonstration
         return part, part.position_s(transport_ns)
 
@@ -150,7 +154,7 @@ class SessionView:
         """The picture before anything runs: the drummer waits, the score stands at its first bar."""
         part, plan, drummer = self._demonstration, self.plan, self._sits
         if drummer is None or part.is_ready:
-            drummer = part.drummer(self._who.style)
+            drummer = part.drummer(self._demonstrator.style)
         hud = Hud(plan.lesson.title, "Ready", beats_a_minute=plan.beats_a_minute, message=message)
         return replace(self._waiting(part, drummer), hud=hud)
 
@@ -210,11 +214,11 @@ class SessionView:
         return int((labels == Label.MATCH).sum()), int((labels >= 0).sum())
 
 
-def graphed_result(result: SessionResult, who: Demonstrator) -> ScoreCurves:
+def result_curves(result: SessionResult, demonstrator: Demonstrator) -> ScoreCurves:
     """The whole of a session that is over: who demonstrated it, and every stroke of the student."""
     plan = result.plan
-    part = SessionPart(plan, result.score, 0, who)
-    return ScoreCurves(part.drummer(who.style), None, bar_numbers(plan), played_of_result(result))
+    part = SessionPart(plan, result.score, 0, demonstrator)
+    return ScoreCurves(part.drummer(demonstrator.style), None, bar_numbers(plan), played_of_result(result))
 
 
 def strikes(hits: Iterable[Hit], now_ns: int) -> tuple[SeenStrike, ...]:

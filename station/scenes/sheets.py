@@ -10,7 +10,7 @@ Bars = tuple[int, int]
 """First and last bar, from 0."""
 
 
-def words_of_lesson(lesson: Lesson, bars: Bars) -> SheetWords:
+def lesson_labels(lesson: Lesson, bars: Bars) -> SheetWords:
     """What stands on the sheet of a lesson's bars; where they hold its loop, that is repeated."""
     first, last = bars
     beats = tidy_bpm(lesson.score.bars(*bars).tempo_map.tempos[0].us_per_quarter, lesson.beat_ticks)
@@ -29,7 +29,7 @@ def words_of_lesson(lesson: Lesson, bars: Bars) -> SheetWords:
     )
 
 
-def words_of_score(score: Score, bars: Bars, name: str) -> SheetWords:
+def score_labels(score: Score, bars: Bars, name: str) -> SheetWords:
     """What stands on the sheet of another score, called by its own title, else `name`."""
     tempo = score.bars(*bars).tempo_map.tempos[0]
     beats = round(tidy_bpm(tempo.us_per_quarter, PPQ), 1)

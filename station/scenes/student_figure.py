@@ -1,6 +1,6 @@
 """The student's double: a second drummer, moved by the student's hits alone, limb by limb.
 
-Nobody knows where a student's stroke will fall before it is heard, so that nothing can be planned for him. But the
+Nobody knows where a student's stroke will fall before it is heard, so that nothing can be planned for them. But the
 demonstrator's strokes are planned already, and a stroke of the student looks like the demonstrator's of the same limb
 on the same piece. So each limb of the double shows the demonstrator's limb at a time of its own: at a hit it is at once
 at that stroke, from there its time runs on as the clock does, and it waits a moment before the limb's next stroke until
@@ -119,7 +119,7 @@ class StudentFigure:
 
     def _partings(self, now_ns: int) -> dict[Limb, LimbParting]:
         ages = ((limb, cue, (now_ns - at_ns) / PARTED_NS) for limb, (cue, at_ns) in self._parted.items())
-        return {limb: LimbParting(cue, 1 - age) for limb, cue, age in ages if cue not in _TOGETHER and 0 <= age < 1}
+        return {limb: LimbParting(cue, 1 - age) for limb, cue, age in ages if cue not in _SYNCHRONOUS and 0 <= age < 1}
 
 
 def nearest_note(piece: Piece, drummer: Drummer, at_s: float) -> int | None:
@@ -129,4 +129,4 @@ def nearest_note(piece: Piece, drummer: Drummer, at_s: float) -> int | None:
     return int(rows[np.argmin(np.abs(score.onset_s[rows] - at_s))]) if len(rows) else None
 
 
-_TOGETHER = (TimingCue.NONE, TimingCue.ON_TIME)
+_SYNCHRONOUS = (TimingCue.NONE, TimingCue.ON_TIME)

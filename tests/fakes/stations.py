@@ -73,7 +73,7 @@ def shown(station: Controller, now_ns: int) -> Snapshot:
 
 def choose(station: Controller, **chosen: object) -> None:
     """Change what is chosen."""
-    station.dispatch(Select(replace(station.view().choice, **chosen)))  # type: ignore[arg-type] # what a test chooses
+    station.dispatch(Select(replace(station.view().selection, **chosen)))  # type: ignore[arg-type] # what a test chooses
 
 
 def just_play(station: Controller, tempo_bpm: float = 100.0) -> None:

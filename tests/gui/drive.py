@@ -40,7 +40,7 @@ from station.gui.layout import WindowOptions
 from station.gui.panels.calibration_part import ANYWAY_LABEL, MEASURE_LABEL
 from station.gui.panels.course_list import ALL_LESSONS
 from station.gui.panels.devices_panel import DEVICES
-from station.gui.panels.export_panel import MIDI_LABEL, SHEET_LABEL, TAKE_ALONG
+from station.gui.panels.export_panel import EXPORT, MIDI_LABEL, SHEET_LABEL
 from station.gui.panels.lessons_panel import ADAPT_LABEL, FILM_LABEL, FREE_LABEL, LISTEN_LABEL
 from station.gui.panels.pads_part import LEARN_LABEL as LEARN_PAD_LABEL
 from station.gui.panels.pads_part import UNDO_LABEL
@@ -79,7 +79,7 @@ STUDENTS = {
     "practise": "pro,seed=4",
     "highway": "intermediate,seed=2,velocity_sd=30",
 }
-PATIENCE_S = 600.0  # the parent's own limit is what ends a run that hangs
+TIMEOUT_S = 600.0  # the parent's own limit is what ends a run that hangs
 
 Scenario = Callable[["Drive", imgui.test_engine.TestContext], None]
 
@@ -198,7 +198,7 @@ class Drive:
         io = imgui.test_engine.get_io(engine)
         io.config_run_speed = imgui.test_engine.TestRunSpeed.fast
         io.config_log_to_tty = True
-        io.config_watchdog_warning = io.config_watchdog_kill_test = io.config_watchdog_kill_app = PATIENCE_S
+        io.config_watchdog_warning = io.config_watchdog_kill_test = io.config_watchdog_kill_app = TIMEOUT_S
         imgui.test_engine.queue_test(engine, test)
 
     def _test(self, ctx: imgui.test_engine.TestContext) -> None:
@@ -300,7 +300,7 @@ def just_play(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.item_click(FILM_LABEL)
     drive.seen["filming"] = films.process is not None
     if films.process is not None:
-        films.process.wait(PATIENCE_S)
+        films.process.wait(TIMEOUT_S)
     ctx.yield_(3)
     capture = drive.room.take
     drive.seen["filmed"] = capture is not None and capture.with_suffix(".mp4").read_text() == str(capture)
@@ -313,14 +313,14 @@ def search(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.key_chars("paradiddle")
     ctx.yield_(2)
     drive.seen["keys"] = len(drive.engine.keys)
-    drive.seen["shown"] = [card.title for card in drive.state.choice.visible()]
+    drive.seen["shown"] = [card.title for card in drive.state.selection.visible()]
     for course in ("Funk: ghosts and sixteenths##funk", ALL_LESSONS):
         ctx.item_click("##course")
         ctx.item_click(f"//$FOCUSED/{course}")
         ctx.yield_(2)
         kept = load_settings(drive.settings).course
-        drive.seen[kept or "none"] = [card.name for card in drive.state.choice.visible()]
-        drive.seen[f"chosen in {kept or 'none'}"] = drive.state.choice.card and drive.state.choice.card.name
+        drive.seen[kept or "none"] = [card.name for card in drive.state.selection.visible()]
+        drive.seen[f"chosen in {kept or 'none'}"] = drive.state.selection.card and drive.state.selection.card.name
 
 
 def look(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
@@ -333,14 +333,14 @@ def look(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
         else:
             ctx.key_press(keys[view])
         ctx.yield_(2)
-        drive.seen[view.name] = drive.window.backdrop.look.view.name
-    mirrored = drive.window.backdrop.camera.mirrored
+        drive.seen[view.name] = drive.window.viewport.view_settings.view.name
+    mirrored = drive.window.viewport.camera.mirrored
     ctx.item_click("mirror")
     ctx.yield_(2)
-    drive.seen["mirrored"] = drive.window.backdrop.camera.mirrored is not mirrored
-    before = drive.window.backdrop.camera.azimuth_rad
+    drive.seen["mirrored"] = drive.window.viewport.camera.mirrored is not mirrored
+    before = drive.window.viewport.camera.azimuth_rad
     turn(ctx)
-    drive.seen["turned"] = drive.window.backdrop.camera.azimuth_rad - before
+    drive.seen["turned"] = drive.window.viewport.camera.azimuth_rad - before
     pixels, start = drive.shot(ctx), ctx.item_info("//Lessons/Start##start").rect_full
     drive.seen["button"] = pixels[round(start.get_center().y), round(start.min.x) + 12].tolist()
     drive.seen["picture"] = float(pixels[100:200, 400:].std())
@@ -360,35 +360,37 @@ def turn(ctx: imgui.test_engine.TestContext) -> None:
 
 def viewpoints(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """Views, mirror, second picture and own viewpoints by keys and in the popup; all is kept in the settings."""
-    backdrop = drive.window.backdrop
+    viewport = drive.window.viewport
     ctx.mouse_move_to_pos(imgui.ImVec2(600, 200))
     for key, name in ((imgui.Key.f2, "FRONT"), (imgui.Key.f8, "LEFT_HAND"), (imgui.Key.f9, "RIGHT_HAND")):
         ctx.key_press(key)
         ctx.yield_(2)
-        drive.seen[name] = backdrop.look.view.name
+        drive.seen[name] = viewport.view_settings.view.name
     ctx.key_press(imgui.Key.m)
     ctx.key_press(imgui.Key.p)
     turn(ctx)
-    turned = backdrop.camera
+    turned = viewport.camera
     ctx.key_press(chord(imgui.Key._3, imgui.Key.mod_ctrl))
     ctx.yield_(2)
     drive.seen["told"] = drive.state.toast
     ctx.key_press(imgui.Key.f5)
     ctx.yield_(2)
-    drive.seen["left"] = backdrop.camera != turned
+    drive.seen["left"] = viewport.camera != turned
     ctx.set_ref("//Transport")
     ctx.item_click("Look##look")
     ctx.yield_(2)
     ctx.item_click("//$FOCUSED/3##go3")
     ctx.yield_(2)
-    drive.seen["back"] = backdrop.camera == turned
+    drive.seen["back"] = viewport.camera == turned
     ctx.item_click("//$FOCUSED/8##keep8")
     ctx.item_click("//$FOCUSED/Feet##Second picture")
-    double = [backdrop.look.double.name]
+    double = [viewport.view_settings.double.name]
     ctx.item_click("//$FOCUSED/Over##Your double")
     ctx.yield_(2)
-    double += [backdrop.look.double.name, view_settings_of(load_settings(drive.settings)).double.name]
-    drive.seen["slots"] = [slot for slot, camera in enumerate(backdrop.look.viewpoints, 1) if camera is not None]
+    double += [viewport.view_settings.double.name, view_settings_of(load_settings(drive.settings)).double.name]
+    drive.seen["slots"] = [
+        slot for slot, camera in enumerate(viewport.view_settings.viewpoints, 1) if camera is not None
+    ]
     kept = view_settings_of(load_settings(drive.settings))
     drive.seen["kept"] = [kept.view.name, kept.mirrored, kept.inset is NamedView.FEET]
     there = kept.viewpoints[2]
@@ -397,7 +399,7 @@ def viewpoints(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.mouse_move_to_pos(imgui.ImVec2(600, 200))
     ctx.key_press(imgui.Key.e)
     ctx.yield_(2)
-    drive.seen["double"] = [*double, backdrop.look.double.name]
+    drive.seen["double"] = [*double, viewport.view_settings.double.name]
     drive.seen["kept_there"] = there is not None and abs(there.azimuth_rad - turned.azimuth_rad) < 1e-5
 
 
@@ -408,14 +410,14 @@ def score(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     for _ in range(3):
         ctx.key_press(imgui.Key.n)
         ctx.yield_(2)
-        forms.append(drive.window.backdrop.look.score.name)
+        forms.append(drive.window.viewport.view_settings.score.name)
     drive.seen["by_key"] = forms
     ctx.set_ref("//Transport")
     ctx.item_click("Look##look")
     ctx.yield_(2)
     ctx.item_click("//$FOCUSED/Pages##Score")
     ctx.yield_(2)
-    drive.seen["chosen"] = drive.window.backdrop.look.score.name
+    drive.seen["chosen"] = drive.window.viewport.view_settings.score.name
     drive.seen["kept"] = load_settings(drive.settings).score
 
 
@@ -505,15 +507,15 @@ def habits(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     open_panel(ctx, PRACTICE)  # and close it again
     ctx.yield_(2)
     drive.seen["learns unseen"] = drive.state.learns_pause
-    open_panel(ctx, TAKE_ALONG)
-    ctx.set_ref(f"//{TAKE_ALONG}")
+    open_panel(ctx, EXPORT)
+    ctx.set_ref(f"//{EXPORT}")
     ctx.item_click(MIDI_LABEL)
     ctx.yield_(2)
     drive.seen["taken"] = drive.state.toast
     ctx.item_click(SHEET_LABEL)
     ctx.yield_(2)
     drive.seen["printed"] = drive.state.toast
-    open_panel(ctx, TAKE_ALONG)
+    open_panel(ctx, EXPORT)
 
 
 def calibration(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
@@ -592,7 +594,7 @@ def helped(drive: Drive, ctx: imgui.test_engine.TestContext) -> str:
     ctx.key_press(imgui.Key.f1)
     ctx.yield_(3)
     shown = ctx.window_info("//Help").window
-    topic = topic_of(drive.room, drive.state.choice.free).value if shown is not None else ""
+    topic = topic_of(drive.room, drive.state.selection.free).value if shown is not None else ""
     ctx.key_press(imgui.Key.f1)
     ctx.yield_(2)
     return topic
@@ -630,7 +632,7 @@ def behind_buttons(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.yield_(2)
     ctx.item_click("//$FOCUSED/mirror")
     ctx.yield_(2)
-    drive.seen["mirrored"] = drive.window.backdrop.look.mirrored
+    drive.seen["mirrored"] = drive.window.viewport.view_settings.mirrored
     ctx.popup_close_all()
     ctx.item_click(MORE_LABEL)
     ctx.yield_(2)
@@ -650,7 +652,7 @@ def highway(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """The highway while a virtual student plays: the last frame is looked at."""
     drive.choose(ctx, passes=4)
     ctx.key_press(imgui.Key.escape)
-    drive.station.dispatch(SetView(replace(drive.state.look, score=ScoreForm.HIGHWAY)))
+    drive.station.dispatch(SetView(replace(drive.state.view_settings, score=ScoreForm.HIGHWAY)))
     ctx.item_click("Start##start")
     for _ in range(MOST_FRAMES):
         ctx.yield_()
@@ -712,7 +714,7 @@ def by_ear(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.yield_(2)
     ctx.mouse_click(0)
     ctx.yield_(2)
-    drive.seen["clicked"] = panel.ear.bar
+    drive.seen["clicked"] = panel.playback.bar
 
 
 def closes(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
@@ -789,8 +791,8 @@ def player(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.mouse_drag_with_delta(imgui.ImVec2(0.3 * width, 0))
     ctx.yield_(3)
     seen["loop"] = deck.player.loop
-    wish = drive.state.choice.wish()
-    seen["bars"] = None if wish is None else wish.bars
+    request = drive.state.selection.request()
+    seen["bars"] = None if request is None else request.bars
     ctx.mouse_move_to_pos(imgui.ImVec2(low.x + 0.75 * width, y))
     ctx.mouse_click(0)
     ctx.yield_(2)
@@ -839,15 +841,15 @@ def graph(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     seen["during"] = drive.room.stage.name
     drive.station.dispatch(EndSession())
     ctx.yield_(4)
-    graphed = drive.state.curves
-    seen["result"] = graphed is not None and graphed.played is not None
+    curves = drive.state.curves
+    seen["result"] = curves is not None and curves.played is not None
 
 
 def legible(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """Every tool is opened, at both ends of the usual sizes, and what cannot be read in it is told."""
     docking = drive.window.params.docking_params
     for scale in (1.0, 2.0):
-        drive.station.dispatch(SetView(replace(drive.state.look, scale=scale)))
+        drive.station.dispatch(SetView(replace(drive.state.view_settings, scale=scale)))
         for page in drive.window.pages.tools:
             tool = docking.dockable_window_of_name(page.name)
             tool.is_visible = True

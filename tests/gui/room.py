@@ -7,7 +7,7 @@ frames as it has steps, however slowly they are drawn, and a virtual student's M
 import sys
 
 from station.app.controller import Controller
-from station.app.equipment.calibration import Told
+from station.app.equipment.calibration import Message
 from station.app.equipment.calibration_results import CalibrationResult, CalibrationResults
 from station.app.equipment.latency_methods import MeasureRequest
 from station.app.processes import Processes
@@ -98,15 +98,15 @@ FILMS = "import sys; words = sys.argv; open(words[words.index('--out') + 1], 'w'
 class Measurement:
     """Stands in for the process that measures: a measurement by strikes whose devices answer at once, in doubt."""
 
-    def __init__(self, wish: MeasureRequest) -> None:
+    def __init__(self, request: MeasureRequest) -> None:
         doubtful = LatencyEstimate(4.0, -1.0, 9.0, 8.0, 12, ("the strokes scatter by 8 ms",))
-        self._says: list[Told] = [
+        self._says: list[Message] = [
             "strike each pad",
             CalibrationResults(Devices(kit=KIT), (CalibrationResult("kit", KIT, doubtful),)),
         ]
-        self.by = wish.by
+        self.by = request.by
 
-    def told(self) -> list[Told]:
+    def messages(self) -> list[Message]:
         return [self._says.pop(0)] if self._says else []
 
     def end(self) -> None:
@@ -114,12 +114,12 @@ class Measurement:
 
 
 def station(
-    lesson: str, wishes: PlanOptions, store: SettingsStore, student: StudentSpec | None, step_ns: int
+    lesson: str, options: PlanOptions, store: SettingsStore, student: StudentSpec | None, step_ns: int
 ) -> tuple[Controller, DirectEngine, FrameClock]:
     """A station that opens on `lesson`, its engine, and the clock that both go by."""
     clock = FrameClock(step_ns)
     engine = DirectEngine(clock, student)
-    plan = plan_practice(find_lesson(lesson), wishes)
+    plan = plan_practice(find_lesson(lesson), options)
     engine.plan = plan
     processes = Processes(lambda: engine, Measurement, (sys.executable, "-c", FILMS))
     return Controller(processes, store, Launch(plan)), engine, clock

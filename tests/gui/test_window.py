@@ -19,7 +19,7 @@ pytestmark = [pytest.mark.gui, pytest.mark.timeout(400)]
 
 ROOT = Path(__file__).parents[2]
 DRIVE = Path(__file__).with_name("drive.py")
-PATIENCE_S = 360.0  # everything is drawn without a graphics card, on a machine that may be busy
+TIMEOUT_S = 360.0  # everything is drawn without a graphics card, on a machine that may be busy
 
 
 @pytest.fixture(scope="module")
@@ -42,7 +42,7 @@ def run_in_turn(scenarios: list[str], environment: dict[str, str], folder: Path)
     out = folder / "seen.json"
     command = [sys.executable, str(DRIVE), "+".join(scenarios), str(folder / "sessions"), str(out)]
     done = subprocess.run(
-        command, env=environment, cwd=folder, capture_output=True, text=True, timeout=PATIENCE_S, check=False
+        command, env=environment, cwd=folder, capture_output=True, text=True, timeout=TIMEOUT_S, check=False
     )
     assert done.returncode == 0, done.stderr[-3000:]
     seen: dict[str, Any] = json.loads(out.read_text())
@@ -59,9 +59,7 @@ def test_a_settings_folder_that_is_a_file_keeps_no_window_from_opening(
     (tmp_path / "config").write_text("a file")
     command = [sys.executable, "-m", "station.cli.command_line", "--watch-frames", "3"]
     at = {**environment, "XDG_CONFIG_HOME": str(tmp_path / "config"), "HOME": str(tmp_path)}
-    done = subprocess.run(
-        command, env=at, cwd=tmp_path, capture_output=True, text=True, timeout=PATIENCE_S, check=False
-    )
+    done = subprocess.run(command, env=at, cwd=tmp_path, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
     assert done.returncode == 0, done.stderr[-3000:]
     assert (tmp_path / "config").read_text() == "a file"
 
@@ -319,7 +317,7 @@ def fault_of(scenario: str, environment: dict[str, str], folder: Path) -> str:
     """The last line that a window says which cannot go on."""
     command = [sys.executable, str(DRIVE), scenario, str(folder / "sessions"), str(folder / "seen.json")]
     done = subprocess.run(
-        command, env=environment, cwd=folder, capture_output=True, text=True, timeout=PATIENCE_S, check=False
+        command, env=environment, cwd=folder, capture_output=True, text=True, timeout=TIMEOUT_S, check=False
     )
     assert done.returncode == 1, (done.returncode, done.stderr[-3000:])
     return done.stderr.strip().splitlines()[-1]

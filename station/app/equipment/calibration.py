@@ -1,6 +1,6 @@
 """Measuring latency from the window: in a process of its own, while the engine rests; nothing is stored unasked.
 
-The engine has the sound card and the kit for itself: it is put to rest before and woken after. What was told and found
+The engine has the sound card and the kit for itself: it is put to rest before and woken after. What was said and found
 is kept here for the page; `keep` subtracts it from then on, only when the user says so. What measures is heavy, and not
 imported before it is wanted: the window would open later by a fifth.
 """
@@ -30,14 +30,14 @@ class Failed:
     why: str
 
 
-Told: TypeAlias = "str | CalibrationResults | Failed"
+Message: TypeAlias = "str | CalibrationResults | Failed"
 """What a measurement says: lines for the user, and at last what it found or why it did not."""
 
 
 class Running(Protocol):
     """A measurement that runs."""
 
-    def told(self) -> "list[Told]":
+    def messages(self) -> "list[Message]":
         """What it has said since the last call."""
         ...
 
@@ -49,10 +49,10 @@ class Running(Protocol):
 class MeasuringProcess:
     """A measurement in a process of its own; raises `DeviceError` where the system has none to give."""
 
-    def __init__(self, wish: "MeasureRequest") -> None:
+    def __init__(self, request: "MeasureRequest") -> None:
         context = mp.get_context("spawn")
         self._from, to = context.Pipe(duplex=False)
-        self._process = context.Process(target=_measure, args=(to, wish), daemon=True)
+        self._process = context.Process(target=_measure, args=(to, request), daemon=True)
         try:
             self._process.start()
         except OSError as fault:
@@ -60,9 +60,9 @@ class MeasuringProcess:
         finally:
             to.close()
 
-    def told(self) -> "list[Told]":
+    def messages(self) -> "list[Message]":
         """What has come through the pipe; a process that died has failed."""
-        said: list[Told] = []
+        said: list[Message] = []
         try:
             while self._from.poll():
                 said.append(self._from.recv())
@@ -77,19 +77,19 @@ class MeasuringProcess:
         self._from.close()
 
 
-def _measure(to: Connection, wish: "MeasureRequest") -> None:
+def _measure(to: Connection, request: "MeasureRequest") -> None:
     """What the process does."""
     from station.app.equipment.latency_methods import measured
 
     try:
-        to.send(measured(wish, load_calibration(), to.send))
+        to.send(measured(request, load_calibration(), to.send))
     except StationError as fault:
         to.send(Failed(str(fault)))
 
 
 @dataclass(frozen=True, slots=True)
 class CalibrationView:
-    """What the devices page shows: `known` of the devices, and of a measurement that `runs` the `lines` told.
+    """What the devices page shows: `known` of the devices, and of a measurement that `runs` its `lines`.
 
     After it `found` says in lines what was found, or `fault` why nothing was; `is_worth` whether judgement could
     subtract it, `trusted` whether nothing speaks against that.
@@ -119,7 +119,7 @@ class Calibration:
     ) -> None:
         self._rest, self._wake, self._start, self._path = rest, wake, start, path
         self._running: Running | None = None
-        self._wish: MeasureRequest | None = None  # what waits for the devices
+        self._request: MeasureRequest | None = None  # what waits for the devices
         self._are_free: Callable[[], bool] = lambda: True
         self._by = ""
         self.lines: list[str] = []
@@ -143,23 +143,23 @@ class Calibration:
     @property
     def runs(self) -> bool:
         """Whether something is being measured."""
-        return self._running is not None or self._wish is not None
+        return self._running is not None or self._request is not None
 
-    def measure(self, wish: "MeasureRequest") -> None:
+    def measure(self, request: "MeasureRequest") -> None:
         """Begin as soon as the engine rests; raises `DeviceError` where that cannot be."""
         self.refuse()
         self._are_free = self._rest()
         self.drop()
-        self._by, self._wish = wish.by, wish
+        self._by, self._request = request.by, request
         self._begin()
 
     def _begin(self) -> None:
         """Begin with what waits for the devices, if they are free."""
-        if self._wish is None or not self._are_free():
+        if self._request is None or not self._are_free():
             return
-        wish, self._wish = self._wish, None
+        request, self._request = self._request, None
         try:
-            self._running = self._start(wish)
+            self._running = self._start(request)
         except DeviceError:
             self._wake()
             raise
@@ -169,24 +169,24 @@ class Calibration:
         self._begin()
         if self._running is None:
             return
-        for told in self._running.told():
-            if isinstance(told, str):
-                self.lines.append(told)
+        for message in self._running.messages():
+            if isinstance(message, str):
+                self.lines.append(message)
                 continue
             try:
-                self._end_with(told)
+                self._end_with(message)
             finally:
                 self.cancel()
             return
 
-    def _end_with(self, told: "CalibrationResults | Failed") -> None:
-        if isinstance(told, Failed):
-            self.fault = told.why
+    def _end_with(self, message: "CalibrationResults | Failed") -> None:
+        if isinstance(message, Failed):
+            self.fault = message.why
             return
         from station.app.equipment.calibration_results import text
 
-        self.findings = told
-        self._found = tuple(line.strip() for line in text(told, load_calibration(self._path)).splitlines())
+        self.findings = message
+        self._found = tuple(line.strip() for line in text(message, load_calibration(self._path)).splitlines())
 
     def cancel(self) -> None:
         """End what runs, and wake the engine; what was found stays."""
@@ -196,7 +196,7 @@ class Calibration:
 
     def close(self) -> None:
         """End what runs, and let the engine sleep: the window closes."""
-        self._wish = None
+        self._request = None
         if self._running is not None:
             self._running.end()
             self._running = None
@@ -207,7 +207,7 @@ class Calibration:
             raise DeviceError("a device is being measured: wait for it, or cancel it on the Devices page")
 
     def drop(self) -> None:
-        """Forget what was told and found."""
+        """Forget what was said and found."""
         self.lines, self.fault, self.findings, self._found = [], "", None, ()
 
     @property
@@ -222,7 +222,7 @@ class Calibration:
         return all(row.estimate.trusted for row in self.worth)
 
     def keep(self) -> str:
-        """Subtract it from now on; returns what to tell. Raises `StationError` if the file refuses."""
+        """Subtract it from now on; returns what to show. Raises `StationError` if the file refuses."""
         from station.app.equipment.calibration_results import outdated, with_rows
 
         before, rows = load_calibration(self._path), self.worth

@@ -1,4 +1,4 @@
-"""What a measurement of latency told: as text, as a document, and as what is stored.
+"""What a measurement of latency found: as text, as a document, and as what is stored.
 
 A row is one result: of an output, a kit, a pad, of equipment and habit together, of the equipment's share, or of the
 habit. docs/calibration.md describes the document.
@@ -38,7 +38,7 @@ class CalibrationResult:
 
 @dataclass(frozen=True, slots=True)
 class CalibrationResults:
-    """All that one measurement told."""
+    """All that one measurement found."""
 
     devices: Devices
     rows: tuple[CalibrationResult, ...] = ()
@@ -74,13 +74,13 @@ def _measured(row: CalibrationResult, by: str, on: date) -> MeasuredLatency:
 def rows_of_taps(
     found: Taps, piece: Piece, devices: Devices, before: StoredCalibration
 ) -> tuple[CalibrationResult, ...]:
-    """What taps on `piece` told: what the kit is known to have is not the output's, what both have not the habit."""
+    """What taps on `piece` say: what the kit is known to have is not the output's, what both have not the habit."""
     kit, output = before.kits.get(devices.kit or ""), before.outputs.get(devices.output or "")
     known_ms = kit.of_pad(piece).latency_ms if kit is not None else 0.0
-    together = CalibrationResult("together", devices.kit or "", found.total)
+    total = CalibrationResult("together", devices.kit or "", found.total)
     if kit is not None and output is not None and output.by != TAPPED:
-        return together, CalibrationResult("habit", devices.kit or "", found.habit(known_ms + output.latency_ms))
-    return together, CalibrationResult("equipment", devices.output or "", found.equipment.less(known_ms))
+        return total, CalibrationResult("habit", devices.kit or "", found.habit(known_ms + output.latency_ms))
+    return total, CalibrationResult("equipment", devices.output or "", found.equipment.less(known_ms))
 
 
 # --- telling ---------------------------------------------------------------------------------------------------------

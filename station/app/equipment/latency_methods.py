@@ -30,30 +30,30 @@ class MeasureRequest:
         return cls(by, sound, parse_kits(settings.kit)[0], distance_m)
 
 
-def measured(wish: MeasureRequest, before: StoredCalibration, tell: Tell) -> CalibrationResults:
-    """Measure; `before` is what is known, `tell` hears what the user has to do. Raises `DeviceError`."""
-    return _WAYS[wish.by](wish, before, tell)
+def measured(request: MeasureRequest, before: StoredCalibration, notify: Tell) -> CalibrationResults:
+    """Measure; `before` is what is known, `notify` hears what the user has to do. Raises `DeviceError`."""
+    return _WAYS[request.by](request, before, notify)
 
 
-def _by_report(wish: MeasureRequest, _: StoredCalibration, tell: Tell) -> CalibrationResults:
-    devices, stream = stream_report(wish.sound, tell)
+def _by_report(request: MeasureRequest, _: StoredCalibration, notify: Tell) -> CalibrationResults:
+    devices, stream = stream_report(request.sound, notify)
     return CalibrationResults(devices, stream=stream)
 
 
-def _by_loopback(wish: MeasureRequest, _: StoredCalibration, tell: Tell) -> CalibrationResults:
-    devices, estimate = loopback_rounds(wish.sound, tell)
+def _by_loopback(request: MeasureRequest, _: StoredCalibration, notify: Tell) -> CalibrationResults:
+    devices, estimate = loopback_rounds(request.sound, notify)
     return CalibrationResults(devices, (CalibrationResult("output", devices.output or "", estimate),))
 
 
-def _by_strikes(wish: MeasureRequest, _: StoredCalibration, tell: Tell) -> CalibrationResults:
-    devices, found = struck(wish.sound, wish.kit, tell, wish.distance_m)
+def _by_strikes(request: MeasureRequest, _: StoredCalibration, notify: Tell) -> CalibrationResults:
+    devices, found = struck(request.sound, request.kit, notify, request.distance_m)
     kit = devices.kit or ""
     pads = (CalibrationResult("pad", kit, estimate, piece) for piece, estimate in found.pads.items())
     return CalibrationResults(devices, (CalibrationResult("kit", kit, found.kit), *pads))
 
 
-def _by_taps(wish: MeasureRequest, before: StoredCalibration, tell: Tell) -> CalibrationResults:
-    devices, piece, found = tapped(wish.sound, wish.kit, tell)
+def _by_taps(request: MeasureRequest, before: StoredCalibration, notify: Tell) -> CalibrationResults:
+    devices, piece, found = tapped(request.sound, request.kit, notify)
     return CalibrationResults(devices, rows_of_taps(found, piece, devices, before))
 
 

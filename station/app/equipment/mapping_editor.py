@@ -1,6 +1,6 @@
 """The devices page without its picture: the kits that are here, their last strokes and lines, and their rules on trial.
 
-While the page is open the engine tells every byte besides (`WatchRawBytes`). They are understood here once more, by
+While the page is open the engine reports every byte besides (`WatchRawBytes`). They are understood here once more, by
 rules that may be set by looking; `save` keeps them in the kit's own file and lets the engine take it, so that what
 counts as a stroke changes for sound and judgement only then. What is learnt from strokes, what a pad is and how loud
 its ghosts and accents count, is kept at once, and can be undone.
@@ -59,7 +59,7 @@ class MappingEditor:
         self._kept: dict[str, DeviceMap] = {}
         self._listens = False
         self._pad: NoteMeaning | None = None
-        self._touch: TouchLearning | None = None
+        self._velocity: TouchLearning | None = None
         self.device = ""
         self.learnt = ""
         """What was learnt last, or why it was not."""
@@ -92,18 +92,18 @@ class MappingEditor:
     @property
     def unknown(self) -> list[Sent]:
         """The notes that came and that mean nothing yet."""
-        return self.seen.ear.unknown(self.kit)
+        return self.seen.listener.unknown(self.kit)
 
     @property
     def learns(self) -> bool:
         """Whether strokes are taken for what they teach: they command nothing meanwhile."""
-        return self._pad is not None or self._touch is not None
+        return self._pad is not None or self._velocity is not None
 
     @property
     def asks(self) -> str:
         """What to play now, empty while nothing is learnt."""
-        if self._touch is not None:
-            return self._touch.asks
+        if self._velocity is not None:
+            return self._velocity.asks
         return "" if self._pad is None else f"hit it now, once: {pad_name(self._pad)}"
 
     @property
@@ -141,14 +141,14 @@ class MappingEditor:
         self.device = device
 
     def listen(self, on: bool) -> None:
-        """Have the bytes told, or no longer; a dead engine is not asked."""
+        """Have the bytes reported, or no longer; a dead engine is not asked."""
         if on != self._listens:
             self._listens = on
             self.give_up()
             with suppress(DeviceError):
                 self._send(WatchRawBytes(on))
 
-    def take(self, event: EngineEvent) -> None:
+    def handle(self, event: EngineEvent) -> None:
         """What the engine says."""
         match event:
             case DeviceFound(at_ns, device):
@@ -166,7 +166,7 @@ class MappingEditor:
                     self.device = next(iter(self._seen), "")
             case RawBytes(at_ns, device, data):
                 if device in self._seen:
-                    self._seen[device].ear.feed(data, at_ns)
+                    self._seen[device].listener.feed(data, at_ns)
                 self._show(self._monitor.bytes_came(device, data, at_ns))
             case _:
                 pass
@@ -175,7 +175,7 @@ class MappingEditor:
         """Show what the clock has made certain."""
         self._show(self._monitor.settle(now_ns - _SHOWN_LATE_NS))
         if self._pad is not None:
-            sent = self.seen.ear.hit(now_ns - _SHOWN_LATE_NS)
+            sent = self.seen.listener.hit(now_ns - _SHOWN_LATE_NS)
             if sent is not None:
                 pad, self._pad = self._pad, None
                 self.name(sent, pad)
@@ -183,19 +183,19 @@ class MappingEditor:
     def _show(self, lines: list[MonitorLine]) -> None:
         for line in lines:
             if line.device in self._seen:
-                self._seen[line.device].take(line)
-            if self._touch is not None and line.device == self.device:
-                self._touched(line)
+                self._seen[line.device].add(line)
+            if self._velocity is not None and line.device == self.device:
+                self._learn_from(line)
 
-    def _touched(self, line: MonitorLine) -> None:
-        """A stroke for the touch that is learnt; those that are too soft to count are strokes too."""
+    def _learn_from(self, line: MonitorLine) -> None:
+        """A stroke for the velocity curve that is learnt; those that are too soft to count are strokes too."""
         hit = line.event if line.ghost is None or line.ghost.why is not HeldBack.TOO_SOFT else line.ghost.hit
-        if self._touch is None or not isinstance(hit, Hit):
+        if self._velocity is None or not isinstance(hit, Hit):
             return
-        self._touch.take(hit)
-        if self._touch.is_over:
-            touch, self._touch = self._touch, None
-            self._learn(touch.learnt, touch.in_words())
+        self._velocity.take(hit)
+        if self._velocity.is_over:
+            learning, self._velocity = self._velocity, None
+            self._learn(learning.learnt, learning.in_words())
 
     # --- learning ----------------------------------------------------------------------------------------------------
 
@@ -203,23 +203,23 @@ class MappingEditor:
         """The next hit is on `pad`."""
         self.give_up()
         self._pad = pad
-        self.seen.ear.listen(on=True)
+        self.seen.listener.listen(on=True)
 
-    def learn_touch(self, piece: Piece) -> None:
+    def learn_velocity(self, piece: Piece) -> None:
         """The next strokes are five ghosts and five accents on `piece`."""
         self.give_up()
-        self._touch = TouchLearning(piece)
+        self._velocity = TouchLearning(piece)
 
     def give_up(self) -> None:
         """Learn no longer; what was played meanwhile changes nothing."""
-        self._pad = self._touch = None
+        self._pad = self._velocity = None
         self.learnt = ""
         if self.device:
-            self.seen.ear.listen(on=False)
+            self.seen.listener.listen(on=False)
 
     def name(self, sent: Sent, pad: NoteMeaning) -> None:
         """The note that was `sent` is `pad` from now on."""
-        is_shared = self.seen.ear.is_shared(sent)
+        is_shared = self.seen.listener.is_shared(sent)
         words = in_words(self._kept[self.device], sent, pad)
         self._learn(lambda kit: taught(kit, sent, pad, is_shared), words)
 
@@ -260,14 +260,14 @@ class MappingEditor:
     # --- from the page -----------------------------------------------------------------------------------------------
 
     def act(self, action: MappingAction) -> str:
-        """Do what the user asks; returns what to tell, empty for nothing. Raises `DeviceError` if the disk refuses."""
+        """Do what the user asks; returns what to show, empty for nothing. Raises `DeviceError` if the disk refuses."""
         match action:
             case ShowKit(device):
                 self.show(device)
             case LearnPad(pad):
                 self.learn_pad(pad)
             case LearnVelocity(piece):
-                self.learn_touch(piece)
+                self.learn_velocity(piece)
             case GiveUp():
                 self.give_up()
             case NameNote(sent, pad):
@@ -292,7 +292,7 @@ class MappingEditor:
                 self._obey(rule_against(suspicion))
                 self.seen.suspicions.clear()
             case RevertRules():
-                self.back()
+                self._monitor.trial(self.device, self._kept[self.device])
             case SaveRules():
                 return f"kept in {self.save()}"
             case _:
@@ -301,10 +301,6 @@ class MappingEditor:
 
     def _obey(self, order: str) -> None:
         self._monitor.trial(self.device, obey(self.kit, order))
-
-    def back(self) -> None:
-        """The rules as they are kept."""
-        self._monitor.trial(self.device, self._kept[self.device])
 
     def save(self) -> Path:
         """Keep the rules, and let the engine take them; returns where. Raises `DeviceError` if the disk refuses.

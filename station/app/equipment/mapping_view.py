@@ -25,14 +25,6 @@ class PadStroke:
     why: HeldBack | None = None
 
 
-def _lines() -> deque[MonitorLine]:
-    return deque(maxlen=LINES_SHOWN)
-
-
-def _suspicions() -> deque[Suspicion]:
-    return deque(maxlen=SUSPICIONS_SHOWN)
-
-
 @dataclass(slots=True)
 class SeenKit:
     """What one kit did of late, the newest last, and what is wrong with its file.
@@ -40,14 +32,14 @@ class SeenKit:
     `before` is how it was kept, and how it was on trial, before each thing that was learnt.
     """
 
-    lines: deque[MonitorLine] = field(default_factory=_lines)
-    suspicions: deque[Suspicion] = field(default_factory=_suspicions)
+    lines: deque[MonitorLine] = field(default_factory=lambda: deque(maxlen=LINES_SHOWN))
+    suspicions: deque[Suspicion] = field(default_factory=lambda: deque(maxlen=SUSPICIONS_SHOWN))
     strokes: dict[Piece, deque[PadStroke]] = field(default_factory=dict)
     fault: str = ""
-    ear: PadEar = field(default_factory=PadEar)
+    listener: PadEar = field(default_factory=PadEar)
     before: list[tuple[DeviceMap, DeviceMap]] = field(default_factory=list)
 
-    def take(self, line: MonitorLine) -> None:
+    def add(self, line: MonitorLine) -> None:
         """One more line."""
         self.lines.append(line)
         hit = line.ghost.hit if line.ghost is not None else line.event

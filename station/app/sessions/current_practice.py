@@ -22,19 +22,19 @@ from station.sound.track import PreparedTrack
 
 
 class CurrentPractice:
-    """At first `run` is shown and nothing is played; sessions go by `store`, `notify` hears what a user should read."""
+    """At first `session` is shown and nothing played; sessions go by `store`, `notify` gets what a user should read."""
 
     def __init__(
         self,
         engine: EngineClient,
         store: SettingsStore,
-        run: LessonSession,
+        session: LessonSession,
         free: FreeSession,
         notify: Callable[[str], None],
     ) -> None:
         self._engine, self._store, self._notify = engine, store, notify
-        self.run, self.free = run, free
-        self.outcome = LastResult()
+        self.session, self.free = session, free
+        self.last_result = LastResult()
         self.stage = Stage.IDLE
         self.is_free = False
         """Whether no lesson is shown: the kit alone, to just play."""
@@ -53,31 +53,31 @@ class CurrentPractice:
 
     # --- one after the other -----------------------------------------------------------------------------------------
 
-    def show(self, run: LessonSession | None) -> None:
+    def show(self, session: LessonSession | None) -> None:
         """Show what would be played, None the kit alone."""
-        self.is_free = run is None
-        self.run = run or self.run
+        self.is_free = session is None
+        self.session = session or self.session
 
-    def begin(self, run: LessonSession, track: PreparedTrack | None) -> None:
+    def begin(self, session: LessonSession, track: PreparedTrack | None) -> None:
         """Play a lesson; raises `StationError`, and goes on as before then."""
-        run.begin(self._store.now, track)
-        self.outcome.leave()
-        self.run, self.stage, self.is_free = run, Stage.PLAYING, False
+        session.begin(self._store.now, track)
+        self.last_result.leave()
+        self.session, self.stage, self.is_free = session, Stage.PLAYING, False
 
-    def begin_free(self, wish: FreeRequest) -> None:
+    def begin_free(self, request: FreeRequest) -> None:
         """Begin a free take; raises `StationError`, and goes on as before then."""
-        self.free.begin(self._engine, wish)
-        self.outcome.leave()
+        self.free.begin(self._engine, request)
+        self.last_result.leave()
         self.stage, self.is_free = Stage.PLAYING, True
 
-    def take(self, event: EngineEvent, now_ns: int) -> None:
-        """Take one event of the engine."""
+    def handle(self, event: EngineEvent, now_ns: int) -> None:
+        """Handle one event of the engine."""
         if not self.is_free:
-            self.run.take(event, now_ns)
+            self.session.handle(event, now_ns)
             return
-        told = len(self.free.notices)
+        known = len(self.free.notices)
         self.free.handle(event)
-        for notice in self.free.notices[told:]:
+        for notice in self.free.notices[known:]:
             self._notify(notice)
 
     def advance(self, now_ns: int) -> None:
@@ -86,7 +86,7 @@ class CurrentPractice:
             self.free.advance(now_ns)
             is_over = self.free.runs and self.free.over
         else:
-            is_over = self.is_playing and self.run.advance(now_ns)
+            is_over = self.is_playing and self.session.advance(now_ns)
         if is_over:
             self.end()
 
@@ -101,50 +101,50 @@ class CurrentPractice:
 
     def _finish(self) -> None:
         settings = self._store.now
-        kept = self.run.finish(settings)
-        self.fault = kept.fault
-        if kept.fault is not None:
-            self._notify(str(kept.fault))
-        self.outcome.keep(kept, settings.ask_first)
+        saved = self.session.finish(settings)
+        self.fault = saved.fault
+        if saved.fault is not None:
+            self._notify(str(saved.fault))
+        self.last_result.keep(saved, settings.ask_first)
         self.stage = Stage.RESULT
 
     def veto(self) -> None:
         """Play the last pass once more in place of the one that is counted in."""
-        if not self.run.veto():
+        if not self.session.veto():
             self._finish()
 
     def turn(self, strokes: Sequence[Hit] = ()) -> None:
         """Pause the session, as these `strokes` asked for, or let it go on; nothing where there is none."""
         if self.is_session:
-            self.run.go_on() if self.run.paused else self.run.hold(strokes)
+            self.session.go_on() if self.session.paused else self.session.hold(strokes)
 
     def answer(self, guess: SelfEstimate) -> None:
         """What the student believes, where a question is open."""
-        told = self.outcome.answer(guess)
-        if told is not None:
-            self._notify(told)
+        message = self.last_result.answer(guess)
+        if message is not None:
+            self._notify(message)
 
-    def leave(self, run: LessonSession) -> None:
-        """The result was read: `run` is shown again."""
-        self.outcome.leave()
-        self.run, self.stage = run, Stage.IDLE
+    def leave(self, session: LessonSession) -> None:
+        """The result was read: `session` is shown again."""
+        self.last_result.leave()
+        self.session, self.stage = session, Stage.IDLE
 
     # --- what is seen ------------------------------------------------------------------------------------------------
 
-    def told(self, state: RoomState) -> RoomState:
+    def state_in(self, state: RoomState) -> RoomState:
         """The room's state, and what goes on in it."""
         state = replace(
             state,
             stage=self.stage,
             take=self.free.take,
             free=self.is_free,
-            question=self.outcome.question,
+            question=self.last_result.question,
         )
-        return state if self.is_free else self.run.told(state)
+        return state if self.is_free else self.session.state_in(state)
 
     def snapshot(self, now_ns: int, heard_ns: int | None, hears: bool) -> Snapshot:
         """The picture at `now_ns`; `heard_ns` is the place in what sounds, where the ear `hears` something."""
         if self.is_free:
-            return self.free.snapshot(self.run.plan.kit, now_ns, heard_ns)
-        compared = self.outcome.compared(heard_ns) if self.stage is Stage.RESULT and hears else None
-        return compared or self.run.snapshot(now_ns)
+            return self.free.snapshot(self.session.plan.kit, now_ns, heard_ns)
+        compared = self.last_result.compared(heard_ns) if self.stage is Stage.RESULT and hears else None
+        return compared or self.session.snapshot(now_ns)

@@ -79,17 +79,17 @@ class PlayerView:
 
 
 class DemoPlayer:
-    """One lesson's demonstration by `who`; commands for the engine go through `send`, which may not raise.
+    """One lesson's demonstration by `demonstrator`; commands for the engine go through `send`, which may not raise.
 
     `step`, `click` and `counts_in` are what the user has chosen for steps and sound; flags are kept for every lesson.
     """
 
     def __init__(
-        self, send: Callable[[Command], None], watched: DemonstratedLesson, who: Demonstrator | None = None
+        self, send: Callable[[Command], None], watched: DemonstratedLesson, demonstrator: Demonstrator | None = None
     ) -> None:
         self._send = send
         self._watched = watched
-        self._who = who or Demonstrator()
+        self._demonstrator = demonstrator or Demonstrator()
         self._drummer: Drummer | None = None
         self._flags: dict[str, tuple[int | None, ...]] = {}
         self._sounding_until_ns: int | None = None
@@ -131,21 +131,21 @@ class DemoPlayer:
         if loop != self.player.loop:
             self.do(lambda player, now_ns: player.looped(now_ns, loop))
 
-    def perform_as(self, who: Demonstrator) -> None:
+    def perform_as(self, demonstrator: Demonstrator) -> None:
         """Let another body or manner demonstrate from now on."""
-        if who.figure is not self._who.figure:
+        if demonstrator.figure is not self._demonstrator.figure:
             self._drummer = None
-        self._who = who
+        self._demonstrator = demonstrator
 
     @property
     def drummer(self) -> Drummer:
         """Who plays the whole lesson, in the present style; made, and made anew, when asked for."""
         if self._drummer is None:
-            watched, who = self._watched, self._who
+            watched, demonstrator = self._watched, self._demonstrator
             score = with_sticking(self.score, watched.kit, watched.hands)
-            self._drummer = Drummer(score, watched.kit, who.figure, who.style)
-        if self._drummer.style is not self._who.style:
-            self._drummer = self._drummer.with_style(self._who.style)
+            self._drummer = Drummer(score, watched.kit, demonstrator.figure, demonstrator.style)
+        if self._drummer.style is not self._demonstrator.style:
+            self._drummer = self._drummer.with_style(self._demonstrator.style)
         return self._drummer
 
     # --- what the user does ------------------------------------------------------------------------------------------
@@ -156,9 +156,10 @@ class DemoPlayer:
             case SetStep(step):
                 self.step = step
             case SetDemoClick(click):
-                self.set_click(click)
+                self.click = click
+                self._sound_on()
             case SetCountIn(counts_in):
-                self.count_in(counts_in)
+                self.counts_in = counts_in
             case PlayOrStop():
                 self.do(_play_or_stop)
             case SetSpeed(percent, held):
@@ -191,15 +192,6 @@ class DemoPlayer:
         self._counting = self._count_in() if begins else None
         if held or self._sounding_until_ns is None or _course(self.player) != _course(before):
             self._sound(held)
-
-    def set_click(self, click: bool) -> None:
-        """Let the click sound with the strokes, or the strokes alone."""
-        self.click = click
-        self._sound_on()
-
-    def count_in(self, counts_in: bool) -> None:
-        """Let a bar be counted before it plays, or not, from the next time on."""
-        self.counts_in = counts_in
 
     def halt(self) -> None:
         """Stop, where the user turns to something else."""
@@ -288,7 +280,7 @@ class DemoPlayer:
             hud=self._hud(),
         )
 
-    def graphed(self) -> ScoreCurves:
+    def curves(self) -> ScoreCurves:
         """The same for the graph."""
         return ScoreCurves(self.drummer, self.player.position_ns(self.now_ns) / NS_PER_S, BarNumbers())
 

@@ -1,4 +1,4 @@
-"""Just play, as the room holds it: a take, its folder, its pictures, and the take to be heard again.
+"""Just play: a take, its folder, its pictures, and the take to be heard again.
 
 Strokes light the kit before, in and after a take; only a take's are kept.
 """
@@ -70,11 +70,11 @@ class FreeSession:
 
     # --- the take ----------------------------------------------------------------------------------------------------
 
-    def begin(self, engine: EngineLink, wish: FreeRequest) -> None:
-        """Record from now on, to the click that is wished for; raises `StationError`."""
+    def begin(self, engine: EngineLink, request: FreeRequest) -> None:
+        """Record from now on, to the click that is asked for; raises `StationError`."""
         settings = self._store.now
-        pattern = parse_click(settings.click_pattern, setting_source("click_pattern")) if wish.click else None
-        play = FreePlay(FreeClick(wish.tempo_bpm, pattern), self._latency)
+        pattern = parse_click(settings.click_pattern, setting_source("click_pattern")) if request.click else None
+        play = FreePlay(FreeClick(request.tempo_bpm, pattern), self._latency)
         folder = SessionFolder.make(None, settings, FOLDER)
         try:
             begin(engine, play, folder.capture)
@@ -84,14 +84,14 @@ class FreeSession:
         self._play, self._folder, self._take, self.runs = play, folder, None, True
 
     def handle(self, event: EngineEvent) -> None:
-        """Take one event of the engine."""
+        """Handle one event of the engine."""
         if self.runs:
             self._play.handle(event)
         else:
             self._play.heard.take(event)
 
     def advance(self, now_ns: int) -> None:
-        """Tell the session time."""
+        """Move on to `now_ns`."""
         if self.runs:
             self._play.advance(now_ns)
 
@@ -127,15 +127,15 @@ class FreeSession:
     def snapshot(self, kit: Kit, now_ns: int, heard_ns: int | None = None) -> Snapshot:
         """The kit, what was struck just now, and the strip; `heard_ns` is the place in the take that sounds."""
         at_ns = self._play.at_ns if self.runs else heard_ns if heard_ns is not None else self._end_ns
-        lit = strikes(self._play.heard.recent, now_ns)
+        shown = strikes(self._play.heard.recent, now_ns)
         if heard_ns is not None:
-            lit += self._sounding(heard_ns)
+            shown += self._sounding(heard_ns)
         return Snapshot(
             score=_NO_SCORE,
             position_s=(at_ns or 0) / NS_PER_S,
             kit=kit,
             figure=self._figure,
-            strikes=lit,
+            strikes=shown,
             hud=self._hud(at_ns, heard_ns is not None),
             strip=Strip(self._strokes(), self._beat_s, BEATS),
         )

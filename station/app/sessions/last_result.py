@@ -1,7 +1,7 @@
-"""What the last session left: its report, the question before it, what the graph and the ear take from it.
+"""What the last session left: its report, the question before it, its curves, and its bars to be heard again.
 
-A student who first judges the own error learns more (`practice.own_ear`): while the question is open nothing of the
-result is shown.
+A student who first judges their own error learns more (`practice.session.self_estimate`): while the question is open
+nothing of the result is shown.
 """
 
 from collections.abc import Mapping
@@ -17,24 +17,24 @@ from station.render.snapshot import Snapshot
 from station.scenes.comparison import Comparison
 from station.scenes.curves import ScoreCurves
 from station.scenes.demonstrator import Demonstrator
-from station.scenes.session_scene import graphed_result
+from station.scenes.session_scene import result_curves
 
 
 class LastResult:
     """The session that ended last, none at first; `is_asking` while its question is open."""
 
     def __init__(self) -> None:
-        self._kept: SavedSession | None = None
-        self._graphed: ScoreCurves | None = None
+        self._saved: SavedSession | None = None
+        self._curves: ScoreCurves | None = None
         self._asked: set[str] = set()
         self._compared: Comparison | None = None
         self._from_ns = 0
         self.is_asking = False
 
-    def keep(self, kept: SavedSession, may_ask: bool) -> None:
+    def keep(self, saved: SavedSession, may_ask: bool) -> None:
         """From now on this is the last one; a question is opened where the student `may` be asked one."""
-        self._kept, self._graphed, self._compared = kept, None, None
-        self.is_asking = may_ask and self._is_new(kept.result.plan.lesson.name, kept.report.document)
+        self._saved, self._curves, self._compared = saved, None, None
+        self.is_asking = may_ask and self._is_new(saved.result.plan.lesson.name, saved.report.document)
 
     def _is_new(self, lesson: str, document: Mapping[str, object]) -> bool:
         """Whether to ask: at most once a lesson, and only what the report can answer."""
@@ -51,14 +51,14 @@ class LastResult:
     @property
     def report(self) -> ShownResult | None:
         """What may be shown of it now."""
-        return None if self.is_asking or self._kept is None else self._kept.report
+        return None if self.is_asking or self._saved is None else self._saved.report
 
     def answer(self, guess: SelfEstimate) -> str | None:
         """Close the question; returns the guess beside what was measured, None where nothing was asked."""
-        if not self.is_asking or self._kept is None:
+        if not self.is_asking or self._saved is None:
             return None
         self.is_asking = False
-        return answered(guess, self._kept.report.document)
+        return answered(guess, self._saved.report.document)
 
     def guess_of(self, event: EngineEvent) -> SelfEstimate | None:
         """What a stroke answers while the question is open."""
@@ -68,17 +68,17 @@ class LastResult:
         """The student turns to something else: a question stays unanswered."""
         self.is_asking = False
 
-    def graphed(self, who: Demonstrator) -> ScoreCurves | None:
-        """The whole of it as the graph shows it, demonstrated by `who`, once it may be seen."""
-        if self._graphed is None and self._kept is not None and not self.is_asking:
-            self._graphed = graphed_result(self._kept.result, who)
-        return self._graphed
+    def curves(self, demonstrator: Demonstrator) -> ScoreCurves | None:
+        """The whole of it as the graph shows it, demonstrated by `demonstrator`, once it may be seen."""
+        if self._curves is None and self._saved is not None and not self.is_asking:
+            self._curves = result_curves(self._saved.result, demonstrator)
+        return self._curves
 
-    def hear(self, bar: int, whose: Whose, who: Demonstrator) -> Listening | None:
-        """A bar (from 0) of its score, to be heard and, demonstrated by `who`, to be seen; None where there is none."""
-        if self._kept is None or self.is_asking:
+    def hear(self, bar: int, whose: Whose, demonstrator: Demonstrator) -> Listening | None:
+        """A bar (from 0) of its score to be heard, and seen as `demonstrator` plays it; None where there is none."""
+        if self._saved is None or self.is_asking:
             return None
-        result, before = self._kept.result, self._kept.report.before
+        result, before = self._saved.result, self._saved.report.before
         played, words = None, "the teacher"
         if whose is Whose.STUDENT:
             played, words = students_bar(result, bar), "you"
@@ -86,7 +86,7 @@ class LastResult:
             if isinstance(before, str):
                 return None
             played, words = earlier_bar(result, bar, before), f"you, {before.day}"
-        self._compared = Comparison(result, bar, played, who, words)
+        self._compared = Comparison(result, bar, played, demonstrator, words)
         listening = bar_by_ear(result, bar, played)
         self._from_ns = listening.from_ns
         return listening

@@ -1,7 +1,8 @@
-"""One session of a lesson as the room holds it: ready, playing, paused, over; what is seen of it, and what is kept.
+"""One session of a lesson: ready, playing, paused, over; what is seen of it, and what is kept.
 
-The room owns engine, pads and questions; it hands over every event, says what time it is, and asks for the result when
-the session is over. Where the tempo follows the student, each pass is a session of its own (`practice.adaptation`).
+The controller owns engine, pads and questions; it hands over every event, says what time it is, and asks for the
+result when the session is over. Where the tempo follows the student, each pass is a session of its own
+(`practice.session.adaptation`).
 """
 
 from collections.abc import Callable, Sequence
@@ -47,7 +48,7 @@ class SavedSession:
 
 
 class LessonSession:
-    """One session as it is `laid` out, or passes that follow the student; `tell` hears what a user should read.
+    """One session as it is `laid` out, or passes that follow the student; `notify` hears what a user should read.
 
     `before` is what was shown last: its drummer sits there until the one of this session is made.
     """
@@ -56,15 +57,15 @@ class LessonSession:
         self,
         engine: EngineClient,
         laid: PreparedSession,
-        who: Demonstrator,
+        demonstrator: Demonstrator,
         latency: Latency,
-        tell: Callable[[str], None],
+        notify: Callable[[str], None],
         before: "LessonSession | None" = None,
     ) -> None:
-        self._engine, self._who, self._tell = engine, who, tell
+        self._engine, self._demonstrator, self._notify = engine, demonstrator, notify
         self._followed = laid.followed
         self._runner = SessionRunner(laid.plan if laid.followed is None else laid.followed.adaptation, latency)
-        self.view: SessionView = SessionView(self.plan, who, None if before is None else before.view)
+        self.view: SessionView = SessionView(self.plan, demonstrator, None if before is None else before.view)
         self._folder: SessionFolder | None = None
 
     @property
@@ -91,13 +92,13 @@ class LessonSession:
 
     # --- while it runs -----------------------------------------------------------------------------------------------
 
-    def take(self, event: EngineEvent, now_ns: int) -> None:
-        """Take one event of the engine."""
+    def handle(self, event: EngineEvent, now_ns: int) -> None:
+        """Handle one event of the engine."""
         notices = self._runner.heard.notices
-        told = len(notices)
+        known = len(notices)
         self._follow(self._runner.handle(event), now_ns)
-        for notice in notices[told:]:
-            self._tell(notice)
+        for notice in notices[known:]:
+            self._notify(notice)
 
     def advance(self, now_ns: int) -> bool:
         """Move on, or wait for a student who has stopped; returns whether the session is over."""
@@ -109,7 +110,7 @@ class LessonSession:
         try:
             self._send(self._runner.veto())
         except DeviceError as fault:
-            self._tell(str(fault))
+            self._notify(str(fault))
             return False
         self._see_next_pass()
         return True
@@ -123,12 +124,12 @@ class LessonSession:
         if update.is_anew:
             self.view.judged_anew(session)
         if update.notice is not None:
-            self._tell(update.notice)
+            self._notify(update.notice)
         if session is not self.session:
             self._see_next_pass()
 
     def _see_next_pass(self) -> None:
-        self.view = SessionView(self.plan, self._who, self.view)
+        self.view = SessionView(self.plan, self._demonstrator, self.view)
         self.view.make_ahead()
 
     def _send(self, commands: Sequence[Command]) -> None:
@@ -156,16 +157,16 @@ class LessonSession:
         """The picture at `now_ns`."""
         return self.view.snapshot(self.session, now_ns, PAUSED if self.paused else "")
 
-    def graphed(self) -> ScoreCurves | None:
+    def curves(self) -> ScoreCurves | None:
         """What the graph shows of it."""
-        return self.view.graphed(self.session)
+        return self.view.curves(self.session)
 
-    def move_as(self, who: Demonstrator, hands_stay: bool) -> None:
-        """Let `who` demonstrate from now on."""
-        self._who = who
-        self.view.move_as(who.style, hands_stay=hands_stay)
+    def move_as(self, demonstrator: Demonstrator, hands_stay: bool) -> None:
+        """Let `demonstrator` demonstrate from now on."""
+        self._demonstrator = demonstrator
+        self.view.move_as(demonstrator.style, hands_stay=hands_stay)
 
-    def told(self, room: RoomState) -> RoomState:
+    def state_in(self, room: RoomState) -> RoomState:
         """The room, and how far the session is."""
         state, adaptation, progress = self.session.state(), None, None
         if room.stage is Stage.PLAYING:

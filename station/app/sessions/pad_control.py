@@ -16,8 +16,8 @@ from station.practice.control.pad_commands import PadCommands
 class PadControl:
     """Takes every event of the engine, by the settings of `store`; raises `BadInput` for a pause that is none."""
 
-    def __init__(self, store: SettingsStore, habits: Preferences, score: Score) -> None:
-        self._store, self._habits = store, habits
+    def __init__(self, store: SettingsStore, preferences: Preferences, score: Score) -> None:
+        self._store, self._preferences = store, preferences
         self._go_by(score)
 
     def _go_by(self, score: Score) -> None:
@@ -28,20 +28,20 @@ class PadControl:
         """What was struck so far means nothing."""
         self._pads.forget()
 
-    def take(self, event: EngineEvent, practice: CurrentPractice) -> Action | None:
+    def handle(self, event: EngineEvent, practice: CurrentPractice) -> Action | None:
         """What `event` asks for, given what is practised; None for nothing."""
-        score = practice.run.plan.score
+        score = practice.session.plan.score
         if self._by != _asked_by(self._store):
             self._go_by(score)
-        if practice.outcome.is_asking:
+        if practice.last_result.is_asking:
             self._pads.forget()
-            guess = practice.outcome.guess_of(event)
+            guess = practice.last_result.guess_of(event)
             return None if guess is None else Answer(guess)
-        if self._habits.take(event):
+        if self._preferences.handle(event):
             self._pads.forget()
             return None
         self._pads.practise(score)
-        may_start = not practice.is_playing or (practice.is_session and practice.run.paused)
+        may_start = not practice.is_playing or (practice.is_session and practice.session.paused)
         if may_start and self._pads.starts(event):
             self._pads.forget()
             return Pause() if practice.is_session else Begin()

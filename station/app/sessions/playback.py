@@ -53,8 +53,8 @@ class Playback:
                 self.without_track()
             self._engine.send(command)
 
-    def take(self, event: EngineEvent) -> None:
-        """Take one event of the engine."""
+    def handle(self, event: EngineEvent) -> None:
+        """Handle one event of the engine."""
         if self._heard is not None:
             self._heard.handle(event)
 

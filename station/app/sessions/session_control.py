@@ -60,27 +60,29 @@ class SessionControl:
         engine: EngineClient,
         store: SettingsStore,
         launch: Launch,
-        who: Demonstrator,
+        demonstrator: Demonstrator,
         notify: Callable[[str], None],
     ) -> None:
         self._engine, self._store, self._notify = engine, store, notify
         plan = launch.plan
-        self._who = who
+        self._demonstrator = demonstrator
         self._latency = latency = launch.latency or latency_of(store.now, StoredCalibration())
         self._prepared = SessionPreparation(store, launch.backing)
         self.catalog = Catalog(store, plan.lesson, notify)
-        run = LessonSession(engine, PreparedSession(plan), who, latency, notify)
-        self.practice = CurrentPractice(engine, store, run, FreeSession(store, latency), notify)
+        session = LessonSession(engine, PreparedSession(plan), demonstrator, latency, notify)
+        self.practice = CurrentPractice(engine, store, session, FreeSession(store, latency), notify)
         self._playback = Playback(engine, self._prepared.has_tracks)
-        self.player = DemoPlayer(self._playback.demonstrate, self._prepared.watched(plan.lesson, plan.kit), who)
+        self.player = DemoPlayer(
+            self._playback.demonstrate, self._prepared.watched(plan.lesson, plan.kit), demonstrator
+        )
         self._heard_ns: int | None = None
 
     # --- what is shown -----------------------------------------------------------------------------------------------
 
     def room(self) -> RoomState:
-        """What goes on; after `snapshot`, whose place in the music it tells."""
+        """What goes on; after `snapshot`, whose place in the music it has."""
         state = RoomState(kit=self._engine.kits, sound=self._engine.sound, listening=self._playback.hears)
-        return self.practice.told(state)
+        return self.practice.state_in(state)
 
     def snapshot(self, now_ns: int) -> Snapshot:
         """The picture at `now_ns`."""
@@ -95,8 +97,8 @@ class SessionControl:
         if practice.is_free:
             return None
         if practice.is_playing:
-            return practice.run.graphed()
-        return self.player.graphed() if practice.stage is Stage.IDLE else practice.outcome.graphed(self._who)
+            return practice.session.curves()
+        return self.player.curves() if practice.stage is Stage.IDLE else practice.last_result.curves(self._demonstrator)
 
     def is_lively(self, now_ns: int) -> bool:
         """Whether something moves, or may at any moment: a frame that is spared would be missed."""
@@ -106,19 +108,19 @@ class SessionControl:
     @property
     def hands(self) -> Hands:
         """Whose hand leads: as it was chosen, else as the lesson's kit is built."""
-        built = Hands.LEFT if self.practice.run.plan.kit.left_handed else Hands.RIGHT
+        built = Hands.LEFT if self.practice.session.plan.kit.left_handed else Hands.RIGHT
         return hands_of(self._store.now) or built
 
     # --- as time goes by ---------------------------------------------------------------------------------------------
 
-    def take(self, event: EngineEvent, now_ns: int) -> None:
-        """Take one event of the engine."""
+    def handle(self, event: EngineEvent, now_ns: int) -> None:
+        """Handle one event of the engine."""
         if self._playback.hears:
-            self._playback.take(event)
+            self._playback.handle(event)
         elif isinstance(event, Started) and not self.practice.is_playing:
             self.player.started(event.zero_ns)
             return
-        self.practice.take(event, now_ns)
+        self.practice.handle(event, now_ns)
 
     def died(self) -> None:
         """The engine has ended: what was played is kept."""
@@ -150,36 +152,38 @@ class SessionControl:
                 self._listen()
             case HearBar(bar, whose):
                 if self.practice.stage is Stage.RESULT:
-                    self._hear(self.practice.outcome.hear(bar, whose, self._who))
+                    self._hear(self.practice.last_result.hear(bar, whose, self._demonstrator))
             case _:
                 assert_never(action)
 
     # --- one after the other -----------------------------------------------------------------------------------------
 
-    def preview(self, wish: SessionRequest | None) -> None:
+    def preview(self, request: SessionRequest | None) -> None:
         """Show a lesson, its bars on the player, or the kit alone, to just play; raises `StationError`."""
         self._playback.quiet()
-        run = None if wish is None else self._laid_out(wish)
-        self.practice.show(run)
-        if wish is None or run is None:
+        session = None if request is None else self._laid_out(request)
+        self.practice.show(session)
+        if request is None or session is None:
             self.player.halt()
         else:
-            self.player.load(self._prepared.watched(self.catalog.lesson(wish.lesson), run.plan.kit), wish.bars)
+            self.player.load(
+                self._prepared.watched(self.catalog.lesson(request.lesson), session.plan.kit), request.bars
+            )
 
-    def start(self, wish: SessionRequest) -> None:
+    def start(self, request: SessionRequest) -> None:
         """Begin a session, ending what runs; wakes a new engine if the old has ended. Raises `StationError`."""
-        run = self._laid_out(wish)
+        session = self._laid_out(request)
         self._make_room()
-        track = None if wish.adapt else self._prepared.track(run.plan, self._engine.rate_hz)
+        track = None if request.adapt else self._prepared.track(session.plan, self._engine.rate_hz)
         if track is None:
             self._playback.without_track()
-        self.practice.begin(run, track)
+        self.practice.begin(session, track)
 
-    def just_play(self, wish: FreeRequest) -> None:
+    def just_play(self, request: FreeRequest) -> None:
         """Begin a free take, ending what runs; raises `StationError`."""
         self._make_room()
         self._playback.without_track()
-        self.practice.begin_free(wish)
+        self.practice.begin_free(request)
 
     def _listen(self) -> None:
         """Hear the last free take from its capture, or end what is heard; raises `StationError`."""
@@ -193,7 +197,7 @@ class SessionControl:
         if self.practice.stage is Stage.RESULT:
             self._playback.quiet()
             self.catalog.learnt()
-            self.practice.leave(self._new_run(PreparedSession(self.practice.run.plan)))
+            self.practice.leave(self._new_session(PreparedSession(self.practice.session.plan)))
 
     def rest(self) -> list[str]:
         """Let the engine's devices go; returns the kits that it had. Raises `DeviceError` while somebody plays."""
@@ -205,14 +209,14 @@ class SessionControl:
 
     # --- by whom and by what -----------------------------------------------------------------------------------------
 
-    def perform_as(self, who: Demonstrator) -> None:
-        """Let `who` demonstrate: in their style at once, but that hands hold as before while a pass is played.
+    def perform_as(self, demonstrator: Demonstrator) -> None:
+        """Let `demonstrator` demonstrate: in their style at once, but that hands hold as before while a pass is played.
 
         Another body comes with the next preview or session.
         """
-        self._who = who
-        self.practice.run.move_as(who, hands_stay=self.practice.is_session)
-        self.player.perform_as(who)
+        self._demonstrator = demonstrator
+        self.practice.session.move_as(demonstrator, hands_stay=self.practice.is_session)
+        self.player.perform_as(demonstrator)
 
     def trust(self, latency: Latency) -> None:
         """Take devices to be so late from the next session on."""
@@ -234,11 +238,11 @@ class SessionControl:
         if listening is not None:
             self._playback.hear(listening)
 
-    def _laid_out(self, wish: SessionRequest) -> LessonSession:
-        laid = self._prepared.laid_out(self.catalog.lesson(wish.lesson), wish)
+    def _laid_out(self, request: SessionRequest) -> LessonSession:
+        laid = self._prepared.laid_out(self.catalog.lesson(request.lesson), request)
         if laid.followed is not None and laid.followed.fault is not None:
             self._notify(laid.followed.fault)
-        return self._new_run(laid)
+        return self._new_session(laid)
 
-    def _new_run(self, laid: PreparedSession) -> LessonSession:
-        return LessonSession(self._engine, laid, self._who, self._latency, self._notify, self.practice.run)
+    def _new_session(self, laid: PreparedSession) -> LessonSession:
+        return LessonSession(self._engine, laid, self._demonstrator, self._latency, self._notify, self.practice.session)

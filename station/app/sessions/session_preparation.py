@@ -22,7 +22,7 @@ from station.practice.session.plan import Plan, PlanOptions, plan_practice
 from station.sound.track import PreparedTrack
 
 if TYPE_CHECKING:
-    from station.practice.session.backing_track import Backing, BackingRequest
+    from station.practice.session.backing_track import BackingRequest
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,37 +33,36 @@ class PreparedSession:
     followed: Remembered | None = None
 
 
-def _backing_of(wish: "BackingRequest") -> "Backing":
-    """Its keeper, which comes with libraries of sound: the window opens sooner without."""
-    from station.practice.session.backing_track import Backing
-
-    return Backing(wish)
-
-
 class SessionPreparation:
-    """Lays out what is wished for by the settings of `store`; sessions whose tempo stays play along to `backing`."""
+    """Lays out what is asked for by the settings of `store`; sessions whose tempo stays play along to `backing`."""
 
     def __init__(self, store: SettingsStore, backing: "BackingRequest | None") -> None:
         self._store = store
-        self._backing = None if backing is None else _backing_of(backing)
+        self._backing = None
+        if backing is not None:  # with libraries of sound: the window opens sooner without
+            from station.practice.session.backing_track import Backing
+
+            self._backing = Backing(backing)
 
     @property
     def has_tracks(self) -> bool:
         """Whether sessions may play along to a track."""
         return self._backing is not None
 
-    def laid_out(self, lesson: Lesson, wish: SessionRequest) -> PreparedSession:
-        """What is wished for of a lesson, from what is remembered where the tempo follows; raises `StationError`."""
+    def laid_out(self, lesson: Lesson, request: SessionRequest) -> PreparedSession:
+        """What is asked for of a lesson, from what is remembered where the tempo follows; raises `StationError`."""
         settings = self._store.now
-        tempo_bpm = None if wish.adapt else wish.tempo_bpm
-        click = self._click() if wish.click else None
+        tempo_bpm = None if request.adapt else request.tempo_bpm
+        click = self._click() if request.click else None
         hands = hands_of(settings)
-        wishes = PlanOptions(tempo_bpm, wish.loops, wish.bars, wish.demonstrations, click, settings.guide, hands)
-        plan = plan_practice(lesson, wishes)
-        if not wish.adapt:
+        options = PlanOptions(
+            tempo_bpm, request.loops, request.bars, request.demonstrations, click, settings.guide, hands
+        )
+        plan = plan_practice(lesson, options)
+        if not request.adapt:
             return PreparedSession(plan)
         memory = Memory.of(settings.sessions_dir, settings.student, lesson.name, plan.bars)
-        followed = Remembered.of(lesson, wishes, date.today(), memory)
+        followed = Remembered.of(lesson, options, date.today(), memory)
         return PreparedSession(followed.adaptation.plan, followed)
 
     def watched(self, lesson: Lesson, kit: Kit) -> DemonstratedLesson:

@@ -60,7 +60,7 @@ class TypedLines:
                 self._lines.put(line.strip())
         self.ended = True
 
-    def take(self) -> list[str]:
+    def pop(self) -> list[str]:
         """The lines since the last call."""
         return [self._lines.get() for _ in range(self._lines.qsize())]
 
@@ -70,10 +70,10 @@ def listening(options: ListenOptions) -> Iterator[tuple[PortWatch, ...]]:
     """The chosen kits; raises `DeviceError` where none can be heard. Ctrl-C, wherever it falls, ends the block."""
     from station.devices.device_ports import no_kit, parse_kits, watch_kits
 
-    wishes = parse_kits(wanted_kits(options.device, load_settings().kit))
-    watches = watch_kits(wishes)
+    requests = parse_kits(wanted_kits(options.device, load_settings().kit))
+    watches = watch_kits(requests)
     if not watches.kits:
-        raise DeviceError(no_kit(wishes))
+        raise DeviceError(no_kit(requests))
     if watches.fault is not None:
         say(f"station: {watches.fault}")
     try:

@@ -34,7 +34,7 @@ def take_as_score(path: Path) -> Score:
         played = performance_of_capture(path)
     if not len(played):
         raise BadInput(path, "", "there is no stroke in this capture")
-    title, tempo_map = _told(path.resolve())
+    title, tempo_map = _of_document(path.resolve())
     return score_as_played(_from_first_bar(played, tempo_map), tempo_map, title)
 
 
@@ -43,7 +43,7 @@ def _from_first_bar(played: Performance, tempo_map: TempoMap) -> Performance:
     return played.shifted(-(int(played.hits["at_ns"][0]) // bar_ns * bar_ns))
 
 
-def _told(path: Path) -> tuple[str, TempoMap]:
+def _of_document(path: Path) -> tuple[str, TempoMap]:
     """What the documents beside a capture say of it; one that cannot be read says nothing."""
     session = _document(path.with_name(DOCUMENT_NAME)).get("session")
     if isinstance(session, dict):

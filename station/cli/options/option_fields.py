@@ -47,7 +47,7 @@ class _OptionGroup:
 
 
 def argument(metavar: str, words: str, read: Callable[[str], _T]) -> _T:
-    """A word of its own, told by its place."""
+    """A word of its own, known by its place."""
     made: _T = field(metadata={_KEY: _Spec({"metavar": metavar, "help": words, "type": read}, is_option=False)})
     return made
 
@@ -131,7 +131,7 @@ def whole_number(text: str) -> int:
 
 
 def unread(expected: str, text: str) -> argparse.ArgumentTypeError:
-    """The error of a value that cannot be read, which argparse tells of with the option's name."""
+    """The error of a value that cannot be read, which argparse reports with the option's name."""
     return argparse.ArgumentTypeError(f"expected {expected}, found {text!r}")
 
 

@@ -19,7 +19,7 @@ class WatchOptions:
     seconds: float | None = option("--watch-seconds S", HIDDEN, number, None)
 
     def watch(self) -> "Watch | None":
-        """What watches the window, and writes what it tells as JSON, a document a line; None where nobody asks."""
+        """What watches the window, and writes what it reports as JSON, a document a line; None where nobody asks."""
         if self.frames is None and self.seconds is None:
             return None
         from station.app.opening import Watch

@@ -24,7 +24,7 @@ _BEST, _WORST = palette.with_opacity(palette.GOOD, 0.16), palette.with_opacity(p
 """Of the night; the theme dyes them."""
 
 
-def bars_panel(report: ShownResult, ear: PlaybackRow) -> int | None:
+def bars_panel(report: ShownResult, playback: PlaybackRow) -> int | None:
     """Draw both; returns the bar (from 1) that the user wants to drill, None for none."""
     confused = report.wrong_pads[:_CONFUSIONS]
     below = theme.points(_COMPARING + (_HEADING + _LINE * len(confused) if confused else 0.0))
@@ -36,10 +36,10 @@ def bars_panel(report: ShownResult, ear: PlaybackRow) -> int | None:
             imgui.separator_text("Wrong pads")
         for pad in confused:
             if imgui.selectable(f"{pad.words}##wrong-{pad.words}", False)[0]:
-                ear.show(report, pad.bar, pad.pass_number)
+                playback.show(report, pad.bar, pad.pass_number)
             theme.tooltip(f"Most in bar {pad.bar}. Click to see it: the drummer's arm goes to the right pad, and glows")
         imgui.separator_text("Hear and see a bar")
-        ear.gui(report, FlowRow())
+        playback.gui(report, FlowRow())
     return chosen
 
 
@@ -75,7 +75,7 @@ def _row(heat: HeatMap, bar: int, limbs: list[Limb]) -> bool:
         cell = heat.cells.get((bar, limb))
         if cell is None:
             continue
-        colour = palette.mixed(theme.dyed(_WORST), theme.dyed(_BEST), cell.share)
+        colour = palette.mixed(theme.themed(_WORST), theme.themed(_BEST), cell.share)
         imgui.push_style_color(imgui.Col_.button, imgui.ImVec4(*colour))
         pressed |= imgui.button(f"{100 * cell.share:.0f}##{bar}-{limb.name}", imgui.ImVec2(-1, 0))
         imgui.pop_style_color()

@@ -62,7 +62,7 @@ class CalibrationPart:
             theme.tooltip("From the pads to the microphone: sound takes 2.9 ms a metre")
 
     def _running(self, lines: Sequence[str]) -> None:
-        """What is told meanwhile, the newest line large."""
+        """The lines of the measurement, the newest one large."""
         lines = lines or ["getting ready"]
         for line in lines[:-1]:
             theme.soft(line)

@@ -17,20 +17,20 @@ _RADIUS, _LINE = 7.0, 2.0
 """Design pixels of the mark."""
 
 
-def course_picker(choice: Selection) -> Selection:
+def course_picker(selection: Selection) -> Selection:
     """Draw the list of courses, with how much of each is mastered; returns what is chosen."""
-    if not choice.courses:
-        return choice
-    chosen, picked = choice.course, choice
-    words = ALL_LESSONS if chosen is None else f"{chosen.title}: {choice.mastered(chosen)} of {len(chosen.lessons)}"
+    if not selection.courses:
+        return selection
+    chosen, picked = selection.course, selection
+    words = ALL_LESSONS if chosen is None else f"{chosen.title}: {selection.mastered(chosen)} of {len(chosen.lessons)}"
     imgui.set_next_item_width(-1)
     if imgui.begin_combo("##course", words, imgui.ComboFlags_.height_large):
-        for course in (None, *choice.courses):
+        for course in (None, *selection.courses):
             label = ALL_LESSONS if course is None else f"{course.title}##{course.name}"
             if imgui.selectable(label, course is chosen)[0]:
-                picked = choice.follow(course)
+                picked = selection.follow(course)
             if course is not None:
-                theme.tooltip(f"{course.about}\n{choice.mastered(course)} of {len(course.lessons)} lessons mastered")
+                theme.tooltip(f"{course.about}\n{selection.mastered(course)} of {len(course.lessons)} lessons mastered")
         imgui.end_combo()
     theme.tooltip(chosen.about if chosen else "A course has lessons in the order in which a teacher gives them")
     return picked
@@ -65,4 +65,4 @@ def _icon(brush: imgui.ImDrawList, middle: imgui.ImVec2, icon: str, colour: Colo
 
 
 def _ink(colour: Colour) -> int:
-    return int(imgui.get_color_u32(imgui.ImVec4(*theme.dyed(colour))))
+    return int(imgui.get_color_u32(imgui.ImVec4(*theme.themed(colour))))

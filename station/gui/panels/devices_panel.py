@@ -71,7 +71,7 @@ class DevicesPanel:
     def __init__(self, dispatch: Callable[[Action], None]) -> None:
         self._dispatch = dispatch
         self._calibration = CalibrationPart(dispatch)
-        self._pads, self._touch = PadsPart(dispatch), VelocityPart(dispatch)
+        self._pads, self._velocity = PadsPart(dispatch), VelocityPart(dispatch)
 
     def gui(self, state: State) -> None:
         """Draw the panel and do what the user does in it; nothing is learnt or measured while somebody plays."""
@@ -93,7 +93,7 @@ class DevicesPanel:
             imgui.separator_text("Pads")
             self._pads.gui(view, may_learn)
             self._table(view, view.kit)
-            self._touch.gui(view, may_learn)
+            self._velocity.gui(view, may_learn)
             self._crosstalk(view, view.kit)
             self._keeping(view.is_changed)
             self._latency(state, may_learn)
@@ -139,8 +139,8 @@ class DevicesPanel:
         pad = kit.pad(piece)
         place(0)
         imgui.align_text_to_frame_padding()
-        if imgui.selectable(f"{piece_name(piece)}##pad-{word(piece)}", self._touch.piece is piece)[0]:
-            self._touch.turn(piece)
+        if imgui.selectable(f"{piece_name(piece)}##pad-{word(piece)}", self._velocity.piece is piece)[0]:
+            self._velocity.turn(piece)
         theme.tooltip("Show or hide how loud its strokes count")
         place(1)
         _bars(f"##strokes-{word(piece)}", view.strokes.get(piece, ()), pad.threshold)
@@ -236,10 +236,10 @@ def cells(line: MonitorLine) -> tuple[str, str, str, str]:
     event = line.ghost.hit if line.ghost is not None else line.event
     match event:
         case Hit():
-            told = [_WHY[line.ghost.why]] if line.ghost is not None else []
-            told += [] if event.openness is None else [f"open {event.openness:.2f}"]
-            told += [] if event.position is None else [f"at {event.position:.2f}"]
-            return f"{piece_name(event.piece)}, {word(event.zone)}", str(event.velocity), ", ".join(told), line.raw
+            notes = [_WHY[line.ghost.why]] if line.ghost is not None else []
+            notes += [] if event.openness is None else [f"open {event.openness:.2f}"]
+            notes += [] if event.position is None else [f"at {event.position:.2f}"]
+            return f"{piece_name(event.piece)}, {word(event.zone)}", str(event.velocity), ", ".join(notes), line.raw
         case Choke():
             return f"{piece_name(event.piece)} choked", "", "", line.raw
         case PedalMoved():

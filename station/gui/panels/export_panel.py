@@ -1,4 +1,4 @@
-"""The panel of what can be taken along: the chosen bars as MIDI, as a lesson file, as a sheet, as a video, as a GIF."""
+"""The panel that exports the chosen bars: as MIDI, as a lesson file, as a sheet, as a video, as a GIF."""
 
 from collections.abc import Callable
 
@@ -8,7 +8,7 @@ from station.app.actions import Action, CancelFilm, Export, ExportKind
 from station.app.window_state import State
 from station.gui import theme
 
-TAKE_ALONG = "Take along"
+EXPORT = "Export"
 ABOUT = "The chosen bars as MIDI, as a file for your teacher, as a sheet to print, as a video or a GIF"
 HELP = (
     "The bars that the player repeats are written at the lesson's own tempo: MIDI for any other program; a lesson file"
@@ -40,16 +40,16 @@ class ExportPanel:
         lesson, (first, last) = state.player.lesson, state.export_bars
         theme.heading(lesson.title, 20)
         theme.soft(f"bars {first + 1} to {last + 1}" if first != last else f"bar {first + 1}")
-        for kind, (label, told) in _FILES.items():
-            self._button(label, told, Export(kind))
+        for kind, (label, tip) in _FILES.items():
+            self._button(label, tip, Export(kind))
         if not state.is_filming:
-            for kind, (label, told) in _FILMS.items():
-                self._button(label, told, Export(kind))
+            for kind, (label, tip) in _FILMS.items():
+                self._button(label, tip, Export(kind))
             return
         self._button(CANCEL_LABEL, "Give it up; nothing is left of it", CancelFilm())
         theme.soft("It is being filmed; you may go on.")
 
-    def _button(self, label: str, told: str, action: Action) -> None:
+    def _button(self, label: str, tip: str, action: Action) -> None:
         if imgui.button(label, imgui.ImVec2(-1, theme.points(40))):
             self._dispatch(action)
-        theme.tooltip(told)
+        theme.tooltip(tip)

@@ -46,11 +46,11 @@ _STRIP_LEGEND, _LEGEND_MS = (760.0, 110.0), 60.0
 _LOUDEST = 300.0
 """What loudness would be as high as the strip (our choice)."""
 _DOT = 4.0
-_TOLD = (
+_TIP = (
     "Wheel: nearer. Drag: to and fro. Double click: all of it. Drag the orange line to go there. A click on a name"
     " hides its curve"
 )
-_TOLD_OF_STROKES = (
+_STROKES_TIP = (
     "Dots and arrows: how early (below) or late (above) you were; squares: on a wrong pad; barred rings: missed. Bars:"
     " how hard you struck, over how loud it is written"
 )
@@ -73,55 +73,55 @@ class GraphPanel:
         """The times that are shown."""
         return self._low.value, self._high.value
 
-    def gui(self, graphed: ScoreCurves | None, can_seek: bool) -> None:
+    def gui(self, score_curves: ScoreCurves | None, can_seek: bool) -> None:
         """Draw it; `can_seek` where the play line may be dragged."""
-        if graphed is None:
+        if score_curves is None:
             theme.soft("There is nothing to graph here.")
             return
-        if self._curves is None or self._curves.drummer is not graphed.drummer:
-            self._curves, self._degrees = JointCurves(graphed.drummer), (np.inf, -np.inf)
-        self._follow(graphed)
+        if self._curves is None or self._curves.drummer is not score_curves.drummer:
+            self._curves, self._degrees = JointCurves(score_curves.drummer), (np.inf, -np.inf)
+        self._follow(score_curves)
         room = imgui.get_content_region_avail()
         has_legend = _fits(room, _LEGEND)
         if not has_legend:
             _short_legend()
             room = imgui.get_content_region_avail()
-        strip = 0.0 if graphed.played is None else max(room.y * _STRIP_SHARE, theme.points(_LEAST))
+        strip = 0.0 if score_curves.played is None else max(room.y * _STRIP_SHARE, theme.points(_LEAST))
         gap = imgui.get_style().item_spacing.y if strip else 0.0
         high = max(room.y - strip - gap, theme.points(_LEAST))
         if implot.begin_aligned_plots("##graphs"):
             if implot.begin_plot(PLOT, imgui.ImVec2(-1, high), _flags(has_legend)):
-                self._angles(graphed, self._curves, can_seek, bare=strip > 0)
+                self._angles(score_curves, self._curves, can_seek, bare=strip > 0)
                 implot.end_plot()
-            theme.tooltip(_TOLD)
-            if graphed.played is not None:
-                self._strokes(graphed, graphed.played, imgui.ImVec2(room.x, strip))
+            theme.tooltip(_TIP)
+            if score_curves.played is not None:
+                self._strokes(score_curves, score_curves.played, imgui.ImVec2(room.x, strip))
             implot.end_aligned_plots()
 
-    def _follow(self, graphed: ScoreCurves) -> None:
+    def _follow(self, score_curves: ScoreCurves) -> None:
         """Bring the play line to the middle whenever it has moved; a result is shown from its beginning."""
-        position_s, before_s = graphed.position_s, self._position_s
+        position_s, before_s = score_curves.position_s, self._position_s
         self._position_s = position_s
         if position_s is None and before_s is not None:
-            end_s = graphed.score.length_ns / NS_PER_S
+            end_s = score_curves.score.length_ns / NS_PER_S
             self._low.value, self._high.value = -_MARGIN_S, min(end_s + _MARGIN_S, _RESULT_S)
         elif position_s is not None and before_s is not None and abs(position_s - before_s) > _STANDS_S:
             half = (self._high.value - self._low.value) / 2
             self._low.value, self._high.value = position_s - half, position_s + half
 
-    def _time_axis(self, graphed: ScoreCurves, bare: bool) -> None:
+    def _time_axis(self, score_curves: ScoreCurves, bare: bool) -> None:
         plots.axis(implot.ImAxis_.x1, implot.AxisFlags_.no_tick_labels if bare else 0)
         implot.setup_axis_links(implot.ImAxis_.x1, self._low, self._high)
         implot.setup_axis_zoom_constraints(implot.ImAxis_.x1, 0.1, 120.0)
-        values, words = music_ticks(graphed.score, graphed.bar_numbers, *self.span_s)
+        values, words = music_ticks(score_curves.score, score_curves.bar_numbers, *self.span_s)
         if values:
             implot.setup_axis_ticks(implot.ImAxis_.x1, values, words)
 
-    def _angles(self, graphed: ScoreCurves, curves: JointCurves, can_seek: bool, bare: bool) -> None:
+    def _angles(self, score_curves: ScoreCurves, curves: JointCurves, can_seek: bool, bare: bool) -> None:
         time_s, degrees = curves.between(*self.span_s)
         low, high = min(self._degrees[0], float(degrees.min())), max(self._degrees[1], float(degrees.max()))
         grown, self._degrees = (low, high) != self._degrees, (low, high)
-        self._time_axis(graphed, bare)
+        self._time_axis(score_curves, bare)
         plots.axis(implot.ImAxis_.y1)
         implot.setup_axis_ticks(implot.ImAxis_.y1, *_DEGREES)
         cond = implot.Cond_.always if grown else implot.Cond_.once
@@ -132,7 +132,7 @@ class GraphPanel:
             opacity, weight = (1.0, 2.0) if curve.right else (_LEFT_OPACITY, 1.5)
             look = plots.spec(palette.with_opacity(colour, opacity), weight)
             implot.plot_line(curve.label, time_s, np.ascontiguousarray(degrees[:, column]), look)
-        self._play_line(graphed.position_s, can_seek)
+        self._play_line(score_curves.position_s, can_seek)
 
     def _play_line(self, position_s: float | None, can_seek: bool) -> None:
         if position_s is None:
@@ -144,11 +144,11 @@ class GraphPanel:
             self._seek(to_s)
             self._position_s = to_s  # the graph stays under the hand that drags
 
-    def _strokes(self, graphed: ScoreCurves, played: StudentStrokes, room: imgui.ImVec2) -> None:
+    def _strokes(self, score_curves: ScoreCurves, played: StudentStrokes, room: imgui.ImVec2) -> None:
         """The strip below the angles, as high as `room`."""
         has_legend = _fits(room, _STRIP_LEGEND)
         if implot.begin_plot(STRIP, imgui.ImVec2(-1, room.y), _flags(has_legend)):
-            self._time_axis(graphed, bare=False)
+            self._time_axis(score_curves, bare=False)
             low, high = AXIS_MS[0], AXIS_MS[1] + (_LEGEND_MS if has_legend else 0.0)
             plots.axis(implot.ImAxis_.y1)
             words = line_words(imgui.get_font_size() / room.y * (high - low))
@@ -156,9 +156,9 @@ class GraphPanel:
             implot.setup_axis_limits(implot.ImAxis_.y1, low, high, implot.Cond_.once)
             plots.fixed(implot.ImAxis_.y2, 0.0, _LOUDEST, implot.AxisFlags_.opposite | plots.BARE)
             _draw_strokes(played)
-            self._play_line(graphed.position_s, can_seek=False)
+            self._play_line(score_curves.position_s, can_seek=False)
             implot.end_plot()
-        theme.tooltip(_TOLD_OF_STROKES)
+        theme.tooltip(_STROKES_TIP)
 
 
 def _draw_strokes(played: StudentStrokes) -> None:

@@ -40,13 +40,13 @@ def _page(topic: Topic, tools: Sequence[Panel]) -> None:
     imgui.spacing()
     if imgui.begin_table("##parts", 2, imgui.TableFlags_.sizing_stretch_prop):
         imgui.table_setup_column("name", imgui.TableColumnFlags_.width_stretch, 0.27)
-        imgui.table_setup_column("told", imgui.TableColumnFlags_.width_stretch, 0.73)
-        for name, told in page.parts:
+        imgui.table_setup_column("about", imgui.TableColumnFlags_.width_stretch, 0.73)
+        for name, tip in page.parts:
             imgui.table_next_row()
             imgui.table_next_column()
             imgui.text_wrapped(name)
             imgui.table_next_column()
-            theme.soft(told)
+            theme.soft(tip)
         imgui.end_table()
     for tool in tools:
         imgui.separator()

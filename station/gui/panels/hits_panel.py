@@ -1,4 +1,4 @@
-"""Every hit of the result over the bars of the lesson, and a bar by ear: the teacher's, and one's own."""
+"""Every hit of the result over the bars of the lesson, and a bar to be heard: the teacher's, and one's own."""
 
 import numpy as np
 from imgui_bundle import imgui, implot
@@ -15,7 +15,7 @@ from station.render import palette
 from station.render.notation.judgement_marks import ON_TIME_MS
 from station.render.report.stroke_plot import AXIS_MS, LINES, heights_ms, line_words
 from station.render.text.draw_list import Colour
-from station.scenes.hit_table import EveryHit, nearest, words_of
+from station.scenes.hit_table import EveryHit, dot_label, nearest
 
 HITS = "Every hit"
 ABOUT = "How early or late every stroke was, over the bars of the lesson; and a bar to hear: the teacher's and yours"
@@ -24,21 +24,21 @@ _DOT, _NEAR = 4.5, 12.0
 _LEAST_HEIGHT = 110.0
 _MARGIN = 0.01
 """Of the bars, beyond the first and the last: what stands on their lines is whole (our choice)."""
-_LIT = 0.10
+_HIGHLIGHT = 0.10
 """Opacity of the bar that is chosen, and of the band that is on time."""
 
 
 class HitsPanel:
-    """The plot; `piece` is shown alone where it is not None, `ear` chooses what is heard."""
+    """The plot; `piece` is shown alone where it is not None, `playback` chooses what is heard."""
 
-    def __init__(self, ear: PlaybackRow) -> None:
-        self.ear = ear
+    def __init__(self, playback: PlaybackRow) -> None:
+        self.playback = playback
         self._shown: EveryHit | None = None
         self.piece: Piece | None = None
         self.at = np.empty((0, 2))
         """Where the dots lie in the window, in pixels."""
         self.pointed = ""
-        """What is told of the dot under the mouse."""
+        """The words for the dot under the mouse."""
 
     def gui(self, report: ShownResult | None) -> None:
         """Draw every hit of the `report`, None where there is no result to be seen."""
@@ -50,7 +50,7 @@ class HitsPanel:
             self._shown, self.piece = hits, None
         row = FlowRow()
         self._pieces(hits, row)
-        self.ear.gui(report, row)
+        self.playback.gui(report, row)
         self._plot(hits, hits.of(self.piece))
 
     def _pieces(self, hits: EveryHit, row: FlowRow) -> None:
@@ -65,9 +65,9 @@ class HitsPanel:
 
     def _plot(self, hits: EveryHit, dots: NDArray[np.void]) -> None:
         height = max(imgui.get_content_region_avail().y, theme.points(_LEAST_HEIGHT))
-        if implot.begin_plot("##hits", imgui.ImVec2(-1, height), plots.STILL):
+        if implot.begin_plot("##hits", imgui.ImVec2(-1, height), plots.FIXED):
             _axes(hits.bars, height)
-            _paper(hits.bars, self.ear.bar)
+            _paper(hits.bars, self.playback.bar)
             plots.strokes(dots["place"], dots["label"], dots["late_ms"], _DOT)
             self.at = plots.pixels(dots["place"], heights_ms(dots["label"], dots["late_ms"]))
             self._point(dots)
@@ -82,10 +82,10 @@ class HitsPanel:
         index = nearest(self.at, (mouse.x, mouse.y), theme.points(_NEAR))
         if index is None:
             return
-        self.pointed = words_of(dots[index])
+        self.pointed = dot_label(dots[index])
         imgui.set_tooltip(self.pointed)
         if imgui.is_mouse_clicked(imgui.MouseButton_.left):
-            self.ear.bar, self.ear.pass_number = int(dots["bar"][index]), int(dots["pass"][index])
+            self.playback.bar, self.playback.pass_number = int(dots["bar"][index]), int(dots["pass"][index])
 
 
 def _axes(bars: tuple[int, int], height: float) -> None:
@@ -110,5 +110,5 @@ def _paper(bars: tuple[int, int], chosen: int) -> None:
 
 
 def _band(name: str, across: tuple[float, float], up: tuple[float, float], colour: Colour) -> None:
-    look = plots.spec(palette.with_opacity(colour, _LIT))
+    look = plots.spec(palette.with_opacity(colour, _HIGHLIGHT))
     implot.plot_shaded(name, np.array(across, np.float64), np.full(2, up[1]), up[0], look)

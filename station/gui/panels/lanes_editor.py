@@ -69,7 +69,7 @@ class LanesEditor:
 
     def _canvas(self, options: StyleOptions, bars: int, beats: int, place: float | None) -> StyleOptions:
         frame = LaneFrame(bars, beats, *range_of(self.control))
-        if implot.begin_plot(CANVAS, imgui.ImVec2(-1, theme.points(_HEIGHT)), plots.STILL):
+        if implot.begin_plot(CANVAS, imgui.ImVec2(-1, theme.points(_HEIGHT)), plots.FIXED):
             _axes(frame)
             self.ends = plots.pixels(np.array([1.0, bars + 1.0]), np.array([frame.low, frame.high]))
             self._line(frame, options)

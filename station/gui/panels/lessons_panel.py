@@ -44,61 +44,61 @@ class LessonsPanel:
 
     def gui(self, state: State) -> None:
         """Draw the panel and do what the user does in it."""
-        choice = state.choice
+        selection = state.selection
         height = imgui.get_window_height()
         self._is_low = height < theme.points(_HIGH_ENOUGH)
         if self._is_low:
-            self._start_button(choice)
+            self._start_button(selection)
         elif height >= theme.points(_HIGH):
             theme.heading("Lessons")
         imgui.set_next_item_width(-1)
         hint = theme.one_line("Search: a word of title, level or tag", imgui.calc_item_width() - theme.points(24))
         imgui.set_next_item_width(-1)
-        choice = replace(choice, search=imgui.input_text_with_hint("##search", hint, choice.search)[1])
+        selection = replace(selection, search=imgui.input_text_with_hint("##search", hint, selection.search)[1])
         theme.tooltip("Shows the lessons that contain every word")
-        choice = course_picker(choice)
+        selection = course_picker(selection)
         room = imgui.get_content_region_avail().y
         least = _ROWS * imgui.get_text_line_height_with_spacing()
         lines = int((room - least - (self._below - self._about)) / imgui.get_text_line_height())
         imgui.begin_child("##list", imgui.ImVec2(0, max(room - (self._below or theme.points(280)), theme.points(110))))
-        choice = self._list(choice)
+        selection = self._list(selection)
         imgui.end_child()
         top, self._about = imgui.get_cursor_pos_y(), 0.0
         imgui.separator()
-        before = state.choice
-        if choice.free:
-            choice = self._just_play(choice, state.room)
-        elif choice.card is not None:
-            choice = self._chosen(choice, choice.card, lines)
+        before = state.selection
+        if selection.free:
+            selection = self._just_play(selection, state.room)
+        elif selection.card is not None:
+            selection = self._chosen(selection, selection.card, lines)
         self._below = imgui.get_cursor_pos_y() - top + imgui.get_style().item_spacing.y
-        if choice != before:
-            self._dispatch(Select(choice))
+        if selection != before:
+            self._dispatch(Select(selection))
 
-    def _list(self, choice: Selection) -> Selection:
-        pressed, _ = imgui.selectable(FREE_LABEL, choice.free)
+    def _list(self, selection: Selection) -> Selection:
+        pressed, _ = imgui.selectable(FREE_LABEL, selection.free)
         theme.tooltip("A click if you like, everything recorded, nothing judged")
-        visible = choice.visible()
+        visible = selection.visible()
         picked = None
-        if choice.course is not None:
+        if selection.course is not None:
             imgui.separator()
             for number, card in enumerate(visible, 1):
-                picked = self._row(choice, card, f"{number}  {card.title}") or picked
+                picked = self._row(selection, card, f"{number}  {card.title}") or picked
         else:
             for level, cards in groupby(visible, key=lambda card: card.level_words):
                 imgui.separator_text(level)
                 for card in cards:
-                    picked = self._row(choice, card, card.title) or picked
+                    picked = self._row(selection, card, card.title) or picked
         if not visible:
             theme.soft("No lesson has these words.")
         if picked is not None:
-            return choice.choose(picked)
-        return replace(choice, free=True) if pressed else choice
+            return selection.choose(picked)
+        return replace(selection, free=True) if pressed else selection
 
     @staticmethod
-    def _row(choice: Selection, card: LessonCard, words: str) -> LessonCard | None:
+    def _row(selection: Selection, card: LessonCard, words: str) -> LessonCard | None:
         """One line of the list; returns its lesson where it was pressed."""
-        chosen = not choice.free and choice.card is not None and choice.card.name == card.name
-        progress, today = choice.progress.get(card.name), date.today()
+        chosen = not selection.free and selection.card is not None and selection.card.name == card.name
+        progress, today = selection.progress.get(card.name), date.today()
         room = imgui.get_content_region_avail().x - (0.0 if progress is None else mark_width())
         pressed, _ = imgui.selectable(f"{theme.one_line(words, room)}###{card.name}", chosen)
         mark(progress, today)
@@ -106,7 +106,7 @@ class LessonsPanel:
         theme.tooltip(f"{card.title}\n{card.about}\n{card.bars} bars, {card.meter}, {card.beats_a_minute:g} bpm{far}")
         return card if pressed else None
 
-    def _chosen(self, choice: Selection, card: LessonCard, lines: int) -> Selection:
+    def _chosen(self, selection: Selection, card: LessonCard, lines: int) -> Selection:
         """The lesson, so many `lines` of what it is about, and how to practise it; returns how it is chosen to be."""
         theme.heading(card.title, 20)
         author = f" · {card.author}" if card.author else ""
@@ -118,37 +118,39 @@ class LessonsPanel:
             self._about = imgui.get_cursor_pos_y() - before
         row = FlowRow()
         row.place(0)
-        choice = replace(choice, adapt=imgui.checkbox(ADAPT_LABEL, choice.adapt)[1])
+        selection = replace(selection, adapt=imgui.checkbox(ADAPT_LABEL, selection.adapt)[1])
         theme.tooltip(
             "Each pass begins where the last one led: faster when it is clean, slower when it is not, and says why"
         )
         row.place(imgui.get_frame_height() + imgui.calc_text_size("click").x + theme.points(8))
-        choice = replace(choice, click=imgui.checkbox("click", choice.click)[1])
+        selection = replace(selection, click=imgui.checkbox("click", selection.click)[1])
         theme.tooltip("Without it you are counted in, then the score follows your own tempo and waits when you stop")
-        if not choice.adapt:
-            choice = self._tempo(choice)
+        if not selection.adapt:
+            selection = self._tempo(selection)
         imgui.set_next_item_width(-1)
-        choice = replace(choice, loops=theme.slider_int("##passes", choice.loops, 1, MAX_LOOPS, "passes %d")[1])
+        selection = replace(
+            selection, loops=theme.slider_int("##passes", selection.loops, 1, MAX_LOOPS, "passes %d")[1]
+        )
         theme.tooltip("How often the loop is played")
         if not self._is_low:
-            self._start_button(choice)
-        return choice
+            self._start_button(selection)
+        return selection
 
-    def _start_button(self, choice: Selection) -> None:
+    def _start_button(self, selection: Selection) -> None:
         if theme.main_button(START_LABEL, (-1, theme.points(46))):
-            self._dispatch(Select(choice))  # what was typed last is part of what begins
+            self._dispatch(Select(selection))  # what was typed last is part of what begins
             self._dispatch(Begin())
-        theme.tooltip("Record from now on (Enter)" if choice.free else "Count-in, demonstration, then you (Enter)")
+        theme.tooltip("Record from now on (Enter)" if selection.free else "Count-in, demonstration, then you (Enter)")
 
-    def _just_play(self, choice: Selection, room: RoomState) -> Selection:
+    def _just_play(self, selection: Selection, room: RoomState) -> Selection:
         theme.heading("Just play", 20)
         theme.soft("Nothing is judged. Every stroke is recorded and kept, and you can listen back.")
-        choice = replace(choice, click=imgui.checkbox("click", choice.click)[1])
+        selection = replace(selection, click=imgui.checkbox("click", selection.click)[1])
         theme.tooltip("As the settings say; without it there is silence")
-        if choice.click:
-            choice = self._tempo(choice)
+        if selection.click:
+            selection = self._tempo(selection)
         if not self._is_low:
-            self._start_button(choice)
+            self._start_button(selection)
         imgui.begin_disabled(not (room.take or room.listening))
         if imgui.button(STOP_LISTENING if room.listening else LISTEN_LABEL, imgui.ImVec2(-1, theme.points(38))):
             self._dispatch(Listen())
@@ -159,17 +161,17 @@ class LessonsPanel:
             self._dispatch(FilmTake(room.take))
         imgui.end_disabled()
         theme.tooltip("The drummer plays your last take, as MP4 beside its recording; it is filmed while you go on")
-        return choice
+        return selection
 
-    def _tempo(self, choice: Selection) -> Selection:
+    def _tempo(self, selection: Selection) -> Selection:
         tap = theme.points(58)
         imgui.set_next_item_width(-(tap + imgui.get_style().item_spacing.x))
-        moved, beats = theme.slider_float("##tempo", choice.beats_a_minute, *choice.tempo_range, "tempo %.0f bpm")
+        moved, beats = theme.slider_float("##tempo", selection.beats_a_minute, *selection.tempo_range, "tempo %.0f bpm")
         if moved:
-            choice = replace(choice, tempo_bpm=beats * choice.beat_quarters)
+            selection = replace(selection, tempo_bpm=beats * selection.beat_quarters)
         theme.tooltip("How fast to practise; the lesson's own tempo is set when you choose it. Ctrl+click to type")
         imgui.same_line()
         if imgui.button(TAP_LABEL, imgui.ImVec2(tap, 0)):
             self._dispatch(TapBeat(monotonic_ns()))
         theme.tooltip("Click on every beat, twice or more: the tempo follows")
-        return choice
+        return selection

@@ -1,7 +1,7 @@
 """A dockable panel as the window sees it: what it is called, where it docks, when it is shown, who draws it.
 
 A panel either belongs to what is going on (the lessons before a session, the bars after it), or it is a tool that the
-user opens and closes. Whoever adds a panel writes a module here and a line in `app.pages`.
+user opens and closes. Whoever adds a panel writes a module here and a line in `gui.panel_table`.
 """
 
 from collections.abc import Callable, Sequence

@@ -15,8 +15,8 @@ from station.practice.demonstration.compare_by_ear import Whose
 from station.practice.records.previous_session import PreviousSession
 from station.scenes.hit_table import EveryHit
 
-TEACHER_LABEL, STUDENT_LABEL, STOP_LABEL = "Teacher##ear", "You##ear", "Stop##ear"
-EARLIER_LABEL = "###earlier"
+TEACHER_LABEL, STUDENT_LABEL, STOP_LABEL = "Teacher##playback", "You##playback", "Stop##playback"
+PREVIOUS_LABEL = "###previous"
 """What stands before it is the day."""
 _WIDE = 90.0
 
@@ -49,7 +49,7 @@ class PlaybackRow:
         theme.tooltip("The bar as the teacher plays it, with the click")
         self._button(STUDENT_LABEL, Whose.STUDENT, row_bar, row)
         theme.tooltip("The bar as you played it in this pass, with the click; translucent sticks are yours")
-        self._earlier(report.before, row_bar, row)
+        self._previous(report.before, row_bar, row)
         imgui.end_disabled()
         if self.is_listening:
             row.place(theme.points(70))
@@ -64,18 +64,18 @@ class PlaybackRow:
         if len(here):
             self._dispatch(HearBar(int(here["row_bar"][0]), Whose.STUDENT))
 
-    def _earlier(self, before: PreviousSession | str, row_bar: int, row: FlowRow) -> None:
+    def _previous(self, before: PreviousSession | str, row_bar: int, row: FlowRow) -> None:
         if isinstance(before, str):
             imgui.begin_disabled()
-            self._button(f"Yesterday{EARLIER_LABEL}", Whose.EARLIER, row_bar, row)
+            self._button(f"Yesterday{PREVIOUS_LABEL}", Whose.EARLIER, row_bar, row)
             imgui.end_disabled()
             theme.tooltip(f"{before[0].upper()}{before[1:]}.")
             return
-        told = f"{before.day[0].upper()}{before.day[1:]}"
+        day = f"{before.day[0].upper()}{before.day[1:]}"
         imgui.begin_disabled(not before.has_bar(self.bar))
-        self._button(f"{told}{EARLIER_LABEL}", Whose.EARLIER, row_bar, row)
+        self._button(f"{day}{PREVIOUS_LABEL}", Whose.EARLIER, row_bar, row)
         imgui.end_disabled()
-        when = f"{told} at {before.when:%H:%M}"
+        when = f"{day} at {before.when:%H:%M}"
         said = "your last pass over the bar, as translucent sticks" if before.has_bar(self.bar) else "not this bar"
         theme.tooltip(f"{when}: {said}")
 
@@ -88,4 +88,4 @@ class PlaybackRow:
 def _slider(label: str, value: int, ends: tuple[int, int], row: FlowRow) -> int:
     row.place(theme.points(_WIDE))
     imgui.set_next_item_width(theme.points(_WIDE))
-    return theme.slider_int(f"##ear-{label}", value, *ends, f"{label} %d")[1]
+    return theme.slider_int(f"##playback-{label}", value, *ends, f"{label} %d")[1]

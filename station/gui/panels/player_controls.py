@@ -105,13 +105,15 @@ class PlayerControls:
         words = f"{step.words} {{}} ({{}}); {_SILENT}"
         self._button(f"{icons.ICON_FA_STEP_BACKWARD}###back", StepOnce(-1), words.format("back", ","))
         stop, play = (icons.ICON_FA_STOP, "Stop here (W)"), (icons.ICON_FA_PLAY, "Watch the demonstration (W)")
-        icon, told = stop if player.playing else play
-        self._button(f"{icon}###play", PlayOrStop(), told)
+        icon, tip = stop if player.playing else play
+        self._button(f"{icon}###play", PlayOrStop(), tip)
         self._button(f"{icons.ICON_FA_STEP_FORWARD}###step", StepOnce(1), words.format("on", "."))
         on = self._wind_button(f"{icons.ICON_FA_FORWARD}###forward", f"Forward while it is held (]); {_SILENT}")
         self._button(f"{icons.ICON_FA_FAST_FORWARD}###end", Seek(player.song.length_ns), "To the end (End)")
-        told = f"Backwards (R); {_SILENT}"
-        self._button(f"{icons.ICON_FA_ARROW_LEFT}###reverse", SetReverse(not player.reverse), told, lit=player.reverse)
+        tip = f"Backwards (R); {_SILENT}"
+        self._button(
+            f"{icons.ICON_FA_ARROW_LEFT}###reverse", SetReverse(not player.reverse), tip, highlighted=player.reverse
+        )
         imgui.pop_style_var()
         imgui.end_group()
         wind = self.key_wind or on - back
@@ -119,11 +121,11 @@ class PlayerControls:
             self._dispatch(Wind(wind))
 
     @staticmethod
-    def _wind_button(label: str, told: str) -> int:
+    def _wind_button(label: str, tip: str) -> int:
         """Whether it is held."""
         theme.icon_button(label, (theme.points(BUTTON[0]), theme.points(BUTTON[1])))
         held = imgui.is_item_active()
-        theme.tooltip(told)
+        theme.tooltip(tip)
         imgui.same_line()
         return int(held)
 
@@ -195,18 +197,18 @@ class PlayerControls:
                 "Go to",
                 "go",
                 lambda slot: self._dispatch(GoToFlag(slot)),
-                partial(_told, player.flags),
+                partial(_flag_tip, player.flags),
                 needs_filled=True,
             ),
-            Use("Keep as", "keep", lambda slot: self._dispatch(KeepFlag(slot)), _told_of_keeping),
+            Use("Keep as", "keep", lambda slot: self._dispatch(KeepFlag(slot)), _keep_tip),
         )
         slot_rows(uses, [at_ns is not None for at_ns in player.flags], popup_grid(len(player.flags)))
         imgui.end_popup()
 
-    def _button(self, label: str, action: Action, told: str, *, lit: bool = False) -> None:
-        if theme.icon_button(label, (theme.points(BUTTON[0]), theme.points(BUTTON[1])), lit):
+    def _button(self, label: str, action: Action, tip: str, *, highlighted: bool = False) -> None:
+        if theme.icon_button(label, (theme.points(BUTTON[0]), theme.points(BUTTON[1])), highlighted):
             self._dispatch(action)
-        theme.tooltip(told)
+        theme.tooltip(tip)
         imgui.same_line()
 
 
@@ -236,9 +238,9 @@ def _counter(view: PlayerView) -> None:
     counter(view.position_ns / NS_PER_S, place.bar + 1, place.beat + 1)
 
 
-def _told(flags: Sequence[int | None], slot: int) -> str:
+def _flag_tip(flags: Sequence[int | None], slot: int) -> str:
     return f"Flag {slot + 1} (Shift+{slot + 1})" if flags[slot] is not None else f"Flag {slot + 1} is not kept yet"
 
 
-def _told_of_keeping(slot: int) -> str:
+def _keep_tip(slot: int) -> str:
     return f"Keeps this place as flag {slot + 1} (Ctrl+Shift+{slot + 1})"

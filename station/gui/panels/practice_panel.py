@@ -37,31 +37,31 @@ class PracticePanel:
 
     def gui(self, state: State) -> None:
         """Draw the panel and do what the user does in it."""
-        habits = state.habits
+        preferences = state.preferences
         theme.heading("How sessions go", 20)
-        for name, label, told in _TICKS:
-            changed, on = theme.checkbox(label, bool(getattr(habits, name)))
-            theme.tooltip(told)
+        for name, label, tip in _TICKS:
+            changed, on = theme.checkbox(label, bool(getattr(preferences, name)))
+            theme.tooltip(tip)
             if changed:
-                habits = replace(habits, **{name: on})  # type: ignore[arg-type] # every tick is a yes or no
+                preferences = replace(preferences, **{name: on})  # type: ignore[arg-type] # every tick is a yes or no
         theme.part("What pauses and goes on")
-        habits = self._pauses(habits)
-        if habits != state.habits:
-            self._dispatch(SetPreferences(habits))
+        preferences = self._pauses(preferences)
+        if preferences != state.preferences:
+            self._dispatch(SetPreferences(preferences))
         self._learn(state.learns_pause)
 
     @staticmethod
-    def _pauses(habits: PracticePreferences) -> PracticePreferences:
+    def _pauses(preferences: PracticePreferences) -> PracticePreferences:
         """Each gesture with a button that takes it away."""
-        theme.soft("Backspace always does." if habits.pauses else "Backspace alone.")
-        for word in habits.pauses:
+        theme.soft("Backspace always does." if preferences.pauses else "Backspace alone.")
+        for word in preferences.pauses:
             if imgui.button(f"×##no-{word}"):
-                habits = habits.without(word)
+                preferences = preferences.without(word)
             theme.tooltip("No longer pauses")
             imgui.same_line()
             imgui.align_text_to_frame_padding()
             imgui.text_wrapped(pause_in_words(word))
-        return habits
+        return preferences
 
     def _learn(self, learns: bool) -> None:
         if imgui.button(GIVE_UP_LABEL if learns else LEARN_LABEL, imgui.ImVec2(-1, theme.points(38))):

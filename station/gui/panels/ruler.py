@@ -117,4 +117,4 @@ def _under(corner: imgui.ImVec2, width: float, height: float) -> imgui.ImVec2:
 
 
 def _packed(colour: Colour) -> int:
-    return int(imgui.color_convert_float4_to_u32(imgui.ImVec4(*theme.dyed(colour))))
+    return int(imgui.color_convert_float4_to_u32(imgui.ImVec4(*theme.themed(colour))))

@@ -5,7 +5,7 @@ from functools import partial
 
 from imgui_bundle import imgui
 
-from station.app.actions import Action, KeepSlot, ListStyles, ProposeStyle, SaveStyle, TakeStyle
+from station.app.actions import Action, KeepSlot, ListStyles, LoadStyle, ProposeStyle, SaveStyle
 from station.app.style.style_options import StyleOptions
 from station.app.style_editor import StyleView
 from station.gui import theme
@@ -53,7 +53,7 @@ class StylesHead:
             for entry in view.entries:
                 label = f"{entry.label}##{entry.source}"
                 if imgui.selectable(f"your own: {label}" if entry.is_own else label, entry.source == view.source)[0]:
-                    self._dispatch(TakeStyle(entry.source))
+                    self._dispatch(LoadStyle(entry.source))
             imgui.end_combo()
         theme.tooltip("Styles: five settings of the thesis, five of its users' genres, the natural one, and your own")
 
@@ -77,13 +77,13 @@ class StylesHead:
         styles = options.slots.styles
         taken: list[int] = []
 
-        def told(words: str, slot: int) -> str:
+        def tip(words: str, slot: int) -> str:
             held = styles[slot]
             return f"{words} slot {slot + 1}, which {'is empty' if held is None else f'holds {held.name}'}"
 
         uses = (
-            Use("Take", "take", taken.append, partial(told, "Take"), needs_filled=True),
-            Use("Keep as", "keep", self._keep_slot, partial(told, "Keep as")),
+            Use("Take", "take", taken.append, partial(tip, "Take"), needs_filled=True),
+            Use("Keep as", "keep", self._keep_slot, partial(tip, "Keep as")),
         )
         slot_rows(uses, [style is not None for style in styles], Grid(left, width, a_row, gap))
         return options.recall(taken[0]) if taken else options

@@ -18,7 +18,7 @@ from station.gui import theme
 from station.gui.panels.panel import PANELS_WIDTH
 from station.gui.panels.player_controls import PlayerControls, counter
 from station.gui.panels.ruler import Ruler
-from station.gui.panels.view_popup import LOOK_LABEL, POPUP, ViewActions, look_popup
+from station.gui.panels.view_popup import LOOK_LABEL, POPUP, ViewActions, view_settings_popup
 from station.gui.widgets.flow_row import LINE_HEIGHT, FlowRow
 from station.practice.session.self_estimate import SelfEstimate
 from station.render.camera import VIEW_NAMES, NamedView
@@ -37,8 +37,8 @@ _VIEW_POPUP = "##view-popup"
 _MIRROR = "mirror"
 _LEAST_LEFT = 260.0
 """Design pixels below which panels and views leave their place to the ruler, and are behind a button."""
-_LEAST_TOLD, _LEAST_PROGRESS = 108.0, 60.0
-"""Design pixels: narrower words and a shorter bar tell nothing (our choice)."""
+_MIN_LINE_WIDTH, _LEAST_PROGRESS = 108.0, 60.0
+"""Design pixels: narrower words and a shorter bar say nothing (our choice)."""
 _BUTTON, _VIEW = 64.0, 178.0
 """Design pixels: buttons of one word, the list of views."""
 
@@ -74,9 +74,9 @@ class TransportBar:
         imgui.end_group()
         below = imgui.get_cursor_pos_y()
         imgui.set_cursor_pos((imgui.get_window_width() - imgui.get_style().window_padding.x - view_px, top))
-        look = self._views_popup(state.look) if is_short else self._views(state.look)
-        if look != state.look:
-            self._dispatch(SetView(look))
+        view_settings = self._views_popup(state.view_settings) if is_short else self._views(state.view_settings)
+        if view_settings != state.view_settings:
+            self._dispatch(SetView(view_settings))
         if self._has_second_line(room):
             imgui.set_cursor_pos_y(below)
             self._second_line(room, player)
@@ -94,7 +94,7 @@ class TransportBar:
             return
         row = FlowRow()
         self.controls.gui(player, row)
-        _told(found(room), row)
+        _lines(found(room), row)
 
     def _first_line(self, room: RoomState, player: PlayerView, row: FlowRow) -> None:
         """Where one is in the music, or what is to be answered or done."""
@@ -113,9 +113,9 @@ class TransportBar:
             if row.button(BACK_LABEL, 190):
                 self._dispatch(Dismiss())
             theme.tooltip("Choose another lesson (Esc)")
-            _told(found(room), row)
+            _lines(found(room), row)
         elif room.free:
-            _told(found(room), row)
+            _lines(found(room), row)
         else:
             self._ruler.gui(player.player, player.now_ns, row.left_px)
 
@@ -140,34 +140,34 @@ class TransportBar:
             imgui.progress_bar(room.progress or 0.0, imgui.ImVec2(row.left_px, theme.points(LINE_HEIGHT)), "")
             theme.tooltip("How much of the session is over")
 
-    def _views_popup(self, look: ViewSettings) -> ViewSettings:
+    def _views_popup(self, view_settings: ViewSettings) -> ViewSettings:
         """A button for what has no room beside a ruler."""
         if imgui.button(VIEW_LABEL, imgui.ImVec2(theme.points(_BUTTON), theme.points(LINE_HEIGHT))):
             imgui.open_popup(_VIEW_POPUP)
         theme.tooltip("Panels, and how the picture is seen")
         if imgui.begin_popup(_VIEW_POPUP):
-            look = self._views(look)
+            view_settings = self._views(view_settings)
             imgui.end_popup()
-        return look
+        return view_settings
 
-    def _views(self, look: ViewSettings) -> ViewSettings:
+    def _views(self, view_settings: ViewSettings) -> ViewSettings:
         imgui.begin_group()
         self._tools()
-        _, mirrored = imgui.checkbox(_MIRROR, look.mirrored)
+        _, mirrored = imgui.checkbox(_MIRROR, view_settings.mirrored)
         theme.tooltip("Left and right swapped, to learn face to face as from a mirror (M)")
         imgui.same_line()
         if imgui.button(LOOK_LABEL, imgui.ImVec2(theme.points(_BUTTON), 0)):
             imgui.open_popup(POPUP)
         theme.tooltip("A second picture, pages or a highway for the score, viewpoints of your own")
-        chosen = look_popup(look, self._viewpoints)
+        chosen = view_settings_popup(view_settings, self._viewpoints)
         imgui.same_line()
         imgui.set_next_item_width(theme.points(_VIEW))
-        changed, index = imgui.combo("##view", int(look.view), list(VIEW_NAMES.values()))
+        changed, index = imgui.combo("##view", int(view_settings.view), list(VIEW_NAMES.values()))
         theme.tooltip(
             "Where you look from (F2 to F9); drag in the picture to turn, right drag to shift, wheel to come nearer"
         )
         imgui.end_group()
-        return replace(chosen, view=NamedView(index) if changed else look.view, mirrored=bool(mirrored))
+        return replace(chosen, view=NamedView(index) if changed else view_settings.view, mirrored=bool(mirrored))
 
 
 def _views_width() -> float:
@@ -177,9 +177,9 @@ def _views_width() -> float:
     return float(theme.points(PANELS_WIDTH + _BUTTON + _VIEW) + mirror + 3 * style.item_spacing.x)
 
 
-def _told(lines: tuple[str, ...], row: FlowRow) -> None:
+def _lines(lines: tuple[str, ...], row: FlowRow) -> None:
     """Lines one under the other where the row has room; what is too long ends in dots, its tooltip has it whole."""
-    width = min(max(imgui.calc_text_size(line).x for line in lines), theme.points(_LEAST_TOLD))
+    width = min(max(imgui.calc_text_size(line).x for line in lines), theme.points(_MIN_LINE_WIDTH))
     if not row.fits(width):
         return
     row.place(width)

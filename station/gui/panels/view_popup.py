@@ -20,8 +20,8 @@ _HIGH, _TITLE_WIDTH = 500, 150
 """Design pixels that the popup is high, and that its titles take beside its rows."""
 LOOK_LABEL = "Look##look"
 POPUP = "##look-popup"
-_INSET_TOLD = "Hands or feet in a corner of the picture, whatever the picture itself shows (P)"
-_INSETS = {view: ("None" if view is None else VIEW_NAMES[view], _INSET_TOLD) for view in INSETS}
+_INSET_TIP = "Hands or feet in a corner of the picture, whatever the picture itself shows (P)"
+_INSETS = {view: ("None" if view is None else VIEW_NAMES[view], _INSET_TIP) for view in INSETS}
 _FORMS = {
     ScoreForm.SCROLLING: ("Scrolling", "The notes pass a line that stands still (N)"),
     ScoreForm.PAGED: ("Pages", "The line crosses bars that stand still (N)"),
@@ -29,7 +29,7 @@ _FORMS = {
 }
 _DOUBLES = {
     DoublePlace.NOWHERE: ("None", "The demonstrator alone (E)"),
-    DoublePlace.OVER: ("Over", "You, translucent, over the demonstrator: a limb glows where it parts from his (E)"),
+    DoublePlace.OVER: ("Over", "You, translucent, over the demonstrator: a limb glows where the two part (E)"),
     DoublePlace.BESIDE: (
         "Beside",
         "You on a kit of your own beside the demonstrator's, seen from the same place (E)",
@@ -54,37 +54,37 @@ class ViewActions:
     go: Callable[[int], None]
 
 
-def look_popup(look: ViewSettings, actions: ViewActions) -> ViewSettings:
+def view_settings_popup(view_settings: ViewSettings, actions: ViewActions) -> ViewSettings:
     """Draw the popup where it is open; returns the look that was chosen."""
     if not imgui.begin_popup(POPUP):
-        return look
+        return view_settings
     if not _is_low():
         theme.heading("ViewSettings", 20)
-    look = replace(look, inset=_one_of("Second picture", _INSETS, look.inset))
-    look = replace(look, score=_one_of("Score", _FORMS, look.score))
-    look = replace(look, double=_one_of("Your double", _DOUBLES, look.double))
+    view_settings = replace(view_settings, inset=_one_of("Second picture", _INSETS, view_settings.inset))
+    view_settings = replace(view_settings, score=_one_of("Score", _FORMS, view_settings.score))
+    view_settings = replace(view_settings, double=_one_of("Your double", _DOUBLES, view_settings.double))
     if not _is_low():
         theme.soft("Your own viewpoints")
-    _slots(look, actions)
-    look = _worn(look)
+    _slots(view_settings, actions)
+    view_settings = _colours_and_size(view_settings)
     imgui.end_popup()
-    return look
+    return view_settings
 
 
-def _worn(look: ViewSettings) -> ViewSettings:
+def _colours_and_size(view_settings: ViewSettings) -> ViewSettings:
     """The colours and the size of the panels."""
-    look = replace(look, theme=_one_of("Colours", _THEMES, look.theme))
+    view_settings = replace(view_settings, theme=_one_of("Colours", _THEMES, view_settings.theme))
     _title("Size of the panels")
-    for label, steps, told in (("Smaller##scale", -1, "Ctrl+−"), ("Larger##scale", 1, "Ctrl+=")):
-        imgui.begin_disabled(look.scaled(steps) == look)
+    for label, steps, tip in (("Smaller##scale", -1, "Ctrl+−"), ("Larger##scale", 1, "Ctrl+=")):
+        imgui.begin_disabled(view_settings.scaled(steps) == view_settings)
         if imgui.button(label, imgui.ImVec2(theme.points(96), 0)):
-            look = look.scaled(steps)
+            view_settings = view_settings.scaled(steps)
         imgui.end_disabled()
-        theme.tooltip(f"Letters, buttons and lists ({told}); the picture keeps its size")
+        theme.tooltip(f"Letters, buttons and lists ({tip}); the picture keeps its size")
         imgui.same_line()
     imgui.align_text_to_frame_padding()
-    imgui.text(f"{look.scale:.0%}")
-    return look
+    imgui.text(f"{view_settings.scale:.0%}")
+    return view_settings
 
 
 def _one_of(title: str, choices: Mapping[T, tuple[str, str]], chosen: T) -> T:
@@ -114,18 +114,18 @@ def _title(words: str) -> None:
     imgui.same_line(theme.points(_TITLE_WIDTH))
 
 
-def _slots(look: ViewSettings, actions: ViewActions) -> None:
-    cameras = look.viewpoints
+def _slots(view_settings: ViewSettings, actions: ViewActions) -> None:
+    cameras = view_settings.viewpoints
 
-    def told(slot: int) -> str:
+    def tip(slot: int) -> str:
         is_there = cameras[slot] is not None
         return f"Viewpoint {slot + 1} ({slot + 1})" if is_there else f"Viewpoint {slot + 1} is not kept yet"
 
-    def told_of_keeping(slot: int) -> str:
+    def keep_tip(slot: int) -> str:
         return f"Keeps where you look from now as viewpoint {slot + 1} (Ctrl+{slot + 1})"
 
     uses = (
-        Use("Go to", "go", actions.go, told, needs_filled=True),
-        Use("Keep as", "keep", actions.keep, told_of_keeping),
+        Use("Go to", "go", actions.go, tip, needs_filled=True),
+        Use("Keep as", "keep", actions.keep, keep_tip),
     )
     slot_rows(uses, [camera is not None for camera in cameras], popup_grid(len(cameras)))

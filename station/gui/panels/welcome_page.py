@@ -81,18 +81,18 @@ class WelcomePage:
             imgui.set_keyboard_focus_here()
             imgui.set_nav_cursor_visible(True)
         self._go_on = entered
-        for sounds, words, told in _SOUNDS:
+        for sounds, words, tip in _SOUNDS:
             if imgui.radio_button(f"{words}##sounds", self.answers.module_sounds is sounds):
                 self.answers = replace(self.answers, module_sounds=sounds)
-            theme.tooltip(told)
+            theme.tooltip(tip)
         theme.heading("Which hand leads?", 22)
-        for index, (hands, words, told) in enumerate(_LEADS):
+        for index, (hands, words, tip) in enumerate(_LEADS):
             if index:
                 imgui.same_line(0, theme.points(24))
             if imgui.radio_button(f"{words}##leads", self.answers.hands is hands):
                 self.answers = replace(self.answers, hands=hands)
-            theme.tooltip(told)
-        theme.soft(next(told for hands, _, told in _LEADS if hands is self.answers.hands) + ".")
+            theme.tooltip(tip)
+        theme.soft(next(tip for hands, _, tip in _LEADS if hands is self.answers.hands) + ".")
         imgui.spacing()
         begun = theme.main_button(BEGIN_LABEL, (wide, theme.points(52)))
         theme.tooltip("To the lessons: the first one is chosen, Start plays it")

@@ -6,7 +6,7 @@ Bars count from 1; a drag draws a point on every beat, so that a phrase begins o
 from dataclasses import dataclass
 
 _DIGITS = 6
-"""So exactly is a bar told: the same beat is the same number, however it was reached."""
+"""So exactly is a bar given: the same beat is the same number, however it was reached."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,5 +29,5 @@ class LaneFrame:
         steps = round(abs(last_bar - bar) * self.beats)
         if steps == 0:
             return [(last_bar, last)]
-        along = [step / steps for step in range(steps + 1)]
-        return [(round(bar + a * (last_bar - bar), _DIGITS), value + a * (last - value)) for a in along]
+        fractions = [step / steps for step in range(steps + 1)]
+        return [(round(bar + a * (last_bar - bar), _DIGITS), value + a * (last - value)) for a in fractions]

@@ -14,9 +14,9 @@ Array = NDArray[np.float64]
 
 FREE = implot.Flags_.no_frame | implot.Flags_.no_mouse_text
 """A plot that can be moved and zoomed."""
-STILL = FREE | implot.Flags_.no_legend | implot.Flags_.no_menus | implot.Flags_.no_box_select
+FIXED = FREE | implot.Flags_.no_legend | implot.Flags_.no_menus | implot.Flags_.no_box_select
 """A plot that is looked at and clicked on, and neither moved nor zoomed: its axes are `fixed`."""
-SEEN = STILL | implot.Flags_.no_inputs
+SEEN = FIXED | implot.Flags_.no_inputs
 """One that is only looked at: the wheel over it scrolls the panel."""
 _QUIET = implot.AxisFlags_.no_label | implot.AxisFlags_.no_menus | implot.AxisFlags_.no_highlight
 BARE = implot.AxisFlags_.no_decorations
@@ -100,4 +100,4 @@ def _scale() -> Array:
 
 def vec(colour: Colour) -> imgui.ImVec4:
     """What the theme shows for a colour of the night."""
-    return imgui.ImVec4(*theme.dyed(colour))
+    return imgui.ImVec4(*theme.themed(colour))

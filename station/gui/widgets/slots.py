@@ -18,7 +18,7 @@ class Use:
     words: str
     word: str
     act: Callable[[int], object]
-    told: Callable[[int], str]
+    tip: Callable[[int], str]
     needs_filled: bool = False
 
 
@@ -55,4 +55,4 @@ def slot_rows(uses: Sequence[Use], filled: Sequence[bool], grid: Grid) -> None:
             if imgui.button(f"{slot + 1}##{use.word}{slot + 1}", imgui.ImVec2(grid.width, 0)):
                 use.act(slot)
             imgui.end_disabled()
-            theme.tooltip(use.told(slot))
+            theme.tooltip(use.tip(slot))

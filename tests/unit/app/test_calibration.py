@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from station.app.actions import Begin, Measure, Show
-from station.app.equipment.calibration import Calibration, Failed, MeasuringProcess, Told
+from station.app.equipment.calibration import Calibration, Failed, MeasuringProcess, Message
 from station.app.equipment.calibration_results import CalibrationResult, CalibrationResults
 from station.app.equipment.latency_methods import MeasureRequest
 from station.app.room_state import Stage
@@ -29,11 +29,11 @@ POOR = GOOD.doubted("it scatters")
 class Measurement:
     """A measurement that says what it is given to say."""
 
-    def __init__(self, *says: Told) -> None:
+    def __init__(self, *says: Message) -> None:
         self.says = list(says)
         self.ended = False
 
-    def told(self) -> list[Told]:
+    def messages(self) -> list[Message]:
         said, self.says = self.says, []
         return said
 
@@ -43,8 +43,8 @@ class Measurement:
 
 def desk_over(measurement: Measurement, path: Path) -> tuple[Calibration, list[str]]:
     done: list[str] = []
-    desk = Calibration(resting(done), lambda: done.append("wake"), lambda _: measurement, path)
-    return desk, done
+    calibration = Calibration(resting(done), lambda: done.append("wake"), lambda _: measurement, path)
+    return calibration, done
 
 
 def resting(done: list[str]) -> Callable[[], Callable[[], bool]]:
@@ -57,61 +57,61 @@ def resting(done: list[str]) -> Callable[[], Callable[[], bool]]:
     return rest
 
 
-def wish_by(by: str) -> MeasureRequest:
+def request_by(by: str) -> MeasureRequest:
     return MeasureRequest.of(Settings(), by)
 
 
 def test_the_engine_rests_while_it_is_measured_and_nothing_is_stored_unasked(tmp_path: Path) -> None:
     path = tmp_path / "calibration.toml"
     measurement = Measurement("chirps, 1 of 3")
-    desk, done = desk_over(measurement, path)
-    desk.measure(wish_by(LOOPBACK))
-    desk.advance()
-    assert (desk.runs, desk.lines, done) == (True, ["chirps, 1 of 3"], ["rest"])
+    calibration, done = desk_over(measurement, path)
+    calibration.measure(request_by(LOOPBACK))
+    calibration.advance()
+    assert (calibration.runs, calibration.lines, done) == (True, ["chirps, 1 of 3"], ["rest"])
     with pytest.raises(DeviceError, match="being measured"):
-        desk.refuse()
+        calibration.refuse()
     measurement.says = [
         "chirps, 2 of 3",
         CalibrationResults(Devices(output="card"), (CalibrationResult("output", "card", GOOD),)),
     ]
-    desk.advance()
-    assert (desk.runs, done, measurement.ended) == (False, ["rest", "wake"], True)
-    assert desk.trusted
+    calibration.advance()
+    assert (calibration.runs, done, measurement.ended) == (False, ["rest", "wake"], True)
+    assert calibration.trusted
     assert not path.exists()
-    assert desk.keep() == f"kept in {path}"
+    assert calibration.keep() == f"kept in {path}"
     assert load_calibration(path).outputs["card"].latency_ms == 4.0
-    assert desk.findings is None
+    assert calibration.findings is None
 
 
 def test_what_measures_waits_until_the_engine_has_let_its_devices_go(tmp_path: Path) -> None:
     are_free, begun = [False], list[str]()
 
-    def start(wish: MeasureRequest) -> Measurement:
-        begun.append(wish.by)
+    def start(request: MeasureRequest) -> Measurement:
+        begun.append(request.by)
         return Measurement()
 
-    desk = Calibration(lambda: lambda: are_free[0], lambda: begun.append("wake"), start, tmp_path / "c.toml")
-    desk.measure(wish_by(TAP))
-    desk.advance()
-    assert (desk.runs, begun) == (True, [])
+    calibration = Calibration(lambda: lambda: are_free[0], lambda: begun.append("wake"), start, tmp_path / "c.toml")
+    calibration.measure(request_by(TAP))
+    calibration.advance()
+    assert (calibration.runs, begun) == (True, [])
     are_free[0] = True
-    desk.advance()
-    assert (desk.runs, begun) == (True, ["tap"])
-    desk.cancel()
+    calibration.advance()
+    assert (calibration.runs, begun) == (True, ["tap"])
+    calibration.cancel()
     are_free[0] = False
-    desk.measure(wish_by(TAP))
-    desk.cancel()
-    desk.advance()
-    assert (desk.runs, begun) == (False, ["tap", "wake", "wake"])
+    calibration.measure(request_by(TAP))
+    calibration.cancel()
+    calibration.advance()
+    assert (calibration.runs, begun) == (False, ["tap", "wake", "wake"])
 
 
 def test_a_window_that_closes_ends_the_measurement_and_wakes_nothing(tmp_path: Path) -> None:
     measurement = Measurement("chirps, 1 of 3")
-    desk, done = desk_over(measurement, tmp_path / "calibration.toml")
-    desk.measure(wish_by(LOOPBACK))
-    desk.close()
-    assert (measurement.ended, desk.runs, done) == (True, False, ["rest"])
-    desk.close()
+    calibration, done = desk_over(measurement, tmp_path / "calibration.toml")
+    calibration.measure(request_by(LOOPBACK))
+    calibration.close()
+    assert (measurement.ended, calibration.runs, done) == (True, False, ["rest"])
+    calibration.close()
 
 
 def test_what_is_in_doubt_is_stored_with_its_doubts_and_a_doubtful_pad_not_at_all(tmp_path: Path) -> None:
@@ -120,41 +120,43 @@ def test_what_is_in_doubt_is_stored_with_its_doubts_and_a_doubtful_pad_not_at_al
         CalibrationResult("pad", "TD-17", GOOD, Piece.SNARE),
         CalibrationResult("pad", "TD-17", POOR, Piece.KICK),
     )
-    desk, _ = desk_over(Measurement(CalibrationResults(Devices(kit="TD-17"), rows)), tmp_path / "calibration.toml")
-    desk.measure(wish_by(STRIKE))
-    desk.advance()
-    assert not desk.trusted
-    desk.keep()
+    calibration, _ = desk_over(
+        Measurement(CalibrationResults(Devices(kit="TD-17"), rows)), tmp_path / "calibration.toml"
+    )
+    calibration.measure(request_by(STRIKE))
+    calibration.advance()
+    assert not calibration.trusted
+    calibration.keep()
     kept = load_calibration(tmp_path / "calibration.toml").kits["TD-17"]
     assert (kept.kit.doubts, kept.kit.by) == ("it scatters", "strike")
     assert list(kept.pads) == [Piece.SNARE]
 
 
 def test_a_failure_is_one_line_and_the_engine_wakes(tmp_path: Path) -> None:
-    desk, done = desk_over(Measurement(Failed("no kit is plugged in")), tmp_path / "calibration.toml")
-    desk.measure(wish_by(TAP))
-    desk.advance()
-    assert (desk.fault, desk.runs, done) == ("no kit is plugged in", False, ["rest", "wake"])
-    assert desk.worth == []
+    calibration, done = desk_over(Measurement(Failed("no kit is plugged in")), tmp_path / "calibration.toml")
+    calibration.measure(request_by(TAP))
+    calibration.advance()
+    assert (calibration.fault, calibration.runs, done) == ("no kit is plugged in", False, ["rest", "wake"])
+    assert calibration.worth == []
 
 
 def test_a_measurement_can_be_cancelled_and_forgotten(tmp_path: Path) -> None:
     measurement = Measurement("strike one pad")
-    desk, done = desk_over(measurement, tmp_path / "calibration.toml")
-    desk.measure(wish_by(TAP))
-    desk.advance()
-    desk.cancel()
-    assert (measurement.ended, desk.runs, done) == (True, False, ["rest", "wake"])
-    desk.drop()
-    assert (desk.lines, desk.findings) == ([], None)
+    calibration, done = desk_over(measurement, tmp_path / "calibration.toml")
+    calibration.measure(request_by(TAP))
+    calibration.advance()
+    calibration.cancel()
+    assert (measurement.ended, calibration.runs, done) == (True, False, ["rest", "wake"])
+    calibration.drop()
+    assert (calibration.lines, calibration.findings) == ([], None)
 
 
 def test_a_process_that_dies_has_failed() -> None:
     """No way of that name is known: the child ends without a word."""
-    process = MeasuringProcess(wish_by("no such way"))
-    said: list[Told] = []
+    process = MeasuringProcess(request_by("no such way"))
+    said: list[Message] = []
     while not said:
-        said = process.told()
+        said = process.messages()
     process.end()
     assert said == [Failed("the measurement ended without a result")]
 
@@ -199,7 +201,7 @@ def test_a_measurement_that_cannot_begin_lets_the_engine_wake(tmp_path: Path) ->
         raise DeviceError("nothing can be measured: too many processes")
 
     done: list[str] = []
-    desk = Calibration(resting(done), lambda: done.append("wake"), start, tmp_path / "c.toml")
+    calibration = Calibration(resting(done), lambda: done.append("wake"), start, tmp_path / "c.toml")
     with pytest.raises(DeviceError, match="too many processes"):
-        desk.measure(wish_by(TAP))
-    assert (desk.runs, done) == (False, ["rest", "wake"])
+        calibration.measure(request_by(TAP))
+    assert (calibration.runs, done) == (False, ["rest", "wake"])

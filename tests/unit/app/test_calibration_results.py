@@ -54,7 +54,7 @@ def test_a_kit_that_is_measured_outdates_what_was_tapped() -> None:
 
 
 def followed(late_ms: float) -> Taps:
-    """A player who follows the click, all his taps late by so much and a little uneven."""
+    """A player who follows the click, all taps late by so much and a little uneven."""
     clicks = 10**13 + np.arange(36) * 600_000_000
     off_ms = late_ms + 5.0 * np.random.default_rng(3).standard_normal(36)
     return taps(clicks + np.round(off_ms * 1e6).astype(np.int64), clicks)

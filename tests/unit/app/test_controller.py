@@ -14,10 +14,10 @@ from station.app.actions import (
     EndSession,
     Export,
     ExportKind,
+    FinishFirstStart,
     HearBar,
     LearnPause,
     Leave,
-    Meet,
     Select,
     SetPreferences,
     SetView,
@@ -300,7 +300,7 @@ def test_an_engine_that_dies_in_a_take_loses_none_of_it(tmp_path: Path) -> None:
 def test_whoever_was_met_is_kept_through_a_new_engine(tmp_path: Path) -> None:
     first, second = Line(), Line()
     station = station_at([first, second], tmp_path)
-    station.dispatch(Meet(FirstAnswers("Ann", module_sounds=True, hands=Hands.LEFT)))
+    station.dispatch(FinishFirstStart(FirstAnswers("Ann", module_sounds=True, hands=Hands.LEFT)))
     assert first.heard == [SetLevel(Bus.STUDENT, 0.0)]
     assert shown(station, 0).kit.left_handed
     first.dead = True
@@ -314,8 +314,8 @@ def test_whoever_was_met_is_kept_through_a_new_engine(tmp_path: Path) -> None:
 def test_a_free_take_has_no_track_of_a_lesson(tmp_path: Path) -> None:
     """A track sounds whenever the transport runs, so it is taken away first."""
     line = Line()
-    wish = BackingRequest(tmp_path / "song.mp3")
-    station = station_on([line], store_with(tmp_path), Launch(PLAN, backing=wish))
+    request = BackingRequest(tmp_path / "song.mp3")
+    station = station_on([line], store_with(tmp_path), Launch(PLAN, backing=request))
     just_play(station)
     line.says += [Started(NS_PER_S), Hit(2 * NS_PER_S, Piece.SNARE, Zone.HEAD, 90)]
     station.update(2 * NS_PER_S + 1)
@@ -359,14 +359,14 @@ def test_an_end_that_a_key_finds_is_told_and_the_session_is_kept(tmp_path: Path)
 def test_what_is_played_in_a_session_is_never_learnt_as_a_gesture(tmp_path: Path) -> None:
     line = Line()
     station = station_at([line], tmp_path)
-    before = station.view().habits
+    before = station.view().preferences
     station.dispatch(LearnPause(on=True))
     assert station.view().learns_pause
     station.dispatch(Begin())
     at_ns = NS_PER_S + PLAN.passes_start_ns
     line.says += [Started(NS_PER_S), downbeat(), Hit(at_ns, Piece.CRASH_1, Zone.EDGE, 90)]
     station.update(at_ns + 10)
-    assert station.view().habits == before
+    assert station.view().preferences == before
     assert not station.view().learns_pause
 
 
@@ -386,21 +386,21 @@ def test_a_tick_of_the_practice_panel_writes_itself_alone(tmp_path: Path) -> Non
     path = save_settings(Settings(sessions=str(tmp_path), pause="cc=64  crash_1+ride"), tmp_path / "settings.toml")
     before = load_settings(path)
     station = station_on([Line()], SettingsStore(path, {"guide": True}), Launch(PLAN))
-    station.dispatch(SetPreferences(replace(station.view().habits, ask_first=False)))
+    station.dispatch(SetPreferences(replace(station.view().preferences, ask_first=False)))
     assert load_settings(path) == before, "nothing is written before the next frame"
     station.update(1)
     assert load_settings(path) == replace(before, ask_first=False)
-    assert station.view().habits.guide
-    station.dispatch(SetPreferences(replace(station.view().habits, guide=False)))
+    assert station.view().preferences.guide
+    station.dispatch(SetPreferences(replace(station.view().preferences, guide=False)))
     station.update(2)
-    assert not station.view().habits.guide
+    assert not station.view().preferences.guide
 
 
 def test_nothing_is_written_while_somebody_plays(tmp_path: Path) -> None:
     store, line = store_with(tmp_path), Line()
     station = station_on([line], store, Launch(PLAN))
     station.dispatch(Begin())
-    station.dispatch(SetView(replace(station.view().look, mirrored=True)))
+    station.dispatch(SetView(replace(station.view().view_settings, mirrored=True)))
     station.update(1)
     assert not load_settings(tmp_path / "settings.toml").mirrored
     station.dispatch(EndSession())
@@ -414,9 +414,9 @@ def test_a_faulty_file_is_told_and_keeps_nobody_from_practising(tmp_path: Path) 
     station = station_on([Line()], store, Launch(PLAN))
     station.update(1)
     assert "no such setting: kitt" in station.view().toast
-    station.dispatch(SetView(replace(station.view().look, mirrored=True)))
+    station.dispatch(SetView(replace(station.view().view_settings, mirrored=True)))
     station.update(2)
-    assert station.view().look.mirrored
+    assert station.view().view_settings.mirrored
     assert "no such setting: kitt" in station.view().toast
     station.dispatch(Begin())
     assert room(station).stage is Stage.PLAYING
@@ -425,8 +425,8 @@ def test_a_faulty_file_is_told_and_keeps_nobody_from_practising(tmp_path: Path) 
 def test_what_is_chosen_is_shown_and_its_bars_are_repeated(tmp_path: Path) -> None:
     station = station_at([Line()], tmp_path)
     station.dispatch(Show(catalog=True))
-    cards = {card.name: card for card in station.view().choice.lessons}
-    station.dispatch(Select(station.view().choice.choose(cards["rock-2"])))
+    cards = {card.name: card for card in station.view().selection.lessons}
+    station.dispatch(Select(station.view().selection.choose(cards["rock-2"])))
     station.dispatch(ChooseBars((1, 1)))
     station.update(1)
     assert (station.view().score.bar_count, station.view().player.lesson.name) == (2, "rock-2")
@@ -446,7 +446,7 @@ def test_escape_leaves_a_session_then_its_result(tmp_path: Path) -> None:
 def test_what_cannot_be_written_any_more_is_told_when_the_window_is_closed(tmp_path: Path) -> None:
     station = station_at([Line()], tmp_path)
     station.dispatch(Begin())
-    station.dispatch(SetView(replace(station.view().look, mirrored=True)))
+    station.dispatch(SetView(replace(station.view().view_settings, mirrored=True)))
     (tmp_path / "settings.toml").write_text('kitt = "TD-17"\n')
     assert "no such setting: kitt" in str(station.close())
 

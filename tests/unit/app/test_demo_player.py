@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from station.app.actions import SetCountIn, SetDemoClick
 from station.app.sessions.demo_player import LEAD_NS, Control, DemonstratedLesson, DemoPlayer
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.drills.library import find_lesson
@@ -71,7 +72,7 @@ def test_without_the_click_the_strokes_sound_on_from_where_it_is() -> None:
     use(made, SongPlayer.played)
     made.started(NS_PER_S)
     made.advance(NS_PER_S + BAR_NS)
-    made.set_click(click=False)
+    made.act(SetDemoClick(False))
     made.advance(made.now_ns)
     assert [type(command) for command in sent] == [Play, Stop, Play]
     assert set(plays(sent)[1].cues["bus"].tolist()) == {Bus.DEMONSTRATION}
@@ -147,13 +148,15 @@ def test_another_manner_or_body_is_in_the_next_picture() -> None:
     made, _ = deck()
     made.do(lambda player, now_ns: player.sought(now_ns, BAR_NS + 200 * NS_PER_MS))
     large = Demonstrator(style=Style(amplitude_gain=95.0, posture_deg=-5.0))
-    for who in (Demonstrator(), large, Demonstrator(figure_of(1.9), large.style)):
-        made.perform_as(who)
+    for demonstrator in (Demonstrator(), large, Demonstrator(figure_of(1.9), large.style)):
+        made.perform_as(demonstrator)
         shown = made.snapshot()
-        expected = Drummer(with_sticking(ROCK.score, KIT, None), KIT, who.figure, who.style).pose(shown.position_s)
+        expected = Drummer(with_sticking(ROCK.score, KIT, None), KIT, demonstrator.figure, demonstrator.style).pose(
+            shown.position_s
+        )
         assert shown.pose is not None
         assert np.allclose(shown.pose.row, expected.row)
-        assert shown.figure == who.figure
+        assert shown.figure == demonstrator.figure
 
 
 # --- count-in ---------------------------------------------------------------------------------------------------------
@@ -164,7 +167,7 @@ def counting_deck(*controls: Control) -> tuple[DemoPlayer, list[Command]]:
     made, sent = deck()
     for control in controls:
         use(made, control)
-    made.count_in(True)
+    made.act(SetCountIn(True))
     use(made, SongPlayer.played)
     return made, sent
 

@@ -147,9 +147,9 @@ def test_a_video_whose_place_is_taken_is_not_kept_elsewhere(tmp_path: Path) -> N
 def test_a_gif_is_filmed_without_a_click(tmp_path: Path) -> None:
     files = Exporter((sys.executable, "-c", FILMS, "animate"))
     files.film(ROCK, (0, 1), settings(tmp_path), ending=LOOP)
-    told = ended(files)
+    message = ended(files)
     path = tmp_path / "Ann" / "take-along" / "rock-1_1-2.gif"
-    assert told == f"kept in {path}"
+    assert message == f"kept in {path}"
     assert "--click" not in path.read_text()
 
 

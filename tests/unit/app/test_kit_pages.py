@@ -41,13 +41,13 @@ def packets(*sent: tuple[float, str]) -> PortPoll:
 
 def taught(page: LearnPage, capsys: pytest.CaptureFixture[str]) -> list[str]:
     """Answer all that the page asks; a step that nothing answers is skipped. Returns the questions."""
-    page.take(found())
+    page.handle(found())
     now_ms, asked = 1000.0, list[str]()
     page.advance(0)
     for step in STEPS:
         asked.append(capsys.readouterr().out)
         sent = sorted(answer(KIT, step, now_ms))
-        page.take(PortPoll(DEVICE, [Packet(data, ns_from_ms(ms)) for ms, data in sent]))
+        page.handle(PortPoll(DEVICE, [Packet(data, ns_from_ms(ms)) for ms, data in sent]))
         now_ms += 9_000
         page.advance(round(now_ms) * NS_PER_MS)
         shown = capsys.readouterr().out
@@ -67,7 +67,7 @@ def test_a_kit_is_taught_tried_and_kept(capsys: pytest.CaptureFixture[str]) -> N
     assert f"1/{len(STEPS)}  kick: 3 firm single strokes" in asked
     assert "kick is heard by snare" in asked
     assert page.kept is None
-    page.take(packets((900_000, "99 06 64")))
+    page.handle(packets((900_000, "99 06 64")))
     assert "ride" in capsys.readouterr().out
     page.key("")
     assert page.over
@@ -79,7 +79,7 @@ def test_a_kit_is_taught_tried_and_kept(capsys: pytest.CaptureFixture[str]) -> N
 
 def test_q_keeps_nothing(capsys: pytest.CaptureFixture[str]) -> None:
     page = LearnPage(lambda: True)
-    page.take(found())
+    page.handle(found())
     page.key("q")
     assert page.over
     assert not kits_folder().exists()
@@ -87,7 +87,7 @@ def test_q_keeps_nothing(capsys: pytest.CaptureFixture[str]) -> None:
 
 def test_where_nobody_presses_keys_the_kit_is_kept_in_the_end(capsys: pytest.CaptureFixture[str]) -> None:
     page = LearnPage(lambda: False)
-    page.take(found())
+    page.handle(found())
     page.key("f")
     page.advance(NS_PER_MS)
     assert page.over
@@ -99,8 +99,8 @@ def test_where_nobody_presses_keys_the_kit_is_kept_in_the_end(capsys: pytest.Cap
 
 def test_a_hit_is_shown_with_all_that_it_tells() -> None:
     page = MonitorPage(0)
-    page.take(PortPoll("TD-11", [], found=True))
-    (moved, hit) = page.take(PortPoll("TD-11", [Packet(bytes.fromhex("b9 04 2d"), 0), Packet(b"\x99\x2e\x64", 0)]))
+    page.handle(PortPoll("TD-11", [], found=True))
+    (moved, hit) = page.handle(PortPoll("TD-11", [Packet(bytes.fromhex("b9 04 2d"), 0), Packet(b"\x99\x2e\x64", 0)]))
     assert "openness 0.50" in moved
     assert hit.split() == [
         "0.0000",
@@ -115,24 +115,24 @@ def test_a_hit_is_shown_with_all_that_it_tells() -> None:
         "2e",
         "64",
     ]
-    (hit,) = page.take(PortPoll("TD-11", [Packet(bytes.fromhex("b9 10 7f 99 26 50"), 5)]))
+    (hit,) = page.handle(PortPoll("TD-11", [Packet(bytes.fromhex("b9 10 7f 99 26 50"), 5)]))
     assert "position 1.00" in hit
 
 
 def test_bytes_that_make_no_event_are_shown_and_chatter_is_not() -> None:
     page = MonitorPage(0)
-    page.take(found())
-    assert page.take(packets((1, "fe"), (2, "f8"))) == []
-    assert [line.split() for line in page.take(packets((3, "d9 05")))] == [["0.0030", "d9", "05"]]
+    page.handle(found())
+    assert page.handle(packets((1, "fe"), (2, "f8"))) == []
+    assert [line.split() for line in page.handle(packets((3, "d9 05")))] == [["0.0030", "d9", "05"]]
 
 
 def test_a_suspect_is_marked_with_the_rule_that_holds_it_back_and_the_rule_is_kept() -> None:
     page = MonitorPage(0)
-    page.take(found())
-    shown = page.take(packets((0, "99 24 64"), (4, "99 26 14")))
+    page.handle(found())
+    shown = page.handle(packets((0, "99 24 64"), (4, "99 26 14")))
     assert shown[-1].strip() == "? crosstalk? snare 4.0 ms after kick, 20% as loud: ghost kick snare 0.25"
     assert page.obey("ghost kick snare 0.25") == ["Home-made: ghost kick snare 0.25"]
-    shown = page.take(packets((1000, "99 24 64"), (1004, "99 26 14")))
+    shown = page.handle(packets((1000, "99 24 64"), (1004, "99 26 14")))
     assert "no stroke: crosstalk of kick  99 26 14" in shown[-1]
     assert "kept in" in page.obey("save")[0]
     kit = own_kit(DEVICE)
@@ -142,9 +142,9 @@ def test_a_suspect_is_marked_with_the_rule_that_holds_it_back_and_the_rule_is_ke
 
 def test_a_doubtful_hit_is_shown_when_the_clock_has_cleared_it() -> None:
     page = MonitorPage(0)
-    page.take(found())
+    page.handle(found())
     page.obey("ghost kick snare 0.25")
-    assert page.take(packets((10, "99 26 14"))) == []
+    assert page.handle(packets((10, "99 26 14"))) == []
     assert "snare" in page.settle(30 * NS_PER_MS)[0]
 
 
@@ -157,29 +157,29 @@ def test_a_doubtful_hit_is_shown_when_the_clock_has_cleared_it() -> None:
 )
 def test_typed_rules_hold_at_once(order: str, rule: str) -> None:
     page = MonitorPage(0)
-    page.take(found())
+    page.handle(found())
     strokes = ((0.0, "99 26 64"), (8.0, "99 26 32"))
-    assert rule in page.take(packets(*strokes))[-1]
+    assert rule in page.handle(packets(*strokes))[-1]
     page.obey(order)
-    later = page.take(packets(*((ms + 1000, data) for ms, data in strokes)))
+    later = page.handle(packets(*((ms + 1000, data) for ms, data in strokes)))
     assert ["no stroke" in line for line in later] == [False, True]
 
 
 @pytest.mark.parametrize("order", ["mask", "mask snaer 9", "mask snare 1000", "ghost kick kick 0.3", "jump", ""])
 def test_a_rule_that_is_none_is_told_and_changes_nothing(order: str) -> None:
     page = MonitorPage(0)
-    page.take(found())
+    page.handle(found())
     (line,) = page.obey(order)
     assert "expected" in line or "no such piece" in line or "its own" in line
     assert not kits_folder().exists()
 
 
 def test_one_pad_is_learnt_with_one_hit(capsys: pytest.CaptureFixture[str]) -> None:
-    page = OnePadPage(lambda desk: desk.learn_pad(pad_named("tom_1/rim")))
-    page.take(found())
+    page = OnePadPage(lambda editor: editor.learn_pad(pad_named("tom_1/rim")))
+    page.handle(found())
     page.advance(0)
     assert capsys.readouterr().out == "hit it now, once: high tom, rim\n"
-    page.take(packets((1000.0, "99 43 60")))
+    page.handle(packets((1000.0, "99 43 60")))
     page.advance(1300 * NS_PER_MS)
     assert capsys.readouterr().out == "note 67 (channel 10) is the high tom, rim\n"
     assert page.over
@@ -190,12 +190,12 @@ def test_one_pad_is_learnt_with_one_hit(capsys: pytest.CaptureFixture[str]) -> N
 
 
 def test_a_touch_that_cannot_be_told_is_asked_for_once_more(capsys: pytest.CaptureFixture[str]) -> None:
-    page = OnePadPage(lambda desk: desk.learn_touch(Piece.SNARE))
-    page.take(found())
+    page = OnePadPage(lambda editor: editor.learn_velocity(Piece.SNARE))
+    page.handle(found())
     page.advance(0)
     velocities = [60] * 10 + [20] * 5 + [100] * 5
     for k, velocity in enumerate(velocities):
-        page.take(packets((1000.0 + 500 * k, f"99 26 {velocity:02x}")))
+        page.handle(packets((1000.0 + 500 * k, f"99 26 {velocity:02x}")))
         page.advance((1400 + 500 * k) * NS_PER_MS)
     shown = capsys.readouterr().out
     assert "told apart" in shown
@@ -208,10 +208,10 @@ def test_a_touch_that_cannot_be_told_is_asked_for_once_more(capsys: pytest.Captu
 
 def test_a_curve_and_a_note_are_typed(capsys: pytest.CaptureFixture[str]) -> None:
     page = MonitorPage(0)
-    page.take(found())
+    page.handle(found())
     for line in ("curve snare light", "curve kick 5 110 -0.5", "note 67 tom_1/rim", "save"):
         page.obey(line)
-    (told,) = page.take(packets((100.0, "99 26 20")))
+    (told,) = page.handle(packets((100.0, "99 26 20")))
     assert "velocity  32  counts as 48" in told
     kit = own_kit(DEVICE)
     assert kit is not None

@@ -213,7 +213,7 @@ def test_a_pause_that_cannot_be_meant_is_named(tmp_path: Path) -> None:
 
 def test_a_gesture_that_was_learnt_pauses_and_kicks_that_were_switched_off_start_nothing(tmp_path: Path) -> None:
     station, line = station_with(tmp_path)
-    station.dispatch(SetPreferences(replace(station.view().habits, kicks_start=False)))
+    station.dispatch(SetPreferences(replace(station.view().preferences, kicks_start=False)))
     kicks(station, line, NS_PER_S)
     assert not begun(station)
     station.dispatch(LearnPause(on=True))

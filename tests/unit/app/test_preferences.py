@@ -21,11 +21,11 @@ def desk_without_pauses() -> Preferences:
 
 
 def learnt(*events: EngineEvent) -> tuple[str, ...]:
-    desk = desk_without_pauses()
-    desk.learn(True)
+    preferences = desk_without_pauses()
+    preferences.learn(True)
     for event in events:
-        desk.take(event)
-    return desk.now.pauses
+        preferences.handle(event)
+    return preferences.now.pauses
 
 
 def test_habits_are_settings_and_leave_the_others_alone() -> None:
@@ -53,13 +53,13 @@ def test_what_is_learnt_is_what_the_setting_reads() -> None:
 
 
 def test_while_it_learns_the_kit_commands_nothing_and_afterwards_it_does() -> None:
-    desk = desk_without_pauses()
-    assert not desk.take(Switched(0, "cc=64"))
-    desk.learn(True)
-    assert desk.take(Switched(0, "cc=64"))
-    assert not desk.learns
-    assert desk.now.pauses == ("cc=64",)
-    assert not desk.take(Switched(0, "cc=64"))
+    preferences = desk_without_pauses()
+    assert not preferences.handle(Switched(0, "cc=64"))
+    preferences.learn(True)
+    assert preferences.handle(Switched(0, "cc=64"))
+    assert not preferences.learns
+    assert preferences.now.pauses == ("cc=64",)
+    assert not preferences.handle(Switched(0, "cc=64"))
 
 
 def test_words() -> None:

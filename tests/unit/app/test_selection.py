@@ -19,24 +19,24 @@ PARADIDDLE = LessonCard("paradiddle", "Single paradiddle", 2, "beginner", "RLRR 
 
 
 def test_the_first_lesson_is_chosen_at_its_own_tempo() -> None:
-    assert Selection.of([ROCK, PARADIDDLE]).wish() == SessionRequest("rock-1", 80.0, 8, adapt=True)
+    assert Selection.of([ROCK, PARADIDDLE]).request() == SessionRequest("rock-1", 80.0, 8, adapt=True)
 
 
 def test_more_lessons_to_choose_from_change_nothing_that_is_chosen() -> None:
-    choice = Selection.of([PARADIDDLE])
-    choice = replace(choice, tempo_bpm=71.0).offer([ROCK, PARADIDDLE])
-    assert choice.visible() == [ROCK, PARADIDDLE]
-    assert (choice.card, choice.tempo_bpm) == (PARADIDDLE, 71.0)
+    selection = Selection.of([PARADIDDLE])
+    selection = replace(selection, tempo_bpm=71.0).offer([ROCK, PARADIDDLE])
+    assert selection.visible() == [ROCK, PARADIDDLE]
+    assert (selection.card, selection.tempo_bpm) == (PARADIDDLE, 71.0)
 
 
 def test_without_lessons_there_is_nothing_to_start() -> None:
-    assert Selection.of([]).wish() is None
+    assert Selection.of([]).request() is None
 
 
 def test_choosing_takes_the_author_s_tempo_and_passes() -> None:
-    choice = Selection.of([ROCK, PARADIDDLE])
-    choice = replace(choice, tempo_bpm=140.0).choose(replace(PARADIDDLE, passes=500))
-    assert choice.wish() == SessionRequest("paradiddle", 100.0, MAX_LOOPS, adapt=True)
+    selection = Selection.of([ROCK, PARADIDDLE])
+    selection = replace(selection, tempo_bpm=140.0).choose(replace(PARADIDDLE, passes=500))
+    assert selection.request() == SessionRequest("paradiddle", 100.0, MAX_LOOPS, adapt=True)
 
 
 @pytest.mark.parametrize(
@@ -50,8 +50,8 @@ def test_choosing_takes_the_author_s_tempo_and_passes() -> None:
     ],
 )
 def test_search_wants_every_word(search: str, found: list[str]) -> None:
-    choice = replace(Selection.of([ROCK, PARADIDDLE]), search=search)
-    assert [card.name for card in choice.visible()] == found
+    selection = replace(Selection.of([ROCK, PARADIDDLE]), search=search)
+    assert [card.name for card in selection.visible()] == found
 
 
 def test_the_keyboard_has_a_kit() -> None:
@@ -82,54 +82,54 @@ def test_faster_machines_draw_more(lowest_ms: float, level: int) -> None:
 
 def test_the_window_opens_on_what_was_asked_for() -> None:
     asked = SessionRequest("paradiddle", 84.0, 3, bars=(1, 1), demonstrations=0)
-    choice = Selection.of([ROCK, PARADIDDLE], asked)
-    assert choice.wish() == asked
-    choice = choice.choose(ROCK)
-    wish = choice.wish()
-    assert wish is not None
-    assert (wish.lesson, wish.bars) == ("rock-1", None)
+    selection = Selection.of([ROCK, PARADIDDLE], asked)
+    assert selection.request() == asked
+    selection = selection.choose(ROCK)
+    request = selection.request()
+    assert request is not None
+    assert (request.lesson, request.bars) == ("rock-1", None)
 
 
 def test_a_tempo_is_said_in_the_lesson_s_own_beat_and_stays_within_the_slider() -> None:
-    choice = Selection.of([replace(ROCK, beat_quarters=1.5)])
-    assert choice.at_beats(120.0).tempo_bpm == pytest.approx(180.0)  # 120 dotted quarters a minute
-    assert choice.at_beats(600.0).tempo_bpm == pytest.approx(1.5 * 260.0)  # 600 is beyond the slider
+    selection = Selection.of([replace(ROCK, beat_quarters=1.5)])
+    assert selection.at_beats(120.0).tempo_bpm == pytest.approx(180.0)  # 120 dotted quarters a minute
+    assert selection.at_beats(600.0).tempo_bpm == pytest.approx(1.5 * 260.0)  # 600 is beyond the slider
 
 
 def test_just_playing_takes_the_place_of_a_lesson_and_counts_quarters() -> None:
     """At 120 beats a minute a lesson in 6/8 would make 180 quarters of them."""
-    choice = replace(Selection.of([replace(ROCK, beat_quarters=1.5)]), free=True).at_beats(120.0)
-    assert choice.wish() is None
-    wish = choice.free_wish()
-    assert wish is not None
-    assert wish.tempo_bpm == pytest.approx(120.0)
-    assert wish.click
-    choice = choice.choose(ROCK)
-    assert choice.free_wish() is None
-    assert choice.wish() is not None
+    selection = replace(Selection.of([replace(ROCK, beat_quarters=1.5)]), free=True).at_beats(120.0)
+    assert selection.request() is None
+    request = selection.free_request()
+    assert request is not None
+    assert request.tempo_bpm == pytest.approx(120.0)
+    assert request.click
+    selection = selection.choose(ROCK)
+    assert selection.free_request() is None
+    assert selection.request() is not None
 
 
 def test_a_course_lists_its_lessons_in_its_order_and_begins_where_the_student_is() -> None:
     course = Course("hands", "Hands", "", "", 1, ("paradiddle", "rock-1", "gone"))
-    choice = Selection.of([ROCK, PARADIDDLE])
-    choice = choice.offer([ROCK, PARADIDDLE], [course])
-    assert (choice.course, choice.visible()) == (None, [ROCK, PARADIDDLE])
-    choice = choice.follow(course)
-    assert choice.visible() == [PARADIDDLE, ROCK]
-    assert choice.card is PARADIDDLE
+    selection = Selection.of([ROCK, PARADIDDLE])
+    selection = selection.offer([ROCK, PARADIDDLE], [course])
+    assert (selection.course, selection.visible()) == (None, [ROCK, PARADIDDLE])
+    selection = selection.follow(course)
+    assert selection.visible() == [PARADIDDLE, ROCK]
+    assert selection.card is PARADIDDLE
     progress = {"paradiddle": LessonProgress(100.0, 100.0, True), "rock-1": LessonProgress(80.0, 75.0, False)}
-    choice = replace(choice, progress=progress)
-    assert choice.mastered(course) == 1
-    choice = choice.follow(course)
-    assert choice.card is ROCK
-    choice = choice.follow(None)
-    assert (choice.visible(), choice.card) == ([ROCK, PARADIDDLE], ROCK)
+    selection = replace(selection, progress=progress)
+    assert selection.mastered(course) == 1
+    selection = selection.follow(course)
+    assert selection.card is ROCK
+    selection = selection.follow(None)
+    assert (selection.visible(), selection.card) == ([ROCK, PARADIDDLE], ROCK)
 
 
 def test_a_course_that_was_followed_is_listed_again_and_one_that_is_gone_is_not() -> None:
     course = Course("hands", "Hands", "", "", 1, ("paradiddle",))
-    choice = Selection.of([ROCK])
-    choice = choice.offer([ROCK, PARADIDDLE], [course], "hands")
-    assert (choice.course, choice.card) == (course, ROCK)
-    choice = choice.offer([ROCK, PARADIDDLE], [course], "none")
-    assert choice.course is None
+    selection = Selection.of([ROCK])
+    selection = selection.offer([ROCK, PARADIDDLE], [course], "hands")
+    assert (selection.course, selection.card) == (course, ROCK)
+    selection = selection.offer([ROCK, PARADIDDLE], [course], "none")
+    assert selection.course is None

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from station.app.actions import EditStyle, KeepSlot, SaveStyle, TakeStyle
+from station.app.actions import EditStyle, KeepSlot, LoadStyle, SaveStyle
 from station.app.settings_store import SettingsStore
 from station.app.style_editor import StyleEditor
 from station.core.settings import Settings, load_settings, save_settings
@@ -25,7 +25,7 @@ def test_a_control_that_is_held_moves_the_demonstrator_and_is_kept_when_it_is_le
     options = made.view().options.put("amplitude_gain", 90.0)
     made.act(EditStyle(options, held=True), SCORE)
     made.keep()
-    assert (made.who.style.amplitude_gain, store.now.style) == (90.0, "natural")
+    assert (made.demonstrator.style.amplitude_gain, store.now.style) == (90.0, "natural")
     made.act(EditStyle(options), SCORE)
     made.keep()
     assert load_style(store.now.style).amplitude_gain == 90.0
@@ -34,7 +34,7 @@ def test_a_control_that_is_held_moves_the_demonstrator_and_is_kept_when_it_is_le
 def test_a_style_of_the_list_is_kept_by_its_name_and_one_from_a_slot_as_the_latest(tmp_path: Path) -> None:
     made, store = editor(tmp_path)
     made.act(KeepSlot(0, "mine"), SCORE)
-    made.act(TakeStyle("jazz"), SCORE)
+    made.act(LoadStyle("jazz"), SCORE)
     made.keep()
     assert store.now.style == "jazz"
     made.act(EditStyle(made.view().options.recall(0)), SCORE)

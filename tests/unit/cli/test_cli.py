@@ -495,8 +495,8 @@ def test_a_track_that_is_not_there_is_missed_before_its_speed(capsys: pytest.Cap
 
 
 def test_a_virtual_student_says_that_it_sends_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    wish = ("--virtual-student", "pro", "--loops", "1", "--no-pictures", "--report", str(tmp_path / "x"))
-    assert main(["practice", "rock-1", "--headless", *wish, "--midi-out", "Nope"]) == 0
+    words = ("--virtual-student", "pro", "--loops", "1", "--no-pictures", "--report", str(tmp_path / "x"))
+    assert main(["practice", "rock-1", "--headless", *words, "--midi-out", "Nope"]) == 0
     assert "without sound" in capsys.readouterr().err
 
 

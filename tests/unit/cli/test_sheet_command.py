@@ -8,7 +8,7 @@ import pytest
 
 from station.cli.command_line import main
 from station.drills.library import find_lesson
-from station.scenes.sheets import words_of_lesson
+from station.scenes.sheets import lesson_labels
 from tests.unit.cli.test_cli import refused
 
 UNTITLED = bytes.fromhex("4d546864 00000006 0000 0001 01e0  4d54726b 0000000d 00 992640 8360 892640 00 ff2f00")
@@ -25,12 +25,12 @@ def test_a_lesson_on_paper(tmp_path: Path) -> None:
 
 
 def test_the_words_are_the_lesson_s() -> None:
-    words = words_of_lesson(find_lesson("six-eight-fill-1"), (0, 3))
+    words = lesson_labels(find_lesson("six-eight-fill-1"), (0, 3))
     assert (words.author, words.beats_a_minute, words.repeat) == ("The drum station", 50.0, (0, 3))
     assert words.sections == ((0, "groove"), (3, "fill"))
-    part = words_of_lesson(find_lesson("six-eight-fill-1"), (2, 3))
+    part = lesson_labels(find_lesson("six-eight-fill-1"), (2, 3))
     assert (part.sections, part.repeat, part.first_bar) == (((1, "fill"),), None, 3), "not all of the loop is there"
-    assert words_of_lesson(find_lesson("jazz-ride-1"), (0, 1)).feel == "swing 2 : 1"
+    assert lesson_labels(find_lesson("jazz-ride-1"), (0, 1)).feel == "swing 2 : 1"
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere names of files are Unicode")

@@ -1,4 +1,5 @@
-"""A bar of a result that is seen as it is heard: the student's sticks strike when he did, and glow where he was off.
+"""A bar of a result that is seen as it is heard: the student's sticks strike when they did, and glow where
+they were off.
 
 Rock 1 at 80 beats a minute: a beat is 0.75 s. A drummer who is made for the bar from nothing says where sticks are.
 """
@@ -51,7 +52,7 @@ def late() -> Comparison:
 
 
 def test_the_student_s_sticks_are_on_the_drum_when_he_struck(late: Comparison) -> None:
-    """The snare on the second beat, 40 ms late: his stick is where the demonstrator's was 40 ms before."""
+    """The snare on the second beat, 40 ms late: the stick is where the demonstrator's was 40 ms before."""
     teacher = Drummer(PLAN.score.bars(BAR, BAR), PLAN.kit)
     seen = late.snapshot(KICK_NS + 750 * NS_PER_MS + 40 * NS_PER_MS)
     assert seen.double is not None

@@ -15,7 +15,7 @@ from station.practice.demonstration.compare_by_ear import BREATH_NS, bar_by_ear,
 from station.practice.session.listening import RING_NS
 from station.practice.session.plan import TAIL_NS, PlanOptions, plan_practice
 from station.practice.session.session import Session, SessionResult
-from station.scenes.hit_table import every_hit, nearest, words_of
+from station.scenes.hit_table import dot_label, every_hit, nearest
 from station.scenes.wrong_pads import wrong_pads
 
 BAR_NS, BEAT_NS = 2 * NS_PER_S, NS_PER_S // 2
@@ -56,14 +56,14 @@ def test_passes_lie_over_each_other_and_bars_are_the_lesson_s() -> None:
 
 def test_what_is_told_of_a_dot() -> None:
     dots = every_hit(RESULT).dots
-    assert words_of(dots[1]) == "Bar 2, beat 2, snare: 10 ms late (pass 1)"
-    assert words_of(dots[5]) == "Bar 3, beat 2, snare: missed (pass 1)"
-    assert words_of(dots[6]) == "Bar 3, beat 3, snare: on time, on a wrong pad (pass 1)"
-    assert words_of(dots[16]) == "Bar 2, beat 2.5, ride: not written (pass 1)"
+    assert dot_label(dots[1]) == "Bar 2, beat 2, snare: 10 ms late (pass 1)"
+    assert dot_label(dots[5]) == "Bar 3, beat 2, snare: missed (pass 1)"
+    assert dot_label(dots[6]) == "Bar 3, beat 3, snare: on time, on a wrong pad (pass 1)"
+    assert dot_label(dots[16]) == "Bar 2, beat 2.5, ride: not written (pass 1)"
     assert dots["label"][16] == Label.EXTRA
     early = dots[1].copy()
     early["late_ms"] = -7.4
-    assert words_of(early) == "Bar 2, beat 2, snare: 7 ms early (pass 1)"
+    assert dot_label(early) == "Bar 2, beat 2, snare: 7 ms early (pass 1)"
 
 
 def test_one_piece_alone() -> None:

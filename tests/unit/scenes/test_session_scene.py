@@ -21,7 +21,7 @@ from station.motion.sticking.hand_notes import Hands
 from station.motion.style.style import Style
 from station.practice.session.plan import Phase, Plan, PlanOptions, plan_practice
 from station.practice.session.session import Session
-from station.scenes.demonstrator import Demonstrator, kept_demonstrator
+from station.scenes.demonstrator import Demonstrator, demonstrator_of
 from station.scenes.session_part import AHEAD
 from station.scenes.session_scene import SessionView
 
@@ -102,9 +102,9 @@ def test_hands_that_stay_hold_what_they_held_while_sliders_move_on() -> None:
 
 def test_a_style_that_is_gone_is_told_and_the_rest_is_kept() -> None:
     told: list[str] = []
-    who = kept_demonstrator(Settings(style="/gone/mine.toml", figure="tall", hands="left"), told.append)
-    assert who.style == Style()
-    assert who.figure.stature_m == 1.90
+    demonstrator = demonstrator_of(Settings(style="/gone/mine.toml", figure="tall", hands="left"), told.append)
+    assert demonstrator.style == Style()
+    assert demonstrator.figure.stature_m == 1.90
     assert len(told) == 1
     assert "mine.toml" in told[0]
 
@@ -128,7 +128,7 @@ def gate() -> Iterator[Event]:
 
 
 def test_until_a_drummer_is_made_ahead_the_one_before_sits_there_and_nobody_waits(gate: Event) -> None:
-    """The thread that makes him does nothing before the gate is opened."""
+    """The thread that makes the drummer does nothing before the gate is opened."""
     before = SessionView(PLAN)
     sits = before.snapshot(Session(PLAN), 0).pose
     AHEAD.submit(gate.wait)
@@ -136,7 +136,7 @@ def test_until_a_drummer_is_made_ahead_the_one_before_sits_there_and_nobody_wait
         view, session = SessionView(PLAN, before=before), began(PLAN, 5 * NS_PER_S)
         view.make_ahead()
         meanwhile = view.snapshot(session, 5 * NS_PER_S).pose
-        shown = view.graphed(session)
+        shown = view.curves(session)
     finally:
         gate.set()
     assert sits is not None
