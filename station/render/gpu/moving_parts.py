@@ -10,7 +10,7 @@ from station.core.pieces import Piece
 from station.motion.kinematics.pose import Pose
 from station.motion.kit.kit import Kit
 from station.render.gpu.bone_palette import BoneFrame, Colour
-from station.render.palette import BRAND, EARLY, GOOD, LATE, MISSED, WRONG, Theme, dyed, over_picture
+from station.render.palette import BRAND, EARLY, GOOD, LATE, MISSED, WRONG, Theme, over_picture, themed
 from station.render.snapshot import SeenStrike, Snapshot, TimingCue
 
 _GLOW_FADE_S = 0.16
@@ -34,7 +34,7 @@ def frames_of(snapshot: Snapshot, where: DoublePlace, theme: Theme) -> list[Bone
     if double is None or where is DoublePlace.NOWHERE:
         return [BoneFrame(snapshot.pose, _glow(snapshot))]
     parted = {
-        limb: parting.strength * np.array(dyed(_PARTED[parting.cue], over_picture(theme))[:3])
+        limb: parting.strength * np.array(themed(_PARTED[parting.cue], over_picture(theme))[:3])
         for limb, parting in double.partings.items()
     }
     if where is DoublePlace.OVER:
