@@ -1,7 +1,7 @@
 """Whether a performance is possible: what its poses pass through, bend too far or move too fast, and where.
 
 For tests, benchmarks and whoever edits a kit or a style. Poses are looked at `RATE_HZ` times a second and at every
-strike. What the score asks beyond a human (`Assignment.beyond`) is left out of the joints' speeds and limits, a little
+strike. What the score asks beyond a human (`Assignment.infeasible`) is left out of the joints' speeds and limits, a little
 before and after it, for there the strokes come first.
 """
 
@@ -88,8 +88,8 @@ def _block(drummer: Drummer, times: Array, low: Array, high: Array) -> Audit:
     hands = {f"{s} stick in the other forearm": found.arms[:, k] for k, s in enumerate(sides)}
     angles = rows[:, frame.ANGLES]
     human = np.ones(len(times), bool)
-    for beyond in drummer.assignment.beyond:
-        human &= (times < beyond.start_s - _AROUND_S) | (times > beyond.end_s + _AROUND_S)
+    for demand in drummer.assignment.infeasible:
+        human &= (times < demand.start_s - _AROUND_S) | (times > demand.end_s + _AROUND_S)
     step = np.diff(times)
     told = (step > _LEAST_STEP_S) & human[1:]
     speed = np.abs(np.diff(angles, axis=0))[told] / step[told, None] / _FASTEST

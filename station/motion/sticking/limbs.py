@@ -26,18 +26,18 @@ METHODS = ("station", "smed")
 class Assignment:
     """`limbs` (n,) of `Limb` in the order of the score's notes, `why` each was chosen, and by which `method`.
 
-    `beyond` is what is beyond a human; `warnings` say it, such as "bar 12 needs 14 strokes a second of one hand".
+    `infeasible` is what is beyond a human; `warnings` say it, such as "bar 12 needs 14 strokes a second of one hand".
     """
 
     limbs: NDArray[np.int8]
     why: tuple[str, ...]
     method: str
-    beyond: tuple[Beyond, ...]
+    infeasible: tuple[Beyond, ...]
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """A sentence for each demand that is beyond a human, in order of bars."""
-        return tuple(b.text for b in self.beyond)
+        return tuple(b.text for b in self.infeasible)
 
 
 def assign_limbs(score: Score, kit: Kit, method: str = "station", hands: Hands | None = None) -> Assignment:

@@ -67,7 +67,7 @@ def test_what_does_not_die_away_is_no_bounce() -> None:
 def test_no_foot_bounces() -> None:
     notes = [Note(4 * PPQ + i * PPQ // 10, Piece.KICK, velocity=v) for i, v in enumerate((127, 33, 8))]
     score = Score.from_notes(notes, TempoMap.constant(100))
-    assert [b.text for b in assign_limbs(score, KIT).beyond] == ["bar 2 needs 17 strokes a second of one foot"]
+    assert [b.text for b in assign_limbs(score, KIT).infeasible] == ["bar 2 needs 17 strokes a second of one foot"]
 
 
 def test_a_hand_in_two_far_places_is_named_with_the_way_and_the_time() -> None:
@@ -101,7 +101,7 @@ def test_the_span_holds_the_strokes_that_ask_it() -> None:
 
 def test_a_groove_is_human() -> None:
     score = score_of(ROCK)
-    assert assign_limbs(score, KIT).beyond == ()
+    assert assign_limbs(score, KIT).infeasible == ()
 
 
 def test_a_left_handed_player_reads_r_as_the_leading_hand() -> None:

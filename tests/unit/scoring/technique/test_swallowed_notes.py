@@ -32,8 +32,8 @@ def points(played: Take, facts: KitFacts) -> float | None:
 def test_ghosts_below_the_measured_threshold_cannot_be_told() -> None:
     """Ghosts are written at 32, four of 52 notes are missing: with a threshold of 40 nothing is lost."""
     played, deaf = take(rock_beat(4), Played(left_out=GHOSTS)), kit(threshold=MappingProxyType({Piece.SNARE: 40}))
-    swallowed = swallowed_notes(played.score, played.performance, played.alignment, deaf)
-    assert np.flatnonzero(swallowed == Swallowed.THRESHOLD).tolist() == list(GHOSTS)
+    reason = swallowed_notes(played.score, played.performance, played.alignment, deaf)
+    assert np.flatnonzero(reason == Swallowed.THRESHOLD).tolist() == list(GHOSTS)
     assert points(played, deaf) == pytest.approx(100)
     assert points(played, KitFacts()) == pytest.approx(100 * 48 / 52)
     document = assessment(summarise(played.score, played.performance, played.alignment, SummaryView(kit=deaf)))
@@ -89,8 +89,8 @@ def test_second_bounces_within_the_mask_time_cannot_be_told() -> None:
     """Doubles of about 40 ms through a mask of 36: one in six is swallowed, which is no fault of the student's."""
     played, swallowed = through_mask(diddles(), close_doubles(40.0), 36.0)
     assert len(swallowed) >= 3
-    swallowed = swallowed_notes(played.score, played.performance, played.alignment, kit(mask_ms=36.0))
-    assert np.flatnonzero(swallowed == Swallowed.MASK).tolist() == swallowed
+    reason = swallowed_notes(played.score, played.performance, played.alignment, kit(mask_ms=36.0))
+    assert np.flatnonzero(reason == Swallowed.MASK).tolist() == swallowed
     excused, counted = points(played, kit(mask_ms=36.0)), points(played, KitFacts())
     assert excused is not None
     assert counted is not None
@@ -119,9 +119,9 @@ def test_a_stroke_that_fell_into_its_grace_stroke_cannot_be_told() -> None:
     near = 21.0 + np.random.default_rng(1).normal(0, 2, len(score))
     played, swallowed = through_mask(score, np.where(score.is_grace, near, 0.0), 7.0)
     assert len(swallowed) >= 3
-    swallowed = swallowed_notes(score, played.performance, played.alignment, kit(mask_ms=7.0))
+    reason = swallowed_notes(score, played.performance, played.alignment, kit(mask_ms=7.0))
     lost = np.flatnonzero(played.alignment.note_label == Label.MISS)
-    assert np.flatnonzero(swallowed).tolist() == lost.tolist()
+    assert np.flatnonzero(reason).tolist() == lost.tolist()
     assert len(lost) == len(swallowed)
 
 
