@@ -1,8 +1,8 @@
 """Whether a performance is possible: what its poses pass through, bend too far or move too fast, and where.
 
 For tests, benchmarks and whoever edits a kit or a style. Poses are looked at `RATE_HZ` times a second and at every
-strike. What the score asks beyond a human (`Assignment.infeasible`) is left out of the joints' speeds and limits, a little
-before and after it, for there the strokes come first.
+strike. What no human can play (`Assignment.infeasible`) is left out of the joints' speeds and limits, a little before
+and after it, for there the strokes come first.
 """
 
 from dataclasses import dataclass, replace

@@ -65,7 +65,7 @@ class ListeningRig:
     def played(self, verb: str, step_ns: int, count: int) -> tuple[list[int], list[Hit]]:
         """When the kit sent each message, and the hits that the engine told of it."""
         start_ns = monotonic_ns() + LEAD_NS
-        self.player.tell(f"{verb} {start_ns} {step_ns} {count}")
+        self.player.command(f"{verb} {start_ns} {step_ns} {count}")
         end_ns = start_ns + step_ns * count + AFTER_NS
         told = self.until(
             lambda event: isinstance(event, Status) and event.at_ns > end_ns, WITHIN_S + 2e-9 * (end_ns - start_ns)
@@ -85,9 +85,9 @@ def stage(wire: Wire, draws: bool = True) -> Iterator[ListeningRig]:
             player = things.enter_context(PlayingKit("jack", KIT))
             config = EngineConfig(kits=(DeviceRequest(KIT),), midi_driver="jack", output="jack")
         else:
-            wish = f"serial:{folder / 'kit'}"
+            source = f"serial:{folder / 'kit'}"
             player = things.enter_context(PlayingKit("serial", str(folder / "kit"), str(wire.baud)))
-            config = EngineConfig(kits=(parse_kit(f"{wish}@{wire.baud}"),), sound=False)
+            config = EngineConfig(kits=(parse_kit(f"{source}@{wire.baud}"),), sound=False)
         if draws:
             things.enter_context(_drawing())
         engine = things.enter_context(EngineProcess(config))
@@ -106,7 +106,7 @@ def read_barely(baud: int, step_ns: int, count: int) -> tuple[list[int], list[in
         with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as reader:
             assert reader.stdout is not None
             reader.stdout.readline()
-            player.tell(f"play {monotonic_ns() + LEAD_NS} {step_ns} {count}")
+            player.command(f"play {monotonic_ns() + LEAD_NS} {step_ns} {count}")
             sent: list[int] = json.loads(player.hear())
             read: list[int] = json.loads(reader.stdout.readline())
     return sent, read

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from station.core.errors import BadInput
 from station.core.pieces import Limb, Piece
-from station.motion.feasibility import Beyond, beyond_human
+from station.motion.feasibility import InfeasibleDemand, infeasible_demands
 from station.motion.kit.kit import Kit
 from station.motion.sticking.hand_choice import choose_hands
 from station.motion.sticking.hand_notes import HandNotes, Hands
@@ -32,7 +32,7 @@ class Assignment:
     limbs: NDArray[np.int8]
     why: tuple[str, ...]
     method: str
-    infeasible: tuple[Beyond, ...]
+    infeasible: tuple[InfeasibleDemand, ...]
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -57,7 +57,7 @@ def assign_limbs(score: Score, kit: Kit, method: str = "station", hands: Hands |
         limbs[rows] = chosen
         for row, reason in zip(rows, reasons, strict=True):
             why[row] = "written" if written[row] else reason
-    return Assignment(limbs, tuple(why), method, beyond_human(score, kit, limbs))
+    return Assignment(limbs, tuple(why), method, infeasible_demands(score, kit, limbs))
 
 
 def _feet(score: Score, left_handed: bool) -> tuple[NDArray[np.int8], list[str]]:

@@ -19,7 +19,7 @@ _DEMONSTRATOR_GLOW, _STUDENT_GLOW = 0.35, 1.1
 
 
 class DoublePlace(IntEnum):
-    """Where the student's double is: nowhere, over the demonstrator, or in a picture of its own beside his."""
+    """Where the student's double is: nowhere, over the demonstrator, or in a picture of its own beside it."""
 
     NOWHERE = 0
     OVER = 1
@@ -39,9 +39,9 @@ def frames_of(snapshot: Snapshot, where: DoublePlace, theme: Theme) -> list[Bone
     }
     if where is DoublePlace.OVER:
         return [BoneFrame(snapshot.pose, _glow(snapshot), double.pose, parted)]
-    his = replace(snapshot, strikes=())
+    demonstrator = replace(snapshot, strikes=())
     own = replace(snapshot, pose=double.pose)
-    return [BoneFrame(his.pose, _glow(his)), BoneFrame(own.pose, _glow(own), double.pose, parted)]
+    return [BoneFrame(demonstrator.pose, _glow(demonstrator)), BoneFrame(own.pose, _glow(own), double.pose, parted)]
 
 
 _PARTED = {TimingCue.EARLY: EARLY, TimingCue.LATE: LATE, TimingCue.MISSED: MISSED, TimingCue.WRONG_PIECE: WRONG}

@@ -74,7 +74,7 @@ _SWUNG_FROM, _SWUNG_TO = 0.54, 0.74
 
 
 def note_kinds(score: Score) -> Indices:
-    """Which notes share a lean besides their piece, shape (n,): a player's flams and his swing are his own.
+    """Which notes share a lean besides their piece, shape (n,): a player's flams and swing are their own.
 
     `GRACE` strokes may all come closer to or farther from their main strokes than written, notes in the place of a
     swung offbeat (`SWUNG`) all earlier or later.
@@ -89,7 +89,7 @@ def note_kinds(score: Score) -> Indices:
 
 @dataclass(frozen=True, eq=False)
 class HitAssignment:
-    """The matching, and the player as it shows him.
+    """The matching, and the player as it shows them.
 
     `partner` (n,) hit of each note or −1; `wrong` (n,) hit on another piece or −1; `trend_ns` (n,) where the player as
     a whole stands at each note; `sd_ms` spread about that and the pieces' leans, None where too little is known.
@@ -208,7 +208,7 @@ def _span(notes: AssignmentSide, hits: AssignmentSide) -> int:
 
 
 def _player(notes: AssignmentSide, hits: AssignmentSide, partner: Indices, kinds: Indices, before: _Player) -> _Player:
-    """The player as the pairs show him; as `before` where they are too few."""
+    """The player as the pairs show them; as `before` where they are too few."""
     known = np.flatnonzero(partner >= 0)
     known = known[np.argsort(notes.at_ns[known], kind="stable")]
     deviation = (hits.at_ns[partner[known]] - notes.at_ns[known]).astype(np.float64)

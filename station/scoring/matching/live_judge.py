@@ -9,8 +9,8 @@ note and a hit surely belong together (`pairing`) nothing else needs to be looke
 reaches is final, which bounds the cost of a hit whatever the score's length. A hit that its own piece does
 not want goes to a waiting note of another piece close by, until that note's own piece claims it.
 
-Where the student turns out to be elsewhere, `move` judges the last hits anew. When he goes back, what he played before
-counts until he plays it again; then the new hit does, and the old one is an extra, as in the final alignment.
+Where the student turns out to be elsewhere, `move` judges the last hits anew. When they go back, what they played
+before counts until they play it again; then the new hit does, and the old one is an extra, as in the final alignment.
 
 Times are ns on the score's axis; asynchronies and windows are real time, of which the pace makes score time.
 """

@@ -2,7 +2,7 @@
 
 from station.core.pieces import Limb, Piece, Zone
 from station.core.units import PPQ
-from station.motion.feasibility import beyond_human
+from station.motion.feasibility import infeasible_demands
 from station.motion.kit.kit import load_kit
 from station.motion.sticking.limbs import as_led, assign_limbs
 from station.music.score import Note, Score
@@ -14,7 +14,7 @@ HAND = Limb.RIGHT_HAND
 
 
 def said(score: Score) -> tuple[str, ...]:
-    return tuple(b.text for b in beyond_human(score, KIT, score.notes["limb"]))
+    return tuple(b.text for b in infeasible_demands(score, KIT, score.notes["limb"]))
 
 
 def repeated(count: int, each_ticks: int, bpm: float) -> Score:
@@ -94,7 +94,7 @@ def test_rebound_and_whip_have_their_share_of_the_time_for_a_way() -> None:
 
 def test_the_span_holds_the_strokes_that_ask_it() -> None:
     score = repeated(6, PPQ // 2, 420)
-    (found,) = beyond_human(score, KIT, score.notes["limb"])
+    (found,) = infeasible_demands(score, KIT, score.notes["limb"])
     assert (found.start_s, found.end_s) == (score.onset_s[0], score.onset_s[-1])
     assert (found.bar, found.limb) == (1, HAND)
 
