@@ -91,14 +91,14 @@ def _block(drummer: Drummer, times: Array, low: Array, high: Array) -> Audit:
     for demand in drummer.assignment.infeasible:
         human &= (times < demand.start_s - _AROUND_S) | (times > demand.end_s + _AROUND_S)
     step = np.diff(times)
-    told = (step > _LEAST_STEP_S) & human[1:]
-    speed = np.abs(np.diff(angles, axis=0))[told] / step[told, None] / _FASTEST
+    counted = (step > _LEAST_STEP_S) & human[1:]
+    speed = np.abs(np.diff(angles, axis=0))[counted] / step[counted, None] / _FASTEST
     over = np.maximum(angles - high, low - angles)[human]
     return Audit(
         kit_m=_worst(kit, times),
         hands_m=_worst(hands | {"sticks in each other": found.sticks}, times),
         limit_rad=_worst(dict(zip(ANGLE_NAMES, over.T, strict=True)), times[human]),
-        speed=_worst(dict(zip(ANGLE_NAMES, speed.T, strict=True)), times[1:][told]),
+        speed=_worst(dict(zip(ANGLE_NAMES, speed.T, strict=True)), times[1:][counted]),
     )
 
 

@@ -1,4 +1,4 @@
-"""The cards of a result's page: every stroke over the bars, and piece by piece lean, spread and craft.
+"""The cards of a result's page: every stroke over the bars, and piece by piece lean, spread and technique.
 
 Units are the page's (`report_layout`).
 """
@@ -21,9 +21,9 @@ _ROW, _NAME, _SAID = 30.0, 130.0, 206.0
 """Of a piece: the height of its row, the width of its name, and of what is said of it."""
 _COUNT = 84.0
 """Width of how many were hit, where there is room for it."""
-_CRAFT_LINE, _CRAFT_WIDTH = 23.0, 500.0
-_CRAFT_FIRST = 3
-"""So many lines of craft come before a further piece."""
+_TECHNIQUE_LINE, _TECHNIQUE_WIDTH = 23.0, 500.0
+_TECHNIQUE_FIRST = 3
+"""So many lines of technique come before a further piece."""
 
 
 class Plot:
@@ -93,18 +93,18 @@ class Pieces:
 
     def draw(self) -> None:
         """The card; the pieces with the most notes come first."""
-        box, craft = self._box, self._facts.words.craft
+        box, technique = self._box, self._facts.words.technique
         paper(self._draw_list, box)
         heading = "Piece by piece: where it leans, and how far it spreads"
         self._draw_list.text(heading, (box.left + PADDING, box.top + 28), TypeStyle(18, INK, Face.BOLD))
         top = box.top + 42
-        for_craft = min(len(craft), _CRAFT_FIRST) * _CRAFT_LINE + 34 if craft else 8.0
-        most = max(int((box.bottom - top - for_craft) / _ROW), 1)
+        for_technique = min(len(technique), _TECHNIQUE_FIRST) * _TECHNIQUE_LINE + 34 if technique else 8.0
+        most = max(int((box.bottom - top - for_technique) / _ROW), 1)
         rows = sorted(leans(self._facts), key=lambda lean: -lean.notes)[:most]
         self._draw_list.box((self._centre - 0.75, top), (1.5, _ROW * len(rows)), INK_SOFT)
         for i, lean in enumerate(rows):
             self._row(lean, top + _ROW * (i + 0.5))
-        self._craft(craft, top + _ROW * len(rows))
+        self._technique(technique, top + _ROW * len(rows))
 
     def _row(self, lean: PieceLean, y: float) -> None:
         name, said = TypeStyle(18, INK), TypeStyle(16, INK_SOFT)
@@ -125,10 +125,10 @@ class Pieces:
         self._draw_list.ellipse((at, y), (6.5, 6.5), colour)
         self._draw_list.text(self._draw_list.fitted(in_words(lean), said, _SAID - 12), (self._said, y + 6), said)
 
-    def _craft(self, lines: tuple[str, ...], top: float) -> None:
+    def _technique(self, lines: tuple[str, ...], top: float) -> None:
         """As many lines as there is room for, column by column."""
-        columns = max(int((self._box.width - 2 * PADDING) / _CRAFT_WIDTH), 1)
-        fit = int((self._box.bottom - 10 - top - 24) / _CRAFT_LINE)
+        columns = max(int((self._box.width - 2 * PADDING) / _TECHNIQUE_WIDTH), 1)
+        fit = int((self._box.bottom - 10 - top - 24) / _TECHNIQUE_LINE)
         shown = lines[: max(fit, 0) * columns]
         if not shown:
             return
@@ -137,7 +137,7 @@ class Pieces:
         style, each = TypeStyle(16, INK_SOFT), -(-len(shown) // columns)
         for i, line in enumerate(shown):
             column, row = divmod(i, each)
-            at = left + column * width, top + 24 + (row + 0.75) * _CRAFT_LINE
+            at = left + column * width, top + 24 + (row + 0.75) * _TECHNIQUE_LINE
             self._draw_list.text(self._draw_list.fitted(line, style, width - 10), at, style)
 
 

@@ -9,7 +9,7 @@ from typing import Any
 from station.core.labels import name_of
 
 Table = Mapping[str, Any]
-"""A part of the document that `table.plain` wrote."""
+"""A part of the document that `technique_table.plain` wrote."""
 
 LEAST_MS = 3.0
 """Half of what is just heard in fast strokes (HUMANS) is worth no word."""

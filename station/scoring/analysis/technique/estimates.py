@@ -1,7 +1,7 @@
 """Figures with the interval that the data can bear: a mean, or the size of a scatter.
 
 The unit stands in the name of the field that holds the figure. No data is None: a mean needs one value, a spread two,
-an interval `timing.MIN_SLOTS` slots.
+an interval `timing_spread.MIN_SLOTS` slots.
 """
 
 from dataclasses import dataclass
