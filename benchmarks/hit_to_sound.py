@@ -199,10 +199,10 @@ def measure(period: int, plan: list[Stroke], draws: bool) -> None:
     assert isinstance(before, Status)
     status = [event for event in listener.events if isinstance(event, Status)][-1]
     underflows = f"{status.underflows - before.underflows} ({beside})"
-    tell(period, sent_ns, listener.hits(), onsets_ns(heard), underflows)
+    report(period, sent_ns, listener.hits(), onsets_ns(heard), underflows)
 
 
-def tell(
+def report(
     period: int, sent_ns: NDArray[np.int64], hits: list[Hit], sounds_ns: NDArray[np.int64], underflows: str
 ) -> None:
     """Print what was measured."""

@@ -54,7 +54,7 @@ def choose(theme: Theme, scale: float) -> None:
 
 def themed(colour: Colour) -> Colour:
     """What the present theme shows for a colour of the night."""
-    return palette.dyed(colour, _Current.theme)
+    return palette.themed(colour, _Current.theme)
 
 
 def _vec(colour: Colour) -> imgui.ImVec4:

@@ -26,7 +26,7 @@ from station.gui import theme
 from station.render.camera import Camera, NamedView, named
 from station.render.gpu.gl import GL_VERSION, RenderTarget
 from station.render.painter import Area, Arrangement, Painter
-from station.render.palette import NIGHT, dyed
+from station.render.palette import NIGHT, themed
 from station.render.quality import QUALITIES
 from station.render.report.report_layout import ReportPage, page_for
 from station.render.report.report_picture import report_shapes, report_sheet
@@ -172,7 +172,7 @@ class Viewport:
         whole = (round(size.x * scale.x), round(size.y * scale.y))
         ctx.viewport = (0, 0, *whole)
         ctx.scissor = None
-        screen.clear(*dyed(NIGHT, self.view_settings.theme), depth=1.0)
+        screen.clear(*themed(NIGHT, self.view_settings.theme), depth=1.0)
         return screen, whole
 
     def release(self) -> None:
@@ -197,7 +197,7 @@ class Viewport:
             self._samples = painter.quality.samples
             self._target = RenderTarget(ctx, whole, self._samples)
         if not painter.quality.is_layered:
-            self._target.framebuffer.clear(*dyed(NIGHT, painter.theme), depth=1.0)
+            self._target.framebuffer.clear(*themed(NIGHT, painter.theme), depth=1.0)
         return self._target
 
     def _measure(self, began: float) -> None:

@@ -1,8 +1,8 @@
 """Whether a performance is possible: what its poses pass through, bend too far or move too fast, and where.
 
 For tests, benchmarks and whoever edits a kit or a style. Poses are looked at `RATE_HZ` times a second and at every
-strike. What the score asks beyond a human (`Assignment.beyond`) is left out of the joints' speeds and limits, a little
-before and after it, for there the strokes come first.
+strike. What no human can play (`Assignment.infeasible`) is left out of the joints' speeds and limits, a little before
+and after it, for there the strokes come first.
 """
 
 from dataclasses import dataclass, replace
@@ -88,17 +88,17 @@ def _block(drummer: Drummer, times: Array, low: Array, high: Array) -> Audit:
     hands = {f"{s} stick in the other forearm": found.arms[:, k] for k, s in enumerate(sides)}
     angles = rows[:, frame.ANGLES]
     human = np.ones(len(times), bool)
-    for beyond in drummer.assignment.beyond:
-        human &= (times < beyond.start_s - _AROUND_S) | (times > beyond.end_s + _AROUND_S)
+    for demand in drummer.assignment.infeasible:
+        human &= (times < demand.start_s - _AROUND_S) | (times > demand.end_s + _AROUND_S)
     step = np.diff(times)
-    told = (step > _LEAST_STEP_S) & human[1:]
-    speed = np.abs(np.diff(angles, axis=0))[told] / step[told, None] / _FASTEST
+    counted = (step > _LEAST_STEP_S) & human[1:]
+    speed = np.abs(np.diff(angles, axis=0))[counted] / step[counted, None] / _FASTEST
     over = np.maximum(angles - high, low - angles)[human]
     return Audit(
         kit_m=_worst(kit, times),
         hands_m=_worst(hands | {"sticks in each other": found.sticks}, times),
         limit_rad=_worst(dict(zip(ANGLE_NAMES, over.T, strict=True)), times[human]),
-        speed=_worst(dict(zip(ANGLE_NAMES, speed.T, strict=True)), times[1:][told]),
+        speed=_worst(dict(zip(ANGLE_NAMES, speed.T, strict=True)), times[1:][counted]),
     )
 
 

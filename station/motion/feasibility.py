@@ -34,7 +34,7 @@ _NEAR_M = 0.10
 
 
 @dataclass(frozen=True, slots=True)
-class Beyond:
+class InfeasibleDemand:
     """One bar's demand on one limb that is beyond a human, at its worst.
 
     `bar` from 0; `start_s` and `end_s` the strokes that ask it, first and last in the bar; `text` says it.
@@ -47,10 +47,10 @@ class Beyond:
     text: str
 
 
-def beyond_human(score: Score, kit: Kit, limbs: NDArray[np.int8]) -> tuple[Beyond, ...]:
+def infeasible_demands(score: Score, kit: Kit, limbs: NDArray[np.int8]) -> tuple[InfeasibleDemand, ...]:
     """Every bar and limb in which strokes of `score` on `kit` come faster than any human's, in order."""
     points = strike_points(score, kit, limbs)
-    found: list[Beyond] = []
+    found: list[InfeasibleDemand] = []
     for limb in (Limb.RIGHT_HAND, Limb.LEFT_HAND, Limb.RIGHT_FOOT, Limb.LEFT_FOOT):
         rows = np.flatnonzero(limbs == limb)
         rows = rows[np.argsort(score.onset_ns[rows], kind="stable")]
@@ -65,7 +65,7 @@ def beyond_human(score: Score, kit: Kit, limbs: NDArray[np.int8]) -> tuple[Beyon
     return tuple(sorted(found, key=lambda b: (b.bar, b.limb, b.start_s)))
 
 
-def _repeated(limb: Limb, times: Array, bars: NDArray[np.int64], on: NDArray[np.bool_]) -> list[Beyond]:
+def _repeated(limb: Limb, times: Array, bars: NDArray[np.int64], on: NDArray[np.bool_]) -> list[InfeasibleDemand]:
     """Bars in which three strokes of the limb come too soon after one another, or a run is faster than champions'.
 
     Strokes that a stick bounces `on` to are not struck: they count only for how soon a stroke comes after them.
@@ -78,16 +78,16 @@ def _repeated(limb: Limb, times: Array, bars: NDArray[np.int64], on: NDArray[np.
         fast = np.flatnonzero((rate > FASTEST_HZ[limb.is_hand] * over) & ~free[last:])
         for bar in np.unique(in_bar[fast + 1]).tolist():
             at = fast[in_bar[fast + 1] == bar]
-            told, start, end = worst.get(bar, (0.0, np.inf, -np.inf))
+            fastest, start, end = worst.get(bar, (0.0, np.inf, -np.inf))
             found = float(rate[at].max()), float(at_s[at[0]]), float(at_s[at[-1] + last])
-            worst[bar] = max(told, found[0]), min(start, found[1]), max(end, found[2])
+            worst[bar] = max(fastest, found[0]), min(start, found[1]), max(end, found[2])
     return [
-        Beyond(bar, limb, start, end, f"bar {bar + 1} needs {rate:.0f} strokes a second of one {word}")
+        InfeasibleDemand(bar, limb, start, end, f"bar {bar + 1} needs {rate:.0f} strokes a second of one {word}")
         for bar, (rate, start, end) in worst.items()
     ]
 
 
-def _sundered(limb: Limb, times: Array, bars: NDArray[np.int64], points: Array) -> list[Beyond]:
+def _sundered(limb: Limb, times: Array, bars: NDArray[np.int64], points: Array) -> list[InfeasibleDemand]:
     """Bars in which the hand must be at places too far from each other for the time between.
 
     Of that time a stroke's rebound and the next one's whip have their share: only the rest is for the way.
@@ -103,5 +103,5 @@ def _sundered(limb: Limb, times: Array, bars: NDArray[np.int64], points: Array) 
         if gap[worst] <= SAME_STROKE_S:
             asked = f"to be in two places at once, {100 * way[worst]:.0f} cm apart"
         text = f"bar {bar + 1} needs one hand {asked}"
-        result.append(Beyond(bar, limb, float(times[at[0]]), float(times[at[-1] + 1]), text))
+        result.append(InfeasibleDemand(bar, limb, float(times[at[0]]), float(times[at[-1] + 1]), text))
     return result

@@ -86,11 +86,11 @@ _NAMES = ("Demonstrator", "You")
 
 def name_shapes(atlas: Atlas, size: tuple[float, float]) -> NDArray[np.void]:
     """Who is who in two pictures side by side, and the line between them; `size` as for `hud_shapes`."""
-    ink, (width, height), k = DrawList(atlas), size, scale(size[1])
-    ink.box((width / 2 - k, 0.0), (2 * k, height), INK_FAINT)
+    draw_list, (width, height), k = DrawList(atlas), size, scale(size[1])
+    draw_list.box((width / 2 - k, 0.0), (2 * k, height), INK_FAINT)
     for name, middle in zip(_NAMES, (0.25, 0.75), strict=True):
-        ink.text(name, (middle * width, height - 16 * k), TypeStyle(20 * k, INK, Face.BOLD, 0.5, _HALO))
-    return ink.shapes()
+        draw_list.text(name, (middle * width, height - 16 * k), TypeStyle(20 * k, INK, Face.BOLD, 0.5, _HALO))
+    return draw_list.shapes()
 
 
 _LEAST = 230.0, 100.0
@@ -102,8 +102,8 @@ _SMALLEST = 0.65
 
 
 class _HudPage:
-    def __init__(self, hud: Hud, ink: DrawList, size: tuple[float, float]) -> None:
-        self._hud, self._ink = hud, ink
+    def __init__(self, hud: Hud, draw_list: DrawList, size: tuple[float, float]) -> None:
+        self._hud, self._draw_list = hud, draw_list
         self._k = scale(size[1])
         self._width, self._height = size
 
@@ -115,36 +115,36 @@ class _HudPage:
         if self._has_room:
             self._title(self._tempo())
             self._place()
-        return self._ink.shapes()
+        return self._draw_list.shapes()
 
     def calls(self) -> NDArray[np.void]:
         if not self._has_room:
-            return self._ink.shapes()
+            return self._draw_list.shapes()
         if self._hud.count_in is not None:
             self._count_in(self._hud.count_in)
         elif self._hud.cue is not TimingCue.NONE:
             self._cue(_CUES[self._hud.cue])
         if self._hud.message:
             self._message()
-        return self._ink.shapes()
+        return self._draw_list.shapes()
 
     def _title(self, right: float) -> None:
         """The title as far as `right`, in smaller letters before it is cut, and the phase under it."""
         k, hud = self._k, self._hud
         text, style = self._shrunk(hud.title, TypeStyle(30 * k, INK, Face.BOLD, 0.0, _HALO), right - 2 * _EDGE * k)
-        self._ink.text(text, (_EDGE * k, 46 * k), style)
+        self._draw_list.text(text, (_EDGE * k, 46 * k), style)
         if hud.phase:
-            self._ink.ellipse(((_EDGE + 6) * k, 71 * k), (6 * k, 6 * k), BRAND)
+            self._draw_list.ellipse(((_EDGE + 6) * k, 71 * k), (6 * k, 6 * k), BRAND)
             text, style = self._shrunk(
                 hud.phase, TypeStyle(20 * k, _LINE, Face.REGULAR, 0.0, _HALO), self._width * 0.56
             )
-            self._ink.text(text, ((_EDGE + 20) * k, 78 * k), style)
+            self._draw_list.text(text, ((_EDGE + 20) * k, 78 * k), style)
 
     def _shrunk(self, text: str, style: TypeStyle, room: float) -> tuple[str, TypeStyle]:
         """A line that has so much room, in letters as large as fit; cut where even the smallest do not."""
-        ratio = min(room / max(self._ink.width(text, style), 1.0), 1.0)
+        ratio = min(room / max(self._draw_list.width(text, style), 1.0), 1.0)
         smaller = replace(style, size=style.size * max(ratio, _SMALLEST))
-        return self._ink.fitted(text, smaller, room), smaller
+        return self._draw_list.fitted(text, smaller, room), smaller
 
     def _tempo(self) -> float:
         """The tempo in the corner; returns where it begins."""
@@ -152,9 +152,11 @@ class _HudPage:
         right = self._width - _EDGE * k
         if hud.beats_a_minute is None:
             return right
-        right -= self._ink.text("bpm", (right, 46 * k), TypeStyle(17 * k, _LINE, Face.REGULAR, 1.0, _HALO)) + 6 * k
+        right -= (
+            self._draw_list.text("bpm", (right, 46 * k), TypeStyle(17 * k, _LINE, Face.REGULAR, 1.0, _HALO)) + 6 * k
+        )
         tempo = TypeStyle(34 * k, INK, Face.BOLD, 1.0, _HALO)
-        return right - self._ink.text(f"{hud.beats_a_minute:.0f}", (right, 46 * k), tempo)
+        return right - self._draw_list.text(f"{hud.beats_a_minute:.0f}", (right, 46 * k), tempo)
 
     def _place(self) -> None:
         """Bar and beat, and how much was right, under the tempo."""
@@ -166,19 +168,19 @@ class _HudPage:
         for beat in range(hud.beats, 0, -1):
             now = beat == hud.beat
             size = (7.5 if now else 5.0) * k
-            self._ink.ellipse((x, 72 * k), (size, size), (BRAND if now else INK_FAINT))
+            self._draw_list.ellipse((x, 72 * k), (size, size), (BRAND if now else INK_FAINT))
             x -= 21 * k
         where = f"bar {hud.bar}" + (f" of {hud.bar_count}" if hud.bar_count else "")
-        self._ink.text(where, (x - 6 * k, 78 * k), TypeStyle(18 * k, _LINE, Face.REGULAR, 1.0, _HALO))
+        self._draw_list.text(where, (x - 6 * k, 78 * k), TypeStyle(18 * k, _LINE, Face.REGULAR, 1.0, _HALO))
         if hud.judged:
             text = f"{hud.right} of {hud.judged} right"
-            self._ink.text(text, (right, 104 * k), TypeStyle(18 * k, _LINE, Face.REGULAR, 1.0, _HALO))
+            self._draw_list.text(text, (right, 104 * k), TypeStyle(18 * k, _LINE, Face.REGULAR, 1.0, _HALO))
 
     def _count_in(self, number: int) -> None:
         k, centre = self._k, (self._width / 2, self._height * 0.52)
-        self._ink.ellipse(centre, (96 * k, 96 * k), with_opacity(NIGHT, 0.62))
-        self._ink.ellipse(centre, (96 * k, 96 * k), with_opacity(BRAND, 0.9), 0.0, (0.0, 5 * k, 0.0))
-        self._ink.text(str(number), (centre[0], centre[1] + 47 * k), TypeStyle(132 * k, INK, Face.BOLD, 0.5))
+        self._draw_list.ellipse(centre, (96 * k, 96 * k), with_opacity(NIGHT, 0.62))
+        self._draw_list.ellipse(centre, (96 * k, 96 * k), with_opacity(BRAND, 0.9), 0.0, (0.0, 5 * k, 0.0))
+        self._draw_list.text(str(number), (centre[0], centre[1] + 47 * k), TypeStyle(132 * k, INK, Face.BOLD, 0.5))
 
     def _cue(self, look: _CueLook) -> None:
         left = 1 - (self._hud.cue_age_s - _CUE_HOLD_S) / _CUE_FADE_S
@@ -186,21 +188,21 @@ class _HudPage:
         if opacity <= 0:
             return
         k, style = self._k, TypeStyle(40 * self._k, with_opacity(look.colour, opacity), Face.BOLD, 0.5)
-        text = self._ink.width(look.word, style)
+        text = self._draw_list.width(look.word, style)
         width = text + (2 * 46 if look.way else 52) * k
         x, y = self._width / 2, self._height - 52 * k
         panel = with_opacity(PANEL, opacity)
-        self._ink.box((x - width / 2, y - 31 * k), (width, 62 * k), panel, None, (31 * k, 0.0, 0.0))
-        self._ink.text(look.word, (x, y + 14 * k), style)
+        self._draw_list.box((x - width / 2, y - 31 * k), (width, 62 * k), panel, None, (31 * k, 0.0, 0.0))
+        self._draw_list.text(look.word, (x, y + 14 * k), style)
         if look.way:
             at = (x + look.way * (text / 2 + 20 * k), y)
-            self._ink.triangle(at, (9 * k, 13 * k), style.colour, 0.0 if look.way > 0 else np.pi)
+            self._draw_list.triangle(at, (9 * k, 13 * k), style.colour, 0.0 if look.way > 0 else np.pi)
 
     def _message(self) -> None:
         k = self._k
         message = TypeStyle(21 * k, INK, Face.REGULAR, 0.5)
         text, style = self._shrunk(self._hud.message, message, self._width - 4 * _EDGE * k)
-        width = self._ink.width(text, style) + 44 * k
+        width = self._draw_list.width(text, style) + 44 * k
         y = 132 * k
-        self._ink.box((self._width / 2 - width / 2, y - 20 * k), (width, 42 * k), PANEL, None, (12 * k, 0.0, 0.0))
-        self._ink.text(text, (self._width / 2, y + 8 * k), style)
+        self._draw_list.box((self._width / 2 - width / 2, y - 20 * k), (width, 42 * k), PANEL, None, (12 * k, 0.0, 0.0))
+        self._draw_list.text(text, (self._width / 2, y + 8 * k), style)

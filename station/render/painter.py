@@ -17,7 +17,7 @@ from station.render.gpu.gl import RenderTarget, give_back
 from station.render.gpu.moving_parts import DoublePlace, frames_of
 from station.render.gpu.shape_renderer import ShapeRenderer, Transform
 from station.render.notation.score_view import ScoreForm, ScorePlace, ScoreView, shows_staff
-from station.render.palette import INK_FAINT, NIGHT, Theme, dyed, over_picture
+from station.render.palette import INK_FAINT, NIGHT, Theme, over_picture, themed
 from station.render.quality import QUALITIES, Quality
 from station.render.scene import Scene
 from station.render.snapshot import Hud, Snapshot
@@ -136,7 +136,7 @@ class Painter:
             self._draw_veil((width, height), words[1])
 
         def lay_still(into: moderngl.Framebuffer) -> None:
-            into.clear(*dyed(NIGHT, self.theme), depth=1.0)
+            into.clear(*themed(NIGHT, self.theme), depth=1.0)
             lay(into, partial(scene.draw_still, is_rough=arrangement.is_rough))
 
         def lay_words(into: moderngl.Framebuffer) -> None:

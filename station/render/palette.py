@@ -1,4 +1,4 @@
-"""The colours of everything: one dark room, light ink, and signal colours that colour-blind people tell apart.
+"""The colours of everything: one dark room, light draw_list, and signal colours that colour-blind people tell apart.
 
 Signals are those of Okabe and Ito, "Color Universal Design" (2008); each also has a shape of its own.
 Values are as on a screen (sRGB, 0–1).
@@ -55,7 +55,7 @@ def mixed(a: Colour, b: Colour, share: float) -> Colour:
 
 
 class Theme(StrEnum):
-    """Which colours are worn."""
+    """Which colours are shown."""
 
     NIGHT = "night"
     DAY = "day"
@@ -104,13 +104,13 @@ def over_picture(theme: Theme) -> Theme:
     return Theme.NIGHT if theme is Theme.DAY else theme
 
 
-def dyed(colour: Colour, theme: Theme) -> Colour:
+def themed(colour: Colour, theme: Theme) -> Colour:
     """What `theme` shows for a colour of the night, as opaque; one that is not the night's stays."""
-    r, g, b = dyed_bytes(np.array([[round(255 * x) for x in colour[:3]]], np.uint8), theme)[0] / 255
+    r, g, b = themed_bytes(np.array([[round(255 * x) for x in colour[:3]]], np.uint8), theme)[0] / 255
     return float(r), float(g), float(b), colour[3]
 
 
-def dyed_bytes(rgb: NDArray[np.uint8], theme: Theme) -> NDArray[np.uint8]:
+def themed_bytes(rgb: NDArray[np.uint8], theme: Theme) -> NDArray[np.uint8]:
     """The same of many: rows of red, green, blue 0–255, shape (n, 3)."""
     if theme is Theme.NIGHT:
         return rgb

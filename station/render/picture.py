@@ -54,7 +54,7 @@ class PictureMaker:
             picture = self._target.resolved()
             self._reader = self._reader or Nv12Reader(self._ctx, picture)
             self._reader.put()
-            self._reader.take(into)
+            self._reader.read(into)
 
     def film(
         self, snapshots: Iterable[Snapshot], camera: Camera | None = None, with_score: bool = True
@@ -68,21 +68,21 @@ class PictureMaker:
         try:
             for snapshot in snapshots:
                 with self._ctx:
-                    ready = reader.take() if reader.is_full else None
+                    ready = reader.read() if reader.is_full else None
                     self._paint(snapshot, camera, with_score)
                     self._target.resolved()
                     reader.put()
                 if ready is not None:
                     yield ready
-            while (last := self._taken(reader)) is not None:
+            while (last := self._read(reader)) is not None:
                 yield last
         finally:
             with self._ctx:
                 reader.release()
 
-    def _taken(self, reader: Nv12Reader) -> Planes | None:
+    def _read(self, reader: Nv12Reader) -> Planes | None:
         with self._ctx:
-            return reader.take()
+            return reader.read()
 
     def _paint(self, snapshot: Snapshot, camera: Camera | None, with_score: bool) -> None:
         self._target.framebuffer.use()

@@ -20,7 +20,7 @@ from station.render.camera import Camera
 from station.render.figure.skeleton import Skeleton
 from station.render.geometry.transforms import gl_bytes
 from station.render.gpu.bone_palette import BoneFrame, BonePalette
-from station.render.gpu.scene_cache import kept_kit
+from station.render.gpu.scene_cache import cached_kit
 from station.render.gpu.scene_parts import ANISOTROPY, SceneParts, write
 from station.render.kit.kit_rig import KitRig
 from station.render.quality import Quality
@@ -40,7 +40,7 @@ class Scene:
     def __init__(self, ctx: moderngl.Context, kit: Kit, figure: Figure, quality: Quality) -> None:
         self._ctx = ctx
         self.quality = quality
-        self.rig: KitRig = kept_kit(kit, quality.detail)
+        self.rig: KitRig = cached_kit(kit, quality.detail)
         self.skeleton = Skeleton(figure)
         self._bones = BonePalette(ctx, self.rig, self.skeleton)
         self._parts = SceneParts(ctx, self.rig, figure, quality)

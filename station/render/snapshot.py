@@ -59,7 +59,7 @@ class LimbParting:
 class StudentShown:
     """The student as a second, translucent drummer, and the limbs that glow for they part from the demonstrator's.
 
-    `is_compared` where the picture is there for him, and shows him however the double is wished for otherwise.
+    `is_compared` where the picture is there for them: it shows them whatever the options say of the double.
     """
 
     pose: Pose

@@ -7,7 +7,7 @@ from station.music.judgement import Label
 from station.practice.session.session import SessionResult
 from station.render.report.result_facts import ResultFacts, ResultWords, result_facts
 from station.scoring.report.assessment_document import Json
-from station.scoring.report.technique_text import craft_lines
+from station.scoring.report.technique_text import technique_lines
 
 
 def session_facts(result: SessionResult, document: dict[str, Json]) -> ResultFacts:
@@ -27,7 +27,7 @@ def session_facts(result: SessionResult, document: dict[str, Json]) -> ResultFac
         subtitle=f"{passes} of {bars} at {round(plan.beats_a_minute, 3):g} bpm{stopped}{_standing(document)}",
         points=float(points) if isinstance(points, float | int) else None,
         advice=tuple(map(str, steps)),
-        craft=tuple(craft_lines(document)),
+        technique=tuple(technique_lines(document)),
         pass_bars=plan.section.bar_count,
         first_bar=plan.first_bar,
         starts=() if plan.rounds is None else plan.rounds.starts,

@@ -18,8 +18,8 @@ from station.scoring.following.free_tempo import NO_CLASS, align_unclocked
 from station.scoring.following.stretches import owners
 from station.scoring.following.warp import click_warp, written_of
 from station.scoring.matching.alignment import Alignment, Reference, Timed, labelled
-from station.scoring.matching.assignment import MOST_CLASSES, SettleSide, Start, note_kinds, settle, spots
-from station.scoring.matching.buzz_onsets import with_presses
+from station.scoring.matching.assignment import MOST_CLASSES, AssignmentSide, Start, assign, note_kinds, spots
+from station.scoring.matching.buzz_onsets import with_buzz_onsets
 from station.scoring.matching.click_offset import common_bias_ns
 from station.scoring.matching.grace_strokes import with_far_graces
 from station.scoring.matching.ignored_hits import Unwritten
@@ -65,8 +65,8 @@ def align_clocked(score: Score, performance: Performance, note_class: Indices, h
         at_ns = np.rint(warp.score_s * NS_PER_S).astype(np.int64) + bias_ns
         strand, attempt = owners(score.onset_s, note_class, warp, hit_class), warp.stretch
     unwritten = rules.masks(performance, at_ns - bias_ns)
-    notes = SettleSide(score.onset_ns, note_class, strand, spots(score.notes))
-    hits = SettleSide(at_ns, hit_class, attempt, spots(performance.hits))
-    settled = settle(notes, hits, note_kinds(score), unwritten.own_only, Start(bias_ns))
-    settled = with_presses(score, with_far_graces(score, settled, hits), hits, bounces)
-    return labelled(settled, Timed(at_ns, score.onset_ns, at_ns, attempt, Reference.CLICK), unwritten.quiet)
+    notes = AssignmentSide(score.onset_ns, note_class, strand, spots(score.notes))
+    hits = AssignmentSide(at_ns, hit_class, attempt, spots(performance.hits))
+    assignment = assign(notes, hits, note_kinds(score), unwritten.own_only, Start(bias_ns))
+    assignment = with_buzz_onsets(score, with_far_graces(score, assignment, hits), hits, bounces)
+    return labelled(assignment, Timed(at_ns, score.onset_ns, at_ns, attempt, Reference.CLICK), unwritten.quiet)

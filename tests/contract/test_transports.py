@@ -67,7 +67,7 @@ class SerialRig:
         self._kit = SerialKit(folder / "ttyUSB0")
 
     def open(self) -> Transport:
-        return SerialDirectory(115_200).open(f"kit {self._kit.wish}")
+        return SerialDirectory(115_200).open(f"kit {self._kit.device}")
 
     def play(self) -> list[Packet]:
         sent = []

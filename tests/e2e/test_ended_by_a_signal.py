@@ -43,7 +43,7 @@ def test_a_session_that_is_ended_by_a_signal_is_kept(
             "--no-demonstration",
             "--no-pictures",
             "--kit",
-            kit.wish,
+            kit.device,
             "--report",
             str(report),
         ]

@@ -99,7 +99,7 @@ def test_a_killed_engine_clicks_on_where_the_click_would_be(tmp_path: Path) -> N
     config = EngineConfig(kits=(DeviceRequest(KIT),), midi_driver="jack", output="jack")
     every_ns = 125 * NS_PER_MS
     with (
-        JackServer(period_frames=256, patience_ms=JACK_WAITS_MS) as jack_server,
+        JackServer(period_frames=256, client_timeout_ms=JACK_WAITS_MS) as jack_server,
         joined(jack_server),
         KitPlayer(jack_server, KIT, [], tmp_path),
         EngineSupervisor(config) as engine,

@@ -43,10 +43,10 @@ def test_a_kit_is_taught_and_practice_understands_it_so(tmp_path: Path, monkeypa
     monkeypatch.setenv("JACK_NO_START_SERVER", "1")
     monkeypatch.setattr(sys, "stdin", io.StringIO("f\n\n"))  # leave all to the preset, and keep it
     with SerialKit(tmp_path / "ttyUSB0") as kit:
-        assert main(["devices", "learn", "--kit", kit.wish, "--seconds", "20"]) == 0
-        path = own_kit_path(kit.wish)
+        assert main(["devices", "learn", "--kit", kit.device, "--seconds", "20"]) == 0
+        path = own_kit_path(kit.device)
         path.write_text(path.read_text() + RULES)
-        with EngineProcess(EngineConfig(kits=parse_kits(kit.wish), sound=False)) as engine:
+        with EngineProcess(EngineConfig(kits=parse_kits(kit.device), sound=False)) as engine:
             listener = EngineListener(engine)
             listener.until(lambda event: isinstance(event, Ready))
             listener.until(lambda event: isinstance(event, DeviceFound))

@@ -29,7 +29,7 @@ APART_S = 0.05
 
 def heard_from(listener: EngineListener, kit: SerialKit) -> DeviceFound:
     """Wait until the engine has found `kit`."""
-    found = listener.until(lambda event: isinstance(event, DeviceFound) and event.device == kit.wish)
+    found = listener.until(lambda event: isinstance(event, DeviceFound) and event.device == kit.device)
     assert isinstance(found, DeviceFound)
     return found
 
@@ -45,7 +45,7 @@ def played(kit: SerialKit, strokes: list[bytes]) -> list[int]:
 
 def test_two_serial_kits_are_heard_unplugged_and_heard_again(tmp_path: Path) -> None:
     with SerialKit(tmp_path / "ttyUSB0") as first, SerialKit(tmp_path / "ttyUSB1") as second:
-        kits = parse_kits(f"{first.wish}; {second.wish}@115200")
+        kits = parse_kits(f"{first.device}; {second.device}@115200")
         with EngineProcess(EngineConfig(kits=kits, sound=False)) as engine:
             listener = EngineListener(engine)
             listener.until(lambda event: isinstance(event, Ready))
@@ -57,20 +57,22 @@ def test_two_serial_kits_are_heard_unplugged_and_heard_again(tmp_path: Path) -> 
             listener.until(lambda event: isinstance(event, Hit) and event.velocity == 79)  # a hang-up drops the unread
             first.play(STROKES[0][:2])
             first.unplug()
-            listener.until(lambda event: isinstance(event, DeviceLost) and event.device == first.wish)
+            listener.until(lambda event: isinstance(event, DeviceLost) and event.device == first.device)
             second.play(STROKES[39])
             first.plug()
             plugged_ns = time.monotonic_ns()
             listener.events.clear()
             assert heard_from(listener, first).at_ns - plugged_ns < 10 * NS_PER_S  # 1 s, and what a busy machine adds
             sent_ns += played(first, STROKES[20:])
-            listener.until(lambda event: isinstance(event, Hit) and (event.device, event.velocity) == (first.wish, 99))
+            listener.until(
+                lambda event: isinstance(event, Hit) and (event.device, event.velocity) == (first.device, 99)
+            )
             engine.send(RecordCapture(None))
             listener.until(lambda event: isinstance(event, CaptureSaved) and event.path is None)
     hits = [event for event in replay(read_capture(tmp_path / "take.cap")) if isinstance(event, Hit)]
-    by_first = [hit for hit in hits if hit.device == first.wish]
+    by_first = [hit for hit in hits if hit.device == first.device]
     assert [bytes((0x99, hit.midi_note, hit.velocity)) for hit in by_first] == STROKES
-    assert [hit.velocity for hit in hits if hit.device == second.wish] == [99]
+    assert [hit.velocity for hit in hits if hit.device == second.device] == [99]
     late_ns = sorted(hit.at_ns - sent for hit, sent in zip(by_first, sent_ns, strict=True))
     assert late_ns[0] > -NS_PER_MS
     assert late_ns[len(late_ns) // 10] < 5 * NS_PER_MS  # a busy machine lets many wait, and wrong stamps are all late

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from station.scoring.align import align
-from station.scoring.analysis.technique.synchrony import together
-from station.scoring.analysis.technique.wing_kristofferson import WingKristofferson, keeper
+from station.scoring.analysis.technique.synchrony import synchrony
+from station.scoring.analysis.technique.wing_kristofferson import WingKristofferson, wing_kristofferson
 from tests.real_data import real_files
 from tests.recordings.test_assess_gmd import quantised
 
@@ -20,8 +20,8 @@ FILES = real_files("gmd/*/eval_session/*.mid")
 def told(path: Path) -> tuple[WingKristofferson, float | None]:
     score, performance, _ = quantised(path)
     alignment = align(score, performance, clocked=False)
-    limbs = together(score, alignment)
-    return keeper(score, performance, alignment), None if limbs is None else limbs.sd_ms.sd
+    limbs = synchrony(score, alignment)
+    return wing_kristofferson(score, performance, alignment), None if limbs is None else limbs.sd_ms.sd
 
 
 @pytest.mark.parametrize("path", FILES)

@@ -54,24 +54,24 @@ class ListeningRig:
 
     def until(self, is_it: Callable[[EngineEvent], bool], within_s: float = WITHIN_S) -> list[EngineEvent]:
         """What the engine tells until `is_it` holds of something; raises `DeviceError` where it does not in time."""
-        told: list[EngineEvent] = []
+        events: list[EngineEvent] = []
         give_up_s = time.monotonic() + within_s
-        while not any(map(is_it, told)):
+        while not any(map(is_it, events)):
             if time.monotonic() > give_up_s:
                 raise DeviceError(f"the engine did not tell in {within_s:g} s what was awaited")
-            told += self.engine.events(0.05)
-        return told
+            events += self.engine.events(0.05)
+        return events
 
     def played(self, verb: str, step_ns: int, count: int) -> tuple[list[int], list[Hit]]:
         """When the kit sent each message, and the hits that the engine told of it."""
         start_ns = monotonic_ns() + LEAD_NS
-        self.player.tell(f"{verb} {start_ns} {step_ns} {count}")
+        self.player.command(f"{verb} {start_ns} {step_ns} {count}")
         end_ns = start_ns + step_ns * count + AFTER_NS
-        told = self.until(
+        events = self.until(
             lambda event: isinstance(event, Status) and event.at_ns > end_ns, WITHIN_S + 2e-9 * (end_ns - start_ns)
         )
         sent: list[int] = json.loads(self.player.hear())
-        return sent, [event for event in told if isinstance(event, Hit)]
+        return sent, [event for event in events if isinstance(event, Hit)]
 
 
 @contextlib.contextmanager
@@ -85,16 +85,16 @@ def stage(wire: Wire, draws: bool = True) -> Iterator[ListeningRig]:
             player = things.enter_context(PlayingKit("jack", KIT))
             config = EngineConfig(kits=(DeviceRequest(KIT),), midi_driver="jack", output="jack")
         else:
-            wish = f"serial:{folder / 'kit'}"
+            source = f"serial:{folder / 'kit'}"
             player = things.enter_context(PlayingKit("serial", str(folder / "kit"), str(wire.baud)))
-            config = EngineConfig(kits=(parse_kit(f"{wish}@{wire.baud}"),), sound=False)
+            config = EngineConfig(kits=(parse_kit(f"{source}@{wire.baud}"),), sound=False)
         if draws:
             things.enter_context(_drawing())
         engine = things.enter_context(EngineProcess(config))
         made = ListeningRig(player, engine, "")
-        told = made.until(lambda event: isinstance(event, DeviceFound))
-        device = next(event.device for event in told if isinstance(event, DeviceFound))
-        if not any(isinstance(event, Ready) for event in told):
+        events = made.until(lambda event: isinstance(event, DeviceFound))
+        device = next(event.device for event in events if isinstance(event, DeviceFound))
+        if not any(isinstance(event, Ready) for event in events):
             made.until(lambda event: isinstance(event, Ready))
         yield ListeningRig(player, engine, device)
 
@@ -106,7 +106,7 @@ def read_barely(baud: int, step_ns: int, count: int) -> tuple[list[int], list[in
         with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as reader:
             assert reader.stdout is not None
             reader.stdout.readline()
-            player.tell(f"play {monotonic_ns() + LEAD_NS} {step_ns} {count}")
+            player.command(f"play {monotonic_ns() + LEAD_NS} {step_ns} {count}")
             sent: list[int] = json.loads(player.hear())
             read: list[int] = json.loads(reader.stdout.readline())
     return sent, read

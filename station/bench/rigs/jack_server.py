@@ -30,7 +30,7 @@ _DIES_WITH_US = ["setpriv", "--pdeathsig", "KILL"] if shutil.which("setpriv") el
 _SHARED_MEMORY = Path("/dev/shm")  # where JACK keeps what its clients share
 _LOCKS = _SHARED_MEMORY if _SHARED_MEMORY.is_dir() else Path(tempfile.gettempdir())
 """Where names are guarded: beside what they guard, which a container may share when its /tmp is its own."""
-_CLIENT_PATIENCE_MS = 2_000  # a client that stalls on a shared machine is not thrown out
+_CLIENT_TIMEOUT_MS = 2_000  # a client that stalls on a shared machine is not thrown out
 
 
 def jackd_is_installed() -> bool:
@@ -46,11 +46,11 @@ class JackServer:
         rate_hz: int = 48_000,
         period_frames: int = 64,
         patient: bool = False,
-        patience_ms: int = _CLIENT_PATIENCE_MS,
+        client_timeout_ms: int = _CLIENT_TIMEOUT_MS,
     ) -> None:
         self.rate_hz = rate_hz
         self.period_frames = period_frames
-        self._patience = [*(["-S"] if patient else []), f"-t{patience_ms}"]
+        self._timeout_options = [*(["-S"] if patient else []), f"-t{client_timeout_ms}"]
         self.name = ""
         self._lock: IO[bytes] | None = None
         self._process: subprocess.Popen[bytes] | None = None
@@ -67,7 +67,7 @@ class JackServer:
         Tries again where a server dies young, and without real-time priority where that is not granted.
         """
         if self._lock is None:
-            self._take_name()
+            self._claim_name()
         faults = []
         for attempt in range(ATTEMPTS):
             self._launch(realtime=attempt == 0)
@@ -101,7 +101,7 @@ class JackServer:
             self._lock.close()
             self._lock = None
 
-    def _take_name(self) -> None:
+    def _claim_name(self) -> None:
         give_up_s = time.monotonic() + NAME_WITHIN_S
         while time.monotonic() < give_up_s:
             for number in range(POOL):
@@ -115,7 +115,7 @@ class JackServer:
     def _launch(self, realtime: bool) -> None:
         handle, path = tempfile.mkstemp(prefix="jackd-", suffix=".log")
         self._log = Path(path)
-        options = [f"-n{self.name}", *self._patience, "-R" if realtime else "-r"]
+        options = [f"-n{self.name}", *self._timeout_options, "-R" if realtime else "-r"]
         driver = ["-d", "dummy", "-r", str(self.rate_hz), "-p", str(self.period_frames)]
         self._process = subprocess.Popen(
             [*_DIES_WITH_US, "jackd", *options, *driver],

@@ -136,7 +136,7 @@ class PlayingKit:
             self._process = None
         return monotonic_ns()
 
-    def tell(self, line: str) -> None:
+    def command(self, line: str) -> None:
         """Have it do what `line` says."""
         assert self._process is not None, "a kit that is unplugged does nothing"
         assert self._process.stdin is not None

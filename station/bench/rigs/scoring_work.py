@@ -99,7 +99,7 @@ def play(score: Score, player: WorkPlayer, seed: int = 0) -> PlayedWork:
 
 
 def _warped(score_s: NDArray[np.float64], player: WorkPlayer) -> NDArray[np.float64]:
-    """When the player plays what stands at `score_s`: his tempo is tempo·(1 + drift·sin(2πs/60 s))."""
+    """When the player plays what stands at `score_s`: their tempo is tempo·(1 + drift·sin(2πs/60 s))."""
     grid = np.arange(min(score_s.min(initial=0.0), 0.0) - 1, score_s.max(initial=0.0) + 1.01, 0.01)
     rate = player.tempo * (1 + player.drift * np.sin(2 * np.pi * grid / _DRIFT_PERIOD_S))
     at = np.concatenate(([0.0], np.cumsum(0.01 / rate[:-1])))

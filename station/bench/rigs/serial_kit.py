@@ -26,8 +26,8 @@ class SerialKit:
             self.plug()
 
     @property
-    def wish(self) -> str:
-        """What a user says to hear it."""
+    def device(self) -> str:
+        """What names it on the command line, such as `serial:/dev/ttyUSB0`."""
         return f"serial:{self.path}"
 
     def plug(self) -> None:

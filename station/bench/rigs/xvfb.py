@@ -28,8 +28,8 @@ def a_screen() -> Iterator[dict[str, str] | None]:
     server = subprocess.Popen(words, pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     os.close(write)
     try:
-        with os.fdopen(read) as told:
-            display = told.readline().strip()
+        with os.fdopen(read) as said:
+            display = said.readline().strip()
         yield {"DISPLAY": f":{display}"} if display else None
     finally:
         server.terminate()

@@ -36,7 +36,7 @@ def _back() -> Measurement:
         return processes[-1]
 
     config = EngineConfig(kits=(DeviceRequest(KIT),), midi_driver="jack", output="jack")
-    with JackServer(patience_ms=JACK_WAITS_MS) as server:
+    with JackServer(client_timeout_ms=JACK_WAITS_MS) as server:
         os.environ.update(server.env)
         with PlayingKit("jack", KIT), EngineSupervisor(config, start) as engine:
             _until_ready(engine)

@@ -138,16 +138,16 @@ def _plug_cycles(wire: Wire) -> tuple[list[float], list[float], int]:
         held = _held(at)
         for _ in range(_PLUGS):
             plugged_ns = at.player.plug()
-            told = at.until(lambda event: isinstance(event, DeviceFound), FOUND_WITHIN_S)
-            found_s += [(event.at_ns - plugged_ns) / NS_PER_S for event in told if isinstance(event, DeviceFound)]
+            events = at.until(lambda event: isinstance(event, DeviceFound), FOUND_WITHIN_S)
+            found_s += [(event.at_ns - plugged_ns) / NS_PER_S for event in events if isinstance(event, DeviceFound)]
             lost_s.append(_unplug(at))
         return found_s, lost_s, _held(at) - held
 
 
 def _unplug(at: ListeningRig) -> float:
     unplugged_ns = at.player.unplug()
-    told = at.until(lambda event: isinstance(event, DeviceLost), FOUND_WITHIN_S)
-    return max(event.at_ns - unplugged_ns for event in told if isinstance(event, DeviceLost)) / NS_PER_S
+    events = at.until(lambda event: isinstance(event, DeviceLost), FOUND_WITHIN_S)
+    return max(event.at_ns - unplugged_ns for event in events if isinstance(event, DeviceLost)) / NS_PER_S
 
 
 def _held(at: ListeningRig) -> int:

@@ -49,8 +49,8 @@ def _opening(frame: int) -> Measurement:
         (folder / "settings.toml").write_text(f"welcomed = true\nsessions = '{home}'\n", "utf-8")
         environment = {**installed(home), **screen, "XDG_CONFIG_HOME": home}
         _opened(frame, environment)
-        told = [_opened(frame, environment) for _ in range(_OPENINGS)]
-    taken_s, worked_s = (median(column) for column in zip(*told, strict=True))
+        openings = [_opened(frame, environment) for _ in range(_OPENINGS)]
+    taken_s, worked_s = (median(column) for column in zip(*openings, strict=True))
     return Measurement(taken_s, note=f"{worked_s:.2f} s of processor time")
 
 

@@ -66,7 +66,7 @@ class _BenchKit:
 
     def __init__(self, path: Path) -> None:
         self._line = SerialKit(path)
-        self.wish = f"{self._line.wish}@{_BAUD}"
+        self.device = f"{self._line.device}@{_BAUD}"
         self.sent: list[tuple[int, int]] = []
         self._over = threading.Event()
         self._thread = threading.Thread(target=self._play, daemon=True)
@@ -102,7 +102,7 @@ def _played(seconds: float, each_minute: list[Counter[str]] | None = None) -> _P
         kit = _BenchKit(Path(home) / "kit")
         folder = Path(home) / "drum-station"
         folder.mkdir()
-        settings = f"welcomed = true\nsessions = '{home}/sessions'\nkit = '{kit.wish}'\n"
+        settings = f"welcomed = true\nsessions = '{home}/sessions'\nkit = '{kit.device}'\n"
         (folder / "settings.toml").write_text(settings, "utf-8")
         environment = {**installed(home), **screen, "XDG_CONFIG_HOME": home}
         words = [sys.executable, "-m", "station.cli.command_line", "practice", "--watch-seconds", str(seconds)]
@@ -120,25 +120,25 @@ def _played(seconds: float, each_minute: list[Counter[str]] | None = None) -> _P
             kit.close()
         if window.returncode:
             raise RuntimeError(f"the window ended with exit status {window.returncode}")
-        told = json.loads(said[-1])
-    shown_ns = np.array(told["shown_ns"], np.int64)
+        report = json.loads(said[-1])
+    shown_ns = np.array(report["shown_ns"], np.int64)
     seen = (shown_ns > shown_ns[0] + _SETTLES_S * NS_PER_S) & (np.arange(len(shown_ns)) >= _SETTLING)
     if np.count_nonzero(seen) < _SETTLING:
         raise DeviceError(_BUSY.format(len(shown_ns), seconds))
-    shown_ns, worked_ms = shown_ns[seen], np.diff(np.array(told["worked_s"])[seen]) * 1000
-    return _Played(shown_ns, worked_ms, late_ms(kit.sent, [(at, v) for at, v in told["lit"] if at > shown_ns[0]]))
+    shown_ns, worked_ms = shown_ns[seen], np.diff(np.array(report["worked_s"])[seen]) * 1000
+    return _Played(shown_ns, worked_ms, late_ms(kit.sent, [(at, v) for at, v in report["lit"] if at > shown_ns[0]]))
 
 
-def late_ms(sent: Iterable[tuple[int, int]], lit: Iterable[tuple[int, int]]) -> NDArray[np.float64]:
+def late_ms(sent: Iterable[tuple[int, int]], shown: Iterable[tuple[int, int]]) -> NDArray[np.float64]:
     """From each stroke to the first picture of it; strokes that are long past are others of the same velocity."""
     when: dict[int, list[int]] = {}
     for at_ns, velocity in sent:
         when.setdefault(velocity, []).append(at_ns)
     late = []
-    for lit_ns, velocity in lit:
-        before = [at_ns for at_ns in when.get(velocity, []) if 0 <= lit_ns - at_ns < _LOST_NS]
+    for shown_ns, velocity in shown:
+        before = [at_ns for at_ns in when.get(velocity, []) if 0 <= shown_ns - at_ns < _LOST_NS]
         if before:
-            late.append((lit_ns - before[-1]) / NS_PER_MS)
+            late.append((shown_ns - before[-1]) / NS_PER_MS)
     return np.array(late)
 
 
@@ -188,11 +188,10 @@ def _memory_growth() -> Measurement:
     if _played(_MINUTES * _MINUTE_S + 2 * _SETTLES_S, minutes) is None:
         return _NO_SCREEN
     grown = {name: (minutes[-1][name] - minutes[0][name]) / 1e6 for name in minutes[0]}
-    told = [f"{name} {minutes[0][name] / 1e6:.1f} MB, {mb:+.1f}" for name, mb in grown.items()]
-    return Measurement(max(grown.values()), note="; ".join(told))
+    lines = [f"{name} {minutes[0][name] / 1e6:.1f} MB, {mb:+.1f}" for name, mb in grown.items()]
+    return Measurement(max(grown.values()), note="; ".join(lines))
 
 
-_GROUP = "session"
 BENCHMARKS = (
     Benchmark("window_frames_while_playing", "frames/s", 30.0, "higher", None, _frames, group="session"),
     Benchmark(

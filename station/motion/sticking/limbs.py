@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from station.core.errors import BadInput
 from station.core.pieces import Limb, Piece
-from station.motion.feasibility import Beyond, beyond_human
+from station.motion.feasibility import InfeasibleDemand, infeasible_demands
 from station.motion.kit.kit import Kit
 from station.motion.sticking.hand_choice import choose_hands
 from station.motion.sticking.hand_notes import HandNotes, Hands
@@ -26,18 +26,18 @@ METHODS = ("station", "smed")
 class Assignment:
     """`limbs` (n,) of `Limb` in the order of the score's notes, `why` each was chosen, and by which `method`.
 
-    `beyond` is what is beyond a human; `warnings` say it, such as "bar 12 needs 14 strokes a second of one hand".
+    `infeasible` is what is beyond a human; `warnings` say it, such as "bar 12 needs 14 strokes a second of one hand".
     """
 
     limbs: NDArray[np.int8]
     why: tuple[str, ...]
     method: str
-    beyond: tuple[Beyond, ...]
+    infeasible: tuple[InfeasibleDemand, ...]
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """A sentence for each demand that is beyond a human, in order of bars."""
-        return tuple(b.text for b in self.beyond)
+        return tuple(b.text for b in self.infeasible)
 
 
 def assign_limbs(score: Score, kit: Kit, method: str = "station", hands: Hands | None = None) -> Assignment:
@@ -57,7 +57,7 @@ def assign_limbs(score: Score, kit: Kit, method: str = "station", hands: Hands |
         limbs[rows] = chosen
         for row, reason in zip(rows, reasons, strict=True):
             why[row] = "written" if written[row] else reason
-    return Assignment(limbs, tuple(why), method, beyond_human(score, kit, limbs))
+    return Assignment(limbs, tuple(why), method, infeasible_demands(score, kit, limbs))
 
 
 def _feet(score: Score, left_handed: bool) -> tuple[NDArray[np.int8], list[str]]:

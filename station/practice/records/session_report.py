@@ -25,10 +25,10 @@ from station.practice.session.adaptation import lesson_bars
 from station.practice.session.session import SessionResult
 from station.scoring.analysis.points import FREE_LEAN_MS, Feel
 from station.scoring.analysis.summary import SummaryView, summarise
-from station.scoring.analysis.technique.swallowed_notes import KitFacts
+from station.scoring.analysis.technique.observability import KitFacts
 from station.scoring.matching.alignment import Alignment, Reference
 from station.scoring.report.assessment_document import Json, assessment
-from station.scoring.report.technique_text import craft_lines
+from station.scoring.report.technique_text import technique_lines
 
 if TYPE_CHECKING:
     from station.practice.headless.virtual_session import VirtualSession
@@ -191,7 +191,7 @@ def _figures_text(document: dict[str, Json]) -> str:
     if rows:
         lines += ["", f"{'piece':17}" + "".join(f"{name:>9}" for name in _COLUMNS)]
     lines += [f"{name_of(piece):17}" + "".join(f"{cell:>9}" for cell in _cells(group)) for piece, group in rows]
-    craft = craft_lines(document)
+    craft = technique_lines(document)
     return "\n".join([*lines, "", *craft] if craft else lines) + "\n"
 
 

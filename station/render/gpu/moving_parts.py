@@ -10,7 +10,7 @@ from station.core.pieces import Piece
 from station.motion.kinematics.pose import Pose
 from station.motion.kit.kit import Kit
 from station.render.gpu.bone_palette import BoneFrame, Colour
-from station.render.palette import BRAND, EARLY, GOOD, LATE, MISSED, WRONG, Theme, dyed, over_picture
+from station.render.palette import BRAND, EARLY, GOOD, LATE, MISSED, WRONG, Theme, over_picture, themed
 from station.render.snapshot import SeenStrike, Snapshot, TimingCue
 
 _GLOW_FADE_S = 0.16
@@ -19,7 +19,7 @@ _DEMONSTRATOR_GLOW, _STUDENT_GLOW = 0.35, 1.1
 
 
 class DoublePlace(IntEnum):
-    """Where the student's double is: nowhere, over the demonstrator, or in a picture of its own beside his."""
+    """Where the student's double is: nowhere, over the demonstrator, or in a picture of its own beside it."""
 
     NOWHERE = 0
     OVER = 1
@@ -34,14 +34,14 @@ def frames_of(snapshot: Snapshot, where: DoublePlace, theme: Theme) -> list[Bone
     if double is None or where is DoublePlace.NOWHERE:
         return [BoneFrame(snapshot.pose, _glow(snapshot))]
     parted = {
-        limb: parting.strength * np.array(dyed(_PARTED[parting.cue], over_picture(theme))[:3])
+        limb: parting.strength * np.array(themed(_PARTED[parting.cue], over_picture(theme))[:3])
         for limb, parting in double.partings.items()
     }
     if where is DoublePlace.OVER:
         return [BoneFrame(snapshot.pose, _glow(snapshot), double.pose, parted)]
-    his = replace(snapshot, strikes=())
+    demonstrator = replace(snapshot, strikes=())
     own = replace(snapshot, pose=double.pose)
-    return [BoneFrame(his.pose, _glow(his)), BoneFrame(own.pose, _glow(own), double.pose, parted)]
+    return [BoneFrame(demonstrator.pose, _glow(demonstrator)), BoneFrame(own.pose, _glow(own), double.pose, parted)]
 
 
 _PARTED = {TimingCue.EARLY: EARLY, TimingCue.LATE: LATE, TimingCue.MISSED: MISSED, TimingCue.WRONG_PIECE: WRONG}

@@ -61,7 +61,7 @@ class Nv12Reader:
     """Converts one picture after another; all calls are made while its context is the current one.
 
     A fragment makes eight pixels, which takes a software driver a fifth of the time: luma of even and of odd rows go
-    to pictures of their own, and come together as they are taken. What was converted is read back when the next
+    to pictures of their own, and come together as they are read. What was converted is read back when the next
     picture has been put in: a software driver then converts while that one is prepared.
     """
 
@@ -105,8 +105,8 @@ class Nv12Reader:
         self._free.append(parts)
         self._waiting.append(buffer)
 
-    def take(self, into: Planes | None = None) -> Planes | None:
-        """The oldest picture that was put in and not taken yet, written to `into`; None where there is none."""
+    def read(self, into: Planes | None = None) -> Planes | None:
+        """The oldest picture that was put in and not read yet, written to `into`; None where there is none."""
         if not self._waiting:
             if not self._converted:
                 return None

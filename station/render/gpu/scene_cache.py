@@ -1,7 +1,7 @@
 """What a scene is made of, kept on disk: solids and pictures take most of a second to make and a hundredth to read.
 
 A file holds named arrays: a checksum of all that follows (CRC-32, 4 bytes, the least first), then numpy's `.npz`, which
-alone would leave its table of contents unguarded. Its name bears a digest of what was asked for and of the code of
+alone would leave its table of contents unchecked. Its name bears a digest of what was asked for and of the code of
 drummers and pictures, so that it never outlives what made it. Nothing depends on the files: one that cannot be read is
 made anew, one that cannot be written costs time alone.
 """
@@ -36,35 +36,35 @@ from station.render.kit.room import floor_picture, wall_picture
 
 Arrays = Mapping[str, NDArray[Any]]
 
-KEPT_FILES = 16
+CACHED_FILES = 16
 """The oldest go first (our choice: a few kits and figures at three qualities, some 60 MB)."""
 _ENDING = ".scene"
 _CHECKSUM_BYTES = 4
 _PICTURE = "picture"
 
 
-def kept_kit(kit: Kit, detail: Detail) -> KitRig:
+def cached_kit(kit: Kit, detail: Detail) -> KitRig:
     """`build_kit`, its mesh from disk where it was made before."""
-    return rig_of(kit, Mesh(**kept("kit", (kit, detail), lambda: _arrays(kit_mesh(kit, detail)))))
+    return rig_of(kit, Mesh(**cached("kit", (kit, detail), lambda: _arrays(kit_mesh(kit, detail)))))
 
 
-def kept_body(figure: Figure, fineness: float) -> Skin:
+def cached_body(figure: Figure, fineness: float) -> Skin:
     """`build_body`, from disk where it was made before."""
-    return Skin(**kept("body", (figure, fineness), lambda: _arrays(build_body(figure, fineness))))
+    return Skin(**cached("body", (figure, fineness), lambda: _arrays(build_body(figure, fineness))))
 
 
-def kept_floor(kit: Kit, light: Light, texels: int) -> NDArray[np.uint8]:
+def cached_floor(kit: Kit, light: Light, texels: int) -> NDArray[np.uint8]:
     """`floor_picture` under a kit, from disk where it was made before."""
     discs = floor_discs(kit)
-    return kept("floor", (discs, light, texels), lambda: {_PICTURE: floor_picture(discs, light, texels)})[_PICTURE]
+    return cached("floor", (discs, light, texels), lambda: {_PICTURE: floor_picture(discs, light, texels)})[_PICTURE]
 
 
-def kept_wall() -> NDArray[np.uint8]:
+def cached_wall() -> NDArray[np.uint8]:
     """`wall_picture`, from disk where it was made before."""
-    return kept("wall", None, lambda: {_PICTURE: wall_picture()})[_PICTURE]
+    return cached("wall", None, lambda: {_PICTURE: wall_picture()})[_PICTURE]
 
 
-def kept(name: str, wanted: object, make: Callable[[], Arrays], folder: Path | None = None) -> Arrays:
+def cached(name: str, wanted: object, make: Callable[[], Arrays], folder: Path | None = None) -> Arrays:
     """What `make` makes of `wanted`, which its `repr` tells from all else; from disk where it was made before."""
     path = (folder or cache_folder("scenes")) / f"{name}-{_digest(wanted)}{_ENDING}"
     found = _read(path)
@@ -72,7 +72,7 @@ def kept(name: str, wanted: object, make: Callable[[], Arrays], folder: Path | N
         found = make()
         with suppress(DeviceError):
             write_whole(path, _packed(found))
-            forget_oldest(path.parent, _ENDING, KEPT_FILES)
+            forget_oldest(path.parent, _ENDING, CACHED_FILES)
     return found
 
 
@@ -88,7 +88,7 @@ def _digest(wanted: object) -> str:
 
 @lru_cache
 def _code() -> str:
-    """A digest of all code that what is kept may depend on."""
+    """A digest of all code that the cached arrays may depend on."""
     digest = hashlib.sha256(np.__version__.encode())
     for source in _sources("station.motion", "station.render"):
         digest.update(source)

@@ -20,7 +20,7 @@ from station.render.geometry.materials import shader_table
 from station.render.geometry.mesh import Mesh
 from station.render.geometry.transforms import gl_bytes, unit
 from station.render.gpu import corner_shaders, pixel_shaders
-from station.render.gpu.scene_cache import kept_body, kept_floor, kept_wall
+from station.render.gpu.scene_cache import cached_body, cached_floor, cached_wall
 from station.render.gpu.vertex_layouts import RIGID, RIGID_PLACES, SKIN, SKIN_PLACES, rigid_rows, skin_rows
 from station.render.kit import room
 from station.render.kit.kit_rig import KitRig
@@ -59,7 +59,7 @@ class SceneParts:
         self._ctx = ctx
         self._quality = quality
         self._textures(rig.kit)
-        self._upload(rig.mesh, kept_body(figure, quality.figure_cell))
+        self._upload(rig.mesh, cached_body(figure, quality.figure_cell))
         fragment = pixel_shaders.solid_fragment(quality.level)
         self.solid = self._pair(pixel_shaders.RIGID_VERTEX, pixel_shaders.SKIN_VERTEX, fragment)
         self.quick = self._pair(corner_shaders.RIGID_QUICK, corner_shaders.SKIN_QUICK, corner_shaders.QUICK_FRAGMENT)
@@ -81,7 +81,7 @@ class SceneParts:
 
     def _textures(self, kit: Kit) -> None:
         ctx = self._ctx
-        floor, wall = kept_floor(kit, _KEY, self._quality.floor_texels), kept_wall()
+        floor, wall = cached_floor(kit, _KEY, self._quality.floor_texels), cached_wall()
         self.floor_map = ctx.texture(floor.shape[1::-1], 4, floor.tobytes())
         self.floor_map.build_mipmaps()
         self.floor_map.filter = moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR

@@ -1,4 +1,4 @@
-"""Draws tables of flat shapes (`ink.SHAPE_DTYPE`) with one OpenGL call a table."""
+"""Draws tables of flat shapes (`draw_list.SHAPE_DTYPE`) with one OpenGL call a table."""
 
 from dataclasses import dataclass
 
@@ -6,7 +6,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from station.render.palette import Theme, dyed, dyed_bytes
+from station.render.palette import Theme, themed, themed_bytes
 from station.render.text.atlas import ATLAS_SIZE, SPREAD, Atlas
 from station.render.text.draw_list import SHAPE_DTYPE, Colour
 
@@ -193,7 +193,7 @@ class ShapeRenderer:
             2 * (left + across) / width - 1,
             1 - 2 * (top + down) / height,
         )
-        program["top"], program["bottom"] = (dyed(colour, self.theme) for colour in colours)
+        program["top"], program["bottom"] = (themed(colour, self.theme) for colour in colours)
         self._blend()
         self._fill.render(moderngl.TRIANGLE_STRIP, vertices=4)
 
@@ -224,20 +224,20 @@ class ShapeRenderer:
             self._buffer.release()
             self._allocate(2 * len(shapes))
         self._buffer.orphan()
-        self._buffer.write(np.ascontiguousarray(self._dyed(shapes)).tobytes())
+        self._buffer.write(np.ascontiguousarray(self._themed(shapes)).tobytes())
         self._upload()
         self._set(sheet)
         self._blend()
         self._ctx.enable(also)
         self._vertices.render(moderngl.TRIANGLE_STRIP, vertices=4, instances=len(shapes))
 
-    def _dyed(self, shapes: NDArray[np.void]) -> NDArray[np.void]:
+    def _themed(self, shapes: NDArray[np.void]) -> NDArray[np.void]:
         if self.theme is Theme.NIGHT:
             return shapes
-        worn = shapes.copy()
+        copy = shapes.copy()
         for field in ("colour", "colour_2"):
-            worn[field][:, :3] = dyed_bytes(shapes[field][:, :3], self.theme)
-        return worn
+            copy[field][:, :3] = themed_bytes(shapes[field][:, :3], self.theme)
+        return copy
 
     def _upload(self) -> None:
         if self._version != self._atlas.version:

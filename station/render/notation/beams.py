@@ -42,18 +42,18 @@ class StaffVoice:
 
 @dataclass(frozen=True, slots=True)
 class Anchor:
-    """Ties what `ink` draws to the score's time."""
+    """Ties what `draw_list` draws to the score's time."""
 
-    ink: DrawList
+    draw_list: DrawList
     tempo: TempoMap
 
     def at(self, tick: int) -> None:
         """What follows hangs on `tick` of the score."""
-        self.ink.time_s, self.ink.span_s = self.seconds(tick), 0.0
+        self.draw_list.time_s, self.draw_list.span_s = self.seconds(tick), 0.0
 
     def until(self, tick: int) -> None:
         """What follows stretches from where it hangs to `tick` of the score."""
-        self.ink.span_s = self.seconds(tick) - self.ink.time_s
+        self.draw_list.span_s = self.seconds(tick) - self.draw_list.time_s
 
     def seconds(self, tick: int) -> float:
         """The score's time at `tick`."""
@@ -65,7 +65,7 @@ def draw_flags(anchor: Anchor, tick: int, count: int, voice: StaffVoice, beam_y:
     anchor.at(tick)
     for k in range(count):
         y = beam_y - voice.way * k * _FLAG_STEP
-        anchor.ink.sign("flag", (voice.stem_x, y), INK, 0.95, mirrored=not voice.is_up)
+        anchor.draw_list.sign("flag", (voice.stem_x, y), INK, 0.95, mirrored=not voice.is_up)
 
 
 def draw_beams(anchor: Anchor, stems: Sequence[tuple[int, int]], voice: StaffVoice, beam_y: float) -> None:
@@ -75,11 +75,11 @@ def draw_beams(anchor: Anchor, stems: Sequence[tuple[int, int]], voice: StaffVoi
         for first, last in _runs([count > level for _, count in stems]):
             anchor.at(stems[first][0])
             if first == last:  # broken off: towards the stroke before, or after where there is none before
-                anchor.ink.box((voice.stem_x - (_STUB if first else 0.0), y), (_STUB, _BEAM), INK)
+                anchor.draw_list.box((voice.stem_x - (_STUB if first else 0.0), y), (_STUB, _BEAM), INK)
             else:
                 anchor.until(stems[last][0])
-                anchor.ink.box((voice.stem_x - STEM / 2, y), (STEM, _BEAM), INK)
-                anchor.ink.span_s = 0.0
+                anchor.draw_list.box((voice.stem_x - STEM / 2, y), (STEM, _BEAM), INK)
+                anchor.draw_list.span_s = 0.0
 
 
 def draw_tuplet(
@@ -88,22 +88,22 @@ def draw_tuplet(
     """A tuplet's `number` midway between two ticks, its baseline at `y`; the bracket is for one without a beam."""
     start_s, end_s = anchor.seconds(ends[0]), anchor.seconds(ends[1])
     if with_bracket:
-        _bracket(anchor.ink, (start_s, end_s), voice, y - 0.45)
-    anchor.ink.time_s, anchor.ink.span_s = (start_s + end_s) / 2, 0.0
-    anchor.ink.text(str(number), (voice.stem_x, y), TypeStyle(1.35, INK, Face.BOLD, 0.5))
+        _bracket(anchor.draw_list, (start_s, end_s), voice, y - 0.45)
+    anchor.draw_list.time_s, anchor.draw_list.span_s = (start_s + end_s) / 2, 0.0
+    anchor.draw_list.text(str(number), (voice.stem_x, y), TypeStyle(1.35, INK, Face.BOLD, 0.5))
 
 
-def _bracket(ink: DrawList, ends_s: tuple[float, float], voice: StaffVoice, y: float) -> None:
+def _bracket(draw_list: DrawList, ends_s: tuple[float, float], voice: StaffVoice, y: float) -> None:
     """A line over a tuplet with a hook at each end, and a gap in the middle for its number."""
     (start_s, end_s), tip = ends_s, 0.5 * -voice.way
     centre_s, right = (start_s + end_s) / 2, 0.5 + voice.stem_x
     for begin_s, x, end_x in ((start_s, -0.5, voice.stem_x - _GAP), (centre_s, voice.stem_x + _GAP, right)):
-        ink.time_s, ink.span_s = begin_s, centre_s - start_s
-        ink.box((x, y - 0.05), (end_x - x, 0.1), INK_SOFT)
-    ink.span_s = 0.0
+        draw_list.time_s, draw_list.span_s = begin_s, centre_s - start_s
+        draw_list.box((x, y - 0.05), (end_x - x, 0.1), INK_SOFT)
+    draw_list.span_s = 0.0
     for at_s, x in ((start_s, -0.5), (end_s, right)):
-        ink.time_s = at_s
-        ink.line((x, y), (x, y + tip), 0.1, INK_SOFT)
+        draw_list.time_s = at_s
+        draw_list.line((x, y), (x, y + tip), 0.1, INK_SOFT)
 
 
 def _runs(flags: Sequence[bool]) -> Iterator[tuple[int, int]]:

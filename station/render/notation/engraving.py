@@ -70,7 +70,7 @@ class Engraver:
         self._is_foot = np.isin(score.notes["piece"], feet)
 
     def bar(self, bar: int, with_line: bool = True) -> NDArray[np.void]:
-        """The shapes of one bar, `with_line` the bar line on its left, dtype `ink.SHAPE_DTYPE`."""
+        """The shapes of one bar, `with_line` the bar line on its left, dtype `draw_list.SHAPE_DTYPE`."""
         return _BarEngraver(self, bar, with_line).shapes()
 
     # --- what a bar asks ------------------------------------------------------------------------------------------
@@ -98,7 +98,7 @@ class Engraver:
         """Whether stroke `index` is the first closed one after an open hi-hat."""
         return bool(self._closing[index])
 
-    def ink(self) -> DrawList:
+    def draw_list(self) -> DrawList:
         """An empty sheet on the common letters."""
         return DrawList(self._atlas)
 
@@ -125,8 +125,8 @@ class _BarEngraver:
         self._tempo = engraver.score.tempo_map
         self._bar = bar
         self._start, self._end = self._tempo.bar_start(bar), self._tempo.bar_start(bar + 1)
-        self._ink = engraver.ink()
-        self._anchor = Anchor(self._ink, self._tempo)
+        self._draw_list = engraver.draw_list()
+        self._anchor = Anchor(self._draw_list, self._tempo)
 
     def shapes(self) -> NDArray[np.void]:
         self._bar_line()
@@ -138,7 +138,7 @@ class _BarEngraver:
             self._voice(hands, _HANDS, beside=bool(feet))
             if feet:
                 self._voice(feet, _FEET, beside=True)
-        return self._ink.shapes()
+        return self._draw_list.shapes()
 
     # --- bars ---------------------------------------------------------------------------------------------------------
 
@@ -146,21 +146,23 @@ class _BarEngraver:
         self._anchor.at(self._start)
         x = -1.25
         if self._with_line:
-            self._ink.line((x, STAFF_TOP), (x, STAFF_BOTTOM), 0.16, INK_SOFT)
+            self._draw_list.line((x, STAFF_TOP), (x, STAFF_BOTTOM), 0.16, INK_SOFT)
         if self._start >= self._e.score.end_tick:
             return
         number = str(self._e.numbers.of(self._bar))
-        x += _NUMBER_X + self._ink.text(
+        x += _NUMBER_X + self._draw_list.text(
             number, (x - _NUMBER_X, BAR_NUMBER_Y + 0.6), TypeStyle(1.25, INK_SOFT, Face.BOLD)
         )
         meter = self._tempo.meter_at(self._start)
         if self._bar > 0 and meter.tick == self._start:  # above the staff: time leaves no room for it between notes
-            self._ink.text(f"{meter.beats}/{meter.unit}", (x, BAR_NUMBER_Y + 0.6), TypeStyle(1.5, BRAND, Face.BOLD))
+            self._draw_list.text(
+                f"{meter.beats}/{meter.unit}", (x, BAR_NUMBER_Y + 0.6), TypeStyle(1.5, BRAND, Face.BOLD)
+            )
 
     def _silent_bar(self) -> None:
         if self._start < self._e.score.end_tick:
             self._anchor.at((self._start + self._end) // 2)
-            self._ink.box((-0.6, -1.0), (1.2, 0.5), INK_SOFT)
+            self._draw_list.box((-0.6, -1.0), (1.2, 0.5), INK_SOFT)
 
     # --- a voice ------------------------------------------------------------------------------------------------------
 
@@ -180,9 +182,9 @@ class _BarEngraver:
             self._anchor.at(self._start + rest.tick)
             y = voice.rest_y - (1.0 if beside and voice is _HANDS else 0.0)
             name = f"rest_{min(rest.value.base, 32)}"
-            self._ink.sign(name, (0.0, y), INK_SOFT)
+            self._draw_list.sign(name, (0.0, y), INK_SOFT)
             if rest.value.dots:
-                self._ink.ellipse((0.95, y - 0.5), (0.2, 0.2), INK_SOFT)
+                self._draw_list.ellipse((0.95, y - 0.5), (0.2, 0.2), INK_SOFT)
 
     def _group(self, group: BeatGroup, chords: Sequence[_Chord], voice: StaffVoice) -> None:
         if not chords:
@@ -214,12 +216,12 @@ class _BarEngraver:
     def _chord(self, chord: _Chord, stroke: TimedValue, voice: StaffVoice, beam_y: float) -> None:
         heights = [height(self._step(i)) for i in chord.mains]
         root = max(heights) if voice is _HANDS else min(heights)
-        self._ink.line((voice.stem_x, root), (voice.stem_x, beam_y), STEM, INK)
+        self._draw_list.line((voice.stem_x, root), (voice.stem_x, beam_y), STEM, INK)
         for i in chord.mains:
             self._head(i, 0.0, 1.0)
             if stroke.value.dots:
                 dot_y = height(self._step(i) | 1)
-                self._ink.ellipse((1.15, dot_y), (0.2, 0.2), INK)
+                self._draw_list.ellipse((1.15, dot_y), (0.2, 0.2), INK)
         self._above(chord, voice, beam_y)
         self._sticking(chord)
 
@@ -229,27 +231,29 @@ class _BarEngraver:
         step = PLACES[piece].step
         y = height(step)
         for line in ledger_steps(step):
-            self._ink.line((x - 1.05 * scale, height(line)), (x + 1.05 * scale, height(line)), STAFF_LINE, INK_SOFT)
-        draw_head(self._ink, head_of(piece, zone, how), (x, y), scale)
+            self._draw_list.line(
+                (x - 1.05 * scale, height(line)), (x + 1.05 * scale, height(line)), STAFF_LINE, INK_SOFT
+            )
+        draw_head(self._draw_list, head_of(piece, zone, how), (x, y), scale)
         if row["dynamic"] == Dynamic.GHOST and row["lead_ms"] == 0:  # grace strokes are soft by themselves
-            self._ink.sign("bracket_left", (x - 1.0 * scale, y), INK, scale)
-            self._ink.sign("bracket_right", (x + 1.0 * scale, y), INK, scale)
+            self._draw_list.sign("bracket_left", (x - 1.0 * scale, y), INK, scale)
+            self._draw_list.sign("bracket_right", (x + 1.0 * scale, y), INK, scale)
         if how is Articulation.RIM_SHOT:
-            self._ink.sign("slash", (x, y), INK, scale)
+            self._draw_list.sign("slash", (x, y), INK, scale)
         if row["choke_ticks"] > 0:
-            self._ink.sign("choke", (x + 1.3, y - 0.7), INK)
+            self._draw_list.sign("choke", (x + 1.3, y - 0.7), INK)
 
     def _above(self, chord: _Chord, voice: StaffVoice, beam_y: float) -> None:
         """Hi-hat signs, accents and buzz strokes, stacked outward from the stem's end."""
         notes, way = self._e.score.notes, voice.way
         if any(notes["articulation"][i] == Articulation.BUZZ for i in chord.mains):
-            self._ink.sign("buzz", (voice.stem_x, beam_y - way * 1.4), INK)
+            self._draw_list.sign("buzz", (voice.stem_x, beam_y - way * 1.4), INK)
         y = beam_y + way * (0.85 if voice is _HANDS else 0.65)
         for kind in self._hat_signs(chord):
-            draw_hat_sign(self._ink, kind, (voice.stem_x, y))
+            draw_hat_sign(self._draw_list, kind, (voice.stem_x, y))
             y += way * 1.15
         if any(notes["dynamic"][i] == Dynamic.ACCENT for i in chord.mains):
-            self._ink.sign("accent", (voice.stem_x * 0.4, y), INK, 0.95)
+            self._draw_list.sign("accent", (voice.stem_x * 0.4, y), INK, 0.95)
 
     def _hat_signs(self, chord: _Chord) -> Iterator[str]:
         notes = self._e.score.notes
@@ -268,7 +272,7 @@ class _BarEngraver:
         text = "".join(_LETTERS.get(self._e.limb(i), "").lower() for i in graces)
         text += "".join(sorted({_LETTERS.get(self._e.limb(i), "") for i in chord.mains}, reverse=True))
         if text:
-            self._ink.text(text, (0.0, STICKING_Y), TypeStyle(1.3, INK_SOFT, Face.BOLD, 0.5))
+            self._draw_list.text(text, (0.0, STICKING_Y), TypeStyle(1.3, INK_SOFT, Face.BOLD, 0.5))
 
     # --- tuplets ------------------------------------------------------------------------------------------------------
 
@@ -302,12 +306,12 @@ class _BarEngraver:
             x = -_GRACE_GAP - (count - 1 - k) * _GRACE_STEP
             self._head(i, x, _GRACE)
             stems.append(x + STEM_X * _GRACE)
-            self._ink.line((stems[-1], height(self._step(i))), (stems[-1], top), STEM * 0.8, INK)
+            self._draw_list.line((stems[-1], height(self._step(i))), (stems[-1], top), STEM * 0.8, INK)
         if count == 1:
-            self._ink.sign("flag", (stems[0], top), INK, 0.55)
-            self._ink.line((stems[0] - 0.55, top + 1.35), (stems[0] + 0.75, top + 0.45), 0.1, INK)
+            self._draw_list.sign("flag", (stems[0], top), INK, 0.55)
+            self._draw_list.line((stems[0] - 0.55, top + 1.35), (stems[0] + 0.75, top + 0.45), 0.1, INK)
         else:
             for level in range(2):
-                self._ink.box((stems[0], top + 0.5 * level), (stems[-1] - stems[0], 0.3), INK)
+                self._draw_list.box((stems[0], top + 0.5 * level), (stems[-1] - stems[0], 0.3), INK)
         low = max(height(self._step(i)) for i in chord.graces)
-        self._ink.sign("slur", (-_GRACE_GAP / 2 - 0.1, low + 0.7), INK_SOFT, 0.95)
+        self._draw_list.sign("slur", (-_GRACE_GAP / 2 - 0.1, low + 0.7), INK_SOFT, 0.95)

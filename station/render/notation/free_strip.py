@@ -22,38 +22,38 @@ _LEAST, _MOST = 0.72, 1.18
 
 def strip_paper(atlas: Atlas, width: float, upright: tuple[float, float]) -> NDArray[np.void]:
     """The staff's lines and the line where now is, in the middle of `width`; `upright` is its top and its length."""
-    ink = DrawList(atlas)
-    note_shapes.staff_lines(ink, width)
-    ink.box((width / 2 - 0.14, upright[0]), (0.28, upright[1]), with_opacity(BRAND, 0.95))
-    return ink.shapes()
+    draw_list = DrawList(atlas)
+    note_shapes.staff_lines(draw_list, width)
+    draw_list.box((width / 2 - 0.14, upright[0]), (0.28, upright[1]), with_opacity(BRAND, 0.95))
+    return draw_list.shapes()
 
 
 def strip_shapes(strip: Strip, window_s: tuple[float, float], atlas: Atlas) -> NDArray[np.void]:
     """Bars, beats and strokes between two times."""
-    ink = DrawList(atlas)
+    draw_list = DrawList(atlas)
     if strip.beat_s is not None:
-        _beats(ink, strip.beat_s, strip.beats, window_s)
+        _beats(draw_list, strip.beat_s, strip.beats, window_s)
     hits = strip.played.hits
     first, last = np.searchsorted(hits["at_ns"], [round(1e9 * time_s) for time_s in window_s]).tolist()
     for hit in hits[first:last]:
-        ink.time_s = float(hit["at_ns"]) / 1e9
-        _stroke(ink, hit)
-    return ink.shapes()
+        draw_list.time_s = float(hit["at_ns"]) / 1e9
+        _stroke(draw_list, hit)
+    return draw_list.shapes()
 
 
-def _beats(ink: DrawList, beat_s: float, beats: int, window_s: tuple[float, float]) -> None:
+def _beats(draw_list: DrawList, beat_s: float, beats: int, window_s: tuple[float, float]) -> None:
     for beat in range(max(ceil(window_s[0] / beat_s), 0), floor(window_s[1] / beat_s) + 1):
-        ink.time_s = beat * beat_s
+        draw_list.time_s = beat * beat_s
         if beat % beats == 0:
-            ink.box((-0.08, -2.0), (0.16, 4.0), INK_FAINT)
+            draw_list.box((-0.08, -2.0), (0.16, 4.0), INK_FAINT)
         else:
-            ink.box((-0.05, -2.0), (0.10, 4.0), with_opacity(INK, 0.09))
+            draw_list.box((-0.05, -2.0), (0.10, 4.0), with_opacity(INK, 0.09))
 
 
-def _stroke(ink: DrawList, hit: np.void) -> None:
+def _stroke(draw_list: DrawList, hit: np.void) -> None:
     piece = Piece(int(hit["piece"]))
     for step in ledger_steps(PLACES[piece].step):
-        ink.box((-1.0, height(step) - note_shapes.STAFF_LINE / 2), (2.0, note_shapes.STAFF_LINE), INK_FAINT)
+        draw_list.box((-1.0, height(step) - note_shapes.STAFF_LINE / 2), (2.0, note_shapes.STAFF_LINE), INK_FAINT)
     scale = _LEAST + (_MOST - _LEAST) * int(hit["velocity"]) / 127
     head = head_of(piece, Zone(int(hit["zone"])), Articulation(int(hit["articulation"])))
-    note_shapes.draw_head(ink, head, (0.0, height(PLACES[piece].step)), scale)
+    note_shapes.draw_head(draw_list, head, (0.0, height(PLACES[piece].step)), scale)

@@ -54,32 +54,32 @@ class Highway:
 
     def paper(self, width: float) -> NDArray[np.void]:
         """What stands still: lanes and their names, over `width` pixels."""
-        ink, across = DrawList(self.atlas), width / self.lane_px
+        draw_list, across = DrawList(self.atlas), width / self.lane_px
         style = TypeStyle(LABEL_LANES, INK_SOFT, Face.REGULAR, 0.0)
         for row, piece in enumerate(lanes(self.snapshot.score)):
             if row % 2 == 0:
-                ink.box((0.0, float(row)), (across, 1.0), with_opacity(INK, 0.035))
+                draw_list.box((0.0, float(row)), (across, 1.0), with_opacity(INK, 0.035))
             room = NAMES_SHARE * across - 0.3
-            ink.text(ink.fitted(piece_name(piece), style, room), (0.3, row + 0.66), style)
-        return ink.shapes()
+            draw_list.text(draw_list.fitted(piece_name(piece), style, room), (0.3, row + 0.66), style)
+        return draw_list.shapes()
 
     def rolling(self, window_s: tuple[float, float]) -> NDArray[np.void]:
         """Beats, notes and judgements between two times of the score."""
-        ink, snapshot = DrawList(self.atlas), self.snapshot
+        draw_list, snapshot = DrawList(self.atlas), self.snapshot
         score = snapshot.score
         rows = {piece: row for row, piece in enumerate(lanes(score))}
-        self._beats(ink, window_s, len(rows))
+        self._beats(draw_list, window_s, len(rows))
         first, last = np.searchsorted(score.onset_s, window_s)
         for i in range(int(first), int(last)):
-            ink.time_s = float(score.onset_s[i])
-            self._note(ink, i, rows[Piece(int(score.notes["piece"][i]))] + 0.5)
+            draw_list.time_s = float(score.onset_s[i])
+            self._note(draw_list, i, rows[Piece(int(score.notes["piece"][i]))] + 0.5)
         for extra in snapshot.extras:
             if window_s[0] <= extra.time_s <= window_s[1] and extra.piece in rows:
-                ink.time_s = extra.time_s
-                ink.cross((0.0, rows[extra.piece] + 0.5), (0.22, 0.22), 0.1, EXTRA)
-        return ink.shapes()
+                draw_list.time_s = extra.time_s
+                draw_list.cross((0.0, rows[extra.piece] + 0.5), (0.22, 0.22), 0.1, EXTRA)
+        return draw_list.shapes()
 
-    def _beats(self, ink: DrawList, window_s: tuple[float, float], rows: int) -> None:
+    def _beats(self, draw_list: DrawList, window_s: tuple[float, float], rows: int) -> None:
         tempo_map = self.snapshot.score.tempo_map
         last_bar = self.snapshot.score.bar_count
         ticks = tempo_map.ticks_at([max(time_s, 0.0) for time_s in window_s])
@@ -88,10 +88,10 @@ class Highway:
             start, end = tempo_map.bar_start(bar), tempo_map.bar_start(bar + 1)
             beats = tempo_map.meter_at(start).beats if bar < last_bar else 1
             for beat in range(beats):
-                ink.time_s = float(tempo_map.seconds_at(start + (end - start) * beat // beats))
-                ink.box((-0.02, 0.0), (0.04, float(rows)), INK_FAINT if beat == 0 else with_opacity(INK, 0.09))
+                draw_list.time_s = float(tempo_map.seconds_at(start + (end - start) * beat // beats))
+                draw_list.box((-0.02, 0.0), (0.04, float(rows)), INK_FAINT if beat == 0 else with_opacity(INK, 0.09))
 
-    def _note(self, ink: DrawList, i: int, y: float) -> None:
+    def _note(self, draw_list: DrawList, i: int, y: float) -> None:
         score, marks = self.snapshot.score, self.snapshot.marks
         tall = _LEAST + (_MOST - _LEAST) * int(score.notes["velocity"][i]) / 127
         grace = 0.5 if score.is_grace[i] else 1.0
@@ -99,23 +99,23 @@ class Highway:
         row = None if marks is None or marks["label"][i] == PENDING else marks[i]
         label = None if row is None else Label(int(row["label"]))
         if label is Label.MISS:
-            ink.box((-half[0], y - half[1]), (2 * half[0], 2 * half[1]), MISSED, None, (0.08, 0.06, 0.0))
-            ink.line((-half[0], y + half[1]), (half[0], y - half[1]), 0.06, MISSED)
+            draw_list.box((-half[0], y - half[1]), (2 * half[0], 2 * half[1]), MISSED, None, (0.08, 0.06, 0.0))
+            draw_list.line((-half[0], y + half[1]), (half[0], y - half[1]), 0.06, MISSED)
             return
-        ink.box((-half[0], y - half[1]), (2 * half[0], 2 * half[1]), _colour(row, label), None, (0.08, 0.0, 0.0))
+        draw_list.box((-half[0], y - half[1]), (2 * half[0], 2 * half[1]), _colour(row, label), None, (0.08, 0.0, 0.0))
         if label is Label.MATCH and row is not None:
-            self._judged(ink, row, y, off_db(int(score.notes["velocity"][i]), float(row["velocity_error"])))
+            self._judged(draw_list, row, y, off_db(int(score.notes["velocity"][i]), float(row["velocity_error"])))
         letter = self._letter(i)
         if letter and grace == 1.0:
-            ink.text(letter, (0.0, y + 0.11), TypeStyle(0.32, NIGHT, Face.BOLD, 0.5))
+            draw_list.text(letter, (0.0, y + 0.11), TypeStyle(0.32, NIGHT, Face.BOLD, 0.5))
 
     @staticmethod
-    def _judged(ink: DrawList, row: np.void, y: float, louder_db: float | None) -> None:
+    def _judged(draw_list: DrawList, row: np.void, y: float, louder_db: float | None) -> None:
         asynchrony_ms = float(row["asynchrony_ms"])
         if abs(asynchrony_ms) > ON_TIME_MS:
             way = 1.0 if asynchrony_ms > 0 else -1.0
-            ink.triangle((way * 0.30, y), (0.09, 0.16), timing_colour(asynchrony_ms), 0.0 if way > 0 else np.pi)
-        draw_dynamics(ink, louder_db, y, _WEDGE_SIZE)
+            draw_list.triangle((way * 0.30, y), (0.09, 0.16), timing_colour(asynchrony_ms), 0.0 if way > 0 else np.pi)
+        draw_dynamics(draw_list, louder_db, y, _WEDGE_SIZE)
 
     def _letter(self, i: int) -> str:
         limbs = self.snapshot.limbs

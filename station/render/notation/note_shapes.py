@@ -15,44 +15,44 @@ _HEAD_HALF = (0.66, 0.46)
 _HEAD_TURN = -0.38
 
 
-def draw_head(ink: DrawList, head: NoteHead, at: tuple[float, float], scale: float) -> None:
+def draw_head(draw_list: DrawList, head: NoteHead, at: tuple[float, float], scale: float) -> None:
     """One note head in the score's ink."""
     if head is NoteHead.ROUND:
-        ink.ellipse(at, (_HEAD_HALF[0] * scale, _HEAD_HALF[1] * scale), INK, _HEAD_TURN)
+        draw_list.ellipse(at, (_HEAD_HALF[0] * scale, _HEAD_HALF[1] * scale), INK, _HEAD_TURN)
     elif head in (NoteHead.CROSS, NoteHead.RINGED_CROSS):
-        ink.cross(at, (0.48 * scale, 0.44 * scale), 0.22 * scale, INK)
+        draw_list.cross(at, (0.48 * scale, 0.44 * scale), 0.22 * scale, INK)
         if head is NoteHead.RINGED_CROSS:
-            ink.ellipse(at, (0.78 * scale, 0.78 * scale), INK, 0.0, (0.0, 0.13, 0.0))
+            draw_list.ellipse(at, (0.78 * scale, 0.78 * scale), INK, 0.0, (0.0, 0.13, 0.0))
     else:
-        ink.sign("head_diamond" if head is NoteHead.DIAMOND else "head_triangle", at, INK, scale)
+        draw_list.sign("head_diamond" if head is NoteHead.DIAMOND else "head_triangle", at, INK, scale)
 
 
-def draw_hat_sign(ink: DrawList, kind: str, at: tuple[float, float]) -> None:
+def draw_hat_sign(draw_list: DrawList, kind: str, at: tuple[float, float]) -> None:
     """o, half open, or + in the score's ink."""
     x, y = at
     if kind == "closed":
-        ink.line((x - 0.45, y), (x + 0.45, y), 0.16, INK)
-        ink.line((x, y - 0.45), (x, y + 0.45), 0.16, INK)
+        draw_list.line((x - 0.45, y), (x + 0.45, y), 0.16, INK)
+        draw_list.line((x, y - 0.45), (x, y + 0.45), 0.16, INK)
         return
-    ink.ellipse(at, (0.40, 0.40), INK, 0.0, (0.0, 0.15, 0.0))
+    draw_list.ellipse(at, (0.40, 0.40), INK, 0.0, (0.0, 0.15, 0.0))
     if kind == "half":
-        ink.line((x - 0.45, y + 0.6), (x + 0.45, y - 0.6), 0.13, INK)
+        draw_list.line((x - 0.45, y + 0.6), (x + 0.45, y - 0.6), 0.13, INK)
 
 
-def time_signature(ink: DrawList, meter: MeterChange, x: float) -> None:
+def time_signature(draw_list: DrawList, meter: MeterChange, x: float) -> None:
     """The two numbers, right-aligned at `x`."""
     style = TypeStyle(2.75, INK, Face.BOLD, 0.5)
-    ink.text(str(meter.beats), (x, -0.06), style)
-    ink.text(str(meter.unit), (x, 1.94), style)
+    draw_list.text(str(meter.beats), (x, -0.06), style)
+    draw_list.text(str(meter.unit), (x, 1.94), style)
 
 
-def clef(ink: DrawList, x: float) -> None:
+def clef(draw_list: DrawList, x: float) -> None:
     """The percussion clef: two thick strokes across the middle of the staff."""
     for left in (x, x + 0.85):
-        ink.box((left, -1.0), (0.5, 2.0), INK)
+        draw_list.box((left, -1.0), (0.5, 2.0), INK)
 
 
-def staff_lines(ink: DrawList, width: float) -> None:
+def staff_lines(draw_list: DrawList, width: float) -> None:
     """The five lines from x = 0 to `width`."""
     for k in range(-2, 3):
-        ink.box((0.0, k - STAFF_LINE / 2), (width, STAFF_LINE), INK_FAINT)
+        draw_list.box((0.0, k - STAFF_LINE / 2), (width, STAFF_LINE), INK_FAINT)

@@ -100,10 +100,10 @@ class ScoreView:
         self._printer.fill((place.left, place.top, place.width, place.height), (PAPER, PAPER_LOW), sheet)
         self._printer.fill((place.left, place.top, place.width, 1.2), (PANEL_EDGE, PANEL_EDGE), sheet)
         if is_staff:
-            ink = DrawList(self._atlas)
-            note_shapes.staff_lines(ink, place.width / place.space)
-            note_shapes.clef(ink, 1.4)
-            self._printer.draw(ink.shapes(), Transform(size, (place.left, place.middle_line), place.space))
+            draw_list = DrawList(self._atlas)
+            note_shapes.staff_lines(draw_list, place.width / place.space)
+            note_shapes.clef(draw_list, 1.4)
+            self._printer.draw(draw_list.shapes(), Transform(size, (place.left, place.middle_line), place.space))
 
     def draw(
         self, snapshot: Snapshot, place: ScorePlace, size: tuple[int, int], form: ScoreForm = ScoreForm.SCROLLING
@@ -190,32 +190,34 @@ class ScoreView:
         return np.concatenate([self._bars[bar] for bar in bars] or [np.empty(0, SHAPE_DTYPE)])
 
     def _paper(self, snapshot: Snapshot, place: ScorePlace, line_x: float) -> NDArray[np.void]:
-        ink, space = DrawList(self._atlas), place.space
+        draw_list, space = DrawList(self._atlas), place.space
         line = (line_x - place.left) / space
-        ink.box((line - 0.14, place.top_y), (0.28, place.height / space), with_opacity(BRAND, 0.95))
+        draw_list.box((line - 0.14, place.top_y), (0.28, place.height / space), with_opacity(BRAND, 0.95))
         tick = max(int(snapshot.score.tempo_map.ticks_at(snapshot.position_s)), 0)
-        note_shapes.time_signature(ink, snapshot.score.tempo_map.meter_at(tick), 4.6)
-        return ink.shapes()
+        note_shapes.time_signature(draw_list, snapshot.score.tempo_map.meter_at(tick), 4.6)
+        return draw_list.shapes()
 
     # --- judgements ---------------------------------------------------------------------------------------------------
 
     def _judgements(self, snapshot: Snapshot, window_s: tuple[float, float], spaces_per_s: float) -> NDArray[np.void]:
-        ink = DrawList(self._atlas)
+        draw_list = DrawList(self._atlas)
         score, marks = snapshot.score, snapshot.marks
         if marks is not None and len(score):
             ticks = score.tempo_map.ticks_at(list(window_s))
             first, last = np.searchsorted(score.notes["tick"], ticks)
             for i in range(int(first), int(last)):
                 if marks["label"][i] != PENDING and not score.is_grace[i]:
-                    ink.time_s = float(score.tempo_map.seconds_at(score.notes["tick"][i]))
+                    draw_list.time_s = float(score.tempo_map.seconds_at(score.notes["tick"][i]))
                     y = height(PLACES[Piece(int(score.notes["piece"][i]))].step)
-                    draw_mark(ink, marks[i], y, spaces_per_s)
-                    draw_dynamics(ink, off_db(int(score.notes["velocity"][i]), float(marks["velocity_error"][i])), y)
+                    draw_mark(draw_list, marks[i], y, spaces_per_s)
+                    draw_dynamics(
+                        draw_list, off_db(int(score.notes["velocity"][i]), float(marks["velocity_error"][i])), y
+                    )
         for extra in snapshot.extras:
             if window_s[0] <= extra.time_s <= window_s[1]:
-                ink.time_s = extra.time_s
-                ink.cross((0.0, height(PLACES[extra.piece].step)), (0.42, 0.42), 0.2, EXTRA)
-        return ink.shapes()
+                draw_list.time_s = extra.time_s
+                draw_list.cross((0.0, height(PLACES[extra.piece].step)), (0.42, 0.42), 0.2, EXTRA)
+        return draw_list.shapes()
 
 
 def shows_staff(snapshot: Snapshot, form: ScoreForm) -> bool:

@@ -105,9 +105,9 @@ class _SheetPage:
             page.y += (_BOTTOM - top) * self._space
         page = self._room(KEY_HEIGHT * self._space)
         spot = PaperSpot((MARGIN, self._size[1] - MARGIN - KEY_HEIGHT * self._space), self._space)
-        ink = DrawList(self._atlas)
-        draw_key(ink, self._score, self._width / self._space, self._with_sticking)
-        page.areas += filled(ink.shapes(), self._atlas, spot)
+        draw_list = DrawList(self._atlas)
+        draw_key(draw_list, self._score, self._width / self._space, self._with_sticking)
+        page.areas += filled(draw_list.shapes(), self._atlas, spot)
         self._feet()
         return [page.areas for page in self._pages]
 
@@ -121,101 +121,101 @@ class _SheetPage:
             self._pages.append(_Page())
         return self._pages[-1]
 
-    def _print(self, page: _Page, ink: DrawList, spot: PaperSpot) -> None:
-        page.areas += filled(ink.shapes(), self._atlas, spot)
+    def _print(self, page: _Page, draw_list: DrawList, spot: PaperSpot) -> None:
+        page.areas += filled(draw_list.shapes(), self._atlas, spot)
 
     # --- head and feet ------------------------------------------------------------------------------------------------
 
     def _head(self) -> None:
-        words, page, ink = self._words, self._pages[0], DrawList(self._atlas)
+        words, page, draw_list = self._words, self._pages[0], DrawList(self._atlas)
         middle, right = self._width / 2, self._width
         title = TypeStyle(_TITLE, INK, Face.BOLD, 0.5)
-        size = min(_TITLE, _TITLE * right / max(ink.width(words.title, title), 1.0))
-        ink.text(words.title, (middle, 22.0), TypeStyle(size, INK, Face.BOLD, 0.5))
+        size = min(_TITLE, _TITLE * right / max(draw_list.width(words.title, title), 1.0))
+        draw_list.text(words.title, (middle, 22.0), TypeStyle(size, INK, Face.BOLD, 0.5))
         y = 46.0
-        ink.text(words.author, (right, y), TypeStyle(_TEXT, INK_SOFT, Face.REGULAR, 1.0))
-        x = self._tempo(ink, y) if words.beats_a_minute is not None else 0.0
-        ink.text(words.feel, (x, y), TypeStyle(_TEXT, INK))
+        draw_list.text(words.author, (right, y), TypeStyle(_TEXT, INK_SOFT, Face.REGULAR, 1.0))
+        x = self._tempo(draw_list, y) if words.beats_a_minute is not None else 0.0
+        draw_list.text(words.feel, (x, y), TypeStyle(_TEXT, INK))
         height = _HEAD_HEIGHT
         about = TypeStyle(_SMALL, INK_SOFT)
-        lines = ink.broken(words.about, about, right)
+        lines = draw_list.broken(words.about, about, right)
         if words.about:
             more = len(lines) > _ABOUT_LINES
             for k, line in enumerate(lines[:_ABOUT_LINES]):
                 text = f"{line} …" if more and k == _ABOUT_LINES - 1 else line
-                ink.text(text, (0.0, height + 2.0 + 13.0 * k), about)
+                draw_list.text(text, (0.0, height + 2.0 + 13.0 * k), about)
             height += 13.0 * min(len(lines), _ABOUT_LINES) + 6.0
-        self._print(page, ink, PaperSpot((MARGIN, MARGIN), 1.0))
+        self._print(page, draw_list, PaperSpot((MARGIN, MARGIN), 1.0))
         page.y += height
 
-    def _tempo(self, ink: DrawList, y: float) -> float:
+    def _tempo(self, draw_list: DrawList, y: float) -> float:
         """The beat as a note, and how many a minute; returns where it ends."""
         words = self._words
-        ink.ellipse((4.0, y - 2.6), (3.3, 2.3), INK, -0.38)
-        ink.line((6.9, y - 3.2), (6.9, y - 16.0), 0.8, INK)
+        draw_list.ellipse((4.0, y - 2.6), (3.3, 2.3), INK, -0.38)
+        draw_list.line((6.9, y - 3.2), (6.9, y - 16.0), 0.8, INK)
         x = 12.0
         if words.beat_ticks < PPQ:
-            ink.sign("flag", (6.5, y - 16.0), INK, 4.4)
+            draw_list.sign("flag", (6.5, y - 16.0), INK, 4.4)
             x += 3.0
         if words.beat_ticks % PPQ == PPQ // 2 and words.beat_ticks > PPQ:
-            ink.ellipse((11.0, y - 2.6), (1.1, 1.1), INK)
+            draw_list.ellipse((11.0, y - 2.6), (1.1, 1.1), INK)
             x += 3.0
-        return x + ink.text(f"= {words.beats_a_minute:g}", (x, y), TypeStyle(_TEXT, INK, Face.BOLD)) + 16.0
+        return x + draw_list.text(f"= {words.beats_a_minute:g}", (x, y), TypeStyle(_TEXT, INK, Face.BOLD)) + 16.0
 
     def _feet(self) -> None:
         """Which page of how many, where there are more."""
         if len(self._pages) == 1:
             return
         for number, page in enumerate(self._pages, 1):
-            ink = DrawList(self._atlas)
-            ink.text(self._words.title, (0.0, 0.0), TypeStyle(_SMALL, INK_SOFT))
-            ink.text(
+            draw_list = DrawList(self._atlas)
+            draw_list.text(self._words.title, (0.0, 0.0), TypeStyle(_SMALL, INK_SOFT))
+            draw_list.text(
                 f"{number} / {len(self._pages)}", (self._width, 0.0), TypeStyle(_SMALL, INK_SOFT, Face.REGULAR, 1.0)
             )
-            self._print(page, ink, PaperSpot((MARGIN, self._size[1] - MARGIN * 0.5), 1.0))
+            self._print(page, draw_list, PaperSpot((MARGIN, self._size[1] - MARGIN * 0.5), 1.0))
 
     # --- a line of bars -----------------------------------------------------------------------------------------------
 
     def _system(self, boxes: list[BarBox], page: _Page, middle_y: float) -> None:
-        ink, end = DrawList(self._atlas), LEAD + boxes[-1].right
-        note_shapes.staff_lines(ink, end)
-        note_shapes.clef(ink, 0.8)
+        draw_list, end = DrawList(self._atlas), LEAD + boxes[-1].right
+        note_shapes.staff_lines(draw_list, end)
+        note_shapes.clef(draw_list, 0.8)
         if boxes[0].bar == 0:
-            note_shapes.time_signature(ink, self._score.tempo_map.meter_at(0), 3.9)
+            note_shapes.time_signature(draw_list, self._score.tempo_map.meter_at(0), 3.9)
         names = dict(self._words.sections)
         first, last = self._words.repeat or (None, None)
         for box in boxes:
             x = LEAD + box.left
             if box.bar in names:
-                ink.text(names[box.bar], (x, _SECTION_Y), TypeStyle(1.9, INK, Face.BOLD))
+                draw_list.text(names[box.bar], (x, _SECTION_Y), TypeStyle(1.9, INK, Face.BOLD))
             if box.bar == first:
-                _repeat(ink, x, 1)
+                _repeat(draw_list, x, 1)
             elif box is not boxes[0] and box.bar - 1 != last:
-                _bar_line(ink, x)
+                _bar_line(draw_list, x)
             if box.bar == last:
-                _repeat(ink, LEAD + box.right, -1)
+                _repeat(draw_list, LEAD + box.right, -1)
         if boxes[-1].bar != last:
             is_end = boxes[-1].bar == self._score.bar_count - 1
-            _last_line(ink, end) if is_end else _bar_line(ink, end - 0.08)
-        self._print(page, ink, PaperSpot((MARGIN, middle_y), self._space))
+            _last_line(draw_list, end) if is_end else _bar_line(draw_list, end - 0.08)
+        self._print(page, draw_list, PaperSpot((MARGIN, middle_y), self._space))
         for box in boxes:
             spot = PaperSpot((MARGIN + LEAD * self._space, middle_y), self._space, ruler(self._score, box))
             page.areas += filled(self._engraver.bar(box.bar, with_line=False), self._atlas, spot)
 
 
-def _bar_line(ink: DrawList, x: float, width: float = 0.16) -> None:
-    ink.line((x, -2.0), (x, 2.0), width, INK)
+def _bar_line(draw_list: DrawList, x: float, width: float = 0.16) -> None:
+    draw_list.line((x, -2.0), (x, 2.0), width, INK)
 
 
-def _last_line(ink: DrawList, x: float) -> None:
+def _last_line(draw_list: DrawList, x: float) -> None:
     """A thin and a thick line, the thick one ending at `x`."""
-    _bar_line(ink, x - 0.25, 0.5)
-    _bar_line(ink, x - 0.85)
+    _bar_line(draw_list, x - 0.25, 0.5)
+    _bar_line(draw_list, x - 0.85)
 
 
-def _repeat(ink: DrawList, x: float, way: int) -> None:
+def _repeat(draw_list: DrawList, x: float, way: int) -> None:
     """A repeat sign whose thick line begins at `x` and whose dots stand on its right (1) or left (−1)."""
-    _bar_line(ink, x + 0.25 * way, 0.5)
-    _bar_line(ink, x + 0.85 * way)
+    _bar_line(draw_list, x + 0.25 * way, 0.5)
+    _bar_line(draw_list, x + 0.85 * way)
     for y in (-0.5, 0.5):
-        ink.ellipse((x + 1.45 * way, y), (0.2, 0.2), INK)
+        draw_list.ellipse((x + 1.45 * way, y), (0.2, 0.2), INK)

@@ -24,30 +24,30 @@ _OPEN_FROM, _WIDE_FROM = 0.25, 0.75
 Draw = Callable[[DrawList, tuple[float, float]], None]
 
 
-def draw_key(ink: DrawList, score: Score, width: float, with_sticking: bool) -> None:
+def draw_key(draw_list: DrawList, score: Score, width: float, with_sticking: bool) -> None:
     """Draw the key, `width` wide, from y = 0 down to `KEY_HEIGHT`; nothing where nothing is used."""
     used = list(notes_used(score))
     if not used:
         return
     slot = min(_SLOT, width / len(used))
-    _staff(ink, len(used) * slot)
+    _staff(draw_list, len(used) * slot)
     for k, (piece, head, name) in enumerate(used):
         x, step = (k + 0.5) * slot, PLACES[piece].step
         y = _STAFF_Y + height(step)
         for line in ledger_steps(step):
             ledger = _STAFF_Y + height(line)
-            ink.line((x - 1.05, ledger), (x + 1.05, ledger), note_shapes.STAFF_LINE, INK_SOFT)
-        note_shapes.draw_head(ink, head, (x, y), 1.0)
+            draw_list.line((x - 1.05, ledger), (x + 1.05, ledger), note_shapes.STAFF_LINE, INK_SOFT)
+        note_shapes.draw_head(draw_list, head, (x, y), 1.0)
         style = TypeStyle(_NAME, INK, Face.REGULAR, 0.5)
-        for row, words in enumerate(ink.broken(name, style, slot - 0.6)):
-            ink.text(words, (x, _NAMES_Y + _LINE * row), style)
-    _signs(ink, list(signs_used(score, with_sticking)), width)
+        for row, words in enumerate(draw_list.broken(name, style, slot - 0.6)):
+            draw_list.text(words, (x, _NAMES_Y + _LINE * row), style)
+    _signs(draw_list, list(signs_used(score, with_sticking)), width)
 
 
-def _staff(ink: DrawList, width: float) -> None:
+def _staff(draw_list: DrawList, width: float) -> None:
     for k in range(-2, 3):
         y = _STAFF_Y + k - note_shapes.STAFF_LINE / 2
-        ink.box((0.0, y), (width, note_shapes.STAFF_LINE), INK_SOFT)
+        draw_list.box((0.0, y), (width, note_shapes.STAFF_LINE), INK_SOFT)
 
 
 def notes_used(score: Score) -> Iterator[tuple[Piece, NoteHead, str]]:
@@ -70,60 +70,60 @@ def signs_used(score: Score, with_sticking: bool) -> Iterator[tuple[Draw, str]]:
     hat = notes[notes["piece"] == Piece.HIHAT]["openness"]
     graced = notes["ornament"][score.is_grace]
     if (notes["dynamic"] == Dynamic.ACCENT).any():
-        yield lambda ink, at: ink.sign("accent", at, INK, 0.95), "accent: loud"
+        yield lambda draw_list, at: draw_list.sign("accent", at, INK, 0.95), "accent: loud"
     if (notes["dynamic"][~score.is_grace] == Dynamic.GHOST).any():
         yield _ghost, "ghost: very soft"
     if (hat >= _WIDE_FROM).any():
-        yield lambda ink, at: note_shapes.draw_hat_sign(ink, "open", at), "hi-hat open"
+        yield lambda draw_list, at: note_shapes.draw_hat_sign(draw_list, "open", at), "hi-hat open"
     if ((hat >= _OPEN_FROM) & (hat < _WIDE_FROM)).any():
-        yield lambda ink, at: note_shapes.draw_hat_sign(ink, "half", at), "hi-hat half open"
+        yield lambda draw_list, at: note_shapes.draw_hat_sign(draw_list, "half", at), "hi-hat half open"
     if ((hat[:-1] >= _OPEN_FROM) & (hat[1:] < _OPEN_FROM)).any():
-        yield lambda ink, at: note_shapes.draw_hat_sign(ink, "closed", at), "closed again"
+        yield lambda draw_list, at: note_shapes.draw_hat_sign(draw_list, "closed", at), "closed again"
     if (graced == Ornament.FLAM).any():
-        yield lambda ink, at: _graces(ink, at, 1), "flam"
+        yield lambda draw_list, at: _graces(draw_list, at, 1), "flam"
     if (graced == Ornament.DRAG).any():
-        yield lambda ink, at: _graces(ink, at, 2), "drag"
+        yield lambda draw_list, at: _graces(draw_list, at, 2), "drag"
     if (notes["articulation"] == Articulation.RIM_SHOT).any():
         yield _rim_shot, "rim shot"
     if (notes["articulation"] == Articulation.BUZZ).any():
-        yield lambda ink, at: ink.sign("buzz", at, INK), "buzz roll"
+        yield lambda draw_list, at: draw_list.sign("buzz", at, INK), "buzz roll"
     if (notes["choke_ticks"] > 0).any():
-        yield lambda ink, at: ink.sign("choke", at, INK), "choke: grab it"
+        yield lambda draw_list, at: draw_list.sign("choke", at, INK), "choke: grab it"
     if with_sticking and (notes["limb"] >= 0).any():
         yield _letters, "right and left hand"
 
 
-def _signs(ink: DrawList, signs: list[tuple[Draw, str]], width: float) -> None:
+def _signs(draw_list: DrawList, signs: list[tuple[Draw, str]], width: float) -> None:
     """The signs side by side, in as many lines as they need."""
     x, y = 0.0, _SIGNS_Y
     style = TypeStyle(_NAME, INK)
     for draw, words in signs:
-        wide = 3.6 + ink.width(words, style) + 2.0
+        wide = 3.6 + draw_list.width(words, style) + 2.0
         if x + wide > width:
             x, y = 0.0, y + 2.8
-        draw(ink, (x + 1.4, y))
-        ink.text(words, (x + 3.6, y + 0.5), style)
+        draw(draw_list, (x + 1.4, y))
+        draw_list.text(words, (x + 3.6, y + 0.5), style)
         x += wide
 
 
-def _ghost(ink: DrawList, at: tuple[float, float]) -> None:
-    note_shapes.draw_head(ink, NoteHead.ROUND, at, 0.9)
+def _ghost(draw_list: DrawList, at: tuple[float, float]) -> None:
+    note_shapes.draw_head(draw_list, NoteHead.ROUND, at, 0.9)
     for name, side in (("bracket_left", -0.95), ("bracket_right", 0.95)):
-        ink.sign(name, (at[0] + side, at[1]), INK, 0.95)
+        draw_list.sign(name, (at[0] + side, at[1]), INK, 0.95)
 
 
-def _graces(ink: DrawList, at: tuple[float, float], count: int) -> None:
-    note_shapes.draw_head(ink, NoteHead.ROUND, (at[0] + 0.9, at[1]), 0.9)
+def _graces(draw_list: DrawList, at: tuple[float, float], count: int) -> None:
+    note_shapes.draw_head(draw_list, NoteHead.ROUND, (at[0] + 0.9, at[1]), 0.9)
     for k in range(count):
         x = at[0] - 0.5 - 0.9 * k
-        note_shapes.draw_head(ink, NoteHead.ROUND, (x, at[1]), 0.55)
-        ink.line((x + 0.3, at[1]), (x + 0.3, at[1] - 1.6), 0.1, INK)
+        note_shapes.draw_head(draw_list, NoteHead.ROUND, (x, at[1]), 0.55)
+        draw_list.line((x + 0.3, at[1]), (x + 0.3, at[1] - 1.6), 0.1, INK)
 
 
-def _rim_shot(ink: DrawList, at: tuple[float, float]) -> None:
-    note_shapes.draw_head(ink, NoteHead.ROUND, at, 0.9)
-    ink.sign("slash", at, INK, 0.9)
+def _rim_shot(draw_list: DrawList, at: tuple[float, float]) -> None:
+    note_shapes.draw_head(draw_list, NoteHead.ROUND, at, 0.9)
+    draw_list.sign("slash", at, INK, 0.9)
 
 
-def _letters(ink: DrawList, at: tuple[float, float]) -> None:
-    ink.text("R L", (at[0], at[1] + 0.5), TypeStyle(1.3, INK_SOFT, Face.BOLD, 0.5))
+def _letters(draw_list: DrawList, at: tuple[float, float]) -> None:
+    draw_list.text("R L", (at[0], at[1] + 0.5), TypeStyle(1.3, INK_SOFT, Face.BOLD, 0.5))

@@ -8,7 +8,7 @@ with points, counts and advice is drawn, and below it what there is room for.
 from dataclasses import dataclass
 
 WHOLE = (900.0, 540.0)
-"""Units that points, every stroke, pieces and craft take beside each other."""
+"""Units that points, every stroke, pieces and technique take beside each other."""
 SHORT = (560.0, 310.0)
 """Units that the points, the counts and what to do next take alone."""
 _A_LITTLE = 0.8

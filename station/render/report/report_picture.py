@@ -67,29 +67,29 @@ def draw_report_png(facts: ResultFacts, path: Path, size: tuple[int, int] = (128
 
 
 class _Drawn:
-    def __init__(self, facts: ResultFacts, ink: DrawList, page: ReportPage) -> None:
-        self._facts, self._ink, self._page = facts, ink, page
+    def __init__(self, facts: ResultFacts, draw_list: DrawList, page: ReportPage) -> None:
+        self._facts, self._draw_list, self._page = facts, draw_list, page
 
     def shapes(self) -> NDArray[np.void]:
         self._head()
         self._card()
         if self._page.plot is not None:
-            Plot(self._facts, self._ink, self._page.plot).draw()
+            Plot(self._facts, self._draw_list, self._page.plot).draw()
         if self._page.pieces is not None:
-            Pieces(self._facts, self._ink, self._page.pieces).draw()
-        return self._ink.shapes()
+            Pieces(self._facts, self._draw_list, self._page.pieces).draw()
+        return self._draw_list.shapes()
 
     def _head(self) -> None:
         title, line, width = TypeStyle(28, INK, Face.BOLD), TypeStyle(17, INK_SOFT), self._page.width - 2 * EDGE
-        self._ink.text(self._ink.fitted(self._facts.words.title, title, width), (EDGE, 34), title)
-        self._ink.text(self._ink.fitted(self._facts.words.subtitle, line, width), (EDGE, 59), line)
+        self._draw_list.text(self._draw_list.fitted(self._facts.words.title, title, width), (EDGE, 34), title)
+        self._draw_list.text(self._draw_list.fitted(self._facts.words.subtitle, line, width), (EDGE, 59), line)
 
     # --- the card -----------------------------------------------------------------------------------------------------
 
     def _card(self) -> None:
         """The points, beside them the counts, and in words below or beside both what they come to."""
         card = self._page.card
-        paper(self._ink, card)
+        paper(self._draw_list, card)
         self._points((card.left + PADDING + _DIAL, card.top + PADDING + _DIAL))
         beside = card.left + PADDING + 2 * _DIAL + 16
         self._counts((beside, card.top + PADDING + 24), card.left + PADDING + 2 * _DIAL + _COUNTS - beside)
@@ -109,41 +109,41 @@ class _Drawn:
             way = np.array([np.sin(a), -np.cos(a)])
             colour = BRAND if (k + 0.5) / _TICKS <= share else INK_FAINT
             inner, outer = ((x + radius * way[0], y + radius * way[1]) for radius in (_DIAL - 13, _DIAL))
-            self._ink.line(inner, outer, 3.6, colour)
+            self._draw_list.line(inner, outer, 3.6, colour)
         number = "–" if self._facts.words.points is None else f"{self._facts.words.points:.0f}"
-        self._ink.text(number, (x, y + 14), TypeStyle(48, INK, Face.BOLD, 0.5))
-        self._ink.text("of 100", (x, y + 33), TypeStyle(15, INK_SOFT, Face.REGULAR, 0.5))
+        self._draw_list.text(number, (x, y + 14), TypeStyle(48, INK, Face.BOLD, 0.5))
+        self._draw_list.text("of 100", (x, y + 33), TypeStyle(15, INK_SOFT, Face.REGULAR, 0.5))
 
     def _counts(self, at: tuple[float, float], width: float) -> None:
         facts, style = self._facts, TypeStyle(17, INK)
         right = f"{facts.count(Label.MATCH)} of {len(facts.label)}"
         longer = f"{right} right"
         rows = (
-            (GOOD, longer if self._ink.width(longer, style) <= width - 24 else right),
+            (GOOD, longer if self._draw_list.width(longer, style) <= width - 24 else right),
             (MISSED, f"{facts.count(Label.MISS)} missed"),
             (WRONG, f"{facts.count(Label.WRONG_PIECE)} wrong pad"),
             (EXTRA, f"{facts.count(Label.EXTRA)} extra"),
         )
         for i, (colour, text) in enumerate(rows):
             y = at[1] + 29 * i
-            badge(self._ink, i, (at[0] + 8, y - 6), with_opacity(colour, 1.0))
-            self._ink.text(text, (at[0] + 24, y), style)
+            badge(self._draw_list, i, (at[0] + 8, y - 6), with_opacity(colour, 1.0))
+            self._draw_list.text(text, (at[0] + 24, y), style)
 
     def _words(self, room: ReportBox) -> None:
         """What it comes to, and what to do next."""
         y = room.top + 26
-        y += self._ink.paragraph(
+        y += self._draw_list.paragraph(
             headline(self._facts).capitalize() + ".", (room.left, y), TypeStyle(21, INK, Face.BOLD), room.width
         )
         if self._facts.words.advice:
-            self._ink.text("WHAT TO DO NEXT", (room.left, y + 4), TypeStyle(14, BRAND, Face.BOLD))
+            self._draw_list.text("WHAT TO DO NEXT", (room.left, y + 4), TypeStyle(14, BRAND, Face.BOLD))
             self._advice(ReportBox(room.left, y + 30, room.width, room.bottom - 10 - y - 30))
 
     def _advice(self, room: ReportBox) -> None:
         """The sentences, in the largest type in which they fit; in the least as many of them as do."""
         for size in _ADVICE_SIZES:
             style, gap = TypeStyle(size, INK_SOFT), 0.5 * size
-            lines = [self._ink.broken(sentence, style, room.width) for sentence in self._facts.words.advice]
+            lines = [self._draw_list.broken(sentence, style, room.width) for sentence in self._facts.words.advice]
             if sum(map(len, lines)) * LINE_HEIGHT * size + gap * (len(lines) - 1) <= room.height + 0.3 * size:
                 break
         y, lowest = room.top + size - _ADVICE_SIZES[-1], room.bottom
@@ -152,8 +152,8 @@ class _Drawn:
             if len(sentence) > fit and number:
                 break
             if len(sentence) > fit:
-                sentence[fit - 1 :] = [self._ink.fitted(" ".join(sentence[fit - 1 :]), style, room.width)]
+                sentence[fit - 1 :] = [self._draw_list.fitted(" ".join(sentence[fit - 1 :]), style, room.width)]
             for line in sentence:
-                self._ink.text(line, (room.left, y), style)
+                self._draw_list.text(line, (room.left, y), style)
                 y += LINE_HEIGHT * size
             y += gap

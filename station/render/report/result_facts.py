@@ -50,7 +50,7 @@ class ResultFacts:
 class ResultWords:
     """What is written on a result beside its numbers.
 
-    `points` 0–100, `advice` sentences on what to do next, `craft` lines on what hands and feet did; a pass has
+    `points` 0–100, `advice` sentences on what to do next, `technique` lines on what hands and feet did; a pass has
     `pass_bars` bars (0: all are one pass), the first is the lesson's `first_bar`, from 0; passes that differ begin in
     the bars `starts`.
     """
@@ -59,7 +59,7 @@ class ResultWords:
     subtitle: str
     points: float | None
     advice: tuple[str, ...] = ()
-    craft: tuple[str, ...] = ()
+    technique: tuple[str, ...] = ()
     pass_bars: int = 0
     first_bar: int = 0
     starts: tuple[int, ...] = ()

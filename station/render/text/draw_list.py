@@ -1,4 +1,4 @@
-"""Flat shapes and text as a table of instances: made here without OpenGL, drawn by `print_ink`.
+"""Flat shapes and text as a table of instances: made here without OpenGL, drawn by `shape_renderer`.
 
 Coordinates are units (pixels for panels, staff spaces for notation), x right, y **down**. `time_s` anchors a shape to a
 moment of the score: the printer adds (time_s − position) · pixels a second, so that a scrolling score is laid out once.

@@ -1,4 +1,4 @@
-"""What `Ink` collects as polygons on paper: outlines in points (1/72 inch), y down, for a printer of any fineness.
+"""What `DrawList` collects as polygons on paper: outlines in points (1/72 inch), y down, for a printer of any fineness.
 
 Where the screen's printer moves a shape by its time, paper asks a ruler where that time stands in the line. Ink on
 paper is black; what is soft on the screen is grey, dark enough to be read on a music stand.

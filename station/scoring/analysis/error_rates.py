@@ -13,19 +13,19 @@ from station.music.judgement import Label
 from station.scoring.analysis.finding import MIN_SLOTS, Z_95, Finding, worst_bars
 from station.scoring.analysis.habits import CHANCE
 from station.scoring.analysis.summary import Summary
-from station.scoring.analysis.technique.swallowed_notes import SwallowedNotes
+from station.scoring.analysis.technique.observability import Swallowed
 
 FREE_LOSS, _CLEAR_LOSS = 0.05, 0.2
 """One stroke in twenty goes wrong with anyone; one in five is what to work at (our choice; TEACHING's pass is 90 %)."""
 
 
-def losses(summary: Summary) -> list[Finding]:
+def misses_and_extras(summary: Summary) -> list[Finding]:
     """A piece whose notes are left out, and strokes that nobody wrote."""
     found = []
-    told = summary.untold == SwallowedNotes.TOLD
-    missed = (summary.alignment.note_label == Label.MISS) & told
+    observable = summary.swallowed == Swallowed.NO
+    missed = (summary.alignment.note_label == Label.MISS) & observable
     for piece, group in summary.by_piece.items():
-        here = (summary.score.notes["piece"] == piece) & told
+        here = (summary.score.notes["piece"] == piece) & observable
         bars = worst_bars(summary, missed[here].astype(np.float64), here)
         found += _of_share("missed", _name(piece), (int(missed[here].sum()), int(here.sum())), bars)
         extras = group.extras or 0

@@ -1,9 +1,9 @@
 """What a performance shows, each finding an effect with the interval that the data can bear.
 
-Habits come from two regressions (`habits`), losses from shares (`losses`), a common lean and unsteadiness from the
-asynchronies themselves. Nothing is found that chance or feel explains: an effect counts if it lies `CHANCE`
-standard errors from nothing and beyond what is free. How much it matters, its severity, is its size in units of a
-clear fault of its kind. Sentences are written by `advice`.
+Habits come from two regressions (`habits`), misses and extras from shares (`error_rates`), a common lean and
+unsteadiness from the asynchronies themselves. Nothing is found that chance or feel explains: an effect counts if it
+lies `CHANCE` standard errors from nothing and beyond what is free. How much it matters, its severity, is its size in
+units of a clear fault of its kind. Sentences are written by `advice`.
 """
 
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ from station.core.labels import name_of
 from station.core.pieces import Limb
 from station.music import passages
 from station.music.judgement import Label
-from station.scoring.analysis.error_rates import losses, wrong_pieces
+from station.scoring.analysis.error_rates import misses_and_extras, wrong_pieces
 from station.scoring.analysis.finding import MIN_SLOTS, Z_95, Finding, worst_bars
 from station.scoring.analysis.habits import CHANCE
 from station.scoring.analysis.points import ratio_of_place
@@ -93,7 +93,7 @@ def find_all(summary: Summary) -> list[Finding]:
         *_leans(summary),
         *_common_lean(summary),
         *_unsteady(summary),
-        *losses(summary),
+        *misses_and_extras(summary),
         *wrong_pieces(summary),
     ]
     return sorted(found, key=lambda finding: -finding.severity)
@@ -136,10 +136,10 @@ def _bars_of_habit(summary: Summary, kind: FindingKind) -> tuple[int, ...]:
 
 def _farthest(summary: Summary, strokes: Flags, off: Floats) -> tuple[int, ...]:
     """The bars in which the strokes (n,) that were played lie farthest up in `off` (n,)."""
-    told = strokes & (summary.alignment.note_label == Label.MATCH) & ~np.isnan(off)
-    if not told.any():
+    judged = strokes & (summary.alignment.note_label == Label.MATCH) & ~np.isnan(off)
+    if not judged.any():
         return ()
-    return tuple(worst_bars(summary, off[told] - off[told].min(), told))
+    return tuple(worst_bars(summary, off[judged] - off[judged].min(), judged))
 
 
 def _swing(summary: Summary) -> list[Finding]:

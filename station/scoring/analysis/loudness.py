@@ -98,8 +98,8 @@ def _against_own_level(score: Score, off_db: Floats, judged: Flags) -> Floats:
     for piece in np.unique(score.notes["piece"][judged]):
         here = judged & (score.notes["piece"] == piece)
         plain = here & (score.notes["dynamic"] == Dynamic.NORMAL)
-        told = plain if plain.sum() >= LEARNT_FROM else here
-        own[here] = off_db[here] - np.median(off_db[told])
+        basis = plain if plain.sum() >= LEARNT_FROM else here
+        own[here] = off_db[here] - np.median(off_db[basis])
     return own
 
 

@@ -77,7 +77,7 @@ def _median(bars: list[BarTempo]) -> float | None:
 def _drift(score: Score, bars: list[BarTempo]) -> tuple[float | None, tuple[float, float] | None]:
     """By how much the tempo, as a share of the written one, rose a minute, in percent; negative: it fell.
 
-    Its interval is that of a straight line's slope whose deviations may hang together (`timing.standard_error`).
+    Its interval is that of a straight line's slope whose deviations may hang together (`timing_spread.standard_error`).
     """
     starts = [score.tempo_map.bpm_at(score.tempo_map.bar_start(bar.bar)) for bar in bars]
     share = np.array([100 * bar.tempo_bpm / written for bar, written in zip(bars, starts, strict=True)])

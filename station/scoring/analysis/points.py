@@ -68,12 +68,12 @@ class Judged:
     """What beside timing is judged, over the notes (n,).
 
     `off_db` beyond the player's own level, NaN where not judged (None: nowhere); `faulty` where the openness, the grab
-    or the grace stroke's softness is wrong; `untold` where nothing can be told.
+    or the grace stroke's softness is wrong; `unobservable` where it is unknown.
     """
 
     off_db: NDArray[np.float64] | None
     faulty: NDArray[np.bool_]
-    untold: NDArray[np.bool_]
+    unobservable: NDArray[np.bool_]
 
 
 def ratio_of_place(place: float) -> float:
@@ -90,12 +90,12 @@ def free_ms(score: Score, alignment: Alignment, feel: Feel = ALL_FREE) -> NDArra
     for piece in np.unique(score.notes["piece"][timed]):
         here = score.notes["piece"] == piece
         straight = here & timed & ~swung.flags
-        told = straight if straight.any() else here & timed
-        leans[here] = np.clip(np.median(off[told]), -feel.lean_ms, feel.lean_ms)
-    told = swung.flags & timed
-    if not told.any():
+        counted = straight if straight.any() else here & timed
+        leans[here] = np.clip(np.median(off[counted]), -feel.lean_ms, feel.lean_ms)
+    counted = swung.flags & timed
+    if not counted.any():
         return leans
-    shift = float(np.median((off - leans)[told] / swung.span_ms[told]))
+    shift = float(np.median((off - leans)[counted] / swung.span_ms[counted]))
     inside = swung.flags.copy()
     for place in np.unique(swung.places[swung.flags]).tolist():
         inside &= (swung.places != place) | feel.allows(ratio_of_place(place + shift), ratio_of_place(place))
@@ -106,13 +106,13 @@ def free_ms(score: Score, alignment: Alignment, feel: Feel = ALL_FREE) -> NDArra
 def points(
     score: Score, alignment: Alignment, judged: Judged | None, windows: Windows, feel: Feel = ALL_FREE
 ) -> float | None:
-    """0–100 as the module's head says; None for a score without notes, or of which nothing can be told.
+    """0–100 as the module's head says; None for a score without notes, or of which nothing is observable.
 
     `judged` None: timing alone is judged.
     """
     judged = judged or Judged(None, np.zeros(len(score), np.bool_), np.zeros(len(score), np.bool_))
-    told = ~judged.untold
-    if not told.any():
+    observable = ~judged.unobservable
+    if not observable.any():
         return None
     matched = alignment.note_label == Label.MATCH
     off = np.where(score.is_grace, 0.0, asynchrony_ms(alignment) - free_ms(score, alignment, feel))
@@ -123,4 +123,4 @@ def points(
     answered = int(matched.sum())
     heard = answered + alignment.count(Label.EXTRA) + alignment.count(Label.WRONG_PIECE)
     precision = answered / heard if heard else 0.0
-    return 100.0 * float(credit[told].mean()) * precision**2
+    return 100.0 * float(credit[observable].mean()) * precision**2

@@ -25,10 +25,10 @@ from station.scoring.analysis.loudness import Loudness, dynamics
 from station.scoring.analysis.player_tempo import TempoCurve, tempo_curve
 from station.scoring.analysis.points import ALL_FREE, Feel, Judged, points
 from station.scoring.analysis.technique.click_gaps import Silences
+from station.scoring.analysis.technique.observability import KitFacts, Swallowed, swallowed_notes
 from station.scoring.analysis.technique.openness import choke_faults, hat_faults
 from station.scoring.analysis.technique.ornaments import loud_graces
-from station.scoring.analysis.technique.swallowed_notes import KitFacts, SwallowedNotes, untold_notes
-from station.scoring.analysis.technique.technique import Circumstances, Technique, craft
+from station.scoring.analysis.technique.technique import Circumstances, Technique, technique
 from station.scoring.analysis.timing_spread import Spread, asynchrony_ms, spread, timed_notes
 from station.scoring.matching.alignment import Alignment
 from station.scoring.matching.hit_windows import DEFAULT_LEVEL, Windows
@@ -114,7 +114,7 @@ class SummaryView:
 class Summary:
     """An assessment in figures; `points` 0–100, None for a score without notes.
 
-    `untold` (n,) says by `SwallowedNotes` of which notes the kit cannot tell whether they were played.
+    `swallowed` (n,) says by `Swallowed` of which notes the kit cannot tell whether they were played.
 
     Tables are keyed by piece, limb, the lesson's bar from 0, the subdivision's name, the dynamic and the passage
     (`groove` or `fill`); keys without notes are absent (of pieces: without notes and hits).
@@ -137,14 +137,14 @@ class Summary:
     wrong_pieces: tuple[WrongPiece, ...]
     habits: Habits
     tempo: TempoCurve
-    untold: NDArray[np.uint8]
+    swallowed: NDArray[np.uint8]
 
     @cached_property
-    def craft(self) -> Technique:
+    def technique(self) -> Technique:
         """Rolls, ornaments, feel, the inner clock and what else there is beyond the single stroke."""
         view = self.view
-        around = Circumstances(view.feel, view.silences, view.kit, view.hears_velocity)
-        return craft(self.score, self.performance, self.alignment, self.habits, around)
+        around = Circumstances(view.feel, view.silences, view.kit.tells_chokes, view.hears_velocity)
+        return technique(self.score, self.performance, self.alignment, self.habits, around)
 
 
 def summarise(score: Score, performance: Performance, alignment: Alignment, view: SummaryView | None = None) -> Summary:
@@ -155,11 +155,11 @@ def summarise(score: Score, performance: Performance, alignment: Alignment, view
     notes = score.notes
     pieces = np.union1d(notes["piece"], performance.hits["piece"])
     limbs, bars, places = notes["limb"], view.bars(score), subdivisions(score)
-    untold = untold_notes(score, performance, alignment, view.kit)
+    swallowed = swallowed_notes(score, performance, alignment, view.kit)
     judged = Judged(
         loudness.off_db if view.hears_velocity else None,
         _faulty(score, performance, alignment, view),
-        untold != SwallowedNotes.TOLD,
+        swallowed != Swallowed.NO,
     )
     return Summary(
         score=score,
@@ -185,7 +185,7 @@ def summarise(score: Score, performance: Performance, alignment: Alignment, view
         wrong_pieces=_wrong_pieces(score, performance, alignment),
         habits=habits(score, performance, alignment, view.hears_velocity),
         tempo=tempo_curve(score, performance, alignment),
-        untold=untold,
+        swallowed=swallowed,
     )
 
 

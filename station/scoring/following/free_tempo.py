@@ -12,8 +12,8 @@ from station.music.score import Score
 from station.scoring.following.stretches import owners
 from station.scoring.following.warp import Warp, find_warp, written_of
 from station.scoring.matching.alignment import Alignment, Reference, Timed, labelled
-from station.scoring.matching.assignment import Settled, SettleSide, Start, note_kinds, settle, spots
-from station.scoring.matching.buzz_onsets import with_presses
+from station.scoring.matching.assignment import AssignmentSide, HitAssignment, Start, assign, note_kinds, spots
+from station.scoring.matching.buzz_onsets import with_buzz_onsets
 from station.scoring.matching.grace_strokes import with_far_graces
 from station.scoring.matching.ignored_hits import Unwritten
 from station.scoring.matching.pairing import Indices, Times
@@ -53,25 +53,25 @@ def align_unclocked(
     warp = find_warp(written, at_ns / NS_PER_S, led_class)
     hit_ns = np.rint(warp.score_s * NS_PER_S).astype(np.int64)
     unwritten = rules.masks(performance, hit_ns)
-    notes = SettleSide(
+    notes = AssignmentSide(
         score.onset_ns, note_class, owners(score.onset_s, note_class, warp, hit_class), spots(score.notes)
     )
-    hits = SettleSide(hit_ns, hit_class, warp.stretch, spots(performance.hits))
-    settled = settle(notes, hits, note_kinds(score), unwritten.own_only, _START)
-    settled = with_presses(score, with_far_graces(score, settled, hits), hits, bounces)
-    return labelled(settled, _timed(score, at_ns, warp, settled, may_share_base), unwritten.quiet)
+    hits = AssignmentSide(hit_ns, hit_class, warp.stretch, spots(performance.hits))
+    assignment = assign(notes, hits, note_kinds(score), unwritten.own_only, _START)
+    assignment = with_buzz_onsets(score, with_far_graces(score, assignment, hits), hits, bounces)
+    return labelled(assignment, _timed(score, at_ns, warp, assignment, may_share_base), unwritten.quiet)
 
 
-def _timed(score: Score, at_ns: Times, warp: Warp, settled: Settled, may_share_base: bool) -> Timed:
+def _timed(score: Score, at_ns: Times, warp: Warp, assignment: HitAssignment, may_share_base: bool) -> Timed:
     """When each paired note was due, by the file's time if that is the score's, else by the player's tempo curve."""
-    hit_of_note = np.where(settled.partner >= 0, settled.partner, settled.wrong)
+    hit_of_note = np.where(assignment.partner >= 0, assignment.partner, assignment.wrong)
     score_ns = np.rint(warp.score_s * NS_PER_S).astype(np.int64)
-    told = np.flatnonzero((settled.partner >= 0) & ~score.is_grace)
+    told = np.flatnonzero((assignment.partner >= 0) & ~score.is_grace)
     told = told[np.argsort(at_ns[hit_of_note[told]], kind="stable")]
     played, written = at_ns[hit_of_note[told]], score.onset_ns[told]
     if may_share_base and _is_same_base(played, written):
         return Timed(at_ns, score.onset_ns, score_ns, warp.stretch, Reference.FILE)
-    off_ns = score_ns[np.maximum(hit_of_note, 0)] - score.onset_ns - settled.trend_ns
+    off_ns = score_ns[np.maximum(hit_of_note, 0)] - score.onset_ns - assignment.trend_ns
     pace = _paces(at_ns, warp)[np.maximum(hit_of_note, 0)]
     due = at_ns[np.maximum(hit_of_note, 0)] - np.rint(off_ns / pace).astype(np.int64)
     return Timed(at_ns, due, score_ns, warp.stretch, Reference.PLAYER)

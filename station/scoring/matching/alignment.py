@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from station.music.judgement import Judgement, Label, Matching
 from station.music.performance import Performance
 from station.music.score import Score
-from station.scoring.matching.assignment import Settled
+from station.scoring.matching.assignment import HitAssignment
 
 
 class Reference(Enum):
@@ -52,11 +52,11 @@ class Timed:
     reference: Reference
 
 
-def labelled(settled: Settled, timed: Timed, quiet: NDArray[np.bool_]) -> Alignment:
-    """The alignment that a settled matching stands for; `quiet` (m,) are hits that are ignored rather than extra."""
-    hit_of_note = np.where(settled.partner >= 0, settled.partner, settled.wrong)
+def labelled(assignment: HitAssignment, timed: Timed, quiet: NDArray[np.bool_]) -> Alignment:
+    """The alignment that an assignment stands for; `quiet` (m,) are hits that are ignored rather than extra."""
+    hit_of_note = np.where(assignment.partner >= 0, assignment.partner, assignment.wrong)
     paired = hit_of_note >= 0
-    note_label = np.where(settled.partner >= 0, Label.MATCH, np.where(paired, Label.WRONG_PIECE, Label.MISS))
+    note_label = np.where(assignment.partner >= 0, Label.MATCH, np.where(paired, Label.WRONG_PIECE, Label.MISS))
     hit_label = np.where(quiet, Label.IGNORED, Label.EXTRA)
     note_of_hit = np.full(len(timed.at_ns), -1, np.int64)
     note_of_hit[hit_of_note[paired]] = np.flatnonzero(paired)
@@ -72,7 +72,7 @@ def labelled(settled: Settled, timed: Timed, quiet: NDArray[np.bool_]) -> Alignm
         hit_score_ns=timed.score_ns,
         stretch=timed.stretch,
         reference=timed.reference,
-        sd_ms=settled.sd_ms,
+        sd_ms=assignment.sd_ms,
     )
 
 

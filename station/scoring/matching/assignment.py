@@ -44,7 +44,7 @@ TOGETHER_NS = 40 * NS_PER_MS
 
 
 @dataclass(frozen=True, eq=False)
-class SettleSide:
+class AssignmentSide:
     """One side of the problem: `at_ns` (n,) times, `classes` (n,) match classes below `MOST_CLASSES`.
 
     `strand` (n,) keeps apart what must not be paired though it lies on the same score time: the attempts at a passage
@@ -74,7 +74,7 @@ _SWUNG_FROM, _SWUNG_TO = 0.54, 0.74
 
 
 def note_kinds(score: Score) -> Indices:
-    """Which notes share a lean besides their piece, shape (n,): a player's flams and his swing are his own.
+    """Which notes share a lean besides their piece, shape (n,): a player's flams and swing are their own.
 
     `GRACE` strokes may all come closer to or farther from their main strokes than written, notes in the place of a
     swung offbeat (`SWUNG`) all earlier or later.
@@ -88,8 +88,8 @@ def note_kinds(score: Score) -> Indices:
 
 
 @dataclass(frozen=True, eq=False)
-class Settled:
-    """The matching, and the player as it shows him.
+class HitAssignment:
+    """The matching, and the player as it shows them.
 
     `partner` (n,) hit of each note or −1; `wrong` (n,) hit on another piece or −1; `trend_ns` (n,) where the player as
     a whole stands at each note; `sd_ms` spread about that and the pieces' leans, None where too little is known.
@@ -119,7 +119,9 @@ def spots(rows: NDArray[np.void]) -> Indices:
 _MOST_ARTICULATIONS = 64
 
 
-def settle(notes: SettleSide, hits: SettleSide, kinds: Indices, unpaired: NDArray[np.bool_], start: Start) -> Settled:
+def assign(
+    notes: AssignmentSide, hits: AssignmentSide, kinds: Indices, unpaired: NDArray[np.bool_], start: Start
+) -> HitAssignment:
     """The matching of `hits` (m,) to `notes` (n,).
 
     `kinds` (n,) says which notes share a lean (`note_kinds`), `unpaired` (m,) marks hits that are never paired with
@@ -138,14 +140,16 @@ def settle(notes: SettleSide, hits: SettleSide, kinds: Indices, unpaired: NDArra
     if _differ(notes.spot):
         partner = _like_first(notes, hits, player.expected_ns, partner, round(reach_ms * NS_PER_MS))
     wrong = _other_pieces(notes, hits, partner, player, unpaired)
-    return Settled(partner, wrong, player.trend_ns, player.sd_ms)
+    return HitAssignment(partner, wrong, player.trend_ns, player.sd_ms)
 
 
 def _differ(values: Indices) -> bool:
     return bool((values != values[:1]).any())
 
 
-def _like_first(notes: SettleSide, hits: SettleSide, expected_ns: Times, partner: Indices, reach_ns: int) -> Indices:
+def _like_first(
+    notes: AssignmentSide, hits: AssignmentSide, expected_ns: Times, partner: Indices, reach_ns: int
+) -> Indices:
     """The matching again where a piece's strokes are written together: those on one spot first, then what is left."""
     again = _together(notes)
     if not _differ(notes.spot[again]):
@@ -169,7 +173,7 @@ def _like_first(notes: SettleSide, hits: SettleSide, expected_ns: Times, partner
     return result
 
 
-def _together(notes: SettleSide) -> NDArray[np.bool_]:
+def _together(notes: AssignmentSide) -> NDArray[np.bool_]:
     """Which notes have another of their lane in the same slot."""
     order = np.lexsort((notes.at_ns, notes.lane))
     close = (np.diff(notes.lane[order]) == 0) & (np.diff(notes.at_ns[order]) <= TOGETHER_NS)
@@ -196,15 +200,15 @@ class _Player:
         return _UNKNOWN_SD_MS if self.sd_ms is None else self.sd_ms
 
 
-def _span(notes: SettleSide, hits: SettleSide) -> int:
+def _span(notes: AssignmentSide, hits: AssignmentSide) -> int:
     ends = [
         side.at_ns[k] for side in (notes, hits) if len(side.at_ns) for k in (side.at_ns.argmin(), side.at_ns.argmax())
     ]
     return int(max(ends) - min(ends)) + round(4 * MAX_REACH_MS * NS_PER_MS) if ends else 1
 
 
-def _player(notes: SettleSide, hits: SettleSide, partner: Indices, kinds: Indices, before: _Player) -> _Player:
-    """The player as the pairs show him; as `before` where they are too few."""
+def _player(notes: AssignmentSide, hits: AssignmentSide, partner: Indices, kinds: Indices, before: _Player) -> _Player:
+    """The player as the pairs show them; as `before` where they are too few."""
     known = np.flatnonzero(partner >= 0)
     known = known[np.argsort(notes.at_ns[known], kind="stable")]
     deviation = (hits.at_ns[partner[known]] - notes.at_ns[known]).astype(np.float64)
@@ -235,7 +239,7 @@ def _leans(classes: Indices, deviation: NDArray[np.float64], count: int) -> NDAr
 
 
 def _other_pieces(
-    notes: SettleSide, hits: SettleSide, partner: Indices, player: _Player, unpaired: NDArray[np.bool_]
+    notes: AssignmentSide, hits: AssignmentSide, partner: Indices, player: _Player, unpaired: NDArray[np.bool_]
 ) -> Indices:
     """Hits on another piece at the time of notes that got none."""
     taken = unpaired.copy()

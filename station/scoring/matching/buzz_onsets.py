@@ -11,26 +11,28 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Articulation
 from station.music.score import Score
-from station.scoring.matching.assignment import Settled, SettleSide
+from station.scoring.matching.assignment import AssignmentSide, HitAssignment
 from station.scoring.matching.ignored_hits import BUZZ_REACH_NS
 
 
-def with_presses(score: Score, settled: Settled, hits: SettleSide, bounces: NDArray[np.bool_]) -> Settled:
-    """`settled` with presses in place of `bounces` (m,); `hits` (m,) in order of playing."""
-    partner = settled.partner
+def with_buzz_onsets(
+    score: Score, assignment: HitAssignment, hits: AssignmentSide, bounces: NDArray[np.bool_]
+) -> HitAssignment:
+    """`assignment` with presses in place of `bounces` (m,); `hits` (m,) in order of playing."""
+    partner = assignment.partner
     buzzes = (score.notes["articulation"] == Articulation.BUZZ) & (partner >= 0)
     swapped = np.flatnonzero(buzzes & bounces[partner]) if len(bounces) else np.empty(0, np.int64)
     if not len(swapped):
-        return settled
-    taken, partner = {*partner.tolist(), *settled.wrong.tolist()}, partner.copy()
+        return assignment
+    taken, partner = {*partner.tolist(), *assignment.wrong.tolist()}, partner.copy()
     for note in swapped.tolist():
         press = _press_of(hits, bounces, int(partner[note]))
         if press is not None and press not in taken:
             partner[note] = press
-    return replace(settled, partner=partner)
+    return replace(assignment, partner=partner)
 
 
-def _press_of(hits: SettleSide, bounces: NDArray[np.bool_], bounce: int) -> int | None:
+def _press_of(hits: AssignmentSide, bounces: NDArray[np.bool_], bounce: int) -> int | None:
     """The last hit of the same lane before `bounce` that is none; None where it is too long ago."""
     earliest_ns = int(hits.at_ns[bounce]) - BUZZ_REACH_NS
     for hit in range(bounce - 1, -1, -1):

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from station.core.units import NS_PER_MS
 from station.music.score import Score
-from station.scoring.matching.assignment import Settled, SettleSide
+from station.scoring.matching.assignment import AssignmentSide, HitAssignment
 from station.scoring.matching.pairing import Indices
 
 FARTHEST_MORE_NS = 80 * NS_PER_MS
@@ -37,15 +37,15 @@ def main_of_grace(score: Score) -> Indices:
     return main
 
 
-def with_far_graces(score: Score, settled: Settled, hits: SettleSide) -> Settled:
-    """`settled` with a hit for the grace strokes that were played too wide; `hits` (m,) in order of playing."""
-    lonely = np.flatnonzero(score.is_grace & (settled.partner < 0) & (settled.wrong < 0))
+def with_far_graces(score: Score, assignment: HitAssignment, hits: AssignmentSide) -> HitAssignment:
+    """`assignment` with a hit for the grace strokes that were played too wide; `hits` (m,) in order of playing."""
+    lonely = np.flatnonzero(score.is_grace & (assignment.partner < 0) & (assignment.wrong < 0))
     if not len(lonely):
-        return settled
-    main, partner = main_of_grace(score), settled.partner.copy()
+        return assignment
+    main, partner = main_of_grace(score), assignment.partner.copy()
     taken = np.zeros(len(hits.at_ns), np.bool_)
     taken[partner[partner >= 0]] = True
-    taken[settled.wrong[settled.wrong >= 0]] = True
+    taken[assignment.wrong[assignment.wrong >= 0]] = True
     for grace in lonely.tolist():
         main_hit = int(partner[main[grace]]) if main[grace] >= 0 else -1
         if main_hit >= 0:
@@ -55,10 +55,10 @@ def with_far_graces(score: Score, settled: Settled, hits: SettleSide) -> Settled
                 partner[grace], taken[found] = found, True
                 heard = np.flatnonzero((main == main[grace]) & (partner >= 0))
                 partner[heard] = np.sort(partner[heard])  # the strokes of a drag come in their order
-    return replace(settled, partner=partner)
+    return replace(assignment, partner=partner)
 
 
-def _last_free(hits: SettleSide, before: int, earliest_ns: int, taken: NDArray[np.bool_]) -> int | None:
+def _last_free(hits: AssignmentSide, before: int, earliest_ns: int, taken: NDArray[np.bool_]) -> int | None:
     """The last hit of the same lane before hit `before` that nobody has; None if there is none from `earliest_ns`."""
     for hit in range(before - 1, -1, -1):
         if hits.strand[hit] != hits.strand[before] or hits.at_ns[hit] < earliest_ns:

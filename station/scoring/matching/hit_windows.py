@@ -11,8 +11,6 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from station.core.errors import BadInput
-
 
 @dataclass(frozen=True, slots=True)
 class Windows:
@@ -66,10 +64,3 @@ LEVELS = MappingProxyType({windows.name: windows for windows in _TABLE})
 """All levels by name: ours from the widest to the narrowest, then other programs'."""
 
 DEFAULT_LEVEL = LEVELS["intermediate"]
-
-
-def find_windows(name: str) -> Windows:
-    """The level called `name`; raises `BadInput` that lists all."""
-    if name not in LEVELS:
-        raise BadInput("level", name, f"no such level; there are {', '.join(LEVELS)}")
-    return LEVELS[name]

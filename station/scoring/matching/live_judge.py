@@ -6,11 +6,11 @@ to be played; a hit that was delivered late takes such a miss back.
 
 A hit and the few hits and notes of its piece around it are paired by least cost, as the final alignment does; where a
 note and a hit surely belong together (`pairing`) nothing else needs to be looked at. What is older than `_MEMORY`
-reaches is settled for good, which bounds the cost of a hit whatever the score's length. A hit that its own piece does
+reaches is final, which bounds the cost of a hit whatever the score's length. A hit that its own piece does
 not want goes to a waiting note of another piece close by, until that note's own piece claims it.
 
-Where the student turns out to be elsewhere, `move` judges the last hits anew. When he goes back, what he played before
-counts until he plays it again; then the new hit does, and the old one is an extra, as in the final alignment.
+Where the student turns out to be elsewhere, `move` judges the last hits anew. When they go back, what they played
+before counts until they play it again; then the new hit does, and the old one is an extra, as in the final alignment.
 
 Times are ns on the score's axis; asynchronies and windows are real time, of which the pace makes score time.
 """
@@ -66,11 +66,11 @@ class Judge:
         self._unwritten = Unwritten(score)
         self._own_of_note = [_NOBODY] * len(score)
         self._other_of_note = [_NOBODY] * len(score)
-        self._note_is_told = bytearray(len(score))
+        self._note_is_said = bytearray(len(score))
         self._hits: list[Hit] = []
         self._hit_ns: list[int] = []
         self._note_of_hit: list[int] = []
-        self._hit_is_told = bytearray()
+        self._hit_is_said = bytearray()
         self._stretch = 0  # the first hit since the student last went back
         self._begin = self._passed = 0
 
@@ -90,10 +90,10 @@ class Judge:
         self._hits.append(hit)
         self._hit_ns.append(moved.places_ns[-1])
         self._note_of_hit.append(_NOBODY)
-        self._hit_is_told.append(False)
+        self._hit_is_said.append(False)
         if moved.pace != self._pace:
             self._pace, self._reach_ns = moved.pace, round(self._real_reach_ns * moved.pace)
-        return self._told(self._judged(index) if moved.first == index else self._judged_anew(moved))
+        return self._with_corrections(self._judged(index) if moved.first == index else self._judged_anew(moved))
 
     def advance(self, score_ns: int) -> tuple[Judgement, ...]:
         """The misses that are certain at `score_ns` unless an older hit is still on its way."""
@@ -101,14 +101,14 @@ class Judge:
         if until <= self._passed:
             return ()
         due, self._passed = self._order[self._passed : until], until
-        return self._told([Judgement(Label.MISS, note, None) for note in due if self._is_waiting(note)])
+        return self._with_corrections([Judgement(Label.MISS, note, None) for note in due if self._is_waiting(note)])
 
     def begin(self, score_ns: int) -> tuple[Judgement, ...]:
         """The student turns out to have begun at `score_ns`: what is written before is nobody's. Takes misses back."""
         before, self._begin = self._begin, self._before(score_ns - self._reach_ns) if score_ns else 0
         self._passed = self._begin if self._begin < before else max(self._passed, self._begin)
-        early = [n for n in self._order[before : self._begin] if self._note_is_told[n] and self._is_waiting(n)]
-        return self._told([Judgement(Label.PENDING, note, None) for note in early])
+        early = [n for n in self._order[before : self._begin] if self._note_is_said[n] and self._is_waiting(n)]
+        return self._with_corrections([Judgement(Label.PENDING, note, None) for note in early])
 
     # --- pairing ----------------------------------------------------------------------------------------------------
 
@@ -213,7 +213,7 @@ class Judge:
     def _judged_anew(self, moved: Moved) -> list[Judgement]:
         """Put the hits of `moved` in their new places; returns what changes."""
         first, places_ns = moved.first, moved.places_ns
-        freed = {self._take_out(hit) for hit in range(first, len(self._hits))} - {_NOBODY}
+        freed = {self._remove(hit) for hit in range(first, len(self._hits))} - {_NOBODY}
         if first and places_ns[0] < self._hit_ns[first - 1] - self._reach_ns:
             self._go_back(first, places_ns[0])
         said: list[Judgement] = []
@@ -223,11 +223,11 @@ class Judge:
         said += [Judgement(self._unplayed(note), note, None) for note in freed if self._is_waiting(note)]
         return _last_words(said)
 
-    def _take_out(self, hit: int) -> int:
-        """Take a hit from its lane and its note; returns the note."""
+    def _remove(self, hit: int) -> int:
+        """Remove a hit from its lane and its note; returns the note."""
         lane = self._lanes.get(self._class_of[self._hits[hit].piece])
         if lane is not None:
-            lane.take_out(hit, self._hit_ns[hit])
+            lane.remove(hit, self._hit_ns[hit])
         return self._release(hit)
 
     def _go_back(self, first: int, to_ns: int) -> None:
@@ -264,15 +264,15 @@ class Judge:
         asynchrony_ns = off_ns if self._pace == 1.0 else round(off_ns / self._pace)
         return Judgement(label, note, hit, asynchrony_ns, self._hits[hit].fine_velocity - self._velocity[note])
 
-    def _told(self, said: list[Judgement]) -> tuple[Judgement, ...]:
-        """`said`, each marked if it corrects what was told before of its note or hit."""
+    def _with_corrections(self, said: list[Judgement]) -> tuple[Judgement, ...]:
+        """`said`, each marked if it corrects what was said before of its note or hit."""
         for i, verdict in enumerate(said):
             note, hit = verdict.note_index, verdict.hit_index
             before = False
             if note is not None:
-                before, self._note_is_told[note] = bool(self._note_is_told[note]), verdict.label is not Label.PENDING
+                before, self._note_is_said[note] = bool(self._note_is_said[note]), verdict.label is not Label.PENDING
             if hit is not None:
-                before, self._hit_is_told[hit] = before or bool(self._hit_is_told[hit]), True
+                before, self._hit_is_said[hit] = before or bool(self._hit_is_said[hit]), True
             if before:
                 said[i] = replace(verdict, corrects=True)
         return tuple(said)

@@ -22,8 +22,8 @@ class Lane:
         self.hit_ns.insert(place, at_ns)
         self.hits.insert(place, hit)
 
-    def take_out(self, hit: int, at_ns: int) -> None:
-        """Leave out `hit` if it is here."""
+    def remove(self, hit: int, at_ns: int) -> None:
+        """Remove `hit` if it is here."""
         place = bisect_left(self.hit_ns, at_ns)
         while place < len(self.hits) and self.hit_ns[place] == at_ns and self.hits[place] != hit:
             place += 1

@@ -11,7 +11,7 @@ from station.scoring.analysis.habits import Habits
 from station.scoring.analysis.loudness import Loudness
 from station.scoring.analysis.player_tempo import TempoCurve
 from station.scoring.analysis.summary import Summary, SummaryGroup
-from station.scoring.analysis.technique.observability import cannot_tell
+from station.scoring.analysis.technique.observability import unobservable
 from station.scoring.analysis.timing_spread import Spread
 from station.scoring.report.advice import advise
 from station.scoring.report.technique_table import Json, plain
@@ -43,8 +43,8 @@ def assessment(summary: Summary) -> dict[str, Json]:
         "timing": _timing(summary.timing),
         "tempo": _tempo(summary.tempo),
         "habits": _habits(summary.habits),
-        "craft": plain(summary.craft),
-        "cannot_tell": plain(cannot_tell(summary.craft, summary.untold)),
+        "craft": plain(summary.technique),
+        "cannot_tell": plain(unobservable(summary.technique, summary.swallowed)),
         "dynamics": None if summary.dynamics is None else _dynamics(summary.dynamics),
         "per_piece": {word(piece): _group(group) for piece, group in summary.by_piece.items()},
         "per_limb": _keyed(summary.by_limb),

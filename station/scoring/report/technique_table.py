@@ -1,4 +1,4 @@
-"""Craft as a JSON table: every field of its dataclasses under its own name, docs/report.md describes them.
+"""Technique as a JSON table: every field of its dataclasses under its own name, docs/report.md describes them.
 
 Numbers have three decimals, bars count from 1 as people count, enumerations are words; None is null.
 """

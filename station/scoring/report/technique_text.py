@@ -1,4 +1,4 @@
-"""Craft in words, a line a matter, from the report's own table: only what the data bear and a student can use.
+"""Technique in words, a line a matter, from the report's own table: only what the data bear and a student can use.
 
 What lies within its interval of nothing is not said; figures are rounded to what the interval allows.
 """
@@ -9,16 +9,16 @@ from typing import Any
 from station.core.labels import name_of
 
 Table = Mapping[str, Any]
-"""A part of the document that `table.plain` wrote."""
+"""A part of the document that `technique_table.plain` wrote."""
 
 LEAST_MS = 3.0
 """Half of what is just heard in fast strokes (HUMANS) is worth no word."""
 
 
-def craft_lines(document: Table) -> list[str]:
+def technique_lines(document: Table) -> list[str]:
     """The lines of a whole document, most general first; empty where nothing can be said."""
-    craft = document["craft"]
-    lines = [line for say in _SAYINGS for line in say(craft)]
+    technique = document["craft"]
+    lines = [line for say in _SAYINGS for line in say(technique)]
     lines += [
         f"Cannot tell {one['what']} ({one['count']}): {one['why']}" for one in document["cannot_tell"] if one["judged"]
     ]
@@ -35,52 +35,52 @@ def _sure(figure: Table, least: float = 0.0) -> bool:
     return ci is not None and ci[0] * ci[1] > 0 and abs(mean) >= least
 
 
-def _leans(craft: Table) -> Iterator[str]:
-    told = [
+def _leans(technique: Table) -> Iterator[str]:
+    leans = [
         name_of(one["piece"])
         + f" {_side(one['lean_ms'], 'ahead', 'behind')}{'' if one['free'] else ' (more than feel)'}"
-        for one in craft["leans"]
+        for one in technique["leans"]
         if one["ci"][0] * one["ci"][1] > 0 and abs(one["lean_ms"]) >= LEAST_MS
     ]
-    if told:
-        yield f"Feel: {', '.join(told)}"
+    if leans:
+        yield f"Feel: {', '.join(leans)}"
 
 
-def _swing(craft: Table) -> Iterator[str]:
-    if (swing := craft["swing"]) is not None:
+def _swing(technique: Table) -> Iterator[str]:
+    if (swing := technique["swing"]) is not None:
         beyond = "" if swing["free"] else ", beyond feel"
         yield f"Swing: {swing['held']:.1f}:1 held, {swing['written']:.1f}:1 written{beyond}"
 
 
-def _fills(craft: Table) -> Iterator[str]:
-    fills = craft["fills"]
+def _fills(technique: Table) -> Iterator[str]:
+    fills = technique["fills"]
     if fills is not None and _sure({"mean": fills["apart_ms"], "ci": fills["ci"]}, LEAST_MS):
         yield f"Fills: {_side(fills['apart_ms'], 'ahead of', 'behind')} your groove"
 
 
-def _together(craft: Table) -> Iterator[str]:
-    together = craft["together"]
-    if together is not None and together["sd_ms"]["ci"] is not None:
-        yield f"Limbs that strike together: {together['sd_ms']['sd']:.0f} ms apart (SD)"
+def _synchrony(technique: Table) -> Iterator[str]:
+    synchrony = technique["together"]
+    if synchrony is not None and synchrony["sd_ms"]["ci"] is not None:
+        yield f"Limbs that strike together: {synchrony['sd_ms']['sd']:.0f} ms apart (SD)"
 
 
-def _keeper(craft: Table) -> Iterator[str]:
-    keeper = craft["keeper"]
-    if keeper["timekeeper"] is not None:
-        clock, hand = keeper["timekeeper"]["sd_ms"], keeper["motor"]["sd_ms"]
-        yield f"Inner clock: {clock:.0f} ms, hand: {hand:.0f} ms (SD at {keeper['interval_ms']:.0f} ms)"
+def _wing_kristofferson(technique: Table) -> Iterator[str]:
+    clock_and_hand = technique["keeper"]
+    if clock_and_hand["timekeeper"] is not None:
+        clock, hand = clock_and_hand["timekeeper"]["sd_ms"], clock_and_hand["motor"]["sd_ms"]
+        yield f"Inner clock: {clock:.0f} ms, hand: {hand:.0f} ms (SD at {clock_and_hand['interval_ms']:.0f} ms)"
 
 
-def _gaps(craft: Table) -> Iterator[str]:
-    gaps = craft["gaps"]
+def _gaps(technique: Table) -> Iterator[str]:
+    gaps = technique["gaps"]
     if gaps is not None and gaps["size_ms"]["mean"] is not None:
         side = f", {_side(gaps['drift_ms']['mean'], 'early', 'late')} on average" if _sure(gaps["drift_ms"]) else ""
         size = gaps["size_ms"]
         yield f"When the click comes back: {size['mean']:.0f} ms off in {size['count']} gaps{side}"
 
 
-def _open_rolls(craft: Table) -> Iterator[str]:
-    rolls = craft["open_rolls"]
+def _open_rolls(technique: Table) -> Iterator[str]:
+    rolls = technique["open_rolls"]
     if rolls is not None and rolls["intervals_pct"]["ci"] is not None:
         yield f"Rolls: intervals spread by {rolls['intervals_pct']['sd']:.0f} % (SD)"
         if _sure(rolls["second_ms"], LEAST_MS):
@@ -93,8 +93,8 @@ def _db(level: float) -> str:
     return f"{abs(level):.1f} dB {'softer' if level < 0 else 'louder'}"
 
 
-def _buzz_rolls(craft: Table) -> Iterator[str]:
-    buzz = craft["buzz_rolls"]
+def _buzz_rolls(technique: Table) -> Iterator[str]:
+    buzz = technique["buzz_rolls"]
     if buzz is None or buzz["continuous"] is None:
         return
     words = [f"Buzz rolls: {buzz['continuous']} of {buzz['judged']} without a hole"]
@@ -105,18 +105,18 @@ def _buzz_rolls(craft: Table) -> Iterator[str]:
     yield ", ".join(words)
 
 
-def _ornaments(craft: Table) -> Iterator[str]:
-    for kind, found in craft["ornaments"].items():
+def _ornaments(technique: Table) -> Iterator[str]:
+    for kind, found in technique["ornaments"].items():
         spacing, softness = found["spacing_ms"], found["level_db"]
         if spacing["ci"] is not None:
             steady = f"{spacing['mean']:.0f} ms (SD {spacing['sd']:.0f})"
             yield f"{kind.capitalize()}s: strokes {steady} apart, grace strokes {_db(softness['mean'])}"
 
 
-def _cymbals(craft: Table) -> Iterator[str]:
-    if (hats := craft["hats"]) is not None and hats["judged"]:
+def _cymbals(technique: Table) -> Iterator[str]:
+    if (hats := technique["hats"]) is not None and hats["judged"]:
         yield f"Hi-hat: {hats['right']} of {hats['judged']} as open as written"
-    if (chokes := craft["chokes"]) is not None and chokes["judged"]:
+    if (chokes := technique["chokes"]) is not None and chokes["judged"]:
         ring = chokes["ring_ms"]
         late = f", {_side(ring['mean'], 'early', 'late')}" if _sure(ring, LEAST_MS) else ""
         yield f"Grabbed cymbals: {chokes['made']} of {chokes['judged']}{late}"
@@ -125,20 +125,20 @@ def _cymbals(craft: Table) -> Iterator[str]:
 _CLASSES = {"ghost": "ghost notes", "normal": "plain strokes", "accent": "accents"}
 
 
-def _shades(craft: Table) -> Iterator[str]:
-    if (shades := craft["shades"]) is None:
+def _pad_dynamics(technique: Table) -> Iterator[str]:
+    if (dynamics := technique["shades"]) is None:
         return
-    for one in shades["contrasts"]:
+    for one in dynamics["contrasts"]:
         if one["ci"] is not None:
             loud, soft = (_CLASSES[one[which]] for which in ("loud", "soft"))
             heard = f"{one['played_db']:+.1f} dB, written {one['written_db']:+.1f}"
             yield f"{name_of(one['piece']).capitalize()}, {loud} against {soft}: {heard}"
-    if shades["evenness_db"]["ci"] is not None:
-        yield f"Evenness of plain strokes: {shades['evenness_db']['sd']:.1f} dB (SD)"
-    balance = shades["left_less_right"]
+    if dynamics["evenness_db"]["ci"] is not None:
+        yield f"Evenness of plain strokes: {dynamics['evenness_db']['sd']:.1f} dB (SD)"
+    balance = dynamics["left_less_right"]
     if balance is not None and _sure({"mean": balance["louder_db"], "ci": balance["ci"]}, 1.0):
         yield f"Hands: the left is {_db(balance['louder_db'])} than the right"
-    for one in shades["crescendos"]:
+    for one in dynamics["crescendos"]:
         if one["ci"] is not None:
             where = f"{name_of(one['piece']).capitalize()}, bars {one['bars'][0]}-{one['bars'][1]}"
             yield f"{where}: {one['played_db']:+.0f} dB for {one['written_db']:+.0f}"
@@ -148,12 +148,12 @@ _SAYINGS: tuple[Callable[[Table], Iterator[str]], ...] = (
     _fills,
     _leans,
     _swing,
-    _together,
-    _keeper,
+    _synchrony,
+    _wing_kristofferson,
     _gaps,
     _open_rolls,
     _buzz_rolls,
     _ornaments,
     _cymbals,
-    _shades,
+    _pad_dynamics,
 )

@@ -89,7 +89,7 @@ class Player(io.StringIO):
 
     def write(self, text: str) -> int:
         super().write(text)
-        if f"{self._kit.wish} is here" in text:
+        if f"{self._kit.device} is here" in text:
             self._kit.play(bytes.fromhex("99 26 64 26 00 24 50"))
         self._hits += "velocity" in text
         if self._hits == 2:
@@ -103,7 +103,7 @@ def test_a_serial_kit_and_a_midi_kit_are_monitored_at_once(tmp_path: Path, monke
         console, driver = Player(kit), FakeDriver("TD-17 20:0")
         monkeypatch.setattr("station.devices.device_ports.MidiDirectory", lambda *_: driver)
         monkeypatch.setattr(sys, "stdout", console)
-        words = ["devices", "monitor", "--kit", "td-17", "--kit", f"{kit.wish}@115200", "--seconds", "20"]
+        words = ["devices", "monitor", "--kit", "td-17", "--kit", f"{kit.device}@115200", "--seconds", "20"]
         assert main(words) == 0
         assert kit.rate() == (115_200, 115_200)
     lines = console.getvalue()
@@ -121,8 +121,8 @@ def test_a_serial_kit_is_heard_where_no_midi_driver_works(
     monkeypatch.setattr("station.devices.device_ports.MidiDirectory", no_driver)
     with SerialKit(tmp_path / "ttyUSB0") as kit:
         words = ["devices", "record", str(tmp_path / "take.cap"), "--seconds", "0.05"]
-        assert main([*words, "--kit", kit.wish]) == 0
-        assert f"{kit.wish} is here" in capsys.readouterr().err
+        assert main([*words, "--kit", kit.device]) == 0
+        assert f"{kit.device} is here" in capsys.readouterr().err
         assert main([*words, "--kit", "TD-17"]) == 2
         assert "no MIDI driver works" in capsys.readouterr().err
 

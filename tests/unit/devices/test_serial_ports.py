@@ -65,15 +65,15 @@ def path(tmp_path: Path) -> Path:
 @pytest.mark.parametrize(("baud", "wish"), [(31_250, ""), (115_200, "@115200")])
 def test_the_rate_is_set_in_the_kernel(path: Path, baud: int, wish: str) -> None:
     with SerialKit(path) as kit:
-        chosen = parse_kit(kit.wish + wish)
-        port = ports_for(chosen, None).open(kit.wish)
+        chosen = parse_kit(kit.device + wish)
+        port = ports_for(chosen, None).open(kit.device)
         assert kit.rate() == (baud, baud)
         port.close()
 
 
 def test_bytes_that_came_together_came_one_byte_time_after_the_other(path: Path) -> None:
     with PatientKit(path) as kit:
-        port = SerialDirectory(asked=str(path), now_ns=lambda: 7 * NS_PER_S).open(kit.wish)
+        port = SerialDirectory(asked=str(path), now_ns=lambda: 7 * NS_PER_S).open(kit.device)
         kit.play(SNARE_AND_KICK)
         expected = [7 * NS_PER_S - left * BYTE_NS for left in (4, 3, 2, 1, 0)]
         packets = port.read()
@@ -86,7 +86,7 @@ def test_what_came_later_is_never_stamped_earlier(path: Path) -> None:
     """Two bytes 0.1 ms after one: the wire says 0.22 ms before it, which cannot be."""
     reads_ns = [1_000_000, 1_100_000]
     with PatientKit(path) as kit:
-        port = SerialDirectory(asked=str(path), now_ns=lambda: reads_ns[0]).open(kit.wish)
+        port = SerialDirectory(asked=str(path), now_ns=lambda: reads_ns[0]).open(kit.device)
         kit.play(b"\x99")
         assert [packet.at_ns for packet in port.read()] == [1_000_000]
         del reads_ns[0]
@@ -98,16 +98,16 @@ def test_what_came_later_is_never_stamped_earlier(path: Path) -> None:
 def test_a_port_of_its_own_path_is_listed_while_it_is_there(path: Path) -> None:
     with SerialKit(path, plugged=False) as kit:
         directory = SerialDirectory(asked=str(path))
-        assert kit.wish not in directory.names()
+        assert kit.device not in directory.names()
         kit.plug()
-        assert kit.wish in directory.names()
+        assert kit.device in directory.names()
         kit.unplug()
-        assert kit.wish not in directory.names()
+        assert kit.device not in directory.names()
 
 
 def test_an_unplugged_port_is_a_device_that_has_gone(path: Path) -> None:
     with SerialKit(path) as kit:
-        port = SerialDirectory(asked=str(path)).open(kit.wish)
+        port = SerialDirectory(asked=str(path)).open(kit.device)
         kit.unplug()
         with pytest.raises(DeviceError, match="has gone"):
             read_some(port, 1)
@@ -118,7 +118,7 @@ def test_an_unplugged_port_is_a_device_that_has_gone(path: Path) -> None:
 def test_unplugged_in_mid_message_and_back(path: Path) -> None:
     """The half message is lost with the cable; the station hears the module again within a second."""
     with PatientKit(path) as kit:
-        watch = PortWatch(ports_for(parse_kit(kit.wish), None), kit.wish)
+        watch = PortWatch(ports_for(parse_kit(kit.device), None), kit.device)
         assert watch.poll(0).found
         kit.play(b"\x99\x26")
         assert len(watch.poll(1).packets) == 2
@@ -133,11 +133,11 @@ def test_unplugged_in_mid_message_and_back(path: Path) -> None:
 
 def test_a_port_that_another_program_holds_is_told_once_it_lasts(path: Path) -> None:
     with SerialKit(path) as kit:
-        ports = ports_for(parse_kit(kit.wish), None)
-        other = ports.open(kit.wish)
-        watch = PortWatch(ports, kit.wish)
+        ports = ports_for(parse_kit(kit.device), None)
+        other = ports.open(kit.device)
+        watch = PortWatch(ports, kit.device)
         faults = [watch.poll(at_s * NS_PER_S).fault for at_s in range(4)]
-        assert faults == ["", f"{kit.wish}: another program has this serial port open", "", ""]
+        assert faults == ["", f"{kit.device}: another program has this serial port open", "", ""]
         other.close()
         assert watch.poll(5 * NS_PER_S).found
         watch.close()
@@ -173,8 +173,8 @@ def test_midi_and_serial_ports_are_one_list(path: Path) -> None:
     with SerialKit(path) as kit:
         ports = DevicePorts(midi, SerialDirectory(asked=str(path)))
         assert ports.names()[0] == "TD-17 20:0"
-        assert kit.wish in ports.names()
+        assert kit.device in ports.names()
         assert ports.open("TD-17 20:0").name == "TD-17"
-        serial = ports.open(kit.wish)
-        assert serial.name == kit.wish
+        serial = ports.open(kit.device)
+        assert serial.name == kit.device
         serial.close()

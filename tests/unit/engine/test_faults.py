@@ -88,7 +88,7 @@ def test_a_hundred_plug_cycles_leave_no_thread_file_or_port(tmp_path: Path) -> N
     """A real pty comes and goes, each time in the middle of a message, each time heard and recorded."""
     engine = Engine()
     with SerialKit(tmp_path / "ttyUSB0", plugged=False) as kit:
-        runner = Runner(engine, [PortWatch(ports_for(parse_kit(kit.wish), None), kit.wish)], None)
+        runner = Runner(engine, [PortWatch(ports_for(parse_kit(kit.device), None), kit.device)], None)
         runner.start(0)
         runner.step(0)
         files, threads = held()

@@ -129,11 +129,11 @@ def test_what_is_beyond_a_human_is_not_held_against_the_drummer() -> None:
         Note(4 * PPQ + PPQ // 30, Piece.FLOOR_TOM_1, limb=Limb.RIGHT_HAND),
     ]
     drummer = Drummer(Score.from_notes(notes, TempoMap.constant(100)))
-    assert drummer.assignment.beyond
+    assert drummer.assignment.infeasible
     found = audit(drummer)
     assert found.speed.value <= 1.0
     assert found.strike_m.value <= 1e-6
-    careless = replace(drummer.assignment, beyond=())
+    careless = replace(drummer.assignment, infeasible=())
     unsaid = audit(Drummer(drummer.score, plan=replace(drummer.plan, assignment=careless)))  # type: ignore[type-var]
     assert unsaid.speed.value > 1.0
 

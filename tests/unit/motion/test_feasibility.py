@@ -2,7 +2,7 @@
 
 from station.core.pieces import Limb, Piece, Zone
 from station.core.units import PPQ
-from station.motion.feasibility import beyond_human
+from station.motion.feasibility import infeasible_demands
 from station.motion.kit.kit import load_kit
 from station.motion.sticking.limbs import as_led, assign_limbs
 from station.music.score import Note, Score
@@ -14,7 +14,7 @@ HAND = Limb.RIGHT_HAND
 
 
 def said(score: Score) -> tuple[str, ...]:
-    return tuple(b.text for b in beyond_human(score, KIT, score.notes["limb"]))
+    return tuple(b.text for b in infeasible_demands(score, KIT, score.notes["limb"]))
 
 
 def repeated(count: int, each_ticks: int, bpm: float) -> Score:
@@ -67,7 +67,7 @@ def test_what_does_not_die_away_is_no_bounce() -> None:
 def test_no_foot_bounces() -> None:
     notes = [Note(4 * PPQ + i * PPQ // 10, Piece.KICK, velocity=v) for i, v in enumerate((127, 33, 8))]
     score = Score.from_notes(notes, TempoMap.constant(100))
-    assert [b.text for b in assign_limbs(score, KIT).beyond] == ["bar 2 needs 17 strokes a second of one foot"]
+    assert [b.text for b in assign_limbs(score, KIT).infeasible] == ["bar 2 needs 17 strokes a second of one foot"]
 
 
 def test_a_hand_in_two_far_places_is_named_with_the_way_and_the_time() -> None:
@@ -94,14 +94,14 @@ def test_rebound_and_whip_have_their_share_of_the_time_for_a_way() -> None:
 
 def test_the_span_holds_the_strokes_that_ask_it() -> None:
     score = repeated(6, PPQ // 2, 420)
-    (found,) = beyond_human(score, KIT, score.notes["limb"])
+    (found,) = infeasible_demands(score, KIT, score.notes["limb"])
     assert (found.start_s, found.end_s) == (score.onset_s[0], score.onset_s[-1])
     assert (found.bar, found.limb) == (1, HAND)
 
 
 def test_a_groove_is_human() -> None:
     score = score_of(ROCK)
-    assert assign_limbs(score, KIT).beyond == ()
+    assert assign_limbs(score, KIT).infeasible == ()
 
 
 def test_a_left_handed_player_reads_r_as_the_leading_hand() -> None:

@@ -55,7 +55,7 @@ def test_a_bounce_that_dies_away_stays_in_its_hand_while_the_other_is_away() -> 
     score = Score.from_notes([*snare, *ride], TempoMap.constant(100))
     found = assign_limbs(score, KIT)
     assert hand_letters(score, found.limbs, Piece.SNARE) == "LLL"
-    assert found.beyond == ()
+    assert found.infeasible == ()
 
 
 def test_sixteenths_alternate_from_the_leading_hand() -> None:

@@ -23,9 +23,9 @@ from station.render.palette import (
     PAPER_LOW,
     WRONG,
     Theme,
-    dyed,
-    dyed_bytes,
     over_picture,
+    themed,
+    themed_bytes,
     with_opacity,
 )
 from station.render.text.draw_list import Colour
@@ -68,41 +68,41 @@ def lab(rgb: NDArray[np.float64]) -> NDArray[np.float64]:
 @pytest.mark.parametrize("theme", Theme)
 @pytest.mark.parametrize("paper", [PAPER, PAPER_LOW, NIGHT, PANEL], ids=["paper", "low paper", "night", "panel"])
 def test_every_text_and_signal_reads_on_every_paper(theme: Theme, paper: Colour) -> None:
-    ground = with_opacity(dyed(paper, theme), 1.0 / paper[3])
+    ground = with_opacity(themed(paper, theme), 1.0 / paper[3])
     for colour in (INK, INK_SOFT, BRAND, *SIGNALS):
-        assert contrast(dyed(colour, theme), ground) >= 4.5, (theme, colour)
+        assert contrast(themed(colour, theme), ground) >= 4.5, (theme, colour)
 
 
 def test_high_contrast_is_high() -> None:
-    ground = dyed(PAPER, Theme.CONTRAST)
-    assert contrast(dyed(INK, Theme.CONTRAST), ground) == pytest.approx(21.0), "white on black"
+    ground = themed(PAPER, Theme.CONTRAST)
+    assert contrast(themed(INK, Theme.CONTRAST), ground) == pytest.approx(21.0), "white on black"
     for colour in (INK_SOFT, BRAND, *SIGNALS):
-        assert contrast(dyed(colour, Theme.CONTRAST), ground) >= 7.0, "WCAG's enhanced contrast"
+        assert contrast(themed(colour, Theme.CONTRAST), ground) >= 7.0, "WCAG's enhanced contrast"
 
 
 @pytest.mark.parametrize("theme", Theme)
 @pytest.mark.parametrize("sight", SIGHT)
 def test_signals_are_told_apart_by_everybody(theme: Theme, sight: str) -> None:
-    seen = [lab(np.array(SIGHT[sight]) @ linear(dyed(colour, theme))) for colour in SIGNALS]
+    seen = [lab(np.array(SIGHT[sight]) @ linear(themed(colour, theme))) for colour in SIGNALS]
     least = min(float(np.linalg.norm(one - other)) for one, other in combinations(seen, 2))
     assert least >= LEAST_APART[theme]
 
 
 @pytest.mark.parametrize("theme", Theme)
 def test_a_button_s_letters_read_on_it(theme: Theme) -> None:
-    assert contrast(dyed(NIGHT, theme), dyed(BRAND, theme)) >= 4.5
+    assert contrast(themed(NIGHT, theme), themed(BRAND, theme)) >= 4.5
 
 
 @pytest.mark.parametrize("theme", Theme)
 def test_a_slider_s_number_reads_on_its_grab(theme: Theme) -> None:
-    grab = over(with_opacity(dyed(BRAND, theme), GRAB), dyed(PAPER, theme))
-    assert contrast(dyed(INK, theme), grab) >= 4.5
+    grab = over(with_opacity(themed(BRAND, theme), GRAB), themed(PAPER, theme))
+    assert contrast(themed(INK, theme), grab) >= 4.5
 
 
 def test_opacity_stays_and_a_colour_of_no_theme_too() -> None:
-    assert dyed(INK_SOFT, Theme.CONTRAST) == (1.0, 1.0, 1.0, INK_SOFT[3])
-    assert dyed((0.2, 0.4, 0.6, 0.5), Theme.DAY) == pytest.approx((0.2, 0.4, 0.6, 0.5))
-    assert dyed_bytes(np.array([[1, 2, 3], [0xF2, 0xED, 0xE4]], np.uint8), Theme.DAY).tolist() == [
+    assert themed(INK_SOFT, Theme.CONTRAST) == (1.0, 1.0, 1.0, INK_SOFT[3])
+    assert themed((0.2, 0.4, 0.6, 0.5), Theme.DAY) == pytest.approx((0.2, 0.4, 0.6, 0.5))
+    assert themed_bytes(np.array([[1, 2, 3], [0xF2, 0xED, 0xE4]], np.uint8), Theme.DAY).tolist() == [
         [1, 2, 3],
         [0x1B, 0x1E, 0x26],
     ]

@@ -9,7 +9,7 @@ from station.motion.kit.kit import load_kit
 from station.render.figure.body import build_body
 from station.render.geometry.light import Light
 from station.render.gpu import scene_cache as module
-from station.render.gpu.scene_cache import Arrays, kept, kept_body, kept_floor, kept_kit, kept_wall
+from station.render.gpu.scene_cache import Arrays, cached, cached_body, cached_floor, cached_kit, cached_wall
 from station.render.kit.instrument_meshes import Detail
 from station.render.kit.kit_rig import build_kit, floor_discs
 from station.render.kit.room import floor_picture, wall_picture
@@ -39,26 +39,26 @@ def only_file(folder: Path) -> Path:
 
 
 def test_what_was_made_once_is_read_from_disk(tmp_path: Path) -> None:
-    assert kept("solid", (1, "b"), make, tmp_path) is MADE
-    assert_same(kept("solid", (1, "b"), refuse, tmp_path), MADE)
+    assert cached("solid", (1, "b"), make, tmp_path) is MADE
+    assert_same(cached("solid", (1, "b"), refuse, tmp_path), MADE)
 
 
 def test_another_wish_is_another_file(tmp_path: Path) -> None:
     kit = load_kit()
     wishes = [(kit, COARSE), (kit.mirrored, COARSE), (replace(kit, seat_m=(0.0, 0.0, 0.51)), COARSE), (kit, None)]
     for wanted in wishes:
-        kept("solid", wanted, make, tmp_path)
+        cached("solid", wanted, make, tmp_path)
     assert len(list(tmp_path.iterdir())) == len(wishes)
 
 
 def test_an_object_that_says_only_where_it_lies_is_refused(tmp_path: Path) -> None:
     with pytest.raises(AssertionError, match="address"):
-        kept("solid", object(), make, tmp_path)
+        cached("solid", object(), make, tmp_path)
 
 
 @pytest.mark.parametrize("damage", ["cut", "flipped", "empty", "foreign"])
 def test_a_damaged_file_is_made_anew(tmp_path: Path, damage: str) -> None:
-    kept("solid", 1, make, tmp_path)
+    cached("solid", 1, make, tmp_path)
     file = only_file(tmp_path)
     whole = file.read_bytes()
     data = bytearray(whole)
@@ -69,33 +69,33 @@ def test_a_damaged_file_is_made_anew(tmp_path: Path, damage: str) -> None:
     else:
         data = bytearray() if damage == "empty" else bytearray(b"PK\x03\x04 something else")
     file.write_bytes(data)
-    assert_same(kept("solid", 1, make, tmp_path), MADE)
+    assert_same(cached("solid", 1, make, tmp_path), MADE)
     assert file.read_bytes() == whole
 
 
 def test_damage_where_no_part_has_a_checksum_is_found_too(tmp_path: Path) -> None:
     """A zip's table of contents stands at its end: methods, flags, names and sizes."""
-    kept("solid", 1, make, tmp_path)
+    cached("solid", 1, make, tmp_path)
     file = only_file(tmp_path)
     whole = file.read_bytes()
     for from_end in range(1, 200, 7):
         data = bytearray(whole)
         data[-from_end] ^= 0x41
         file.write_bytes(data)
-        assert_same(kept("solid", 1, make, tmp_path), MADE)
+        assert_same(cached("solid", 1, make, tmp_path), MADE)
         assert file.read_bytes() == whole
 
 
 def test_a_folder_that_cannot_be_written_costs_time_alone(tmp_path: Path) -> None:
     (tmp_path / "file").write_bytes(b"")
-    assert_same(kept("solid", 1, make, tmp_path / "file" / "folder"), MADE)
+    assert_same(cached("solid", 1, make, tmp_path / "file" / "folder"), MADE)
 
 
 def test_only_the_latest_files_are_kept(tmp_path: Path) -> None:
     (tmp_path / "else.txt").write_bytes(b"not ours")
-    for wanted in range(module.KEPT_FILES + 3):
-        kept("solid", wanted, make, tmp_path)
-    assert len(list(tmp_path.glob("*.scene"))) == module.KEPT_FILES
+    for wanted in range(module.CACHED_FILES + 3):
+        cached("solid", wanted, make, tmp_path)
+    assert len(list(tmp_path.glob("*.scene"))) == module.CACHED_FILES
     assert (tmp_path / "else.txt").exists()
 
 
@@ -105,11 +105,11 @@ def test_kits_bodies_and_pictures_come_back_as_they_were_made(tmp_path: Path, mo
     rig, skin = build_kit(kit, COARSE), build_body(figure, 4.0)
     floor, wall = floor_picture(floor_discs(kit), light, 32), wall_picture()
     for _ in range(2):  # made, and read
-        again, body = kept_kit(kit, COARSE), kept_body(figure, 4.0)
+        again, body = cached_kit(kit, COARSE), cached_body(figure, 4.0)
         for one, other in ((rig.mesh, again.mesh), (skin, body)):
             for field in fields(one):
                 assert np.array_equal(getattr(one, field.name), getattr(other, field.name)), field.name
         assert (again.faces_of, again.still_faces, again.sticks) == (rig.faces_of, rig.still_faces, rig.sticks)
-        assert np.array_equal(kept_floor(kit, light, 32), floor)
-        assert np.array_equal(kept_wall(), wall)
+        assert np.array_equal(cached_floor(kit, light, 32), floor)
+        assert np.array_equal(cached_wall(), wall)
     assert len(list(tmp_path.iterdir())) == 4

@@ -41,9 +41,9 @@ def test_the_staff_fills_its_place() -> None:
 def marked(label: Label, asynchrony_ms: float = np.nan) -> set[ShapeKind]:
     row = np.zeros(1, MARK_DTYPE)
     row["label"], row["asynchrony_ms"] = label, asynchrony_ms
-    ink = DrawList(Atlas())
-    draw_mark(ink, row[0], 0.0, 12.0)
-    return {ShapeKind(int(k)) for k in ink.shapes()["kind"]}
+    draw_list = DrawList(Atlas())
+    draw_mark(draw_list, row[0], 0.0, 12.0)
+    return {ShapeKind(int(k)) for k in draw_list.shapes()["kind"]}
 
 
 def test_each_judgement_has_a_shape_of_its_own() -> None:
@@ -57,9 +57,9 @@ def test_each_judgement_has_a_shape_of_its_own() -> None:
 def test_arrows_point_where_the_hit_fell(asynchrony_ms: float, side: int) -> None:
     row = np.zeros(1, MARK_DTYPE)
     row["label"], row["asynchrony_ms"] = Label.MATCH, asynchrony_ms
-    ink = DrawList(Atlas())
-    draw_mark(ink, row[0], 0.0, 12.0)
-    arrow = ink.shapes()[ink.shapes()["kind"] == ShapeKind.TRIANGLE][0]
+    draw_list = DrawList(Atlas())
+    draw_mark(draw_list, row[0], 0.0, 12.0)
+    arrow = draw_list.shapes()[draw_list.shapes()["kind"] == ShapeKind.TRIANGLE][0]
     assert np.sign(arrow["centre"][0]) == side
     assert np.sign(arrow["axis"][0]) == side
 
@@ -99,17 +99,17 @@ def test_how_much_louder_than_written(written: int, error: float, expected_db: f
 def test_no_strength_is_no_wedge() -> None:
     assert off_db(80, float("nan")) is None
     for nothing in (None, 3.0, -3.0):
-        ink = DrawList(Atlas())
-        draw_dynamics(ink, nothing, 0.0)
-        assert len(ink) == 0
+        draw_list = DrawList(Atlas())
+        draw_dynamics(draw_list, nothing, 0.0)
+        assert len(draw_list) == 0
 
 
 @pytest.mark.parametrize(("louder_db", "way"), [(9.0, -1), (-9.0, 1)])
 def test_the_wedge_points_up_when_too_loud_and_down_when_too_soft(louder_db: float, way: int) -> None:
     """Heights run downwards: above the head is negative."""
-    ink = DrawList(Atlas())
-    draw_dynamics(ink, louder_db, 0.0)
-    wedge = ink.shapes()[0]
+    draw_list = DrawList(Atlas())
+    draw_dynamics(draw_list, louder_db, 0.0)
+    wedge = draw_list.shapes()[0]
     assert wedge["kind"] == ShapeKind.TRIANGLE
     assert np.sign(wedge["centre"][1]) == way
     assert np.sign(wedge["axis"][1]) == way

@@ -33,9 +33,9 @@ def area(shape: Filled) -> float:
     return abs(total)
 
 
-def drawn(ink: DrawList, unit: float = 1.0) -> list[Filled]:
-    assert isinstance(ink.atlas, OutlineAtlas)
-    return list(filled(ink.shapes(), ink.atlas, PaperSpot((0.0, 0.0), unit)))
+def drawn(draw_list: DrawList, unit: float = 1.0) -> list[Filled]:
+    assert isinstance(draw_list.atlas, OutlineAtlas)
+    return list(filled(draw_list.shapes(), draw_list.atlas, PaperSpot((0.0, 0.0), unit)))
 
 
 def points(areas: list[Filled]) -> NDArray[np.float64]:
@@ -43,39 +43,39 @@ def points(areas: list[Filled]) -> NDArray[np.float64]:
 
 
 def test_areas_are_those_of_the_shapes() -> None:
-    ink = DrawList(OutlineAtlas())
-    ink.box((1.0, 2.0), (3.0, 4.0), INK)
-    ink.line((0.0, 0.0), (3.0, 4.0), 0.5, INK)
-    ink.ellipse((0.0, 0.0), (2.0, 1.0), INK, 0.4)
-    ink.ellipse((0.0, 0.0), (2.0, 2.0), INK, 0.0, (0.0, 0.5, 0.0))
-    ink.triangle((0.0, 0.0), (1.0, 0.5), INK)
-    ink.cross((0.0, 0.0), (3.0, 4.0), 0.2, INK_FAINT)
-    found = [area(shape) for shape in drawn(ink, 2.0)]
+    draw_list = DrawList(OutlineAtlas())
+    draw_list.box((1.0, 2.0), (3.0, 4.0), INK)
+    draw_list.line((0.0, 0.0), (3.0, 4.0), 0.5, INK)
+    draw_list.ellipse((0.0, 0.0), (2.0, 1.0), INK, 0.4)
+    draw_list.ellipse((0.0, 0.0), (2.0, 2.0), INK, 0.0, (0.0, 0.5, 0.0))
+    draw_list.triangle((0.0, 0.0), (1.0, 0.5), INK)
+    draw_list.cross((0.0, 0.0), (3.0, 4.0), 0.2, INK_FAINT)
+    found = [area(shape) for shape in drawn(draw_list, 2.0)]
     ring = np.pi * (2.25**2 - 1.75**2)
     expected = [12.0, 2.5, 2 * np.pi, ring, 1.0, 0.0]
     assert found[:5] == pytest.approx([4 * a for a in expected[:5]], rel=0.01), "four times as much at twice the size"
-    assert len(drawn(ink)[5].contours) == 2
-    assert drawn(ink)[0].grey == 0.0
-    assert 0.2 < drawn(ink)[5].grey <= 0.5, "soft ink is still read"
+    assert len(drawn(draw_list)[5].contours) == 2
+    assert drawn(draw_list)[0].grey == 0.0
+    assert 0.2 < drawn(draw_list)[5].grey <= 0.5, "soft ink is still read"
 
 
 def test_a_shape_that_spans_a_time_reaches_from_one_place_to_the_other() -> None:
-    ink = DrawList(OutlineAtlas())
-    ink.time_s, ink.span_s = 2.0, 3.0
-    ink.box((-0.5, 0.0), (1.0, 1.0), INK)
-    shapes = list(filled(ink.shapes(), ink.atlas, PaperSpot((10.0, 0.0), 1.0, lambda s: 4.0 * s)))  # type: ignore[arg-type]
+    draw_list = DrawList(OutlineAtlas())
+    draw_list.time_s, draw_list.span_s = 2.0, 3.0
+    draw_list.box((-0.5, 0.0), (1.0, 1.0), INK)
+    shapes = list(filled(draw_list.shapes(), draw_list.atlas, PaperSpot((10.0, 0.0), 1.0, lambda s: 4.0 * s)))  # type: ignore[arg-type]
     assert (points(shapes)[:, 0].min(), points(shapes)[:, 0].max()) == (10 + 8 - 0.5, 10 + 20 + 0.5)
 
 
 def test_letters_and_signs_lie_where_their_outlines_do() -> None:
-    ink = DrawList(OutlineAtlas())
-    width = ink.text("HH", (5.0, 7.0), TypeStyle(10.0, INK, Face.BOLD))
-    found = points(drawn(ink))
+    draw_list = DrawList(OutlineAtlas())
+    width = draw_list.text("HH", (5.0, 7.0), TypeStyle(10.0, INK, Face.BOLD))
+    found = points(drawn(draw_list))
     assert found[:, 1].max() == pytest.approx(7.0), "an H stands on the base line"
     assert 6.5 < 7.0 - found[:, 1].min() < 7.6, "capitals are 0.71 em high in Roboto"
     assert 5.0 < found[:, 0].min() < found[:, 0].max() < 5.0 + width
     for mirrored, low, high in ((False, 0.0, 2.62), (True, -2.62, 0.0)):
-        flag = DrawList(ink.atlas)
+        flag = DrawList(draw_list.atlas)
         flag.sign("flag", (0.0, 0.0), INK, mirrored=mirrored)
         y = points(drawn(flag))[:, 1]
         assert (y.min(), y.max()) == pytest.approx((low, high)), "a flag hangs 2.62 spaces from its stem's end"

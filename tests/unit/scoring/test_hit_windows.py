@@ -4,8 +4,7 @@ from itertools import pairwise
 
 import pytest
 
-from station.core.errors import BadInput
-from station.scoring.matching.hit_windows import LEVELS, Windows, find_windows
+from station.scoring.matching.hit_windows import LEVELS, Windows
 
 
 @pytest.mark.parametrize(
@@ -50,8 +49,3 @@ def test_credit_by_hand() -> None:
 
 def test_credit_of_a_single_window() -> None:
     assert LEVELS["yarg"].credit([70.0, -70.0, 70.001]).tolist() == [1, 1, 0]
-
-
-def test_an_unknown_level_is_told_the_names() -> None:
-    with pytest.raises(BadInput, match=r"beginner.*studio"):
-        find_windows("master")

@@ -1,4 +1,4 @@
-"""Shades of loudness: each pad's own classes, their contrast, evenness, the balance of the hands, crescendos.
+"""Dynamics: each pad's own classes, their contrast, evenness, the balance of the hands, crescendos.
 
 Levels are in dB, 40·log10(velocity/127) (HUMANS), and compared on one pad with this player's own strokes there, so that
 pads and students may differ. Contrast is judged on marked notes and the unmarked ones beside them alone; evenness is
@@ -71,7 +71,7 @@ class Crescendo:
 
 
 @dataclass(frozen=True, eq=False)
-class DynamicShades:
+class PadDynamics:
     """`own` level in dB of each class on each pad; contrasts; evenness; crescendos in order.
 
     `left_less_right` the left hand's strokes against the right hand's; None where no sticking is written.
@@ -84,12 +84,12 @@ class DynamicShades:
     left_less_right: Balance | None
 
 
-def shades(score: Score, performance: Performance, alignment: Alignment, hands: Effect | None) -> DynamicShades:
-    """All shades of what was matched, no grace strokes; `hands` is what `habits` says of the left hand's level."""
+def pad_dynamics(score: Score, performance: Performance, alignment: Alignment, hands: Effect | None) -> PadDynamics:
+    """The dynamics of what was matched, no grace strokes; `hands` is what `habits` says of the left hand's level."""
     heard = (alignment.note_label == Label.MATCH) & ~score.is_grace
     level = np.full(len(score), np.nan)
     level[heard] = level_db(performance.fine_velocity[alignment.hit_of_note[heard]])
-    return DynamicShades(
+    return PadDynamics(
         _own(score, level, heard),
         _contrasts(score, level, heard & judged_notes(score)),
         _evenness(score, level, heard),

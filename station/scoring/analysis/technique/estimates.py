@@ -1,7 +1,7 @@
 """Figures with the interval that the data can bear: a mean, or the size of a scatter.
 
 The unit stands in the name of the field that holds the figure. No data is None: a mean needs one value, a spread two,
-an interval `timing.MIN_SLOTS` slots.
+an interval `timing_spread.MIN_SLOTS` slots.
 """
 
 from dataclasses import dataclass
@@ -58,13 +58,13 @@ def scatter(values: Floats, groups: Indices, slots: Indices) -> Scatter:
     """
     _, group = np.unique(groups, return_inverse=True)
     counts = np.bincount(group)
-    told = counts[group] > 1
-    if not told.any():
+    repeated = counts[group] > 1
+    if not repeated.any():
         return Scatter(0, None, None)
     means = np.bincount(group, weights=values) / counts
-    squares = ((values - means[group]) ** 2 * counts[group] / np.maximum(counts[group] - 1, 1))[told]
+    squares = ((values - means[group]) ** 2 * counts[group] / np.maximum(counts[group] - 1, 1))[repeated]
     mean_square = float(squares.mean())
-    error = standard_error(squares, slots[told])
+    error = standard_error(squares, slots[repeated])
     if error is None:
         return Scatter(len(squares), mean_square**0.5, None)
     half = t_quantile_95(error.freedom) * error.value

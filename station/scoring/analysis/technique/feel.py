@@ -61,10 +61,10 @@ def fills_against_groove(score: Score, alignment: Alignment) -> Fills | None:
 def leans(found: Habits, feel: Feel) -> tuple[Lean, ...]:
     """How each piece leans, of which enough is known."""
     names = {f"lean_{word(piece)}": piece for piece in Piece} | {name: piece for piece, name in FEET.items()}
-    told = [(names[name], effect) for name, effect in found.effects.items() if name in names]
+    known = [(names[name], effect) for name, effect in found.effects.items() if name in names]
     return tuple(
         Lean(piece, effect.value, effect.ci, abs(effect.value) <= feel.lean_ms)
-        for piece, effect in told
+        for piece, effect in known
         if effect.slots > _FEWEST
     )
 
@@ -78,8 +78,8 @@ def swing(score: Score, alignment: Alignment, found: Habits, feel: Feel) -> Held
     written = swung.written_place
     low, high = effect.ci
     held = ratio_of_place(written + effect.value)
-    told = swung.flags & timed_notes(score, alignment)
-    off = (asynchrony_ms(alignment) - free_ms(score, alignment, feel))[told]
+    counted = swung.flags & timed_notes(score, alignment)
+    off = (asynchrony_ms(alignment) - free_ms(score, alignment, feel))[counted]
     sd_ms = float(off.std(ddof=1)) if len(off) > 1 else None
     ends = (ratio_of_place(written + low), ratio_of_place(written + high))
     return HeldSwing(ratio_of_place(written), held, ends, sd_ms, feel.allows(held, ratio_of_place(written)))

@@ -41,7 +41,7 @@ class Opening(IntEnum):
 
 @dataclass(frozen=True, eq=False)
 class HihatOpenness:
-    """`written` strokes of the hi-hat that ask for an openness, `matched` ones, `judged` where the kit told enough.
+    """`written` strokes of the hi-hat that ask for an openness, `matched` ones, `judged` where the kit sent enough.
 
     `right` of the judged are as written, half open and open being one; `confusion` (3, 3) counts them, row = written,
     column = played. `openness` (by `Opening`) is what was played for each, 0 closed … 1 open.
@@ -81,7 +81,7 @@ def hat_faults(score: Score, performance: Performance, alignment: Alignment) -> 
     asked = (notes["piece"] == Piece.HIHAT) & ~np.isnan(notes["openness"]) & (alignment.note_label == Label.MATCH)
     played = _of_hits(performance.hits["openness"], alignment)
     judged = asked & ~np.isnan(played)
-    if not _tells_half(performance):
+    if not _sends_half(performance):
         judged &= openings(notes["openness"]) != Opening.HALF
     wrong = (openings(notes["openness"]) == Opening.CLOSED) != (openings(played) == Opening.CLOSED)
     return judged, judged & wrong
@@ -98,10 +98,10 @@ def hats(score: Score, performance: Performance, alignment: Alignment) -> HihatO
     table = np.zeros((len(Opening), len(Opening)), np.int64)
     np.add.at(table, (written[judged], openings(played)[judged]), 1)
     shown = {k: judged & (written == k) for k in Opening}
-    told = {k: figure(played[here], notes["tick"][here]) for k, here in shown.items() if here.any()}
+    shares = {k: figure(played[here], notes["tick"][here]) for k, here in shown.items() if here.any()}
     matched = asked & (alignment.note_label == Label.MATCH)
     return HihatOpenness(
-        int(asked.sum()), int(matched.sum()), int(judged.sum()), int((judged & ~wrong).sum()), table, told
+        int(asked.sum()), int(matched.sum()), int(judged.sum()), int((judged & ~wrong).sum()), table, shares
     )
 
 
@@ -113,11 +113,11 @@ def _of_hits(values: NDArray[np.generic], alignment: Alignment) -> Floats:
     return own
 
 
-def _tells_half(performance: Performance) -> bool:
+def _sends_half(performance: Performance) -> bool:
     """Whether the kit was heard to say anything between shut and wide open."""
-    told = performance.hits["openness"][performance.hits["piece"] == Piece.HIHAT]
-    told = told[~np.isnan(told)]
-    return bool(((told > 0.0) & (told < 1.0)).any())
+    openness = performance.hits["openness"][performance.hits["piece"] == Piece.HIHAT]
+    openness = openness[~np.isnan(openness)]
+    return bool(((openness > 0.0) & (openness < 1.0)).any())
 
 
 # --- grabbed cymbals --------------------------------------------------------------------------------------------------
@@ -150,8 +150,8 @@ def chokes(score: Score, performance: Performance, alignment: Alignment, tells: 
     judged, missed, ring_ms = choke_faults(score, performance, alignment, tells)
     made = judged & ~missed
     counts = (asked, asked & (alignment.note_label == Label.MATCH), judged, made)
-    written, matched, told, grabbed = (int(each.sum()) for each in counts)
-    return Chokes(written, matched, told, grabbed, figure(ring_ms[made], score.notes["tick"][made]))
+    written, matched, known, grabbed = (int(each.sum()) for each in counts)
+    return Chokes(written, matched, known, grabbed, figure(ring_ms[made], score.notes["tick"][made]))
 
 
 def _score_ns(performance: Performance, alignment: Alignment) -> Floats:

@@ -139,9 +139,9 @@ def buzz_rolls(score: Score, performance: Performance, alignment: Alignment) -> 
         return None
     heard = rows[alignment.note_label[rows] == Label.MATCH]
     hits = [_hits_of_buzz(score, performance, alignment, int(row)) for row in heard]
-    telling = {int(score.notes["piece"][r]) for r, h in zip(heard, hits, strict=True) if len(h) > _FEWEST_BOUNCES}
-    told = [i for i, row in enumerate(heard) if int(score.notes["piece"][row]) in telling]
-    bounced = [i for i in told if len(hits[i]) > _FEWEST_BOUNCES]
+    sending = {int(score.notes["piece"][r]) for r, h in zip(heard, hits, strict=True) if len(h) > _FEWEST_BOUNCES}
+    judged = [i for i, row in enumerate(heard) if int(score.notes["piece"][row]) in sending]
+    bounced = [i for i in judged if len(hits[i]) > _FEWEST_BOUNCES]
     gaps = {i: np.diff(performance.hits["at_ns"][hits[i]]) / NS_PER_MS for i in bounced}
     whole = sum(_has_no_hole(gaps[i]) for i in bounced)
     ticks = score.notes["tick"]
@@ -150,11 +150,11 @@ def buzz_rolls(score: Score, performance: Performance, alignment: Alignment) -> 
     return BuzzRolls(
         written=len(rows),
         heard=len(heard),
-        tells_bounces=bool(telling),
+        tells_bounces=bool(sending),
         start_ms=figure(asynchrony_ms(alignment)[heard], ticks[heard]),
         end_ms=figure(ends, ticks[heard[bounced]]),
-        judged=len(told),
-        continuous=int(whole) if told else None,
+        judged=len(judged),
+        continuous=int(whole) if judged else None,
         longest_gap_ms=max((float(gap.max()) for gap in gaps.values()), default=None),
         shape_db=figure(shapes, ticks[heard[bounced]]),
     )

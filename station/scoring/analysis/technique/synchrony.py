@@ -38,7 +38,7 @@ class Synchrony:
     limbs: tuple[LimbPair, ...]
 
 
-def together(score: Score, alignment: Alignment) -> Synchrony | None:
+def synchrony(score: Score, alignment: Alignment) -> Synchrony | None:
     """How simultaneous what is written together was; None for a score or a take in which nothing is."""
     rows = np.flatnonzero(timed_notes(score, alignment))
     pieces = _differences(score, alignment, rows, score.notes["piece"])

@@ -92,7 +92,7 @@ _EVENLY = 0.02
 """Spacings that differ by so much are one spacing: ticks are rounded."""
 
 
-def keeper(score: Score, performance: Performance, alignment: Alignment) -> WingKristofferson:
+def wing_kristofferson(score: Score, performance: Performance, alignment: Alignment) -> WingKristofferson:
     """Clock and hand, by the model that the reference asks for."""
     with_click = alignment.reference is not Reference.PLAYER
     runs, interval_ms = _series(score, alignment)

@@ -9,17 +9,17 @@ from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.scoring.analysis.habits import habits
 from station.scoring.analysis.loudness import level_db
-from station.scoring.analysis.technique.dynamics import DynamicShades, crescendo_runs, shades
+from station.scoring.analysis.technique.dynamics import PadDynamics, crescendo_runs, pad_dynamics
 from tests.fakes.answers import Played, take
 from tests.fakes.scores import rock_beat
 
 SNARE = Piece.SNARE
 
 
-def of(score: Score, how: Played) -> DynamicShades:
+def of(score: Score, how: Played) -> PadDynamics:
     played = take(score, how)
     found = habits(score, played.performance, played.alignment, hears_velocity=True)
-    return shades(score, played.performance, played.alignment, found.effects.get("left_level"))
+    return pad_dynamics(score, played.performance, played.alignment, found.effects.get("left_level"))
 
 
 def accents(bars: int) -> Score:

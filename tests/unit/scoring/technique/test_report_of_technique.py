@@ -15,7 +15,7 @@ from station.practice.records.session_report import assessment_text
 from station.scoring.analysis.summary import SummaryView, summarise
 from station.scoring.report.assessment_document import assessment
 from station.scoring.report.technique_table import plain
-from station.scoring.report.technique_text import craft_lines
+from station.scoring.report.technique_text import technique_lines
 from tests.fakes.answers import Played, take
 from tests.fakes.scores import beat_and_fill, even_snare, flams, rock_beat
 
@@ -37,7 +37,7 @@ def test_flams_in_the_document_and_in_words_by_hand() -> None:
     flam = found["craft"]["ornaments"]["flam"]
     assert (flam["graces"], flam["heard"], flam["usual"], flam["softer"], flam["hand_order"]) == (12, 12, 12, 12, None)
     assert flam["spacing_ms"] == {"count": 12, "mean": 30.0, "sd": 0.0, "ci": [30.0, 30.0]}
-    assert "Flams: strokes 30 ms (SD 0) apart, grace strokes 18.2 dB softer" in craft_lines(found)
+    assert "Flams: strokes 30 ms (SD 0) apart, grace strokes 18.2 dB softer" in technique_lines(found)
     assert {"what": "which hand led", "count": 12, "why": "nothing says which stick struck", "judged": False} in found[
         "cannot_tell"
     ]
@@ -54,7 +54,9 @@ def test_fills_against_grooves() -> None:
     assert passages["fill"]["notes"] == int(in_fill.sum()) == 8 * 8
     apart = passages["fill"]["timing"]["mean_signed_asynchrony_ms"]
     assert apart - passages["groove"]["timing"]["mean_signed_asynchrony_ms"] == pytest.approx(-14.0, abs=2.0)
-    assert any(line.startswith("Fills: 1") and line.endswith("ms ahead of your groove") for line in craft_lines(found))
+    assert any(
+        line.startswith("Fills: 1") and line.endswith("ms ahead of your groove") for line in technique_lines(found)
+    )
 
 
 def test_a_score_without_fills_has_no_passages() -> None:
@@ -64,14 +66,14 @@ def test_a_score_without_fills_has_no_passages() -> None:
 def test_few_strokes_make_no_words() -> None:
     """One bar: no interval anywhere, so no line but counts of what needs none."""
     found = document(even_snare(3, 500), Played(off_ms=np.array([0.0, 9.0, -4.0])))
-    assert craft_lines(found) == []
+    assert technique_lines(found) == []
     assert assessment_text(found).count("\n\n") <= 1
 
 
 def test_silence_makes_no_words() -> None:
     score = flams(2)
     found = document(score, Played(left_out=tuple(range(len(score)))))
-    assert craft_lines(found) == []
+    assert technique_lines(found) == []
     assert found["craft"]["ornaments"]["flam"]["spacing_ms"] == {"count": 0, "mean": None, "sd": None, "ci": None}
 
 
@@ -82,7 +84,7 @@ def test_what_cannot_be_told_is_said() -> None:
     ]
     found = document(Score.from_notes(notes, TempoMap.constant(120)), Played())
     assert found["craft"]["buzz_rolls"]["continuous"] is None
-    assert "Cannot tell how buzz rolls went on (5): the kit sent one hit for each" in craft_lines(found)
+    assert "Cannot tell how buzz rolls went on (5): the kit sent one hit for each" in technique_lines(found)
 
 
 def test_bars_count_from_one() -> None:
@@ -90,7 +92,7 @@ def test_bars_count_from_one() -> None:
     found = document(Score.from_notes(rise, TempoMap.constant(120)), Played())
     (crescendo,) = found["craft"]["shades"]["crescendos"]
     assert crescendo["bars"] == [1, 3]
-    assert any(line.startswith("Snare, bars 1-3: +18 dB for +18") for line in craft_lines(found))
+    assert any(line.startswith("Snare, bars 1-3: +18 dB for +18") for line in technique_lines(found))
 
 
 def test_keys_without_velocity_have_no_shades() -> None:

@@ -12,7 +12,7 @@ from station.music.judgement import Label
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.scoring.analysis.summary import SummaryView, summarise
-from station.scoring.analysis.technique.swallowed_notes import KitFacts, SwallowedNotes, untold_notes
+from station.scoring.analysis.technique.observability import KitFacts, Swallowed, swallowed_notes
 from station.scoring.report.advice import advise
 from station.scoring.report.assessment_document import assessment
 from tests.fakes.answers import Played, Take, take
@@ -32,8 +32,8 @@ def points(played: Take, facts: KitFacts) -> float | None:
 def test_ghosts_below_the_measured_threshold_cannot_be_told() -> None:
     """Ghosts are written at 32, four of 52 notes are missing: with a threshold of 40 nothing is lost."""
     played, deaf = take(rock_beat(4), Played(left_out=GHOSTS)), kit(threshold=MappingProxyType({Piece.SNARE: 40}))
-    untold = untold_notes(played.score, played.performance, played.alignment, deaf)
-    assert np.flatnonzero(untold == SwallowedNotes.THRESHOLD).tolist() == list(GHOSTS)
+    reason = swallowed_notes(played.score, played.performance, played.alignment, deaf)
+    assert np.flatnonzero(reason == Swallowed.THRESHOLD).tolist() == list(GHOSTS)
     assert points(played, deaf) == pytest.approx(100)
     assert points(played, KitFacts()) == pytest.approx(100 * 48 / 52)
     document = assessment(summarise(played.score, played.performance, played.alignment, SummaryView(kit=deaf)))
@@ -54,14 +54,14 @@ def test_a_threshold_below_the_ghosts_or_of_another_pad_excuses_nothing() -> Non
     played = take(rock_beat(4), Played(left_out=GHOSTS))
     for piece, least in ((Piece.SNARE, 32), (Piece.KICK, 60)):
         facts = kit(threshold=MappingProxyType({piece: least}))
-        assert not untold_notes(played.score, played.performance, played.alignment, facts).any()
+        assert not swallowed_notes(played.score, played.performance, played.alignment, facts).any()
 
 
 def test_backbeats_are_never_excused() -> None:
     loud = tuple(np.flatnonzero(rock_beat(4).notes["dynamic"] == Dynamic.ACCENT).tolist())
     played = take(rock_beat(4), Played(left_out=loud))
     facts = kit(threshold=MappingProxyType({Piece.SNARE: 40}))
-    assert not untold_notes(played.score, played.performance, played.alignment, facts).any()
+    assert not swallowed_notes(played.score, played.performance, played.alignment, facts).any()
 
 
 def diddles(strokes: int = 64) -> Score:
@@ -89,8 +89,8 @@ def test_second_bounces_within_the_mask_time_cannot_be_told() -> None:
     """Doubles of about 40 ms through a mask of 36: one in six is swallowed, which is no fault of the student's."""
     played, swallowed = through_mask(diddles(), close_doubles(40.0), 36.0)
     assert len(swallowed) >= 3
-    untold = untold_notes(played.score, played.performance, played.alignment, kit(mask_ms=36.0))
-    assert np.flatnonzero(untold == SwallowedNotes.MASK).tolist() == swallowed
+    reason = swallowed_notes(played.score, played.performance, played.alignment, kit(mask_ms=36.0))
+    assert np.flatnonzero(reason == Swallowed.MASK).tolist() == swallowed
     excused, counted = points(played, kit(mask_ms=36.0)), points(played, KitFacts())
     assert excused is not None
     assert counted is not None
@@ -99,7 +99,7 @@ def test_second_bounces_within_the_mask_time_cannot_be_told() -> None:
 
 def test_second_strokes_far_beyond_any_mask_were_left_out() -> None:
     played = take(diddles(), Played(off_ms=close_doubles(75.0), left_out=(11, 31)))
-    assert not untold_notes(played.score, played.performance, played.alignment, KitFacts()).any()
+    assert not swallowed_notes(played.score, played.performance, played.alignment, KitFacts()).any()
     assert points(played, KitFacts()) == pytest.approx(100 * 62 / 64, abs=2)
 
 
@@ -110,7 +110,7 @@ def test_what_was_heard_apart_can_be_told_apart() -> None:
     off[1::2] = -37.0
     off[5] = -63.0
     played = take(score, Played(off_ms=off, left_out=(11, 31)))
-    assert not untold_notes(score, played.performance, played.alignment, kit(mask_ms=35.0)).any()
+    assert not swallowed_notes(score, played.performance, played.alignment, kit(mask_ms=35.0)).any()
 
 
 def test_a_stroke_that_fell_into_its_grace_stroke_cannot_be_told() -> None:
@@ -119,13 +119,13 @@ def test_a_stroke_that_fell_into_its_grace_stroke_cannot_be_told() -> None:
     near = 21.0 + np.random.default_rng(1).normal(0, 2, len(score))
     played, swallowed = through_mask(score, np.where(score.is_grace, near, 0.0), 7.0)
     assert len(swallowed) >= 3
-    untold = untold_notes(score, played.performance, played.alignment, kit(mask_ms=7.0))
+    reason = swallowed_notes(score, played.performance, played.alignment, kit(mask_ms=7.0))
     lost = np.flatnonzero(played.alignment.note_label == Label.MISS)
-    assert np.flatnonzero(untold).tolist() == lost.tolist()
+    assert np.flatnonzero(reason).tolist() == lost.tolist()
     assert len(lost) == len(swallowed)
 
 
 def test_flams_of_which_no_grace_stroke_was_ever_heard_are_missed() -> None:
     score = flams(6)
     played = take(score, Played(left_out=tuple(np.flatnonzero(score.is_grace).tolist())))
-    assert not untold_notes(score, played.performance, played.alignment, KitFacts()).any()
+    assert not swallowed_notes(score, played.performance, played.alignment, KitFacts()).any()

@@ -12,7 +12,7 @@ from station.scoring.analysis.points import ALL_FREE, Feel
 from station.scoring.analysis.summary import SummaryView, summarise
 from station.scoring.analysis.technique.click_gaps import gaps
 from station.scoring.analysis.technique.feel import leans, swing
-from station.scoring.analysis.technique.synchrony import together
+from station.scoring.analysis.technique.synchrony import synchrony
 from tests.fakes.answers import Played, Take, take
 from tests.fakes.scores import even_snare, rock_beat, swing_ride
 
@@ -28,7 +28,7 @@ def test_simultaneity_by_hand() -> None:
     off = np.zeros(16)
     off[score.notes["piece"] == Piece.KICK] = np.tile([10.0, 14.0], 4)
     played = take(score, Played(off_ms=off + 30.0))  # where both stand falls out
-    found = together(score, played.alignment)
+    found = synchrony(score, played.alignment)
     assert found is not None
     (pair,) = found.pieces
     assert (pair.first, pair.second, pair.apart_ms.count) == (Piece.KICK, Piece.RIDE, 8)
@@ -42,19 +42,19 @@ def test_limbs_are_told_where_they_are_known() -> None:
     score = kick_and_ride(8)
     limbs = np.where(score.notes["piece"] == Piece.KICK, Limb.RIGHT_FOOT, Limb.RIGHT_HAND).astype(np.int8)
     score = score.with_limbs(limbs)
-    found = together(score, take(score).alignment)
+    found = synchrony(score, take(score).alignment)
     assert found is not None
     assert [(pair.first, pair.second) for pair in found.limbs] == [(Limb.RIGHT_HAND, Limb.RIGHT_FOOT)]
 
 
 def test_nothing_is_written_together() -> None:
     score = even_snare(8, 500)
-    assert together(score, take(score).alignment) is None
+    assert synchrony(score, take(score).alignment) is None
 
 
 def test_too_few_slots_have_no_interval() -> None:
     score = kick_and_ride(3)
-    found = together(score, take(score).alignment)
+    found = synchrony(score, take(score).alignment)
     assert found is not None
     assert (found.sd_ms.ci, found.pieces[0].apart_ms.ci) == (None, None)
 

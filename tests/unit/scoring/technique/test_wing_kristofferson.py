@@ -8,7 +8,12 @@ from station.core.pieces import Piece
 from station.core.units import PPQ
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
-from station.scoring.analysis.technique.wing_kristofferson import FEWEST, NotSeparable, WingKristofferson, keeper
+from station.scoring.analysis.technique.wing_kristofferson import (
+    FEWEST,
+    NotSeparable,
+    WingKristofferson,
+    wing_kristofferson,
+)
 from tests.fakes.answers import Played, take
 from tests.fakes.scores import even_snare
 
@@ -32,7 +37,7 @@ def without_click(strokes: int, clock_ms: float, hand_ms: float, seed: int) -> F
 
 def of(off_ms: Floats, clocked: bool = True) -> WingKristofferson:
     played = take(even_snare(len(off_ms), 500), Played(off_ms=off_ms), clocked)
-    return keeper(played.score, played.performance, played.alignment)
+    return wing_kristofferson(played.score, played.performance, played.alignment)
 
 
 def test_lag_1_is_the_published_one() -> None:
@@ -74,7 +79,7 @@ def test_the_hand_with_most_even_strokes_is_looked_at() -> None:
     notes = [Note(2 * i * PPQ, Piece.SNARE) for i in range(300)] + [Note(i * 16 * PPQ, Piece.KICK) for i in range(30)]
     score = Score.from_notes(notes, TempoMap.constant(120))
     played = take(score)
-    found = keeper(score, played.performance, played.alignment)
+    found = wing_kristofferson(score, played.performance, played.alignment)
     assert found.strokes == 300
     assert found.interval_ms == pytest.approx(1000.0)
     assert (found.lag_1, found.cannot_tell) == (None, NotSeparable.FEW)
@@ -111,7 +116,7 @@ def test_offbeats_that_lean_are_no_clock() -> None:
     score = Score.from_notes(notes, TempoMap.constant(60))
     off = with_click(1200, 10, 10, 0.2, 3)
     straight, leaning = (take(score, Played(off_ms=off + np.tile([0.0, late], 600))) for late in (0.0, 30.0))
-    one, other = (keeper(score, t.performance, t.alignment) for t in (straight, leaning))
+    one, other = (wing_kristofferson(score, t.performance, t.alignment) for t in (straight, leaning))
     assert one.timekeeper is not None
     assert other.timekeeper is not None
     assert other.timekeeper.sd_ms == pytest.approx(one.timekeeper.sd_ms)
