@@ -62,7 +62,7 @@ def practise_in_terminal(
             if wish is not None:
                 telling.attempt(say, "\nmaking the track ready …")
                 runner.session.backing = _track(wish, runner.session, settings)
-            room = Room(engine, clock, text.tell, telling, until_kept.enter_context(end_asked()))
+            room = Room(engine, clock, text.show, telling, until_kept.enter_context(end_asked()))
             return practise_live(room, runner, capture)
         finally:
             telling.attempt(text.last_words, runner.session)
@@ -71,4 +71,4 @@ def practise_in_terminal(
 def _track(wish: BackingRequest, session: Session, settings: Settings) -> PreparedTrack | None:
     backing = Backing(wish)
     backing.ask(session.plan, session.heard.rate_hz or settings.rate_hz)
-    return backing.take(wait_s=None)
+    return backing.ready(wait_s=None)

@@ -1,4 +1,4 @@
-"""What the engine process opens, what it is told before anything else, and how it says that it cannot go on."""
+"""What the engine process opens, what it is sent before anything else, and how it says that it cannot go on."""
 
 from dataclasses import dataclass
 from typing import Self
@@ -61,7 +61,7 @@ class EngineConfig:
 
     @property
     def first_commands(self) -> tuple[Command, ...]:
-        """What the engine is told before anything else."""
+        """What the engine is sent before anything else."""
         silent = () if self.own_sound else (SetLevel(Bus.STUDENT, 0.0),)
         port = (SetMidiOut(self.midi_out),) if self.midi_out else ()
         return (*self.levels, *silent, *port)

@@ -95,7 +95,7 @@ def _live(config: EngineConfig, inbox: Inbox, outbox: Outbox) -> bool:
         gc.disable()  # a collection in the audio thread is a late block; what runs from here on makes no cycles
         outbox.put([Ready(card.name, card.rate_hz) if card is not None else Ready(None)])
         while not (engine.quitting or inbox.is_closed or runner.is_worn_out):
-            commands = inbox.take()
+            commands = inbox.pop_all()
             happened = runner.step(monotonic_ns())  # after taking them: what was played before a command counts before
             if happened:
                 outbox.put(happened)

@@ -35,7 +35,7 @@ class Hotplug:
             self._looking = threading.Thread(target=self._run, name="look for sound outputs", daemon=True)
             self._looking.start()
 
-    def take(self) -> SoundDevice | None:
+    def found(self) -> SoundDevice | None:
         """The output that would be opened now; None while a look is on its way, or where there is none."""
         if self._looking is None or self._looking.is_alive():
             return None

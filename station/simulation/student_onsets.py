@@ -35,7 +35,7 @@ _LIMBS = 4
 class Streams:
     """Where the timing draws its chances from."""
 
-    keeper: np.random.Generator
+    timekeeper: np.random.Generator
     motor: np.random.Generator
     grace: np.random.Generator
     extra: np.random.Generator
@@ -57,14 +57,14 @@ class OnsetPlayer:
     def __init__(self, drift_pct: float, streams: Streams) -> None:
         self._sway = drift_pct / 100.0
         self._streams = streams
-        self._timekeeper = Timekeeper(streams.keeper)
+        self._timekeeper = Timekeeper(streams.timekeeper)
         self._reach = streams.pattern.uniform(-1.0, 1.0, _LIMBS)
         self._since_slot_ns = 0
         self._elapsed_ns = 0
 
     def time(self, sheet: StudentReading, form: Form) -> OnsetTiming:
         """Draw the timing of `sheet` played in this `form`."""
-        keeper, lead_motor = self._timekeeper.run(self._waits_s(sheet))
+        timekeeper, lead_motor = self._timekeeper.run(self._waits_s(sheet))
         mains = sheet.mains
         motor = _MOTOR_SD * self._streams.motor.standard_normal(len(sheet))
         slot_of_lead, first = np.unique(sheet.slot[mains], return_index=True)
@@ -72,10 +72,10 @@ class OnsetPlayer:
         lean = np.zeros(len(sheet))
         lean[mains] = leans(sheet.limbs[mains], self._reach)
         rest = float(np.sqrt(1.0 - np.mean(lean[mains] ** 2))) if len(mains) else 1.0
-        shift = form.bias_ms + form.sd_ms * (lean + rest * (keeper[sheet.slot] + motor))
+        shift = form.bias_ms + form.sd_ms * (lean + rest * (timekeeper[sheet.slot] + motor))
         first_row = np.unique(sheet.slot, return_index=True)[1]
         sd_ms = form.sd_ms[first_row]
-        return OnsetTiming(shift[sheet.main], form.bias_ms[first_row] + sd_ms * rest * keeper, sd_ms)
+        return OnsetTiming(shift[sheet.main], form.bias_ms[first_row] + sd_ms * rest * timekeeper, sd_ms)
 
     def onsets_ns(
         self, sheet: StudentReading, timing: OnsetTiming, habits: PlantedHabits, slips: Slips

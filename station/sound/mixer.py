@@ -218,7 +218,7 @@ class Mixer:
             piece, openness = Piece.HIHAT, 1.0 if splashes else openness
         level, sides = self._of_pieces.get(strike.piece, (1.0, None))
         gain = level * sound.level(velocity)
-        voice = Voice(sound.take(max(1.0, int(velocity) * timbre), turn), bus, gain, piece, openness)
+        voice = Voice(sound.frames_for(max(1.0, int(velocity) * timbre), turn), bus, gain, piece, openness)
         voice.sides = sides
         if sound.mute_group is not None:
             self._mute_group(bus, sound)

@@ -11,7 +11,7 @@ from station.app.equipment.calibration_results import CalibrationResult, Calibra
 from station.core.measured_latency import LOOPBACK, REPORT, STRIKE, TAP, StoredCalibration
 from station.core.settings import Settings
 from station.devices.device_ports import DeviceRequest, parse_kits
-from station.engine.latency_measurement import SoundRequest, Tell, loopback_rounds, stream_report, struck, tapped
+from station.engine.latency_measurement import Notify, SoundRequest, loopback_rounds, stream_report, struck, tapped
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,34 +30,34 @@ class MeasureRequest:
         return cls(by, sound, parse_kits(settings.kit)[0], distance_m)
 
 
-def measured(wish: MeasureRequest, before: StoredCalibration, tell: Tell) -> CalibrationResults:
+def measured(wish: MeasureRequest, before: StoredCalibration, tell: Notify) -> CalibrationResults:
     """Measure; `before` is what is known, `tell` hears what the user has to do. Raises `DeviceError`."""
     return _WAYS[wish.by](wish, before, tell)
 
 
-def _by_report(wish: MeasureRequest, _: StoredCalibration, tell: Tell) -> CalibrationResults:
+def _by_report(wish: MeasureRequest, _: StoredCalibration, tell: Notify) -> CalibrationResults:
     devices, stream = stream_report(wish.sound, tell)
     return CalibrationResults(devices, stream=stream)
 
 
-def _by_loopback(wish: MeasureRequest, _: StoredCalibration, tell: Tell) -> CalibrationResults:
+def _by_loopback(wish: MeasureRequest, _: StoredCalibration, tell: Notify) -> CalibrationResults:
     devices, estimate = loopback_rounds(wish.sound, tell)
     return CalibrationResults(devices, (CalibrationResult("output", devices.output or "", estimate),))
 
 
-def _by_strikes(wish: MeasureRequest, _: StoredCalibration, tell: Tell) -> CalibrationResults:
+def _by_strikes(wish: MeasureRequest, _: StoredCalibration, tell: Notify) -> CalibrationResults:
     devices, found = struck(wish.sound, wish.kit, tell, wish.distance_m)
     kit = devices.kit or ""
     pads = (CalibrationResult("pad", kit, estimate, piece) for piece, estimate in found.pads.items())
     return CalibrationResults(devices, (CalibrationResult("kit", kit, found.kit), *pads))
 
 
-def _by_taps(wish: MeasureRequest, before: StoredCalibration, tell: Tell) -> CalibrationResults:
+def _by_taps(wish: MeasureRequest, before: StoredCalibration, tell: Notify) -> CalibrationResults:
     devices, piece, found = tapped(wish.sound, wish.kit, tell)
     return CalibrationResults(devices, rows_of_taps(found, piece, devices, before))
 
 
-_Way = Callable[[MeasureRequest, StoredCalibration, Tell], CalibrationResults]
+_Way = Callable[[MeasureRequest, StoredCalibration, Notify], CalibrationResults]
 _WAYS: Mapping[str, _Way] = MappingProxyType(
     {REPORT: _by_report, LOOPBACK: _by_loopback, STRIKE: _by_strikes, TAP: _by_taps}
 )

@@ -189,10 +189,14 @@ class MappingEditor:
 
     def _touched(self, line: MonitorLine) -> None:
         """A stroke for the touch that is learnt; those that are too soft to count are strokes too."""
-        hit = line.event if line.ghost is None or line.ghost.why is not HeldBack.TOO_SOFT else line.ghost.hit
+        hit = (
+            line.event
+            if line.false_trigger is None or line.false_trigger.why is not HeldBack.TOO_SOFT
+            else line.false_trigger.hit
+        )
         if self._touch is None or not isinstance(hit, Hit):
             return
-        self._touch.take(hit)
+        self._touch.feed(hit)
         if self._touch.is_over:
             touch, self._touch = self._touch, None
             self._learn(touch.learnt, touch.in_words())

@@ -50,9 +50,9 @@ class SeenKit:
     def take(self, line: MonitorLine) -> None:
         """One more line."""
         self.lines.append(line)
-        hit = line.ghost.hit if line.ghost is not None else line.event
+        hit = line.false_trigger.hit if line.false_trigger is not None else line.event
         if isinstance(hit, Hit):
-            why = None if line.ghost is None else line.ghost.why
+            why = None if line.false_trigger is None else line.false_trigger.why
             self.strokes.setdefault(hit.piece, deque(maxlen=STROKES_SHOWN)).append(PadStroke(hit.velocity, why))
         self.suspicions.extend(line.suspicions)
 

@@ -32,7 +32,7 @@ class TouchLearning:
             return f"{piece_name(self.piece)}: play five ghost strokes, {len(self.ghosts)} of {STROKES}"
         return f"{piece_name(self.piece)}: now five accents, {len(self.accents)} of {STROKES}"
 
-    def take(self, hit: Hit) -> None:
+    def feed(self, hit: Hit) -> None:
         """A hit, counted or too soft; what follows at once belongs to the stroke before."""
         if hit.piece is not self.piece or self.is_over:
             return

@@ -28,7 +28,7 @@ class Equipment:
     swap: Swap | None = None
 
     def after(self, result: PassResult, rules: Rules) -> tuple["Equipment", str | None]:
-        """After one more pass, and what the student should be told now, in one sentence."""
+        """After one more pass, and what the student should read now, in one sentence."""
         leans = result.lean_ms is not None and abs(result.lean_ms) >= rules.calibrate_ms
         known = replace(self, answers=_together(self.answers, result.answers), leaned=self.leaned + 1 if leans else 0)
         found = _swap(known.answers, rules)

@@ -1,4 +1,4 @@
-"""A session in real time without a window: the engine process plays and hears, a runner moves it on, a text is told.
+"""A session in real time without a window: the engine process plays and hears, a runner moves it on, a text shows it.
 
 The capture is written by the engine as the bytes come, so that nothing that follows can lose a hit.
 """
@@ -25,7 +25,7 @@ POLL_S = 0.02
 LAST_WORDS_S = 2.0
 """How long to wait for the engine to say that the capture is closed; our choice."""
 
-Tell = Callable[[Session, tuple[Judgement, ...]], None]
+Show = Callable[[Session, tuple[Judgement, ...]], None]
 
 
 class EngineLink(Protocol):
@@ -77,20 +77,20 @@ class LiveOutcome:
 class Room:
     """Where a session is played: its `engine` and `clock`, who hears every round of judgements, who may end it.
 
-    A `tell` that fails costs no session: `telling` remembers it.
+    A `show` that fails costs no session: `telling` remembers it.
     """
 
     engine: EngineLink
     clock: Clock
-    tell: Tell
+    show: Show
     telling: Telling = field(default_factory=Telling)
     asked: EndAsked = field(default_factory=EndAsked)
 
     def step(self, runner: SessionRunner) -> None:
-        """Take in what the engine has heard, move on to the present, tell of it and do what it asks for."""
+        """Take in what the engine has heard, move on to the present, show it and do what it asks for."""
         events = self.engine.events(POLL_S)
         update = runner.update(self.clock.now_ns(), events)
-        self.telling.attempt(self.tell, update.session, update.judged)
+        self.telling.attempt(self.show, update.session, update.judged)
         for command in update.commands:
             self.engine.send(command)
 

@@ -191,8 +191,8 @@ def _figures_text(document: dict[str, Json]) -> str:
     if rows:
         lines += ["", f"{'piece':17}" + "".join(f"{name:>9}" for name in _COLUMNS)]
     lines += [f"{name_of(piece):17}" + "".join(f"{cell:>9}" for cell in _cells(group)) for piece, group in rows]
-    craft = craft_lines(document)
-    return "\n".join([*lines, "", *craft] if craft else lines) + "\n"
+    technique = craft_lines(document)
+    return "\n".join([*lines, "", *technique] if technique else lines) + "\n"
 
 
 _COLUMNS = ("notes", "hit", "missed", "wrong", "extra", "mean ms", "SD ms")

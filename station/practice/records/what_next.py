@@ -1,4 +1,4 @@
-"""What a student is told to do next: the advice, or where nothing stands out what the lesson's goals ask for.
+"""What a student should do next: the advice, or where nothing stands out what the lesson's goals ask for.
 
 Pure: an assessment document and the lesson's goals in, sentences out. Tempi are in quarter notes a minute.
 """
@@ -98,8 +98,8 @@ def _short_of_goal(document: dict[str, Json], lesson: Lesson, spread: _Spread) -
 def _go_on(lesson: Lesson, tempo_bpm: float, spread: _Spread) -> str:
     below = tempo_bpm < lesson.target_tempo_bpm * (1 - _SAME_TEMPO)
     why = f" (a spread of {ceil(spread.ms)} ms is within the {floor(spread.limit_ms)} of a clean pass)"
-    told = why if spread.ms > Rules().sd_floor_ms else ""  # who lies closer together does not ask
-    return f"Nothing stands out{told}: {'raise the tempo' if below else 'take the next lesson, or raise the tempo'}."
+    reason = why if spread.ms > Rules().sd_floor_ms else ""  # who lies closer together does not ask
+    return f"Nothing stands out{reason}: {'raise the tempo' if below else 'take the next lesson, or raise the tempo'}."
 
 
 _SAME_TEMPO = 0.01

@@ -115,9 +115,9 @@ def test_five_ghosts_then_five_accents() -> None:
     asked = []
     for k, velocity in enumerate((12, 10, 11, 14, 13, 90, 95, 92, 99, 91)):
         asked.append(touch.asks)
-        touch.take(strike(500 * k, velocity))
-        touch.take(strike(500 * k + 8, 3))  # a double trigger belongs to its stroke
-        touch.take(strike(500 * k + 9, 100, Piece.KICK))
+        touch.feed(strike(500 * k, velocity))
+        touch.feed(strike(500 * k + 8, 3))  # a double trigger belongs to its stroke
+        touch.feed(strike(500 * k + 9, 100, Piece.KICK))
     assert (asked[0], asked[7]) == (
         "snare: play five ghost strokes, 0 of 5",
         "snare: now five accents, 2 of 5",
