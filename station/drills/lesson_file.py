@@ -265,8 +265,8 @@ def _note_impossible(lesson: Lesson, origins: Sequence[Origin], faults: Faults) 
     if len(in_loop) < len(score):
         found |= {(i.note, i.text) for i in impossible(score)}
     again = {(in_loop[i.note - len(in_loop)], i.text) for i in twice if i.note >= len(in_loop)} - found
-    again_told = {(note, f"{words} (as the loop starts again)") for note, words in again}
-    for note, words in found | again_told:
+    at_restart = {(note, f"{words} (as the loop starts again)") for note, words in again}
+    for note, words in found | at_restart:
         faults.add(origins[note].path, words, origins[note].char)
 
 

@@ -57,8 +57,8 @@ def quantise_score(score: Score) -> Quantised:
     mains = [n for n in score if not n.lead_ms]
     moved = on_cells(mains, tempo_map, score.end_tick)
     graces = Counter((n.tick, n.piece) for n in score if n.lead_ms)
-    settled = [_settled(n, graces[old.tick, old.piece]) for old, n in zip(mains, moved, strict=True)]
-    kept = _trimmed(_unhurried(_playable(_single(settled)), tempo_map), score.end_tick)
+    quantised_mains = [_as_symbol(n, graces[old.tick, old.piece]) for old, n in zip(mains, moved, strict=True)]
+    kept = _trimmed(_unhurried(_playable(_single(quantised_mains)), tempo_map), score.end_tick)
     velocities = _velocities(kept)
     rows = [row for n in kept for row in _with_graces(n, velocities)]
     shifts = [_shift_ns(a.tick, b.tick, score) for a, b in zip(mains, moved, strict=True)]
@@ -94,7 +94,7 @@ def _shift_ns(before: int, after: int, score: Score) -> int:
 # --- strokes ----------------------------------------------------------------------------------------------------------
 
 
-def _settled(note: Note, graces: int) -> Note:
+def _as_symbol(note: Note, graces: int) -> Note:
     """The note as the letter nearest to it plays it, with a limb that can."""
     ornament = (Ornament.NONE, Ornament.FLAM, Ornament.DRAG)[min(graces, 2)]
     is_buzz = note.articulation is Articulation.BUZZ

@@ -29,7 +29,7 @@ MAX_TRACK_S = 600.0
 MIN_LOOP_S = 0.25
 TRACK_DB = -20.0
 """RMS of a track as a whole (our choice: a groove on the synthesised kit lies some 4 dB above)."""
-KEPT_FILES = 8
+CACHED_FILES = 8
 NO_STRETCHER = (
     "a track can only play at its own speed: the package python-stretch is missing; where there is no wheel of it "
     "for this processor, `pip install python-stretch` builds it with a C++ compiler"
@@ -72,7 +72,7 @@ def prepare(request: TrackRequest, folder: Path | None = None) -> PreparedTrack:
     file = home / f"{_digest(request)}{_ENDING}"
     if not file.exists():
         write_whole(file, pcm_of(stretched(_read(request), request.rate_hz, request.speed)).tobytes())
-        forget_oldest(home, _ENDING, KEPT_FILES)
+        forget_oldest(home, _ENDING, CACHED_FILES)
     scale = request.rate_hz / request.speed
     frames = file.stat().st_size // 4
     loop = None

@@ -40,7 +40,7 @@ from station.devices.mapping.trigger_filter import HeldBack
 from station.devices.monitor import DeviceMonitor, MonitorLine, rule_against
 from station.devices.wizard.one_hit import in_words, taught
 from station.devices.wizard.pad_choices import pad_name
-from station.devices.wizard.velocity_learning import TouchLearning
+from station.devices.wizard.velocity_learning import VelocityLearning
 from station.engine.messages import Command, EngineEvent, RawBytes, ReloadDevice, WatchRawBytes
 
 _SHOWN_LATE_NS = 200 * NS_PER_MS
@@ -59,7 +59,7 @@ class MappingEditor:
         self._kept: dict[str, DeviceMap] = {}
         self._listens = False
         self._pad: NoteMeaning | None = None
-        self._touch: TouchLearning | None = None
+        self._touch: VelocityLearning | None = None
         self.device = ""
         self.learnt = ""
         """What was learnt last, or why it was not."""
@@ -212,7 +212,7 @@ class MappingEditor:
     def learn_touch(self, piece: Piece) -> None:
         """The next strokes are five ghosts and five accents on `piece`."""
         self.give_up()
-        self._touch = TouchLearning(piece)
+        self._touch = VelocityLearning(piece)
 
     def give_up(self) -> None:
         """Learn no longer; what was played meanwhile changes nothing."""

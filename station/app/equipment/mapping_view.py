@@ -11,7 +11,7 @@ from station.devices.mapping.device_map import DeviceMap, Sent
 from station.devices.mapping.suspect_hits import Suspicion
 from station.devices.mapping.trigger_filter import HeldBack
 from station.devices.monitor import MonitorLine
-from station.devices.wizard.one_hit import PadEar
+from station.devices.wizard.one_hit import PadListener
 
 LINES_SHOWN, STROKES_SHOWN, SUSPICIONS_SHOWN = 8, 24, 4
 """Our choice: what a glance takes in."""
@@ -44,7 +44,7 @@ class SeenKit:
     suspicions: deque[Suspicion] = field(default_factory=_suspicions)
     strokes: dict[Piece, deque[PadStroke]] = field(default_factory=dict)
     fault: str = ""
-    ear: PadEar = field(default_factory=PadEar)
+    ear: PadListener = field(default_factory=PadListener)
     before: list[tuple[DeviceMap, DeviceMap]] = field(default_factory=list)
 
     def take(self, line: MonitorLine) -> None:

@@ -16,7 +16,7 @@ from station.devices.wizard.wizard_steps import HALF_BOW, SPLASH, STOMP, WizardQ
 _MARGIN = 1.25
 _LOUDEST_SHARE = 0.8
 """A second note louder than this share of the first is no crosstalk: a module that sends two notes a stroke."""
-_EARLIER_NS = 2 * NS_PER_MS
+_EARLY_MARGIN_NS = 2 * NS_PER_MS
 """Crosstalk may come by so much earlier than they were seen to."""
 LONGEST_MASK_NS = 40 * NS_PER_MS
 """No drummer strikes a pad twice within less on purpose, but in a flam (our choice)."""
@@ -126,5 +126,5 @@ def _rule(source: Piece, victim: Piece, answers: list[tuple[float, int]]) -> Cro
     late_ns = max(after_ns for _, after_ns in answers)
     early_ns = max(-after_ns for _, after_ns in answers)
     within_ns = min(ONE_STROKE_NS, max(CROSSTALK_WITHIN_NS, round(_MARGIN * late_ns)))
-    before_ns = round(_MARGIN * early_ns) + _EARLIER_NS if early_ns > 0 else 0
+    before_ns = round(_MARGIN * early_ns) + _EARLY_MARGIN_NS if early_ns > 0 else 0
     return Crosstalk(source, victim, round(share, 2), within_ns, before_ns)

@@ -17,7 +17,7 @@ from station.devices.wizard.pad_choices import pad_name
 _NOTE_ON, _CHANNEL = 0x9, 0x0F
 
 
-class PadEar:
+class PadListener:
     """What one kit sends, as far as learning a pad asks: its notes by channel, and the note of the hit awaited."""
 
     def __init__(self) -> None:

@@ -11,7 +11,7 @@ from station.devices.mapping.velocity_curve import STROKES, fitted, threshold_be
 from station.devices.wizard.answers import ONE_STROKE_NS
 
 
-class TouchLearning:
+class VelocityLearning:
     """The strokes on `piece` so far; velocities as the pad sent them."""
 
     def __init__(self, piece: Piece) -> None:

@@ -21,7 +21,7 @@ class PadCommands:
         self._kicks_start = settings.kicks_start
         self._foot = FootSwitch(self._pause.switches)
         self._score: Score | None = None
-        self._kicks, self._together = TwoKicks(), PadsTogether((), score)
+        self._kicks, self._pad_pairs = TwoKicks(), PadsTogether((), score)
         self.practise(score)
 
     def practise(self, score: Score) -> None:
@@ -29,12 +29,12 @@ class PadCommands:
         if score is self._score:
             return
         self._score = score
-        self._kicks, self._together = TwoKicks(), PadsTogether(self._pause.pairs, score)
+        self._kicks, self._pad_pairs = TwoKicks(), PadsTogether(self._pause.pairs, score)
 
     def forget(self) -> None:
         """What was struck so far means nothing."""
         self._kicks.forget()
-        self._together.forget()
+        self._pad_pairs.forget()
 
     def starts(self, event: EngineEvent) -> bool:
         """Whether two kicks are complete."""
@@ -44,7 +44,7 @@ class PadCommands:
         """The strokes that ask for a pause, none where a switch does; None where nothing does."""
         if isinstance(event, Switched):
             return () if self._foot.feed(event) else None
-        return (self._together.feed(event) or None) if isinstance(event, Hit) else None
+        return (self._pad_pairs.feed(event) or None) if isinstance(event, Hit) else None
 
     def asks(self, event: EngineEvent, score: Score, is_paused: bool) -> Sequence[Hit] | None:
         """The strokes with which `event` asks a session of `score` to pause or go on; None where it asks nothing."""

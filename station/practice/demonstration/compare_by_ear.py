@@ -17,7 +17,7 @@ from station.practice.records.previous_session import PreviousSession
 from station.practice.session.adaptation import lesson_bars
 from station.practice.session.click_pattern import PLAIN, click_cues
 from station.practice.session.listening import RING_NS, Listening, played_cues, stretch
-from station.practice.session.plan import demonstration_cues
+from station.practice.session.plan import demonstration_cues, moved_by
 from station.practice.session.session import SessionResult
 
 BREATH_NS = 250 * NS_PER_MS
@@ -38,8 +38,8 @@ def bar_by_ear(result: SessionResult, bar: int, played: Performance | None) -> L
     from_ns = start_ns - BREATH_NS
     pattern = replace(result.plan.click or PLAIN, gap=None)
     one = result.score.bars(bar, bar)
-    clicks = _moved(click_cues(one.tempo_map, one.end_tick, pattern), start_ns)
-    strokes = _moved(demonstration_cues(one), start_ns) if played is None else played_cues(played)
+    clicks = moved_by(click_cues(one.tempo_map, one.end_tick, pattern), start_ns)
+    strokes = moved_by(demonstration_cues(one), start_ns) if played is None else played_cues(played)
     cues = np.concatenate([clicks, strokes])
     cues = stretch(cues[np.argsort(cues["at_ns"], kind="stable")], from_ns, end_ns + RING_NS)
     return Listening(cues, end_ns - from_ns + RING_NS, from_ns)
@@ -77,9 +77,3 @@ def _span_ns(result: SessionResult, bar: int) -> tuple[int, int]:
 
 def _ticks(result: SessionResult, at_ns: NDArray[np.int64]) -> NDArray[np.int64]:
     return np.asarray(result.score.tempo_map.ticks_at_ns(at_ns), np.int64)
-
-
-def _moved(cues: NDArray[np.void], by_ns: int) -> NDArray[np.void]:
-    moved = cues.copy()
-    moved["at_ns"] += by_ns
-    return moved

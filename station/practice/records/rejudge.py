@@ -68,7 +68,7 @@ class RejudgedSessions:
                 self._part, self._strokes = self._part + 1, 0
             case LoggedText():
                 if any(logged is entry for _, logged, _ in self._due):  # else it was due before, among the strokes
-                    while self._obey_next() is not entry:
+                    while self._apply_next() is not entry:
                         pass
             case TransportZero(at_ns):
                 self._hand_over(Started(at_ns, self._output))
@@ -77,7 +77,7 @@ class RejudgedSessions:
                 self._hand_over(Sounding(output))
             case Hit() | Choke():
                 while self._due and self._due[0][0] == self._part and self._is_due(self._due[0][2]):
-                    self._obey_next()
+                    self._apply_next()
                 if isinstance(entry, Hit):
                     self._hits.append(entry)
                 self._hand_over(entry)
@@ -92,12 +92,12 @@ class RejudgedSessions:
         if self._session is not None:
             self._session.handle(event)
 
-    def _obey_next(self) -> LoggedText:
+    def _apply_next(self) -> LoggedText:
         _, logged, said = self._due.popleft()
         if isinstance(said, PassBegan):
             self._begin(said, logged.at_ns)
         elif said is not None and self._session is not None:
-            self._obey(self._session, said)
+            self._apply(self._session, said)
         return logged
 
     def _begin(self, said: PassBegan, at_ns: int) -> None:
@@ -110,7 +110,7 @@ class RejudgedSessions:
         self._session = Session(said.plan, said.latency, waits=said.waits)
         self._hand_over(Sounding(self._output))
 
-    def _obey(self, session: Session, said: Paused | WentOn | Ended) -> None:
+    def _apply(self, session: Session, said: Paused | WentOn | Ended) -> None:
         match said:
             case Paused(_, now_ns, command):
                 session.advance(now_ns)

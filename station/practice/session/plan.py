@@ -231,7 +231,7 @@ class _Timeline:
         return click_cues(score.tempo_map, score.end_tick, self._click)
 
     def _sound(self, at_ns: int, *cues: NDArray[np.void]) -> None:
-        self.cues += [_moved(each, at_ns) for each in cues]
+        self.cues += [moved_by(each, at_ns) for each in cues]
 
 
 def demonstration_cues(score: Score) -> NDArray[np.void]:
@@ -263,7 +263,8 @@ def _count_in(section: Score, bars: int) -> Score:
     return Score.from_notes([], tempo_map, end_tick)
 
 
-def _moved(cues: NDArray[np.void], by_ns: int) -> NDArray[np.void]:
+def moved_by(cues: NDArray[np.void], by_ns: int) -> NDArray[np.void]:
+    """The cues, each so much later; negative is earlier."""
     moved = cues.copy()
     moved["at_ns"] += by_ns
     return moved

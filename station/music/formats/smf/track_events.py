@@ -42,7 +42,7 @@ _ONE_DATA_BYTE = (0xC0, 0xD0)
 _ILLEGAL_BUT_KNOWN = {0xF1: 1, 0xF2: 2, 0xF3: 1, 0xF6: 0, 0xF8: 0, 0xFA: 0, 0xFB: 0, 0xFC: 0, 0xFE: 0}
 """System messages that have no place in a file, with their data bytes: their length is certain, so they are skipped."""
 
-_MOST_TOLD = 20
+_MOST_LISTED = 20
 """So many of them are listed one by one; of more, their number (our choice)."""
 
 
@@ -115,8 +115,8 @@ class _TrackReader:
         return self.found
 
     def _note_ending(self) -> None:
-        if self.skipped > _MOST_TOLD:
-            self.found.oddities.append(f"{self.skipped - _MOST_TOLD} more system messages were skipped")
+        if self.skipped > _MOST_LISTED:
+            self.found.oddities.append(f"{self.skipped - _MOST_LISTED} more system messages were skipped")
         if not self.ended:
             self.found.oddities.append(f"byte {self.stop}: the track has no end-of-track event")
         elif self.at < self.stop:
@@ -228,7 +228,7 @@ class _TrackReader:
         for _ in range(_ILLEGAL_BUT_KNOWN[status]):
             self._data_byte()
         self.skipped += 1
-        if self.skipped <= _MOST_TOLD:
+        if self.skipped <= _MOST_LISTED:
             self.found.oddities.append(
                 f"byte {at}: system message {status:02X}, which has no place in a file, was skipped"
             )
