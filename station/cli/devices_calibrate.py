@@ -75,11 +75,11 @@ def run(options: CalibrateOptions) -> int:
 def _wish(options: CalibrateOptions, settings: Settings) -> "MeasureRequest":
     """On the devices that are asked for, else on the settings'."""
     from station.app.equipment.latency_methods import MeasureRequest
-    from station.devices.device_ports import parse_kit
+    from station.devices.device_ports import parse_device
 
     wish = MeasureRequest.of(settings, options.by, options.distance)
     output = settings.output if options.output is None else options.output
-    kit = wish.kit if options.device is None else parse_kit(options.device)
+    kit = wish.kit if options.device is None else parse_device(options.device)
     return replace(wish, sound=replace(wish.sound, output=output, input=options.input), kit=kit)
 
 

@@ -21,7 +21,7 @@ from station.devices.serial.serial_names import SERIAL, device_of_port
 from station.devices.serial.serial_ports import FASTEST_BAUD, MIDI_BAUD, SLOWEST_BAUD, SerialDirectory
 from station.devices.transport import PortDirectory, Transport
 
-BETWEEN_KITS = ";"
+BETWEEN_DEVICES = ";"
 """Stands between several kits in the settings: no driver puts one into a port's name."""
 
 _BAUD = re.compile(r"(.*)@(\d+)", re.DOTALL)
@@ -40,7 +40,7 @@ class DeviceRequest:
         return self.part.removeprefix(SERIAL) if self.part.startswith(SERIAL) else ""
 
 
-def parse_kit(text: str) -> DeviceRequest:
+def parse_device(text: str) -> DeviceRequest:
     """The request that `text` spells; raises `BadInput` for a rate that no serial port has."""
     request = text.strip()
     rated = _BAUD.fullmatch(request)
@@ -54,9 +54,9 @@ def parse_kit(text: str) -> DeviceRequest:
     return DeviceRequest(rated[1], baud)
 
 
-def parse_kits(text: str) -> tuple[DeviceRequest, ...]:
-    """All the requests in `text`; one for any kit counts only alone. Raises `BadInput` as `parse_kit` does."""
-    return tuple(parse_kit(part) for part in text.split(BETWEEN_KITS) if part.strip()) or (DeviceRequest(""),)
+def parse_devices(text: str) -> tuple[DeviceRequest, ...]:
+    """All the requests in `text`; one for any kit counts only alone. Raises `BadInput` as `parse_device` does."""
+    return tuple(parse_device(part) for part in text.split(BETWEEN_DEVICES) if part.strip()) or (DeviceRequest(""),)
 
 
 class DevicePorts:
@@ -106,7 +106,7 @@ class Watches:
             self.midi.close()
 
 
-def watch_kits(
+def watch_devices(
     requests: tuple[DeviceRequest, ...],
     driver: str = "auto",
     now_ns: Callable[[], int] = monotonic_ns,
@@ -135,7 +135,7 @@ def devices_there(requests: tuple[DeviceRequest, ...]) -> list[str]:
     return [device_of_port(stable_name(port)) for port in chosen if port is not None]
 
 
-def no_kit(requests: tuple[DeviceRequest, ...]) -> str:
+def no_device(requests: tuple[DeviceRequest, ...]) -> str:
     """What to tell a user none of whose `requests` is there: what was looked for, and which ports there are."""
     with midi_now() as (midi, fault):
         ports = DevicePorts(midi, SerialDirectory()).names()

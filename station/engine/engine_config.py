@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Self
 
 from station.core.settings import Settings, setting_source
-from station.devices.device_ports import DeviceRequest, parse_kits
+from station.devices.device_ports import DeviceRequest, parse_devices
 from station.engine.level_words import parse_levels
 from station.engine.messages import Bus, Command, SetLevel, SetMidiOut, SetPiece
 
@@ -48,7 +48,7 @@ class EngineConfig:
     def from_settings(cls, settings: Settings) -> Self:
         """What a user has chosen; raises `BadInput` for kits and levels that cannot be meant."""
         return cls(
-            kits=parse_kits(settings.kit),
+            kits=parse_devices(settings.kit),
             output=settings.output,
             block_frames=settings.block_frames,
             rate_hz=settings.rate_hz,

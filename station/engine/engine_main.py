@@ -16,7 +16,7 @@ from multiprocessing.connection import Connection
 
 from station.core.clock import monotonic_ns
 from station.core.errors import StationError
-from station.devices.device_ports import Watches, watch_kits
+from station.devices.device_ports import Watches, watch_devices
 from station.devices.mapping.device_file import own_kit
 from station.devices.midi.midi_out import open_midi_output
 from station.engine.card import Card
@@ -110,7 +110,7 @@ def _live(config: EngineConfig, inbox: Inbox, outbox: Outbox) -> bool:
 
 
 def _watches(engine: Engine, config: EngineConfig, card: Card | None) -> Watches:
-    watches = watch_kits(config.kits, config.midi_driver, monotonic_ns, card)
+    watches = watch_devices(config.kits, config.midi_driver, monotonic_ns, card)
     if watches.fault is not None:
         engine.notify(f"no MIDI kit can be heard: {watches.fault}")
     return watches

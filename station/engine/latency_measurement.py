@@ -22,7 +22,7 @@ from station.core.events import DeviceEvent, Hit
 from station.core.pieces import Piece
 from station.core.units import NS_PER_S
 from station.devices.decoders import DecoderBank
-from station.devices.device_ports import DeviceRequest, no_kit, watch_kits
+from station.devices.device_ports import DeviceRequest, no_device, watch_devices
 from station.devices.mapping.device_file import own_kit
 from station.devices.mapping.device_map import DeviceMap
 from station.devices.mapping.presets import preset_for
@@ -196,7 +196,7 @@ class _KitListener:
             if findings.found:
                 self.device = findings.device
             elif findings.fault or monotonic_ns() > give_up_ns:
-                raise DeviceError(findings.fault or no_kit((DeviceRequest(self._watch.wanted),)))
+                raise DeviceError(findings.fault or no_device((DeviceRequest(self._watch.wanted),)))
             time.sleep(POLL_S)
 
     def listen(self, is_over: Callable[[list[Hit]], bool], output: CardOutput | None) -> list[Hit]:
@@ -244,9 +244,9 @@ class _Streams:
 def _listening(kit: DeviceRequest, notify: Notify) -> Iterator[_KitListener]:
     """The kit that is asked for, opened; streams that are put onto its stack are closed before it."""
     with ExitStack() as streams:
-        watches = watch_kits((kit,), sound=_Streams(streams))
+        watches = watch_devices((kit,), sound=_Streams(streams))
         if not watches.kits:
-            raise DeviceError(no_kit((kit,)))
+            raise DeviceError(no_device((kit,)))
         watch = watches.kits[0]
         try:
             listener = _KitListener(watch, streams)

@@ -10,7 +10,7 @@ from types import MappingProxyType
 from station.app.equipment.calibration_results import CalibrationResult, CalibrationResults, rows_of_taps
 from station.core.measured_latency import LOOPBACK, REPORT, STRIKE, TAP, StoredCalibration
 from station.core.settings import Settings
-from station.devices.device_ports import DeviceRequest, parse_kits
+from station.devices.device_ports import DeviceRequest, parse_devices
 from station.engine.latency_measurement import Notify, SoundRequest, loopback_rounds, stream_report, struck, tapped
 
 
@@ -27,7 +27,7 @@ class MeasureRequest:
     def of(cls, settings: Settings, by: str, distance_m: float = 0.0) -> "MeasureRequest":
         """On the devices of the settings, the kit the first that they name."""
         sound = SoundRequest(settings.output, "", settings.block_frames, settings.rate_hz)
-        return cls(by, sound, parse_kits(settings.kit)[0], distance_m)
+        return cls(by, sound, parse_devices(settings.kit)[0], distance_m)
 
 
 def measured(wish: MeasureRequest, before: StoredCalibration, tell: Notify) -> CalibrationResults:

@@ -74,7 +74,7 @@ class LiveOutcome:
 
 
 @dataclass(frozen=True, slots=True)
-class Room:
+class LiveSetup:
     """Where a session is played: its `engine` and `clock`, who hears every round of judgements, who may end it.
 
     A `show` that fails costs no session: `telling` remembers it.
@@ -101,22 +101,22 @@ class Room:
         return self.telling.fault("not all could be shown while you played, the session is kept")
 
 
-def practise_live(room: Room, runner: SessionRunner, capture: Path) -> LiveOutcome:
+def practise_live(setup: LiveSetup, runner: SessionRunner, capture: Path) -> LiveOutcome:
     """Play what `runner` has to play until it is over, the end is `asked` for, or the engine dies.
 
     Raises `DeviceError` if the engine dies before the transport runs: then there is nothing to report.
     """
     try:
-        begin(room.engine, runner, capture)
-        while not runner.over and not room.asked:
-            room.step(runner)
+        begin(setup.engine, runner, capture)
+        while not runner.over and not setup.asked:
+            setup.step(runner)
     except DeviceError as error:
         if not runner.started:
             raise
         fault: StationError | None = error
     else:
-        fault = end(room.engine, runner)
-    return LiveOutcome(runner.finish(), fault or room.fault(runner.heard), room.asked.is_attended)
+        fault = end(setup.engine, runner)
+    return LiveOutcome(runner.finish(), fault or setup.fault(runner.heard), setup.asked.is_attended)
 
 
 def begin(engine: EngineLink, listener: Listener, capture: Path | None) -> None:
