@@ -1,7 +1,7 @@
-"""The engine's process from inside: ready to begin as soon as it is told what to open, ended with its parent.
+"""The engine's process from inside: ready to begin as soon as it knows what to open, ended with its parent.
 
 It polls the kits every half millisecond in its main thread; the sound card's driver asks for blocks in a thread of its
-own. Whatever takes long to import is imported before it is told to begin, and the sounds that will be wanted are made,
+own. Whatever takes long to import is imported before it begins, and the sounds that will be wanted are made,
 so that a process that waits as a spare begins at once.
 """
 
@@ -52,7 +52,7 @@ def run_engine(commands: "Connection[None, Command]", events: "Connection[list[E
             config = commands.recv()
     except (EOFError, OSError):  # a spare whose parent needs it no more
         return
-    assert isinstance(config, EngineConfig), "an engine is told what to open before anything else"
+    assert isinstance(config, EngineConfig), "an engine learns what to open before anything else"
     be_less_nice()
     outbox = Outbox(events)
     try:
@@ -141,7 +141,7 @@ def _click(timbre: str, rate_hz: int) -> dict[ClickVoice, Frames]:
 
 
 def _drums(engine: Engine, name: str, rate_hz: int) -> DrumKit:
-    """The kit called `name`; where it cannot be had the user is told, and the default one plays."""
+    """The kit called `name`; where it cannot be had the user is notified, and the default one plays."""
     try:
         return _kit(name, rate_hz)
     except StationError as fault:

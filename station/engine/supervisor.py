@@ -4,7 +4,7 @@ A spare process waits beside the one that works, everything imported, the sounds
 working one ends unasked (killed, crashed, or worn out: its sound library went with the sound server) the spare takes
 its place within tenths of a second. It is sent what still holds: levels, MIDI output, track, the capture, which it
 continues, and the transport, whose zero stays where it was, for session time is the same in every process. What was
-heard until then has been reported; strokes of the moment between are lost, and the user is told once what happened.
+heard until then has been reported; strokes of the moment between are lost, and the user reads once what happened.
 """
 
 import threading

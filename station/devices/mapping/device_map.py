@@ -90,7 +90,7 @@ PLAIN_PAD = Pad()
 
 @dataclass(frozen=True, slots=True)
 class Crosstalk:
-    """A stroke on `source` makes `victim` send a ghost, at most `share` as loud.
+    """A stroke on `source` makes `victim` send a hit, at most `share` as loud.
 
     It comes from `before_ns` before the stroke to `within_ns` after it.
     """

@@ -1,4 +1,4 @@
-"""Hits that look like ghosts though the kit's rules let them pass: for a page on which a person sets the rules.
+"""Hits that look like false triggers though the kit's rules let them pass: for a page on which a person sets the rules.
 
 A suspicion is no verdict: two limbs may strike together, one softly. Times are monotonic ns.
 """
@@ -24,7 +24,7 @@ _SOFT_STOMP = 0.6
 
 @dataclass(frozen=True, slots=True)
 class Suspicion:
-    """`hit` may be a ghost of `cause`, which came `after_ns` before it (negative: after it)."""
+    """`hit` may be a false trigger of `cause`, which came `after_ns` before it (negative: after it)."""
 
     hit: Hit
     why: HeldBack

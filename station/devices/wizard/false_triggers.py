@@ -1,6 +1,6 @@
 """What else came with the strokes that were asked for: double triggers and crosstalk, and how to tell them.
 
-Who is asked for single strokes plays none within `ONE_STROKE_NS`, so that whatever is softer there is a ghost. Margins
+Who is asked for single strokes plays none within `ONE_STROKE_NS`, so that whatever is softer there is false. Margins
 are our choice: three strokes do not show the worst.
 """
 

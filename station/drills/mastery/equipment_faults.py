@@ -2,7 +2,7 @@
 
 Slowing down helps with neither, so that the policy must tell them from the student's own. A lean as wide and steady as
 no habit is latency. Two pads that answer for each other are cables (or a wrong kit file): from then on their hits are
-judged as if they were right, and the student is told. If that was an error the pads answer for each other again, and
+judged as if they were right, and the student reads so. If that was an error the pads answer for each other again, and
 all is as before.
 """
 

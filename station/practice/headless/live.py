@@ -20,7 +20,7 @@ from station.practice.session.runner import SessionRunner
 from station.practice.session.session import Session, SessionResult
 
 POLL_S = 0.02
-"""How long to wait for an event before telling the session the time; our choice, no verdict depends on it."""
+"""How long to wait for an event before handing the session the time; our choice, no verdict depends on it."""
 
 LAST_WORDS_S = 2.0
 """How long to wait for the engine to say that the capture is closed; our choice."""
