@@ -89,7 +89,7 @@ class Preferences:
         """Handle an event; returns whether it is for learning, and commands nothing."""
         if self._learning is None:
             return False
-        word = self._learning.take(event)
+        word = self._learning.feed(event)
         if word is not None:
             self._learning = None
             self.put(self.now.pausing_by(word))

@@ -13,6 +13,7 @@ from station.cli.options.device_option import DEVICE_FORM, DEVICE_HELP
 from station.cli.options.option_fields import choice, flag, option, unread
 from station.core.measured_latency import load_calibration, save_calibration
 from station.core.settings import Settings, load_settings
+from station.devices.device_ports import parse_device
 
 if TYPE_CHECKING:
     from station.app.equipment.calibration_results import CalibrationResult
@@ -75,11 +76,10 @@ def run(options: CalibrateOptions) -> int:
 def _request(options: CalibrateOptions, settings: Settings) -> "MeasureRequest":
     """On the devices that are asked for, else on the settings'."""
     from station.app.equipment.latency_methods import MeasureRequest
-    from station.devices.device_ports import parse_kit
 
     request = MeasureRequest.of(settings, options.by, options.distance)
     output = settings.output if options.output is None else options.output
-    kit = request.kit if options.device is None else parse_kit(options.device)
+    kit = request.kit if options.device is None else parse_device(options.device)
     return replace(request, sound=replace(request.sound, output=output, input=options.input), kit=kit)
 
 

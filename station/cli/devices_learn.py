@@ -64,7 +64,7 @@ class LearnPage:
             if self._trial is None:
                 self._wizard.feed(packet.data, packet.at_ns)
             else:
-                self._try(self._trial.feed(findings.device, packet.data, packet.at_ns).told)
+                self._try(self._trial.feed(findings.device, packet.data, packet.at_ns).certain)
 
     def _try(self, events: list[DeviceEvent]) -> None:
         for event in events:

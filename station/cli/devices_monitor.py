@@ -71,8 +71,8 @@ class MonitorPage:
         return [words for line in shown for words in self._line(line)]
 
     def _line(self, line: MonitorLine) -> list[str]:
-        if line.ghost is not None:
-            return [self._held_back(line.ghost, line.raw)]
+        if line.false_trigger is not None:
+            return [self._held_back(line.false_trigger, line.raw)]
         if line.event is None:
             return [f"{s_from_ns(line.at_ns - self._start_ns):10.4f}  {'':60}  {line.raw}"]
         counts = "" if line.counts is None else f"  counts as {line.counts}"

@@ -120,7 +120,7 @@ def _new(_: NoOptions) -> int:
 
 def _import(options: ImportOptions) -> int:
     from station.drills.lesson_writer import write_lesson
-    from station.drills.quantise import fit_score, lesson_of
+    from station.drills.quantise import lesson_of, quantise_score
 
     if not is_midi(options.source) and not is_capture(options.source):
         raise BadInput(options.source, "", "expected a MIDI file (.mid) or a take (.capture)")
@@ -133,7 +133,7 @@ def _import(options: ImportOptions) -> int:
     score = load_score(str(source))
     if not len(score):
         raise BadInput(source, "", "there is no drum note in it")
-    fitted = fit_score(score)
+    fitted = quantise_score(score)
     lesson = lesson_of(fitted.score, out.stem, score.title or source.stem, fitted.velocities)
     write_whole(out, write_lesson(lesson).encode())
     if fitted.moved or fitted.left_out:

@@ -181,9 +181,9 @@ def _remembered(plan: Plan, plan_options: PlanOptions, settings: Settings, keeps
 
 
 def _is_kit_there(wanted: str) -> bool:
-    from station.devices.device_ports import devices_there, parse_kits
+    from station.devices.device_ports import devices_there, parse_devices
 
-    return bool(devices_there(parse_kits(wanted)))
+    return bool(devices_there(parse_devices(wanted)))
 
 
 def _recover(folder: SessionFolder, options: PracticeOptions, settings: Settings) -> int:

@@ -9,12 +9,12 @@ from station.core.clock import MonotonicClock
 from station.core.errors import DeviceError
 from station.core.measured_latency import load_calibration
 from station.core.settings import Settings
-from station.devices.device_ports import no_kit
+from station.devices.device_ports import no_device
 from station.engine.engine_config import EngineConfig
 from station.engine.supervisor import EngineSupervisor
 from station.practice.control.pad_commands import PadCommands, ways_to_go_on
 from station.practice.headless.end_signals import end_asked
-from station.practice.headless.live import LiveOutcome, Room, practise_live, wait_for_kits
+from station.practice.headless.live import LiveOutcome, LiveSetup, practise_live, wait_for_kits
 from station.practice.headless.live_text import LEGEND, LiveText
 from station.practice.headless.telling import Telling
 from station.practice.session.adaptation import Adaptation
@@ -52,7 +52,7 @@ def practise_in_terminal(
     with EngineSupervisor(config) as engine:
         wait_for_kits(engine, runner, clock, KIT_WAIT_S, len(config.kits))
         if not runner.heard.devices:
-            raise DeviceError(f"{no_kit(config.kits)}; station practice --virtual-student intermediate needs none")
+            raise DeviceError(f"{no_device(config.kits)}; station practice --virtual-student intermediate needs none")
         try:
             if len(runner.heard.devices) < len(config.kits):
                 here = ", ".join(runner.heard.devices)
@@ -62,8 +62,8 @@ def practise_in_terminal(
             if request is not None:
                 telling.attempt(say, "\nmaking the track ready …")
                 runner.session.backing = _track(request, runner.session, settings)
-            room = Room(engine, clock, text.tell, telling, until_saved.enter_context(end_asked()))
-            return practise_live(room, runner, capture)
+            setup = LiveSetup(engine, clock, text.show, telling, until_saved.enter_context(end_asked()))
+            return practise_live(setup, runner, capture)
         finally:
             telling.attempt(text.last_words, runner.session)
 
@@ -71,4 +71,4 @@ def practise_in_terminal(
 def _track(request: BackingRequest, session: Session, settings: Settings) -> PreparedTrack | None:
     backing = Backing(request)
     backing.ask(session.plan, session.heard.rate_hz or settings.rate_hz)
-    return backing.take(wait_s=None)
+    return backing.ready(wait_s=None)

@@ -1,4 +1,4 @@
-"""What devices tell: immutable events, each with the session time (monotonic ns) at which it happened."""
+"""What devices report: immutable events, each with the session time (monotonic ns) at which it happened."""
 
 from dataclasses import dataclass
 
@@ -53,7 +53,7 @@ class PedalMoved:
 
 @dataclass(frozen=True, slots=True)
 class Switched:
-    """A switch that plays nothing is pressed, told again while it moves.
+    """A switch that plays nothing is pressed, and reported again while it moves.
 
     `switch` is `cc=64` for a controller, `program=5` for a program.
     """

@@ -1,4 +1,4 @@
-"""Waiting for a thread or a process so that a machine that stands still for a moment takes no patience away.
+"""Waiting for a thread or a process so that a machine that stands still for a moment costs no time of it.
 
 The clock runs on while a busy or suspended machine runs nobody. So the wait is made of turns, and one that takes
 seconds is one turn all the same.

@@ -20,13 +20,13 @@ from station.core.schema import (
     Reader,
     day,
     key_of,
+    members_by_label,
     needed,
     number,
     read,
     record,
     table_of,
     text,
-    words_of,
 )
 from station.core.settings import settings_path
 from station.core.toml_source import read_source
@@ -118,7 +118,7 @@ _MEASURED: Fields = MappingProxyType(
     }
 )
 _measured = record(MeasuredLatency, _MEASURED)
-_pads = table_of(key_of(words_of(Piece), "piece"), _measured)
+_pads = table_of(key_of(members_by_label(Piece), "piece"), _measured)
 FIELDS: Fields = MappingProxyType(
     {
         "outputs": Field(table_of(text, _measured), {}),

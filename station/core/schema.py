@@ -54,7 +54,7 @@ def optional(read: Reader[T]) -> Field[T | None]:
     return Field(read, None)
 
 
-def taken(raw: object, fields: Fields, noun: str = "key") -> tuple[dict[str, Any], Faults]:
+def checked_values(raw: object, fields: Fields, noun: str = "key") -> tuple[dict[str, Any], Faults]:
     """The values of all fields of a table, in the table's order, and all that is wrong; `noun` names its keys."""
     values: dict[str, Any] = {}
     faults = Faults()
@@ -77,7 +77,7 @@ def record(build: Callable[..., T], fields: Fields, noun: str = "key") -> Reader
     """A table with these fields; `build` takes all of them by name and may raise `Wrong`."""
 
     def read(raw: object) -> T:
-        values, faults = taken(raw, fields, noun)
+        values, faults = checked_values(raw, fields, noun)
         faults.check()
         return build(**{fields[key].called or key: value for key, value in values.items()})
 
@@ -88,7 +88,7 @@ def said(fields: Fields, noun: str = "key") -> Reader[dict[str, Any]]:
     """A table of which only those fields count that the file says: as what they are `called`, in the table's order."""
 
     def read(raw: object) -> dict[str, Any]:
-        values, faults = taken(raw, fields, noun)
+        values, faults = checked_values(raw, fields, noun)
         faults.check()
         return {fields[key].called or key: value for key, value in values.items() if key in _table(raw)}
 
@@ -289,7 +289,7 @@ def key_of(choices: Mapping[str, T], noun: str) -> Reader[T]:
 Member = TypeVar("Member", bound=IntEnum)
 
 
-def words_of(kind: type[Member]) -> dict[str, Member]:
+def members_by_label(kind: type[Member]) -> dict[str, Member]:
     """The members of an enumeration by the words that files have for them."""
     return {word(member): member for member in kind}
 

@@ -14,7 +14,19 @@ from platformdirs import user_config_path, user_documents_path
 from station.core.errors import BadInput
 from station.core.files import NoSuchFile, write_whole
 from station.core.pieces import Piece
-from station.core.schema import Field, Fields, Reader, flag, number, record, shown, taken, text, whole, words_of
+from station.core.schema import (
+    Field,
+    Fields,
+    Reader,
+    checked_values,
+    flag,
+    members_by_label,
+    number,
+    record,
+    shown,
+    text,
+    whole,
+)
 from station.core.toml_faults import Fault, Wrong, placed, refused, wrong
 from station.core.toml_source import read_source
 from station.core.toml_write import toml_value
@@ -35,23 +47,21 @@ class Settings:
     `kit` part of the MIDI port's name, empty for the first kit found; `output` part of the sound device's name, empty
     for the system's default; `block_frames` the size of one audio block, 0 for the driver's own choice; `rate_hz` its
     sample rate; `drums` the name or the path of the drum kit that sounds, `click` the name of the click,
-    `click_pattern` what clicks (`practice.click_word`), `levels` of what sounds (`engine.levels`), `guide` whether the
-    demonstration plays along in the passes, `midi_out` part of the name of a MIDI output that gets it, empty for none;
-    `own_sound` false where the kit's module sounds itself and the strokes of the student stay silent; latencies in
-    milliseconds, subtracted from every hit (input) and added to every written time (output) on devices that nobody has
-    measured (`core.calibration`). `thresholds` says of pads
-    the least velocity that they send, as measured (`snare=20 tom_1=15`), `mask_ms` how long after a stroke a pad hears
-    no other. `ask_first` whether the student is asked for an opinion before a result is shown.
-    `kicks_start` whether two kicks start the count-in, `auto_pause` whether a session waits for a student who has
-    stopped, `pause` what pauses it: two pads at once, switches (`practice.pause_word`).
-    `style` names how the demonstrator moves, a shipped style or a style file, `figure` the body, a shipped one or a
-    figure file, and `hands` whose hand leads: `right`, `left`, `open`, empty for as a lesson's kit is built
-    (`practice.lead`).
-    `view`, `mirrored`, `inset` and `viewpoints` are where the window looks from, `score` how it shows the score,
-    `theme` its colours (`app.look`), `panel_scale` how many times as large as designed its panels are, `double` whether
-    the student is shown as a second drummer, `double_beside` whether beside the demonstrator and not over him,
-    `course` names the course whose lessons are listed, empty for all;
-    `welcomed` whether the questions of the first start were asked (`app.welcome`).
+    `click_pattern` what clicks (`practice.session.click_options`), `levels` of what sounds (`engine.level_words`),
+    `guide` whether the demonstration plays along in the passes, `midi_out` part of the name of a MIDI output that gets
+    it, empty for none; `own_sound` false where the kit's module sounds itself and the strokes of the student stay
+    silent; latencies in milliseconds, subtracted from every hit (input) and added to every written time (output) on
+    devices that nobody has measured (`core.measured_latency`). `thresholds` says of pads the least velocity that they
+    send, as measured (`snare=20 tom_1=15`), `mask_ms` how long after a stroke a pad hears no other. `ask_first` whether
+    the student is asked for an opinion before a result is shown. `kicks_start` whether two kicks start the count-in,
+    `auto_pause` whether a session waits for a student who has stopped, `pause` what pauses it: two pads at once,
+    switches (`practice.control.pause_options`). `style` names how the demonstrator moves, a shipped style or a style
+    file, `figure` the body, a shipped one or a figure file, and `hands` whose hand leads: `right`, `left`, `open`,
+    empty for as a lesson's kit is built (`practice.session.leading_hand`). `view`, `mirrored`, `inset` and `viewpoints`
+    are where the window looks from, `score` how it shows the score, `theme` its colours (`app.view_settings`),
+    `panel_scale` how many times as large as designed its panels are, `double` whether the student is shown as a second
+    drummer, `double_beside` whether beside the demonstrator and not over them, `course` names the course whose lessons
+    are listed, empty for all; `welcomed` whether the questions of the first start were asked (`app.first_start`).
     """
 
     student: str = "student"
@@ -131,7 +141,7 @@ def settings_path() -> Path:
 
 # --- reading ----------------------------------------------------------------------------------------------------------
 
-_PIECES = words_of(Piece)
+_PIECES = members_by_label(Piece)
 _LOUDEST = 127
 
 
@@ -206,13 +216,13 @@ def read_settings(path: Path | None = None) -> tuple[Settings, list[Fault]]:
         source = read_source(path or settings_path())
     except NoSuchFile:
         return Settings(), []
-    values, faults = taken(source.raw, FIELDS, "setting")
+    values, faults = checked_values(source.raw, FIELDS, "setting")
     return Settings(**values), placed(source, faults.noted)
 
 
 def with_said(settings: Settings, said: Mapping[str, object], source: str) -> Settings:
     """The settings with what `said` has instead; raises `BadInput` that names `source` for a value out of range."""
-    values, faults = taken(dict(said), FIELDS, "setting")
+    values, faults = checked_values(dict(said), FIELDS, "setting")
     for fault in faults.noted:
         raise BadInput(source, "", fault.words)
     return replace(settings, **{key: values[key] for key in said})

@@ -1,4 +1,4 @@
-"""What is wrong in a TOML file: noted by keys while it is read, told by line and column.
+"""What is wrong in a TOML file: noted by keys while it is read, reported by line and column.
 
 A fault is noted by the keys that lead to its value and, inside a text, by the index of a character. Lines and columns
 are worked out at the end, and only if there was a fault: a good file never pays for them. Both count from 1, in
@@ -15,7 +15,7 @@ from station.core.toml_source import Source
 
 T = TypeVar("T")
 MOST_FAULTS = 1000
-"""More are not told: whoever mends a file mends these first (our choice)."""
+"""More are not reported: whoever mends a file mends these first (our choice)."""
 
 
 # --- while a file is read ---------------------------------------------------------------------------------------------
@@ -32,7 +32,7 @@ class Noted:
     is_missing: bool = False
 
     def below(self, *keys: str | int) -> "Noted":
-        """The same fault, told of the table that holds the value under `keys`."""
+        """The same fault, of the table that holds the value under `keys`."""
         return replace(self, path=(*keys, *self.path))
 
     @property
@@ -67,7 +67,7 @@ class Faults:
         """Note a fault of the value at `path`, of its character `char`, or of the key itself."""
         self.noted.append(Noted(text, path, char, at_key))
 
-    def take(self, found: "Faults", *path: str | int) -> None:
+    def merge(self, found: "Faults", *path: str | int) -> None:
         """Note what was found in the value at `path`."""
         self.noted += [fault.below(*path) for fault in found.noted]
 
@@ -76,7 +76,7 @@ class Faults:
 
     @property
     def are_many(self) -> bool:
-        """Whether no more of them are told."""
+        """Whether no more of them are reported."""
         return len(self.noted) >= MOST_FAULTS
 
     def check(self) -> None:
@@ -122,7 +122,7 @@ class Fault:
 def placed(source: Source, noted: Sequence[Noted]) -> list[Fault]:
     """The faults of the syntax and those `noted` of the values in the order of the file, then what is missing.
 
-    Where lines were set aside for their syntax nothing is told to be missing, for it may stand there.
+    Where lines were set aside for their syntax nothing is reported missing, for it may stand there.
     """
     there = {Fault(source.name, *fault) for fault in source.syntax}
     if not noted:
@@ -130,11 +130,11 @@ def placed(source: Source, noted: Sequence[Noted]) -> list[Fault]:
     places = Places.of(source.text)
     missing: list[Fault] = []
     for fault in noted[:MOST_FAULTS]:
-        told = Fault(source.name, *places.find(fault.path, fault.char, fault.at_key), fault.words)
+        placed_fault = Fault(source.name, *places.find(fault.path, fault.char, fault.at_key), fault.words)
         if fault.is_missing:
-            missing.append(told)
+            missing.append(placed_fault)
         else:
-            there.add(told)
+            there.add(placed_fault)
     return [*sorted(there), *([] if source.syntax else missing)]
 
 

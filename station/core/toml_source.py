@@ -101,7 +101,7 @@ def load(text: str) -> tuple[dict[str, object], str, tuple[SyntaxFault, ...]]:
         try:
             return tomllib.loads(text), text, tuple(faults)
         except tomllib.TOMLDecodeError as error:
-            faults.append(_told(str(error), text))
+            faults.append(_syntax_fault(str(error), text))
         except ValueError:  # Python reads no longer whole number
             faults.append(_too_long(text))
         except RecursionError:
@@ -115,7 +115,7 @@ def load(text: str) -> tuple[dict[str, object], str, tuple[SyntaxFault, ...]]:
     return {}, "", tuple(faults)
 
 
-def _told(message: str, text: str) -> SyntaxFault:
+def _syntax_fault(message: str, text: str) -> SyntaxFault:
     """Line, column and plain words of a complaint of `tomllib`."""
     place = _PLACE.search(message)
     complaint = message[: place.start()] if place else message

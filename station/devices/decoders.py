@@ -1,4 +1,4 @@
-"""All the kits that are heard, each with its own decoder and guard, by its name: for live bytes and captures.
+"""All the kits that are heard, each with its own decoder and filter, by its name: for live bytes and captures.
 
 What is a stroke is judged by what the pads sent; what comes out has the velocities as they count (`velocity_curve`).
 """
@@ -16,20 +16,20 @@ from station.devices.midi.midi_decoder import MidiDecoder
 
 
 class DecodedEvents(NamedTuple):
-    """What bytes brought: the events that may sound at once, and those that are certain now and can be told."""
+    """What bytes brought: the events that may sound at once, and those that are certain now."""
 
     sounding: list[DeviceEvent]
-    told: list[DeviceEvent]
+    certain: list[DeviceEvent]
 
 
 class _Kit:
     """One kit: what it sends, and which of it counts."""
 
-    def __init__(self, preset: DeviceMap, device: str, has_touch: bool) -> None:
+    def __init__(self, preset: DeviceMap, device: str, with_curves: bool) -> None:
         self.decoder = MidiDecoder(preset, device)
-        self.guard = TriggerFilter(preset)
-        self.is_guarded = preset.has_rules
-        pads = preset.pads if has_touch else {}
+        self.filter = TriggerFilter(preset)
+        self.is_filtered = preset.has_rules
+        pads = preset.pads if with_curves else {}
         self._tables = {piece: pad.curve.table for piece, pad in pads.items() if pad.curve != AS_SENT}
 
     def as_counts(self, events: Iterable[DeviceEvent]) -> list[DeviceEvent]:
@@ -47,25 +47,25 @@ class _Kit:
     def reset(self) -> list[DeviceEvent]:
         """Start afresh; returns what still waited."""
         self.decoder.reset()
-        waiting = self.guard.flush()
-        self.guard.reset()
+        waiting = self.filter.flush()
+        self.filter.reset()
         return self.as_counts(waiting)
 
 
 class DecoderBank:
     """Decoders by device; a device that nobody announced gets the preset that `suggest` has for its name.
 
-    Without `has_touch` velocities are told as they were sent.
+    Without `with_curves` velocities stay as they were sent.
     """
 
-    def __init__(self, suggest: Callable[[str], DeviceMap] = preset_for, has_touch: bool = True) -> None:
+    def __init__(self, suggest: Callable[[str], DeviceMap] = preset_for, with_curves: bool = True) -> None:
         self._suggest = suggest
-        self._has_touch = has_touch
+        self._with_curves = with_curves
         self._kits: dict[str, _Kit] = {}
 
     def add(self, device: str, preset: DeviceMap) -> None:
         """Understand `device` by `preset` from now on; what its decoder knew is forgotten."""
-        self._kits[device] = _Kit(preset, device, self._has_touch)
+        self._kits[device] = _Kit(preset, device, self._with_curves)
 
     def preset_of(self, device: str) -> DeviceMap:
         """The preset by which `device` is understood."""
@@ -75,45 +75,45 @@ class DecoderBank:
         """What `data` from `device`, come at `at_ns`, brings."""
         kit = self._kit(device)
         events = kit.decoder.feed(data, at_ns)
-        if not kit.is_guarded:
+        if not kit.is_filtered:
             events = kit.as_counts(events)
             return DecodedEvents(events, events)
-        sounding = [event for event in events if kit.guard.feed(event)]
-        return DecodedEvents(kit.as_counts(sounding), kit.as_counts(kit.guard.told()))
+        sounding = [event for event in events if kit.filter.feed(event)]
+        return DecodedEvents(kit.as_counts(sounding), kit.as_counts(kit.filter.certain()))
 
     def settle(self, now_ns: int) -> list[DeviceEvent]:
         """What is certain by the clock, which must not run ahead of the bytes."""
-        return [event for kit in self._kits.values() for event in kit.as_counts(kit.guard.settle(now_ns))]
+        return [event for kit in self._kits.values() for event in kit.as_counts(kit.filter.settle(now_ns))]
 
     def settle_until(self, device: str, until_ns: int) -> list[DeviceEvent]:
         """What a clock had made certain of `device` at `until_ns`; see `overtaken_ns`."""
         kit = self._kit(device)
-        return kit.as_counts(kit.guard.settle_until(until_ns))
+        return kit.as_counts(kit.filter.settle_until(until_ns))
 
     def overtaken_ns(self, device: str, at_ns: int) -> int | None:
         """Up to when events of `device` were let go, if bytes from before that come only now; see `TriggerFilter`."""
-        return self._kit(device).guard.overtaken_ns(at_ns)
+        return self._kit(device).filter.overtaken_ns(at_ns)
 
     def waits(self, device: str) -> bool:
         """Whether something of `device` is not certain yet."""
-        return self._kit(device).guard.waits
+        return self._kit(device).filter.waits
 
     def flush(self) -> list[DeviceEvent]:
         """All that still waits, as it stands."""
-        return [event for kit in self._kits.values() for event in kit.as_counts(kit.guard.flush())]
+        return [event for kit in self._kits.values() for event in kit.as_counts(kit.filter.flush())]
 
-    def take_ghosts(self) -> list[FalseTrigger]:
+    def pop_false_triggers(self) -> list[FalseTrigger]:
         """What was held back since the last call."""
-        ghosts = [ghost for kit in self._kits.values() for ghost in kit.guard.ghosts]
+        found = [held_back for kit in self._kits.values() for held_back in kit.filter.false_triggers]
         for kit in self._kits.values():
-            kit.guard.ghosts.clear()
-        return ghosts
+            kit.filter.false_triggers.clear()
+        return found
 
-    def bequeath(self, device: str) -> bytes:
-        """Bytes that tell a later decoder of `device` how the kit stands now; see `MidiDecoder.bequeath`."""
+    def restart_state(self, device: str) -> bytes:
+        """Bytes that tell a later decoder of `device` how the kit stands now; see `MidiDecoder.restart_state`."""
         kit = self._kit(device)
-        kit.guard.reset()
-        return kit.decoder.bequeath()
+        kit.filter.reset()
+        return kit.decoder.restart_state()
 
     def lost(self, device: str, at_ns: int) -> list[DeviceEvent]:
         """`device` is gone: half a message and the pedal's position mean nothing any more."""
@@ -126,5 +126,5 @@ class DecoderBank:
     def _kit(self, device: str) -> _Kit:
         kit = self._kits.get(device)
         if kit is None:
-            kit = self._kits[device] = _Kit(self._suggest(device), device, self._has_touch)
+            kit = self._kits[device] = _Kit(self._suggest(device), device, self._with_curves)
         return kit

@@ -21,7 +21,7 @@ from station.devices.serial.serial_names import SERIAL, device_of_port
 from station.devices.serial.serial_ports import FASTEST_BAUD, MIDI_BAUD, SLOWEST_BAUD, SerialDirectory
 from station.devices.transport import PortDirectory, Transport
 
-BETWEEN_KITS = ";"
+BETWEEN_DEVICES = ";"
 """Stands between several kits in the settings: no driver puts one into a port's name."""
 
 _BAUD = re.compile(r"(.*)@(\d+)", re.DOTALL)
@@ -40,23 +40,23 @@ class DeviceRequest:
         return self.part.removeprefix(SERIAL) if self.part.startswith(SERIAL) else ""
 
 
-def parse_kit(text: str) -> DeviceRequest:
-    """The wish that `text` says; raises `BadInput` for a rate that no serial port has."""
-    wish = text.strip()
-    rated = _BAUD.fullmatch(wish)
+def parse_device(text: str) -> DeviceRequest:
+    """The request that `text` spells; raises `BadInput` for a rate that no serial port has."""
+    request = text.strip()
+    rated = _BAUD.fullmatch(request)
     if rated is None:
-        if wish.startswith(SERIAL) and "@" in wish:
-            raise BadInput(f"kit {wish}", "", "expected serial:PATH@BAUD, such as serial:/dev/ttyUSB0@115200")
-        return DeviceRequest(wish)
+        if request.startswith(SERIAL) and "@" in request:
+            raise BadInput(f"kit {request}", "", "expected serial:PATH@BAUD, such as serial:/dev/ttyUSB0@115200")
+        return DeviceRequest(request)
     baud = int(rated[2])
     if not SLOWEST_BAUD <= baud <= FASTEST_BAUD:
-        raise BadInput(f"kit {wish}", "", f"{baud} baud: expected {SLOWEST_BAUD} to {FASTEST_BAUD}")
+        raise BadInput(f"kit {request}", "", f"{baud} baud: expected {SLOWEST_BAUD} to {FASTEST_BAUD}")
     return DeviceRequest(rated[1], baud)
 
 
-def parse_kits(text: str) -> tuple[DeviceRequest, ...]:
-    """All the wishes in `text`; a wish for any kit counts only alone. Raises `BadInput` as `parse_kit` does."""
-    return tuple(parse_kit(part) for part in text.split(BETWEEN_KITS) if part.strip()) or (DeviceRequest(""),)
+def parse_devices(text: str) -> tuple[DeviceRequest, ...]:
+    """All the requests in `text`; one for any kit counts only alone. Raises `BadInput` as `parse_device` does."""
+    return tuple(parse_device(part) for part in text.split(BETWEEN_DEVICES) if part.strip()) or (DeviceRequest(""),)
 
 
 class DevicePorts:
@@ -79,12 +79,12 @@ class DevicePorts:
         return self._midi.open(port)
 
 
-def ports_for(wish: DeviceRequest, midi: PortDirectory | None) -> PortDirectory:
-    """Where to look for the kit that is wished for: not on serial ports unless it has a name."""
-    if not wish.part and midi is not None:
+def ports_for(request: DeviceRequest, midi: PortDirectory | None) -> PortDirectory:
+    """Where to look for the kit that is asked for: not on serial ports unless it has a name."""
+    if not request.part and midi is not None:
         return midi
-    serial = SerialDirectory(wish.baud, wish.path)
-    return serial if wish.path else DevicePorts(midi, serial)
+    serial = SerialDirectory(request.baud, request.path)
+    return serial if request.path else DevicePorts(midi, serial)
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,44 +106,44 @@ class Watches:
             self.midi.close()
 
 
-def watch_kits(
-    wishes: tuple[DeviceRequest, ...],
+def watch_devices(
+    requests: tuple[DeviceRequest, ...],
     driver: str = "auto",
     now_ns: Callable[[], int] = monotonic_ns,
     sound: SoundServer | None = None,
 ) -> Watches:
-    """A watch a wish, none of which takes another's port; without a MIDI driver serial ports are heard all the same.
+    """A watch for each request, each with a port of its own; without a MIDI driver serial ports are heard all the same.
 
     Raises `BadInput` for a driver that there is not; the other parameters stand as in `MidiDirectory`.
     """
     midi, fault = None, None
-    if any(not wish.path for wish in wishes):
+    if any(not request.path for request in requests):
         try:
             midi = MidiDirectory(driver, now_ns, sound)
         except DeviceError as error:
             fault = str(error)
     claims = ClaimedPorts()
-    heard = [wish for wish in wishes if midi is not None or wish.path or _is_serial(wish)]
-    return Watches(tuple(PortWatch(ports_for(wish, midi), wish.part, claims) for wish in heard), fault, midi)
+    heard = [request for request in requests if midi is not None or request.path or _is_serial(request)]
+    return Watches(tuple(PortWatch(ports_for(request, midi), request.part, claims) for request in heard), fault, midi)
 
 
-def devices_there(wishes: tuple[DeviceRequest, ...]) -> list[str]:
+def devices_there(requests: tuple[DeviceRequest, ...]) -> list[str]:
     """The names of the kits that would be opened now, as far as the lists of ports tell."""
     with midi_now() as (midi, _):
-        wanted = [wish for wish in wishes if wish.part or midi is not None]
-        chosen = [choose_port(ports_for(wish, midi).names(), wish.part) for wish in wanted]
+        wanted = [request for request in requests if request.part or midi is not None]
+        chosen = [choose_port(ports_for(request, midi).names(), request.part) for request in wanted]
     return [device_of_port(stable_name(port)) for port in chosen if port is not None]
 
 
-def no_kit(wishes: tuple[DeviceRequest, ...]) -> str:
-    """What to tell a user none of whose `wishes` is there: what was looked for, and which ports there are."""
+def no_device(requests: tuple[DeviceRequest, ...]) -> str:
+    """What to tell a user none of whose `requests` is there: what was looked for, and which ports there are."""
     with midi_now() as (midi, fault):
         ports = DevicePorts(midi, SerialDirectory()).names()
-    named = " or ".join(repr(wish.part) for wish in wishes if wish.part)
+    named = " or ".join(repr(request.part) for request in requests if request.part)
     if not named and fault is not None:
         return f"no kit can be heard: {fault}"
     there = f"these are there: {', '.join(ports)}" if ports else "there is neither a MIDI nor a serial port"
-    needs_midi = any(not wish.path for wish in wishes)
+    needs_midi = any(not request.path for request in requests)
     driverless = " (no MIDI driver works: station doctor says why)" if fault is not None and needs_midi else ""
     return f"{f'no port is called {named}' if named else 'no MIDI kit is plugged in'}; {there}{driverless}"
 
@@ -162,5 +162,5 @@ def midi_now() -> Iterator[tuple[MidiDirectory | None, str | None]]:
         midi.close()
 
 
-def _is_serial(wish: DeviceRequest) -> bool:
-    return choose_port(SerialDirectory().names(), wish.part) is not None
+def _is_serial(request: DeviceRequest) -> bool:
+    return choose_port(SerialDirectory().names(), request.part) is not None

@@ -2,7 +2,7 @@
 
 threshold PIECE VELOCITY      softer is no stroke
 mask PIECE MS                 so long after a stroke there is no other
-ghost SOURCE VICTIM SHARE     a stroke on SOURCE makes VICTIM send ghosts up to so loud (0: no longer)
+ghost SOURCE VICTIM SHARE     a stroke on SOURCE makes VICTIM send hits up to so loud (0: no longer)
 travel OPENNESS               a stomp beside a hi-hat stroke counts if the pedal closed by so much (0: always)
 grab VELOCITY                 strokes up to so hard around a grab come from the grabbing hand
 curve PIECE SHAPE             strokes count as a curve of `velocity_curve` with a name says: light, firm …
@@ -59,7 +59,7 @@ def _mask(kit: DeviceMap, words: list[str]) -> DeviceMap:
     return _with_pad(kit, piece, replace(kit.pad(piece), mask_ns=ns_from_ms(_number(words[1], 0, _LONGEST_MASK_MS))))
 
 
-def _ghost(kit: DeviceMap, words: list[str]) -> DeviceMap:
+def _crosstalk(kit: DeviceMap, words: list[str]) -> DeviceMap:
     source, victim, share = _piece(words[0]), _piece(words[1]), _number(words[2], 0, 1)
     if source is victim:
         raise BadInput(words[1], "", "a pad is not its own crosstalk; mask is for that")
@@ -100,7 +100,7 @@ _ANY_CHANNEL = 1
 _ORDERS: dict[str, tuple[tuple[int, ...], Callable[[DeviceMap, list[str]], DeviceMap]]] = {
     "threshold": ((2,), _threshold),
     "mask": ((2,), _mask),
-    "ghost": ((3,), _ghost),
+    "ghost": ((3,), _crosstalk),
     "travel": ((1,), _travel),
     "grab": ((1,), _grab),
     "curve": ((2, 4), _curve),

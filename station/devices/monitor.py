@@ -26,12 +26,12 @@ _CHATTER = (b"\xf8", b"\xfe")
 _MOST_BEGUN = 3
 """Bytes are shown together as the message that they are; so many that are none yet are shown as they stand."""
 _WIDER = 1.25
-"""A rule is proposed so much wider than what was seen (our choice: the next ghost may be louder)."""
+"""A rule is proposed so much wider than what was seen (our choice: the next one may be louder)."""
 
 
 @dataclass(frozen=True, slots=True)
 class MonitorLine:
-    """One line of the page: an event or a ghost, or bytes that make neither; `raw` is what was sent, in hex.
+    """One line of the page: an event or a false trigger, or bytes that make neither; `raw` is what was sent, in hex.
 
     `counts` is what the velocity of a stroke counts as, None where that is what was sent.
     """
@@ -40,7 +40,7 @@ class MonitorLine:
     device: str
     raw: str
     event: DeviceEvent | None = None
-    ghost: FalseTrigger | None = None
+    false_trigger: FalseTrigger | None = None
     suspicions: tuple[Suspicion, ...] = ()
     counts: int | None = None
 
@@ -51,7 +51,7 @@ class DeviceMonitor:
     def __init__(self, folder: Path | None = None) -> None:
         """`folder` holds the user's own kits, None for this user's."""
         self._folder = folder
-        self._bank = DecoderBank(has_touch=False)
+        self._bank = DecoderBank(with_curves=False)
         self._suspects: dict[str, Suspects] = {}
         self._raw: dict[str, dict[int, str]] = {}
         """What each kit sent, by its time, as long as something of it is not certain."""
@@ -87,11 +87,11 @@ class DeviceMonitor:
         sent, ends = begun + data, bool(cutter.feed(data))
         if not ends and len(sent) < _MOST_BEGUN:
             self._begun[device] = cutter, sent
-            return self._lines(self._bank.feed(device, data, at_ns).told)
+            return self._lines(self._bank.feed(device, data, at_ns).certain)
         self._begun[device] = cutter, b""
         raw = self._raw.setdefault(device, {})
         raw[at_ns] = f"{raw.get(at_ns, '')} {sent.hex(' ')}".strip()
-        lines = self._lines(self._bank.feed(device, data, at_ns).told)
+        lines = self._lines(self._bank.feed(device, data, at_ns).certain)
         if not self._bank.waits(device):
             lines = lines or [MonitorLine(at_ns, device, raw[at_ns])]
             raw.clear()
@@ -129,12 +129,14 @@ class DeviceMonitor:
         curve = self.kit(hit.device).pad(hit.piece).curve
         return None if curve == AS_SENT else curve.table[hit.velocity]
 
-    def _lines(self, told: list[DeviceEvent]) -> list[MonitorLine]:
+    def _lines(self, events: list[DeviceEvent]) -> list[MonitorLine]:
         lines = []
-        for ghost in self._bank.take_ghosts():
-            hit = ghost.hit
-            lines.append(MonitorLine(hit.at_ns, hit.device, self._sent(hit.device, hit.at_ns), ghost=ghost))
-        for event in told:
+        for false_trigger in self._bank.pop_false_triggers():
+            hit = false_trigger.hit
+            lines.append(
+                MonitorLine(hit.at_ns, hit.device, self._sent(hit.device, hit.at_ns), false_trigger=false_trigger)
+            )
+        for event in events:
             raw = self._sent(event.device, event.at_ns)
             suspicions: tuple[Suspicion, ...] = ()
             counts = None
@@ -154,7 +156,7 @@ def suspected(suspicion: Suspicion) -> str:
 
 
 def rule_against(suspicion: Suspicion) -> str:
-    """The rule, in the words of `devices.desk`, that would hold such a hit back."""
+    """The rule, in the words of `devices.edit_mapping`, that would hold such a hit back."""
     hit, cause = suspicion.hit, suspicion.cause
     match suspicion.why:
         case HeldBack.DOUBLE:

@@ -46,7 +46,7 @@ class ClaimedPorts:
     ports: set[str] = field(default_factory=set)
     devices: set[str] = field(default_factory=set)
 
-    def take(self, port: str, name: str) -> str:
+    def claim(self, port: str, name: str) -> str:
         """Hold `port`; returns the kit's name, numbered where another kit has the same."""
         device, count = name, 1
         while device in self.devices:
@@ -89,7 +89,7 @@ class PortWatch:
         self._plug = ""  # the port's stable name: what it is called when it comes back
         self._device = ""
         self._fault = ""
-        self._told_fault = ""
+        self._reported_fault = ""
         self._next_scan_ns: int | None = None
 
     @property
@@ -143,17 +143,17 @@ class PortWatch:
             self._transport = self._directory.open(port)
         except DeviceError as fault:  # taken by another program or gone again; the next scan tries anew
             return self._refused(str(fault))
-        self._fault = self._told_fault = ""
+        self._fault = self._reported_fault = ""
         self._port, self._plug = port, _plug_of(port)
-        self._device = self._claims.take(port, self._transport.name)
+        self._device = self._claims.claim(port, self._transport.name)
         return PortPoll(self._device, [], found=True)
 
     def _refused(self, fault: str) -> PortPoll:
         """Tell a fault that lasts: a port that has just come may not be ours before the system has said whose it is."""
         lasts, self._fault = fault == self._fault, fault
-        if not lasts or fault == self._told_fault:
+        if not lasts or fault == self._reported_fault:
             return _NOTHING
-        self._told_fault = fault
+        self._reported_fault = fault
         return PortPoll("", [], fault=fault)
 
     def _choose(self, ports: list[str]) -> str | None:

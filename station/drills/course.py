@@ -1,14 +1,14 @@
 """Courses: lessons in the order in which a teacher gives them, as text files that end in `.course.toml`.
 
 The format is described for teachers in docs/lessons.md. A lesson is named as `station lesson list` names it, or by its
-file, whose path counts from the course's folder. Faults are told as those of a lesson: by line and column.
+file, whose path counts from the course's folder. Faults are reported as those of a lesson: by line and column.
 """
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from station.core.schema import Field, Fields, Reader, list_of, prose, read, taken, title, whole
+from station.core.schema import Field, Fields, Reader, checked_values, list_of, prose, read, title, whole
 from station.core.toml_faults import Faults
 from station.core.toml_source import read_source
 from station.drills.lesson import LEVELS
@@ -68,7 +68,7 @@ def course_reader(name: str, where: Where) -> Reader[Course]:
     """The schema of the file of the course called `name`, whose lessons are found by `where`."""
 
     def read_table(raw: object) -> Course:
-        values, faults = taken(raw, FIELDS)
+        values, faults = checked_values(raw, FIELDS)
         if not faults and not values["lessons"]:
             faults.add(("lessons",), f"the list is empty; expected {_EXPECTED}")
         lessons = _lessons(values["lessons"], where, faults)

@@ -20,6 +20,7 @@ from station.core.schema import (
     Fields,
     Reader,
     anything,
+    checked_values,
     list_of,
     number,
     optional,
@@ -29,7 +30,6 @@ from station.core.schema import (
     record,
     row_of,
     said,
-    taken,
     title,
     whole,
 )
@@ -167,7 +167,7 @@ def parse_lesson(text: str, source: str, name: str) -> Reading:
 
 def lesson_reader(name: str) -> Reader[Lesson]:
     """The schema of the file of the lesson called `name`."""
-    return lambda raw: _lesson(name, *taken(raw, FIELDS))
+    return lambda raw: _lesson(name, *checked_values(raw, FIELDS))
 
 
 def _lesson(name: str, values: Mapping[str, Any], faults: Faults) -> Lesson:
@@ -208,8 +208,8 @@ def _sections(grids: object, timing: CellTiming, faults: Faults) -> list[GridSec
     several = isinstance(grids, list)
     if grids == []:
         faults.add(("grid",), "no grid to play; expected a table [grid] with lines in it")
-    if (letters := _letters(grids)) > MAX_CELLS:
-        raise wrong(f"{letters} letters; a lesson has at most {MAX_CELLS}", "grid")
+    if (cells := _cell_count(grids)) > MAX_CELLS:
+        raise wrong(f"{cells} letters; a lesson has at most {MAX_CELLS}", "grid")
     sections: list[GridSection] = []
     bars = strokes = 0
     for i, raw in enumerate(grids if isinstance(grids, list) else [grids]):
@@ -225,12 +225,12 @@ def _sections(grids: object, timing: CellTiming, faults: Faults) -> list[GridSec
     return sections
 
 
-def _letters(raw: object) -> int:
+def _cell_count(raw: object) -> int:
     """The length of all texts in a raw value."""
     if isinstance(raw, str):
         return len(raw)
     parts = raw.values() if isinstance(raw, dict) else raw if isinstance(raw, list) else ()
-    return sum(map(_letters, parts))
+    return sum(map(_cell_count, parts))
 
 
 def _crosses(swing: Swing, timing: CellTiming, sections: Sequence[GridSection]) -> bool:
@@ -265,8 +265,8 @@ def _note_impossible(lesson: Lesson, origins: Sequence[Origin], faults: Faults) 
     if len(in_loop) < len(score):
         found |= {(i.note, i.text) for i in impossible(score)}
     again = {(in_loop[i.note - len(in_loop)], i.text) for i in twice if i.note >= len(in_loop)} - found
-    again_told = {(note, f"{words} (as the loop starts again)") for note, words in again}
-    for note, words in found | again_told:
+    at_restart = {(note, f"{words} (as the loop starts again)") for note, words in again}
+    for note, words in found | at_restart:
         faults.add(origins[note].path, words, origins[note].char)
 
 

@@ -25,7 +25,7 @@ def write_lesson(lesson: Lesson) -> str:
     """The text of a lesson file that reads as `lesson`.
 
     Raises `BadInput` for music that the grid cannot write (times between its cells, velocities beside the lesson's
-    dynamics, strokes without a letter): see `fit.fit_score`, which brings any score onto the grid.
+    dynamics, strokes without a letter): see `quantise.quantise_score`, which brings any score onto the grid.
     """
     text = "\n".join([*_head(lesson), "", *_dynamics(lesson.velocities), *_goals(lesson), *_grids(lesson)]) + "\n"
     read = parse_lesson(text, lesson.name, lesson.name)

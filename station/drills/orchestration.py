@@ -1,7 +1,8 @@
 """The same part on another cymbal: the timekeeping of a lesson moved between hi-hat and ride.
 
-A groove that holds in one voicing only is half learnt (TEACHING: vary the voicing once it is stable). Notes stay where
-they are in time; a hi-hat stroke becomes one on the ride's bow, one on the ride a stroke on the closed hi-hat.
+A groove that holds in one orchestration only is half learnt (TEACHING: vary the orchestration once it is stable). Notes
+stay where they are in time; a hi-hat stroke becomes one on the ride's bow, one on the ride a stroke on the closed
+hi-hat.
 """
 
 import numpy as np
@@ -12,14 +13,14 @@ from station.music.score import Score
 CLOSED = 0.0
 
 
-def can_revoice(score: Score) -> bool:
+def can_reorchestrate(score: Score) -> bool:
     """Whether the score keeps time on hi-hat or ride; with both, strokes would fall together, or change hands."""
     return len(np.intersect1d(score.notes["piece"], (Piece.HIHAT, Piece.RIDE))) == 1
 
 
-def revoiced(score: Score) -> Score:
+def reorchestrated(score: Score) -> Score:
     """The score with its strokes on the hi-hat on the ride, or those on the ride on the hi-hat; it has only one."""
-    assert can_revoice(score), "there is another cymbal for all strokes"
+    assert can_reorchestrate(score), "there is another cymbal for all strokes"
     notes = score.notes.copy()
     hat = notes["piece"] == Piece.HIHAT
     if hat.any():

@@ -65,10 +65,10 @@ def _crowded_moments(score: Score) -> list[Impossible]:
             what = f"{needed} hands needed at once: {_pieces(score, hands)}{ornament}"
             found.append(Impossible(hands[-1], what))
         for i, row in enumerate(rows):
-            earlier = [r for r in rows[:i] if limbs[r] == limbs[row] != Limb.UNKNOWN]
-            if earlier:
-                who = limb_name(Limb(limbs[row]))
-                found.append(Impossible(row, f"one {who}, two places: {_pieces(score, [*earlier, row])}"))
+            before = [r for r in rows[:i] if limbs[r] == limbs[row] != Limb.UNKNOWN]
+            if before:
+                limb = limb_name(Limb(limbs[row]))
+                found.append(Impossible(row, f"one {limb}, two places: {_pieces(score, [*before, row])}"))
     return found
 
 
@@ -108,7 +108,7 @@ def _too_fast(score: Score) -> list[Impossible]:
 
 
 def _first_too_fast(
-    who: str, rows: NDArray[np.int64], onset_s: NDArray[np.float64], spans: Mapping[int, float]
+    limb: str, rows: NDArray[np.int64], onset_s: NDArray[np.float64], spans: Mapping[int, float]
 ) -> Impossible | None:
     rows = rows[np.argsort(onset_s[rows], kind="stable")]
     times = onset_s[rows]
@@ -118,6 +118,6 @@ def _first_too_fast(
         short = np.flatnonzero((lasts < least_s) & ~at_once)  # two at once are named by `_crowded_moments`
         if len(short):
             at = int(short[0])
-            text = f"too fast: {who} {strokes} strokes in {1000 * lasts[at]:.0f} ms; people need {1000 * least_s:.0f}"
+            text = f"too fast: {limb} {strokes} strokes in {1000 * lasts[at]:.0f} ms; people need {1000 * least_s:.0f}"
             return Impossible(int(rows[at + strokes - 1]), text)
     return None

@@ -17,7 +17,7 @@ from station.core.errors import BadInput
 from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece
 from station.core.units import NS_PER_MS, NS_PER_S, PPQ, ns_from_s
 from station.drills.grid.cell_strokes import GRACE_LEADS_MS, GRACE_SHARE, OTHER_HAND, Velocities
-from station.drills.grid.tab_symbols import FOOT_OF, HALF_OPEN, LETTERS, TabFamily, TabSymbol, family_of
+from station.drills.grid.tab_symbols import FOOT_OF, HALF_OPEN, SYMBOLS, TabFamily, TabSymbol, family_of
 from station.drills.lesson import Lesson, Section
 from station.drills.lesson_writer import write_lesson
 from station.drills.playable import FOOT_SPANS_S
@@ -34,7 +34,7 @@ MAX_HANDS = 2
 
 
 @dataclass(frozen=True, slots=True)
-class Fitted:
+class Quantised:
     """A score on the grid; how many strokes moved, the furthest of them (ms), and how many were left out."""
 
     score: Score
@@ -44,7 +44,7 @@ class Fitted:
     left_out: int
 
 
-def fit_score(score: Score) -> Fitted:
+def quantise_score(score: Score) -> Quantised:
     """`score` with every stroke on a cell of the grid, and the velocities that it is written with.
 
     Raises `BadInput` where a meter change cuts a bar at a place that no meter can name.
@@ -52,19 +52,19 @@ def fit_score(score: Score) -> Fitted:
     already = _velocities([n for n in score if not n.lead_ms])
     with suppress(BadInput):
         write_lesson(lesson_of(score, "score", "score", already))
-        return Fitted(score, already, 0, 0.0, 0)
+        return Quantised(score, already, 0, 0.0, 0)
     tempo_map = at_bar_starts(score)
     mains = [n for n in score if not n.lead_ms]
     moved = on_cells(mains, tempo_map, score.end_tick)
     graces = Counter((n.tick, n.piece) for n in score if n.lead_ms)
-    settled = [_settled(n, graces[old.tick, old.piece]) for old, n in zip(mains, moved, strict=True)]
-    kept = _trimmed(_unhurried(_playable(_single(settled)), tempo_map), score.end_tick)
+    quantised_mains = [_as_symbol(n, graces[old.tick, old.piece]) for old, n in zip(mains, moved, strict=True)]
+    kept = _trimmed(_unhurried(_playable(_single(quantised_mains)), tempo_map), score.end_tick)
     velocities = _velocities(kept)
     rows = [row for n in kept for row in _with_graces(n, velocities)]
     shifts = [_shift_ns(a.tick, b.tick, score) for a, b in zip(mains, moved, strict=True)]
-    fitted = Score.from_notes(rows, tempo_map, score.end_tick, score.title)
+    quantised = Score.from_notes(rows, tempo_map, score.end_tick, score.title)
     furthest_ms = max(shifts, default=0) / NS_PER_MS
-    return Fitted(fitted, velocities, sum(s > 0 for s in shifts), furthest_ms, len(mains) - len(kept))
+    return Quantised(quantised, velocities, sum(s > 0 for s in shifts), furthest_ms, len(mains) - len(kept))
 
 
 def lesson_of(score: Score, name: str, title: str, velocities: Velocities | None = None) -> Lesson:
@@ -94,7 +94,7 @@ def _shift_ns(before: int, after: int, score: Score) -> int:
 # --- strokes ----------------------------------------------------------------------------------------------------------
 
 
-def _settled(note: Note, graces: int) -> Note:
+def _as_symbol(note: Note, graces: int) -> Note:
     """The note as the letter nearest to it plays it, with a limb that can."""
     ornament = (Ornament.NONE, Ornament.FLAM, Ornament.DRAG)[min(graces, 2)]
     is_buzz = note.articulation is Articulation.BUZZ
@@ -134,7 +134,7 @@ def nearest_letter(note: Note) -> TabSymbol:
             abs(letter.dynamic - note.dynamic),
         )
 
-    return min(LETTERS[family_of(note.piece)].values(), key=distance)
+    return min(SYMBOLS[family_of(note.piece)].values(), key=distance)
 
 
 def _able(note: Note) -> Limb:

@@ -38,7 +38,7 @@ class Recorder:
         own = None if PRESETS.get(preset.name) == preset else kit_text(preset)
         number = self._numbers.setdefault(device, len(self._numbers) + 1)
         self._sink.append(device_record(number, at_ns, device, preset.name, own))
-        self._sink.append(CaptureRecord(RecordKind.BYTES, number, at_ns, self._decoders.bequeath(device)))
+        self._sink.append(CaptureRecord(RecordKind.BYTES, number, at_ns, self._decoders.restart_state(device)))
 
     def put(self, kind: RecordKind, device: str, at_ns: int, payload: bytes = b"") -> None:
         """Record something of `device`."""
@@ -76,7 +76,7 @@ class RunningCapture:
     def __init__(self, open_capture: OpenCapture, decoders: DecoderBank) -> None:
         self._open, self._decoders = open_capture, decoders
         self._recorder: Recorder | None = None
-        self._told: str | None = None
+        self._reported: str | None = None
 
     def begin(self, path: Path, at_ns: int, scene: CaptureOpening) -> None:
         """Begin a capture at `path`; the one before has ended. Raises `StationError` where none can be begun."""
@@ -93,13 +93,13 @@ class RunningCapture:
         if self._recorder is None:
             return None
         self._recorder.close(at_ns)
-        fault, self._recorder, self._told = self._recorder.fault, None, None
+        fault, self._recorder, self._reported = self._recorder.fault, None, None
         return fault
 
-    def take_fault(self) -> str | None:
-        """What hinders writing since the last call, told once."""
+    def new_fault(self) -> str | None:
+        """What hinders writing since the last call, reported once."""
         fault = self._recorder.fault if self._recorder is not None else None
-        is_news, self._told = fault != self._told, fault
+        is_news, self._reported = fault != self._reported, fault
         return fault if is_news else None
 
     # --- what is recorded --------------------------------------------------------------------------------------------
@@ -110,7 +110,7 @@ class RunningCapture:
             self._recorder.add_device(device, at_ns)
 
     def bytes_came(self, device: str, data: bytes, at_ns: int, overtaken_ns: int | None) -> None:
-        """Bytes came, to be recorded before they are decoded; what was told until `overtaken_ns` was told before."""
+        """Bytes came, to be recorded before they are decoded; what was let go until `overtaken_ns` went before them."""
         if self._recorder is None:
             return
         if overtaken_ns is not None:
@@ -138,7 +138,7 @@ class RunningCapture:
         if self._recorder is not None:
             self._recorder.say(RecordKind.OUTPUT, at_ns, name or "")
 
-    def remark(self, text: str, at_ns: int) -> None:
-        """Whoever records wishes `text` to be kept."""
+    def annotate(self, text: str, at_ns: int) -> None:
+        """Keep `text` in the capture."""
         if self._recorder is not None:
-            self._recorder.say(RecordKind.REMARK, at_ns, text)
+            self._recorder.say(RecordKind.ANNOTATION, at_ns, text)

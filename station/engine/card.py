@@ -1,6 +1,6 @@
 """Keeps the engine sounding: opens the sound card, and when it goes runs silent until it is back.
 
-A card that is missing from the start is told of once, and opened when there is one while no transport runs; one that
+A card that is missing from the start is reported once, and opened when there is one while no transport runs; one that
 stops in mid-session (unplugged, its server ended, no block asked for in a while) is tried anew every few seconds, and
 the session goes on meanwhile.
 Where a sound server took this process's sound library with it, only a new process sounds again: as soon as there is an
@@ -36,10 +36,10 @@ BuildMixer = Callable[[int], Mixer]
 
 
 class Card:
-    """The engine's sound card. `build_mixer` makes a mixer for a sample rate, `lookout` finds what there is to open."""
+    """The engine's sound card. `build_mixer` makes a mixer for a sample rate, `hotplug` finds what there is to open."""
 
     def __init__(
-        self, engine: Engine, open_output: OpenOutput, build_mixer: BuildMixer, lookout: Hotplug | None = None
+        self, engine: Engine, open_output: OpenOutput, build_mixer: BuildMixer, hotplug: Hotplug | None = None
     ) -> None:
         self.is_worn_out = False
         """Whether sound can be had again, but only by a new process."""
@@ -48,7 +48,7 @@ class Card:
         self._engine = engine
         self._open_output = open_output
         self._build_mixer = build_mixer
-        self._lookout = lookout
+        self._hotplug = hotplug
         self._server_is_gone = False
         self._next_look_ns = 0
         self._mixers: dict[int, Mixer] = {}
@@ -71,7 +71,7 @@ class Card:
         return self._output.rate_hz if self._output is not None else None
 
     def start(self, now_ns: int) -> None:
-        """Open the card; where that fails the user is told, and the engine runs silent."""
+        """Open the card; where that fails the user is notified, and the engine runs silent."""
         try:
             self._open(now_ns)
         except DeviceError as fault:
@@ -150,47 +150,47 @@ class Card:
         except DeviceError:  # told when it went; the next try will come
             return
         self._engine.notify(f"sound is back on {self.name}")
-        self._engine.tell(Sounding(self.name, self.rate_hz))
+        self._engine.report(Sounding(self.name, self.rate_hz))
 
     def _await_first(self, now_ns: int) -> None:
         """Sound as soon as there is something to sound on, where there was nothing from the start."""
-        lookout = self._lookout
-        if lookout is None or self._engine.is_playing:
+        hotplug = self._hotplug
+        if hotplug is None or self._engine.is_playing:
             return
-        if lookout.take() is None:
-            self._look(lookout, now_ns)
+        if hotplug.found() is None:
+            self._look(hotplug, now_ns)
             return
         try:
             self._open(now_ns)
         except DeviceError:  # it is there and cannot be had; the next look will come
             return
         self._engine.notify(f"sound goes to {self.name}")
-        self._engine.tell(Sounding(self.name, self.rate_hz))
+        self._engine.report(Sounding(self.name, self.rate_hz))
 
-    def _look(self, lookout: Hotplug, now_ns: int) -> None:
+    def _look(self, hotplug: Hotplug, now_ns: int) -> None:
         if now_ns >= self._next_look_ns:
             self._next_look_ns = now_ns + LOOK_EVERY_NS
-            lookout.begin()
+            hotplug.begin()
 
     def _await_server(self, now_ns: int) -> None:
-        if self._lookout is None:
+        if self._hotplug is None:
             return
-        self.is_worn_out = self.is_worn_out or self._lookout.take() is not None
+        self.is_worn_out = self.is_worn_out or self._hotplug.found() is not None
         if not self.is_worn_out and self._retry_ns is not None and now_ns >= self._retry_ns:
             self._retry_ns = now_ns + RETRY_NS
-            self._lookout.begin()
+            self._hotplug.begin()
 
     def _follow_default(self, now_ns: int) -> None:
-        output, lookout = self._output, self._lookout
-        if output is None or lookout is None or not lookout.follows_default or _JACK in output.host:
+        output, hotplug = self._output, self._hotplug
+        if output is None or hotplug is None or not hotplug.follows_default or _JACK in output.host:
             return
         if self._engine.is_playing:
             return
-        found = lookout.take()
+        found = hotplug.found()
         if found is not None and found.is_default and found.name != output.name:
             self._move(now_ns)
         else:
-            self._look(lookout, now_ns)
+            self._look(hotplug, now_ns)
 
     def _move(self, now_ns: int) -> None:
         """Leave the card for the one that is the system's default by now."""
@@ -202,7 +202,7 @@ class Card:
             self._engine.notify(f"{fault}; the session goes on, silent, and looks for it again")
         else:
             self._engine.notify(f"the system's default has changed: sound goes to {self.name}")
-        self._engine.tell(Sounding(self.name, self.rate_hz))
+        self._engine.report(Sounding(self.name, self.rate_hz))
 
     def _watch(self, output: Output, now_ns: int) -> None:
         if self._blocks != self._blocks_seen:
@@ -226,7 +226,7 @@ class Card:
         self.close()
         self._retry_ns = now_ns + RETRY_NS
         self._engine.notify(f"{fault}; the session goes on, silent, and looks for it again")
-        self._engine.tell(Sounding(None))
+        self._engine.report(Sounding(None))
 
     def _render(self, rate_hz: int, frames: int, dac_ns: int) -> Frames:
         self._blocks += 1

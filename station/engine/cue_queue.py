@@ -47,7 +47,7 @@ class CueRun:
         """Whether every cue is done."""
         return self._next_ns == _NEVER_NS
 
-    def take(self, until_ns: int) -> list[Cue]:
+    def pop_due(self, until_ns: int) -> list[Cue]:
         """The cues before `until_ns` (transport time) that were not taken yet; their times stay transport time."""
         if self._next_ns >= until_ns:
             return []
@@ -93,18 +93,18 @@ class CueQueue:
 
     def resume(self, run: CueRun, zero_ns: int, now_ns: int) -> None:
         """Run as if started before with `run` at `zero_ns`: what was due before `now_ns` is over, and not late."""
-        run.take(now_ns - zero_ns)
+        run.pop_due(now_ns - zero_ns)
         self.start(run, zero_ns)
 
     def stop(self) -> None:
         """Stand still and forget what was to sound."""
         self.zero_ns = self._run = None
 
-    def take(self, from_ns: int, until_ns: int) -> list[Cue]:
+    def pop_due(self, from_ns: int, until_ns: int) -> list[Cue]:
         """The cues due in [`from_ns`, `until_ns`) of session time, in order, and those but a little before it."""
         if self.zero_ns is None or self._run is None:
             return []
-        moved = [cue._replace(at_ns=cue.at_ns + self.zero_ns) for cue in self._run.take(until_ns - self.zero_ns)]
+        moved = [cue._replace(at_ns=cue.at_ns + self.zero_ns) for cue in self._run.pop_due(until_ns - self.zero_ns)]
         in_time = [cue for cue in moved if cue.at_ns >= from_ns - LATE_NS]
         self.late += len(moved) - len(in_time)
         return in_time

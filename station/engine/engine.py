@@ -87,7 +87,7 @@ class Engine:
         own_kit: FindKit = no_own_kit,
     ) -> None:
         self.output = OutputState()
-        """What the next `Status` tells of the sound card; set by whoever owns it."""
+        """What the next `Status` says of the sound card; set by whoever owns it."""
         self.quitting = False
         """Whether `Quit` was handled."""
         self._player = SoundPlayer(mixer)
@@ -95,7 +95,7 @@ class Engine:
         self._midi = MidiOut(open_midi_out, self.notify)
         self._decoders = DecoderBank()
         self._devices: list[str] = []
-        self._eavesdrops = False
+        self._watches_bytes = False
         self._recording = RunningCapture(open_capture, self._decoders)
         self._zero_ns: int | None = None
         self._events: list[EngineEvent] = []
@@ -113,22 +113,22 @@ class Engine:
     def feed(self, device: str, data: bytes, at_ns: int) -> None:
         """Take bytes of `device` that came at `at_ns`; the strokes in them sound with the next block."""
         self._recording.bytes_came(device, data, at_ns, self._decoders.overtaken_ns(device, at_ns))
-        if self._eavesdrops:
+        if self._watches_bytes:
             self._events.append(RawBytes(at_ns, device, data))
         heard = self._decoders.feed(device, data, at_ns)
         for event in heard.sounding:
             self._player.sound(event)
-        self._events += heard.told
+        self._events += heard.certain
 
     def device_found(self, device: str, at_ns: int) -> None:
         """`device` is connected, or connected again; the user's own kit for it, if there is one, holds from now on."""
-        self._take_own_kit(device)
+        self._load_own_kit(device)
         if device not in self._devices:
             self._devices.append(device)
         self._recording.device_changed(DeviceFound(at_ns, device))
         self._events += self._decoders.found(device, at_ns)
 
-    def _take_own_kit(self, device: str) -> None:
+    def _load_own_kit(self, device: str) -> None:
         try:
             kit = self._own_kit(device)
         except StationError as fault:
@@ -164,15 +164,15 @@ class Engine:
             case SetLevel() | SetPiece() | SetBacking() | SetMidiOut():
                 self._set(command)
             case KeyHit():
-                self._take_key(command)
+                self._strike_key(command)
             case RecordCapture():
                 self._record(command.path)
             case Annotate(text):
-                self._recording.remark(text, self._now_ns)
+                self._recording.annotate(text, self._now_ns)
             case WatchRawBytes(on):
-                self._eavesdrops = on
+                self._watches_bytes = on
             case ReloadDevice(device):
-                self._take_own_kit(device)
+                self._load_own_kit(device)
             case Quit():
                 self.quitting = True
 
@@ -187,19 +187,19 @@ class Engine:
             case SetMidiOut():
                 self._midi.choose(command.port)
 
-    def _set_backing(self, wish: SetBacking) -> None:
-        track = wish.loaded
-        if wish.track is not None and track is None:
+    def _set_backing(self, command: SetBacking) -> None:
+        track = command.loaded
+        if command.track is not None and track is None:
             try:
-                track = load(wish.track)
+                track = load(command.track)
             except DeviceError as fault:
                 self.notify(str(fault))
         rate_hz = self._player.rate_hz
         if track is not None and rate_hz not in (None, track.rate_hz):
             self.notify(f"the track was prepared for {track.rate_hz} Hz and the card plays {rate_hz}: choose it again")
-        self._player.set_track(track, wish.at_ns)
+        self._player.set_track(track, command.at_ns)
 
-    def _take_key(self, key: KeyHit) -> None:
+    def _strike_key(self, key: KeyHit) -> None:
         hit = Hit(
             at_ns=key.at_ns,
             piece=key.piece,
@@ -214,7 +214,7 @@ class Engine:
         self._events.append(hit)
 
     def _record(self, path: Path | None) -> None:
-        self._events += self._decoders.flush()  # what was played before a capture begins or ends is told before it
+        self._events += self._decoders.flush()  # what was played before a capture begins or ends is reported before it
         lacking = self._recording.end(self._now_ns)
         if path is None:
             self._events.append(CaptureSaved(None, lacking))
@@ -232,12 +232,12 @@ class Engine:
     # --- time --------------------------------------------------------------------------------------------------------
 
     def notify(self, text: str) -> None:
-        """Tell the user something with the next `advance`."""
+        """Give the user something to read with the next `advance`."""
         self._events.append(Notice(text))
 
-    def tell(self, event: EngineEvent) -> None:
-        """Say `event` with the next `advance`."""
-        if isinstance(event, Sounding):  # what was played before sounded elsewhere, and is told before
+    def report(self, event: EngineEvent) -> None:
+        """Report `event` with the next `advance`."""
+        if isinstance(event, Sounding):  # what was played before sounded elsewhere, and is reported before
             self._events += self._decoders.flush()
             self._recording.output(event.output, self._now_ns)
         self._events.append(event)
@@ -253,7 +253,7 @@ class Engine:
         self._events += self._decoders.settle(now_ns)
         if self._player.is_silent:
             self._player.pass_by(now_ns)
-        for zero_ns in self._player.take_zeros_ns():
+        for zero_ns in self._player.pop_zeros_ns():
             self._zero_ns = zero_ns
             self._midi.started(zero_ns)
             self._events.append(Started(zero_ns, self.output.name))
@@ -263,7 +263,7 @@ class Engine:
             self._next_status_ns = now_ns + STATUS_EVERY_NS
         elif now_ns >= self._next_status_ns:
             self._next_status_ns = now_ns + STATUS_EVERY_NS
-            if (fault := self._recording.take_fault()) is not None:
+            if (fault := self._recording.new_fault()) is not None:
                 self.notify(fault)
             self._events.append(self._status())
         events, self._events = self._events, []

@@ -1,10 +1,10 @@
-"""What the engine process opens, what it is told before anything else, and how it says that it cannot go on."""
+"""What the engine process opens, what it is sent before anything else, and how it says that it cannot go on."""
 
 from dataclasses import dataclass
 from typing import Self
 
 from station.core.settings import Settings, setting_source
-from station.devices.device_ports import DeviceRequest, parse_kits
+from station.devices.device_ports import DeviceRequest, parse_devices
 from station.engine.level_words import parse_levels
 from station.engine.messages import Bus, Command, SetLevel, SetMidiOut, SetPiece
 
@@ -48,7 +48,7 @@ class EngineConfig:
     def from_settings(cls, settings: Settings) -> Self:
         """What a user has chosen; raises `BadInput` for kits and levels that cannot be meant."""
         return cls(
-            kits=parse_kits(settings.kit),
+            kits=parse_devices(settings.kit),
             output=settings.output,
             block_frames=settings.block_frames,
             rate_hz=settings.rate_hz,
@@ -61,7 +61,7 @@ class EngineConfig:
 
     @property
     def first_commands(self) -> tuple[Command, ...]:
-        """What the engine is told before anything else."""
+        """What the engine is sent before anything else."""
         silent = () if self.own_sound else (SetLevel(Bus.STUDENT, 0.0),)
         port = (SetMidiOut(self.midi_out),) if self.midi_out else ()
         return (*self.levels, *silent, *port)

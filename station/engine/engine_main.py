@@ -1,7 +1,7 @@
-"""The engine's process from inside: ready to begin as soon as it is told what to open, ended with its parent.
+"""The engine's process from inside: ready to begin as soon as it knows what to open, ended with its parent.
 
 It polls the kits every half millisecond in its main thread; the sound card's driver asks for blocks in a thread of its
-own. Whatever takes long to import is imported before it is told to begin, and the sounds that will be wanted are made,
+own. Whatever takes long to import is imported before it begins, and the sounds that will be wanted are made,
 so that a process that waits as a spare begins at once.
 """
 
@@ -16,7 +16,7 @@ from multiprocessing.connection import Connection
 
 from station.core.clock import monotonic_ns
 from station.core.errors import StationError
-from station.devices.device_ports import Watches, watch_kits
+from station.devices.device_ports import Watches, watch_devices
 from station.devices.mapping.device_file import own_kit
 from station.devices.midi.midi_out import open_midi_output
 from station.engine.card import Card
@@ -52,7 +52,7 @@ def run_engine(commands: "Connection[None, Command]", events: "Connection[list[E
             config = commands.recv()
     except (EOFError, OSError):  # a spare whose parent needs it no more
         return
-    assert isinstance(config, EngineConfig), "an engine is told what to open before anything else"
+    assert isinstance(config, EngineConfig), "an engine learns what to open before anything else"
     be_less_nice()
     outbox = Outbox(events)
     try:
@@ -95,7 +95,7 @@ def _live(config: EngineConfig, inbox: Inbox, outbox: Outbox) -> bool:
         gc.disable()  # a collection in the audio thread is a late block; what runs from here on makes no cycles
         outbox.put([Ready(card.name, card.rate_hz) if card is not None else Ready(None)])
         while not (engine.quitting or inbox.is_closed or runner.is_worn_out):
-            commands = inbox.take()
+            commands = inbox.pop_all()
             happened = runner.step(monotonic_ns())  # after taking them: what was played before a command counts before
             if happened:
                 outbox.put(happened)
@@ -110,7 +110,7 @@ def _live(config: EngineConfig, inbox: Inbox, outbox: Outbox) -> bool:
 
 
 def _watches(engine: Engine, config: EngineConfig, card: Card | None) -> Watches:
-    watches = watch_kits(config.kits, config.midi_driver, monotonic_ns, card)
+    watches = watch_devices(config.kits, config.midi_driver, monotonic_ns, card)
     if watches.fault is not None:
         engine.notify(f"no MIDI kit can be heard: {watches.fault}")
     return watches
@@ -141,7 +141,7 @@ def _click(timbre: str, rate_hz: int) -> dict[ClickVoice, Frames]:
 
 
 def _drums(engine: Engine, name: str, rate_hz: int) -> DrumKit:
-    """The kit called `name`; where it cannot be had the user is told, and the default one plays."""
+    """The kit called `name`; where it cannot be had the user is notified, and the default one plays."""
     try:
         return _kit(name, rate_hz)
     except StationError as fault:

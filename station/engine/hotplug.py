@@ -12,15 +12,15 @@ from station.sound.output.card_stream import SoundDevice
 from station.sound.output.list_outputs import outputs_now
 from station.sound.output.sound_output import choose_output
 
-Look = Callable[[], list[SoundDevice]]
+ListDevices = Callable[[], list[SoundDevice]]
 
 
 class Hotplug:
     """Finds what the user's choice `wanted` (part of a name, empty for the system's default) means at present."""
 
-    def __init__(self, wanted: str, look: Look = outputs_now) -> None:
+    def __init__(self, wanted: str, list_devices: ListDevices = outputs_now) -> None:
         self._wanted = wanted
-        self._look = look
+        self._list_devices = list_devices
         self._looking: threading.Thread | None = None
         self._found: SoundDevice | None = None
 
@@ -35,7 +35,7 @@ class Hotplug:
             self._looking = threading.Thread(target=self._run, name="look for sound outputs", daemon=True)
             self._looking.start()
 
-    def take(self) -> SoundDevice | None:
+    def found(self) -> SoundDevice | None:
         """The output that would be opened now; None while a look is on its way, or where there is none."""
         if self._looking is None or self._looking.is_alive():
             return None
@@ -45,4 +45,4 @@ class Hotplug:
     def _run(self) -> None:
         self._found = None
         with suppress(DeviceError):  # there is none; whoever wants sound asks again
-            self._found = choose_output(self._look(), self._wanted)
+            self._found = choose_output(self._list_devices(), self._wanted)

@@ -22,7 +22,7 @@ from station.core.events import DeviceEvent, Hit
 from station.core.pieces import Piece
 from station.core.units import NS_PER_S
 from station.devices.decoders import DecoderBank
-from station.devices.device_ports import DeviceRequest, no_kit, watch_kits
+from station.devices.device_ports import DeviceRequest, no_device, watch_devices
 from station.devices.mapping.device_file import own_kit
 from station.devices.mapping.device_map import DeviceMap
 from station.devices.mapping.presets import preset_for
@@ -59,7 +59,7 @@ CLICK_S = 0.6
 ACCENT_EVERY = 4
 AFTER_S = 0.3
 
-Tell = Callable[[str], None]
+Notify = Callable[[str], None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,11 +84,11 @@ class Devices:
 # --- the output alone ------------------------------------------------------------------------------------------------
 
 
-def stream_report(wish: SoundRequest, tell: Tell, seconds: float = REPORT_S) -> tuple[Devices, StreamReport]:
+def stream_report(request: SoundRequest, notify: Notify, seconds: float = REPORT_S) -> tuple[Devices, StreamReport]:
     """What the output's stream says of itself, and how its clock runs."""
     with ExitStack() as streams:
-        output = _output(wish, streams)
-        tell(f"listening to the clock of {output.name} for {seconds:g} seconds")
+        output = _output(request, streams)
+        notify(f"listening to the clock of {output.name} for {seconds:g} seconds")
         player = ProbePlayer(np.zeros(round(seconds * output.rate_hz), np.float32), output.rate_hz)
         with _prompt():
             output.start(player)
@@ -97,15 +97,15 @@ def stream_report(wish: SoundRequest, tell: Tell, seconds: float = REPORT_S) -> 
     return Devices(output=output.name), found
 
 
-def loopback_rounds(wish: SoundRequest, tell: Tell, rounds: int = ROUNDS) -> tuple[Devices, LatencyEstimate]:
+def loopback_rounds(request: SoundRequest, notify: Notify, rounds: int = ROUNDS) -> tuple[Devices, LatencyEstimate]:
     """Output latency by chirps that are played and recorded, with the devices opened anew for each round."""
     heard = []
     devices = Devices()
     for number in range(rounds):
         with ExitStack() as streams:
-            output = _output(wish, streams)
-            sound_in = _input(wish, output.rate_hz, streams)
-            tell(f"chirps, {number + 1} of {rounds}")
+            output = _output(request, streams)
+            sound_in = _input(request, output.rate_hz, streams)
+            notify(f"chirps, {number + 1} of {rounds}")
             devices = Devices(output=output.name, input=sound_in.name)
             heard.append(_one_round(output, sound_in))
     return devices, loopback(heard)
@@ -125,17 +125,19 @@ def _one_round(output: CardOutput, sound_in: CardInput) -> LoopbackRound:
 # --- with the kit ----------------------------------------------------------------------------------------------------
 
 
-def struck(wish: SoundRequest, kit: DeviceRequest, tell: Tell, distance_m: float = 0.0) -> tuple[Devices, Strikes]:
+def struck(
+    request: SoundRequest, kit: DeviceRequest, notify: Notify, distance_m: float = 0.0
+) -> tuple[Devices, Strikes]:
     """Input latency by pads that are struck before a microphone; ends by itself after a pause."""
-    with _ear(kit, tell) as ear:
-        sound_in = _input(wish, wish.rate_hz, ear.streams)
+    with _listening(kit, notify) as listener:
+        sound_in = _input(request, request.rate_hz, listener.streams)
         with _prompt():
             sound_in.start()
-            tell("strike each pad ten times, about once a second and not too evenly; a pause of five seconds ends it")
-            hits = ear.listen(partial(_has_paused, monotonic_ns()), None)
+            notify("strike each pad ten times, about once a second and not too evenly; a pause of five seconds ends it")
+            hits = listener.listen(partial(_has_paused, monotonic_ns()), None)
         recording = sound_in.recording()
     stamps = np.array([hit.at_ns for hit in hits], np.int64)
-    devices = Devices(kit=ear.device, input=sound_in.name)
+    devices = Devices(kit=listener.device, input=sound_in.name)
     return devices, strikes(stamps, [hit.piece for hit in hits], recording, distance_m)
 
 
@@ -147,21 +149,23 @@ def _has_paused(begun_ns: int, hits: list[Hit]) -> bool:
     return since_s > (PAUSE_ENDS_S if len(hits) >= PAD_STROKES else FIRST_STROKE_WITHIN_S)
 
 
-def tapped(wish: SoundRequest, kit: DeviceRequest, tell: Tell, clicks: int = CLICKS) -> tuple[Devices, Piece, Taps]:
+def tapped(
+    request: SoundRequest, kit: DeviceRequest, notify: Notify, clicks: int = CLICKS
+) -> tuple[Devices, Piece, Taps]:
     """Equipment and habit together by strokes along with a click; with the piece that was struck most often."""
-    with _ear(kit, tell) as ear:
-        output = _output(wish, ear.streams)
+    with _listening(kit, notify) as listener:
+        output = _output(request, listener.streams)
         sound, starts = _clicks(output.rate_hz, clicks)
         player = ProbePlayer(sound, output.rate_hz)
         with _prompt():
-            tell(f"strike one pad with each of {clicks} clicks; play as you always play")
+            notify(f"strike one pad with each of {clicks} clicks; play as you always play")
             output.start(player)
-            hits = ear.listen(lambda _: player.is_over, output)
+            hits = listener.listen(lambda _: player.is_over, output)
         clicks_ns = player.heard_ns(starts)
     struck_most = Counter(hit.piece for hit in hits).most_common(1)
     piece = struck_most[0][0] if struck_most else Piece.SNARE
     stamps = np.array([hit.at_ns for hit in hits if hit.piece == piece], np.int64)
-    return Devices(kit=ear.device, output=output.name), piece, taps(stamps, clicks_ns)
+    return Devices(kit=listener.device, output=output.name), piece, taps(stamps, clicks_ns)
 
 
 def _clicks(rate_hz: int, count: int) -> tuple[NDArray[np.float32], NDArray[np.int64]]:
@@ -175,7 +179,7 @@ def _clicks(rate_hz: int, count: int) -> tuple[NDArray[np.float32], NDArray[np.i
     return track, starts
 
 
-class _Ear:
+class _KitListener:
     """The kit that is listened to, and the streams that are closed before anything of the kit's is."""
 
     def __init__(self, watch: PortWatch, streams: ExitStack) -> None:
@@ -192,7 +196,7 @@ class _Ear:
             if findings.found:
                 self.device = findings.device
             elif findings.fault or monotonic_ns() > give_up_ns:
-                raise DeviceError(findings.fault or no_kit((DeviceRequest(self._watch.wanted),)))
+                raise DeviceError(findings.fault or no_device((DeviceRequest(self._watch.wanted),)))
             time.sleep(POLL_S)
 
     def listen(self, is_over: Callable[[list[Hit]], bool], output: CardOutput | None) -> list[Hit]:
@@ -205,7 +209,7 @@ class _Ear:
             if output is not None and output.fault is not None:
                 raise output.fault
             for packet in findings.packets:
-                hits += _hits(self._decoders.feed(self.device, packet.data, packet.at_ns).told)
+                hits += _hits(self._decoders.feed(self.device, packet.data, packet.at_ns).certain)
             hits += _hits(self._decoders.settle(monotonic_ns()))
             time.sleep(POLL_S)
         return hits + _hits(self._decoders.flush())
@@ -237,19 +241,19 @@ class _Streams:
 
 
 @contextmanager
-def _ear(kit: DeviceRequest, tell: Tell) -> Iterator[_Ear]:
-    """The kit that is wished for, opened; streams that are put onto its stack are closed before it."""
+def _listening(kit: DeviceRequest, notify: Notify) -> Iterator[_KitListener]:
+    """The kit that is asked for, opened; streams that are put onto its stack are closed before it."""
     with ExitStack() as streams:
-        watches = watch_kits((kit,), sound=_Streams(streams))
+        watches = watch_devices((kit,), sound=_Streams(streams))
         if not watches.kits:
-            raise DeviceError(no_kit((kit,)))
+            raise DeviceError(no_device((kit,)))
         watch = watches.kits[0]
         try:
-            ear = _Ear(watch, streams)
-            tell(f"looking for {f'a kit called {kit.part!r}' if kit.part else 'a kit'}")
-            ear.find()
-            tell(f"{ear.device} is here")
-            yield ear
+            listener = _KitListener(watch, streams)
+            notify(f"looking for {f'a kit called {kit.part!r}' if kit.part else 'a kit'}")
+            listener.find()
+            notify(f"{listener.device} is here")
+            yield listener
         finally:
             streams.close()
             watches.close()
@@ -258,14 +262,14 @@ def _ear(kit: DeviceRequest, tell: Tell) -> Iterator[_Ear]:
 # --- streams ---------------------------------------------------------------------------------------------------------
 
 
-def _output(wish: SoundRequest, streams: ExitStack) -> CardOutput:
-    output = open_output(wish.output, wish.block_frames, wish.rate_hz)
+def _output(request: SoundRequest, streams: ExitStack) -> CardOutput:
+    output = open_output(request.output, request.block_frames, request.rate_hz)
     streams.callback(output.close)
     return output
 
 
-def _input(wish: SoundRequest, rate_hz: int, streams: ExitStack) -> CardInput:
-    sound_in = open_input(wish.input, wish.block_frames, rate_hz)
+def _input(request: SoundRequest, rate_hz: int, streams: ExitStack) -> CardInput:
+    sound_in = open_input(request.input, request.block_frames, rate_hz)
     streams.callback(sound_in.close)
     return sound_in
 

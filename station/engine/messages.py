@@ -193,7 +193,7 @@ class Sounding:
 
 @dataclass(frozen=True, slots=True)
 class CaptureSaved:
-    """A `RecordCapture` was obeyed: what was played before it has been told, and is on the disk where one was open.
+    """A `RecordCapture` was obeyed: what was played before it has been reported, and is on the disk where one was open.
 
     `path` is that of the command; `fault` says why nothing is recorded, or what the capture that ended lacks.
     """
@@ -234,7 +234,7 @@ class Status:
 
 @dataclass(frozen=True, slots=True)
 class RawBytes:
-    """Bytes of `device` that came at `at_ns`, as they are; the events that they bring are told besides."""
+    """Bytes of `device` that came at `at_ns`, as they are; the events that they bring are reported besides."""
 
     at_ns: int
     device: str

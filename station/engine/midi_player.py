@@ -3,7 +3,7 @@
 The engine's other half beside `Player`: that one sounds cues by the card's blocks, this one sends them when the engine
 is advanced past their time. Cues are made into bytes only when they are due, so that a long session costs nothing at
 its start. One that lies further back than `station.engine.cue_queue.LATE_NS` is left out, as a sound would be. Where
-the output fails once it is left alone, and its fault is there to be told.
+the output fails once it is left alone, and its fault is there to be reported.
 """
 
 import heapq
@@ -81,7 +81,7 @@ class MidiPlayer:
         """Send what is due up to `now_ns`."""
         while self._ends and self._ends[0][0] <= now_ns:
             self._send(heapq.heappop(self._ends)[1])
-        for cue in self._playback.take(now_ns, now_ns + 1):
+        for cue in self._playback.pop_due(now_ns, now_ns + 1):
             if cue.bus == self._bus:
                 self._play(cue)
 
@@ -110,10 +110,10 @@ class MidiPlayer:
 
 
 class MidiOut:
-    """The output that the demonstration is sent to, None most of the time; `tell` hears what a user should read."""
+    """The output that the demonstration is sent to, None most of the time; `notify` hears what a user should read."""
 
-    def __init__(self, open_output: OpenMidiOut, tell: Callable[[str], None]) -> None:
-        self._open, self._tell = open_output, tell
+    def __init__(self, open_output: OpenMidiOut, notify: Callable[[str], None]) -> None:
+        self._open, self._notify = open_output, notify
         self._player: MidiPlayer | None = None
         self._fault: DeviceError | None = None
 
@@ -127,7 +127,7 @@ class MidiOut:
         try:
             self._player = MidiPlayer(self._open(port))
         except StationError as fault:
-            self._tell(f"the demonstration is not sent: {fault}")
+            self._notify(f"the demonstration is not sent: {fault}")
 
     def play(self, run: CueRun) -> None:
         """As `MidiPlayer.play`."""
@@ -150,10 +150,10 @@ class MidiOut:
             self._player.stop()
 
     def advance(self, now_ns: int) -> None:
-        """Send what is due; a fault is told once."""
+        """Send what is due; a fault is reported once."""
         if self._player is None:
             return
         self._player.advance(now_ns)
         if self._player.fault is not self._fault:
             self._fault = self._player.fault
-            self._tell(f"the demonstration is no longer sent: {self._fault}")
+            self._notify(f"the demonstration is no longer sent: {self._fault}")

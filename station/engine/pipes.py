@@ -53,7 +53,7 @@ class Inbox:
         self.is_closed = False
         threading.Thread(target=self._run, name="commands", daemon=True).start()
 
-    def take(self) -> list[Command]:
+    def pop_all(self) -> list[Command]:
         """The commands since the last call."""
         commands = []
         while self._received:

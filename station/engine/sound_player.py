@@ -77,9 +77,9 @@ class SoundPlayer:
         """Cues dropped because their time had passed, since the start."""
         return self._playback.late
 
-    def play(self, run: CueRun, wish_ns: int) -> None:
-        """Start the transport with its zero at `wish_ns`, or at the next block if that is later."""
-        self._inbox.append(partial(self._start, run, wish_ns))
+    def play(self, run: CueRun, asked_ns: int) -> None:
+        """Start the transport with its zero at `asked_ns`, or at the next block if that is later."""
+        self._inbox.append(partial(self._start, run, asked_ns))
 
     def resume(self, run: CueRun, zero_ns: int) -> None:
         """Run the transport on whose zero was heard at `zero_ns`; what lies behind the next block is over."""
@@ -129,7 +129,7 @@ class SoundPlayer:
         """Move the student's hi-hat pedal."""
         self._to_mixer(lambda mixer: mixer.pedal(Bus.STUDENT, openness))
 
-    def take_zeros_ns(self) -> list[int]:
+    def pop_zeros_ns(self) -> list[int]:
         """The transport's zeros since the last call, one for every start that has taken effect."""
         zeros = []
         while self._zeros:
@@ -144,7 +144,7 @@ class SoundPlayer:
         rate_hz = self._mixer.kit.rate_hz
         self._empty_inbox(dac_ns)
         self._place_track(self._mixer, dac_ns, frames)
-        for cue in self._playback.take(dac_ns, dac_ns + frames * NS_PER_S // rate_hz):
+        for cue in self._playback.pop_due(dac_ns, dac_ns + frames * NS_PER_S // rate_hz):
             at_frame = round((cue.at_ns - dac_ns) * rate_hz / NS_PER_S)
             _sound(self._mixer, cue, max(0, at_frame))
         return self._mixer.render(frames)
@@ -155,15 +155,15 @@ class SoundPlayer:
         What was handed in takes effect now: while a card played, the last call may have been long ago.
         """
         self._empty_inbox(now_ns)
-        self._playback.take(self._passed_ns, now_ns)
+        self._playback.pop_due(self._passed_ns, now_ns)
         self._passed_ns = now_ns
 
     def _empty_inbox(self, block_ns: int) -> None:
         while self._inbox:
             self._inbox.popleft()(block_ns)
 
-    def _start(self, run: CueRun, wish_ns: int, block_ns: int) -> None:
-        zero_ns = max(wish_ns, block_ns)
+    def _start(self, run: CueRun, asked_ns: int, block_ns: int) -> None:
+        zero_ns = max(asked_ns, block_ns)
         self._playback.start(run, zero_ns)
         self._zeros.append(zero_ns)
         self._track_plays = False

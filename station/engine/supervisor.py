@@ -2,9 +2,9 @@
 
 A spare process waits beside the one that works, everything imported, the sounds ready, and nothing opened. When the
 working one ends unasked (killed, crashed, or worn out: its sound library went with the sound server) the spare takes
-its place within tenths of a second. It is told what still holds: levels, MIDI output, track, the capture, which it
+its place within tenths of a second. It is sent what still holds: levels, MIDI output, track, the capture, which it
 continues, and the transport, whose zero stays where it was, for session time is the same in every process. What was
-heard until then has been told; strokes of the moment between are lost, and the user is told once what happened.
+heard until then has been reported; strokes of the moment between are lost, and the user reads once what happened.
 """
 
 import threading
@@ -123,9 +123,9 @@ class EngineSupervisor:
             self._restart(fault)
             heard = []
         said, self._said = self._said, []
-        return said + [event for event in heard if self._take(event)] + self._drained()
+        return said + [event for event in heard if self._handle(event)] + self._drained()
 
-    def _take(self, event: EngineEvent) -> bool:
+    def _handle(self, event: EngineEvent) -> bool:
         """Keep in mind what happened; whether it is news."""
         self._holds.heard(event)
         match event:
@@ -151,7 +151,7 @@ class EngineSupervisor:
         """Keep what a process that has ended said before."""
         with suppress(DeviceError):
             for event in self._process.events():
-                if self._take(event):
+                if self._handle(event):
                     self._said.append(event)
 
     def _drained(self) -> list[EngineEvent]:
@@ -203,7 +203,7 @@ def _why(exit_code: int | None) -> str:
 
 
 class _Standing:
-    """What an engine has been told that still holds."""
+    """What an engine has been sent that still holds."""
 
     def __init__(self) -> None:
         self._play: Play | None = None
@@ -248,7 +248,7 @@ class _Standing:
                 pass
 
     def commands(self, now_ns: int) -> Iterable[Command]:
-        """What a new engine is told at `now_ns`, in order."""
+        """What a new engine is sent at `now_ns`, in order."""
         yield from self._levels.values()
         yield from self._pieces.values()
         for kind in (SetBacking, SetMidiOut, WatchRawBytes):

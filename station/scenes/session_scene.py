@@ -89,7 +89,7 @@ class SessionView:
     def judged_anew(self, session: Session) -> None:
         """Some of the session was taken back: show what is left of its judgements."""
         self._marks, self._cue = no_marks(self.plan.score), TimingCue.NONE
-        for verdict in session.told(session.verdicts.values()):
+        for verdict in session.shown(session.verdicts.values()):
             mark(self._marks, verdict, loudness=not _by_key(verdict, session.hits))
 
     def snapshot(self, session: Session, now_ns: int, message: str = "") -> Snapshot:

@@ -65,9 +65,9 @@ class Exercise:
 class Learner:
     """One learner and one lesson of `bar_count` bars."""
 
-    def __init__(self, kind: LearnerKind, seed: int, bar_count: int, nature: LearnerParams = HUMAN) -> None:
+    def __init__(self, kind: LearnerKind, seed: int, bar_count: int, params: LearnerParams = HUMAN) -> None:
         self.kind = kind
-        self._nature = nature
+        self._params = params
         rng = np.random.default_rng([seed, 99])
         weak = rng.permutation(bar_count) < round(kind.weak_share * bar_count)
         self.weak_bars: tuple[int, ...] = tuple(np.flatnonzero(weak).tolist())
@@ -77,7 +77,7 @@ class Learner:
         self._bias_ms: Floats = kind.bias_ms + kind.lean_ms * rng.standard_normal(_LIMBS)
         self._lapse, self._confusion = np.full(_LIMBS, kind.lapse), np.full(_LIMBS, kind.confusion)
         self._fatigue, self._dependence = 0.0, 0.0
-        self._slow_life_s = nature.slow_life_s
+        self._slow_life_s = params.slow_life_s
         self._bad_passes = 0
         self._student = VirtualStudent(StudentSpec(seed=seed))
 
@@ -86,14 +86,14 @@ class Learner:
     @property
     def gone(self) -> bool:
         """Whether this learner has had enough."""
-        return self.kind.patience is not None and self._bad_passes >= self.kind.patience
+        return self.kind.quits_after is not None and self._bad_passes >= self.kind.quits_after
 
     def comfort(self, feedback: float = 0.0) -> Floats:
         """The comfortable speed of each bar of the lesson now, in octaves of the target tempo."""
         ceiling = math.log2(self.kind.ceiling_speed)
         learnt = np.minimum(self._brought + self._fast + self._slow, ceiling)
-        helped = self._nature.feedback_help_octaves * (feedback - (1.0 - feedback) * self._dependence)
-        comfort: Floats = learnt + helped - self._nature.fatigue_octaves * self._fatigue
+        helped = self._params.feedback_help_octaves * (feedback - (1.0 - feedback) * self._dependence)
+        comfort: Floats = learnt + helped - self._params.fatigue_octaves * self._fatigue
         return comfort
 
     def practise(self, exercise: Exercise) -> VirtualPerformance:
@@ -109,28 +109,28 @@ class Learner:
 
     def rest(self, seconds: float) -> None:
         """Do something else."""
-        self._fatigue *= math.exp(-seconds / self._nature.recovery_s)
-        self._fast *= math.exp(-seconds / self._nature.fast_life_s)
+        self._fatigue *= math.exp(-seconds / self._params.recovery_s)
+        self._fast *= math.exp(-seconds / self._params.fast_life_s)
         self._slow *= math.exp(-seconds / self._slow_life_s)
         if seconds >= SPACING_S:
-            self._slow_life_s *= self._nature.spacing_growth
+            self._slow_life_s *= self._params.spacing_growth
 
     # --- how it plays -------------------------------------------------------------------------------------------------
 
     def _form(self, exercise: Exercise) -> Form:
-        score, kind, nature = exercise.score, self.kind, self._nature
+        score, kind, params = exercise.score, self.kind, self._params
         bar, limb = np.array(exercise.bars)[score.bar], limbs_of(score)
         overload = math.log2(exercise.speed) - self.comfort(exercise.feedback)[bar]
-        hurried = 1.0 / (1.0 + np.exp(nature.comfort_odds - nature.steepness * overload))
-        steep = nature.steepness
-        spread = 1.0 + nature.spread_per_octave * np.logaddexp(0.0, steep * overload) / steep
+        hurried = 1.0 / (1.0 + np.exp(params.comfort_odds - params.steepness * overload))
+        steep = params.steepness
+        spread = 1.0 + params.spread_per_octave * np.logaddexp(0.0, steep * overload) / steep
         sd_ms = kind.sd_interval_pct / 100.0 * usual_wait_ms(score) * spread
-        miss = np.clip(self._lapse[limb] + self._habit[bar] + nature.worst_lapse * hurried, 0.0, 1.0)
+        miss = np.clip(self._lapse[limb] + self._habit[bar] + params.worst_lapse * hurried, 0.0, 1.0)
         return Form(
             bias_ms=self._bias_ms[limb] + kind.latency_ms,
             sd_ms=np.maximum(sd_ms, SMALLEST_SD_MS),
             miss=miss,
-            wrong_piece=np.minimum(self._confusion[limb] + nature.worst_confusion * hurried, 1.0 - miss),
+            wrong_piece=np.minimum(self._confusion[limb] + params.worst_confusion * hurried, 1.0 - miss),
             velocity_sd=kind.velocity_cv_pct / 100.0 * score.notes["velocity"].astype(np.float64),
             extra=kind.extra,
             wires=kind.wires,
@@ -139,28 +139,28 @@ class Learner:
     # --- what it makes of it ------------------------------------------------------------------------------------------
 
     def _learn(self, exercise: Exercise, played: VirtualPerformance) -> None:
-        score, feedback, nature = exercise.score, exercise.feedback, self._nature
+        score, feedback, params = exercise.score, exercise.feedback, self._params
         right = self._rightly_struck(played)
         practised, success = self._success(exercise, right)
         overload = math.log2(exercise.speed) - self.comfort(feedback)[practised]
         left = np.maximum(
             math.log2(self.kind.ceiling_speed) - (self._brought + self._fast + self._slow)[practised], 0.0
         )
-        taught = self.kind.quickest * success * np.exp(-((overload / nature.challenge_octaves) ** 2)) * left
-        self._fast *= nature.fast_kept
-        self._slow *= nature.slow_kept
-        self._fast[practised] += nature.fast_gain * (1.0 + nature.feedback_to_fast * feedback) * taught
-        self._slow[practised] += nature.slow_gain * (1.0 - nature.feedback_from_slow * feedback) * taught
-        habit = self._habit[practised] + nature.habit_gain * (1.0 - success) - nature.habit_worn_off * success
-        self._habit[practised] = np.clip(habit, 0.0, nature.worst_habit)
+        taught = self.kind.quickest * success * np.exp(-((overload / params.challenge_octaves) ** 2)) * left
+        self._fast *= params.fast_kept
+        self._slow *= params.slow_kept
+        self._fast[practised] += params.fast_gain * (1.0 + params.feedback_to_fast * feedback) * taught
+        self._slow[practised] += params.slow_gain * (1.0 - params.feedback_from_slow * feedback) * taught
+        habit = self._habit[practised] + params.habit_gain * (1.0 - success) - params.habit_worn_off * success
+        self._habit[practised] = np.clip(habit, 0.0, params.worst_habit)
         limbs = limbs_of(score)
         for limb in np.unique(limbs).tolist():
-            share = nature.limb_gain * float(right[limbs == limb].mean())
+            share = params.limb_gain * float(right[limbs == limb].mean())
             self._lapse[limb] *= 1.0 - share
             self._confusion[limb] *= 1.0 - share
             self._bias_ms[limb] *= 1.0 - share * feedback
-        self._fatigue += (1.0 - self._fatigue) * -math.expm1(-s_from_ns(score.length_ns) / nature.tiring_s)
-        self._dependence += nature.habituation * (feedback - self._dependence)
+        self._fatigue += (1.0 - self._fatigue) * -math.expm1(-s_from_ns(score.length_ns) / params.tiring_s)
+        self._dependence += params.habituation * (feedback - self._dependence)
         self._bad_passes = self._bad_passes + 1 if right.mean() < BAD_PASS else 0
 
     def _rightly_struck(self, played: VirtualPerformance) -> NDArray[np.bool_]:

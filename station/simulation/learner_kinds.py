@@ -18,9 +18,9 @@ class LearnerKind:
     `start_speed` where it plays comfortably at first, bars scattered by `bar_scatter_octaves`, `weak_share` of them
     `weak_octaves` harder; `ceiling_speed` the comfortable speed that no practice exceeds. `sd_interval_pct` of the
     interval is its spread when comfortable, `velocity_cv_pct` that of velocities. `bias_ms` its habitual lean,
-    `lean_ms` how far limbs scatter about it. `lapse` and `confusion` are the chances of a miss and a wrong pad a
-    stroke at first, `quickest` how much of what is left to learn a good pass can teach at best. `patience` bad passes
-    in a row make it leave (None: it never does). `latency_ms` is the equipment's fault, as are `wires`: neither is
+    `lean_ms` how far limbs scatter about it. `lapse` and `confusion` are the chances of a miss and a wrong pad a stroke
+    at first, `quickest` how much of what is left to learn a good pass can teach at best. So many bad passes in a row as
+    `quits_after` make it leave (None: it never does). `latency_ms` is the equipment's fault, as are `wires`: neither is
     learnt away.
     """
 
@@ -37,7 +37,7 @@ class LearnerKind:
     confusion: float = 0.01
     extra: float = 0.01
     quickest: float = 1.0
-    patience: int | None = None
+    quits_after: int | None = None
     latency_ms: float = 0.0
     wires: Mapping[Piece, Piece] = field(default_factory=dict)
 
@@ -62,7 +62,7 @@ LEARNERS: Mapping[str, LearnerKind] = MappingProxyType(
         "late_equipment": replace(_USUAL, latency_ms=100.0),
         "swapped_toms": replace(_USUAL, wires={Piece.TOM_1: Piece.TOM_2, Piece.TOM_2: Piece.TOM_1}),
         "plateau": replace(_USUAL, ceiling_speed=0.85),
-        "quitter": replace(_USUAL, start_speed=0.55, patience=3),
+        "quitter": replace(_USUAL, start_speed=0.55, quits_after=3),
     }
 )
 """Spreads and velocities by HUMANS (amateur, novice, professional); the last four are TEACHING's hostile ones."""

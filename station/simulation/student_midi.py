@@ -1,8 +1,8 @@
 """A performance as the MIDI bytes that a drum module would send, each message with its time.
 
 Every stroke is a note-on on channel 10 and a note-off a moment later; before a hi-hat stroke comes its pedal position
-as controller 4, and a grabbed cymbal is polyphonic aftertouch 127, then 0 (`devices.presets` has the sources). A
-module can only say what its table has a number for, so `as_sent` first folds a performance onto the table: what
+as controller 4, and a grabbed cymbal is polyphonic aftertouch 127, then 0 (`devices.mapping.presets` has the sources).
+A module can only say what its table has a number for, so `as_sent` first folds a performance onto the table: what
 `MidiDecoder` reads from the bytes is exactly that, but for the limb, of which MIDI knows nothing.
 """
 
@@ -43,7 +43,7 @@ def as_sent(performance: Performance, preset: DeviceMap) -> Performance:
         hit = performance[row]
         note = note_number(hit, preset)
         strike = strike_of(note, preset.notes)
-        openness = _told_openness(hit, strike, preset.pedal)
+        openness = _reported_openness(hit, strike, preset.pedal)
         hits["midi_note"][alike], hits["zone"][alike], hits["articulation"][alike] = (
             note,
             strike.zone,
@@ -95,7 +95,7 @@ def midi_stream(sent: Performance, preset: DeviceMap) -> list[TimedBytes]:
     return sorted(messages, key=lambda message: message[0])
 
 
-def _told_openness(hit: Hit, strike: NoteMeaning, pedal: PedalRange | None) -> float | None:
+def _reported_openness(hit: Hit, strike: NoteMeaning, pedal: PedalRange | None) -> float | None:
     """The openness that the module tells with this stroke."""
     if hit.piece is not Piece.HIHAT or pedal is None:
         return strike.openness

@@ -35,7 +35,7 @@ _LIMBS = 4
 class Streams:
     """Where the timing draws its chances from."""
 
-    keeper: np.random.Generator
+    timekeeper: np.random.Generator
     motor: np.random.Generator
     grace: np.random.Generator
     extra: np.random.Generator
@@ -57,32 +57,32 @@ class OnsetPlayer:
     def __init__(self, drift_pct: float, streams: Streams) -> None:
         self._sway = drift_pct / 100.0
         self._streams = streams
-        self._timekeeper = Timekeeper(streams.keeper)
+        self._timekeeper = Timekeeper(streams.timekeeper)
         self._reach = streams.pattern.uniform(-1.0, 1.0, _LIMBS)
         self._since_slot_ns = 0
         self._elapsed_ns = 0
 
-    def time(self, sheet: StudentReading, form: Form) -> OnsetTiming:
-        """Draw the timing of `sheet` played in this `form`."""
-        keeper, lead_motor = self._timekeeper.run(self._waits_s(sheet))
-        mains = sheet.mains
-        motor = _MOTOR_SD * self._streams.motor.standard_normal(len(sheet))
-        slot_of_lead, first = np.unique(sheet.slot[mains], return_index=True)
+    def time(self, reading: StudentReading, form: Form) -> OnsetTiming:
+        """Draw the timing of `reading` played in this `form`."""
+        timekeeper, lead_motor = self._timekeeper.run(self._waits_s(reading))
+        mains = reading.mains
+        motor = _MOTOR_SD * self._streams.motor.standard_normal(len(reading))
+        slot_of_lead, first = np.unique(reading.slot[mains], return_index=True)
         motor[mains[first]] = lead_motor[slot_of_lead]
-        lean = np.zeros(len(sheet))
-        lean[mains] = leans(sheet.limbs[mains], self._reach)
+        lean = np.zeros(len(reading))
+        lean[mains] = leans(reading.limbs[mains], self._reach)
         rest = float(np.sqrt(1.0 - np.mean(lean[mains] ** 2))) if len(mains) else 1.0
-        shift = form.bias_ms + form.sd_ms * (lean + rest * (keeper[sheet.slot] + motor))
-        first_row = np.unique(sheet.slot, return_index=True)[1]
+        shift = form.bias_ms + form.sd_ms * (lean + rest * (timekeeper[reading.slot] + motor))
+        first_row = np.unique(reading.slot, return_index=True)[1]
         sd_ms = form.sd_ms[first_row]
-        return OnsetTiming(shift[sheet.main], form.bias_ms[first_row] + sd_ms * rest * keeper, sd_ms)
+        return OnsetTiming(shift[reading.main], form.bias_ms[first_row] + sd_ms * rest * timekeeper, sd_ms)
 
     def onsets_ns(
-        self, sheet: StudentReading, timing: OnsetTiming, habits: PlantedHabits, slips: Slips
+        self, reading: StudentReading, timing: OnsetTiming, habits: PlantedHabits, slips: Slips
     ) -> NDArray[np.int64]:
         """When each row is struck, missed or not, shape (n,)."""
-        score = sheet.score
-        shift_ms = timing.shift_ms + habits.shift_ms[sheet.main] - self._leads_ms(sheet, timing, habits)
+        score = reading.score
+        shift_ms = timing.shift_ms + habits.shift_ms[reading.main] - self._leads_ms(reading, timing, habits)
         at_ns = self._written_ns(score, score.notes["tick"]) + shift_ms * NS_PER_MS
         onsets = np.rint(at_ns).astype(np.int64)
         for piece in np.unique(slips.piece):
@@ -92,24 +92,24 @@ class OnsetPlayer:
         return onsets
 
     def extra_onsets_ns(
-        self, sheet: StudentReading, timing: OnsetTiming, ticks: NDArray[np.int64]
+        self, reading: StudentReading, timing: OnsetTiming, ticks: NDArray[np.int64]
     ) -> NDArray[np.int64]:
         """When strokes that nobody wrote fall, at `ticks` (e,) with what the slot before them shares."""
-        slot = np.maximum(np.searchsorted(sheet.slot_ticks, ticks, side="right") - 1, 0)
+        slot = np.maximum(np.searchsorted(reading.slot_ticks, ticks, side="right") - 1, 0)
         own_ms = timing.sd_ms[slot] * _MOTOR_SD * self._streams.extra.standard_normal(len(ticks))
-        at_ns = self._written_ns(sheet.score, ticks) + (timing.shared_ms[slot] + own_ms) * NS_PER_MS
+        at_ns = self._written_ns(reading.score, ticks) + (timing.shared_ms[slot] + own_ms) * NS_PER_MS
         return np.rint(at_ns).astype(np.int64)
 
-    def finish(self, sheet: StudentReading) -> None:
-        """`sheet` has been played: what comes next is later."""
-        self._elapsed_ns += sheet.score.length_ns
+    def finish(self, reading: StudentReading) -> None:
+        """`reading` has been played: what comes next is later."""
+        self._elapsed_ns += reading.score.length_ns
 
-    def _waits_s(self, sheet: StudentReading) -> Floats:
+    def _waits_s(self, reading: StudentReading) -> Floats:
         """Time from slot to slot, the first since the last slot of the score before."""
-        slot_ns = sheet.score.tempo_map.ns_at(sheet.slot_ticks)
+        slot_ns = reading.score.tempo_map.ns_at(reading.slot_ticks)
         waits: Floats = np.diff(slot_ns, prepend=-self._since_slot_ns) / NS_PER_S
         last_ns = int(slot_ns[-1]) if len(slot_ns) else -self._since_slot_ns
-        self._since_slot_ns = sheet.score.length_ns - last_ns
+        self._since_slot_ns = reading.score.length_ns - last_ns
         return waits
 
     def _written_ns(self, score: Score, ticks: NDArray[np.int64]) -> Floats:
@@ -118,10 +118,10 @@ class OnsetPlayer:
         swayed: Floats = click_ns + sway_s((click_ns + self._elapsed_ns) / NS_PER_S, self._sway) * NS_PER_S
         return swayed
 
-    def _leads_ms(self, sheet: StudentReading, timing: OnsetTiming, habits: PlantedHabits) -> Floats:
+    def _leads_ms(self, reading: StudentReading, timing: OnsetTiming, habits: PlantedHabits) -> Floats:
         """How far each row comes before its main stroke: 0 but for grace strokes."""
-        written_ms = sheet.score.notes["lead_ms"].astype(np.float64)
-        spread_ms = np.minimum(GRACE_SPREAD * timing.sd_ms[sheet.slot], GRACE_SPREAD_LIMIT * written_ms)
-        lead_ms = written_ms + habits.lead_ms + spread_ms * self._streams.grace.standard_normal(len(sheet))
+        written_ms = reading.score.notes["lead_ms"].astype(np.float64)
+        spread_ms = np.minimum(GRACE_SPREAD * timing.sd_ms[reading.slot], GRACE_SPREAD_LIMIT * written_ms)
+        lead_ms = written_ms + habits.lead_ms + spread_ms * self._streams.grace.standard_normal(len(reading))
         lead_ms = np.maximum(lead_ms, np.minimum(written_ms, SMALLEST_LEAD_MS))
-        return np.where(sheet.score.is_grace, lead_ms, 0.0)
+        return np.where(reading.score.is_grace, lead_ms, 0.0)

@@ -72,22 +72,22 @@ class Slipper:
         self._of_notes = of_notes
         self._of_extras = of_extras
 
-    def slip(self, sheet: StudentReading, form: Form) -> Slips:
-        """The slips in one playing of `sheet` by a student in this `form`."""
-        score = sheet.score
+    def slip(self, reading: StudentReading, form: Form) -> Slips:
+        """The slips in one playing of `reading` by a student in this `form`."""
+        score = reading.score
         where = _SlipPlace(score)
         label = np.full(len(score), Label.MATCH, np.uint8)
         piece = score.notes["piece"].copy()
         chance, which = self._of_notes.random((len(score), 2)).T
-        hand = np.isin(sheet.limbs, (Limb.RIGHT_HAND, Limb.LEFT_HAND))
+        hand = np.isin(reading.limbs, (Limb.RIGHT_HAND, Limb.LEFT_HAND))
         missed = chance < form.miss
         astray = hand & ~missed & (chance < form.miss + form.wrong_piece)
         label[missed] = Label.MISS
-        for row in np.intersect1d(np.flatnonzero(astray), sheet.main).tolist():
+        for row in np.intersect1d(np.flatnonzero(astray), reading.main).tolist():
             if (other := where.free_neighbour(row, float(which[row]))) is not None:
                 label[row], piece[row] = Label.WRONG_PIECE, other
-        label = label[sheet.main]
-        piece = np.where(label == Label.WRONG_PIECE, piece[sheet.main], score.notes["piece"])
+        label = label[reading.main]
+        piece = np.where(label == Label.WRONG_PIECE, piece[reading.main], score.notes["piece"])
         ticks, pieces = self._extras(score, where, label, form.extra)
         return _wired(Slips(label, piece, ticks, pieces), score, form)
 

@@ -33,22 +33,22 @@ class PlayedStrokes:
     written: np.random.Generator
     extra: np.random.Generator
 
-    def of_notes(self, sheet: StudentReading, form: Form, habits: PlantedHabits, slips: Slips) -> NDArray[np.void]:
+    def of_notes(self, reading: StudentReading, form: Form, habits: PlantedHabits, slips: Slips) -> NDArray[np.void]:
         """A hit for every row, missed or not, at time 0: shape (n,) of `HIT_DTYPE`."""
-        hits = _as_written(sheet.score.notes)
-        hits["limb"], hits["piece"] = sheet.limbs, slips.piece
+        hits = _as_written(reading.score.notes)
+        hits["limb"], hits["piece"] = reading.limbs, slips.piece
         _make_plain(hits, slips.label == Label.WRONG_PIECE)
-        mean = louder(sheet.score.notes["velocity"].astype(np.float64), habits.level_db)
+        mean = louder(reading.score.notes["velocity"].astype(np.float64), habits.level_db)
         hits["velocity"] = _velocities(mean, form.velocity_sd, self.written)
         opened = (habits.openness > 0.0) & (hits["piece"] == Piece.HIHAT)
         hits["openness"][opened] = np.minimum(hits["openness"][opened] + habits.openness[opened], 1.0)
         return hits
 
-    def of_extras(self, sheet: StudentReading, form: Form, slips: Slips) -> NDArray[np.void]:
+    def of_extras(self, reading: StudentReading, form: Form, slips: Slips) -> NDArray[np.void]:
         """A hit for every extra at time 0, struck as the score's plain strokes of its piece are, and never softly."""
-        usual = {piece: _usual_row(sheet.score, piece) for piece in np.unique(slips.extra_piece).tolist()}
+        usual = {piece: _usual_row(reading.score, piece) for piece in np.unique(slips.extra_piece).tolist()}
         rows = [usual[piece] for piece in slips.extra_piece.tolist()]
-        hits = _as_written(sheet.score.notes[rows])
+        hits = _as_written(reading.score.notes[rows])
         not_in_score = hits["piece"] != slips.extra_piece
         hits["piece"], hits["limb"], hits["midi_note"] = slips.extra_piece, Limb.UNKNOWN, 0
         _make_plain(hits, not_in_score)

@@ -60,7 +60,7 @@ class Timekeeper:
 
     def __init__(self, rng: np.random.Generator) -> None:
         self._rng = rng
-        self._keeper: float | None = None
+        self._noise_s: float | None = None
         self._motor = 0.0
 
     def run(self, intervals_s: Floats) -> tuple[Floats, Floats]:
@@ -70,17 +70,19 @@ class Timekeeper:
         """
         noise = self._rng.standard_normal(len(intervals_s)).tolist()
         motor = (math.sqrt(MOTOR_SHARE) * self._rng.standard_normal(len(intervals_s))).tolist()
-        keeper = [self._next(interval, draw, m) for interval, draw, m in zip(intervals_s, noise, motor, strict=True)]
-        return np.array(keeper, np.float64), np.array(motor, np.float64)
+        timekeeper = [
+            self._next(interval, draw, m) for interval, draw, m in zip(intervals_s, noise, motor, strict=True)
+        ]
+        return np.array(timekeeper, np.float64), np.array(motor, np.float64)
 
     def _next(self, interval_s: float, draw: float, motor: float) -> float:
-        if self._keeper is None:
-            self._keeper = math.sqrt(1.0 - MOTOR_SHARE) * draw
+        if self._noise_s is None:
+            self._noise_s = math.sqrt(1.0 - MOTOR_SHARE) * draw
         else:
             alpha = correction(interval_s)
-            self._keeper += timekeeper_noise_sd(alpha) * draw - alpha * (self._keeper + self._motor)
+            self._noise_s += timekeeper_noise_sd(alpha) * draw - alpha * (self._noise_s + self._motor)
         self._motor = motor
-        return self._keeper
+        return self._noise_s
 
 
 def leans(limbs: NDArray[np.int8], reach: Floats) -> Floats:

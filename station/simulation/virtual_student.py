@@ -119,16 +119,16 @@ class VirtualStudent:
 
         Raises `BadInput` where the kit lacks one of its pieces.
         """
-        sheet = StudentReading.of(score)
+        reading = StudentReading.of(score)
         form = form_of(self.spec, score) if form is None else form
-        habits = habits_of(score, sheet.limbs, self.spec.faults)
-        slips = self._slipper.slip(sheet, form)
-        timing = self._onsets.time(sheet, form)
-        notes = self._strokes.of_notes(sheet, form, habits, slips)
-        notes["at_ns"] = self._onsets.onsets_ns(sheet, timing, habits, slips)
-        extras = self._strokes.of_extras(sheet, form, slips)
-        extras["at_ns"] = self._onsets.extra_onsets_ns(sheet, timing, slips.extra_tick)
-        self._onsets.finish(sheet)
+        habits = habits_of(score, reading.limbs, self.spec.faults)
+        slips = self._slipper.slip(reading, form)
+        timing = self._onsets.time(reading, form)
+        notes = self._strokes.of_notes(reading, form, habits, slips)
+        notes["at_ns"] = self._onsets.onsets_ns(reading, timing, habits, slips)
+        extras = self._strokes.of_extras(reading, form, slips)
+        extras["at_ns"] = self._onsets.extra_onsets_ns(reading, timing, slips.extra_tick)
+        self._onsets.finish(reading)
 
         played = np.flatnonzero(slips.label != Label.MISS)
         bounces = bounces_of(score, habits, slips, notes)

@@ -37,7 +37,7 @@ class ClickVoice(IntEnum):
     A = 17
 
 
-WORDS_OF_PARTS: Mapping[int, tuple[ClickVoice, ...]] = MappingProxyType(
+PART_LABELS: Mapping[int, tuple[ClickVoice, ...]] = MappingProxyType(
     {
         2: (ClickVoice.AND,),
         3: (ClickVoice.AND, ClickVoice.A),

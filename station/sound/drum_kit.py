@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.note_map import NoteMeaning
-from station.sound.sound_names import SUBSTITUTES, SoundName, voicing_of
+from station.sound.sound_names import SUBSTITUTES, SoundName, choose_sound
 
 Frames = NDArray[np.float32]
 """Stereo sound: float32 of shape (n, 2), full scale ±1."""
@@ -62,7 +62,7 @@ class Sound:
             level += (velocity - whole) * (self.levels[whole + 1] - level)
         return level
 
-    def take(self, velocity: float, count: int) -> Frames:
+    def frames_for(self, velocity: float, count: int) -> Frames:
         """The frames to play for `velocity` (1–127), the `count`-th time in turn."""
         takes = self._layer(velocity).takes
         return takes[count % len(takes)]
@@ -96,7 +96,7 @@ class DrumKit:
 
     def choose(self, strike: NoteMeaning) -> tuple[SoundName, Sound, float]:
         """The sound's name, the sound, and the factor on the velocity that chooses its layer."""
-        wanted, timbre = voicing_of(strike)
+        wanted, timbre = choose_sound(strike)
         name = self._resolved[wanted]
         return name, self.sounds[name], timbre
 

@@ -23,7 +23,7 @@ from station.sound.buses import Bus, ClickVoice
 from station.sound.drum_kit import MAX_VELOCITY, DrumKit, Frames, Sound, level_of
 from station.sound.limiter import soft_clip
 from station.sound.sound_names import SoundName
-from station.sound.track import Track, TrackDeck
+from station.sound.track import Track, TrackPlayer
 from station.sound.voice import Voice
 
 PIECE_FRAMES = 250
@@ -68,7 +68,7 @@ class Mixer:
         self._tail_left = 0
         self._levels = BusLevels(kit.rate_hz)
         self._of_pieces: dict[Piece, tuple[float, NDArray[np.float32] | None]] = {}  # level, and the factors of its pan
-        self._tracks = TrackDeck()
+        self._tracks = TrackPlayer()
 
     # --- what to play --------------------------------------------------------------------------------------------
 
@@ -218,7 +218,7 @@ class Mixer:
             piece, openness = Piece.HIHAT, 1.0 if splashes else openness
         level, sides = self._of_pieces.get(strike.piece, (1.0, None))
         gain = level * sound.level(velocity)
-        voice = Voice(sound.take(max(1.0, int(velocity) * timbre), turn), bus, gain, piece, openness)
+        voice = Voice(sound.frames_for(max(1.0, int(velocity) * timbre), turn), bus, gain, piece, openness)
         voice.sides = sides
         if sound.mute_group is not None:
             self._mute_group(bus, sound)

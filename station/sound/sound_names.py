@@ -55,7 +55,7 @@ class SoundName(StrEnum):
     PERCUSSION = auto()
 
 
-class Voicing(NamedTuple):
+class SoundChoice(NamedTuple):
     """Which sound a stroke asks for, and the factor on the velocity that chooses its layer."""
 
     sound: SoundName
@@ -132,7 +132,7 @@ _SNARE = MappingProxyType(
 )
 
 
-def voicing_of(strike: NoteMeaning) -> Voicing:
+def choose_sound(strike: NoteMeaning) -> SoundChoice:
     """The sound that a stroke asks for; every piece, zone and articulation has one.
 
     A zone that a piece does not have counts as its plain one, a hi-hat of unknown openness as closed.
@@ -140,31 +140,31 @@ def voicing_of(strike: NoteMeaning) -> Voicing:
     if strike.piece in _SPECIAL:
         return _SPECIAL[strike.piece](strike)
     if strike.piece in _CRASHES:
-        return Voicing(_CRASHES[strike.piece], TIP_TIMBRE if strike.zone is Zone.BOW else 1.0)
+        return SoundChoice(_CRASHES[strike.piece], TIP_TIMBRE if strike.zone is Zone.BOW else 1.0)
     on_rim = strike.piece in TOMS and strike.zone is Zone.RIM
-    return Voicing(SoundName[f"{strike.piece.name}_RIM" if on_rim else strike.piece.name])
+    return SoundChoice(SoundName[f"{strike.piece.name}_RIM" if on_rim else strike.piece.name])
 
 
-def _snare(strike: NoteMeaning) -> Voicing:
+def _snare(strike: NoteMeaning) -> SoundChoice:
     plain = SoundName.SNARE_RIM_SHOT if strike.zone is Zone.RIM else SoundName.SNARE
-    return Voicing(_SNARE.get(strike.articulation, plain))
+    return SoundChoice(_SNARE.get(strike.articulation, plain))
 
 
-def _hihat(strike: NoteMeaning) -> Voicing:
+def _hihat(strike: NoteMeaning) -> SoundChoice:
     step = HIHAT_STEPS[hihat_step(strike.openness or 0.0)]
-    return Voicing(step, 1.0 if strike.zone is Zone.EDGE else TIP_TIMBRE)
+    return SoundChoice(step, 1.0 if strike.zone is Zone.EDGE else TIP_TIMBRE)
 
 
-def _hihat_pedal(strike: NoteMeaning) -> Voicing:
+def _hihat_pedal(strike: NoteMeaning) -> SoundChoice:
     splashes = strike.articulation is Articulation.SPLASH
-    return Voicing(SoundName.HIHAT_FOOT_SPLASH if splashes else SoundName.HIHAT_CHICK)
+    return SoundChoice(SoundName.HIHAT_FOOT_SPLASH if splashes else SoundName.HIHAT_CHICK)
 
 
-def _ride(strike: NoteMeaning) -> Voicing:
-    return Voicing(_RIDE.get(strike.zone, SoundName.RIDE_BOW))
+def _ride(strike: NoteMeaning) -> SoundChoice:
+    return SoundChoice(_RIDE.get(strike.zone, SoundName.RIDE_BOW))
 
 
-_SPECIAL: Mapping[Piece, Callable[[NoteMeaning], Voicing]] = MappingProxyType(
+_SPECIAL: Mapping[Piece, Callable[[NoteMeaning], SoundChoice]] = MappingProxyType(
     {Piece.SNARE: _snare, Piece.HIHAT: _hihat, Piece.HIHAT_PEDAL: _hihat_pedal, Piece.RIDE: _ride}
 )
 

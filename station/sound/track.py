@@ -160,7 +160,7 @@ class TrackVoice:
         return frames
 
 
-class TrackDeck:
+class TrackPlayer:
     """The track that plays, and those before it while they fade out."""
 
     def __init__(self) -> None:

@@ -2,7 +2,7 @@
 
 That takes seconds and holds the interpreter lock (the stretcher is C++), so it never happens in the engine:
 `prepare_in_background` does it in a process of its own and leaves the result on disk as plain int16 frames, which
-the engine reads whole before it plays. The same wish finds its file again. Signalsmith Stretch (python-stretch) does
+the engine reads whole before it plays. The same request finds its file again. Signalsmith Stretch (python-stretch) does
 the stretching: it is the only one of its quality whose licence and wheels fit.
 
 Level: music is mastered up to full scale, a drum kit is not; a track is set to `TRACK_DB`, and the kit lies above it.
@@ -29,7 +29,7 @@ MAX_TRACK_S = 600.0
 MIN_LOOP_S = 0.25
 TRACK_DB = -20.0
 """RMS of a track as a whole (our choice: a groove on the synthesised kit lies some 4 dB above)."""
-KEPT_FILES = 8
+CACHED_FILES = 8
 NO_STRETCHER = (
     "a track can only play at its own speed: the package python-stretch is missing; where there is no wheel of it "
     "for this processor, `pip install python-stretch` builds it with a C++ compiler"
@@ -57,29 +57,29 @@ def tracks_folder() -> Path:
     return cache_folder("tracks")
 
 
-def prepare_in_background(wish: TrackRequest, folder: Path | None = None) -> "Future[PreparedTrack]":
+def prepare_in_background(request: TrackRequest, folder: Path | None = None) -> "Future[PreparedTrack]":
     """`prepare` in a process of its own; the future ends with its result, or raises what it raises."""
     pool = ProcessPoolExecutor(1, mp_context=get_context("spawn"))
-    future = pool.submit(prepare, wish, folder)
+    future = pool.submit(prepare, request, folder)
     pool.shutdown(wait=False)
     return future
 
 
-def prepare(wish: TrackRequest, folder: Path | None = None) -> PreparedTrack:
-    """Make the track ready; raises `BadInput` for the wish's or the file's fault, `DeviceError` for the disk's."""
-    length_s = checked_length_s(wish)
+def prepare(request: TrackRequest, folder: Path | None = None) -> PreparedTrack:
+    """Make the track ready; raises `BadInput` for the request's or the file's fault, `DeviceError` for the disk's."""
+    length_s = checked_length_s(request)
     home = folder or tracks_folder()
-    file = home / f"{_digest(wish)}{_ENDING}"
+    file = home / f"{_digest(request)}{_ENDING}"
     if not file.exists():
-        write_whole(file, pcm_of(stretched(_read(wish), wish.rate_hz, wish.speed)).tobytes())
-        forget_oldest(home, _ENDING, KEPT_FILES)
-    scale = wish.rate_hz / wish.speed
+        write_whole(file, pcm_of(stretched(_read(request), request.rate_hz, request.speed)).tobytes())
+        forget_oldest(home, _ENDING, CACHED_FILES)
+    scale = request.rate_hz / request.speed
     frames = file.stat().st_size // 4
     loop = None
-    if wish.loop_s is not None:
-        first, end = (min(frames, round(second * scale)) for second in wish.loop_s)
-        loop = first, (frames if wish.loop_s[1] >= length_s else end)
-    return PreparedTrack(file, wish.rate_hz, min(frames - 1, round(wish.start_s * scale)), loop)
+    if request.loop_s is not None:
+        first, end = (min(frames, round(second * scale)) for second in request.loop_s)
+        loop = first, (frames if request.loop_s[1] >= length_s else end)
+    return PreparedTrack(file, request.rate_hz, min(frames - 1, round(request.start_s * scale)), loop)
 
 
 def stretched(frames: Frames, rate_hz: int, speed: float) -> Frames:
@@ -105,17 +105,17 @@ def pcm_of(frames: Frames) -> Pcm:
     return pcm
 
 
-def checked_length_s(wish: TrackRequest) -> float:
+def checked_length_s(request: TrackRequest) -> float:
     """How long the file is, at most `MAX_TRACK_S`; raises `BadInput` for no sound file, or a part that it lacks."""
-    name = str(wish.path)
-    if not MIN_SPEED <= wish.speed <= MAX_SPEED:
-        raise BadInput(name, "speed", f"expected {MIN_SPEED:g} to {MAX_SPEED:g}, found {wish.speed:g}")
-    length_s = min(MAX_TRACK_S, file_length_s(wish.path))
-    if not 0.0 <= wish.start_s < length_s:
-        raise BadInput(name, "start", f"expected 0 to {length_s:.1f} s, found {wish.start_s:g}")
-    if wish.loop_s is not None:
-        first, end = wish.loop_s
-        if not (0.0 <= first <= end - MIN_LOOP_S and max(end - 0.01, 0.0) <= length_s and wish.start_s < end):
+    name = str(request.path)
+    if not MIN_SPEED <= request.speed <= MAX_SPEED:
+        raise BadInput(name, "speed", f"expected {MIN_SPEED:g} to {MAX_SPEED:g}, found {request.speed:g}")
+    length_s = min(MAX_TRACK_S, file_length_s(request.path))
+    if not 0.0 <= request.start_s < length_s:
+        raise BadInput(name, "start", f"expected 0 to {length_s:.1f} s, found {request.start_s:g}")
+    if request.loop_s is not None:
+        first, end = request.loop_s
+        if not (0.0 <= first <= end - MIN_LOOP_S and max(end - 0.01, 0.0) <= length_s and request.start_s < end):
             within = f"a loop lies within {length_s:.1f} s, lasts {MIN_LOOP_S:g} s, and ends after the start"
             raise BadInput(name, f"loop {first:g}-{end:g}", within)
     return length_s
@@ -128,15 +128,15 @@ def file_length_s(path: Path) -> float:
     return length_s
 
 
-def _read(wish: TrackRequest) -> Frames:
-    return read_audio(wish.path, str(wish.path), wish.rate_hz, MAX_TRACK_S)
+def _read(request: TrackRequest) -> Frames:
+    return read_audio(request.path, str(request.path), request.rate_hz, MAX_TRACK_S)
 
 
-def _digest(wish: TrackRequest) -> str:
+def _digest(request: TrackRequest) -> str:
     """Names what the frames depend on: the file as it is now, the rate and the speed; raises `DeviceError`."""
     try:
-        stat, path = wish.path.stat(), wish.path.resolve()
+        stat, path = request.path.stat(), request.path.resolve()
     except OSError as fault:  # it was there a moment ago
-        raise DeviceError(f"{wish.path}: cannot be read: {fault.strerror or fault}") from fault
-    facts = (str(path), stat.st_size, stat.st_mtime_ns, wish.rate_hz, wish.speed, TRACK_DB)
+        raise DeviceError(f"{request.path}: cannot be read: {fault.strerror or fault}") from fault
+    facts = (str(path), stat.st_size, stat.st_mtime_ns, request.rate_hz, request.speed, TRACK_DB)
     return hashlib.sha256(repr(facts).encode()).hexdigest()[:24]

@@ -6,7 +6,7 @@ import pytest
 
 from station.app.equipment.diagnostics import check_midi
 from station.core.clock import monotonic_ns
-from station.devices.device_ports import DeviceRequest, devices_there, no_kit, watch_kits
+from station.devices.device_ports import DeviceRequest, devices_there, no_device, watch_devices
 from station.devices.midi.midi_clients import CLIENT_NAME
 from tests.fakes.jack_server import JackServer, jackd_is_installed, joined
 from tests.fakes.kit_player import KitPlayer
@@ -30,7 +30,7 @@ def is_there(server: JackServer, name: str) -> bool:
 
 def test_whoever_listened_to_a_kit_leaves_no_client_behind(tmp_path: Path) -> None:
     with JackServer() as server, joined(server), KitPlayer(server, KIT, [], tmp_path):
-        watches = watch_kits((DeviceRequest(KIT),), "jack")
+        watches = watch_devices((DeviceRequest(KIT),), "jack")
         (kit,) = watches.kits
         while not kit.poll(monotonic_ns()).found:
             pass
@@ -38,6 +38,6 @@ def test_whoever_listened_to_a_kit_leaves_no_client_behind(tmp_path: Path) -> No
         watches.close()
         assert not is_there(server, f"{CLIENT_NAME} kit")
         assert devices_there((DeviceRequest(KIT),)) == [f"{KIT}:out"]
-        assert KIT in no_kit((DeviceRequest("another"),))
+        assert KIT in no_device((DeviceRequest("another"),))
         assert KIT in check_midi().finding
         assert not is_there(server, f"{CLIENT_NAME} kit"), "a look at the ports is no stay"

@@ -17,7 +17,7 @@ from station.core.pieces import Piece
 from station.core.units import NS_PER_MS
 from station.devices.capture.capture import read_capture
 from station.devices.capture.replay import replay
-from station.devices.device_ports import parse_kits
+from station.devices.device_ports import parse_devices
 from station.devices.mapping.device_file import own_kit_path
 from station.engine.engine_config import EngineConfig
 from station.engine.engine_process import EngineProcess
@@ -46,7 +46,7 @@ def test_a_kit_is_taught_and_practice_understands_it_so(tmp_path: Path, monkeypa
         assert main(["devices", "learn", "--kit", kit.device, "--seconds", "20"]) == 0
         path = own_kit_path(kit.device)
         path.write_text(path.read_text() + RULES)
-        with EngineProcess(EngineConfig(kits=parse_kits(kit.device), sound=False)) as engine:
+        with EngineProcess(EngineConfig(kits=parse_devices(kit.device), sound=False)) as engine:
             listener = EngineListener(engine)
             listener.until(lambda event: isinstance(event, Ready))
             listener.until(lambda event: isinstance(event, DeviceFound))

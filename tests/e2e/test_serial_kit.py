@@ -14,7 +14,7 @@ from station.core.events import DeviceFound, DeviceLost, Hit
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.devices.capture.capture import read_capture
 from station.devices.capture.replay import replay
-from station.devices.device_ports import parse_kits
+from station.devices.device_ports import parse_devices
 from station.engine.engine_config import EngineConfig
 from station.engine.engine_process import EngineProcess
 from station.engine.messages import CaptureSaved, Ready, RecordCapture
@@ -45,7 +45,7 @@ def played(kit: SerialKit, strokes: list[bytes]) -> list[int]:
 
 def test_two_serial_kits_are_heard_unplugged_and_heard_again(tmp_path: Path) -> None:
     with SerialKit(tmp_path / "ttyUSB0") as first, SerialKit(tmp_path / "ttyUSB1") as second:
-        kits = parse_kits(f"{first.device}; {second.device}@115200")
+        kits = parse_devices(f"{first.device}; {second.device}@115200")
         with EngineProcess(EngineConfig(kits=kits, sound=False)) as engine:
             listener = EngineListener(engine)
             listener.until(lambda event: isinstance(event, Ready))

@@ -13,11 +13,11 @@ from station.core.toml_places import Places
 from station.core.units import PPQ
 from station.drills.grid.grid import GridFrame, parse_line
 from station.drills.grid.swing import MAX_RATIO, Swing
-from station.drills.grid.tab_symbols import LETTERS, LINE_PIECES, family_of
+from station.drills.grid.tab_symbols import LINE_PIECES, SYMBOLS, family_of
 from station.drills.lesson import Goals, Lesson
 from station.drills.lesson_file import FIELDS, parse_lesson
 from station.drills.lesson_writer import first_difference, write_lesson
-from station.drills.quantise import fit_score, lesson_of
+from station.drills.quantise import lesson_of, quantise_score
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoMap
 
@@ -28,7 +28,7 @@ PIECES = (Piece.SNARE, Piece.HIHAT, Piece.RIDE, Piece.CRASH_1, Piece.TOM_1, Piec
 @st.composite
 def bars(draw: st.DrawFn, piece: Piece, beats: int, beat_is_unit: bool) -> str:
     """One bar of a line: plain cells, some beats in parentheses where a beat is one of the meter's."""
-    letters = "--" + "".join(LETTERS[family_of(piece)]) + ("#" if piece is Piece.CRASH_1 else "")
+    letters = "--" + "".join(SYMBOLS[family_of(piece)]) + ("#" if piece is Piece.CRASH_1 else "")
     letters += "~" if piece is Piece.SNARE else ""
     cells = draw(st.sampled_from((1, 2, 3, 4)))
     out = ""
@@ -119,7 +119,7 @@ hand_notes = st.builds(
 @settings(deadline=None, max_examples=60)
 def test_whatever_is_played_slowly_fits_the_grid(played: list[Note]) -> None:
     score = Score.from_notes(played, TempoMap.constant(20))
-    fitted = fit_score(score)
+    fitted = quantise_score(score)
     text = write_lesson(lesson_of(fitted.score, "x", "x", fitted.velocities))
     again = parse_lesson(text, "x", "x").lesson
     assert again

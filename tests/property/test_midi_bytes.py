@@ -103,5 +103,5 @@ def test_a_new_decoder_takes_over_where_another_stands(before: bytes, after: byt
     """What a capture begins with, so that its replay decodes as the engine did."""
     first, heir = MidiDecoder(preset_named(preset)), MidiDecoder(preset_named(preset))
     first.feed(before, 0)
-    heir.feed(first.bequeath(), 0)
+    heir.feed(first.restart_state(), 0)
     assert heir.feed(after, 1) == first.feed(after, 1)

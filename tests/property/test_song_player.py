@@ -33,7 +33,7 @@ USES = st.lists(st.tuples(st.sampled_from(list(CONTROLS)), NUMBERS, NUMBERS, st.
 def test_it_stays_in_the_song_and_in_its_loop(uses: list[tuple[str, int, int, int]]) -> None:
     player, now_ns = SongPlayer(SONG), 0
     for name, a, b, later_ns in uses:
-        player = CONTROLS[name](player.settled(now_ns), now_ns, a, b)
+        player = CONTROLS[name](player.stopped_at_end(now_ns), now_ns, a, b)
         before_ns = player.position_ns(now_ns)
         now_ns += later_ns
         at_ns = player.position_ns(now_ns)

@@ -35,7 +35,7 @@ RULES = replace(
 )
 
 
-def told(kit: DeviceMap) -> list[DeviceEvent]:
+def certain(kit: DeviceMap) -> list[DeviceEvent]:
     """What all the takes are understood as."""
     found: list[DeviceEvent] = []
     for take in TAKES:
@@ -44,13 +44,13 @@ def told(kit: DeviceMap) -> list[DeviceEvent]:
         for message in mido.MidiFile(take):
             at_s += message.time
             if not message.is_meta:
-                found += bank.feed("TD-11", bytes(message.bin()), ns_from_s(at_s)).told
+                found += bank.feed("TD-11", bytes(message.bin()), ns_from_s(at_s)).certain
         found += bank.flush()
     return found
 
 
 def test_closed_notes_are_closed_and_positions_are_of_their_pads() -> None:
-    hits = [event for event in told(TD_11) if isinstance(event, Hit)]
+    hits = [event for event in certain(TD_11) if isinstance(event, Hit)]
     closed = [hit.openness for hit in hits if hit.midi_note == 42]
     assert closed
     assert sum(openness == 0.0 for openness in closed) / len(closed) > 0.99
@@ -60,5 +60,5 @@ def test_closed_notes_are_closed_and_positions_are_of_their_pads() -> None:
 
 
 def test_rules_take_next_to_nothing_from_clean_playing() -> None:
-    plain, ruled = (sum(isinstance(event, Hit) for event in told(kit)) for kit in (TD_11, RULES))
+    plain, ruled = (sum(isinstance(event, Hit) for event in certain(kit)) for kit in (TD_11, RULES))
     assert 0.99 * plain < ruled < plain

@@ -191,10 +191,10 @@ def test_the_pauses_are_really_there(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("lesson", ["rock-1", "single-paradiddle", "jazz-ride-1"])
 def test_a_session_without_a_pause_or_without_a_click(lesson: str, tmp_path: Path) -> None:
-    for number, wishes in enumerate(
+    for number, options in enumerate(
         [PlanOptions(loops=2), PlanOptions(loops=2, click=None), PlanOptions(loops=3, bars=(1, 1))]
     ):
-        plan = plan_practice(find_lesson(lesson), wishes)
+        plan = plan_practice(find_lesson(lesson), options)
         virtual = practise_virtually(plan, parse_spec(STUDENT), tmp_path / f"{number}.cap")
         (again,) = judge_again(read_capture(tmp_path / f"{number}.cap"))
         same_result(again.result(), virtual.result)

@@ -202,10 +202,10 @@ def _output_in_use(settings: Settings) -> str | None:
 
 
 def _kits_in_use(settings: Settings) -> list[str]:
-    from station.devices.device_ports import devices_there, parse_kits
+    from station.devices.device_ports import devices_there, parse_devices
 
     try:
-        return devices_there(parse_kits(settings.kit))
+        return devices_there(parse_devices(settings.kit))
     except StationError:
         return []
 

@@ -40,7 +40,7 @@ from station.devices.mapping.trigger_filter import HeldBack
 from station.devices.monitor import DeviceMonitor, MonitorLine, rule_against
 from station.devices.wizard.one_hit import in_words, taught
 from station.devices.wizard.pad_choices import pad_name
-from station.devices.wizard.velocity_learning import TouchLearning
+from station.devices.wizard.velocity_learning import VelocityLearning
 from station.engine.messages import Command, EngineEvent, RawBytes, ReloadDevice, WatchRawBytes
 
 _SHOWN_LATE_NS = 200 * NS_PER_MS
@@ -59,7 +59,7 @@ class MappingEditor:
         self._kept: dict[str, DeviceMap] = {}
         self._listens = False
         self._pad: NoteMeaning | None = None
-        self._velocity: TouchLearning | None = None
+        self._velocity: VelocityLearning | None = None
         self.device = ""
         self.learnt = ""
         """What was learnt last, or why it was not."""
@@ -189,10 +189,14 @@ class MappingEditor:
 
     def _learn_from(self, line: MonitorLine) -> None:
         """A stroke for the velocity curve that is learnt; those that are too soft to count are strokes too."""
-        hit = line.event if line.ghost is None or line.ghost.why is not HeldBack.TOO_SOFT else line.ghost.hit
+        hit = (
+            line.event
+            if line.false_trigger is None or line.false_trigger.why is not HeldBack.TOO_SOFT
+            else line.false_trigger.hit
+        )
         if self._velocity is None or not isinstance(hit, Hit):
             return
-        self._velocity.take(hit)
+        self._velocity.feed(hit)
         if self._velocity.is_over:
             learning, self._velocity = self._velocity, None
             self._learn(learning.learnt, learning.in_words())
@@ -208,7 +212,7 @@ class MappingEditor:
     def learn_velocity(self, piece: Piece) -> None:
         """The next strokes are five ghosts and five accents on `piece`."""
         self.give_up()
-        self._velocity = TouchLearning(piece)
+        self._velocity = VelocityLearning(piece)
 
     def give_up(self) -> None:
         """Learn no longer; what was played meanwhile changes nothing."""

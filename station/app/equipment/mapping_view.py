@@ -11,7 +11,7 @@ from station.devices.mapping.device_map import DeviceMap, Sent
 from station.devices.mapping.suspect_hits import Suspicion
 from station.devices.mapping.trigger_filter import HeldBack
 from station.devices.monitor import MonitorLine
-from station.devices.wizard.one_hit import PadEar
+from station.devices.wizard.one_hit import PadListener
 
 LINES_SHOWN, STROKES_SHOWN, SUSPICIONS_SHOWN = 8, 24, 4
 """Our choice: what a glance takes in."""
@@ -36,15 +36,15 @@ class SeenKit:
     suspicions: deque[Suspicion] = field(default_factory=lambda: deque(maxlen=SUSPICIONS_SHOWN))
     strokes: dict[Piece, deque[PadStroke]] = field(default_factory=dict)
     fault: str = ""
-    listener: PadEar = field(default_factory=PadEar)
+    listener: PadListener = field(default_factory=PadListener)
     before: list[tuple[DeviceMap, DeviceMap]] = field(default_factory=list)
 
     def add(self, line: MonitorLine) -> None:
         """One more line."""
         self.lines.append(line)
-        hit = line.ghost.hit if line.ghost is not None else line.event
+        hit = line.false_trigger.hit if line.false_trigger is not None else line.event
         if isinstance(hit, Hit):
-            why = None if line.ghost is None else line.ghost.why
+            why = None if line.false_trigger is None else line.false_trigger.why
             self.strokes.setdefault(hit.piece, deque(maxlen=STROKES_SHOWN)).append(PadStroke(hit.velocity, why))
         self.suspicions.extend(line.suspicions)
 

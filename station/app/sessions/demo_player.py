@@ -205,7 +205,7 @@ class DemoPlayer:
         self.now_ns = now_ns
         if self._due:
             self._begin_sound()
-        self.player = self.player.settled(now_ns)
+        self.player = self.player.stopped_at_end(now_ns)
         if not self.player.playing:
             self._sounding_until_ns = None
         elif self._sounding_until_ns is not None and now_ns >= self._sounding_until_ns:

@@ -88,7 +88,7 @@ class FreeSession:
         if self.runs:
             self._play.handle(event)
         else:
-            self._play.heard.take(event)
+            self._play.heard.handle(event)
 
     def advance(self, now_ns: int) -> None:
         """Move on to `now_ns`."""

@@ -10,7 +10,7 @@ from station.app.room_state import ShownResult
 from station.app.sessions.lesson_session import SavedSession
 from station.core.events import Hit
 from station.engine.messages import EngineEvent
-from station.practice.demonstration.compare_by_ear import Whose, bar_by_ear, earlier_bar, students_bar
+from station.practice.demonstration.compare_by_ear import Whose, bar_by_ear, previous_bar, students_bar
 from station.practice.session.listening import Listening
 from station.practice.session.self_estimate import GUESS_OF, QUESTION, SelfEstimate, answered, is_worth_asking
 from station.render.snapshot import Snapshot
@@ -82,10 +82,10 @@ class LastResult:
         played, words = None, "the teacher"
         if whose is Whose.STUDENT:
             played, words = students_bar(result, bar), "you"
-        elif whose is Whose.EARLIER:
+        elif whose is Whose.PREVIOUS:
             if isinstance(before, str):
                 return None
-            played, words = earlier_bar(result, bar, before), f"you, {before.day}"
+            played, words = previous_bar(result, bar, before), f"you, {before.day}"
         self._compared = Comparison(result, bar, played, demonstrator, words)
         listening = bar_by_ear(result, bar, played)
         self._from_ns = listening.from_ns

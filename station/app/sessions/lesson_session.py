@@ -19,7 +19,7 @@ from station.core.units import NS_PER_S
 from station.engine.messages import Command, EngineEvent
 from station.practice.headless.live import begin, end
 from station.practice.records.keeping import SessionFolder, SessionRecord, save
-from station.practice.records.previous_session import find_earlier
+from station.practice.records.previous_session import find_previous
 from station.practice.records.session_report import practice_document
 from station.practice.session.device_latency import Latency
 from station.practice.session.plan import Phase, Plan
@@ -120,7 +120,7 @@ class LessonSession:
         with suppress(DeviceError):  # a dead engine says so itself
             self._send(update.commands)
         session = update.session
-        self.view.judged(session.told(update.judged), session.hits, now_ns, session.windows)
+        self.view.judged(session.shown(update.judged), session.hits, now_ns, session.windows)
         if update.is_anew:
             self.view.judged_anew(session)
         if update.notice is not None:
@@ -206,6 +206,6 @@ class LessonSession:
             str(folder.path),
             heat_map(result),
             every_hit(result),
-            find_earlier(folder.path, self.plan.lesson.name),
+            find_previous(folder.path, self.plan.lesson.name),
             wrong_pads(result),
         )

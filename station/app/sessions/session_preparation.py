@@ -74,7 +74,7 @@ class SessionPreparation:
         if self._backing is None:
             return None
         self._backing.ask(plan, rate_hz)
-        track = self._backing.take()
+        track = self._backing.ready()
         if track is None:
             raise DeviceError("the track is being made ready for this tempo: start again in a moment")
         return track

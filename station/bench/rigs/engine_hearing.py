@@ -20,7 +20,7 @@ from station.core.clock import monotonic_ns
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound, Hit
 from station.core.units import NS_PER_S
-from station.devices.device_ports import DeviceRequest, parse_kit
+from station.devices.device_ports import DeviceRequest, parse_device
 from station.engine.engine_config import EngineConfig
 from station.engine.engine_process import EngineProcess
 from station.engine.messages import EngineEvent, Ready, Status
@@ -87,7 +87,7 @@ def stage(wire: Wire, draws: bool = True) -> Iterator[ListeningRig]:
         else:
             source = f"serial:{folder / 'kit'}"
             player = things.enter_context(PlayingKit("serial", str(folder / "kit"), str(wire.baud)))
-            config = EngineConfig(kits=(parse_kit(f"{source}@{wire.baud}"),), sound=False)
+            config = EngineConfig(kits=(parse_device(f"{source}@{wire.baud}"),), sound=False)
         if draws:
             things.enter_context(_drawing())
         engine = things.enter_context(EngineProcess(config))

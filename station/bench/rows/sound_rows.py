@@ -53,7 +53,7 @@ def _block() -> Measurement:
 def _voice_by_voice_s() -> float:
     """The same block as most would write it: each voice scaled and added in turn, no bus, no fade, no limiter."""
     kit = synth_kit(RATE_HZ)
-    voices = [kit.choose(strike)[1].take(100, 0).reshape(-1) for strike in _LONG]
+    voices = [kit.choose(strike)[1].frames_for(100, 0).reshape(-1) for strike in _LONG]
     size = 2 * BLOCK_FRAMES
     out, scaled = np.empty(size, np.float32), np.empty(size, np.float32)
     at = 0

@@ -68,12 +68,12 @@ class TypedLines:
 @contextmanager
 def listening(options: ListenOptions) -> Iterator[tuple[PortWatch, ...]]:
     """The chosen kits; raises `DeviceError` where none can be heard. Ctrl-C, wherever it falls, ends the block."""
-    from station.devices.device_ports import no_kit, parse_kits, watch_kits
+    from station.devices.device_ports import no_device, parse_devices, watch_devices
 
-    requests = parse_kits(wanted_kits(options.device, load_settings().kit))
-    watches = watch_kits(requests)
+    requests = parse_devices(wanted_kits(options.device, load_settings().kit))
+    watches = watch_devices(requests)
     if not watches.kits:
-        raise DeviceError(no_kit(requests))
+        raise DeviceError(no_device(requests))
     if watches.fault is not None:
         say(f"station: {watches.fault}")
     try:
@@ -89,7 +89,7 @@ def polls(kits: tuple[PortWatch, ...], seconds: float | None) -> Iterator[PortPo
 
     Raises `DeviceError` where no kit comes: any kit is awaited to the end, a kit with a name not long.
     """
-    from station.devices.device_ports import DeviceRequest, no_kit
+    from station.devices.device_ports import DeviceRequest, no_device
 
     begun_ns, found = monotonic_ns(), False
     end_ns = None if seconds is None else begun_ns + ns_from_s(seconds)
@@ -112,7 +112,7 @@ def polls(kits: tuple[PortWatch, ...], seconds: float | None) -> Iterator[PortPo
             break
         time.sleep(POLL_S)
     if not found:
-        raise DeviceError(no_kit(tuple(DeviceRequest(kit.wanted) for kit in kits)))
+        raise DeviceError(no_device(tuple(DeviceRequest(kit.wanted) for kit in kits)))
 
 
 def event_line(event: DeviceEvent, start_ns: int) -> str:

@@ -15,10 +15,13 @@ def devices_option() -> tuple[str, ...]:
 
 def wanted_kits(said: Sequence[str], otherwise: str) -> str:
     """What the command line says of kits, in the settings' words; raises `BadInput` where a kit cannot be meant."""
-    from station.devices.device_ports import BETWEEN_KITS, parse_kit  # drivers are loaded by those alone who need them
+    from station.devices.device_ports import (  # drivers are loaded by those alone who need them
+        BETWEEN_DEVICES,
+        parse_device,
+    )
 
     if not said:
         return otherwise
     for text in said:
-        parse_kit(text)
-    return BETWEEN_KITS.join(said)
+        parse_device(text)
+    return BETWEEN_DEVICES.join(said)

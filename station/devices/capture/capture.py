@@ -18,7 +18,7 @@ the first fault and has everything before it. Kinds that it does not know it pas
 | END | 0 | when the capture was closed | none |
 | SETTLED | number | until when its hits had been told | none; only before bytes from earlier, that came late |
 | OUTPUT | 0 | when the sound went there | the name of what sounds from now on, UTF-8; empty: nothing does |
-| REMARK | 0 | when it came | what whoever records wishes to be kept, UTF-8; sessions:
+| ANNOTATION | 0 | when it came | what whoever records wants kept, UTF-8; sessions:
 `station.practice.session.event_log` |
 """
 
@@ -58,7 +58,7 @@ class RecordKind(IntEnum):
     END = 7
     SETTLED = 8
     OUTPUT = 9
-    REMARK = 10
+    ANNOTATION = 10
 
 
 @dataclass(frozen=True, slots=True)

@@ -63,8 +63,8 @@ def replay_all(capture: Capture) -> Iterator[Entry]:
                 decoders.add(device.name, _kit_of(device))
             case RecordKind.ZERO:
                 yield TransportZero(record.at_ns)
-            case RecordKind.REMARK:
-                yield from decoders.settle(record.at_ns)  # the engine did before it took the remark
+            case RecordKind.ANNOTATION:
+                yield from decoders.settle(record.at_ns)  # the engine did before it took the text
                 yield LoggedText(record.at_ns, record.payload.decode("utf-8", "replace"))
             case RecordKind.START | RecordKind.OUTPUT | RecordKind.END:
                 yield from decoders.flush()
@@ -81,7 +81,7 @@ def _of_device(decoders: DecoderBank, name: str, record: CaptureRecord) -> Itera
     """What a record of the device `name` brings; nothing where its kind is not known."""
     match record.kind:
         case RecordKind.BYTES:
-            return decoders.feed(name, record.payload, record.at_ns).told
+            return decoders.feed(name, record.payload, record.at_ns).certain
         case RecordKind.SETTLED:
             return decoders.settle_until(name, record.at_ns)
         case RecordKind.STROKE:

@@ -36,6 +36,7 @@ from station.core.schema import (
     choice,
     flag,
     list_of,
+    members_by_label,
     needed,
     number,
     optional,
@@ -46,15 +47,14 @@ from station.core.schema import (
     text,
     whole,
     whole_key,
-    words_of,
 )
 from station.core.settings import settings_path
 from station.core.toml_faults import Faults, wrong
 from station.core.toml_source import read_source, text_source
 from station.core.units import ns_from_ms
 from station.devices.mapping.device_map import (
-    GHOST_BEFORE_NS,
-    GHOST_WITHIN_NS,
+    CROSSTALK_BEFORE_NS,
+    CROSSTALK_WITHIN_NS,
     Crosstalk,
     DeviceMap,
     Foot,
@@ -170,7 +170,7 @@ def _kit(name: str, base: DeviceMap, values: Mapping[str, Any]) -> DeviceMap:
 
 
 _preset = choice(PRESETS, "kit preset")
-_PIECES = words_of(Piece)
+_PIECES = members_by_label(Piece)
 _NOTE = whole_key(0, 127)
 _PIECE = choice(_PIECES, "piece")
 _VELOCITY = whole(1, 127)
@@ -185,8 +185,8 @@ def _ns(value: object) -> int:
 
 _STRIKE: Fields = {
     "piece": needed(_PIECE, 'piece = "snare"'),
-    "zone": Field(choice(words_of(Zone), "zone"), Zone.HEAD),
-    "articulation": Field(choice(words_of(Articulation), "articulation"), Articulation.NORMAL),
+    "zone": Field(choice(members_by_label(Zone), "zone"), Zone.HEAD),
+    "articulation": Field(choice(members_by_label(Articulation), "articulation"), Articulation.NORMAL),
     "openness": optional(number(0.0, 1.0)),
 }
 _ON_CHANNEL = table_of(_NOTE, record(NoteMeaning, _STRIKE))
@@ -303,8 +303,8 @@ _CROSSTALK = record(
         "source": needed(_PIECE, 'source = "kick"'),
         "victim": needed(_PIECE, 'victim = "snare"'),
         "share": needed(number(0.0, 1.0), "share = 0.3"),
-        "within_ms": Field(_ns, GHOST_WITHIN_NS, called="within_ns"),
-        "before_ms": Field(_ns, GHOST_BEFORE_NS, called="before_ns"),
+        "within_ms": Field(_ns, CROSSTALK_WITHIN_NS, called="within_ns"),
+        "before_ms": Field(_ns, CROSSTALK_BEFORE_NS, called="before_ns"),
     },
 )
 KEYS = frozenset(_fields(GENERAL_MIDI_PRESET))

@@ -23,9 +23,9 @@ PEDAL_CONTROLLER = 4
 CHOKEABLE = CYMBALS | {Piece.HIHAT}
 """What rings and can be grabbed."""
 
-GHOST_WITHIN_NS = 30 * NS_PER_MS
+CROSSTALK_WITHIN_NS = 30 * NS_PER_MS
 """How long after a stroke its crosstalk may come where nothing else is said: edrumulus' default."""
-GHOST_BEFORE_NS = 5 * NS_PER_MS
+CROSSTALK_BEFORE_NS = 5 * NS_PER_MS
 """How long before it; our choice: a pad that is struck passes its own mask time before it sends, its neighbour less."""
 
 
@@ -90,7 +90,7 @@ PLAIN_PAD = Pad()
 
 @dataclass(frozen=True, slots=True)
 class Crosstalk:
-    """A stroke on `source` makes `victim` send a ghost, at most `share` as loud.
+    """A stroke on `source` makes `victim` send a hit, at most `share` as loud.
 
     It comes from `before_ns` before the stroke to `within_ns` after it.
     """
@@ -98,8 +98,8 @@ class Crosstalk:
     source: Piece
     victim: Piece
     share: float
-    within_ns: int = GHOST_WITHIN_NS
-    before_ns: int = GHOST_BEFORE_NS
+    within_ns: int = CROSSTALK_WITHIN_NS
+    before_ns: int = CROSSTALK_BEFORE_NS
 
 
 Sent = tuple[int, int]

@@ -60,12 +60,12 @@ class Hihat:
 
         A controller that has only ever said one end of its way may be none at all, so that a note that tells is right.
         """
-        told, pedal = strike.openness, self._openness
+        written, pedal = strike.openness, self._openness
         if strike.piece is not Piece.HIHAT or pedal is None:
-            return told
-        if told is None:
+            return written
+        if written is None:
             return pedal
-        return pedal if self._has_moved and abs(told - pedal) <= _CONTRADICTION else told
+        return pedal if self._has_moved and abs(written - pedal) <= _CONTRADICTION else written
 
     def _stomp(self, before: float, openness: float, at_ns: int) -> list[DeviceEvent]:
         """The stomp that the way from `before` down to `openness` ends, if it does."""

@@ -1,4 +1,4 @@
-"""Hits that look like ghosts though the kit's rules let them pass: for a page on which a person sets the rules.
+"""Hits that look like false triggers though the kit's rules let them pass: for a page on which a person sets the rules.
 
 A suspicion is no verdict: two limbs may strike together, one softly. Times are monotonic ns.
 """
@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from station.core.events import Hit
 from station.core.pieces import Piece
 from station.core.units import NS_PER_MS
-from station.devices.mapping.device_map import GHOST_WITHIN_NS
+from station.devices.mapping.device_map import CROSSTALK_WITHIN_NS
 from station.devices.mapping.trigger_filter import FALSE_STOMP_NS, HeldBack
 
 DOUBLE_NS = 25 * NS_PER_MS
@@ -24,7 +24,7 @@ _SOFT_STOMP = 0.6
 
 @dataclass(frozen=True, slots=True)
 class Suspicion:
-    """`hit` may be a ghost of `cause`, which came `after_ns` before it (negative: after it)."""
+    """`hit` may be a false trigger of `cause`, which came `after_ns` before it (negative: after it)."""
 
     hit: Hit
     why: HeldBack
@@ -65,7 +65,7 @@ def _why(hit: Hit, cause: Hit, gap_ns: int) -> HeldBack | None:
         return HeldBack.DOUBLE if gap_ns <= DOUBLE_NS and _is_softer(hit, cause, _SOFTER_DOUBLE) else None
     if hit.piece is Piece.HIHAT_PEDAL and cause.piece is Piece.HIHAT:
         return HeldBack.FALSE_STOMP if 0 < gap_ns <= FALSE_STOMP_NS and _is_softer(hit, cause, _SOFT_STOMP) else None
-    return HeldBack.CROSSTALK if gap_ns <= GHOST_WITHIN_NS and _is_softer(hit, cause, _SOFTER_CROSSTALK) else None
+    return HeldBack.CROSSTALK if gap_ns <= CROSSTALK_WITHIN_NS and _is_softer(hit, cause, _SOFTER_CROSSTALK) else None
 
 
 def _is_softer(hit: Hit, than: Hit, share: float) -> bool:

@@ -1,9 +1,9 @@
 """Which of a kit's hits are strokes: too soft ones, double triggers, crosstalk, false stomps and grabs are held back.
 
-Crosstalk may arrive before the stroke that it comes from, so a hit that could be such a ghost is told only when no
-stroke can claim it any more: a few milliseconds later, with its own time, and what came after it waits its turn.
-Whoever sounds the strokes does not wait: `feed` says at once whether a hit may sound, and a ghost that came first has
-then sounded as softly as it was. A kit of which nothing of the kind is known passes through at once and untouched.
+Crosstalk may arrive before the stroke that it comes from, so a hit that could be one is let go only when no stroke can
+claim it any more: a few milliseconds later, with its own time, and what came after it waits its turn. Whoever sounds
+the strokes does not wait: `feed` says at once whether a hit may sound, and a false trigger that came first has then
+sounded as softly as it was. A kit of which nothing of the kind is known passes through at once and untouched.
 
 The verdict on a hit depends on the events' own times alone. `settle` lets go what is certain by the clock; should a
 driver hand over an event from before that, `overtaken_ns` says so, and whoever records notes it down, so that a replay
@@ -55,7 +55,7 @@ class FalseTrigger:
 class _Waiting:
     event: DeviceEvent
     due_ns: int  # until when something may come that makes another thing of it
-    ghost: FalseTrigger | None = None
+    false_trigger: FalseTrigger | None = None
     lowest: float | None = None  # the pedal's least openness since
 
 
@@ -64,7 +64,7 @@ class TriggerFilter:
 
     def __init__(self, kit: DeviceMap) -> None:
         self.kit = kit
-        self.ghosts: deque[FalseTrigger] = deque(maxlen=256)
+        self.false_triggers: deque[FalseTrigger] = deque(maxlen=256)
         """What was held back, the newest last; whoever shows them takes them out."""
         self._by_victim: dict[Piece, list[Crosstalk]] = {}
         self._by_source: dict[Piece, list[Crosstalk]] = {}
@@ -100,15 +100,15 @@ class TriggerFilter:
             case _:
                 pass
         self._queue.append(waiting)
-        return waiting.ghost is None
+        return waiting.false_trigger is None
 
     def _judge(self, hit: Hit, waiting: _Waiting) -> None:
-        waiting.ghost = self._too_soft(hit) or self._crosstalk(hit) or self._grab(hit) or self._false_stomp(hit)
+        waiting.false_trigger = self._too_soft(hit) or self._crosstalk(hit) or self._grab(hit) or self._false_stomp(hit)
         if hit.piece in self._loud:
             self._blame(hit)
             self._loud[hit.piece].append(hit)
-        waiting.ghost = waiting.ghost or self._double(hit)
-        if waiting.ghost is None:
+        waiting.false_trigger = waiting.false_trigger or self._double(hit)
+        if waiting.false_trigger is None:
             self._strokes[hit.piece] = waiting
             waiting.due_ns += self._doubtful_ns(hit)
 
@@ -116,13 +116,13 @@ class TriggerFilter:
         return FalseTrigger(hit, HeldBack.TOO_SOFT) if hit.velocity < self.kit.pad(hit.piece).threshold else None
 
     def _double(self, hit: Hit) -> FalseTrigger | None:
-        """A second hit within the mask time is none, unless the first may be a ghost itself and is softer."""
+        """A second hit within the mask time is none, unless the first may be false itself and is softer."""
         mask_ns, first = self.kit.pad(hit.piece).mask_ns, self._strokes.get(hit.piece)
-        if first is None or first.ghost is not None or hit.at_ns - first.event.at_ns >= mask_ns:
+        if first is None or first.false_trigger is not None or hit.at_ns - first.event.at_ns >= mask_ns:
             return None
         assert isinstance(first.event, Hit)
         if first.due_ns >= hit.at_ns and first.event.velocity < hit.velocity:
-            first.ghost = FalseTrigger(first.event, HeldBack.DOUBLE)
+            first.false_trigger = FalseTrigger(first.event, HeldBack.DOUBLE)
             return None
         return FalseTrigger(hit, HeldBack.DOUBLE)
 
@@ -139,10 +139,10 @@ class TriggerFilter:
         for rule in self._by_source[source.piece]:
             for waiting in self._queue:
                 event = waiting.event
-                if not isinstance(event, Hit) or event.piece is not rule.victim or waiting.ghost is not None:
+                if not isinstance(event, Hit) or event.piece is not rule.victim or waiting.false_trigger is not None:
                     continue
                 if source.at_ns - event.at_ns <= rule.before_ns and event.velocity <= rule.share * source.velocity:
-                    waiting.ghost = FalseTrigger(event, HeldBack.CROSSTALK, source.piece)
+                    waiting.false_trigger = FalseTrigger(event, HeldBack.CROSSTALK, source.piece)
 
     def _grab(self, hit: Hit) -> FalseTrigger | None:
         choked_ns = self._chokes_ns.get(hit.piece)
@@ -156,7 +156,7 @@ class TriggerFilter:
             if not isinstance(event, Hit) or event.piece is not choke.piece or event.velocity > self.kit.grab_velocity:
                 continue
             if choke.at_ns - event.at_ns <= GRAB_BEFORE_NS:
-                waiting.ghost = waiting.ghost or FalseTrigger(event, HeldBack.GRAB)
+                waiting.false_trigger = waiting.false_trigger or FalseTrigger(event, HeldBack.GRAB)
 
     def _false_stomp(self, hit: Hit) -> FalseTrigger | None:
         """A stomp just after a stroke on the hi-hat, for which the pedal hardly moved."""
@@ -205,7 +205,7 @@ class TriggerFilter:
 
     # --- out ---------------------------------------------------------------------------------------------------------
 
-    def told(self) -> list[DeviceEvent]:
+    def certain(self) -> list[DeviceEvent]:
         """The events that are certain by what has come so far, in order."""
         return [] if self._latest_ns is None else self._release(self._latest_ns)
 
@@ -233,15 +233,15 @@ class TriggerFilter:
         return self._release(None)
 
     def _release(self, until_ns: int | None) -> list[DeviceEvent]:
-        told = []
+        certain = []
         while self._queue:
             first = self._queue[0]
-            doubtful = first.ghost is None and first.due_ns > first.event.at_ns
+            doubtful = first.false_trigger is None and first.due_ns > first.event.at_ns
             if doubtful and until_ns is not None and first.due_ns >= until_ns:
                 break
             self._queue.popleft()
-            if first.ghost is None:
-                told.append(first.event)
+            if first.false_trigger is None:
+                certain.append(first.event)
             else:
-                self.ghosts.append(first.ghost)
-        return told
+                self.false_triggers.append(first.false_trigger)
+        return certain

@@ -1,4 +1,4 @@
-"""A pad's touch: how loud a stroke counts for the velocity that the pad sent.
+"""A pad's velocity curve: how loud a stroke counts for the velocity that the pad sent.
 
 Pads answer differently: on one a ghost stroke sends 8, on another 50. A `VelocityCurve` is straight between `softest`,
 which counts as 1, and `loudest`, which counts as 127, and bends in between: t ↦ t^(2^(−2·bend)), t the share of the way
@@ -109,11 +109,15 @@ def fitted(ghosts: Sequence[int], accents: Sequence[int]) -> VelocityCurve:
 def check_apart(ghosts: Sequence[int], accents: Sequence[int]) -> None:
     """Raises `BadInput` unless the ghosts, a slip aside, are all softer than the accents, a slip aside."""
     if median(accents) < LOUDEST_FROM:
-        raise BadInput("the touch", "", f"accents of {min(accents)}–{max(accents)} are too soft to tell: strike harder")
+        raise BadInput(
+            "the velocity curve", "", f"accents of {min(accents)}–{max(accents)} are too soft to tell: strike harder"
+        )
     loud_ghost, soft_accent = sorted(ghosts)[-1 - _SLIP], sorted(accents)[_SLIP]
     if soft_accent < _LEAST_RATIO * loud_ghost:
         heard = f"ghosts {min(ghosts)}–{max(ghosts)}, accents {min(accents)}–{max(accents)}"
-        raise BadInput("the touch", "", f"ghosts and accents cannot be told apart ({heard}): play both once more")
+        raise BadInput(
+            "the velocity curve", "", f"ghosts and accents cannot be told apart ({heard}): play both once more"
+        )
 
 
 def threshold_below(threshold: int, ghosts: Sequence[int]) -> int:

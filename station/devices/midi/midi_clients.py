@@ -100,19 +100,19 @@ class DriverClient:
         self._lister = new_input(driver)
         self._lister_is_free = driver == "jack"
         self._is_closed = False
-        self._heart = _Watchdog() if driver == "jack" and isinstance(sound, NoSoundServer) else None
+        self._watchdog = _Watchdog() if driver == "jack" and isinstance(sound, NoSoundServer) else None
 
     def is_alive(self, now_ns: int) -> bool:
         """Whether the server that was joined still runs; drivers without one always live."""
         if self.driver != "jack":
             return True
-        if self._heart is None:
+        if self._watchdog is None:
             lives = self._sound.server_lives()
             if lives is not None or now_ns - self._joined_ns < SILENT_SERVER_NS:  # the sound begins after the kits
                 return lives is not False
             with self._sound.paused():
-                self._heart = _Watchdog()
-        return self._heart.beats(now_ns)
+                self._watchdog = _Watchdog()
+        return self._watchdog.beats(now_ns)
 
     def ports(self) -> list[str]:
         """The inputs, each with a name of its own, in the driver's order."""
@@ -145,8 +145,8 @@ class DriverClient:
         self._is_closed = True
         if self._lister_is_free or self.driver != "jack":
             self._lister.delete()
-        if self._heart is not None:
-            self._heart.close()
+        if self._watchdog is not None:
+            self._watchdog.close()
 
 
 class _Watchdog:

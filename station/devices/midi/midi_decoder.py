@@ -57,7 +57,7 @@ class MidiDecoder:
         self._prefixes.clear()
         self._pedal = b""
 
-    def bequeath(self) -> bytes:
+    def restart_state(self) -> bytes:
         """Bytes that bring a new decoder to this one's state, as a capture begins; lets go of held cymbals."""
         self._held.clear()
         pedal = self._pedal[-_MESSAGE:] if self.preset.foot.by_controller else self._pedal  # two would be a stomp
@@ -76,11 +76,11 @@ class MidiDecoder:
                 if kind == _NOTE_ON and message[2]:
                     events.append(self._note(message, at_ns, 0.0 if prefix is None else prefix[2] / _STEPS))
             elif kind == _CONTROL_CHANGE:
-                self._take_controller(message, at_ns, events)
+                self._handle_controller(message, at_ns, events)
             elif kind == _PROGRAM_CHANGE:
                 events.append(Switched(at_ns, f"program={message[1]}", self.device))
             elif kind == _POLY_AFTERTOUCH:
-                self._take_aftertouch(message, at_ns, events)
+                self._handle_aftertouch(message, at_ns, events)
         return events
 
     def _note(self, message: bytes, at_ns: int, velocity_fraction: float) -> Hit | Choke:
@@ -111,7 +111,7 @@ class MidiDecoder:
                 return message[2] / _GREATEST
         return None
 
-    def _take_controller(self, message: bytes, at_ns: int, events: list[DeviceEvent]) -> None:
+    def _handle_controller(self, message: bytes, at_ns: int, events: list[DeviceEvent]) -> None:
         status, number, value = message
         if number == _VELOCITY_PREFIX:
             self._prefixes[status & _CHANNEL] = message
@@ -125,7 +125,7 @@ class MidiDecoder:
         elif value >= _ON:
             events.append(Switched(at_ns, f"cc={number}", self.device))
 
-    def _take_aftertouch(self, message: bytes, at_ns: int, events: list[DeviceEvent]) -> None:
+    def _handle_aftertouch(self, message: bytes, at_ns: int, events: list[DeviceEvent]) -> None:
         status, note, value = message
         piece = self.preset.strike(_channel(status), note).piece
         if piece not in CHOKEABLE:

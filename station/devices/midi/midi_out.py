@@ -52,9 +52,9 @@ def open_midi_output(driver: str, part: str, undisturbed: Undisturbed = nullcont
             return _open(one, part, undisturbed if one == "jack" else nullcontext)
         except DeviceError as fault:
             faults.append(fault)
-    for told in faults:
-        if isinstance(told, NotThere):  # a driver that works knows better
-            raise told
+    for found in faults:
+        if isinstance(found, NotThere):  # a driver that works knows better
+            raise found
     raise DeviceError(". ".join(["MIDI cannot be sent", *map(str, faults)]))
 
 

@@ -57,15 +57,15 @@ class MidiTokenizer:
         messages: list[bytes] = []
         for byte in data:
             if byte < _FIRST_STATUS:
-                self._take_data(byte, messages)
+                self._feed_data(byte, messages)
             elif byte >= _FIRST_REAL_TIME:
                 if byte not in _UNDEFINED_REAL_TIME:
                     messages.append(bytes((byte,)))
             else:
-                self._take_status(byte, messages)
+                self._feed_status(byte, messages)
         return messages
 
-    def _take_status(self, status: int, messages: list[bytes]) -> None:
+    def _feed_status(self, status: int, messages: list[bytes]) -> None:
         if status == _END_OF_SYSEX:
             if self._status == _SYSEX:
                 messages.append(bytes((_SYSEX, *self._data, _END_OF_SYSEX)))
@@ -85,7 +85,7 @@ class MidiTokenizer:
         if status in _SYSTEM_COMMON and not self._needed:
             messages.append(bytes((status,)))
 
-    def _take_data(self, byte: int, messages: list[bytes]) -> None:
+    def _feed_data(self, byte: int, messages: list[bytes]) -> None:
         if not self._status:
             return
         self._data.append(byte)

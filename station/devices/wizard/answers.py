@@ -8,7 +8,7 @@ from typing import NamedTuple
 from station.core.units import NS_PER_MS
 
 ONE_STROKE_NS = 70 * NS_PER_MS
-"""Notes so close are one stroke with its ghosts; who is asked for single strokes plays none closer (our choice)."""
+"""Notes so close are one stroke with its crosstalk; who is asked for single strokes plays none closer (our choice)."""
 
 _NOTE_ON, _AFTERTOUCH, _CONTROL = 0x9, 0xA, 0xB
 
@@ -65,7 +65,7 @@ def groups(said: Iterable[Said], gap_ns: int) -> list[Stroke]:
 
 
 def loudest(stroke: Stroke) -> Said:
-    """The note of a stroke that is no ghost: the loudest, the first of equals."""
+    """The note of a stroke that is no false trigger: the loudest, the first of equals."""
     return max(stroke, key=lambda note: note.value)
 
 

@@ -1,6 +1,6 @@
 """What else came with the strokes that were asked for: double triggers and crosstalk, and how to tell them.
 
-Who is asked for single strokes plays none within `ONE_STROKE_NS`, so that whatever is softer there is a ghost. Margins
+Who is asked for single strokes plays none within `ONE_STROKE_NS`, so that whatever is softer there is false. Margins
 are our choice: three strokes do not show the worst.
 """
 
@@ -9,15 +9,15 @@ from collections.abc import Iterable, Mapping
 from station.core.note_map import KitMap
 from station.core.pieces import Piece
 from station.core.units import NS_PER_MS
-from station.devices.mapping.device_map import GHOST_WITHIN_NS, Crosstalk, DeviceMap, Foot, Pad
+from station.devices.mapping.device_map import CROSSTALK_WITHIN_NS, Crosstalk, DeviceMap, Foot, Pad
 from station.devices.wizard.answers import ONE_STROKE_NS, Said, StepAnswer, loudest
 from station.devices.wizard.wizard_steps import HALF_BOW, SPLASH, STOMP, WizardQuestion, WizardStep
 
 _MARGIN = 1.25
 _LOUDEST_SHARE = 0.8
-"""A second note louder than this share of the first is no ghost: a module that sends two notes a stroke."""
-_EARLIER_NS = 2 * NS_PER_MS
-"""Ghosts may come by so much earlier than they were seen to."""
+"""A second note louder than this share of the first is no crosstalk: a module that sends two notes a stroke."""
+_EARLY_MARGIN_NS = 2 * NS_PER_MS
+"""Crosstalk may come by so much earlier than they were seen to."""
 LONGEST_MASK_NS = 40 * NS_PER_MS
 """No drummer strikes a pad twice within less on purpose, but in a flam (our choice)."""
 _TWICE = 2
@@ -60,11 +60,11 @@ def learned_crosstalk(takes: Takes, mains: Mains, notes: KitMap) -> tuple[Crosst
                 victim, share = _piece(notes, note), note.value / first.value
                 most = (
                     1.0 if step.piece is Piece.HIHAT_PEDAL else _LOUDEST_SHARE
-                )  # a stomp may be softer than its ghost
+                )  # a stomp may be softer than its crosstalk
                 if victim is None or victim is step.piece or share > most or _is_foots(step, victim):
                     continue
                 seen.setdefault((step.piece, victim), []).append((share, note.at_ns - first.at_ns))
-    rules = [_rule(source, victim, ghosts) for (source, victim), ghosts in sorted(seen.items())]
+    rules = [_rule(source, victim, answers) for (source, victim), answers in sorted(seen.items())]
     return (*rules, *_stomps_on_hats(takes, mains))
 
 
@@ -120,11 +120,11 @@ def _piece(notes: KitMap, note: Said) -> Piece | None:
     return None if strike is None else strike.piece
 
 
-def _rule(source: Piece, victim: Piece, ghosts: list[tuple[float, int]]) -> Crosstalk:
+def _rule(source: Piece, victim: Piece, answers: list[tuple[float, int]]) -> Crosstalk:
     most = 1.0 if source is Piece.HIHAT_PEDAL else _LOUDEST_SHARE
-    share = min(most, _MARGIN * max(share for share, _ in ghosts))
-    late_ns = max(after_ns for _, after_ns in ghosts)
-    early_ns = max(-after_ns for _, after_ns in ghosts)
-    within_ns = min(ONE_STROKE_NS, max(GHOST_WITHIN_NS, round(_MARGIN * late_ns)))
-    before_ns = round(_MARGIN * early_ns) + _EARLIER_NS if early_ns > 0 else 0
+    share = min(most, _MARGIN * max(share for share, _ in answers))
+    late_ns = max(after_ns for _, after_ns in answers)
+    early_ns = max(-after_ns for _, after_ns in answers)
+    within_ns = min(ONE_STROKE_NS, max(CROSSTALK_WITHIN_NS, round(_MARGIN * late_ns)))
+    before_ns = round(_MARGIN * early_ns) + _EARLY_MARGIN_NS if early_ns > 0 else 0
     return Crosstalk(source, victim, round(share, 2), within_ns, before_ns)

@@ -136,8 +136,8 @@ def _positions(takes: Takes, mains: Mains, kit: DeviceMap) -> Mapping[int, froze
         notes = [note for note in takes[step].notes if note.number == number]
         for controller in GENERAL_PURPOSE:
             said = [c.at_ns for c in takes[step].controllers if c.number == controller]
-            told = sum(any(0 <= note.at_ns - at_ns <= _JUST_BEFORE_NS for at_ns in said) for note in notes)
-            if controller != pedal and told * 2 > len(notes):
+            near = sum(any(0 <= note.at_ns - at_ns <= _JUST_BEFORE_NS for at_ns in said) for note in notes)
+            if controller != pedal and near * 2 > len(notes):
                 found.setdefault(controller, set()).add(step.piece)
     merged = {controller: kit.position_controllers.get(controller, frozenset()) | p for controller, p in found.items()}
     return MappingProxyType({**kit.position_controllers, **merged})
@@ -158,7 +158,7 @@ def _findings(mains: Mains, kit: DeviceMap, found: ModuleGuess) -> Iterable[str]
         if step.zone in (Zone.RIM, Zone.EDGE, Zone.BELL) and any(s.zone is not step.zone for s in same):
             yield f"{step.text}: the same note as elsewhere on this pad, so the zone cannot be told"
     yield from _about_foot(kit, found)
-    yield from _about_ghosts(kit)
+    yield from _about_false_triggers(kit)
 
 
 def _about_foot(kit: DeviceMap, found: ModuleGuess) -> Iterable[str]:
@@ -178,7 +178,7 @@ def _about_foot(kit: DeviceMap, found: ModuleGuess) -> Iterable[str]:
         yield "hi-hat foot: a splash is told by the pedal that opens again"
 
 
-def _about_ghosts(kit: DeviceMap) -> Iterable[str]:
+def _about_false_triggers(kit: DeviceMap) -> Iterable[str]:
     for note, piece in kit.choke_notes.items():
         yield f"{word(piece)}: note {note} says that it is grabbed"
     if kit.grab_velocity:

@@ -17,7 +17,7 @@ from station.devices.wizard.pad_choices import pad_name
 _NOTE_ON, _CHANNEL = 0x9, 0x0F
 
 
-class PadEar:
+class PadListener:
     """What one kit sends, as far as learning a pad asks: its notes by channel, and the note of the hit awaited."""
 
     def __init__(self) -> None:
@@ -76,10 +76,10 @@ def taught(kit: DeviceMap, sent: Sent, strike: NoteMeaning, is_shared: bool = Fa
 def in_words(before: DeviceMap, sent: Sent, strike: NoteMeaning) -> str:
     """What learning a pad changes: which note it is, and what that meant."""
     channel, number = sent
-    told = f"note {number} (channel {channel}) is the {pad_name(strike)}"
+    named = f"note {number} (channel {channel}) is the {pad_name(strike)}"
     if number in before.choke_notes:
-        return f"{told} now; it was a grab before"
+        return f"{named} now; it was a grab before"
     if not before.knows(*sent):
-        return told
+        return named
     was = before.strike(*sent)
-    return f"{told}, as it was" if was == strike else f"{told} now; it was the {pad_name(was)} before"
+    return f"{named}, as it was" if was == strike else f"{named} now; it was the {pad_name(was)} before"

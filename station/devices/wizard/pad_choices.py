@@ -4,7 +4,7 @@
 pedal's way (`bow`, `edge`), the pedal tells how open it is.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from types import MappingProxyType
 
 from station.core.did_you_mean import did_you_mean
@@ -73,8 +73,3 @@ def pad_named(text: str) -> NoteMeaning:
     if zone and zone not in zones:
         raise BadInput(text, "", f"no such zone of the {piece_word}{did_you_mean(zone, zones)}")
     return zones[zone] if zone else next(iter(zones.values()))
-
-
-def all_pads() -> Iterator[str]:
-    """Every name that `pad_named` takes in full."""
-    return (f"{word(piece)}/{zone}" for piece, zones in PADS.items() for zone in zones)

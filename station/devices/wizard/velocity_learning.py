@@ -11,7 +11,7 @@ from station.devices.mapping.velocity_curve import STROKES, fitted, threshold_be
 from station.devices.wizard.answers import ONE_STROKE_NS
 
 
-class TouchLearning:
+class VelocityLearning:
     """The strokes on `piece` so far; velocities as the pad sent them."""
 
     def __init__(self, piece: Piece) -> None:
@@ -32,7 +32,7 @@ class TouchLearning:
             return f"{piece_name(self.piece)}: play five ghost strokes, {len(self.ghosts)} of {STROKES}"
         return f"{piece_name(self.piece)}: now five accents, {len(self.accents)} of {STROKES}"
 
-    def take(self, hit: Hit) -> None:
+    def feed(self, hit: Hit) -> None:
         """A hit, counted or too soft; what follows at once belongs to the stroke before."""
         if hit.piece is not self.piece or self.is_over:
             return

@@ -1,7 +1,7 @@
 """The wizard as a state machine: bytes of the kit, keys and time in; what to ask and what was learned out.
 
 It owns no port, clock or window: whoever runs it (the terminal, the window, a test) feeds it, shows its `view` and
-keeps what it has `learned`. A step ends by itself when its strokes were played and their ghosts have had time to come.
+keeps what it has `learned`. A step ends by itself when its strokes were played and their crosstalk had time to come.
 """
 
 from dataclasses import dataclass

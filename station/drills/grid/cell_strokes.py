@@ -17,7 +17,7 @@ from station.core.pieces import CYMBALS, Articulation, Dynamic, Limb, Ornament, 
 from station.core.toml_places import KeyPath
 from station.drills.grid.grid import Bar
 from station.drills.grid.swing import Swing
-from station.drills.grid.tab_symbols import CHOKE, HOLD, LETTERS, RESTS, TabSymbol, family_of, not_a_letter
+from station.drills.grid.tab_symbols import CHOKE, HOLD, RESTS, SYMBOLS, TabSymbol, family_of, not_a_letter
 from station.music.score import NOTE_DTYPE
 
 FLAM_LEAD_MS = 30.0
@@ -104,7 +104,7 @@ def line_strokes(
     bars: Sequence[Bar], bar_places: Sequence[tuple[int, int]], line: "GridLine", report: Callable[[int, str], None]
 ) -> list[WrittenCell]:
     """The strokes of one line; `bar_places` are each bar's start and length in ticks, faults go to `report`."""
-    letters = LETTERS[family_of(line.piece)]
+    symbols = SYMBOLS[family_of(line.piece)]
     strokes: list[WrittenCell] = []
     open_end: CellPlace | None = None  # where a buzz that may go on has come to
     for bar, (start, length) in zip(bars, bar_places, strict=False):
@@ -117,8 +117,8 @@ def line_strokes(
             open_end = None
             if cell.letter == CHOKE:
                 _choke(strokes, line.piece, here, cell.char, report)
-            elif cell.letter in letters:
-                letter = letters[cell.letter]
+            elif cell.letter in symbols:
+                letter = symbols[cell.letter]
                 is_buzz = letter.articulation is Articulation.BUZZ
                 open_end = end if is_buzz else None
                 strokes.append(

@@ -6,7 +6,7 @@ from itertools import chain
 from typing import Any
 
 from station.core.pieces import Limb, Piece, word
-from station.core.schema import Field, Fields, Reader, anything, number, optional, shown, taken, title, whole
+from station.core.schema import Field, Fields, Reader, anything, checked_values, number, optional, shown, title, whole
 from station.core.toml_faults import Faults, wrong
 from station.core.toml_places import KeyPath
 from station.core.units import PPQ
@@ -139,12 +139,12 @@ def timing_of(values: Mapping[str, Any], before: CellTiming, faults: Faults) -> 
 def read_grid(raw: object, path: KeyPath, before: "CellTiming | GridSection", faults: Faults) -> GridSection:
     """One grid after `before`: the lesson's own timing, or the section that precedes it."""
     start = before.end_tick if isinstance(before, GridSection) else 0
-    values, found = taken(raw, _GRID, "line")
+    values, found = checked_values(raw, _GRID, "line")
     timing = timing_of(values, before.timing if isinstance(before, GridSection) else before, found)
     lines = _lines(values, path, found)
     if not lines and not found:
         found.add((), 'no line to play; expected one such as snare = "----o-------o---"', at_key=True)
-    faults.take(found, *path)
+    faults.merge(found, *path)
     _no_twins(lines, faults)
     under = values[STICKING]
     sticking = None if under is None else _RawLine(GridLine(Piece.SNARE, Limb.UNKNOWN, (*path, STICKING)), under)
@@ -167,8 +167,8 @@ def _lines(values: Mapping[str, Any], path: KeyPath, faults: Faults) -> list[_Ra
     for name, limb in LIMB_TABLES.items():
         if values[name] is None:
             continue
-        own, inner = taken(values[name], _LIMB_LINES[name], "line")
-        faults.take(inner, name)
+        own, inner = checked_values(values[name], _LIMB_LINES[name], "line")
+        faults.merge(inner, name)
         found += [
             _RawLine(GridLine(piece, limb, (*path, name, key)), own[key])
             for key, piece in LINE_PIECES.items()

@@ -73,7 +73,7 @@ _DRUM = {
     **_both("r", Zone.RIM, Articulation.RIM_SHOT),
 }
 
-LETTERS: Mapping[TabFamily, Mapping[str, TabSymbol]] = MappingProxyType(
+SYMBOLS: Mapping[TabFamily, Mapping[str, TabSymbol]] = MappingProxyType(
     {
         TabFamily.KICK: {**_both("o", Zone.HEAD), **_ghost(Zone.HEAD)},
         TabFamily.SNARE: {**_DRUM, **_both("x", Zone.RIM, Articulation.CROSS_STICK)},
@@ -126,7 +126,7 @@ def family_of(piece: Piece) -> TabFamily:
 
 
 LETTER_OF: Mapping[TabFamily, Mapping[TabSymbol, str]] = MappingProxyType(
-    {family: {letter: char for char, letter in table.items()} for family, table in LETTERS.items()}
+    {family: {letter: char for char, letter in table.items()} for family, table in SYMBOLS.items()}
 )
 
 ALIASES: Mapping[str, Piece] = MappingProxyType({"crash": Piece.CRASH_1, "floor_tom": Piece.FLOOR_TOM_1})
@@ -177,5 +177,5 @@ _HINTS: Mapping[tuple[TabFamily, str], str] = MappingProxyType(
 def not_a_letter(char: str, family: TabFamily) -> str:
     """The fault of a character that this family does not know, with those that it does."""
     hint = _HINTS.get((family, char))
-    known = " ".join([*LETTERS[family], "-"])
+    known = " ".join([*SYMBOLS[family], "-"])
     return f"{char!r} is no letter for a {family.value} line{f' ({hint})' if hint else ''}; expected one of {known}"

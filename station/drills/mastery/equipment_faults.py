@@ -2,7 +2,7 @@
 
 Slowing down helps with neither, so that the policy must tell them from the student's own. A lean as wide and steady as
 no habit is latency. Two pads that answer for each other are cables (or a wrong kit file): from then on their hits are
-judged as if they were right, and the student is told. If that was an error the pads answer for each other again, and
+judged as if they were right, and the student reads so. If that was an error the pads answer for each other again, and
 all is as before.
 """
 
@@ -28,9 +28,9 @@ class Equipment:
     swap: Swap | None = None
 
     def after(self, result: PassResult, rules: Rules) -> tuple["Equipment", str | None]:
-        """After one more pass, and what the student should be told now, in one sentence."""
+        """After one more pass, and what the student should read now, in one sentence."""
         leans = result.lean_ms is not None and abs(result.lean_ms) >= rules.calibrate_ms
-        known = replace(self, answers=_together(self.answers, result.answers), leaned=self.leaned + 1 if leans else 0)
+        known = replace(self, answers=_merged(self.answers, result.answers), leaned=self.leaned + 1 if leans else 0)
         found = _swap(known.answers, rules)
         if found is not None:
             undone = found == self.swap
@@ -50,7 +50,7 @@ def rewired(performance: Performance, swap: Swap | None) -> Performance:
     return Performance.from_array(hits, performance.chokes)
 
 
-def _together(old: tuple[StruckFor, ...], new: tuple[StruckFor, ...]) -> tuple[StruckFor, ...]:
+def _merged(old: tuple[StruckFor, ...], new: tuple[StruckFor, ...]) -> tuple[StruckFor, ...]:
     counts = Counter({(row.written, row.played): row.count for row in old})
     counts.update({(row.written, row.played): row.count for row in new})
     return tuple(StruckFor(written, played, count) for (written, played), count in sorted(counts.items()))

@@ -132,13 +132,13 @@ def _asked(state: ItemState, why: str, rules: Rules) -> ItemState:
 def _varied(state: ItemState, why: str, rules: Rules) -> ItemState:
     """A stable item: a little faster, a little slower, on the other cymbal if it may, as written, and again."""
     turns = [(rules.vary_pct, "a little faster"), (-rules.vary_pct, "a little slower"), (0.0, "")]
-    if state.item.can_revoice:
+    if state.item.can_reorchestrate:
         turns.insert(2, (0.0, "on the other cymbal"))
     off_pct, how = turns[state.varied % len(turns)]
     if not how:
         return _with(replace(state, varied=state.varied + 1), PassKind.WHOLE, state.pct, why, rules)
     varied = _with(state, PassKind.VARIATION, TOP_PCT + off_pct, f"{why}; now {how}, so that it holds anywhere", rules)
-    return replace(varied, step=replace(varied.step, revoiced=off_pct == 0.0))
+    return replace(varied, step=replace(varied.step, reorchestrated=off_pct == 0.0))
 
 
 def _with(state: ItemState, kind: PassKind, pct: float, why: str, rules: Rules) -> ItemState:

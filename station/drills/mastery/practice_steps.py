@@ -13,7 +13,7 @@ from station.core.units import NS_PER_S, PPQ
 from station.drills.lesson import Lesson
 from station.drills.mastery.feedback_fading import Feedback
 from station.drills.mastery.rules import Rules
-from station.drills.orchestration import can_revoice
+from station.drills.orchestration import can_reorchestrate
 
 
 class PassKind(StrEnum):
@@ -44,7 +44,7 @@ class PracticeItem:
 
     `bar_notes` and `bar_s` have the strokes and the length in seconds at the target tempo of each bar. `target_bpm`
     counts quarter notes, `beat_quarters` says how many of them make the beat that a student counts, and
-    `can_revoice` whether there is timekeeping that can move to another cymbal.
+    `can_reorchestrate` whether there is timekeeping that can move to another cymbal.
     """
 
     name: str
@@ -53,7 +53,7 @@ class PracticeItem:
     bar_notes: tuple[int, ...]
     bar_s: tuple[float, ...]
     beat_quarters: float = 1.0
-    can_revoice: bool = False
+    can_reorchestrate: bool = False
 
     @property
     def bars(self) -> tuple[int, int]:
@@ -80,9 +80,9 @@ class PracticeItem:
 class PracticeStep:
     """The next pass: `bars` (first, last) played `repeats` times at `tempo_bpm` (quarter notes), `pct` of the target.
 
-    `why` is one sentence. `notice` is what the student should be told once besides, such as a fault of the
+    `why` is one sentence. `notice` is what the student should read once besides, such as a fault of the
     equipment. `gap` is how many bars the click sounds and is silent in turn, None where it sounds throughout.
-    `revoiced` whether the timekeeping moves to the other cymbal.
+    `reorchestrated` whether the timekeeping moves to the other cymbal.
     """
 
     kind: PassKind
@@ -94,7 +94,7 @@ class PracticeStep:
     why: str
     notice: str | None = None
     gap: tuple[int, int] | None = None
-    revoiced: bool = False
+    reorchestrated: bool = False
 
     @property
     def is_probe(self) -> bool:
@@ -120,5 +120,5 @@ def item_of(lesson: Lesson, bars: tuple[int, int] | None = None) -> PracticeItem
         bar_notes=tuple(notes.tolist()),
         bar_s=tuple((np.diff(starts) / NS_PER_S).tolist()),
         beat_quarters=lesson.beat_ticks / PPQ,
-        can_revoice=can_revoice(lesson.score),
+        can_reorchestrate=can_reorchestrate(lesson.score),
     )

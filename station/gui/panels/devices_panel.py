@@ -228,15 +228,15 @@ def _live(lines: Iterable[MonitorLine]) -> None:
 
 def _is_quiet(line: MonitorLine) -> bool:
     """Whether it is no stroke and nothing else that the station plays by."""
-    return line.ghost is not None or line.event is None
+    return line.false_trigger is not None or line.event is None
 
 
 def cells(line: MonitorLine) -> tuple[str, str, str, str]:
     """A line in four cells: piece and zone; velocity; openness, position or why it is no stroke; raw bytes."""
-    event = line.ghost.hit if line.ghost is not None else line.event
+    event = line.false_trigger.hit if line.false_trigger is not None else line.event
     match event:
         case Hit():
-            notes = [_WHY[line.ghost.why]] if line.ghost is not None else []
+            notes = [_WHY[line.false_trigger.why]] if line.false_trigger is not None else []
             notes += [] if event.openness is None else [f"open {event.openness:.2f}"]
             notes += [] if event.position is None else [f"at {event.position:.2f}"]
             return f"{piece_name(event.piece)}, {word(event.zone)}", str(event.velocity), ", ".join(notes), line.raw

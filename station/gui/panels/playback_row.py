@@ -67,13 +67,13 @@ class PlaybackRow:
     def _previous(self, before: PreviousSession | str, row_bar: int, row: FlowRow) -> None:
         if isinstance(before, str):
             imgui.begin_disabled()
-            self._button(f"Yesterday{PREVIOUS_LABEL}", Whose.EARLIER, row_bar, row)
+            self._button(f"Yesterday{PREVIOUS_LABEL}", Whose.PREVIOUS, row_bar, row)
             imgui.end_disabled()
             theme.tooltip(f"{before[0].upper()}{before[1:]}.")
             return
         day = f"{before.day[0].upper()}{before.day[1:]}"
         imgui.begin_disabled(not before.has_bar(self.bar))
-        self._button(f"{day}{PREVIOUS_LABEL}", Whose.EARLIER, row_bar, row)
+        self._button(f"{day}{PREVIOUS_LABEL}", Whose.PREVIOUS, row_bar, row)
         imgui.end_disabled()
         when = f"{day} at {before.when:%H:%M}"
         said = "your last pass over the bar, as translucent sticks" if before.has_bar(self.bar) else "not this bar"

@@ -22,6 +22,7 @@ from station.core.schema import (
     Reader,
     flag,
     key_of,
+    members_by_label,
     needed,
     number,
     one_of,
@@ -32,7 +33,6 @@ from station.core.schema import (
     said,
     table_of,
     text,
-    words_of,
 )
 from station.core.shipped import find_shipped, shipped
 from station.core.toml_faults import wrong
@@ -123,7 +123,7 @@ class Kit:
         return self.pieces[self.stand_in(piece)].target(zone, limb)
 
 
-_PIECES = words_of(Piece)
+_PIECES = members_by_label(Piece)
 _MAX_TILT_DEG = 80.0
 _MAX_LENGTH_M = 3.0
 _LEAST_APART_M, _MOST_INSIDE_M = 0.04, 0.03
@@ -165,7 +165,7 @@ _PIECE: Fields = {
     "tilt_y_deg": Field(_TILT, 0.0, called="tilt_y_rad"),
     "wrist_radius_m": Field(number(0.05, 1.0), 0.40),
     "wrist_height_m": Field(number(-0.5, 0.5), 0.06),
-    "zones": Field(table_of(key_of(words_of(Zone), "zone"), said(_SPOT)), {}),
+    "zones": Field(table_of(key_of(members_by_label(Zone), "zone"), said(_SPOT)), {}),
 }
 _PEDAL: Fields = {
     "heel_m": needed(_LENGTHS, "heel_m = [right, forward, up] in metres"),

@@ -17,6 +17,7 @@ from station.core.schema import (
     Reader,
     key_of,
     list_of,
+    members_by_label,
     number,
     one_of,
     optional,
@@ -27,7 +28,6 @@ from station.core.schema import (
     table_of,
     text,
     whole,
-    words_of,
 )
 from station.core.shipped import find_shipped, shipped
 from station.core.toml_faults import wrong
@@ -92,7 +92,7 @@ def _points(control: str) -> Reader[Automation]:
     return read_points
 
 
-_PIECES = words_of(Piece)
+_PIECES = members_by_label(Piece)
 FIELDS: Fields = {
     "title": optional(text),
     **{name: optional(number(*range_of(name))) for name in NUMBERS},

@@ -17,11 +17,11 @@ class PadCommands:
     """Hand it every event that may command something; raises `BadInput` for a pause in `settings` that is none."""
 
     def __init__(self, settings: Settings, score: Score) -> None:
-        self._wish = parse_pause(settings.pause, setting_source("pause"))
+        self._pause = parse_pause(settings.pause, setting_source("pause"))
         self._kicks_start = settings.kicks_start
-        self._foot = FootSwitch(self._wish.switches)
+        self._foot = FootSwitch(self._pause.switches)
         self._score: Score | None = None
-        self._kicks, self._together = TwoKicks(), PadsTogether((), score)
+        self._kicks, self._pad_pairs = TwoKicks(), PadsTogether((), score)
         self.practise(score)
 
     def practise(self, score: Score) -> None:
@@ -29,22 +29,22 @@ class PadCommands:
         if score is self._score:
             return
         self._score = score
-        self._kicks, self._together = TwoKicks(), PadsTogether(self._wish.pairs, score)
+        self._kicks, self._pad_pairs = TwoKicks(), PadsTogether(self._pause.pairs, score)
 
     def forget(self) -> None:
         """What was struck so far means nothing."""
         self._kicks.forget()
-        self._together.forget()
+        self._pad_pairs.forget()
 
     def starts(self, event: EngineEvent) -> bool:
         """Whether two kicks are complete."""
-        return self._kicks_start and isinstance(event, Hit) and self._kicks.take(event)
+        return self._kicks_start and isinstance(event, Hit) and self._kicks.feed(event)
 
     def pauses(self, event: EngineEvent) -> Sequence[Hit] | None:
         """The strokes that ask for a pause, none where a switch does; None where nothing does."""
         if isinstance(event, Switched):
-            return () if self._foot.take(event) else None
-        return (self._together.take(event) or None) if isinstance(event, Hit) else None
+            return () if self._foot.feed(event) else None
+        return (self._pad_pairs.feed(event) or None) if isinstance(event, Hit) else None
 
     def asks(self, event: EngineEvent, score: Score, is_paused: bool) -> Sequence[Hit] | None:
         """The strokes with which `event` asks a session of `score` to pause or go on; None where it asks nothing."""

@@ -26,7 +26,7 @@ class TwoKicks:
     def __init__(self) -> None:
         self._kick_ns: int | None = None
 
-    def take(self, hit: Hit) -> bool:
+    def feed(self, hit: Hit) -> bool:
         """Take a hit; returns whether it is the second of two kicks."""
         before_ns, self._kick_ns = self._kick_ns, None
         if hit.piece is not Piece.KICK:
@@ -60,7 +60,7 @@ class PadsTogether:
         self._pairs = [pair for pair in pairs if not is_written(pair, score)]
         self._last: dict[Piece, Hit] = {}
 
-    def take(self, hit: Hit) -> tuple[Hit, ...]:
+    def feed(self, hit: Hit) -> tuple[Hit, ...]:
         """Take a hit; returns the strokes of the pair that it completes, nothing where it completes none."""
         self._last[hit.piece] = hit
         near = {piece for piece, last in self._last.items() if abs(hit.at_ns - last.at_ns) <= AT_ONCE_NS}
@@ -88,13 +88,13 @@ WRITTEN_NEAR_NS = 3 * AT_ONCE_NS
 
 
 class FootSwitch:
-    """Presses of `switches`; one that is told again and again is pressed once."""
+    """Presses of `switches`; one that repeats itself is pressed once."""
 
     def __init__(self, switches: Collection[str]) -> None:
         self._switches = switches
         self._last_ns: dict[str, int] = {}
 
-    def take(self, event: Switched) -> bool:
+    def feed(self, event: Switched) -> bool:
         """Take an event; returns whether one of the switches was pressed."""
         before_ns = self._last_ns.get(event.switch)
         self._last_ns[event.switch] = event.at_ns

@@ -15,7 +15,7 @@ class PauseLearning:
     def __init__(self) -> None:
         self._last: Hit | None = None
 
-    def take(self, event: EngineEvent) -> str | None:
+    def feed(self, event: EngineEvent) -> str | None:
         """What `event` says, with the one before it where it is a stroke; None while that is nothing."""
         if isinstance(event, Switched):
             return event.switch

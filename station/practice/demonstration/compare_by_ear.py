@@ -1,4 +1,4 @@
-"""A bar of a session to be heard: as the teacher plays it, as the student did, and as he did in an earlier session.
+"""A bar of a session to be heard: as the teacher plays it, as the student did, and as in an earlier session.
 
 All begin alike, to the click, a breath before the bar, so that a stroke that came early is heard. A stroke of the
 student's belongs to the bar of the note that it answers, else to the bar of its own time. Those of an earlier session
@@ -17,7 +17,7 @@ from station.practice.records.previous_session import PreviousSession
 from station.practice.session.adaptation import lesson_bars
 from station.practice.session.click_pattern import PLAIN, click_cues
 from station.practice.session.listening import RING_NS, Listening, played_cues, stretch
-from station.practice.session.plan import demonstration_cues
+from station.practice.session.plan import demonstration_cues, moved_by
 from station.practice.session.session import SessionResult
 
 BREATH_NS = 250 * NS_PER_MS
@@ -25,11 +25,11 @@ BREATH_NS = 250 * NS_PER_MS
 
 
 class Whose(Enum):
-    """Who is heard: `EARLIER` is the student in an earlier session."""
+    """Who is heard: `PREVIOUS` is the student in an earlier session."""
 
     TEACHER = "teacher"
     STUDENT = "student"
-    EARLIER = "earlier"
+    PREVIOUS = "earlier"
 
 
 def bar_by_ear(result: SessionResult, bar: int, played: Performance | None) -> Listening:
@@ -38,8 +38,8 @@ def bar_by_ear(result: SessionResult, bar: int, played: Performance | None) -> L
     from_ns = start_ns - BREATH_NS
     pattern = replace(result.plan.click or PLAIN, gap=None)
     one = result.score.bars(bar, bar)
-    clicks = _moved(click_cues(one.tempo_map, one.end_tick, pattern), start_ns)
-    strokes = _moved(demonstration_cues(one), start_ns) if played is None else played_cues(played)
+    clicks = moved_by(click_cues(one.tempo_map, one.end_tick, pattern), start_ns)
+    strokes = moved_by(demonstration_cues(one), start_ns) if played is None else played_cues(played)
     cues = np.concatenate([clicks, strokes])
     cues = stretch(cues[np.argsort(cues["at_ns"], kind="stable")], from_ns, end_ns + RING_NS)
     return Listening(cues, end_ns - from_ns + RING_NS, from_ns)
@@ -57,11 +57,11 @@ def students_bar(result: SessionResult, bar: int) -> Performance:
     return Performance.from_array(mine.copy(), grabbed.copy())
 
 
-def earlier_bar(result: SessionResult, bar: int, earlier: PreviousSession) -> Performance:
+def previous_bar(result: SessionResult, bar: int, previous: PreviousSession) -> Performance:
     """What was played earlier in the lesson's bar that is `bar`, from 0, of the result's score, laid over it."""
     tempo_map = result.score.tempo_map
     start = tempo_map.bar_start(bar)
-    at, strokes = earlier.in_bar(lesson_bars(result.plan)[bar] + 1)
+    at, strokes = previous.in_bar(lesson_bars(result.plan)[bar] + 1)
     ticks = start + np.round((at[:, 0] - 1) * tempo_map.meter_at(start).beat_ticks).astype(np.int64)
     strokes = strokes.copy()
     strokes["at_ns"] = tempo_map.ns_at(ticks) + np.round(at[:, 1] * NS_PER_S).astype(np.int64)
@@ -77,9 +77,3 @@ def _span_ns(result: SessionResult, bar: int) -> tuple[int, int]:
 
 def _ticks(result: SessionResult, at_ns: NDArray[np.int64]) -> NDArray[np.int64]:
     return np.asarray(result.score.tempo_map.ticks_at_ns(at_ns), np.int64)
-
-
-def _moved(cues: NDArray[np.void], by_ns: int) -> NDArray[np.void]:
-    moved = cues.copy()
-    moved["at_ns"] += by_ns
-    return moved

@@ -147,7 +147,7 @@ class SongPlayer:
 
     # --- what it does by itself --------------------------------------------------------------------------------------
 
-    def settled(self, now_ns: int) -> "SongPlayer":
+    def stopped_at_end(self, now_ns: int) -> "SongPlayer":
         """The same, or stopped where it has come to an end of the song."""
         if not self.playing or self.wind or self.loop is not None:
             return self

@@ -1,4 +1,4 @@
-"""A session in real time without a window: the engine process plays and hears, a runner moves it on, a text is told.
+"""A session in real time without a window: the engine process plays and hears, a runner moves it on, a text shows it.
 
 The capture is written by the engine as the bytes come, so that nothing that follows can lose a hit.
 """
@@ -20,12 +20,12 @@ from station.practice.session.runner import SessionRunner
 from station.practice.session.session import Session, SessionResult
 
 POLL_S = 0.02
-"""How long to wait for an event before telling the session the time; our choice, no verdict depends on it."""
+"""How long to wait for an event before handing the session the time; our choice, no verdict depends on it."""
 
 LAST_WORDS_S = 2.0
 """How long to wait for the engine to say that the capture is closed; our choice."""
 
-Tell = Callable[[Session, tuple[Judgement, ...]], None]
+Show = Callable[[Session, tuple[Judgement, ...]], None]
 
 
 class EngineLink(Protocol):
@@ -74,23 +74,23 @@ class LiveOutcome:
 
 
 @dataclass(frozen=True, slots=True)
-class Room:
+class LiveSetup:
     """Where a session is played: its `engine` and `clock`, who hears every round of judgements, who may end it.
 
-    A `tell` that fails costs no session: `telling` remembers it.
+    A `show` that fails costs no session: `telling` remembers it.
     """
 
     engine: EngineLink
     clock: Clock
-    tell: Tell
+    show: Show
     telling: Telling = field(default_factory=Telling)
     asked: EndAsked = field(default_factory=EndAsked)
 
     def step(self, runner: SessionRunner) -> None:
-        """Take in what the engine has heard, move on to the present, tell of it and do what it asks for."""
+        """Take in what the engine has heard, move on to the present, show it and do what it asks for."""
         events = self.engine.events(POLL_S)
         update = runner.update(self.clock.now_ns(), events)
-        self.telling.attempt(self.tell, update.session, update.judged)
+        self.telling.attempt(self.show, update.session, update.judged)
         for command in update.commands:
             self.engine.send(command)
 
@@ -101,22 +101,22 @@ class Room:
         return self.telling.fault("not all could be shown while you played, the session is kept")
 
 
-def practise_live(room: Room, runner: SessionRunner, capture: Path) -> LiveOutcome:
+def practise_live(setup: LiveSetup, runner: SessionRunner, capture: Path) -> LiveOutcome:
     """Play what `runner` has to play until it is over, the end is `asked` for, or the engine dies.
 
     Raises `DeviceError` if the engine dies before the transport runs: then there is nothing to report.
     """
     try:
-        begin(room.engine, runner, capture)
-        while not runner.over and not room.asked:
-            room.step(runner)
+        begin(setup.engine, runner, capture)
+        while not runner.over and not setup.asked:
+            setup.step(runner)
     except DeviceError as error:
         if not runner.started:
             raise
         fault: StationError | None = error
     else:
-        fault = end(room.engine, runner)
-    return LiveOutcome(runner.finish(), fault or room.fault(runner.heard), room.asked.is_attended)
+        fault = end(setup.engine, runner)
+    return LiveOutcome(runner.finish(), fault or setup.fault(runner.heard), setup.asked.is_attended)
 
 
 def begin(engine: EngineLink, listener: Listener, capture: Path | None) -> None:

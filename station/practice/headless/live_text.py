@@ -47,25 +47,25 @@ class LiveText:
         self._paused = False
         self._session: Session | None = None
         self._segment: Segment | None = None
-        self._told = 0
+        self._shown = 0
 
-    def tell(self, session: Session, judged: tuple[Judgement, ...]) -> None:
+    def show(self, session: Session, judged: tuple[Judgement, ...]) -> None:
         """Show what is new in `session`."""
         if session is not self._session:
-            self._session, self._segment, self._told = session, None, 0
-        notices = session.heard.notices[self._told :]
-        self._told += len(notices)
+            self._session, self._segment, self._shown = session, None, 0
+        notices = session.heard.notices[self._shown :]
+        self._shown += len(notices)
         for notice in notices:
             self._write(f"\n{notice}")
-        self._tell_segment(session)
-        marks = "".join(mark_of(verdict, session.windows) for verdict in session.told(judged))
+        self._show_segment(session)
+        marks = "".join(mark_of(verdict, session.windows) for verdict in session.shown(judged))
         if marks:
             self._write(marks)
         if session.paused and not self._paused:
             self._write(f"\n{self._paused_words}\n")
         self._paused = session.paused
 
-    def _tell_segment(self, session: Session) -> None:
+    def _show_segment(self, session: Session) -> None:
         state = session.state()
         if state.transport_ns is None or state.segment == self._segment:
             return
@@ -75,6 +75,6 @@ class LiveText:
         self._write(f"\n{session.plan.words(state.segment):14}")
 
     def last_words(self, first: Session) -> None:
-        """Show what is still untold of the session that ran last, `first` where none did, and end the line."""
-        self.tell(self._session or first, ())
+        """Show what is not yet shown of the session that ran last, `first` where none did, and end the line."""
+        self.show(self._session or first, ())
         self._write("\n")

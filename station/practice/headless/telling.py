@@ -21,11 +21,11 @@ class Telling:
         except Exception as failure:  # whatever it is, a session is worth more than its words
             self.failure = self.failure or failure
 
-    def fault(self, untold: str) -> DeviceError | None:
-        """The failure in one line that begins with what stayed `untold`; None where nothing failed."""
+    def fault(self, unshown: str) -> DeviceError | None:
+        """The failure in one line that begins with what stayed `unshown`; None where nothing failed."""
         if self.failure is None:
             return None
         reason = " ".join((getattr(self.failure, "strerror", None) or str(self.failure)).split())
         if not isinstance(self.failure, OSError | StationError):
             reason = f"{type(self.failure).__name__}: {reason}"
-        return DeviceError(f"{untold}: {reason}")
+        return DeviceError(f"{unshown}: {reason}")

@@ -1,4 +1,4 @@
-"""What a session that followed the student tells of its passes, and what comes next; keys are added to the report."""
+"""The passes of a session that followed the student, and what comes next; keys are added to the report."""
 
 from station.drills.mastery.agenda import Turn
 from station.drills.mastery.mastery_state import ItemState

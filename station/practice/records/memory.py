@@ -69,22 +69,22 @@ class Memory:
 
 @dataclass(frozen=True, eq=False)
 class Remembered:
-    """Practice that follows a student, `memory` where it is remembered (None: nowhere), `fault` a line to be told."""
+    """Practice that follows a student, `memory` where it is remembered (None: nowhere), `fault` a line for the user."""
 
     adaptation: Adaptation
     memory: Memory | None = None
     fault: str | None = None
 
     @classmethod
-    def of(cls, lesson: Lesson, wishes: PlanOptions, today: date, memory: Memory | None) -> "Remembered":
+    def of(cls, lesson: Lesson, options: PlanOptions, today: date, memory: Memory | None) -> "Remembered":
         """Practice of `lesson` from what `memory` holds; raises `BadInput` and `DeviceError` as its parts do."""
         known, fault = memory.recall() if memory is not None else (None, None)
-        return cls(Adaptation(lesson, wishes, today, known), memory, fault)
+        return cls(Adaptation(lesson, options, today, known), memory, fault)
 
     def next_turn(self) -> Turn | None:
         """What the student should practise next of all that is remembered; None where nothing is.
 
-        A file that cannot be read is told of when its own lesson is practised.
+        A file that cannot be read is reported when its own lesson is practised.
         """
         if self.memory is None:
             return None

@@ -66,7 +66,7 @@ def day_in_words(day: date, today: date) -> str:
     return {0: "earlier", 1: "yesterday"}.get((today - day).days) or f"{day.day} {day:%b}"
 
 
-def find_earlier(folder: Path, lesson: str) -> PreviousSession | str:
+def find_previous(folder: Path, lesson: str) -> PreviousSession | str:
     """The session to compare with that in `folder`, of the same student; or why there is none to be had."""
     started = _started(folder)
     if started is None:

@@ -27,7 +27,7 @@ def cut_off(sessions: Path, student: str) -> list[Path]:
     `sessions` is the folder of all sessions. One that runs in another program right now is among them.
     """
     captures = sorted((sessions / folder_name(student)).glob(f"*/{CAPTURE_NAME}"), reverse=True)
-    without = [path.parent for path in captures if not _is_told(path.parent)]
+    without = [path.parent for path in captures if not _is_reported(path.parent)]
     return [folder for folder in without[:MOST_READ] if _is_worth_it(folder / CAPTURE_NAME)]
 
 
@@ -55,7 +55,7 @@ def recovered(capture: Path) -> SessionResult:
     return whole(results, (min(first for first, _ in bars), max(last for _, last in bars)))
 
 
-def _is_told(folder: Path) -> bool:
+def _is_reported(folder: Path) -> bool:
     return (folder / DOCUMENT_NAME).exists() or (folder / TAKE_NAME).exists()
 
 
@@ -67,4 +67,4 @@ def _is_worth_it(capture: Path) -> bool:
         kinds = {record.kind for record in read_capture(capture).records}
     except (StationError, OSError):
         return False
-    return RecordKind.REMARK in kinds and bool(kinds & {RecordKind.BYTES, RecordKind.STROKE})
+    return RecordKind.ANNOTATION in kinds and bool(kinds & {RecordKind.BYTES, RecordKind.STROKE})

@@ -1,8 +1,8 @@
 """A session judged again from its capture alone: the same strokes, pauses and passes give the same judgements.
 
 The capture's bytes go through the decoders again, and a session of the same plan hears what comes of them; what the
-session of the day said of itself (`practice.remarks`) takes its place among the strokes. A pass that was refused in its
-count-in was judged by nobody, and is left out here too. Free takes, and captures from before there were remarks, hold
+session of the day said of itself (`session.event_log`) takes its place among the strokes. A pass that was refused in
+its count-in was judged by nobody, and is left out here too. Free takes, and captures from before there was a log, hold
 no session.
 """
 
@@ -25,7 +25,7 @@ from station.scoring.report.assessment_document import Json
 def judge_again(capture: Capture) -> list[Session]:
     """The sessions that `capture` holds, in order, each as it was when it ended.
 
-    Practice that follows the student has one a pass. Raises `BadInput` where a record or a remark cannot be read.
+    Practice that follows the student has one a pass. Raises `BadInput` where a record or a log text cannot be read.
     """
     return RejudgedSessions(replay_all(capture)).sessions(capture.records[-1].at_ns if capture.records else 0)
 
@@ -35,7 +35,7 @@ class RejudgedSessions:
 
     def __init__(self, entries: Iterable[Entry]) -> None:
         self._entries = list(entries)
-        self._due = deque(self._remarks())
+        self._due = deque(self._log_texts())
         self._done: list[Session] = []
         self._session: Session | None = None
         self._hits: list[Hit] = []
@@ -43,8 +43,8 @@ class RejudgedSessions:
         self._output: str | None = None
         self._is_ended = False
 
-    def _remarks(self) -> Iterable[tuple[int, LoggedText, Said | None]]:
-        """Every remark, and the part of the capture in which it stands: the count of strokes begins anew in each."""
+    def _log_texts(self) -> Iterable[tuple[int, LoggedText, Said | None]]:
+        """Every text of the log, with the part of the capture that it is in: each part counts its strokes from 0."""
         part = 0
         for entry in self._entries:
             part += isinstance(entry, CaptureBegan)
@@ -54,7 +54,7 @@ class RejudgedSessions:
     def sessions(self, until_ns: int) -> list[Session]:
         """All of them; one that nobody ended, for the power went, lasts `until_ns`."""
         for entry in self._entries:
-            self._take(entry)
+            self._handle(entry)
         if self._session is not None:
             if not self._is_ended:
                 self._session.advance(until_ns)
@@ -62,13 +62,13 @@ class RejudgedSessions:
             self._session = None
         return self._done
 
-    def _take(self, entry: Entry) -> None:
+    def _handle(self, entry: Entry) -> None:
         match entry:
             case CaptureBegan():
                 self._part, self._strokes = self._part + 1, 0
             case LoggedText():
-                if any(remark is entry for _, remark, _ in self._due):  # else it was due before, among the strokes
-                    while self._obey_next() is not entry:
+                if any(logged is entry for _, logged, _ in self._due):  # else it was due before, among the strokes
+                    while self._apply_next() is not entry:
                         pass
             case TransportZero(at_ns):
                 self._hand_over(Started(at_ns, self._output))
@@ -77,7 +77,7 @@ class RejudgedSessions:
                 self._hand_over(Sounding(output))
             case Hit() | Choke():
                 while self._due and self._due[0][0] == self._part and self._is_due(self._due[0][2]):
-                    self._obey_next()
+                    self._apply_next()
                 if isinstance(entry, Hit):
                     self._hits.append(entry)
                 self._hand_over(entry)
@@ -92,13 +92,13 @@ class RejudgedSessions:
         if self._session is not None:
             self._session.handle(event)
 
-    def _obey_next(self) -> LoggedText:
-        _, remark, said = self._due.popleft()
+    def _apply_next(self) -> LoggedText:
+        _, logged, said = self._due.popleft()
         if isinstance(said, PassBegan):
-            self._begin(said, remark.at_ns)
+            self._begin(said, logged.at_ns)
         elif said is not None and self._session is not None:
-            self._obey(self._session, said)
-        return remark
+            self._apply(self._session, said)
+        return logged
 
     def _begin(self, said: PassBegan, at_ns: int) -> None:
         before = self._session
@@ -110,7 +110,7 @@ class RejudgedSessions:
         self._session = Session(said.plan, said.latency, waits=said.waits)
         self._hand_over(Sounding(self._output))
 
-    def _obey(self, session: Session, said: Paused | WentOn | Ended) -> None:
+    def _apply(self, session: Session, said: Paused | WentOn | Ended) -> None:
         match said:
             case Paused(_, now_ns, command):
                 session.advance(now_ns)
@@ -122,7 +122,7 @@ class RejudgedSessions:
                 self._is_ended = True
 
 
-# --- told -------------------------------------------------------------------------------------------------------------
+# --- in words ---------------------------------------------------------------------------------------------------------
 
 
 def session_document(result: SessionResult) -> dict[str, Json]:

@@ -1,7 +1,7 @@
-"""A session's `pairs.csv`: the table of `scoring.pairs`, and where in the lesson and how each stroke was played.
+"""A session's `pairs.csv`: the table of `report.pairs_table`, and where in the lesson and how each stroke was played.
 
 Bar, beat and pass are those of the note, of a stroke that answers none its own; so that the strokes can be laid over
-another session of the lesson, at whatever tempo (`practice.earlier`).
+another session of the lesson, at whatever tempo (`records.previous_session`).
 """
 
 import csv

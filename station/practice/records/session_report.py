@@ -20,7 +20,7 @@ from station.devices.mapping.device_file import own_kit
 from station.drills.lesson import Goals
 from station.engine.engine import KEYBOARD
 from station.practice.records.mastery_report import passes_text
-from station.practice.records.what_next import advice_of, what_next
+from station.practice.records.what_next import advice_of, table_in, what_next
 from station.practice.session.adaptation import lesson_bars
 from station.practice.session.session import SessionResult
 from station.scoring.analysis.points import FREE_LEAN_MS, Feel
@@ -131,7 +131,7 @@ def _true_asynchrony_ns(student: "VirtualPerformance") -> NDArray[np.int64]:
 
 def report_text(document: dict[str, Json]) -> str:
     """The report of a session in words."""
-    session = _table(document, "session")
+    session = table_in(document, "session")
     bars, steps = session["bars"], session["next"]
     assert isinstance(bars, list), "the report is ours"
     assert isinstance(steps, list), "the report is ours"
@@ -162,7 +162,7 @@ def _paused(session: dict[str, Json]) -> str:
 
 def _passes(document: dict[str, Json]) -> str:
     """The passes of a session that followed the student, nothing of another."""
-    return f"\n{passes_text(_table(document, 'mastery'))}" if "mastery" in document else ""
+    return f"\n{passes_text(table_in(document, 'mastery'))}" if "mastery" in document else ""
 
 
 def assessment_text(document: dict[str, Json]) -> str:
@@ -176,7 +176,7 @@ def _steps_text(steps: Iterable[str]) -> str:
 
 
 def _figures_text(document: dict[str, Json]) -> str:
-    counts, timing = _table(document, "counts"), _table(document, "timing")
+    counts, timing = table_in(document, "counts"), table_in(document, "timing")
     lines = [
         f"Score {_figure(document['score'], '.0f')} of 100",
         f"Notes {counts['notes']}: {counts['matched']} hit, {counts['misses']} missed,"
@@ -185,7 +185,7 @@ def _figures_text(document: dict[str, Json]) -> str:
     ]
     rows = [
         (piece, group)
-        for piece, group in _table(document, "per_piece").items()
+        for piece, group in table_in(document, "per_piece").items()
         if isinstance(group, dict) and (group["notes"] or group["extras"])  # else only wrong hits landed there
     ]
     if rows:
@@ -199,7 +199,7 @@ _COLUMNS = ("notes", "hit", "missed", "wrong", "extra", "mean ms", "SD ms")
 
 
 def _cells(group: dict[str, Json]) -> list[str]:
-    timing = _table(group, "timing")
+    timing = table_in(group, "timing")
     counted = [str(group[key]) for key in ("notes", "matched", "misses", "wrong_piece", "extras")]
     mean, sd = timing["mean_signed_asynchrony_ms"], timing["sd_asynchrony_ms"]
     return [*counted, _figure(mean, "+.1f"), _figure(sd, ".1f")]
@@ -218,12 +218,6 @@ def _timing_words(timing: dict[str, Json], own_clock: bool) -> str:
 
 _ON_TIME_MS = 1.0
 """Nobody hears a millisecond (HUMANS: 6 ms is just noticeable at best)."""
-
-
-def _table(of: dict[str, Json], key: str) -> dict[str, Json]:
-    table = of[key]
-    assert isinstance(table, dict), "the report is ours"
-    return table
 
 
 def _figure(value: Json, spec: str) -> str:

@@ -1,4 +1,4 @@
-"""What a student is told to do next: the advice, or where nothing stands out what the lesson's goals ask for.
+"""What a student should do next: the advice, or where nothing stands out what the lesson's goals ask for.
 
 Pure: an assessment document and the lesson's goals in, sentences out. Tempi are in quarter notes a minute.
 """
@@ -43,7 +43,7 @@ class _Spread:
         """As the mastery policy has it at this tempo (TEACHING: min(35, max(20, 15 % of the interval)) ms)."""
         interval_ms = usual_interval_ms(lesson.loop_score.at_speed(tempo_bpm / lesson.tempo_bpm))
         total_ms = _numbers(document["timing"]).get("sd_asynchrony_ms", 0.0)
-        about_leans_ms = _pooled_ms(_table(document, "per_piece")) if "per_piece" in document else None
+        about_leans_ms = _pooled_ms(table_in(document, "per_piece")) if "per_piece" in document else None
         limit_ms = Rules().for_lesson(lesson).sd_limit_ms(interval_ms)
         return cls(total_ms if about_leans_ms is None else min(about_leans_ms, total_ms), limit_ms)
 
@@ -51,7 +51,7 @@ class _Spread:
 def _pooled_ms(per_piece: Json) -> float | None:
     """The SD of all strokes, each about the mean of its piece."""
     assert isinstance(per_piece, dict), "the report is ours"
-    timings = [_numbers(_table(group, "timing")) for group in per_piece.values() if isinstance(group, dict)]
+    timings = [_numbers(table_in(group, "timing")) for group in per_piece.values() if isinstance(group, dict)]
     spread = [(t["strokes"] - 1, t["sd_asynchrony_ms"]) for t in timings if "sd_asynchrony_ms" in t]
     freedom = sum(count for count, _ in spread)
     return sqrt(sum(count * sd_ms**2 for count, sd_ms in spread) / freedom) if freedom else None
@@ -83,7 +83,7 @@ def _short_of_goal(document: dict[str, Json], lesson: Lesson, spread: _Spread) -
             f"You play {ceil(abs(lean_ms))} ms {side} on average and the lesson allows {goals.max_lean_ms:g}:"
             " play it again and listen to the click."
         )
-    swing = _numbers(_table(document, "craft").get("swing"))
+    swing = _numbers(table_in(document, "craft").get("swing"))
     if goals.max_swing_error is not None and swing and abs(swing["held"] - swing["written"]) > goals.max_swing_error:
         return (
             f"You swing {swing['held']:.2f}:1, {swing['written']:.2f}:1 is written and the lesson allows"
@@ -98,15 +98,16 @@ def _short_of_goal(document: dict[str, Json], lesson: Lesson, spread: _Spread) -
 def _go_on(lesson: Lesson, tempo_bpm: float, spread: _Spread) -> str:
     below = tempo_bpm < lesson.target_tempo_bpm * (1 - _SAME_TEMPO)
     why = f" (a spread of {ceil(spread.ms)} ms is within the {floor(spread.limit_ms)} of a clean pass)"
-    told = why if spread.ms > Rules().sd_floor_ms else ""  # who lies closer together does not ask
-    return f"Nothing stands out{told}: {'raise the tempo' if below else 'take the next lesson, or raise the tempo'}."
+    reason = why if spread.ms > Rules().sd_floor_ms else ""  # who lies closer together does not ask
+    return f"Nothing stands out{reason}: {'raise the tempo' if below else 'take the next lesson, or raise the tempo'}."
 
 
 _SAME_TEMPO = 0.01
 """Tempi that nobody tells apart (our choice)."""
 
 
-def _table(of: dict[str, Json], key: str) -> dict[str, Json]:
+def table_in(of: dict[str, Json], key: str) -> dict[str, Json]:
+    """The table under `key` of a report, which has one there."""
     table = of[key]
     assert isinstance(table, dict), "the report is ours"
     return table

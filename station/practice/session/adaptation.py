@@ -22,7 +22,7 @@ from station.drills.mastery.pass_facts import PassResult, measure_pass
 from station.drills.mastery.policy import begin, fix_tempo, new_item, next_step, veto
 from station.drills.mastery.practice_steps import PassKind, PracticeStep, item_of
 from station.drills.mastery.rules import Rules
-from station.drills.orchestration import revoiced
+from station.drills.orchestration import reorchestrated
 from station.music.performance import Performance
 from station.music.score import Score
 from station.music.tempo import TempoMap
@@ -59,29 +59,29 @@ class PlayedPass:
 
 @dataclass(eq=False)
 class Adaptation:
-    """The passes of one student over one lesson today: play `plan`, hand `take` its result, until `over`.
+    """The passes of one student over one lesson today: play `plan`, hand `record_pass` its result, until `over`.
 
-    `known` is what the last session left, None for a student who is new to the lesson. A tempo in `wishes` stays.
-    Raises `BadInput` for wishes that cannot be.
+    `known` is what the last session left, None for a student who is new to the lesson. A tempo in `options` stays.
+    Raises `BadInput` for options that cannot be.
     """
 
     lesson: Lesson
-    wishes: PlanOptions
+    options: PlanOptions
     today: date
     known: ItemState | None = None
     rounds: list[PlayedPass] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         self.rules = Rules().for_lesson(self.lesson)
-        first = plan_practice(self.lesson, self.wishes)  # names what cannot be
+        first = plan_practice(self.lesson, self.options)  # names what cannot be
         self.loops = first.passes
         item = item_of(self.lesson, (first.first_bar, first.first_bar + first.section.bar_count - 1))
         if self.known is None or self.known.item != item:
             self.state = new_item(item, self.today, self.rules)
         else:
             self.state = begin(self.known, self.today, self.rules)
-        if self.wishes.tempo_bpm is not None:
-            self.state, _ = fix_tempo(self.state, self.wishes.tempo_bpm, self.rules)
+        if self.options.tempo_bpm is not None:
+            self.state, _ = fix_tempo(self.state, self.options.tempo_bpm, self.rules)
         elif self.state.fixed_pct is not None:
             self.state, _ = fix_tempo(self.state, None, self.rules)
         self.step = self.state.step
@@ -110,7 +110,7 @@ class Adaptation:
         is_enough = bool(self.rounds) and self.step.kind is PassKind.LEAVE
         return len(self.rounds) >= self.loops or has_left or is_stopped or is_enough
 
-    def take(self, result: SessionResult) -> PracticeStep:
+    def record_pass(self, result: SessionResult) -> PracticeStep:
         """Hear the pass that was asked for last; returns the next. What was stopped early is kept and not judged."""
         measured = self._measured(result) if result.complete else None
         self.rounds.append(PlayedPass(self.step, result, measured))
@@ -134,17 +134,17 @@ class Adaptation:
         return ScoreRow(tuple(one.result.score for one in self.rounds))
 
     def _laid_out(self) -> Plan:
-        step, played, click = self.step, bool(self.rounds), self.wishes.click
-        wishes = replace(
-            self.wishes,
+        step, played, click = self.step, bool(self.rounds), self.options.click
+        options = replace(
+            self.options,
             tempo_bpm=min(max(step.tempo_bpm, MIN_TEMPO_BPM), MAX_TEMPO_BPM),
             loops=step.repeats,
             bars=(step.bars[0] + 1, step.bars[1] + 1),
-            demonstrations=0 if played else self.wishes.demonstrations,
+            demonstrations=0 if played else self.options.demonstrations,
             click=click if step.gap is None else replace(click or PLAIN, gap=Gap(*step.gap)),
         )
-        lesson = replace(self.lesson, score=revoiced(self.lesson.score)) if step.revoiced else self.lesson
-        return plan_practice(lesson, wishes)
+        lesson = replace(self.lesson, score=reorchestrated(self.lesson.score)) if step.reorchestrated else self.lesson
+        return plan_practice(lesson, options)
 
     def _measured(self, result: SessionResult) -> PassResult:
         swap = self.state.equipment.swap

@@ -50,26 +50,26 @@ class BackingRequest:
 class Backing:
     """Keeps the track ready that was asked for last."""
 
-    def __init__(self, wish: BackingRequest) -> None:
-        self._wish = wish
+    def __init__(self, request: BackingRequest) -> None:
+        self._request = request
         self._asked: TrackRequest | None = None
         self._future: Future[PreparedTrack] | None = None
 
     def ask(self, plan: Plan, rate_hz: int) -> None:
         """Begin to make the track ready for `plan`, unless it is so already; raises `BadInput`."""
-        wish = self._wish.track(plan, rate_hz)
-        if wish != self._asked:
-            self._asked, self._future = wish, prepare_in_background(wish)
+        request = self._request.track(plan, rate_hz)
+        if request != self._asked:
+            self._asked, self._future = request, prepare_in_background(request)
 
-    def take(self, wait_s: float | None = 0.0) -> PreparedTrack | None:
+    def ready(self, wait_s: float | None = 0.0) -> PreparedTrack | None:
         """The track that was asked for, None while it is not ready within `wait_s` (None: however long it takes).
 
         Raises `BadInput` for the file's fault, `DeviceError` for the disk's.
         """
-        assert self._future is not None, "a track is asked for before it is taken"
+        assert self._future is not None, "a track is asked for before it is waited for"
         try:
             return self._future.result(wait_s)
         except TimeoutError:
             return None
         except BrokenProcessPool as fault:
-            raise DeviceError(f"{self._wish.path}: the track could not be made ready: {fault}") from fault
+            raise DeviceError(f"{self._request.path}: the track could not be made ready: {fault}") from fault

@@ -20,7 +20,7 @@ from station.core.units import NS_PER_S
 from station.drills.grid.swing import Swing
 from station.engine.messages import CUE_DTYPE, Bus, ClickVoice
 from station.music.tempo import MeterChange, TempoMap
-from station.sound.buses import SPOKEN_LEAD_S, WORDS_OF_PARTS, word_of_beat
+from station.sound.buses import PART_LABELS, SPOKEN_LEAD_S, word_of_beat
 
 MAX_SUBDIVISIONS = 8
 SPOKEN_LEAD_NS = round(SPOKEN_LEAD_S * NS_PER_S)
@@ -171,13 +171,13 @@ def _sounds(index: int, beats: ClickBeats) -> bool:
 def _beat_clicks(index: int, tick: int, pulse: int, pattern: ClickPattern) -> list[_Click]:
     """The clicks of the beat `index` at `tick`, straight."""
     if pattern.displacement is not Displacement.NONE:
-        voice = WORDS_OF_PARTS[4][pattern.displacement - 1] if pattern.counts else ClickVoice.BEAT
+        voice = PART_LABELS[4][pattern.displacement - 1] if pattern.counts else ClickVoice.BEAT
         return [_Click(tick + pattern.displacement * pulse // 4, voice, pattern.levels.beat)]
     is_accent = index in pattern.accents
     plain = ClickVoice.ACCENT if is_accent else ClickVoice.BEAT
     voice = word_of_beat(index, plain) if pattern.counts else plain
     first = _Click(tick, voice, pattern.levels.accent if is_accent else pattern.levels.beat)
-    words = WORDS_OF_PARTS.get(pattern.subdivisions, ()) if pattern.counts else ()
+    words = PART_LABELS.get(pattern.subdivisions, ()) if pattern.counts else ()
     others = words or (ClickVoice.SUBDIVISION,) * (pattern.subdivisions - 1)
     return [
         first,

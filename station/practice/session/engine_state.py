@@ -1,7 +1,7 @@
 """What the engine has said so far, as every kind of session needs it: kits, output, zero, last strokes, notices.
 
 Transport time is what the student heard and played: a stamp less its pad's latency, less the zero and the output's
-latency (`practice.latency`). The transport may start several times; its last zero holds.
+latency (`session.device_latency`). The transport may start several times; its last zero holds.
 """
 
 from collections import deque
@@ -17,7 +17,7 @@ RECENT_HITS = 32
 
 @dataclass(eq=False)
 class EngineState:
-    """Hand `take` every event of the engine.
+    """Hand `handle` every event of the engine.
 
     `devices` are the kits that are connected, the newest last; `output` is what the click is heard on, or was last;
     `capture_fault` why the capture lacks what came after, if it does; `rate_hz` the sound card's, None where there is
@@ -36,7 +36,7 @@ class EngineState:
     zero_ns: int | None = None
     strokes: int = 0
 
-    def take(self, event: EngineEvent) -> None:
+    def handle(self, event: EngineEvent) -> None:
         """Take in one event."""
         match event:
             case Hit():
@@ -59,7 +59,7 @@ class EngineState:
                 self.strokes = 0
             case Ready(output, rate_hz) | Sounding(output, rate_hz):
                 self.rate_hz = rate_hz
-                self.output = output or self.output  # whoever plays on in silence keeps the beat that he heard
+                self.output = output or self.output  # whoever plays on in silence keeps the beat that they heard
             case Notice(text):
                 self.notices.append(text)
             case _:

@@ -1,8 +1,8 @@
 """What a session has written into its capture beside the bytes, so that the capture alone can be judged again.
 
-Each remark is one JSON object: `said` (`pass`, `pause`, `go_on`, `end`), and `strokes`, how many strokes and grabbed
+Each text is one JSON object: `said` (`pass`, `pause`, `go_on`, `end`), and `strokes`, how many strokes and grabbed
 cymbals the session had heard since the capture began (or went on in another engine's hand). By that count, and not by
-the clock, a remark has its place among the strokes: the session heard them later than the engine did.
+the clock, a text has its place among the strokes: the session heard them later than the engine did.
 
 | `said` | besides |
 |---|---|
@@ -86,7 +86,7 @@ Said = PassBegan | Paused | WentOn | Ended
 
 
 def text_of(said: Said) -> str:
-    """The remark as it is kept."""
+    """The text as it is kept."""
     match said:
         case PassBegan():
             fields = {"said": "pass", **_plan_fields(said.plan), "latency": _latency_fields(said.latency)}
@@ -144,10 +144,10 @@ _MOST_LEAD_MS = 10_000.0
 # --- reading ----------------------------------------------------------------------------------------------------------
 
 
-def said_in(remark: LoggedText) -> Said | None:
+def said_in(logged: LoggedText) -> Said | None:
     """What a session said; None for what no session of this version says. Raises `BadInput` where it is damaged."""
     try:
-        fields = json.loads(remark.text)
+        fields = json.loads(logged.text)
         match fields.get("said"):
             case "pass":
                 return PassBegan(
@@ -163,7 +163,7 @@ def said_in(remark: LoggedText) -> Said | None:
             case _:
                 return None
     except (ValueError, TypeError, KeyError, AttributeError, OverflowError, RecursionError):
-        raise BadInput("capture", f"remark at {remark.at_ns} ns", "it cannot be read") from None
+        raise BadInput("capture", f"remark at {logged.at_ns} ns", "it cannot be read") from None
 
 
 def _plan(fields: dict[str, object]) -> Plan:

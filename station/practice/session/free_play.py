@@ -1,7 +1,8 @@
-"""Just play: a click if one is wished for, every stroke kept, nothing written, nothing judged.
+"""Just play: a click if one is asked for, every stroke kept, nothing written, nothing judged.
 
 A state machine as `practice.session` is: events of the engine and time in, what was played out. Take time is
-nanoseconds from the first click as the student heard it (`practice.hearing`); the bars are 4/4, for nothing is written.
+nanoseconds from the first click as the student heard it (`session.engine_state`); the bars are 4/4, for nothing is
+written.
 """
 
 from collections import Counter
@@ -75,7 +76,7 @@ class FreePlay:
 
     def handle(self, event: EngineEvent) -> None:
         """Take one event of the engine."""
-        self.heard.take(event)
+        self.heard.handle(event)
         if isinstance(event, Hit) and (played_ns := self.heard.played_ns(event)) is not None:
             self._hits.append(replace(event, at_ns=played_ns))
 

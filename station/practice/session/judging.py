@@ -48,7 +48,7 @@ class Judging:
         """Where in the score the student is, when that much of it would have passed."""
         return self._follower.place_ns(score_ns)
 
-    def take_back(self, from_ns: int) -> int:
+    def forget_from(self, from_ns: int) -> int:
         """Forget what belongs to the score from `from_ns` on; returns how many strokes that were.
 
         A stroke belongs to the time of the note that it answers, else to its own.

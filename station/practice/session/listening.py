@@ -15,7 +15,7 @@ from station.music.performance import Performance
 from station.practice.session.click_pattern import leads_ns
 
 SOON_NS = NS_PER_S // 5
-"""How long after the wish the first sound comes: time for the cues to reach the sound card; our choice."""
+"""How long after the request the first sound comes: time for the cues to reach the sound card; our choice."""
 RING_NS = 3 * NS_PER_S // 2
 """How long the last stroke may ring; our choice."""
 

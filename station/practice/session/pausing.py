@@ -1,8 +1,8 @@
 """When a student has stopped, and where a session goes on after a pause.
 
-Two bars that contain notes and get none mean that he has stopped (TEACHING, detail 2). A session goes on from the start
-of the bar in which the last stroke fell, after a bar of count-in: what was played from there on is played again and
-counts once, as it is played last. So the score stays one line of time, and every note is judged once
+Two bars that contain notes and get none mean that the student has stopped (TEACHING, detail 2). A session goes on from
+the start of the bar in which the last stroke fell, after a bar of count-in: what was played from there on is played
+again and counts once, as it is played last. So the score stays one line of time, and every note is judged once
 (docs/decisions/0026). Score time is ns from tick 0 of the plan's score, plan time ns from the plan's beginning.
 """
 
@@ -20,7 +20,7 @@ from station.practice.session.plan import Plan
 SILENT_BARS = 2
 """TEACHING, detail 2: auto-pause after two bars that contain notes and get none."""
 NEAR_NS = 100 * NS_PER_MS
-"""A stroke so near a bar may belong to it: the judgement's usual reach (`scoring.windows`)."""
+"""A stroke so near a bar may belong to it: the judgement's usual reach (`matching.hit_windows`)."""
 
 
 @dataclass(frozen=True, slots=True)

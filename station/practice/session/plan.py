@@ -1,6 +1,6 @@
 """A practice session laid out in time before it starts: count-in, demonstration, count-in, passes without a gap.
 
-Pure: a lesson and the student's wishes in; the score that will be judged, the cues that the engine will play and the
+Pure: a lesson and the student's options in; the score that will be judged, the cues that the engine will play and the
 segments of the timeline out. Times are nanoseconds from the transport's zero unless a name says otherwise.
 """
 
@@ -155,17 +155,17 @@ class Plan:
                 return "Over"
 
 
-def plan_practice(lesson: Lesson, wishes: PlanOptions) -> Plan:
+def plan_practice(lesson: Lesson, options: PlanOptions) -> Plan:
     """Lay out a session; raises `BadInput` for a tempo, a number of loops or bars that cannot be."""
-    tempo_bpm = _checked_tempo(wishes.tempo_bpm, lesson)
-    passes = _checked_loops(wishes.loops, lesson)
-    first, last = _checked_bars(wishes.bars, lesson)
-    kit = drummers_kit(lesson, wishes.hands)
+    tempo_bpm = _checked_tempo(options.tempo_bpm, lesson)
+    passes = _checked_loops(options.loops, lesson)
+    first, last = _checked_bars(options.bars, lesson)
+    kit = drummers_kit(lesson, options.hands)
     section = lesson.score.bars(first, last).at_speed(tempo_bpm / lesson.tempo_bpm)
-    section = with_sticking(section, kit, wishes.hands)
-    demonstrations = lesson.demonstrations if wishes.demonstrations is None else wishes.demonstrations
+    section = with_sticking(section, kit, options.hands)
+    demonstrations = lesson.demonstrations if options.demonstrations is None else options.demonstrations
 
-    line = _Timeline(section, lesson.count_in_bars, wishes)
+    line = _Timeline(section, lesson.count_in_bars, options)
     line.add(Phase.DEMONSTRATION, demonstrations)
     passes_start_ns = line.add(Phase.PASS, passes)
     return Plan(
@@ -180,18 +180,18 @@ def plan_practice(lesson: Lesson, wishes: PlanOptions) -> Plan:
         passes_start_ns=passes_start_ns,
         end_ns=line.end_ns,
         cues=_in_order(line.cues),
-        click=wishes.click,
+        click=options.click,
     )
 
 
 class _Timeline:
     """A session's `segments` and `cues` so far, until `end_ns`; each phase is counted in."""
 
-    def __init__(self, section: Score, count_in_bars: int, wishes: PlanOptions) -> None:
+    def __init__(self, section: Score, count_in_bars: int, options: PlanOptions) -> None:
         self.segments: list[Segment] = []
         self.cues: list[NDArray[np.void]] = []
         self.end_ns = 0
-        self._section, self._wishes, self._click = section, wishes, wishes.click or PLAIN
+        self._section, self._options, self._click = section, options, options.click or PLAIN
         self._count_in = _count_in(section, count_in_bars)
 
     def add(self, phase: Phase, times: int) -> int:
@@ -222,16 +222,16 @@ class _Timeline:
         self.end_ns += length_ns
 
     def _under_passes(self, whole: Score) -> Iterable[NDArray[np.void]]:
-        if self._wishes.click is not None:
+        if self._options.click is not None:
             yield self._clicks(whole)
-        if self._wishes.guide:
+        if self._options.guide:
             yield demonstration_cues(whole)
 
     def _clicks(self, score: Score) -> NDArray[np.void]:
         return click_cues(score.tempo_map, score.end_tick, self._click)
 
     def _sound(self, at_ns: int, *cues: NDArray[np.void]) -> None:
-        self.cues += [_moved(each, at_ns) for each in cues]
+        self.cues += [moved_by(each, at_ns) for each in cues]
 
 
 def demonstration_cues(score: Score) -> NDArray[np.void]:
@@ -263,7 +263,8 @@ def _count_in(section: Score, bars: int) -> Score:
     return Score.from_notes([], tempo_map, end_tick)
 
 
-def _moved(cues: NDArray[np.void], by_ns: int) -> NDArray[np.void]:
+def moved_by(cues: NDArray[np.void], by_ns: int) -> NDArray[np.void]:
+    """The cues, each so much later; negative is earlier."""
     moved = cues.copy()
     moved["at_ns"] += by_ns
     return moved
@@ -274,26 +275,26 @@ def _in_order(parts: Iterable[NDArray[np.void]]) -> NDArray[np.void]:
     return cues[np.argsort(cues["at_ns"], kind="stable")]
 
 
-def _checked_tempo(wish_bpm: float | None, lesson: Lesson) -> float:
-    tempo_bpm = lesson.tempo_bpm if wish_bpm is None else wish_bpm
+def _checked_tempo(requested_bpm: float | None, lesson: Lesson) -> float:
+    tempo_bpm = lesson.tempo_bpm if requested_bpm is None else requested_bpm
     if not MIN_TEMPO_BPM <= tempo_bpm <= MAX_TEMPO_BPM:  # also refuses NaN
         limits = f"expected {MIN_TEMPO_BPM:g} to {MAX_TEMPO_BPM:g} beats a minute"
         raise BadInput("--tempo", f"{tempo_bpm:g}", limits)
     return tempo_bpm
 
 
-def _checked_loops(wish: int | None, lesson: Lesson) -> int:
-    loops = lesson.passes if wish is None else wish
+def _checked_loops(requested: int | None, lesson: Lesson) -> int:
+    loops = lesson.passes if requested is None else requested
     if not 1 <= loops <= MAX_LOOPS:
         raise BadInput("--loops", str(loops), f"expected 1 to {MAX_LOOPS}")
     return loops
 
 
-def _checked_bars(wish: tuple[int, int] | None, lesson: Lesson) -> tuple[int, int]:
+def _checked_bars(requested: tuple[int, int] | None, lesson: Lesson) -> tuple[int, int]:
     """First and last bar from 0."""
-    if wish is None:
+    if requested is None:
         return lesson.loop
-    first, last = wish
+    first, last = requested
     if first > last:
         raise BadInput("--bars", f"{first}-{last}", "expected the first bar first")
     if not 1 <= first <= last <= lesson.score.bar_count:

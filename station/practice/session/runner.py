@@ -3,7 +3,7 @@
 A runner knows no clock, thread, engine or window. Whoever drives it hands over every event of the engine and now and
 then the time, sends the engine the `commands` of each `Update`, and shows the student what was `judged`; when it is
 `over`, or somebody wants it to end, they send what `stop` gives, hand over what the engine still has to say, and
-`finish`. Where the tempo follows the student each pass is a session of its own (`practice.adaptation`): the next one
+`finish`. Where the tempo follows the student each pass is a session of its own (`session.adaptation`): the next one
 begins by itself. Judgement depends on the events' own times alone, however often anybody looks.
 """
 
@@ -27,7 +27,7 @@ class Update:
     """What a step has brought: the `session` it was in, what was `judged` there, the `commands` for the engine.
 
     `is_anew`: the session was paused or goes on, so that verdicts of before may have been taken back. `notice` is what
-    the student should be told once of the pass that comes next, if anything.
+    the student should read once of the pass that comes next, if anything.
     """
 
     session: Session
@@ -40,7 +40,7 @@ class Update:
 class SessionRunner:
     """A session of one plan, or pass after pass of an adaptation; `pads` may pause it, if any are given.
 
-    Set `waits` and `backing` of its `session` before `start`. It is a `Listener` of the engine (`practice.live`).
+    Set `waits` and `backing` of its `session` before `start`. It is a `Listener` of the engine (`headless.live`).
     """
 
     def __init__(self, asked: Plan | Adaptation, latency: Latency, pads: PadCommands | None = None) -> None:
@@ -50,7 +50,7 @@ class SessionRunner:
         self.over = False
         """Whether all that was asked for was played."""
         self._pads = pads
-        self._was_asked = self._is_taken = self._is_stopped = False
+        self._was_asked = self._is_recorded = self._is_stopped = False
 
     @property
     def heard(self) -> EngineState:
@@ -101,18 +101,18 @@ class SessionRunner:
         if self._adaptation is None:
             self.over = True
             return Update(session, judged)
-        step = self._take(self._adaptation)
+        step = self._record_pass(self._adaptation)
         self.over = self._adaptation.over
         commands = () if self.over else self._next_pass(self._adaptation)
         return Update(session, judged, commands, notice=step.notice)
 
-    def _take(self, adaptation: Adaptation) -> PracticeStep:
-        self._is_taken = True
-        return adaptation.take(self.session.result())
+    def _record_pass(self, adaptation: Adaptation) -> PracticeStep:
+        self._is_recorded = True
+        return adaptation.record_pass(self.session.result())
 
     def _next_pass(self, adaptation: Adaptation) -> tuple[Command, ...]:
         """Begin the pass that `adaptation` asks for, on what the one before knows of the kit."""
-        before, self._is_taken = self.session, False
+        before, self._is_recorded = self.session, False
         self.session = adaptation.session(before.latency)
         self.session.heard.go_on_from(before.heard)
         self.session.waits = before.waits
@@ -147,6 +147,6 @@ class SessionRunner:
         """The result of all that was played, over all passes; one that never began to sound is nobody's."""
         if self._adaptation is None:
             return self.session.result()
-        if not self._is_taken and (self.session.started or not self._adaptation.rounds):
-            self._take(self._adaptation)
+        if not self._is_recorded and (self.session.started or not self._adaptation.rounds):
+            self._record_pass(self._adaptation)
         return self._adaptation.result()

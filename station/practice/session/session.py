@@ -5,11 +5,11 @@ it every event of the engine and now and then the time. Judgement depends on the
 is the same at any frame rate. Session time is monotonic nanoseconds; transport time starts at the engine's zero;
 score time at tick 0 of the plan's score.
 
-Without a click the score follows the student (`scoring.follower`): what the window shows and when the session ends goes
-by where he is, and the score waits when he stops.
+Without a click the score follows the student (`following.follower`): what the window shows and when the session ends
+goes by where they are, and the score waits when they stop.
 
 A hit's score time = its stamp − its pad's latency − (the transport's zero + the output's latency) − the passes' start:
-what the student heard and played, compared where both are known (`practice.latency`).
+what the student heard and played, compared where both are known (`session.device_latency`).
 """
 
 from collections import Counter
@@ -78,7 +78,7 @@ class Session:
 
     `feedback` is what the student is shown while playing (judgement is the same); `message` what to say before it;
     `backing` a track to play along to in the passes. One that `waits` judges no stroke that comes after a silence in
-    which the student has stopped: whoever runs it sees that he `is_left` and pauses.
+    which the student has stopped: whoever runs it sees that it `is_left` and pauses.
     """
 
     plan: Plan
@@ -156,7 +156,7 @@ class Session:
             return ()
         bar = 0 if whole else bar_of(self.plan.score, self._judging.last_ns)
         self._run = from_bar(self.plan, bar)
-        self.pauses.append(SessionPause(bar, asked, self._judging.take_back(self._run.from_ns)))
+        self.pauses.append(SessionPause(bar, asked, self._judging.forget_from(self._run.from_ns)))
         self.heard.zero_ns, self.paused = None, False
         self._held_ns = self.plan.passes_start_ns + self._run.from_ns
         return (Annotate(text_of(WentOn(self.heard.strokes, asked, whole))), *self._play())
@@ -165,10 +165,10 @@ class Session:
 
     def handle(self, event: EngineEvent) -> tuple[Judgement, ...]:
         """Take one event; returns what was judged because of it."""
-        self.heard.take(event)
+        self.heard.handle(event)
         match event:
             case Hit():
-                return self._take_hit(event)
+                return self._handle_hit(event)
             case Started() if not self.paused:
                 self._held_ns = None
             case Choke():
@@ -186,12 +186,12 @@ class Session:
             return ()
         return self._judging.advance(score_ns)
 
-    def _take_hit(self, hit: Hit) -> tuple[Judgement, ...]:
+    def _handle_hit(self, hit: Hit) -> tuple[Judgement, ...]:
         score_ns = self._score_of(hit)
         if score_ns is None or self._held_ns is not None or not self._is_judged(score_ns):
             return ()
         if self.waits and self.plan.click is not None and (self._has_left or self._is_silent_at(score_ns)):
-            self._has_left = True  # he comes back: however rarely anybody looks, the silence before it counts
+            self._has_left = True  # they come back: however rarely anybody looks, the silence before it counts
             return ()
         return self._judging.hit(replace(hit, at_ns=score_ns))
 
@@ -234,7 +234,7 @@ class Session:
         """The hits that are judged, in score time, in the order in which they came: `hit_index` counts them."""
         return self._judging.hits
 
-    def told(self, verdicts: Iterable[Judgement]) -> tuple[Judgement, ...]:
+    def shown(self, verdicts: Iterable[Judgement]) -> tuple[Judgement, ...]:
         """What the student is shown of `verdicts`: all; right and wrong, without time and strength; nothing."""
         if self.feedback is Feedback.NONE:
             return ()

@@ -84,7 +84,7 @@ def lags_s(least_s: float, most_s: float, rate_hz: int) -> NDArray[np.int64]:
     return np.arange(round(least_s * rate_hz), round(most_s * rate_hz) + 1)
 
 
-def together(
+def mean_coherence(
     recording: TimedRecording, coherent: Floats, played_ns: NDArray[np.int64], lags: NDArray[np.int64]
 ) -> Floats:
     """The mean coherence over all chirps for each of `lags` (in frames) after they were played: (len(lags),)."""

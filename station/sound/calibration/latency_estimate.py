@@ -1,7 +1,7 @@
 """A latency as it was measured: signed, with its interval, and with what speaks against trusting it.
 
 Milliseconds; positive means later than reported. `doubts` are reasons not to trust the figure, `remarks` what a user
-should know beside it. A doubtful estimate is told, and stored only by somebody who insists.
+should know beside it. A doubtful estimate is reported, and stored only by somebody who insists.
 """
 
 from collections.abc import Sequence

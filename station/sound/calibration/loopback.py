@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_MS
-from station.sound.calibration.chirp import coherence, found_at, lags_s, together
+from station.sound.calibration.chirp import coherence, found_at, lags_s, mean_coherence
 from station.sound.calibration.latency_estimate import Floats, LatencyEstimate, estimate_of
 from station.sound.calibration.timeline import TimedRecording
 
@@ -74,7 +74,7 @@ def _lags_ms(each: LoopbackRound) -> Floats:
     recording, rate_hz = each.recording, each.recording.rate_hz
     lags = lags_s(LEAST_S, MOST_S, rate_hz)
     channels = [coherence(channel, rate_hz) for channel in recording.sound.T]
-    stacks = [together(recording, coherent, each.played_ns, lags) for coherent in channels]
+    stacks = [mean_coherence(recording, coherent, each.played_ns, lags) for coherent in channels]
     best = int(np.argmax([stack.max() for stack in stacks]))
     lag = int(lags[_direct(stacks[best])])
     starts = recording.timeline.frame_at(each.played_ns.astype(np.float64))

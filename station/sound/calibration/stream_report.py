@@ -12,7 +12,7 @@ from station.sound.calibration.timeline import Timeline
 USUAL_PPM = 300.0
 """No card's crystal strays so far (our choice: three times what is sold); then the driver's times are at fault."""
 LONG_MS = 100.0
-"""A drummer hears the kit's own sound so late that he cannot play (our choice, ten times ANCHORS' 10 ms)."""
+"""A drummer hears the kit's own sound so late that they cannot play (our choice, ten times ANCHORS' 10 ms)."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -39,16 +39,16 @@ class Timeline:
         frames = self.block_frame.astype(np.float64)
         last_ns = float(self.block_ns[-1] - self.block_ns[0])
         inside = np.interp(since_ns, (self.block_ns - self.block_ns[0]).astype(np.float64), frames)
-        beyond = np.minimum(since_ns, 0.0) + np.maximum(since_ns - last_ns, 0.0)
-        found: Floats = inside + beyond * self.rate_hz / NS_PER_S
+        outside = np.minimum(since_ns, 0.0) + np.maximum(since_ns - last_ns, 0.0)
+        found: Floats = inside + outside * self.rate_hz / NS_PER_S
         return found
 
     def _since_first_ns(self, frames: Floats) -> Floats:
         frames = np.asarray(frames, np.float64)
         first, last = float(self.block_frame[0]), float(self.block_frame[-1])
         since_ns = (self.block_ns - self.block_ns[0]).astype(np.float64)
-        beyond = np.minimum(frames - first, 0.0) + np.maximum(frames - last, 0.0)
-        return np.asarray(np.interp(frames, self.block_frame.astype(np.float64), since_ns)) + beyond * (
+        outside = np.minimum(frames - first, 0.0) + np.maximum(frames - last, 0.0)
+        return np.asarray(np.interp(frames, self.block_frame.astype(np.float64), since_ns)) + outside * (
             NS_PER_S / self.rate_hz
         )
 

@@ -91,10 +91,10 @@ class CardStream:
 
 
 def accepted_settings(sd: ModuleType, device: SoundDevice, rate_hz: int, direction: Direction) -> tuple[int, int]:
-    """Channels and rate to open `device` with: those wished for, else the nearest that it takes.
+    """Channels and rate to open `device` with: those asked for, else the nearest that it takes.
 
     Two channels are enough; a device that insists on all of its own gets them. The device's own rate stands in for one
-    that it refuses. Where it takes nothing the wish is returned, and opening it tells why.
+    that it refuses. Where it takes nothing the request is returned, and opening it tells why.
     """
     stereo = min(2, device.channels)
     check = sd.check_output_settings if direction == "output" else sd.check_input_settings

@@ -15,19 +15,19 @@ from station.core.errors import DeviceError
 from station.sound.output.card_stream import SoundDevice
 from station.sound.output.sound_output import list_outputs
 
-PATIENCE_S = 10.0
+TIMEOUT_S = 10.0
 """A driver that lists its devices for longer hangs (our choice: a cold start on a busy computer takes two)."""
 
 
-def outputs_now(patience_s: float = PATIENCE_S) -> list[SoundDevice]:
+def outputs_now(timeout_s: float = TIMEOUT_S) -> list[SoundDevice]:
     """Every device that can play, the system's default first; takes some tenths of a second, never in real time.
 
     Raises `DeviceError` where the devices cannot be listed.
     """
     command = [sys.executable, "-m", "station.sound.output.list_outputs"]
     try:
-        told = subprocess.run(command, capture_output=True, text=True, timeout=patience_s, check=False, env=_alone())
-        found = json.loads(told.stdout)
+        listed = subprocess.run(command, capture_output=True, text=True, timeout=timeout_s, check=False, env=_alone())
+        found = json.loads(listed.stdout)
     except (OSError, subprocess.TimeoutExpired, json.JSONDecodeError) as fault:
         raise DeviceError(f"the sound devices cannot be listed: {fault}") from fault
     if isinstance(found, str):
@@ -40,13 +40,13 @@ def _alone() -> dict[str, str]:
     return {**os.environ, "JACK_NO_START_SERVER": "1"}
 
 
-def _tell() -> None:
+def _write_list() -> None:
     try:
-        told: object = [asdict(device) for device in list_outputs()]
+        listed: object = [asdict(device) for device in list_outputs()]
     except DeviceError as fault:
-        told = str(fault)
-    sys.stdout.write(json.dumps(told))
+        listed = str(fault)
+    sys.stdout.write(json.dumps(listed))
 
 
 if __name__ == "__main__":
-    _tell()
+    _write_list()

@@ -26,7 +26,7 @@ from station.sound.samples.kit_archive import unpacked
 from station.sound.samples.kit_folder import audio_files
 from station.sound.samples.recordings import Recordings, kit_of
 from station.sound.samples.sound_naming import FAMILIES, sound_named
-from station.sound.sound_names import HIHAT_STEPS, SoundName, voicing_of
+from station.sound.sound_names import HIHAT_STEPS, SoundName, choose_sound
 
 KIT_FILE = "drumkit.xml"
 ARCHIVE_ENDING = ".h2drumkit"
@@ -103,7 +103,7 @@ _FAMILY_OF: Mapping[SoundName | None, tuple[SoundName, ...]] = {name: family for
 def _meant(instrument: HydrogenInstrument, trusts_note: bool) -> SoundName | None:
     by_words = sound_named(instrument.name) or sound_named(instrument.kind)
     strike = GENERAL_MIDI.get(instrument.midi_note) if trusts_note and instrument.midi_note is not None else None
-    return voicing_of(strike).sound if by_words is None and strike is not None else by_words
+    return choose_sound(strike).sound if by_words is None and strike is not None else by_words
 
 
 def _by_openness(instruments: Sequence[HydrogenInstrument]) -> dict[SoundName, HydrogenInstrument]:
@@ -190,7 +190,7 @@ def _matching(component: HydrogenComponent, velocity: float) -> list[HydrogenLay
 
 
 def _mixed(parts: _Parts, instrument: HydrogenInstrument, recordings: Recordings) -> Frames:
-    played = [recordings.take(layer.filename, layer.pitch) for _, layer in parts]
+    played = [recordings.load(layer.filename, layer.pitch) for _, layer in parts]
     whole = np.zeros((max(len(take) for take in played), 2), np.float32)
     for (gain, layer), take in zip(parts, played, strict=True):
         whole[: len(take)] += np.float32(gain * layer.gain) * take

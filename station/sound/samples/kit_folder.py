@@ -100,7 +100,7 @@ def _layers(named: list[tuple[FileName, str]], recordings: Recordings) -> list[t
     reach_of = _reaches(sorted({name.layer for name, _ in named}))
     takes: dict[int, list[Frames]] = {}
     for name, path in named:
-        takes.setdefault(reach_of[name.layer], []).append(recordings.take(path))
+        takes.setdefault(reach_of[name.layer], []).append(recordings.load(path))
     return sorted(takes.items())
 
 
@@ -200,7 +200,7 @@ def _kit(table: KitTable, folder: Path, rate_hz: int, recordings: Recordings) ->
 
 def _sound(row: SoundRow, recordings: Recordings, even_at_hz: int | None) -> Sound:
     """One sound; its layers are made equally loud at the rate `even_at_hz`, or stay as recorded where that is None."""
-    layers = [[recordings.take(name, layer.pitch) for name in layer.takes] for layer in row.layers]
+    layers = [[recordings.load(name, layer.pitch) for name in layer.takes] for layer in row.layers]
     reaches = [layer.to_velocity for layer in row.layers]
     if even_at_hz is not None:
         even(layers, even_at_hz)

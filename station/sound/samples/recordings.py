@@ -41,7 +41,7 @@ class Recordings:
         self._files = files
         self._left = MAX_KIT_BYTES
 
-    def take(self, name: str, pitch: float = 0.0) -> Frames:
+    def load(self, name: str, pitch: float = 0.0) -> Frames:
         """The file called `name`, struck at frame 0, as an array of its own.
 
         `pitch` in semitones. Raises `BadInput` where the file is missing, no sound, or too much for the kit.

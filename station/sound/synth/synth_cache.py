@@ -26,7 +26,7 @@ from station.sound.synth.layers import TAKES
 from station.sound.synth.recipe import Recipe
 from station.sound.synth.synth_kits import KIT_NAME, MODELS, synth_kit
 
-KEPT_FILES = 4
+CACHED_FILES = 4
 """Kits on disk, the oldest go first (our choice: two kits at two rates, some 400 MB)."""
 _ENDING = ".kit"
 
@@ -39,7 +39,7 @@ def cached_kit(model: str = KIT_NAME, rate_hz: int = 48_000, folder: Path | None
         kit = synth_kit.__wrapped__(rate_hz, model)
         with suppress(OSError):
             _write(path, kit)
-            forget_oldest(path.parent, _ENDING, KEPT_FILES)
+            forget_oldest(path.parent, _ENDING, CACHED_FILES)
     return kit
 
 

@@ -444,7 +444,7 @@ def test_a_remark_that_cannot_be_read_keeps_no_stroke_from_being_replayed(
     assert main(["devices", "replay", str(path), "--json"]) == 0
     before = json.loads(capsys.readouterr().out)
     records = [
-        replace(one, payload=b"of a later version") if one.kind == RecordKind.REMARK else one
+        replace(one, payload=b"of a later version") if one.kind == RecordKind.ANNOTATION else one
         for one in read_capture(path).records
     ]
     path.write_bytes(capture_bytes(records))

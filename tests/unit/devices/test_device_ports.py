@@ -4,7 +4,7 @@ import pytest
 
 from station.core.errors import BadInput
 from station.core.units import NS_PER_MS, NS_PER_S
-from station.devices.device_ports import DeviceRequest, parse_kit, parse_kits, ports_for
+from station.devices.device_ports import DeviceRequest, parse_device, parse_devices, ports_for
 from station.devices.port_watch import ClaimedPorts, PortWatch, choose_port
 from station.devices.serial.serial_names import device_of_port, serial_port
 from station.devices.transport import Packet
@@ -27,7 +27,7 @@ SNARE = bytes.fromhex("99 26 64")
     ],
 )
 def test_a_kit_is_a_part_of_a_name_or_a_path_and_a_rate(text: str, wish: DeviceRequest) -> None:
-    assert parse_kit(text) == wish
+    assert parse_device(text) == wish
 
 
 @pytest.mark.parametrize(
@@ -35,7 +35,7 @@ def test_a_kit_is_a_part_of_a_name_or_a_path_and_a_rate(text: str, wish: DeviceR
 )
 def test_a_rate_that_no_port_has_is_the_users_fault(text: str) -> None:
     with pytest.raises(BadInput, match="expected"):
-        parse_kit(text)
+        parse_device(text)
 
 
 @pytest.mark.parametrize(
@@ -49,7 +49,7 @@ def test_a_rate_that_no_port_has_is_the_users_fault(text: str) -> None:
     ],
 )
 def test_several_kits_stand_apart_by_a_semicolon(text: str, parts: list[str]) -> None:
-    assert [wish.part for wish in parse_kits(text)] == parts
+    assert [wish.part for wish in parse_devices(text)] == parts
 
 
 @pytest.mark.parametrize(

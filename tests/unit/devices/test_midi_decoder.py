@@ -177,10 +177,10 @@ def test_a_one_note_hi_hat_is_as_open_as_its_pedal() -> None:
     ]
 
 
-def test_what_a_decoder_bequeaths_brings_another_to_its_state() -> None:
+def test_the_restart_state_of_a_decoder_brings_another_to_it() -> None:
     first, second = (MidiDecoder(preset_named("roland-td-11"), "kit") for _ in range(2))
     first.feed(bytes.fromhex("b9 04 00 b9 04 5a b9 04 7f b9 10 40 99 2e"), 0)
-    second.feed(first.bequeath(), 1)
+    second.feed(first.restart_state(), 1)
     rest = bytes.fromhex("64 99 26 64 99 2a 64")
     assert second.feed(rest, 2) == first.feed(rest, 2)
 

@@ -36,8 +36,8 @@ def test_what_is_sent_arrives() -> None:
         time.sleep(0.1)
         for velocity in (1, 64, 127):
             port.send(bytes((0x99, 38, velocity)))
-        heard, patience = [], time.monotonic() + 50.0
-        while len(heard) < 3 and time.monotonic() < patience:
+        heard, until_s = [], time.monotonic() + 50.0
+        while len(heard) < 3 and time.monotonic() < until_s:
             item = module.get_message()
             if item is not None:
                 heard.append(bytes(item[0]).hex(" "))

@@ -12,7 +12,7 @@ import pytest
 from station.bench.rigs.serial_kit import SerialKit
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_S
-from station.devices.device_ports import DevicePorts, parse_kit, ports_for
+from station.devices.device_ports import DevicePorts, parse_device, ports_for
 from station.devices.port_watch import PortWatch
 from station.devices.serial.serial_ports import SerialDirectory, no_access
 from station.devices.transport import Packet, Transport
@@ -65,7 +65,7 @@ def path(tmp_path: Path) -> Path:
 @pytest.mark.parametrize(("baud", "wish"), [(31_250, ""), (115_200, "@115200")])
 def test_the_rate_is_set_in_the_kernel(path: Path, baud: int, wish: str) -> None:
     with SerialKit(path) as kit:
-        chosen = parse_kit(kit.device + wish)
+        chosen = parse_device(kit.device + wish)
         port = ports_for(chosen, None).open(kit.device)
         assert kit.rate() == (baud, baud)
         port.close()
@@ -118,7 +118,7 @@ def test_an_unplugged_port_is_a_device_that_has_gone(path: Path) -> None:
 def test_unplugged_in_mid_message_and_back(path: Path) -> None:
     """The half message is lost with the cable; the station hears the module again within a second."""
     with PatientKit(path) as kit:
-        watch = PortWatch(ports_for(parse_kit(kit.device), None), kit.device)
+        watch = PortWatch(ports_for(parse_device(kit.device), None), kit.device)
         assert watch.poll(0).found
         kit.play(b"\x99\x26")
         assert len(watch.poll(1).packets) == 2
@@ -133,7 +133,7 @@ def test_unplugged_in_mid_message_and_back(path: Path) -> None:
 
 def test_a_port_that_another_program_holds_is_told_once_it_lasts(path: Path) -> None:
     with SerialKit(path) as kit:
-        ports = ports_for(parse_kit(kit.device), None)
+        ports = ports_for(parse_device(kit.device), None)
         other = ports.open(kit.device)
         watch = PortWatch(ports, kit.device)
         faults = [watch.poll(at_s * NS_PER_S).fault for at_s in range(4)]

@@ -34,36 +34,39 @@ def hit(ms: float, piece: Piece, velocity: int) -> Hit:
     return Hit(round(ms * NS_PER_MS), piece, zone, velocity, how)
 
 
-def told(guard: TriggerFilter, *events: DeviceEvent) -> list[tuple[float, Piece, int]]:
+def certain(trigger_filter: TriggerFilter, *events: DeviceEvent) -> list[tuple[float, Piece, int]]:
     """The hits that are told of `events` in the end: ms, piece, velocity."""
     found = []
     for event in events:
-        guard.feed(event)
-        found += guard.told()
-    found += guard.flush()
+        trigger_filter.feed(event)
+        found += trigger_filter.certain()
+    found += trigger_filter.flush()
     return [(e.at_ns / NS_PER_MS, e.piece, e.velocity) for e in found if isinstance(e, Hit)]
 
 
-def why(guard: TriggerFilter) -> list[HeldBack]:
-    return [ghost.why for ghost in guard.ghosts]
+def why(trigger_filter: TriggerFilter) -> list[HeldBack]:
+    return [ghost.why for ghost in trigger_filter.false_triggers]
 
 
 def test_a_kit_of_which_nothing_is_known_passes_at_once() -> None:
-    guard = TriggerFilter(kit())
+    trigger_filter = TriggerFilter(kit())
     for event in (hit(0, SNARE, 100), hit(1, SNARE, 1), hit(2, KICK, 3), Choke(3, CRASH), PedalMoved(4, 0.5)):
-        assert guard.feed(event)
-        assert guard.told() == [event]
-    assert guard.settle(10**12) == []
+        assert trigger_filter.feed(event)
+        assert trigger_filter.certain() == [event]
+    assert trigger_filter.settle(10**12) == []
 
 
 def test_softer_than_the_threshold_is_no_stroke() -> None:
-    guard = TriggerFilter(kit(pads=pads(snare=Pad(threshold=10))))
-    assert told(guard, hit(0, SNARE, 9), hit(100, SNARE, 10), hit(200, KICK, 1)) == [(100, SNARE, 10), (200, KICK, 1)]
-    assert why(guard) == [HeldBack.TOO_SOFT]
+    trigger_filter = TriggerFilter(kit(pads=pads(snare=Pad(threshold=10))))
+    assert certain(trigger_filter, hit(0, SNARE, 9), hit(100, SNARE, 10), hit(200, KICK, 1)) == [
+        (100, SNARE, 10),
+        (200, KICK, 1),
+    ]
+    assert why(trigger_filter) == [HeldBack.TOO_SOFT]
 
 
 def test_a_pad_hears_no_second_stroke_within_its_mask_time() -> None:
-    guard = TriggerFilter(kit(pads=pads(snare=Pad(mask_ns=9 * NS_PER_MS))))
+    trigger_filter = TriggerFilter(kit(pads=pads(snare=Pad(mask_ns=9 * NS_PER_MS))))
     events: list[DeviceEvent] = [
         hit(0, SNARE, 90),
         hit(8.9, SNARE, 60),
@@ -71,65 +74,71 @@ def test_a_pad_hears_no_second_stroke_within_its_mask_time() -> None:
         hit(10, KICK, 80),
         hit(12, KICK, 70),
     ]
-    assert [ms for ms, _, _ in told(guard, *events)] == [0, 9, 10, 12]
-    assert why(guard) == [HeldBack.DOUBLE]
+    assert [ms for ms, _, _ in certain(trigger_filter, *events)] == [0, 9, 10, 12]
+    assert why(trigger_filter) == [HeldBack.DOUBLE]
 
 
 def test_crosstalk_after_the_stroke_does_not_even_sound() -> None:
-    guard = TriggerFilter(kit(crosstalk=(KICK_IN_SNARE,)))
-    assert guard.feed(hit(0, KICK, 100))
-    assert not guard.feed(hit(30, SNARE, 40))
-    assert guard.feed(hit(30, SNARE, 41))  # louder than crosstalk ever is
-    assert guard.feed(hit(31, SNARE, 20))  # later
+    trigger_filter = TriggerFilter(kit(crosstalk=(KICK_IN_SNARE,)))
+    assert trigger_filter.feed(hit(0, KICK, 100))
+    assert not trigger_filter.feed(hit(30, SNARE, 40))
+    assert trigger_filter.feed(hit(30, SNARE, 41))  # louder than crosstalk ever is
+    assert trigger_filter.feed(hit(31, SNARE, 20))  # later
 
 
 def test_crosstalk_before_the_stroke_sounds_but_is_not_told() -> None:
-    guard = TriggerFilter(kit(crosstalk=(KICK_IN_SNARE,)))
-    assert guard.feed(hit(0, SNARE, 30))
-    assert guard.told() == []
-    guard.feed(hit(5, KICK, 100))
-    assert [event for event in guard.told() if isinstance(event, Hit)] == [hit(5, KICK, 100)]
-    assert why(guard) == [HeldBack.CROSSTALK]
-    assert guard.ghosts[0].source is KICK
+    trigger_filter = TriggerFilter(kit(crosstalk=(KICK_IN_SNARE,)))
+    assert trigger_filter.feed(hit(0, SNARE, 30))
+    assert trigger_filter.certain() == []
+    trigger_filter.feed(hit(5, KICK, 100))
+    assert [event for event in trigger_filter.certain() if isinstance(event, Hit)] == [hit(5, KICK, 100)]
+    assert why(trigger_filter) == [HeldBack.CROSSTALK]
+    assert trigger_filter.false_triggers[0].source is KICK
 
 
 def test_a_soft_stroke_that_no_other_claims_is_told_with_its_own_time() -> None:
-    guard = TriggerFilter(kit(crosstalk=(KICK_IN_SNARE,)))
-    assert told(guard, hit(0, SNARE, 30), hit(5.1, KICK, 100)) == [(0, SNARE, 30), (5.1, KICK, 100)]
+    trigger_filter = TriggerFilter(kit(crosstalk=(KICK_IN_SNARE,)))
+    assert certain(trigger_filter, hit(0, SNARE, 30), hit(5.1, KICK, 100)) == [(0, SNARE, 30), (5.1, KICK, 100)]
 
 
 def test_the_clock_lets_go_what_is_certain() -> None:
-    guard = TriggerFilter(kit(crosstalk=(KICK_IN_SNARE,)))
-    guard.feed(hit(0, SNARE, 30))
-    assert guard.settle(8 * NS_PER_MS) == []  # a driver may still hold a kick of 5 ms
-    assert guard.settle(8 * NS_PER_MS + 1) == [hit(0, SNARE, 30)]
+    trigger_filter = TriggerFilter(kit(crosstalk=(KICK_IN_SNARE,)))
+    trigger_filter.feed(hit(0, SNARE, 30))
+    assert trigger_filter.settle(8 * NS_PER_MS) == []  # a driver may still hold a kick of 5 ms
+    assert trigger_filter.settle(8 * NS_PER_MS + 1) == [hit(0, SNARE, 30)]
 
 
 def test_a_loud_stroke_waits_for_nobody() -> None:
-    guard = TriggerFilter(kit(crosstalk=(KICK_IN_SNARE,)))
-    guard.feed(hit(0, SNARE, 51))  # more than 0.4 × 127
-    assert guard.told() == [hit(0, SNARE, 51)]
+    trigger_filter = TriggerFilter(kit(crosstalk=(KICK_IN_SNARE,)))
+    trigger_filter.feed(hit(0, SNARE, 51))  # more than 0.4 × 127
+    assert trigger_filter.certain() == [hit(0, SNARE, 51)]
 
 
 def test_what_follows_a_doubtful_hit_keeps_its_turn() -> None:
-    guard = TriggerFilter(kit(crosstalk=(KICK_IN_SNARE,)))
-    guard.feed(hit(0, SNARE, 30))
-    guard.feed(hit(2, TOM, 100))
-    assert guard.told() == []
-    guard.feed(hit(6, TOM, 100))
-    assert guard.told() == [hit(0, SNARE, 30), hit(2, TOM, 100), hit(6, TOM, 100)]
+    trigger_filter = TriggerFilter(kit(crosstalk=(KICK_IN_SNARE,)))
+    trigger_filter.feed(hit(0, SNARE, 30))
+    trigger_filter.feed(hit(2, TOM, 100))
+    assert trigger_filter.certain() == []
+    trigger_filter.feed(hit(6, TOM, 100))
+    assert trigger_filter.certain() == [hit(0, SNARE, 30), hit(2, TOM, 100), hit(6, TOM, 100)]
 
 
 def test_a_ghost_masks_no_stroke() -> None:
-    guard = TriggerFilter(kit(crosstalk=(KICK_IN_SNARE,), pads=pads(snare=Pad(mask_ns=9 * NS_PER_MS))))
-    assert told(guard, hit(0, SNARE, 30), hit(3, KICK, 100), hit(6, SNARE, 90)) == [(3, KICK, 100), (6, SNARE, 90)]
-    guard = TriggerFilter(kit(crosstalk=(KICK_IN_SNARE,), pads=pads(snare=Pad(mask_ns=9 * NS_PER_MS))))
-    assert told(guard, hit(0, SNARE, 30), hit(2, SNARE, 90), hit(4, KICK, 100)) == [(2, SNARE, 90), (4, KICK, 100)]
+    trigger_filter = TriggerFilter(kit(crosstalk=(KICK_IN_SNARE,), pads=pads(snare=Pad(mask_ns=9 * NS_PER_MS))))
+    assert certain(trigger_filter, hit(0, SNARE, 30), hit(3, KICK, 100), hit(6, SNARE, 90)) == [
+        (3, KICK, 100),
+        (6, SNARE, 90),
+    ]
+    trigger_filter = TriggerFilter(kit(crosstalk=(KICK_IN_SNARE,), pads=pads(snare=Pad(mask_ns=9 * NS_PER_MS))))
+    assert certain(trigger_filter, hit(0, SNARE, 30), hit(2, SNARE, 90), hit(4, KICK, 100)) == [
+        (2, SNARE, 90),
+        (4, KICK, 100),
+    ]
 
 
 def test_a_stomp_that_fires_the_hat_is_crosstalk_of_the_pedal() -> None:
-    guard = TriggerFilter(kit(crosstalk=(Crosstalk(FOOT, HAT, 0.6),)))
-    assert told(guard, hit(0, HAT, 40), hit(3, FOOT, 90), hit(12, HAT, 30), hit(200, HAT, 30)) == [
+    trigger_filter = TriggerFilter(kit(crosstalk=(Crosstalk(FOOT, HAT, 0.6),)))
+    assert certain(trigger_filter, hit(0, HAT, 40), hit(3, FOOT, 90), hit(12, HAT, 30), hit(200, HAT, 30)) == [
         (3, FOOT, 90),
         (200, HAT, 30),
     ]
@@ -143,14 +152,14 @@ def pedal(ms: float, openness: float) -> PedalMoved:
 
 
 def test_a_stomp_beside_a_stroke_for_which_the_pedal_hardly_moved_is_false() -> None:
-    guard = TriggerFilter(kit(foot=Foot(least_travel=0.3)))
+    trigger_filter = TriggerFilter(kit(foot=Foot(least_travel=0.3)))
     swinging: list[DeviceEvent] = [pedal(0, 0.5), hit(1000, HAT, 100), pedal(1005, 0.45), hit(1010, FOOT, 40)]
-    assert [piece for _, piece, _ in told(guard, *swinging)] == [HAT]
-    assert why(guard) == [HeldBack.FALSE_STOMP]
+    assert [piece for _, piece, _ in certain(trigger_filter, *swinging)] == [HAT]
+    assert why(trigger_filter) == [HeldBack.FALSE_STOMP]
 
 
 def test_a_stomp_for_which_it_moved_is_true() -> None:
-    guard = TriggerFilter(kit(foot=Foot(least_travel=0.3)))
+    trigger_filter = TriggerFilter(kit(foot=Foot(least_travel=0.3)))
     stamped: list[DeviceEvent] = [
         pedal(0, 0.9),
         hit(1000, HAT, 100),
@@ -158,19 +167,19 @@ def test_a_stomp_for_which_it_moved_is_true() -> None:
         pedal(1009, 0.1),
         hit(1010, FOOT, 40),
     ]
-    assert [piece for _, piece, _ in told(guard, *stamped)] == [HAT, FOOT]
+    assert [piece for _, piece, _ in certain(trigger_filter, *stamped)] == [HAT, FOOT]
 
 
 def test_a_stomp_alone_is_true_whatever_the_pedal_says() -> None:
-    guard = TriggerFilter(kit(foot=Foot(least_travel=0.3)))
-    assert len(told(guard, pedal(0, 0.5), hit(500, HAT, 100), hit(561, FOOT, 40))) == 2
+    trigger_filter = TriggerFilter(kit(foot=Foot(least_travel=0.3)))
+    assert len(certain(trigger_filter, pedal(0, 0.5), hit(500, HAT, 100), hit(561, FOOT, 40))) == 2
 
 
 def splashes(*events: DeviceEvent) -> list[Articulation]:
-    guard = TriggerFilter(kit(foot=Foot(splash_ns=100 * NS_PER_MS)))
+    trigger_filter = TriggerFilter(kit(foot=Foot(splash_ns=100 * NS_PER_MS)))
     for event in events:
-        guard.feed(event)
-    return [event.articulation for event in guard.flush() if isinstance(event, Hit)]
+        trigger_filter.feed(event)
+    return [event.articulation for event in trigger_filter.flush() if isinstance(event, Hit)]
 
 
 def test_a_pedal_that_opens_again_at_once_made_a_splash() -> None:
@@ -189,23 +198,23 @@ def test_a_pedal_that_opens_later_made_none() -> None:
 
 
 def test_the_grabbing_hands_own_stroke_is_none() -> None:
-    guard = TriggerFilter(kit(grab_velocity=25))
+    trigger_filter = TriggerFilter(kit(grab_velocity=25))
     events: list[DeviceEvent] = [
         hit(0, CRASH, 110),
         hit(380, CRASH, 20),
         Choke(400 * NS_PER_MS, CRASH),
         hit(440, CRASH, 15),
     ]
-    assert told(guard, *events) == [(0, CRASH, 110)]
-    assert why(guard) == [HeldBack.GRAB, HeldBack.GRAB]
+    assert certain(trigger_filter, *events) == [(0, CRASH, 110)]
+    assert why(trigger_filter) == [HeldBack.GRAB, HeldBack.GRAB]
 
 
 def test_a_stroke_before_and_after_a_grab_is_one() -> None:
-    guard = TriggerFilter(kit(grab_velocity=25))
+    trigger_filter = TriggerFilter(kit(grab_velocity=25))
     events: list[DeviceEvent] = [
         hit(0, CRASH, 20),
         Choke(400 * NS_PER_MS, CRASH),
         hit(461, CRASH, 20),
         hit(465, CRASH, 26),
     ]
-    assert [ms for ms, _, _ in told(guard, *events)] == [0, 461, 465]
+    assert [ms for ms, _, _ in certain(trigger_filter, *events)] == [0, 461, 465]

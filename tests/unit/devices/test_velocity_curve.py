@@ -54,16 +54,16 @@ def strikes(*velocities: int, note: int = SNARE) -> list[tuple[int, bytes]]:
     return [(200 * NS_PER_MS * k, bytes((0x99, note, velocity))) for k, velocity in enumerate(velocities, 1)]
 
 
-def told(kit: DeviceMap, sent: list[tuple[int, bytes]]) -> list[Hit]:
+def certain(kit: DeviceMap, sent: list[tuple[int, bytes]]) -> list[Hit]:
     bank = DecoderBank()
     bank.add(KIT, kit)
-    events = [event for at_ns, data in sent for event in bank.feed(KIT, data, at_ns).told] + bank.flush()
+    events = [event for at_ns, data in sent for event in bank.feed(KIT, data, at_ns).certain] + bank.flush()
     return [event for event in events if isinstance(event, Hit)]
 
 
 def test_what_is_not_set_counts_as_it_was_sent() -> None:
     assert AS_SENT.table == tuple(range(128))
-    assert [hit.velocity for hit in told(GENERAL_MIDI_PRESET, strikes(1, 64, 127))] == [1, 64, 127]
+    assert [hit.velocity for hit in certain(GENERAL_MIDI_PRESET, strikes(1, 64, 127))] == [1, 64, 127]
 
 
 def test_the_nearest_curve_is_always_one_that_a_kit_file_may_hold() -> None:
@@ -133,7 +133,7 @@ def test_a_slip_among_five_changes_nothing() -> None:
     ],
 )
 def test_what_cannot_be_told_apart_is_refused(ghosts: list[int], accents: list[int], fault: str) -> None:
-    with pytest.raises(BadInput, match="the touch") as raised:
+    with pytest.raises(BadInput, match="the velocity curve") as raised:
         fitted(ghosts, accents)
     assert fault in raised.value.fault
 
@@ -157,7 +157,7 @@ def test_rules_go_by_what_was_sent_and_only_strokes_are_bent() -> None:
         (700 * NS_PER_MS, bytes((0x99, KICK, 100))),
         (705 * NS_PER_MS, bytes((0x99, SNARE, 29))),
     ]
-    heard = told(kit, sent)
+    heard = certain(kit, sent)
     assert [(hit.piece, hit.velocity) for hit in heard] == [
         (Piece.SNARE, light.table[10]),
         (Piece.SNARE, light.table[40]),

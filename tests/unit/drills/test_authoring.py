@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 from station.drills.authoring import NEW_LESSON
-from station.drills.grid.tab_symbols import LETTERS, TabFamily
+from station.drills.grid.tab_symbols import SYMBOLS, TabFamily
 from station.drills.lesson_file import FIELDS, parse_lesson
 
 
@@ -32,5 +32,5 @@ def test_the_manual_has_every_letter_and_every_key() -> None:
         assert f"`{key}`" in text or f"`[{key}]`" in text, key
     rows = {row.split("|")[1].strip(): row for row in text.splitlines() if row.startswith("| `")}
     for line, family in (("snare", TabFamily.SNARE), ("hihat", TabFamily.HIHAT), ("kick", TabFamily.KICK)):
-        for letter in LETTERS[family]:
+        for letter in SYMBOLS[family]:
             assert f"`{letter.lower()}`" in rows[f"`{line}`"], (line, letter)

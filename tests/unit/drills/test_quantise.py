@@ -9,7 +9,7 @@ from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zo
 from station.drills.lesson_file import parse_lesson
 from station.drills.lesson_writer import first_difference, write_lesson
 from station.drills.library import find_lesson
-from station.drills.quantise import fit_score, lesson_of
+from station.drills.quantise import lesson_of, quantise_score
 from station.music.formats.smf.standard_midi import read_midi, score_from_midi
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
@@ -22,7 +22,7 @@ MS = QUARTER // 500
 
 
 def fitted(*notes: Note, tempo_map: TempoMap = TEMPO) -> list[Note]:
-    found = fit_score(Score.from_notes(notes, tempo_map))
+    found = quantise_score(Score.from_notes(notes, tempo_map))
     text = write_lesson(lesson_of(found.score, "x", "x", found.velocities))
     again = parse_lesson(text, "x", "x").lesson
     assert again
@@ -36,7 +36,7 @@ def snare(tick: int, velocity: int = 80) -> Note:
 
 def test_what_the_grid_can_say_stays() -> None:
     lesson = find_lesson("funk-1")
-    found = fit_score(lesson.score)
+    found = quantise_score(lesson.score)
     assert first_difference(found.score, lesson.score) == ""
     assert (found.moved, found.left_out, found.furthest_ms) == (0, 0, 0)
 
@@ -44,7 +44,7 @@ def test_what_the_grid_can_say_stays() -> None:
 def test_human_sixteenths_go_to_the_nearest() -> None:
     late = (12, -9, 15, 4)
     played = [snare(i * SIXTEENTH + ms * MS) for i, ms in zip(range(4, 8), late, strict=True)]
-    found = fit_score(Score.from_notes(played, TEMPO))
+    found = quantise_score(Score.from_notes(played, TEMPO))
     assert found.score.notes["tick"].tolist() == [i * SIXTEENTH for i in range(4, 8)]
     assert found.moved == 4
     assert found.furthest_ms == pytest.approx(15, abs=0.1)
@@ -67,7 +67,7 @@ def test_a_stroke_just_before_the_beat_goes_to_it() -> None:
 
 def test_a_stroke_just_before_the_end_of_a_loop_goes_to_its_start() -> None:
     score = Score.from_notes([snare(WHOLE - 10 * MS)], TEMPO)
-    found = fit_score(score)
+    found = quantise_score(score)
     assert found.score.notes["tick"].tolist() == [0]
     assert found.furthest_ms == pytest.approx(10, abs=0.1)
 
@@ -124,7 +124,7 @@ def test_feet_get_their_limbs() -> None:
 
 
 def test_a_bouncing_beater_is_one_stroke() -> None:
-    found = fit_score(Score.from_notes([Note(0, Piece.KICK), Note(QUARTER // 8, Piece.KICK)], TEMPO))
+    found = quantise_score(Score.from_notes([Note(0, Piece.KICK), Note(QUARTER // 8, Piece.KICK)], TEMPO))
     assert len(found.score) == 1  # 62 ms apart
     assert found.left_out == 1
 
@@ -152,7 +152,7 @@ def test_a_buzz_lasts_until_the_next_stroke_at_most() -> None:
 def test_tempo_changes_move_to_bars_and_cut_sections() -> None:
     tempo_map = TempoMap.build([TempoChange(0, 500_000), TempoChange(WHOLE + 100, 400_000)])
     score = Score.from_notes([snare(0), snare(WHOLE), snare(2 * WHOLE)], tempo_map)
-    found = fit_score(score)
+    found = quantise_score(score)
     assert [t.tick for t in found.score.tempo_map.tempos] == [0, WHOLE]
     assert [(s.first_bar, s.last_bar) for s in lesson_of(found.score, "x", "x").sections] == [(0, 0), (1, 2)]
 
@@ -164,7 +164,7 @@ def test_sections_of_four_bars() -> None:
 
 def test_a_bar_cut_short_gets_a_meter_of_its_own() -> None:
     tempo_map = TempoMap.build([], [MeterChange(0, 4, 4), MeterChange(2 * QUARTER, 4, 4)])
-    found = fit_score(Score.from_notes([snare(0), snare(2 * QUARTER)], tempo_map))
+    found = quantise_score(Score.from_notes([snare(0), snare(2 * QUARTER)], tempo_map))
     assert [(m.tick, m.beats, m.unit) for m in found.score.tempo_map.meters] == [(0, 2, 4), (2 * QUARTER, 4, 4)]
     write_lesson(lesson_of(found.score, "x", "x", found.velocities))
 
@@ -172,13 +172,13 @@ def test_a_bar_cut_short_gets_a_meter_of_its_own() -> None:
 def test_a_bar_cut_where_no_meter_can_is_refused() -> None:
     tempo_map = TempoMap.build([], [MeterChange(0, 4, 4), MeterChange(1001, 4, 4)])
     with pytest.raises(BadInput, match="a change of meter cuts it"):
-        fit_score(Score.from_notes([snare(0), snare(1001)], tempo_map))
+        quantise_score(Score.from_notes([snare(0), snare(1001)], tempo_map))
 
 
 @pytest.mark.parametrize("path", real_files("gmd/*/eval_session/*.mid"))
 def test_what_people_played_becomes_a_lesson(path: Path) -> None:
     score = score_from_midi(read_midi(path))
-    found = fit_score(score)
+    found = quantise_score(score)
     text = write_lesson(lesson_of(found.score, "x", "x", found.velocities))
     again = parse_lesson(text, "x", "x").lesson
     assert again

@@ -173,7 +173,7 @@ def test_closing_gives_the_card_back_and_leaves_the_engine_silent() -> None:
 
 @dataclass
 class Street:
-    """What a lookout sees."""
+    """The sound devices that come and go."""
 
     devices: list[SoundDevice] = field(default_factory=list)
     looks: int = 0
@@ -189,16 +189,16 @@ def device(name: str, is_default: bool = True) -> SoundDevice:
     return SoundDevice(0, name, "fake host", 2, 48_000, is_default)
 
 
-def seen(lookout: Hotplug) -> None:
+def seen(hotplug: Hotplug) -> None:
     """Wait until the look that is on its way is done."""
-    if lookout._looking is not None:
-        lookout._looking.join()
+    if hotplug._looking is not None:
+        hotplug._looking.join()
 
 
 def test_after_a_sound_servers_death_the_engine_wears_out_as_soon_as_there_is_an_output() -> None:
     engine, street, shop = Engine(), Street(), Shop([FakeOutput("jack")])
-    lookout = Hotplug("", street.look)
-    card = Card(engine, shop.open, shop.build, lookout)
+    hotplug = Hotplug("", street.look)
+    card = Card(engine, shop.open, shop.build, hotplug)
     card.start(0)
     shop.outputs[:] = []
     shop.is_gone = True
@@ -208,7 +208,7 @@ def test_after_a_sound_servers_death_the_engine_wears_out_as_soon_as_there_is_an
         if step == 60:
             street.devices = [device("jack")]
         card.supervise(step * NS_PER_S // 2)
-        seen(lookout)
+        seen(hotplug)
         told += engine.advance(step)
         if step < 60:
             assert not card.is_worn_out
@@ -220,8 +220,8 @@ def test_after_a_sound_servers_death_the_engine_wears_out_as_soon_as_there_is_an
 def test_a_card_that_was_missing_from_the_start_sounds_when_it_comes_while_nothing_plays() -> None:
     """The first that comes cannot be opened."""
     engine, street, shop = Engine(), Street(), Shop([None, None, FakeOutput("phones")])
-    lookout = Hotplug("phones", street.look)
-    card = Card(engine, shop.open, shop.build, lookout)
+    hotplug = Hotplug("phones", street.look)
+    card = Card(engine, shop.open, shop.build, hotplug)
     card.start(0)
     told: list[object] = []
 
@@ -229,7 +229,7 @@ def test_a_card_that_was_missing_from_the_start_sounds_when_it_comes_while_nothi
         for second in seconds:
             if card.name is None:
                 card.supervise(second * NS_PER_S)
-                seen(lookout)
+                seen(hotplug)
                 told.extend(engine.advance(second * NS_PER_S))
 
     go_by(range(1, 10))
@@ -252,8 +252,8 @@ def test_a_card_that_was_missing_from_the_start_sounds_when_it_comes_while_nothi
 
 def test_the_sound_follows_the_systems_default_while_nothing_plays() -> None:
     engine, street, shop = Engine(), Street([device("speakers")]), Shop([FakeOutput("speakers"), FakeOutput("phones")])
-    lookout = Hotplug("", street.look)
-    card = Card(engine, shop.open, shop.build, lookout)
+    hotplug = Hotplug("", street.look)
+    card = Card(engine, shop.open, shop.build, hotplug)
     card.start(0)
     first = card._output
     assert isinstance(first, FakeOutput)
@@ -265,7 +265,7 @@ def test_the_sound_follows_the_systems_default_while_nothing_plays() -> None:
             assert isinstance(card._output, FakeOutput)
             card._output.ask(64, second * NS_PER_S)
             card.supervise(second * NS_PER_S)
-            seen(lookout)
+            seen(hotplug)
             told += engine.advance(second * NS_PER_S)
         return told
 
@@ -293,14 +293,14 @@ def test_the_sound_follows_the_systems_default_while_nothing_plays() -> None:
 )
 def test_the_sound_stays_where_it_was_chosen(wanted: str, devices: list[SoundDevice]) -> None:
     engine, shop = Engine(), Shop([FakeOutput("speakers"), FakeOutput("phones")])
-    lookout = Hotplug(wanted, Street(devices).look)
-    card = Card(engine, shop.open, shop.build, lookout)
+    hotplug = Hotplug(wanted, Street(devices).look)
+    card = Card(engine, shop.open, shop.build, hotplug)
     card.start(0)
     for second in range(1, 40):
         assert isinstance(card._output, FakeOutput)
         card._output.ask(64, second * NS_PER_S)
         card.supervise(second * NS_PER_S)
-        seen(lookout)
+        seen(hotplug)
     assert card.name == "speakers"
 
 

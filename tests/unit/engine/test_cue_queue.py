@@ -8,7 +8,7 @@ from tests.fakes.cues import clicks
 
 
 def times(playback: CueQueue, from_ns: int, until_ns: int) -> list[int]:
-    return [cue.at_ns for cue in playback.take(from_ns, until_ns)]
+    return [cue.at_ns for cue in playback.pop_due(from_ns, until_ns)]
 
 
 def test_each_cue_is_taken_once_in_its_own_stretch() -> None:
@@ -68,7 +68,7 @@ def test_a_cue_bears_what_the_table_says() -> None:
     row = (5, Bus.DEMONSTRATION, 2, 2, 0, 99, 0.5)
     playback = CueQueue()
     playback.start(CueRun(np.array([row], CUE_DTYPE)), 0)
-    (cue,) = playback.take(0, 10)
+    (cue,) = playback.pop_due(0, 10)
     assert tuple(cue) == row
 
 

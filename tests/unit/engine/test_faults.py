@@ -17,7 +17,7 @@ from station.core.events import DeviceEvent, DeviceFound, DeviceLost, Hit
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.devices.capture.capture import read_capture
 from station.devices.capture.replay import replay
-from station.devices.device_ports import parse_kit, ports_for
+from station.devices.device_ports import parse_device, ports_for
 from station.devices.port_watch import PortWatch
 from station.engine.engine import Engine
 from station.engine.engine_step import Runner
@@ -88,7 +88,7 @@ def test_a_hundred_plug_cycles_leave_no_thread_file_or_port(tmp_path: Path) -> N
     """A real pty comes and goes, each time in the middle of a message, each time heard and recorded."""
     engine = Engine()
     with SerialKit(tmp_path / "ttyUSB0", plugged=False) as kit:
-        runner = Runner(engine, [PortWatch(ports_for(parse_kit(kit.device), None), kit.device)], None)
+        runner = Runner(engine, [PortWatch(ports_for(parse_device(kit.device), None), kit.device)], None)
         runner.start(0)
         runner.step(0)
         files, threads = held()

@@ -22,8 +22,8 @@ def test_commands_are_taken_in_order_and_the_parents_end_closes_it() -> None:
     theirs.close()
     until_it_hears_no_more()
     assert inbox.is_closed
-    assert inbox.take() == [Stop()]
-    assert inbox.take() == []
+    assert inbox.pop_all() == [Stop()]
+    assert inbox.pop_all() == []
 
 
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnhandledThreadExceptionWarning")

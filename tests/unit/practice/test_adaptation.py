@@ -31,9 +31,9 @@ FILL = find_lesson("rock-fill-1")
 
 
 def practised(
-    spec: str, wishes: PlanOptions, adaptation: Adaptation | None = None
+    spec: str, options: PlanOptions, adaptation: Adaptation | None = None
 ) -> tuple[Adaptation, VirtualSession]:
-    followed = adaptation or Adaptation(FILL, wishes, TODAY)
+    followed = adaptation or Adaptation(FILL, options, TODAY)
     return followed, practise_adaptively(followed, parse_spec(spec))
 
 
@@ -97,7 +97,7 @@ def test_wishes_that_cannot_be_are_refused() -> None:
 def test_the_demonstration_comes_before_the_first_pass_alone() -> None:
     adaptation = Adaptation(FILL, PlanOptions(loops=3), TODAY)
     assert adaptation.plan.demonstrations_end_ns > 0
-    adaptation.take(practised("pro,seed=1", PlanOptions(loops=1))[1].result)
+    adaptation.record_pass(practised("pro,seed=1", PlanOptions(loops=1))[1].result)
     assert adaptation.plan.demonstrations_end_ns == 0
 
 
@@ -126,7 +126,7 @@ def test_a_pass_that_was_stopped_is_kept_and_not_judged() -> None:
     _, virtual = practised("pro,seed=1", PlanOptions(loops=1))
     stopped = Adaptation(FILL, PlanOptions(loops=4), TODAY)
     step = stopped.step
-    stopped.take(replace(virtual.result, complete=False))
+    stopped.record_pass(replace(virtual.result, complete=False))
     assert stopped.over
     assert stopped.step == step
     assert stopped.rounds[0].measured is None
@@ -179,7 +179,7 @@ def test_the_report_says_every_pass_and_what_comes_next() -> None:
 def test_feedback_is_what_the_student_is_shown(feedback: Feedback, shown: list[int | None]) -> None:
     session = Session(plan_practice(FILL, PlanOptions(loops=1)), feedback=feedback)
     verdicts = (Judgement(Label.MATCH, 0, 0, 9), Judgement(Label.MISS, 1, None))
-    assert [verdict.asynchrony_ns for verdict in session.told(verdicts)] == shown
+    assert [verdict.asynchrony_ns for verdict in session.shown(verdicts)] == shown
 
 
 def test_what_is_stable_is_kept_while_the_click_is_silent() -> None:
@@ -198,7 +198,7 @@ def test_what_is_stable_is_kept_while_the_click_is_silent() -> None:
 
 def test_what_is_stable_is_also_played_on_the_other_cymbal() -> None:
     adaptation, virtual = practised("sd_ms=8,seed=4", PlanOptions(loops=24))
-    other = [one for one in adaptation.rounds if one.step.revoiced]
+    other = [one for one in adaptation.rounds if one.step.reorchestrated]
     assert other
     assert {one.step.pct for one in other} == {100.0}
     assert all((one.result.score.notes["piece"] == Piece.RIDE).any() for one in other)

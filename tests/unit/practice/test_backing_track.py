@@ -19,8 +19,8 @@ def plan(share: float = 1.0) -> Plan:
 
 
 def test_the_track_is_as_much_slower_as_the_practice() -> None:
-    wish = BackingRequest(Path("song.mp3"))
-    assert wish.track(plan(0.8), 48_000).speed == pytest.approx(0.8)
+    request = BackingRequest(Path("song.mp3"))
+    assert request.track(plan(0.8), 48_000).speed == pytest.approx(0.8)
     assert BackingRequest(Path("song.mp3"), speed=1.2).track(plan(0.8), 48_000).speed == 1.2
 
 
@@ -35,11 +35,11 @@ def test_it_begins_with_the_first_pass(tmp_path: Path, monkeypatch: pytest.Monke
     file.write_bytes(stroke())
     backing, asked = Backing(BackingRequest(file)), plan()
     backing.ask(asked, 44_100)
-    track = backing.take(wait_s=None)
+    track = backing.ready(wait_s=None)
     assert track is not None
     assert track.rate_hz == 44_100
     backing.ask(asked, 44_100)
-    assert backing.take() is track  # it is kept
+    assert backing.ready() is track  # it is kept
     _, first, second = Session(asked, backing=track).start()
     assert first == SetBacking(track, asked.passes_start_ns)
     assert isinstance(second, Play)
@@ -49,4 +49,4 @@ def test_a_file_that_cannot_be_read_is_told(tmp_path: Path) -> None:
     backing = Backing(BackingRequest(tmp_path / "none.wav"))
     backing.ask(plan(), 48_000)
     with pytest.raises(BadInput, match=r"none\.wav"):
-        backing.take(wait_s=None)
+        backing.ready(wait_s=None)

@@ -11,7 +11,7 @@ from station.core.units import NS_PER_S
 from station.drills.library import find_lesson
 from station.engine.messages import CaptureSaved, Command, EngineEvent, Play, RecordCapture, Started
 from station.music.judgement import Judgement
-from station.practice.headless.live import Room, practise_live
+from station.practice.headless.live import LiveSetup, practise_live
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.device_latency import Latency
 from station.practice.session.plan import PlanOptions, plan_practice
@@ -57,7 +57,7 @@ def test_passes_follow_each_other_in_one_capture_and_come_down(tmp_path: Path) -
         if session not in heard:
             heard.append(session)
 
-    outcome = practise_live(Room(link, clock, tell), SessionRunner(adaptation, Latency()), tmp_path / "x")
+    outcome = practise_live(LiveSetup(link, clock, tell), SessionRunner(adaptation, Latency()), tmp_path / "x")
     assert outcome.fault is None
     assert (link.plays, len(heard)) == (3, 3)
     assert link.records == [tmp_path / "x", None]
@@ -79,7 +79,7 @@ class Dying(Link):
 def test_an_engine_that_ends_between_passes_leaves_the_passes_that_were_played(tmp_path: Path) -> None:
     clock = ManualClock()
     link, adaptation = Dying(clock), Adaptation(find_lesson("rock-1"), PlanOptions(loops=3, demonstrations=0), TODAY)
-    room = Room(link, clock, lambda *_: None)
+    room = LiveSetup(link, clock, lambda *_: None)
     outcome = practise_live(room, SessionRunner(adaptation, Latency()), tmp_path / "x")
     assert str(outcome.fault) == "the engine has ended"
     assert len(adaptation.rounds) == 1
@@ -94,7 +94,7 @@ def unheard(session: Session, judged: tuple[Judgement, ...]) -> None:
 def test_what_cannot_be_told_costs_no_session_and_is_told_at_the_end(tmp_path: Path) -> None:
     clock = ManualClock()
     plan = plan_practice(find_lesson("rock-1"), PlanOptions(loops=1, demonstrations=0))
-    outcome = practise_live(Room(Link(clock), clock, unheard), SessionRunner(plan, Latency()), tmp_path / "x")
+    outcome = practise_live(LiveSetup(Link(clock), clock, unheard), SessionRunner(plan, Latency()), tmp_path / "x")
     assert outcome.result.complete
     assert len(outcome.result.performance) == 1
     told = "not all could be shown while you played, the session is kept: Broken pipe"

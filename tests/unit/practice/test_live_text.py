@@ -46,7 +46,7 @@ def told(plan: Plan, legs: list[Leg], seed: int) -> tuple[str, set[Label]]:
             hit = next(hits, None)
         judged += session.advance(now_ns)
         labels |= {verdict.label for verdict in judged}
-        text.tell(session, judged)
+        text.show(session, judged)
     return "".join(written), labels
 
 

@@ -31,15 +31,15 @@ K, S = Piece.KICK, Piece.SNARE
 )
 def test_two_kicks_within_a_second_and_nothing_between(strokes: list[tuple[int, Piece]], asks_at: list[int]) -> None:
     kicks = TwoKicks()
-    asked = [at for at, piece in strokes if kicks.take(Hit(at * NS_PER_MS, piece, Zone.HEAD, 90))]
+    asked = [at for at, piece in strokes if kicks.feed(Hit(at * NS_PER_MS, piece, Zone.HEAD, 90))]
     assert asked == asks_at
 
 
 def test_what_was_forgotten_counts_no_more() -> None:
     kicks = TwoKicks()
-    kicks.take(Hit(0, K, Zone.HEAD, 90))
+    kicks.feed(Hit(0, K, Zone.HEAD, 90))
     kicks.forget()
-    assert not kicks.take(Hit(300 * NS_PER_MS, K, Zone.HEAD, 90))
+    assert not kicks.feed(Hit(300 * NS_PER_MS, K, Zone.HEAD, 90))
 
 
 CRASHES = frozenset({Piece.CRASH_1, Piece.CRASH_2})
@@ -63,7 +63,7 @@ def score(*notes: Note) -> Score:
 )
 def test_two_pads_at_once(strokes: list[tuple[int, Piece]], pauses_at: list[int]) -> None:
     together = PadsTogether([CRASHES], score(Note(0, K)))
-    assert [at for at, piece in strokes if together.take(Hit(at * NS_PER_MS, piece, Zone.EDGE, 90))] == pauses_at
+    assert [at for at, piece in strokes if together.feed(Hit(at * NS_PER_MS, piece, Zone.EDGE, 90))] == pauses_at
 
 
 def test_what_the_score_asks_for_commands_nothing() -> None:
@@ -74,13 +74,13 @@ def test_what_the_score_asks_for_commands_nothing() -> None:
     assert not is_written(CRASHES, score(Note(0, Piece.CRASH_1), Note(PPQ // 2, Piece.CRASH_2)))
     assert not is_written(CRASHES, score(Note(0, Piece.CRASH_1)))
     together = PadsTogether([CRASHES], at_once)
-    assert not any(together.take(Hit(0, piece, Zone.EDGE, 90)) for piece in CRASHES)
+    assert not any(together.feed(Hit(0, piece, Zone.EDGE, 90)) for piece in CRASHES)
 
 
 def test_a_pedal_that_moves_is_pressed_once() -> None:
     switch = FootSwitch({"cc=64"})
     told = [(0, "cc=64"), (20, "cc=64"), (310, "cc=64"), (700, "cc=64"), (800, "program=1")]
-    assert [at for at, name in told if switch.take(Switched(at * NS_PER_MS, name))] == [0, 700]
+    assert [at for at, name in told if switch.feed(Switched(at * NS_PER_MS, name))] == [0, 700]
 
 
 def test_what_pauses_in_words() -> None:

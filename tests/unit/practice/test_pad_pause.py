@@ -15,7 +15,7 @@ from station.core.units import NS_PER_S
 from station.drills.library import find_lesson
 from station.engine.messages import CaptureSaved, Command, EngineEvent, Play, RecordCapture, Started, Stop
 from station.practice.control.pad_commands import PadCommands, ways_to_go_on
-from station.practice.headless.live import LiveOutcome, Room, practise_live
+from station.practice.headless.live import LiveOutcome, LiveSetup, practise_live
 from station.practice.session.device_latency import Latency
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.practice.session.runner import SessionRunner
@@ -76,7 +76,7 @@ def played(
     engine, settings = Engine(clock, first, later), Settings(**chosen)  # type: ignore[arg-type] # what a test chooses
     runner = SessionRunner(PLAN, Latency(), PadCommands(settings, PLAN.score))
     runner.session.waits = waits
-    return practise_live(Room(engine, clock, lambda *_: None), runner, tmp_path / "x"), engine
+    return practise_live(LiveSetup(engine, clock, lambda *_: None), runner, tmp_path / "x"), engine
 
 
 @pytest.mark.parametrize(

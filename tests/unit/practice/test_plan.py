@@ -115,7 +115,7 @@ def test_segment_at_any_time() -> None:
 
 
 @pytest.mark.parametrize(
-    ("wishes", "named"),
+    ("options", "named"),
     [
         (PlanOptions(tempo_bpm=0), "--tempo: 0"),
         (PlanOptions(tempo_bpm=-80), "--tempo: -80"),
@@ -127,9 +127,9 @@ def test_segment_at_any_time() -> None:
         (PlanOptions(bars=(1, 3)), "--bars: 1-3"),
     ],
 )
-def test_what_cannot_be_is_refused(wishes: PlanOptions, named: str) -> None:
+def test_what_cannot_be_is_refused(options: PlanOptions, named: str) -> None:
     with pytest.raises(BadInput, match=named):
-        plan_practice(lesson(), wishes)
+        plan_practice(lesson(), options)
 
 
 def test_a_left_handed_student_plays_the_kit_mirrored_and_an_open_handed_one_uncrossed() -> None:

@@ -18,8 +18,8 @@ from station.drills.lesson import Lesson
 from station.engine.messages import Started
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
-from station.practice.demonstration.compare_by_ear import earlier_bar
-from station.practice.records.previous_session import NONE_KEPT, PreviousSession, day_in_words, find_earlier
+from station.practice.demonstration.compare_by_ear import previous_bar
+from station.practice.records.previous_session import NONE_KEPT, PreviousSession, day_in_words, find_previous
 from station.practice.records.session_pairs import SESSION_COLUMNS, session_pairs_csv
 from station.practice.session.plan import TAIL_NS, PlanOptions, plan_practice
 from station.practice.session.session import Session, SessionResult
@@ -48,7 +48,7 @@ NOW = "2026-03-05T18-00-00_quarters"
 
 
 def found(student: Path) -> PreviousSession | str:
-    return find_earlier(student / NOW, "quarters")
+    return find_previous(student / NOW, "quarters")
 
 
 def result(tempo_bpm: float, *late_ms: float) -> SessionResult:
@@ -114,7 +114,7 @@ def test_nothing_and_other_people_s_folders_are_none(tmp_path: Path) -> None:
     (tmp_path / "2026-03-04T09-00-00_quarters").mkdir()
     (tmp_path / "my_quarters").mkdir()
     assert found(tmp_path) == NONE_KEPT
-    assert find_earlier(tmp_path / "somewhere", "quarters") == NONE_KEPT
+    assert find_previous(tmp_path / "somewhere", "quarters") == NONE_KEPT
 
 
 def test_its_last_pass_is_laid_over_a_bar_at_another_tempo(tmp_path: Path) -> None:
@@ -122,7 +122,7 @@ def test_its_last_pass_is_laid_over_a_bar_at_another_tempo(tmp_path: Path) -> No
     kept(tmp_path, "2026-03-04T09-00-00_quarters")
     earlier = found(tmp_path)
     assert isinstance(earlier, PreviousSession)
-    laid = earlier_bar(result(60, *[0.0] * 8), 0, earlier)
+    laid = previous_bar(result(60, *[0.0] * 8), 0, earlier)
     hits = [(hit.at_ns, hit.piece, hit.zone, hit.fine_velocity) for hit in laid]
     assert hits == [
         (-10 * NS_PER_MS, Piece.SNARE, Zone.RIM, 70),
@@ -131,7 +131,7 @@ def test_its_last_pass_is_laid_over_a_bar_at_another_tempo(tmp_path: Path) -> No
     ]
     assert laid.hits["openness"][2] == 0.25
     assert not earlier.has_bar(2)
-    assert len(earlier_bar(result(60, *[0.0] * 8), 1, earlier)) == 0
+    assert len(previous_bar(result(60, *[0.0] * 8), 1, earlier)) == 0
 
 
 def test_a_session_s_own_table_brings_its_strokes_back(tmp_path: Path) -> None:
@@ -141,7 +141,7 @@ def test_a_session_s_own_table_brings_its_strokes_back(tmp_path: Path) -> None:
     (folder / "pairs.csv").write_text(session_pairs_csv(played))
     earlier = found(tmp_path)
     assert isinstance(earlier, PreviousSession)
-    laid = earlier_bar(result(240, *[0.0] * 8), 1, earlier)
+    laid = previous_bar(result(240, *[0.0] * 8), 1, earlier)
     at_s = laid.hits["at_ns"] / NS_PER_S
     assert at_s.tolist() == pytest.approx([1.0 + 0.012, 1.5 - 0.008, 1.75 + 0.02], abs=1e-6)
     assert {(hit.zone, hit.articulation) for hit in laid} == {(Zone.RIM, Articulation.CROSS_STICK)}

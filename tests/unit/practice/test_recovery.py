@@ -90,7 +90,7 @@ def test_nothing_is_offered_where_nothing_was_played(tmp_path: Path) -> None:
     assert whole
     records = read_capture(tmp_path / "x" / CAPTURE_NAME).records
     silent = capture_bytes(record for record in records if record.kind != RecordKind.BYTES)
-    free = capture_bytes(record for record in records if record.kind != RecordKind.REMARK)
+    free = capture_bytes(record for record in records if record.kind != RecordKind.ANNOTATION)
     for name, data in (("silent", silent), ("free", free), ("foreign", b"not a capture")):
         (tmp_path / "all" / "Ann" / name).mkdir(parents=True)
         (tmp_path / "all" / "Ann" / name / CAPTURE_NAME).write_bytes(data)

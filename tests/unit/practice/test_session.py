@@ -142,8 +142,8 @@ def test_latency_is_real_time_at_any_speed(percent: int) -> None:
     """14 ms of latency are 14 ms, and 9 ms late are 9 ms, at half the tempo as at twice the tempo."""
     score = Score.from_notes([Note(i * PPQ, Piece.SNARE) for i in range(4)], TempoMap.constant(120))
     lesson = Lesson(name="quarters", title="Quarters", score=score)
-    wishes = PlanOptions(tempo_bpm=1.2 * percent, demonstrations=0, loops=1)
-    practice = Session(plan_practice(lesson, wishes), Latency(input_ns=4 * NS_PER_MS, output_ns=10 * NS_PER_MS))
+    options = PlanOptions(tempo_bpm=1.2 * percent, demonstrations=0, loops=1)
+    practice = Session(plan_practice(lesson, options), Latency(input_ns=4 * NS_PER_MS, output_ns=10 * NS_PER_MS))
     practice.start()
     practice.handle(Started(ZERO_NS))
     beat_ns = BEAT_NS * 100 // percent

@@ -23,8 +23,8 @@ ZERO_NS = 5 * NS_PER_S
 
 
 def planned(loops: int = 4, with_click: bool = False) -> Plan:
-    wishes = PlanOptions(tempo_bpm=120.0, loops=loops, demonstrations=0, click=PLAIN if with_click else None)
-    return plan_practice(find_lesson("rock-1"), wishes)
+    options = PlanOptions(tempo_bpm=120.0, loops=loops, demonstrations=0, click=PLAIN if with_click else None)
+    return plan_practice(find_lesson("rock-1"), options)
 
 
 def practised(plan: Plan, pauses_s: dict[int, float], rate: float) -> tuple[Session, int]:

@@ -28,8 +28,8 @@ def test_it_stands_until_it_is_played_and_stops_at_the_end() -> None:
     assert PLAYER.position_ns(T) == 0
     playing = PLAYER.played(T)
     assert playing.position_ns(T + 3 * NS_PER_S) == 3 * NS_PER_S
-    assert playing.settled(T + 8 * NS_PER_S - 1) is playing
-    over = playing.settled(T + 9 * NS_PER_S)
+    assert playing.stopped_at_end(T + 8 * NS_PER_S - 1) is playing
+    over = playing.stopped_at_end(T + 9 * NS_PER_S)
     assert (over.playing, over.position_ns(T + 60 * NS_PER_S)) == (False, 8 * NS_PER_S)
     assert over.played(T).position_ns(T + 1) == 1, "from the end it plays anew"
 
@@ -44,7 +44,7 @@ def test_it_waits_for_its_sound() -> None:
 def test_its_speed_is_exact_however_often_it_is_asked(percent: int, gone_ns: int) -> None:
     playing = PLAYER.at_speed(T, percent).played(T)
     for now_ns in range(T, T + NS_PER_S, 7_000_003):
-        playing = playing.settled(now_ns)
+        playing = playing.stopped_at_end(now_ns)
     assert playing.position_ns(T + NS_PER_S) == gone_ns
 
 
@@ -58,7 +58,7 @@ def test_backwards_it_stops_at_the_start() -> None:
     back = PLAYER.sought(T, 3 * NS_PER_S).reversed(T, True).played(T)
     assert back.position_ns(T + NS_PER_S) == 2 * NS_PER_S
     assert not back.is_heard
-    over = back.settled(T + 4 * NS_PER_S)
+    over = back.stopped_at_end(T + 4 * NS_PER_S)
     assert (over.playing, over.position_ns(T)) == (False, 0)
     assert over.played(T).position_ns(T) == 8 * NS_PER_S, "from the start it goes back from the end"
 
@@ -69,7 +69,7 @@ def test_a_loop_comes_round_both_ways() -> None:
     assert loop.loop == (1, 2)
     forward = loop.played(T)
     assert [forward.position_ns(T + s * NS_PER_S) // NS_PER_S for s in (0, 3, 4, 9)] == [2, 5, 2, 3]
-    assert forward.settled(T + 100 * NS_PER_S).playing
+    assert forward.stopped_at_end(T + 100 * NS_PER_S).playing
     back = loop.reversed(T, True).played(T)
     assert [back.position_ns(T + s * NS_PER_S) // NS_PER_S for s in (0, 1, 4, 5)] == [6, 5, 6, 5]
 

@@ -39,8 +39,8 @@ def _impulse_autocovariance(alpha: float, sigma_c: float, sigma_m: float, lags: 
 
 
 def _played(interval_s: float, seed: int = 5) -> NDArray[np.float64]:
-    keeper, motor = Timekeeper(np.random.default_rng(seed)).run(np.full(SLOTS, interval_s))
-    return keeper + motor
+    timekeeper, motor = Timekeeper(np.random.default_rng(seed)).run(np.full(SLOTS, interval_s))
+    return timekeeper + motor
 
 
 def _autocorrelation(x: NDArray[np.float64], lag: int) -> float:
@@ -76,8 +76,8 @@ def test_the_first_stroke_has_the_same_spread_as_the_last() -> None:
 
 
 def _sum_of_first(seed: int) -> float:
-    keeper, motor = Timekeeper(np.random.default_rng(seed)).run(np.array([0.5]))
-    return float(keeper[0] + motor[0])
+    timekeeper, motor = Timekeeper(np.random.default_rng(seed)).run(np.array([0.5]))
+    return float(timekeeper[0] + motor[0])
 
 
 def test_lag_one_is_what_is_seen_in_drummers() -> None:
@@ -101,8 +101,8 @@ def test_the_timekeeper_goes_on_from_one_score_to_the_next() -> None:
 
 
 def _seam(seed: int) -> tuple[float, float]:
-    keeper = Timekeeper(np.random.default_rng(seed))
-    before, after = keeper.run(np.full(3, 0.25))[0], keeper.run(np.full(3, 0.25))[0]
+    timekeeper = Timekeeper(np.random.default_rng(seed))
+    before, after = timekeeper.run(np.full(3, 0.25))[0], timekeeper.run(np.full(3, 0.25))[0]
     return float(before[-1]), float(after[0])
 
 

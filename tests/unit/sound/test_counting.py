@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from station.sound.buses import SPOKEN_LEAD_S, WORDS_OF_PARTS, ClickVoice, word_of_beat
+from station.sound.buses import PART_LABELS, SPOKEN_LEAD_S, ClickVoice, word_of_beat
 from station.sound.counting import word_sounds
 
 RATE_HZ = 48_000
@@ -37,7 +37,7 @@ def peak_hz(sound: Series, low_hz: float, high_hz: float) -> float:
 def test_there_are_twelve_numbers_and_what_is_between() -> None:
     assert {ClickVoice.ONE, ClickVoice.TWELVE, ClickVoice.E, ClickVoice.AND, ClickVoice.A} <= set(WORDS)
     assert [word_of_beat(index, ClickVoice.BEAT).name for index in (0, 3, 11, 12)] == ["ONE", "FOUR", "TWELVE", "BEAT"]
-    assert all(len(words) == parts - 1 for parts, words in WORDS_OF_PARTS.items())
+    assert all(len(words) == parts - 1 for parts, words in PART_LABELS.items())
 
 
 @pytest.mark.parametrize("voice", WORDS)

@@ -18,12 +18,12 @@ def test_the_level_follows_the_square_law(velocity: int, level_db: float) -> Non
 def test_a_velocity_plays_the_layer_that_reaches_it() -> None:
     soft, middle, hard = impulse(0.1), impulse(0.2), impulse(0.3)
     sound = Sound((Layer(40, (soft,)), Layer(90, (middle,)), Layer(127, (hard,))))
-    assert sound.take(1, 0) is soft
-    assert sound.take(40, 0) is soft
-    assert sound.take(40.5, 0) is middle
-    assert sound.take(90, 0) is middle
-    assert sound.take(91, 0) is hard
-    assert sound.take(127, 0) is hard
+    assert sound.frames_for(1, 0) is soft
+    assert sound.frames_for(40, 0) is soft
+    assert sound.frames_for(40.5, 0) is middle
+    assert sound.frames_for(90, 0) is middle
+    assert sound.frames_for(91, 0) is hard
+    assert sound.frames_for(127, 0) is hard
 
 
 def test_between_two_velocities_of_a_layer_the_level_is_between_theirs() -> None:
@@ -36,7 +36,7 @@ def test_between_two_velocities_of_a_layer_the_level_is_between_theirs() -> None
 def test_takes_are_played_in_turn() -> None:
     first, second, third = impulse(), impulse(), impulse()
     sound = sound_of(first, second, third)
-    assert [sound.take(100, count) for count in range(5)] == [first, second, third, first, second]
+    assert [sound.frames_for(100, count) for count in range(5)] == [first, second, third, first, second]
 
 
 def test_layers_must_rise_and_reach_the_top() -> None:

@@ -27,7 +27,7 @@ def kit_of(home: Path, xml: bytes, files: dict[str, bytes] | None = None) -> Dru
 
 
 def level(kit: DrumKit, name: SoundName, velocity: int, turn: int = 0, channel: int = 0) -> float:
-    return float(kit.sounds[name].take(velocity, turn)[5000, channel])
+    return float(kit.sounds[name].frames_for(velocity, turn)[5000, channel])
 
 
 TWO_LAYERS = layer("a.wav", 0.0, 0.5) + layer("b.wav", 0.5, 1.0)
@@ -79,7 +79,7 @@ def test_pan_lowers_the_far_side(tmp_path: Path, pan: str, left: float, right: f
 def test_pitches_add_up(tmp_path: Path) -> None:
     body = "<pitchOffset>5</pitchOffset>"
     kit = kit_of(tmp_path, kit_xml(instrument("Snare", body, layer("a.wav", pitch=7.0))))
-    assert len(kit.sounds[SoundName.SNARE].take(127, 0)) == pytest.approx(12_000, abs=2)  # 0.5 s an octave up
+    assert len(kit.sounds[SoundName.SNARE].frames_for(127, 0)) == pytest.approx(12_000, abs=2)  # 0.5 s an octave up
 
 
 @pytest.mark.parametrize(("algorithm", "takes"), [("ROUND_ROBIN", 2), ("RANDOM", 2), ("VELOCITY", 1)])
@@ -100,7 +100,7 @@ def test_microphones_add_up(tmp_path: Path) -> None:
 def test_attack_and_decay_shape_the_take(tmp_path: Path) -> None:
     body = "<Attack>1000</Attack><Decay>2000</Decay><Sustain>0.25</Sustain>"
     kit = kit_of(tmp_path, kit_xml(instrument("Snare", "", layer("a.wav")), instrument("Kick", body, layer("a.wav"))))
-    shaped, plain = (kit.sounds[name].take(127, 0)[:, 0] for name in (SoundName.KICK, SoundName.SNARE))
+    shaped, plain = (kit.sounds[name].frames_for(127, 0)[:, 0] for name in (SoundName.KICK, SoundName.SNARE))
     ratio = shaped[1:6000] / plain[1:6000]
     assert ratio[[499, 999, 1999, 5000]] == pytest.approx([0.5, 1.0, 0.625, 0.25], abs=2e-3)
 
@@ -313,7 +313,7 @@ def test_every_prefix_of_an_archive_is_refused_or_holds_all(tmp_path: Path) -> N
         except BadInput:
             refused += 1
         else:  # only the padding behind the last file is missing
-            assert len(kit.sounds[SoundName.SNARE].take(127, 0)) == pytest.approx(0.4 * RATE_HZ, abs=1)
+            assert len(kit.sounds[SoundName.SNARE].frames_for(127, 0)) == pytest.approx(0.4 * RATE_HZ, abs=1)
     assert refused > 35
 
 

@@ -7,7 +7,7 @@ from tests.fakes.jack_server import JackServer, jackd_is_installed
 
 def test_a_lister_that_hangs_is_given_up() -> None:
     with pytest.raises(DeviceError, match="cannot be listed"):
-        outputs_now(patience_s=0.001)
+        outputs_now(timeout_s=0.001)
 
 
 @pytest.mark.jack

@@ -117,8 +117,8 @@ def test_a_server_that_dies_is_told_of_and_not_waited_for() -> None:
         assert output.fault is None
         print("plays", flush=True)
         sys.stdin.readline()
-        patience = time.monotonic() + 10.0
-        while output.fault is None and time.monotonic() < patience:
+        until_s = time.monotonic() + 10.0
+        while output.fault is None and time.monotonic() < until_s:
             time.sleep(0.02)
         print(output.fault, flush=True)
         begun = time.monotonic()

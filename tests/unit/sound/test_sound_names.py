@@ -4,7 +4,7 @@ import pytest
 
 from station.core.note_map import NoteMeaning
 from station.core.pieces import Articulation, Piece, Zone
-from station.sound.sound_names import SUBSTITUTES, TIP_TIMBRE, SoundName, Voicing, hihat_step, voicing_of
+from station.sound.sound_names import SUBSTITUTES, TIP_TIMBRE, SoundChoice, SoundName, choose_sound, hihat_step
 
 # What a drummer would say each stroke is: written by hand from the names of the pieces.
 STROKES = [
@@ -32,7 +32,7 @@ STROKES = [
 
 @pytest.mark.parametrize(("strike", "sound"), STROKES)
 def test_a_stroke_asks_for_the_sound_that_a_drummer_expects(strike: NoteMeaning, sound: SoundName) -> None:
-    assert voicing_of(strike).sound is sound
+    assert choose_sound(strike).sound is sound
 
 
 @pytest.mark.parametrize(
@@ -49,7 +49,7 @@ def test_a_stroke_asks_for_the_sound_that_a_drummer_expects(strike: NoteMeaning,
     ],
 )
 def test_the_hihats_sound_is_the_one_nearest_to_its_opening(openness: float | None, sound: SoundName) -> None:
-    assert voicing_of(NoteMeaning(Piece.HIHAT, Zone.EDGE, openness=openness)).sound is sound
+    assert choose_sound(NoteMeaning(Piece.HIHAT, Zone.EDGE, openness=openness)).sound is sound
 
 
 def test_openings_beyond_the_range_are_its_ends() -> None:
@@ -57,16 +57,16 @@ def test_openings_beyond_the_range_are_its_ends() -> None:
 
 
 def test_the_tip_on_a_bow_is_darker_than_the_shank_on_the_edge() -> None:
-    assert voicing_of(NoteMeaning(Piece.CRASH_1, Zone.BOW)) == Voicing(SoundName.CRASH_1, TIP_TIMBRE)
-    assert voicing_of(NoteMeaning(Piece.CRASH_1, Zone.EDGE)) == Voicing(SoundName.CRASH_1, 1.0)
-    assert voicing_of(NoteMeaning(Piece.HIHAT, Zone.BOW, openness=0.0)).timbre == TIP_TIMBRE
+    assert choose_sound(NoteMeaning(Piece.CRASH_1, Zone.BOW)) == SoundChoice(SoundName.CRASH_1, TIP_TIMBRE)
+    assert choose_sound(NoteMeaning(Piece.CRASH_1, Zone.EDGE)) == SoundChoice(SoundName.CRASH_1, 1.0)
+    assert choose_sound(NoteMeaning(Piece.HIHAT, Zone.BOW, openness=0.0)).timbre == TIP_TIMBRE
     assert TIP_TIMBRE < 1.0
 
 
 def test_every_piece_zone_and_articulation_has_a_sound() -> None:
     for piece, zone, articulation in itertools.product(Piece, Zone, Articulation):
         for openness in (None, 0.0, 0.4, 1.0):
-            assert voicing_of(NoteMeaning(piece, zone, articulation, openness)).sound in SoundName
+            assert choose_sound(NoteMeaning(piece, zone, articulation, openness)).sound in SoundName
 
 
 def test_every_way_of_substitution_is_short_and_never_leads_to_itself() -> None:

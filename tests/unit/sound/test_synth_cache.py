@@ -86,7 +86,7 @@ def test_only_the_latest_files_are_kept(
     monkeypatch.setattr(synth_kits.synth_kit, "__wrapped__", lambda *_: made[1])
     cached_kit(MODEL, RATE_HZ, tmp_path)
     kept = [path.name for path in files(tmp_path)]
-    assert len(kept) == synth_cache.KEPT_FILES + 1
+    assert len(kept) == synth_cache.CACHED_FILES + 1
     assert "else.txt" in kept
     assert any(name.startswith(MODEL) for name in kept)
 

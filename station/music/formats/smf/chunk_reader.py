@@ -1,7 +1,7 @@
 """The chunks of a Standard MIDI File: header, tracks, and whatever else is there; bytes in, `MidiFile` out.
 
 A file is read as it stands or refused with one `BadInput` that names the offset of the wrong byte; `MidiFile.oddities`
-tells what was passed over.
+reports what was passed over.
 
 Source: MIDI Association, RP-001 "Standard MIDI Files 1.0"; RP-029 for the RIFF wrapper.
 """
@@ -50,7 +50,7 @@ class _Header:
     end: int
 
 
-def _told(kind: bytes) -> str:
+def _kind_label(kind: bytes) -> str:
     """The four letters of a chunk's head; what is no letter as its number."""
     return "".join(chr(c) if 0x20 <= c < 0x7F else f"\\x{c:02x}" for c in kind)
 
@@ -60,7 +60,7 @@ def _header(data: bytes, start: int, source: str) -> _Header:
         raise BadInput(source, "byte 0", "the file is empty")
     if data[start : start + 4] != b"MThd":
         raise BadInput(
-            source, f"byte {start}", f"not a MIDI file: {_told(data[start : start + 4])} where MThd should be"
+            source, f"byte {start}", f"not a MIDI file: {_kind_label(data[start : start + 4])} where MThd should be"
         )
     body = start + _CHUNK_HEAD_BYTES
     length = int.from_bytes(data[start + 4 : body], "big")
@@ -114,7 +114,7 @@ def _tracks(data: bytes, header: _Header, source: str) -> _Found:
             tracks.append(parse_events(data, start, end, source))
             oddities += tracks[-1].oddities
         else:
-            oddities.append(f"byte {at}: a chunk of another kind, {_told(kind)}, was skipped")
+            oddities.append(f"byte {at}: a chunk of another kind, {_kind_label(kind)}, was skipped")
         at = end
     if at < len(data):
         oddities.append(f"byte {at}: {len(data) - at} bytes follow the last track")

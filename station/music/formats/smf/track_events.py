@@ -42,8 +42,8 @@ _ONE_DATA_BYTE = (0xC0, 0xD0)
 _ILLEGAL_BUT_KNOWN = {0xF1: 1, 0xF2: 2, 0xF3: 1, 0xF6: 0, 0xF8: 0, 0xFA: 0, 0xFB: 0, 0xFC: 0, 0xFE: 0}
 """System messages that have no place in a file, with their data bytes: their length is certain, so they are skipped."""
 
-_MOST_TOLD = 20
-"""So many of them are told one by one; of more, their number (our choice)."""
+_MOST_LISTED = 20
+"""So many of them are listed one by one; of more, their number (our choice)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,9 +105,9 @@ class _TrackReader:
         """Read all events up to the end of track."""
         while self.at < self.stop and not self.ended:
             if _has_two_data_bytes(self.running) and _STRETCH.match(self.data, self.at, self.stop):
-                self._take_stretch()
+                self._read_stretch()
             else:
-                self._take_event()
+                self._read_event()
         self._flush()
         self._note_ending()
         self.found.columns = _joined(self.blocks)
@@ -115,8 +115,8 @@ class _TrackReader:
         return self.found
 
     def _note_ending(self) -> None:
-        if self.skipped > _MOST_TOLD:
-            self.found.oddities.append(f"{self.skipped - _MOST_TOLD} more system messages were skipped")
+        if self.skipped > _MOST_LISTED:
+            self.found.oddities.append(f"{self.skipped - _MOST_LISTED} more system messages were skipped")
         if not self.ended:
             self.found.oddities.append(f"byte {self.stop}: the track has no end-of-track event")
         elif self.at < self.stop:
@@ -124,14 +124,14 @@ class _TrackReader:
 
     # --- many at once -------------------------------------------------------------------------------------------------
 
-    def _take_stretch(self) -> None:
+    def _read_stretch(self) -> None:
         """Read windows of growing size until one holds something else."""
         self._flush()
         window = _FIRST_WINDOW
-        while self._take_window(min(window, self.stop - self.at)):
+        while self._read_window(min(window, self.stop - self.at)):
             window = min(2 * window, _LAST_WINDOW)
 
-    def _take_window(self, size: int) -> bool:
+    def _read_window(self, size: int) -> bool:
         """Read the events at the start of the next `size` bytes that have the shape; whether all of them have it."""
         raw = np.frombuffer(self.data, np.uint8, size, self.at)
         low = np.flatnonzero(raw < 0x80)
@@ -167,31 +167,31 @@ class _TrackReader:
 
     # --- one by one ---------------------------------------------------------------------------------------------------
 
-    def _take_event(self) -> None:
+    def _read_event(self) -> None:
         self.tick += self._number("a delta time")
         status = self._byte("an event")
         if status < 0x80:
             if not self.running:
                 self._refuse(self.at - 1, f"data byte {status:02X} where a status byte was expected")
             self.at -= 1
-            self._take_channel(self.running)
+            self._read_channel(self.running)
         elif status < 0xF0:
             self.running = status
-            self._take_channel(status)
+            self._read_channel(status)
         elif status == 0xFF:
-            self._take_meta()
+            self._read_meta()
         elif status in (0xF0, 0xF7):
-            self._take_sysex(status)
+            self._read_sysex(status)
         else:
             self._skip_illegal(status)
 
-    def _take_channel(self, status: int) -> None:
+    def _read_channel(self, status: int) -> None:
         first = self._data_byte()
         if status & 0xF0 in _ONE_DATA_BYTE:
             return
         self.single.append((self.tick, status, first, self._data_byte()))
 
-    def _take_meta(self) -> None:
+    def _read_meta(self) -> None:
         event_at = self.at - 1
         kind = self._byte("a meta event")
         body = self._body("a meta event")
@@ -200,23 +200,23 @@ class _TrackReader:
         elif len(body) < _META_BYTES.get(kind, 0):
             self._refuse(event_at, f"meta event {kind:02X} has {len(body)} bytes, {_META_BYTES[kind]} were expected")
         elif kind == _TEMPO:
-            self._take_tempo(event_at, int.from_bytes(body[:3], "big"))
+            self._read_tempo(event_at, int.from_bytes(body[:3], "big"))
         elif kind == _METER:
-            self._take_meter(event_at, body[0], body[1])
+            self._read_meter(event_at, body[0], body[1])
         elif 1 <= kind <= _LAST_TEXT_KIND:
             self.found.texts.append(Text.of(self.tick, kind, body))
 
-    def _take_tempo(self, event_at: int, us_per_quarter: int) -> None:
+    def _read_tempo(self, event_at: int, us_per_quarter: int) -> None:
         if not us_per_quarter:
             self._refuse(event_at, "a tempo of 0 µs a quarter note")
         self.found.tempos.append(TempoChange(self.tick, us_per_quarter))
 
-    def _take_meter(self, event_at: int, beats: int, power: int) -> None:
+    def _read_meter(self, event_at: int, beats: int, power: int) -> None:
         if not beats or power > _MAX_METER_POWER:
             self._refuse(event_at, f"a meter of {beats} beats of 1/2^{power} note")
         self.found.meters.append(MeterChange(self.tick, beats, 1 << power))
 
-    def _take_sysex(self, status: int) -> None:
+    def _read_sysex(self, status: int) -> None:
         body = self._body("a system exclusive message")
         if status == 0xF0:
             self.found.sysex.append(SysEx(self.tick, body.removesuffix(b"\xf7")))
@@ -228,7 +228,7 @@ class _TrackReader:
         for _ in range(_ILLEGAL_BUT_KNOWN[status]):
             self._data_byte()
         self.skipped += 1
-        if self.skipped <= _MOST_TOLD:
+        if self.skipped <= _MOST_LISTED:
             self.found.oddities.append(
                 f"byte {at}: system message {status:02X}, which has no place in a file, was skipped"
             )

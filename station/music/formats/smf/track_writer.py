@@ -171,8 +171,8 @@ def _choke_number(piece: int, pieces: NDArray[np.uint8], numbers: NDArray[np.uin
 def _known(starts: NDArray[np.int64], hits: NDArray[np.void], piece: Piece, controller: int) -> Messages:
     """What a controller said before the hits on `piece`: the hi-hat's openness, or the position on the snare."""
     values = 1 - hits["openness"] if controller == PEDAL_CONTROLLER else hits["position"]
-    told = (hits["piece"] == piece) & ~np.isnan(values)
-    return _described(starts[told], controller, values[told])
+    known = (hits["piece"] == piece) & ~np.isnan(values)
+    return _described(starts[known], controller, values[known])
 
 
 # --- messages ---------------------------------------------------------------------------------------------------------

@@ -8,22 +8,22 @@ import pytest
 from station.core.errors import BadInput
 from station.core.events import Hit
 from station.core.note_map import NoteMeaning
-from station.core.pieces import Articulation, Piece, Zone
+from station.core.pieces import Articulation, Piece, Zone, word
 from station.core.units import NS_PER_MS
 from station.devices.mapping.device_file import parse_kit
 from station.devices.mapping.device_map import Pad
 from station.devices.mapping.device_writer import kit_text
 from station.devices.mapping.presets import GENERAL_MIDI_PRESET, preset_named
-from station.devices.wizard.one_hit import PadEar, in_words, taught
-from station.devices.wizard.pad_choices import PADS, all_pads, pad_name, pad_named
-from station.devices.wizard.velocity_learning import TouchLearning
+from station.devices.wizard.one_hit import PadListener, in_words, taught
+from station.devices.wizard.pad_choices import PADS, pad_name, pad_named
+from station.devices.wizard.velocity_learning import VelocityLearning
 
 RIM = NoteMeaning(Piece.TOM_1, Zone.RIM)
 MS = NS_PER_MS
 
 
-def heard(*sent: tuple[float, str]) -> PadEar:
-    ear = PadEar()
+def heard(*sent: tuple[float, str]) -> PadListener:
+    ear = PadListener()
     ear.listen(on=True)
     for ms, data in sent:
         ear.feed(bytes.fromhex(data), round(ms * MS))
@@ -92,7 +92,7 @@ def test_what_a_pad_meant_is_said(number: int, words: str) -> None:
 
 
 def test_every_pad_has_a_name_that_finds_it() -> None:
-    names = list(all_pads())
+    names = [f"{word(piece)}/{zone}" for piece, zones in PADS.items() for zone in zones]
     assert len({pad_named(name) for name in names}) == len(names)
     assert set(PADS) == set(Piece) - {Piece.PERCUSSION}
     assert pad_named("snare/cross_stick") == NoteMeaning(Piece.SNARE, Zone.RIM, Articulation.CROSS_STICK)
@@ -111,13 +111,13 @@ def strike(at_ms: float, velocity: int, piece: Piece = Piece.SNARE) -> Hit:
 
 
 def test_five_ghosts_then_five_accents() -> None:
-    touch = TouchLearning(Piece.SNARE)
+    touch = VelocityLearning(Piece.SNARE)
     asked = []
     for k, velocity in enumerate((12, 10, 11, 14, 13, 90, 95, 92, 99, 91)):
         asked.append(touch.asks)
-        touch.take(strike(500 * k, velocity))
-        touch.take(strike(500 * k + 8, 3))  # a double trigger belongs to its stroke
-        touch.take(strike(500 * k + 9, 100, Piece.KICK))
+        touch.feed(strike(500 * k, velocity))
+        touch.feed(strike(500 * k + 8, 3))  # a double trigger belongs to its stroke
+        touch.feed(strike(500 * k + 9, 100, Piece.KICK))
     assert (asked[0], asked[7]) == (
         "snare: play five ghost strokes, 0 of 5",
         "snare: now five accents, 2 of 5",

@@ -46,7 +46,7 @@ def played(kit: DeviceMap, sent: list[Sent]) -> list[DeviceEvent]:
     bank, told = DecoderBank(), list[DeviceEvent]()
     bank.add("kit", kit)
     for ms, data in sorted(sent):
-        told += bank.feed("kit", data, ns_from_ms(ms)).told
+        told += bank.feed("kit", data, ns_from_ms(ms)).certain
     return told + bank.flush()
 
 
