@@ -24,7 +24,7 @@ from station.app.actions import EditStyle, SetView  # noqa: E402
 from station.app.room_state import Stage  # noqa: E402
 from station.core.settings import load_settings  # noqa: E402
 from station.drills.library import find_lesson  # noqa: E402
-from station.drills.mastery.policy import new_item  # noqa: E402
+from station.drills.mastery.next_pass import new_item  # noqa: E402
 from station.drills.mastery.practice_steps import item_of  # noqa: E402
 from station.drills.mastery.probes import Probes  # noqa: E402
 from station.drills.mastery.reviews import Review  # noqa: E402

@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import assert_never
 
 from station.app import actions as do
+from station.app.child_programs import ChildPrograms
 from station.app.chooser import Chooser
 from station.app.engine_client import EngineClient
 from station.app.equipment.calibration import Calibration, CalibrationView
@@ -19,7 +20,6 @@ from station.app.equipment.mapping_view import MappingView
 from station.app.export import Exporter
 from station.app.first_start import answered, student_level
 from station.app.preferences import Preferences
-from station.app.processes import Processes
 from station.app.room_state import Stage
 from station.app.sessions.pad_control import PadControl
 from station.app.sessions.session_control import Launch, SessionControl
@@ -44,7 +44,7 @@ class Controller:
     Sessions go by `store`; `launch` is what it opens on. Raises `BadInput` for settings whose words mean nothing.
     """
 
-    def __init__(self, processes: Processes, store: SettingsStore, launch: Launch) -> None:
+    def __init__(self, processes: ChildPrograms, store: SettingsStore, launch: Launch) -> None:
         self._store, self._toasts = store, Toasts()
         notify = self._toasts.notify
         if store.fault is not None:

@@ -11,9 +11,9 @@ from station.core.errors import StationError
 from station.core.events import DeviceEvent, Hit
 from station.core.pieces import word
 from station.core.units import s_from_ns
-from station.devices.edit_mapping import USAGE, obey
 from station.devices.mapping.suspect_hits import Suspicion
 from station.devices.mapping.trigger_filter import FalseTrigger
+from station.devices.mapping_commands import USAGE, obey
 from station.devices.monitor import DeviceMonitor, MonitorLine, rule_against, suspected
 from station.devices.port_watch import PortPoll
 

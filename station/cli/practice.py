@@ -30,10 +30,10 @@ from station.core.errors import BadInput, StationError
 from station.core.settings import Settings, setting_source, with_said
 from station.core.units import PPQ
 from station.drills.lesson import Lesson
-from station.practice.headless.telling import Telling
-from station.practice.records.keeping import SessionFolder, SessionRecord, save
+from station.practice.headless.guarded_output import GuardedOutput
 from station.practice.records.memory import Memory, Remembered
 from station.practice.records.recovery import offer, recovered
+from station.practice.records.save_session import SessionFolder, SessionRecord, save
 from station.practice.records.session_files import TEXT_NAME
 from station.practice.records.session_report import practice_document, report_text, with_truth
 from station.practice.session.backing_track import BackingRequest
@@ -204,7 +204,7 @@ def _leave(
 
     `may_ask`: a person played, who may be asked for an opinion before the report is there.
     """
-    telling = Telling()
+    telling = GuardedOutput()
     if may_ask:
         telling.attempt(ask_first, saved.document)
     telling.attempt(_print_report, saved.document, as_json=options.json)
@@ -231,7 +231,7 @@ def _print_report(document: dict[str, Json], as_json: bool) -> None:
         write(f"\n{document['pairs_csv']}", end="", flush=True)
 
 
-def _draw(folder: SessionFolder, saved: SessionRecord, settings: Settings, telling: Telling) -> list[Path]:
+def _draw(folder: SessionFolder, saved: SessionRecord, settings: Settings, telling: GuardedOutput) -> list[Path]:
     from station.scenes.pictures import draw_record
 
     try:

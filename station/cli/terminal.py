@@ -14,9 +14,9 @@ from station.engine.engine_config import EngineConfig
 from station.engine.supervisor import EngineSupervisor
 from station.practice.control.pad_commands import PadCommands, ways_to_go_on
 from station.practice.headless.end_signals import end_asked
+from station.practice.headless.guarded_output import GuardedOutput
 from station.practice.headless.live import LiveOutcome, LiveSetup, practise_live, wait_for_kits
 from station.practice.headless.live_text import LEGEND, LiveText
-from station.practice.headless.telling import Telling
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.backing_track import Backing, BackingRequest
 from station.practice.session.device_latency import latency_of
@@ -45,7 +45,7 @@ def practise_in_terminal(
     """
     pads = PadCommands(settings, asked.plan.score if isinstance(asked, Adaptation) else asked.score)
     runner, ways_on = SessionRunner(asked, latency_of(settings, load_calibration()), pads), ways_to_go_on(settings)
-    text, telling = LiveText(partial(say, end=""), ways_on), Telling()
+    text, telling = LiveText(partial(say, end=""), ways_on), GuardedOutput()
     clock = MonotonicClock()
     config = EngineConfig.from_settings(settings)
     telling.attempt(say, "looking for a kit and a sound output …")

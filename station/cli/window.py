@@ -42,20 +42,20 @@ def open_window(
     """
     if not has_screen():
         raise DeviceError("no screen: `station practice --headless` practises in the terminal")
+    from station.app.child_programs import ChildPrograms
     from station.app.controller import Controller
-    from station.app.processes import Processes
     from station.app.sessions.session_control import Launch
     from station.engine.engine_config import EngineConfig
     from station.engine.supervisor import EngineSupervisor
-    from station.gui.layout import WindowOptions
     from station.gui.window import run_window
+    from station.gui.window_frame import WindowOptions
     from station.practice.headless.end_signals import end_asked
     from station.practice.session.device_latency import latency_of
 
     launch = Launch(first, adapt, latency_of(store.now, load_calibration()), backing)
     with ExitStack() as engines, end_asked() as asked:
         wake = lambda: engines.enter_context(EngineSupervisor(EngineConfig.from_settings(store.now)))  # noqa: E731
-        controller = Controller(Processes(wake), store, launch)
+        controller = Controller(ChildPrograms(wake), store, launch)
         try:
             goes_on = lambda drawn: not asked and (watch is None or watch.shown(drawn))  # noqa: E731
             run_window(controller, WindowOptions(shown=goes_on))

@@ -9,7 +9,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from station.core.pieces import Articulation, Piece, Zone
+from station.core.pieces import HALF_OPEN, Articulation, Piece, Zone
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,7 +89,6 @@ def strike_of(midi_note: int, kit_map: KitMap) -> NoteMeaning:
     return kit_map.get(midi_note, NoteMeaning(Piece.PERCUSSION))
 
 
-_HALF_OPEN = 0.5
 _BEST_NOTE = {Piece.KICK: 36, Piece.SNARE: 38, Piece.RIDE: 51}
 """Where General MIDI has several numbers for a piece, the plain one."""
 _LOWEST_NOTE = {strike.piece: note for note, strike in sorted(GENERAL_MIDI.items(), reverse=True)}
@@ -100,7 +99,7 @@ _UNMAPPED_NOTE = 75
 def general_midi_note(piece: Piece, zone: Zone, articulation: Articulation, openness: float | None = None) -> int:
     """The General MIDI number that sounds closest (hi-hat open from openness 0.5 up)."""
     if piece is Piece.HIHAT:
-        return 46 if (openness or 0.0) >= _HALF_OPEN else 42
+        return 46 if (openness or 0.0) >= HALF_OPEN else 42
     if piece is Piece.SNARE and articulation is Articulation.CROSS_STICK:
         return 37
     if piece is Piece.SNARE and articulation is Articulation.RIM_SHOT:

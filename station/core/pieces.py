@@ -5,6 +5,9 @@ The values are stored in numpy arrays and captures, so a number, once given, is 
 
 from enum import IntEnum
 
+CLOSED, HALF_OPEN, OPEN = 0.0, 0.5, 1.0
+"""Openness of a hi-hat."""
+
 
 class Piece(IntEnum):
     """An instrument of the kit. The hi-hat under a hand and under the foot are two pieces, for two limbs play them."""

@@ -59,7 +59,7 @@ from station.drills.lesson import (
     Lesson,
     Section,
 )
-from station.drills.playable import impossible
+from station.motion.feasibility.playable import impossible
 from station.music.score import Score
 from station.music.tempo import MAX_BPM, MIN_BPM, MeterChange, TempoChange, TempoMap
 

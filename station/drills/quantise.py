@@ -14,14 +14,14 @@ from statistics import median_low
 from types import MappingProxyType
 
 from station.core.errors import BadInput
-from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece
+from station.core.pieces import HALF_OPEN, Articulation, Dynamic, Limb, Ornament, Piece
 from station.core.units import NS_PER_MS, NS_PER_S, PPQ, ns_from_s
 from station.drills.grid.cell_strokes import GRACE_LEADS_MS, GRACE_SHARE, OTHER_HAND, Velocities
-from station.drills.grid.tab_symbols import FOOT_OF, HALF_OPEN, SYMBOLS, TabFamily, TabSymbol, family_of
+from station.drills.grid.tab_symbols import FOOT_OF, SYMBOLS, TabFamily, TabSymbol, family_of
 from station.drills.lesson import Lesson, Section
 from station.drills.lesson_writer import write_lesson
-from station.drills.playable import FOOT_SPANS_S
 from station.drills.quantise_time import at_bar_starts, on_cells
+from station.motion.feasibility.playable import FOOT_SPANS_S
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 

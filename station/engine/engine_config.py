@@ -5,7 +5,7 @@ from typing import Self
 
 from station.core.settings import Settings, setting_source
 from station.devices.device_ports import DeviceRequest, parse_devices
-from station.engine.level_words import parse_levels
+from station.engine.levels_option import parse_levels
 from station.engine.messages import Bus, Command, SetLevel, SetMidiOut, SetPiece
 
 _CHOSEN = Settings()

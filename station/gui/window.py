@@ -19,12 +19,12 @@ from station.gui import theme
 from station.gui.display import MonitorWatch
 from station.gui.draw_toasts import ABOVE_RESULT, draw_toast
 from station.gui.keyboard_kit import pressed
-from station.gui.layout import Calls, WindowOptions, central_area, runner, splits
-from station.gui.panel_table import Pages
+from station.gui.panel_layout import Pages
 from station.gui.panels.help_window import help_window
 from station.gui.panels.welcome_page import WelcomePage
 from station.gui.player_keys import player_keys
 from station.gui.viewport import Viewport
+from station.gui.window_frame import Calls, WindowOptions, central_area, runner, splits
 from station.render.snapshot import Snapshot
 
 _NO_WINDOW = "no window can be opened: is there a screen, and OpenGL? `station practice --headless` needs neither"

@@ -10,7 +10,7 @@ import numpy as np
 from station.core.pieces import Limb
 from station.core.units import NS_PER_MS
 from station.music.judgement import Label
-from station.practice.session.places import places_of
+from station.practice.session.lesson_places import places_of
 from station.practice.session.session import SessionResult
 
 CLEAR_FAULT_MS = 40.0

@@ -13,7 +13,7 @@ from station.core.labels import piece_name
 from station.core.pieces import Piece
 from station.core.units import NS_PER_MS
 from station.music.judgement import Label
-from station.practice.session.places import PLACE_DTYPE, places_of, ticks_of_hits
+from station.practice.session.lesson_places import PLACE_DTYPE, places_of, ticks_of_hits
 from station.practice.session.session import SessionResult
 
 DOT_DTYPE = np.dtype(

@@ -9,7 +9,7 @@ from station.core.units import NS_PER_S
 from station.motion.drummer import Drummer
 from station.motion.style.lanes import in_passes
 from station.music.judgement import Label
-from station.practice.records.keeping import SessionRecord
+from station.practice.records.save_session import SessionRecord
 from station.practice.records.session_files import DRUMMER_NAME, PICTURE_NAME
 from station.practice.session.session import SessionResult
 from station.render.picture import draw_png

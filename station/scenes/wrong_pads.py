@@ -8,7 +8,7 @@ import numpy as np
 from station.core.labels import piece_name
 from station.core.pieces import Piece
 from station.music.judgement import Label
-from station.practice.session.places import places_of
+from station.practice.session.lesson_places import places_of
 from station.practice.session.session import SessionResult
 
 

@@ -12,8 +12,8 @@ import numpy as np
 
 from station.core.errors import BadInput
 from station.sound.buses import ClickVoice
-from station.sound.counting import word_sounds
 from station.sound.drum_kit import Frames
+from station.sound.spoken_count import word_sounds
 
 ATTACK_S = 0.0008
 _LENGTH_S = 0.09

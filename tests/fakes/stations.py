@@ -5,10 +5,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from station.app.actions import Begin, Select
+from station.app.child_programs import ChildPrograms
 from station.app.controller import Controller
 from station.app.equipment.calibration import MeasuringProcess, Running
 from station.app.equipment.latency_methods import MeasureRequest
-from station.app.processes import Processes
 from station.app.room_state import RoomState
 from station.app.sessions.session_control import Launch
 from station.app.settings_store import SettingsStore
@@ -60,7 +60,7 @@ def station_on(
 ) -> Controller:
     """A station whose engines are `lines`, one after the other; `measure` begins a measurement."""
     waiting = iter(lines)
-    return Controller(Processes(lambda: next(waiting), measure), store, launch)
+    return Controller(ChildPrograms(lambda: next(waiting), measure), store, launch)
 
 
 def shown(station: Controller, now_ns: int) -> Snapshot:

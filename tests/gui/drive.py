@@ -36,7 +36,6 @@ from station.engine.messages import Play, SetLevel, WatchRawBytes
 from station.gui.display import GONE, Rectangle, home_for
 from station.gui.glfw_screen import glfw_screen
 from station.gui.keyboard_kit import VIEW_KEYS
-from station.gui.layout import WindowOptions
 from station.gui.panels.calibration_part import ANYWAY_LABEL, MEASURE_LABEL
 from station.gui.panels.course_list import ALL_LESSONS
 from station.gui.panels.devices_panel import DEVICES
@@ -52,6 +51,7 @@ from station.gui.panels.practice_panel import LEARN_LABEL, PRACTICE
 from station.gui.panels.transport_bar import VIEW_LABEL
 from station.gui.panels.velocity_part import LEARN_LABEL as TOUCH_LABEL
 from station.gui.window import Window
+from station.gui.window_frame import WindowOptions
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.practice.session.self_estimate import SelfEstimate
 from station.render.camera import VIEW_NAMES, NamedView

@@ -6,11 +6,11 @@ frames as it has steps, however slowly they are drawn, and a virtual student's M
 
 import sys
 
+from station.app.child_programs import ChildPrograms
 from station.app.controller import Controller
 from station.app.equipment.calibration import Message
 from station.app.equipment.calibration_results import CalibrationResult, CalibrationResults
 from station.app.equipment.latency_methods import MeasureRequest
-from station.app.processes import Processes
 from station.app.sessions.session_control import Launch
 from station.app.settings_store import SettingsStore
 from station.core.errors import DeviceError
@@ -121,5 +121,5 @@ def station(
     engine = DirectEngine(clock, student)
     plan = plan_practice(find_lesson(lesson), options)
     engine.plan = plan
-    processes = Processes(lambda: engine, Measurement, (sys.executable, "-c", FILMS))
+    processes = ChildPrograms(lambda: engine, Measurement, (sys.executable, "-c", FILMS))
     return Controller(processes, store, Launch(plan)), engine, clock

@@ -34,9 +34,9 @@ from station.core.events import DeviceFound, DeviceLost, Hit
 from station.core.note_map import NoteMeaning
 from station.core.pieces import Piece, word
 from station.core.units import NS_PER_MS
-from station.devices.edit_mapping import obey
 from station.devices.mapping.device_map import DeviceMap, Sent
 from station.devices.mapping.trigger_filter import HeldBack
+from station.devices.mapping_commands import obey
 from station.devices.monitor import DeviceMonitor, MonitorLine, rule_against
 from station.devices.wizard.one_hit import in_words, taught
 from station.devices.wizard.pad_choices import pad_name

@@ -20,7 +20,7 @@ from station.music.performance import Performance
 from station.music.score import Score
 from station.music.tempo import TempoMap
 from station.practice.headless.live import EngineLink, begin, end
-from station.practice.records.keeping import SessionFolder
+from station.practice.records.save_session import SessionFolder
 from station.practice.session.click_options import parse_click
 from station.practice.session.device_latency import Latency
 from station.practice.session.free_play import BEATS, FreeClick, FreePlay, listening_back, take_of

@@ -18,8 +18,8 @@ from station.core.settings import Settings
 from station.core.units import NS_PER_S
 from station.engine.messages import Command, EngineEvent
 from station.practice.headless.live import begin, end
-from station.practice.records.keeping import SessionFolder, SessionRecord, save
 from station.practice.records.previous_session import find_previous
+from station.practice.records.save_session import SessionFolder, SessionRecord, save
 from station.practice.records.session_report import practice_document
 from station.practice.session.device_latency import Latency
 from station.practice.session.plan import Phase, Plan

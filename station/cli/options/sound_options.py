@@ -5,7 +5,7 @@ from pathlib import Path
 
 from station.cli.options.option_fields import choice, number, option, switch, unread, whole_number
 from station.core.errors import BadInput
-from station.engine.level_words import LEVELS_HELP, parse_levels
+from station.engine.levels_option import LEVELS_HELP, parse_levels
 from station.practice.session.backing_track import BackingRequest
 from station.practice.session.click_options import CLICK_HELP, parse_click
 from station.sound.click_sounds import TIMBRES

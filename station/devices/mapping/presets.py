@@ -17,12 +17,8 @@ from types import MappingProxyType
 from station.core.did_you_mean import did_you_mean
 from station.core.errors import BadInput
 from station.core.note_map import GENERAL_MIDI, V_DRUMS, KitMap, NoteMeaning
-from station.core.pieces import TOMS, Articulation, Piece, Zone
+from station.core.pieces import CLOSED, HALF_OPEN, OPEN, TOMS, Articulation, Piece, Zone
 from station.devices.mapping.device_map import DeviceMap, PedalRange
-
-_HALF_OPEN = 0.5
-_SHUT = 0.0
-_OPEN = 1.0
 
 _ROLAND: KitMap = MappingProxyType(
     {**V_DRUMS, 27: NoteMeaning(Piece.PERCUSSION, Zone.HEAD), 28: NoteMeaning(Piece.PERCUSSION, Zone.RIM)}
@@ -34,8 +30,8 @@ _ALESIS_NITRO: KitMap = MappingProxyType(
         **{number: V_DRUMS[number] for number in (48, 50, 45, 47, 43, 58)},  # three toms and their rims
         41: NoteMeaning(Piece.FLOOR_TOM_2),
         39: NoteMeaning(Piece.FLOOR_TOM_2, Zone.RIM),
-        21: NoteMeaning(Piece.HIHAT_PEDAL, Zone.PEDAL, Articulation.SPLASH, _OPEN),
-        23: NoteMeaning(Piece.HIHAT, Zone.BOW, openness=_HALF_OPEN),
+        21: NoteMeaning(Piece.HIHAT_PEDAL, Zone.PEDAL, Articulation.SPLASH, OPEN),
+        23: NoteMeaning(Piece.HIHAT, Zone.BOW, openness=HALF_OPEN),
     }
 )
 
@@ -43,8 +39,8 @@ _ALESIS_CRIMSON: KitMap = MappingProxyType(
     {
         **GENERAL_MIDI,
         8: NoteMeaning(Piece.HIHAT, Zone.BOW),
-        22: NoteMeaning(Piece.HIHAT_PEDAL, Zone.PEDAL, Articulation.CHICK, _SHUT),
-        23: NoteMeaning(Piece.HIHAT_PEDAL, Zone.PEDAL, Articulation.SPLASH, _OPEN),
+        22: NoteMeaning(Piece.HIHAT_PEDAL, Zone.PEDAL, Articulation.CHICK, CLOSED),
+        23: NoteMeaning(Piece.HIHAT_PEDAL, Zone.PEDAL, Articulation.SPLASH, OPEN),
         50: NoteMeaning(Piece.TOM_1),
         82: NoteMeaning(Piece.TOM_1, Zone.RIM),
         47: NoteMeaning(Piece.TOM_2),
@@ -75,11 +71,11 @@ _YAMAHA_DTX502: KitMap = MappingProxyType(
         59: NoteMeaning(Piece.CRASH_1, Zone.BOW),
         49: NoteMeaning(Piece.CRASH_1, Zone.EDGE),
         55: NoteMeaning(Piece.CRASH_1, Zone.BELL),
-        78: NoteMeaning(Piece.HIHAT, Zone.EDGE, openness=_OPEN),
-        85: NoteMeaning(Piece.HIHAT, Zone.BELL, openness=_OPEN),
-        79: NoteMeaning(Piece.HIHAT, Zone.EDGE, openness=_SHUT),
-        86: NoteMeaning(Piece.HIHAT, Zone.BELL, openness=_SHUT),
-        83: NoteMeaning(Piece.HIHAT_PEDAL, Zone.PEDAL, Articulation.SPLASH, _OPEN),
+        78: NoteMeaning(Piece.HIHAT, Zone.EDGE, openness=OPEN),
+        85: NoteMeaning(Piece.HIHAT, Zone.BELL, openness=OPEN),
+        79: NoteMeaning(Piece.HIHAT, Zone.EDGE, openness=CLOSED),
+        86: NoteMeaning(Piece.HIHAT, Zone.BELL, openness=CLOSED),
+        83: NoteMeaning(Piece.HIHAT_PEDAL, Zone.PEDAL, Articulation.SPLASH, OPEN),
         15: NoteMeaning(Piece.PERCUSSION),  # 15 and 16, beside 56 and 57: pads that their owner adds
         16: NoteMeaning(Piece.PERCUSSION),
     }
@@ -93,7 +89,7 @@ _YAMAHA_DTXPLORER: KitMap = MappingProxyType(
         31: NoteMeaning(Piece.SNARE),
         34: NoteMeaning(Piece.SNARE, Zone.RIM, Articulation.RIM_SHOT),
         37: NoteMeaning(Piece.SNARE, Zone.RIM, Articulation.CROSS_STICK),
-        85: NoteMeaning(Piece.HIHAT_PEDAL, Zone.PEDAL, Articulation.SPLASH, _OPEN),
+        85: NoteMeaning(Piece.HIHAT_PEDAL, Zone.PEDAL, Articulation.SPLASH, OPEN),
         51: NoteMeaning(Piece.RIDE, Zone.BOW),
         52: NoteMeaning(Piece.RIDE, Zone.EDGE),
     }

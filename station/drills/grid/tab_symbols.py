@@ -10,15 +10,13 @@ from dataclasses import dataclass
 from enum import Enum
 from types import MappingProxyType
 
-from station.core.pieces import TOMS, Articulation, Dynamic, Limb, Ornament, Piece, Zone, word
+from station.core.pieces import CLOSED, HALF_OPEN, OPEN, TOMS, Articulation, Dynamic, Limb, Ornament, Piece, Zone, word
 
 RESTS = "-."
 HOLD = "~"
 """Goes on with the buzz roll before it."""
 CHOKE = "#"
 """Grabs the cymbal that the same line struck last."""
-
-CLOSED, HALF_OPEN, OPEN = 0.0, 0.5, 1.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,13 +11,13 @@ from imgui_bundle import imgui, implot
 
 from station.core.units import NS_PER_S
 from station.gui import theme
+from station.gui.panels.graph_axis import music_ticks
 from station.gui.widgets import plots
 from station.gui.widgets.flow_row import FlowRow
 from station.render import palette
 from station.render.report.stroke_plot import AXIS_MS, LINES, line_words
 from station.scenes.curves import ScoreCurves, StudentStrokes
 from station.scenes.joint_curves import CURVES, JointCurves
-from station.scenes.music_ticks import music_ticks
 
 ABOUT = "Joint angles of both arms over the music, your timing and loudness below"
 HELP = (

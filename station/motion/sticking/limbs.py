@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from station.core.errors import BadInput
 from station.core.pieces import Limb, Piece
-from station.motion.feasibility import InfeasibleDemand, infeasible_demands
+from station.motion.feasibility.on_a_kit import InfeasibleDemand, infeasible_demands
 from station.motion.kit.kit import Kit
 from station.motion.sticking.hand_choice import choose_hands
 from station.motion.sticking.hand_notes import HandNotes, Hands

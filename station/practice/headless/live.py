@@ -14,7 +14,7 @@ from station.core.units import ns_from_s
 from station.engine.messages import CaptureSaved, Command, EngineEvent, Ready, RecordCapture
 from station.music.judgement import Judgement
 from station.practice.headless.end_signals import EndAsked
-from station.practice.headless.telling import Telling
+from station.practice.headless.guarded_output import GuardedOutput
 from station.practice.session.engine_state import EngineState
 from station.practice.session.runner import SessionRunner
 from station.practice.session.session import Session, SessionResult
@@ -83,7 +83,7 @@ class LiveSetup:
     engine: EngineLink
     clock: Clock
     show: Show
-    telling: Telling = field(default_factory=Telling)
+    telling: GuardedOutput = field(default_factory=GuardedOutput)
     asked: EndAsked = field(default_factory=EndAsked)
 
     def step(self, runner: SessionRunner) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 
 from station.core.pieces import Articulation, Piece, Zone, word
 from station.music.performance import Performance
-from station.practice.session.places import places_of, ticks_of_hits
+from station.practice.session.lesson_places import places_of, ticks_of_hits
 from station.practice.session.session import SessionResult
 from station.scoring.report.pairs_table import COLUMNS, pair_rows
 

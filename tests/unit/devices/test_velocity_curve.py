@@ -16,7 +16,6 @@ from station.core.units import NS_PER_MS
 from station.devices.capture.capture import read_capture
 from station.devices.capture.replay import replay
 from station.devices.decoders import DecoderBank
-from station.devices.edit_mapping import obey
 from station.devices.mapping.device_map import Crosstalk, DeviceMap, Pad
 from station.devices.mapping.presets import GENERAL_MIDI_PRESET
 from station.devices.mapping.velocity_curve import (
@@ -31,6 +30,7 @@ from station.devices.mapping.velocity_curve import (
     fitted,
     threshold_below,
 )
+from station.devices.mapping_commands import obey
 from station.drills.grid.cell_strokes import Velocities
 from station.engine.engine import Engine
 from station.engine.messages import RecordCapture

@@ -9,7 +9,7 @@ from station.core.pieces import TOMS, Articulation, Dynamic, Limb, Ornament, Pie
 from station.core.units import PPQ
 from station.drills.lesson import Lesson
 from station.drills.library import find_lesson, lesson_names
-from station.drills.playable import impossible
+from station.motion.feasibility.playable import impossible
 from station.music.score import Note
 
 BACKBEATS = {2, 6}

@@ -6,6 +6,7 @@ import pytest
 from station.core.pieces import Piece
 from station.core.units import PPQ
 from station.drills.library import find_lesson
+from station.gui.panels.graph_axis import MOST_LINES, music_ticks
 from station.motion.drummer import Drummer
 from station.motion.kinematics.pose import ANGLE_NAMES
 from station.music.judgement import Judgement, Label
@@ -14,7 +15,6 @@ from station.music.tempo import MeterChange, TempoMap
 from station.render.snapshot import BarNumbers, mark, no_marks
 from station.scenes.curves import played_of_marks
 from station.scenes.joint_curves import CURVES, JointCurves
-from station.scenes.music_ticks import MOST_LINES, music_ticks
 
 DRUMMER = Drummer(find_lesson("rock-1").score)
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from station.drills.library import find_lesson
 from station.drills.mastery.mastery_state import ItemState
-from station.drills.mastery.policy import new_item
+from station.drills.mastery.next_pass import new_item
 from station.drills.mastery.practice_steps import item_of
 from station.drills.mastery.probes import Probes
 from station.drills.mastery.reviews import Review

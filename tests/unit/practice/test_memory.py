@@ -10,7 +10,7 @@ import pytest
 from station.core.errors import DeviceError
 from station.drills.library import find_lesson
 from station.drills.mastery.mastery_json import SCHEMA
-from station.drills.mastery.policy import new_item
+from station.drills.mastery.next_pass import new_item
 from station.drills.mastery.practice_steps import item_of
 from station.drills.mastery.reviews import Review
 from station.practice.records.memory import Memory, Remembered

@@ -5,7 +5,7 @@ import pytest
 from numpy.typing import NDArray
 
 from station.sound.buses import PART_LABELS, SPOKEN_LEAD_S, ClickVoice, word_of_beat
-from station.sound.counting import word_sounds
+from station.sound.spoken_count import word_sounds
 
 RATE_HZ = 48_000
 SOUNDS = word_sounds(RATE_HZ)

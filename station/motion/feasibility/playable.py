@@ -13,8 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.labels import limb_name
-from station.core.pieces import HAND_PIECES, Articulation, Limb, Ornament, Piece, word
-from station.drills.grid.tab_symbols import HALF_OPEN
+from station.core.pieces import HALF_OPEN, HAND_PIECES, Articulation, Limb, Ornament, Piece, word
 from station.music.score import Score
 
 HAND_SPANS_S: Mapping[int, float] = {2: 0.045, 3: 0.13, 4: 0.20, 9: 0.62}

@@ -4,7 +4,7 @@ from station.core.errors import BadInput
 from station.core.pieces import Piece
 from station.core.settings import Settings
 from station.engine.engine_config import EngineConfig
-from station.engine.level_words import parse_levels
+from station.engine.levels_option import parse_levels
 from station.engine.messages import Bus, SetLevel, SetMidiOut, SetPiece
 
 

@@ -2,7 +2,7 @@
 
 from station.core.pieces import Limb, Piece, Zone
 from station.core.units import PPQ
-from station.motion.feasibility import infeasible_demands
+from station.motion.feasibility.on_a_kit import infeasible_demands
 from station.motion.kit.kit import load_kit
 from station.motion.sticking.limbs import as_led, assign_limbs
 from station.music.score import Note, Score

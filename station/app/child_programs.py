@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class Processes:
+class ChildPrograms:
     """How each is started: `engine` wakes an engine, `measure` begins a measurement, `animate` is a film's command."""
 
     engine: WakeEngine

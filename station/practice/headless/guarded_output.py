@@ -8,7 +8,7 @@ from station.core.errors import DeviceError, StationError
 What = ParamSpec("What")
 
 
-class Telling:
+class GuardedOutput:
     """Says what it is given to say; the first `failure` is remembered, and what comes after is tried all the same."""
 
     def __init__(self) -> None:
