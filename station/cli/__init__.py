@@ -4,7 +4,3 @@ In: words of the shell. Out: text or one JSON document on standard output, fault
 `command_line` has the table of commands, `console` prints, the `…_options` modules are shared by several commands.
 Read `command_line` first, then the file of the command: `station lesson` is `lesson`.
 """
-
-from station.cli.command_line import main
-
-__all__ = ["main"]

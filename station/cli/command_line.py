@@ -12,7 +12,7 @@ from typing import Any
 
 from station.cli.console import say, written_output
 from station.cli.options.option_fields import Command, Parser, Verbs, chosen, sentence
-from station.core.errors import StationError
+from station.core.errors import DeviceError, StationError
 
 _COMMANDS = {
     "practice": "practise a lesson",
@@ -45,6 +45,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         return 130
     except BrokenPipeError:  # whoever read our output has gone
         return 1
+    except OSError as fault:  # what no reader or writer foresaw, such as a name longer than the file system takes
+        say(f"station: {DeviceError(': '.join(str(part) for part in (fault.filename, fault.strerror) if part))}")
+        return 2
 
 
 def _run(words: list[str]) -> int:

@@ -48,7 +48,7 @@ def write_whole(path: Path, data: bytes) -> None:
         if path.exists() and not path.is_file():
             path.write_bytes(data)
             return
-        with _part_of(path.resolve()) as part, part.open("wb") as file:
+        with _part_of(_target(path)) as part, part.open("wb") as file:
             file.write(data)
             file.flush()
             os.fsync(file.fileno())
@@ -67,7 +67,7 @@ def growing(path: Path) -> Iterator[Path]:
         if path.exists() and not path.is_file():
             raise DeviceError(f"{path}: cannot be written: it is no plain file")
         path.parent.mkdir(parents=True, exist_ok=True)
-        with _part_of(path.resolve()) as part:
+        with _part_of(_target(path)) as part:
             yield part
             with part.open("rb+") as file:
                 os.fsync(file.fileno())
@@ -89,6 +89,14 @@ def _part_of(target: Path) -> Iterator[Path]:
     finally:
         with suppress(OSError):
             part.unlink(missing_ok=True)
+
+
+def _target(path: Path) -> Path:
+    """Where links lead; raises `DeviceError` for those that lead in a circle."""
+    try:
+        return path.resolve()
+    except RuntimeError:  # before Python 3.13
+        raise DeviceError(f"{path}: cannot be written: a symbolic link leads back to itself") from None
 
 
 def _not_written(path: Path, fault: OSError) -> DeviceError:

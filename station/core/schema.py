@@ -19,6 +19,7 @@ from station.core.toml_write import toml_text
 T = TypeVar("T")
 K = TypeVar("K")
 Reader = Callable[[object], T]
+_MOST_BITS = 4_096
 _LONGEST_SHOWN = 40
 _LONGEST_LISTED = 80
 """Letters of a value, and of the words to choose from, that a message repeats (our choice)."""
@@ -306,6 +307,8 @@ def shown(value: object) -> str:
         return "a table" if isinstance(value, dict) else "a list"
     if isinstance(value, bool):
         return "true" if value else "false"
+    if isinstance(value, int) and value.bit_length() > _MOST_BITS:  # more digits than Python writes
+        return _short(hex(value))
     return _short(toml_text(value) if isinstance(value, str) else str(value))
 
 

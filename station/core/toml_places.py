@@ -47,6 +47,8 @@ class Places:
         if char is not None and chars:
             return self._line_column(chars[min(char, len(chars) - 1)])
         first, second = (self.keys, self.values) if at_key else (self.values, self.keys)
+        if path and path not in first and (*path, 0) in second | first:  # a list of tables begins with its first
+            path = (*path, 0)
         while path and path not in first and path not in second:
             path = path[:-1]
         return self._line_column(first.get(path, second.get(path, 0)))

@@ -31,9 +31,13 @@ from enum import IntEnum
 from pathlib import Path
 from typing import NamedTuple
 
-from station.core.errors import BadInput, DeviceError
+from station.core.errors import BadInput
 from station.core.events import Hit
+from station.core.files import read_regular
 from station.core.pieces import Articulation, Piece, Zone
+
+MOST_BYTES = 256 << 20
+"""No capture is longer (our choice: more than a day of playing)."""
 
 MAGIC = b"DRUMCAP1"
 _HEAD = struct.Struct("<BHIq")
@@ -106,15 +110,9 @@ class Capture:
 def read_capture(path: Path) -> Capture:
     """Everything sound in the capture at `path`.
 
-    Raises `BadInput` where there is none and `DeviceError` where the disk refuses.
+    Raises `BadInput` where there is none, or it cannot be read.
     """
-    try:
-        data = path.read_bytes()
-    except FileNotFoundError:
-        raise BadInput(path, "", "no such file") from None
-    except OSError as fault:
-        raise DeviceError(f"{path}: cannot be read: {fault.strerror or fault}") from fault
-    return parse_capture(data, path)
+    return parse_capture(read_regular(path, MOST_BYTES), path)
 
 
 def parse_capture(data: bytes, source: str | Path = "capture") -> Capture:

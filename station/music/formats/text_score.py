@@ -22,11 +22,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.errors import BadInput
-from station.core.files import write_whole
+from station.core.files import read_regular, write_whole
 from station.core.pieces import HAND_PIECES, Articulation, Dynamic, Limb, Ornament, Piece, Zone, word
 from station.core.utf8 import utf8_text
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
+
+MOST_BYTES = 8 << 20
+"""No text score is longer (our choice: hours of music)."""
 
 HEADER = "# drum station text score 1"
 
@@ -64,11 +67,7 @@ def write_text_score(score: Score, limbs: NDArray[np.int8], path: Path) -> None:
 
 def read_text_score(path: Path) -> Score:
     """The score in a file; raises `BadInput` with the line of the first fault."""
-    try:
-        data = path.read_bytes()
-    except OSError as fault:
-        raise BadInput(path, "", fault.strerror or str(fault)) from fault
-    return parse_text_score(utf8_text(data, path, "a text score"), str(path))
+    return parse_text_score(utf8_text(read_regular(path, MOST_BYTES), path, "a text score"), str(path))
 
 
 # --- writing ----------------------------------------------------------------------------------------------------------

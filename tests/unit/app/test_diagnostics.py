@@ -45,9 +45,8 @@ def test_a_midi_library_that_was_built_without_a_driver_is_told_how_to_get_it(mo
 
 
 def test_the_doctor_examines_a_computer_on_which_the_midi_library_cannot_be_loaded() -> None:
-    program = (
-        "import sys; sys.modules['rtmidi'] = None; from station.cli import main; sys.exit(main(['doctor', '--json']))"
-    )
+    without = "import sys; sys.modules['rtmidi'] = None; from station.cli.command_line import main"
+    program = f"{without}; sys.exit(main(['doctor', '--json']))"
     told = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     checks = {check["name"]: check for check in json.loads(told.stdout)["checks"]}
     assert not checks["MIDI library"]["works"]

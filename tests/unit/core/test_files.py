@@ -128,3 +128,10 @@ def test_a_disk_that_fills_up_leaves_the_old_file_whole(tmp_path: Path) -> None:
     assert child.stdout == f"{path}: cannot be written: File too large\n"
     assert path.read_bytes() == b"old"
     assert [p.name for p in tmp_path.iterdir()] == ["report.json"]
+
+
+def test_a_link_that_leads_back_to_itself_cannot_be_written(tmp_path: Path) -> None:
+    link = tmp_path / "loop.mid"
+    link.symlink_to(link)
+    with pytest.raises(DeviceError, match="symbolic link"):
+        write_whole(link, b"")

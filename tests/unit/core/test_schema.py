@@ -129,3 +129,8 @@ def test_of_a_flood_of_faults_the_first_are_told() -> None:
 )
 def test_a_value_is_shown_as_a_file_has_it_and_never_long(value: object, words: str) -> None:
     assert shown(value) == words
+
+
+def test_a_number_of_thousands_of_digits_is_shown_short_in_any_base() -> None:
+    for digits in ("0x" + "f" * 6000, "0o" + "7" * 6000, "0b" + "1" * 20000):
+        assert len(shown(int(digits, 0))) < 100

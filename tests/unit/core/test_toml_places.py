@@ -131,3 +131,8 @@ def test_every_faulty_line_is_named() -> None:
 def test_deep_nesting_is_a_fault() -> None:
     _, _, found = load("a = " + "[" * 100_000)
     assert "too deeply" in found[0][2]
+
+
+def test_a_list_of_tables_stands_where_its_first_does() -> None:
+    places = Places.of("a = 1\n\n[[gird]]\nb = 2\n")
+    assert places.find(("gird",), at_key=True)[0] == 3

@@ -121,7 +121,7 @@ def test_a_missing_capture_is_the_users_fault(tmp_path: Path) -> None:
 
 
 def test_a_folder_is_no_capture(tmp_path: Path) -> None:
-    with pytest.raises(DeviceError, match="cannot be read"):
+    with pytest.raises(BadInput, match="cannot be read"):
         read_capture(tmp_path)
 
 

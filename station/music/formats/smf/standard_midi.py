@@ -8,7 +8,7 @@ what they mean, `track_writer` and `track_bytes` the way out.
 
 from pathlib import Path
 
-from station.core.errors import BadInput
+from station.core.files import read_regular
 from station.music.formats.smf.chunk_reader import MAX_BYTES, parse_midi
 from station.music.formats.smf.contents import MidiFile, MidiTrack
 from station.music.formats.smf.drum_channels import guess_kit_map
@@ -30,9 +30,4 @@ __all__ = [
 
 def read_midi(path: str | Path) -> MidiFile:
     """The MIDI file at `path`; raises `BadInput` if it cannot be read or is no MIDI file."""
-    try:
-        with Path(path).open("rb") as file:
-            data = file.read(MAX_BYTES + 1)
-    except OSError as fault:
-        raise BadInput(path, "", fault.strerror or str(fault)) from fault
-    return parse_midi(data, str(path))
+    return parse_midi(read_regular(Path(path), MAX_BYTES + 1), str(path))
