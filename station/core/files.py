@@ -92,11 +92,10 @@ def _part_of(target: Path) -> Iterator[Path]:
 
 
 def _target(path: Path) -> Path:
-    """Where links lead; raises `DeviceError` for those that lead in a circle."""
-    try:
-        return path.resolve()
-    except RuntimeError:  # before Python 3.13
-        raise DeviceError(f"{path}: cannot be written: a symbolic link leads back to itself") from None
+    """Where links lead; raises `OSError` for those that lead in a circle, for which `resolve` itself may not."""
+    with suppress(FileNotFoundError):
+        path.stat()
+    return path.resolve()
 
 
 def _not_written(path: Path, fault: OSError) -> DeviceError:
