@@ -127,8 +127,9 @@ def _drawn(box: Box) -> list[str]:
     words = [f'<text x="{left:.0f}" y="{box.y + 22}" font-size="16" fill="{INK}"><tspan font-weight="bold">{box.name}'
              f'</tspan> <tspan font-size="12">{box.lines:,} lines</tspan></text>']  # fmt: skip
     width = int((box.width - 20) / least)
-    rows = [*textwrap.wrap(box.purpose, width)[:2], *textwrap.wrap(", ".join(box.inside), width)]
-    for row, text in enumerate(rows[:3]):
+    rows = textwrap.wrap(box.purpose, width, max_lines=2, placeholder=" …")
+    rows += textwrap.wrap(", ".join(box.inside), width, max_lines=3 - len(rows), placeholder=" …")
+    for row, text in enumerate(rows):
         y = box.y + 42 + 16 * row
         words.append(f'<text x="{left:.0f}" y="{y}" font-size="12" fill="{INK}">{escape(text)}</text>')
     return [rect, *words]
@@ -136,7 +137,7 @@ def _drawn(box: Box) -> list[str]:
 
 def _purpose(folder: Path) -> str:
     head = ast.get_docstring(ast.parse((folder / "__init__.py").read_text(encoding="utf-8"))) or ""
-    return head.partition("\n")[0].removesuffix(".")
+    return head.partition("\n")[0].replace("`", "").removesuffix(".")
 
 
 def _arrow(top: Box, low: Box) -> str:
