@@ -1,8 +1,7 @@
 """From performance time to score time when tempo and place are unknown: the whole way of a performance through a score.
 
-The beginning is found (`beginning`) and the tempo followed from there, through pauses, restarts and bars that are left
-out or played again (`ways`). What is played without a break is a *stretch*; within it the way is smoothed
-(`slow_drift`). Times are seconds.
+`offline` finds the way. What is played without a jump is a *stretch*; within it the way is smoothed (`slow_drift`).
+Times are seconds.
 """
 
 from dataclasses import dataclass
@@ -10,43 +9,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.units import PPQ
-from station.music.score import Score
-from station.scoring.following.beginning import find_beginning
-from station.scoring.following.evidence import class_rates
-from station.scoring.following.locate import Hits, Notes
-from station.scoring.following.shifts import Beats, jumps
-from station.scoring.following.tempo_tracker import GATE_S, Place, Tracker
-from station.scoring.following.ways import best_way, clicked_way
+from station.scoring.following.anchors import Hits
+from station.scoring.following.offline import RawWay, clicked_way, free_way
+from station.scoring.following.tempo_tracker import GATE_S
+from station.scoring.following.written import Written, written_of
 from station.scoring.matching.slow_drift import half_width, local_trend, robust_sd
+
+__all__ = ["Warp", "Written", "click_warp", "find_warp", "written_of"]
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
-
-
-@dataclass(frozen=True, eq=False)
-class Written:
-    """A score as it is looked for.
-
-    `at_s` (n,) and `classes` (n,) of its notes in any order; `beat_s` (b,) of every quarter, rising, at least two;
-    `bar_beats` how many quarters the first bar has.
-    """
-
-    at_s: Floats
-    classes: Indices
-    beat_s: Floats
-    bar_beats: float
-
-    def beats(self, tempo: float = 1.0) -> Beats:
-        """Its quarters, played at `tempo` times the written one."""
-        return Beats(self.beat_s / tempo, self.bar_beats)
-
-
-def written_of(score: Score, note_class: Indices) -> Written:
-    """`score`, whose notes are of `note_class` (n,), as it is looked for."""
-    beats = np.arange(0, max(score.end_tick, PPQ) + 1, PPQ)
-    bar_beats = score.tempo_map.meter_at(0).bar_ticks / PPQ
-    return Written(score.onset_s, note_class, score.tempo_map.seconds_at(beats), bar_beats)
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,18 +32,10 @@ class Warp:
 def find_warp(written: Written, hit_s: Floats, hit_classes: Indices) -> Warp:
     """The way of the hits (m,), sorted, through the score; at least one hit has the class of a note."""
     known = np.flatnonzero(np.isin(hit_classes, written.classes))
-    order = np.argsort(written.at_s, kind="stable")
-    order = order[np.isin(written.classes[order], hit_classes)]  # a part that is never played tells no place
-    note_s, classes = written.at_s[order], written.classes[order]
     hits = Hits(hit_s[known], hit_classes[known])
-    notes = _prepared(note_s, classes)
-    beginning = find_beginning(notes, hits)
-    tempo = beginning.rate
-    if tempo != 1.0:
-        notes = _prepared(note_s / tempo, classes)
-    way = best_way(notes, hits, Place(beginning.at_s, beginning.score_s / tempo, 1.0), written.beats(tempo))
-    stretch = _stretches(hits.at_s, way.places)
-    return _filled(_smoothed(hits.at_s, way.places, way.distances, stretch) * tempo, stretch, hit_s, known)
+    way, tempo = free_way(written.of_classes(hits.classes), hits)
+    stretch = _stretches(way, len(known))
+    return _filled(_smoothed(hits.at_s, way, stretch) * tempo, stretch, hit_s, known)
 
 
 def click_warp(written: Written, hit_s: Floats, hit_classes: Indices) -> Warp | None:
@@ -82,34 +46,27 @@ def click_warp(written: Written, hit_s: Floats, hit_classes: Indices) -> Warp | 
     known = np.flatnonzero(np.isin(hit_classes, written.classes))
     if not len(known):
         return None
-    order = np.argsort(written.at_s, kind="stable")
-    notes = _prepared(written.at_s[order], written.classes[order])
     hits = Hits(hit_s[known], hit_classes[known])
-    places = clicked_way(notes, hits, written.beats())
-    if places is None:
+    way = clicked_way(written, hits)
+    if way.score_s is hits.at_s:
         return None
-    stretch = _stretches(hits.at_s, places)
-    return _filled(places, stretch, hit_s, known)
+    return _filled(way.score_s, _stretches(way, len(known)), hit_s, known)
 
 
-def _prepared(note_s: Floats, classes: Indices) -> Notes:
-    return Notes(note_s, classes, class_rates(note_s, classes), Tracker(note_s, classes))
-
-
-def _stretches(at_s: Floats, places: Floats) -> Indices:
+def _stretches(way: RawWay, count: int) -> Indices:
     """Number of the stretch of each hit (m,): a new one begins where the place jumps."""
-    begins = np.zeros(len(at_s), np.int64)
-    begins[jumps(at_s, places)] = 1
+    begins = np.zeros(count, np.int64)
+    begins[way.jumps] = 1
     return np.cumsum(begins)
 
 
-def _smoothed(at_s: Floats, places: Floats, distances: Floats, stretch: Indices) -> Floats:
+def _smoothed(at_s: Floats, raw: RawWay, stretch: Indices) -> Floats:
     """The way of the hits (m,), freed of the loop's jitter: lines through the notes that were met, fitted twice.
 
     The second fit, to what the first left over, takes back the bend that straight lines cut off ("twicing", Tukey
     1977).
     """
-    way = places.copy()
+    places, distances, way = raw.score_s, raw.distance_s, raw.score_s.copy()
     for k in range(int(stretch[-1]) + 1):
         own = np.flatnonzero(stretch == k)
         off = distances[own]

@@ -1,0 +1,125 @@
+"""Beats by which a player is before or behind a clock that keeps their beat: skips, repeats, restarts, a late beginning.
+
+Whoever leaves a bar out plays on in time, so that a clock, the click or one that follows the player's tempo, still tells
+the beat, in the wrong bar. The states are offsets in beats against that clock; beat by beat each gains what hits and
+notes say there, and the best way through them is found (Viterbi 1967) at the prices of `prices`. `forward` takes one
+beat, so that live and final following take the same steps.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.scoring.following.prices import PRICES, UNHEARD_END, When, Where
+from station.scoring.following.written import PARTS, Written
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+FAR_BEATS, NEAR_BEATS = 64, 2
+"""Whole beats are tried as far as the first, 16 bars of 4/4; thirds and quarters of a beat as far as the second."""
+
+_FINE = (3, 4)
+
+
+@dataclass(frozen=True, eq=False)
+class Offsets:
+    """The offsets of one score: `parts` (s,) in parts of a beat, rising, 0 among them, and their prices as a jump."""
+
+    parts: Indices
+    price: Floats
+
+    @property
+    def here(self) -> int:
+        """Index of 0."""
+        return int(np.searchsorted(self.parts, 0))
+
+    @cached_property
+    def beats(self) -> Floats:
+        """The offsets in beats (s,)."""
+        return self.parts / PARTS
+
+    def prices_from(self, state: int, written: Written) -> Floats:
+        """Nats against a jump from one offset to each (s,)."""
+        return self.price if self.parts[state] == 0 else written.prices.on(self.beats - self.beats[state])
+
+
+def offsets_of(written: Written, far_beats: float = FAR_BEATS) -> Offsets:
+    """The offsets that are tried in `written`."""
+    length = float(written.note_beats[-1] - written.note_beats[0]) + written.bar_beats
+    far = int(np.ceil(min(far_beats, length)))
+    whole = np.arange(-far, far + 1) * PARTS
+    fine = [np.arange(-NEAR_BEATS * n, NEAR_BEATS * n + 1) * (PARTS // n) for n in _FINE]
+    halves = np.arange(-far, far + 1) * (PARTS // 2) if written.bar_beats % 1 else whole
+    parts = np.unique(np.concatenate([whole, halves, *fine]))
+    return Offsets(parts, written.prices.on(parts / PARTS))
+
+
+def forward(total: Floats, gain: Floats, offsets: Offsets, written: Written) -> tuple[Floats, NDArray[np.bool_], int]:
+    """One beat: the totals (s,) after it, which states were jumped into at its beginning, and from where."""
+    best = int(total.argmax())
+    jumped = total[best] - offsets.prices_from(best, written)
+    is_better = jumped > total
+    return np.where(is_better, jumped, total) + gain, is_better, best
+
+
+@dataclass(frozen=True, eq=False)
+class BeatWay:
+    """The best way over some beats: the state (b,) of each, and its worth in nats."""
+
+    states: Indices
+    worth: float
+
+
+def best_way(gains: Floats, first: Floats, offsets: Offsets, written: Written, last: Floats | None = None) -> BeatWay:
+    """The best states over beats that gain `gains` (b, s), from totals `first` (s,); `last` (s,) is added at the end."""
+    end = np.zeros(len(first)) if last is None else last
+    state = _never_left(gains, first, end, offsets)
+    if state is not None:
+        return BeatWay(np.full(len(gains), state), float(first[state] + gains[:, state].sum() + end[state]))
+    total = first
+    jumped = np.empty(gains.shape, np.bool_)
+    came_from = np.empty(len(gains), np.int64)
+    for b in range(len(gains)):
+        total, jumped[b], came_from[b] = forward(total, gains[b], offsets, written)
+    total = total + end
+    state = int(total.argmax())
+    worth, states = float(total[state]), np.empty(len(gains), np.int64)
+    for b in range(len(gains) - 1, -1, -1):
+        states[b] = state
+        if jumped[b, state]:
+            state = int(came_from[b])
+    return BeatWay(states, worth)
+
+
+def _never_left(gains: Floats, first: Floats, end: Floats, offsets: Offsets) -> int | None:
+    """The state that the best way never leaves, if that is the likeliest at first; None where it may be left.
+
+    An excursion to another offset that gains less than its jump costs is never worth it, nor is one that ends there.
+    """
+    here = int(first.argmax())
+    lead = np.cumsum(gains - gains[:, here : here + 1], axis=0)
+    lowest = np.minimum.accumulate(np.minimum(lead, 0.0), axis=0)
+    away = (lead - lowest).max(axis=0, initial=0.0)
+    ended = end - end[here]
+    to_end = ended if not len(lead) else ended + lead[-1] - lowest[-1]
+    begun = first - first[here] + lead.max(axis=0, initial=0.0) + np.maximum(ended, 0.0)
+    begun[here] = -1.0
+    return here if max(away.max(), to_end.max()) < _LEAST_PRICE and (begun < 0.0).all() else None
+
+
+_LEAST_PRICE = PRICES[When.ON, Where.BARS]
+
+
+def end_cost(written: Written, last_beat: float, offsets: Offsets) -> Floats:
+    """Nats for ending at `last_beat` moved by each offset (s,), never positive: most play to the end of the score."""
+    fits = written.fits
+    left = fits.unanswered(written.note_beats[-1:] + 1.0, np.zeros(1, np.int64))
+    unheard = left - fits.unanswered(np.array([last_beat + _END_SLACK]), offsets.parts)
+    return -np.minimum(unheard[0], UNHEARD_END).astype(np.float64)
+
+
+_END_SLACK = 0.25
+"""Beats after the last hit whose notes may still have been its moment's."""

@@ -1,0 +1,142 @@
+"""A score as it is looked for: its notes by time and class, its beats, and what hits at a place would say.
+
+`Beats` turns times into quarters and back. `Fits` is a table of what a hit of each class brings at each place, so that
+a whole set of places costs one look-up a hit.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.units import PPQ
+from station.music.score import Score
+from station.scoring.following.prices import MISS, SD_S, Prices, heard
+
+Floats = NDArray[np.float64]
+Nats = NDArray[np.float32]
+Indices = NDArray[np.int64]
+
+PARTS = 24
+"""Places a beat in `Fits`: eighths, triplets and 16ths are whole numbers of them; 21 ms at 120 bpm."""
+
+_REACH_SDS = 3.2
+"""Farther off a hit says nothing for a note: as many strays come there."""
+
+_AROUND_BEATS = 2
+"""Empty beats kept before and after the score."""
+
+
+@dataclass(frozen=True, eq=False)
+class Beats:
+    """`at_s` (b,) when each quarter of the score begins, rising, at least two; before and after the tempo goes on."""
+
+    at_s: Floats
+
+    def beat(self, score_s: Floats) -> Floats:
+        """Quarters from the score's beginning, of times of any shape."""
+        i = np.clip(np.searchsorted(self.at_s, score_s, side="right") - 1, 0, len(self.at_s) - 2)
+        return np.asarray(i + (score_s - self.at_s[i]) / (self.at_s[i + 1] - self.at_s[i]))
+
+    def time(self, beat: Floats) -> Floats:
+        """The times of quarters, any shape."""
+        i = np.clip(np.floor(beat).astype(np.int64), 0, len(self.at_s) - 2)
+        return np.asarray(self.at_s[i] + (beat - i) * (self.at_s[i + 1] - self.at_s[i]))
+
+
+@dataclass(frozen=True, eq=False)
+class Written:
+    """The notes of a score: `at_s` (n,) rising, `classes` (n,), its quarters `beat_s` and how many make the first bar."""
+
+    at_s: Floats
+    classes: Indices
+    beat_s: Floats
+    bar_beats: float
+
+    @cached_property
+    def beats(self) -> Beats:
+        """Its quarters."""
+        return Beats(self.beat_s)
+
+    @cached_property
+    def note_beats(self) -> Floats:
+        """The quarter of each note (n,)."""
+        return self.beats.beat(self.at_s)
+
+    @cached_property
+    def prices(self) -> Prices:
+        """What places in it cost."""
+        return Prices(self.bar_beats, float(self.note_beats[0]))
+
+    @cached_property
+    def fits(self) -> "Fits":
+        """What hits say at its places."""
+        return Fits(self.note_beats, self.classes, float(np.median(np.diff(self.beat_s))))
+
+    def of_classes(self, classes: Indices) -> "Written":
+        """Its notes of these classes alone: a part that is never played tells no place."""
+        here = np.isin(self.classes, classes)
+        return self if here.all() else Written(self.at_s[here], self.classes[here], self.beat_s, self.bar_beats)
+
+    def at_tempo(self, tempo: float) -> "Written":
+        """The same played at `tempo` times what is written."""
+        return Written(self.at_s / tempo, self.classes, self.beat_s / tempo, self.bar_beats)
+
+    def next_of(self, match_class: int, place_s: float) -> float | None:
+        """The time of the first note of a class behind `place_s` and what sounds there; None where none is left."""
+        first = int(np.searchsorted(self.at_s, place_s + _NEXT_NOTE_S))
+        after = self.classes[first:] == match_class
+        return float(self.at_s[first + int(after.argmax())]) if after.any() else None
+
+
+_NEXT_NOTE_S = 0.05
+"""Notes so soon after a place are still those of the place (our choice: 1.7 `SD_S`)."""
+
+
+def written_of(score: Score, note_class: Indices) -> Written:
+    """`score`, whose notes are of `note_class` (n,), as it is looked for."""
+    order = np.argsort(score.onset_s, kind="stable")
+    beats = np.arange(0, max(score.end_tick, PPQ) + 1, PPQ)
+    bar_beats = score.tempo_map.meter_at(0).bar_ticks / PPQ
+    return Written(score.onset_s[order], note_class[order], score.tempo_map.seconds_at(beats), bar_beats)
+
+
+class Fits:
+    """What hits at places of the score bring, in nats, and how many notes are passed on the way."""
+
+    def __init__(self, note_beats: Floats, classes: Indices, beat_s: float) -> None:
+        self._first = int(np.floor(note_beats.min(initial=0.0))) - _AROUND_BEATS
+        spot = self.spots(note_beats)
+        self._size = int(spot.max(initial=0)) + _AROUND_BEATS * PARTS
+        reach = max(1, round(_REACH_SDS * SD_S / beat_s * PARTS))
+        table = np.zeros((int(classes.max(initial=0)) + 1, self._size + 2 * reach), np.float32)
+        said = heard(np.arange(reach + 1) * beat_s / PARTS)
+        for off in range(reach, -1, -1):  # the nearest note speaks last
+            table[classes, spot + off + reach] = said[off]
+            table[classes, spot - off + reach] = said[off]
+        self._table = np.ascontiguousarray(table[:, reach : self._size + reach]).ravel()
+        self._passed = np.concatenate(([0.0], np.cumsum(np.bincount(spot, minlength=self._size)))).astype(np.float32)
+
+    def spots(self, beats: Floats) -> Indices:
+        """Which places of the table beats lie at, any shape; they may lie outside."""
+        return np.rint((beats - self._first) * PARTS).astype(np.int64)
+
+    def said(self, beats: Floats, classes: Indices, offsets: Indices) -> Nats:
+        """What each hit (m,) at `beats` says if moved by each of `offsets` (s,) in parts of a beat; shape (m, s)."""
+        places = np.clip(self.spots(beats)[:, None] + offsets[None, :], 0, self._size - 1)
+        return np.asarray(self._table[places + (classes * self._size)[:, None]])
+
+    def unanswered(self, beats: Floats, offsets: Indices) -> Nats:
+        """Nats against the notes before each of `beats` (k,), moved by `offsets` (s,); (k, s): differences count."""
+        places = np.clip(self.spots(beats)[:, None] + offsets[None, :], 0, self._size)
+        return np.asarray(np.float32(MISS) * self._passed[places])
+
+
+def gained(said: Nats | Floats, hits: Floats, unanswered: Nats | Floats) -> Floats:
+    """What so many `hits`, which together `said` so much, gain over the notes passed; the shapes broadcast.
+
+    A note is answered once: where hits outnumber the notes that were passed, the rest are strays.
+    """
+    notes = unanswered / MISS
+    return np.asarray(said * np.minimum(1.0, notes / np.maximum(hits, 1.0)) - unanswered, np.float64)
