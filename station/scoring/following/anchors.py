@@ -119,7 +119,7 @@ def worth(written: Written, hits: Hits, place: Place, offsets: Offsets) -> Float
     said = written.fits.said(beats, hits.classes, offsets.parts).sum(0)
     edges = np.array([beats[0] - _EDGE, beats[-1] + _EDGE])
     unanswered = written.fits.unanswered(edges, offsets.parts)
-    return gained(said, np.float64(len(hits.at_s)), unanswered[1] - unanswered[0])
+    return gained(said, unanswered[1] - unanswered[0])
 
 
 _EDGE = 0.1

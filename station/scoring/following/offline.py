@@ -118,8 +118,7 @@ class _Blocks:
         edges = np.concatenate((whole[starts] - _EDGE, [own[-1] + _EDGE]))
         edges[0] = max(edges[0], own[0] - _EDGE)
         unanswered = written.fits.unanswered(edges, offsets.parts)
-        sizes = np.diff(np.append(starts, len(own)))[:, None].astype(np.float64)
-        gains = gained(np.add.reduceat(said, starts, axis=0), sizes, np.diff(unanswered, axis=0))
+        gains = gained(np.add.reduceat(said, starts, axis=0), np.diff(unanswered, axis=0))
         return cls(starts + start, gains, said, start)
 
     def split(self, block: int, way: BeatWay) -> int:
@@ -266,7 +265,10 @@ class _Free:
                 back = self._place_before(start, jump, here)
                 beat = self._written.beats.beat(self._score_s[jump : jump + 1])
                 moved = self._written.beats.time(beat + self._offsets.beats[way.states[left[0]]])
-                return Place(self._times[jump], float(moved[0]), back.rate), jump
+                place = Place(self._times[jump], float(moved[0]), back.rate)
+                if self._offsets.parts[way.states[left[0]]] % PARTS:  # the clock had lost the beat before
+                    place = self._set_anew(jump, end, [place])
+                return place, jump
             here = after if settled == until else self._place_before(start, settled, here)
             start, first = settled, self._stay
         return here, None
@@ -296,19 +298,28 @@ class _Free:
     def _found_again(self, lost: int, end: int, back: Place) -> Place | None:
         """The clock set anew at hit `lost`; None where nothing better is found than to go on."""
         on_time_s = back.score_s + back.rate * (self._times[lost] - back.at_s)
-        now = self._written.beats.beat(np.array([on_time_s]))[0]
-        places = [Place(self._times[lost], on_time_s, back.rate)]
-        best, _ = self._best_anchor(lost, end, places, lambda beats: self._written.prices.on(beats - now))
-        self._wait = _LOST_HITS if best is not places[0] else 2 * self._wait
+        place = Place(self._times[lost], on_time_s, back.rate)
+        best = self._set_anew(lost, end, [place])
+        self._wait = _LOST_HITS if best is not place else 2 * self._wait
         self._trusted = lost + self._wait
-        return None if best is places[0] else best
+        return None if best is place else best
+
+    def _set_anew(self, hit: int, end: int, places: list[Place]) -> Place:
+        """The likeliest place of `hit`, of `places` and what is found, for a player who went on without a pause."""
+        now = self._written.beats.beat(np.array([places[0].score_s]))[0]
+        best, priced = self._best_anchor(hit, end, places, lambda beats: self._written.prices.on(beats - now))
+        offset = int((worth(self._written, self._hits.window(hit, end), best, self._offsets) + priced).argmax())
+        if offset == self._offsets.here:
+            return best
+        beat = self._written.beats.beat(np.array([best.score_s])) + self._offsets.beats[offset]
+        return best._replace(score_s=float(self._written.beats.time(beat)[0]))
 
     def _after_silence(self, start: int, here: Place) -> tuple[Place, Floats]:
         """Where the player goes on with hit `start`, and the first totals (s,) there."""
         at_s, last_s, end = self._times[start], float(self._score_s[start - 1]), len(self._times)
         on_time_s = here.score_s + here.rate * (at_s - here.at_s)
-        between = np.searchsorted(self._written.at_s, (last_s + _SILENT_S, on_time_s - 2 * _SILENT_S))
-        if between[0] >= between[1]:
+        low, high = np.searchsorted(self._written.at_s, (last_s + _SILENT_S, on_time_s - _SILENT_S))
+        if np.count_nonzero(np.diff(self._written.at_s[low:high]) > _SILENT_S) + (low < high) < _STOP_SLOTS:
             return here, self._stay  # the rest is written
         next_s = self._written.next_of(self._classes[start], last_s)
         places = [Place(at_s, on_time_s, here.rate)]
@@ -352,8 +363,8 @@ class _Free:
         return place._replace(score_s=place.score_s + float(np.median(off))) if len(off) else place
 
 
-_SILENT_S = 0.08
-"""A rest is written where no note lies farther than this from both its ends, twice as far from where it should end."""
+_STOP_SLOTS, _SILENT_S = 3, 0.08
+"""A silence is not written where so many moments, so far apart, went by in it (our choice: one or two are left out)."""
 
 _SLOWEST = 0.01
 _FEWEST = 6

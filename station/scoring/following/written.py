@@ -133,10 +133,12 @@ class Fits:
         return np.asarray(np.float32(MISS) * self._passed[places])
 
 
-def gained(said: Nats | Floats, hits: Floats, unanswered: Nats | Floats) -> Floats:
-    """What so many `hits`, which together `said` so much, gain over the notes passed; the shapes broadcast.
+def gained(said: Nats, unanswered: Nats) -> Floats:
+    """What hits that together `said` so much gain over the notes that were passed, of the same shape.
 
-    A note is answered once: where hits outnumber the notes that were passed, the rest are strays.
+    A note is answered once: where more hits lie near than notes were passed, the rest are strays.
     """
-    notes = unanswered / MISS
-    return np.asarray(said * np.minimum(1.0, notes / np.maximum(hits, 1.0)) - unanswered, np.float64)
+    return np.asarray(np.minimum(said, (_MOST / MISS) * unanswered) - unanswered, np.float64)
+
+
+_MOST = float(heard(0.0))
