@@ -1,0 +1,230 @@
+"""The music of the journeys: what people play from, about a minute each. Seeded.
+
+Three families: shipped lessons, played round and round; phrases of bars that repeat (AAAB, AABA) in grooves as any
+method book prints them; and takes of the Groove MIDI Dataset, quantised bar by bar into a written score.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.pieces import Limb, Piece
+from station.core.units import PPQ
+from station.drills.library import find_lesson, lesson_names
+from station.music.formats.smf.standard_midi import read_midi, score_from_midi
+from station.music.score import NOTE_DTYPE, Score
+from station.music.tempo import TempoMap
+
+GMD = Path(__file__).resolve().parents[3] / "tests/data/gmd"
+"""The takes of the Groove MIDI Dataset that lie in a checkout; elsewhere that family is left out."""
+LONG_S = 45.0
+"""A piece lasts so long at its written tempo, at least: half of it still holds a start, a skip and a repeat."""
+_LONGEST_S = 80.0
+"""Takes of the dataset are cut here, or a quick look would be about three of them."""
+_SHORTEST_S = 27.0
+"""The shortest take of the dataset that is music rather than a single fill."""
+
+_PIECES = MappingProxyType(
+    {
+        "hh": Piece.HIHAT,
+        "rd": Piece.RIDE,
+        "sn": Piece.SNARE,
+        "ki": Piece.KICK,
+        "ft": Piece.HIHAT_PEDAL,
+        "cr": Piece.CRASH_1,
+        "t1": Piece.TOM_1,
+        "t2": Piece.TOM_2,
+        "fl": Piece.FLOOR_TOM_1,
+    }
+)
+_ALSO = MappingProxyType({Piece.CRASH_2: Piece.CRASH_1, Piece.RIDE_2: Piece.RIDE})
+"""A second crash or ride is the first one's twin for whoever listens."""
+
+Bar = Mapping[str, str]
+
+
+@dataclass(frozen=True, slots=True)
+class Style:
+    """Bars A (the groove), B (its fill) and C (its variation), their meter, and the tempi in quarters a minute."""
+
+    beats: int
+    unit: int
+    tempi: tuple[int, int]
+    bars: Mapping[str, Bar]
+
+
+STYLES: Mapping[str, Style] = MappingProxyType(
+    {
+        "rock": Style(
+            4,
+            4,
+            (80, 130),
+            {
+                "A": {"hh": "x.x.x.x.x.x.x.x.", "sn": "....o.......o...", "ki": "o.......o......."},
+                "C": {"hh": "x.x.x.x.x.x.x.x.", "sn": "....o.......o...", "ki": "o.......o.o....."},
+                "B": {
+                    "hh": "x.x.x.x.........",
+                    "sn": "....o...oooo....",
+                    "t1": "............oo..",
+                    "fl": "..............oo",
+                    "ki": "o.......o...o...",
+                },
+            },
+        ),
+        "shuffle": Style(
+            4,
+            4,
+            (84, 132),
+            {
+                "A": {"hh": "x.xx.xx.xx.x", "sn": "...o.....o..", "ki": "o.....o....."},
+                "C": {"hh": "x.xx.xx.xx.x", "sn": "...o.....o..", "ki": "o....oo....."},
+                "B": {"hh": "x.xx.x......", "sn": "...o..ooo...", "t1": ".........oo.", "ki": "o.....o....o"},
+            },
+        ),
+        "funk": Style(
+            4,
+            4,
+            (84, 112),
+            {
+                "A": {"hh": "xxxxxxxxxxxxxxxx", "sn": "....o..o.o..o..o", "ki": "o..o..o...o....."},
+                "C": {"hh": "xxxxxxxxxxxxxxxx", "sn": "....o..o.o..o..o", "ki": "o.o.....o.o..o.."},
+                "B": {
+                    "hh": "xxxxxxxx........",
+                    "sn": "....o..o.oo.o.oo",
+                    "t1": "........o..o.o..",
+                    "ki": "o..o..o.....o...",
+                },
+            },
+        ),
+        "jazz": Style(
+            4,
+            4,
+            (110, 180),
+            {
+                "A": {"rd": "x..x.xx..x.x", "ft": "...x.....x..", "sn": "............"},
+                "C": {"rd": "x..x.xx..x.x", "ft": "...x.....x..", "sn": "..o.....o..."},
+                "B": {"rd": "x..x.x......", "ft": "...x.....x..", "sn": "......ooo..o", "ki": "..o......oo."},
+            },
+        ),
+        "six_eight": Style(
+            6,
+            8,
+            (60, 96),
+            {
+                "A": {"hh": "x.x.x.x.x.x.", "sn": "......o.....", "ki": "o..........."},
+                "C": {"hh": "x.x.x.x.x.x.", "sn": "......o.....", "ki": "o...o.....o."},
+                "B": {"hh": "x.x.x.......", "sn": "......oooo..", "fl": "..........oo", "ki": "o.....o....."},
+            },
+        ),
+        "one_drop": Style(
+            4,
+            4,
+            (66, 84),
+            {
+                "A": {"hh": "x.x.x.x.x.x.x.x.", "sn": "........o.......", "ki": "........o......."},
+                "C": {"hh": "x.x.x.xxx.x.x.x.", "sn": "...o....o....o..", "ki": "........o......."},
+                "B": {
+                    "hh": "x.x.x.x.........",
+                    "sn": "........o.oo....",
+                    "t1": "............o.oo",
+                    "ki": "........o.......",
+                },
+            },
+        ),
+    }
+)
+"""Grooves as method books print them; a character is a sixteenth, or in twelves a triplet eighth (a 16th in 6/8)."""
+FORMS = ("AAAB", "AABA", "AAACAAAB", "ACACACAB")
+"""How bars make phrases: the same bar thrice and a fill, and its kin."""
+
+
+def music(family: str, seed: Sequence[int]) -> tuple[str, Score]:
+    """A name and a score of `family` ("lesson", "phrase" or "gmd"), at least `LONG_S` long."""
+    rng = np.random.default_rng([_FAMILIES.index(family), *seed])
+    if family == "lesson":
+        name = str(rng.choice(lesson_names()))
+        return name, _long(_plain(find_lesson(name).score))
+    if family == "gmd":
+        path = gmd_takes()[int(rng.integers(len(gmd_takes())))]
+        return f"{path.parent.parent.name}/{path.stem}", _long(quantised(path))
+    style, form = str(rng.choice(list(STYLES))), str(rng.choice(FORMS))
+    return f"{style} {form}", _long(phrase(style, form, int(rng.integers(*STYLES[style].tempi))))
+
+
+_FAMILIES = ("lesson", "phrase", "gmd")
+
+
+def families() -> tuple[str, ...]:
+    """The families that there are here."""
+    return _FAMILIES if gmd_takes() else _FAMILIES[:2]
+
+
+def phrase(style: str, form: str, tempo_bpm: float) -> Score:
+    """One phrase: the bars of `style` in the order of `form`."""
+    like = STYLES[style]
+    bar_ticks = like.beats * 4 * PPQ // like.unit
+    strokes = [
+        (bar * bar_ticks + step * bar_ticks // len(line), _PIECES[voice])
+        for bar, letter in enumerate(form)
+        for voice, line in like.bars[letter].items()
+        for step, sign in enumerate(line)
+        if sign != "."
+    ]
+    table = _rows(np.array(strokes, np.int64))
+    return Score.from_array(
+        table, TempoMap.constant(tempo_bpm, like.beats, like.unit), bar_ticks * len(form), f"{style} {form}"
+    )
+
+
+def _rows(strokes: NDArray[np.int64]) -> NDArray[np.void]:
+    """Plain rows of ticks and pieces (k, 2)."""
+    table = np.zeros(len(strokes), NOTE_DTYPE)
+    table["tick"], table["piece"] = strokes.T
+    table["velocity"], table["dynamic"], table["limb"], table["openness"] = 80, 1, Limb.UNKNOWN, np.nan
+    return table
+
+
+def _plain(score: Score) -> Score:
+    """The same score with a piece's twin written as the piece."""
+    rows = score.notes.copy()
+    for piece, twin in _ALSO.items():
+        rows["piece"][rows["piece"] == piece] = twin
+    return Score.from_array(rows, score.tempo_map, score.end_tick, score.title)
+
+
+def _long(score: Score) -> Score:
+    """The score as often as makes it `LONG_S` long."""
+    return score.repeated(max(1, int(np.ceil(LONG_S * 1e9 / score.length_ns))))
+
+
+@cache
+def gmd_takes() -> tuple[Path, ...]:
+    """The takes of the dataset that are long enough; empty where it is not there."""
+    paths = sorted(GMD.rglob("*.mid")) if GMD.is_dir() else []
+    return tuple(path for path in paths if score_from_midi(read_midi(path)).length_ns >= _SHORTEST_S * 1e9)
+
+
+@cache
+def quantised(path: Path) -> Score:
+    """A take as it would be written: every beat on sixteenths, or on triplets where they fit its strokes better."""
+    score = _plain(score_from_midi(read_midi(path)))
+    longest = int(score.tempo_map.ticks_at_ns(int(_LONGEST_S * 1e9)))
+    end = min(score.end_tick, score.tempo_map.bar_start(int(score.tempo_map.bars_at(longest))))
+    rows = score.notes[score.notes["tick"] < end].copy()
+    rows["tick"] = written_ticks(rows["tick"])
+    rows = rows[(rows["tick"] < end) & (rows["velocity"] > 0)]
+    keys = rows["tick"] * len(Piece) + rows["piece"]
+    return Score.from_array(rows[np.unique(keys, return_index=True)[1]], score.tempo_map, end, path.stem)
+
+
+def written_ticks(ticks: NDArray[np.int64]) -> NDArray[np.int64]:
+    """The grid places of played ticks (n,): by beat whichever of sixteenths and triplet eighths lies nearer in all."""
+    sixteenths, triplets = (np.rint(ticks / step).astype(np.int64) * step for step in (PPQ // 4, PPQ // 3))
+    beat = (ticks + PPQ // 8) // PPQ
+    off = [np.bincount(beat, (ticks - grid).astype(np.float64) ** 2) for grid in (sixteenths, triplets)]
+    return np.where((off[0] <= off[1])[beat], sixteenths, triplets)
