@@ -173,14 +173,11 @@ class _Free:
         gaps = silences(hits.at_s)
         end = int(gaps[gaps >= _LOST_HITS][0]) if (gaps >= _LOST_HITS).any() else len(hits.at_s)
         window = hits.window(0, end)
-        usual = [Place(at_s, at_s, 1.0), Place(at_s, first_s, 1.0)]
-        rivals = [(self._at_best(window, place), place) for place in usual]
-        if max(value for value, _ in rivals) < _ENOUGH * _possible(window):
-            places = found(written, self._tracker, window, _RATES, (first_s - 1.0, first_s + _EARLY_S))
-            rivals += [(self._at_best(window, place), place) for place in places]
+        rivals = [self._at_best(window, Place(at_s, score_s, 1.0)) for score_s in (at_s, first_s)]
+        for among_s in ((first_s - 1.0, first_s + _EARLY_S), (-np.inf, np.inf)):
             if max(value for value, _ in rivals) < _ENOUGH * _possible(window):
-                places = found(written, self._tracker, window, _RATES, (-np.inf, np.inf))
-                rivals += [(self._at_best(window, place), place) for place in places]
+                places = found(written, self._tracker, window, _RATES, among_s)
+                rivals += [self._at_best(window, place) for place in places]
         rivals.sort(key=lambda rival: -rival[0])
         best, best_worth = rivals[0][1], -np.inf
         for place in _unlike(written, rivals)[:_RIVALS]:
@@ -190,9 +187,18 @@ class _Free:
         tempo = 1.0 if abs(best.rate - 1.0) < _SAME_TEMPO else best.rate
         return Place(at_s, best.score_s / tempo, best.rate / tempo), tempo
 
-    def _at_best(self, window: Hits, place: Place) -> float:
-        """What speaks for the tempo and beat of a beginning, wherever in the score it is."""
-        return float((worth(self._written, window, place, self._offsets) + self._first(place)).max())
+    def _at_best(self, window: Hits, place: Place) -> tuple[float, Place]:
+        """What speaks for the tempo and beat of a beginning at its likeliest place in the score, and that place."""
+        nats = worth(self._written, window, place, self._offsets) + self._first(place)
+        best = int(nats.argmax())
+        return float(nats[best]), self._moved(place, best)
+
+    def _moved(self, place: Place, offset: int) -> Place:
+        """`place` moved by one of the offsets."""
+        if offset == self._offsets.here:
+            return place
+        beat = self._written.beats.beat(np.array([place.score_s])) + self._offsets.beats[offset]
+        return place._replace(score_s=float(self._written.beats.time(beat)[0]))
 
     def _first(self, place: Place) -> Floats:
         """Nats (s,) for beginning at `place` moved by each offset."""
@@ -263,9 +269,8 @@ class _Free:
                     return found_at, lost
             if len(left) and jump < settled:
                 back = self._place_before(start, jump, here)
-                beat = self._written.beats.beat(self._score_s[jump : jump + 1])
-                moved = self._written.beats.time(beat + self._offsets.beats[way.states[left[0]]])
-                place = Place(self._times[jump], float(moved[0]), back.rate)
+                now = Place(self._times[jump], float(self._score_s[jump]), back.rate)
+                place = self._moved(now, int(way.states[left[0]]))
                 if self._offsets.parts[way.states[left[0]]] % PARTS:  # the clock had lost the beat before
                     place = self._set_anew(jump, end, [place])
                 return place, jump
@@ -309,10 +314,7 @@ class _Free:
         now = self._written.beats.beat(np.array([places[0].score_s]))[0]
         best, priced = self._best_anchor(hit, end, places, lambda beats: self._written.prices.on(beats - now))
         offset = int((worth(self._written, self._hits.window(hit, end), best, self._offsets) + priced).argmax())
-        if offset == self._offsets.here:
-            return best
-        beat = self._written.beats.beat(np.array([best.score_s])) + self._offsets.beats[offset]
-        return best._replace(score_s=float(self._written.beats.time(beat)[0]))
+        return self._moved(best, offset)
 
     def _after_silence(self, start: int, here: Place) -> tuple[Place, Floats]:
         """Where the player goes on with hit `start`, and the first totals (s,) there."""
