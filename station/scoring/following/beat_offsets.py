@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.scoring.following.prices import PRICES, UNHEARD_END, When, Where
-from station.scoring.following.written import PARTS, Written
+from station.scoring.following.written import PARTS, Nats, Written, gained
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -21,14 +21,21 @@ Indices = NDArray[np.int64]
 FAR_BEATS, NEAR_BEATS = 64, 2
 """Whole beats are tried as far as the first, 16 bars of 4/4; thirds and quarters of a beat as far as the second."""
 
+SHORT_BEATS = 256
+"""In a score of no more than so many beats all of them are tried (our choice: 64 bars of 4/4)."""
+
 _FINE = (3, 4)
 
 
 @dataclass(frozen=True, eq=False)
 class Offsets:
-    """The offsets of one score: `parts` (s,) in parts of a beat, rising, 0 among them, and their prices as a jump."""
+    """The offsets of one score: `parts` (s,) in parts of a beat, rising, 0 among them; which are `whole`; their prices.
+
+    `price` (s,) is that of a jump without a pause.
+    """
 
     parts: Indices
+    whole: Indices
     price: Floats
 
     @property
@@ -41,20 +48,42 @@ class Offsets:
         """The offsets in beats (s,)."""
         return self.parts / PARTS
 
+    @cached_property
+    def only_whole(self) -> Floats:
+        """0 for whole beats (halves where bars have them), −∞ for parts: for a clock whose beat was just found (s,)."""
+        return np.where(np.isin(self.parts, self.whole), 0.0, -np.inf)
+
     def prices_from(self, state: int, written: Written) -> Floats:
         """Nats against a jump from one offset to each (s,)."""
         return self.price if self.parts[state] == 0 else written.prices.on(self.beats - self.beats[state])
 
 
-def offsets_of(written: Written, far_beats: float = FAR_BEATS) -> Offsets:
+def offsets_of(written: Written) -> Offsets:
     """The offsets that are tried in `written`."""
-    length = float(written.note_beats[-1] - written.note_beats[0]) + written.bar_beats
-    far = int(np.ceil(min(far_beats, length)))
-    whole = np.arange(-far, far + 1) * PARTS
+    length = int(np.ceil(written.note_beats[-1] - written.note_beats[0] + written.bar_beats))
+    far = length if length <= SHORT_BEATS else FAR_BEATS
+    step = PARTS // 2 if written.bar_beats % 1 else PARTS
+    whole = np.arange(-far * PARTS, far * PARTS + 1, step)
     fine = [np.arange(-NEAR_BEATS * n, NEAR_BEATS * n + 1) * (PARTS // n) for n in _FINE]
-    halves = np.arange(-far, far + 1) * (PARTS // 2) if written.bar_beats % 1 else whole
-    parts = np.unique(np.concatenate([whole, halves, *fine]))
-    return Offsets(parts, written.prices.on(parts / PARTS))
+    parts = np.unique(np.concatenate([whole, *fine]))
+    return Offsets(parts, whole, written.prices.on(parts / PARTS))
+
+
+def block_gains(
+    written: Written, beats: Floats, classes: Indices, starts: Indices, edges: Floats, offsets: Offsets
+) -> tuple[Floats, Nats]:
+    """What blocks of hits gain at each offset (b, s), and what each hit says there (m, s).
+
+    Hits (m,) at `beats` of `classes`; each block begins with the hit `starts` (b,) and passes the notes between its
+    two of `edges` (b + 1,), in beats.
+    """
+    said = written.fits.said(beats, classes, offsets.parts)
+    passed = np.diff(written.fits.unanswered(edges, offsets.parts), axis=0)
+    return gained(np.add.reduceat(said, starts, axis=0), passed), said
+
+
+EDGE = 0.1
+"""Beats by which a stroke may come before its beat: an anticipated one belongs to the block that it begins."""
 
 
 def forward(total: Floats, gain: Floats, offsets: Offsets, written: Written) -> tuple[Floats, NDArray[np.bool_], int]:

@@ -1,28 +1,24 @@
 """Live judgement: each hit as it arrives, where the student is in the score, and corrections of both.
 
-With a click the score is where the click is (`click_chase`), without one where the student is (`chase`): his tempo and
-phase are tracked, and the score waits when he stops. Either way he is found again after a skip or a restart, and the
-hits that were judged in the wrong place meanwhile are judged anew (`live_judge`); a judgement that takes an older one
-back says so.
+With a click the score is where the click is, without one where the student is: their tempo and phase are tracked, and
+the score waits when they stop. Either way they are found again after a skip or a restart (`online`), and the hits that
+were judged in the wrong place meanwhile are judged anew (`live_judge`); a judgement that takes an older one back says so.
 
 Everything is a function of the hits and their own times alone; frames decide nothing. With a click, notes that nobody
 plays are missed as time passes; without one, as the student passes them, for silence is no mistake of his.
 """
 
 from collections.abc import Collection, Sequence
-from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from station.core.events import Hit
 from station.core.pieces import Articulation, Piece
 from station.core.units import NS_PER_S
 from station.music.judgement import Judgement
 from station.music.score import Score
-from station.scoring.following.chase import Chase
-from station.scoring.following.click_chase import ClickChase
-from station.scoring.following.warp import written_of
+from station.scoring.following.online import Online
+from station.scoring.following.written import written_of
 from station.scoring.matching.hit_windows import DEFAULT_LEVEL, Windows
 from station.scoring.matching.ignored_hits import BOUNCE_NS, PRESS_LOUDER
 from station.scoring.matching.live_judge import Judge, Moved
@@ -45,7 +41,8 @@ class Follower:
         self._judge = Judge(score, windows, kit)
         self._class_of: list[int] = match_classes(kit).tolist()
         self._clocked = clocked
-        self._where = _where(score, match_classes(kit)[score.notes["piece"]], clocked)
+        written = written_of(score, match_classes(kit)[score.notes["piece"]])
+        self._where = Online(written, clocked) if len(score) else None
         self._first_bar_ns = max(int(score.tempo_map.ns_at(score.tempo_map.bar_start(1))), _BEGINNING_NS)
         buzzing = score.notes["piece"][score.notes["articulation"] == Articulation.BUZZ]
         self._buzzed = {Piece(piece): (-BOUNCE_NS, 0) for piece in np.unique(buzzing)}  # last hit's time and velocity
@@ -80,7 +77,7 @@ class Follower:
     @property
     def waited(self) -> Sequence[tuple[int, int]]:
         """The first hit after each stop of a student without a click, and for how many ns the score waited for it."""
-        return self._where.waited if isinstance(self._where, Chase) else ()
+        return () if self._where is None else self._where.waited
 
     def _bounces(self, hit: Hit, at_ns: int) -> bool:
         """Whether a hit on a piece that buzzes is but a bounce, which tells nothing of the place (`ignored`)."""
@@ -103,19 +100,3 @@ BOUNCE = -1
 
 _BEGINNING_NS = 2 * NS_PER_S
 """A student who begins so soon began at the beginning, however short the first bar and rare the frames (our choice)."""
-
-
-class _Where(Protocol):
-    """Finds the place of hits in the score."""
-
-    def hit(self, at_ns: int, match_class: int) -> Moved: ...
-
-    def place_ns(self, at_ns: int) -> int: ...
-
-
-def _where(score: Score, classes: NDArray[np.int64], clocked: bool) -> _Where | None:
-    """Who finds the student; None where nothing is written."""
-    if not len(score):
-        return None
-    written = written_of(score, classes)
-    return ClickChase(written) if clocked else Chase(written)

@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.scoring.following.anchors import Hits, found, worth
-from station.scoring.following.beat_offsets import BeatWay, Offsets, best_way, end_cost, offsets_of
+from station.scoring.following.beat_offsets import EDGE, BeatWay, Offsets, best_way, block_gains, end_cost, offsets_of
 from station.scoring.following.prices import NEW_TEMPO_SD, POSSIBLE, TEMPO_SD
 from station.scoring.following.tempo_tracker import Place, Tracker
-from station.scoring.following.written import PARTS, Written, gained
+from station.scoring.following.written import PARTS, Nats, Written
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -105,20 +105,17 @@ class _Blocks:
 
     starts: Indices
     gains: Floats
-    said: NDArray[np.float32]
+    said: Nats
     first_hit: int
 
     @classmethod
     def of(cls, written: Written, hits: Hits, beats: Floats, start: int, end: int, offsets: Offsets) -> "_Blocks":
         """Hits `start` … `end` − 1 at `beats` (m,) of the clock."""
         own = np.maximum.accumulate(beats[start:end])
-        whole = np.floor(own + _EDGE)
+        whole = np.floor(own + EDGE)
         starts = np.concatenate(([0], np.flatnonzero(np.diff(whole)) + 1))
-        said = written.fits.said(beats[start:end], hits.classes[start:end], offsets.parts)
-        edges = np.concatenate((whole[starts] - _EDGE, [own[-1] + _EDGE]))
-        edges[0] = max(edges[0], own[0] - _EDGE)
-        unanswered = written.fits.unanswered(edges, offsets.parts)
-        gains = gained(np.add.reduceat(said, starts, axis=0), np.diff(unanswered, axis=0))
+        edges = np.concatenate(([own[0]], whole[starts[1:]], [own[-1] + 2 * EDGE])) - EDGE
+        gains, said = block_gains(written, beats[start:end], hits.classes[start:end], starts, edges, offsets)
         return cls(starts + start, gains, said, start)
 
     def split(self, block: int, way: BeatWay) -> int:
@@ -133,10 +130,6 @@ class _Blocks:
         best = np.flatnonzero(gain >= gain.max() - 1e-6)
         nearest = best[np.argmin(np.abs(best + low - self.starts[block]))]
         return low + int(nearest)
-
-
-_EDGE = 0.1
-"""Beats by which a stroke may come before its beat: an anticipated one belongs to the block that it begins."""
 
 
 def _tracker(written: Written) -> Tracker:
@@ -206,7 +199,8 @@ class _Free:
         tempo = place.rate * self._tempo
         prior = -0.5 * float(np.log(tempo) / TEMPO_SD) ** 2
         is_shared = abs(tempo - 1.0) < _SAME_TEMPO
-        return prior - self._written.prices.begin(beat[0] + self._offsets.beats, float(beat[1]) if is_shared else np.inf)
+        cost = self._written.prices.begin(beat[0] + self._offsets.beats, float(beat[1]) if is_shared else np.inf)
+        return prior - cost + self._offsets.only_whole
 
     def _long_look(self, place: Place, end: int) -> float:
         """What the first hits say for a beginning, followed for a while at its tempo, wherever they turn out to be."""
@@ -271,7 +265,7 @@ class _Free:
                 back = self._place_before(start, jump, here)
                 now = Place(self._times[jump], float(self._score_s[jump]), back.rate)
                 place = self._moved(now, int(way.states[left[0]]))
-                if self._offsets.parts[way.states[left[0]]] % PARTS:  # the clock had lost the beat before
+                if not np.isfinite(self._offsets.only_whole[way.states[left[0]]]):  # the clock had lost the beat
                     place = self._set_anew(jump, end, [place])
                 return place, jump
             here = after if settled == until else self._place_before(start, settled, here)
@@ -344,7 +338,8 @@ class _Free:
 
         def priced(place: Place) -> Floats:
             tempo = -0.5 * float(np.log(max(place.rate, _SLOWEST) / max(rate, _SLOWEST)) / NEW_TEMPO_SD) ** 2
-            return tempo - price(written.beats.beat(np.array([place.score_s]))[0] + self._offsets.beats)
+            beats = written.beats.beat(np.array([place.score_s]))[0] + self._offsets.beats
+            return tempo - price(beats) + self._offsets.only_whole
 
         def value(place: Place) -> float:
             return float((worth(written, window, place, self._offsets) + priced(place)).max())
