@@ -14,7 +14,7 @@ All that is believed depends on the hits and their times alone. Times are second
 
 from bisect import bisect_right
 from collections.abc import Callable
-from math import inf
+from math import inf, log
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from station.core.units import NS_PER_S
 from station.scoring.following.anchors import Hits, found, worth
 from station.scoring.following.beat_offsets import EDGE, Offsets, block_gains, forward, offsets_of
-from station.scoring.following.prices import NEW_TEMPO_SD, POSSIBLE
+from station.scoring.following.prices import NEW_TEMPO_SD, POSSIBLE, TEMPO_SD
 from station.scoring.following.tempo_tracker import Place, Tracker
 from station.scoring.following.written import Written
 from station.scoring.matching.live_judge import Moved
@@ -49,6 +49,12 @@ _CLOSE_S, _NEAR_S, _FAR_S = 4.0, 45.0, 300.0
 
 _RATES, _NEAR_RATES = np.exp(np.arange(-18, 19) * 0.02), np.exp(np.arange(-4, 5) * 0.02)
 """Tempi tried against the last: up to 43 % close by, up to 8 % elsewhere."""
+
+_ANY_RATES = np.exp(np.arange(-37, 38) * 0.02)
+"""Tempi tried until the student has once been found: half to twice what is written."""
+
+_SAME_BEAT = 0.15
+"""So near is the same place, at another tempo."""
 
 _SLOWEST, _FASTEST = 0.4, 2.5
 """Beyond these nobody plays what is written (our choice)."""
@@ -80,6 +86,7 @@ class Online:
         self._last_beat = -inf
         self._doubt, self._doubt_since = 0.0, 0
         self._looks, self._next_look = 0, _LEAST_HITS - 1
+        self._is_settled = False  # whether a look's worth of hits has fitted
         self._stopped_at: int | None = None
         self._stop_s = 0.0
         self.waited: list[tuple[int, int]] = []
@@ -191,6 +198,7 @@ class Online:
             self._doubt_since = hits[0]
         self._doubt = max(self._doubt + _FITTING * POSSIBLE * len(hits) - float(gain), 0.0)
         if self._doubt == 0.0:
+            self._is_settled |= index - self._doubt_since >= _LOOK_HITS or index >= 2 * _LOOK_HITS
             if self._looks or self._stopped_at is not None:
                 self._calm(index)
         elif self._doubt > _DOUBT and index >= self._next_look:
@@ -213,30 +221,42 @@ class Online:
         window = Hits(np.array([self._times[k] for k in hits]), np.array([self._classes[k] for k in hits]))
         at_s, rate = self._times[hits[0]], min(max(self._clock.rate, _SLOWEST), _FASTEST)
         now = Place(at_s, self._places[hits[0]], rate)
-        price = self._price(hits[0])
+        price = self._price(now, hits[0])
 
         def value(place: Place) -> float:
-            tempo = -0.5 * float(np.log(place.rate / rate) / NEW_TEMPO_SD) ** 2
-            here = float(worth(self._written, window, place, _NOWHERE)[0])
-            return here + max(tempo, -_MOST_FOR_TEMPO) - price(self._beat_of(place.score_s))
+            return float(worth(self._written, window, place, _NOWHERE)[0]) - price(place)
 
         places = [place for place in self._places_around(window, now) if _SLOWEST < place.rate < _FASTEST]
         best = max(places, key=value, default=now)
-        if value(best) <= float(worth(self._written, window, now, _NOWHERE)[0]) + _MARGIN:
-            return index
-        return self._set(best, hits, index)
+        return self._set(best, hits, index) if value(best) > value(now) + _MARGIN else index
 
-    def _price(self, hit: int) -> Callable[[float], float]:
-        """Nats against having gone on at a beat with the doubtful hits, of which `hit` is the first."""
-        prices, now = self._written.prices, self._beat_of(self._places[hit])
-        if self._stopped_at is None and hit:
-            return lambda beat: float(prices.on(np.array([beat - now]))[0])
-        stopped = self._beat_of(self._stop_s) if hit else prices.start
-        return lambda beat: float(prices.pause(np.array([beat]), stopped, now)[0])
+    def _price(self, now: Place, hit: int) -> Callable[[Place], float]:
+        """Nats against having gone on at a place with the doubtful hits, of which `hit` is the first."""
+        prices, here = self._written.prices, self._beat_of(now.score_s)
+        if not self._is_settled:
+            on_time = self._beat_of(now.at_s)
+            return lambda place: (
+                float(prices.begin(np.array([self._beat_of(place.score_s)]), on_time)[0])
+                + 0.5 * float(log(place.rate) / TEMPO_SD) ** 2
+            )
+        stopped = self._beat_of(self._stop_s)
+
+        def nats(place: Place) -> float:
+            beat = self._beat_of(place.score_s)
+            if self._stopped_at is not None:
+                moved = float(prices.pause(np.array([beat]), stopped, here)[0])
+            else:
+                moved = 0.0 if abs(beat - here) < _SAME_BEAT else float(prices.on(np.array([beat - here]))[0])
+            return moved + min(0.5 * (log(place.rate / now.rate) / NEW_TEMPO_SD) ** 2, _MOST_FOR_TEMPO)
+
+        return nats
 
     def _places_around(self, window: Hits, now: Place) -> list[Place]:
         """Places of the window's first hit: close by at any tempo, near, at the beginning, and farther look by look."""
         here_s, rate, first_s = now.score_s, now.rate, self._note_s[0]
+        if not self._is_settled:
+            ends = [(first_s - 1.0, first_s + _NEAR_S)] + ([self._far(first_s)] if self._looks > 1 else [])
+            return [place for among in ends for place in found(self._written, self._tracker, window, _ANY_RATES, among)]
         tried = [
             (_RATES, here_s - _CLOSE_S, here_s + _CLOSE_S),
             (_NEAR_RATES, first_s - 1.0, first_s + _CLOSE_S),
