@@ -35,8 +35,9 @@ STOP_NOTES, STOP_S = 8, 1.0
 _MARGIN = 3.0
 """Nats by which another place must lead before the student is told to be there."""
 
-_DOUBT, _FITTING = 8.0, 0.5
-"""Nats that raise a doubt: what the hits lack of this share of what they could say (our choice: two strays do not)."""
+_DOUBT, _FITTING = 8.0, 0.65
+"""Nats that raise a doubt: what the hits lack of this share of what they could say (our choice: two strays do not, and who
+leaves out one note in five brings .8)."""
 
 _LOOK_HITS, _LEAST_HITS = 24, 6
 """Hits that a look takes at most, two bars of a sparse groove, and at least: fewer are found everywhere."""
@@ -79,7 +80,7 @@ class Online:
         self._times: list[float] = []
         self._classes: list[int] = []
         self._places: list[float] = []
-        self._total = np.where(self._offsets.parts == 0, 0.0, -self._offsets.price)
+        self._total = self._offsets.only_whole - written.prices.begin(self._offsets.beats, np.inf)
         self._since = np.zeros(len(self._total), np.int64)
         self._block: list[int] = []  # the known hits of the beat that has not closed
         self._edge = -inf  # where it began
@@ -160,8 +161,12 @@ class Online:
         self._since = np.where(is_jumped, hits[0], self._since)
         self._total -= self._total.max()
         best, here = int(self._total.argmax()), self._offsets.here
-        if best != here and self._total[here] < -_MARGIN and self._offsets.only_whole[best] == 0.0:
-            return self._go(best, index)
+        if best != here and self._total[here] < -_MARGIN:
+            if self._offsets.only_whole[best] == 0.0:
+                return self._go(best, index)
+            if not self._clocked and index >= self._next_look:  # the clock is off the beat
+                self._doubt, self._doubt_since = max(self._doubt, _DOUBT), int(self._since[best])
+                return self._look(index)
         return index if self._clocked else self._weigh(gain[here], hits, index)
 
     def _gain(self, end: float) -> Floats:

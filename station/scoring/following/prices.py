@@ -72,9 +72,9 @@ PRICES = MappingProxyType(
     {
         (When.BEGIN, Where.START): 0.0,
         (When.BEGIN, Where.ON_TIME): 0.0,
-        (When.BEGIN, Where.BARS): 4.0,
-        (When.BEGIN, Where.BEATS): 6.0,
-        (When.BEGIN, Where.ELSEWHERE): 9.0,
+        (When.BEGIN, Where.BARS): 6.0,
+        (When.BEGIN, Where.BEATS): 8.0,
+        (When.BEGIN, Where.ELSEWHERE): 10.0,
         (When.PAUSE, Where.STOPPED): 0.0,
         (When.PAUSE, Where.START): 2.0,
         (When.PAUSE, Where.ON_TIME): 3.0,
@@ -96,7 +96,7 @@ NEARER = 0.3
 
 MOST_FOR_DISTANCE = 6.0
 
-UNHEARD_END = 12.0
+UNHEARD_END = 5.0
 """Nats at most against a performance that ends before the score does: most play to the end (our choice)."""
 
 TEMPO_SD = 0.3
