@@ -70,7 +70,7 @@ def found(written: Written, tracker: Tracker, hits: Hits, rates: Floats, among_s
             places.append(Place(float(hits.at_s[0]), score_s, rate))
         if len(places) == _SPOTS:
             break
-    return [_fitted(tracker, hits, place) for place in places]
+    return [fitted(tracker, hits, place) for place in places]
 
 
 def _vote(note_s: Floats, note_class: Indices, hits: Hits, rates: Floats) -> list[tuple[float, float, float]]:
@@ -96,7 +96,7 @@ def _vote(note_s: Floats, note_class: Indices, hits: Hits, rates: Floats) -> lis
     return [(float(votes[k]), first_s + int(k % bins) * _BIN_S, float(rates[k // bins])) for k in best]
 
 
-def _fitted(tracker: Tracker, hits: Hits, place: Place) -> Place:
+def fitted(tracker: Tracker, hits: Hits, place: Place) -> Place:
     """The place and rate that the hits near their notes support, by least squares from `place` on."""
     since, classes = hits.at_s - hits.at_s[0], hits.classes.tolist()
     score_s, rate = place.score_s, place.rate

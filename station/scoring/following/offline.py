@@ -13,7 +13,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from station.scoring.following.anchors import Hits, found, worth
+from station.scoring.following.anchors import Hits, fitted, found, worth
 from station.scoring.following.beat_offsets import EDGE, BeatWay, Offsets, best_way, block_gains, end_cost, offsets_of
 from station.scoring.following.prices import NEW_TEMPO_SD, POSSIBLE, TEMPO_SD
 from station.scoring.following.tempo_tracker import Place, Tracker
@@ -35,9 +35,9 @@ _LONG_LOOK = 256
 _RIVALS = 4
 """Anchors that are followed over the long look."""
 
-_ENOUGH = 0.75
+_ENOUGH = 0.8
 """Share of all possible evidence with which an anchor is believed without a search: a player of SD 20 ms who leaves out
-one note in ten, with one stroke in ten astray, brings .8."""
+one note in ten brings .82."""
 
 _LOST, _LOST_HITS = 0.4, 24
 """Less than this share of what is possible over so many hits, at any offset: the clock has lost the beat."""
@@ -166,7 +166,8 @@ class _Free:
         gaps = silences(hits.at_s)
         end = int(gaps[gaps >= _LOST_HITS][0]) if (gaps >= _LOST_HITS).any() else len(hits.at_s)
         window = hits.window(0, end)
-        rivals = [self._at_best(window, Place(at_s, score_s, 1.0)) for score_s in (at_s, first_s)]
+        usual = [Place(at_s, score_s, 1.0) for score_s in (at_s, first_s)]
+        rivals = [self._at_best(window, place) for place in usual + [self._on_beat(window, p) for p in usual]]
         for among_s in ((first_s - 1.0, first_s + _EARLY_S), (-np.inf, np.inf)):
             if max(value for value, _ in rivals) < _ENOUGH * _possible(window):
                 places = found(written, self._tracker, window, _RATES, among_s)
@@ -185,6 +186,11 @@ class _Free:
         nats = worth(self._written, window, place, self._offsets) + self._first(place)
         best = int(nats.argmax())
         return float(nats[best]), self._moved(place, best)
+
+    def _on_beat(self, window: Hits, place: Place) -> Place:
+        """`place` moved by the parts of a beat that fit best, and fitted there."""
+        best = int(worth(self._written, window, place, self._offsets).argmax())
+        return fitted(self._tracker, window, self._moved(place, best))
 
     def _moved(self, place: Place, offset: int) -> Place:
         """`place` moved by one of the offsets."""
@@ -344,8 +350,9 @@ class _Free:
         def value(place: Place) -> float:
             return float((worth(written, window, place, self._offsets) + priced(place)).max())
 
+        places = places + [self._on_beat(window, place) for place in places]
         if max(map(value, places)) < _ENOUGH * _possible(window) and len(window.at_s) >= _FEWEST:
-            first_s, here_s = float(written.at_s[0]), places[-1].score_s
+            first_s, here_s = float(written.at_s[0]), places[0].score_s
             for among in ((here_s - _EARLY_S, here_s + _EARLY_S), (first_s - 1.0, first_s + _EARLY_S)):
                 places = places + found(written, self._tracker, window, _NEAR_RATES * rate, among)
         best = max(places, key=value)

@@ -116,7 +116,7 @@ class Prices:
     def begin(self, beats: Floats, on_time: float) -> Floats:
         """Nats against a first hit at `beats`, any shape; `on_time` is its beat if the recording shares the score's."""
         cost = np.where(_is_whole(beats / self.bar_beats), PRICES[When.BEGIN, Where.BARS], _of_beats(When.BEGIN, beats))
-        cost = cost + self._far(beats - self.start)
+        cost = cost + np.minimum(np.abs(beats - self.start) / self.bar_beats, MOST_FOR_DISTANCE)
         cost = np.where(np.abs(beats - on_time) < _SAME, _ON_BASE + PRICES[When.BEGIN, Where.ON_TIME], cost)
         return np.where(np.abs(beats - self.start) < _SAME, PRICES[When.BEGIN, Where.START], cost)
 
