@@ -39,6 +39,9 @@ _ENOUGH = 0.8
 """Share of all possible evidence with which an anchor is believed without a search: a player of SD 20 ms who leaves out
 one note in ten brings .82."""
 
+_SURELY = 0.95
+"""As `_ENOUGH`, without a look at tempi close to what is written: a long roll shifted by one of its strokes fits to .9."""
+
 _LOST, _LOST_HITS = 0.4, 24
 """Less than this share of what is possible over so many hits, at any offset: the clock has lost the beat."""
 
@@ -47,6 +50,9 @@ _MOST_JUMPS = 200
 
 _RATES = np.exp(np.arange(-37, 38) * 0.02)
 """Tempi tried at the beginning, half to twice as fast, in steps of 2 %."""
+
+_CLOSE_RATES = 1.0 + 0.02 * np.array([-5, -4, -3, -2, -1, 1, 2, 3, 4, 5])
+"""Tempi close to what is written."""
 
 _NEAR_RATES = np.exp(np.arange(-10, 11) * 0.02)
 """Tempi tried later on, against the last."""
@@ -168,6 +174,9 @@ class _Free:
         window = hits.window(0, end)
         usual = [Place(at_s, score_s, 1.0) for score_s in (at_s, first_s)]
         rivals = [self._at_best(window, place) for place in usual + [self._on_beat(window, p) for p in usual]]
+        if max(value for value, _ in rivals) < _SURELY * _possible(window):
+            close = [self._on_beat(window, Place(at_s, first_s, rate)) for rate in _CLOSE_RATES]
+            rivals += [self._at_best(window, place) for place in close]
         for among_s in ((first_s - 1.0, first_s + _EARLY_S), (-np.inf, np.inf)):
             if max(value for value, _ in rivals) < _ENOUGH * _possible(window):
                 places = found(written, self._tracker, window, _RATES, among_s)
