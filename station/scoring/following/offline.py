@@ -247,7 +247,8 @@ class _Free:
                 return here
             if jump > start:
                 self._jumps.append(jump)
-            at, first = jump, self._stay if len(self._jumps) < _MOST_JUMPS else self._settled
+            is_stuck = jump == at or len(self._jumps) >= _MOST_JUMPS
+            at, first = jump, self._settled if is_stuck else self._stay
 
     def _follow(self, start: int, end: int, place: Place) -> Place:
         score_s, distance_s, after = self._tracker.follow(self._times[start:end], self._classes[start:end], place)
@@ -280,8 +281,8 @@ class _Free:
                 back = self._place_before(start, jump, here)
                 now = Place(self._times[jump], float(self._score_s[jump]), back.rate)
                 place = self._moved(now, int(way.states[left[0]]))
-                if not np.isfinite(self._offsets.only_whole[way.states[left[0]]]):  # the clock had lost the beat
-                    place = self._set_anew(jump, end, [place])
+                if not np.isfinite(self._offsets.only_whole[way.states[left[0]]]):
+                    place = self._on_another_beat(jump, end, place)
                 return place, jump
             here = after if settled == until else self._place_before(start, settled, here)
             start, first = settled, self._stay
@@ -317,6 +318,13 @@ class _Free:
         self._wait = _LOST_HITS if best is not place else 2 * self._wait
         self._trusted = lost + self._wait
         return None if best is place else best
+
+    def _on_another_beat(self, hit: int, end: int, place: Place) -> Place:
+        """The clock set to `place`, parts of a beat away: exactly, or anew where it had lost the tempo before."""
+        window = self._hits.window(hit, end)
+        place = fitted(self._tracker, window, place)
+        fits = float(worth(self._written, window, place, self._offsets)[self._offsets.here])
+        return place if fits > _ENOUGH * _possible(window) else self._set_anew(hit, end, [place])
 
     def _set_anew(self, hit: int, end: int, places: list[Place]) -> Place:
         """The likeliest place of `hit`, of `places` and what is found, for a player who went on without a pause."""
