@@ -8,7 +8,6 @@ where no beat fits any more: there the place and tempo are found from nothing (`
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -157,6 +156,7 @@ class _Free:
         self._offsets = offsets_of(written)
         self._times, self._classes = hits.at_s.tolist(), hits.classes.tolist()
         self._score_s, self._distance_s = np.zeros(len(hits.at_s)), np.zeros(len(hits.at_s))
+        self._silences = silences(hits.at_s)
         self._jumps: list[int] = []
         self._trusted, self._wait = 0, _LOST_HITS
         """No beat counts as lost before the first; so many hits later at the earliest it is lost again."""
@@ -230,25 +230,38 @@ class _Free:
 
     def run(self, begin: Place) -> RawWay:
         """Follow from `begin` to the end."""
-        here, first = begin, self._first(begin)
-        for start, end in pairwise([0, *silences(self._hits.at_s).tolist(), len(self._times)]):
-            if start:
-                here, first = self._after_silence(start, here)
-            here = self._follow_on(start, end, here, first)
+        here, first, start = begin, self._first(begin), 0
+        while start < len(self._times):
+            here, end = self._follow_on(start, here, first)
+            start = end
+            if end < len(self._times):
+                here, first = self._after_pause(end, here)
         return RawWay(self._score_s, self._distance_s, np.array(self._jumps, np.int64))
 
-    def _follow_on(self, start: int, end: int, here: Place, first: Floats) -> Place:
-        """Follow hits `start` … `end` − 1 through all jumps; returns the place after the last."""
+    def _follow_on(self, start: int, here: Place, first: Floats) -> tuple[Place, int]:
+        """Follow from hit `start` through all jumps to the next pause; returns the place after it and its first hit."""
         at = start
         self._trusted, self._wait = start, _LOST_HITS
         while True:
+            end = self._next_pause(at, here)
             here, jump = self._follow_to_jump(at, end, here, first)
             if jump is None:
-                return here
+                return here, end
             if jump > start:
                 self._jumps.append(jump)
             is_stuck = jump == at or len(self._jumps) >= _MOST_JUMPS
             at, first = jump, self._settled if is_stuck else self._stay
+
+    def _next_pause(self, start: int, here: Place) -> int:
+        """The first hit after the next silence that is not written, for a clock at `here` before hit `start`."""
+        for gap in self._silences[np.searchsorted(self._silences, start, side="right") :].tolist():
+            places, _, here = self._tracker.follow(self._times[start:gap], self._classes[start:gap], here)
+            on_time_s = here.score_s + here.rate * (self._times[gap] - here.at_s)
+            low, high = np.searchsorted(self._written.at_s, (places[-1] + _SILENT_S, on_time_s - _SILENT_S))
+            if np.count_nonzero(np.diff(self._written.at_s[low:high]) > _SILENT_S) + (low < high) >= _STOP_SLOTS:
+                return int(gap)
+            start = gap
+        return len(self._times)
 
     def _follow(self, start: int, end: int, place: Place) -> Place:
         score_s, distance_s, after = self._tracker.follow(self._times[start:end], self._classes[start:end], place)
@@ -333,24 +346,17 @@ class _Free:
         offset = int((worth(self._written, self._hits.window(hit, end), best, self._offsets) + priced).argmax())
         return self._moved(best, offset)
 
-    def _after_silence(self, start: int, here: Place) -> tuple[Place, Floats]:
-        """Where the player goes on with hit `start`, and the first totals (s,) there."""
+    def _after_pause(self, start: int, here: Place) -> tuple[Place, Floats]:
+        """Where the player goes on with hit `start` after a pause, and the first totals (s,) there."""
         at_s, last_s, end = self._times[start], float(self._score_s[start - 1]), len(self._times)
         on_time_s = here.score_s + here.rate * (at_s - here.at_s)
-        low, high = np.searchsorted(self._written.at_s, (last_s + _SILENT_S, on_time_s - _SILENT_S))
-        if np.count_nonzero(np.diff(self._written.at_s[low:high]) > _SILENT_S) + (low < high) < _STOP_SLOTS:
-            return here, self._stay  # the rest is written
         next_s = self._written.next_of(self._classes[start], last_s)
         places = [Place(at_s, on_time_s, here.rate)]
         if next_s is not None and abs(next_s - on_time_s) > _SAME_S:
             places.append(self._nearby(self._hits.window(start, end), Place(at_s, next_s, here.rate)))
-        stopped, now = self._written.beats.beat(np.array([on_time_s if next_s is None else next_s, on_time_s])).tolist()
-        best, first = self._best_anchor(
-            start, end, places, lambda beats: self._written.prices.pause(beats, stopped, now)
-        )
-        first_beat = self._written.beats.beat(np.array([best.score_s]))[0]
-        if abs(best.score_s - on_time_s) > _SAME_S or self._offsets.beats[int(first.argmax())] or first_beat < 0:
-            self._jumps.append(start)
+        last, now = self._written.beats.beat(np.array([last_s, on_time_s])).tolist()
+        best, first = self._best_anchor(start, end, places, lambda beats: self._written.prices.pause(beats, last, now))
+        self._jumps.append(start)
         return best, first
 
     def _best_anchor(

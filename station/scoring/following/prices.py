@@ -120,13 +120,14 @@ class Prices:
         cost = np.where(np.abs(beats - on_time) < _SAME, _ON_BASE + PRICES[When.BEGIN, Where.ON_TIME], cost)
         return np.where(np.abs(beats - self.start) < _SAME, PRICES[When.BEGIN, Where.START], cost)
 
-    def pause(self, beats: Floats, stopped: float, on_time: float) -> Floats:
-        """Nats against going on at `beats` (any shape) after a pause; `stopped` is the next note's beat."""
+    def pause(self, beats: Floats, last: float, on_time: float) -> Floats:
+        """Nats against going on at `beats` (any shape) after a pause; `last` is the beat of the last hit before it."""
         cost = np.where(_is_whole(beats / self.bar_beats), PRICES[When.PAUSE, Where.BARS], _of_beats(When.PAUSE, beats))
-        cost = cost + self._far(beats - stopped)
+        cost = cost + self._far(beats - last)
         cost = np.where(np.abs(beats - on_time) < _SAME, PRICES[When.PAUSE, Where.ON_TIME], cost)
         cost = np.where(np.abs(beats - self.start) < _SAME, np.minimum(PRICES[When.PAUSE, Where.START], cost), cost)
-        return np.where(np.abs(beats - stopped) < _SAME, PRICES[When.PAUSE, Where.STOPPED], cost)
+        went_on = (beats > last - _SAME) & (beats < last + 1.0 + _SAME)
+        return np.where(went_on, PRICES[When.PAUSE, Where.STOPPED], cost)
 
     def on(self, offsets: Floats) -> Floats:
         """Nats against being suddenly so many beats away, any shape."""
