@@ -6,9 +6,10 @@
 
 `station/bench/rigs/journeys.py` says what is played, `journey_truth.py` what an ear can know of it. The columns: F1 of
 the pairs below an oracle's who knows the way and the tempo, its median, its 95th percentile, and the share of takes
-that lie more than .03 below; takes whose number of stretches is not the number of times that the player set out; notes
-on which the last live word is the final one; the largest change of the score when the same take lies elsewhere in its
-file. `--show` prints the true way of a take beside ours.
+that lie more than .03 below; turns (skips, repeats, stops …) that could be heard and start no stretch of ours; takes
+with a stretch that nobody began; notes on which the last live word is the final one, and hits on which it is where
+notes that are alike count as one; the largest change of the score when the same take lies elsewhere in its file.
+`--show` prints the true way of a take beside ours.
 """
 
 import argparse
@@ -32,6 +33,12 @@ _QUICK_TAKES = 200
 _WORST = 3
 _TOLD = 0.03
 """The part's bound for 95 % of takes."""
+
+
+_COLUMNS = (
+    *("kind", "takes", "median", "p95", "> .03", "turns missed", "with false turns"),
+    *("live = final", "by hit", "score moves", "passes", "worst"),
+)
 
 
 class Task(NamedTuple):
@@ -66,10 +73,7 @@ def table(results: Iterable[Result]) -> str:
     by: dict[tuple[bool, str], list[Result]] = defaultdict(list)
     for result in results:
         by[result.clocked, result.kind].append(result)
-    lines = [
-        "| kind | takes | median | p95 | > .03 | wrong stretches | live = final | score moves | passes | worst |",
-        "|---|---|---|---|---|---|---|---|---|---|",
-    ]
+    lines = [f"| {' | '.join(_COLUMNS)} |", "|---" * len(_COLUMNS) + "|"]
     for clocked in (False, True):
         groups = {kind: group for (c, kind), group in by.items() if c == clocked}
         for kind, group in groups.items():
@@ -82,7 +86,7 @@ def table(results: Iterable[Result]) -> str:
 
 def _line(name: str, group: list[Result]) -> str:
     loss = np.array([result.loss for result in group])
-    stretches = sum(result.stretches != result.legs for result in group)
+    turns = sum(result.turns for result in group)
     moved = [result.score_change for result in group if result.score_change is not None]
     passes = [result for result in group if result.passes is not None]
     exact = sum(result.passes == result.passes_told for result in passes)
@@ -94,8 +98,9 @@ def _line(name: str, group: list[Result]) -> str:
             f"{np.median(loss):.4f}",
             f"{np.percentile(loss, 95):.4f}",
             f"{100 * np.mean(loss > _TOLD):.1f} %",
-            f"{100 * stretches / len(group):.1f} %",
-            f"{_live(group)}",
+            f"{100 * sum(result.turns_missed for result in group) / turns:.1f} %" if turns else "",
+            f"{100 * np.mean([result.false_turns > 0 for result in group]):.1f} %",
+            *_live(group),
             f"{max(moved):.1f}" if moved else "",
             f"{100 * exact / len(passes):.1f} %" if passes else "",
             ", ".join(f"{r.kind + ' ' if '*' in name else ''}{r.seed} ({r.loss:.3f})" for r in worst) + " |",
@@ -103,9 +108,11 @@ def _line(name: str, group: list[Result]) -> str:
     )
 
 
-def _live(group: list[Result]) -> str:
+def _live(group: list[Result]) -> tuple[str, str]:
     notes = sum(result.live_notes or 0 for result in group)
-    return f"{100 * sum(result.live_equal or 0 for result in group) / notes:.2f} %" if notes else ""
+    hits = [result.live_hits for result in group if result.live_hits is not None]
+    equal = sum(result.live_equal or 0 for result in group)
+    return (f"{100 * equal / notes:.2f} %", f"{100 * np.mean(hits):.2f} %") if notes else ("", "")
 
 
 # --- one take to look at ----------------------------------------------------------------------------------------------

@@ -11,6 +11,7 @@ A note that was played several times may be paired with any of its plays, and wh
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -173,16 +174,34 @@ class Truth:
         false = int((said >= 0).sum()) - true
         return 2 * true / max(2 * true + false + missed, 1)
 
+    @cached_property
+    def turns(self) -> tuple["Turn", ...]:
+        """Where the player set out anew, and whether anyone could hear it."""
+        take, at_ns = self.take, self.take.performance.hits["at_ns"]
+        tick = np.where(take.meant >= 0, take.score.notes["tick"][take.meant], -1)
+        found = []
+        for i, (before, after) in enumerate(pairwise(take.legs), start=1):
+            since, until, is_heard = before.last, after.first, True
+            if after.wait_s == 0:
+                since = self._alike_since(i - 1, after.first - before.last)
+                until = self._alike_until(i, before.last - after.first)
+                is_heard = since > before.first and until < after.last
+            earlier = at_ns[(take.leg == i - 1) & (tick >= 0) & (tick < since)]
+            later = at_ns[(take.leg == i) & (tick >= until)]
+            found.append(Turn(int(earlier.max(initial=at_ns[0])), int(later.min(initial=at_ns[-1])), is_heard))
+        return tuple(found)
+
     def oracle(self) -> Indices:
         """What one who knows the way, the tempo and the spread would pair: the note of each hit (m,), −1 for none.
 
-        Leg by leg and piece by piece, the pairs whose squared distances are least, none further than `_REACH_SDS`. Of
-        several plays of a note the first counts.
+        Leg by leg and piece by piece, the pairs whose squared distances are least, none further than `_REACH_SDS`. A
+        note that was played several times belongs to the longest leg.
         """
         take, score = self.take, self.take.score
         reach_ns = _REACH_SDS * take.player.sd_ms * NS_PER_MS * take.player.speed
-        said = np.full(len(take.meant), -1, np.int64)
-        given = np.zeros(len(score), bool)
+        said, owner = np.full(len(take.meant), -1, np.int64), np.full(len(score), -1)
+        for i in sorted(range(len(take.legs)), key=lambda i: take.legs[i].last - take.legs[i].first):
+            owner[(score.notes["tick"] >= take.legs[i].first) & (score.notes["tick"] < take.legs[i].last)] = i
         for i, leg in enumerate(take.legs):
             inside = (score.notes["tick"] >= leg.first) & (score.notes["tick"] < leg.last)
             for piece in np.unique(score.notes["piece"][inside]):
@@ -191,10 +210,18 @@ class Truth:
                 hits = np.flatnonzero((take.leg == i) & (take.performance.hits["piece"] == piece))
                 hits = hits[np.argsort(take.true_ns[hits], kind="stable")]
                 for note, hit in nearest_pairs(score.onset_ns[rows], take.true_ns[hits], reach_ns):
-                    if not given[rows[note]]:
-                        given[rows[note]] = True
+                    if owner[rows[note]] == i:
                         said[hits[hit]] = rows[note]
         return said
+
+
+@dataclass(frozen=True, slots=True)
+class Turn:
+    """A player sets out anew, somewhere between two instants; `is_heard` unless going straight on sounds the same."""
+
+    since_ns: int
+    until_ns: int
+    is_heard: bool
 
 
 def nearest_pairs(notes: Indices, hits: Indices, reach: float) -> list[tuple[int, int]]:

@@ -32,6 +32,9 @@ _ALONE_S, _ALONE_BARS = 5.0, 2
 """Nobody changes place twice within so much music, so that an ear has something to go by."""
 _QUICKEST_S = 0.085
 """No hand strikes a piece quicker (HUMANS: one hand 5-7 Hz, two hands in turn 12): music is not doubled beyond it."""
+_LOOSEST = 0.2
+"""No SD is more than this share of the shortest wait: a hand's strokes do not overtake one another (HUMANS: novices
+6-10 % of the interval)."""
 _AR_LAG_1 = 0.3
 """HUMANS: lag-1 of professionals' asynchronies about .21 to .37."""
 _GRACE_SD_MS, _CLOSEST_GRACE_MS = 4.0, 8.0
@@ -207,7 +210,7 @@ TURNS: dict[str, Turn] = {
     "stop_beginning": _stop_to(lambda _, at: 0),
 }
 """How a player leaves the written way."""
-TEMPI = ("half", "double", "tempo", "drift3", "drift12")
+TEMPI = ("steady", "half", "double", "tempo", "drift3", "drift12")
 """What a player without a click does to the tempo."""
 KINDS = ("straight", "begin", *TURNS, *TEMPI, "many")
 """The kinds of journeys; `passes` stands apart."""
@@ -381,9 +384,14 @@ def journey(kind: str, seed: int, clocked: bool = False) -> Take:
 
 
 def _at_own_tempo(rng: Rng, kind: str, score: Score, player: Player) -> Player:
-    """A player without a click: near the written tempo with ±3 % of drift, unless the kind says otherwise."""
+    """A player without a click: near the written tempo with ±3 % of drift, unless the kind says otherwise.
+
+    Who is steady had a metronome that the recording does not know of.
+    """
     speed, drift = float(rng.uniform(0.92, 1.08)), 0.03
-    if kind == "half":
+    if kind == "steady":
+        speed, drift = 1.0, 0.0
+    elif kind == "half":
         speed = 0.5
     elif kind == "double":
         speed = 2.0 if _quickest_s(score) / 2 >= _QUICKEST_S else 0.5
@@ -391,7 +399,9 @@ def _at_own_tempo(rng: Rng, kind: str, score: Score, player: Player) -> Player:
         speed = float(rng.uniform(0.7, 1.3))
     if kind == "drift12" or (kind == "many" and rng.random() < 0.3):
         drift = 0.12
-    return replace(player, speed=speed, drift=drift * float(rng.choice([-1, 1])), ramps=bool(rng.random() < 0.5))
+    sd_ms = min(player.sd_ms, _LOOSEST * 1e3 * _quickest_s(score) / speed)
+    drift *= float(rng.choice([-1, 1]))
+    return replace(player, speed=speed, drift=drift, ramps=bool(rng.random() < 0.5), sd_ms=sd_ms)
 
 
 def _quickest_s(score: Score) -> float:
@@ -409,10 +419,11 @@ def passes_journey(seed: int) -> Take:
     name = str(rng.choice(lesson_names()))
     passes = int(rng.integers(1, 17))
     score = find_lesson(name).score.repeated(passes)
+    speed = float(rng.uniform(0.8, 1.2))
     player = Player(
-        speed=float(rng.uniform(0.8, 1.2)),
+        speed=speed,
         drift=0.03,
-        sd_ms=float(rng.choice([10.0, 15.0, 20.0])),
+        sd_ms=min(float(rng.choice([10.0, 15.0, 20.0])), _LOOSEST * 1e3 * _quickest_s(score) / speed),
         missing=float(rng.uniform(0.0, 0.2)),
         extra=0.0,
         wrong_piece=0.0,

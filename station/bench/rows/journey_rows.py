@@ -5,7 +5,7 @@ score. `measure` does one take; benchmarks/journeys.py does thousands.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,9 +33,10 @@ _AFTER_NS = 30 * NS_PER_S
 class Result:
     """What became of one take; None where it was not asked.
 
-    `f1`, `oracle_f1` of the pairs; `legs`, `stretches` how often the player set out, and how often we say so;
-    `live_notes` how many notes the player came by, `live_equal` on how many of them the last live word and the final
-    one agree; `score_change` the largest change of the score among `OFFSETS_S`; `passes`, `passes_told` of a lesson.
+    `f1`, `oracle_f1` of the pairs; `turns` that could be heard, `turns_missed` of them, and `false_turns` that nobody
+    took; `live_notes` how many notes the player came by, `live_equal` on how many of them the last live word and the
+    final one agree, `live_hits` the share of hits on which they do, notes that are alike counting as one;
+    `score_change` the largest change of the score among `OFFSETS_S`; `passes`, `passes_told` of a lesson.
     """
 
     kind: str
@@ -44,10 +45,12 @@ class Result:
     clocked: bool
     oracle_f1: float
     f1: float
-    legs: int
-    stretches: int
+    turns: int
+    turns_missed: int
+    false_turns: int
     live_notes: int | None = None
     live_equal: int | None = None
+    live_hits: float | None = None
     score_change: float | None = None
     passes: int | None = None
     passes_told: int | None = None
@@ -68,30 +71,63 @@ def matched(alignment: Alignment) -> NDArray[np.int64]:
     return np.where(alignment.hit_label == Label.MATCH, alignment.note_of_hit, -1)
 
 
-def live_labels(take: Take) -> NDArray[np.uint8]:
-    """The last word on each note (n,) of who judges hit by hit; MISS where nothing was said."""
-    follower = Follower(take.score, clocked=take.clocked)
+@dataclass(frozen=True, eq=False)
+class Live:
+    """The last live words: a label a note (n,), MISS where nothing was said; a label and a note or −1 a hit (m,)."""
+
+    note_label: NDArray[np.uint8]
+    hit_label: NDArray[np.uint8]
+    note_of_hit: NDArray[np.int64]
+
+
+def live(take: Take) -> Live:
+    """What is judged hit by hit: a word replaces all earlier ones on its note and on its hit."""
+    follower, hits = Follower(take.score, clocked=take.clocked), take.performance
     label_of: dict[int, Label] = {}
     hit_of: dict[int, int] = {}
     note_of: dict[int, int] = {}
-    hits = take.performance
-    words = [v for hit in hits for v in (*follower.advance(hit.at_ns), *follower.hit(hit, hit.at_ns))]
+    hit_label = np.full(len(hits), Label.PENDING, np.uint8)
+    words = [word for hit in hits for word in (*follower.advance(hit.at_ns), *follower.hit(hit, hit.at_ns))]
     last_ns = int(hits.hits["at_ns"][-1]) if len(hits) else 0
-    for verdict in (*words, *follower.advance(last_ns + _AFTER_NS)):
-        note, hit = verdict.note_index, verdict.hit_index
-        if hit is not None and hit in note_of:
-            before = note_of.pop(hit)
-            hit_of.pop(before, None)
-            label_of.pop(before, None)
+    for word in (*words, *follower.advance(last_ns + _AFTER_NS)):
+        note, hit = word.note_index, word.hit_index
+        if hit is not None:
+            hit_label[hit] = word.label
+            if hit in note_of:
+                before = note_of.pop(hit)
+                del hit_of[before], label_of[before]
         if note is not None:
             note_of.pop(hit_of.pop(note, -1), None)
-            label_of[note] = verdict.label
+            label_of[note] = word.label
             if hit is not None:
                 hit_of[note], note_of[hit] = hit, note
-    labels = np.full(len(take.score), Label.MISS, np.uint8)
+    labels, notes = np.full(len(take.score), Label.MISS, np.uint8), np.full(len(hits), -1, np.int64)
     told = [(note, label) for note, label in label_of.items() if label is not Label.PENDING]
     labels[[note for note, _ in told]] = [label for _, label in told]
-    return labels
+    notes[list(note_of)] = list(note_of.values())
+    return Live(labels, hit_label, notes)
+
+
+def equal_hits(truth: Truth, words: Live, alignment: Alignment) -> float:
+    """The share of hits that live and final words label alike and give to notes that are alike."""
+    classes = np.append(truth.classes, -1)
+    same = (classes[words.note_of_hit] == classes[alignment.note_of_hit]) & (words.hit_label == alignment.hit_label)
+    return float(same.mean())
+
+
+_NEAR_NS = NS_PER_S
+"""So near a turn is told in its place: a beat or two, our choice."""
+
+
+def turns_told(truth: Truth, alignment: Alignment) -> tuple[int, int, int]:
+    """How many turns could be heard, how many of them our stretches miss, and how many of ours nobody took."""
+    at_ns = truth.take.performance.hits["at_ns"]
+    breaks = np.flatnonzero(np.diff(alignment.stretch))
+    since, until = at_ns[breaks], at_ns[breaks + 1]
+    near = [(until >= t.since_ns - _NEAR_NS) & (since <= t.until_ns + _NEAR_NS) for t in truth.turns]
+    heard = [bool(n.any()) for n, turn in zip(near, truth.turns, strict=True) if turn.is_heard]
+    taken = np.any(near, axis=0) if near else np.zeros(len(breaks), bool)
+    return len(heard), len(heard) - sum(heard), int((~taken).sum())
 
 
 def come_by(take: Take) -> NDArray[np.bool_]:
@@ -111,29 +147,25 @@ def _points(score: Score, performance: Performance) -> float:
     return summarise(score, performance, align(score, performance, clocked=False)).points or 0.0
 
 
-def measure(kind: str, seed: int, clocked: bool, live: bool = True, offsets: bool = True) -> Result:
-    """One take; `live` and `offsets` say whether those are asked, too."""
+def measure(kind: str, seed: int, clocked: bool, with_live: bool = True, offsets: bool = True) -> Result:
+    """One take; `with_live` and `offsets` say whether those are asked, too."""
     take = journey(kind, seed, clocked)
-    truth = Truth(take)
-    alignment = align(take.score, take.performance, clocked=clocked)
-    here = come_by(take)
-    equal = (live_labels(take) == alignment.note_label)[here].sum() if live else None
-    lesson = take.score.bars(0, take.score.bar_count // take.passes - 1) if take.passes else None
-    return Result(
-        kind=kind,
-        seed=seed,
-        name=take.name,
-        clocked=clocked,
-        oracle_f1=truth.f1(truth.oracle()),
-        f1=truth.f1(matched(alignment)),
-        legs=len(take.legs),
-        stretches=len(np.unique(alignment.stretch)),
-        live_notes=int(here.sum()) if live else None,
-        live_equal=None if equal is None else int(equal),
-        score_change=score_change(take) if offsets and not clocked else None,
-        passes=take.passes or None,
-        passes_told=None if lesson is None else passes_told(lesson, take.performance),
+    truth, alignment = Truth(take), align(take.score, take.performance, clocked=clocked)
+    turns, missed, false = turns_told(truth, alignment)
+    result = Result(
+        kind, seed, take.name, clocked, truth.f1(truth.oracle()), truth.f1(matched(alignment)), turns, missed, false
     )
+    if with_live:
+        words, here = live(take), come_by(take)
+        equal = int((words.note_label == alignment.note_label)[here].sum())
+        hits = equal_hits(truth, words, alignment)
+        result = replace(result, live_notes=int(here.sum()), live_equal=equal, live_hits=hits)
+    if offsets and not clocked:
+        result = replace(result, score_change=score_change(take))
+    if take.passes:
+        lesson = take.score.bars(0, take.score.bar_count // take.passes - 1)
+        result = replace(result, passes=take.passes, passes_told=passes_told(lesson, take.performance))
+    return result
 
 
 # --- the rows ---------------------------------------------------------------------------------------------------------
@@ -144,7 +176,7 @@ _SEEDS = range(3)
 
 def _worst_share(kinds: tuple[str, ...], clocked: bool) -> Callable[[], Measurement]:
     def run() -> Measurement:
-        results = [measure(kind, seed, clocked, live=False, offsets=False) for kind in kinds for seed in _SEEDS]
+        results = [measure(kind, seed, clocked, with_live=False, offsets=False) for kind in kinds for seed in _SEEDS]
         below = np.array([result.loss for result in results])
         worst = max(results, key=lambda result: result.loss)
         return Measurement(
@@ -166,7 +198,7 @@ def _live_equal(kinds: tuple[str, ...], clocked: bool) -> Callable[[], Measureme
 
 
 def _passes_exact() -> Measurement:
-    results = [measure("passes", seed, clocked=False, live=False, offsets=False) for seed in range(60)]
+    results = [measure("passes", seed, clocked=False, with_live=False, offsets=False) for seed in range(60)]
     wrong = [f"{r.name} {r.passes}: {r.passes_told}" for r in results if r.passes != r.passes_told]
     return Measurement(100 * (1 - len(wrong) / len(results)), None, ", ".join(wrong[:3]))
 
