@@ -4,7 +4,8 @@ Notes that nobody could tell apart count as one:
 * of bars that are alike, notes of one piece and place, and within a bar that repeats a figure, one place of the figure;
 * where a player turns from one place to another and the music goes on alike for a while, it cannot be told whether they
   turned before or after that stretch: both readings are right within it;
-* a leg whose strokes, as they were played, fit another place of the score as well could have been there.
+* a leg whose strokes, as they were played, fit another place of the score as well could have been there; where they
+  fit nearly as well to go straight on, or to have begun at the beginning, whoever hears a turn guesses.
 
 A note that was played several times may be paired with any of its plays, and where one of them failed, be missed.
 """
@@ -28,6 +29,9 @@ _PIECES = 64
 """More than there are pieces, twice over for grace strokes: a stroke's key is its tick times this and its piece."""
 _SHIFT = PPQ // 2
 """Other places of a leg are looked for by eighths: players turn on bars and beats."""
+_TURN_FAULTS, _START_FAULTS = 2, 1
+"""A reading without a turn is as likely with so many more faults as one with it: a fault is one stroke in 30, a turn one
+beat in 100 to one of 100, ln(10⁴)/ln 30 = 2.7; to begin at the beginning is as likely as anywhere else, ln 100 = 1.4."""
 _REACH_SDS = 4.5
 """An oracle gives a stroke up that lies further from its time: one in 150,000 does."""
 
@@ -115,17 +119,25 @@ class Truth:
     def _elsewhere(self, leg: int) -> list[int]:
         """The shifts by which all that was heard of the leg fits the score as well as where it was played."""
         here = self.take.legs[leg]
-        own = len(self._faults(leg, 0))
         lowest = -(here.first // _SHIFT) * _SHIFT
         shifts = range(lowest, self.take.score.end_tick - here.last + 1, _SHIFT)
-        return [shift for shift in shifts if shift and len(self._faults(leg, shift)) <= own]
+        grace = {-here.first: _START_FAULTS} if leg == 0 else {}
+        return [shift for shift in shifts if shift and self._fits(leg, shift, grace.get(shift, 0))]
+
+    def _fits(self, leg: int, shift: int, grace: int) -> bool:
+        """Whether all that was heard of the leg fits `shift` ticks later with at most `grace` faults more."""
+        return len(self._faults(leg, shift)) <= len(self._faults(leg, 0)) + grace
 
     def _alike_until(self, leg: int, shift: int) -> int:
-        """The last tick of the leg up to which it fits as well `shift` ticks later."""
+        """The last tick of the leg up to which it fits as well `shift` ticks later, where the leg before went on."""
+        if self._fits(leg, shift, _TURN_FAULTS):
+            return self.take.legs[leg].last
         return self._last_even(self._faults(leg, shift), self._faults(leg, 0), self.take.legs[leg].last)
 
     def _alike_since(self, leg: int, shift: int) -> int:
-        """The first tick of the leg from which on it fits as well `shift` ticks later."""
+        """The first tick of the leg from which on it fits as well `shift` ticks later, where the next leg begins."""
+        if self._fits(leg, shift, _TURN_FAULTS):
+            return self.take.legs[leg].first
         ends = [-self._faults(leg, s)[::-1] for s in (shift, 0)]
         return -self._last_even(*ends, -self.take.legs[leg].first) + 1
 
