@@ -8,8 +8,9 @@
 the pairs below an oracle's who knows the way and the tempo, its median, its 95th percentile, and the share of takes
 that lie more than .03 below; turns (skips, repeats, stops …) that could be heard and start no stretch of ours; takes
 with a stretch that nobody began; notes on which the last live word is the final one, and hits on which it is where
-notes that are alike count as one; the largest change of the score when the same take lies elsewhere in its file.
-`--show` prints the true way of a take beside ours.
+notes that are alike count as one; the largest change of the score when the same take lies elsewhere in its file;
+lessons whose passes are told exactly, all, and those whose loop no shorter figure makes up. `--show` prints the true
+way of a take beside ours.
 """
 
 import argparse
@@ -89,7 +90,7 @@ def _line(name: str, group: list[Result]) -> str:
     turns = sum(result.turns for result in group)
     moved = [result.score_change for result in group if result.score_change is not None]
     passes = [result for result in group if result.passes is not None]
-    exact = sum(result.passes == result.passes_told for result in passes)
+    exact = [f"{_exact(some)}" for some in (passes, [result for result in passes if result.has_seam])]
     worst = sorted((r for r in group if r.loss > 0), key=lambda result: -result.loss)[:_WORST]
     return " | ".join(
         (
@@ -102,10 +103,14 @@ def _line(name: str, group: list[Result]) -> str:
             f"{100 * np.mean([result.false_turns > 0 for result in group]):.1f} %",
             *_live(group),
             f"{max(moved):.1f}" if moved else "",
-            f"{100 * exact / len(passes):.1f} %" if passes else "",
+            " / ".join(exact) if passes else "",
             ", ".join(f"{r.kind + ' ' if '*' in name else ''}{r.seed} ({r.loss:.3f})" for r in worst) + " |",
         )
     )
+
+
+def _exact(group: list[Result]) -> str:
+    return f"{100 * np.mean([result.passes == result.passes_told for result in group]):.1f} %" if group else ""
 
 
 def _live(group: list[Result]) -> tuple[str, str]:

@@ -30,8 +30,8 @@ _PIECES = 64
 _SHIFT = PPQ // 2
 """Other places of a leg are looked for by eighths: players turn on bars and beats."""
 _TURN_FAULTS, _START_FAULTS = 2, 1
-"""A reading without a turn is as likely with so many more faults as one with it: a fault is one stroke in 30, a turn one
-beat in 100 to one of 100, ln(10⁴)/ln 30 = 2.7; to begin at the beginning is as likely as anywhere else, ln 100 = 1.4."""
+"""A reading without a turn is as likely with so many more faults as one with it: a fault is one stroke in 30, a turn
+one beat in 100 to one of 100, ln(10⁴)/ln 30 = 2.7; and who begins, begins at the beginning or at one of 100 beats."""
 _REACH_SDS = 4.5
 """An oracle gives a stroke up that lies further from its time: one in 150,000 does."""
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.bench.harness.benchmark import Benchmark, Measurement
-from station.bench.rigs.journey_truth import Truth
+from station.bench.rigs.journey_truth import Truth, alike, keys
 from station.bench.rigs.journeys import CLICK_KINDS, KINDS, Take, journey
 from station.core.units import NS_PER_S
 from station.music.judgement import Label
@@ -36,7 +36,8 @@ class Result:
     `f1`, `oracle_f1` of the pairs; `turns` that could be heard, `turns_missed` of them, and `false_turns` that nobody
     took; `live_notes` how many notes the player came by, `live_equal` on how many of them the last live word and the
     final one agree, `live_hits` the share of hits on which they do, notes that are alike counting as one;
-    `score_change` the largest change of the score among `OFFSETS_S`; `passes`, `passes_told` of a lesson.
+    `score_change` the largest change of the score among `OFFSETS_S`; `passes`, `passes_told` of a lesson, and whether
+    its loop `has_seam`: no shorter figure makes it up, so that its bars fix the passes.
     """
 
     kind: str
@@ -54,6 +55,7 @@ class Result:
     score_change: float | None = None
     passes: int | None = None
     passes_told: int | None = None
+    has_seam: bool = False
 
     @property
     def loss(self) -> float:
@@ -164,7 +166,11 @@ def measure(kind: str, seed: int, clocked: bool, with_live: bool = True, offsets
         result = replace(result, score_change=score_change(take))
     if take.passes:
         lesson = take.score.bars(0, take.score.bar_count // take.passes - 1)
-        result = replace(result, passes=take.passes, passes_told=passes_told(lesson, take.performance))
+        told, has_seam = (
+            passes_told(lesson, take.performance),
+            len(np.unique(alike(lesson))) == len(np.unique(keys(lesson))),
+        )
+        result = replace(result, passes=take.passes, passes_told=told, has_seam=has_seam)
     return result
 
 
