@@ -38,13 +38,14 @@ _REACH_SDS = 4.5
 
 def keys(score: Score) -> Indices:
     """Tick, piece and whether it is a grace stroke of every note as one number (n,), rising."""
-    tick: Indices = score.notes["tick"] * _PIECES
-    return tick + score.notes["piece"] * 2 + score.is_grace
+    key: Indices = score.notes["tick"] * _PIECES + score.notes["piece"] * 2 + score.is_grace
+    return key
 
 
 def alike(score: Score) -> Indices:
     """A class for each note (n,): equal where bars are alike, and places in a bar's own repeated figure."""
-    key, known, classes = keys(score), {}, np.zeros(len(score), np.int64)
+    known: dict[object, int] = {}
+    key, classes = keys(score), np.zeros(len(score), np.int64)
     for bar in np.unique(score.bar).tolist():
         rows = np.flatnonzero(score.bar == bar)
         start, end = (score.tempo_map.bar_start(b) * _PIECES for b in (bar, bar + 1))
@@ -138,8 +139,8 @@ class Truth:
         """The first tick of the leg from which on it fits as well `shift` ticks later, where the next leg begins."""
         if self._fits(leg, shift, _TURN_FAULTS):
             return self.take.legs[leg].first
-        ends = [-self._faults(leg, s)[::-1] for s in (shift, 0)]
-        return -self._last_even(*ends, -self.take.legs[leg].first) + 1
+        other, own = (-self._faults(leg, s)[::-1] for s in (shift, 0))
+        return -self._last_even(other, own, -self.take.legs[leg].first) + 1
 
     @staticmethod
     def _last_even(other: Indices, own: Indices, end: int) -> int:
@@ -156,7 +157,7 @@ class Truth:
         """Which hits (m,) `said` (m,) gives to a note that they may have been meant for; −1 is no note."""
         note, classes = self.take.right_note, self.classes
         paired = (said >= 0) & (note >= 0)
-        right = paired & (classes[said] == classes[note])
+        right: Flags = paired & (classes[said] == classes[note])
         key = self._keys
         for leg, others in enumerate(self.readings):
             rows = np.flatnonzero(paired & ~right & (self.take.leg == leg))

@@ -40,6 +40,8 @@ _AR_LAG_1 = 0.3
 _GRACE_SD_MS, _CLOSEST_GRACE_MS = 4.0, 8.0
 """A grace stroke leads its main stroke by the written time, near enough, and always leads (HUMANS: 15-40 ms)."""
 _DRIFT_PERIOD_S = 60.0
+_AS_PLAYED = 0.5
+"""The share of the dataset's takes that keep their drummer's own timing: no model of noise is a drummer."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +73,10 @@ class Player:
 
 @dataclass(frozen=True, eq=False)
 class Journey:
-    """Who plays what on which way; the first of the `legs` begins at `start_s`. `passes` of a lesson, else 0."""
+    """Who plays what on which way; the first of the `legs` begins at `start_s`. `passes` of a lesson, else 0.
+
+    `own_s` (n,) the asynchronies of the drummer who played the score's notes, instead of noise, else None.
+    """
 
     name: str
     score: Score
@@ -80,6 +85,7 @@ class Journey:
     clocked: bool
     start_s: float
     passes: int = 0
+    own_s: Floats | None = None
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -295,7 +301,7 @@ def perform(rng: Rng, way: Journey) -> Take:
     meant = np.concatenate(inside)
     leg_of = np.repeat(np.arange(len(legs)), [len(rows) for rows in inside])
     due_s = warp.real(tick_s(notes["tick"][meant]) - firsts[leg_of] + begins[leg_of]) + waits[leg_of]
-    at_s = due_s + _asynchrony_s(rng, score, meant, due_s, player.sd_ms)
+    at_s = due_s + (_asynchrony_s(rng, score, meant, due_s, player.sd_ms) if way.own_s is None else way.own_s[meant])
 
     kept = rng.random(len(meant)) >= player.missing
     meant, leg_of, at_s = meant[kept], leg_of[kept], at_s[kept]
@@ -365,7 +371,9 @@ def journey(kind: str, seed: int, clocked: bool = False) -> Take:
         return passes_journey(seed)
     own = [zlib.crc32(kind.encode()), seed, int(clocked)]
     rng = np.random.default_rng(own)
-    name, score = music(families()[seed % len(families())], own)
+    piece = music(families()[seed % len(families())], own)
+    name, score = piece.name, piece.score
+    own_s = piece.own_s if rng.random() < _AS_PLAYED else None
     places = Places.of(score)
     begins = kind == "begin" or (kind == "many" and rng.random() < 0.5)
     first = _beginning(rng, places) if begins else 0
@@ -373,14 +381,16 @@ def journey(kind: str, seed: int, clocked: bool = False) -> Take:
     if kind == "many":
         turns = [str(turn) for turn in rng.choice(list(TURNS), int(rng.integers(2, 5)), replace=False)]
     legs = _legs(rng, places, first, turns)
-    player = Player(sd_ms=float(rng.choice([10.0, 15.0, 20.0])))
+    sd_ms = float(rng.choice([10.0, 15.0, 20.0])) if own_s is None else float(own_s.std()) * NS_PER_S / NS_PER_MS
+    player = Player(sd_ms=sd_ms)
     if clocked:
         in_place = not begins or rng.random() < 0.5
         start_s = float(score.tempo_map.seconds_at(first)) if in_place else 0.0
         on_click = tuple(_on_click(places, leg) for leg in legs)
-        return perform(rng, Journey(name, score, on_click, player, True, start_s))
+        return perform(rng, Journey(name, score, on_click, player, True, start_s, own_s=own_s))
     player = _at_own_tempo(rng, kind, score, player)
-    return perform(rng, Journey(name, score, tuple(legs), player, False, float(rng.uniform(0.3, 3.0))))
+    start_s = float(rng.uniform(0.3, 3.0))
+    return perform(rng, Journey(name, score, tuple(legs), player, False, start_s, own_s=own_s))
 
 
 def _at_own_tempo(rng: Rng, kind: str, score: Score, player: Player) -> Player:

@@ -135,7 +135,8 @@ def turns_told(truth: Truth, alignment: Alignment) -> tuple[int, int, int]:
 def come_by(take: Take) -> NDArray[np.bool_]:
     """Which notes (n,) lie on the player's way."""
     tick = take.score.notes["tick"]
-    return np.any([(tick >= leg.first) & (tick < leg.last) for leg in take.legs], axis=0)
+    by: NDArray[np.bool_] = np.any([(tick >= leg.first) & (tick < leg.last) for leg in take.legs], axis=0)
+    return by
 
 
 def score_change(take: Take) -> float:

@@ -11,7 +11,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
-from station.bench.rigs.journey_music import STYLES, families, music, phrase, written_ticks
+from station.bench.rigs.journey_music import STYLES, families, gmd_takes, music, phrase, quantised, written_ticks
 from station.bench.rigs.journey_truth import Truth, alike, nearest_pairs
 from station.bench.rigs.journeys import (
     CLICK_KINDS,
@@ -28,6 +28,7 @@ from station.bench.rigs.journeys import (
 from station.core.pieces import Piece
 from station.core.units import NS_PER_S, PPQ
 from station.drills.library import find_lesson
+from station.music.formats.smf.standard_midi import performance_from_midi, read_midi
 from station.music.score import Score
 
 BAR = 4 * PPQ
@@ -78,10 +79,10 @@ def test_a_beat_is_written_on_the_grid_that_its_strokes_are_near() -> None:
 
 @pytest.mark.parametrize("family", families())
 def test_music_lasts_long_enough_to_begin_late_and_is_the_same_again(family: str) -> None:
-    (name, score), again = music(family, [3]), music(family, [3])
-    assert score.length_ns >= 45 * NS_PER_S
-    assert name == again[0]
-    assert score.notes.tobytes() == again[1].notes.tobytes()
+    once, again = music(family, [3]), music(family, [3])
+    assert once.score.length_ns >= 45 * NS_PER_S
+    assert once.name == again.name
+    assert once.score.notes.tobytes() == again.score.notes.tobytes()
 
 
 # --- playing ----------------------------------------------------------------------------------------------------------
@@ -154,6 +155,18 @@ def test_a_journey_is_what_its_kind_says(kind: str) -> None:
         assert len(take.legs) == (2 if kind in {"skip", "skip_beats", "repeat", "restart"} else len(take.legs))
         if kind == "begin":
             assert take.score.tempo_map.seconds_at(first) >= 12.0
+
+
+@pytest.mark.skipif("gmd" not in families(), reason="no takes of the dataset here")
+def test_a_drummer_s_own_timing_is_that_of_the_file() -> None:
+    path = gmd_takes()[0]
+    score, late_s = quantised(path)
+    way = Journey("", score, (Leg(0, score.end_tick),), FLAWLESS, clocked=True, start_s=0.0, own_s=late_s)
+    hits = perform(np.random.default_rng(1), way).performance.hits
+    file = performance_from_midi(read_midi(path)).hits
+    for piece in (Piece.KICK, Piece.SNARE):
+        told = hits["at_ns"][hits["piece"] == piece]
+        assert np.isin(told // 10**6, [file["at_ns"] // 10**6 + d for d in (-1, 0, 1)]).mean() == 1.0
 
 
 # --- the truth --------------------------------------------------------------------------------------------------------
