@@ -40,17 +40,23 @@ _AR_LAG_1 = 0.3
 _GRACE_SD_MS, _CLOSEST_GRACE_MS = 4.0, 8.0
 """A grace stroke leads its main stroke by the written time, near enough, and always leads (HUMANS: 15-40 ms)."""
 _DRIFT_PERIOD_S = 60.0
+_RESUMED = 0.92, 1.08
+"""After a silence nobody without a click finds their tempo again but for some percent; our choice."""
 _AS_PLAYED = 0.5
 """The share of the dataset's takes that keep their drummer's own timing: no model of noise is a drummer."""
 
 
 @dataclass(frozen=True, slots=True)
 class Leg:
-    """What is played without a break: ticks `first` to `last` (without), after `wait_s` of silence."""
+    """What is played without a break: ticks `first` to `last` (without), after `wait_s` of silence.
+
+    `speed` is that of the leg against the player's own.
+    """
 
     first: int
     last: int
     wait_s: float = 0.0
+    speed: float = 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -247,6 +253,11 @@ def _on_click(places: Places, leg: Leg) -> Leg:
     return replace(leg, wait_s=round(leg.wait_s / places.beat_s) * places.beat_s)
 
 
+def _resumed(rng: Rng, legs: list[Leg]) -> tuple[Leg, ...]:
+    """The legs of a player without a click: whoever stopped goes on at nearly the same tempo."""
+    return tuple(replace(leg, speed=float(rng.uniform(*_RESUMED))) if leg.wait_s else leg for leg in legs)
+
+
 # --- playing ----------------------------------------------------------------------------------------------------------
 
 
@@ -258,12 +269,14 @@ class Warp:
     real_s: Floats
 
     @classmethod
-    def of(cls, player: Player, length_s: float) -> "Warp":
-        """The warp of a player over `length_s` of playing time."""
+    def of(cls, player: Player, ends_s: Floats, speeds: Floats) -> "Warp":
+        """The warp of a player over legs that end at these instants of playing time, at speeds of their own."""
+        length_s = float(ends_s[-1])
         grid = np.arange(-2.0, length_s + 2.0, 0.02)
         share = np.clip(grid / length_s, 0.0, 1.0)
         lean = 2 * share - 1 if player.ramps else np.sin(2 * np.pi * grid / _DRIFT_PERIOD_S)
-        slowness = 1 / (player.speed * (1 + player.drift * lean))
+        of_leg = speeds[np.minimum(np.searchsorted(ends_s, grid, side="right"), len(speeds) - 1)]
+        slowness = 1 / (player.speed * of_leg * (1 + player.drift * lean))
         real = np.concatenate([[0.0], np.cumsum((slowness[1:] + slowness[:-1]) / 2 * np.diff(grid))])
         return cls(grid, real - np.interp(0.0, grid, real))
 
@@ -295,7 +308,7 @@ def perform(rng: Rng, way: Journey) -> Take:
     lengths = np.array([float(tick_s(leg.last)) for leg in legs]) - firsts
     begins = np.concatenate([[0.0], np.cumsum(lengths)])[:-1]
     waits = way.start_s + np.cumsum([leg.wait_s for leg in legs])
-    warp = Warp.of(player, float(lengths.sum()))
+    warp = Warp.of(player, np.cumsum(lengths), np.array([leg.speed for leg in legs]))
 
     inside = [np.flatnonzero((notes["tick"] >= leg.first) & (notes["tick"] < leg.last)) for leg in legs]
     meant = np.concatenate(inside)
@@ -390,7 +403,7 @@ def journey(kind: str, seed: int, clocked: bool = False) -> Take:
         return perform(rng, Journey(name, score, on_click, player, True, start_s, own_s=own_s))
     player = _at_own_tempo(rng, kind, score, player)
     start_s = float(rng.uniform(0.3, 3.0))
-    return perform(rng, Journey(name, score, tuple(legs), player, False, start_s, own_s=own_s))
+    return perform(rng, Journey(name, score, _resumed(rng, legs), player, False, start_s, own_s=own_s))
 
 
 def _at_own_tempo(rng: Rng, kind: str, score: Score, player: Player) -> Player:

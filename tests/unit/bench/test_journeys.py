@@ -101,6 +101,11 @@ def test_a_skip_goes_straight_on_and_a_stop_is_silence() -> None:
     assert sorted(stops.meant.tolist()) == sorted(2 * list(range(A_STROKES)))
 
 
+def test_a_leg_may_be_slower_than_the_one_before() -> None:
+    take = played(Leg(0, 2 * BAR), Leg(0, 2 * BAR, wait_s=2.0, speed=0.8))
+    assert np.allclose(np.diff(onsets_s(take, Piece.SNARE)), [1, 1, 1, 0.5 + 2 + 0.625, 1.25, 1.25, 1.25], atol=0.02)
+
+
 def test_a_ramp_goes_from_slow_to_fast_around_its_speed() -> None:
     ramp = Player(1.0, drift=0.12, ramps=True, sd_ms=1e-6, missing=0, extra=0, wrong_piece=0)
     score = rock("A" * 30)
