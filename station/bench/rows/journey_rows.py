@@ -178,8 +178,8 @@ def measure(kind: str, seed: int, clocked: bool, with_live: bool = True, offsets
 
 # --- the rows ---------------------------------------------------------------------------------------------------------
 
-_SEEDS = range(3)
-"""Of each kind: one of each family of music, so that the rows take seconds."""
+_SEEDS = range(6)
+"""Of each kind: two of each family of music, so that the rows take half a minute."""
 
 
 @cache
