@@ -24,8 +24,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from station.bench.rigs.journey_takes import Take
 from station.bench.rigs.journey_truth import Truth
-from station.bench.rigs.journeys import CLICK_KINDS, KINDS, Take, journey
+from station.bench.rigs.journeys import CLICK_KINDS, KINDS, journey
 from station.bench.rows.journey_rows import Result, matched, measure
 from station.core.units import NS_PER_S
 from station.scoring.align import align
