@@ -189,7 +189,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--quick", action="store_true", help=f"about {_QUICK_TAKES} takes on one core")
     parser.add_argument("--takes", type=int, default=2_000)
-    parser.add_argument("--kind", choices=(*KINDS, "passes"))
+    parser.add_argument("--kind", choices=sorted({*KINDS, *CLICK_KINDS, "passes"}))
     parser.add_argument("--click", action=argparse.BooleanOptionalAction, default=None)
     parser.add_argument("--first-seed", type=int, default=0)
     parser.add_argument("--processes", type=int, default=2)

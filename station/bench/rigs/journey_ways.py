@@ -17,6 +17,8 @@ Rng = np.random.Generator
 
 LATE_START_S = 12.0
 """Who begins in the middle begins so late in the written music, at least: there a search from the start is over."""
+_ON_A_BAR = 0.6
+"""Most who begin in the middle begin with a bar; our choice."""
 _ALONE_S, _ALONE_BARS = 5.0, 2
 """Nobody changes place twice within so much music, so that an ear has something to go by."""
 _SOON_S = 15.0
@@ -163,10 +165,10 @@ def way(rng: Rng, places: Places, first: int, turns: Sequence[str]) -> list[Leg]
 
 
 def beginning(rng: Rng, places: Places) -> int:
-    """Somewhere in the middle: on a bar mostly, on any beat sometimes."""
-    among = places.bars if rng.random() < 0.6 else places.beats
-    low = places.after(0, LATE_START_S)
-    return _pick(rng, among, low, max(low, _last_turn(places))) or 0
+    """Somewhere in the middle: on a bar mostly, on any beat sometimes; music enough follows."""
+    among = places.bars if rng.random() < _ON_A_BAR else places.beats
+    low, end = places.after(0, LATE_START_S), places.score.end_tick
+    return _pick(rng, among, low, max(low, end - places.after(0, LATE_START_S))) or 0
 
 
 def on_click(places: Places, legs: Sequence[Leg]) -> tuple[Leg, ...]:

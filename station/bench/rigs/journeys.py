@@ -31,7 +31,8 @@ TEMPI = ("steady", "half", "double", "tempo", "drift3", "drift12")
 """What a player without a click does to the tempo."""
 KINDS = ("straight", "begin", *TURNS, *TEMPI, "many")
 """The kinds of journeys; `passes` stands apart."""
-CLICK_KINDS = ("straight", "begin", *TURNS, "many")
+CLICK_KINDS = ("straight", "begin", "elsewhere", *TURNS, "many")
+"""Who begins late with a click comes in where it is; who begins elsewhere plays another bar at its first beat."""
 
 
 def journey(kind: str, seed: int, clocked: bool = False) -> Take:
@@ -43,7 +44,7 @@ def journey(kind: str, seed: int, clocked: bool = False) -> Take:
     piece = music(families()[seed % len(families())], own)
     score, places = piece.score, Places.of(piece.score)
     own_s = piece.own_s if rng.random() < _AS_PLAYED else None
-    begins = kind == "begin" or (kind == "many" and rng.random() < 0.5)
+    begins = kind in {"begin", "elsewhere"} or (kind == "many" and rng.random() < 0.5)
     first = beginning(rng, places) if begins else 0
     turns = [kind] if kind in TURNS else []
     if kind == "many":
@@ -51,8 +52,7 @@ def journey(kind: str, seed: int, clocked: bool = False) -> Take:
     legs = way(rng, places, first, turns)
     sd_ms = float(rng.choice(_SD_MS)) if own_s is None else float(own_s.std()) * NS_PER_S / NS_PER_MS
     if clocked:
-        in_place = not begins or rng.random() < 0.5
-        start_s = float(score.tempo_map.seconds_at(first)) if in_place else 0.0
+        start_s = 0.0 if kind == "elsewhere" else float(score.tempo_map.seconds_at(first))
         return perform(
             rng, Journey(piece.name, score, on_click(places, legs), Player(sd_ms=sd_ms), True, start_s, own_s=own_s)
         )
