@@ -182,10 +182,22 @@ class Truth:
     def f1(self, said: Indices) -> float:
         """The F1 of hits (m,) matched with notes, each note once at most, −1 where a hit matches none."""
         right = self.right(said)
-        found = np.bincount(self.classes[self.take.right_note[right]], minlength=len(self._due))
-        true, missed = int(right.sum()), int(np.maximum(self._due - found, 0).sum())
+        true, missed = int(right.sum()), self._missed(self.classes[said[right]], self.take.right_note[right])
         false = int((said >= 0).sum()) - true
         return 2 * true / max(2 * true + false + missed, 1)
+
+    def _missed(self, said: Indices, meant: Indices) -> int:
+        """How many due notes are not found by right pairs of a class (k,) with the note that was meant (k,).
+
+        Where both readings of a stretch are right, a pair finds a note of either, whichever lacks one.
+        """
+        due, meant = self._due, self.classes[meant]
+        found = np.bincount(said, minlength=len(due))
+        for one, other in zip(said.tolist(), meant.tolist(), strict=True):
+            if one != other and found[one] > due[one] and found[other] < due[other]:
+                found[one] -= 1
+                found[other] += 1
+        return int(np.maximum(due - found, 0).sum())
 
     @cached_property
     def turns(self) -> tuple["Turn", ...]:
