@@ -136,7 +136,7 @@ def show(take: Take) -> str:
         f"{tempo.meter_at(0).unit} at {tempo.bpm_at(0):.0f}, {take.score.length_ns / NS_PER_S:.0f} s written",
         f"speed {player.speed:.2f}, drift {player.drift:+.2f} {'ramp' if player.ramps else 'sine'}, "
         f"SD {player.sd_ms:.0f} ms, {'click' if take.clocked else 'no click'}",
-        f"F1 {truth.f1(said):.4f}, oracle {truth.f1(truth.oracle()):.4f}",
+        f"F1 {truth.f1(said, alignment.hit_score_ns):.4f}, oracle {truth.f1(truth.oracle()):.4f}",
         "true way (bar.beat, from 1; other readings as shifts in beats):",
     ]
     for i, leg in enumerate(take.legs):

@@ -169,35 +169,49 @@ class Truth:
                 right[rows] |= fits
         return right
 
-    @cached_property
-    def _due(self) -> Indices:
-        """How many notes of each class must be found: those that every play hit."""
-        ticks, legs = self.take.score.notes["tick"], self.take.legs
-        plays = sum(((ticks >= leg.first) & (ticks < leg.last)).astype(np.int64) for leg in legs)
-        hit = np.zeros(len(ticks), np.int64)
-        np.add.at(hit, self.take.right_note[self.take.right_note >= 0], 1)
-        must = (plays > 0) & (hit >= plays)
-        return np.bincount(self.classes[must], minlength=int(self.classes.max(initial=0)) + 1)
+    def f1(self, said: Indices, place_ns: Indices | None = None) -> float:
+        """The F1 of hits (m,) matched with notes, each note once at most, −1 where a hit matches none.
 
-    def f1(self, said: Indices) -> float:
-        """The F1 of hits (m,) matched with notes, each note once at most, −1 where a hit matches none."""
+        `place_ns` (m,) says where in the score each hit is held to lie: of several readings that is the one by which
+        notes are missed. None holds the true one.
+        """
         right = self.right(said)
-        true, missed = int(right.sum()), self._missed(self.classes[said[right]], self.take.right_note[right])
+        due = self._due(self.take.true_ns if place_ns is None else place_ns)
+        found = np.bincount(self.classes[said[right]], minlength=len(due))
+        true, missed = int(right.sum()), int(np.maximum(due - found, 0).sum())
         false = int((said >= 0).sum()) - true
         return 2 * true / max(2 * true + false + missed, 1)
 
-    def _missed(self, said: Indices, meant: Indices) -> int:
-        """How many due notes are not found by right pairs of a class (k,) with the note that was meant (k,).
+    def _due(self, place_ns: Indices) -> Indices:
+        """How many notes of each class must be found: those that every play hit, legs read as `place_ns` has them."""
+        take, key = self.take, self._keys
+        plays, played = np.zeros(len(key), np.int64), np.zeros(len(key), np.int64)
+        tick = take.score.notes["tick"]
+        for i, leg in enumerate(take.legs):
+            rows = np.flatnonzero((tick >= leg.first) & (tick < leg.last))
+            moved = key[rows] + self._shifts(i, tick[rows], place_ns) * _PIECES
+            at = np.minimum(np.searchsorted(key, moved), len(key) - 1)
+            is_hit, is_there = np.isin(rows, take.right_note[take.leg == i]), key[at] == moved
+            np.add.at(plays, at[is_there], 1)
+            np.add.at(played, at[is_there & is_hit], 1)
+        must = (plays > 0) & (played >= plays)
+        return np.bincount(self.classes[must], minlength=int(self.classes.max(initial=0)) + 1)
 
-        Where both readings of a stretch are right, a pair finds a note of either, whichever lacks one.
-        """
-        due, meant = self._due, self.classes[meant]
-        found = np.bincount(said, minlength=len(due))
-        for one, other in zip(said.tolist(), meant.tolist(), strict=True):
-            if one != other and found[one] > due[one] and found[other] < due[other]:
-                found[one] -= 1
-                found[other] += 1
-        return int(np.maximum(due - found, 0).sum())
+    def _shifts(self, leg: int, tick: Indices, place_ns: Indices) -> Indices:
+        """The reading of the notes at `tick` (k,) that is nearest to where their hits are held to lie, in ticks."""
+        hits = np.flatnonzero(self.take.leg == leg)
+        if not len(hits):
+            return np.zeros(len(tick), np.int64)
+        tempo = self.take.score.tempo_map
+        true = tempo.ticks_at_ns(self.take.true_ns[hits])
+        off = tempo.ticks_at_ns(place_ns[hits]) - true
+        order = np.argsort(true, kind="stable")
+        near = np.minimum(np.searchsorted(true[order], tick), len(hits) - 1)
+        best, held = np.zeros(len(tick), np.int64), off[order][near]
+        for shift, first, last in self.readings[leg]:
+            nearer = (tick >= first) & (tick < last) & (abs(held - shift) < abs(held - best))
+            best[nearer] = shift
+        return best
 
     @cached_property
     def turns(self) -> tuple["Turn", ...]:

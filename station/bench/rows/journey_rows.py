@@ -158,7 +158,15 @@ def measure(kind: str, seed: int, clocked: bool, with_live: bool = True, offsets
     truth, alignment = Truth(take), align(take.score, take.performance, clocked=clocked)
     turns, missed, false = turns_told(truth, alignment)
     result = Result(
-        kind, seed, take.name, clocked, truth.f1(truth.oracle()), truth.f1(matched(alignment)), turns, missed, false
+        kind,
+        seed,
+        take.name,
+        clocked,
+        truth.f1(truth.oracle()),
+        truth.f1(matched(alignment), alignment.hit_score_ns),
+        turns,
+        missed,
+        false,
     )
     if with_live:
         words, here = live(take), come_by(take)

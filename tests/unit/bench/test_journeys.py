@@ -210,8 +210,19 @@ def test_either_reading_of_a_stretch_finds_its_notes() -> None:
     at = {(int(n["tick"]), int(n["piece"])): i for i, n in enumerate(take.score.notes)}
     next_bar = [at.get((int(n["tick"]) + BAR, int(n["piece"])), NOBODY) for n in take.score.notes[take.meant]]
     said = np.where(again & early, next_bar, take.meant)
+    place = take.true_ns + np.where(again & early, 2 * NS_PER_S, 0)
     said[(again & ~early) | ((bar == 2) & early)] = NOBODY
-    assert Truth(take).f1(said) == 1.0
+    assert Truth(take).f1(said, place) == 1.0
+    assert Truth(take).f1(take.meant, take.true_ns) == 1.0
+
+
+def test_who_stops_in_bars_that_are_alike_may_go_on_or_begin_again() -> None:
+    """Two bars of A, a stop, two bars of A: the second two are bars 3 and 4, or 1 and 2 once more."""
+    take = played(Leg(0, 2 * BAR), Leg(2 * BAR, 4 * BAR, wait_s=2.0), score=rock("AAAA"))
+    again = np.where(take.leg == 1, NOBODY, take.meant)
+    place = take.true_ns - np.where(take.leg == 1, 4 * NS_PER_S, 0)
+    assert Truth(take).f1(again, place) == 1.0
+    assert Truth(take).f1(again, take.true_ns) == pytest.approx(2 * 24 / (2 * 24 + 24))
 
 
 def test_where_the_music_goes_on_alike_nobody_hears_a_turn() -> None:
