@@ -6,9 +6,11 @@
 
 `station/bench/rigs/journeys.py` says what is played, `journey_truth.py` what an ear can know of it. The columns: F1 of
 the pairs below an oracle's who knows the way and the tempo, its median, its 95th percentile, and the share of takes
-that lie more than .03 below; takes whose number of stretches is not the number of times that the player set out; notes
-on which the last live word is the final one; the largest change of the score when the same take lies elsewhere in its
-file. `--show` prints the true way of a take beside ours.
+that lie more than .03 below; turns (skips, repeats, stops …) that could be heard and start no stretch of ours; takes
+with a stretch that nobody began; notes on which the last live word is the final one, and hits on which it is where
+notes that are alike count as one; the largest change of the score when the same take lies elsewhere in its file;
+lessons whose passes are told exactly, all, and those whose loop no shorter figure makes up. `--show` prints the true
+way of a take beside ours.
 """
 
 import argparse
@@ -22,8 +24,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from station.bench.rigs.journey_takes import Take
 from station.bench.rigs.journey_truth import Truth
-from station.bench.rigs.journeys import CLICK_KINDS, KINDS, Take, journey
+from station.bench.rigs.journeys import CLICK_KINDS, KINDS, journey
 from station.bench.rows.journey_rows import Result, matched, measure
 from station.core.units import NS_PER_S
 from station.scoring.align import align
@@ -32,6 +35,12 @@ _QUICK_TAKES = 200
 _WORST = 3
 _TOLD = 0.03
 """The part's bound for 95 % of takes."""
+
+
+_COLUMNS = (
+    *("kind", "takes", "median", "p95", "> .03", "turns missed", "with false turns"),
+    *("live = final", "by hit", "score moves", "passes", "worst"),
+)
 
 
 class Task(NamedTuple):
@@ -66,10 +75,7 @@ def table(results: Iterable[Result]) -> str:
     by: dict[tuple[bool, str], list[Result]] = defaultdict(list)
     for result in results:
         by[result.clocked, result.kind].append(result)
-    lines = [
-        "| kind | takes | median | p95 | > .03 | wrong stretches | live = final | score moves | passes | worst |",
-        "|---|---|---|---|---|---|---|---|---|---|",
-    ]
+    lines = [f"| {' | '.join(_COLUMNS)} |", "|---" * len(_COLUMNS) + "|"]
     for clocked in (False, True):
         groups = {kind: group for (c, kind), group in by.items() if c == clocked}
         for kind, group in groups.items():
@@ -82,10 +88,10 @@ def table(results: Iterable[Result]) -> str:
 
 def _line(name: str, group: list[Result]) -> str:
     loss = np.array([result.loss for result in group])
-    stretches = sum(result.stretches != result.legs for result in group)
+    turns = sum(result.turns for result in group)
     moved = [result.score_change for result in group if result.score_change is not None]
     passes = [result for result in group if result.passes is not None]
-    exact = sum(result.passes == result.passes_told for result in passes)
+    exact = [f"{_exact(some)}" for some in (passes, [result for result in passes if result.has_seam])]
     worst = sorted((r for r in group if r.loss > 0), key=lambda result: -result.loss)[:_WORST]
     return " | ".join(
         (
@@ -94,18 +100,25 @@ def _line(name: str, group: list[Result]) -> str:
             f"{np.median(loss):.4f}",
             f"{np.percentile(loss, 95):.4f}",
             f"{100 * np.mean(loss > _TOLD):.1f} %",
-            f"{100 * stretches / len(group):.1f} %",
-            f"{_live(group)}",
+            f"{100 * sum(result.turns_missed for result in group) / turns:.1f} %" if turns else "",
+            f"{100 * np.mean([result.false_turns > 0 for result in group]):.1f} %",
+            *_live(group),
             f"{max(moved):.1f}" if moved else "",
-            f"{100 * exact / len(passes):.1f} %" if passes else "",
+            " / ".join(exact) if passes else "",
             ", ".join(f"{r.kind + ' ' if '*' in name else ''}{r.seed} ({r.loss:.3f})" for r in worst) + " |",
         )
     )
 
 
-def _live(group: list[Result]) -> str:
+def _exact(group: list[Result]) -> str:
+    return f"{100 * np.mean([result.passes == result.passes_told for result in group]):.1f} %" if group else ""
+
+
+def _live(group: list[Result]) -> tuple[str, str]:
     notes = sum(result.live_notes or 0 for result in group)
-    return f"{100 * sum(result.live_equal or 0 for result in group) / notes:.2f} %" if notes else ""
+    hits = [result.live_hits for result in group if result.live_hits is not None]
+    equal = sum(result.live_equal or 0 for result in group)
+    return (f"{100 * equal / notes:.2f} %", f"{100 * np.mean(hits):.2f} %") if notes else ("", "")
 
 
 # --- one take to look at ----------------------------------------------------------------------------------------------
@@ -123,7 +136,7 @@ def show(take: Take) -> str:
         f"{tempo.meter_at(0).unit} at {tempo.bpm_at(0):.0f}, {take.score.length_ns / NS_PER_S:.0f} s written",
         f"speed {player.speed:.2f}, drift {player.drift:+.2f} {'ramp' if player.ramps else 'sine'}, "
         f"SD {player.sd_ms:.0f} ms, {'click' if take.clocked else 'no click'}",
-        f"F1 {truth.f1(said):.4f}, oracle {truth.f1(truth.oracle()):.4f}",
+        f"F1 {truth.f1(said, alignment.hit_score_ns):.4f}, oracle {truth.f1(truth.oracle()):.4f}",
         "true way (bar.beat, from 1; other readings as shifts in beats):",
     ]
     for i, leg in enumerate(take.legs):
@@ -176,7 +189,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--quick", action="store_true", help=f"about {_QUICK_TAKES} takes on one core")
     parser.add_argument("--takes", type=int, default=2_000)
-    parser.add_argument("--kind", choices=(*KINDS, "passes"))
+    parser.add_argument("--kind", choices=sorted({*KINDS, *CLICK_KINDS, "passes"}))
     parser.add_argument("--click", action=argparse.BooleanOptionalAction, default=None)
     parser.add_argument("--first-seed", type=int, default=0)
     parser.add_argument("--processes", type=int, default=2)
