@@ -40,7 +40,7 @@ def run(options: AssessOptions) -> int:
     from station.practice.session.click_pattern import silences
     from station.scoring.align import align
     from station.scoring.analysis.summary import SummaryView, summarise
-    from station.scoring.following.loops import times_played
+    from station.scoring.following.passes import times_played
     from station.scoring.matching.alignment import Reference
     from station.scoring.report.assessment_document import assessment
     from station.scoring.report.pairs_table import write_pairs

@@ -22,7 +22,7 @@ from station.music.score import Score
 from station.scoring.align import align
 from station.scoring.analysis.summary import summarise
 from station.scoring.following.follower import Follower
-from station.scoring.following.loops import times_played
+from station.scoring.following.passes import times_played
 from station.scoring.matching.alignment import Alignment
 
 OFFSETS_S = (0.0, 0.007, 1.3, 12.0)

@@ -8,6 +8,7 @@ beat, so that live and final following take the same steps.
 
 from dataclasses import dataclass
 from functools import cached_property
+from math import gcd
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +19,7 @@ from station.scoring.following.written import PARTS, Nats, Written, gained
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-FAR_BEATS, NEAR_BEATS = 64, 1
+FAR_BEATS, NEAR_BEATS = 64, 2
 """Whole beats are tried as far as the first, 16 bars of 4/4; thirds and eighths of a beat as far as the second."""
 
 SHORT_BEATS = 256
@@ -50,7 +51,7 @@ class Offsets:
 
     @cached_property
     def only_whole(self) -> Floats:
-        """0 for whole beats (halves where bars have them), −∞ for parts: for a clock whose beat was just found (s,)."""
+        """0 for whole beats, −∞ for parts: for a clock whose beat was just found (s,)."""
         return np.where(np.isin(self.parts, self.whole), 0.0, -np.inf)
 
     def prices_from(self, state: int, written: Written) -> Floats:
@@ -60,10 +61,11 @@ class Offsets:
 
 def offsets_of(written: Written) -> Offsets:
     """The offsets that are tried in `written`."""
-    length = int(np.ceil(written.note_beats[-1] - written.note_beats[0] + written.bar_beats))
+    length = int(np.ceil(written.note_beats[-1] - written.note_beats[0] + written.bar))
     far = length if length <= SHORT_BEATS else FAR_BEATS
-    step = PARTS // 2 if written.bar_beats % 1 else PARTS
-    whole = np.arange(-far * PARTS, far * PARTS + 1, step)
+    step = gcd(round(written.beat * PARTS), round(written.bar * PARTS))
+    steps = far * PARTS // step
+    whole = np.arange(-steps, steps + 1) * step
     fine = [np.arange(-NEAR_BEATS * n, NEAR_BEATS * n + 1) * (PARTS // n) for n in _FINE]
     parts = np.unique(np.concatenate([whole, *fine]))
     return Offsets(parts, whole, written.prices.on(parts / PARTS))
@@ -139,7 +141,7 @@ def _never_left(gains: Floats, first: Floats, end: Floats, offsets: Offsets) -> 
     return here if max(away.max(), to_end.max()) < _LEAST_PRICE and (begun < 0.0).all() else None
 
 
-_LEAST_PRICE = PRICES[When.ON, Where.BARS]
+_LEAST_PRICE = PRICES[When.ON, Where.SLIPPED]
 
 
 def end_cost(written: Written, last_beat: float, offsets: Offsets) -> Floats:

@@ -141,17 +141,20 @@ def _tracker(written: Written) -> Tracker:
     return Tracker(written.at_s, written.classes)
 
 
-def free_way(written: Written, hits: Hits) -> tuple[RawWay, float]:
-    """The way of a player without a click, in score time at the second value, their tempo against what is written."""
+def free_way(written: Written, hits: Hits, ends: bool = True) -> tuple[RawWay, float]:
+    """The way of a player without a click, in score time at the second value, their tempo against what is written.
+
+    `ends`: the score's end is an end, and not where it was laid out to.
+    """
     begin, tempo = _Free(written, hits).beginning()
-    return _Free(written.at_tempo(tempo), hits, tempo).run(begin), tempo
+    return _Free(written.at_tempo(tempo), hits, tempo, ends).run(begin), tempo
 
 
 class _Free:
     """Follows hits without a click through `written`, at about its tempo."""
 
-    def __init__(self, written: Written, hits: Hits, tempo: float = 1.0) -> None:
-        self._written, self._hits, self._tempo = written, hits, tempo
+    def __init__(self, written: Written, hits: Hits, tempo: float = 1.0, ends: bool = True) -> None:
+        self._written, self._hits, self._tempo, self._ends = written, hits, tempo, ends
         self._tracker = _tracker(written)
         self._offsets = offsets_of(written)
         self._times, self._classes = hits.at_s.tolist(), hits.classes.tolist()
@@ -303,7 +306,7 @@ class _Free:
 
     def _end_cost(self, until: int) -> Floats | None:
         """What it costs to end with hit `until` − 1, None where others follow."""
-        if until < len(self._times):
+        if until < len(self._times) or not self._ends:
             return None
         return end_cost(self._written, float(self._written.beats.beat(self._score_s[-1:])[0]), self._offsets)
 

@@ -65,6 +65,7 @@ class Where(Enum):
     ON_TIME = "where they would be had they played on"
     BARS = "whole bars away, at the beginning on a one"
     BEATS = "whole beats away"
+    SLIPPED = "less than a beat away: a stumble, or the clock had slipped"
     ELSEWHERE = "anywhere else"
 
 
@@ -82,7 +83,7 @@ PRICES = MappingProxyType(
         (When.PAUSE, Where.BEATS): 7.0,
         (When.PAUSE, Where.ELSEWHERE): 10.0,
         (When.ON, Where.ON_TIME): 0.0,
-        (When.ON, Where.START): 15.0,
+        (When.ON, Where.SLIPPED): 12.0,
         (When.ON, Where.BARS): 15.0,
         (When.ON, Where.BEATS): 20.0,
         (When.ON, Where.ELSEWHERE): 24.0,
@@ -108,21 +109,22 @@ NEW_TEMPO_SD = 0.1
 
 @dataclass(frozen=True, slots=True)
 class Prices:
-    """What places of one score cost; `bar_beats` a bar, `start` the beat of its first note."""
+    """What places of one score cost; `bar` and `beat` are the quarters of each, `start` that of the first note."""
 
-    bar_beats: float
+    bar: float
+    beat: float
     start: float
 
     def begin(self, beats: Floats, on_time: float) -> Floats:
         """Nats against a first hit at `beats`, any shape; `on_time` is its beat if the recording shares the score's."""
-        cost = np.where(_is_whole(beats / self.bar_beats), PRICES[When.BEGIN, Where.BARS], _of_beats(When.BEGIN, beats))
-        cost = cost + np.minimum(np.abs(beats - self.start) / self.bar_beats, MOST_FOR_DISTANCE)
+        cost = np.where(_is_whole(beats / self.bar), PRICES[When.BEGIN, Where.BARS], self._of_beats(When.BEGIN, beats))
+        cost = cost + np.minimum(np.abs(beats - self.start) / self.bar, MOST_FOR_DISTANCE)
         cost = np.where(np.abs(beats - on_time) < _SAME, _ON_BASE + PRICES[When.BEGIN, Where.ON_TIME], cost)
         return np.where(np.abs(beats - self.start) < _SAME, PRICES[When.BEGIN, Where.START], cost)
 
     def pause(self, beats: Floats, last: float, on_time: float) -> Floats:
         """Nats against going on at `beats` (any shape) after a pause; `last` is the beat of the last hit before it."""
-        cost = np.where(_is_whole(beats / self.bar_beats), PRICES[When.PAUSE, Where.BARS], _of_beats(When.PAUSE, beats))
+        cost = np.where(_is_whole(beats / self.bar), PRICES[When.PAUSE, Where.BARS], self._of_beats(When.PAUSE, beats))
         cost = cost + self._far(beats - last)
         cost = np.where(np.abs(beats - on_time) < _SAME, PRICES[When.PAUSE, Where.ON_TIME], cost)
         cost = np.where(np.abs(beats - self.start) < _SAME, np.minimum(PRICES[When.PAUSE, Where.START], cost), cost)
@@ -131,12 +133,16 @@ class Prices:
 
     def on(self, offsets: Floats) -> Floats:
         """Nats against being suddenly so many beats away, any shape."""
-        bars = _is_whole(offsets / self.bar_beats)
-        cost = np.where(bars, PRICES[When.ON, Where.BARS], _of_beats(When.ON, offsets)) + self._far(offsets)
+        bars = _is_whole(offsets / self.bar)
+        beats = np.where(np.abs(offsets) < self.beat, _SLIPPED, self._of_beats(When.ON, offsets))
+        cost = np.where(bars, PRICES[When.ON, Where.BARS], beats) + self._far(offsets)
         return np.where(offsets == 0.0, PRICES[When.ON, Where.ON_TIME], cost)
 
+    def _of_beats(self, when: When, beats: Floats) -> Floats:
+        return np.where(_is_whole(beats / self.beat), PRICES[when, Where.BEATS], PRICES[when, Where.ELSEWHERE])
+
     def _far(self, beats: Floats) -> Floats:
-        return np.minimum(NEARER * np.abs(beats) / self.bar_beats, MOST_FOR_DISTANCE)
+        return np.minimum(NEARER * np.abs(beats) / self.bar, MOST_FOR_DISTANCE)
 
 
 _ON_BASE = 2.0
@@ -150,9 +156,7 @@ def _is_whole(values: Floats) -> NDArray[np.bool_]:
     return np.asarray(np.abs(values - np.rint(values)) < _SLACK)
 
 
-def _of_beats(when: When, beats: Floats) -> Floats:
-    return np.where(_is_whole(beats), PRICES[when, Where.BEATS], PRICES[when, Where.ELSEWHERE])
-
+_SLIPPED = PRICES[When.ON, Where.SLIPPED]
 
 _SLACK = 0.13
 """Beats by which a player's place may be off a whole one (our choice: an eighth)."""

@@ -47,12 +47,16 @@ class Beats:
 
 @dataclass(frozen=True, eq=False)
 class Written:
-    """The notes of a score: `at_s` (n,) rising, `classes` (n,), its quarters `beat_s` and how many make the first bar."""
+    """The notes of a score: `at_s` (n,) rising, `classes` (n,); its quarters `beat_s` (b,).
+
+    `bar` and `beat` are the quarters of the first bar and of its beat.
+    """
 
     at_s: Floats
     classes: Indices
     beat_s: Floats
-    bar_beats: float
+    bar: float
+    beat: float
 
     @cached_property
     def beats(self) -> Beats:
@@ -67,7 +71,7 @@ class Written:
     @cached_property
     def prices(self) -> Prices:
         """What places in it cost."""
-        return Prices(self.bar_beats, float(self.note_beats[0]))
+        return Prices(self.bar, self.beat, float(self.note_beats[0]))
 
     @cached_property
     def fits(self) -> "Fits":
@@ -77,11 +81,11 @@ class Written:
     def of_classes(self, classes: Indices) -> "Written":
         """Its notes of these classes alone: a part that is never played tells no place."""
         here = np.isin(self.classes, classes)
-        return self if here.all() else Written(self.at_s[here], self.classes[here], self.beat_s, self.bar_beats)
+        return self if here.all() else Written(self.at_s[here], self.classes[here], self.beat_s, self.bar, self.beat)
 
     def at_tempo(self, tempo: float) -> "Written":
         """The same played at `tempo` times what is written."""
-        return Written(self.at_s / tempo, self.classes, self.beat_s / tempo, self.bar_beats)
+        return Written(self.at_s / tempo, self.classes, self.beat_s / tempo, self.bar, self.beat)
 
     def next_of(self, match_class: int, place_s: float) -> float | None:
         """The time of the first note of a class behind `place_s` and what sounds there; None where none is left."""
@@ -98,8 +102,11 @@ def written_of(score: Score, note_class: Indices) -> Written:
     """`score`, whose notes are of `note_class` (n,), as it is looked for."""
     order = np.argsort(score.onset_s, kind="stable")
     beats = np.arange(0, max(score.end_tick, PPQ) + 1, PPQ)
-    bar_beats = score.tempo_map.meter_at(0).bar_ticks / PPQ
-    return Written(score.onset_s[order], note_class[order], score.tempo_map.seconds_at(beats), bar_beats)
+    meter = score.tempo_map.meter_at(0)
+    quarters = score.tempo_map.seconds_at(beats)
+    return Written(
+        score.onset_s[order], note_class[order], quarters, meter.bar_ticks / PPQ, meter.beat_ticks / PPQ
+    )
 
 
 class Fits:

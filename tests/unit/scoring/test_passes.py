@@ -11,7 +11,7 @@ from station.core.units import NS_PER_MS, NS_PER_S
 from station.drills.library import find_lesson
 from station.music.performance import Performance
 from station.music.score import Score
-from station.scoring.following.loops import times_played
+from station.scoring.following.passes import times_played
 from tests.fakes.played import played
 from tests.fakes.scores import rock_beat
 
