@@ -156,7 +156,8 @@ class Judge:
         around = lane.notes_between(hit_ns[0] - reach, hit_ns[-1] + reach)
         among = set(hits)
         notes = [n for n in lane.notes[around] if (own := self._own_of_note[n]) < self._stretch or own in among]
-        pairs = least_cost([self._onset_ns[n] for n in notes], hit_ns, reach)
+        note_ns = [self._onset_ns[n] for n in notes]
+        pairs = least_cost(note_ns, hit_ns, [(at - reach, at + reach) for at in note_ns], reach)
         now = dict.fromkeys(hits, _NOBODY) | {hits[j]: notes[i] for i, j in pairs}
         changed = [h for h in hits if h == index or now[h] != self._own_note(h)]
         return self._apply(changed, now)
