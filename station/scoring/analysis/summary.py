@@ -32,6 +32,7 @@ from station.scoring.analysis.technique.technique import Circumstances, Techniqu
 from station.scoring.analysis.timing_spread import Spread, asynchrony_ms, spread, timed_notes
 from station.scoring.matching.alignment import Alignment
 from station.scoring.matching.hit_windows import DEFAULT_LEVEL, Windows
+from station.scoring.matching.right import right_notes
 
 Flags = NDArray[np.bool_]
 Key = TypeVar("Key")
@@ -49,7 +50,10 @@ SUBDIVISIONS = (
 
 @dataclass(frozen=True, slots=True)
 class Counts:
-    """What became of the notes and the hits."""
+    """What became of the notes and the hits.
+
+    `played_again` are among the `ignored`; `right` are those of the `matched` that the level takes for right.
+    """
 
     notes: int
     hits: int
@@ -58,6 +62,8 @@ class Counts:
     extras: int
     wrong_piece: int
     ignored: int
+    played_again: int
+    right: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,7 +173,7 @@ def summarise(score: Score, performance: Performance, alignment: Alignment, view
         alignment=alignment,
         view=view,
         points=points(score, alignment, judged, view.windows, view.feel),
-        counts=count(alignment),
+        counts=count(score, alignment, view.windows),
         timing=group(np.ones(len(score), np.bool_), None).timing,
         dynamics=loudness if view.hears_velocity else None,
         by_piece=_table(
@@ -196,8 +202,9 @@ def _faulty(score: Score, performance: Performance, alignment: Alignment, view: 
     return faulty | loud_graces(score, performance, alignment) if view.hears_velocity else faulty
 
 
-def count(alignment: Alignment) -> Counts:
+def count(score: Score, alignment: Alignment, windows: Windows) -> Counts:
     """The counts; both identities hold."""
+    again = alignment.count(Label.PLAYED_AGAIN)
     return Counts(
         notes=len(alignment.note_label),
         hits=len(alignment.hit_label),
@@ -205,7 +212,9 @@ def count(alignment: Alignment) -> Counts:
         misses=alignment.count(Label.MISS),
         extras=alignment.count(Label.EXTRA),
         wrong_piece=alignment.count(Label.WRONG_PIECE),
-        ignored=alignment.count(Label.IGNORED),
+        ignored=alignment.count(Label.IGNORED) + again,
+        played_again=again,
+        right=int(right_notes(score, alignment, windows).sum()),
     )
 
 

@@ -8,7 +8,6 @@ ornament spans and a little more.
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from station.core.units import NS_PER_MS
 from station.music.score import Score
@@ -85,7 +84,7 @@ class _Free:
         self._taken: list[bool] = taken.tolist()
 
     def take_last(self, before: int, within_ns: int) -> int | None:
-        """Take the last free hit of the same lane before hit `before`, at most so long before; None if there is none."""
+        """Take the last free hit of the same lane, at most so long before hit `before`; None if there is none."""
         earliest_ns, strand = self._at_ns[before] - within_ns, self._strand[before]
         for hit in range(before - 1, -1, -1):
             if self._strand[hit] != strand or self._at_ns[hit] < earliest_ns:

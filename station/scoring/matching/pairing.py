@@ -174,9 +174,7 @@ def _parted(free_notes: Indices, free_hits: Indices, hits: Times, rooms: _Rooms)
     return list(zip(note_parts, hit_parts, strict=True))
 
 
-def least_cost(
-    notes: list[int], hits: list[int], rooms: list[tuple[int, int]], reach: int
-) -> list[tuple[int, int]]:
+def least_cost(notes: list[int], hits: list[int], rooms: list[tuple[int, int]], reach: int) -> list[tuple[int, int]]:
     """Pairs (note, hit) of the best matching that does not cross, both lists sorted; by dynamic programming.
 
     `rooms` say the first and the last time of each note's hit, neither of which ever falls.

@@ -39,6 +39,8 @@ def assessment(summary: Summary) -> dict[str, Json]:
             "extras": counts.extras,
             "wrong_piece": counts.wrong_piece,
             "ignored": counts.ignored,
+            "played_again": counts.played_again,
+            "right": counts.right,
         },
         "timing": _timing(summary.timing),
         "tempo": _tempo(summary.tempo),

@@ -18,7 +18,7 @@ STRAIGHT, SHUFFLE = 1 / 2, 2 / 3
 
 
 def groove(tempo_bpm: float, offbeat: float, bars: int = 8) -> Score:
-    """Hat on the beats and the offbeats, kick on 1, 3 and the offbeat of 3, snare on 2, 4; offbeats at a place of it."""
+    """Hat on beats and offbeats, kick on 1, 3 and after 3, snare on 2 and 4; `offbeat` is their place in the beat."""
     after = round(offbeat * PPQ)
     notes = [Note(beat * PPQ + late, Piece.HIHAT) for beat in range(4) for late in (0, after)]
     notes += [Note(at, Piece.KICK) for at in (0, 2 * PPQ, 2 * PPQ + after)]
