@@ -91,7 +91,7 @@ class Session:
     waits: bool = False
 
     def __post_init__(self) -> None:
-        self._judging = Judging(self.plan.score, self.windows, clocked=self.plan.click is not None)
+        self._judging = Judging(self.plan.score, clocked=self.plan.click is not None)
         self.heard = EngineState(self.latency)
         """What the engine has said."""
         self._now_ns = 0

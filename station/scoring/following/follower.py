@@ -23,7 +23,6 @@ from station.music.score import Score
 from station.scoring.following.chase import Chase
 from station.scoring.following.click_chase import ClickChase
 from station.scoring.following.warp import written_of
-from station.scoring.matching.hit_windows import DEFAULT_LEVEL, Windows
 from station.scoring.matching.ignored_hits import BOUNCE_NS, PRESS_LOUDER
 from station.scoring.matching.live_judge import Judge, Moved
 from station.scoring.matching.match_classes import match_classes
@@ -38,11 +37,10 @@ class Follower:
     def __init__(
         self,
         score: Score,
-        windows: Windows = DEFAULT_LEVEL,
         kit: Collection[Piece] | None = None,
         clocked: bool = True,
     ) -> None:
-        self._judge = Judge(score, windows, kit)
+        self._judge = Judge(score, kit)
         self._class_of: list[int] = match_classes(kit).tolist()
         self._clocked = clocked
         self._where = _where(score, match_classes(kit)[score.notes["piece"]], clocked)

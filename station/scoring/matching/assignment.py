@@ -33,7 +33,7 @@ WRONG_REACH_SDS, MIN_WRONG_REACH_MS, MAX_WRONG_REACH_MS = 3.0, 30.0, 60.0
 _TREND_HALF_WIDTH = 16
 """Hits to each side in the running trend: its noise is a sixth of the player's, and it bends within two bars."""
 
-_LEAN_PRIOR = 8
+LEAN_PRIOR = 8
 """A piece's lean is believed by half after so many hits (our choice)."""
 
 _SURE_ERRORS, _LEAST_SURE = 3.0, 4
@@ -265,7 +265,7 @@ def _believed(group: Indices, known: Indices, deviation: Floats) -> Floats:
         leans[k] = median(deviation[order[ends[k] - counts[k] : ends[k]]])
     error = (robust_sd(deviation - leans[mine]) or 0.0) / np.sqrt(np.maximum(counts, 1))
     sure = 1.0 - np.square(_SURE_ERRORS * error / np.where(leans == 0.0, 1.0, leans))
-    belief = counts / (counts + _LEAN_PRIOR)
+    belief = counts / (counts + LEAN_PRIOR)
     believed: Floats = leans * np.where(counts >= _LEAST_SURE, np.maximum(belief, sure), belief)
     return believed[group]
 

@@ -12,7 +12,7 @@ from station.scoring.align import align
 from station.scoring.analysis.summary import Summary, summarise
 from station.scoring.following.follower import Follower
 from station.scoring.matching.attempts import owners, played_again
-from tests.fakes.played import played, with_noise
+from tests.fakes.played import played, varied_groove, with_noise
 
 
 def bars(score: Score, first: int, end: int) -> np.ndarray:
@@ -64,7 +64,7 @@ def test_every_label_has_its_word() -> None:
 
 def test_live_the_first_attempt_is_played_again_too() -> None:
     """What was heard before the student went back turns into `PLAYED_AGAIN` as the notes are played anew."""
-    score = find_lesson("rock-fill-1").score.repeated(3)
+    score = varied_groove(12)
     performance, said = begun_again(score), {}
     follower = Follower(score)
     for hit in performance:
