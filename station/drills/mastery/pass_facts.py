@@ -52,7 +52,7 @@ class StruckFor:
 
 @dataclass(frozen=True, slots=True)
 class PassResult:
-    """One pass: `right` of `notes` were right (`scoring.matching`), `wrong_pads` struck elsewhere, `extras` not written.
+    """One pass: `right` of `notes` were (`scoring.matching`), `wrong_pads` struck elsewhere, `extras` not written.
 
     `sd_ms` the spread about leans and swing, `lean_ms` the mean asynchrony, `interval_ms` the usual wait between
     strokes as they were played, `swing_ratio` the ratio that was held (None where nothing swings), `points` 0–100.

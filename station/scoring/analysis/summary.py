@@ -50,10 +50,7 @@ SUBDIVISIONS = (
 
 @dataclass(frozen=True, slots=True)
 class Counts:
-    """What became of the notes and the hits.
-
-    `played_again` are among the `ignored`; `right` are those of the `matched` that the level takes for right.
-    """
+    """What became of the notes and the hits; `played_again` are among the `ignored`."""
 
     notes: int
     hits: int
@@ -63,7 +60,6 @@ class Counts:
     wrong_piece: int
     ignored: int
     played_again: int
-    right: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,7 +114,7 @@ class SummaryView:
 
 @dataclass(frozen=True, eq=False)
 class Summary:
-    """An assessment in figures; `points` 0–100, None for a score without notes.
+    """An assessment in figures; `points` 0–100, None for a score without notes; `right` notes by the view's level.
 
     `swallowed` (n,) says by `Swallowed` of which notes the kit cannot tell whether they were played.
 
@@ -132,6 +128,7 @@ class Summary:
     view: SummaryView
     points: float | None
     counts: Counts
+    right: int
     timing: Spread
     dynamics: Loudness | None
     by_piece: Mapping[Piece, SummaryGroup]
@@ -173,7 +170,8 @@ def summarise(score: Score, performance: Performance, alignment: Alignment, view
         alignment=alignment,
         view=view,
         points=points(score, alignment, judged, view.windows, view.feel),
-        counts=count(score, alignment, view.windows),
+        counts=count(alignment),
+        right=int(right_notes(score, alignment, view.windows).sum()),
         timing=group(np.ones(len(score), np.bool_), None).timing,
         dynamics=loudness if view.hears_velocity else None,
         by_piece=_table(
@@ -202,7 +200,7 @@ def _faulty(score: Score, performance: Performance, alignment: Alignment, view: 
     return faulty | loud_graces(score, performance, alignment) if view.hears_velocity else faulty
 
 
-def count(score: Score, alignment: Alignment, windows: Windows) -> Counts:
+def count(alignment: Alignment) -> Counts:
     """The counts; both identities hold."""
     again = alignment.count(Label.PLAYED_AGAIN)
     return Counts(
@@ -214,7 +212,6 @@ def count(score: Score, alignment: Alignment, windows: Windows) -> Counts:
         wrong_piece=alignment.count(Label.WRONG_PIECE),
         ignored=alignment.count(Label.IGNORED) + again,
         played_again=again,
-        right=int(right_notes(score, alignment, windows).sum()),
     )
 
 

@@ -333,7 +333,7 @@ class Judge:
             lane.forget_from(self._again_ns)
 
     def _passed_again(self, place_ns: int) -> list[Judgement]:
-        """Notes that the student has passed for the second time and played only the first: what counts is the second."""
+        """Notes that the student played the first time and has now passed without: what counts is the second time."""
         said: list[Judgement] = []
         while self._again < self._again_end and self._last_ns(self._order[self._again]) < place_ns:
             note, self._again = self._order[self._again], self._again + 1

@@ -53,7 +53,8 @@ _NEVER = 2**60
 
 
 def _share(apart_ns: Times, far_ns: Times) -> Times:
-    return np.maximum(np.minimum(np.rint(_SHARE * apart_ns).astype(np.int64), far_ns), LEAST_REACH_NS)
+    reach_ns: Times = np.maximum(np.minimum(np.rint(_SHARE * apart_ns).astype(np.int64), far_ns), LEAST_REACH_NS)
+    return reach_ns
 
 
 def _far_ns(score: Score) -> Times:
@@ -62,4 +63,5 @@ def _far_ns(score: Score) -> Times:
     starts = np.unique(tick // PPQ)
     quarter_ns = score.tempo_map.ns_at((starts + 1) * PPQ) - score.tempo_map.ns_at(starts * PPQ)
     here = quarter_ns[np.searchsorted(starts, tick // PPQ)]
-    return np.maximum(np.rint(_PART_OF_BEAT * here).astype(np.int64), _LEAST_FAR_NS)
+    far_ns: Times = np.maximum(np.rint(_PART_OF_BEAT * here).astype(np.int64), _LEAST_FAR_NS)
+    return far_ns
