@@ -148,8 +148,7 @@ class Judge:
         bias_ns = common_bias_ns(onset, classes, np.array(self._hit_ns, np.int64), hit_class)
         if abs(bias_ns - self._lean.common_ns) < _ELSEWHERE_NS:
             return []
-        self._lean.begin_at(bias_ns)
-        return self._judged_anew(Moved(0, list(self._hit_ns)))
+        return self._judged_anew(Moved(0, list(self._hit_ns)), bias_ns)
 
     # --- pairing ----------------------------------------------------------------------------------------------------
 
@@ -303,9 +302,11 @@ class Judge:
 
     # --- moving -----------------------------------------------------------------------------------------------------
 
-    def _judged_anew(self, moved: Moved) -> list[Judgement]:
-        """Put the hits of `moved` in their new places; returns what changes."""
+    def _judged_anew(self, moved: Moved, lean_ns: int = 0) -> list[Judgement]:
+        """Put the hits of `moved` in their new places; returns what changes. `lean_ns` is what all share, if known."""
         first, places_ns = moved.first, moved.places_ns
+        if first < len(self._hits) // 2:  # most that is known of the leans was told by hits in the wrong place
+            self._lean.begin_at(lean_ns)
         freed = {self._remove(hit) for hit in range(first, len(self._hits))} - {_NOBODY}
         if first and places_ns[0] < self._hit_ns[first - 1] - _BESIDE_NS:
             self._go_back(first, places_ns[0])

@@ -33,6 +33,9 @@ _MOST_SDS, _LEAST_CLIP_NS = 2.5, 30.0 * NS_PER_MS
 """What is farther off moves a lean no more than this (Huber's clipping, wider: nearly all of normal data counts)."""
 
 
+_MOST_OF_ROOM = 5 / 6
+"""A place leans no farther than so much of its room, half the way to the next slot: beyond, another note was meant."""
+
 _MOST_COMMON_NS = 60.0 * NS_PER_MS
 """The same of what all notes share: a swung offbeat that is played straight says little of the beats."""
 
@@ -82,7 +85,9 @@ class RunningLean:
         self._known[note] = True
         group = self._group[note]
         due_ns = self._due_ns[group]
-        rest = float(off_ns - due_ns)
+        most_early, most_late = _MOST_OF_ROOM * self._early[note], _MOST_OF_ROOM * self._late[note]
+        own_ns = min(max(off_ns - self._common, -most_early), most_late)
+        rest = self._common + own_ns - due_ns
         self._heard += 1
         self._off += (abs(rest) - self._off) / min(self._heard, _MEMORY)
         if self._reach_ns is not None and self._count[group] >= _LEAST_OF_PLACE:
