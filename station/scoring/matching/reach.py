@@ -60,8 +60,6 @@ def _share(apart_ns: Times, far_ns: Times) -> Times:
 def _far_ns(score: Score) -> Times:
     """The reach of each note (n,) that has no neighbours."""
     tick = score.notes["tick"]
-    starts = np.unique(tick // PPQ)
-    quarter_ns = score.tempo_map.ns_at((starts + 1) * PPQ) - score.tempo_map.ns_at(starts * PPQ)
-    here = quarter_ns[np.searchsorted(starts, tick // PPQ)]
-    far_ns: Times = np.maximum(np.rint(_PART_OF_BEAT * here).astype(np.int64), _LEAST_FAR_NS)
+    quarter_ns = score.tempo_map.ns_at(tick + PPQ) - score.tempo_map.ns_at(tick)
+    far_ns: Times = np.maximum(np.rint(_PART_OF_BEAT * quarter_ns).astype(np.int64), _LEAST_FAR_NS)
     return far_ns
