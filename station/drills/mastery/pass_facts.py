@@ -54,7 +54,7 @@ class StruckFor:
 class PassResult:
     """One pass: `right` of `notes` were (`scoring.matching`), `wrong_pads` struck elsewhere, `extras` not written.
 
-    `sd_ms` the spread about leans and swing, `lean_ms` the mean asynchrony, `interval_ms` the usual wait between
+    `played` notes were matched, right or not; `sd_ms` the spread about leans and swing, `lean_ms` the mean asynchrony, `interval_ms` the usual wait between
     strokes as they were played, `swing_ratio` the ratio that was held (None where nothing swings), `points` 0–100.
     """
 
@@ -62,6 +62,7 @@ class PassResult:
     right: int
     wrong_pads: int = 0
     extras: int = 0
+    played: int = 0
     sd_ms: float | None = None
     lean_ms: float | None = None
     interval_ms: float | None = None
@@ -73,7 +74,7 @@ class PassResult:
     @property
     def is_silent(self) -> bool:
         """Whether there was anything to play and nothing was played: such a pass is not judged."""
-        return self.notes > 0 and not (self.right or self.wrong_pads or self.extras)
+        return self.notes > 0 and not (self.played or self.right or self.wrong_pads or self.extras)
 
 
 def measure_pass(
@@ -96,6 +97,7 @@ def measure_pass(
         right=int(right.sum()),
         wrong_pads=alignment.count(Label.WRONG_PIECE),
         extras=alignment.count(Label.EXTRA),
+        played=alignment.count(Label.MATCH),
         sd_ms=leaning.sd_ms,
         lean_ms=float(off_ms[rows].mean()) if rows.any() else None,
         interval_ms=usual_interval_ms(score),

@@ -120,6 +120,12 @@ def test_bars_that_are_repeated_in_a_pass_are_one() -> None:
     assert [(b.bar, b.notes, b.right) for b in result.bars] == [(1, 26, 25), (2, 26, 26)]
 
 
+def test_who_is_late_throughout_has_played() -> None:
+    """117 ms, beyond the outermost window: nothing is right, and yet the pass is not silent."""
+    result = pass_over(scores.rock_beat(2), lambda note, i: 117.0)
+    assert (result.right, result.played, result.is_silent) == (0, 26, False)
+
+
 def test_silence() -> None:
     score = scores.rock_beat(1)
     result = pass_over(score, missed=frozenset(range(len(score))))
