@@ -54,8 +54,9 @@ class StruckFor:
 class PassResult:
     """One pass: `right` of `notes` were (`scoring.matching`), `wrong_pads` struck elsewhere, `extras` not written.
 
-    `played` notes were matched, right or not; `sd_ms` the spread about leans and swing, `lean_ms` the mean asynchrony, `interval_ms` the usual wait between
-    strokes as they were played, `swing_ratio` the ratio that was held (None where nothing swings), `points` 0–100.
+    `played` notes were matched, right or not; `sd_ms` the spread about leans and swing, `lean_ms` the mean asynchrony,
+    `interval_ms` the usual wait between strokes as they were played, `swing_ratio` the ratio that was held (None where
+    nothing swings), `points` 0–100.
     """
 
     notes: int
