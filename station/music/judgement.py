@@ -21,6 +21,12 @@ class Label(IntEnum):
     """A hit that nobody counts: unwritten foot timekeeping, a chick that closes an open hat, and their like."""
     PENDING = 5
     """Live only: a verdict on a note is taken back, and the note is still to be played or nobody's."""
+    PLAYED_AGAIN = 6
+    """A hit of an attempt at a passage that does not count: the student began again, or played a bar twice."""
+
+
+OF_LONE_HITS = frozenset({Label.EXTRA, Label.IGNORED, Label.PLAYED_AGAIN})
+"""What becomes of a hit that answers no note."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +51,7 @@ class Matching:
     """A whole alignment as arrays: one label a note (n,) and a hit (m,), and each one's partner or −1.
 
     `hit_of_note` (n,) and `note_of_hit` (m,) are inverse to each other; notes are MATCH, MISS or WRONG_PIECE,
-    hits MATCH, EXTRA, WRONG_PIECE or IGNORED.
+    hits MATCH, WRONG_PIECE or one of `OF_LONE_HITS`.
     """
 
     hit_of_note: NDArray[np.int64]
@@ -54,6 +60,6 @@ class Matching:
     hit_label: NDArray[np.uint8]
 
     def count(self, label: Label) -> int:
-        """How many notes (for MISS, MATCH, WRONG_PIECE) or hits (for EXTRA, IGNORED) bear `label`."""
-        labels = self.hit_label if label in (Label.EXTRA, Label.IGNORED) else self.note_label
+        """How many notes (for MISS, MATCH, WRONG_PIECE) or hits (for `OF_LONE_HITS`) bear `label`."""
+        labels = self.hit_label if label in OF_LONE_HITS else self.note_label
         return int(np.count_nonzero(labels == label))

@@ -15,7 +15,7 @@ from station.core.pieces import Limb, Piece
 from station.motion.kinematics.figure import Figure
 from station.motion.kinematics.pose import Pose
 from station.motion.kit.kit import Kit
-from station.music.judgement import Judgement, Label
+from station.music.judgement import OF_LONE_HITS, Judgement
 from station.music.performance import Performance
 from station.music.score import Score
 
@@ -108,11 +108,11 @@ def no_marks(score: Score) -> NDArray[np.void]:
 
 
 def mark(marks: NDArray[np.void], judgement: Judgement, loudness: bool = True) -> None:
-    """Write one judgement of a note into `marks`; extras and ignored hits have no note and change nothing.
+    """Write one judgement of a note into `marks`; hits that answer no note change nothing.
 
     Without `loudness` nothing is said of how hard the hit was.
     """
-    if judgement.note_index is None or judgement.label in (Label.EXTRA, Label.IGNORED):
+    if judgement.note_index is None or judgement.label in OF_LONE_HITS:
         return
     row = marks[judgement.note_index : judgement.note_index + 1]
     row["label"] = judgement.label

@@ -1,6 +1,6 @@
 """How right each limb was in each bar of the lesson, over all passes: where it hurts, to be drilled with one click.
 
-A note is right when it was played on its piece within `CLEAR_FAULT_MS` of its time. Bars are the lesson's, from 1.
+What is right is said by `scoring.matching.right`. Bars are the lesson's, from 1.
 """
 
 from dataclasses import dataclass
@@ -8,13 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from station.core.pieces import Limb
-from station.core.units import NS_PER_MS
-from station.music.judgement import Label
 from station.practice.session.lesson_places import places_of
 from station.practice.session.session import SessionResult
+from station.scoring.matching.right import right_notes
 
-CLEAR_FAULT_MS = 40.0
-"""Beyond it a stroke is clearly off (HUMANS: clear fault beyond 40 ms)."""
 LIMBS = (Limb.LEFT_HAND, Limb.RIGHT_HAND, Limb.LEFT_FOOT, Limb.RIGHT_FOOT)
 
 
@@ -50,12 +47,11 @@ class HeatMap:
 
 def heat_map(result: SessionResult) -> HeatMap:
     """The map of a session's result."""
-    score, alignment = result.score, result.alignment
+    score = result.score
     if not len(score):
         return HeatMap({})
     bars = places_of(result, score.notes["tick"])["bar"]
-    near = np.abs(alignment.asynchrony_ns) <= CLEAR_FAULT_MS * NS_PER_MS
-    right = (alignment.note_label == Label.MATCH) & near
+    right = right_notes(score, result.alignment, result.windows)
     cells: dict[tuple[int, Limb], HeatCell] = {}
     for limb in LIMBS:
         mine = score.notes["limb"] == limb

@@ -19,6 +19,7 @@ from station.scenes.demonstrator import Demonstrator, demonstrator_of
 from station.scenes.result_tables import session_facts
 from station.scenes.session_scene import bar_numbers
 from station.scoring.matching.alignment import judgements
+from station.scoring.matching.right import right_notes
 
 
 def draw_record(record: SessionRecord, folder: Path, settings: Settings) -> Iterator[Path]:
@@ -52,7 +53,7 @@ def draw_session(result: SessionResult, path: Path, demonstrator: Demonstrator) 
         if judgement.label is Label.EXTRA and judgement.hit_index is not None:
             hit = result.performance[judgement.hit_index]
             extras.append(ExtraHit(hit.at_ns / NS_PER_S, hit.piece))
-    right = int((result.alignment.note_label == Label.MATCH).sum())
+    right = int(right_notes(result.score, result.alignment, result.windows).sum())
     hud = Hud(
         title=plan.lesson.title,
         phase="1 pass played" if plan.passes == 1 else f"{plan.passes} passes played",

@@ -6,6 +6,7 @@ from station.core.units import NS_PER_S
 from station.music.judgement import Label
 from station.practice.session.session import SessionResult
 from station.render.report.result_facts import ResultFacts, ResultWords, result_facts
+from station.scoring.matching.right import right_notes
 from station.scoring.report.assessment_document import Json
 from station.scoring.report.technique_text import technique_lines
 
@@ -36,6 +37,7 @@ def session_facts(result: SessionResult, document: dict[str, Json]) -> ResultFac
         result.score,
         result.alignment.note_label,
         result.alignment.asynchrony_ns,
+        right_notes(result.score, result.alignment, result.windows),
         np.asarray(result.performance.hits["at_ns"][extra] / NS_PER_S),
         words,
     )

@@ -7,7 +7,6 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from station.core.events import Hit
 from station.core.pieces import Limb
@@ -25,6 +24,7 @@ from station.scenes.demonstrator import Demonstrator
 from station.scenes.session_part import SessionPart
 from station.scenes.student_figure import StudentFigure
 from station.scoring.matching.hit_windows import Windows
+from station.scoring.matching.right import is_right
 
 STRIKE_SHOWN_NS = 600 * NS_PER_MS
 """How long a stroke may show on the kit; our choice."""
@@ -179,7 +179,7 @@ class SessionView:
     def _hud(self, session: Session, now_ns: int, message: str) -> Hud:
         plan, segment = self.plan, session.state().segment
         bar, beat = self.place(session)
-        right, judged = self._counts(segment.index) if segment.phase is Phase.PASS else (0, 0)
+        right, judged = self._counts(session, segment.index) if segment.phase is Phase.PASS else (0, 0)
         age_ns = now_ns - self._cue_ns
         return Hud(
             title=plan.lesson.title,
@@ -207,11 +207,15 @@ class SessionView:
         is_count_in = segment.phase is Phase.COUNT_IN
         return None if is_count_in else self.plan.first_bar + at.bar + 1, at.beat + 1
 
-    def _counts(self, pass_index: int) -> tuple[int, int]:
-        """Notes right and notes judged of one pass."""
+    def _counts(self, session: Session, pass_index: int) -> tuple[int, int]:
+        """Notes right and notes judged of one pass, of those whose marks are shown."""
         per_pass = len(self.plan.section)
-        labels: NDArray[np.int8] = self._marks["label"][pass_index * per_pass : (pass_index + 1) * per_pass]
-        return int((labels == Label.MATCH).sum()), int((labels >= 0).sum())
+        first = pass_index * per_pass
+        shown = first + np.flatnonzero(self._marks["label"][first : first + per_pass] >= 0)
+        verdicts, is_grace = session.verdicts, self.plan.score.is_grace
+        judged = [note for note in shown.tolist() if note in verdicts]
+        right = sum(is_right(verdicts[note], bool(is_grace[note]), session.windows) for note in judged)
+        return right, len(judged)
 
 
 def result_curves(result: SessionResult, demonstrator: Demonstrator) -> ScoreCurves:
@@ -243,7 +247,7 @@ def bar_numbers(plan: Plan) -> BarNumbers:
 
 
 def cue_of(verdict: Judgement, windows: Windows) -> TimingCue:
-    """The coarse cue that a judgement gives; extras and ignored hits give none."""
+    """The coarse cue that a judgement gives; hits that answer no note give none."""
     if verdict.label is Label.MATCH and verdict.asynchrony_ns is not None:
         return CUE_OF_LEAN[windows.lean(verdict.asynchrony_ns / NS_PER_MS)]
     return _CUE_OF.get(verdict.label, TimingCue.NONE)

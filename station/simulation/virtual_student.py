@@ -80,6 +80,7 @@ class VirtualPerformance:
                 "extras": self.truth.count(Label.EXTRA),
                 "wrong_piece": self.truth.count(Label.WRONG_PIECE),
                 "ignored": self.truth.count(Label.IGNORED),
+                "played_again": self.truth.count(Label.PLAYED_AGAIN),
             },
             "timing": {
                 "mean_signed_asynchrony_ms": float(asynchrony.mean()) if len(asynchrony) else None,

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import linear_sum_assignment
 
-from station.scoring.matching.pairing import least_cost, pair_nearest
+from station.scoring.matching.pairing import Room, least_cost, pair_nearest
 
 REACH = 50
 WIDTH = REACH + 1  # the edge itself is within reach
@@ -53,11 +53,30 @@ def test_no_matching_costs_less_in_a_tangle(notes: list[int], hits: list[int]) -
 @given(DENSE, DENSE)
 def test_dynamic_programme_alone_is_exact(notes: list[int], hits: list[int]) -> None:
     notes, hits = sorted(notes), sorted(hits)
-    pairs = least_cost(notes, hits, REACH)
+    pairs = least_cost(notes, hits, [(at - REACH, at + REACH) for at in notes], REACH)
     partner = [-1] * len(notes)
     for i, j in pairs:
         partner[i] = j
     assert abs(cost_of(notes, hits, partner) - least_cost_by_assignment(notes, hits)) < 1e-9
+
+
+@given(st.lists(st.integers(0, 300), max_size=10, unique=True), DENSE, st.data())
+def test_no_matching_costs_less_where_rooms_differ(times: list[int], hits: list[int], data: st.DataObject) -> None:
+    """Each note has its own room; rooms are made so that they begin and end in the order of the notes."""
+    notes = sorted(times)
+    room = st.lists(st.integers(0, REACH), min_size=len(notes), max_size=len(notes))
+    first = np.maximum.accumulate(np.array(notes, np.int64) - np.array(data.draw(room), np.int64))
+    last = np.minimum.accumulate((np.array(notes, np.int64) + np.array(data.draw(room), np.int64))[::-1])[::-1]
+    cost = np.zeros((len(notes) + len(hits),) * 2)
+    for i, note in enumerate(notes):
+        for j, hit in enumerate(hits):
+            if first[i] <= hit <= last[i]:
+                cost[i, j] = ((hit - note) / WIDTH) ** 2 - 1
+    best = float(cost[linear_sum_assignment(cost)].sum())
+    at = np.array(notes, np.int64)
+    partner = pair_nearest(at, np.array(hits, np.int64), REACH, Room(at - first, last - at)).tolist()
+    assert all(first[i] <= hits[j] <= last[i] for i, j in enumerate(partner) if j >= 0)
+    assert abs(cost_of(notes, hits, partner) - best) < 1e-9
 
 
 @given(TIMES, TIMES, st.integers(-(10**15), 10**15))

@@ -50,6 +50,22 @@ def grooves(notes: int, seed: int = 0, tempo_bpm: float = 120.0) -> Score:
     return Score.from_array(table, TempoMap.constant(tempo_bpm))
 
 
+def flams(notes: int, with_grace: bool = True, tempo_bpm: float = 120.0) -> Score:
+    """`notes` strokes of flams on the snare, a quarter apart, each a grace stroke 30 ms before its main stroke.
+
+    Not `with_grace`: the main strokes alone.
+    """
+    table = np.zeros(notes, NOTE_DTYPE)
+    table["tick"], table["piece"] = np.arange(notes) // 2 * PPQ, Piece.SNARE
+    table["lead_ms"] = np.where(np.arange(notes) % 2, 0.0, _FLAM_MS)
+    table["velocity"], table["dynamic"], table["limb"], table["openness"] = 80, 1, -1, np.nan
+    return Score.from_array(table if with_grace else table[1::2], TempoMap.constant(tempo_bpm))
+
+
+_FLAM_MS = 30.0
+"""HUMANS, Timing: 15–40 ms."""
+
+
 @dataclass(frozen=True, slots=True)
 class WorkPlayer:
     """How the hits differ from the notes: SD in ms, depth of the tempo's drift, shares of what goes wrong."""

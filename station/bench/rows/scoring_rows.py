@@ -6,8 +6,8 @@ fault. Peers, where they are installed, do the same work beside ours (`scoring_p
 
 import time
 import tracemalloc
-from collections.abc import Callable
-from functools import cache
+from collections.abc import Callable, Sequence
+from functools import cache, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from station.bench.harness.benchmark import Benchmark, Measurement, median_s
 from station.bench.rigs.scoring_music import KINDS, music
 from station.bench.rigs.scoring_peers import PEERS
-from station.bench.rigs.scoring_work import PlayedWork, WorkPlayer, f1, grooves, play
+from station.bench.rigs.scoring_work import PlayedWork, WorkPlayer, f1, flams, grooves, play
 from station.music.judgement import Label
 from station.music.performance import Performance
 from station.music.score import Score
@@ -105,11 +105,27 @@ def _align_100k() -> Measurement:
 
 def _growth() -> Measurement:
     """The exponent of time ~ notes^k by least squares in logarithms."""
-    took = [seconds(notes) for notes in SIZES]
+    return _exponent([seconds(notes) for notes in SIZES])
+
+
+def _exponent(took: Sequence[float]) -> Measurement:
     slope = np.polyfit(np.log(SIZES), np.log(took), 1)[0]
     return Measurement(
         float(slope), None, ", ".join(f"{n}: {s * 1e3:.1f} ms" for n, s in zip(SIZES, took, strict=True))
     )
+
+
+def _flams_growth() -> Measurement:
+    """The exponent where every second note is a grace stroke that nobody plays."""
+    took = []
+    for notes in SIZES:
+        score, played = flams(notes), play(flams(notes, with_grace=False), _LIVE_PLAYER, _SEED)
+        took.append(median_s(partial(_align_afresh, score, played.performance), 3))
+    return _exponent(took)
+
+
+def _align_afresh(score: Score, performance: Performance) -> Alignment:
+    return align(_fresh(score), performance, clocked=True)
 
 
 def _peak_mb() -> Measurement:
@@ -199,6 +215,7 @@ BENCHMARKS = (
     Benchmark("align_3k_notes", "ms", 15, "lower", _PEER, _align_3k),
     Benchmark("align_100k_notes", "s", 0.5, "lower", _QUICK_PEER, _align_100k),
     Benchmark("align_growth_exponent", "1", 1.1, "lower", None, _growth),
+    Benchmark("align_growth_exponent_flams", "1", 1.1, "lower", None, _flams_growth),
     Benchmark("align_100k_peak_memory", "MB", 100, "lower", None, _peak_mb),
     Benchmark("live_hit_median", "µs", 20, "lower", None, _hit_us(3_000, 50)),
     Benchmark("live_hit_p99", "µs", 100, "lower", None, _hit_us(3_000, 99)),

@@ -22,12 +22,11 @@ from station.scoring.analysis.points import points
 from station.scoring.analysis.timing_spread import asynchrony_ms, timed_notes
 from station.scoring.matching.alignment import Alignment
 from station.scoring.matching.hit_windows import DEFAULT_LEVEL, Windows
+from station.scoring.matching.right import right_notes
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-CLEAR_FAULT_MS = 40.0
-"""A stroke further than this from its own lean counts against its bar (HUMANS: a clear fault beyond 40 ms)."""
 LEAST_FREEDOM = 3
 """With fewer degrees of freedom a spread says nothing; our choice."""
 _ROLLS = (Ornament.DIDDLE, Ornament.ROLL)
@@ -35,7 +34,7 @@ _ROLLS = (Ornament.DIDDLE, Ornament.ROLL)
 
 @dataclass(frozen=True, slots=True)
 class BarResult:
-    """The lesson's bar `bar` (from 0): its notes, and how many were struck rightly and in time."""
+    """The lesson's bar `bar` (from 0): its notes, and how many were right."""
 
     bar: int
     notes: int
@@ -53,16 +52,18 @@ class StruckFor:
 
 @dataclass(frozen=True, slots=True)
 class PassResult:
-    """One pass: `right` of `notes` were matched, `wrong_pads` struck elsewhere, `extras` hits were not written.
+    """One pass: `right` of `notes` were (`scoring.matching`), `wrong_pads` struck elsewhere, `extras` not written.
 
-    `sd_ms` the spread about leans and swing, `lean_ms` the mean asynchrony, `interval_ms` the usual wait between
-    strokes as they were played, `swing_ratio` the ratio that was held (None where nothing swings), `points` 0–100.
+    `played` notes were matched, right or not; `sd_ms` the spread about leans and swing, `lean_ms` the mean asynchrony,
+    `interval_ms` the usual wait between strokes as they were played, `swing_ratio` the ratio that was held (None where
+    nothing swings), `points` 0–100.
     """
 
     notes: int
     right: int
     wrong_pads: int = 0
     extras: int = 0
+    played: int = 0
     sd_ms: float | None = None
     lean_ms: float | None = None
     interval_ms: float | None = None
@@ -74,7 +75,7 @@ class PassResult:
     @property
     def is_silent(self) -> bool:
         """Whether there was anything to play and nothing was played: such a pass is not judged."""
-        return self.notes > 0 and not (self.right or self.wrong_pads or self.extras)
+        return self.notes > 0 and not (self.played or self.right or self.wrong_pads or self.extras)
 
 
 def measure_pass(
@@ -91,19 +92,19 @@ def measure_pass(
     names = np.arange(score.bar_count) if bars is None else np.asarray(bars, np.int64)
     off_ms, rows, swing = asynchrony_ms(alignment), _steady(score, alignment), swung(score)
     leaning = _leaning(score, off_ms, rows, swing.flags)
-    matched = alignment.note_label == Label.MATCH
-    clear = np.abs(off_ms - leaning.due_ms) > CLEAR_FAULT_MS  # NaN, unpaired, is no fault of timing
+    right = right_notes(score, alignment, windows)
     return PassResult(
         notes=len(score),
-        right=int(matched.sum()),
+        right=int(right.sum()),
         wrong_pads=alignment.count(Label.WRONG_PIECE),
         extras=alignment.count(Label.EXTRA),
+        played=alignment.count(Label.MATCH),
         sd_ms=leaning.sd_ms,
         lean_ms=float(off_ms[rows].mean()) if rows.any() else None,
         interval_ms=usual_interval_ms(score),
         swing_ratio=_swing_ratio(leaning.swing_ms, rows, swing),
         points=points(score, alignment, None, windows),
-        bars=_by_bar(names[score.bar], matched & ~(rows & clear)),
+        bars=_by_bar(names[score.bar], right),
         answers=_answers(score, performance, alignment),
     )
 

@@ -30,7 +30,7 @@ def mark_of(verdict: Judgement, windows: Windows) -> str:
             return _EXTRA
         case Label.WRONG_PIECE:
             return _WRONG_PIECE
-        case Label.IGNORED:
+        case Label.IGNORED | Label.PLAYED_AGAIN:
             return _IGNORED
         case Label.PENDING:
             return _TAKEN_BACK

@@ -169,4 +169,5 @@ _WORDS = {
     Label.WRONG_PIECE: "on a wrong piece",
     Label.EXTRA: "extra",
     Label.IGNORED: "not counted",
+    Label.PLAYED_AGAIN: "played again",
 }

@@ -175,12 +175,17 @@ def _steps_text(steps: Iterable[str]) -> str:
     return "\n".join(["", "What to practise next", *lines, ""]) if lines else ""
 
 
+def _again(counts: dict[str, Json]) -> str:
+    """What is said of hits that belong to attempts that do not count, where there are some."""
+    return f"; played again: {counts['played_again']}" if counts["played_again"] else ""
+
+
 def _figures_text(document: dict[str, Json]) -> str:
     counts, timing = table_in(document, "counts"), table_in(document, "timing")
     lines = [
         f"Score {_figure(document['score'], '.0f')} of 100",
         f"Notes {counts['notes']}: {counts['matched']} hit, {counts['misses']} missed,"
-        f" {counts['wrong_piece']} on a wrong piece; extra hits: {counts['extras']}",
+        f" {counts['wrong_piece']} on a wrong piece; extra hits: {counts['extras']}{_again(counts)}",
         _timing_words(timing, document["reference"] == Reference.PLAYER.value),
     ]
     rows = [

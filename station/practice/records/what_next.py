@@ -67,7 +67,8 @@ def advice_of(document: dict[str, Json]) -> tuple[str, ...]:
 def _short_of_goal(document: dict[str, Json], lesson: Lesson, spread: _Spread) -> str:
     """The first goal that was not reached, empty where all were."""
     goals, counts, timing = lesson.goals, _numbers(document["counts"]), _numbers(document["timing"])
-    right = counts["matched"] / counts["notes"]
+    assert isinstance(document["right"], int), "the report is ours"
+    right = document["right"] / counts["notes"]
     if right < goals.min_accuracy:
         share, goal = floor(100 * right), ceil(100 * goals.min_accuracy)
         return f"{share} % of the notes were right, {goal} % are the goal: play it again at this tempo, or slower."

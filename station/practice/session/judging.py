@@ -13,7 +13,6 @@ from station.music.judgement import Judgement, Label
 from station.music.performance import Performance
 from station.music.score import Score
 from station.scoring.following.follower import Follower
-from station.scoring.matching.hit_windows import Windows
 
 _Played = TypeVar("_Played", Hit, Choke)
 
@@ -21,13 +20,13 @@ _Played = TypeVar("_Played", Hit, Choke)
 class Judging:
     """`hits` and `chokes` so far; the newest verdict `of_note` and `of_hit`, by their indices."""
 
-    def __init__(self, score: Score, windows: Windows, clocked: bool) -> None:
-        self._score, self._windows, self._clocked = score, windows, clocked
+    def __init__(self, score: Score, clocked: bool) -> None:
+        self._score, self._clocked = score, clocked
         self.chokes: list[Choke] = []
         self._begin()
 
     def _begin(self) -> None:
-        self._follower = Follower(self._score, self._windows, clocked=self._clocked)
+        self._follower = Follower(self._score, clocked=self._clocked)
         self.hits: list[Hit] = []
         self.last_ns: int | None = None
         """When the last stroke was played."""

@@ -58,7 +58,7 @@ class SessionResult:
 
     `score` is what is judged: the plan's, or, when the session was stopped early (`complete` False), its strokes up to
     there. `device` is what most hits were played on, `output` what the click was heard on; None where there was none.
-    `pauses` are those after which it went on, each by its bar of `score`.
+    `pauses` are those after which it went on, each by its bar of `score`; `windows` those of its level.
     """
 
     plan: Plan
@@ -70,6 +70,7 @@ class SessionResult:
     device: str | None
     output: str | None = None
     pauses: tuple[SessionPause, ...] = ()
+    windows: Windows = DEFAULT_LEVEL
 
 
 @dataclass(eq=False)
@@ -90,7 +91,7 @@ class Session:
     waits: bool = False
 
     def __post_init__(self) -> None:
-        self._judging = Judging(self.plan.score, self.windows, clocked=self.plan.click is not None)
+        self._judging = Judging(self.plan.score, clocked=self.plan.click is not None)
         self.heard = EngineState(self.latency)
         """What the engine has said."""
         self._now_ns = 0
@@ -266,6 +267,7 @@ class Session:
             self._played_on(),
             self.heard.output,
             tuple(self.pauses),
+            self.windows,
         )
 
     def _played_on(self) -> str | None:

@@ -116,7 +116,7 @@ class _Drawn:
 
     def _counts(self, at: tuple[float, float], width: float) -> None:
         facts, style = self._facts, TypeStyle(17, INK)
-        right = f"{facts.count(Label.MATCH)} of {len(facts.label)}"
+        right = f"{int(facts.right.sum())} of {len(facts.label)}"
         longer = f"{right} right"
         rows = (
             (GOOD, longer if self._draw_list.width(longer, style) <= width - 24 else right),

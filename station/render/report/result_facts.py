@@ -30,7 +30,8 @@ class ResultFacts:
     """A session's result.
 
     Rows of the arrays are the notes that were judged: `time_s`, `piece`, `label` of `Label`, `asynchrony_ms` NaN where
-    nothing was played. `extra_s` when unwritten hits fell, `bar_s` where bars begin and the last ends, `points` 0–100.
+    nothing was played, `right` whether it was. `extra_s` when unwritten hits fell, `bar_s` where bars begin and the
+    last ends, `points` 0–100.
     """
 
     words: "ResultWords"
@@ -38,6 +39,7 @@ class ResultFacts:
     piece: NDArray[np.uint8]
     label: NDArray[np.uint8]
     asynchrony_ms: NDArray[np.float64]
+    right: NDArray[np.bool_]
     extra_s: NDArray[np.float64]
     bar_s: NDArray[np.float64]
 
@@ -69,10 +71,11 @@ def result_facts(
     score: Score,
     label: NDArray[np.uint8],
     asynchrony_ns: NDArray[np.int64],
+    right: NDArray[np.bool_],
     extra_s: NDArray[np.float64],
     words: ResultWords,
 ) -> ResultFacts:
-    """The facts of one alignment: `label` and `asynchrony_ns` (n,) belong to the rows of `score`."""
+    """The facts of one alignment: `label`, `asynchrony_ns` and `right` (n,) belong to the rows of `score`."""
     paired = (label == Label.MATCH) | (label == Label.WRONG_PIECE)
     bars = [score.tempo_map.bar_start(bar) for bar in range(score.bar_count + 1)]
     return ResultFacts(
@@ -81,6 +84,7 @@ def result_facts(
         score.notes["piece"],
         label,
         np.where(paired, asynchrony_ns / 1e6, np.nan),
+        right,
         extra_s,
         score.tempo_map.seconds_at(bars),
     )
@@ -113,7 +117,7 @@ def headline(facts: ResultFacts) -> str:
     """The whole in a few words: how much was right where that is less than nearly all, then bias and spread."""
     if not facts.count(Label.MATCH):
         return "nothing to judge"
-    share = facts.count(Label.MATCH) / len(facts.label)
+    share = float(facts.right.mean())
     return f"{'' if share >= NEARLY_ALL else f'{100 * share:.0f} % right; '}{in_words(whole_lean(facts))}"
 
 

@@ -32,6 +32,7 @@ from station.scoring.analysis.technique.technique import Circumstances, Techniqu
 from station.scoring.analysis.timing_spread import Spread, asynchrony_ms, spread, timed_notes
 from station.scoring.matching.alignment import Alignment
 from station.scoring.matching.hit_windows import DEFAULT_LEVEL, Windows
+from station.scoring.matching.right import right_notes
 
 Flags = NDArray[np.bool_]
 Key = TypeVar("Key")
@@ -49,7 +50,7 @@ SUBDIVISIONS = (
 
 @dataclass(frozen=True, slots=True)
 class Counts:
-    """What became of the notes and the hits."""
+    """What became of the notes and the hits; `played_again` are among the `ignored`."""
 
     notes: int
     hits: int
@@ -58,6 +59,7 @@ class Counts:
     extras: int
     wrong_piece: int
     ignored: int
+    played_again: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,7 +114,7 @@ class SummaryView:
 
 @dataclass(frozen=True, eq=False)
 class Summary:
-    """An assessment in figures; `points` 0–100, None for a score without notes.
+    """An assessment in figures; `points` 0–100, None for a score without notes; `right` notes by the view's level.
 
     `swallowed` (n,) says by `Swallowed` of which notes the kit cannot tell whether they were played.
 
@@ -126,6 +128,7 @@ class Summary:
     view: SummaryView
     points: float | None
     counts: Counts
+    right: int
     timing: Spread
     dynamics: Loudness | None
     by_piece: Mapping[Piece, SummaryGroup]
@@ -168,6 +171,7 @@ def summarise(score: Score, performance: Performance, alignment: Alignment, view
         view=view,
         points=points(score, alignment, judged, view.windows, view.feel),
         counts=count(alignment),
+        right=int(right_notes(score, alignment, view.windows).sum()),
         timing=group(np.ones(len(score), np.bool_), None).timing,
         dynamics=loudness if view.hears_velocity else None,
         by_piece=_table(
@@ -198,6 +202,7 @@ def _faulty(score: Score, performance: Performance, alignment: Alignment, view: 
 
 def count(alignment: Alignment) -> Counts:
     """The counts; both identities hold."""
+    again = alignment.count(Label.PLAYED_AGAIN)
     return Counts(
         notes=len(alignment.note_label),
         hits=len(alignment.hit_label),
@@ -205,7 +210,8 @@ def count(alignment: Alignment) -> Counts:
         misses=alignment.count(Label.MISS),
         extras=alignment.count(Label.EXTRA),
         wrong_piece=alignment.count(Label.WRONG_PIECE),
-        ignored=alignment.count(Label.IGNORED),
+        ignored=alignment.count(Label.IGNORED) + again,
+        played_again=again,
     )
 
 

@@ -19,7 +19,6 @@ from station.music.judgement import Judgement
 from station.music.score import Score
 from station.scoring.following.online import Online
 from station.scoring.following.written import written_of
-from station.scoring.matching.hit_windows import DEFAULT_LEVEL, Windows
 from station.scoring.matching.ignored_hits import BOUNCE_NS, PRESS_LOUDER
 from station.scoring.matching.live_judge import Judge, Moved
 from station.scoring.matching.match_classes import match_classes
@@ -34,11 +33,10 @@ class Follower:
     def __init__(
         self,
         score: Score,
-        windows: Windows = DEFAULT_LEVEL,
         kit: Collection[Piece] | None = None,
         clocked: bool = True,
     ) -> None:
-        self._judge = Judge(score, windows, kit)
+        self._judge = Judge(score, kit)
         self._class_of: list[int] = match_classes(kit).tolist()
         self._clocked = clocked
         written = written_of(score, match_classes(kit)[score.notes["piece"]])

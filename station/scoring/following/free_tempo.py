@@ -1,6 +1,6 @@
 """Alignment without a click: the player's own clock is found, and what was due is told by it or by the file.
 
-A passage that was played more than once is paired with one attempt (`stretches`); the hits of the others are extras.
+A passage that was played more than once is paired with one attempt (`attempts`); the hits of the others do not count.
 """
 
 import numpy as np
@@ -9,20 +9,15 @@ from numpy.typing import NDArray
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.music.performance import Performance
 from station.music.score import Score
-from station.scoring.following.stretches import owners
 from station.scoring.following.warp import Warp, find_warp, written_of
 from station.scoring.matching.alignment import Alignment, Reference, Timed, labelled
-from station.scoring.matching.assignment import AssignmentSide, HitAssignment, Start, assign, note_kinds, spots
-from station.scoring.matching.buzz_onsets import with_buzz_onsets
-from station.scoring.matching.grace_strokes import with_far_graces
+from station.scoring.matching.assignment import HitAssignment
 from station.scoring.matching.ignored_hits import Unwritten
 from station.scoring.matching.pairing import Indices, Times
 from station.scoring.matching.slow_drift import local_trend, robust_sd
+from station.scoring.matching.take_matching import Way, match_take
 
 Floats = NDArray[np.float64]
-
-_START = Start(reach_ms=90.0, rounds=2)
-"""The way through the score is known to about 20 ms, so that the first reach is narrower than with a click."""
 
 NO_CLASS = -1
 """Of hits that no note has the class of: they lie between their neighbours."""
@@ -47,19 +42,12 @@ def align_unclocked(
     """
     at_ns: Times = np.asarray(performance.hits["at_ns"])
     written = written_of(score, note_class)
-    rules = Unwritten(score)
-    bounces = rules.surely_bounces(performance)
+    bounces = Unwritten(score).surely_bounces(performance)
     led_class = np.where(bounces, NO_CLASS, hit_class)
     warp = find_warp(written, at_ns / NS_PER_S, led_class)
     hit_ns = np.rint(warp.score_s * NS_PER_S).astype(np.int64)
-    unwritten = rules.masks(performance, hit_ns)
-    notes = AssignmentSide(
-        score.onset_ns, note_class, owners(score.onset_s, note_class, warp, hit_class), spots(score.notes)
-    )
-    hits = AssignmentSide(hit_ns, hit_class, warp.stretch, spots(performance.hits))
-    assignment = assign(notes, hits, note_kinds(score), unwritten.own_only, _START)
-    assignment = with_buzz_onsets(score, with_far_graces(score, assignment, hits), hits, bounces)
-    return labelled(assignment, _timed(score, at_ns, warp, assignment, may_share_base), unwritten.quiet)
+    matching = match_take(score, performance, note_class, hit_class, Way(hit_ns, warp.stretch))
+    return labelled(matching, _timed(score, at_ns, warp, matching.assignment, may_share_base))
 
 
 def _timed(score: Score, at_ns: Times, warp: Warp, assignment: HitAssignment, may_share_base: bool) -> Timed:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from station.music.judgement import Judgement, Label, Matching
 from station.music.performance import Performance
 from station.music.score import Score
-from station.scoring.matching.assignment import HitAssignment
+from station.scoring.matching.take_matching import TakeMatching
 
 
 class Reference(Enum):
@@ -52,12 +52,13 @@ class Timed:
     reference: Reference
 
 
-def labelled(assignment: HitAssignment, timed: Timed, quiet: NDArray[np.bool_]) -> Alignment:
-    """The alignment that an assignment stands for; `quiet` (m,) are hits that are ignored rather than extra."""
+def labelled(matching: TakeMatching, timed: Timed) -> Alignment:
+    """The alignment that a matching stands for."""
+    assignment = matching.assignment
     hit_of_note = np.where(assignment.partner >= 0, assignment.partner, assignment.wrong)
     paired = hit_of_note >= 0
     note_label = np.where(assignment.partner >= 0, Label.MATCH, np.where(paired, Label.WRONG_PIECE, Label.MISS))
-    hit_label = np.where(quiet, Label.IGNORED, Label.EXTRA)
+    hit_label = matching.unpaired_label.copy()
     note_of_hit = np.full(len(timed.at_ns), -1, np.int64)
     note_of_hit[hit_of_note[paired]] = np.flatnonzero(paired)
     hit_label[hit_of_note[paired]] = note_label[paired]
@@ -67,7 +68,7 @@ def labelled(assignment: HitAssignment, timed: Timed, quiet: NDArray[np.bool_]) 
         hit_of_note=hit_of_note,
         note_of_hit=note_of_hit,
         note_label=note_label.astype(np.uint8),
-        hit_label=hit_label.astype(np.uint8),
+        hit_label=hit_label,
         asynchrony_ns=asynchrony,
         hit_score_ns=timed.score_ns,
         stretch=timed.stretch,

@@ -1,10 +1,10 @@
 """From hits in roughly score time to the matching of least cost: pair, see where the player stands, pair again.
 
-A first pairing within a wide reach shows how the player leans: as a whole, on each piece, and slowly drifting. The
-second pairing measures distance from there, with a reach made from the spread that was seen, so that a steady player's
-stray hit stays an extra and a beginner's late one is still a late hit. What is left on both sides is then paired across
-pieces within a narrower reach (the right time, another piece). All times are integer ns of score time; positive
-deviations are late.
+A first pairing within the wide reach that the music leaves (`reach`) shows how the player leans: as a whole, on each
+piece at each place in the beat (a swung offbeat leans on its own), and slowly drifting. The next pairings measure
+distance from there, with a reach made from the spread that was seen, so that a steady player's stray hit stays an extra
+and a beginner's late one is still a late hit. What is left on both sides is then paired across pieces within a narrower
+reach (the right time, another piece). All times are integer ns of score time; positive deviations are late.
 """
 
 from dataclasses import dataclass
@@ -12,17 +12,20 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.units import NS_PER_MS, PPQ
+from station.core.units import NS_PER_MS, NS_PER_S, PPQ
 from station.music.score import Score
-from station.scoring.matching.pairing import Indices, Times, lanes, pair_nearest
+from station.scoring.matching.pairing import Indices, Room, Times, lanes, pair_nearest
+from station.scoring.matching.reach import LEAST_REACH_NS, TOGETHER_NS
 from station.scoring.matching.slow_drift import local_trend, median, robust_sd
+
+Floats = NDArray[np.float64]
 
 REACH_SDS = 4.5
 """A pair is likelier than a miss beside an extra out to about 4.4 SD, at 3 % misses and 0.06 extras a second on the
 piece (ratio of the normal density to the product of the two rates)."""
 
-MIN_REACH_MS, FIRST_REACH_MS, MAX_REACH_MS = 60.0, 120.0, 150.0
-"""Our choice: below 45 ms even a machine-like player's slip would be a miss; above 150 ms nobody meant that note."""
+MAX_REACH_MS = 150.0
+"""Beyond it from where the player stands nobody meant that note (our choice)."""
 
 WRONG_REACH_SDS, MIN_WRONG_REACH_MS, MAX_WRONG_REACH_MS = 3.0, 30.0, 60.0
 """As `REACH_SDS`, but extras of all pieces together come an order of magnitude more often: about 2.7 SD."""
@@ -30,17 +33,21 @@ WRONG_REACH_SDS, MIN_WRONG_REACH_MS, MAX_WRONG_REACH_MS = 3.0, 30.0, 60.0
 _TREND_HALF_WIDTH = 16
 """Hits to each side in the running trend: its noise is a sixth of the player's, and it bends within two bars."""
 
-_LEAN_PRIOR = 8
+LEAN_PRIOR = 8
 """A piece's lean is believed by half after so many hits (our choice)."""
 
+_SURE_ERRORS, _LEAST_SURE = 3.0, 4
+"""A lean this many standard errors from 0, of so many hits at least, is believed the more the farther it is (James and
+Stein 1961, positive part): a straight offbeat in a shuffle lies a sixth of a beat off from the first."""
+
 _ROUNDS = 3
+"""Our choice: a first, a second with the leans that it shows, a third with the spread about them."""
 
-_UNKNOWN_SD_MS = 25.0
+_SETTLED = 0.01
+"""Of the notes: so few that are paired otherwise than before move no median (our choice)."""
+
+UNKNOWN_SD_MS = 25.0
 """Spread of a player of whom too few hits are known: the Groove MIDI Dataset's 26 ms (HUMANS)."""
-
-
-TOGETHER_NS = 40 * NS_PER_MS
-"""A piece's strokes written so close are one slot's: flams reach 40 ms (HUMANS, Timing)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,24 +74,17 @@ MOST_CLASSES = 256
 """A piece's number is one byte."""
 
 
-PLAIN, GRACE, SWUNG = 0, 1, 2
-_KINDS = 3
-_SWUNG_FROM, _SWUNG_TO = 0.54, 0.74
-"""Where in its quarter or eighth a swung offbeat may be written (as `music.passages`)."""
+_PLACES = 24
+"""Places in a quarter that may lean on their own: triplets and 32nds, and what is written between goes to the next."""
+
+_GRACE = _PLACES
+"""The place of all grace strokes: a player's flams are as wide as they are, wherever they stand."""
 
 
-def note_kinds(score: Score) -> Indices:
-    """Which notes share a lean besides their piece, shape (n,): a player's flams and swing are their own.
-
-    `GRACE` strokes may all come closer to or farther from their main strokes than written, notes in the place of a
-    swung offbeat (`SWUNG`) all earlier or later.
-    """
-    tick = score.notes["tick"]
-    swung = np.zeros(len(score), np.bool_)
-    for unit in (PPQ, PPQ // 2):
-        place = tick % unit / unit
-        swung |= (place > _SWUNG_FROM) & (place < _SWUNG_TO)
-    return np.where(score.is_grace, GRACE, np.where(swung, SWUNG, PLAIN))
+def leaning_places(score: Score) -> Indices:
+    """Which notes of a piece share a lean, (n,): those at one place in the beat; and grace strokes, wherever."""
+    place = (score.notes["tick"] % PPQ * _PLACES + PPQ // 2) // PPQ % _PLACES
+    return np.where(score.is_grace, _GRACE, place)
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,12 +102,11 @@ class HitAssignment:
 
 
 @dataclass(frozen=True, eq=False)
-class Start:
-    """What is believed at first: a deviation in ns common to all, a reach in ms, and how often to look again."""
+class Leaning:
+    """What the notes (n,) tell of how hits may lie about them: `place` (`leaning_places`) and `room` (`reach`)."""
 
-    deviation_ns: int = 0
-    reach_ms: float = FIRST_REACH_MS
-    rounds: int = 3
+    place: Indices
+    room: Room
 
 
 def spots(rows: NDArray[np.void]) -> Indices:
@@ -120,27 +119,46 @@ _MOST_ARTICULATIONS = 64
 
 
 def assign(
-    notes: AssignmentSide, hits: AssignmentSide, kinds: Indices, unpaired: NDArray[np.bool_], start: Start
+    notes: AssignmentSide, hits: AssignmentSide, leaning: Leaning, unpaired: NDArray[np.bool_], deviation_ns: int = 0
 ) -> HitAssignment:
     """The matching of `hits` (m,) to `notes` (n,).
 
-    `kinds` (n,) says which notes share a lean (`note_kinds`), `unpaired` (m,) marks hits that are never paired with
-    another piece's note.
+    `unpaired` (m,) marks hits that are never paired with another piece's note; `deviation_ns` is believed at first to
+    be common to all.
     """
+    count = len(notes.at_ns)
     span = _span(notes, hits)
     hit_lane = lanes(hits.at_ns, hits.lane, span)
-    player = _Player(np.full(len(notes.at_ns), start.deviation_ns), np.zeros(len(notes.at_ns), np.int64), None)
-    reach_ms = start.reach_ms
-    partner = np.full(len(notes.at_ns), -1, np.int64)
-    for _ in range(start.rounds):
-        note_lane = lanes(notes.at_ns + player.expected_ns, notes.lane, span)
-        partner = pair_nearest(note_lane, hit_lane, round(reach_ms * NS_PER_MS))
-        player = _player(notes, hits, partner, kinds, player)
-        reach_ms = min(max(REACH_SDS * player.spread_ms, MIN_REACH_MS), MAX_REACH_MS)
+    player = _Player(np.full(count, deviation_ns), np.zeros(count, np.int64), None)
+    partner = np.full(count, -1, np.int64)
+    room: Room | None = leaning.room
+    reach_ns = _widest(leaning.room)
+    for _ in range(_ROUNDS):
+        before, note_lane = partner, lanes(notes.at_ns + player.expected_ns, notes.lane, span)
+        partner = pair_nearest(note_lane, hit_lane, reach_ns, room)
+        if room is None and np.count_nonzero(partner != before) <= _SETTLED * count:
+            break
+        player = _player(notes, hits, partner, leaning.place, player)
+        if player.sd_ms is not None:
+            room, reach_ns = None, reach_by_spread(player.sd_ms)
     if _differ(notes.spot):
-        partner = _like_first(notes, hits, player.expected_ns, partner, round(reach_ms * NS_PER_MS))
+        partner = _like_first(notes, hits, player.expected_ns, partner, reach_ns)
     wrong = _other_pieces(notes, hits, partner, player, unpaired)
     return HitAssignment(partner, wrong, player.trend_ns, player.sd_ms)
+
+
+def _widest(room: Room) -> int:
+    return int(max(room.early.max(initial=LEAST_REACH_NS), room.late.max(initial=LEAST_REACH_NS)))
+
+
+def reach_by_spread(sd_ms: float) -> int:
+    """How many ns from where a player of that spread stands a hit is still theirs."""
+    return max(round(min(REACH_SDS * sd_ms, MAX_REACH_MS) * NS_PER_MS), LEAST_REACH_NS)
+
+
+def wrong_reach_by_spread(sd_ms: float) -> int:
+    """The same of a hit on another piece."""
+    return round(min(max(WRONG_REACH_SDS * sd_ms, MIN_WRONG_REACH_MS), MAX_WRONG_REACH_MS) * NS_PER_MS)
 
 
 def _differ(values: Indices) -> bool:
@@ -197,45 +215,62 @@ class _Player:
 
     @property
     def spread_ms(self) -> float:
-        return _UNKNOWN_SD_MS if self.sd_ms is None else self.sd_ms
+        return UNKNOWN_SD_MS if self.sd_ms is None else self.sd_ms
 
 
 def _span(notes: AssignmentSide, hits: AssignmentSide) -> int:
     ends = [
         side.at_ns[k] for side in (notes, hits) if len(side.at_ns) for k in (side.at_ns.argmin(), side.at_ns.argmax())
     ]
-    return int(max(ends) - min(ends)) + round(4 * MAX_REACH_MS * NS_PER_MS) if ends else 1
+    return int(max(ends) - min(ends)) + _APART_NS if ends else 1
 
 
-def _player(notes: AssignmentSide, hits: AssignmentSide, partner: Indices, kinds: Indices, before: _Player) -> _Player:
+_APART_NS = 4 * NS_PER_S
+"""More than lanes overlap by leans and reaches."""
+
+
+def _player(notes: AssignmentSide, hits: AssignmentSide, partner: Indices, place: Indices, before: _Player) -> _Player:
     """The player as the pairs show them; as `before` where they are too few."""
     known = np.flatnonzero(partner >= 0)
     known = known[np.argsort(notes.at_ns[known], kind="stable")]
     deviation = (hits.at_ns[partner[known]] - notes.at_ns[known]).astype(np.float64)
-    main = kinds[known] != GRACE
+    main = place[known] != _GRACE
     spread = robust_sd(deviation[main])
     if spread is None:
         return before
-    groups = notes.classes + MOST_CLASSES * kinds
-    lean = _leans(groups[known], deviation - median(deviation[main]), MOST_CLASSES * _KINDS)[groups]
-    off, at_s = (deviation - lean[known])[main], notes.at_ns[known[main]] / 1e9
-    trend = local_trend(at_s, off, _TREND_HALF_WIDTH, max(spread, NS_PER_MS))
+    lean = _leans(notes.classes, place, known, deviation - median(deviation[main]))
+    off, at_s = (deviation - lean[known])[main], notes.at_ns[known[main]] / NS_PER_S
+    trend = local_trend(at_s, off, _TREND_HALF_WIDTH, max(robust_sd(off) or 0.0, NS_PER_MS))
     rest = robust_sd(off - trend) or 0.0
-    everywhere = np.interp(notes.at_ns / 1e9, at_s, trend)
+    everywhere = np.interp(notes.at_ns / NS_PER_S, at_s, trend)
     return _Player(_whole(everywhere), _whole(lean), rest / NS_PER_MS)
 
 
-def _whole(values: NDArray[np.float64]) -> Times:
+def _whole(values: Floats) -> Times:
     return np.rint(values).astype(np.int64)
 
 
-def _leans(classes: Indices, deviation: NDArray[np.float64], count: int) -> NDArray[np.float64]:
-    """Median deviation of each group, drawn towards 0 where few are known, shape (count,)."""
-    leans = np.zeros(count)
-    for c in np.flatnonzero(np.bincount(classes)):
-        own = deviation[classes == c]
-        leans[c] = median(own) * len(own) / (len(own) + _LEAN_PRIOR)
-    return leans
+def _leans(classes: Indices, place: Indices, known: Indices, deviation: Floats) -> Floats:
+    """The lean of every note (n,): its piece's, and that of its place on the piece beyond; `deviation` of the known."""
+    of_piece = _believed(classes, known, deviation)
+    group = classes * (_PLACES + 1) + place
+    return of_piece + _believed(group, known, deviation - of_piece[known])
+
+
+def _believed(group: Indices, known: Indices, deviation: Floats) -> Floats:
+    """The median deviation of each note's group (n,), drawn towards 0 where the data say little."""
+    mine = group[known]
+    counts = np.bincount(mine, minlength=int(group.max(initial=0)) + 1)
+    order = np.argsort(mine, kind="stable")
+    ends = np.cumsum(counts).tolist()
+    leans = np.zeros(len(counts))
+    for k in np.flatnonzero(counts).tolist():
+        leans[k] = median(deviation[order[ends[k] - counts[k] : ends[k]]])
+    error = (robust_sd(deviation - leans[mine]) or 0.0) / np.sqrt(np.maximum(counts, 1))
+    sure = 1.0 - np.square(_SURE_ERRORS * error / np.where(leans == 0.0, 1.0, leans))
+    belief = counts / (counts + LEAN_PRIOR)
+    believed: Floats = leans * np.where(counts >= _LEAST_SURE, np.maximum(belief, sure), belief)
+    return believed[group]
 
 
 def _other_pieces(
@@ -245,12 +280,11 @@ def _other_pieces(
     taken = unpaired.copy()
     taken[partner[partner >= 0]] = True
     free_notes, free_hits = np.flatnonzero(partner < 0), np.flatnonzero(~taken)
-    reach_ms = min(max(WRONG_REACH_SDS * player.spread_ms, MIN_WRONG_REACH_MS), MAX_WRONG_REACH_MS)
     span = _span(notes, hits)
     found = pair_nearest(
         lanes(notes.at_ns + player.expected_ns, notes.strand, span)[free_notes],
         lanes(hits.at_ns, hits.strand, span)[free_hits],
-        round(reach_ms * NS_PER_MS),
+        wrong_reach_by_spread(player.spread_ms),
     )
     wrong = np.full(len(partner), -1, np.int64)
     wrong[free_notes[found >= 0]] = free_hits[found[found >= 0]]

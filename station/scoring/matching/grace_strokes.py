@@ -8,11 +8,10 @@ ornament spans and a little more.
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from station.core.units import NS_PER_MS
 from station.music.score import Score
-from station.scoring.matching.assignment import AssignmentSide, HitAssignment
+from station.scoring.matching.assignment import MOST_CLASSES, AssignmentSide, HitAssignment
 from station.scoring.matching.pairing import Indices
 
 FARTHEST_MORE_NS = 80 * NS_PER_MS
@@ -26,15 +25,22 @@ def main_of_grace(score: Score) -> Indices:
     It stands on the same tick, on the grace's own piece where there is one.
     """
     main = np.full(len(score), -1, np.int64)
-    pieces, mains, graces = score.notes["piece"], np.flatnonzero(~score.is_grace), np.flatnonzero(score.is_grace)
-    ticks = score.notes["tick"][mains]
-    lows, highs = (np.searchsorted(ticks, score.notes["tick"][graces], side=side) for side in ("left", "right"))
-    for grace, low, high in zip(graces.tolist(), lows.tolist(), highs.tolist(), strict=True):
-        there = mains[low:high]
-        own = there[pieces[there] == pieces[grace]]
-        if len(there):
-            main[grace] = own[0] if len(own) else there[0]
+    tick, piece = score.notes["tick"].astype(np.int64), score.notes["piece"].astype(np.int64)
+    mains, graces = np.flatnonzero(~score.is_grace), np.flatnonzero(score.is_grace)
+    if not len(mains) or not len(graces):
+        return main
+    there = _first_equal(tick[mains], tick[graces])
+    own = _first_equal(tick[mains] * MOST_CLASSES + piece[mains], tick[graces] * MOST_CLASSES + piece[graces])
+    found = np.where(own >= 0, own, there)
+    main[graces] = np.where(found >= 0, mains[found], -1)
     return main
+
+
+def _first_equal(keys: Indices, wanted: Indices) -> Indices:
+    """Index of the first of `keys` (k,) that equals each of `wanted` (w,), or −1."""
+    order = np.argsort(keys, kind="stable")
+    at = np.minimum(np.searchsorted(keys, wanted, sorter=order), len(keys) - 1)
+    return np.where(keys[order[at]] == wanted, order[at], -1)
 
 
 def with_far_graces(score: Score, assignment: HitAssignment, hits: AssignmentSide) -> HitAssignment:
@@ -43,26 +49,47 @@ def with_far_graces(score: Score, assignment: HitAssignment, hits: AssignmentSid
     if not len(lonely):
         return assignment
     main, partner = main_of_grace(score), assignment.partner.copy()
-    taken = np.zeros(len(hits.at_ns), np.bool_)
-    taken[partner[partner >= 0]] = True
-    taken[assignment.wrong[assignment.wrong >= 0]] = True
-    for grace in lonely.tolist():
-        main_hit = int(partner[main[grace]]) if main[grace] >= 0 else -1
-        if main_hit >= 0:
-            lead_ns = int(score.onset_ns[main[grace]] - score.onset_ns[main == main[grace]].min())
-            found = _last_free(hits, main_hit, int(hits.at_ns[main_hit]) - lead_ns - FARTHEST_MORE_NS, taken)
-            if found is not None:
-                partner[grace], taken[found] = found, True
-                heard = np.flatnonzero((main == main[grace]) & (partner >= 0))
-                partner[heard] = np.sort(partner[heard])  # the strokes of a drag come in their order
+    free = _Free(hits, partner, assignment.wrong)
+    graces_of = _by_main(main)
+    for grace in lonely[main[lonely] >= 0].tolist():
+        leader = int(main[grace])
+        graces, main_hit = graces_of[leader], int(partner[leader])
+        lead_ns = int(score.onset_ns[leader] - score.onset_ns[graces[0]])
+        found = free.take_last(main_hit, lead_ns + FARTHEST_MORE_NS) if main_hit >= 0 else None
+        if found is not None:
+            partner[grace] = found
+            heard = graces[partner[graces] >= 0]
+            partner[heard] = np.sort(partner[heard])  # the strokes of a drag come in their order
     return replace(assignment, partner=partner)
 
 
-def _last_free(hits: AssignmentSide, before: int, earliest_ns: int, taken: NDArray[np.bool_]) -> int | None:
-    """The last hit of the same lane before hit `before` that nobody has; None if there is none from `earliest_ns`."""
-    for hit in range(before - 1, -1, -1):
-        if hits.strand[hit] != hits.strand[before] or hits.at_ns[hit] < earliest_ns:
-            return None
-        if hits.classes[hit] == hits.classes[before] and not taken[hit]:
-            return hit
-    return None
+def _by_main(main: Indices) -> dict[int, Indices]:
+    """The grace strokes of each main stroke that has some, in order."""
+    graces = np.flatnonzero(main >= 0)
+    graces = graces[np.argsort(main[graces], kind="stable")]
+    parts = np.split(graces, np.flatnonzero(np.diff(main[graces])) + 1) if len(graces) else []
+    return {int(main[part[0]]): part for part in parts}
+
+
+class _Free:
+    """The hits that answer nothing yet."""
+
+    def __init__(self, hits: AssignmentSide, partner: Indices, wrong: Indices) -> None:
+        taken = np.zeros(len(hits.at_ns), np.bool_)
+        taken[partner[partner >= 0]] = True
+        taken[wrong[wrong >= 0]] = True
+        self._at_ns: list[int] = hits.at_ns.tolist()
+        self._lane: list[int] = hits.lane.tolist()
+        self._strand: list[int] = hits.strand.tolist()
+        self._taken: list[bool] = taken.tolist()
+
+    def take_last(self, before: int, within_ns: int) -> int | None:
+        """Take the last free hit of the same lane, at most so long before hit `before`; None if there is none."""
+        earliest_ns, strand = self._at_ns[before] - within_ns, self._strand[before]
+        for hit in range(before - 1, -1, -1):
+            if self._strand[hit] != strand or self._at_ns[hit] < earliest_ns:
+                return None
+            if self._lane[hit] == self._lane[before] and not self._taken[hit]:
+                self._taken[hit] = True
+                return hit
+        return None

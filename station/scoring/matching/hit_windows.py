@@ -1,8 +1,7 @@
 """Judgement windows: how far from its time a stroke still earns what. A table of named levels.
 
 All widths are half widths in real milliseconds, at any practice speed, and inclusive: a stroke exactly on an edge is
-inside. They grade; they never pair hits with notes in the final alignment (`assignment` does, by least cost). Live, a
-hit is taken for a note within `reach_ms`.
+inside. They grade; they never pair hits with notes (`reach` says how far a hit may lie from its note).
 """
 
 from dataclasses import dataclass
@@ -18,7 +17,6 @@ class Windows:
 
     name: str
     edges_ms: tuple[float, ...]
-    reach_ms: float
     source: str
 
     def grade(self, asynchrony_ms: float) -> int:
@@ -43,21 +41,19 @@ class Windows:
 
 
 _OURS = "our choice around HUMANS: full marks within 10 ms, mild to 25, clear fault beyond 40"
-_REACH_MS = 100.0
-"""Our choice: SightKick's, the widest among the drum trainers; a beginner's worst intended stroke."""
 
 _TABLE = (
-    Windows("beginner", (30.0, 60.0, 120.0), 120.0, _OURS),
-    Windows("elementary", (20.0, 45.0, 90.0), _REACH_MS, _OURS),
-    Windows("intermediate", (15.0, 35.0, 70.0), _REACH_MS, _OURS),
-    Windows("advanced", (10.0, 25.0, 50.0), _REACH_MS, _OURS),
-    Windows("studio", (5.0, 15.0, 30.0), _REACH_MS, _OURS),
-    Windows("yarg", (70.0,), 70.0, "YARG's default"),
-    Windows("yarg_narrow", (25.0,), 25.0, "YARG's narrowest preset"),
-    Windows("drum_game", (35.0, 76.0, 135.0), 135.0, "Drum Game"),
-    Windows("drum_game_lax", (50.0, 100.0, 150.0), 150.0, "Drum Game, lax"),
-    Windows("drum_game_strict", (20.0, 60.0, 100.0), 100.0, "Drum Game, strict"),
-    Windows("dtxmania", (34.0, 67.0, 84.0, 117.0), 117.0, "DTXMania"),
+    Windows("beginner", (30.0, 60.0, 120.0), _OURS),
+    Windows("elementary", (20.0, 45.0, 90.0), _OURS),
+    Windows("intermediate", (15.0, 35.0, 70.0), _OURS),
+    Windows("advanced", (10.0, 25.0, 50.0), _OURS),
+    Windows("studio", (5.0, 15.0, 30.0), _OURS),
+    Windows("yarg", (70.0,), "YARG's default"),
+    Windows("yarg_narrow", (25.0,), "YARG's narrowest preset"),
+    Windows("drum_game", (35.0, 76.0, 135.0), "Drum Game"),
+    Windows("drum_game_lax", (50.0, 100.0, 150.0), "Drum Game, lax"),
+    Windows("drum_game_strict", (20.0, 60.0, 100.0), "Drum Game, strict"),
+    Windows("dtxmania", (34.0, 67.0, 84.0, 117.0), "DTXMania"),
 )
 
 LEVELS = MappingProxyType({windows.name: windows for windows in _TABLE})

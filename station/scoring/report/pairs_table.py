@@ -2,7 +2,8 @@
 
 A line a note, paired or missed, in the order of the score, then a line a hit that answers none, in order of time. Times
 are those of the files, in seconds from their own start; `note_midi` and `hit_midi` are the numbers that the files hold,
-or the General MIDI number of the piece where a file holds none. Hits that nobody counts are labelled `ignored_hits`.
+or the General MIDI number of the piece where a file holds none. Hits that nobody counts are labelled `ignored`,
+those of an attempt that does not count `played_again`.
 """
 
 import csv

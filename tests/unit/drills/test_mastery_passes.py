@@ -109,15 +109,21 @@ def test_misses_and_wrong_pads() -> None:
 
 
 def test_a_stroke_clearly_out_of_time_counts_against_its_bar_alone() -> None:
-    """One of eight snares a bar 60 ms late: its piece's lean takes 60/16 of it, and more than 40 ms remain."""
-    result = pass_over(scores.even_snare(16, 500), lambda note, i: 60.0 if i == 9 else 0.0)
-    assert result.right == 16
+    """One of 16 snares 80 ms late, beyond the outermost window of 70 ms: it is played, and not right."""
+    result = pass_over(scores.even_snare(16, 500), lambda note, i: 80.0 if i == 9 else 0.0)
+    assert result.right == 15
     assert [b.right for b in result.bars] == [4, 4, 3, 4]
 
 
 def test_bars_that_are_repeated_in_a_pass_are_one() -> None:
     result = pass_over(scores.rock_beat(4), missed=frozenset({0}), bars=(1, 2, 1, 2))
     assert [(b.bar, b.notes, b.right) for b in result.bars] == [(1, 26, 25), (2, 26, 26)]
+
+
+def test_who_is_late_throughout_has_played() -> None:
+    """117 ms, beyond the outermost window: nothing is right, and yet the pass is not silent."""
+    result = pass_over(scores.rock_beat(2), lambda note, i: 117.0)
+    assert (result.right, result.played, result.is_silent) == (0, 26, False)
 
 
 def test_silence() -> None:

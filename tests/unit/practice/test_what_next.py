@@ -27,7 +27,15 @@ def document(
 ) -> dict[str, Json]:
     counts: dict[str, Json] = {"notes": 100, "hits": matched, "matched": matched}
     timing: dict[str, Json] = {"mean_signed_asynchrony_ms": mean_ms, "sd_asynchrony_ms": sd_ms}
-    return {"score": 90.0, "counts": counts, "timing": timing, "advice": [], "craft": {"swing": None}, **other}
+    return {
+        "score": 90.0,
+        "counts": counts,
+        "right": matched,
+        "timing": timing,
+        "advice": [],
+        "craft": {"swing": None},
+        **other,
+    }
 
 
 def swinging(held: float) -> dict[str, Json]:

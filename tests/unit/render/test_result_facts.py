@@ -35,7 +35,9 @@ def facts(advice: tuple[str, ...] = (), craft: tuple[str, ...] = ()) -> ResultFa
     label[0] = Label.MISS if score.notes["piece"][0] != Piece.KICK else label[0]
     hats = np.flatnonzero(score.notes["piece"] == Piece.HIHAT)
     label[hats[0]], label[hats[1]] = Label.MISS, Label.WRONG_PIECE
-    return result_facts(score, label, played, np.array([0.3]), ResultWords("Rock", "120 bpm", 87.0, advice, craft))
+    right = label == Label.MATCH
+    words = ResultWords("Rock", "120 bpm", 87.0, advice, craft)
+    return result_facts(score, label, played, right, np.array([0.3]), words)
 
 
 def test_leans_of_pieces() -> None:
@@ -74,7 +76,8 @@ def test_words(mean_ms: float | None, sd_ms: float | None, said: str) -> None:
 def test_no_hits_at_all() -> None:
     score = rock()
     label = np.full(len(score), Label.MISS, np.uint8)
-    made = result_facts(score, label, np.zeros(len(score), np.int64), np.empty(0), ResultWords("Rock", "", None))
+    nothing = np.zeros(len(score), np.int64)
+    made = result_facts(score, label, nothing, nothing > 0, np.empty(0), ResultWords("Rock", "", None))
     assert whole_lean(made).mean_ms is None
     assert len(report_shapes(made, Atlas(), WHOLE)) > 100, "the page is drawn all the same"
 
@@ -141,6 +144,7 @@ def played(missed: int, passes: int = 1, pass_bars: int = 0, first_bar: int = 0)
         score,
         label,
         np.zeros(len(score), np.int64),
+        label == Label.MATCH,
         np.empty(0),
         ResultWords("", "", None, pass_bars=pass_bars, first_bar=first_bar),
     )
@@ -165,9 +169,8 @@ def test_hits_outside_the_bars_stay_on_the_plot() -> None:
     early_and_late_s = np.array([-30.0, 60.0])  # the score lasts two seconds
     label = np.full(len(rock()), Label.MATCH, np.uint8)
     played_ns = np.zeros(len(label), np.int64)
-    shapes = report_shapes(
-        result_facts(rock(), label, played_ns, early_and_late_s, ResultWords("", "", None)), Atlas(), WHOLE
-    )
+    made = result_facts(rock(), label, played_ns, played_ns == 0, early_and_late_s, ResultWords("", "", None))
+    shapes = report_shapes(made, Atlas(), WHOLE)
     crosses = shapes[shapes["kind"] == ShapeKind.CROSS]
     assert len(crosses) == 3  # with that of the legend
     assert crosses["centre"][:, 0].min() > 0
@@ -181,7 +184,8 @@ def test_a_wide_spread_ends_before_the_counts_and_the_words() -> None:
     label = np.full(len(score), Label.MATCH, np.uint8)
     played = np.zeros(len(score), np.int64)
     played[np.flatnonzero(score.notes["piece"] == Piece.KICK)] = [-145 * MS, 25 * MS]
-    shapes = report_shapes(result_facts(score, label, played, np.empty(0), ResultWords("", "", None)), Atlas(), WHOLE)
+    made = result_facts(score, label, played, played == 0, np.empty(0), ResultWords("", "", None))
+    shapes = report_shapes(made, Atlas(), WHOLE)
     spreads = shapes[(shapes["kind"] == ShapeKind.BOX) & (shapes["half"][:, 1] == 6.0) & (shapes["style"][:, 0] == 6.0)]
     edges = spreads["centre"][:, :1] + spreads["half"][:, :1] * np.array([-1.0, 1.0])
     widest = edges[np.argmax(edges[:, 1] - edges[:, 0])]

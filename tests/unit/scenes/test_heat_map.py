@@ -33,7 +33,7 @@ def test_missed_and_late_notes_are_wrong_in_their_bar_and_limb() -> None:
     score = plan.score
     kicks = [i for i, note in enumerate(score) if note.piece is Piece.KICK]
     in_bar_2 = [i for i in kicks if score.tempo_map.bars_at(score.notes["tick"][[i]])[0] == 1]
-    heat = heat_map(played(plan, {in_bar_2[0]: 60.0}, {in_bar_2[1]}).result())
+    heat = heat_map(played(plan, {in_bar_2[0]: 80.0}, {in_bar_2[1]}).result())
     assert heat.bars == [1, 2]
     assert heat.cells[2, Limb.RIGHT_FOOT] == HeatCell(2 * len(in_bar_2) - 2, 2 * len(in_bar_2))
     others = [cell for where, cell in heat.cells.items() if where != (2, Limb.RIGHT_FOOT)]
