@@ -24,7 +24,8 @@ def session_facts(result: SessionResult, document: dict[str, Json]) -> ResultFac
     passes = "1 pass" if plan.passes == 1 else f"{plan.passes} passes"
     words = ResultWords(
         title=plan.lesson.title,
-        subtitle=f"{passes} of {bars} at {round(plan.beats_a_minute, 3):g} bpm{stopped}{_standing(document)}",
+        subtitle=f"{passes} of {bars} at {round(plan.beats_a_minute, 3):g} bpm{stopped}"
+        f" · judged as {plan.level}{_standing(document)}",
         points=float(points) if isinstance(points, float | int) else None,
         advice=tuple(map(str, steps)),
         technique=tuple(technique_lines(document)),

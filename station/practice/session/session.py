@@ -31,7 +31,6 @@ from station.practice.session.pausing import NEAR_NS, SILENT_BARS, SessionPause,
 from station.practice.session.plan import TAIL_NS, Phase, Plan, Segment
 from station.scoring.align import align
 from station.scoring.matching.alignment import Alignment
-from station.scoring.matching.hit_windows import DEFAULT_LEVEL, Windows
 from station.sound.track import PreparedTrack
 
 LEAD_IN_NS = 300 * NS_PER_MS
@@ -83,14 +82,13 @@ class Session:
 
     plan: Plan
     latency: Latency = field(default_factory=Latency)
-    windows: Windows = DEFAULT_LEVEL
     feedback: Feedback = Feedback.TIMING
     message: str = ""
     backing: PreparedTrack | None = None
     waits: bool = False
 
     def __post_init__(self) -> None:
-        self._judging = Judging(self.plan.score, self.windows, clocked=self.plan.click is not None)
+        self._judging = Judging(self.plan.score, self.plan.level.windows, clocked=self.plan.click is not None)
         self.heard = EngineState(self.latency)
         """What the engine has said."""
         self._now_ns = 0
