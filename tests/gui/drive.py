@@ -238,10 +238,8 @@ def practise(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """A whole session, from the list to the results and back."""
     drive.choose(ctx, passes=1)
     drive.seen["suggested"] = str(drive.state.selection.level)
-    ctx.item_click(LEVEL_LABEL)
-    ctx.item_click("//$FOCUSED/judged as advanced")
+    ctx.combo_click(f"{LEVEL_LABEL}/judged as advanced")
     ctx.yield_(2)
-    ctx.set_ref("//Lessons")
     ctx.item_click("Start##start")
     drive.seen["started"] = drive.room.stage.name
     drive.seen["frames"] = drive.wait_for(ctx, Stage.RESULT)
