@@ -24,8 +24,7 @@ def session_facts(result: SessionResult, document: dict[str, Json]) -> ResultFac
     passes = "1 pass" if plan.passes == 1 else f"{plan.passes} passes"
     words = ResultWords(
         title=plan.lesson.title,
-        subtitle=f"{passes} of {bars} at {round(plan.beats_a_minute, 3):g} bpm{stopped}"
-        f" · judged as {plan.level}{_standing(document)}",
+        subtitle=f"{passes} of {bars} at {round(plan.beats_a_minute, 3):g} bpm{stopped}{_standing(document)}",
         points=float(points) if isinstance(points, float | int) else None,
         advice=tuple(map(str, steps)),
         technique=tuple(technique_lines(document)),
@@ -43,6 +42,8 @@ def session_facts(result: SessionResult, document: dict[str, Json]) -> ResultFac
 
 
 def _standing(document: dict[str, Json]) -> str:
-    """Where the student stands in the lesson, in words, where the tempo followed them."""
-    mastery = document.get("mastery")
-    return f" · {mastery['words']}" if isinstance(mastery, dict) else ""
+    """By which level was judged, and where the student stands in the lesson, where the tempo followed them."""
+    mastery, judged = document.get("mastery"), f" · judged as {document['level']}"
+    if not isinstance(mastery, dict):
+        return judged
+    return f" · {mastery['words']}" if mastery["stable"] else f"{judged} · {mastery['words']}"

@@ -15,13 +15,14 @@ from station.drills.mastery.practice_steps import PassKind
 from station.music.judgement import Judgement, Label
 from station.practice.headless.live_text import LiveText
 from station.practice.headless.virtual_session import practise_adaptively, practise_virtually
-from station.practice.records.mastery_report import with_mastery
+from station.practice.records.mastery_report import mastery_words, with_mastery
 from station.practice.records.memory import LevelMemory, Memory, Remembered
 from station.practice.records.recovery import recovered
 from station.practice.records.session_report import practice_document, report_text
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.practice.session.session import Session
+from station.scenes.result_tables import session_facts
 from station.scoring.matching.hit_windows import Level
 from station.simulation.student_spec import parse_spec
 
@@ -56,6 +57,8 @@ def test_who_holds_the_lesson_blind_at_the_target_tempo_is_judged_at_the_next_le
     document = with_mastery(practice_document(virtual.result, Settings()), followed.adaptation)
     assert said in report_text(document)
     assert document["level"] == "beginner", "what was played stays judged as it was"
+    told = "10 passes of bars 1–2 at 110 bpm · Mastered at beginner; asked for again on 02 March."
+    assert session_facts(virtual.result, document).words.subtitle == told
     followed.keep()
     levels, fault = LevelMemory.of(tmp_path, "anna").recall()
     assert (levels, fault) == ({"rock-1": Level.ELEMENTARY}, None)
@@ -74,7 +77,7 @@ def test_the_narrower_level_has_to_be_held_anew(tmp_path: Path) -> None:
     again = remembered(tmp_path, replace(PROBES_TWICE, loops=1, level=Level.ELEMENTARY), TOMORROW).adaptation
     assert again.plan.level is Level.ELEMENTARY
     assert not again.has_grown
-    assert again.state.review.level is Level.BEGINNER
+    assert mastery_words(again.state, again.rules) == "Mastered at beginner; asked for again on 02 March."
 
 
 def test_it_grows_no_further_than_the_lesson_allows() -> None:
