@@ -26,6 +26,7 @@ from station.practice.demonstration.compare_by_ear import Whose
 from station.practice.demonstration.song_player import SongStep
 from station.practice.session.self_estimate import SelfEstimate
 from station.render.camera import Camera
+from station.scoring.matching.hit_windows import Level
 
 Bars = tuple[int, int] | None
 """First and last bar, from 0; None for the lesson's own."""
@@ -65,6 +66,14 @@ class Select:
 
 
 @dataclass(frozen=True, slots=True)
+class JudgeAt:
+    """Judge the lesson of this name at `level` from now on."""
+
+    lesson: str
+    level: Level
+
+
+@dataclass(frozen=True, slots=True)
 class ChooseBars:
     """Repeat these bars on the player, and practise them."""
 
@@ -78,7 +87,7 @@ class TapBeat:
     at_ns: int
 
 
-ChoiceAction = Select | ChooseBars | TapBeat
+ChoiceAction = Select | JudgeAt | ChooseBars | TapBeat
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,10 +5,13 @@ from collections.abc import Callable, Mapping, Sequence
 from station.app.lesson_cards import all_lessons, card
 from station.app.room_state import LessonCard
 from station.app.settings_store import SettingsStore
+from station.core.errors import DeviceError
 from station.drills.course import Course
 from station.drills.lesson import Lesson
 from station.drills.library import courses_in, find_lesson, shipped_courses
 from station.practice.records.lesson_progress import LessonProgress, progress_of
+from station.practice.records.memory import LevelMemory
+from station.scoring.matching.hit_windows import Level
 
 
 class Catalog:
@@ -22,6 +25,7 @@ class Catalog:
         self._lessons: dict[str, Lesson] | None = None
         self._courses: Sequence[Course] | None = None
         self._progress: tuple[str, Mapping[str, LessonProgress]] | None = None
+        self._levels: tuple[str, Mapping[str, Level]] | None = None
 
     def first_card(self) -> LessonCard:
         """The lesson that is chosen when the window opens, which is there sooner than all others."""
@@ -49,9 +53,35 @@ class Catalog:
             self._progress = settings.student, progress_of(settings.sessions_dir, settings.student)
         return self._progress[1]
 
+    def levels(self) -> Mapping[str, Level]:
+        """The level that the student chose or came to, by the names of lessons."""
+        settings = self._store.now
+        if self._levels is None or self._levels[0] != settings.student:
+            try:
+                levels, fault = self._level_memory.recall()
+            except DeviceError as refused:
+                levels, fault = {}, str(refused)
+            if fault is not None:
+                self._notify(fault)
+            self._levels = settings.student, levels
+        return self._levels[1]
+
+    def level(self, lesson: Lesson) -> Level:
+        """The level that holds."""
+        return lesson.levels.level(reached=self.levels().get(lesson.name))
+
+    def judge_at(self, lesson: str, level: Level) -> None:
+        """Judge a lesson at `level` from now on; raises `DeviceError`, and then all stays as it was."""
+        self._level_memory.keep(lesson, level)
+        self._levels = None
+
+    @property
+    def _level_memory(self) -> LevelMemory:
+        return LevelMemory.of(self._store.now.sessions_dir, self._store.now.student)
+
     def learnt(self) -> None:
-        """A session was kept: what is known of the progress is out of date."""
-        self._progress = None
+        """A session was kept: what is known of progress and levels is out of date."""
+        self._progress = self._levels = None
 
     def lesson(self, name: str) -> Lesson:
         """The lesson of a name or a file; raises `BadInput`."""

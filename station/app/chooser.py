@@ -3,7 +3,7 @@
 from dataclasses import replace
 from typing import assert_never
 
-from station.app.actions import ChoiceAction, ChooseBars, Select, TapBeat
+from station.app.actions import ChoiceAction, ChooseBars, JudgeAt, Select, TapBeat
 from station.app.lesson_cards import request_of
 from station.app.room_state import Stage
 from station.app.selection import Selection
@@ -37,6 +37,9 @@ class Chooser:
                     course = "" if selection.course is None else selection.course.name
                     self._store.update(lambda settings: replace(settings, course=course))
                 self.selection = selection
+            case JudgeAt(lesson, level):
+                self._sessions.catalog.judge_at(lesson, level)
+                self.show_anew()
             case ChooseBars(bars):
                 self.selection = replace(self.selection, bars=None if bars is None else (bars[0] + 1, bars[1] + 1))
             case TapBeat(at_ns):
@@ -53,12 +56,14 @@ class Chooser:
             self.selection = self.selection.offer(catalog.cards(), catalog.courses(), self._store.now.course)
 
     def update(self) -> None:
-        """Show what is chosen, if something else is shown, and how far the student is; raises `StationError`.
+        """Show what is chosen, if something else is shown, how far the student is, and how strictly they are judged.
 
-        A result is shown until it is left.
+        A result is shown until it is left. Raises `StationError`.
         """
-        if self._has_catalog and (progress := self._sessions.catalog.progress()) is not self.selection.progress:
-            self.selection = replace(self.selection, progress=progress)
+        if self._has_catalog:
+            progress, levels = self._sessions.catalog.progress(), self._sessions.catalog.levels()
+            if progress is not self.selection.progress or levels is not self.selection.levels:
+                self.selection = replace(self.selection, progress=progress, levels=levels)
         request, player = self.selection.request(), self._sessions.player
         wanted = None if request is None else (request.lesson, request.bars)
         is_idle = self._sessions.practice.stage is Stage.IDLE

@@ -49,4 +49,5 @@ def card(lesson: Lesson) -> LessonCard:
         meter=f"{meter.beats}/{meter.unit}",
         tags=lesson.tags,
         beat_quarters=lesson.beat_ticks / PPQ,
+        levels=lesson.levels,
     )

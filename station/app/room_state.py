@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from station.drills.level_range import ANY_LEVEL, LevelRange
 from station.practice.records.previous_session import NONE_KEPT, PreviousSession
 from station.render.report.result_facts import ResultFacts
 from station.scenes.heat_map import HeatMap
@@ -16,8 +17,9 @@ from station.scenes.wrong_pads import WrongPad
 
 @dataclass(frozen=True, slots=True)
 class LessonCard:
-    """A lesson as the list shows it; `level` 1–5, `bars` in its loop, `passes` as its author wants them.
+    """A lesson as the list shows it; `bars` in its loop, `passes` as its author wants them.
 
+    `level` 1–5 says how hard it is, `levels` how strictly it may be judged.
     `tempo_bpm` counts quarter notes, `beat_quarters` is how many make the beat that a teacher counts.
     """
 
@@ -33,6 +35,7 @@ class LessonCard:
     meter: str = "4/4"
     tags: tuple[str, ...] = ()
     beat_quarters: float = 1.0
+    levels: LevelRange = ANY_LEVEL
 
     @property
     def beats_a_minute(self) -> float:

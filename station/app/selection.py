@@ -7,6 +7,7 @@ from types import MappingProxyType
 from station.app.room_state import FreeRequest, LessonCard, SessionRequest
 from station.drills.course import Course
 from station.practice.records.lesson_progress import LessonProgress
+from station.scoring.matching.hit_windows import Level
 
 MIN_TEMPO_BPM, MAX_TEMPO_BPM = 30, 260
 """The tempo slider's ends (our choice); a lesson outside widens them."""
@@ -17,9 +18,9 @@ MAX_LOOPS = 32
 class Selection:
     """What the lessons page shows: of `lessons` the `card` that is chosen, or `free`, just playing, in its place.
 
-    `course` is the one whose lessons are listed, None for all; `progress` how far the student is, by the names of
-    lessons; `bars` (first, last, from 1) are to be practised, None for the lesson's own; `first` what the window was
-    opened on.
+    `course` is the one whose lessons are listed, None for all; `progress` how far the student is and `levels` how
+    strictly they are judged where they chose it or came to it, by the names of lessons; `bars` (first, last, from 1)
+    are to be practised, None for the lesson's own; `first` what the window was opened on.
     """
 
     lessons: tuple[LessonCard, ...] = ()
@@ -27,6 +28,7 @@ class Selection:
     courses: tuple[Course, ...] = ()
     course: Course | None = None
     progress: Mapping[str, LessonProgress] = field(default_factory=lambda: MappingProxyType({}))
+    levels: Mapping[str, Level] = field(default_factory=lambda: MappingProxyType({}))
     search: str = ""
     free: bool = False
     card: LessonCard | None = None
@@ -73,6 +75,11 @@ class Selection:
         """Take a lesson at the tempo, with the passes and the bars that its author wants."""
         loops = min(card.passes, MAX_LOOPS)
         return replace(self, free=False, card=card, tempo_bpm=card.tempo_bpm, loops=loops, bars=None)
+
+    @property
+    def level(self) -> Level | None:
+        """How strictly the chosen lesson is judged, None where none is chosen."""
+        return None if self.card is None else self.card.levels.level(reached=self.levels.get(self.card.name))
 
     def at_beats(self, beats_a_minute: float) -> "Selection":
         """At a tempo in the beat that is counted; one that the slider does not reach is the nearest."""

@@ -27,7 +27,7 @@ class AssessOptions:
 
     score: str = argument("SCORE", "a lesson or a MIDI file", str)
     performance: str = argument("PERFORMANCE", "a MIDI file or a capture", str)
-    level: Windows = choice(LEVELS, f"how strictly ({DEFAULT_LEVEL.name})", DEFAULT_LEVEL)
+    level: Windows | None = choice(LEVELS, f"how strictly (the lesson's, else {DEFAULT_LEVEL.name})", None)
     gap: Gap | None = option("ON/OFF", "the click it was played to fell silent in turn", bars_of_gap, None)
     pairs: Path | None = option("FILE.csv", "write which hit answers which note", Path, None)
     json: bool = flag("print one JSON document")
@@ -48,10 +48,12 @@ def run(options: AssessOptions) -> int:
     if options.pairs is not None and not options.pairs.resolve().parent.is_dir():
         raise BadInput(options.pairs, "", "there is no such folder to write it in")
     score, performance = load_score_and_performance(options.score, options.performance)
-    view = SummaryView(options.level, kit=kit_facts(load_settings()))
+    view = SummaryView(options.level or DEFAULT_LEVEL, kit=kit_facts(load_settings()))
     if is_lesson(options.score):
         lesson = find_lesson(options.score)
-        view = replace(view, pass_bars=score.bar_count, feel=feel_of(lesson.goals), beat_ticks=lesson.beat_ticks)
+        windows = options.level or lesson.levels.level().windows
+        view = replace(view, windows=windows, pass_bars=score.bar_count)
+        view = replace(view, feel=feel_of(lesson.goals), beat_ticks=lesson.beat_ticks)
         score = score.repeated(times_played(score, performance))
     if options.gap is not None:
         view = replace(view, silences=silences(score.tempo_map, score.end_tick, options.gap))

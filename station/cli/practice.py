@@ -16,6 +16,7 @@ from station.cli.input.tapping import TAP, tapped_tempo
 from station.cli.options.device_option import devices_option, wanted_kits
 from station.cli.options.option_fields import (
     Command,
+    choice,
     flag,
     group,
     option,
@@ -31,7 +32,7 @@ from station.core.settings import Settings, setting_source, with_said
 from station.core.units import PPQ
 from station.drills.lesson import Lesson
 from station.practice.headless.guarded_output import GuardedOutput
-from station.practice.records.memory import Memory, Remembered
+from station.practice.records.memory import LevelMemory, Memory, Remembered
 from station.practice.records.recovery import offer, recovered
 from station.practice.records.save_session import SessionFolder, SessionRecord, save
 from station.practice.records.session_files import TEXT_NAME
@@ -41,6 +42,7 @@ from station.practice.session.click_options import parse_click
 from station.practice.session.click_pattern import Gap
 from station.practice.session.leading_hand import hands_of
 from station.practice.session.plan import Plan, PlanOptions, plan_practice
+from station.scoring.matching.hit_windows import OUR_LEVELS, Level
 from station.scoring.report.assessment_document import Json
 
 STAND_IN = "intermediate,seed=1"
@@ -90,6 +92,9 @@ class PracticeOptions:
     no_pictures: bool = flag("leave a report, but no pictures")
     recover: Path | None = option("DIR", "judge and keep a session that was cut off", Path, None)
     student: str | None = option("NAME", "whose session it is", str, None)
+    level: Level | None = choice(
+        OUR_LEVELS, "how strictly is judged from now on (as the student chose, or came to; else the lesson's)", None
+    )
     json: bool = flag("print the report as one JSON document; in the terminal")
     sound: SoundOptions = group(SoundOptions, "sound")
     track: TrackOptions = group(TrackOptions, "a track to play along to")
@@ -107,7 +112,7 @@ def run(options: PracticeOptions) -> int:
     if options.no_click and options.adapt:
         raise BadInput("--no-click", "--adapt", "the tempo follows you either within a pass or from pass to pass")
     lesson = _lesson(options.lesson)
-    plan_options = _plan_options(options, lesson, settings)
+    plan_options = replace(_plan_options(options, lesson, settings), level=_level(options, lesson, settings))
     plan = plan_practice(lesson, plan_options)
     if backing is not None:
         backing.check(plan, settings.rate_hz)
@@ -257,6 +262,22 @@ def _plan_options(options: PracticeOptions, lesson: Lesson, settings: Settings) 
     click = None if options.no_click else replace(pattern, gap=options.gap)
     hands = hands_of(settings)
     return PlanOptions(tempo_bpm, options.loops, options.bars, demonstrations, click, settings.guide, hands)
+
+
+def _level(options: PracticeOptions, lesson: Lesson, settings: Settings) -> Level:
+    """The level that holds; one that is asked for is kept, but not for a virtual student without a name."""
+    asked = options.level
+    if asked is not None and asked not in lesson.levels.choices:
+        raise BadInput("--level", asked, f"{lesson.name} is judged as {lesson.levels.strictest} at the strictest")
+    if options.virtual_student is not None and options.student is None:
+        return lesson.levels.level(asked)
+    memory = LevelMemory.of(settings.sessions_dir, settings.student)
+    if asked is not None:
+        memory.keep(lesson.name, asked)
+    levels, fault = memory.recall()
+    if fault is not None:
+        say(fault)
+    return lesson.levels.level(asked, levels.get(lesson.name))
 
 
 def _wanted(options: PracticeOptions) -> SettingsStore:

@@ -16,7 +16,7 @@ from station.practice.control.pad_commands import PadCommands, ways_to_go_on
 from station.practice.headless.end_signals import end_asked
 from station.practice.headless.guarded_output import GuardedOutput
 from station.practice.headless.live import LiveOutcome, LiveSetup, practise_live, wait_for_kits
-from station.practice.headless.live_text import LEGEND, LiveText
+from station.practice.headless.live_text import LEGEND, LiveText, level_words
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.backing_track import Backing, BackingRequest
 from station.practice.session.device_latency import latency_of
@@ -57,7 +57,7 @@ def practise_in_terminal(
             if len(runner.heard.devices) < len(config.kits):
                 here = ", ".join(runner.heard.devices)
                 telling.attempt(say, f"\nof {len(config.kits)} kits there is {here}; the others may come", end="")
-            telling.attempt(say, f"\n{LEGEND}")
+            telling.attempt(say, f"\n{level_words(runner.session.plan.level)}\n{LEGEND}")
             runner.session.waits = settings.auto_pause and bool(ways_on) and is_attended()
             if request is not None:
                 telling.attempt(say, "\nmaking the track ready …")

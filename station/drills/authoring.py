@@ -19,7 +19,7 @@ count_in_bars = 1
 demonstrations = 2       # the drummer plays it first
 
 [goals]
-min_accuracy = 0.9       # share of the notes right
+level = "beginner"       # how strictly at first: beginner, elementary, intermediate, advanced, studio
 target_tempo_bpm = 100
 
 # One character is one cell: 8 a bar are eighths, 12 triplets, 16 sixteenths. - rests, | ends a bar, % repeats it.

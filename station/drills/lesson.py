@@ -11,8 +11,10 @@ from types import MappingProxyType
 from station.core.units import PPQ
 from station.drills.grid.cell_strokes import Velocities
 from station.drills.grid.swing import STRAIGHT, Swing
+from station.drills.level_range import OF_DIFFICULTY, LevelRange
 from station.music.score import Score
 from station.music.tempo import TempoChange
+from station.scoring.matching.hit_windows import Level
 
 LEVELS: Mapping[int, str] = MappingProxyType(
     {1: "first steps", 2: "beginner", 3: "intermediate", 4: "advanced", 5: "expert"}
@@ -22,25 +24,26 @@ DEFAULT_PASSES = 8
 """Our choice: with loops of 2–4 bars about a minute of playing."""
 DEFAULT_DEMONSTRATIONS = 2
 """TEACHING, Defaults: demonstrate twice."""
-DEFAULT_MIN_ACCURACY = 0.9
-"""TEACHING, Defaults: a pass is at least 90 % right."""
 
 
 @dataclass(frozen=True, slots=True)
 class Goals:
-    """When the lesson is mastered; None leaves a goal to the station's own policy.
+    """When the lesson is mastered; None leaves a goal to the level and the station's own policy.
 
     `min_accuracy` share of the notes right, 0–1; `max_sd_ms` spread of the asynchronies; `max_lean_ms` how far their
     mean may lie from the written time (feel is free unless this asks); `max_swing_error` how far the swing ratio may
     lie from the lesson's; `target_tempo_bpm` quarter notes a minute, the written tempo if None; `min_score` 0–100.
+    `level` how strictly a student is judged who begins, `strictest_level` how strictly anybody is.
     """
 
-    min_accuracy: float = DEFAULT_MIN_ACCURACY
+    min_accuracy: float | None = None
     max_sd_ms: float | None = None
     max_lean_ms: float | None = None
     max_swing_error: float | None = None
     target_tempo_bpm: float | None = None
     min_score: float | None = None
+    level: Level | None = None
+    strictest_level: Level = Level.STUDIO
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,9 +59,9 @@ class Section:
 class Lesson:
     """One lesson.
 
-    `name` is the file's stem; `level` 1–5 (`LEVELS`); `loop` the first and last bar that are practised, from 0,
-    inclusive; `passes` how often the loop is played; `demonstrations` how often the drummer plays it first; `kit` a
-    kit file's name, empty for the player's own; `sections` cover all bars in order.
+    `name` is the file's stem; `level` 1–5 (`LEVELS`) how hard it is; `loop` the first and last bar that are practised,
+    from 0, inclusive; `passes` how often the loop is played; `demonstrations` how often the drummer plays it first;
+    `kit` a kit file's name, empty for the player's own; `sections` cover all bars in order.
     """
 
     name: str
@@ -93,6 +96,11 @@ class Lesson:
     def target_tempo_bpm(self) -> float:
         """The tempo to reach, in quarter notes a minute."""
         return self.goals.target_tempo_bpm or self.tempo_bpm
+
+    @property
+    def levels(self) -> LevelRange:
+        """The levels at which it may be judged."""
+        return LevelRange(self.goals.level or OF_DIFFICULTY[self.level], self.goals.strictest_level)
 
     @property
     def swing_ratio(self) -> float:

@@ -21,6 +21,7 @@ from station.core.schema import (
     Reader,
     anything,
     checked_values,
+    choice,
     list_of,
     number,
     optional,
@@ -52,7 +53,6 @@ from station.drills.grid.swing import MAX_RATIO, MIN_RATIO, STRAIGHT, Swing
 from station.drills.grid.tab_symbols import LINE_PIECES
 from station.drills.lesson import (
     DEFAULT_DEMONSTRATIONS,
-    DEFAULT_MIN_ACCURACY,
     DEFAULT_PASSES,
     LEVELS,
     Goals,
@@ -62,6 +62,7 @@ from station.drills.lesson import (
 from station.motion.feasibility.playable import impossible
 from station.music.score import Score
 from station.music.tempo import MAX_BPM, MIN_BPM, MeterChange, TempoChange, TempoMap
+from station.scoring.matching.hit_windows import OUR_LEVELS, Level
 
 _MIDI = b"MThd"
 """How a MIDI file begins."""
@@ -105,8 +106,11 @@ def _rising(before: tuple[int, int, int], changes: Mapping[str, int], *path: str
 
 _VELOCITIES: Fields = {key: optional(whole(1, 127)) for key in ("ghost", "normal", "accent")}
 _DYNAMICS = said({**_VELOCITIES, **{key: optional(said(_VELOCITIES)) for key in LINE_PIECES}})
+_LEVEL = choice(OUR_LEVELS, "level")
 _GOALS: Fields = {
-    "min_accuracy": Field(number(0, 1), DEFAULT_MIN_ACCURACY),
+    "level": optional(_LEVEL),
+    "strictest_level": Field(_LEVEL, Level.STUDIO),
+    "min_accuracy": optional(number(0, 1)),
     "max_sd_ms": optional(number(1, 1000)),
     "max_lean_ms": optional(number(0, 1000)),
     "max_swing_error": optional(number(0, MAX_RATIO)),
@@ -181,6 +185,8 @@ def _lesson(name: str, values: Mapping[str, Any], faults: Faults) -> Lesson:
         faults.add((key,), "the beat is no whole number of pairs to swing; expected a shorter swing_unit")
     score, origins = _score(sections, values["dynamics"], swing)
     goals: Goals = values["goals"]
+    if goals.level is not None and goals.level.rank > goals.strictest_level.rank:
+        faults.add(("goals", "level"), f"{goals.level} is stricter than the strictest_level, {goals.strictest_level}")
     target = goals.target_tempo_bpm
     lesson = Lesson(
         name=name,

@@ -97,15 +97,20 @@ def _goals(lesson: Lesson) -> list[str]:
     goals, defaults = lesson.goals, Goals()
     if goals == defaults:
         return []
+    levels = {
+        "level": goals.level,
+        "strictest_level": goals.strictest_level if goals.strictest_level != defaults.strictest_level else None,
+    }
     values = {
-        "min_accuracy": goals.min_accuracy if goals.min_accuracy != defaults.min_accuracy else None,
+        "min_accuracy": goals.min_accuracy,
         "max_sd_ms": goals.max_sd_ms,
         "max_lean_ms": goals.max_lean_ms,
         "max_swing_error": goals.max_swing_error,
         "target_tempo_bpm": goals.target_tempo_bpm and goals.target_tempo_bpm * PPQ / lesson.beat_ticks,
         "min_score": goals.min_score,
     }
-    return ["[goals]", *(f"{key} = {number(v)}" for key, v in values.items() if v is not None), ""]
+    said = [f"{key} = {quoted(v)}" for key, v in levels.items() if v is not None]
+    return ["[goals]", *said, *(f"{key} = {number(v)}" for key, v in values.items() if v is not None), ""]
 
 
 def _grids(lesson: Lesson) -> list[str]:

@@ -20,7 +20,6 @@ from station.render.snapshot import BarNumbers, Hud, Snapshot, StudentShown, Tim
 from station.scenes.demonstrator import Demonstrator
 from station.scenes.session_scene import CUE_OF_LEAN, strikes
 from station.scenes.student_figure import StudentFigure, nearest_note
-from station.scoring.matching.hit_windows import DEFAULT_LEVEL
 
 FAR_NS = 150 * NS_PER_MS
 """A stroke so far from every note of its piece was meant for another (our choice: a sixteenth at 100 a minute)."""
@@ -39,7 +38,7 @@ class Comparison:
         self._drummer = Drummer(result.score.bars(bar, bar), plan.kit, demonstrator.figure, style)
         hits = () if played is None else tuple(played)
         self._hits = [replace(hit, at_ns=hit.at_ns - self._start_ns) for hit in hits]
-        self._is_alone = played is None
+        self._is_alone, self._windows = played is None, plan.level.windows
         self._hud = Hud(
             plan.lesson.title,
             f"Bar {self._lesson_bar + 1}: {words}",
@@ -71,7 +70,7 @@ class Comparison:
         onset_ns = self._drummer.score.onset_ns
         row = nearest_note(hit.piece, self._drummer, hit.at_ns / NS_PER_S)
         if row is not None and abs(hit.at_ns - int(onset_ns[row])) <= FAR_NS:
-            return row, CUE_OF_LEAN[DEFAULT_LEVEL.lean((hit.at_ns - int(onset_ns[row])) / NS_PER_MS)]
+            return row, CUE_OF_LEAN[self._windows.lean((hit.at_ns - int(onset_ns[row])) / NS_PER_MS)]
         return int(np.argmin(np.abs(onset_ns - hit.at_ns))), TimingCue.WRONG_PIECE
 
     def _double(self, past: list[Hit], now_ns: int) -> StudentShown:

@@ -44,6 +44,8 @@ def session_facts(result: SessionResult, document: dict[str, Json]) -> ResultFac
 
 
 def _standing(document: dict[str, Json]) -> str:
-    """Where the student stands in the lesson, in words, where the tempo followed them."""
-    mastery = document.get("mastery")
-    return f" · {mastery['words']}" if isinstance(mastery, dict) else ""
+    """By which level was judged, and where the student stands in the lesson, where the tempo followed them."""
+    mastery, judged = document.get("mastery"), f" · judged as {document['level']}"
+    if not isinstance(mastery, dict):
+        return judged
+    return f" · {mastery['words']}" if mastery["stable"] else f"{judged} · {mastery['words']}"

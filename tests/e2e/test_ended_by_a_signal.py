@@ -23,32 +23,14 @@ pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="ptys that speak
 KICK = bytes((0x99, 36, 90))
 
 
-@pytest.mark.parametrize(
-    ("signals", "to_all"),
-    [
-        ([signal.SIGTERM], False),
-        ([signal.SIGHUP], True),  # the terminal's window was closed: all its processes are told
-        ([signal.SIGINT, signal.SIGINT, signal.SIGINT], True),
-    ],
-)
-def test_a_session_that_is_ended_by_a_signal_is_kept(
-    signals: list[signal.Signals], to_all: bool, tmp_path: Path
-) -> None:
-    report = tmp_path / "session"
-    env = {**os.environ, "HOME": str(tmp_path), "XDG_CONFIG_HOME": str(tmp_path / "config")}
-    with SerialKit(tmp_path / "ttyUSB0") as kit:
-        words = [
-            "practice",
-            "rock-1",
-            "--no-demonstration",
-            "--no-pictures",
-            "--kit",
-            kit.device,
-            "--report",
-            str(report),
-        ]
+def ended_by(signals: list[signal.Signals], to_all: bool, folder: Path, *words: str) -> tuple[str, str]:
+    """What a session said on both outputs that was ended after its first stroke; it is kept in `folder`/session."""
+    report = folder / "session"
+    env = {**os.environ, "HOME": str(folder), "XDG_CONFIG_HOME": str(folder / "config")}
+    with SerialKit(folder / "ttyUSB0") as kit:
+        command = ["practice", "rock-1", "--no-demonstration", "--no-pictures", "--report", str(report)]
         with subprocess.Popen(
-            [sys.executable, "-m", "station.cli.command_line", *words],
+            [sys.executable, "-m", "station.cli.command_line", *command, "--kit", kit.device, *words],
             env=env,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
@@ -65,6 +47,33 @@ def test_a_session_that_is_ended_by_a_signal_is_kept(
                 (os.killpg if to_all else os.kill)(station.pid, number)
             out, err = station.communicate(timeout=60)
     assert station.returncode == 0, err
+    return out, err
+
+
+@pytest.mark.parametrize(
+    ("signals", "to_all"),
+    [
+        ([signal.SIGTERM], False),
+        ([signal.SIGHUP], True),  # the terminal's window was closed: all its processes are told
+        ([signal.SIGINT, signal.SIGINT, signal.SIGINT], True),
+    ],
+)
+def test_a_session_that_is_ended_by_a_signal_is_kept(
+    signals: list[signal.Signals], to_all: bool, tmp_path: Path
+) -> None:
+    out, _ = ended_by(signals, to_all, tmp_path)
     assert "(stopped early)" in out
-    document = json.loads((report / "report.json").read_text())
+    document = json.loads((tmp_path / "session" / "report.json").read_text())
     assert document["session"]["complete"] is False
+
+
+def test_a_live_session_is_judged_at_the_level_that_was_asked_for_and_so_is_the_next(tmp_path: Path) -> None:
+    """On time is within 5 ms in the studio (docs/mastery.md)."""
+    for folder, words in (("first", ["--level", "studio"]), ("second", [])):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "config" / "drum-station").mkdir(parents=True)
+        settings = tmp_path / folder / "config" / "drum-station" / "settings.toml"
+        settings.write_text(f'sessions = "{tmp_path / "sessions"}"\n')
+        out, err = ended_by([signal.SIGTERM], False, tmp_path / folder, *words)
+        assert "judged as studio: on time is within 5 ms" in err
+        assert "judged as studio (stopped early)" in out

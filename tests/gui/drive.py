@@ -40,7 +40,7 @@ from station.gui.panels.calibration_part import ANYWAY_LABEL, MEASURE_LABEL
 from station.gui.panels.course_list import ALL_LESSONS
 from station.gui.panels.devices_panel import DEVICES
 from station.gui.panels.export_panel import EXPORT, MIDI_LABEL, SHEET_LABEL
-from station.gui.panels.lessons_panel import ADAPT_LABEL, FILM_LABEL, FREE_LABEL, LISTEN_LABEL
+from station.gui.panels.lessons_panel import ADAPT_LABEL, FILM_LABEL, FREE_LABEL, LEVEL_LABEL, LISTEN_LABEL
 from station.gui.panels.pads_part import LEARN_LABEL as LEARN_PAD_LABEL
 from station.gui.panels.pads_part import UNDO_LABEL
 from station.gui.panels.panel import PANELS_LABEL
@@ -237,6 +237,9 @@ class Drive:
 def practise(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """A whole session, from the list to the results and back."""
     drive.choose(ctx, passes=1)
+    drive.seen["suggested"] = str(drive.state.selection.level)
+    ctx.combo_click(f"{LEVEL_LABEL}/judged as advanced")
+    ctx.yield_(2)
     ctx.item_click("Start##start")
     drive.seen["started"] = drive.room.stage.name
     drive.seen["frames"] = drive.wait_for(ctx, Stage.RESULT)
@@ -250,6 +253,7 @@ def practise(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     assert report is not None
     drive.seen["points"] = report.facts.words.points
     drive.seen["notes"] = len(report.facts.label)
+    drive.seen["level"], drive.seen["told"] = report.document["level"], report.facts.words.subtitle
     drive.seen["title"] = report.facts.words.title
     ctx.item_click("Back to the lessons##back")
     ctx.yield_(2)

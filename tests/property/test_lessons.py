@@ -20,6 +20,7 @@ from station.drills.lesson_writer import first_difference, write_lesson
 from station.drills.quantise import lesson_of, quantise_score
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoMap
+from station.scoring.matching.hit_windows import Level
 
 METERS = ("4/4", "3/4", "2/4", "5/4", "6/8", "12/8", "7/8", "2/2")
 PIECES = (Piece.SNARE, Piece.HIHAT, Piece.RIDE, Piece.CRASH_1, Piece.TOM_1, Piece.KICK, Piece.HIHAT_PEDAL)
@@ -83,7 +84,9 @@ goals = st.builds(
     max_lean_ms=st.none() | st.floats(0, 1000),
     max_swing_error=st.none() | st.floats(0, 3),
     min_score=st.none() | st.floats(0, 100),
-)
+    level=st.none() | st.sampled_from(Level),
+    strictest_level=st.sampled_from(Level),
+).filter(lambda goals: goals.level is None or goals.level.rank <= goals.strictest_level.rank)
 
 
 @given(title=words, about=words, author=words, tags=st.lists(words, max_size=3), goals=goals)

@@ -120,7 +120,7 @@ class LessonSession:
         with suppress(DeviceError):  # a dead engine says so itself
             self._send(update.commands)
         session = update.session
-        self.view.judged(session.shown(update.judged), session.hits, now_ns, session.windows)
+        self.view.judged(session.shown(update.judged), session.hits, now_ns, session.plan.level.windows)
         if update.is_anew:
             self.view.judged_anew(session)
         if update.notice is not None:

@@ -172,6 +172,7 @@ class SessionControl:
 
     def start(self, request: SessionRequest) -> None:
         """Begin a session, ending what runs; wakes a new engine if the old has ended. Raises `StationError`."""
+        self.catalog.learnt()
         session = self._laid_out(request)
         self._make_room()
         track = None if request.adapt else self._prepared.track(session.plan, self._engine.rate_hz)
@@ -239,7 +240,8 @@ class SessionControl:
             self._playback.hear(listening)
 
     def _laid_out(self, request: SessionRequest) -> LessonSession:
-        laid = self._prepared.laid_out(self.catalog.lesson(request.lesson), request)
+        lesson = self.catalog.lesson(request.lesson)
+        laid = self._prepared.laid_out(lesson, request, self.catalog.level(lesson))
         if laid.followed is not None and laid.followed.fault is not None:
             self._notify(laid.followed.fault)
         return self._new_session(laid)

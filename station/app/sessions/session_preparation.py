@@ -19,6 +19,7 @@ from station.practice.session.click_options import parse_click
 from station.practice.session.click_pattern import ClickPattern
 from station.practice.session.leading_hand import hands_of
 from station.practice.session.plan import Plan, PlanOptions, plan_practice
+from station.scoring.matching.hit_windows import Level
 from station.sound.track import PreparedTrack
 
 if TYPE_CHECKING:
@@ -49,14 +50,17 @@ class SessionPreparation:
         """Whether sessions may play along to a track."""
         return self._backing is not None
 
-    def laid_out(self, lesson: Lesson, request: SessionRequest) -> PreparedSession:
-        """What is asked for of a lesson, from what is remembered where the tempo follows; raises `StationError`."""
+    def laid_out(self, lesson: Lesson, request: SessionRequest, level: Level) -> PreparedSession:
+        """What is asked for of a lesson, judged at `level`, from what is remembered where the tempo follows.
+
+        Raises `StationError`.
+        """
         settings = self._store.now
         tempo_bpm = None if request.adapt else request.tempo_bpm
         click = self._click() if request.click else None
         hands = hands_of(settings)
         options = PlanOptions(
-            tempo_bpm, request.loops, request.bars, request.demonstrations, click, settings.guide, hands
+            tempo_bpm, request.loops, request.bars, request.demonstrations, click, settings.guide, hands, level
         )
         plan = plan_practice(lesson, options)
         if not request.adapt:

@@ -27,16 +27,16 @@ def next_turn(current: ItemState, others: Sequence[ItemState], today: date, rule
     due = [state for state in others if state.review.is_due(today)]
     if due:
         return Turn(min(due, key=_due).item, "it is due for review")
-    if not current.is_stable(rules) and current.step.kind is not PassKind.LEAVE:
+    if not current.is_settled(rules) and current.step.kind is not PassKind.LEAVE:
         return Turn(current.item, "it is not stable yet, so stay with it")
     rest = [state for state in others if state.step.kind is not PassKind.LEAVE or state.today < today]
     rest = _from_current_on(current, rest)
-    fresh = [state for state in rest if not state.is_stable(rules)]
+    fresh = [state for state in rest if not state.is_settled(rules)]
     if fresh:
         return Turn(_longest_ago(fresh).item, "it is not stable yet, and this one will do for now")
     if rest:
         return Turn(_longest_ago(rest).item, "all are stable: a few minutes each in turn make them last")
-    if current.is_stable(rules):
+    if current.is_settled(rules):
         return Turn(
             current.item, "it is stable, and nothing else was begun: begin another lesson, and these will take turns"
         )

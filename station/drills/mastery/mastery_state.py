@@ -1,6 +1,6 @@
 """All that the policy knows of one student and one item: an immutable value, one after each pass."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from datetime import date
 
 from station.drills.mastery.equipment_faults import Equipment
@@ -13,6 +13,7 @@ from station.drills.mastery.rules import Rules
 from station.drills.mastery.silent_bars import SilentBars
 from station.drills.mastery.tempo_ladder import Ladder
 from station.drills.mastery.weak_bars import BarTally
+from station.scoring.matching.hit_windows import Level
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +38,7 @@ class Before:
 class ItemState:
     """What is known. `step` is the pass that was asked for last; `fixed_pct` the tempo a student has pinned.
 
-    `varied` counts the variations played, `today` is the session's day.
+    `varied` counts the variations played, `today` is the session's day, `level` the one by which it was judged.
     """
 
     item: PracticeItem
@@ -55,6 +56,7 @@ class ItemState:
     fixed_pct: float | None = None
     varied: int = 0
     before: Before | None = None
+    level: Level = Level.INTERMEDIATE
 
     @property
     def mastery_pct(self) -> float:
@@ -69,3 +71,14 @@ class ItemState:
     def is_stable(self, rules: Rules) -> bool:
         """Whether the target tempo was shown blind often enough in a row."""
         return self.probes.is_stable(rules)
+
+    def is_settled(self, rules: Rules) -> bool:
+        """Whether it is stable, or was at a wider level and goes on at a narrower one."""
+        has_grown = self.review.mastered_on is not None and self.review.level.rank < self.level.rank
+        return has_grown or self.is_stable(rules)
+
+    def at_level(self, level: Level) -> "ItemState":
+        """It judged at `level` from now on: what was shown at another does not make it stable there."""
+        if level is self.level:
+            return self
+        return replace(self, level=level, probes=replace(self.probes, in_a_row=0))

@@ -37,7 +37,8 @@ def begin(state: ItemState, today: date, rules: Rules = DEFAULT_RULES) -> ItemSt
     """
     if state.review.is_due(today) and state.fixed_pct is None:
         opened = _opened(state, state.ladder.resting(), today)
-        why = "Some days have passed: does it still stick? This one is blind"
+        judged = "" if state.review.level is state.level else f", and judged as {state.review.level}"
+        why = f"Some days have passed: does it still stick? This one is blind{judged}"
         return _with(opened, PassKind.REVIEW, TOP_PCT, why, rules)
     if state.today == today:
         here = _opened(state, state.ladder.resting(), today)
@@ -69,7 +70,7 @@ def next_step(state: ItemState, result: PassResult, rules: Rules = DEFAULT_RULES
     else:
         state, why = after_pass(state, result, judge(result, rules), rules)
     if state.is_stable(rules):
-        state = replace(state, review=state.review.mastered(state.today, rules))
+        state = replace(state, review=state.review.mastered(state.today, state.level, rules))
     state = _asked(state, why, rules)
     state = replace(state, step=replace(state.step, notice=notice))
     return state, state.step

@@ -142,6 +142,8 @@ def _review(state: ItemState, result: PassResult, verdict: Verdict, rules: Rules
     """It stuck, or it is learnt once more from a step below the target."""
     review = state.review.after(verdict.is_clean, state.today, rules)
     probes = state.probes.after(verdict.is_clean, TOP_PCT, rules)
+    if verdict.is_clean and state.review.level.rank < state.level.rank:  # it shows nothing of the narrower level
+        probes = replace(probes, in_a_row=state.probes.in_a_row)
     if verdict.is_clean:
         return replace(state, review=review, probes=probes, ladder=Ladder(TOP_PCT)), "It stuck"
     ladder = Ladder(TOP_PCT).lower(rules)

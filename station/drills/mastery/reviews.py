@@ -3,38 +3,44 @@
 Gains show only after a night (TEACHING: Simmons 2012); whether gaps grow or stay matters little (Latimier 2021).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import date, timedelta
 
 from station.drills.mastery.rules import Rules
+from station.scoring.matching.hit_windows import Level
 
 
 @dataclass(frozen=True, slots=True)
 class Review:
-    """When an item was mastered, how many reviews it has passed since, and when the next is due (None: no more)."""
+    """When an item was mastered, how many reviews it has passed since, and when the next is due (None: no more).
+
+    `level` is the narrowest at which it was mastered: reviews are judged at it, so that what was once good enough is.
+    """
 
     mastered_on: date | None = None
     passed: int = 0
     due: date | None = None
+    level: Level = Level.INTERMEDIATE
 
     def is_due(self, today: date) -> bool:
         """Whether the item is to be asked for today."""
         return self.due is not None and self.due <= today
 
-    def mastered(self, today: date, rules: Rules) -> "Review":
-        """After the item has become stable; what was mastered before stays as it is."""
-        return self if self.mastered_on else _scheduled(today, 0, today, rules)
+    def mastered(self, today: date, level: Level, rules: Rules) -> "Review":
+        """After the item has become stable at `level`; what was mastered before keeps its days."""
+        if self.mastered_on is None:
+            return replace(self, mastered_on=today, level=level)._scheduled(today, rules)
+        return self if level.rank <= self.level.rank else replace(self, level=level)
 
     def after(self, is_clean: bool, today: date, rules: Rules) -> "Review":
         """After a review: the next one, or, where it failed, none until the item is mastered again."""
         if not is_clean or self.mastered_on is None:
             return Review()
-        return _scheduled(self.mastered_on, self.passed + 1, today, rules)
+        return replace(self, passed=self.passed + 1)._scheduled(today, rules)
 
-
-def _scheduled(mastered_on: date, passed: int, today: date, rules: Rules) -> Review:
-    """Days count from the mastering; who comes late has the next review tomorrow at the earliest."""
-    if passed >= len(rules.review_days):
-        return Review(mastered_on, passed)
-    due = mastered_on + timedelta(days=rules.review_days[passed])
-    return Review(mastered_on, passed, max(due, today + timedelta(days=1)))
+    def _scheduled(self, today: date, rules: Rules) -> "Review":
+        """Days count from the mastering; who comes late has the next review tomorrow at the earliest."""
+        if self.mastered_on is None or self.passed >= len(rules.review_days):
+            return replace(self, due=None)
+        due = self.mastered_on + timedelta(days=rules.review_days[self.passed])
+        return replace(self, due=max(due, today + timedelta(days=1)))

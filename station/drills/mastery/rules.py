@@ -6,13 +6,17 @@ practice speed. Where a line names no source the number is our choice; `TEACHING
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import asdict, dataclass, fields, replace
 from typing import Any
 
 from station.core.did_you_mean import did_you_mean
 from station.core.errors import BadInput
 from station.drills.grid.swing import STRAIGHT
 from station.drills.lesson import Lesson
+from station.drills.mastery.pass_mark import PASS_MARKS
+from station.scoring.matching.hit_windows import Level
+
+_MIDDLE = PASS_MARKS[Level.INTERMEDIATE]
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,15 +24,15 @@ class Rules:
     """The policy's numbers; raises `BadInput` for values that contradict themselves."""
 
     # --- what makes a pass clean (TEACHING, Defaults) ---
-    min_right: float = 0.90
+    min_right: float = _MIDDLE.min_right
     """Share of the notes that are right; strokes too many count like notes left out."""
     broken_right: float = 0.80
     """With less the tempo falls at once and further: errors are prevented, not repeated (TEACHING, Duke 2009)."""
     notes_a_wrong_pad: int = 50
     """One wrong pad is forgiven in so many notes, and one in a pass with fewer."""
-    sd_floor_ms: float = 20.0
-    sd_interval_share: float = 0.15
-    sd_ceiling_ms: float = 35.0
+    sd_floor_ms: float = _MIDDLE.sd_floor_ms
+    sd_interval_share: float = _MIDDLE.sd_interval_share
+    sd_ceiling_ms: float = _MIDDLE.sd_ceiling_ms
     """Spread ≤ min(ceiling, max(floor, share of the interval)); professionals play 26–28 ms."""
     loose_share: float = 0.12
     """A pass that is right but for its spread may climb if that is within this share of the interval: long waits are
@@ -110,12 +114,13 @@ class Rules:
             if not is_fine:
                 raise BadInput("mastery rules", name, f"{getattr(self, name)} is not {wanted}")
 
-    def for_lesson(self, lesson: Lesson) -> "Rules":
-        """These rules with what a lesson asks for itself."""
+    def for_lesson(self, lesson: Lesson, level: Level) -> "Rules":
+        """These rules with the pass mark of `level`, and before it what the lesson asks for itself."""
         goals = lesson.goals
+        marked = replace(self, **asdict(PASS_MARKS[level]))
         return replace(
-            self,
-            min_right=goals.min_accuracy,
+            marked,
+            min_right=marked.min_right if goals.min_accuracy is None else goals.min_accuracy,
             max_sd_ms=goals.max_sd_ms,
             max_lean_ms=goals.max_lean_ms,
             max_swing_error=goals.max_swing_error,

@@ -10,7 +10,7 @@ from itertools import groupby
 
 from imgui_bundle import imgui
 
-from station.app.actions import Action, Begin, FilmTake, Listen, Select, TapBeat
+from station.app.actions import Action, Begin, FilmTake, JudgeAt, Listen, Select, TapBeat
 from station.app.room_state import LessonCard, RoomState
 from station.app.selection import MAX_LOOPS, Selection
 from station.app.window_state import State
@@ -20,6 +20,7 @@ from station.gui.panels.course_list import course_picker, mark, mark_width
 from station.gui.widgets.flow_row import FlowRow
 
 START_LABEL = "Start##start"
+LEVEL_LABEL = "##level"
 ADAPT_LABEL = "the tempo follows me"
 FREE_LABEL = "Just play##free"
 LISTEN_LABEL, STOP_LISTENING = "Listen back##listen", "Stop listening##listen"
@@ -30,6 +31,8 @@ TAP_LABEL = "Tap##tap"
 _HIGH_ENOUGH, _HIGH = 430, 680
 """Design pixels: in a lower panel Start comes first, so that it need not be scrolled to; in one that is not high the
 heading is left out."""
+_PASSES = 92
+"""Design pixels of the passes' slider; the level has the rest of its line."""
 _ROWS = 9
 """So many lines of the list are seen before more is said about the lesson that is chosen; our choice."""
 
@@ -127,14 +130,30 @@ class LessonsPanel:
         theme.tooltip("Without it you are counted in, then the score follows your own tempo and waits when you stop")
         if not selection.adapt:
             selection = self._tempo(selection)
-        imgui.set_next_item_width(-1)
+        imgui.set_next_item_width(theme.points(_PASSES))
         selection = replace(
             selection, loops=theme.slider_int("##passes", selection.loops, 1, MAX_LOOPS, "passes %d")[1]
         )
         theme.tooltip("How often the loop is played")
+        imgui.same_line()
+        self._level(selection, card)
         if not self._is_low:
             self._start_button(selection)
         return selection
+
+    def _level(self, selection: Selection, card: LessonCard) -> None:
+        """How strictly the lesson is judged."""
+        levels, level = card.levels.choices, selection.level
+        assert level is not None, "a lesson is chosen"
+        imgui.set_next_item_width(-1)
+        changed, index = imgui.combo(LEVEL_LABEL, levels.index(level), [f"judged as {each}" for each in levels])
+        if changed:
+            self._dispatch(JudgeAt(card.name, levels[index]))
+        within_ms = level.windows.edges_ms[0]
+        theme.tooltip(
+            f"On time is within {within_ms:g} ms, and a pass is clean at this level's mark; the score stays the same."
+            " When you hold the lesson at it, the next one holds from the next time on"
+        )
 
     def _start_button(self, selection: Selection) -> None:
         if theme.main_button(START_LABEL, (-1, theme.points(46))):

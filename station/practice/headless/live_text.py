@@ -7,7 +7,7 @@ from station.core.units import NS_PER_MS
 from station.music.judgement import Judgement, Label
 from station.practice.session.plan import Segment
 from station.practice.session.session import Session
-from station.scoring.matching.hit_windows import Windows
+from station.scoring.matching.hit_windows import Level, Windows
 
 _EARLY, _ON_TIME, _LATE = "<", "|", ">"
 _OF_LEAN = {-1: _EARLY, 0: _ON_TIME, 1: _LATE}
@@ -16,6 +16,11 @@ LEGEND = (
     f"{_ON_TIME} on time  {_EARLY} early  {_LATE} late  {_MISS} missed  {_WRONG_PIECE} wrong piece  {_EXTRA} extra  "
     f"{_TAKEN_BACK} taken back  {_UNTIMED} hit, its time not shown"
 )
+
+
+def level_words(level: Level) -> str:
+    """How strictly the marks are set."""
+    return f"judged as {level}: on time is within {level.windows.edges_ms[0]:g} ms"
 
 
 def mark_of(verdict: Judgement, windows: Windows) -> str:
@@ -58,7 +63,7 @@ class LiveText:
         for notice in notices:
             self._write(f"\n{notice}")
         self._show_segment(session)
-        marks = "".join(mark_of(verdict, session.windows) for verdict in session.shown(judged))
+        marks = "".join(mark_of(verdict, session.plan.level.windows) for verdict in session.shown(judged))
         if marks:
             self._write(marks)
         if session.paused and not self._paused:

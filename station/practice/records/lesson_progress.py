@@ -7,26 +7,34 @@ from pathlib import Path
 from station.drills.mastery.mastery_state import ItemState
 from station.drills.mastery.rules import Rules
 from station.practice.records.memory import remembered
+from station.scoring.matching.hit_windows import Level
 
 
 @dataclass(frozen=True, slots=True)
 class LessonProgress:
     """One lesson: tempi in percent of its target, `day_pct` practised last, `shown_pct` the fastest shown blind.
 
-    `is_mastered` says whether the target was shown often enough in a row, and every review since; `review` when it is
-    asked for again (None: not, or no more).
+    `held` says the narrowest level at which the target was shown often enough in a row, and every review since, None
+    where it was not; `review` when it is asked for again (None: not, or no more).
     """
 
     day_pct: float
     shown_pct: float
-    is_mastered: bool
+    held: Level | None
     review: date | None = None
 
     @classmethod
     def of(cls, state: ItemState) -> "LessonProgress":
         """What a state says."""
-        mastered = state.review.mastered_on is not None or state.is_stable(Rules())
-        return cls(state.pct, state.mastery_pct, mastered, state.review.due)
+        held = state.level if state.is_stable(Rules()) else None
+        if state.review.mastered_on is not None:
+            held = state.review.level
+        return cls(state.pct, state.mastery_pct, held, state.review.due)
+
+    @property
+    def is_mastered(self) -> bool:
+        """Whether it is held at any level."""
+        return self.held is not None
 
     def is_due(self, today: date) -> bool:
         """Whether it is to be asked for today."""
@@ -35,13 +43,10 @@ class LessonProgress:
     def words(self, today: date) -> str:
         """It in a line."""
         if self.is_due(today):
-            return "Mastered; today is the day to show that it stuck"
+            return f"Mastered at {self.held}; today is the day to show that it stuck"
         if self.is_mastered:
-            return (
-                "Mastered"
-                if self.review is None
-                else f"Mastered; to be shown again on {self.review.day} {self.review:%B}"
-            )
+            again = "" if self.review is None else f"; to be shown again on {self.review.day} {self.review:%B}"
+            return f"Mastered at {self.held}{again}"
         if self.shown_pct:
             return f"{self.shown_pct:.0f} % of the target tempo shown blind; {self.day_pct:.0f} % practised last"
         return f"Begun: {self.day_pct:.0f} % of the target tempo practised last"

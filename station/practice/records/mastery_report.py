@@ -5,7 +5,7 @@ from station.drills.mastery.mastery_state import ItemState
 from station.drills.mastery.practice_steps import PracticeItem, PracticeStep
 from station.drills.mastery.rules import Rules
 from station.practice.records.what_next import advice_of
-from station.practice.session.adaptation import Adaptation, PlayedPass
+from station.practice.session.adaptation import Adaptation, PlayedPass, held_words
 from station.scoring.report.assessment_document import Json
 
 MOST_STEPS = 3
@@ -23,7 +23,8 @@ def with_mastery(document: dict[str, Json], adaptation: Adaptation, turn: Turn |
     assert isinstance(counts, dict), "the report is ours"
     assert isinstance(said, list), "the report is ours"
     # what is said where nothing stands out speaks of the tempo, which is the policy's here
-    steps: list[Json] = [adaptation.step.why, *advice_of(document)]
+    grown = [held_words(adaptation.level, adaptation.next_level)] if adaptation.has_grown else []
+    steps: list[Json] = [*grown, adaptation.step.why, *advice_of(document)]
     return {
         **document,
         "session": {**session, "next": steps[:MOST_STEPS] if counts["hits"] else said},
@@ -32,6 +33,8 @@ def with_mastery(document: dict[str, Json], adaptation: Adaptation, turn: Turn |
             "mastery_pct": state.mastery_pct,
             "stable": state.is_stable(adaptation.rules),
             "review_due": None if state.review.due is None else state.review.due.isoformat(),
+            "level": adaptation.level,
+            "next_level": adaptation.next_level,
             "words": mastery_words(state, adaptation.rules),
             "passes": [_pass(one, state.item) for one in adaptation.rounds],
             "next": _step(adaptation.step, state.item),
@@ -87,9 +90,9 @@ def _pass(one: PlayedPass, item: PracticeItem) -> dict[str, Json]:
 
 def mastery_words(state: ItemState, rules: Rules) -> str:
     """Where a student stands, in one line."""
-    if state.is_stable(rules):
-        due = state.review.due
-        return f"Mastered{'' if due is None else f'; asked for again on {due:%d %B}'}."
+    if state.is_settled(rules):
+        due, level = state.review.due, state.level if state.is_stable(rules) else state.review.level
+        return f"Mastered at {level}{'' if due is None else f'; asked for again on {due:%d %B}'}."
     if state.mastery_pct == 0:
         return "Not yet shown in a blind pass."
     return f"Shown blind: {state.mastery_pct:g} % of the tempo, {state.item.beats(state.mastery_pct)}."

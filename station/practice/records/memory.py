@@ -1,13 +1,16 @@
 """What the station remembers of a student and a lesson between sessions: one small file for each.
 
 `<sessions>/<student>/mastery/<lesson>_<bars>.json`, written whole after a session, holds the document of
-`station.drills.mastery.mastery_json`. A file that cannot be read is set aside under another name, never written over.
+`station.drills.mastery.mastery_json`; `levels.json` beside it the level of each lesson. A file that cannot be read is
+set aside under another name, never written over.
 """
 
 import json
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from datetime import date
 from pathlib import Path
+from typing import TypeVar
 
 from station.core.errors import BadInput, DeviceError
 from station.drills.lesson import Lesson
@@ -17,9 +20,14 @@ from station.drills.mastery.mastery_state import ItemState
 from station.practice.records.session_files import folder_name, write_document
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.plan import PlanOptions
+from station.scoring.matching.hit_windows import OUR_LEVELS, Level
 
 FOLDER = "mastery"
+LEVELS_NAME = "levels.json"
+LEVELS_SCHEMA = "drum-station/levels/1"
+_ITEMS = "*_*.json"
 _SPARE_NAMES = 1000
+_T = TypeVar("_T")
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,32 +47,77 @@ class Memory:
 
         Raises `DeviceError` where the file can neither be read nor set aside.
         """
-        try:
-            return state_from(json.loads(self.path.read_text(encoding="utf-8")), str(self.path)), None
-        except FileNotFoundError:
-            return None, None
-        except OSError as fault:
-            raise DeviceError(f"{self.path}: cannot be read: {fault.strerror or fault}") from fault
-        except BadInput as fault:
-            return None, f"{fault}; {self._set_aside()}"
-        except (ValueError, RecursionError) as fault:
-            return None, f"{self.path}: is no JSON document ({fault}); {self._set_aside()}"
+        return _recalled(self.path, state_from, "mastery begins anew")
 
     def keep(self, state: ItemState) -> None:
         """Remember `state` from now on; raises `DeviceError`, and then what was remembered stays."""
         write_document(self.path, document_of(state))
 
-    def _set_aside(self) -> str:
-        for attempt in range(1, _SPARE_NAMES):
-            spare = self.path.with_name(f"{self.path.name}.unread-{attempt}")
-            if spare.exists():
-                continue
-            try:
-                self.path.rename(spare)
-            except OSError as fault:
-                raise DeviceError(f"{self.path}: cannot be set aside: {fault.strerror or fault}") from fault
-            return f"it is kept as {spare.name}, mastery begins anew"
-        raise DeviceError(f"{self.path}: too many files that could not be read lie beside it")
+
+@dataclass(frozen=True, slots=True)
+class LevelMemory:
+    """Where the level at which a student is judged is kept for each lesson: as they chose it, or came to it."""
+
+    path: Path
+
+    @classmethod
+    def of(cls, sessions: Path, student: str) -> "LevelMemory":
+        """That of `student`, under the folder of all sessions."""
+        return cls(sessions / folder_name(student) / FOLDER / LEVELS_NAME)
+
+    def recall(self) -> tuple[Mapping[str, Level], str | None]:
+        """The level of each lesson by its name, and a line for the student where the file could not be read.
+
+        A lesson that is remembered from before there was a choice has the level by which it was judged. Raises
+        `DeviceError` where the file can neither be read nor set aside.
+        """
+        kept, fault = _recalled(self.path, _levels_from, "levels begin anew")
+        return {state.item.name: state.level for state in _all_in(self.path.parent)} | (kept or {}), fault
+
+    def keep(self, lesson: str, level: Level) -> None:
+        """Judge `lesson` at `level` from now on; raises `DeviceError`, and then all stays as it was."""
+        kept, _ = _recalled(self.path, _levels_from, "levels begin anew")
+        write_document(self.path, {"schema": LEVELS_SCHEMA, "levels": {**(kept or {}), lesson: level}})
+
+
+def _levels_from(document: object, source: str) -> dict[str, Level]:
+    """The levels in a document; raises `BadInput` that names `source`, the place and the fault."""
+    if not isinstance(document, dict) or document.get("schema") != LEVELS_SCHEMA:
+        raise BadInput(source, "schema", f"is not {LEVELS_SCHEMA}")
+    levels = document.get("levels")
+    if not isinstance(levels, dict):
+        raise BadInput(source, "levels", "is no table")
+    for lesson, level in levels.items():
+        if level not in list(OUR_LEVELS):
+            raise BadInput(source, f"levels.{lesson}", f"{level!r} is no level")
+    return {lesson: OUR_LEVELS[level] for lesson, level in levels.items()}
+
+
+def _recalled(path: Path, read: Callable[[object, str], _T], lost: str) -> tuple[_T | None, str | None]:
+    """What the file holds, None where there is none; and a line that says what is `lost` where it cannot be read."""
+    try:
+        return read(json.loads(path.read_text(encoding="utf-8")), str(path)), None
+    except FileNotFoundError:
+        return None, None
+    except OSError as fault:
+        raise DeviceError(f"{path}: cannot be read: {fault.strerror or fault}") from fault
+    except BadInput as fault:
+        return None, f"{fault}; {_set_aside(path)}, {lost}"
+    except (ValueError, RecursionError) as fault:
+        return None, f"{path}: is no JSON document ({fault}); {_set_aside(path)}, {lost}"
+
+
+def _set_aside(path: Path) -> str:
+    for attempt in range(1, _SPARE_NAMES):
+        spare = path.with_name(f"{path.name}.unread-{attempt}")
+        if spare.exists():
+            continue
+        try:
+            path.rename(spare)
+        except OSError as fault:
+            raise DeviceError(f"{path}: cannot be set aside: {fault.strerror or fault}") from fault
+        return f"it is kept as {spare.name}"
+    raise DeviceError(f"{path}: too many files that could not be read lie beside it")
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,8 +148,12 @@ class Remembered:
 
     def keep(self) -> None:
         """Remember what was learnt; raises `DeviceError`."""
-        if self.memory is not None:
-            self.memory.keep(self.adaptation.state)
+        if self.memory is None:
+            return
+        self.memory.keep(self.adaptation.state)
+        if self.adaptation.has_grown:
+            levels = LevelMemory(self.memory.path.with_name(LEVELS_NAME))
+            levels.keep(self.adaptation.lesson.name, self.adaptation.next_level)
 
 
 def remembered(sessions: Path, student: str) -> list[ItemState]:
@@ -105,7 +162,7 @@ def remembered(sessions: Path, student: str) -> list[ItemState]:
 
 
 def _all_in(folder: Path) -> list[ItemState]:
-    return [state for path in sorted(folder.glob("*.json")) if (state := _known(path)) is not None]
+    return [state for path in sorted(folder.glob(_ITEMS)) if (state := _known(path)) is not None]
 
 
 def _known(path: Path) -> ItemState | None:

@@ -72,7 +72,7 @@ def practice_document(result: SessionResult, settings: Settings) -> dict[str, Js
             {"bar": lesson_bars(plan)[pause.bar] + 1, "asked": pause.asked, "strokes_again": pause.strokes}
             for pause in result.pauses
         ],
-        "next": [*what_next(document, plan.lesson, plan.tempo_bpm)],
+        "next": [*what_next(document, plan)],
     }
     return document
 
@@ -100,6 +100,7 @@ def _view(result: SessionResult, settings: Settings) -> SummaryView:
     """Bars are counted as in the lesson, however often they were played."""
     plan = result.plan
     return SummaryView(
+        windows=plan.level.windows,
         pass_bars=plan.section.bar_count,
         first_bar=plan.first_bar,
         hears_velocity=result.device != KEYBOARD,
@@ -142,7 +143,7 @@ def report_text(document: dict[str, Json]) -> str:
         tempo += f" ({session['tempo_bpm']:g} quarter notes a minute)"
     if "mastery" in document:
         tempo = f"a tempo that follows you, {tempo} at last"
-    head = f"{session['title']} at {tempo}, {which}, {passes}"
+    head = f"{session['title']} at {tempo}, {which}, {passes}, judged as {document['level']}"
     return (
         f"{head}{'' if session['complete'] else ' (stopped early)'}\n\n"
         f"{_figures_text(document)}{_passes(document)}{_steps_text(map(str, steps))}{_paused(session)}"

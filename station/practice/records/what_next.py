@@ -1,14 +1,15 @@
 """What a student should do next: the advice, or where nothing stands out what the lesson's goals ask for.
 
-Pure: an assessment document and the lesson's goals in, sentences out. Tempi are in quarter notes a minute.
+Pure: an assessment document and what was practised in, sentences out. Tempi are in quarter notes a minute.
 """
 
 from dataclasses import dataclass
 from math import ceil, floor, sqrt
 
-from station.drills.lesson import Lesson
+from station.drills.lesson import Goals
 from station.drills.mastery.pass_facts import usual_interval_ms
 from station.drills.mastery.rules import Rules
+from station.practice.session.plan import Plan
 from station.scoring.report.assessment_document import Json
 
 _NOTHING_PLAYED = "There was nothing to judge: the session ended before the first note."
@@ -18,8 +19,8 @@ _NOTHING_HEARD = (
 )
 
 
-def what_next(document: dict[str, Json], lesson: Lesson, tempo_bpm: float) -> tuple[str, ...]:
-    """At least one sentence for whoever practised `lesson` at `tempo_bpm`; `document` is the assessment."""
+def what_next(document: dict[str, Json], plan: Plan) -> tuple[str, ...]:
+    """At least one sentence for whoever practised `plan`; `document` is the assessment."""
     counts = _numbers(document["counts"])
     if not counts["notes"]:
         return (_NOTHING_PLAYED,)
@@ -27,8 +28,9 @@ def what_next(document: dict[str, Json], lesson: Lesson, tempo_bpm: float) -> tu
         return (_NOTHING_HEARD,)
     if advice := advice_of(document):
         return advice
-    spread = _Spread.of(document, lesson, tempo_bpm)
-    return (_short_of_goal(document, lesson, spread) or _go_on(lesson, tempo_bpm, spread),)
+    rules = Rules().for_lesson(plan.lesson, plan.level)
+    spread = _Spread.of(document, plan, rules)
+    return (_short_of_goal(document, plan.lesson.goals, spread, rules) or _go_on(plan, spread, rules),)
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,13 +41,13 @@ class _Spread:
     limit_ms: float
 
     @classmethod
-    def of(cls, document: dict[str, Json], lesson: Lesson, tempo_bpm: float) -> "_Spread":
-        """As the mastery policy has it at this tempo (TEACHING: min(35, max(20, 15 % of the interval)) ms)."""
-        interval_ms = usual_interval_ms(lesson.loop_score.at_speed(tempo_bpm / lesson.tempo_bpm))
+    def of(cls, document: dict[str, Json], plan: Plan, rules: Rules) -> "_Spread":
+        """As the mastery policy has it at this tempo."""
+        interval_ms = usual_interval_ms(plan.lesson.loop_score.at_speed(plan.tempo_bpm / plan.lesson.tempo_bpm))
         total_ms = _numbers(document["timing"]).get("sd_asynchrony_ms", 0.0)
         about_leans_ms = _pooled_ms(table_in(document, "per_piece")) if "per_piece" in document else None
-        limit_ms = Rules().for_lesson(lesson).sd_limit_ms(interval_ms)
-        return cls(total_ms if about_leans_ms is None else min(about_leans_ms, total_ms), limit_ms)
+        spread_ms = total_ms if about_leans_ms is None else min(about_leans_ms, total_ms)
+        return cls(spread_ms, rules.sd_limit_ms(interval_ms))
 
 
 def _pooled_ms(per_piece: Json) -> float | None:
@@ -64,13 +66,13 @@ def advice_of(document: dict[str, Json]) -> tuple[str, ...]:
     return tuple(str(item["text"]) for item in advice if isinstance(item, dict))
 
 
-def _short_of_goal(document: dict[str, Json], lesson: Lesson, spread: _Spread) -> str:
+def _short_of_goal(document: dict[str, Json], goals: Goals, spread: _Spread, rules: Rules) -> str:
     """The first goal that was not reached, empty where all were."""
-    goals, counts, timing = lesson.goals, _numbers(document["counts"]), _numbers(document["timing"])
+    counts, timing = _numbers(document["counts"]), _numbers(document["timing"])
     assert isinstance(document["right"], int), "the report is ours"
     right = document["right"] / counts["notes"]
-    if right < goals.min_accuracy:
-        share, goal = floor(100 * right), ceil(100 * goals.min_accuracy)
+    if right < rules.min_right:
+        share, goal = floor(100 * right), ceil(100 * rules.min_right)
         return f"{share} % of the notes were right, {goal} % are the goal: play it again at this tempo, or slower."
     if spread.ms > spread.limit_ms:
         spreads = f"your strokes spread by {ceil(spread.ms)} ms and {floor(spread.limit_ms)} are the goal"
@@ -96,10 +98,10 @@ def _short_of_goal(document: dict[str, Json], lesson: Lesson, spread: _Spread) -
     return ""
 
 
-def _go_on(lesson: Lesson, tempo_bpm: float, spread: _Spread) -> str:
-    below = tempo_bpm < lesson.target_tempo_bpm * (1 - _SAME_TEMPO)
+def _go_on(plan: Plan, spread: _Spread, rules: Rules) -> str:
+    below = plan.tempo_bpm < plan.lesson.target_tempo_bpm * (1 - _SAME_TEMPO)
     why = f" (a spread of {ceil(spread.ms)} ms is within the {floor(spread.limit_ms)} of a clean pass)"
-    reason = why if spread.ms > Rules().sd_floor_ms else ""  # who lies closer together does not ask
+    reason = why if spread.ms > rules.sd_floor_ms else ""  # who lies closer together does not ask
     return f"Nothing stands out{reason}: {'raise the tempo' if below else 'take the next lesson, or raise the tempo'}."
 
 

@@ -40,6 +40,7 @@ from station.practice.session.plan import (
 )
 from station.practice.session.session import Session, SessionResult
 from station.scoring.align import align
+from station.scoring.matching.hit_windows import Level
 
 REST_S = 1.5
 """At least so much silence lies between two passes of the joined score: more than a session listens before its first
@@ -72,14 +73,15 @@ class Adaptation:
     rounds: list[PlayedPass] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        self.rules = Rules().for_lesson(self.lesson)
         first = plan_practice(self.lesson, self.options)  # names what cannot be
+        self.level = first.level
+        self.rules = self._rules_at(self.level)
         self.loops = first.passes
         item = item_of(self.lesson, (first.first_bar, first.first_bar + first.section.bar_count - 1))
         if self.known is None or self.known.item != item:
-            self.state = new_item(item, self.today, self.rules)
+            self.state = new_item(item, self.today, self.rules).at_level(self.level)
         else:
-            self.state = begin(self.known, self.today, self.rules)
+            self.state = begin(self.known.at_level(self.level), self.today, self.rules)
         if self.options.tempo_bpm is not None:
             self.state, _ = fix_tempo(self.state, self.options.tempo_bpm, self.rules)
         elif self.state.fixed_pct is not None:
@@ -115,9 +117,36 @@ class Adaptation:
         measured = self._measured(result) if result.complete else None
         self.rounds.append(PlayedPass(self.step, result, measured))
         if measured is not None:
-            self.state, self.step = next_step(self.state, measured, self.rules)
+            had_grown = self.has_grown
+            self.state, self.step = next_step(self.state, measured, self._rules_of(self.step.kind))
+            if self.has_grown and not had_grown:
+                self._notice(held_words(self.level, self.next_level))
             self._plan = self._laid_out()
         return self.step
+
+    @property
+    def next_level(self) -> Level:
+        """The level of the next session: a narrower one where the student holds the lesson's whole loop at this one."""
+        is_held = self.state.item.bars == self.lesson.loop and self.state.is_stable(self.rules)
+        return self.lesson.levels.after(self.level) if is_held else self.level
+
+    @property
+    def has_grown(self) -> bool:
+        """Whether the next session is judged more strictly than this one."""
+        return self.next_level is not self.level
+
+    def _rules_of(self, kind: PassKind) -> Rules:
+        """What a pass of this `kind` is judged by: a review by the level at which the item was mastered."""
+        return self._rules_at(self.state.review.level) if kind is PassKind.REVIEW else self.rules
+
+    def _rules_at(self, level: Level) -> Rules:
+        return Rules().for_lesson(self.lesson, level)
+
+    def _notice(self, words: str) -> None:
+        """Let the student read `words` before the next pass, too."""
+        notice = words if self.step.notice is None else f"{self.step.notice} {words}"
+        self.step = replace(self.step, notice=notice)
+        self.state = replace(self.state, step=self.step)
 
     def veto(self) -> PracticeStep:
         """The student refuses what comes next: all stays as it was."""
@@ -150,7 +179,12 @@ class Adaptation:
         swap = self.state.equipment.swap
         performance = rewired(result.performance, swap)
         alignment = result.alignment if swap is None else align(result.score, performance, clocked=True)
-        return measure_pass(result.score, performance, alignment, lesson_bars(result.plan))
+        return measure_pass(result.score, performance, alignment, lesson_bars(result.plan), self.level.windows)
+
+
+def held_words(level: Level, after: Level) -> str:
+    """That a student who holds a lesson at `level` is judged at the one `after` it."""
+    return f"You hold it at {level}: judged as {after} from next time on."
 
 
 def lesson_bars(plan: Plan) -> tuple[int, ...]:

@@ -6,7 +6,7 @@ the clock, a text has its place among the strokes: the session heard them later 
 
 | `said` | besides |
 |---|---|
-| `pass` | what is to be played and judged: `lesson`, `title`, `tempo_bpm`, `beat_ticks`, `first_bar`, `passes`, `click`, `notes` (rows of `NOTE_DTYPE`), `tempos`, `meters`, `end_tick` of one pass, `passes_start_ns`, `end_ns`; `latency`, `waits` |
+| `pass` | what is to be played and judged: `lesson`, `title`, `tempo_bpm`, `beat_ticks`, `first_bar`, `passes`, `click`, `level`, `notes` (rows of `NOTE_DTYPE`), `tempos`, `meters`, `end_tick` of one pass, `passes_start_ns`, `end_ns`; `latency`, `waits` |
 | `pause` | `now_ns`, the session time that it knew; `command`: the strokes that asked for it, each as `stroke_key` has it |
 | `go_on` | `asked`, `whole`, as `Session.resume` takes them |
 | `end` | `now_ns`, the session time at which nothing more was awaited |
@@ -33,6 +33,7 @@ from station.music.tempo import MeterChange, TempoChange, TempoMap
 from station.practice.session.click_pattern import PLAIN
 from station.practice.session.device_latency import KitLatency, Latency
 from station.practice.session.plan import MAX_LOOPS, Plan
+from station.scoring.matching.hit_windows import Level
 
 StrokeKey = tuple[int, str, int, int]
 """A stroke's session time, device, piece and velocity."""
@@ -110,6 +111,7 @@ def _plan_fields(plan: Plan) -> dict[str, object]:
         "first_bar": plan.first_bar,
         "passes": plan.passes,
         "click": plan.click is not None,
+        "level": plan.level,
         "notes": [_without_nan(row) for row in section.notes.tolist()],
         "tempos": [[change.tick, change.us_per_quarter] for change in tempo_map.tempos],
         "meters": [[change.tick, change.beats, change.unit] for change in tempo_map.meters],
@@ -187,6 +189,7 @@ def _plan(fields: dict[str, object]) -> Plan:
         end_ns=end_ns,
         cues=np.zeros(0, CUE_DTYPE),
         click=PLAIN if fields["click"] else None,
+        level=Level(str(fields.get("level", Level.INTERMEDIATE))),  # at which all was judged before there was a choice
     )
 
 

@@ -29,6 +29,7 @@ from station.practice.session.click_pattern import (
     silences,
 )
 from station.practice.session.leading_hand import drummers_kit
+from station.scoring.matching.hit_windows import Level
 
 MIN_TEMPO_BPM, MAX_TEMPO_BPM = 20.0, 400.0
 """The range of GrooveScribe (PEERS); beyond it neither a click nor a drummer makes sense."""
@@ -61,7 +62,7 @@ class PlanOptions:
 
     `click` is for the demonstrations and passes; the count-in clicks, or counts, every beat. With None the passes have
     no click, and the score follows the student. With `guide` the demonstration plays along in the passes. `hands` says
-    whose hand leads, None as the lesson's kit is built.
+    whose hand leads, None as the lesson's kit is built. `level` is how strictly is judged, None as the lesson suggests.
     """
 
     tempo_bpm: float | None = None
@@ -71,6 +72,7 @@ class PlanOptions:
     click: ClickPattern | None = PLAIN
     guide: bool = False
     hands: Hands | None = None
+    level: Level | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,7 +95,7 @@ class Plan:
     `kit` is the drummer's, `section` one pass at the practice tempo, `score` all passes in a row (what is judged),
     `first_bar` the lesson's bar (from 0) where the section begins, `passes_start_ns` where tick 0 of `score` lies on
     the transport, `end_ns` where the last pass ends, `cues` (n,) of `CUE_DTYPE` everything that sounds, `click` the
-    pattern under the passes, None where the score follows the student.
+    pattern under the passes, None where the score follows the student, `level` how strictly is judged.
     `rounds` is there where passes differ in bars or tempo: then `section` is all of them in a row.
     """
 
@@ -109,6 +111,7 @@ class Plan:
     end_ns: int
     cues: NDArray[np.void]
     click: ClickPattern | None
+    level: Level
     rounds: Rounds | None = None
 
     @property
@@ -181,6 +184,7 @@ def plan_practice(lesson: Lesson, options: PlanOptions) -> Plan:
         end_ns=line.end_ns,
         cues=_in_order(line.cues),
         click=options.click,
+        level=lesson.levels.level(options.level),
     )
 
 

@@ -31,7 +31,6 @@ from station.practice.session.pausing import NEAR_NS, SILENT_BARS, SessionPause,
 from station.practice.session.plan import TAIL_NS, Phase, Plan, Segment
 from station.scoring.align import align
 from station.scoring.matching.alignment import Alignment
-from station.scoring.matching.hit_windows import DEFAULT_LEVEL, Windows
 from station.sound.track import PreparedTrack
 
 LEAD_IN_NS = 300 * NS_PER_MS
@@ -84,7 +83,6 @@ class Session:
 
     plan: Plan
     latency: Latency = field(default_factory=Latency)
-    windows: Windows = DEFAULT_LEVEL
     feedback: Feedback = Feedback.TIMING
     message: str = ""
     backing: PreparedTrack | None = None

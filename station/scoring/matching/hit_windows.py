@@ -1,10 +1,11 @@
-"""Judgement windows: how far from its time a stroke still earns what. A table of named levels.
+"""Judgement windows: how far from its time a stroke still counts as what. A table of named levels.
 
 All widths are half widths in real milliseconds, at any practice speed, and inclusive: a stroke exactly on an edge is
 inside. They grade; they never pair hits with notes (`reach` says how far a hit may lie from its note).
 """
 
 from dataclasses import dataclass
+from enum import StrEnum
 from types import MappingProxyType
 
 import numpy as np
@@ -60,3 +61,27 @@ LEVELS = MappingProxyType({windows.name: windows for windows in _TABLE})
 """All levels by name: ours from the widest to the narrowest, then other programs'."""
 
 DEFAULT_LEVEL = LEVELS["intermediate"]
+
+
+class Level(StrEnum):
+    """How strictly a student is judged in a lesson: our own windows, from the widest to the narrowest."""
+
+    BEGINNER = "beginner"
+    ELEMENTARY = "elementary"
+    INTERMEDIATE = "intermediate"
+    ADVANCED = "advanced"
+    STUDIO = "studio"
+
+    @property
+    def windows(self) -> Windows:
+        """Its windows."""
+        return LEVELS[self.value]
+
+    @property
+    def rank(self) -> int:
+        """0 for the widest, more the narrower it is."""
+        return list(Level).index(self)
+
+
+OUR_LEVELS = MappingProxyType({level.value: level for level in Level})
+"""Our own levels by name, the widest first."""

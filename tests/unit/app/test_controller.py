@@ -16,6 +16,7 @@ from station.app.actions import (
     ExportKind,
     FinishFirstStart,
     HearBar,
+    JudgeAt,
     LearnPause,
     Leave,
     Select,
@@ -39,9 +40,11 @@ from station.engine.messages import Bus, KeyHit, Play, RecordCapture, SetBacking
 from station.motion.sticking.hand_notes import Hands
 from station.practice.demonstration.compare_by_ear import Whose
 from station.practice.headless.virtual_session import practise_virtually
+from station.practice.records.memory import LevelMemory
 from station.practice.records.session_files import CAPTURE_NAME, session_folder
 from station.practice.session.backing_track import BackingRequest
 from station.practice.session.plan import PlanOptions, plan_practice
+from station.scoring.matching.hit_windows import Level
 from station.simulation.student_spec import parse_spec
 from tests.fakes.stations import Line, choose, just_play, room, shown, station_on, store_with
 
@@ -459,3 +462,51 @@ def test_a_session_that_was_cut_off_is_told_of_when_the_window_opens(tmp_path: P
     station.update(1)
     told = station.view().toast
     assert told.startswith("a session was cut off before it was judged: 2026-03-01T10-00-00_rock-1; station practice")
+
+
+# --- how strictly is judged -------------------------------------------------------------------------------------------
+
+
+def level_of_a_session(station: Controller, line: Line) -> object:
+    """The level by which a session that is begun now is judged."""
+    station.dispatch(Begin())
+    line.says += [Started(NS_PER_S), downbeat()]
+    station.update(NS_PER_S + PLAN.passes_start_ns + 10)
+    station.dispatch(EndSession())
+    report = station.view().report
+    assert report is not None
+    station.dispatch(Dismiss())
+    return report.document["level"]
+
+
+def test_a_lesson_is_judged_as_it_suggests_until_the_student_chooses(tmp_path: Path) -> None:
+    line = Line()
+    station = station_at([line], tmp_path)
+    assert level_of_a_session(station, line) == "beginner"
+    station.dispatch(JudgeAt("rock-1", Level.ADVANCED))
+    assert level_of_a_session(station, line) == "advanced"
+    station.dispatch(Show(catalog=True))
+    station.update(2 * NS_PER_S)
+    assert station.view().selection.level is Level.ADVANCED
+
+
+def test_a_choice_of_level_holds_for_that_lesson_and_the_next_time(tmp_path: Path) -> None:
+    station_at([Line()], tmp_path).dispatch(JudgeAt("rock-1", Level.ELEMENTARY))
+    line = Line()
+    again = station_at([line], tmp_path)
+    assert level_of_a_session(again, line) == "elementary"
+    again.dispatch(Show(catalog=True))
+    selection = again.view().selection
+    again.dispatch(Select(selection.choose(next(card for card in selection.lessons if card.name == "rock-2"))))
+    assert again.view().selection.level is Level.BEGINNER
+
+
+def test_a_level_that_the_disk_refuses_is_not_shown_as_chosen(tmp_path: Path) -> None:
+    station = station_at([Line()], tmp_path)
+    folder = LevelMemory.of(tmp_path, "student").path.parent
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    folder.write_text("no folder")
+    station.dispatch(JudgeAt("rock-1", Level.STUDIO))
+    station.update(1)
+    assert str(folder) in station.view().toast
+    assert station.view().selection.level is Level.BEGINNER

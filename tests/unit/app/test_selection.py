@@ -11,6 +11,7 @@ from station.drills.course import Course
 from station.gui.keyboard_kit import KEYS
 from station.gui.viewport import quality_for
 from station.practice.records.lesson_progress import LessonProgress
+from station.scoring.matching.hit_windows import Level
 
 ROCK = LessonCard(
     "rock-1", "Rock 1: eighths", 1, "first steps", "The first groove", "Ada", 80.0, 2, 8, "4/4", ("rock",)
@@ -117,7 +118,7 @@ def test_a_course_lists_its_lessons_in_its_order_and_begins_where_the_student_is
     selection = selection.follow(course)
     assert selection.visible() == [PARADIDDLE, ROCK]
     assert selection.card is PARADIDDLE
-    progress = {"paradiddle": LessonProgress(100.0, 100.0, True), "rock-1": LessonProgress(80.0, 75.0, False)}
+    progress = {"paradiddle": LessonProgress(100.0, 100.0, Level.BEGINNER), "rock-1": LessonProgress(80.0, 75.0, None)}
     selection = replace(selection, progress=progress)
     assert selection.mastered(course) == 1
     selection = selection.follow(course)

@@ -92,6 +92,7 @@ def test_a_capture_can_be_assessed_again(capsys: pytest.CaptureFixture[str], tmp
     assert main(["assess", "rock-1", str(tmp_path / "session" / "session.capture"), "--json"]) == 0
     again = json.loads(capsys.readouterr().out)
     assert again["counts"] == document["counts"]
+    assert again["level"] == document["level"]
     assert again["reference"] == "player"  # its clock begins with the first stroke, early or late: no lean can be told
     assert "late" not in {advice["fault"] for advice in again["advice"]}
     assert "early" not in {advice["fault"] for advice in again["advice"]}

@@ -8,6 +8,7 @@ import pytest
 from station.core.errors import BadInput
 from station.drills.lesson import Goals
 from station.drills.lesson_file import parse_lesson, read_lesson
+from station.scoring.matching.hit_windows import Level
 from tests.unit.drills.reading import EIGHTH, QUARTER, SIXTEENTH, faults
 
 WHOLE_LESSON = """
@@ -39,6 +40,8 @@ max_lean_ms = 15.5
 max_swing_error = 0.3
 target_tempo_bpm = 120
 min_score = 75
+level = "elementary"
+strictest_level = "advanced"
 
 [grid]
 snare = "o--- | -o-- | --o- | ---o"
@@ -54,7 +57,7 @@ def test_everything_that_a_file_can_say() -> None:
     assert (lesson.kit, lesson.tempo_bpm, lesson.meter) == ("small", 96, "4/4")
     assert (lesson.swing_ratio, lesson.swing.unit_ticks) == (1.5, SIXTEENTH)
     assert (lesson.loop, lesson.passes, lesson.count_in_bars, lesson.demonstrations) == ((1, 2), 4, 2, 1)
-    assert lesson.goals == Goals(0.8, 25, 15.5, 0.3, 120, 75)
+    assert lesson.goals == Goals(0.8, 25, 15.5, 0.3, 120, 75, Level.ELEMENTARY, Level.ADVANCED)
     assert lesson.loop_score.notes["tick"].tolist() == [QUARTER, 4 * QUARTER + 2 * QUARTER]
     assert lesson.score.title == "Everything"
 
@@ -66,7 +69,8 @@ def test_what_a_file_need_not_say() -> None:
     assert lesson.demonstrations == 2  # TEACHING: demonstrate twice
     assert (lesson.tempo_bpm, lesson.meter, lesson.swing_ratio) == (80, "4/4", 1.0)
     assert lesson.swing.unit_ticks == EIGHTH
-    assert lesson.goals.min_accuracy == 0.9  # TEACHING: a pass is at least 90 % right
+    assert lesson.goals == Goals()
+    assert lesson.levels.choices == tuple(Level)
     assert lesson.target_tempo_bpm == 80
 
 

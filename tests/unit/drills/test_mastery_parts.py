@@ -19,6 +19,7 @@ from station.drills.mastery.silent_bars import SilentBars
 from station.drills.mastery.verdict import Grade, PassFault, judge
 from station.drills.mastery.weak_bars import tallied, weakest
 from station.music.performance import HIT_DTYPE, Performance
+from station.scoring.matching.hit_windows import Level
 from tests.unit.drills.mastering import BAD, BROKEN, CLEAN, DAY, INTERVAL_MS, LOOSE, result
 
 
@@ -98,7 +99,7 @@ def test_swing_and_points_where_a_lesson_asks() -> None:
 
 def test_a_lessons_goals_are_rules() -> None:
     lesson = replace(find_lesson("shuffle-1"), goals=Goals(min_accuracy=0.8, max_sd_ms=25.0, max_swing_error=0.4))
-    rules = DEFAULT_RULES.for_lesson(lesson)
+    rules = DEFAULT_RULES.for_lesson(lesson, Level.STUDIO)
     assert (rules.min_right, rules.max_sd_ms, rules.max_swing_error, rules.swing_ratio) == (0.8, 25.0, 0.4, 2.0)
     assert rules.sd_limit_ms(1000.0) == 25.0
 
@@ -164,7 +165,7 @@ def test_one_bar_is_never_the_weak_one() -> None:
 
 def test_reviews_come_after_1_3_7_and_21_days() -> None:
     """Counted from 1 March 2024: 2, 4, 8 and 22 March, and no more."""
-    review, due = Review().mastered(DAY, DEFAULT_RULES), []
+    review, due = Review().mastered(DAY, Level.BEGINNER, DEFAULT_RULES), []
     while review.due:
         due.append(review.due)
         review = review.after(True, review.due, DEFAULT_RULES)
@@ -172,13 +173,15 @@ def test_reviews_come_after_1_3_7_and_21_days() -> None:
 
 
 def test_who_comes_late_has_the_next_review_tomorrow() -> None:
-    review = Review().mastered(DAY, DEFAULT_RULES).after(True, date(2024, 3, 10), DEFAULT_RULES)
+    review = Review().mastered(DAY, Level.BEGINNER, DEFAULT_RULES).after(True, date(2024, 3, 10), DEFAULT_RULES)
     assert (review.passed, review.due) == (1, date(2024, 3, 11))
 
 
 def test_mastering_again_on_a_later_day_does_not_move_the_reviews() -> None:
-    review = Review().mastered(DAY, DEFAULT_RULES)
-    assert review.mastered(date(2024, 3, 5), DEFAULT_RULES) == review
+    review = Review().mastered(DAY, Level.ELEMENTARY, DEFAULT_RULES)
+    assert review.mastered(date(2024, 3, 5), Level.BEGINNER, DEFAULT_RULES) == review
+    narrower = review.mastered(date(2024, 3, 5), Level.ADVANCED, DEFAULT_RULES)
+    assert (narrower.level, narrower.mastered_on, narrower.due) == (Level.ADVANCED, DAY, review.due)
 
 
 # --- equipment --------------------------------------------------------------------------------------------------------

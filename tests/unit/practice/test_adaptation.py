@@ -23,6 +23,7 @@ from station.practice.records.session_report import practice_document, report_te
 from station.practice.session.adaptation import SILENT_TO_STOP, Adaptation, ScoreRow, lesson_bars
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.practice.session.session import Session
+from station.scoring.matching.hit_windows import Level
 from station.simulation.student_spec import parse_spec
 
 TODAY = date(2026, 3, 1)
@@ -150,7 +151,7 @@ def test_passes_in_a_row_lie_apart() -> None:
 
 def test_bars_of_a_chunk_keep_the_lesson_s_numbers() -> None:
     """A student who breaks one bar gets it alone; its strokes count under the lesson's own bar."""
-    adaptation, virtual = practised("sd_ms=30,miss_pct=14,seed=2", PlanOptions(loops=24))
+    adaptation, virtual = practised("sd_ms=30,miss_pct=14,seed=2", PlanOptions(loops=24, level=Level.INTERMEDIATE))
     chunks = [one.step.bars for one in adaptation.rounds if one.step.kind is PassKind.CHUNK]
     assert chunks, "the seed was chosen for its weak bar"
     names = np.array(lesson_bars(virtual.result.plan))[virtual.result.score.bar]

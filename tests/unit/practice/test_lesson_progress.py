@@ -13,6 +13,7 @@ from station.drills.mastery.reviews import Review
 from station.drills.mastery.tempo_ladder import Ladder
 from station.practice.records.lesson_progress import LessonProgress, progress_of
 from station.practice.records.memory import Memory
+from station.scoring.matching.hit_windows import Level
 
 TODAY = date(2026, 3, 1)
 LESSON = find_lesson("rock-1")
@@ -28,18 +29,20 @@ def test_nothing_is_said_of_what_nobody_practised(tmp_path: Path) -> None:
 
 def test_a_lesson_that_was_begun_says_its_tempi(tmp_path: Path) -> None:
     Memory.of(tmp_path, "anna", "rock-1", LESSON.loop).keep(begun())
-    assert progress_of(tmp_path, "anna") == {"rock-1": LessonProgress(90.0, 85.0, False)}
+    assert progress_of(tmp_path, "anna") == {"rock-1": LessonProgress(90.0, 85.0, None)}
     assert progress_of(tmp_path, "ben") == {}
     assert "85 %" in progress_of(tmp_path, "anna")["rock-1"].words(TODAY)
 
 
 def test_what_is_mastered_is_asked_for_again_on_its_day(tmp_path: Path) -> None:
     due = TODAY + timedelta(days=3)
-    Memory.of(tmp_path, "anna", "rock-1", LESSON.loop).keep(replace(begun(), review=Review(TODAY, 1, due)))
+    Memory.of(tmp_path, "anna", "rock-1", LESSON.loop).keep(
+        replace(begun(), review=Review(TODAY, 1, due, Level.ADVANCED))
+    )
     known = progress_of(tmp_path, "anna")["rock-1"]
     assert known.is_mastered
     assert [known.is_due(TODAY), known.is_due(due)] == [False, True]
-    assert known.words(TODAY) == "Mastered; to be shown again on 4 March"
+    assert known.words(TODAY) == "Mastered at advanced; to be shown again on 4 March"
 
 
 def test_the_whole_lesson_counts_before_one_of_its_bars(tmp_path: Path) -> None:

@@ -125,7 +125,7 @@ def test_the_session_shows_it_in_the_passes_and_tells_it_what_was_judged() -> No
     assert seen(now_ns) is not None
     snare = int(np.flatnonzero(plan.score.notes["piece"] == Piece.SNARE)[0])
     missed = Judgement(Label.MISS, snare, None)
-    view.judged((missed,), (), now_ns, session.windows)
+    view.judged((missed,), (), now_ns, session.plan.level.windows)
     double = view.snapshot(session, now_ns).double
     assert double is not None
     assert {limb: parting.cue for limb, parting in double.partings.items()} == {Limb.LEFT_HAND: TimingCue.MISSED}
