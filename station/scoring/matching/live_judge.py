@@ -169,13 +169,13 @@ class Judge:
         """The free note that surely belongs to the hit `index`, by the rules of `pairing`; −1 if none does."""
         at_ns, hit_ns, lean = self._hit_ns[index], lane.hit_ns, self._lean
         right = bisect_left(lane.note_ns, at_ns)
+        low = right - 2 if right > 2 else 0
         near = second = _FAR
         note, due = _NOBODY, 0
-        for place in range(max(right - 2, 0), min(right + 2, len(lane.notes))):
-            other = lane.note_ns[place] + lean.due_ns(lane.notes[place])
+        for candidate, other in lean.due_at(lane.notes[low : right + 2], lane.note_ns[low : right + 2]):
             away = abs(other - at_ns)
             if away < near:
-                note, due, near, second = lane.notes[place], other, away, near
+                note, due, near, second = candidate, other, away, near
             elif away < second:
                 second = away
         if note == _NOBODY or self._own_of_note[note] != _NOBODY:

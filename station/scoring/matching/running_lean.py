@@ -17,8 +17,8 @@ from station.scoring.matching.assignment import (
 from station.scoring.matching.pairing import Indices
 
 _LEAST_OF_ALL, _LEAST_OF_PLACE = 8, 3
-"""So many matches show a spread, and so many of one place its lean; before, the reach is what the music leaves (our
-choice: half a bar, and more than one accident)."""
+"""So many matches show a spread, which is told anew after as many more, and so many of one place its lean; before, the
+reach is what the music leaves (our choice: half a bar, and more than one accident)."""
 
 _MEMORY = 64
 """Matches that are remembered: two of the final alignment's trends (our choice)."""
@@ -72,6 +72,11 @@ class RunningLean:
         """How much later than written the note is due."""
         return self._due_ns[self._group[note]]
 
+    def due_at(self, notes: list[int], written_ns: list[int]) -> list[tuple[int, int]]:
+        """Each of a few notes and when it is due, of which is told when they are written."""
+        due, group = self._due_ns, self._group
+        return [(note, at_ns + due[group[note]]) for note, at_ns in zip(notes, written_ns, strict=True)]
+
     def reach_ns(self, note: int) -> tuple[int, int]:
         """How long before and after it is due its hit may come."""
         if self._reach_ns is None or self._count[self._group[note]] < _LEAST_OF_PLACE:
@@ -89,7 +94,8 @@ class RunningLean:
         own_ns = min(max(off_ns - self._common, -most_early), most_late)
         rest = self._common + own_ns - due_ns
         self._heard += 1
-        self._off += (abs(rest) - self._off) / min(self._heard, _MEMORY)
+        weight = min(self._heard, _MEMORY)
+        self._off += (abs(rest) - self._off) / weight
         if self._reach_ns is not None and self._count[group] >= _LEAST_OF_PLACE:
             most = max(_MOST_SDS * _MEAN_TO_SD * self._off, _LEAST_CLIP_NS)
             rest = min(max(rest, -most), most)
@@ -99,11 +105,11 @@ class RunningLean:
         self._sum[group] += due_ns + rest
         self._count[group] += 1.0
         beyond = min(max(off_ns - self._common, -_MOST_COMMON_NS), _MOST_COMMON_NS)
-        self._common += beyond / (min(self._heard, _MEMORY) + LEAN_PRIOR)
+        self._common += beyond / (weight + LEAN_PRIOR)
         self._due_ns[group] = self._due(group)
         if self._heard in _ALL_ANEW:
             self._due_ns = [self._due(group) for group in range(len(self._due_ns))]
-        if self._heard >= _LEAST_OF_ALL:
+        if self._heard % _LEAST_OF_ALL == 0:
             sd_ms = _MEAN_TO_SD * self._off / NS_PER_MS
             self._reach_ns, self.wrong_reach_ns = reach_by_spread(sd_ms), wrong_reach_by_spread(sd_ms)
 
