@@ -166,7 +166,7 @@ def summarise(score: Score, performance: Performance, alignment: Alignment, view
         performance=performance,
         alignment=alignment,
         view=view,
-        points=points(score, alignment, judged, view.windows, view.feel),
+        points=points(score, alignment, judged, view.feel),
         counts=count(alignment),
         timing=group(np.ones(len(score), np.bool_), None).timing,
         dynamics=loudness if view.hears_velocity else None,
