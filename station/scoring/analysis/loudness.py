@@ -1,10 +1,9 @@
 """How loud against how loud it was written: velocity error, level in dB, and the classes ghost, normal, accent.
 
 Pads answer differently and players play at their own level, so that loudness is judged against the player's own level
-on that pad: the median difference between what was played and written there is set apart first, in which unmarked strokes
-count thrice. Level is 40·log10(v/127) dB (HUMANS, Velocity). Only
-marked notes, ghosts and accents, and the unmarked ones beside them ask for anything; elsewhere shaping a repeated hat
-is free.
+on that pad: the median difference between what was played and written there is set apart first, in which unmarked
+strokes count thrice. Level is 40·log10(v/127) dB (HUMANS, Velocity). Only marked notes, ghosts and accents, and the
+unmarked ones beside them ask for anything; elsewhere shaping a repeated hat is free.
 """
 
 from dataclasses import dataclass

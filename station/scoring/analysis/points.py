@@ -9,9 +9,9 @@ pieces). Notes of which the kit cannot tell whether they were played are left ou
 lessons, so that nobody who improves sees it fall.
 
 * Feel is free: asynchronies are measured from where each piece leans, up to 25 ms, and swung offbeats from the ratio
-  that is held, within 1.3–3.5, beyond which less and less is free; a lesson may ask for less (`Feel`). Of a piece's leans
-  that one counts that earns most: a maximum of continuous functions is continuous, so that there is no threshold beyond
-  which a lean or a ratio is suddenly dear, and a stroke that moves by 1 ms moves the score by about its own credit.
+  that is held, within 1.3–3.5, beyond which less and less is free; a lesson may ask for less (`Feel`). Of a piece's
+  leans that one counts that earns most: a maximum of continuous functions is continuous, so that there is no threshold
+  beyond which a lean is suddenly dear, and a stroke that moves by 1 ms moves the score by about its own credit.
 * Without a click nobody leans and nobody drifts: the trend of the whole is set apart (`common_sway_ms`), so that the
   same take has the same score wherever in its file it begins, and less sway never has less.
 * A grace stroke earns its credit by being played, softly: its spacing is the hand's choice.
@@ -143,15 +143,15 @@ _LEAN_STEP_MS = 2.5
 """Free leans are tried in such steps: half of one is an eighth of what earns full marks."""
 
 _WAY_BACK = 1.5
-"""Beyond the ratios that are free, what is free shrinks so many times as fast as the held one leaves them: a written 2:1
-that is held at 1:1 is judged against 2:1, for nothing is left of the swing."""
+"""Beyond the ratios that are free, what is free shrinks so many times as fast as the held one leaves them: a written
+2:1 that is held at 1:1 is judged against 2:1, for nothing is left of the swing."""
 
 
 def free_ms(score: Score, alignment: Alignment, feel: Feel = ALL_FREE, worth: Floats | None = None) -> Floats:
-    """The part of each note's asynchrony that costs nothing, ms, shape (n,): the common sway, the swing, the piece's lean.
+    """The part of each note's asynchrony that costs nothing: common sway, swing, the piece's lean; ms, shape (n,).
 
-    Of a piece's leans the one with which its strokes earn most counts, each weighed by its `worth` (n,), all alike where
-    None.
+    Of a piece's leans the one with which its strokes earn most counts, each weighed by its `worth` (n,), all alike
+    where None.
     """
     sway = common_sway_ms(score, alignment)
     free = sway + _free_swing_ms(score, asynchrony_ms(alignment) - sway, timed_notes(score, alignment), feel)

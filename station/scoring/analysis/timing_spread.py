@@ -14,7 +14,7 @@ is read from the slow end of the spectrum, where an error of any shape shows all
 and the interval is mean ± t_q·√(Ω/slots) (equally weighted cosines, Lazarus, Lewis, Stock & Watson 2018, eq. 10;
 prewhitened after Andrews & Monahan 1992). ρ is the larger of the lag-1 correlation and the root of the lag-2 one, which
 noise of the hand hides less, each with its bias (1 + 3ρ)/n put back (Marriott & Pope 1954), and a standard error added:
-to think strokes more independent than they are is the costlier mistake. `docs/scoring.md` says how often it holds.
+to think strokes more independent than they are is the costlier mistake. `docs/report.md` says how often it holds.
 """
 
 from dataclasses import dataclass
@@ -39,8 +39,8 @@ _MOST_PERSISTENCE = 0.97
 """Beyond, the deviations are a drift and no scatter about a mean (our choice)."""
 
 _MOST_HIDDEN = 2.0
-"""The hand's noise halves the lag-1 correlation at most (HUMANS: σ_M is half of σ_C and less); what goes on at lag 2 and
-not at lag 1 is a pattern, such as strokes that alternate."""
+"""The hand's noise halves the lag-1 correlation at most (HUMANS: σ_M is half of σ_C and less); what goes on at lag 2
+and not at lag 1 is a pattern, such as strokes that alternate."""
 
 _WAVES_PER_SLOT, _FEWEST_WAVES, _MOST_WAVES = 0.3, 2, 8
 """q = 0.3·n^⅔ (Lazarus et al. 2018: small q keeps the promise, large q narrows the interval), at most 8: t₈ is wider
@@ -111,9 +111,11 @@ def slot_sums(off: Floats, slots: NDArray[np.int64]) -> Floats:
 
 
 def persistence(off: Floats) -> float:
-    """How much of one deviation lives on in the next, on the safe side; `off` (k,), not all 0, has mean 0."""
+    """How much of one deviation lives on in the next, on the safe side; `off` (k,) has mean 0."""
     count, square = len(off), float(off @ off)
+    if square == 0.0:
+        return 0.0
     lag_1, lag_2 = (float(off[lag:] @ off[:-lag]) / square for lag in (1, 2))
     first, second = (min(max((count * seen + 1) / (count - 3), 0.0), _MOST_PERSISTENCE) for seen in (lag_1, lag_2))
     likely = max(first, min(second**0.5, _MOST_HIDDEN * first))
-    return min(likely + ((1 - likely * likely) / count) ** 0.5, _MOST_PERSISTENCE)
+    return min(likely + float((1 - likely * likely) / count) ** 0.5, _MOST_PERSISTENCE)

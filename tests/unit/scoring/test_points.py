@@ -136,7 +136,8 @@ def test_a_stroke_that_is_left_out_costs_its_share_and_never_pays(score: Score) 
 def test_a_straighter_swing_costs_more_and_more_without_a_step(ratio: float) -> None:
     """A ride written 2:1, of which swing is heard from 1.3:1 on: a ratio less by 0.02 costs up to 3, never all at once.
 
-    Two of eight strokes swing, so that all the way to 1:1 costs a quarter, over 15 such steps; the steepest is twice that.
+    Two of eight strokes swing, so that all the way to 1:1 costs a quarter, over 15 such steps; the steepest costs
+    twice that.
     """
     score = swing_ride(8)
     assert 0 <= swung_by(score, ratio, 2) - swung_by(score, ratio - 0.02, 2) <= 3
@@ -152,8 +153,8 @@ def swung_by(score: Score, ratio: float, seed: int) -> float:
 def test_a_swing_at_the_edge_of_what_is_heard_scores_alike_whatever_the_noise(ratio: float) -> None:
     """Ten takes by one player, who holds 1.3:1, from which swing is heard, or 1.1:1, which is hardly any.
 
-    32 swung offbeats with an SD of 8 ms know their ratio to 1.4 ms, of which each is 2.5 ms on a quarter of the strokes:
-    an SD of 2 points, and ten takes lie within three of them, or of four with what else differs.
+    32 swung offbeats with an SD of 8 ms know their ratio to 1.4 ms, of which each is 2.5 ms on a quarter of the
+    strokes: an SD of 2 points, and ten takes lie within three of them, or of four with what else differs.
     """
     found = [swung_by(swing_ride(16), ratio, seed) for seed in range(10)]
     assert max(found) - min(found) < 10

@@ -33,7 +33,7 @@ def test_strokes_of_one_slot_count_once() -> None:
 
 
 def test_what_alternates_has_a_sure_mean() -> None:
-    """±3 in turn has the mean 0 or 3/16, by where it stops: nearer than 16 independent values tell, √(9.6/16) = 0.77."""
+    """±3 in turn has the mean 0 or 3/16, by where it stops: nearer than 16 independent values tell, √(9.6/16)."""
     error = standard_error(np.tile([3.0, -3.0], 8), np.arange(16))
     assert error is not None
     assert error.value < 0.77 / 2

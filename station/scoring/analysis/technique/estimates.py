@@ -55,8 +55,8 @@ def scatter(values: Floats, groups: Indices, slots: Indices) -> Scatter:
     """Pooled SD of values (n,) about the means of their `groups` (n,); groups of one say nothing.
 
     A pooled variance of n values in g groups has n − g degrees of freedom, fewer where values of one slot or of
-    neighbouring slots (`slots` (n,)) go together or where some lie far off: with v its squared standard error as a share
-    of it, 2/v. It is taken from the squares' sums over slots, never less than the normal law's 2/(n − g), times
+    neighbouring slots (`slots` (n,)) go together or where some lie far off: 2/v, with v its squared standard error as a
+    share of it. That is taken from the squares' sums over slots, never less than the normal law's 2/(n − g), times
     (1 + ρ²)/(1 − ρ²) for a lag-1 correlation ρ (Bartlett 1946). The interval is that of the variance's logarithm.
     """
     _, group = np.unique(groups, return_inverse=True)
@@ -77,10 +77,12 @@ def scatter(values: Floats, groups: Indices, slots: Indices) -> Scatter:
     rho = persistence(each)
     share = float(squares @ squares) / (len(each) - 1) / len(each) * len(off) / freedom
     share = max(share, 2 / freedom) * (1 + rho**2) / (1 - rho**2)
-    half = t_quantile_95(2 / share) * share**0.5 / 2
-    return replace(found, ci=(float(found.sd * np.exp(-half)), float(found.sd * np.exp(half))))
+    factor = float(np.exp(min(t_quantile_95(2 / share) * share**0.5 / 2, np.log(_WIDEST))))
+    return replace(found, ci=(variance**0.5 / factor, variance**0.5 * factor))
 
 
 _FEWEST_FOR_SD = 2 * MIN_SLOTS
-"""A spread asks for more than a mean: intervals from 8 to 15 slots with a lag-1 correlation of .6 span a factor of 20
-(simulated)."""
+"""A spread asks for more than a mean: of fewer slots that hang together intervals know nothing (simulated)."""
+
+_WIDEST = 10.0
+"""An interval's ends are at most so many times the SD away: every spread of a hand lies within, and more is no news."""
