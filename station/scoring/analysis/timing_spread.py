@@ -17,6 +17,7 @@ noise of the hand hides less, each with its bias (1 + 3ρ)/n put back (Marriott 
 to think strokes more independent than they are is the costlier mistake. `docs/report.md` says how often it holds.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -117,5 +118,5 @@ def persistence(off: Floats) -> float:
         return 0.0
     lag_1, lag_2 = (float(off[lag:] @ off[:-lag]) / square for lag in (1, 2))
     first, second = (min(max((count * seen + 1) / (count - 3), 0.0), _MOST_PERSISTENCE) for seen in (lag_1, lag_2))
-    likely = max(first, min(second**0.5, _MOST_HIDDEN * first))
-    return min(likely + float((1 - likely * likely) / count) ** 0.5, _MOST_PERSISTENCE)
+    likely = max(first, min(math.sqrt(second), _MOST_HIDDEN * first))
+    return min(likely + math.sqrt((1 - likely * likely) / count), _MOST_PERSISTENCE)
