@@ -22,10 +22,7 @@ from station.practice.session.click_pattern import Gap
 from station.scoring.matching.hit_windows import DEFAULT_LEVEL, LEVELS, Windows
 
 if TYPE_CHECKING:
-    from station.music.performance import Performance
-    from station.music.score import Score
-    from station.scoring.analysis.summary import SummaryView
-    from station.scoring.matching.alignment import Alignment
+    from station.practice.session.session import SessionResult
 
 _BEGINS_AT_ONCE = (
     "{}: its first stroke lies at its very beginning; if the recording was cut there, early and late are told"
@@ -47,16 +44,30 @@ class AssessOptions:
 
 def run(options: AssessOptions) -> int:
     """Align, sum up, print."""
-    from station.practice.records.session_report import assessment_text
+    from station.drills.library import find_lesson
+    from station.practice.records.session_report import assessment_text, feel_of, kit_facts, session_view
     from station.practice.session.click_pattern import silences
-    from station.scoring.analysis.summary import summarise
+    from station.scoring.align import align
+    from station.scoring.analysis.summary import SummaryView, summarise
+    from station.scoring.following.loops import times_played
     from station.scoring.matching.alignment import Reference
     from station.scoring.report.assessment_document import assessment
     from station.scoring.report.pairs_table import write_pairs
 
     if options.pairs is not None and not options.pairs.resolve().parent.is_dir():
         raise BadInput(options.pairs, "", "there is no such folder to write it in")
-    score, performance, alignment, view = _session(options) or _recording(options)
+    score, performance = load_score_and_performance(options.score, options.performance)
+    view = SummaryView(options.level, kit=kit_facts(load_settings()))
+    if is_lesson(options.score):
+        lesson = find_lesson(options.score)
+        view = replace(view, pass_bars=score.bar_count, feel=feel_of(lesson.goals), beat_ticks=lesson.beat_ticks)
+        score = score.repeated(times_played(score, performance))
+    session = _session(options)
+    if session is not None:
+        score, performance, alignment = session.score, session.performance, session.alignment
+        view = replace(session_view(session, load_settings()), windows=view.windows)
+    else:
+        alignment = align(score, performance, clocked=False, may_share_base=is_midi(options.performance))
     if options.gap is not None:
         view = replace(view, silences=silences(score.tempo_map, score.end_tick, options.gap))
     document = assessment(summarise(score, performance, alignment, view))
@@ -74,36 +85,14 @@ def run(options: AssessOptions) -> int:
     return 0
 
 
-def _session(options: AssessOptions) -> tuple[Score, Performance, Alignment, SummaryView] | None:
-    """What a session of this lesson left in its capture, judged by the click that it had; None of anything else."""
+def _session(options: AssessOptions) -> SessionResult | None:
+    """The session of this lesson that the capture holds; None of anything else."""
     from station.drills.library import find_lesson
     from station.practice.records.recovery import session_of
-    from station.practice.records.session_report import session_view
 
     if not is_lesson(options.score) or not is_capture(options.performance):
         return None
-    session = session_of(Path(options.performance), find_lesson(options.score))
-    if session is None:
-        return None
-    view = replace(session_view(session, load_settings()), windows=options.level)
-    return session.score, session.performance, session.alignment, view
-
-
-def _recording(options: AssessOptions) -> tuple[Score, Performance, Alignment, SummaryView]:
-    """A recording of which nothing is known but its strokes."""
-    from station.drills.library import find_lesson
-    from station.practice.records.session_report import feel_of, kit_facts
-    from station.scoring.align import align
-    from station.scoring.analysis.summary import SummaryView
-    from station.scoring.following.loops import times_played
-
-    score, performance = load_score_and_performance(options.score, options.performance)
-    view = SummaryView(options.level, kit=kit_facts(load_settings()))
-    if is_lesson(options.score):
-        lesson = find_lesson(options.score)
-        view = replace(view, pass_bars=score.bar_count, feel=feel_of(lesson.goals), beat_ticks=lesson.beat_ticks)
-        score = score.repeated(times_played(score, performance))
-    return score, performance, align(score, performance, False, may_share_base=is_midi(options.performance)), view
+    return session_of(Path(options.performance), find_lesson(options.score))
 
 
 COMMAND = Command(AssessOptions, run)

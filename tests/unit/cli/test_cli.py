@@ -88,7 +88,7 @@ def test_a_session_has_a_folder_of_the_students_own(capsys: pytest.CaptureFixtur
     assert folders[0].parent.name.endswith("_rock-1")
 
 
-def test_a_session_is_assessed_again_by_the_click_that_it_had(
+def test_a_capture_can_be_assessed_again_by_the_session_s_click(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     """The report of the session, but for what only the session knows; a late player stays late."""
