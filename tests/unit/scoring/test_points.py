@@ -10,6 +10,9 @@ from station.music.performance import HIT_DTYPE, Performance
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.scoring.align import align
+from station.scoring.analysis.loudness import dynamics
+from station.scoring.analysis.points import Judged
+from station.scoring.analysis.points import points as points_of
 from station.scoring.analysis.summary import SummaryView, summarise
 from station.scoring.matching.hit_windows import LEVELS, Windows
 from tests.fakes.scores import beat_and_fill, double_strokes, even_snare, flams, rock_beat, swing_ride
@@ -72,7 +75,7 @@ def test_less_scatter_never_scores_less(score: Score) -> None:
         scores = []
         for seed in range(10):
             noise = np.random.default_rng(seed).normal(0, 1, len(score)) * sd_ms * NS_PER_MS
-            scores.append(points(score, score.onset_ns + np.rint(noise).astype(np.int64), score.notes["piece"]))
+            scores.append(scored(score, score.onset_ns + np.rint(noise).astype(np.int64), score.notes["piece"]))
         means.append(np.mean(scores))
     assert means == sorted(means)
 
@@ -102,6 +105,17 @@ STEEPEST = 0.35 / 15
 """Of a full mark a ms: from 25 to 40 ms a stroke falls from 75 to 40 % (HUMANS: mild, clear fault)."""
 
 
+def scored(score: Score, at_ns: Array, piece: Array, velocity: Array | int = 80) -> float:
+    """The score alone, of timing and dynamics."""
+    performance = performed(at_ns, piece, velocity)
+    alignment = align(score, performance, clocked=True)
+    nowhere = np.zeros(len(score), np.bool_)
+    judged = Judged(dynamics(score, performance, alignment).off_db, nowhere, nowhere)
+    result = points_of(score, alignment, judged)
+    assert result is not None
+    return result
+
+
 def human(score: Score, seed: int, sd_ms: float = 15.0) -> Array:
     """Times (n,) in ns with an independent error a stroke."""
     off = np.random.default_rng(seed).normal(0, sd_ms, len(score)) * NS_PER_MS
@@ -113,11 +127,11 @@ def human(score: Score, seed: int, sd_ms: float = 15.0) -> Array:
 def test_a_stroke_that_moves_by_a_millisecond_moves_the_score_by_its_share(score: Score, seed: int) -> None:
     """Its own credit, and as much again for what it says of the lean and the swing that are set apart."""
     at, piece = human(score, seed), score.notes["piece"]
-    before = points(score, at, piece, score.notes["velocity"])
+    before = scored(score, at, piece, score.notes["velocity"])
     for stroke in range(0, len(score), 3):
         moved = at.copy()
         moved[stroke] += NS_PER_MS
-        after = points(score, moved, piece, score.notes["velocity"])
+        after = scored(score, moved, piece, score.notes["velocity"])
         assert abs(after - before) <= 2 * 100 / len(score) * STEEPEST
 
 
@@ -125,10 +139,10 @@ def test_a_stroke_that_moves_by_a_millisecond_moves_the_score_by_its_share(score
 def test_a_stroke_that_is_left_out_costs_its_share_and_never_pays(score: Score) -> None:
     """One of n, and as much for what it said of the others; better without it is nobody, however late it was."""
     at, piece, velocity = human(score, 1), score.notes["piece"], score.notes["velocity"]
-    before = points(score, at, piece, velocity)
+    before = scored(score, at, piece, velocity)
     for stroke in range(len(score)):
         here = np.arange(len(score)) != stroke
-        after = points(score, at[here], piece[here], velocity[here])
+        after = scored(score, at[here], piece[here], velocity[here])
         assert before - 200 / len(score) <= after <= before + 1e-9
 
 
@@ -146,7 +160,7 @@ def test_a_straighter_swing_costs_more_and_more_without_a_step(ratio: float) -> 
 def swung_by(score: Score, ratio: float, seed: int) -> float:
     late_ms = np.where(score.notes["tick"] % PPQ > 0, 500.0 * (ratio / (1 + ratio) - 2 / 3), 0.0)
     at = human(score, seed, 8.0) + np.rint(late_ms * NS_PER_MS).astype(np.int64)
-    return points(score, at, score.notes["piece"])
+    return scored(score, at, score.notes["piece"])
 
 
 @pytest.mark.parametrize("ratio", [1.1, 1.3])
@@ -164,7 +178,7 @@ def test_a_swing_at_the_edge_of_what_is_heard_scores_alike_whatever_the_noise(ra
 def test_more_lean_never_scores_more(score: Score) -> None:
     """All strokes late against the click by the same, averaged over four players."""
     means = [
-        np.mean([points(score, human(score, seed) + late * NS_PER_MS, score.notes["piece"]) for seed in range(4)])
+        np.mean([scored(score, human(score, seed) + late * NS_PER_MS, score.notes["piece"]) for seed in range(4)])
         for late in (0, 15, 30, 45, 60, 90)
     ]
     assert means == sorted(means, reverse=True)
