@@ -11,14 +11,16 @@ is read from the slow end of the spectrum, where an error of any shape shows all
 
     e_k = u_k − ρ·u_{k−1},     Ω = mean over j = 1 … q of Λ_j² / (1 − ρ)²,     Λ_j = √(2/n)·Σ e_k·cos(πj(k − ½)/n)
 
-and the interval is mean ± t_q·√(Ω/slots) (equally weighted cosines, Lazarus, Lewis, Stock & Watson 2018, eq. 10;
-prewhitened after Andrews & Monahan 1992). ρ is the larger of the lag-1 correlation and the root of the lag-2 one, which
-noise of the hand hides less, each with its bias (1 + 3ρ)/n put back (Marriott & Pope 1954), and a standard error added:
-to think strokes more independent than they are is the costlier mistake. `docs/report.md` says how often it holds.
+and the interval is mean ± t_q·√(Ω/slots), that of a slope over x ± t_q·√(Ω/Σx²) with cosines made orthogonal to x
+(equally weighted cosines, Lazarus, Lewis, Stock & Watson 2018; prewhitened after Andrews & Monahan 1992). ρ is
+the larger of the lag-1 correlation and the root of the lag-2 one, which noise of the hand hides less, each with its
+bias (1 + 3ρ)/n put back (Marriott & Pope 1954), and a standard error added: to think strokes more independent than they
+are is the costlier mistake. `docs/report.md` says how often it holds.
 """
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -91,17 +93,52 @@ class StandardError:
 def standard_error(values: Floats, slots: NDArray[np.int64]) -> StandardError | None:
     """Standard error of the mean of values (n,) that come in `slots` (n,); None of fewer than `MIN_SLOTS` slots."""
     off = slot_sums(values - values.mean(), slots) if len(values) else values
-    count = len(off)
-    if count < MIN_SLOTS:
+    if len(off) < MIN_SLOTS:
         return None
-    if not off.any():
-        return StandardError(0.0, count - 1.0)
-    rho = persistence(off)
+    variance, waves = _long_run(off)
+    return StandardError(math.sqrt(variance / len(off)), float(waves))
+
+
+@dataclass(frozen=True, slots=True)
+class Slope:
+    """How fast y rises with x, and its 95 % interval; None of fewer than `MIN_SLOTS` values."""
+
+    value: float
+    ci: tuple[float, float] | None
+
+
+def slope(x: Floats, y: Floats) -> Slope | None:
+    """The slope of `y` (n,), in the order in which it was played, over `x` (n,); None where `x` is constant."""
+    off = x - x.mean() if len(x) else x
+    square = float(off @ off)
+    if not square > 0:
+        return None
+    rise = float(off @ y) / square
+    if len(x) < MIN_SLOTS:
+        return Slope(rise, None)
+    variance, waves = _long_run(y - y.mean() - rise * off, off)
+    half = t_quantile_95(float(waves)) * math.sqrt(variance / square)
+    return Slope(rise, (rise - half, rise + half))
+
+
+def _long_run(off: Floats, along: Floats | None = None) -> tuple[float, int]:
+    """Ω of deviations (n,) from their mean, or from a line over `along` (n,), and how many cosines tell it."""
+    count = len(off)
+    rho = persistence(off, 1 if along is None else 2)
     rest = off[1:] - rho * off[:-1]
     waves = min(max(round(_WAVES_PER_SLOT * count ** (2 / 3)), _FEWEST_WAVES), _MOST_WAVES)
-    turned = np.fft.rfft(np.concatenate([rest, rest[::-1]]))[1 : waves + 1]  # |turned| is twice the cosine sum
-    variance = float((np.abs(turned) ** 2).mean()) / (2 * len(rest)) / (1 - rho) ** 2
-    return StandardError((variance / count) ** 0.5, float(waves))
+    told = _cosines(count - 1, waves)
+    if along is not None:
+        line = along[1:] - rho * along[:-1]
+        told = np.linalg.qr(np.column_stack([line - line.mean(), told]))[0][:, 1:]
+    return float(np.square(rest @ told).mean()) / (1 - rho) ** 2, waves
+
+
+@lru_cache(maxsize=16)
+def _cosines(count: int, waves: int) -> Floats:
+    """√(2/n)·cos(πj(k − ½)/n), orthogonal to each other and to a constant, shape (count, waves)."""
+    at = (np.arange(count) + 0.5) / count
+    return np.asarray(np.sqrt(2 / count) * np.cos(np.pi * at[:, None] * np.arange(1, waves + 1)))
 
 
 def slot_sums(off: Floats, slots: NDArray[np.int64]) -> Floats:
@@ -111,12 +148,17 @@ def slot_sums(off: Floats, slots: NDArray[np.int64]) -> Floats:
     return np.asarray(sums * (len(sums) / len(off)))
 
 
-def persistence(off: Floats) -> float:
-    """How much of one deviation lives on in the next, on the safe side; `off` (k,) has mean 0."""
+def persistence(off: Floats, fitted: int = 1) -> float:
+    """How much of one deviation lives on in the next, on the safe side.
+
+    `off` (k,) are what is left when so many columns, the mean first, were `fitted`: each takes as much off the lag-1.
+    """
     count, square = len(off), float(off @ off)
     if square == 0.0:
         return 0.0
     lag_1, lag_2 = (float(off[lag:] @ off[:-lag]) / square for lag in (1, 2))
-    first, second = (min(max((count * seen + 1) / (count - 3), 0.0), _MOST_PERSISTENCE) for seen in (lag_1, lag_2))
+    first, second = (
+        min(max((count * seen + fitted) / (count - 2 - fitted), 0.0), _MOST_PERSISTENCE) for seen in (lag_1, lag_2)
+    )
     likely = max(first, min(math.sqrt(second), _MOST_HIDDEN * first))
     return min(likely + math.sqrt((1 - likely * likely) / count), _MOST_PERSISTENCE)

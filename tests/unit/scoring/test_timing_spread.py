@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from station.scoring.analysis.timing_spread import spread, standard_error
+from station.scoring.analysis.timing_spread import slope, spread, standard_error
 from station.scoring.matching.slow_drift import local_trend, robust_sd
 from tests.fakes.autoregression import autoregression
 
@@ -77,6 +77,24 @@ def test_intervals_of_a_clock_and_a_hand() -> None:
         off[:, k] = behind + hand[:, k]
         behind = behind - 0.25 * off[:, k] + clock[:, k]
     assert 0.93 <= share_held(off[:, 60:], np.arange(180)) <= 0.97
+
+
+def test_slope_by_hand() -> None:
+    """Through (0, 1), (1, 3), (2, 2): deviations −1, 0, 1 times −1, 1, 0 make 1, over 2."""
+    found = slope(np.arange(3.0), np.array([1.0, 3.0, 2.0]))
+    assert found is not None
+    assert found.value == pytest.approx(0.5)
+    assert found.ci is None
+    assert slope(np.ones(9), np.arange(9.0)) is None
+
+
+@pytest.mark.parametrize(("rho", "slots"), [(0.0, 12), (0.0, 64), (0.6, 24), (0.6, 90), (0.8, 180)])
+def test_intervals_of_a_slope(rho: float, slots: int) -> None:
+    """Beside a straight line deviations that hang together; few of them may be surer than they say."""
+    at = np.arange(float(slots))
+    found = [slope(at, 0.1 * at + row) for row in autoregression(1200, slots, rho, 12)]
+    held = [one is not None and one.ci is not None and one.ci[0] <= 0.1 <= one.ci[1] for one in found]
+    assert 0.93 <= np.mean(held) <= 0.985
 
 
 def test_robust_sd_of_normal_values() -> None:
