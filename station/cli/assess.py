@@ -1,12 +1,18 @@
 """`station assess SCORE PERFORMANCE`: aligns and scores a recorded performance.
 
-A lesson is a loop: it is taken to have been played as often as its pieces were struck for each stroke that is written.
+The capture of a session of that lesson is judged as the session was, by its click. Of anything else only the strokes
+are known; a lesson is a loop, and taken to have been played as often as its pieces were struck for each stroke that is
+written.
 """
+
+from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from station.cli.console import print_json, say, write
+from station.cli.input.read_captures import is_capture
 from station.cli.input.read_scores import bars_of_gap, is_lesson, is_midi, load_score_and_performance
 from station.cli.options.option_fields import Command, argument, choice, flag, option
 from station.core.errors import BadInput
@@ -14,6 +20,9 @@ from station.core.settings import load_settings
 from station.core.units import NS_PER_MS
 from station.practice.session.click_pattern import Gap
 from station.scoring.matching.hit_windows import DEFAULT_LEVEL, LEVELS, Windows
+
+if TYPE_CHECKING:
+    from station.practice.session.session import SessionResult
 
 _BEGINS_AT_ONCE = (
     "{}: its first stroke lies at its very beginning; if the recording was cut there, early and late are told"
@@ -36,7 +45,7 @@ class AssessOptions:
 def run(options: AssessOptions) -> int:
     """Align, sum up, print."""
     from station.drills.library import find_lesson
-    from station.practice.records.session_report import assessment_text, feel_of, kit_facts
+    from station.practice.records.session_report import assessment_text, feel_of, kit_facts, session_view
     from station.practice.session.click_pattern import silences
     from station.scoring.align import align
     from station.scoring.analysis.summary import SummaryView, summarise
@@ -55,9 +64,14 @@ def run(options: AssessOptions) -> int:
         view = replace(view, windows=windows, pass_bars=score.bar_count)
         view = replace(view, feel=feel_of(lesson.goals), beat_ticks=lesson.beat_ticks)
         score = score.repeated(times_played(score, performance))
+    session = _session(options)
+    if session is not None:
+        score, performance, alignment = session.score, session.performance, session.alignment
+        view = replace(session_view(session, load_settings()), windows=view.windows)
+    else:
+        alignment = align(score, performance, clocked=False, may_share_base=is_midi(options.performance))
     if options.gap is not None:
         view = replace(view, silences=silences(score.tempo_map, score.end_tick, options.gap))
-    alignment = align(score, performance, clocked=False, may_share_base=is_midi(options.performance))
     document = assessment(summarise(score, performance, alignment, view))
     answered_ns = alignment.asynchrony_ns[alignment.hit_of_note >= 0]
     is_trimmed = alignment.reference is Reference.FILE and performance.hits["at_ns"][:1].tolist() == [0]
@@ -71,6 +85,16 @@ def run(options: AssessOptions) -> int:
     else:
         write(f"{score.title or options.score}\n\n{assessment_text(document)}", end="")
     return 0
+
+
+def _session(options: AssessOptions) -> SessionResult | None:
+    """The session of this lesson that the capture holds; None of anything else."""
+    from station.drills.library import find_lesson
+    from station.practice.records.recovery import session_of
+
+    if not is_lesson(options.score) or not is_capture(options.performance):
+        return None
+    return session_of(Path(options.performance), find_lesson(options.score))
 
 
 COMMAND = Command(AssessOptions, run)

@@ -103,7 +103,7 @@ def measure_pass(
         lean_ms=float(off_ms[rows].mean()) if rows.any() else None,
         interval_ms=usual_interval_ms(score),
         swing_ratio=_swing_ratio(leaning.swing_ms, rows, swing),
-        points=points(score, alignment, None, windows),
+        points=points(score, alignment, None),
         bars=_by_bar(names[score.bar], right),
         answers=_answers(score, performance, alignment),
     )

@@ -9,6 +9,7 @@ from pathlib import Path
 from station.core.errors import BadInput, StationError
 from station.core.settings import Settings
 from station.devices.capture.capture import RecordKind, read_capture
+from station.drills.lesson import Lesson
 from station.practice.records.rejudge import judge_again
 from station.practice.records.session_files import CAPTURE_NAME, DOCUMENT_NAME, TAKE_NAME, folder_name
 from station.practice.session.adaptation import whole
@@ -53,6 +54,17 @@ def recovered(capture: Path) -> SessionResult:
         return results[0]
     bars = [result.plan.bars for result in results]
     return whole(results, (min(first for first, _ in bars), max(last for _, last in bars)))
+
+
+def session_of(capture: Path, lesson: Lesson) -> SessionResult | None:
+    """The session of `lesson`, as it is now, that a capture holds; None where it holds none."""
+    try:
+        result = recovered(capture)
+    except BadInput:  # strokes without a session, or cut off within its log: there is no click to judge by
+        return None
+    played = result.plan.lesson
+    is_same = played.name == lesson.name and played.score.notes.tobytes() == lesson.score.notes.tobytes()
+    return result if is_same else None
 
 
 def _is_reported(folder: Path) -> bool:

@@ -52,7 +52,7 @@ def kit_facts(settings: Settings, device: str | None = None) -> KitFacts:
 def practice_document(result: SessionResult, settings: Settings) -> dict[str, Json]:
     """The report of a session; computer keys have no velocity, so of them nothing is said of dynamics."""
     plan = result.plan
-    document = assessment(summarise(result.score, result.performance, result.alignment, _view(result, settings)))
+    document = assessment(summarise(result.score, result.performance, result.alignment, session_view(result, settings)))
     document["session"] = {
         "lesson": plan.lesson.name,
         "title": plan.lesson.title,
@@ -92,11 +92,11 @@ def with_truth(document: dict[str, Json], virtual: "VirtualSession", settings: S
         reference=Reference.CLICK,
         sd_ms=None,
     )
-    truth = assessment(summarise(student.score, student.performance, known, _view(virtual.result, settings)))
+    truth = assessment(summarise(student.score, student.performance, known, session_view(virtual.result, settings)))
     return {**document, "truth": {**truth, **student.truth_document()}}
 
 
-def _view(result: SessionResult, settings: Settings) -> SummaryView:
+def session_view(result: SessionResult, settings: Settings) -> SummaryView:
     """Bars are counted as in the lesson, however often they were played."""
     plan = result.plan
     return SummaryView(

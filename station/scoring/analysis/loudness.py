@@ -1,10 +1,9 @@
 """How loud against how loud it was written: velocity error, level in dB, and the classes ghost, normal, accent.
 
 Pads answer differently and players play at their own level, so that loudness is judged against the player's own level
-on that pad: the median difference between what was played and written there is set apart first, that of the unmarked
-strokes where there are enough, for these nobody thinks about. Level is 40·log10(v/127) dB (HUMANS, Velocity). Only
-marked notes, ghosts and accents, and the unmarked ones beside them ask for anything; elsewhere shaping a repeated hat
-is free.
+on that pad: the median difference between what was played and written there is set apart first, in which unmarked
+strokes count thrice. Level is 40·log10(v/127) dB (HUMANS, Velocity). Only marked notes, ghosts and accents, and the
+unmarked ones beside them ask for anything; elsewhere shaping a repeated hat is free.
 """
 
 from dataclasses import dataclass
@@ -88,8 +87,9 @@ def dynamics(score: Score, performance: Performance, alignment: Alignment) -> Lo
     )
 
 
-LEARNT_FROM = 5
-"""So many unmarked strokes tell a pad's own level (TEACHING: ghost and accent learnt from five hits)."""
+_UNMARKED_COUNT = 3
+"""An unmarked stroke says as much of a pad's own level as so many marked ones, for these somebody thinks about (our
+choice); no number of them is a threshold."""
 
 
 def _against_own_level(score: Score, off_db: Floats, judged: Flags) -> Floats:
@@ -97,9 +97,8 @@ def _against_own_level(score: Score, off_db: Floats, judged: Flags) -> Floats:
     own = np.full(len(off_db), np.nan)
     for piece in np.unique(score.notes["piece"][judged]):
         here = judged & (score.notes["piece"] == piece)
-        plain = here & (score.notes["dynamic"] == Dynamic.NORMAL)
-        basis = plain if plain.sum() >= LEARNT_FROM else here
-        own[here] = off_db[here] - np.median(off_db[basis])
+        says = np.where(score.notes["dynamic"][here] == Dynamic.NORMAL, _UNMARKED_COUNT, 1)
+        own[here] = off_db[here] - np.median(np.repeat(off_db[here], says))
     return own
 
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from station.core.units import NS_PER_S
 from station.music.performance import Performance
 from station.music.score import Score
-from station.scoring.analysis.timing_spread import spread, timed_notes
+from station.scoring.analysis.timing_spread import slope, timed_notes
 from station.scoring.matching.alignment import Alignment
 
 Floats = NDArray[np.float64]
@@ -54,20 +54,19 @@ def tempo_curve(score: Score, performance: Performance, alignment: Alignment) ->
     for b in np.unique(bar).tolist():
         here = np.flatnonzero(bar == b)
         here = here[stretch[here] == np.bincount(stretch[here]).argmax()]
-        pace = _slope(written_s[here], played_s[here])
+        pace = _pace(written_s[here], played_s[here])
         if pace is not None:
             written_bpm = score.tempo_map.bpm_at(score.tempo_map.bar_start(b))
             bars.append(BarTempo(b, float(played_s[here].min()), written_bpm / pace))
     return TempoCurve(tuple(bars), _median(bars), *_drift(score, bars))
 
 
-def _slope(x: Floats, y: Floats) -> float | None:
+def _pace(x: Floats, y: Floats) -> float | None:
     """Slope of y over x; None of too few different places or where time does not pass."""
     if len(np.unique(x)) < _FEWEST:
         return None
-    off = x - x.mean()
-    slope = float(off @ y) / float(off @ off)
-    return slope if slope > 0 else None
+    pace = slope(x, y)
+    return pace.value if pace is not None and pace.value > 0 else None
 
 
 def _median(bars: list[BarTempo]) -> float | None:
@@ -77,16 +76,12 @@ def _median(bars: list[BarTempo]) -> float | None:
 def _drift(score: Score, bars: list[BarTempo]) -> tuple[float | None, tuple[float, float] | None]:
     """By how much the tempo, as a share of the written one, rose a minute, in percent; negative: it fell.
 
-    Its interval is that of a straight line's slope whose deviations may hang together (`timing_spread.standard_error`).
+    Its interval is that of a straight line whose deviations may hang together (`timing_spread`).
     """
     starts = [score.tempo_map.bpm_at(score.tempo_map.bar_start(bar.bar)) for bar in bars]
     share = np.array([100 * bar.tempo_bpm / written for bar, written in zip(bars, starts, strict=True)])
     at_min = np.array([bar.at_s for bar in bars]) / _S_PER_MINUTE
     if len(np.unique(at_min)) < _FEWEST:
         return None, None
-    off = at_min - at_min.mean()
-    slope = float(off @ share) / float(off @ off)
-    rest = share - share.mean() - slope * off
-    error = spread(rest * off * len(off) / float(off @ off), np.arange(len(off))).ci_ms
-    half = (error[1] - error[0]) / 2 if error is not None else None
-    return slope, None if half is None else (slope - half, slope + half)
+    drift = slope(at_min, share)
+    return (None, None) if drift is None else (drift.value, drift.ci)

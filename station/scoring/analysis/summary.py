@@ -169,7 +169,7 @@ def summarise(score: Score, performance: Performance, alignment: Alignment, view
         performance=performance,
         alignment=alignment,
         view=view,
-        points=points(score, alignment, judged, view.windows, view.feel),
+        points=points(score, alignment, judged, view.feel),
         counts=count(alignment),
         right=int(right_notes(score, alignment, view.windows).sum()),
         timing=group(np.ones(len(score), np.bool_), None).timing,

@@ -3,6 +3,8 @@
 A passage that was played more than once is paired with one attempt (`attempts`); the hits of the others do not count.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -22,9 +24,15 @@ Floats = NDArray[np.float64]
 NO_CLASS = -1
 """Of hits that no note has the class of: they lie between their neighbours."""
 
-SAME_BASE_MS, SAME_BASE_WANDER_MS = 100.0, 60.0
-"""A performance that starts within the first and wanders less than the second about it was recorded on the score's own
-time base (our choice: a lean and a latency; three times a bar's slow sway)."""
+SAME_BASE_MS = 100.0
+"""A performance that keeps the score's tempo and starts within so much of it was recorded on the score's own time base
+(our choice: a lean and a latency)."""
+
+STEADY_WANDER_MS, FREE_WANDER_MS = 30.0, 60.0
+"""Who never strays farther than the first from the score's tempo plays to a click; whoever strays beyond the second
+keeps a time of their own. Between, what was due lies between the two, so that no single stroke decides. The trend of a
+player to a click (SD 20 ms, lag-1 .3) strays up to 20 ms; free tempo wanders by 100 ms in half a minute (HUMANS: an
+interval's SD of 2–3 %, added up over 60 beats)."""
 
 _MOST_PACE = 5.0
 """So many times the written tempo, or slower by as much, nobody plays; a flurry about one note might seem to."""
@@ -51,28 +59,43 @@ def align_unclocked(
 
 
 def _timed(score: Score, at_ns: Times, warp: Warp, assignment: HitAssignment, may_share_base: bool) -> Timed:
-    """When each paired note was due, by the file's time if that is the score's, else by the player's tempo curve."""
+    """When each paired note was due: at the score's tempo, if the player kept it, else by the player's tempo curve.
+
+    Where the hits begin on their axis has no say but in one thing: with a time base that both share a lean is known.
+    """
     hit_of_note = np.where(assignment.partner >= 0, assignment.partner, assignment.wrong)
     score_ns = np.rint(warp.score_s * NS_PER_S).astype(np.int64)
     told = np.flatnonzero((assignment.partner >= 0) & ~score.is_grace)
     told = told[np.argsort(at_ns[hit_of_note[told]], kind="stable")]
-    played, written = at_ns[hit_of_note[told]], score.onset_ns[told]
-    if may_share_base and _is_same_base(played, written):
-        return Timed(at_ns, score.onset_ns, score_ns, warp.stretch, Reference.FILE)
+    steady = _steady(at_ns[hit_of_note[told]], score.onset_ns[told])
     off_ns = score_ns[np.maximum(hit_of_note, 0)] - score.onset_ns - assignment.trend_ns
     pace = _paces(at_ns, warp)[np.maximum(hit_of_note, 0)]
-    due = at_ns[np.maximum(hit_of_note, 0)] - np.rint(off_ns / pace).astype(np.int64)
+    own_ns = at_ns[np.maximum(hit_of_note, 0)] - off_ns / pace
+    kept_ns = score.onset_ns + steady.offset_ns
+    due = kept_ns + np.rint(steady.freedom * (own_ns - kept_ns)).astype(np.int64)
+    if may_share_base and steady.freedom < 1.0 and abs(steady.offset_ns) <= SAME_BASE_MS * NS_PER_MS:
+        return Timed(at_ns, due - steady.offset_ns, score_ns, warp.stretch, Reference.FILE)
     return Timed(at_ns, due, score_ns, warp.stretch, Reference.PLAYER)
 
 
-def _is_same_base(played_ns: Times, written_ns: Times) -> bool:
-    """Whether hits and their notes share one time base, but for a lean."""
+@dataclass(frozen=True, slots=True)
+class _Steadiness:
+    """How far hits lie behind the score's own times in the middle, and their `freedom`: 0 its tempo, 1 their own."""
+
+    offset_ns: int
+    freedom: float
+
+
+def _steady(played_ns: Times, written_ns: Times) -> _Steadiness:
+    """How hits, which rise, and their notes go together."""
     off_ms = (played_ns - written_ns) / NS_PER_MS
     scale = robust_sd(off_ms)
-    if scale is None or abs(float(np.median(off_ms))) > SAME_BASE_MS:
-        return False
+    if scale is None:
+        return _Steadiness(0, 1.0)
+    middle = float(np.median(off_ms))
     trend = local_trend(played_ns / NS_PER_S, off_ms, _CURVE_HALF_WIDTH, max(scale, 1.0))
-    return float(np.abs(trend - np.median(off_ms)).max()) <= SAME_BASE_WANDER_MS
+    wander = float(np.abs(trend - middle).max())
+    return _Steadiness(round(middle * NS_PER_MS), float(np.interp(wander, (STEADY_WANDER_MS, FREE_WANDER_MS), (0, 1))))
 
 
 def _paces(at_ns: Times, warp: Warp) -> Floats:

@@ -10,7 +10,11 @@ from station.music.performance import HIT_DTYPE, Performance
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.scoring.align import align
-from station.scoring.analysis.summary import summarise
+from station.scoring.analysis.loudness import dynamics
+from station.scoring.analysis.points import Judged
+from station.scoring.analysis.points import points as points_of
+from station.scoring.analysis.summary import SummaryView, summarise
+from station.scoring.matching.hit_windows import LEVELS, Windows
 from tests.fakes.scores import beat_and_fill, double_strokes, even_snare, flams, rock_beat, swing_ride
 
 Array = NDArray[np.generic]
@@ -19,10 +23,14 @@ SCORES = [rock_beat(4), beat_and_fill(2), double_strokes(4), flams(4), swing_rid
 PADS = (Piece.KICK, Piece.SNARE, Piece.HIHAT, Piece.CRASH_1, Piece.RIDE, Piece.TOM_1, Piece.TOM_2, Piece.FLOOR_TOM_1)
 
 
-def points(score: Score, at_ns: Array, piece: Array, velocity: Array | int = 80) -> float:
+def performed(at_ns: Array, piece: Array, velocity: Array | int) -> Performance:
     hits = np.zeros(len(at_ns), HIT_DTYPE)
     hits["at_ns"], hits["piece"], hits["velocity"] = at_ns, piece, velocity
-    performance = Performance.from_array(hits)
+    return Performance.from_array(hits)
+
+
+def points(score: Score, at_ns: Array, piece: Array, velocity: Array | int = 80) -> float:
+    performance = performed(at_ns, piece, velocity)
     result = summarise(score, performance, align(score, performance, clocked=True)).points
     assert result is not None
     return result
@@ -67,7 +75,7 @@ def test_less_scatter_never_scores_less(score: Score) -> None:
         scores = []
         for seed in range(10):
             noise = np.random.default_rng(seed).normal(0, 1, len(score)) * sd_ms * NS_PER_MS
-            scores.append(points(score, score.onset_ns + np.rint(noise).astype(np.int64), score.notes["piece"]))
+            scores.append(scored(score, score.onset_ns + np.rint(noise).astype(np.int64), score.notes["piece"]))
         means.append(np.mean(scores))
     assert means == sorted(means)
 
@@ -89,6 +97,103 @@ def test_each_fault_costs() -> None:
     added = points(score, np.append(at, at[-1] + 60 * NS_PER_MS), np.append(piece, Piece.TOM_1))
     flat = points(score, at, piece, 80)
     assert max(missed, added, flat) < full
+
+
+# --- no cliffs --------------------------------------------------------------------------------------------------------
+
+STEEPEST = 0.35 / 15
+"""Of a full mark a ms: from 25 to 40 ms a stroke falls from 75 to 40 % (HUMANS: mild, clear fault)."""
+
+
+def scored(score: Score, at_ns: Array, piece: Array, velocity: Array | int = 80) -> float:
+    """The score alone, of timing and dynamics."""
+    performance = performed(at_ns, piece, velocity)
+    alignment = align(score, performance, clocked=True)
+    nowhere = np.zeros(len(score), np.bool_)
+    judged = Judged(dynamics(score, performance, alignment).off_db, nowhere, nowhere)
+    result = points_of(score, alignment, judged)
+    assert result is not None
+    return result
+
+
+def human(score: Score, seed: int, sd_ms: float = 15.0) -> Array:
+    """Times (n,) in ns with an independent error a stroke."""
+    off = np.random.default_rng(seed).normal(0, sd_ms, len(score)) * NS_PER_MS
+    return score.onset_ns + np.rint(off).astype(np.int64)
+
+
+@pytest.mark.parametrize("score", [rock_beat(3), beat_and_fill(1), swing_ride(4), even_snare(32, 500)])
+@pytest.mark.parametrize("seed", range(3))
+def test_a_stroke_that_moves_by_a_millisecond_moves_the_score_by_its_share(score: Score, seed: int) -> None:
+    """Its own credit, and as much again for what it says of the lean and the swing that are set apart."""
+    at, piece = human(score, seed), score.notes["piece"]
+    before = scored(score, at, piece, score.notes["velocity"])
+    for stroke in range(0, len(score), 3):
+        moved = at.copy()
+        moved[stroke] += NS_PER_MS
+        after = scored(score, moved, piece, score.notes["velocity"])
+        assert abs(after - before) <= 2 * 100 / len(score) * STEEPEST
+
+
+@pytest.mark.parametrize("score", [rock_beat(4), beat_and_fill(2)])
+def test_a_stroke_that_is_left_out_costs_its_share_and_never_pays(score: Score) -> None:
+    """One of n, and as much for what it said of the others; better without it is nobody, however late it was."""
+    at, piece, velocity = human(score, 1), score.notes["piece"], score.notes["velocity"]
+    before = scored(score, at, piece, velocity)
+    for stroke in range(len(score)):
+        here = np.arange(len(score)) != stroke
+        after = scored(score, at[here], piece[here], velocity[here])
+        assert before - 200 / len(score) <= after <= before + 1e-9
+
+
+@pytest.mark.parametrize("ratio", [1.34, 1.31, 1.28, 1.2, 1.1, 1.02])
+def test_a_straighter_swing_costs_more_and_more_without_a_step(ratio: float) -> None:
+    """A ride written 2:1, of which swing is heard from 1.3:1 on: a ratio less by 0.02 costs up to 3, never all at once.
+
+    Two of eight strokes swing, so that all the way to 1:1 costs a quarter, over 15 such steps; the steepest costs
+    twice that.
+    """
+    score = swing_ride(8)
+    assert 0 <= swung_by(score, ratio, 2) - swung_by(score, ratio - 0.02, 2) <= 3
+
+
+def swung_by(score: Score, ratio: float, seed: int) -> float:
+    late_ms = np.where(score.notes["tick"] % PPQ > 0, 500.0 * (ratio / (1 + ratio) - 2 / 3), 0.0)
+    at = human(score, seed, 8.0) + np.rint(late_ms * NS_PER_MS).astype(np.int64)
+    return scored(score, at, score.notes["piece"])
+
+
+@pytest.mark.parametrize("ratio", [1.1, 1.3])
+def test_a_swing_at_the_edge_of_what_is_heard_scores_alike_whatever_the_noise(ratio: float) -> None:
+    """Ten takes by one player, who holds 1.3:1, from which swing is heard, or 1.1:1, which is hardly any.
+
+    32 swung offbeats with an SD of 8 ms know their ratio to 1.4 ms, of which each is 2.5 ms on a quarter of the
+    strokes: an SD of 2 points, and ten takes lie within three of them, or of four with what else differs.
+    """
+    found = [swung_by(swing_ride(16), ratio, seed) for seed in range(10)]
+    assert max(found) - min(found) < 10
+
+
+@pytest.mark.parametrize("score", [rock_beat(4), swing_ride(4)])
+def test_more_lean_never_scores_more(score: Score) -> None:
+    """All strokes late against the click by the same, averaged over four players."""
+    means = [
+        np.mean([scored(score, human(score, seed) + late * NS_PER_MS, score.notes["piece"]) for seed in range(4)])
+        for late in (0, 15, 30, 45, 60, 90)
+    ]
+    assert means == sorted(means, reverse=True)
+    assert means[0] - means[1] < 0.5
+    assert means[-1] < 60
+
+
+@pytest.mark.parametrize("level", LEVELS.values())
+def test_the_score_is_on_one_scale_for_all_levels(level: Windows) -> None:
+    """Whoever moves up to a stricter level keeps the score."""
+    score = rock_beat(4)
+    performance = performed(human(score, 3), score.notes["piece"], 80)
+    alignment = align(score, performance, clocked=True)
+    at_level = summarise(score, performance, alignment, SummaryView(level)).points
+    assert at_level == summarise(score, performance, alignment).points
 
 
 def test_a_quiet_roll_over_an_exercise_of_the_snare_scores_under_20() -> None:

@@ -20,7 +20,7 @@ from station.music.score import Score
 from station.scoring.analysis.loudness import judged_notes, level_db
 from station.scoring.analysis.regression import Effect
 from station.scoring.analysis.technique.estimates import Estimate, Scatter, difference, figure, scatter
-from station.scoring.analysis.timing_spread import MIN_SLOTS, spread
+from station.scoring.analysis.timing_spread import MIN_SLOTS, slope
 from station.scoring.matching.alignment import Alignment
 
 Floats = NDArray[np.float64]
@@ -198,15 +198,11 @@ def _crescendo(score: Score, level: Floats, rows: Indices) -> Crescendo:
     rise = float(written[rows[-1]] - written[rows[0]])
     place = Piece(score.notes["piece"][rows[0]]), (int(score.bar[rows[0]]), int(score.bar[rows[-1]]))
     heard = rows[~np.isnan(level[rows])]
-    x = written[heard] - written[heard].mean() if len(heard) else written[heard]
-    if len(heard) < LEAST_STROKES or not (x @ x) > 0:
+    share = slope(written[heard], level[heard])  # 1 as written
+    if len(heard) < LEAST_STROKES or share is None:
         return Crescendo(*place, len(heard), rise, None, None, None)
-    slope = float(x @ level[heard]) / float(x @ x)
-    rest = level[heard] - level[heard].mean() - slope * x
-    error = spread(rest * x * len(x) / float(x @ x), np.arange(len(x))).ci_ms
-    half = (error[1] - error[0]) / 2 if error is not None else None
-    ci = None if half is None else (rise * slope - abs(rise) * half, rise * slope + abs(rise) * half)
-    return Crescendo(*place, len(heard), rise, rise * slope, ci, _bend(level[heard] - written[heard]))
+    ci = None if share.ci is None else (min(rise * end for end in share.ci), max(rise * end for end in share.ci))
+    return Crescendo(*place, len(heard), rise, rise * share.value, ci, _bend(level[heard] - written[heard]))
 
 
 def _bend(off: Floats) -> float:

@@ -4,13 +4,13 @@ The unit stands in the name of the field that holds the figure. No data is None:
 an interval `timing_spread.MIN_SLOTS` slots.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from station.core.student_t import t_quantile_95
-from station.scoring.analysis.timing_spread import spread, standard_error
+from station.scoring.analysis.timing_spread import MIN_SLOTS, persistence, slot_sums, spread
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -54,19 +54,35 @@ def difference(one: Estimate, other: Estimate) -> tuple[float, float] | None:
 def scatter(values: Floats, groups: Indices, slots: Indices) -> Scatter:
     """Pooled SD of values (n,) about the means of their `groups` (n,); groups of one say nothing.
 
-    The interval is that of the mean of the squares, which come in `slots` (n,).
+    A pooled variance of n values in g groups has n − g degrees of freedom, fewer where values of one slot or of
+    neighbouring slots (`slots` (n,)) go together or where some lie far off: 2/v, with v its squared standard error as a
+    share of it. That is taken from the squares' sums over slots, never less than the normal law's 2/(n − g), times
+    (1 + ρ²)/(1 − ρ²) for a lag-1 correlation ρ (Bartlett 1946). The interval is that of the variance's logarithm.
     """
     _, group = np.unique(groups, return_inverse=True)
     counts = np.bincount(group)
     repeated = counts[group] > 1
     if not repeated.any():
         return Scatter(0, None, None)
-    means = np.bincount(group, weights=values) / counts
-    squares = ((values - means[group]) ** 2 * counts[group] / np.maximum(counts[group] - 1, 1))[repeated]
-    mean_square = float(squares.mean())
-    error = standard_error(squares, slots[repeated])
-    if error is None:
-        return Scatter(len(squares), mean_square**0.5, None)
-    half = t_quantile_95(error.freedom) * error.value
-    low, high = (max(mean_square + side * half, 0.0) ** 0.5 for side in (-1, 1))
-    return Scatter(len(squares), mean_square**0.5, (low, high))
+    off = (values - (np.bincount(group, weights=values) / counts)[group])[repeated]
+    freedom = len(off) - int((counts > 1).sum())
+    variance = float(off @ off) / freedom
+    found = Scatter(len(off), variance**0.5, None)
+    each = slot_sums(off, slots[repeated])
+    if len(each) < _FEWEST_FOR_SD:
+        return found
+    if variance == 0.0:
+        return replace(found, ci=(0.0, 0.0))
+    squares = slot_sums(off * off * len(off) / freedom / variance - 1, slots[repeated])
+    rho = persistence(each)
+    share = float(squares @ squares) / (len(each) - 1) / len(each) * len(off) / freedom
+    share = max(share, 2 / freedom) * (1 + rho**2) / (1 - rho**2)
+    factor = float(np.exp(min(t_quantile_95(2 / share) * share**0.5 / 2, np.log(_WIDEST))))
+    return replace(found, ci=(variance**0.5 / factor, variance**0.5 * factor))
+
+
+_FEWEST_FOR_SD = 2 * MIN_SLOTS
+"""A spread asks for more than a mean: of fewer slots that hang together intervals know nothing (simulated)."""
+
+_WIDEST = 10.0
+"""An interval's ends are at most so many times the SD away: every spread of a hand lies within, and more is no news."""

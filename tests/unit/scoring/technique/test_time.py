@@ -125,7 +125,7 @@ def test_the_held_swing_is_told_and_free(held: float) -> None:
 
 def test_straight_swing_costs_and_a_goal_may_ask_for_the_written_one() -> None:
     assert points_of(swung_at(1.1)) < points_of(swung_at(2.0)) - 3
-    assert points_of(swung_at(2.6), Feel(swing_error=0.4)) < points_of(swung_at(2.6)) - 3
+    assert points_of(swung_at(3.0), Feel(swing_error=0.4)) < points_of(swung_at(3.0)) - 3
     assert points_of(swung_at(2.3), Feel(swing_error=0.4)) > 99
 
 
@@ -154,11 +154,11 @@ def rushing_in_the_dark(bars: int, per_bar_ms: float) -> tuple[Take, tuple[tuple
 
 
 def test_drift_on_return_by_hand() -> None:
-    """9 ms a bar over two bars: 18 ms early on return, 18/4000 = 0.45 % fast; five returns in 22 bars."""
-    played, spans = rushing_in_the_dark(22, 9.0)
+    """9 ms a bar over two bars: 18 ms early on return, 18/4000 = 0.45 % fast; nine returns in 38 bars."""
+    played, spans = rushing_in_the_dark(38, 9.0)
     found = gaps(played.score, played.alignment, spans)
     assert found is not None
-    assert [r.bar for r in found.returns] == [4, 8, 12, 16, 20]
+    assert [r.bar for r in found.returns] == [4, 8, 12, 16, 20, 24, 28, 32, 36]
     assert found.drift_ms.mean == pytest.approx(-18.0)
     assert found.size_ms.mean == pytest.approx(18.0)
     assert found.tempo_pct.mean == pytest.approx(0.45)
