@@ -6,6 +6,9 @@ an unknown tempo with its slow wander. It says "fault" when the estimate lies z�
 so that the words together are wrong in 1 % of faultless takes; an effect of z₁ + z₂ errors is then found in 99 %.
 """
 
+from collections.abc import Mapping
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,6 +18,7 @@ from station.bench.rigs.planted_player import (
     LEVEL_SD_DB,
     OWN_SHARE,
     PIECE_LEAN_MS,
+    PIECE_LEVEL_DB,
     WANDER_PERIOD_S,
     WANDER_SD,
     Conditions,
@@ -26,6 +30,10 @@ Z_FALSE_ALARM = 3.48
 Z_POWER = 2.33
 """And of 99 %."""
 ERRORS = Z_FALSE_ALARM + Z_POWER
+TELL_APART = 2 * Z_POWER
+"""Standard errors between two explanations that are confused in 1 % of takes, whichever is true."""
+SAME_STROKES = 0.9
+"""Share of common strokes from which two words mean the same to a listener, whatever an oracle can tell; our choice."""
 
 _WAVES = 12
 """Periods by which the wander's covariance is integrated."""
@@ -34,14 +42,12 @@ _FREE = 1e6
 
 
 def timing_precision(written: Written, conditions: Conditions) -> NDArray[np.float64]:
-    """Inverse covariance in ms⁻² of the strokes' deviations without graces, (m, m)."""
+    """Inverse covariance in ms⁻² of the deviations of all strokes but graces, (m, m)."""
     main = written.main
     moment, at_s, piece = written.moment[main], written.time_s[main], written.score.notes["piece"][main]
-    variance = conditions.sd_ms**2
     apart = np.abs(moment[:, None] - moment[None, :])
-    covariance = variance * (1 - OWN_SHARE) * (LAG_1 / (1 - OWN_SHARE)) ** apart + variance * OWN_SHARE * np.eye(
-        len(piece)
-    )
+    shared, own = conditions.sd_ms**2 * (1 - OWN_SHARE), conditions.sd_ms**2 * OWN_SHARE
+    covariance = shared * (LAG_1 / (1 - OWN_SHARE)) ** apart + own * np.eye(len(piece))
     covariance += PIECE_LEAN_MS**2 * (piece[:, None] == piece[None, :])
     if conditions.clocked:
         covariance += LEAD_MS[1] ** 2
@@ -55,21 +61,62 @@ def timing_precision(written: Written, conditions: Conditions) -> NDArray[np.flo
     return np.asarray(np.linalg.inv(covariance), np.float64)
 
 
+def level_precision(written: Written) -> NDArray[np.float64]:
+    """Inverse covariance in dB⁻² of the levels of all strokes, (n, n)."""
+    piece = written.score.notes["piece"]
+    covariance = LEVEL_SD_DB**2 * np.eye(len(piece)) + PIECE_LEVEL_DB**2 * (piece[:, None] == piece[None, :]) + _FREE
+    return np.asarray(np.linalg.inv(covariance), np.float64)
+
+
 def smallest_shift(precision: NDArray[np.float64], shape: Floats) -> float:
-    """The smallest factor of `shape` (m,) that is found, in units of ms for a shape of ones."""
+    """The smallest factor of `shape` that is found, in the unit of the deviations for a shape of ones."""
     information = float(shape @ precision @ shape)
-    return ERRORS / np.sqrt(information) if information > 0 else np.inf
+    return ERRORS / float(np.sqrt(information)) if information > 0 else np.inf
 
 
-def smallest_level_db(concerned: Mask, others: Mask) -> float:
-    """The smallest difference in level between two kinds of strokes."""
-    return ERRORS * LEVEL_SD_DB * float(np.sqrt(_inverse(concerned) + _inverse(others)))
+@dataclass(frozen=True, eq=False)
+class Explanations:
+    """What words say of the strokes: each a shape of deviations, and what the oracle's noise leaves of it.
 
+    `gram` (k, k) holds xᵀPy of the words' shapes x and y, with their signs and for a size of 1.
+    """
 
-def smallest_fade_db(written: Written) -> float:
-    """The smallest change of level from the first stroke to the last."""
-    through = np.linspace(0, 1, int(written.main.sum()))
-    return ERRORS * LEVEL_SD_DB / float(np.sqrt(np.sum((through - 1 / 2) ** 2)))
+    names: tuple[str, ...]
+    shapes: Floats
+    gram: Floats
+
+    @classmethod
+    def of(cls, shapes: Mapping[str, Floats], precision: NDArray[np.float64]) -> "Explanations":
+        """The explanations by name; shapes without a stroke are left out."""
+        kept = {name: shape for name, shape in shapes.items() if shape.any()}
+        stacked = np.stack(list(kept.values())) if kept else np.zeros((0, len(precision)))
+        return cls(tuple(kept), stacked, stacked @ precision @ stacked.T)
+
+    def as_good(self, sizes: Mapping[str, float]) -> frozenset[str]:
+        """The single words that say the same as these together, so far as the data tell.
+
+        A word does where its own best size leaves a misfit that the oracle cannot tell from none, or where its
+        strokes are those of a single word of `sizes` to nine tenths, in the same direction.
+        """
+        size = np.array([sizes.get(name, 0.0) for name in self.names])
+        cross, own = self.gram @ size, np.diag(self.gram)
+        misfit = float(size @ self.gram @ size) - cross**2 / np.maximum(own, 1e-12)
+        good = {name for name, c, d in zip(self.names, cross, misfit, strict=True) if c > 0 and d < TELL_APART**2}
+        if len(sizes) == 1:
+            (name,) = sizes
+            good |= {name} | set(self._of_the_same_strokes(name))
+        return frozenset(good)
+
+    def _of_the_same_strokes(self, name: str) -> list[str]:
+        mine = np.sign(self.shapes[self.names.index(name)])
+        common = np.sum((np.sign(self.shapes) == mine) & (mine != 0), axis=1)
+        either = np.sum((self.shapes != 0) | (mine != 0), axis=1)
+        return [self.names[k] for k in np.flatnonzero(common >= SAME_STROKES * either)]
+
+    def overlap(self, one: str, other: str) -> float:
+        """How much of one word's information the other takes away where both are unknown, 0–1."""
+        i, k = self.names.index(one), self.names.index(other)
+        return float(self.gram[i, k] ** 2 / (self.gram[i, i] * self.gram[k, k]))
 
 
 def smallest_sd_ms(conditions: Conditions, concerned: Mask, others: Mask | None) -> float:

@@ -27,6 +27,8 @@ VELOCITY_CV = 0.08
 """Coefficient of variation of velocity (HUMANS: professionals 6–10 %)."""
 LEVEL_SD_DB = 40 / np.log(10) * VELOCITY_CV
 """The same in dB: 1.4."""
+PIECE_LEVEL_DB = 1.0
+"""SD of a piece's own level against what is written, which is balance and no fault (HUMANS: 2 dB are free)."""
 GRACE_SD_MS = 5.0
 """Scatter of a grace stroke before its main stroke: a flam's 15–40 ms (HUMANS) are 28 ± 2.5 SD."""
 LEFT_OUT, ADDED = 0.02, 0.01
@@ -53,7 +55,7 @@ class Sheet:
     """What the player does otherwise than written; arrays have shape (n,), a row a stroke of the score.
 
     `late_ms` and `louder_db` are added, `lead_ms` how far graces stand ahead, `sd_ms` a stroke's own total SD (NaN: as
-    everybody's), `openness` of hi-hats, `left_out` a chance. `added` and `wrong` are shares of all strokes.
+    everybody's), `openness` of hi-hats, `left_out` a chance, `piece` what is struck. `added` is a share of all strokes.
     `fade_db` over the whole take, `speed_up` the share by which the tempo grows in eight bars, `mean_ms` the mean
     against the click (None: the usual lead), `runs` the order in which the music is played (empty: once through).
     """
@@ -64,8 +66,8 @@ class Sheet:
     sd_ms: Floats
     openness: Floats
     left_out: Floats
+    piece: NDArray[np.uint8]
     added: float = ADDED
-    wrong: float = 0.0
     fade_db: float = 0.0
     speed_up: float = 0.0
     mean_ms: float | None = None
@@ -82,6 +84,7 @@ class Sheet:
             sd_ms=np.full(n, np.nan),
             openness=np.where(notes["piece"] == Piece.HIHAT, np.nan_to_num(notes["openness"], nan=CLOSED), np.nan),
             left_out=np.full(n, LEFT_OUT),
+            piece=notes["piece"].copy(),
         )
 
     def later(self, by_ms: Floats) -> "Sheet":
@@ -111,18 +114,23 @@ def ar_1(count: int, lag_1: float, rng: np.random.Generator) -> Floats:
 
 def play(written: Written, sheet: Sheet, conditions: Conditions, rng: np.random.Generator) -> Performance:
     """One take; times are score time where there is a click, else they begin anywhere."""
+    row, at_s, late_ms = strokes_played(written, sheet, conditions, rng)
+    hits = _hits(written, sheet, row, at_s + late_ms / 1000, rng)
+    return Performance.from_array(np.concatenate([hits, _additions(written, sheet, hits, rng)]))
+
+
+def strokes_played(
+    written: Written, sheet: Sheet, conditions: Conditions, rng: np.random.Generator
+) -> tuple[NDArray[np.int64], Floats, Floats]:
+    """The row of each stroke, when the player's own tempo has it, and by how many ms it comes later than that."""
     row, at_s = _order(written, sheet)
     kept = rng.random(len(row)) >= sheet.left_out[row]
     row, at_s = row[kept], at_s[kept]
     if not conditions.clocked:
         at_s = _at_own_tempo(written, sheet, at_s, rng)
     late_ms = _deviation_ms(written, sheet, conditions, row, at_s, rng)
-    is_grace = ~written.main[row]
-    own_ms = -sheet.lead_ms[row] + rng.normal(0, GRACE_SD_MS, len(row))
-    played_s = at_s + (late_ms + np.where(is_grace, own_ms, 0)) / 1000
-    hits = _hits(written, sheet, row, played_s, rng)
-    hits = np.concatenate([hits, _additions(written, sheet, hits, rng)])
-    return Performance.from_array(hits)
+    ahead_ms = np.where(written.main[row], 0, sheet.lead_ms[row] + rng.normal(0, GRACE_SD_MS, len(row)))
+    return row, at_s, late_ms - ahead_ms
 
 
 def _order(written: Written, sheet: Sheet) -> tuple[NDArray[np.int64], Floats]:
@@ -187,27 +195,17 @@ def _hits(
     hits = np.zeros(len(row), HIT_DTYPE)
     hits["at_ns"] = np.rint(at_s * NS_PER_S).astype(np.int64)
     hits["position"], hits["limb"] = np.nan, -1
-    for name in ("piece", "zone", "articulation"):
+    for name in ("zone", "articulation"):
         hits[name] = notes[name]
     through = (at_s - at_s.min(initial=0)) / max(float(np.ptp(at_s)) if len(at_s) else 1.0, 1e-9)
     level = level_db(notes["velocity"]) + sheet.louder_db[row] + sheet.fade_db * through
-    level += rng.normal(0, LEVEL_SD_DB, len(row))
+    level += rng.normal(0, PIECE_LEVEL_DB, len(Piece))[notes["piece"]] + rng.normal(0, LEVEL_SD_DB, len(row))
     hits["velocity"] = np.clip(np.rint(127 * 10 ** (level / 40)), 1, 127)
     slipped = rng.random(len(row)) < OPENNESS_SLIP
     openness = np.where(slipped, _OPEN - sheet.openness[row], sheet.openness[row])
     hits["openness"] = np.clip(openness, 0, 1)
-    astray = (rng.random(len(row)) < sheet.wrong) & written.main[row] & (notes["piece"] != Piece.KICK)
-    hits["piece"][astray] = _neighbours(written, hits["piece"][astray], rng)
+    hits["piece"] = sheet.piece[row]
     return hits
-
-
-def _neighbours(written: Written, piece: NDArray[np.uint8], rng: np.random.Generator) -> NDArray[np.uint8]:
-    """Another piece for hands of the kit for each, drawn."""
-    mine = np.array([p for p in {*written.pieces, Piece.SNARE, Piece.TOM_1, Piece.RIDE} if p not in _FEET], np.uint8)
-    return np.array([rng.choice(mine[mine != p]) for p in piece], np.uint8)
-
-
-_FEET = (Piece.KICK, Piece.HIHAT_PEDAL)
 
 
 def _additions(written: Written, sheet: Sheet, hits: NDArray[np.void], rng: np.random.Generator) -> NDArray[np.void]:
@@ -228,3 +226,13 @@ def wrong_openness(sheet: Sheet, which: Mask, share: float, rng: np.random.Gener
     openness = sheet.openness.copy()
     openness[chosen] = np.where(openness[chosen] >= 1 / 2, CLOSED, _OPEN)
     return replace(sheet, openness=openness)
+
+
+def astray(sheet: Sheet, written: Written, piece: Piece, share: float, rng: np.random.Generator) -> Sheet:
+    """A share of a piece's strokes on another piece for hands, one that is written elsewhere if there is one."""
+    own = [p for p in written.pieces if p not in (piece, Piece.KICK, Piece.HIHAT_PEDAL)]
+    instead = rng.choice(np.array(own or [p for p in (Piece.TOM_1, Piece.SNARE) if p != piece], np.uint8))
+    rows = rng.permutation(np.flatnonzero(written.piece(piece)))
+    struck = sheet.piece.copy()
+    struck[rows[: int(np.ceil(share * len(rows)))]] = instead
+    return replace(sheet, piece=struck)

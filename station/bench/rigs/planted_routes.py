@@ -14,6 +14,8 @@ from station.bench.rigs.planted_strokes import Written
 _FEWEST_BARS = 4
 _HEARD_STROKES = 12
 """A bar too many or too few is heard by at least so many strokes that are elsewhere than they should be."""
+_PAUSE_S = (2.0, 5.0)
+"""Long enough to find the place again, and a bar at least, else nobody would call it stopping; our choice."""
 _BARS_HEARD = 3
 """Within so many bars: a listener does not wait to the end; our choice."""
 
@@ -32,7 +34,8 @@ def stopped(written: Written, clocked: bool, sheet: Sheet, rng: np.random.Genera
     bar = int(rng.integers(max(2, bars // 4), max(3, 3 * bars // 4)))
     again = bar // written.music.pass_bars * written.music.pass_bars if written.music.pass_bars else 0
     broken_s = starts[bar] + rng.uniform(0.4, 0.8) * (starts[bar + 1] - starts[bar])
-    resumed_s = starts[min(bar + 2, bars - 1)] if clocked else broken_s + rng.uniform(1.5, 4.0)
+    bar_s = starts[bar + 1] - starts[bar]
+    resumed_s = starts[min(bar + 2, bars - 1)] if clocked else broken_s + max(rng.uniform(*_PAUSE_S), bar_s)
     until_s = starts[-1] - (resumed_s - starts[again]) if clocked else starts[-1]  # a session ends with its click
     return replace(sheet, runs=(Run(-1.0, broken_s, -1.0), Run(starts[again], until_s, resumed_s)))
 
@@ -56,6 +59,12 @@ def repeated_bars(written: Written, clocked: bool, sheet: Sheet, rng: np.random.
     bar = int(rng.choice(bars))
     until_s = starts[-1] - (starts[bar] - starts[bar - 1]) if clocked else starts[-1]
     return replace(sheet, runs=(Run(-1.0, starts[bar], -1.0), Run(starts[bar - 1], until_s, starts[bar])))
+
+
+def sounds_as_repeated(written: Written) -> bool:
+    """Whether a bar left out sounds like a bar played twice wherever either could be: in loops of two bars."""
+    inner = range(2, written.score.bar_count - _BARS_HEARD)
+    return not any(_heard(written, b + 1, b - 1) for b in inner)
 
 
 def _heard(written: Written, at: int, played: int) -> bool:

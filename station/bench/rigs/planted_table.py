@@ -5,8 +5,8 @@ from functools import cache
 
 import numpy as np
 
-from station.bench.rigs.planted_faults import Stage
 from station.bench.rigs.planted_music import grooves, lessons
+from station.bench.rigs.planted_stage import Stage
 from station.bench.rigs.planted_trials import (
     NONE,
     PAIRS,

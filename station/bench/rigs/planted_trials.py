@@ -14,9 +14,12 @@ from itertools import combinations
 
 import numpy as np
 
-from station.bench.rigs.planted_faults import FAULTS, Planted, Stage, timing_subjects
+from station.bench.rigs.planted_faults import FAULTS
 from station.bench.rigs.planted_music import Music
+from station.bench.rigs.planted_oracle import SAME_STROKES
 from station.bench.rigs.planted_player import Conditions, Sheet, play
+from station.bench.rigs.planted_routes import sounds_as_repeated
+from station.bench.rigs.planted_stage import Planted, Stage
 from station.bench.rigs.planted_strokes import Mask, Written
 from station.core.pieces import Limb, Piece, word
 from station.music.performance import Performance
@@ -25,12 +28,10 @@ from station.scoring.analysis.summary import SummaryView, summarise
 from station.scoring.report.advice import Advice, advise
 
 SDS_MS = (10.0, 15.0, 20.0)
-_SAME = 0.9
-"""Share of common strokes from which two words are one explanation."""
 _SHARE_OF_GAP = 0.15
 """A player's SD is at most that share of the music's short intervals, else 10 ms (HUMANS: novices 6–10 %)."""
 _APART = 0.2
-"""Two faults of one kind in a pair share fewer strokes than that."""
+"""Of its information at most that share a fault loses to the other of a pair; its error grows by a tenth."""
 
 
 def stage(music: Music, sd_ms: float, clocked: bool) -> Stage:
@@ -46,24 +47,21 @@ def exercised(of: Stage) -> dict[str, Planted]:
     if of.written.is_buzzed:
         return {}
     made = {name: make(of) for name, make in FAULTS.items()}
-    of.__dict__.pop("precision", None)  # three megabytes that nobody asks for again
+    assert of.explanations  # made while the precision is there
+    of.forget()
     return {name: fault for name, fault in made.items() if fault is not None}
 
 
 def accepted(fault: Planted, of: Stage) -> frozenset[str]:
-    """The words that say the same of these strokes; without a click also that all the others do the opposite."""
-    subjects: dict[str, tuple[Mask, int]] = {}
-    if fault.kind == "time":
-        subjects = dict(timing_subjects(of.written))
-    elif fault.kind in ("level", "spread"):
-        subjects = {name: (each.strokes, each.sign) for name, each in exercised(of).items() if each.kind == fault.kind}
-    same = {
-        name for name, (mask, sign) in subjects.items() if sign == fault.sign and _common(mask, fault.strokes) >= _SAME
-    }
-    if fault.kind == "time" and not of.conditions.clocked:
-        rest = of.written.main & ~fault.strokes
-        same |= {name for name, (mask, sign) in subjects.items() if sign != fault.sign and _common(mask, rest) >= _SAME}
-    return frozenset(same | {fault.word})
+    """The words that say the same of this music, so far as anybody can tell."""
+    if fault.kind in of.explanations:
+        return of.explanations[fault.kind].as_good({fault.word: fault.size})
+    if fault.kind == "spread":
+        others = [each for each in exercised(of).values() if each.kind == "spread"]
+        return frozenset(each.word for each in others if _common(each.strokes, fault.strokes) >= SAME_STROKES)
+    if fault.kind == "route" and fault.word != "stopped" and sounds_as_repeated(of.written):
+        return frozenset({"left_out_bars", "repeated_bars"})
+    return frozenset({fault.word})
 
 
 def _common(one: Mask, other: Mask) -> float:
@@ -182,23 +180,23 @@ def faultless(of: Stage, at: int, takes: range, tally: Tally) -> None:
 
 
 def pairs_on(of: Stage) -> list[tuple[Planted, Planted]]:
-    """Two faults that can be heard beside each other: other kinds, or other strokes; in an order of their own."""
+    """Two faults that can be heard beside each other, in an order of the music's own."""
     faults = [each for each in exercised(of).values() if each.kind not in ("route", "errors")]
-    pairs = [pair for pair in combinations(faults, 2) if _go_together(*pair)]
+    pairs = [pair for pair in combinations(faults, 2) if _go_together(of, *pair)]
     order = np.random.default_rng(zlib.crc32(of.written.music.name.encode())).permutation(len(pairs))
     return [pairs[k] for k in order.tolist()]
 
 
-def _go_together(one: Planted, other: Planted) -> bool:
+def _go_together(of: Stage, one: Planted, other: Planted) -> bool:
+    """Whether both can be told at once: different kinds, or strokes so different that no third word explains both."""
     if one.kind != other.kind:
-        return {one.kind, other.kind} != {"tempo", "time"} or max(one.strokes.mean(), other.strokes.mean()) < 1
-    return one.kind in ("time", "level") and _common(one.strokes, other.strokes) < _APART and not _one_hides(one, other)
-
-
-def _one_hides(one: Planted, other: Planted) -> bool:
-    """Whether one's strokes lie within the other's, so that it could cancel there."""
-    both = int((one.strokes & other.strokes).sum())
-    return both > _APART * min(int(one.strokes.sum()), int(other.strokes.sum()))
+        return True
+    if one.kind not in of.explanations:
+        return False
+    told = of.explanations[one.kind]
+    return told.overlap(one.word, other.word) < _APART and not told.as_good(
+        {each.word: each.size for each in (one, other)}
+    )
 
 
 def pair(of: Stage, at: int, takes: range, tally: Tally) -> None:
