@@ -19,10 +19,10 @@ Mask = NDArray[np.bool_]
 Floats = NDArray[np.float64]
 
 _EIGHTHS = 8
-_WAIT_S, _WAIT_BEATS, _MOST_WAITS = 1.0, 2.0, 0.4
-"""A long wait is a second and two beats with no stroke of anybody; where most strokes follow one, none is long."""
+_WAIT_S, _WAIT_BEATS, _MOST_WAITS = 1.0, 1.5, 0.4
+"""A long wait is a second and one and a half beats without a stroke; where most strokes follow one, none is long."""
 _DOUBLE_S = 0.3
-"""Slower than 200 strokes a minute a hand two strokes of one hand are no double but two strokes; our choice."""
+"""Two strokes of one hand that are farther apart are no double but two strokes; our choice."""
 _FILL_STROKES, _MOST_FILLS = 3, 1 / 3
 """Fewer strokes are a pickup, and where a third of the beats are fills they are the groove; our choice."""
 _SAME_DB = 2.0
@@ -153,7 +153,7 @@ class Written:
 
     @cached_property
     def second_of_double(self) -> Mask:
-        """Second strokes of doubles: two strokes of one hand on one piece between strokes of the other."""
+        """Second strokes of doubles: two of one hand between strokes of the other, on a piece that both play."""
         return self._doubles[0]
 
     @cached_property
@@ -169,21 +169,21 @@ class Written:
 
     @cached_property
     def _doubles(self) -> tuple[Mask, Mask]:
-        rows = np.flatnonzero(self.limb(Limb.RIGHT_HAND) | self.limb(Limb.LEFT_HAND))
-        limb, piece, at_s = self.score.notes["limb"][rows], self.score.notes["piece"][rows], self.time_s[rows]
-        level = level_db(self.score.notes["velocity"][rows])
-        second, first = np.zeros(len(self.score), np.bool_), np.zeros(len(self.score), np.bool_)
-        for k in range(1, len(rows)):
-            gap = at_s[k] - at_s[k - 1]
-            is_pair = limb[k] == limb[k - 1] and piece[k] == piece[k - 1] and 0 < gap <= _DOUBLE_S
-            if not is_pair or abs(level[k] - level[k - 1]) > _SAME_DB:
+        notes, found = self.score.notes, np.zeros((2, len(self.score)), np.bool_)
+        right, left = (self.limb(hand) for hand in (Limb.RIGHT_HAND, Limb.LEFT_HAND))
+        shared = np.intersect1d(notes["piece"][right], notes["piece"][left])
+        rows = np.flatnonzero(right | left)
+        runs = np.split(rows, np.flatnonzero(np.diff(notes["limb"][rows]) != 0) + 1)
+        at_s, level = self.time_s, level_db(notes["velocity"])
+        for before, run, behind in zip([rows[:0], *runs], runs, [*runs[1:], rows[:0]], strict=False):
+            if len(run) != 2:
                 continue
-            before = k < 2 or limb[k - 2] != limb[k] or at_s[k - 1] - at_s[k - 2] > 1.8 * gap
-            behind = k + 1 == len(rows) or limb[k + 1] != limb[k] or at_s[k + 1] - at_s[k] > 1.8 * gap
-            alone = (k < 2 or at_s[k - 2] < at_s[k - 1]) and (k + 1 == len(rows) or at_s[k + 1] > at_s[k])
-            if before and behind and alone:
-                second[rows[k]], first[rows[k - 1]] = True, True
-        return second, first
+            first, second = run
+            alone = all(at_s[k] < at_s[first] for k in before) and all(at_s[k] > at_s[second] for k in behind)
+            same = notes["piece"][first] == notes["piece"][second] and abs(level[second] - level[first]) <= _SAME_DB
+            if alone and same and notes["piece"][first] in shared and at_s[second] - at_s[first] <= _DOUBLE_S:
+                found[:, second], found[:, first] = (True, False), (False, True)
+        return found[0], found[1]
 
     def _graces(self, ornament: Ornament) -> Mask:
         return self.score.is_grace & (self.score.notes["ornament"] == ornament)
