@@ -14,6 +14,7 @@ from station.bench.rigs import planted_timing as timing
 from station.bench.rigs.planted_oracle import smallest_share
 from station.bench.rigs.planted_player import ADDED, LEFT_OUT, OPENNESS_SLIP, Sheet, astray, wrong_openness
 from station.bench.rigs.planted_routes import left_out_bars, repeated_bars, stopped
+from station.bench.rigs.planted_shapes import HANDS
 from station.bench.rigs.planted_stage import FEWEST, MOST, Maker, Planted, Stage
 from station.bench.rigs.planted_strokes import Mask, Written
 from station.core.pieces import Piece, word
@@ -83,7 +84,7 @@ def routed(name: str, route: Callable[[Written, bool, Sheet, np.random.Generator
 
 _PIECES = [word(p) for p in Piece if p is not Piece.HIHAT_PEDAL]
 _SHIFTED = [
-    *(f"{side}_{name}" for name in (*_PIECES, *timing.HANDS, "offbeats") for side in ("late", "early")),
+    *(f"{side}_{name}" for name in (*_PIECES, *HANDS, "offbeats") for side in ("late", "early")),
     *("slow_hihat_foot", "early_hihat_foot", "straight_swing", "hard_swing", "swung_straight"),
     *("rush_fills", "drag_fills", "fill_lands_late", "fill_lands_early", "drag_slow", "rush_slow"),
     *("uneven_doubles", "lazy_doubles"),

@@ -112,7 +112,8 @@ def _written(rows: NDArray[np.void], tick: NDArray[np.int64], tempo_map: TempoMa
     same = (np.diff(rows["tick"]) == 0) & (np.diff(rows["piece"].astype(np.int64)) == 0)
     rows = rows[np.concatenate([[True], ~same])]
     velocity = rows["velocity"]
-    dynamic = np.where(velocity < _GHOST_BELOW, Dynamic.GHOST, Dynamic.NORMAL)
+    is_ghost = (velocity < _GHOST_BELOW) & (rows["piece"] == Piece.SNARE)  # a soft hi-hat is just soft
+    dynamic = np.where(is_ghost, Dynamic.GHOST, Dynamic.NORMAL)
     dynamic[velocity >= _ACCENT_FROM] = Dynamic.ACCENT
     rows["dynamic"] = dynamic
     rows["velocity"] = np.array([_WRITTEN_VELOCITY[Dynamic(d)] for d in dynamic])

@@ -48,8 +48,10 @@ def _fills(written: Written) -> Floats:
 
 def _landings(written: Written) -> Floats:
     """All of it on the one after a fill, half of it in the rest of that beat."""
-    after = np.any([landing for _, landing in written.fills], axis=0) if written.fills else written.main & False
-    return after * np.where(written.place == 0, 1.0, 0.5)
+    shape = np.zeros(len(written.score))
+    for _, after in written.fills:
+        shape[after] = np.where(written.place[after] == 0, 1.0, 0.5)
+    return shape
 
 
 def level_shapes(written: Written) -> Mapping[str, Floats]:

@@ -52,11 +52,11 @@ class Written:
 
     def piece(self, piece: Piece) -> Mask:
         """Strokes on a piece."""
-        return self.main & (self.score.notes["piece"] == piece)
+        return np.asarray(self.main & (self.score.notes["piece"] == piece), np.bool_)
 
     def limb(self, limb: Limb) -> Mask:
         """Strokes of a limb."""
-        return self.main & (self.score.notes["limb"] == limb)
+        return np.asarray(self.main & (self.score.notes["limb"] == limb), np.bool_)
 
     @cached_property
     def pieces(self) -> list[Piece]:
@@ -106,7 +106,7 @@ class Written:
         """The short notes of swung eighths; none where triplets' middles or straight eighths stand beside them."""
         short = self._at(0.55, 0.72)
         others = self.main & ~short & (self.place > 0)
-        return short & self.is_quarters & (others.sum() <= 0.1 * short.sum())
+        return np.asarray(short & self.is_quarters & (others.sum() <= 0.1 * short.sum()), np.bool_)
 
     @cached_property
     def only_eighths(self) -> bool:
@@ -186,7 +186,7 @@ class Written:
         return found[0], found[1]
 
     def _graces(self, ornament: Ornament) -> Mask:
-        return self.score.is_grace & (self.score.notes["ornament"] == ornament)
+        return np.asarray(self.score.is_grace & (self.score.notes["ornament"] == ornament), np.bool_)
 
     @cached_property
     def flam_graces(self) -> Mask:
@@ -241,7 +241,7 @@ class Written:
     def open_hats(self) -> Mask:
         """Hi-hat strokes that are written open or half open."""
         openness = np.nan_to_num(self.score.notes["openness"], nan=0.0)
-        return self.piece(Piece.HIHAT) & (openness >= HALF_OPEN)
+        return np.asarray(self.piece(Piece.HIHAT) & (openness >= HALF_OPEN), np.bool_)
 
     @cached_property
     def is_buzzed(self) -> bool:

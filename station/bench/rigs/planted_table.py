@@ -24,8 +24,8 @@ from station.bench.rigs.planted_trials import (
 MOST_STAGES = 60
 """Stages that a word is planted on at most, drawn; our choice."""
 
-HEAD = """| word | takes | size | first % | named % | innocent first % | silent % | said instead |
-|---|---|---|---|---|---|---|---|"""
+HEAD = """| word | takes | size | first % | as alternative % | named % | innocent first % | silent % | said instead |
+|---|---|---|---|---|---|---|---|---|"""
 
 
 @cache
@@ -67,10 +67,11 @@ def measure(name: str, takes: int, quick: bool) -> Tally:
 def row(name: str, tally: Tally) -> str:
     """A line of the table; the word alone where no music exercises it."""
     if not tally.takes:
-        return f"| `{name}` | 0 | | | | | | |"
-    shares = [f"{100 * count / tally.takes:.1f}" for count in (tally.first, tally.named, tally.innocent, tally.silent)]
+        return f"| `{name}` | 0 | | | | | | | |"
+    counts = (tally.first, tally.beside, tally.named, tally.innocent, tally.silent)
+    shares = " | ".join(f"{100 * count / tally.takes:.1f}" for count in counts)
     size = f"{np.median(tally.sizes):.1f}" if tally.sizes else ""
-    return f"| `{name}` | {tally.takes} | {size} | {' | '.join(shares)} | {_most(tally.instead.most_common(4))} |"
+    return f"| `{name}` | {tally.takes} | {size} | {shares} | {_most(tally.instead.most_common(4))} |"
 
 
 def missed_on(tally: Tally) -> str:

@@ -30,6 +30,8 @@ from station.scoring.report.advice import Advice, advise
 SDS_MS = (10.0, 15.0, 20.0)
 _SHARE_OF_GAP = 0.15
 """A player's SD is at most that share of the music's short intervals, else 10 ms (HUMANS: novices 6–10 %)."""
+_MOST_ALTERNATIVES = 3
+"""More explanations than that at once are none; our choice."""
 _APART = 0.2
 """Of its information at most that share a fault loses to the other of a pair; its error grows by a tenth."""
 
@@ -76,8 +78,12 @@ class Heard:
     items: tuple[tuple[str, ...], ...]
 
     def first(self, words: frozenset[str]) -> bool:
-        """Whether the first advice says one of the words."""
+        """Whether the first advice says one of the words, as its own or as an alternative."""
         return bool(self.items) and bool(words.intersection(self.items[0]))
+
+    def first_only_beside(self, words: frozenset[str]) -> bool:
+        """Whether the first advice says one of the words only as an alternative."""
+        return self.first(words) and self.items[0][0] not in words
 
     def anywhere(self, words: frozenset[str]) -> bool:
         """Whether any advice says one of the words."""
@@ -102,7 +108,9 @@ def said(of: Stage, performance: Performance) -> Heard:
 
 
 def _words(item: Advice) -> tuple[str, ...]:
-    return (item.fault, *getattr(item, "alternatives", ()))
+    """Its word and its alternatives, none of them where it names so many that it says nothing."""
+    alternatives: tuple[str, ...] = getattr(item, "alternatives", ())
+    return (item.fault, *(alternatives if len(alternatives) <= _MOST_ALTERNATIVES else ()))
 
 
 _BLAMED = frozenset(
@@ -116,10 +124,14 @@ _BLAMED = frozenset(
 
 @dataclass
 class Tally:
-    """Takes of one word: how many, in how many it was named first or at all, an innocent first, nothing said."""
+    """Takes of one word: in how many it was named first, only beside another, at all, an innocent first, nothing said.
+
+    `instead` counts what was said first where it was not the word, "-" for nothing; `stages` where.
+    """
 
     takes: int = 0
     first: int = 0
+    beside: int = 0
     named: int = 0
     innocent: int = 0
     silent: int = 0
@@ -133,6 +145,7 @@ class Tally:
         self.sizes.append(size)
         self.silent += not what.items
         self.named += what.anywhere(words)
+        self.beside += what.first_only_beside(words)
         if what.first(words):
             self.first += 1
             return
@@ -143,7 +156,7 @@ class Tally:
 
     def merge(self, other: "Tally") -> None:
         """Add another's counts."""
-        for name in ("takes", "first", "named", "innocent", "silent"):
+        for name in ("takes", "first", "beside", "named", "innocent", "silent"):
             setattr(self, name, getattr(self, name) + getattr(other, name))
         self.instead += other.instead
         self.stages += other.stages

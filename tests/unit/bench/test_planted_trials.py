@@ -30,6 +30,8 @@ def test_pairs_are_faults_that_can_be_told_apart() -> None:
 def test_a_word_counts_first_also_as_an_alternative() -> None:
     heard = Heard((("late_hihat", "late_right_hand"), ("fades",)))
     assert heard.first(frozenset({"late_right_hand"}))
+    assert heard.first_only_beside(frozenset({"late_right_hand"}))
+    assert not heard.first_only_beside(frozenset({"late_hihat"}))
     assert not heard.first(frozenset({"fades"}))
     assert heard.anywhere(frozenset({"fades"}))
     assert not Heard(()).first(frozenset({"fades"}))
@@ -42,7 +44,7 @@ def test_a_tally_tells_innocents_from_silence() -> None:
     assert (tally.takes, tally.first, tally.innocent, tally.silent) == (4, 1, 1, 1)
     assert (
         row("late_kick", tally)
-        == "| `late_kick` | 4 | 25.0 | 25.0 | 25.0 | 25.0 | 25.0 | late_snare 1, missed 1, - 1 |"
+        == "| `late_kick` | 4 | 25.0 | 25.0 | 0.0 | 25.0 | 25.0 | 25.0 | late_snare 1, missed 1, - 1 |"
     )
     assert missed_on(tally) == "rock-1 click 3"
 
