@@ -36,12 +36,16 @@ _WRITTEN_VELOCITY = {Dynamic.GHOST: 35, Dynamic.NORMAL: 80, Dynamic.ACCENT: 115}
 
 @dataclass(frozen=True, eq=False)
 class Music:
-    """A score as it is practised; `pass_bars` bars make a pass (None: played once), `first_bar` from 0."""
+    """A score as it is practised; `pass_bars` bars make a pass (None: played once), `first_bar` from 0.
+
+    `has_sticking` where the student reads which hand plays what, so that doubles and hands can be compared.
+    """
 
     name: str
     score: Score
     pass_bars: int | None = None
     first_bar: int = 0
+    has_sticking: bool = True
 
 
 @cache
@@ -81,7 +85,7 @@ def _grooves(folder: Path) -> Iterator[Music]:
             written = on_grid(score_from_midi(read_midi(path)), float(row["bpm"]))
             if written is not None:
                 kit = load_kit(DEFAULT_KIT)
-                yield Music(f"gmd/{row['id']}", with_sticking(written, kit, None))
+                yield Music(f"gmd/{row['id']}", with_sticking(written, kit, None), has_sticking=False)
 
 
 def on_grid(played: Score, tempo_bpm: float) -> Score | None:

@@ -21,10 +21,10 @@ Floats = NDArray[np.float64]
 _EIGHTHS = 8
 _WAIT_S, _WAIT_BEATS, _MOST_WAITS = 1.0, 1.5, 0.4
 """A long wait is a second and one and a half beats without a stroke; where most strokes follow one, none is long."""
-_DOUBLE_S = 0.3
+_DOUBLE_S = 0.26
 """Two strokes of one hand that are farther apart are no double but two strokes; our choice."""
-_FILL_STROKES, _MOST_FILLS = 3, 1 / 3
-"""Fewer strokes are a pickup, and where a third of the beats are fills they are the groove; our choice."""
+_FILL_STROKES, _FILL_BARS, _MOST_FILLS = 3, 2, 1 / 3
+"""Fewer strokes are a pickup, more bars a solo; fills in a third of the beats are the groove; our choice."""
 _SAME_DB = 2.0
 """Written levels that far apart are meant to differ (HUMANS: just noticeable 2–3 dB)."""
 
@@ -130,26 +130,32 @@ class Written:
 
     @cached_property
     def fills(self) -> list[tuple[Mask, Mask]]:
-        """Each fill and its landing: beats of drums alone, and the strokes of the beat after it."""
-        notes, beat = self.score.notes, self.score.notes["tick"] // self.beat_ticks
+        """Each fill and its landing: beats of drums alone up to a bar's end, and the strokes of the beat after it."""
+        beat, toms = self.score.notes["tick"] // self.beat_ticks, np.isin(self.score.notes["piece"], TOMS)
+        found = []
+        for start, stop in self._beats_of_drums():
+            inside = self.main & (beat >= start) & (beat < stop)
+            first, last = (int(self.score.bar[inside][k]) for k in (0, -1))
+            ends_a_bar = self.score.tempo_map.bar_start(last + 1) == stop * self.beat_ticks
+            is_more = (inside & toms).any() or stop - start > 1
+            if ends_a_bar and is_more and last - first < _FILL_BARS and inside.sum() >= _FILL_STROKES:
+                found.append((inside, self.main & (beat == stop)))
+        return found
+
+    def _beats_of_drums(self) -> list[tuple[int, int]]:
+        """From and until which beat no timekeeper plays, begun by a beat with more than a backbeat on the drums."""
+        notes, beats = self.score.notes, int(self.score.end_tick // self.beat_ticks)
         is_drum = self.main & np.isin(notes["piece"], [Piece.SNARE, *TOMS])
         is_time = self.main & np.isin(notes["piece"], [Piece.HIHAT, *CYMBALS])
-        beats = int(self.score.end_tick // self.beat_ticks)
-        drums, time = (np.bincount(beat[mask], minlength=beats + 1) for mask in (is_drum, is_time))
-        filled = (drums >= 2) & (time == 0)
-        if filled.mean() > _MOST_FILLS or (time > 0).mean() < 1 / 2:
-            return []
-        edges = np.flatnonzero(np.diff(np.concatenate([[0], filled.astype(np.int8), [0]])))
-        found = []
-        for start, stop in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
-            inside = self.main & (beat >= start) & (beat < stop)
-            toms = inside & np.isin(notes["piece"], TOMS)
-            if (inside & is_drum).sum() < _FILL_STROKES or not (toms.any() or stop - start > 1):
-                continue
-            after = self.main & (beat == stop)
-            on_one = after & (self.place == 0)
-            found.append((inside, after if on_one.any() else np.zeros_like(after)))
-        return found
+        drums, time = (
+            np.bincount(notes["tick"][m] // self.beat_ticks, minlength=beats)[:beats] for m in (is_drum, is_time)
+        )
+        edges = np.flatnonzero(np.diff(time == 0, prepend=False, append=False))
+        runs = zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True)
+        filled = [
+            (start + int(np.argmax(drums[start:stop] > 1)), stop) for start, stop in runs if drums[start:stop].max() > 1
+        ]
+        return filled if sum(stop - start for start, stop in filled) <= _MOST_FILLS * beats else []
 
     @cached_property
     def second_of_double(self) -> Mask:
@@ -171,8 +177,11 @@ class Written:
     def _doubles(self) -> tuple[Mask, Mask]:
         notes, found = self.score.notes, np.zeros((2, len(self.score)), np.bool_)
         right, left = (self.limb(hand) for hand in (Limb.RIGHT_HAND, Limb.LEFT_HAND))
+        ornamented = self.main_of[~self.main]
         shared = np.intersect1d(notes["piece"][right], notes["piece"][left])
         rows = np.flatnonzero(right | left)
+        if not self.music.has_sticking:
+            rows = rows[:0]
         runs = np.split(rows, np.flatnonzero(np.diff(notes["limb"][rows]) != 0) + 1)
         at_s, level = self.time_s, level_db(notes["velocity"])
         for before, run, behind in zip([rows[:0], *runs], runs, [*runs[1:], rows[:0]], strict=False):
@@ -180,7 +189,12 @@ class Written:
                 continue
             first, second = run
             alone = all(at_s[k] < at_s[first] for k in before) and all(at_s[k] > at_s[second] for k in behind)
-            same = notes["piece"][first] == notes["piece"][second] and abs(level[second] - level[first]) <= _SAME_DB
+            plain = first not in ornamented and second not in ornamented
+            same = (
+                plain
+                and notes["piece"][first] == notes["piece"][second]
+                and abs(level[second] - level[first]) <= _SAME_DB
+            )
             if alone and same and notes["piece"][first] in shared and at_s[second] - at_s[first] <= _DOUBLE_S:
                 found[:, second], found[:, first] = (True, False), (False, True)
         return found[0], found[1]
@@ -224,6 +238,8 @@ class Written:
     def compared_hands(self) -> bool:
         """Whether both hands play the same thing often enough to be compared: one piece, one dynamic."""
         notes = self.score.notes
+        if not self.music.has_sticking:
+            return False
         for piece in self.pieces:
             for dynamic in Dynamic:
                 here = self.piece(piece) & (notes["dynamic"] == dynamic)

@@ -29,6 +29,8 @@ _MOST_SHARE = {True: 0.75, False: 0.45}
 """The largest share of strokes that leans: without a click those that do not lean must be the majority."""
 _MOST_GRACES = 0.1
 """Where more strokes are graces, no hand leans: a grace would have to lean with its main stroke, the other hand's."""
+_FEWEST_FILLS = 3
+"""Once or twice is no habit; our choice."""
 _SWUNG_PLACE = 0.6
 """3:2, the mildest swing that lessons write."""
 _SD_OF_GAP = 0.25
@@ -48,6 +50,8 @@ def shifted(name: str) -> Maker:
         if name.endswith("_hand") and written.score.is_grace.mean() > _MOST_GRACES:
             return None
         if name == "swung_straight" and not written.only_eighths:
+            return None
+        if "fill" in name and len(written.fills) < _FEWEST_FILLS:
             return None
         size = max(teachers, stage.least("time", shape))
         if size > MOST * teachers or (name == "straight_swing" and size > _beat_ms(written) * _late_share(written)):
