@@ -1,8 +1,8 @@
 """How surely advice names what is wrong: faults of a teacher's sizes, planted word by word.
 
-    python benchmarks/planted_faults.py --quick                    # some twenty takes a word
+    python benchmarks/planted_faults.py --quick                    # some takes a word, a minute in all
     python benchmarks/planted_faults.py --quick --word late_kick   # one word, and the music on which it was missed
-    python benchmarks/planted_faults.py --takes 400 --processes 2 --state planted.json   # resumable
+    python benchmarks/planted_faults.py --processes 2 --state planted.json --out docs/planted-faults.md   # resumable
 
 `docs/planted-faults.md` says how it is done and what it found.
 """
@@ -18,9 +18,11 @@ from station.bench.rigs.planted_faults import FAULTS
 from station.bench.rigs.planted_table import HEAD, measure, missed_on, row
 from station.bench.rigs.planted_trials import NONE, PAIRS, Tally
 
-_QUICK_TAKES, _SOAK_TAKES = 20, 400
+_QUICK_TAKES, _SOAK_TAKES = 15, 400
 _MORE = 5
 """Times as many takes without a fault and in pairs as of a word: their limits are nearer to 0 and 100 %."""
+
+_HEADING = "## What it found"
 
 
 def tallies(asked: argparse.Namespace, names: list[str]) -> Iterator[tuple[str, Tally]]:
@@ -44,9 +46,16 @@ def options() -> argparse.Namespace:
     words.add_argument("--takes", type=int, help=f"takes a word ({_MORE} times as many without a fault and in pairs)")
     words.add_argument("--processes", type=int, default=1)
     words.add_argument("--state", type=Path, help="rows of finished words are kept here and not played again")
+    words.add_argument("--out", type=Path, help="the page whose last part, from its table's heading on, is rewritten")
     asked = words.parse_args()
     asked.takes = asked.takes or (_QUICK_TAKES if asked.quick else _SOAK_TAKES)
     return asked
+
+
+def rewrite(page: Path, lines: list[str]) -> None:
+    """Put a new table under the page's heading for it."""
+    method = page.read_text(encoding="utf-8").split(_HEADING)[0]
+    page.write_text("\n".join([method + _HEADING, "", *lines, ""]), encoding="utf-8")
 
 
 def main() -> None:
@@ -55,18 +64,19 @@ def main() -> None:
     state = json.loads(asked.state.read_text()) if asked.state and asked.state.exists() else {}
     names = asked.word or [NONE, *FAULTS, PAIRS]
     print("\n".join([HEAD, *(state[name] for name in names if name in state)]))
-    unplayed = []
     for name, tally in tallies(asked, [name for name in names if name not in state]):
         state[name] = row(name, tally)
-        if not tally.takes:
-            unplayed.append(name)
-            continue
-        print(state[name], flush=True)
+        if state[name]:
+            print(state[name], flush=True)
         if asked.word:
             print("  missed on:", missed_on(tally))
         if asked.state:
             asked.state.write_text(json.dumps(state))
-    print(f"\nNo music exercises {', '.join(unplayed) or 'no word'}.\n{time.monotonic() - begun:.0f} s")
+    unplayed = ", ".join(f"`{name}`" for name in names if not state[name])
+    closing = [f"\nNo music here exercises {unplayed}."] if unplayed else []
+    print("\n".join([*closing, f"{time.monotonic() - begun:.0f} s"]))
+    if asked.out:
+        rewrite(asked.out, [HEAD, *(state[name] for name in names if state[name]), *closing])
 
 
 if __name__ == "__main__":

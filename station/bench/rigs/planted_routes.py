@@ -41,9 +41,8 @@ def stopped(written: Written, clocked: bool, sheet: Sheet, rng: np.random.Genera
 
 
 def left_out_bars(written: Written, clocked: bool, sheet: Sheet, rng: np.random.Generator) -> Sheet | None:
-    """Goes on with the bar after the next, where that is heard."""
-    starts = _starts(written)
-    bars = [b for b in range(2, written.score.bar_count - _BARS_HEARD) if _heard(written, b, b + 1)]
+    """Goes on with the bar after the next."""
+    starts, bars = _starts(written), _bars(written, 1)
     if not bars:
         return None
     bar = int(rng.choice(bars))
@@ -51,9 +50,8 @@ def left_out_bars(written: Written, clocked: bool, sheet: Sheet, rng: np.random.
 
 
 def repeated_bars(written: Written, clocked: bool, sheet: Sheet, rng: np.random.Generator) -> Sheet | None:
-    """Plays a bar once more, where that is heard."""
-    starts = _starts(written)
-    bars = [b for b in range(2, written.score.bar_count - _BARS_HEARD) if _heard(written, b, b - 1)]
+    """Plays a bar once more."""
+    starts, bars = _starts(written), _bars(written, -1)
     if not bars:
         return None
     bar = int(rng.choice(bars))
@@ -61,10 +59,19 @@ def repeated_bars(written: Written, clocked: bool, sheet: Sheet, rng: np.random.
     return replace(sheet, runs=(Run(-1.0, starts[bar], -1.0), Run(starts[bar - 1], until_s, starts[bar])))
 
 
+def _bars(written: Written, jump: int) -> list[int]:
+    """The bars at which a jump is heard, those where it cannot be taken for one the other way if there are any."""
+    heard = [b for b in _inner(written) if _heard(written, b, b + jump)]
+    return [b for b in heard if _heard(written, b + 1, b - 1)] or heard
+
+
+def _inner(written: Written) -> range:
+    return range(2, written.score.bar_count - _BARS_HEARD)
+
+
 def sounds_as_repeated(written: Written) -> bool:
     """Whether a bar left out sounds like a bar played twice wherever either could be: in loops of two bars."""
-    inner = range(2, written.score.bar_count - _BARS_HEARD)
-    return not any(_heard(written, b + 1, b - 1) for b in inner)
+    return not any(_heard(written, b + 1, b - 1) for b in _inner(written))
 
 
 def _heard(written: Written, at: int, played: int) -> bool:

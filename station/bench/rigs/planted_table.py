@@ -65,9 +65,9 @@ def measure(name: str, takes: int, quick: bool) -> Tally:
 
 
 def row(name: str, tally: Tally) -> str:
-    """A line of the table; the word alone where no music exercises it."""
+    """A line of the table; empty where no music exercises the word."""
     if not tally.takes:
-        return f"| `{name}` | 0 | | | | | | | |"
+        return ""
     counts = (tally.first, tally.beside, tally.named, tally.innocent, tally.silent)
     shares = " | ".join(f"{100 * count / tally.takes:.1f}" for count in counts)
     size = f"{np.median(tally.sizes):.1f}" if tally.sizes else ""

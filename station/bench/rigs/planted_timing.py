@@ -44,14 +44,9 @@ def shifted(name: str) -> Maker:
         written, shape = stage.written, stage.shapes["time"].get(name)
         if shape is None:
             return None
-        strokes, teachers = shape != 0, _teachers_ms(name, stage.written)
-        if not FEWEST <= strokes.sum() <= _MOST_SHARE[stage.conditions.clocked] * written.main.sum():
-            return None
-        if name.endswith("_hand") and written.score.is_grace.mean() > _MOST_GRACES:
-            return None
-        if name == "swung_straight" and not written.only_eighths:
-            return None
-        if "fill" in name and len(written.fills) < _FEWEST_FILLS:
+        strokes, teachers = shape != 0, _teachers_ms(name, written)
+        most = _MOST_SHARE[stage.conditions.clocked] * written.main.sum()
+        if not (FEWEST <= strokes.sum() <= most and _is_habit(name, written)):
             return None
         size = max(teachers, stage.least("time", shape))
         if size > MOST * teachers or (name == "straight_swing" and size > _beat_ms(written) * _late_share(written)):
@@ -59,6 +54,15 @@ def shifted(name: str) -> Maker:
         return Planted(name, size, strokes, "time", lambda sheet, _: sheet.later(size * shape))
 
     return make
+
+
+def _is_habit(name: str, written: Written) -> bool:
+    """Whether the music lets a player have such a habit at all."""
+    if name.endswith("_hand"):
+        return bool(written.score.is_grace.mean() <= _MOST_GRACES)
+    if "fill" in name:
+        return len(written.fills) >= _FEWEST_FILLS
+    return written.only_eighths if name == "swung_straight" else True
 
 
 def _teachers_ms(name: str, written: Written) -> float:
