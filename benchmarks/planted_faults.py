@@ -30,10 +30,10 @@ def tallies(asked: argparse.Namespace, names: list[str]) -> Iterator[tuple[str, 
     takes = {name: asked.takes * (_MORE if name in (NONE, PAIRS) else 1) for name in names}
     if asked.processes == 1:
         for name in names:
-            yield name, measure(name, takes[name], asked.quick)
+            yield name, measure(name, takes[name], asked.quick, asked.times)
         return
     with ProcessPoolExecutor(asked.processes) as pool:
-        futures = {name: pool.submit(measure, name, takes[name], asked.quick) for name in names}
+        futures = {name: pool.submit(measure, name, takes[name], asked.quick, asked.times) for name in names}
         for name, future in futures.items():
             yield name, future.result()
 
@@ -44,6 +44,7 @@ def options() -> argparse.Namespace:
     words.add_argument("--quick", action="store_true", help="each music under one condition, few takes")
     words.add_argument("--word", action="append", help=f"only this word (or {NONE}, {PAIRS}); may be repeated")
     words.add_argument("--takes", type=int, help=f"takes a word ({_MORE} times as many without a fault and in pairs)")
+    words.add_argument("--times", type=float, default=1.0, help="faults so many times their size")
     words.add_argument("--processes", type=int, default=1)
     words.add_argument("--state", type=Path, help="rows of finished words are kept here and not played again")
     words.add_argument("--out", type=Path, help="the page whose last part, from its table's heading on, is rewritten")

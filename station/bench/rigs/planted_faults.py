@@ -35,7 +35,8 @@ def hats(name: str, of: Callable[[Written], Mask]) -> Maker:
         share = max(OPENNESS_SHARE, smallest_share(int(strokes.sum()), OPENNESS_SLIP))
         if strokes.sum() < FEWEST or share > MOST * OPENNESS_SHARE:
             return None
-        return Planted(name, 100 * share, strokes, name, lambda s, rng: wrong_openness(s, strokes, share, rng))
+        wrong = min(1.0, stage.times * share)
+        return Planted(name, 100 * wrong, strokes, name, lambda s, rng: wrong_openness(s, strokes, wrong, rng))
 
     return make
 
@@ -48,7 +49,8 @@ def errors(name: str, usual: float, planted: Callable[[Sheet, float], Sheet]) ->
         share = max(ERROR_SHARE, smallest_share(int(strokes.sum()), usual))
         if share > MOST * ERROR_SHARE:
             return None
-        return Planted(name, 100 * share, strokes, "errors", lambda sheet, _: planted(sheet, share))
+        wrong = min(1.0, stage.times * share)
+        return Planted(name, 100 * wrong, strokes, "errors", lambda sheet, _: planted(sheet, wrong))
 
     return make
 
@@ -63,8 +65,8 @@ def _wrong_piece(stage: Stage) -> Planted | None:
     share = max(ASTRAY_SHARE, smallest_share(count, 0.0))
     if count < FEWEST or share > MOST * ASTRAY_SHARE:
         return None
-    strokes = written.piece(piece)
-    return Planted("wrong_piece", 100 * share, strokes, "errors", lambda s, rng: astray(s, written, piece, share, rng))
+    strokes, wrong = written.piece(piece), min(1.0, stage.times * share)
+    return Planted("wrong_piece", 100 * wrong, strokes, "errors", lambda s, rng: astray(s, written, piece, wrong, rng))
 
 
 _FEET = (Piece.KICK, Piece.HIHAT_PEDAL)

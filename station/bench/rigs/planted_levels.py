@@ -33,7 +33,8 @@ def level(name: str, compared: Callable[[Written, Mask], Compared]) -> Maker:
         size = max(teachers, stage.least("level", shape))
         if size > MOST * max(teachers, HAND_DB):
             return None
-        return Planted(name, size, strokes, "level", lambda sheet, _: sheet.louder(size * shape))
+        planted_db = stage.times * size
+        return Planted(name, planted_db, strokes, "level", lambda sheet, _: sheet.louder(planted_db * shape))
 
     return make
 
@@ -81,12 +82,13 @@ def fade(name: str, sign: int) -> Maker:
 
     def make(stage: Stage) -> Planted | None:
         written = stage.written
-        size = max(FADE_DB, stage.least("level", stage.shapes["level"][name]))
+        least = max(FADE_DB, stage.least("level", stage.shapes["level"][name]))
+        size = stage.times * least
 
         def plant(sheet: Sheet, _: np.random.Generator) -> Sheet:
             from_db = np.full(len(written.score), -size if sign > 0 else 0.0)  # grows from below: 127 is the loudest
             return replace(sheet.louder(from_db), fade_db=sign * size)
 
-        return None if size > MOST * FADE_DB else Planted(name, size, written.main, "level", plant)
+        return None if least > MOST * FADE_DB else Planted(name, size, written.main, "level", plant)
 
     return make

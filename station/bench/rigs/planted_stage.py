@@ -33,10 +33,11 @@ class Planted:
 
 @dataclass(frozen=True, eq=False)
 class Stage:
-    """A piece of music under conditions."""
+    """A piece of music under conditions; faults are planted `times` as large as they must be to be found."""
 
     written: Written
     conditions: Conditions
+    times: float = 1.0
 
     @cached_property
     def shapes(self) -> Mapping[str, Mapping[str, Floats]]:

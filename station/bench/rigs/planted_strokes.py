@@ -21,6 +21,8 @@ Floats = NDArray[np.float64]
 _EIGHTHS = 8
 _WAIT_S, _WAIT_BEATS, _MOST_WAITS = 1.0, 1.5, 0.4
 """A long wait is a second and one and a half beats without a stroke; where most strokes follow one, none is long."""
+_NO_WAIT_S = 0.7
+"""A shorter silence nobody calls a wait: a beat at 86 bpm; our choice."""
 _DOUBLE_S = 0.26
 """Two strokes of one hand that are farther apart are no double but two strokes; our choice."""
 _FILL_STROKES, _FILL_BARS, _MOST_FILLS = 3, 2, 1 / 3
@@ -139,8 +141,14 @@ class Written:
             ends_a_bar = self.score.tempo_map.bar_start(last + 1) == stop * self.beat_ticks
             is_more = (inside & toms).any() or stop - start > 1
             if ends_a_bar and is_more and last - first < _FILL_BARS and inside.sum() >= _FILL_STROKES:
-                found.append((inside, self.main & (beat == stop)))
+                found.append((inside, self._landing(inside, beat == stop)))
         return found
+
+    def _landing(self, fill: Mask, beat: Mask) -> Mask:
+        """The strokes of the beat after a fill, none where the fill ends in a wait: then it would be after that, too."""
+        after = self.main & beat
+        waits = not after.any() or self.time_s[after][0] - self.time_s[fill][-1] > _NO_WAIT_S
+        return after & (not waits)
 
     def _beats_of_drums(self) -> list[tuple[int, int]]:
         """From and until which beat no timekeeper plays, begun by a beat with more than a backbeat on the drums."""

@@ -29,32 +29,33 @@ HEAD = """| word | takes | size | first % | as alternative % | named % | innocen
 
 
 @cache
-def stages(quick: bool) -> list[Stage]:
+def stages(quick: bool, times: float = 1.0) -> list[Stage]:
     """All music under all conditions; `quick`, each once, under one of them in turn."""
     music = [*lessons(), *grooves()]
     every = [(sd_ms, clocked) for clocked in (True, False) for sd_ms in SDS_MS]
     if quick:
-        return [stage(each, *every[k * 5 % len(every)]) for k, each in enumerate(music)]
-    return [stage(each, *conditions) for each in music for conditions in every]
+        return [stage(each, *every[k * 5 % len(every)], times) for k, each in enumerate(music)]
+    return [stage(each, *conditions, times) for each in music for conditions in every]
 
 
-def places(name: str, quick: bool) -> list[int]:
+def places(name: str, of: list[Stage]) -> list[int]:
     """The stages that exercise a word, in an order of the word's own."""
     if name in (NONE, PAIRS):
-        found = [k for k, of in enumerate(stages(quick)) if not of.written.is_buzzed]
+        found = [k for k, each in enumerate(of) if not each.written.is_buzzed]
     else:
-        found = [k for k, of in enumerate(stages(quick)) if name in exercised(of)]
+        found = [k for k, each in enumerate(of) if name in exercised(each)]
     order = np.random.default_rng(seed_of(name, 0, 0)).permutation(len(found))
     return [found[k] for k in order.tolist()]
 
 
-def measure(name: str, takes: int, quick: bool) -> Tally:
-    """All takes of a word (or of none, or of pairs), dealt out over its stages."""
-    tally, where = Tally(), places(name, quick)
+def measure(name: str, takes: int, quick: bool, times: float = 1.0) -> Tally:
+    """All takes of a word (or of none, or of pairs), dealt out over its stages; faults `times` their size."""
+    tally, music = Tally(), stages(quick, times)
+    where = places(name, music)
     if name not in (NONE, PAIRS):
         where = where[:MOST_STAGES]
     for at, each in spread_takes(where, takes):
-        of = stages(quick)[at]
+        of = music[at]
         if name == NONE:
             faultless(of, at, each, tally)
         elif name == PAIRS:

@@ -51,7 +51,8 @@ def shifted(name: str) -> Maker:
         size = max(teachers, stage.least("time", shape))
         if size > MOST * teachers or (name == "straight_swing" and size > _beat_ms(written) * _late_share(written)):
             return None
-        return Planted(name, size, strokes, "time", lambda sheet, _: sheet.later(size * shape))
+        planted_ms = stage.times * size
+        return Planted(name, planted_ms, strokes, "time", lambda sheet, _: sheet.later(planted_ms * shape))
 
     return make
 
@@ -90,8 +91,8 @@ def whole(name: str, sign: int) -> Maker:
     def make(stage: Stage) -> Planted | None:
         if not stage.conditions.clocked:
             return None
-        mean_ms = sign * WHOLE_MS
-        return Planted(name, WHOLE_MS, stage.written.main, "time", lambda sheet, _: replace(sheet, mean_ms=mean_ms))
+        mean_ms = sign * stage.times * WHOLE_MS
+        return Planted(name, abs(mean_ms), stage.written.main, "time", lambda sheet, _: replace(sheet, mean_ms=mean_ms))
 
     return make
 
@@ -108,7 +109,8 @@ def tempo(name: str, sign: int) -> Maker:
         share = max(TEMPO_SHARE, stage.least("time", ahead_ms))
         if share > MOST * TEMPO_SHARE:
             return None
-        return Planted(name, 100 * share, written.main, "tempo", lambda s, _: replace(s, speed_up=sign * share))
+        grows = sign * stage.times * share
+        return Planted(name, 100 * abs(grows), written.main, "tempo", lambda s, _: replace(s, speed_up=grows))
 
     return make
 
@@ -128,9 +130,9 @@ def unsteady(name: str, limb: Limb | None) -> Maker:
             return None
 
         def plant(sheet: Sheet, _: np.random.Generator) -> Sheet:
-            return replace(sheet, sd_ms=np.where(strokes, size, sheet.sd_ms))
+            return replace(sheet, sd_ms=np.where(strokes, stage.times * size, sheet.sd_ms))
 
-        return Planted(name, size, strokes, "spread", plant)
+        return Planted(name, stage.times * size, strokes, "spread", plant)
 
     return make
 

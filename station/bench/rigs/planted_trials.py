@@ -36,11 +36,11 @@ _APART = 0.2
 """Of its information at most that share a fault loses to the other of a pair; its error grows by a tenth."""
 
 
-def stage(music: Music, sd_ms: float, clocked: bool) -> Stage:
+def stage(music: Music, sd_ms: float, clocked: bool, times: float = 1.0) -> Stage:
     """Music under conditions; a player's scatter is never more than the music can bear."""
     written = Written(music)
     bearable = sd_ms if sd_ms <= _SHARE_OF_GAP * written.short_gap_ms else min(SDS_MS)
-    return Stage(written, Conditions(bearable, clocked))
+    return Stage(written, Conditions(bearable, clocked), times)
 
 
 @cache
