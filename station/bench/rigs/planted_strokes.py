@@ -145,7 +145,7 @@ class Written:
         return found
 
     def _landing(self, fill: Mask, beat: Mask) -> Mask:
-        """The strokes of the beat after a fill, none where the fill ends in a wait: then it would be after that, too."""
+        """The strokes of the beat after a fill; none where the fill ends in a wait, after which they would be, too."""
         after = self.main & beat
         waits = not after.any() or self.time_s[after][0] - self.time_s[fill][-1] > _NO_WAIT_S
         return after & (not waits)
