@@ -22,6 +22,7 @@ from station.bench.rigs.planted_player import (
     WANDER_PERIOD_S,
     WANDER_SD,
     Conditions,
+    leans_of,
 )
 from station.bench.rigs.planted_strokes import Floats, Mask, Written
 
@@ -48,7 +49,8 @@ def timing_precision(written: Written, conditions: Conditions) -> NDArray[np.flo
     apart = np.abs(moment[:, None] - moment[None, :])
     shared, own = conditions.sd_ms**2 * (1 - OWN_SHARE), conditions.sd_ms**2 * OWN_SHARE
     covariance = shared * (LAG_1 / (1 - OWN_SHARE)) ** apart + own * np.eye(len(piece))
-    covariance += PIECE_LEAN_MS**2 * (piece[:, None] == piece[None, :])
+    of_piece = leans_of(written)[np.searchsorted(written.pieces, piece)]
+    covariance += PIECE_LEAN_MS**2 * of_piece @ of_piece.T
     if conditions.clocked:
         covariance += LEAD_MS[1] ** 2
     else:

@@ -20,13 +20,15 @@ OWN_SHARE = 0.2
 LAG_1 = 0.3
 """Lag-1 correlation of asynchronies (HUMANS: .21–.37)."""
 PIECE_LEAN_MS = 5.0
-"""SD of the lean of a piece, which is style and no fault."""
+"""SD of the lean of a piece against the player's own mean, which is style and no fault."""
 LEAD_MS = (-8.0, 4.0)
 """Mean and SD of the lead over a click (HUMANS: hi-hat 2, left hand and kick 10 ms early)."""
 VELOCITY_CV = 0.08
 """Coefficient of variation of velocity (HUMANS: professionals 6–10 %)."""
 LEVEL_SD_DB = 40 / np.log(10) * VELOCITY_CV
 """The same in dB: 1.4."""
+MOST_SDS = 2.0
+"""Leads, leans and levels of a faultless player lie within two SDs: leans within 10 ms (HUMANS: full marks)."""
 PIECE_LEVEL_DB = 1.0
 """SD of a piece's own level against what is written, which is balance and no fault (HUMANS: 2 dB are free)."""
 GRACE_SD_MS = 5.0
@@ -104,6 +106,20 @@ class Conditions:
     clocked: bool
 
 
+def style(count: int, rng: np.random.Generator) -> Floats:
+    """What a player is like: normal values of SD 1, those beyond two SDs drawn again."""
+    values = rng.normal(size=count)
+    while (far := np.abs(values) > MOST_SDS).any():
+        values[far] = rng.normal(size=int(far.sum()))
+    return values
+
+
+def leans_of(written: Written) -> Floats:
+    """Takes the player's own mean out of the pieces' leans: (p, p), pieces in the order of `written.pieces`."""
+    share = np.array([written.piece(p).sum() for p in written.pieces]) / max(int(written.main.sum()), 1)
+    return np.asarray(np.eye(len(share)) - share[None, :], np.float64)
+
+
 def ar_1(count: int, lag_1: float, rng: np.random.Generator) -> Floats:
     """Stationary noise of SD 1."""
     steps = rng.normal(size=count)
@@ -174,8 +190,8 @@ def _deviation_ms(
     noise = conditions.sd_ms * (np.sqrt(1 - OWN_SHARE) * shared[main_rows[0]] + np.sqrt(OWN_SHARE) * own)
     extra_sd = np.sqrt(np.maximum(np.nan_to_num(sheet.sd_ms[mains]) ** 2 - conditions.sd_ms**2, 0))
     noise += extra_sd * _per_limb(written.score.notes["limb"][mains], rng)
-    lean = rng.normal(0, PIECE_LEAN_MS, len(Piece))[piece]
-    mean = rng.normal(*LEAD_MS) if conditions.clocked else 0.0
+    lean = PIECE_LEAN_MS * (leans_of(written) @ style(len(written.pieces), rng))[np.searchsorted(written.pieces, piece)]
+    mean = LEAD_MS[0] + LEAD_MS[1] * float(style(1, rng)[0]) if conditions.clocked else 0.0
     mean = mean if sheet.mean_ms is None else sheet.mean_ms
     late: Floats = noise + lean + mean + sheet.late_ms[mains]
     return late[inverse.reshape(-1)]
@@ -199,7 +215,7 @@ def _hits(
         hits[name] = notes[name]
     through = (at_s - at_s.min(initial=0)) / max(float(np.ptp(at_s)) if len(at_s) else 1.0, 1e-9)
     level = level_db(notes["velocity"]) + sheet.louder_db[row] + sheet.fade_db * through
-    level += rng.normal(0, PIECE_LEVEL_DB, len(Piece))[notes["piece"]] + rng.normal(0, LEVEL_SD_DB, len(row))
+    level += PIECE_LEVEL_DB * style(len(Piece), rng)[notes["piece"]] + rng.normal(0, LEVEL_SD_DB, len(row))
     hits["velocity"] = np.clip(np.rint(127 * 10 ** (level / 40)), 1, 127)
     slipped = rng.random(len(row)) < OPENNESS_SLIP
     openness = np.where(slipped, _OPEN - sheet.openness[row], sheet.openness[row])
