@@ -80,11 +80,11 @@ def smallest_shift(precision: NDArray[np.float64], shape: Floats) -> float:
 class Explanations:
     """What words say of the strokes: each a shape of deviations, and what the oracle's noise leaves of it.
 
-    `gram` (k, k) holds xᵀPy of the words' shapes x and y, with their signs and for a size of 1.
+    `gram` (k, k) holds xᵀPy of the words' shapes x and y for a size of 1, `signs` (k, m) which strokes go which way.
     """
 
     names: tuple[str, ...]
-    shapes: Floats
+    signs: NDArray[np.int8]
     gram: Floats
 
     @classmethod
@@ -92,7 +92,7 @@ class Explanations:
         """The explanations by name; shapes without a stroke are left out."""
         kept = {name: shape for name, shape in shapes.items() if shape.any()}
         stacked = np.stack(list(kept.values())) if kept else np.zeros((0, len(precision)))
-        return cls(tuple(kept), stacked, stacked @ precision @ stacked.T)
+        return cls(tuple(kept), np.sign(stacked).astype(np.int8), stacked @ precision @ stacked.T)
 
     def as_good(self, sizes: Mapping[str, float]) -> frozenset[str]:
         """The single words that say the same as these together, so far as the data tell.
@@ -110,9 +110,9 @@ class Explanations:
         return frozenset(good)
 
     def _of_the_same_strokes(self, name: str) -> list[str]:
-        mine = np.sign(self.shapes[self.names.index(name)])
-        common = np.sum((np.sign(self.shapes) == mine) & (mine != 0), axis=1)
-        either = np.sum((self.shapes != 0) | (mine != 0), axis=1)
+        mine = self.signs[self.names.index(name)]
+        common = np.sum((self.signs == mine) & (mine != 0), axis=1)
+        either = np.sum((self.signs != 0) | (mine != 0), axis=1)
         return [self.names[k] for k in np.flatnonzero(common >= SAME_STROKES * either)]
 
     def overlap(self, one: str, other: str) -> float:

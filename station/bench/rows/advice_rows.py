@@ -13,6 +13,10 @@ _TAKES = 100
 """Of a word; a share of 95 % is then known to 2 %."""
 
 
+_GROUP, _LIMIT_S = "planted faults", 7200.0
+"""One process, for all need the same music with the oracle's sizes, which takes minutes to make."""
+
+
 def _share(count: int, tally: Tally) -> float:
     return 100 * count / tally.takes
 
@@ -43,8 +47,40 @@ def _both_named() -> Measurement:
 
 
 BENCHMARKS = (
-    Benchmark("advice_first_names_fault_worst", "%", 95, "higher", None, _first_named, is_soak=True, limit_s=3600),
-    Benchmark("advice_blames_innocent_first", "%", 1, "lower", None, _innocent_first, is_soak=True, limit_s=1200),
-    Benchmark("advice_silent_without_fault", "%", 99, "higher", None, _silent_without, is_soak=True, limit_s=1200),
-    Benchmark("advice_names_both_faults", "%", 85, "higher", None, _both_named, is_soak=True, limit_s=1200),
+    Benchmark(
+        "advice_first_names_fault_worst",
+        "%",
+        95,
+        "higher",
+        None,
+        _first_named,
+        is_soak=True,
+        limit_s=_LIMIT_S,
+        group=_GROUP,
+    ),
+    Benchmark(
+        "advice_blames_innocent_first",
+        "%",
+        1,
+        "lower",
+        None,
+        _innocent_first,
+        is_soak=True,
+        limit_s=_LIMIT_S,
+        group=_GROUP,
+    ),
+    Benchmark(
+        "advice_silent_without_fault",
+        "%",
+        99,
+        "higher",
+        None,
+        _silent_without,
+        is_soak=True,
+        limit_s=_LIMIT_S,
+        group=_GROUP,
+    ),
+    Benchmark(
+        "advice_names_both_faults", "%", 85, "higher", None, _both_named, is_soak=True, limit_s=_LIMIT_S, group=_GROUP
+    ),
 )
