@@ -59,6 +59,12 @@ def rewrite(page: Path, lines: list[str]) -> None:
     page.write_text("\n".join([method + _HEADING, "", *lines, ""]), encoding="utf-8")
 
 
+def _how(asked: argparse.Namespace) -> str:
+    music = "each music under one of the six conditions" if asked.quick else "all music under all six conditions"
+    much = f"{asked.takes} takes a word, {_MORE} times as many without a fault and in pairs"
+    return f"{much}; {music}; sizes are medians, in the words' units, times {asked.times:g}."
+
+
 def main() -> None:
     """Play and print the table."""
     asked, begun = options(), time.monotonic()
@@ -77,7 +83,7 @@ def main() -> None:
     closing = [f"\nNo music here exercises {unplayed}."] if unplayed else []
     print("\n".join([*closing, f"{time.monotonic() - begun:.0f} s"]))
     if asked.out:
-        rewrite(asked.out, [HEAD, *(state[name] for name in names if state[name]), *closing])
+        rewrite(asked.out, [_how(asked), "", HEAD, *(state[name] for name in names if state[name]), *closing])
 
 
 if __name__ == "__main__":
