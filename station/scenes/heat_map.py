@@ -51,7 +51,7 @@ def heat_map(result: SessionResult) -> HeatMap:
     if not len(score):
         return HeatMap({})
     bars = places_of(result, score.notes["tick"])["bar"]
-    right = right_notes(score, result.alignment, result.windows)
+    right = right_notes(score, result.alignment, result.plan.level.windows)
     cells: dict[tuple[int, Limb], HeatCell] = {}
     for limb in LIMBS:
         mine = score.notes["limb"] == limb

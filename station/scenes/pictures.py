@@ -53,7 +53,7 @@ def draw_session(result: SessionResult, path: Path, demonstrator: Demonstrator) 
         if judgement.label is Label.EXTRA and judgement.hit_index is not None:
             hit = result.performance[judgement.hit_index]
             extras.append(ExtraHit(hit.at_ns / NS_PER_S, hit.piece))
-    right = int(right_notes(result.score, result.alignment, result.windows).sum())
+    right = int(right_notes(result.score, result.alignment, result.plan.level.windows).sum())
     hud = Hud(
         title=plan.lesson.title,
         phase="1 pass played" if plan.passes == 1 else f"{plan.passes} passes played",

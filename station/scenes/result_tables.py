@@ -37,7 +37,7 @@ def session_facts(result: SessionResult, document: dict[str, Json]) -> ResultFac
         result.score,
         result.alignment.note_label,
         result.alignment.asynchrony_ns,
-        right_notes(result.score, result.alignment, result.windows),
+        right_notes(result.score, result.alignment, result.plan.level.windows),
         np.asarray(result.performance.hits["at_ns"][extra] / NS_PER_S),
         words,
     )

@@ -214,7 +214,7 @@ class SessionView:
         shown = first + np.flatnonzero(self._marks["label"][first : first + per_pass] >= 0)
         verdicts, is_grace = session.verdicts, self.plan.score.is_grace
         judged = [note for note in shown.tolist() if note in verdicts]
-        right = sum(is_right(verdicts[note], bool(is_grace[note]), session.windows) for note in judged)
+        right = sum(is_right(verdicts[note], bool(is_grace[note]), session.plan.level.windows) for note in judged)
         return right, len(judged)
 
 

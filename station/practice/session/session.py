@@ -57,7 +57,7 @@ class SessionResult:
 
     `score` is what is judged: the plan's, or, when the session was stopped early (`complete` False), its strokes up to
     there. `device` is what most hits were played on, `output` what the click was heard on; None where there was none.
-    `pauses` are those after which it went on, each by its bar of `score`; `windows` those of its level.
+    `pauses` are those after which it went on, each by its bar of `score`.
     """
 
     plan: Plan
@@ -69,7 +69,6 @@ class SessionResult:
     device: str | None
     output: str | None = None
     pauses: tuple[SessionPause, ...] = ()
-    windows: Windows = DEFAULT_LEVEL
 
 
 @dataclass(eq=False)
@@ -265,7 +264,6 @@ class Session:
             self._played_on(),
             self.heard.output,
             tuple(self.pauses),
-            self.windows,
         )
 
     def _played_on(self) -> str | None:
