@@ -336,7 +336,12 @@ def test_a_picture_is_written_as_png(tmp_path: Path) -> None:
 def test_a_result_is_written_as_png(tmp_path: Path) -> None:
     label = np.full(len(SCORE), Label.MATCH, np.uint8)
     facts = result_facts(
-        SCORE, label, np.zeros(len(SCORE), np.int64), np.empty(0), ResultWords("Rock", "120 bpm", 100.0)
+        SCORE,
+        label,
+        np.zeros(len(SCORE), np.int64),
+        np.ones(len(SCORE), bool),
+        np.empty(0),
+        ResultWords("Rock", "120 bpm", 100.0),
     )
     draw_report_png(facts, tmp_path / "report.png", (640, 400))
     picture = decode((tmp_path / "report.png").read_bytes())

@@ -149,7 +149,7 @@ def end_cost(written: Written, last_beat: float, offsets: Offsets) -> Floats:
     fits = written.fits
     left = fits.unanswered(written.note_beats[-1:] + 1.0, np.zeros(1, np.int64))
     unheard = left - fits.unanswered(np.array([last_beat + _END_SLACK]), offsets.parts)
-    return -np.minimum(unheard[0], UNHEARD_END).astype(np.float64)
+    return np.asarray(-np.minimum(unheard[0], UNHEARD_END), np.float64)
 
 
 _END_SLACK = 0.25

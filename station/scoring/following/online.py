@@ -157,7 +157,7 @@ class Online:
             return index
         gain = self._gain(opened - EDGE)
         hits, self._block, self._edge = self._block, [], opened - EDGE
-        self._total, is_jumped, origin = forward(self._total, gain, self._offsets, self._written)
+        self._total, is_jumped, _ = forward(self._total, gain, self._offsets, self._written)
         self._since = np.where(is_jumped, hits[0], self._since)
         self._total -= self._total.max()
         best, here = int(self._total.argmax()), self._offsets.here

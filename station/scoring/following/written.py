@@ -104,9 +104,7 @@ def written_of(score: Score, note_class: Indices) -> Written:
     beats = np.arange(0, max(score.end_tick, PPQ) + 1, PPQ)
     meter = score.tempo_map.meter_at(0)
     quarters = score.tempo_map.seconds_at(beats)
-    return Written(
-        score.onset_s[order], note_class[order], quarters, meter.bar_ticks / PPQ, meter.beat_ticks / PPQ
-    )
+    return Written(score.onset_s[order], note_class[order], quarters, meter.bar_ticks / PPQ, meter.beat_ticks / PPQ)
 
 
 class Fits:
