@@ -81,11 +81,15 @@ def block_gains(
     """
     said = written.fits.said(beats, classes, offsets.parts)
     passed = np.diff(written.fits.unanswered(edges, offsets.parts), axis=0)
-    return gained(np.add.reduceat(said, starts, axis=0), passed), said
+    return gained(np.add.reduceat(said, starts, axis=0), passed, _SLACK), said
 
 
-EDGE = 0.1
-"""Beats by which a stroke may come before its beat: an anticipated one belongs to the block that it begins."""
+_SLACK = 1
+"""Hits more than notes that a block may have: one that came early for the next."""
+
+EDGE = 0.145
+"""Beats by which a stroke may come before its beat: graces and early strokes belong to the block that they begin, the
+last of six in a beat (0.167) does not."""
 
 
 def forward(total: Floats, gain: Floats, offsets: Offsets, written: Written) -> tuple[Floats, NDArray[np.bool_], int]:
