@@ -76,6 +76,39 @@ def fill_ramp(score: Score) -> Floats:
     return ramp
 
 
+def landings(score: Score) -> Flags:
+    """The strokes on which fills land: the first slot after each fill, and what follows it for a beat."""
+    flags, filled = np.zeros(len(score), bool), fills(score)
+    rows = np.flatnonzero(filled)
+    beat = _beats(score)[rows]
+    ticks = score.notes["tick"]
+    for fill in np.split(rows, np.flatnonzero(np.diff(beat) > 1) + 1) if len(rows) else ():
+        after = ticks[(ticks > ticks[fill[-1]]) & ~filled]
+        if len(after):
+            flags |= (ticks >= after[0]) & (ticks < after[0] + PPQ)
+    return np.asarray(flags & ~filled & ~score.is_grace)
+
+
+@dataclass(frozen=True, eq=False)
+class Offbeats:
+    """Strokes beside the beat that are written straight, flags (n,): `all` of them, `ands` in its middle, `quarters`
+    at its first and third quarter. A beat is a quarter, or three eighths where the meter counts them so."""
+
+    all: Flags
+    ands: Flags
+    quarters: Flags
+
+
+def offbeats(score: Score) -> Offbeats:
+    """The strokes beside the beat; swung ones are none."""
+    beat_ticks = _beat_ticks(score)
+    within = (score.notes["tick"] - _beat_starts(score)) % beat_ticks
+    straight = ~score.is_grace & ~swung(score).flags
+    halved = straight & (2 * within == beat_ticks) & (beat_ticks == PPQ)
+    quartered = straight & ((4 * within == beat_ticks) | (4 * within == 3 * beat_ticks)) & (beat_ticks == PPQ)
+    return Offbeats(straight & (within > 0), halved, quartered)
+
+
 def long_waits(score: Score) -> Flags:
     """Strokes that come `LONG_WAIT` or more times the median wait after the slot before; never the first slot's."""
     ticks, slot_of_row = slots(score)
@@ -158,6 +191,15 @@ def second_of_doubles(score: Score) -> Flags:
     return flags
 
 
+def double_interval_ms(score: Score) -> float:
+    """The usual time from the first to the second stroke of a double as written; infinite without doubles."""
+    second = np.flatnonzero(second_of_doubles(score))
+    slot_ticks, slot_of_row = slots(score)
+    before = slot_ticks[np.maximum(slot_of_row[second] - 1, 0)]
+    gaps_ms = (score.tempo_map.ns_at(score.notes["tick"][second]) - score.tempo_map.ns_at(before)) / NS_PER_MS
+    return float(np.median(gaps_ms)) if len(second) else float("inf")
+
+
 def hands_compared(score: Score, fewest: int = 1) -> Flags:
     """Strokes of a dynamic that both hands play, each `fewest` times or more: there a weak hand can be told.
 
@@ -187,6 +229,16 @@ def _beat_starts(score: Score) -> NDArray[np.int64]:
     meters = np.array([m.tick for m in score.tempo_map.meters], np.int64)
     starts: NDArray[np.int64] = meters[np.searchsorted(meters, score.notes["tick"], side="right") - 1]
     return starts
+
+
+def _beat_ticks(score: Score) -> NDArray[np.int64]:
+    """Length of the beat of each row: three eighths in compound meters (6/8, 9/8, 12/8), else a quarter."""
+    meters = score.tempo_map.meters
+    compound = np.array([m.unit == 8 and m.beats % 3 == 0 and m.beats > 3 for m in meters])
+    lengths = np.where(compound, 3 * PPQ // 2, PPQ).astype(np.int64)
+    starts = np.array([m.tick for m in meters], np.int64)
+    found: NDArray[np.int64] = lengths[np.searchsorted(starts, score.notes["tick"], side="right") - 1]
+    return found
 
 
 def _beats(score: Score) -> NDArray[np.int64]:

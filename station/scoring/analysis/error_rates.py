@@ -10,26 +10,27 @@ import numpy as np
 from station.core.labels import piece_name
 from station.core.pieces import Piece
 from station.music.judgement import Label
-from station.scoring.analysis.finding import MIN_SLOTS, Z_95, Finding, worst_bars
-from station.scoring.analysis.habits import CHANCE
+from station.scoring.analysis.finding import CHANCE, MIN_SLOTS, Z_95, Finding, worst_bars
+from station.scoring.analysis.journey import Journey
 from station.scoring.analysis.summary import Summary
 from station.scoring.analysis.technique.observability import Swallowed
 
-FREE_LOSS, _CLEAR_LOSS = 0.05, 0.2
-"""One stroke in twenty goes wrong with anyone; one in five is what to work at (our choice; TEACHING's pass is 90 %)."""
 
+def misses_and_extras(summary: Summary, way: Journey) -> list[Finding]:
+    """A piece whose notes are left out, and strokes that nobody wrote.
 
-def misses_and_extras(summary: Summary) -> list[Finding]:
-    """A piece whose notes are left out, and strokes that nobody wrote."""
+    What belongs to a bar that was left out or played again is said by `way` and counts as neither.
+    """
     found = []
-    observable = summary.swallowed == Swallowed.NO
+    observable = (summary.swallowed == Swallowed.NO) & ~way.passed
+    excused = np.bincount(summary.performance.hits["piece"][way.again], minlength=len(Piece))
     missed = (summary.alignment.note_label == Label.MISS) & observable
     for piece, group in summary.by_piece.items():
         here = (summary.score.notes["piece"] == piece) & observable
         bars = worst_bars(summary, missed[here].astype(np.float64), here)
-        found += _of_share("missed", _name(piece), (int(missed[here].sum()), int(here.sum())), bars)
-        extras = group.extras or 0
-        found += _of_share("extra", _name(piece), (extras, group.matched + extras), ())
+        found += _of_share(summary, "missed", _name(piece), (int(missed[here].sum()), int(here.sum())), bars)
+        extras = (group.extras or 0) - int(excused[piece])
+        found += _of_share(summary, "extra", _name(piece), (extras, group.matched + extras), ())
     return found
 
 
@@ -41,20 +42,21 @@ def wrong_pieces(summary: Summary) -> list[Finding]:
         missed = (summary.alignment.note_label == Label.WRONG_PIECE).astype(np.float64)
         bars = worst_bars(summary, missed[here], here)
         subject = f"{_name(wrong.played)} for {_name(wrong.written)}"
-        found += _of_share("wrong_piece", subject, (wrong.count, int(here.sum())), bars)
+        found += _of_share(summary, "wrong_piece", subject, (wrong.count, int(here.sum())), bars)
     return found
 
 
-def _of_share(fault: str, subject: str, share: tuple[int, int], bars: Sequence[int]) -> list[Finding]:
-    """A finding in percent if the interval of `share` (so many of so many) lies beyond `FREE_LOSS`, else nothing."""
+def _of_share(
+    summary: Summary, fault: str, subject: str, share: tuple[int, int], bars: Sequence[int]
+) -> list[Finding]:
+    """A finding in percent if the interval of `share` (so many of so many) lies beyond what is free, else nothing."""
     bad, of = share
-    if bad < 2 or of < MIN_SLOTS:
-        return []
-    if wilson(bad, of, CHANCE)[0] <= FREE_LOSS:
+    free = summary.view.faults.least(fault) / 100
+    if bad < 2 or of < MIN_SLOTS or wilson(bad, of, CHANCE)[0] <= free:
         return []
     low, high = wilson(bad, of)
     percent = 100 * bad / of
-    return [Finding(fault, subject, percent, (100 * low, 100 * high), "%", bad / of / _CLEAR_LOSS, tuple(bars))]
+    return [Finding(fault, subject, percent, (100 * low, 100 * high), "%", bad / of / max(free, 0.01), tuple(bars))]
 
 
 def wilson(hit: int, of: int, z: float = Z_95) -> tuple[float, float]:

@@ -20,6 +20,7 @@ from station.music import passages
 from station.music.judgement import Label
 from station.music.performance import Performance
 from station.music.score import Score
+from station.scoring.analysis.fault_table import Asked
 from station.scoring.analysis.habits import Habits, habits
 from station.scoring.analysis.loudness import Loudness, dynamics
 from station.scoring.analysis.player_tempo import TempoCurve, tempo_curve
@@ -89,7 +90,8 @@ class SummaryView:
     `pass_bars` bars make one pass of a loop (None: no loop), so that bar b of the score is the lesson's bar
     `first_bar` + b mod `pass_bars`, from 0; where passes differ `bar_names` says it of each bar. `hears_velocity` False
     where the input cannot tell loud from soft. `feel` is what costs nothing, `silences` where the click was silent,
-    `kit` what was measured of the student's. `beat_ticks` is the beat that tempi in sentences count.
+    `kit` what was measured of the student's. `beat_ticks` is the beat that tempi in sentences count. `faults` are the
+    sizes from which the lesson names faults.
     """
 
     windows: Windows = DEFAULT_LEVEL
@@ -101,13 +103,18 @@ class SummaryView:
     bar_names: tuple[int, ...] | None = None
     kit: KitFacts = field(default_factory=KitFacts)
     beat_ticks: int = PPQ
+    faults: Asked = field(default_factory=Asked)
 
     def bars(self, score: Score) -> NDArray[np.int64]:
         """The lesson's bar of each note, from 0, shape (n,)."""
+        return self.bar_names_of(score)[score.bar]
+
+    def bar_names_of(self, score: Score) -> NDArray[np.int64]:
+        """The lesson's bar, from 0, of each bar of the score."""
         if self.bar_names is not None:
-            return np.asarray(self.bar_names, np.int64)[score.bar]
-        own = score.bar if self.pass_bars is None else score.bar % self.pass_bars
-        return np.asarray(own + self.first_bar, np.int64)
+            return np.asarray(self.bar_names, np.int64)
+        own = np.arange(max(score.bar_count, int(score.bar.max(initial=0)) + 1))
+        return np.asarray((own if self.pass_bars is None else own % self.pass_bars) + self.first_bar, np.int64)
 
 
 @dataclass(frozen=True, eq=False)
