@@ -34,6 +34,9 @@ DECIDE = 0.75
 """From this share of the smallest size on a fault is named, so that chance hides few of those that just matter (our
 choice: pieces lean by 5 ms in anyone, 25 ms are seen as 19 or more in nine of ten, and one in 5,000 leans by as much)."""
 
+_WHOLE_SHARE = 0.8
+"""The same for all of a take: 20 ms, for professionals stand up to 16 ms ahead of the click (HUMANS)."""
+
 _HATS_SHARE = 0.6
 """The same for open and closed hats, of which an even player has none that are wrong."""
 
@@ -88,16 +91,16 @@ def _words_of(summary: Summary, name: str, effect: Effect) -> tuple[str, ...]:
     if name not in _WORDS:
         return (of_piece("late" if late else "early", name),)
     said = _WORDS[name][0 if late else 1]
-    if name in ("ands", "quarters") and late:
+    if name in OFFBEATS and late:
         ratio = ratio_of_place(0.5 + effect.value / _pair_ms(summary.score, name))
         return ("swung_straight", said) if ratio >= FREE_SWING[0] else (said, "swung_straight")
     return (said,)
 
 
 def _pair_ms(score: Score, name: str) -> float:
-    """Length of the two strokes that swing would share unevenly: a beat, or half of one."""
+    """Length of the two strokes that swing would share unevenly: half a beat for its quarters, else a beat."""
     beat_ms = 60e3 / score.tempo_map.bpm_at(0)
-    return beat_ms if name == "ands" else beat_ms / 2
+    return beat_ms / 2 if name == "quarters" else beat_ms
 
 
 def _size(summary: Summary, name: str, effect: Effect) -> float:
@@ -150,7 +153,8 @@ def _matters(summary: Summary, name: str, effect: Effect, severity: float) -> bo
         return not summary.view.feel.allows(ratio_of_place(written + effect.value), ratio_of_place(written))
     if name == CONSTANT:  # with habits taken out, and as it was heard
         mean_ms = summary.timing.mean_ms or 0.0
-        return severity >= DECIDE and mean_ms * np.sign(effect.value) >= DECIDE * abs(effect.value) / severity
+        heard_ms = mean_ms * np.sign(effect.value)
+        return min(severity, heard_ms * severity / abs(effect.value)) >= _WHOLE_SHARE
     return severity >= DECIDE
 
 

@@ -32,9 +32,9 @@ Indices = NDArray[np.int64]
 STAND_MS = 15.0
 """How far from the click players usually stand: professionals 10–16 ms ahead (HUMANS)."""
 
-LEAN_MS = 4.0
-"""By how much pieces usually lean apart, as far as it may hide a cause: beginners' and professionals' 5–11 ms (HUMANS)
-would hide a lean of 25 ms in a short take. What is too small to matter is left to `findings`."""
+LEAN_SHARE = 0.16
+"""By how much pieces usually lean apart, of the smallest lean that matters: 4 of 25 ms. The 5–11 ms of HUMANS would
+hide a lean of 25 ms in a short take; what is too small to matter is left to `findings`."""
 
 DRIFT_MS = 10.0
 """How far a player usually moves against the click from one end of a take to the other (our choice: within it)."""
@@ -82,10 +82,12 @@ class Habits:
         return None if self.timing is None else self.timing.sd
 
 
-def habits(score: Score, performance: Performance, alignment: Alignment, hears_velocity: bool) -> Habits:
-    """What `performance` shows of each habit that `score` has places for."""
+def habits(
+    score: Score, performance: Performance, alignment: Alignment, hears_velocity: bool, least_lean_ms: float = 25.0
+) -> Habits:
+    """What `performance` shows of each habit that `score` has places for; `least_lean_ms` is the least that matters."""
     strokes = _places(score)
-    timing, rest_ms = _timing(score, alignment, strokes)
+    timing, rest_ms = _timing(score, alignment, strokes, LEAN_SHARE * least_lean_ms)
     off_db = _off_db(score, performance, alignment) if hears_velocity else np.full(len(score), np.nan)
     level = _levels(score, performance, alignment, strokes, off_db)
     effects = {
@@ -127,7 +129,9 @@ def _places(score: Score) -> dict[str, Flags]:
 # --- time -------------------------------------------------------------------------------------------------------------
 
 
-def _timing(score: Score, alignment: Alignment, places: dict[str, Flags]) -> tuple[Explained | None, Floats]:
+def _timing(
+    score: Score, alignment: Alignment, places: dict[str, Flags], lean_ms: float
+) -> tuple[Explained | None, Floats]:
     """The causes of the asynchronies, and what they leave over (n,), NaN where nothing was played."""
     rows, rest = np.flatnonzero(timed_notes(score, alignment)), np.full(len(score), np.nan)
     if not len(rows):
@@ -139,7 +143,7 @@ def _timing(score: Score, alignment: Alignment, places: dict[str, Flags]) -> tup
     def column(name: str, cost: float = 0.0, tau: float | None = None) -> Column:
         return Column(name, shapes[name][rows].astype(np.float64), tau, cost)
 
-    base = [column(CONSTANT, tau=STAND_MS), *(column(piece, tau=LEAN_MS) for piece in pieces)]
+    base = [column(CONSTANT, tau=STAND_MS), *(column(piece, tau=lean_ms) for piece in pieces)]
     base.append(Column("drift", _through(score.notes["tick"][rows]), DRIFT_MS))
     suspects = [column(name) for name in (*pieces, "swing", "fills", "landings", "doubles")]
     suspects += [column(name, _SECOND) for name in (*HANDS, "fill_shift", "long_waits")]

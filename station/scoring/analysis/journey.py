@@ -31,6 +31,11 @@ EMPTY_NOTES = 4
 """A bar without any of so many strokes was left out; of fewer chance may take all (a tenth left out: 1 in 10,000)."""
 
 
+MOST_AT_END = 2
+"""So many silent bars at the end were left out somewhere, in music whose bars are alike; more, and the take was ended
+(our choice)."""
+
+
 @dataclass(frozen=True, slots=True)
 class Jump:
     """`fault` is `stopped`, `left_out_bars` or `repeated_bars`; in `bar` of the score (from 0), on to `to_bar`.
@@ -60,16 +65,14 @@ def journey(score: Score, performance: Performance, alignment: Alignment) -> Jou
     passed, again = np.zeros(len(score), np.bool_), np.zeros(len(performance), np.bool_)
     jumps: list[Jump] = []
     at, place = performance.hits["at_ns"].astype(np.float64), alignment.hit_score_ns.astype(np.float64)
-    rows = np.flatnonzero(alignment.note_of_hit >= 0)
-    if len(rows) > 2:
-        own_at, own_place = at[rows], place[rows]
+    if len(at) > 2 and (alignment.note_of_hit >= 0).any():
         beat_ns = float(score.tempo_map.ns_at(PPQ))
-        passing, moving = np.diff(own_at), np.diff(own_place)
+        passing, moving = np.diff(at), np.diff(place)
         pace = _pace(passing, moving, beat_ns)
         run = 0
         for k in np.flatnonzero(np.abs(moving - pace * passing) >= LEAST_BEATS * beat_ns).tolist():
-            span = (own_place[k], own_place[k + 1])
-            jump = _jump(score, span, pace * passing[k], own_place[run], beat_ns)
+            span = (place[k], place[k + 1])
+            jump = _jump(score, span, pace * passing[k], place[run], beat_ns)
             if jump is not None:
                 jumps.append(jump)
             low, high = min(span), max(span)
@@ -92,7 +95,8 @@ def _jump(
     score: Score, span: tuple[float, float], passed_ns: float, run_began_ns: float, beat_ns: float
 ) -> Jump | None:
     """What a jump of the place from `span[0]` to `span[1]` is, while `passed_ns` of score time should have passed."""
-    left, came = (int(score.tempo_map.bars_at(score.tempo_map.ticks_at_ns(max(round(ns), 0)))) for ns in span)
+    at_ticks = score.tempo_map.ticks_at_ns(np.maximum(np.array(span) + beat_ns / 8, 0).astype(np.int64))
+    left, came = score.tempo_map.bars_at(at_ticks).tolist()
     start, end = (int(score.tempo_map.ns_at(score.tempo_map.bar_start(left + k))) for k in (0, 1))
     bars = (span[1] - span[0] - passed_ns) / (end - start)
     later = score.onset_ns[score.onset_ns > span[0] + beat_ns / 16]
@@ -114,7 +118,7 @@ def _jump(
 
 
 def _silent_bars(score: Score, alignment: Alignment, passed: Flags) -> list[Jump]:
-    """Bars in which nothing was struck between others in which something was; their notes are added to `passed`."""
+    """Bars in which nothing was struck after others in which something was; their notes are added to `passed`."""
     main, answered = ~score.is_grace, alignment.hit_of_note >= 0
     bars = score.bar
     heard = np.bincount(bars, weights=answered, minlength=score.bar_count) > 0
@@ -123,7 +127,8 @@ def _silent_bars(score: Score, alignment: Alignment, passed: Flags) -> list[Jump
         return []
     played = np.flatnonzero(heard)
     silent = np.flatnonzero(~heard & (written >= EMPTY_NOTES))
-    silent = silent[(silent > played[0]) & (silent < played[-1])]
+    ended = int((silent > played[-1]).sum()) > MOST_AT_END
+    silent = silent[(silent > played[0]) & ((silent < played[-1]) | (not ended))]
     passed |= np.isin(bars, silent)
     runs = np.split(silent, np.flatnonzero(np.diff(silent) > 1) + 1) if len(silent) else []
     return [Jump("left_out_bars", int(run[0]), int(run[-1]) + 1, float(len(run)), ("stopped",)) for run in runs]

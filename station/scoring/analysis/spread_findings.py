@@ -24,9 +24,10 @@ Flags = NDArray[np.bool_]
 BESIDE_OTHERS = 1.5
 """One limb is unsteady from so many times the spread of the others on (the fault table)."""
 
-_LIMB_SHARE, _RATIO_SHARE, _WHOLE_SHARE = 0.75, 0.85, 0.9
+_LIMB_SHARE, _RATIO_SHARE, _WHOLE_SHARE, _SURE_SHARE = 0.75, 0.85, 0.8, 0.7
 """Named from these shares of the smallest sizes on: spreads of 30 strokes are known to an eighth, of 100 to a 14th, and
-the farthest strokes of an unsteady limb answer no note any more."""
+the farthest strokes of an unsteady limb answer no note any more. The last is for the lower end of the interval: an SD
+of 20 ms is no fault."""
 
 _MOST_SD_MS, _SD_SHARE = 35.0, 0.15
 """TEACHING: a pass's SD is at most 35 ms, at slow tempi 15 % of the interval."""
@@ -79,7 +80,7 @@ def _of_whole(summary: Summary, strokes: Flags) -> Iterator[Finding]:
         return
     least = max(summary.view.faults.least("unsteady"), min(_MOST_SD_MS, _SD_SHARE * _usual_interval_ms(summary)))
     left = min(sd, _sd(summary.habits.rest_ms[strokes]))
-    if left < _WHOLE_SHARE * least:
+    if left < _WHOLE_SHARE * least or left * (1 - Z_95 / (2 * count) ** 0.5) < _SURE_SHARE * least:
         return
     timed = timed_notes(summary.score, summary.alignment)
     yield _finding(summary, "unsteady", sd, timed, f"{least:.0f}")

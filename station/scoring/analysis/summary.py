@@ -20,7 +20,7 @@ from station.music import passages
 from station.music.judgement import Label
 from station.music.performance import Performance
 from station.music.score import Score
-from station.scoring.analysis.fault_table import Asked
+from station.scoring.analysis.fault_table import PIECE_WORDS, Asked, kind_of
 from station.scoring.analysis.habits import Habits, habits
 from station.scoring.analysis.loudness import Loudness, dynamics
 from station.scoring.analysis.player_tempo import TempoCurve, tempo_curve
@@ -104,6 +104,12 @@ class SummaryView:
     kit: KitFacts = field(default_factory=KitFacts)
     beat_ticks: int = PPQ
     faults: Asked = field(default_factory=Asked)
+
+    @property
+    def least_lean_ms(self) -> float:
+        """The smallest lean of a piece that matters here."""
+        asked = (size for word, size in self.faults.sizes.items() if word in PIECE_WORDS and size is not None)
+        return max(min(kind_of("late_piece").least, self.feel.lean_ms, *asked), 1.0)
 
     def bars(self, score: Score) -> NDArray[np.int64]:
         """The lesson's bar of each note, from 0, shape (n,)."""
@@ -190,7 +196,7 @@ def summarise(score: Score, performance: Performance, alignment: Alignment, view
         ),
         by_passage=_table((name, group(here, None)) for name, here in _passages(score) if here.any()),
         wrong_pieces=_wrong_pieces(score, performance, alignment),
-        habits=habits(score, performance, alignment, view.hears_velocity),
+        habits=habits(score, performance, alignment, view.hears_velocity, view.least_lean_ms),
         tempo=tempo_curve(score, performance, alignment),
         swallowed=swallowed,
     )
