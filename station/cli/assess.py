@@ -51,7 +51,9 @@ def run(options: AssessOptions) -> int:
     view = SummaryView(options.level, kit=kit_facts(load_settings()))
     if is_lesson(options.score):
         lesson = find_lesson(options.score)
-        view = replace(view, pass_bars=score.bar_count, feel=feel_of(lesson.goals), beat_ticks=lesson.beat_ticks)
+        goals = lesson.goals
+        view = replace(view, pass_bars=score.bar_count, feel=feel_of(goals), beat_ticks=lesson.beat_ticks)
+        view = replace(view, faults=goals.faults)
         score = score.repeated(times_played(score, performance))
     if options.gap is not None:
         view = replace(view, silences=silences(score.tempo_map, score.end_tick, options.gap))

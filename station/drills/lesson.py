@@ -13,6 +13,7 @@ from station.drills.grid.cell_strokes import Velocities
 from station.drills.grid.swing import STRAIGHT, Swing
 from station.music.score import Score
 from station.music.tempo import TempoChange
+from station.scoring.analysis.fault_table import Asked
 
 LEVELS: Mapping[int, str] = MappingProxyType(
     {1: "first steps", 2: "beginner", 3: "intermediate", 4: "advanced", 5: "expert"}
@@ -32,7 +33,8 @@ class Goals:
 
     `min_accuracy` share of the notes right, 0–1; `max_sd_ms` spread of the asynchronies; `max_lean_ms` how far their
     mean may lie from the written time (feel is free unless this asks); `max_swing_error` how far the swing ratio may
-    lie from the lesson's; `target_tempo_bpm` quarter notes a minute, the written tempo if None; `min_score` 0–100.
+    lie from the lesson's; `target_tempo_bpm` quarter notes a minute, the written tempo if None; `min_score` 0–100;
+    `faults` the sizes from which the teacher minds faults, where they are not the usual ones.
     """
 
     min_accuracy: float = DEFAULT_MIN_ACCURACY
@@ -41,6 +43,7 @@ class Goals:
     max_swing_error: float | None = None
     target_tempo_bpm: float | None = None
     min_score: float | None = None
+    faults: Asked = field(default_factory=Asked)
 
 
 @dataclass(frozen=True, slots=True)

@@ -91,8 +91,10 @@ def landings(score: Score) -> Flags:
 
 @dataclass(frozen=True, eq=False)
 class Offbeats:
-    """Strokes beside the beat that are written straight, flags (n,): `all` of them, `ands` in its middle, `quarters`
-    at its first and third quarter. A beat is a quarter, or three eighths where the meter counts them so."""
+    """Strokes beside the beat that are written straight; a beat is a quarter, or three eighths in compound meters.
+
+    Flags (n,): `all` of them, `ands` in the middle of the beat, `quarters` at its first and third quarter.
+    """
 
     all: Flags
     ands: Flags

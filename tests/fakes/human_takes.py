@@ -44,7 +44,6 @@ class Added:
     course: object = None
 
 
-
 def human_hits(score: Score, seed: int, human: Human | None = None, added: Added | None = None) -> NDArray[np.void]:
     """The hits of a take (n,), in the order of the notes, in the score's own time."""
     human, added, rng = human or Human(), added or Added(), np.random.default_rng(seed)

@@ -46,9 +46,7 @@ def wrong_pieces(summary: Summary) -> list[Finding]:
     return found
 
 
-def _of_share(
-    summary: Summary, fault: str, subject: str, share: tuple[int, int], bars: Sequence[int]
-) -> list[Finding]:
+def _of_share(summary: Summary, fault: str, subject: str, share: tuple[int, int], bars: Sequence[int]) -> list[Finding]:
     """A finding in percent if the interval of `share` (so many of so many) lies beyond what is free, else nothing."""
     bad, of = share
     free = summary.view.faults.least(fault) / 100

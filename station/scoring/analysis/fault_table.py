@@ -106,7 +106,7 @@ def kind_of(fault: str) -> FaultKind:
 class Asked:
     """What a lesson asks of faults: the smallest size by word in the table's unit, None for a word that is mute."""
 
-    sizes: Mapping[str, float | None] = field(default_factory=lambda: MappingProxyType({}))
+    sizes: Mapping[str, float | None] = field(default_factory=lambda: MappingProxyType({}), hash=False)
 
     def least(self, fault: str) -> float:
         """The smallest size of `fault` that counts, in its unit; infinite where it is mute."""

@@ -32,7 +32,7 @@ Floats = NDArray[np.float64]
 
 DECIDE = 0.75
 """From this share of the smallest size on a fault is named, so that chance hides few of those that just matter (our
-choice: pieces lean by 5 ms in anyone, 25 ms are seen as 19 or more in nine of ten, and one in 5,000 leans by as much)."""
+choice: pieces lean by 5 ms in anyone, so that 25 ms are seen as 19 or more in nine of ten, and 0 in one of 5,000)."""
 
 _WHOLE_SHARE = 0.8
 """The same for all of a take: 20 ms, for professionals stand up to 16 ms ahead of the click (HUMANS)."""
@@ -225,5 +225,3 @@ def _flams(summary: Summary) -> Iterator[Finding]:
             ci = (effect.ci[0] - written_ms, effect.ci[1] - written_ms)
             bars = farthest_bars(summary, flam, -side * off)
             yield Finding(fault, f"{effect.value:.0f}", effect.value - written_ms, ci, "ms", size, bars)
-
-

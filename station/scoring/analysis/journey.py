@@ -52,8 +52,11 @@ class Jump:
 
 @dataclass(frozen=True, eq=False)
 class Journey:
-    """All jumps in order; `passed` (n,) notes that were left out with their bar, `again` (m,) hits of bars that were
-    played more than once and that answer nothing."""
+    """All jumps in order.
+
+    `passed` (n,) are notes that were left out with their bar, `again` (m,) hits of bars that were played more than once
+    and that answer nothing.
+    """
 
     jumps: tuple[Jump, ...]
     passed: Flags

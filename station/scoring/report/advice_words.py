@@ -115,7 +115,11 @@ DO = MappingProxyType(
 
 OR = MappingProxyType(
     {
-        **{f"{side}_{hand}": f"your {hand.replace('_', ' ')}" for side in ("late", "early") for hand in ("left_hand", "right_hand")},
+        **{
+            f"{side}_{hand}": f"your {hand.replace('_', ' ')}"
+            for side in ("late", "early")
+            for hand in ("left_hand", "right_hand")
+        },
         "late_offbeats": "your off-beats",
         "early_offbeats": "your off-beats",
         "swung_straight": "a swing that is not written",

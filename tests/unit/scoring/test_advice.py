@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Dynamic, Limb, Ornament, Piece, Zone
 from station.core.units import PPQ
+from station.music.judgement import Label
 from station.music.performance import Performance
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
-from station.music.judgement import Label
 from station.scoring.analysis.fault_table import Asked
 from station.scoring.analysis.summary import Summary, SummaryView, summarise
 from station.scoring.matching.alignment import Alignment, Reference
@@ -179,7 +179,7 @@ def test_hats_that_are_open_or_closed_where_they_should_not_be() -> None:
     assert advise(openness_of(0.05, 0.0, 0.8)) == ()
 
 
-# --- the way through ---------------------------------------------------------------------------------------------------
+# --- the way through --------------------------------------------------------------------------------------------------
 
 
 FORM = backbeat(8)
@@ -243,7 +243,7 @@ def test_bars_that_are_played_again_are_named() -> None:
         assert (said.fault, said.bars) == ("repeated_bars", (5,))
 
 
-# --- what a lesson asks -------------------------------------------------------------------------------------------------
+# --- what a lesson asks -----------------------------------------------------------------------------------------------
 
 
 def test_a_teacher_names_the_size_or_mutes_the_word() -> None:
@@ -256,7 +256,7 @@ def test_a_teacher_names_the_size_or_mutes_the_word() -> None:
     assert advise(human_take(BEAT, 1, Added(shift_ms=40.0 * of(BEAT, Piece.KICK)), human, view=mute)) == ()
 
 
-# --- praise and drills -------------------------------------------------------------------------------------------------
+# --- praise and drills ------------------------------------------------------------------------------------------------
 
 
 def test_praise_is_true() -> None:

@@ -67,7 +67,7 @@ def test_causes_that_differ_in_few_strokes_are_told_apart_only_by_enough_of_them
 
 @pytest.mark.parametrize("lag_1", [0.0, 0.3, 0.6])
 def test_errors_are_as_large_as_the_estimates_scatter(lag_1: float) -> None:
-    """Over 200 fault-free takes z has SD 1 (its own error is 5 %), for a flag that alternates and for one that stays."""
+    """Over 200 takes without an effect z has SD 1 (itself known to 5 %), whether the flag alternates or stays."""
     for flag in (EVERY_2, (SLOTS > 100).astype(float)):
         effects = [explained(autoregression(k, 12.0, lag_1), [Column("a", flag)]).effects["a"] for k in range(200)]
         assert 0.8 < np.std([e.value / e.error for e in effects]) < 1.3
