@@ -23,12 +23,15 @@ MIN_FILL_STROKES = 2
 """Strokes of the hands in a beat of a fill, at least; our choice: fewer is a rest with an accent."""
 MAX_FILL_SHARE = 0.5
 """Were more of the sounding beats like that, they would be the groove; our choice."""
-LONG_WAIT = 1.25
-"""A wait this many times the median is a long one: a slower tempo by a fifth, or a gap; our choice."""
+LONG_WAIT, REST = 1.25, 2.5
+"""A wait this many times the median is a long one: a slower tempo by a fifth, or a gap; and one in which a stroke or
+more is left out before it goes on; our choice."""
+LEAST_RUN_STROKES = 4
+"""Strokes of a fill that carries into what follows, at least; our choice: a beat of sixteenths."""
 SWING_FRACTIONS = (0.54, 0.74)
 """Where in its beat a swung offbeat lies: ratios 1.17 to 2.85, so that a dotted figure (3:1) is none; our choice."""
-LONGEST_DOUBLE_MS = 250
-"""Beyond, two strokes of one hand are two strokes and no double; our choice."""
+LONGEST_DOUBLE_MS = 320
+"""Beyond, two strokes of one hand are two strokes and no double; our choice: triplets at 63 bpm."""
 _DOUBLE_REACH = 1.5
 """The other hand is beside a double if it strikes within so many of its intervals: triplets mix with eighths."""
 _OF_TWO = (Ornament.DIDDLE, Ornament.ROLL)
@@ -77,16 +80,20 @@ def fill_ramp(score: Score) -> Floats:
 
 
 def landings(score: Score) -> Flags:
-    """The strokes on which fills land: the first slot after each fill, and what follows it for a beat."""
-    flags, filled = np.zeros(len(score), bool), fills(score)
+    """The strokes on which fills land: on the first beat after each, and what follows it for a beat.
+
+    Only fills that carry over, of `LEAST_RUN_STROKES` or more that go to the toms or on for more than a beat: a snare
+    beat whose hat is left out lands nowhere.
+    """
+    flags, filled, beat = np.zeros(len(score), bool), fills(score), _beats(score)
     rows = np.flatnonzero(filled)
-    beat = _beats(score)[rows]
-    ticks = score.notes["tick"]
-    for fill in np.split(rows, np.flatnonzero(np.diff(beat) > 1) + 1) if len(rows) else ():
-        after = ticks[(ticks > ticks[fill[-1]]) & ~filled]
-        if len(after):
-            flags |= (ticks >= after[0]) & (ticks < after[0] + PPQ)
-    return np.asarray(flags & ~filled & ~score.is_grace)
+    is_tom, on_beat = np.isin(score.notes["piece"], TOMS), (score.notes["tick"] - _beat_starts(score)) % PPQ == 0
+    for fill in np.split(rows, np.flatnonzero(np.diff(beat[rows]) > 1) + 1) if len(rows) else ():
+        after = beat == beat[fill[-1]] + 1
+        carries = len(fill) >= LEAST_RUN_STROKES and (is_tom[fill].any() or beat[fill[0]] < beat[fill[-1]])
+        if carries and (after & on_beat).any():
+            flags |= after
+    return np.asarray(flags & ~score.is_grace)
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,13 +118,13 @@ def offbeats(score: Score) -> Offbeats:
     return Offbeats(straight & (within > 0), halved, quartered)
 
 
-def long_waits(score: Score) -> Flags:
-    """Strokes that come `LONG_WAIT` or more times the median wait after the slot before; never the first slot's."""
+def long_waits(score: Score, longer: float = LONG_WAIT) -> Flags:
+    """Strokes that come `longer` or more times the median wait after the slot before; never the first slot's."""
     ticks, slot_of_row = slots(score)
     if len(ticks) < 2:
         return np.zeros(len(score), bool)
     waits = np.diff(score.tempo_map.ns_at(ticks)).astype(np.float64)
-    is_long = np.concatenate([[False], waits >= LONG_WAIT * np.median(waits)])
+    is_long = np.concatenate([[False], waits >= longer * np.median(waits)])
     return np.asarray(is_long[slot_of_row] & ~score.is_grace)
 
 

@@ -10,28 +10,37 @@ import numpy as np
 from station.core.labels import piece_name
 from station.core.pieces import Piece
 from station.music.judgement import Label
-from station.scoring.analysis.finding import CHANCE, MIN_SLOTS, Z_95, Finding, worst_bars
+from station.scoring.analysis.finding import CHANCE, MIN_SLOTS, Z_95, Finding, Flags, worst_bars
 from station.scoring.analysis.journey import Journey
 from station.scoring.analysis.summary import Summary
 from station.scoring.analysis.technique.observability import Swallowed
 
 
 def misses_and_extras(summary: Summary, way: Journey) -> list[Finding]:
-    """A piece whose notes are left out, and strokes that nobody wrote.
+    """A piece whose notes are left out, and strokes that nobody wrote; or of all pieces together, if none stands out.
 
     What belongs to a bar that was left out or played again is said by `way` and counts as neither.
     """
-    found = []
     observable = (summary.swallowed == Swallowed.NO) & ~way.passed
-    excused = np.bincount(summary.performance.hits["piece"][way.again], minlength=len(Piece))
     missed = (summary.alignment.note_label == Label.MISS) & observable
+    excused = np.bincount(summary.performance.hits["piece"][way.again], minlength=len(Piece))
+    left_out, unwritten = list[Finding](), list[Finding]()
     for piece, group in summary.by_piece.items():
         here = (summary.score.notes["piece"] == piece) & observable
-        bars = worst_bars(summary, missed[here].astype(np.float64), here)
-        found += _of_share(summary, "missed", _name(piece), (int(missed[here].sum()), int(here.sum())), bars)
+        left_out += _missed(summary, _name(piece), missed, here, CHANCE)
         extras = (group.extras or 0) - int(excused[piece])
-        found += _of_share(summary, "extra", _name(piece), (extras, group.matched + extras), ())
-    return found
+        unwritten += _of_share(summary, "extra", f" on the {_name(piece)}", (extras, group.matched + extras), (), CHANCE)
+    extras = summary.counts.extras - int(way.again.sum())
+    heard = summary.counts.matched + extras
+    return [
+        *(left_out or _missed(summary, "notes", missed, observable, Z_95)),
+        *(unwritten or _of_share(summary, "extra", "", (extras, heard), (), Z_95)),
+    ]
+
+
+def _missed(summary: Summary, subject: str, missed: Flags, here: Flags, z: float) -> list[Finding]:
+    bars = worst_bars(summary, missed[here].astype(np.float64), here)
+    return _of_share(summary, "missed", subject, (int(missed[here].sum()), int(here.sum())), bars, z)
 
 
 def wrong_pieces(summary: Summary) -> list[Finding]:
@@ -42,15 +51,17 @@ def wrong_pieces(summary: Summary) -> list[Finding]:
         missed = (summary.alignment.note_label == Label.WRONG_PIECE).astype(np.float64)
         bars = worst_bars(summary, missed[here], here)
         subject = f"{_name(wrong.played)} for {_name(wrong.written)}"
-        found += _of_share(summary, "wrong_piece", subject, (wrong.count, int(here.sum())), bars)
+        found += _of_share(summary, "wrong_piece", subject, (wrong.count, int(here.sum())), bars, CHANCE)
     return found
 
 
-def _of_share(summary: Summary, fault: str, subject: str, share: tuple[int, int], bars: Sequence[int]) -> list[Finding]:
-    """A finding in percent if the interval of `share` (so many of so many) lies beyond what is free, else nothing."""
+def _of_share(
+    summary: Summary, fault: str, subject: str, share: tuple[int, int], bars: Sequence[int], z: float
+) -> list[Finding]:
+    """A finding in percent if `share` (so many of so many) lies `z` errors beyond what is free, else nothing."""
     bad, of = share
     free = summary.view.faults.least(fault) / 100
-    if bad < 2 or of < MIN_SLOTS or wilson(bad, of, CHANCE)[0] <= free:
+    if bad < 2 or of < MIN_SLOTS or wilson(bad, of, z)[0] <= free:
         return []
     low, high = wilson(bad, of)
     percent = 100 * bad / of

@@ -63,7 +63,7 @@ _ROWS = (
         30.0,
         "and 1.5 times the others': " + _BRIEF,
     ),
-    *_both("early late", Group.LEAN, "ms", 25.0, "HUMANS: professionals stand up to 16 ms ahead; mild to 25"),
+    *_both("early late", Group.LEAN, "ms", 30.0, "HUMANS: professionals stand up to 16 ms ahead; beyond 40 a clear fault"),
     *_both("late_piece early_piece slow_hihat_foot early_hihat_foot", Group.LEAN, "ms", 25.0, _LEAN),
     *_both("late_left_hand early_left_hand late_right_hand early_right_hand", Group.LEAN, "ms", 25.0, _LEAN),
     *_both("late_offbeats early_offbeats", Group.LEAN, "ms", 25.0, _LEAN),

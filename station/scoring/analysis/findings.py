@@ -34,8 +34,12 @@ DECIDE = 0.75
 """From this share of the smallest size on a fault is named, so that chance hides few of those that just matter (our
 choice: pieces lean by 5 ms in anyone, so that 25 ms are seen as 19 or more in nine of ten, and 0 in one of 5,000)."""
 
+DECIDE_PLACES = 0.6
+"""The same for places in the music, in which nobody leans without a fault, and which are not all meant alike: what is a
+fill, a double or a wait to the player is not always one here (our choice)."""
+
 _WHOLE_SHARE = 0.8
-"""The same for all of a take: 20 ms, for professionals stand up to 16 ms ahead of the click (HUMANS)."""
+"""The same for all of a take: 24 ms, for professionals stand up to 16 ms ahead of the click (HUMANS)."""
 
 _HATS_SHARE = 0.6
 """The same for open and closed hats, of which an even player has none that are wrong."""
@@ -78,11 +82,13 @@ _WORDS = {
     "fills": ("drag_fills", "rush_fills"),
     "fill_shift": ("drag_fills", "rush_fills"),
     "landings": ("fill_lands_late", "fill_lands_early"),
-    "long_waits": ("drag_slow", "rush_slow"),
+    **dict.fromkeys(("long_waits", "rests"), ("drag_slow", "rush_slow")),
     "doubles": ("lazy_doubles", "uneven_doubles"),
     CONSTANT: ("late", "early"),
 }
 """What an effect is called that is late, and early; pieces by `fault_table.of_piece`."""
+
+_PLACES = frozenset({*FILL_EFFECTS, "long_waits", "rests", "doubles"})
 
 
 def _words_of(summary: Summary, name: str, effect: Effect) -> tuple[str, ...]:
@@ -145,7 +151,7 @@ def _causes(summary: Summary) -> Iterator[Finding]:
 
 
 def _matters(summary: Summary, name: str, effect: Effect, severity: float) -> bool:
-    fewest = _FEWEST_LANDINGS if name == "landings" or name in FILL_EFFECTS else MIN_SLOTS
+    fewest = _FEWEST_LANDINGS if name in FILL_EFFECTS else MIN_SLOTS
     if effect.slots < fewest or abs(effect.value) < CHANCE * effect.error:
         return False
     if name == "swing" and summary.view.feel.swing_error is not None:
@@ -155,7 +161,7 @@ def _matters(summary: Summary, name: str, effect: Effect, severity: float) -> bo
         mean_ms = summary.timing.mean_ms or 0.0
         heard_ms = mean_ms * np.sign(effect.value)
         return min(severity, heard_ms * severity / abs(effect.value)) >= _WHOLE_SHARE
-    return severity >= DECIDE
+    return severity >= (DECIDE_PLACES if name in _PLACES else DECIDE)
 
 
 def _shown(summary: Summary, name: str, effect: Effect) -> tuple[float, tuple[float, float], str, str]:

@@ -51,7 +51,7 @@ _SECOND, _THIRD = 1.0, 2.0
 a wait, the offbeats; a unit less than what tells two explanations apart is enough to break ties."""
 
 HANDS = {"left_hand": Limb.LEFT_HAND, "right_hand": Limb.RIGHT_HAND}
-FILL_EFFECTS = ("fills", "fill_shift")
+FILL_EFFECTS = ("fills", "fill_shift", "landings")
 OFFBEATS = ("offbeats", "ands", "quarters")
 
 
@@ -61,7 +61,7 @@ class Habits:
 
     In ms: `all` the common lean, each piece by its word, `left_hand`, `right_hand`, `offbeats` (all beside the beat),
     `ands` and `quarters` (in the middle of the beat, and at its quarters), `fills` (more and more), `fill_shift` (all
-    of a fill alike), `landings`, `long_waits`, `doubles`; `swing` in fractions of the unit that swings; `flams` how far
+    of a fill alike), `landings`, `long_waits` (and `rests`), `doubles`; `swing` in fractions of the unit that swings; `flams` how far
     grace strokes lead. In dB: `left_level`, `ghost_level`, `accent_level`, `doubles_level`, `graces_level` (grace less
     main stroke) and `fade` from one end of the take to the other.
 
@@ -114,6 +114,7 @@ def _places(score: Score) -> dict[str, Flags]:
         "fill_shift": fills,
         "landings": passages.landings(score),
         "long_waits": passages.long_waits(score),
+        "rests": passages.long_waits(score, passages.REST),
         "doubles": passages.second_of_doubles(score),
         "swing": passages.swung(score).flags,
         "flams": score.is_grace,
@@ -146,7 +147,7 @@ def _timing(
     base = [column(CONSTANT, tau=STAND_MS), *(column(piece, tau=lean_ms) for piece in pieces)]
     base.append(Column("drift", _through(score.notes["tick"][rows]), DRIFT_MS))
     suspects = [column(name) for name in (*pieces, "swing", "fills", "landings", "doubles")]
-    suspects += [column(name, _SECOND) for name in (*HANDS, "fill_shift", "long_waits")]
+    suspects += [column(name, _SECOND) for name in (*HANDS, "fill_shift", "long_waits", "rests")]
     suspects += [column(name, _THIRD) for name in OFFBEATS]
     suspects += [column(CONSTANT)] if absolute else []
     found = explain(asynchrony_ms(alignment)[rows], base, suspects, score.notes["tick"][rows])

@@ -19,6 +19,9 @@ from station.scoring.analysis.summary import Summary
 _LEAST_LOSS_DB = 1.5
 """A contrast that is lost by less is no fault, whatever is written (HUMANS: 1 dB is just noticeable to the skilled)."""
 
+_DOUBLES_SHARE = 0.6
+"""Second strokes are named from this share on: what is a double to the player is not always one here (our choice)."""
+
 _GRACE_SHARE = 0.8
 """Graces too loud are named from this share of the contrast on that the table asks (our choice, as `DECIDE`)."""
 
@@ -34,7 +37,7 @@ def level_findings(summary: Summary, decide: float) -> list[Finding]:
             continue
         fault = _fault_of(name, effect)
         least = _least(summary, fault) if fault is not None else float("inf")
-        if fault is None or not abs(effect.value) >= decide * least:
+        if fault is None or not abs(effect.value) >= (_DOUBLES_SHARE if name == "doubles_level" else decide) * least:
             continue
         rivals = [_fault_of(other, there) for other, there in level.rivals[name].items()]
         others = tuple(dict.fromkeys(word for word in rivals if word is not None and word != fault))

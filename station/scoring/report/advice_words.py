@@ -54,7 +54,7 @@ HEARD = MappingProxyType(
         "left_out_bars": "You left out {stops}",
         "repeated_bars": "You played {stops} again",
         "missed": "You leave out {size:.0f} % of the {subject}{where}",
-        "extra": "{size:.0f} % of your strokes on the {subject} are not written",
+        "extra": "{size:.0f} % of your strokes{subject} are not written",
         "wrong_piece": "{size:.0f} % of the time you strike {subject}{where}",
     }
 )
