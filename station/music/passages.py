@@ -87,13 +87,21 @@ def landings(score: Score) -> Flags:
     """
     flags, filled, beat = np.zeros(len(score), bool), fills(score), _beats(score)
     rows = np.flatnonzero(filled)
-    is_tom, on_beat = np.isin(score.notes["piece"], TOMS), (score.notes["tick"] - _beat_starts(score)) % PPQ == 0
+    is_tom, on_beat = np.isin(score.notes["piece"], TOMS), _within_quarter(score) == 0
     for fill in np.split(rows, np.flatnonzero(np.diff(beat[rows]) > 1) + 1) if len(rows) else ():
         after = beat == beat[fill[-1]] + 1
         carries = len(fill) >= LEAST_RUN_STROKES and (is_tom[fill].any() or beat[fill[0]] < beat[fill[-1]])
         if carries and (after & on_beat).any():
             flags |= after
     return np.asarray(flags & ~score.is_grace)
+
+
+def landing_fade(score: Score) -> Floats:
+    """What is left at each stroke (n,) of a landing that is put right within its beat: 1 on the one, then less, then 0.
+
+    So lands who comes out of a fill beside the time and finds back to it.
+    """
+    return landings(score) * (1 - _within_quarter(score) / PPQ)
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,7 +160,7 @@ def swung(score: Score) -> Swung:
     A beat swings where its only strokes are on it and at one later place within `SWING_FRACTIONS`; sixteenths swing
     where both halves of the beat do so alike.
     """
-    within = (score.notes["tick"] - _beat_starts(score)) % PPQ
+    within = _within_quarter(score)
     beat = _beats(score)
     flags, spans, places = np.zeros(len(score), bool), np.full(len(score), PPQ), within / PPQ
     order = np.argsort(beat, kind="stable")
@@ -248,6 +256,12 @@ def _beat_ticks(score: Score) -> NDArray[np.int64]:
     starts = np.array([m.tick for m in meters], np.int64)
     found: NDArray[np.int64] = lengths[np.searchsorted(starts, score.notes["tick"], side="right") - 1]
     return found
+
+
+def _within_quarter(score: Score) -> NDArray[np.int64]:
+    """Ticks of each row since its quarter began."""
+    within: NDArray[np.int64] = (score.notes["tick"] - _beat_starts(score)) % PPQ
+    return within
 
 
 def _beats(score: Score) -> NDArray[np.int64]:

@@ -51,7 +51,8 @@ def _both(words: str, *row: object) -> tuple[FaultKind, ...]:
 
 
 _ROWS = (
-    *_both("missed extra wrong_piece", Group.NOTES, "%", 5.0, _SHARE),
+    *_both("missed wrong_piece", Group.NOTES, "%", 5.0, _SHARE),
+    FaultKind("extra", Group.NOTES, "%", 3.5, _SHARE + "; what a kit adds is rarer"),
     *_both("stopped left_out_bars repeated_bars", Group.NOTES, "times", 1.0, _ONCE),
     *_both("open_hats closed_hats", Group.NOTES, "%", 25.0, _BRIEF),
     *_both("rushing dragging", Group.PULSE, "% in 8 bars", 4.0, "HUMANS: professionals hold ±1–2 %; " + _BRIEF),

@@ -31,8 +31,10 @@ from station.scoring.analysis.timing_spread import asynchrony_ms
 Floats = NDArray[np.float64]
 
 DECIDE = 0.75
-"""From this share of the smallest size on a fault is named, so that chance hides few of those that just matter (our
-choice: pieces lean by 5 ms in anyone, so that 25 ms are seen as 19 or more in nine of ten, and 0 in one of 5,000)."""
+"""From this share of the smallest size on a fault is named, so that chance hides few of those that just matter."""
+
+DECIDE_PIECES = 0.88
+"""The same for pieces, that lean by 5–10 ms in anyone (HUMANS): 22 ms are three of their SDs."""
 
 DECIDE_PLACES = 0.6
 """The same for places in the music, in which nobody leans without a fault, and which are not all meant alike: what is a
@@ -81,7 +83,7 @@ _WORDS = {
     "swing": ("hard_swing", "straight_swing"),
     "fills": ("drag_fills", "rush_fills"),
     "fill_shift": ("drag_fills", "rush_fills"),
-    "landings": ("fill_lands_late", "fill_lands_early"),
+    **dict.fromkeys(("landings", "landing_fade"), ("fill_lands_late", "fill_lands_early")),
     **dict.fromkeys(("long_waits", "rests"), ("drag_slow", "rush_slow")),
     "doubles": ("lazy_doubles", "uneven_doubles"),
     CONSTANT: ("late", "early"),
@@ -161,7 +163,7 @@ def _matters(summary: Summary, name: str, effect: Effect, severity: float) -> bo
         mean_ms = summary.timing.mean_ms or 0.0
         heard_ms = mean_ms * np.sign(effect.value)
         return min(severity, heard_ms * severity / abs(effect.value)) >= _WHOLE_SHARE
-    return severity >= (DECIDE_PLACES if name in _PLACES else DECIDE)
+    return severity >= (DECIDE_PLACES if name in _PLACES else DECIDE if name in _WORDS else DECIDE_PIECES)
 
 
 def _shown(summary: Summary, name: str, effect: Effect) -> tuple[float, tuple[float, float], str, str]:

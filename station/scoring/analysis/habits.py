@@ -39,9 +39,9 @@ hide a lean of 25 ms in a short take; what is too small to matter is left to `fi
 DRIFT_MS = 10.0
 """How far a player usually moves against the click from one end of a take to the other (our choice: within it)."""
 
-PAD_DB = 0.5
-"""By how much a player's pads usually differ from what is written: what the module sends is also what is heard (our
-choice: half of what the skilled hear, HUMANS)."""
+PAD_DB = 1.5
+"""By how much a player's pads usually differ from what is written (our choice: pads answer differently, and less than
+2 dB is hardly heard, HUMANS): what one pad alone shows may be the pad."""
 
 FULL_SCALE = 127
 """The largest velocity: what was struck harder is not known, so that such strokes tell no level."""
@@ -51,7 +51,7 @@ _SECOND, _THIRD = 1.0, 2.0
 a wait, the offbeats; a unit less than what tells two explanations apart is enough to break ties."""
 
 HANDS = {"left_hand": Limb.LEFT_HAND, "right_hand": Limb.RIGHT_HAND}
-FILL_EFFECTS = ("fills", "fill_shift", "landings")
+FILL_EFFECTS = ("fills", "fill_shift", "landings", "landing_fade")
 OFFBEATS = ("offbeats", "ands", "quarters")
 
 
@@ -61,7 +61,7 @@ class Habits:
 
     In ms: `all` the common lean, each piece by its word, `left_hand`, `right_hand`, `offbeats` (all beside the beat),
     `ands` and `quarters` (in the middle of the beat, and at its quarters), `fills` (more and more), `fill_shift` (all
-    of a fill alike), `landings`, `long_waits` (and `rests`), `doubles`; `swing` in fractions of the unit that swings; `flams` how far
+    of a fill alike), `landings` (for a beat) and `landing_fade` (put right within it), `long_waits` (and `rests`), `doubles`; `swing` in fractions of the unit that swings; `flams` how far
     grace strokes lead. In dB: `left_level`, `ghost_level`, `accent_level`, `doubles_level`, `graces_level` (grace less
     main stroke) and `fade` from one end of the take to the other.
 
@@ -113,6 +113,7 @@ def _places(score: Score) -> dict[str, Flags]:
         "fills": fills,
         "fill_shift": fills,
         "landings": passages.landings(score),
+        "landing_fade": passages.landings(score),
         "long_waits": passages.long_waits(score),
         "rests": passages.long_waits(score, passages.REST),
         "doubles": passages.second_of_doubles(score),
@@ -138,7 +139,12 @@ def _timing(
     if not len(rows):
         return None, rest
     pieces = [word(Piece(p)) for p in np.unique(score.notes["piece"][rows]).tolist()]
-    shapes = {**places, "fills": passages.fill_ramp(score), "swing": passages.swung(score).span_ms}
+    shapes = {
+        **places,
+        "fills": passages.fill_ramp(score),
+        "landing_fade": passages.landing_fade(score),
+        "swing": passages.swung(score).span_ms,
+    }
     absolute = alignment.reference is not Reference.PLAYER
 
     def column(name: str, cost: float = 0.0, tau: float | None = None) -> Column:
@@ -146,7 +152,7 @@ def _timing(
 
     base = [column(CONSTANT, tau=STAND_MS), *(column(piece, tau=lean_ms) for piece in pieces)]
     base.append(Column("drift", _through(score.notes["tick"][rows]), DRIFT_MS))
-    suspects = [column(name) for name in (*pieces, "swing", "fills", "landings", "doubles")]
+    suspects = [column(name) for name in (*pieces, "swing", "fills", "landings", "landing_fade", "doubles")]
     suspects += [column(name, _SECOND) for name in (*HANDS, "fill_shift", "long_waits", "rests")]
     suspects += [column(name, _THIRD) for name in OFFBEATS]
     suspects += [column(CONSTANT)] if absolute else []
