@@ -43,6 +43,9 @@ fill, a double or a wait to the player is not always one here (our choice)."""
 _WHOLE_SHARE = 0.8
 """The same for all of a take: 24 ms, for professionals stand up to 16 ms ahead of the click (HUMANS)."""
 
+_DECIDE_PULSE = 0.58
+"""The same for the tempo without a click: 2.3 % in eight bars, for professionals stray by 1–2 % (HUMANS)."""
+
 _HATS_SHARE = 0.6
 """The same for open and closed hats, of which an even player has none that are wrong."""
 
@@ -187,7 +190,7 @@ def _pulse(summary: Summary) -> Iterator[Finding]:
         return
     fault = "rushing" if effect.value > 0 else "dragging"
     severity = abs(effect.value) / summary.view.faults.least(fault)
-    if severity >= DECIDE:
+    if severity >= _DECIDE_PULSE:
         yield Finding(fault, "", effect.value, effect.ci, kind_of(fault).unit, severity, ())
 
 
