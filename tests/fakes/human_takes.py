@@ -5,7 +5,9 @@ autoregression from moment to moment (lag-1 .3, HUMANS), and by what is its own;
 vary by 8 % (HUMANS: professionals 6–10 %). Without a click time begins anywhere and runs at the player's own tempo.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +18,7 @@ from station.music.score import Score
 from station.scoring.align import align
 from station.scoring.analysis.summary import Summary, SummaryView, summarise
 
-Floats = NDArray[np.float64]
+Floats = NDArray[np.floating[Any]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +43,7 @@ class Added:
     scatter: Floats | float = 1.0
     openness: Floats | None = None
     left_out: NDArray[np.bool_] | None = None
-    course: object = None
+    course: Callable[[NDArray[np.float64]], NDArray[np.float64]] | None = None
 
 
 def human_hits(score: Score, seed: int, human: Human | None = None, added: Added | None = None) -> NDArray[np.void]:
@@ -64,7 +66,7 @@ def human_hits(score: Score, seed: int, human: Human | None = None, added: Added
         hits["openness"] = added.openness
     at_s = at_ms / 1e3
     if added.course is not None:
-        at_s = added.course(at_s)  # type: ignore[operator]
+        at_s = added.course(at_s)
     hits["at_ns"] = np.rint(np.asarray(at_s) * 1e9).astype(np.int64)
     loud = score.notes["velocity"] * 10 ** (np.asarray(added.level_db) / 40)
     hits["velocity"] = np.clip(np.rint(loud * (1 + human.velocity_cv * rng.normal(size=len(score)))), 1, 127)

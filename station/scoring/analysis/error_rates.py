@@ -15,6 +15,10 @@ from station.scoring.analysis.journey import Journey
 from station.scoring.analysis.summary import Summary
 from station.scoring.analysis.technique.observability import Swallowed
 
+_ASTRAY = 0.15
+"""Up to this share of a piece's notes a miss and an extra are one stroke that came too far from its note, and no fault
+of this kind: an SD of 40 ms takes one stroke in seven beyond 60 ms."""
+
 
 def misses_and_extras(summary: Summary, way: Journey) -> list[Finding]:
     """A piece whose notes are left out, and strokes that nobody wrote; or of all pieces together, if none stands out.
@@ -24,23 +28,28 @@ def misses_and_extras(summary: Summary, way: Journey) -> list[Finding]:
     observable = (summary.swallowed == Swallowed.NO) & ~way.passed
     missed = (summary.alignment.note_label == Label.MISS) & observable
     excused = np.bincount(summary.performance.hits["piece"][way.again], minlength=len(Piece))
-    left_out, unwritten = list[Finding](), list[Finding]()
+    left_out, unwritten, total = list[Finding](), list[Finding](), np.zeros(2, np.int64)
     for piece, group in summary.by_piece.items():
         here = (summary.score.notes["piece"] == piece) & observable
-        left_out += _missed(summary, _name(piece), missed, here, CHANCE)
-        extras = (group.extras or 0) - int(excused[piece])
-        unwritten += _of_share(summary, "extra", f" on the {_name(piece)}", (extras, group.matched + extras), (), CHANCE)
-    extras = summary.counts.extras - int(way.again.sum())
-    heard = summary.counts.matched + extras
+        bad, extras = int(missed[here].sum()), (group.extras or 0) - int(excused[piece])
+        astray = min(bad, extras, round(_ASTRAY * int(here.sum())))
+        bad, extras = bad - astray, extras - astray
+        total += bad, extras
+        left_out += _missed(summary, _name(piece), missed, here, bad, CHANCE)
+        unwritten += _of_share(
+            summary, "extra", f" on the {_name(piece)}", (extras, group.matched + extras), (), CHANCE
+        )
+    bad, extras = total.tolist()
     return [
-        *(left_out or _missed(summary, "notes", missed, observable, Z_95)),
-        *(unwritten or _of_share(summary, "extra", "", (extras, heard), (), Z_95)),
+        *(left_out or _missed(summary, "notes", missed, observable, bad, Z_95)),
+        *(unwritten or _of_share(summary, "extra", "", (extras, summary.counts.matched + extras), (), Z_95)),
     ]
 
 
-def _missed(summary: Summary, subject: str, missed: Flags, here: Flags, z: float) -> list[Finding]:
+def _missed(summary: Summary, subject: str, missed: Flags, here: Flags, bad: int, z: float) -> list[Finding]:
+    """What was left out `here` (n,): `bad` of the notes."""
     bars = worst_bars(summary, missed[here].astype(np.float64), here)
-    return _of_share(summary, "missed", subject, (int(missed[here].sum()), int(here.sum())), bars, z)
+    return _of_share(summary, "missed", subject, (bad, int(here.sum())), bars, z)
 
 
 def wrong_pieces(summary: Summary) -> list[Finding]:

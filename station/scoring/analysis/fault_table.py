@@ -42,7 +42,7 @@ _BRIEF = "the teacher's table of this station, a hypothesis"
 _FLAM = "HUMANS: flams are 15–40 ms wide; under 10 one stroke is heard, over 50 two"
 _EVENLY = "a fifth of the interval: twice what is heard as uneven in fast strokes (HUMANS)"
 _DB = "HUMANS: 2–3 dB are heard by anyone; " + _BRIEF
-_SHARE = "TEACHING: a pass is 90 % right; one stroke in twenty goes wrong with anyone"
+_SHARE = "TEACHING: a pass is 90 % right; one stroke in twenty-five goes wrong with anyone"
 _ONCE = "once is heard"
 
 
@@ -51,8 +51,9 @@ def _both(words: str, *row: object) -> tuple[FaultKind, ...]:
 
 
 _ROWS = (
-    *_both("missed wrong_piece", Group.NOTES, "%", 5.0, _SHARE),
-    FaultKind("extra", Group.NOTES, "%", 3.5, _SHARE + "; what a kit adds is rarer"),
+    FaultKind("missed", Group.NOTES, "%", 4.0, _SHARE),
+    FaultKind("extra", Group.NOTES, "%", 3.0, _SHARE + "; what a kit adds is rarer"),
+    FaultKind("wrong_piece", Group.NOTES, "%", 5.0, _SHARE),
     *_both("stopped left_out_bars repeated_bars", Group.NOTES, "times", 1.0, _ONCE),
     *_both("open_hats closed_hats", Group.NOTES, "%", 25.0, _BRIEF),
     *_both("rushing dragging", Group.PULSE, "% in 8 bars", 4.0, "HUMANS: professionals hold ±1–2 %; " + _BRIEF),
@@ -64,7 +65,9 @@ _ROWS = (
         30.0,
         "and 1.5 times the others': " + _BRIEF,
     ),
-    *_both("early late", Group.LEAN, "ms", 30.0, "HUMANS: professionals stand up to 16 ms ahead; beyond 40 a clear fault"),
+    *_both(
+        "early late", Group.LEAN, "ms", 30.0, "HUMANS: professionals stand up to 16 ms ahead; beyond 40 a clear fault"
+    ),
     *_both("late_piece early_piece slow_hihat_foot early_hihat_foot", Group.LEAN, "ms", 25.0, _LEAN),
     *_both("late_left_hand early_left_hand late_right_hand early_right_hand", Group.LEAN, "ms", 25.0, _LEAN),
     *_both("late_offbeats early_offbeats", Group.LEAN, "ms", 25.0, _LEAN),

@@ -165,7 +165,7 @@ def _matters(summary: Summary, name: str, effect: Effect, severity: float) -> bo
     if name == CONSTANT:  # with habits taken out, and as it was heard
         mean_ms = summary.timing.mean_ms or 0.0
         heard_ms = mean_ms * np.sign(effect.value)
-        return min(severity, heard_ms * severity / abs(effect.value)) >= _WHOLE_SHARE
+        return bool(min(severity, heard_ms * severity / abs(effect.value)) >= _WHOLE_SHARE)
     return severity >= (DECIDE_PLACES if name in _PLACES else DECIDE if name in _WORDS else DECIDE_PIECES)
 
 

@@ -61,9 +61,10 @@ class Habits:
 
     In ms: `all` the common lean, each piece by its word, `left_hand`, `right_hand`, `offbeats` (all beside the beat),
     `ands` and `quarters` (in the middle of the beat, and at its quarters), `fills` (more and more), `fill_shift` (all
-    of a fill alike), `landings` (for a beat) and `landing_fade` (put right within it), `long_waits` (and `rests`), `doubles`; `swing` in fractions of the unit that swings; `flams` how far
-    grace strokes lead. In dB: `left_level`, `ghost_level`, `accent_level`, `doubles_level`, `graces_level` (grace less
-    main stroke) and `fade` from one end of the take to the other.
+    of a fill alike), `landings` (for a beat) and `landing_fade` (put right within it), `long_waits` (and `rests`),
+    `doubles`; `swing` in fractions of the unit that swings; `flams` how far grace strokes lead. In dB: `left_level`,
+    `ghost_level`, `accent_level`, `doubles_level`, `graces_level` (grace less main stroke) and `fade` from one end of
+    the take to the other.
 
     `timing` and `level` are the two models, None where too little was played. `rest_ms` (n,) is what the first leaves
     over, `timing_sd_ms` its spread. `off_db` (n,) played less written loudness, NaN where nothing was matched or heard.
@@ -165,7 +166,7 @@ def _timing(
 def _through(times: NDArray[np.generic]) -> Floats:
     """How far through the take each time is, −½ … ½."""
     since = (times - times.min()).astype(np.float64)
-    return since / max(float(since.max()), 1.0) - 0.5
+    return np.asarray(since / max(float(since.max()), 1.0) - 0.5)
 
 
 def flam_leads_ms(score: Score, performance: Performance, alignment: Alignment) -> tuple[Indices, Floats]:

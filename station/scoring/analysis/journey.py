@@ -84,7 +84,8 @@ def journey(score: Score, performance: Performance, alignment: Alignment) -> Jou
             elif jump is not None and jump.fault == "left_out_bars":
                 passed |= (score.onset_ns > low) & (score.onset_ns < high)
             run = k + 1
-    jumps += _silent_bars(score, alignment, passed)
+    back = sum(max(jump.bars, 1.0) for jump in jumps if jump.fault != "left_out_bars")
+    jumps += _silent_bars(score, alignment, passed, back)
     return Journey(tuple(sorted(jumps, key=lambda jump: jump.bar)), passed, again)
 
 
@@ -120,8 +121,11 @@ def _jump(
     return None
 
 
-def _silent_bars(score: Score, alignment: Alignment, passed: Flags) -> list[Jump]:
-    """Bars in which nothing was struck after others in which something was; their notes are added to `passed`."""
+def _silent_bars(score: Score, alignment: Alignment, passed: Flags, back: float) -> list[Jump]:
+    """Bars in which nothing was struck after others in which something was; their notes are added to `passed`.
+
+    Silent bars at the end are those for which no time was left, if the player went `back` by as many.
+    """
     main, answered = ~score.is_grace, alignment.hit_of_note >= 0
     bars = score.bar
     heard = np.bincount(bars, weights=answered, minlength=score.bar_count) > 0
@@ -130,8 +134,10 @@ def _silent_bars(score: Score, alignment: Alignment, passed: Flags) -> list[Jump
         return []
     played = np.flatnonzero(heard)
     silent = np.flatnonzero(~heard & (written >= EMPTY_NOTES))
-    ended = int((silent > played[-1]).sum()) > MOST_AT_END
+    ended = int((silent > played[-1]).sum()) > max(MOST_AT_END, back)
     silent = silent[(silent > played[0]) & ((silent < played[-1]) | (not ended))]
     passed |= np.isin(bars, silent)
+    if int((silent > played[-1]).sum()) <= back:
+        silent = silent[silent < played[-1]]
     runs = np.split(silent, np.flatnonzero(np.diff(silent) > 1) + 1) if len(silent) else []
     return [Jump("left_out_bars", int(run[0]), int(run[-1]) + 1, float(len(run)), ("stopped",)) for run in runs]

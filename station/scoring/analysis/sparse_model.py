@@ -194,12 +194,12 @@ class _Model:
         beside = [k for k in chosen if k != which]
         rows, pull = self._rows([*beside, which])
         kept = [k for k, row in enumerate(rows) if row >= self._own or self._names[row] != self.suspects[which]]
-        rows, pull = [rows[k] for k in kept], pull[kept]
+        rows, pull = rows[kept], pull[kept]
         inverse = np.linalg.pinv(self._gram[np.ix_(rows, rows)] + np.diag(pull), hermitian=True)
         return float(inverse[-1] @ self._along[rows]), float(max(inverse[-1, -1], 0.0) ** 0.5)
 
-    def _rows(self, chosen: list[int]) -> tuple[list[int], Floats]:
-        rows = [*range(self._own), *(self._own + k for k in chosen)]
+    def _rows(self, chosen: list[int]) -> tuple[Indices, Floats]:
+        rows = np.array([*range(self._own), *(self._own + k for k in chosen)], np.int64)
         return rows, np.concatenate([self._pull, np.zeros(len(chosen))])
 
 
