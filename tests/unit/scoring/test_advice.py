@@ -5,6 +5,7 @@ that a teacher minds, or little more.
 """
 
 from collections.abc import Mapping
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,7 +17,7 @@ from station.music.judgement import Label
 from station.music.performance import Performance
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
-from station.scoring.analysis.fault_table import Asked
+from station.scoring.analysis.fault_table import FAULTS, Asked
 from station.scoring.analysis.summary import Summary, SummaryView, summarise
 from station.scoring.matching.alignment import Alignment, Reference
 from station.scoring.report.advice import Advice, advise
@@ -284,3 +285,12 @@ def test_ornaments_of_other_kinds_are_no_flams() -> None:
     graces = [Note(0, Piece.SNARE, lead_ms=lead, velocity=30, limb=L, ornament=Ornament.DRAG) for lead in (110.0, 55.0)]
     score = Score.from_notes([*graces, Note(0, Piece.SNARE, velocity=90, limb=R)], TempoMap.constant(70), PPQ)
     assert advise(human_take(score.repeated(32), 1)) == ()
+
+
+def test_the_page_of_faults_has_every_word_and_size() -> None:
+    page = (Path(__file__).parents[3] / "docs" / "scoring.md").read_text()
+    rows = [line for line in page.splitlines() if line.startswith("| `")]
+    for fault, kind in FAULTS.items():
+        shown = {"late_piece": "late_…", "early_piece": "early_…"}.get(fault, fault)
+        (row,) = [line for line in rows if f"`{shown}`" in line]
+        assert f"| {kind.group.name.lower()} | {kind.least:g} {kind.unit} |" in row
