@@ -14,6 +14,7 @@ from station.drills.grid.swing import STRAIGHT, Swing
 from station.drills.level_range import OF_DIFFICULTY, LevelRange
 from station.music.score import Score
 from station.music.tempo import TempoChange
+from station.scoring.analysis.fault_table import Asked
 from station.scoring.matching.hit_windows import Level
 
 LEVELS: Mapping[int, str] = MappingProxyType(
@@ -33,7 +34,8 @@ class Goals:
     `min_accuracy` share of the notes right, 0–1; `max_sd_ms` spread of the asynchronies; `max_lean_ms` how far their
     mean may lie from the written time (feel is free unless this asks); `max_swing_error` how far the swing ratio may
     lie from the lesson's; `target_tempo_bpm` quarter notes a minute, the written tempo if None; `min_score` 0–100.
-    `level` how strictly a student is judged who begins, `strictest_level` how strictly anybody is.
+    `level` how strictly a student is judged who begins, `strictest_level` how strictly anybody is; `faults` the sizes
+    from which the teacher minds faults, where they are not the usual ones.
     """
 
     min_accuracy: float | None = None
@@ -44,6 +46,7 @@ class Goals:
     min_score: float | None = None
     level: Level | None = None
     strictest_level: Level = Level.STUDIO
+    faults: Asked = field(default_factory=Asked)
 
 
 @dataclass(frozen=True, slots=True)

@@ -62,6 +62,8 @@ from station.drills.lesson import (
 from station.motion.feasibility.playable import impossible
 from station.music.score import Score
 from station.music.tempo import MAX_BPM, MIN_BPM, MeterChange, TempoChange, TempoMap
+from station.scoring.analysis.fault_table import MUTE, Asked
+from station.scoring.analysis.fault_table import WORDS as FAULT_WORDS
 from station.scoring.matching.hit_windows import OUR_LEVELS, Level
 
 _MIDI = b"MThd"
@@ -107,6 +109,25 @@ def _rising(before: tuple[int, int, int], changes: Mapping[str, int], *path: str
 _VELOCITIES: Fields = {key: optional(whole(1, 127)) for key in ("ghost", "normal", "accent")}
 _DYNAMICS = said({**_VELOCITIES, **{key: optional(said(_VELOCITIES)) for key in LINE_PIECES}})
 _LEVEL = choice(OUR_LEVELS, "level")
+
+_SMALLEST_FAULT, _LARGEST_FAULT = 0.1, 1000.0
+"""Bounds of the sizes of faults, in whatever unit: nobody hears less, and nobody plays so far off (our choice)."""
+
+
+def _fault_size(value: object) -> float | None:
+    """From which size a fault counts; None for `MUTE`."""
+    if isinstance(value, str) and value != MUTE:
+        raise wrong(f'expected a size, or "{MUTE}", found "{value}"')
+    return None if value == MUTE else number(_SMALLEST_FAULT, _LARGEST_FAULT)(value)
+
+
+_FAULT_SIZES: Fields = {word: optional(_fault_size) for word in sorted(FAULT_WORDS)}
+
+
+def _asked(raw: object) -> Asked:
+    return Asked(MappingProxyType(said(_FAULT_SIZES, "fault")(raw)))
+
+
 _GOALS: Fields = {
     "level": optional(_LEVEL),
     "strictest_level": Field(_LEVEL, Level.STUDIO),
@@ -116,6 +137,7 @@ _GOALS: Fields = {
     "max_swing_error": optional(number(0, MAX_RATIO)),
     "target_tempo_bpm": optional(number(MIN_BPM, MAX_BPM)),
     "min_score": optional(number(0, 100)),
+    "faults": Field(_asked, Asked()),
 }
 FIELDS: Fields = {
     "title": Field(title, "", 'a name such as title = "Rock 1"'),

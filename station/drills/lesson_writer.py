@@ -17,6 +17,7 @@ from station.drills.grid.lines_from_score import WrittenStroke, lines_of, stroke
 from station.drills.lesson import Goals, Lesson, Section, tidy_bpm
 from station.drills.lesson_file import parse_lesson
 from station.music.score import NOTE_DTYPE, Score
+from station.scoring.analysis.fault_table import MUTE
 
 _DYNAMICS = ("ghost", "normal", "accent")
 
@@ -110,7 +111,9 @@ def _goals(lesson: Lesson) -> list[str]:
         "min_score": goals.min_score,
     }
     said = [f"{key} = {quoted(v)}" for key, v in levels.items() if v is not None]
-    return ["[goals]", *said, *(f"{key} = {number(v)}" for key, v in values.items() if v is not None), ""]
+    out = ["[goals]", *said, *(f"{key} = {number(v)}" for key, v in values.items() if v is not None), ""]
+    sizes = {word: quoted(MUTE) if size is None else number(size) for word, size in goals.faults.sizes.items()}
+    return out + (["[goals.faults]", *(f"{word} = {size}" for word, size in sizes.items()), ""] if sizes else [])
 
 
 def _grids(lesson: Lesson) -> list[str]:

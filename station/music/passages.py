@@ -23,12 +23,15 @@ MIN_FILL_STROKES = 2
 """Strokes of the hands in a beat of a fill, at least; our choice: fewer is a rest with an accent."""
 MAX_FILL_SHARE = 0.5
 """Were more of the sounding beats like that, they would be the groove; our choice."""
-LONG_WAIT = 1.25
-"""A wait this many times the median is a long one: a slower tempo by a fifth, or a gap; our choice."""
+LONG_WAIT, REST = 1.25, 2.5
+"""A wait this many times the median is a long one: a slower tempo by a fifth, or a gap; and one in which a stroke or
+more is left out before it goes on; our choice."""
+LEAST_RUN_STROKES = 4
+"""Strokes of a fill that carries into what follows, at least; our choice: a beat of sixteenths."""
 SWING_FRACTIONS = (0.54, 0.74)
 """Where in its beat a swung offbeat lies: ratios 1.17 to 2.85, so that a dotted figure (3:1) is none; our choice."""
-LONGEST_DOUBLE_MS = 250
-"""Beyond, two strokes of one hand are two strokes and no double; our choice."""
+LONGEST_DOUBLE_MS = 320
+"""Beyond, two strokes of one hand are two strokes and no double; our choice: triplets at 63 bpm."""
 _DOUBLE_REACH = 1.5
 """The other hand is beside a double if it strikes within so many of its intervals: triplets mix with eighths."""
 _OF_TWO = (Ornament.DIDDLE, Ornament.ROLL)
@@ -76,13 +79,60 @@ def fill_ramp(score: Score) -> Floats:
     return ramp
 
 
-def long_waits(score: Score) -> Flags:
-    """Strokes that come `LONG_WAIT` or more times the median wait after the slot before; never the first slot's."""
+def landings(score: Score) -> Flags:
+    """The strokes on which fills land: on the first beat after each, and what follows it for a beat.
+
+    Only fills that carry over, of `LEAST_RUN_STROKES` or more that go to the toms or on for more than a beat: a snare
+    beat whose hat is left out lands nowhere.
+    """
+    flags, filled, beat = np.zeros(len(score), bool), fills(score), _beats(score)
+    rows = np.flatnonzero(filled)
+    is_tom, on_beat = np.isin(score.notes["piece"], TOMS), _within_quarter(score) == 0
+    for fill in np.split(rows, np.flatnonzero(np.diff(beat[rows]) > 1) + 1) if len(rows) else ():
+        after = beat == beat[fill[-1]] + 1
+        carries = len(fill) >= LEAST_RUN_STROKES and (is_tom[fill].any() or beat[fill[0]] < beat[fill[-1]])
+        if carries and (after & on_beat).any():
+            flags |= after
+    return np.asarray(flags & ~score.is_grace)
+
+
+def landing_fade(score: Score) -> Floats:
+    """What is left at each stroke (n,) of a landing that is put right within its beat: 1 on the one, then less, then 0.
+
+    So lands who comes out of a fill beside the time and finds back to it.
+    """
+    return landings(score) * (1 - _within_quarter(score) / PPQ)
+
+
+@dataclass(frozen=True, eq=False)
+class Offbeats:
+    """Strokes beside the beat that are written straight; a beat is a quarter, or three eighths in compound meters.
+
+    Flags (n,): `all` of them, `ands` in the middle of the beat, `quarters` at its first and third quarter.
+    """
+
+    all: Flags
+    ands: Flags
+    quarters: Flags
+
+
+def offbeats(score: Score) -> Offbeats:
+    """The strokes beside the beat; swung ones are none."""
+    beat_ticks = _beat_ticks(score)
+    within = (score.notes["tick"] - _beat_starts(score)) % beat_ticks
+    straight = ~score.is_grace & ~swung(score).flags
+    halved = straight & (2 * within == beat_ticks) & (beat_ticks == PPQ)
+    quartered = straight & ((4 * within == beat_ticks) | (4 * within == 3 * beat_ticks)) & (beat_ticks == PPQ)
+    return Offbeats(straight & (within > 0), halved, quartered)
+
+
+def long_waits(score: Score, longer: float = LONG_WAIT) -> Flags:
+    """Strokes that come `longer` or more times the median wait after the slot before; never the first slot's."""
     ticks, slot_of_row = slots(score)
     if len(ticks) < 2:
         return np.zeros(len(score), bool)
     waits = np.diff(score.tempo_map.ns_at(ticks)).astype(np.float64)
-    is_long = np.concatenate([[False], waits >= LONG_WAIT * np.median(waits)])
+    is_long = np.concatenate([[False], waits >= longer * np.median(waits)])
     return np.asarray(is_long[slot_of_row] & ~score.is_grace)
 
 
@@ -110,7 +160,7 @@ def swung(score: Score) -> Swung:
     A beat swings where its only strokes are on it and at one later place within `SWING_FRACTIONS`; sixteenths swing
     where both halves of the beat do so alike.
     """
-    within = (score.notes["tick"] - _beat_starts(score)) % PPQ
+    within = _within_quarter(score)
     beat = _beats(score)
     flags, spans, places = np.zeros(len(score), bool), np.full(len(score), PPQ), within / PPQ
     order = np.argsort(beat, kind="stable")
@@ -158,6 +208,15 @@ def second_of_doubles(score: Score) -> Flags:
     return flags
 
 
+def double_interval_ms(score: Score) -> float:
+    """The usual time from the first to the second stroke of a double as written; infinite without doubles."""
+    second = np.flatnonzero(second_of_doubles(score))
+    slot_ticks, slot_of_row = slots(score)
+    before = slot_ticks[np.maximum(slot_of_row[second] - 1, 0)]
+    gaps_ms = (score.tempo_map.ns_at(score.notes["tick"][second]) - score.tempo_map.ns_at(before)) / NS_PER_MS
+    return float(np.median(gaps_ms)) if len(second) else float("inf")
+
+
 def hands_compared(score: Score, fewest: int = 1) -> Flags:
     """Strokes of a dynamic that both hands play, each `fewest` times or more: there a weak hand can be told.
 
@@ -187,6 +246,22 @@ def _beat_starts(score: Score) -> NDArray[np.int64]:
     meters = np.array([m.tick for m in score.tempo_map.meters], np.int64)
     starts: NDArray[np.int64] = meters[np.searchsorted(meters, score.notes["tick"], side="right") - 1]
     return starts
+
+
+def _beat_ticks(score: Score) -> NDArray[np.int64]:
+    """Length of the beat of each row: three eighths in compound meters (6/8, 9/8, 12/8), else a quarter."""
+    meters = score.tempo_map.meters
+    compound = np.array([m.unit == 8 and m.beats % 3 == 0 and m.beats > 3 for m in meters])
+    lengths = np.where(compound, 3 * PPQ // 2, PPQ).astype(np.int64)
+    starts = np.array([m.tick for m in meters], np.int64)
+    found: NDArray[np.int64] = lengths[np.searchsorted(starts, score.notes["tick"], side="right") - 1]
+    return found
+
+
+def _within_quarter(score: Score) -> NDArray[np.int64]:
+    """Ticks of each row since its quarter began."""
+    within: NDArray[np.int64] = (score.notes["tick"] - _beat_starts(score)) % PPQ
+    return within
 
 
 def _beats(score: Score) -> NDArray[np.int64]:

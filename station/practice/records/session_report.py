@@ -109,6 +109,7 @@ def session_view(result: SessionResult, settings: Settings) -> SummaryView:
         silences=plan.silences,
         bar_names=None if plan.rounds is None else plan.rounds.bars,
         beat_ticks=plan.lesson.beat_ticks,
+        faults=plan.lesson.goals.faults,
     )
 
 
@@ -146,7 +147,8 @@ def report_text(document: dict[str, Json]) -> str:
     head = f"{session['title']} at {tempo}, {which}, {passes}, judged as {document['level']}"
     return (
         f"{head}{'' if session['complete'] else ' (stopped early)'}\n\n"
-        f"{_figures_text(document)}{_passes(document)}{_steps_text(map(str, steps))}{_paused(session)}"
+        f"{_figures_text(document)}{_praise_text(document)}{_passes(document)}"
+        f"{_steps_text(map(str, steps))}{_paused(session)}"
         f"\nLatency taken out: {session['latency']}.\n"
     )
 
@@ -168,7 +170,11 @@ def _passes(document: dict[str, Json]) -> str:
 
 def assessment_text(document: dict[str, Json]) -> str:
     """An assessment in words: the figures, each piece's lean and spread, and the advice."""
-    return _figures_text(document) + _steps_text(advice_of(document))
+    return _figures_text(document) + _praise_text(document) + _steps_text(advice_of(document))
+
+
+def _praise_text(document: dict[str, Json]) -> str:
+    return f"\n{document['praise']}\n" if document.get("praise") else ""
 
 
 def _steps_text(steps: Iterable[str]) -> str:

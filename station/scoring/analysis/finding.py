@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from station.music.judgement import Label
 from station.scoring.analysis.summary import Summary
 
 Floats = NDArray[np.float64]
@@ -12,6 +13,9 @@ Flags = NDArray[np.bool_]
 
 MIN_SLOTS = 6
 """Fewer moments bear no sentence (our choice)."""
+
+CHANCE = 2.8
+"""Standard errors: one fault-free effect in two hundred goes beyond."""
 
 Z_95 = 1.959964
 """Standard errors to both sides of a 95 % interval."""
@@ -21,7 +25,8 @@ Z_95 = 1.959964
 class Finding:
     """One fault: its size with sign and 95 % interval in `unit`, the lesson's bars (from 0) where it is worst.
 
-    `subject` names the piece … that it is about, in words; `severity` is 1 for a clear fault of its kind.
+    `subject` names what it is about, in words; `severity` is its size in units of the smallest that a teacher minds.
+    `alternatives` are the words of other explanations that the data do not tell from this one.
     """
 
     fault: str
@@ -31,6 +36,7 @@ class Finding:
     unit: str
     severity: float
     bars: tuple[int, ...]
+    alternatives: tuple[str, ...] = ()
 
 
 def worst_bars(summary: Summary, badness: Floats, notes: Flags, most: int = 3) -> list[int]:
@@ -41,3 +47,11 @@ def worst_bars(summary: Summary, badness: Floats, notes: Flags, most: int = 3) -
     mean = np.bincount(bars, weights=badness) / np.maximum(np.bincount(bars), 1)
     worse = [int(b) for b in np.argsort(-mean, kind="stable") if mean[b] > 0 and mean[b] >= badness.mean()]
     return sorted(worse[:most])
+
+
+def farthest_bars(summary: Summary, strokes: Flags, off: Floats) -> tuple[int, ...]:
+    """The bars in which the strokes (n,) that were played lie farthest up in `off` (n,)."""
+    judged = strokes & (summary.alignment.note_label == Label.MATCH) & ~np.isnan(off)
+    if not judged.any():
+        return ()
+    return tuple(worst_bars(summary, off[judged] - off[judged].min(), judged))

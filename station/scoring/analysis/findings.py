@@ -1,228 +1,238 @@
-"""What a performance shows, each finding an effect with the interval that the data can bear.
+"""Every fault that a performance shows, in the order in which a teacher takes them.
 
-Habits come from two regressions (`habits`), misses and extras from shares (`error_rates`), a common lean and
-unsteadiness from the asynchronies themselves. Nothing is found that chance or feel explains: an effect counts if it
-lies `CHANCE` standard errors from nothing and beyond what is free. How much it matters, its severity, is its size in
-units of a clear fault of its kind. Sentences are written by `advice`.
+A cause that `habits` found, a share of notes, a jump in the way through the score … becomes a finding where two things
+hold: it matters, being at least `DECIDE` of the smallest size that a teacher minds (`fault_table`, or what the lesson
+asks), and the data bear it. Notes come before pulse, pulse before lean, lean before dynamics; within each group the
+largest, in units of its smallest size, comes first. Sentences are written by `advice`.
 """
 
-from dataclasses import dataclass
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
 
 from station.core.labels import name_of
-from station.core.pieces import Limb
 from station.music import passages
-from station.music.judgement import Label
-from station.scoring.analysis.error_rates import misses_and_extras, wrong_pieces
-from station.scoring.analysis.finding import MIN_SLOTS, Z_95, Finding, worst_bars
-from station.scoring.analysis.habits import CHANCE
-from station.scoring.analysis.points import ratio_of_place
-from station.scoring.analysis.regression import CONSTANT, Effect
+from station.music.score import Score
+from station.scoring.analysis.error_rates import misses_and_extras, wilson, wrong_pieces
+from station.scoring.analysis.fault_table import kind_of, of_piece
+from station.scoring.analysis.finding import CHANCE, MIN_SLOTS, Finding, farthest_bars, worst_bars
+from station.scoring.analysis.habits import FILL_EFFECTS, HANDS, OFFBEATS
+from station.scoring.analysis.journey import Journey, journey
+from station.scoring.analysis.level_findings import level_findings
+from station.scoring.analysis.points import FREE_LEAN_MS, FREE_SWING, ratio_of_place
+from station.scoring.analysis.pulse import tempo_change
+from station.scoring.analysis.sparse_model import CONSTANT, Effect
+from station.scoring.analysis.spread_findings import spread_findings
 from station.scoring.analysis.summary import Summary
-from station.scoring.analysis.timing_spread import asynchrony_ms, timed_notes
-from station.scoring.matching.alignment import Reference
+from station.scoring.analysis.technique.openness import Opening, hat_faults, openings
+from station.scoring.analysis.timing_spread import asynchrony_ms
 
 Floats = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 
+DECIDE = 0.75
+"""From this share of the smallest size on a fault is named, so that chance hides few of those that just matter."""
 
-@dataclass(frozen=True, slots=True)
-class FindingKind:
-    """A fault that one effect shows: `sign` of the effect, what is `free`, what is `clear`, both in `unit`.
+DECIDE_PIECES = 0.88
+"""The same for pieces, that lean by 5–10 ms in anyone (HUMANS): 22 ms are three of their SDs."""
 
-    `free` None: a lean, of which the lesson says how much is feel.
-    """
+DECIDE_PLACES = 0.6
+"""The same for places in the music, in which nobody leans without a fault, and which are not all meant alike: what is a
+fill, a double or a wait to the player is not always one here (our choice)."""
 
-    fault: str
-    effect: str
-    sign: int
-    free: float | None
-    clear: float
-    unit: str
+_WHOLE_SHARE = 0.8
+"""The same for all of a take: 24 ms, for professionals stand up to 16 ms ahead of the click (HUMANS)."""
 
+_DECIDE_PULSE = 0.58
+"""The same for the tempo without a click: 2.3 % in eight bars, for professionals stray by 1–2 % (HUMANS)."""
 
-_FREE_MS, _CLEAR_MS = 3.0, 25.0
-"""HUMANS: 6 ms are just heard in fast strokes, 25 ms by anyone; half of what is just heard is worth no sentence."""
+_HATS_SHARE = 0.6
+"""The same for open and closed hats, of which an even player has none that are wrong."""
 
-_FREE_FLAM_MS, _CLEAR_FLAM_MS = 1.2, 20.0
-"""Our choice: a lead is one drop of both hands, a third as scattered as strokes are, so that less is free of it; 20 ms
-more make 50 of a flam's 30 ms, wider than flams are played (HUMANS: 15–40 ms)."""
+_FLAM_SHARE = 0.1
+"""A flam is too wide or too narrow from the last tenth of the way from what is written to the limit on: leads scatter
+little, and what is usual begins 5 ms behind the limit (HUMANS)."""
 
-_FREE_DB, _CLEAR_DB = 1.5, 4.0
-"""HUMANS: 1 dB is just noticeable to the skilled, 2–3 to others."""
-
-KINDS = (
-    FindingKind("late_kick", "kick", 1, None, _CLEAR_MS, "ms"),
-    FindingKind("early_kick", "kick", -1, None, _CLEAR_MS, "ms"),
-    FindingKind("slow_hihat_foot", "hihat_pedal", 1, None, _CLEAR_MS, "ms"),
-    FindingKind("early_hihat_foot", "hihat_pedal", -1, None, _CLEAR_MS, "ms"),
-    FindingKind("rush_fills", "fills", -1, _FREE_MS, _CLEAR_MS, "ms"),
-    FindingKind("drag_fills", "fills", 1, _FREE_MS, _CLEAR_MS, "ms"),
-    FindingKind("drag_slow", "long_waits", 1, _FREE_MS, _CLEAR_MS, "ms"),
-    FindingKind("rush_slow", "long_waits", -1, _FREE_MS, _CLEAR_MS, "ms"),
-    FindingKind("uneven_doubles", "doubles", -1, _FREE_MS, _CLEAR_MS, "ms"),
-    FindingKind("lazy_doubles", "doubles", 1, _FREE_MS, _CLEAR_MS, "ms"),
-    FindingKind("wide_flams", "flams", 1, _FREE_FLAM_MS, _CLEAR_FLAM_MS, "ms"),
-    FindingKind("tight_flams", "flams", -1, _FREE_FLAM_MS, _CLEAR_FLAM_MS, "ms"),
-    FindingKind("weak_left", "left_level", -1, _FREE_DB, _CLEAR_DB, "dB"),
-    FindingKind("weak_right", "left_level", 1, _FREE_DB, _CLEAR_DB, "dB"),
-    FindingKind("loud_ghosts", "ghost_level", 1, _FREE_DB, _CLEAR_DB, "dB"),
-    FindingKind("flat_accents", "accent_level", -1, _FREE_DB, _CLEAR_DB, "dB"),
-)
-"""Every fault that a habit's effect can show. Ghosts that are softer and accents that are louder are nobody's fault."""
-
-_CLEAR_SWING = 0.5
-
-FREE_BIAS_MS, _CLEAR_BIAS_MS = 20.0, 40.0
-"""Professionals play 10–16 ms ahead of the click (HUMANS); 40 ms are a clear fault."""
-
-_LEAST_SD_MS, _MOST_SD_MS, _SD_SHARE = 20.0, 35.0, 0.15
-"""TEACHING: a pass's SD is at most min(35, max(20, 15 % of the interval)) ms."""
-
-_UNSTEADY_SEVERITY = 0.1
-"""Slower is the answer to every spread: said when nothing more telling is found."""
+_FEWEST_LANDINGS = 4
+"""Slots after fills; there are few fills, and each shift is large (our choice)."""
 
 
 def find_all(summary: Summary) -> list[Finding]:
-    """Every finding, the severest first."""
+    """Every finding in a teacher's order; of two by one name the larger."""
+    way = journey(summary.score, summary.performance, summary.alignment)
     found = [
-        *_habits(summary),
-        *_swing(summary),
-        *_leans(summary),
-        *_common_lean(summary),
-        *_unsteady(summary),
-        *misses_and_extras(summary),
+        *_jumps(summary, way),
+        *misses_and_extras(summary, way),
         *wrong_pieces(summary),
+        *_hats(summary),
+        *_pulse(summary),
+        *spread_findings(summary),
+        *_causes(summary),
+        *_flams(summary),
+        *level_findings(summary, DECIDE),
     ]
-    return sorted(found, key=lambda finding: -finding.severity)
+    named = [one for one in found if np.isfinite(summary.view.faults.least(one.fault))]
+    return sorted(named, key=lambda one: (kind_of(one.fault).group, -one.severity))
 
 
-# --- habits -----------------------------------------------------------------------------------------------------------
+# --- causes in time ---------------------------------------------------------------------------------------------------
+
+_WORDS = {
+    "left_hand": ("late_left_hand", "early_left_hand"),
+    "right_hand": ("late_right_hand", "early_right_hand"),
+    "offbeats": ("late_offbeats", "early_offbeats"),
+    "ands": ("late_offbeats", "early_offbeats"),
+    "quarters": ("late_offbeats", "early_offbeats"),
+    "swing": ("hard_swing", "straight_swing"),
+    "fills": ("drag_fills", "rush_fills"),
+    "fill_shift": ("drag_fills", "rush_fills"),
+    **dict.fromkeys(("landings", "landing_fade"), ("fill_lands_late", "fill_lands_early")),
+    **dict.fromkeys(("long_waits", "rests"), ("drag_slow", "rush_slow")),
+    "doubles": ("lazy_doubles", "uneven_doubles"),
+    CONSTANT: ("late", "early"),
+}
+"""What an effect is called that is late, and early; pieces by `fault_table.of_piece`."""
+
+_PLACES = frozenset({*FILL_EFFECTS, "long_waits", "rests", "doubles"})
 
 
-def _habits(summary: Summary) -> list[Finding]:
-    found = []
-    for kind in KINDS:
-        effect = summary.habits.effects.get(kind.effect)
-        if effect is not None and effect.value * kind.sign > _free(kind, summary) and _is_sure(effect):
-            bars = _bars_of_habit(summary, kind)
-            severity = abs(effect.value) / kind.clear
-            found.append(Finding(kind.fault, "", effect.value, effect.ci, kind.unit, severity, bars))
-    return found
+def _words_of(summary: Summary, name: str, effect: Effect) -> tuple[str, ...]:
+    """The word of an effect, then the others that mean the same strokes to the same side."""
+    late = effect.value > 0
+    if name not in _WORDS:
+        return (of_piece("late" if late else "early", name),)
+    said = _WORDS[name][0 if late else 1]
+    if name in OFFBEATS and late:
+        ratio = ratio_of_place(0.5 + effect.value / _pair_ms(summary.score, name))
+        return ("swung_straight", said) if ratio >= FREE_SWING[0] else (said, "swung_straight")
+    return (said,)
 
 
-def _free(kind: FindingKind, summary: Summary) -> float:
-    """What a fault's effect may be without a word."""
-    return summary.view.feel.lean_ms if kind.free is None else kind.free
+def _pair_ms(score: Score, name: str) -> float:
+    """Length of the two strokes that swing would share unevenly: half a beat for its quarters, else a beat."""
+    beat_ms = 60e3 / score.tempo_map.bpm_at(0)
+    return beat_ms / 2 if name == "quarters" else beat_ms
 
 
-def _is_sure(effect: Effect) -> bool:
-    return effect.slots >= MIN_SLOTS and abs(effect.value) > CHANCE * effect.error
+def _size(summary: Summary, name: str, effect: Effect) -> float:
+    """How large an effect is in the unit of the fault table."""
+    size = abs(effect.value)
+    if name == "swing":
+        swung = passages.swung(summary.score)
+        return size * float(np.median(swung.span_ms[swung.flags]))
+    if name == "doubles":
+        return 100 * size / passages.double_interval_ms(summary.score)
+    return size
 
 
-def _bars_of_habit(summary: Summary, kind: FindingKind) -> tuple[int, ...]:
-    """Where the strokes concerned are farthest to the fault's side."""
-    off = summary.habits.off_db if kind.unit == "dB" else asynchrony_ms(summary.alignment)
-    sign = kind.sign
-    if kind.effect == "flams":  # a grace stroke that comes early leads too far
-        sign = -sign
-    elif kind.effect == "left_level" and kind.sign > 0:  # then it is the right hand that is soft
-        right = summary.score.notes["limb"] == Limb.RIGHT_HAND
-        return _farthest(summary, right & ~summary.score.is_grace, -off)
-    return _farthest(summary, summary.habits.strokes[kind.effect], sign * off)
+def _least(summary: Summary, name: str, fault: str) -> float:
+    """From which size `fault` counts: as the table or the lesson has it, and no more than the lesson leaves to feel."""
+    asked, free_ms = summary.view.faults.least(fault), summary.view.feel.lean_ms
+    is_lean = name not in _WORDS or name in HANDS or name in OFFBEATS
+    return min(asked, free_ms) if is_lean and free_ms < FREE_LEAN_MS and np.isfinite(asked) else asked
 
 
-def _farthest(summary: Summary, strokes: Flags, off: Floats) -> tuple[int, ...]:
-    """The bars in which the strokes (n,) that were played lie farthest up in `off` (n,)."""
-    judged = strokes & (summary.alignment.note_label == Label.MATCH) & ~np.isnan(off)
-    if not judged.any():
-        return ()
-    return tuple(worst_bars(summary, off[judged] - off[judged].min(), judged))
+def _causes(summary: Summary) -> Iterator[Finding]:
+    """Each cause in time that matters, with what could as well stand in its place."""
+    timing, said = summary.habits.timing, set[str]()
+    if timing is None:
+        return
+    whole = () if CONSTANT in timing.chosen else (CONSTANT,)  # where players usually stand may still be too far
+    for name in (*timing.chosen, *whole):
+        effect = timing.effects.get(name)
+        if effect is None:
+            continue
+        fault, *same = _words_of(summary, name, effect)
+        severity = _size(summary, name, effect) / max(_least(summary, name, fault), 1e-9)
+        if fault in said or not _matters(summary, name, effect, severity):
+            continue
+        said.add(fault)
+        rivals = [_words_of(summary, other, there)[0] for other, there in timing.rivals.get(name, {}).items()]
+        others = tuple(dict.fromkeys(word for word in (*same, *rivals) if word != fault))
+        shown, ci, unit, subject = _shown(summary, name, effect)
+        side = np.sign(effect.value)
+        bars = farthest_bars(summary, summary.habits.strokes[name], side * asynchrony_ms(summary.alignment))
+        yield Finding(fault, subject, shown, ci, unit, severity, bars, others)
 
 
-def _swing(summary: Summary) -> list[Finding]:
-    """Swing that is held straighter or harder than is free; the effect is in ratios against what is written."""
-    effect = summary.habits.effects.get("swing")
-    swung = passages.swung(summary.score)
-    if effect is None or not swung.flags.any() or not _is_sure(effect):
-        return []
-    written = swung.written_place
-    held, low, high = (ratio_of_place(written + shift) for shift in (effect.value, *effect.ci))
-    asked = ratio_of_place(written)
-    if summary.view.feel.allows(held, asked):
-        return []
-    fault = "straight_swing" if held < asked else "hard_swing"
-    bars = _farthest(summary, swung.flags, np.sign(effect.value) * asynchrony_ms(summary.alignment))
-    severity = abs(held - asked) / _CLEAR_SWING
-    return [
-        Finding(
-            fault, f"{held:.1f}:1 for {asked:.1f}:1", held - asked, (low - asked, high - asked), "ratio", severity, bars
-        )
-    ]
+def _matters(summary: Summary, name: str, effect: Effect, severity: float) -> bool:
+    fewest = _FEWEST_LANDINGS if name in FILL_EFFECTS else MIN_SLOTS
+    if effect.slots < fewest or abs(effect.value) < CHANCE * effect.error:
+        return False
+    if name == "swing" and summary.view.feel.swing_error is not None:
+        written = passages.swung(summary.score).written_place
+        return not summary.view.feel.allows(ratio_of_place(written + effect.value), ratio_of_place(written))
+    if name == CONSTANT:  # with habits taken out, and as it was heard
+        mean_ms = summary.timing.mean_ms or 0.0
+        heard_ms = mean_ms * np.sign(effect.value)
+        return bool(min(severity, heard_ms * severity / abs(effect.value)) >= _WHOLE_SHARE)
+    return severity >= (DECIDE_PLACES if name in _PLACES else DECIDE if name in _WORDS else DECIDE_PIECES)
 
 
-def _leans(summary: Summary) -> list[Finding]:
-    """A hand's piece that stands apart from the other pieces by more than is free; of two the one of fewer strokes."""
-    found, free_ms = [], summary.view.feel.lean_ms
-    for name, effect in summary.habits.effects.items():
-        if name.startswith("lean_") and abs(effect.value) > free_ms and _is_sure(effect):
-            strokes = summary.habits.strokes[name] & timed_notes(summary.score, summary.alignment)
-            piece = name.removeprefix("lean_")
-            off = asynchrony_ms(summary.alignment)[strokes] * np.sign(effect.value)
-            bars = tuple(worst_bars(summary, off - off.min(), strokes))
-            fault = f"{'late' if effect.value > 0 else 'early'}_{piece}"
-            finding = Finding(
-                fault,
-                name_of(piece),
-                effect.value,
-                effect.ci,
-                "ms",
-                abs(effect.value) / _CLEAR_MS,
-                bars,
-            )
-            found.append((int(strokes.sum()), finding))
-    return [finding for _, finding in sorted(found, key=lambda pair: pair[0])[:1]]
+def _shown(summary: Summary, name: str, effect: Effect) -> tuple[float, tuple[float, float], str, str]:
+    """Effect and interval in the unit in which they are told, and what is told beside them."""
+    if name == "swing":
+        written = passages.swung(summary.score).written_place
+        asked = ratio_of_place(written)
+        held, low, high = (ratio_of_place(written + shift) for shift in (effect.value, *effect.ci))
+        return held - asked, (low - asked, high - asked), "ratio", f"{held:.1f}:1 for {asked:.1f}:1"
+    subject = "" if name in _WORDS else name_of(name)
+    return effect.value, effect.ci, "ms", subject
 
 
-# --- the whole --------------------------------------------------------------------------------------------------------
+# --- pulse, way, hats, flams ------------------------------------------------------------------------------------------
 
 
-def _common_lean(summary: Summary) -> list[Finding]:
-    """Everything early or late against the click: with habits taken out, and as it was heard."""
-    effect, mean_ms = summary.habits.effects.get(CONSTANT), summary.timing.mean_ms
-    if summary.alignment.reference is Reference.PLAYER or effect is None or mean_ms is None:
-        return []
-    side = np.sign(effect.value)
-    if min(side * effect.value, side * mean_ms) <= FREE_BIAS_MS or not _is_sure(effect):
-        return []
-    timed = timed_notes(summary.score, summary.alignment)
-    off = asynchrony_ms(summary.alignment)[timed]
-    bars = tuple(worst_bars(summary, off * side - (off * side).min(), timed))
-    fault = "late" if effect.value > 0 else "early"
-    return [Finding(fault, "", effect.value, effect.ci, "ms", abs(effect.value) / _CLEAR_BIAS_MS, bars)]
+def _pulse(summary: Summary) -> Iterator[Finding]:
+    """Rushing or dragging without a click."""
+    effect = tempo_change(summary.score, summary.performance, summary.alignment)
+    if effect is None or abs(effect.value) < CHANCE * effect.error:
+        return
+    fault = "rushing" if effect.value > 0 else "dragging"
+    severity = abs(effect.value) / summary.view.faults.least(fault)
+    if severity >= _DECIDE_PULSE:
+        yield Finding(fault, "", effect.value, effect.ci, kind_of(fault).unit, severity, ())
 
 
-def _unsteady(summary: Summary) -> list[Finding]:
-    """A spread beyond what a pass allows, with leans and habits and without; its interval by the normal law of SDs.
-
-    The effect is the spread of the report's tables, so that a student reads one number everywhere.
-    """
-    sd, left, count = summary.timing.sd_ms, summary.habits.timing_sd_ms, summary.timing.count
-    if sd is None or left is None or count < 4 * MIN_SLOTS:
-        return []
-    limit = min(_MOST_SD_MS, max(_LEAST_SD_MS, _SD_SHARE * _usual_interval_ms(summary)))
-    half = Z_95 * sd / (2 * count) ** 0.5
-    if min(sd, left) - half <= limit:
-        return []
-    timed = timed_notes(summary.score, summary.alignment)
-    off = asynchrony_ms(summary.alignment)[timed]
-    bars = tuple(worst_bars(summary, np.abs(off - np.median(off)), timed))
-    return [Finding("unsteady", f"{limit:.0f}", sd, (sd - half, sd + half), "ms", _UNSTEADY_SEVERITY, bars)]
+def _jumps(summary: Summary, way: Journey) -> Iterator[Finding]:
+    """One finding of each kind of jump, by how often it happened, with the bars."""
+    names = summary.view.bar_names_of(summary.score)
+    for fault in ("stopped", "left_out_bars", "repeated_bars"):
+        mine = [jump for jump in way.jumps if jump.fault == fault]
+        count = float(len(mine))
+        if mine and count >= summary.view.faults.least(fault):
+            bars = tuple(dict.fromkeys(int(names[min(jump.bar, len(names) - 1)]) for jump in mine))
+            again = int(names[min(mine[0].to_bar, len(names) - 1)]) + 1
+            others = tuple(dict.fromkeys(rival for jump in mine for rival in jump.rivals))
+            yield Finding(fault, str(again), count, (count, count), "times", count, bars, others)
 
 
-def _usual_interval_ms(summary: Summary) -> float:
-    ticks, _ = passages.slots(summary.score)
-    waits = np.diff(summary.score.tempo_map.seconds_at(ticks))
-    return float(np.median(waits)) * 1e3 if len(waits) else 0.0
+def _hats(summary: Summary) -> Iterator[Finding]:
+    """Hi-hats that are open where they should be closed, and the other way round."""
+    judged, wrong = hat_faults(summary.score, summary.performance, summary.alignment)
+    closed = openings(summary.score.notes["openness"]) == Opening.CLOSED
+    for fault, asked in (("open_hats", judged & closed), ("closed_hats", judged & ~closed)):
+        bad, of = int((wrong & asked).sum()), int(asked.sum())
+        least = summary.view.faults.least(fault) / 100
+        if of >= MIN_SLOTS and bad / of >= _HATS_SHARE * least and wilson(bad, of, CHANCE)[0] > least / 5:
+            bars = tuple(worst_bars(summary, wrong[asked].astype(np.float64), asked))
+            low, high = wilson(bad, of)
+            yield Finding(fault, "", 100 * bad / of, (100 * low, 100 * high), "%", bad / of / least, bars)
+
+
+def _flams(summary: Summary) -> Iterator[Finding]:
+    """Flams that are wider or narrower than flams are; the effect is how much wider than written they were."""
+    effect, faults = summary.habits.effects.get("flams"), summary.view.faults
+    if effect is None or effect.slots < MIN_SLOTS:
+        return
+    score, flam = summary.score, summary.habits.strokes["flams"]
+    written_ms = float(score.notes["lead_ms"][flam].mean())
+    off = asynchrony_ms(summary.alignment)
+    for fault, side in (("wide_flams", 1), ("tight_flams", -1)):
+        limit = faults.least(fault)
+        far_ms = abs(limit - written_ms)
+        if np.isfinite(limit) and side * (effect.value - limit) > -_FLAM_SHARE * far_ms:
+            size = 1.0 + side * (effect.value - limit) / max(far_ms, 1.0)
+            ci = (effect.ci[0] - written_ms, effect.ci[1] - written_ms)
+            bars = farthest_bars(summary, flam, -side * off)
+            yield Finding(fault, f"{effect.value:.0f}", effect.value - written_ms, ci, "ms", size, bars)

@@ -1,9 +1,11 @@
-"""Habits: what a player does in one kind of place and not in others, each told apart from all the rest.
+"""Habits: what a player does in one kind of place and not in others, explained by as few causes as the data bear.
 
-Two models, one for time and one for loudness (`regression`), have a column for every kind of place that the score
-holds: fills, long waits, swung offbeats, second strokes of doubles, the feet, the left hand, ghosts, accents. What is
-left are differences that every player has: pieces and hands that lean apart by some ms or dB. `music.passages` says
-which strokes a habit concerns. Timing effects are in ms, negative is early; loudness in dB, negative is softer.
+Two models, one for time and one for loudness (`sparse_model`), have a suspect for every piece, each hand, the places in
+the beat, swung offbeats, fills and where they land, long waits, second strokes of doubles, ghosts, accents, and a fade
+over the take. Effects are absolute where the time that was asked for is known (a click, or the file's own time): each
+is measured from there, and a piece that is early makes no other one late. Where only the player's own tempo is known,
+most strokes stand at 0 by the way it is found, and effects are measured from these. `music.passages` says which strokes
+a habit concerns. Timing effects are in ms, negative is early; loudness in dB, negative is softer.
 """
 
 from dataclasses import dataclass
@@ -11,157 +13,197 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Dynamic, Limb, Piece, word
+from station.core.pieces import Dynamic, Limb, Ornament, Piece, word
+from station.core.units import NS_PER_S
 from station.music import passages
 from station.music.judgement import Label
 from station.music.performance import Performance
 from station.music.score import Score
 from station.scoring.analysis.loudness import level_db
-from station.scoring.analysis.regression import CONSTANT, Column, Effect, fit
-from station.scoring.analysis.timing_spread import asynchrony_ms, timed_notes
-from station.scoring.matching.alignment import Alignment
+from station.scoring.analysis.sparse_model import CONSTANT, Column, Effect, Explained, explain
+from station.scoring.analysis.timing_spread import asynchrony_ms, standard_error, timed_notes
+from station.scoring.matching.alignment import Alignment, Reference
 from station.scoring.matching.grace_strokes import main_of_grace
-from station.scoring.matching.slow_drift import robust_sd
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
+Indices = NDArray[np.int64]
 
-LEAN_SHARE = 0.4
-"""Pieces lean apart by this share of the player's SD in any take (HUMANS: 11 of 27 ms)."""
+STAND_MS = 15.0
+"""How far from the click players usually stand: professionals 10–16 ms ahead (HUMANS)."""
 
-LEAST_LEAN_MS = 3.0
+LEAN_SHARE = 0.16
+"""By how much pieces usually lean apart, of the smallest lean that matters: 4 of 25 ms. The 5–11 ms of HUMANS would
+hide a lean of 25 ms in a short take; what is too small to matter is left to `findings`."""
 
-FILL_SHAPE_MS = 10.0
-"""A fill may be off from its first stroke on instead of more and more: by so much, as believed before it is known (our
-choice: without it a fill that is late at once makes the pieces of its beginning and end lean apart)."""
+DRIFT_MS = 10.0
+"""How far a player usually moves against the click from one end of a take to the other (our choice: within it)."""
 
-CHANCE = 2.8
-"""Standard errors: one fault-free effect in two hundred goes beyond, and of a score's five to ten most are free to some
-size besides. Over the shipped lessons one fault-free session in four hundred gets a sentence."""
+PAD_DB = 1.5
+"""By how much a player's pads usually differ from what is written (our choice: pads answer differently, and less than
+2 dB is hardly heard, HUMANS): what one pad alone shows may be the pad."""
 
-PIECE_LEVEL_DB = 0.4
-"""The levels of different pads are comparable to so much: what the module sends is also what is heard (our choice)."""
+FULL_SCALE = 127
+"""The largest velocity: what was struck harder is not known, so that such strokes tell no level."""
 
-FEET = {Piece.KICK: "kick", Piece.HIHAT_PEDAL: "hihat_pedal"}
+_SECOND, _THIRD = 1.0, 2.0
+"""What causes cost that are thought of second and third, where pieces, fills, swing and doubles come first: a hand and
+a wait, the offbeats; a unit less than what tells two explanations apart is enough to break ties."""
+
+HANDS = {"left_hand": Limb.LEFT_HAND, "right_hand": Limb.RIGHT_HAND}
+FILL_EFFECTS = ("fills", "fill_shift", "landings", "landing_fade")
+OFFBEATS = ("offbeats", "ands", "quarters")
 
 
 @dataclass(frozen=True, eq=False)
 class Habits:
     """All effects by name, and the strokes (n,) that each concerns; empty where too little was played.
 
-    Names: `all` the common lean with habits apart, `kick`, `hihat_pedal`, `fills`, `long_waits`, `doubles` in ms,
-    `swing` in fractions of the unit that swings, `lean_PIECE` of a hand's piece against the other hand pieces in ms,
-    `flams` in ms (positive: wider than written), `left_level`, `ghost_level`, `accent_level` in dB. `timing_sd_ms` is
-    the spread of the main strokes with all that taken out; None where too little was played. `off_db` (n,) played less
-    written loudness, NaN where nothing was matched or heard.
+    In ms: `all` the common lean, each piece by its word, `left_hand`, `right_hand`, `offbeats` (all beside the beat),
+    `ands` and `quarters` (in the middle of the beat, and at its quarters), `fills` (more and more), `fill_shift` (all
+    of a fill alike), `landings` (for a beat) and `landing_fade` (put right within it), `long_waits` (and `rests`),
+    `doubles`; `swing` in fractions of the unit that swings; `flams` how far grace strokes lead. In dB: `left_level`,
+    `ghost_level`, `accent_level`, `doubles_level`, `graces_level` (grace less main stroke) and `fade` from one end of
+    the take to the other.
+
+    `timing` and `level` are the two models, None where too little was played. `rest_ms` (n,) is what the first leaves
+    over, `timing_sd_ms` its spread. `off_db` (n,) played less written loudness, NaN where nothing was matched or heard.
     """
 
     effects: dict[str, Effect]
     strokes: dict[str, Flags]
-    timing_sd_ms: float | None
+    timing: Explained | None
+    level: Explained | None
+    rest_ms: Floats
     off_db: Floats
 
+    @property
+    def timing_sd_ms(self) -> float | None:
+        """Spread of the main strokes with every habit taken out, in ms; None where too little was played."""
+        return None if self.timing is None else self.timing.sd
 
-def habits(score: Score, performance: Performance, alignment: Alignment, hears_velocity: bool) -> Habits:
-    """What `performance` shows of each habit that `score` has places for."""
+
+def habits(
+    score: Score, performance: Performance, alignment: Alignment, hears_velocity: bool, least_lean_ms: float = 25.0
+) -> Habits:
+    """What `performance` shows of each habit that `score` has places for; `least_lean_ms` is the least that matters."""
     strokes = _places(score)
-    timing, sd_ms = _timing(score, alignment, strokes)
+    timing, rest_ms = _timing(score, alignment, strokes, LEAN_SHARE * least_lean_ms)
     off_db = _off_db(score, performance, alignment) if hears_velocity else np.full(len(score), np.nan)
+    level = _levels(score, performance, alignment, strokes, off_db)
     effects = {
-        **timing,
-        **_flams(score, alignment),
-        **_levels(score, off_db, strokes),
+        **({} if timing is None else timing.effects),
+        **_flams(score, performance, alignment),
+        **({} if level is None else level.effects),
+        **(_graces(score, performance, alignment) if hears_velocity else {}),
     }
-    return Habits(effects, {name: strokes[name] for name in effects}, sd_ms, off_db)
+    return Habits(effects, {name: strokes[name] for name in effects}, timing, level, rest_ms, off_db)
 
 
 def _places(score: Score) -> dict[str, Flags]:
     """Which strokes (n,) each effect concerns."""
     notes, main = score.notes, ~score.is_grace
-    places = {CONSTANT: main} | {name: main & (notes["piece"] == piece) for piece, name in FEET.items()}
-    places |= {
-        "fills": passages.fills(score),
+    fills, beside = passages.fills(score), passages.offbeats(score)
+    places = {word(Piece(p)): main & (notes["piece"] == p) for p in np.unique(notes["piece"]).tolist()}
+    return places | {
+        **{name: main & (notes["limb"] == limb) for name, limb in HANDS.items()},
+        CONSTANT: main,
+        "offbeats": beside.all,
+        "ands": beside.ands,
+        "quarters": beside.quarters,
+        "fills": fills,
+        "fill_shift": fills,
+        "landings": passages.landings(score),
+        "landing_fade": passages.landings(score),
         "long_waits": passages.long_waits(score),
+        "rests": passages.long_waits(score, passages.REST),
         "doubles": passages.second_of_doubles(score),
         "swing": passages.swung(score).flags,
         "flams": score.is_grace,
         "left_level": main & (notes["limb"] == Limb.LEFT_HAND),
         "ghost_level": main & (notes["dynamic"] == Dynamic.GHOST),
         "accent_level": main & (notes["dynamic"] == Dynamic.ACCENT),
+        "doubles_level": passages.second_of_doubles(score),
+        "graces_level": score.is_grace,
+        "fade": main,
     }
-    for piece in np.unique(notes["piece"]).tolist():
-        if Piece(piece) not in FEET:
-            places[f"lean_{word(Piece(piece))}"] = main & (notes["piece"] == piece)
-    return places
 
 
 # --- time -------------------------------------------------------------------------------------------------------------
 
 
-def _timing(score: Score, alignment: Alignment, places: dict[str, Flags]) -> tuple[dict[str, Effect], float | None]:
-    """Effects in time, and the spread that they leave, in ms."""
-    timed = np.flatnonzero(timed_notes(score, alignment))
-    off = asynchrony_ms(alignment)[timed]
-    sd = robust_sd(off)
-    if sd is None:
-        return {}, None
-    tau = max(LEAN_SHARE * sd, LEAST_LEAN_MS)
-    columns = [Column(name, places[name][timed].astype(np.float64)) for name in (*FEET.values(), *_IN_TIME)]
-    ramp = passages.fill_ramp(score)[timed]
-    columns.append(Column("fills", ramp))
-    columns.append(Column("swing", passages.swung(score).span_ms[timed]))  # the effect is a fraction of it
-    common = _hands_and_pieces(score, timed, tau)
-    common.append(Column("fill_shape", places["fills"][timed] - ramp, FILL_SHAPE_MS))
-    whole = fit(off, columns + common, score.notes["tick"][timed])
-    if whole is None:
-        return {}, sd
-    found = {name: whole.effects[name] for name in (CONSTANT, *(c.name for c in columns)) if name in whole.effects}
-    return found | _leans(score, timed, off, columns, common), whole.sd
+def _timing(
+    score: Score, alignment: Alignment, places: dict[str, Flags], lean_ms: float
+) -> tuple[Explained | None, Floats]:
+    """The causes of the asynchronies, and what they leave over (n,), NaN where nothing was played."""
+    rows, rest = np.flatnonzero(timed_notes(score, alignment)), np.full(len(score), np.nan)
+    if not len(rows):
+        return None, rest
+    pieces = [word(Piece(p)) for p in np.unique(score.notes["piece"][rows]).tolist()]
+    shapes = {
+        **places,
+        "fills": passages.fill_ramp(score),
+        "landing_fade": passages.landing_fade(score),
+        "swing": passages.swung(score).span_ms,
+    }
+    absolute = alignment.reference is not Reference.PLAYER
+
+    def column(name: str, cost: float = 0.0, tau: float | None = None) -> Column:
+        return Column(name, shapes[name][rows].astype(np.float64), tau, cost)
+
+    base = [column(CONSTANT, tau=STAND_MS), *(column(piece, tau=lean_ms) for piece in pieces)]
+    base.append(Column("drift", _through(score.notes["tick"][rows]), DRIFT_MS))
+    suspects = [column(name) for name in (*pieces, "swing", "fills", "landings", "landing_fade", "doubles")]
+    suspects += [column(name, _SECOND) for name in (*HANDS, "fill_shift", "long_waits", "rests")]
+    suspects += [column(name, _THIRD) for name in OFFBEATS]
+    suspects += [column(CONSTANT)] if absolute else []
+    found = explain(asynchrony_ms(alignment)[rows], base, suspects, score.notes["tick"][rows])
+    if found is not None:
+        rest[rows] = found.rest
+    return found, rest
 
 
-_IN_TIME = ("long_waits", "doubles")
+def _through(times: NDArray[np.generic]) -> Floats:
+    """How far through the take each time is, −½ … ½."""
+    since = (times - times.min()).astype(np.float64)
+    return np.asarray(since / max(float(since.max()), 1.0) - 0.5)
 
 
-def _hands_and_pieces(score: Score, rows: NDArray[np.int64], tau: float) -> list[Column]:
-    """A drawn-in column for every hand piece and for the left hand."""
-    notes = score.notes[rows]
-    pieces = [Piece(p) for p in np.unique(notes["piece"]).tolist() if Piece(p) not in FEET]
-    columns = [Column(f"lean_{word(p)}", (notes["piece"] == p).astype(np.float64), tau) for p in pieces]
-    return [*columns, Column("left", (notes["limb"] == Limb.LEFT_HAND).astype(np.float64), tau)]
+def flam_leads_ms(score: Score, performance: Performance, alignment: Alignment) -> tuple[Indices, Floats]:
+    """The grace strokes of flams that were heard with their main stroke, and how far each led, in ms."""
+    graces, mains = _heard_graces(score, alignment)
+    flam = score.notes["ornament"][graces] == Ornament.FLAM
+    graces, mains = graces[flam], mains[flam]
+    at_s = performance.hits["at_ns"] / NS_PER_S
+    return graces, 1e3 * (at_s[alignment.hit_of_note[mains]] - at_s[alignment.hit_of_note[graces]])
 
 
-def _leans(
-    score: Score, rows: NDArray[np.int64], off: Floats, columns: list[Column], common: list[Column]
-) -> dict[str, Effect]:
-    """Each hand piece against the other hand pieces: its column set free in turn."""
-    pieces = [c for c in common if c.tau is not None and c.name.startswith("lean_")]
-    found = {}
-    for piece in pieces if len(pieces) > 1 else []:
-        freed = [Column(c.name, c.values, None if c is piece else c.tau) for c in common]
-        one = fit(off, columns + freed, score.notes["tick"][rows])
-        if one is not None and piece.name in one.effects:
-            found[piece.name] = one.effects[piece.name]
-    return found
+def _flams(score: Score, performance: Performance, alignment: Alignment) -> dict[str, Effect]:
+    graces, lead_ms = flam_leads_ms(score, performance, alignment)
+    return _mean("flams", lead_ms, score.notes["tick"][graces])
 
 
-def _flams(score: Score, alignment: Alignment) -> dict[str, Effect]:
-    """How much wider than written grace strokes come before their main stroke, in ms."""
+def _graces(score: Score, performance: Performance, alignment: Alignment) -> dict[str, Effect]:
+    graces, mains = _heard_graces(score, alignment)
+    level, hit = level_db(performance.fine_velocity), alignment.hit_of_note
+    return _mean("graces_level", level[hit[graces]] - level[hit[mains]], score.notes["tick"][graces])
+
+
+def _heard_graces(score: Score, alignment: Alignment) -> tuple[Indices, Indices]:
+    """Grace strokes that were heard with their main strokes, and these."""
     main = main_of_grace(score)
     graces = np.flatnonzero(main >= 0)
     matched = alignment.note_label == Label.MATCH
     graces = graces[matched[graces] & matched[main[graces]]]
-    wider = asynchrony_ms(alignment)[main[graces]] - asynchrony_ms(alignment)[graces]
-    fitted = _mean(wider, score.notes["tick"][graces])
-    return {} if fitted is None else {"flams": fitted}
+    return graces, main[graces]
 
 
-def _mean(values: Floats, slots: NDArray[np.int64]) -> Effect | None:
-    """The mean of values that come in slots, which are independent of each other, as an effect."""
-    _, slot = np.unique(slots, return_inverse=True)
-    if len(slot) == 0 or slot.max() < 3:
-        return None
-    means = np.bincount(slot, weights=values) / np.bincount(slot)
-    return Effect(float(means.mean()), float(means.std(ddof=1)) / len(means) ** 0.5, len(means))
+def _mean(name: str, values: Floats, slots: Indices) -> dict[str, Effect]:
+    """The mean of values (n,) as an effect; nothing of fewer than four slots."""
+    error = standard_error(values, slots)
+    if error is None:
+        return {}
+    return {name: Effect(float(values.mean()), error.value, len(np.unique(slots)))}
 
 
 # --- loudness ---------------------------------------------------------------------------------------------------------
@@ -176,47 +218,21 @@ def _off_db(score: Score, performance: Performance, alignment: Alignment) -> Flo
     return off
 
 
-def _levels(score: Score, off_db: Floats, places: dict[str, Flags]) -> dict[str, Effect]:
+def _levels(
+    score: Score, performance: Performance, alignment: Alignment, places: dict[str, Flags], off_db: Floats
+) -> Explained | None:
+    hit = np.maximum(alignment.hit_of_note, 0)
     rows = np.flatnonzero(~np.isnan(off_db) & ~score.is_grace)
-    off = off_db[rows]
-    pieces = score.notes["piece"][rows]
-    pads = [Column(f"pad_{p}", (pieces == p).astype(np.float64), PIECE_LEVEL_DB) for p in np.unique(pieces).tolist()]
-    suspects = [Column(name, places[name][rows].astype(np.float64)) for name in _IN_LEVEL]
-    return _one_by_one(off, suspects, pads, score.notes["tick"][rows])
+    rows = rows[performance.hits["velocity"][hit[rows]] < FULL_SCALE]
+    if not len(rows):
+        return None
+    at_ns = performance.hits["at_ns"][hit[rows]]
 
+    def column(name: str, cost: float = 0.0, tau: float | None = None) -> Column:
+        return Column(name, places[name][rows].astype(np.float64), tau, cost)
 
-_IN_LEVEL = ("accent_level", "ghost_level", "left_level")
-"""In the order in which they are suspected where they cannot be told apart: what was written is asked for first."""
-
-
-def _one_by_one(y: Floats, suspects: list[Column], common: list[Column], slots: NDArray[np.int64]) -> dict[str, Effect]:
-    """Effects of the suspects, taken in one after the other, the surest first, while they are beyond chance.
-
-    A hand may play one pad alone, and that pad ghosts and accents alone: then several causes explain one thing, and one
-    of them is enough. The effects of those that were not taken in are what they would be beside those that were.
-    """
-    found: dict[str, Effect] = {}
-    taken: list[Column] = []
-    left = list(suspects)
-    while left:
-        tried: dict[str, Effect] = {}
-        for suspect in left:
-            fitted = fit(y, [*taken, suspect, *common], slots)
-            if fitted is not None and suspect.name in fitted.effects:
-                tried[suspect.name] = fitted.effects[suspect.name]
-        found |= tried
-        best = max(tried, key=lambda name: abs(tried[name].value) / max(tried[name].error, 1e-9), default=None)
-        if best is None or abs(tried[best].value) <= CHANCE * tried[best].error:
-            break
-        taken += [suspect for suspect in left if suspect.name == best]
-        left = [suspect for suspect in left if suspect.name != best and not _is_explained(suspect, taken)]
-    whole = fit(y, [*taken, *common], slots)
-    known = {c.name: found[c.name] for c in (*taken, *left) if c.name in found}
-    return known if whole is None else known | {c.name: whole.effects[c.name] for c in taken}
-
-
-def _is_explained(suspect: Column, taken: list[Column]) -> bool:
-    """Whether a column says nothing that those taken in do not say."""
-    x = np.column_stack([np.ones(len(suspect.values)), *(column.values for column in taken)])
-    rest = suspect.values - x @ np.linalg.lstsq(x, suspect.values, rcond=None)[0]
-    return float(np.abs(rest).max()) < 1e-6
+    pieces = [word(Piece(p)) for p in np.unique(score.notes["piece"][rows]).tolist()]
+    base = [Column(CONSTANT, np.ones(len(rows))), *(column(piece, tau=PAD_DB) for piece in pieces)]
+    suspects = [column(name) for name in ("accent_level", "ghost_level", "doubles_level")]
+    suspects += [column("left_level", _SECOND), Column("fade", _through(at_ns))]
+    return explain(off_db[rows], base, suspects, score.notes["tick"][rows])

@@ -20,6 +20,7 @@ from station.music import passages
 from station.music.judgement import Label
 from station.music.performance import Performance
 from station.music.score import Score
+from station.scoring.analysis.fault_table import PIECE_WORDS, Asked, kind_of
 from station.scoring.analysis.habits import Habits, habits
 from station.scoring.analysis.loudness import Loudness, dynamics
 from station.scoring.analysis.player_tempo import TempoCurve, tempo_curve
@@ -91,7 +92,8 @@ class SummaryView:
     `pass_bars` bars make one pass of a loop (None: no loop), so that bar b of the score is the lesson's bar
     `first_bar` + b mod `pass_bars`, from 0; where passes differ `bar_names` says it of each bar. `hears_velocity` False
     where the input cannot tell loud from soft. `feel` is what costs nothing, `silences` where the click was silent,
-    `kit` what was measured of the student's. `beat_ticks` is the beat that tempi in sentences count.
+    `kit` what was measured of the student's. `beat_ticks` is the beat that tempi in sentences count. `faults` are the
+    sizes from which the lesson names faults.
     """
 
     windows: Windows = DEFAULT_LEVEL
@@ -103,13 +105,24 @@ class SummaryView:
     bar_names: tuple[int, ...] | None = None
     kit: KitFacts = field(default_factory=KitFacts)
     beat_ticks: int = PPQ
+    faults: Asked = field(default_factory=Asked)
+
+    @property
+    def least_lean_ms(self) -> float:
+        """The smallest lean of a piece that matters here."""
+        asked = (size for word, size in self.faults.sizes.items() if word in PIECE_WORDS and size is not None)
+        return max(min(kind_of("late_piece").least, self.feel.lean_ms, *asked), 1.0)
 
     def bars(self, score: Score) -> NDArray[np.int64]:
         """The lesson's bar of each note, from 0, shape (n,)."""
+        return self.bar_names_of(score)[score.bar]
+
+    def bar_names_of(self, score: Score) -> NDArray[np.int64]:
+        """The lesson's bar, from 0, of each bar of the score."""
         if self.bar_names is not None:
-            return np.asarray(self.bar_names, np.int64)[score.bar]
-        own = score.bar if self.pass_bars is None else score.bar % self.pass_bars
-        return np.asarray(own + self.first_bar, np.int64)
+            return np.asarray(self.bar_names, np.int64)
+        own = np.arange(max(score.bar_count, int(score.bar.max(initial=0)) + 1))
+        return np.asarray((own if self.pass_bars is None else own % self.pass_bars) + self.first_bar, np.int64)
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,7 +200,7 @@ def summarise(score: Score, performance: Performance, alignment: Alignment, view
         ),
         by_passage=_table((name, group(here, None)) for name, here in _passages(score) if here.any()),
         wrong_pieces=_wrong_pieces(score, performance, alignment),
-        habits=habits(score, performance, alignment, view.hears_velocity),
+        habits=habits(score, performance, alignment, view.hears_velocity, view.least_lean_ms),
         tempo=tempo_curve(score, performance, alignment),
         swallowed=swallowed,
     )

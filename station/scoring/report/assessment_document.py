@@ -14,6 +14,7 @@ from station.scoring.analysis.summary import Summary, SummaryGroup
 from station.scoring.analysis.technique.observability import unobservable
 from station.scoring.analysis.timing_spread import Spread
 from station.scoring.report.advice import advise
+from station.scoring.report.praise import praise
 from station.scoring.report.technique_table import Json, plain
 
 __all__ = ["Json", "assessment"]
@@ -25,7 +26,7 @@ _DECIMALS = 3
 
 def assessment(summary: Summary) -> dict[str, Json]:
     """The document of `summary`; callers may add keys of their own."""
-    counts = summary.counts
+    counts, said = summary.counts, advise(summary)
     return {
         "schema": SCHEMA,
         "score": _number(summary.points),
@@ -58,6 +59,7 @@ def assessment(summary: Summary) -> dict[str, Json]:
             {"written": word(wrong.written), "played": word(wrong.played), "count": wrong.count}
             for wrong in summary.wrong_pieces
         ],
+        "praise": praise(summary, said),
         "advice": [
             {
                 "fault": advice.fault,
@@ -65,8 +67,14 @@ def assessment(summary: Summary) -> dict[str, Json]:
                 "bars": list(advice.bars),
                 "effect": _number(advice.effect),
                 "ci": [_number(end) for end in advice.ci],
+                "alternatives": list(advice.alternatives),
+                "drill": {
+                    "bars": None if advice.drill.bars is None else list(advice.drill.bars),
+                    "tempo_bpm": _number(advice.drill.tempo_bpm),
+                    "pieces": list(advice.drill.pieces),
+                },
             }
-            for advice in advise(summary)
+            for advice in said
         ],
     }
 

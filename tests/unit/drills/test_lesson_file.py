@@ -8,6 +8,7 @@ import pytest
 from station.core.errors import BadInput
 from station.drills.lesson import Goals
 from station.drills.lesson_file import parse_lesson, read_lesson
+from station.scoring.analysis.fault_table import Asked
 from station.scoring.matching.hit_windows import Level
 from tests.unit.drills.reading import EIGHTH, QUARTER, SIXTEENTH, faults
 
@@ -42,6 +43,7 @@ target_tempo_bpm = 120
 min_score = 75
 level = "elementary"
 strictest_level = "advanced"
+faults = {late_kick = 15, unsteady = "mute"}
 
 [grid]
 snare = "o--- | -o-- | --o- | ---o"
@@ -57,7 +59,8 @@ def test_everything_that_a_file_can_say() -> None:
     assert (lesson.kit, lesson.tempo_bpm, lesson.meter) == ("small", 96, "4/4")
     assert (lesson.swing_ratio, lesson.swing.unit_ticks) == (1.5, SIXTEENTH)
     assert (lesson.loop, lesson.passes, lesson.count_in_bars, lesson.demonstrations) == ((1, 2), 4, 2, 1)
-    assert lesson.goals == Goals(0.8, 25, 15.5, 0.3, 120, 75, Level.ELEMENTARY, Level.ADVANCED)
+    faults = Asked({"late_kick": 15.0, "unsteady": None})
+    assert lesson.goals == Goals(0.8, 25, 15.5, 0.3, 120, 75, Level.ELEMENTARY, Level.ADVANCED, faults)
     assert lesson.loop_score.notes["tick"].tolist() == [QUARTER, 4 * QUARTER + 2 * QUARTER]
     assert lesson.score.title == "Everything"
 
@@ -120,6 +123,8 @@ GRID = '\n[grid]\nsnare = "oooo"\n'
         ('title = "T"\ncolour = "red"' + GRID, 2, 1, "no such key: colour; the nearest are"),
         ('title = "T"\n[goals]\nmax_sd = 3' + GRID, 3, 1, "no such key: max_sd; did you mean max_sd_ms?"),
         ('title = "T"\n[goals]\nmin_accuracy = 90' + GRID, 3, 16, "expected a number from 0 to 1"),
+        ('title = "T"\n[goals.faults]\nlate_kik = 9' + GRID, 3, 1, "no such fault: late_kik; did you mean late_kick?"),
+        ('title = "T"\n[goals.faults]\nlate_kick = "no"' + GRID, 3, 13, 'expected a size, or "mute", found "no"'),
         ('title = "T"\ngoals = 3' + GRID, 2, 9, "goals: expected a table, found 3"),
         ('title = "T"\n[dynamics]\nghost = 90' + GRID, 2, 1, "expected rising velocities"),
         ('title = "T"\n[dynamics]\naccent = 128' + GRID, 3, 10, "expected a whole number from 1 to 127"),

@@ -92,6 +92,16 @@ def test_every_shipped_lesson_is_written_and_read_alike(name: str) -> None:
         assert getattr(again, field) == getattr(lesson, field)
 
 
+def test_what_a_teacher_asks_of_faults_is_written_and_read_alike() -> None:
+    text = 'title = "T"\n[goals.faults]\nlate_kick = 15\nunsteady = "mute"\n[grid]\nsnare = "o"'
+    lesson = parse_lesson(text, "t", "t").lesson
+    assert lesson
+    again = parse_lesson(write_lesson(lesson), "t", "t").lesson
+    assert again
+    assert again.goals == lesson.goals
+    assert dict(again.goals.faults.sizes) == {"late_kick": 15.0, "unsteady": None}
+
+
 def test_awkward_texts_survive() -> None:
     about = 'Say "one" \\ two\n"""three"""\n\tfour\x01'
     lesson = read('snare = "o"')

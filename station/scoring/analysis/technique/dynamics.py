@@ -18,7 +18,7 @@ from station.music.judgement import Label
 from station.music.performance import Performance
 from station.music.score import Score
 from station.scoring.analysis.loudness import judged_notes, level_db
-from station.scoring.analysis.regression import Effect
+from station.scoring.analysis.sparse_model import Effect
 from station.scoring.analysis.technique.estimates import Estimate, Scatter, difference, figure, scatter
 from station.scoring.analysis.timing_spread import MIN_SLOTS, slope
 from station.scoring.matching.alignment import Alignment

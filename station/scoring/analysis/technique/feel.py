@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from station.core.pieces import Piece, word
 from station.music import passages
 from station.music.score import Score
-from station.scoring.analysis.habits import FEET, Habits
+from station.scoring.analysis.habits import Habits
 from station.scoring.analysis.points import Feel, free_ms, ratio_of_place
 from station.scoring.analysis.technique.estimates import Estimate, difference, figure
 from station.scoring.analysis.timing_spread import asynchrony_ms, timed_notes
@@ -60,7 +60,7 @@ def fills_against_groove(score: Score, alignment: Alignment) -> Fills | None:
 
 def leans(found: Habits, feel: Feel) -> tuple[Lean, ...]:
     """How each piece leans, of which enough is known."""
-    names = {f"lean_{word(piece)}": piece for piece in Piece} | {name: piece for piece, name in FEET.items()}
+    names = {word(piece): piece for piece in Piece}
     known = [(names[name], effect) for name, effect in found.effects.items() if name in names]
     return tuple(
         Lean(piece, effect.value, effect.ci, abs(effect.value) <= feel.lean_ms)
