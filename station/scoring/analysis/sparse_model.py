@@ -206,7 +206,9 @@ class _Model:
 def _search(model: _Model) -> list[int]:
     """The suspects that lower D most, in the order in which they were found."""
     chosen: list[int] = []
-    while model.suspects and len(chosen) < _MOST_CAUSES:
+    tried: set[frozenset[int]] = set()  # an exchange may drop what was just found: no set is gone from twice
+    while model.suspects and len(chosen) < _MOST_CAUSES and frozenset(chosen) not in tried:
+        tried.add(frozenset(chosen))
         gains = model.gains(chosen)
         best = int(np.argmax(gains))
         if gains[best] <= 0:
