@@ -288,7 +288,7 @@ class _Free:
             left = np.flatnonzero(way.states != self._offsets.here)
             jump = start + blocks.split(int(left[0]), way) if len(left) else until
             settled = until if until == end else start + _SETTLED
-            lost = self._first_lost(blocks, start, until)
+            lost = self._first_lost(blocks, way, start, until)
             if lost is not None and lost < min(jump, settled):
                 found_at = self._found_again(lost, end, self._place_before(start, lost, here))
                 if found_at is not None:
@@ -316,13 +316,13 @@ class _Free:
 
     # --- set anew ---------------------------------------------------------------------------------------------------
 
-    def _first_lost(self, blocks: _Blocks, start: int, end: int) -> int | None:
-        """The first hit from which on no offset fits, None where some always does."""
+    def _first_lost(self, blocks: _Blocks, way: BeatWay, start: int, end: int) -> int | None:
+        """The first hit from which on even the best way does not fit, None where it always does."""
         hits = np.append(blocks.starts, end - start)[1:]  # hits up to the end of each block
-        before = np.concatenate((np.zeros((1, blocks.gains.shape[1])), np.cumsum(blocks.gains, axis=0)))
+        before = np.concatenate(([0.0], np.cumsum(blocks.gains[np.arange(len(hits)), way.states])))
         first = np.searchsorted(np.append(0, hits), hits - _LOST_HITS, side="right") - 1  # the window's first block
         full = np.flatnonzero((hits >= _LOST_HITS) & (blocks.starts[np.maximum(first, 0)] + start >= self._trusted))
-        gained = (before[full + 1] - before[first[full]]).max(axis=1)
+        gained = before[full + 1] - before[first[full]]
         bad = full[gained < _LOST * POSSIBLE * (hits[full] - np.append(0, hits)[first[full]])]
         return None if not len(bad) else start + int(blocks.starts[first[bad[0]]])
 

@@ -137,6 +137,7 @@ class Prices:
         bars = _is_whole(offsets / self.bar)
         beats = np.where(np.abs(offsets) < _SLIP * self.beat, _SLIPPED, self._of_beats(When.ON, offsets))
         cost = np.where(bars, PRICES[When.ON, Where.BARS], beats) + self._far(offsets)
+        cost = cost + np.where(offsets < 0.0, _BACK, 0.0)
         return np.where(offsets == 0.0, PRICES[When.ON, Where.ON_TIME], cost)
 
     def _of_beats(self, when: When, beats: Floats) -> Floats:
@@ -146,7 +147,10 @@ class Prices:
         return np.minimum(NEARER * np.abs(beats) / self.bar, MOST_FOR_DISTANCE)
 
 
-_ON_BASE = 2.0
+_BACK = 1.0
+"""Nats more against going back than forward: who plays a score to its end plays its notes once (our choice)."""
+
+_ON_BASE = 4.0
 """Nats against a recording on the score's own time base that leaves out its beginning."""
 
 _FIRST_BEATS, _NEARLY = 0.6, 0.1
