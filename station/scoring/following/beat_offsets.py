@@ -19,8 +19,8 @@ from station.scoring.following.written import PARTS, Nats, Written, gained
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-FAR_BEATS, NEAR_BEATS = 64, 2
-"""Whole beats are tried as far as the first, 16 bars of 4/4; thirds and eighths of a beat as far as the second."""
+FAR_BEATS, NEAR_BEATS = 32, 2
+"""Whole beats are tried as far as the first, 8 bars of 4/4; thirds and eighths of a beat as far as the second."""
 
 SHORT_BEATS = 256
 """In a score of no more than so many beats all of them are tried (our choice: 64 bars of 4/4)."""

@@ -31,8 +31,8 @@ _SETTLED = 3584
 _LONG_LOOK = 256
 """Hits over which rival anchors are compared: bars that are alike part ways sooner or later."""
 
-_RIVALS = 4
-"""Anchors that are followed over the long look."""
+_RIVALS, _HOPELESS = 4, 30.0
+"""So many anchors are followed over the long look; where one fits, those no more nats behind it in the window."""
 
 _ENOUGH = 0.8
 """Share of all possible evidence with which an anchor is believed without a search: a player of SD 20 ms who leaves out
@@ -185,11 +185,9 @@ class _Free:
                 places = found(written, self._tracker, window, _RATES, among_s)
                 rivals += [self._at_best(window, place) for place in places]
         rivals.sort(key=lambda rival: -rival[0])
-        best, best_worth = rivals[0][1], -np.inf
-        for place in _unlike(written, rivals)[:_RIVALS]:
-            value = self._long_look(place, end)
-            if value > best_worth:
-                best, best_worth = place, value
+        hopeless = -np.inf if rivals[0][0] < _ENOUGH * _possible(window) else rivals[0][0] - _HOPELESS
+        likely = _unlike(written, [rival for rival in rivals if rival[0] > hopeless])[:_RIVALS]
+        best = likely[0] if len(likely) == 1 else max(likely, key=lambda place: self._long_look(place, end))
         tempo = 1.0 if abs(best.rate - 1.0) < _SAME_TEMPO else best.rate
         return Place(at_s, best.score_s / tempo, best.rate / tempo), tempo
 

@@ -113,15 +113,18 @@ class Fits:
     def __init__(self, note_beats: Floats, classes: Indices, beat_s: float) -> None:
         self._first = int(np.floor(note_beats.min(initial=0.0))) - _AROUND_BEATS
         spot = self.spots(note_beats)
-        self._size = int(spot.max(initial=0)) + _AROUND_BEATS * PARTS
+        self._last = int(spot.max(initial=0)) + _AROUND_BEATS * PARTS
+        # a hit at the first or last place may be moved as far again, and finds nothing there
+        self._size = 3 * (self._last + 1)
         reach = max(1, round(_REACH_SDS * SD_S / beat_s * PARTS))
-        table = np.zeros((int(classes.max(initial=0)) + 1, self._size + 2 * reach), np.float32)
+        table = np.zeros((int(classes.max(initial=0)) + 1, self._size), np.float32)
         said = heard(np.arange(reach + 1) * beat_s / PARTS)
+        middle = spot + self._last + 1
         for off in range(reach, -1, -1):  # the nearest note speaks last
-            table[classes, spot + off + reach] = said[off]
-            table[classes, spot - off + reach] = said[off]
-        self._table = np.ascontiguousarray(table[:, reach : self._size + reach]).ravel()
-        self._passed = np.concatenate(([0.0], np.cumsum(np.bincount(spot, minlength=self._size)))).astype(np.float32)
+            table[classes, np.minimum(middle + off, self._size - 1)] = said[off]
+            table[classes, np.maximum(middle - off, 0)] = said[off]
+        self._table = table.ravel()
+        self._passed = np.concatenate(([0.0], np.cumsum(np.bincount(spot, minlength=self._last)))).astype(np.float32)
 
     def spots(self, beats: Floats) -> Indices:
         """Which places of the table beats lie at, any shape; they may lie outside."""
@@ -129,12 +132,13 @@ class Fits:
 
     def said(self, beats: Floats, classes: Indices, offsets: Indices) -> Nats:
         """What each hit (m,) at `beats` says if moved by each of `offsets` (s,) in parts of a beat; shape (m, s)."""
-        places = np.clip(self.spots(beats)[:, None] + offsets[None, :], 0, self._size - 1)
-        return np.asarray(self._table[places + (classes * self._size)[:, None]])
+        spots = np.clip(self.spots(beats), 0, self._last) + (self._last + 1) + classes * self._size
+        moved = np.clip(offsets, -self._last - 1, self._last + 1)
+        return np.asarray(self._table[spots[:, None] + moved[None, :]])
 
     def unanswered(self, beats: Floats, offsets: Indices) -> Nats:
         """Nats against the notes before each of `beats` (k,), moved by `offsets` (s,); (k, s): differences count."""
-        places = np.clip(self.spots(beats)[:, None] + offsets[None, :], 0, self._size)
+        places = np.clip(self.spots(beats)[:, None] + offsets[None, :], 0, len(self._passed) - 1)
         return np.asarray(np.float32(MISS) * self._passed[places])
 
 
