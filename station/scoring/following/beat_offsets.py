@@ -19,11 +19,8 @@ from station.scoring.following.written import PARTS, Nats, Written, gained
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-FAR_BEATS, NEAR_BEATS = 32, 2
-"""Whole beats are tried as far as the first, 8 bars of 4/4; thirds and eighths of a beat as far as the second."""
-
-SHORT_BEATS = 256
-"""In a score of no more than so many beats all of them are tried (our choice: 64 bars of 4/4)."""
+NEAR_BEATS = 2
+"""Thirds and eighths of a beat are tried as far as this, whole beats as far as `Written.far_beats`."""
 
 _FINE = (3, 8)
 
@@ -61,10 +58,8 @@ class Offsets:
 
 def offsets_of(written: Written) -> Offsets:
     """The offsets that are tried in `written`."""
-    length = int(np.ceil(written.note_beats[-1] - written.note_beats[0] + written.bar))
-    far = length if length <= SHORT_BEATS else FAR_BEATS
     step = gcd(round(written.beat * PARTS), round(written.bar * PARTS))
-    steps = far * PARTS // step
+    steps = written.far_beats * PARTS // step
     whole = np.arange(-steps, steps + 1) * step
     fine = [np.arange(-NEAR_BEATS * n, NEAR_BEATS * n + 1) * (PARTS // n) for n in _FINE]
     parts = np.unique(np.concatenate([whole, *fine]))

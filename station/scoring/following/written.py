@@ -27,6 +27,9 @@ _REACH_SDS = 3.2
 _AROUND_BEATS = 2
 """Empty beats kept before and after the score."""
 
+_FAR_BEATS, _SHORT_BEATS = 32, 256
+"""A player is looked for as many whole beats away, 8 bars of 4/4; everywhere in a score of no more than the second."""
+
 
 @dataclass(frozen=True, eq=False)
 class Beats:
@@ -69,6 +72,12 @@ class Written:
         return self.beats.beat(self.at_s)
 
     @cached_property
+    def far_beats(self) -> int:
+        """As far as this many quarters a player is looked for at the beat that they keep."""
+        length = int(np.ceil(self.note_beats[-1] - self.note_beats[0] + self.bar))
+        return length if length <= _SHORT_BEATS else _FAR_BEATS
+
+    @cached_property
     def prices(self) -> Prices:
         """What places in it cost."""
         return Prices(self.bar, self.beat, float(self.note_beats[0]))
@@ -76,7 +85,7 @@ class Written:
     @cached_property
     def fits(self) -> "Fits":
         """What hits say at its places."""
-        return Fits(self.note_beats, self.classes, float(np.median(np.diff(self.beat_s))))
+        return Fits(self.note_beats, self.classes, float(np.median(np.diff(self.beat_s))), self.far_beats)
 
     def of_classes(self, classes: Indices) -> "Written":
         """Its notes of these classes alone: a part that is never played tells no place."""
@@ -110,16 +119,17 @@ def written_of(score: Score, note_class: Indices) -> Written:
 class Fits:
     """What hits at places of the score bring, in nats, and how many notes are passed on the way."""
 
-    def __init__(self, note_beats: Floats, classes: Indices, beat_s: float) -> None:
+    def __init__(self, note_beats: Floats, classes: Indices, beat_s: float, far_beats: int) -> None:
         self._first = int(np.floor(note_beats.min(initial=0.0))) - _AROUND_BEATS
         spot = self.spots(note_beats)
         self._last = int(spot.max(initial=0)) + _AROUND_BEATS * PARTS
-        # a hit at the first or last place may be moved as far again, and finds nothing there
-        self._size = 3 * (self._last + 1)
+        self._far = (far_beats + _AROUND_BEATS) * PARTS
+        # whoever is farther outside than they may be moved finds nothing, wherever they are moved
+        self._size = self._last + 1 + 4 * self._far
         reach = max(1, round(_REACH_SDS * SD_S / beat_s * PARTS))
         table = np.zeros((int(classes.max(initial=0)) + 1, self._size), np.float32)
         said = heard(np.arange(reach + 1) * beat_s / PARTS)
-        middle = spot + self._last + 1
+        middle = spot + 2 * self._far
         for off in range(reach, -1, -1):  # the nearest note speaks last
             table[classes, np.minimum(middle + off, self._size - 1)] = said[off]
             table[classes, np.maximum(middle - off, 0)] = said[off]
@@ -132,9 +142,8 @@ class Fits:
 
     def said(self, beats: Floats, classes: Indices, offsets: Indices) -> Nats:
         """What each hit (m,) at `beats` says if moved by each of `offsets` (s,) in parts of a beat; shape (m, s)."""
-        spots = np.clip(self.spots(beats), 0, self._last) + (self._last + 1) + classes * self._size
-        moved = np.clip(offsets, -self._last - 1, self._last + 1)
-        return np.asarray(self._table[spots[:, None] + moved[None, :]])
+        spots = np.clip(self.spots(beats), -self._far, self._last + self._far) + 2 * self._far
+        return np.asarray(self._table[(spots + classes * self._size)[:, None] + offsets[None, :]])
 
     def unanswered(self, beats: Floats, offsets: Indices) -> Nats:
         """Nats against the notes before each of `beats` (k,), moved by `offsets` (s,); (k, s): differences count."""
