@@ -77,12 +77,17 @@ def block_gains(
     """What blocks of hits gain at each offset (b, s), and what each hit says there (m, s).
 
     Hits (m,) at `beats` of `classes`; each block begins with the hit `starts` (b,) and passes the notes between its
-    two of `edges` (b + 1,), in beats.
+    two of `edges` (b + 1,), in beats; what was written in a longer silence says nothing of the place.
     """
     said = written.fits.said(beats, classes, offsets.parts)
-    passed = np.diff(written.fits.unanswered(edges, offsets.parts), axis=0)
+    last = np.maximum.reduceat(beats, starts)
+    passed = written.fits.unanswered(np.minimum(edges[1:], last + WAIT_BEATS), offsets.parts)
+    passed -= written.fits.unanswered(edges[:-1], offsets.parts)
     return gained(np.add.reduceat(said, starts, axis=0), passed), said
 
+
+WAIT_BEATS = 2.0
+"""So long after its last hit a block still passes notes (our choice): who stops plays nothing, wherever they are."""
 
 EDGE = 0.1
 """Beats by which a stroke may come before its beat: an anticipated one belongs to the block that it begins."""

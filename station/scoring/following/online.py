@@ -80,7 +80,7 @@ class Online:
         self._times: list[float] = []
         self._classes: list[int] = []
         self._places: list[float] = []
-        self._total = self._offsets.only_whole - written.prices.begin(self._offsets.beats, np.inf)
+        self._total = -self._offsets.price
         self._since = np.zeros(len(self._total), np.int64)
         self._block: list[int] = []  # the known hits of the beat that has not closed
         self._edge = -inf  # where it began
@@ -162,9 +162,9 @@ class Online:
         self._total -= self._total.max()
         best, here = int(self._total.argmax()), self._offsets.here
         if best != here and self._total[here] < -_MARGIN:
-            if self._offsets.only_whole[best] == 0.0:
+            if self._clocked or self._offsets.only_whole[best] == 0.0:
                 return self._go(best, index)
-            if not self._clocked and index >= self._next_look:  # the clock is off the beat
+            if index >= self._next_look:  # the clock is off the beat
                 self._doubt, self._doubt_since = max(self._doubt, _DOUBT), int(self._since[best])
                 return self._look(index)
         return index if self._clocked else self._weigh(gain[here], hits, index)
@@ -188,7 +188,7 @@ class Online:
         parts = self._offsets.parts
         at = np.clip(np.searchsorted(parts, parts + parts[state]), 0, len(parts) - 1)
         is_known = parts[at] == parts + parts[state]
-        self._total = np.where(is_known, self._total[at], self._total.min())
+        self._total = np.where(is_known, self._total[at], -self._offsets.price)
         self._since = np.where(is_known, self._since[at], index)
         self._edge += by
         self._last_beat += by
