@@ -358,7 +358,9 @@ def test_the_result_shows_what_hands_and_feet_did(tmp_path: Path) -> None:
     pictures = []
     for craft in ((), ("Swing: 1.8:1 held, 2.0:1 written", "Hi-hat: 9 of 12 as open as written")):
         words = ResultWords("Rock", "120 bpm", 100.0, technique=craft)
-        facts = result_facts(SCORE, label, np.zeros(len(SCORE), np.int64), np.empty(0), words)
+        facts = result_facts(
+            SCORE, label, np.zeros(len(SCORE), np.int64), np.ones(len(SCORE), bool), np.empty(0), words
+        )
         draw_report_png(facts, tmp_path / "report.png", (1280, 800))
         pictures.append(decode((tmp_path / "report.png").read_bytes()).astype(int))
     changed = np.abs(pictures[0] - pictures[1]).max(axis=2) > 24

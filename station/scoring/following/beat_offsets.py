@@ -83,14 +83,18 @@ def block_gains(
     last = np.maximum.reduceat(beats, starts)
     passed = written.fits.unanswered(np.minimum(edges[1:], last + WAIT_BEATS), offsets.parts)
     passed -= written.fits.unanswered(edges[:-1], offsets.parts)
-    return gained(np.add.reduceat(said, starts, axis=0), passed), said
+    return gained(np.add.reduceat(said, starts, axis=0), passed, _SLACK), said
 
 
 WAIT_BEATS = 2.0
 """So long after its last hit a block still passes notes (our choice): who stops plays nothing, wherever they are."""
 
-EDGE = 0.1
-"""Beats by which a stroke may come before its beat: an anticipated one belongs to the block that it begins."""
+_SLACK = 1
+"""Hits more than notes that a block may have: one that came early for the next."""
+
+EDGE = 0.145
+"""Beats by which a stroke may come before its beat: graces and early strokes belong to the block that they begin, the
+last of six in a beat (0.167) does not."""
 
 
 def forward(total: Floats, gain: Floats, offsets: Offsets, written: Written) -> tuple[Floats, NDArray[np.bool_], int]:

@@ -65,13 +65,13 @@ class Where(Enum):
     ON_TIME = "where they would be had they played on"
     BARS = "whole bars away, at the beginning on a one"
     BEATS = "whole beats away"
-    SLIPPED = "less than a beat away: a stumble, or the clock had slipped"
+    SLIPPED = "half a beat away or less: a stumble, or the clock had slipped"
     ELSEWHERE = "anywhere else"
 
 
 PRICES = MappingProxyType(
     {
-        (When.BEGIN, Where.START): 0.0,
+        (When.BEGIN, Where.START): 1.0,
         (When.BEGIN, Where.ON_TIME): 0.0,
         (When.BEGIN, Where.BARS): 6.0,
         (When.BEGIN, Where.BEATS): 8.0,
@@ -119,8 +119,9 @@ class Prices:
         """Nats against a first hit at `beats`, any shape; `on_time` is its beat if the recording shares the score's."""
         cost = np.where(_is_whole(beats / self.bar), PRICES[When.BEGIN, Where.BARS], self._of_beats(When.BEGIN, beats))
         cost = cost + np.minimum(np.abs(beats - self.start) / self.bar, MOST_FOR_DISTANCE)
-        cost = np.where(np.abs(beats - on_time) < _SAME, _ON_BASE + PRICES[When.BEGIN, Where.ON_TIME], cost)
-        return np.where(np.abs(beats - self.start) < _SAME, PRICES[When.BEGIN, Where.START], cost)
+        shared = 0.0 if abs(on_time - self.start) < _FIRST_BEATS * self.beat else _ON_BASE
+        cost = np.where(np.abs(beats - self.start) < _SAME, PRICES[When.BEGIN, Where.START], cost)
+        return np.where(np.abs(beats - on_time) < _NEARLY, shared + PRICES[When.BEGIN, Where.ON_TIME], cost)
 
     def pause(self, beats: Floats, last: float, on_time: float) -> Floats:
         """Nats against going on at `beats` (any shape) after a pause; `last` is the beat of the last hit before it."""
@@ -134,7 +135,7 @@ class Prices:
     def on(self, offsets: Floats) -> Floats:
         """Nats against being suddenly so many beats away, any shape."""
         bars = _is_whole(offsets / self.bar)
-        beats = np.where(np.abs(offsets) < self.beat, _SLIPPED, self._of_beats(When.ON, offsets))
+        beats = np.where(np.abs(offsets) < _SLIP * self.beat, _SLIPPED, self._of_beats(When.ON, offsets))
         cost = np.where(bars, PRICES[When.ON, Where.BARS], beats) + self._far(offsets)
         return np.where(offsets == 0.0, PRICES[When.ON, Where.ON_TIME], cost)
 
@@ -148,6 +149,10 @@ class Prices:
 _ON_BASE = 2.0
 """Nats against a recording on the score's own time base that leaves out its beginning."""
 
+_FIRST_BEATS, _NEARLY = 0.6, 0.1
+"""Beats that may be left out at the beginning of a recording on the score's own time base at no price, and how near to
+that base it must lie."""
+
 _SAME = 0.3
 """Beats: so near is the same place (our choice: a little more than a 16th)."""
 
@@ -157,6 +162,7 @@ def _is_whole(values: Floats) -> NDArray[np.bool_]:
 
 
 _SLIPPED = PRICES[When.ON, Where.SLIPPED]
+_SLIP = 0.6
 
 _SLACK = 0.13
 """Beats by which a player's place may be off a whole one (our choice: an eighth)."""

@@ -138,12 +138,13 @@ class Fits:
         return np.asarray(np.float32(MISS) * self._passed[places])
 
 
-def gained(said: Nats, unanswered: Nats) -> Floats:
+def gained(said: Nats, unanswered: Nats, slack: int = 0) -> Floats:
     """What hits that together `said` so much gain over the notes that were passed, of the same shape.
 
-    A note is answered once: where more hits lie near than notes were passed, the rest are strays.
+    A note is answered once: where more hits lie near than notes were passed, and `slack`, the rest are strays.
     """
-    return np.asarray(np.minimum(said, (_MOST / MISS) * unanswered) - unanswered, np.float64)
+    most = (_MOST / MISS) * unanswered + slack * _MOST
+    return np.asarray(np.minimum(said, most) - unanswered, np.float64)
 
 
 _MOST = float(heard(0.0))
