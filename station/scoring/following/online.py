@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from station.core.units import NS_PER_S
 from station.scoring.following.anchors import Hits, found, worth
-from station.scoring.following.beat_offsets import EDGE, Offsets, block_gains, forward, offsets_of
+from station.scoring.following.beat_offsets import EDGE, WAIT_BEATS, Offsets, Pause, block_gains, forward, offsets_of
 from station.scoring.following.prices import NEW_TEMPO_SD, POSSIBLE, TEMPO_SD
 from station.scoring.following.tempo_tracker import Place, Tracker
 from station.scoring.following.written import Written
@@ -85,6 +85,7 @@ class Online:
         self._block: list[int] = []  # the known hits of the beat that has not closed
         self._edge = -inf  # where it began
         self._last_beat = -inf
+        self._pause: Pause | None = None  # the silence before the beat that has not closed
         self._doubt, self._doubt_since = 0.0, 0
         self._looks, self._next_look = 0, _LEAST_HITS - 1
         self._is_settled = False  # whether a look's worth of hits has fitted
@@ -157,8 +158,9 @@ class Online:
             return index
         gain = self._gain(opened - EDGE)
         hits, self._block, self._edge = self._block, [], opened - EDGE
-        self._total, is_jumped, _ = forward(self._total, gain, self._offsets, self._written)
+        self._total, is_jumped, _ = forward(self._total, gain, self._offsets, self._written, self._pause)
         self._since = np.where(is_jumped, hits[0], self._since)
+        self._pause = Pause(before, beat) if self._clocked and beat - before > WAIT_BEATS else None
         self._total -= self._total.max()
         best, here = int(self._total.argmax()), self._offsets.here
         if best != here and self._total[here] < -_MARGIN:
@@ -191,6 +193,8 @@ class Online:
         self._total = np.where(is_known, self._total[at], -self._offsets.price)
         self._since = np.where(is_known, self._since[at], index)
         self._edge += by
+        if self._pause is not None:
+            self._pause = Pause(self._pause.last + by, self._pause.now + by)
         self._last_beat += by
         self._calm(index)
         return first
