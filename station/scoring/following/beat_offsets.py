@@ -42,7 +42,7 @@ class Offsets:
     whole: Indices
     price: Floats
 
-    @property
+    @cached_property
     def here(self) -> int:
         """Index of 0."""
         return int(np.searchsorted(self.parts, 0))
@@ -84,8 +84,9 @@ def block_gains(
     """
     said = written.fits.said(beats, classes, offsets.parts)
     last = np.maximum.reduceat(beats, starts)
-    passed = written.fits.unanswered(np.minimum(edges[1:], last + WAIT_BEATS), offsets.parts)
-    passed -= written.fits.unanswered(edges[:-1], offsets.parts)
+    ends = np.minimum(edges[1:], last + WAIT_BEATS)
+    before = written.fits.unanswered(np.concatenate((edges[:-1], ends)), offsets.parts)
+    passed = before[len(starts) :] - before[: len(starts)]
     return gained(np.add.reduceat(said, starts, axis=0), passed, _SLACK), said
 
 
@@ -116,7 +117,7 @@ class Pause(NamedTuple):
 
 
 _STOP_NOTES, _BESIDE = 3, 0.3
-"""So many notes in a silence that are not left out by chance, and how far from its hits they are counted (our choice)."""
+"""So many notes in a silence that are not left out by chance, and how far from its hits they count (our choice)."""
 
 
 _NONE: Mapping[int, Pause] = MappingProxyType({})
@@ -132,7 +133,7 @@ def pauses_of(beats: Floats, starts: Indices) -> dict[int, Pause]:
 def forward(
     total: Floats, gain: Floats, offsets: Offsets, written: Written, pause: Pause | None = None
 ) -> tuple[Floats, NDArray[np.bool_], int]:
-    """One beat, after a `pause` or none: the totals (s,) after it, which states were jumped into before it, from where."""
+    """One beat, after a `pause` or none: the totals (s,) after it, which were jumped into before it, and from where."""
     best = int(total.argmax())
     price = None if pause is None else pause.prices_from(best, offsets, written)
     if price is None:

@@ -94,6 +94,11 @@ class Online:
         self.waited: list[tuple[int, int]] = []
         """The first hit after each stop without a click, and for how many ns the score had waited for it."""
 
+    @property
+    def totals(self) -> Floats:
+        """Nats (s,) of the best way to each offset over the beats that have closed, the best of them 0."""
+        return self._total - self._total.max()
+
     def place_ns(self, at_ns: int) -> int:
         """Where the student is at `at_ns` if they play on; where the score waits once they have stopped."""
         place_s, last_s = self._on_time(at_ns / NS_PER_S), self._places[-1] if self._places else 0.0
@@ -159,7 +164,7 @@ class Online:
         gain = self._gain(opened - EDGE)
         hits, self._block, self._edge = self._block, [], opened - EDGE
         self._total, is_jumped, _ = forward(self._total, gain, self._offsets, self._written, self._pause)
-        self._since = np.where(is_jumped, hits[0], self._since)
+        self._since[is_jumped] = hits[0]
         self._pause = Pause(before, beat) if self._clocked and beat - before > WAIT_BEATS else None
         self._total -= self._total.max()
         best, here = int(self._total.argmax()), self._offsets.here
@@ -175,8 +180,7 @@ class Online:
         """What the beat up to `end` gains at every offset (s,)."""
         beats = np.array([self._beat_of(self._places[k]) for k in self._block])
         classes = np.array([self._classes[k] for k in self._block])
-        edges = np.array([self._edge, end])
-        return block_gains(self._written, beats, classes, np.zeros(1, np.int64), edges, self._offsets)[0][0]
+        return block_gains(self._written, beats, classes, _ONE_BLOCK, np.array([self._edge, end]), self._offsets)[0][0]
 
     def _go(self, state: int, index: int) -> int:
         """The student is at another offset; returns the first hit for which that holds."""
@@ -337,6 +341,9 @@ _STOP_DOUBT = 3.0
 
 _MOST_FOR_TEMPO = 6.0
 """Nats at most against another tempo."""
+
+_ONE_BLOCK = np.zeros(1, np.int64)
+"""The first hit of the only block."""
 
 _NOWHERE = Offsets(np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(1))
 """No offset but none."""

@@ -121,7 +121,8 @@ class Fits:
             table[classes, spot + off + reach] = said[off]
             table[classes, spot - off + reach] = said[off]
         self._table = np.ascontiguousarray(table[:, reach : self._size + reach]).ravel()
-        self._passed = np.concatenate(([0.0], np.cumsum(np.bincount(spot, minlength=self._size)))).astype(np.float32)
+        passed = np.concatenate(([0.0], np.cumsum(np.bincount(spot, minlength=self._size))))
+        self._unanswered = np.float32(MISS) * passed.astype(np.float32)
 
     def spots(self, beats: Floats) -> Indices:
         """Which places of the table beats lie at, any shape; they may lie outside."""
@@ -129,13 +130,14 @@ class Fits:
 
     def said(self, beats: Floats, classes: Indices, offsets: Indices) -> Nats:
         """What each hit (m,) at `beats` says if moved by each of `offsets` (s,) in parts of a beat; shape (m, s)."""
-        places = np.clip(self.spots(beats)[:, None] + offsets[None, :], 0, self._size - 1)
-        return np.asarray(self._table[places + (classes * self._size)[:, None]])
+        places = self.spots(beats)[:, None] + offsets
+        np.minimum(np.maximum(places, 0, out=places), self._size - 1, out=places)
+        places += (classes * self._size)[:, None]
+        return self._table.take(places)
 
     def unanswered(self, beats: Floats, offsets: Indices) -> Nats:
         """Nats against the notes before each of `beats` (k,), moved by `offsets` (s,); (k, s): differences count."""
-        places = np.clip(self.spots(beats)[:, None] + offsets[None, :], 0, self._size)
-        return np.asarray(np.float32(MISS) * self._passed[places])
+        return self._unanswered.take(self.spots(beats)[:, None] + offsets, mode="clip")
 
 
 def gained(said: Nats, unanswered: Nats, slack: int = 0) -> Floats:
