@@ -200,7 +200,8 @@ class Online:
         if self._pause is not None:
             self._pause = Pause(self._pause.last + by, self._pause.now + by)
         self._last_beat += by
-        self._calm(index)
+        if self._clocked or self._is_settled:
+            self._calm(index)
         return first
 
     # --- doubts (without a click) -----------------------------------------------------------------------------------
@@ -237,11 +238,17 @@ class Online:
         price = self._price(now, hits[0])
 
         def value(place: Place) -> float:
-            return float(worth(self._written, window, place, _NOWHERE)[0]) - price(place)
+            return self._fit(window, place) - price(place)
 
         places = [place for place in self._places_around(window, now) if _SLOWEST < place.rate < _FASTEST]
         best = max(places, key=value, default=now)
-        return self._set(best, hits, index) if value(best) > value(now) + _MARGIN else index
+        if value(best) <= value(now) + _MARGIN or self._fit(window, best) < _FITTING * POSSIBLE * len(hits):
+            return index  # who fits nowhere so far is not told to be elsewhere
+        return self._set(best, hits, index)
+
+    def _fit(self, window: Hits, place: Place) -> float:
+        """Nats for the first hit of the window being at `place`."""
+        return float(worth(self._written, window, place, _NOWHERE)[0])
 
     def _price(self, now: Place, hit: int) -> Callable[[Place], float]:
         """Nats against having gone on at a place with the doubtful hits, of which `hit` is the first."""
