@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.units import NS_PER_S
-from station.scoring.following.anchors import Hits, found, worth
+from station.scoring.following.anchors import Hits, fitted, found, worth
 from station.scoring.following.beat_offsets import EDGE, WAIT_BEATS, Offsets, Pause, block_gains, forward, offsets_of
 from station.scoring.following.prices import NEW_TEMPO_SD, POSSIBLE, TEMPO_SD
 from station.scoring.following.tempo_tracker import Place, Tracker
@@ -226,7 +226,7 @@ class Online:
 
     def _look(self, index: int) -> int:
         """Where else the doubtful hits may have been played; returns the first hit that is moved, else `index`."""
-        since = max(self._doubt_since, index - _LOOK_HITS)
+        since = max(self._doubt_since if self._is_settled else 0, index - _LOOK_HITS)
         hits = [k for k in range(since, index) if self._classes[k] in self._known]
         self._next_look = index + _WAITS[min(self._looks, len(_WAITS) - 1)]
         self._looks += 1
@@ -254,9 +254,14 @@ class Online:
         """Nats against having gone on at a place with the doubtful hits, of which `hit` is the first."""
         prices, here = self._written.prices, self._beat_of(now.score_s)
         if not self._is_settled:
-            on_time = self._beat_of(now.at_s)
+            began_s = self._times[0]
+            on_time = self._beat_of(began_s)
             return lambda place: (
-                float(prices.begin(np.array([self._beat_of(place.score_s)]), on_time)[0])
+                float(
+                    prices.begin(
+                        np.array([self._beat_of(place.score_s - place.rate * (place.at_s - began_s))]), on_time
+                    )[0]
+                )
                 + 0.5 * float(log(place.rate) / TEMPO_SD) ** 2
             )
         stopped = self._beat_of(self._stop_s)
@@ -276,7 +281,12 @@ class Online:
         here_s, rate, first_s = now.score_s, now.rate, self._note_s[0]
         if not self._is_settled:
             ends = [(first_s - 1.0, first_s + _NEAR_S)] + ([self._far(first_s)] if self._looks > 1 else [])
-            return [place for among in ends for place in found(self._written, self._tracker, window, _ANY_RATES, among)]
+            spots = [
+                place for among in ends for place in found(self._written, self._tracker, window, _ANY_RATES, among)
+            ]
+            since_s = now.at_s - self._times[0]
+            began = [place._replace(score_s=first_s + place.rate * since_s) for place in spots]
+            return spots + [fitted(self._tracker, window, place) for place in began]  # of bars alike the first
         tried = [
             (_RATES, here_s - _CLOSE_S, here_s + _CLOSE_S),
             (_NEAR_RATES, first_s - 1.0, first_s + _CLOSE_S),
