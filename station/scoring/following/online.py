@@ -97,7 +97,7 @@ class Online:
     @property
     def totals(self) -> Floats:
         """Nats (s,) of the best way to each offset over the beats that have closed, the best of them 0."""
-        return self._total - self._total.max()
+        return np.asarray(self._total - self._total.max())
 
     def place_ns(self, at_ns: int) -> int:
         """Where the student is at `at_ns` if they play on; where the score waits once they have stopped."""
@@ -180,7 +180,9 @@ class Online:
         """What the beat up to `end` gains at every offset (s,)."""
         beats = np.array([self._beat_of(self._places[k]) for k in self._block])
         classes = np.array([self._classes[k] for k in self._block])
-        return block_gains(self._written, beats, classes, _ONE_BLOCK, np.array([self._edge, end]), self._offsets)[0][0]
+        edges = np.array([self._edge, end])
+        gains, _ = block_gains(self._written, beats, classes, _ONE_BLOCK, edges, self._offsets)
+        return np.asarray(gains[0])
 
     def _go(self, state: int, index: int) -> int:
         """The student is at another offset; returns the first hit for which that holds."""
