@@ -6,9 +6,12 @@ notes say there, and the best way through them is found (Viterbi 1967) at the pr
 beat, so that live and final following take the same steps.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from math import gcd
+from types import MappingProxyType
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,7 +39,7 @@ class Offsets:
     whole: Indices
     price: Floats
 
-    @property
+    @cached_property
     def here(self) -> int:
         """Index of 0."""
         return int(np.searchsorted(self.parts, 0))
@@ -72,12 +75,18 @@ def block_gains(
     """What blocks of hits gain at each offset (b, s), and what each hit says there (m, s).
 
     Hits (m,) at `beats` of `classes`; each block begins with the hit `starts` (b,) and passes the notes between its
-    two of `edges` (b + 1,), in beats.
+    two of `edges` (b + 1,), in beats; what was written in a longer silence says nothing of the place.
     """
     said = written.fits.said(beats, classes, offsets.parts)
-    passed = np.diff(written.fits.unanswered(edges, offsets.parts), axis=0)
+    last = np.maximum.reduceat(beats, starts)
+    ends = np.minimum(edges[1:], last + WAIT_BEATS)
+    before = written.fits.unanswered(np.concatenate((edges[:-1], ends)), offsets.parts)
+    passed = before[len(starts) :] - before[: len(starts)]
     return gained(np.add.reduceat(said, starts, axis=0), passed, _SLACK), said
 
+
+WAIT_BEATS = 2.0
+"""So long after its last hit a block still passes notes (our choice): who stops plays nothing, wherever they are."""
 
 _SLACK = 1
 """Hits more than notes that a block may have: one that came early for the next."""
@@ -87,10 +96,47 @@ EDGE = 0.145
 last of six in a beat (0.167) does not."""
 
 
-def forward(total: Floats, gain: Floats, offsets: Offsets, written: Written) -> tuple[Floats, NDArray[np.bool_], int]:
-    """One beat: the totals (s,) after it, which states were jumped into at its beginning, and from where."""
+class Pause(NamedTuple):
+    """A silence on the clock, in beats: the last hit before it and the first after."""
+
+    last: float
+    now: float
+
+    def prices_from(self, state: int, offsets: Offsets, written: Written) -> Floats | None:
+        """Nats (s,) against going on at each offset after it, from one; None where it is written so."""
+        by = float(offsets.beats[state])
+        notes = written.note_beats.searchsorted((self.last + by + _BESIDE, self.now + by - _BESIDE))
+        if notes[1] - notes[0] < _STOP_NOTES:
+            return None
+        return written.prices.pause(self.now + offsets.beats, self.last + by, self.now + by)
+
+
+_STOP_NOTES, _BESIDE = 3, 0.3
+"""So many notes in a silence that are not left out by chance, and how far from its hits they count (our choice)."""
+
+
+_NONE: Mapping[int, Pause] = MappingProxyType({})
+
+
+def pauses_of(beats: Floats, starts: Indices) -> dict[int, Pause]:
+    """The blocks that follow a silence; hits (m,) at `beats`, blocks from the hits `starts` (b,)."""
+    last, now = np.maximum.accumulate(beats)[starts[1:] - 1], beats[starts[1:]]
+    after = np.flatnonzero(now - last > WAIT_BEATS)
+    return {int(b) + 1: Pause(float(last[b]), float(now[b])) for b in after}
+
+
+def forward(
+    total: Floats, gain: Floats, offsets: Offsets, written: Written, pause: Pause | None = None
+) -> tuple[Floats, NDArray[np.bool_], int]:
+    """One beat, after a `pause` or none: the totals (s,) after it, which were jumped into before it, and from where."""
     best = int(total.argmax())
-    jumped = total[best] - offsets.prices_from(best, written)
+    price = None if pause is None else pause.prices_from(best, offsets, written)
+    if price is None:
+        price = offsets.prices_from(best, written)
+    else:
+        total = total - PRICES[When.PAUSE, Where.ON_TIME]
+        price = price - PRICES[When.PAUSE, Where.ON_TIME]
+    jumped = total[best] - price
     is_better = jumped > total
     return np.where(is_better, jumped, total) + gain, is_better, best
 
@@ -103,17 +149,27 @@ class BeatWay:
     worth: float
 
 
-def best_way(gains: Floats, first: Floats, offsets: Offsets, written: Written, last: Floats | None = None) -> BeatWay:
-    """The best states over beats that gain `gains` (b, s), from totals `first` (s,); `last` (s,) is added at the end."""
+def best_way(
+    gains: Floats,
+    first: Floats,
+    offsets: Offsets,
+    written: Written,
+    last: Floats | None = None,
+    pauses: Mapping[int, Pause] = _NONE,
+) -> BeatWay:
+    """The best states over beats that gain `gains` (b, s), from totals `first` (s,); `last` (s,) is added at the end.
+
+    `pauses` are the silences before beats.
+    """
     end = np.zeros(len(first)) if last is None else last
-    state = _never_left(gains, first, end, offsets)
+    state = None if pauses else _never_left(gains, first, end, offsets)
     if state is not None:
         return BeatWay(np.full(len(gains), state), float(first[state] + gains[:, state].sum() + end[state]))
     total = first
     jumped = np.empty(gains.shape, np.bool_)
     came_from = np.empty(len(gains), np.int64)
     for b in range(len(gains)):
-        total, jumped[b], came_from[b] = forward(total, gains[b], offsets, written)
+        total, jumped[b], came_from[b] = forward(total, gains[b], offsets, written, pauses.get(b))
     total = total + end
     state = int(total.argmax())
     worth, states = float(total[state]), np.empty(len(gains), np.int64)

@@ -6,14 +6,24 @@ clock runs anew at the new place. Without a click the clock must be set at the b
 where no beat fits any more: there the place and tempo are found from nothing (`anchors`). Times are seconds.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from station.scoring.following.anchors import Hits, fitted, found, worth
-from station.scoring.following.beat_offsets import EDGE, BeatWay, Offsets, best_way, block_gains, end_cost, offsets_of
+from station.scoring.following.beat_offsets import (
+    EDGE,
+    BeatWay,
+    Offsets,
+    Pause,
+    best_way,
+    block_gains,
+    end_cost,
+    offsets_of,
+    pauses_of,
+)
 from station.scoring.following.prices import NEW_TEMPO_SD, POSSIBLE, TEMPO_SD
 from station.scoring.following.tempo_tracker import Place, Tracker
 from station.scoring.following.written import PARTS, Nats, Written
@@ -95,7 +105,7 @@ def _next_jump(
         end = min(start + _AHEAD, len(beats))
         window = _Blocks.of(written, hits, beats, start, end, offsets)
         last = end_cost(written, float(beats[-1]), offsets) if end == len(beats) else None
-        way = best_way(window.gains, first, offsets, written, last)
+        way = best_way(window.gains, first, offsets, written, last, window.pauses)
         left = np.flatnonzero(way.states != offsets.here)
         settled = end if end == len(beats) else start + _SETTLED
         if len(left) and window.starts[left[0]] < settled:
@@ -106,12 +116,16 @@ def _next_jump(
 
 @dataclass(frozen=True, eq=False)
 class _Blocks:
-    """Hits by the beats of the clock: the first hit of each block (b,), what they gain (b, s), hit by hit (m, s)."""
+    """Hits by the beats of the clock: the first hit of each block (b,), what they gain (b, s), hit by hit (m, s).
+
+    `pauses` are the silences before blocks.
+    """
 
     starts: Indices
     gains: Floats
     said: Nats
     first_hit: int
+    pauses: Mapping[int, Pause]
 
     @classmethod
     def of(cls, written: Written, hits: Hits, beats: Floats, start: int, end: int, offsets: Offsets) -> "_Blocks":
@@ -121,12 +135,12 @@ class _Blocks:
         starts = np.concatenate(([0], np.flatnonzero(np.diff(whole)) + 1))
         edges = np.concatenate(([own[0]], whole[starts[1:]], [own[-1] + 2 * EDGE])) - EDGE
         gains, said = block_gains(written, beats[start:end], hits.classes[start:end], starts, edges, offsets)
-        return cls(starts + start, gains, said, start)
+        return cls(starts + start, gains, said, start, pauses_of(own, starts))
 
     def split(self, block: int, way: BeatWay) -> int:
         """The hit at which the state of `block` begins: about its first beat, where most evidence is left on both sides."""
-        if block == 0:
-            return self.first_hit
+        if block == 0 or block in self.pauses:
+            return int(self.starts[block])
         before, after = int(way.states[block - 1]), int(way.states[block])
         low = int(self.starts[max(block - 1, 0)])
         high = int(self.starts[block + 1]) if block + 1 < len(self.starts) else self.first_hit + len(self.said)

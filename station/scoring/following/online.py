@@ -20,8 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.units import NS_PER_S
-from station.scoring.following.anchors import Hits, found, worth
-from station.scoring.following.beat_offsets import EDGE, Offsets, block_gains, forward, offsets_of
+from station.scoring.following.anchors import Hits, fitted, found, worth
+from station.scoring.following.beat_offsets import EDGE, WAIT_BEATS, Offsets, Pause, block_gains, forward, offsets_of
 from station.scoring.following.prices import NEW_TEMPO_SD, POSSIBLE, TEMPO_SD
 from station.scoring.following.tempo_tracker import Place, Tracker
 from station.scoring.following.written import Written
@@ -80,11 +80,12 @@ class Online:
         self._times: list[float] = []
         self._classes: list[int] = []
         self._places: list[float] = []
-        self._total = self._offsets.only_whole - written.prices.begin(self._offsets.beats, np.inf)
+        self._total = -self._offsets.price
         self._since = np.zeros(len(self._total), np.int64)
         self._block: list[int] = []  # the known hits of the beat that has not closed
         self._edge = -inf  # where it began
         self._last_beat = -inf
+        self._pause: Pause | None = None  # the silence before the beat that has not closed
         self._doubt, self._doubt_since = 0.0, 0
         self._looks, self._next_look = 0, _LEAST_HITS - 1
         self._is_settled = False  # whether a look's worth of hits has fitted
@@ -92,6 +93,11 @@ class Online:
         self._stop_s = 0.0
         self.waited: list[tuple[int, int]] = []
         """The first hit after each stop without a click, and for how many ns the score had waited for it."""
+
+    @property
+    def totals(self) -> Floats:
+        """Nats (s,) of the best way to each offset over the beats that have closed, the best of them 0."""
+        return np.asarray(self._total - self._total.max())
 
     def place_ns(self, at_ns: int) -> int:
         """Where the student is at `at_ns` if they play on; where the score waits once they have stopped."""
@@ -157,14 +163,15 @@ class Online:
             return index
         gain = self._gain(opened - EDGE)
         hits, self._block, self._edge = self._block, [], opened - EDGE
-        self._total, is_jumped, _ = forward(self._total, gain, self._offsets, self._written)
-        self._since = np.where(is_jumped, hits[0], self._since)
+        self._total, is_jumped, _ = forward(self._total, gain, self._offsets, self._written, self._pause)
+        self._since[is_jumped] = hits[0]
+        self._pause = Pause(before, beat) if self._clocked and beat - before > WAIT_BEATS else None
         self._total -= self._total.max()
         best, here = int(self._total.argmax()), self._offsets.here
         if best != here and self._total[here] < -_MARGIN:
-            if self._offsets.only_whole[best] == 0.0:
+            if self._clocked or self._offsets.only_whole[best] == 0.0:
                 return self._go(best, index)
-            if not self._clocked and index >= self._next_look:  # the clock is off the beat
+            if index >= self._next_look:  # the clock is off the beat
                 self._doubt, self._doubt_since = max(self._doubt, _DOUBT), int(self._since[best])
                 return self._look(index)
         return index if self._clocked else self._weigh(gain[here], hits, index)
@@ -174,7 +181,8 @@ class Online:
         beats = np.array([self._beat_of(self._places[k]) for k in self._block])
         classes = np.array([self._classes[k] for k in self._block])
         edges = np.array([self._edge, end])
-        return block_gains(self._written, beats, classes, np.zeros(1, np.int64), edges, self._offsets)[0][0]
+        gains, _ = block_gains(self._written, beats, classes, _ONE_BLOCK, edges, self._offsets)
+        return np.asarray(gains[0])
 
     def _go(self, state: int, index: int) -> int:
         """The student is at another offset; returns the first hit for which that holds."""
@@ -188,11 +196,14 @@ class Online:
         parts = self._offsets.parts
         at = np.clip(np.searchsorted(parts, parts + parts[state]), 0, len(parts) - 1)
         is_known = parts[at] == parts + parts[state]
-        self._total = np.where(is_known, self._total[at], self._total.min())
+        self._total = np.where(is_known, self._total[at], -self._offsets.price)
         self._since = np.where(is_known, self._since[at], index)
         self._edge += by
+        if self._pause is not None:
+            self._pause = Pause(self._pause.last + by, self._pause.now + by)
         self._last_beat += by
-        self._calm(index)
+        if self._clocked or self._is_settled:
+            self._calm(index)
         return first
 
     # --- doubts (without a click) -----------------------------------------------------------------------------------
@@ -217,7 +228,7 @@ class Online:
 
     def _look(self, index: int) -> int:
         """Where else the doubtful hits may have been played; returns the first hit that is moved, else `index`."""
-        since = max(self._doubt_since, index - _LOOK_HITS)
+        since = max(self._doubt_since if self._is_settled else 0, index - _LOOK_HITS)
         hits = [k for k in range(since, index) if self._classes[k] in self._known]
         self._next_look = index + _WAITS[min(self._looks, len(_WAITS) - 1)]
         self._looks += 1
@@ -229,19 +240,30 @@ class Online:
         price = self._price(now, hits[0])
 
         def value(place: Place) -> float:
-            return float(worth(self._written, window, place, _NOWHERE)[0]) - price(place)
+            return self._fit(window, place) - price(place)
 
         places = [place for place in self._places_around(window, now) if _SLOWEST < place.rate < _FASTEST]
         best = max(places, key=value, default=now)
-        return self._set(best, hits, index) if value(best) > value(now) + _MARGIN else index
+        if value(best) <= value(now) + _MARGIN or self._fit(window, best) < _FITTING * POSSIBLE * len(hits):
+            return index  # who fits nowhere so far is not told to be elsewhere
+        return self._set(best, hits, index)
+
+    def _fit(self, window: Hits, place: Place) -> float:
+        """Nats for the first hit of the window being at `place`."""
+        return float(worth(self._written, window, place, _NOWHERE)[0])
 
     def _price(self, now: Place, hit: int) -> Callable[[Place], float]:
         """Nats against having gone on at a place with the doubtful hits, of which `hit` is the first."""
         prices, here = self._written.prices, self._beat_of(now.score_s)
         if not self._is_settled:
-            on_time = self._beat_of(now.at_s)
+            began_s = self._times[0]
+            on_time = self._beat_of(began_s)
             return lambda place: (
-                float(prices.begin(np.array([self._beat_of(place.score_s)]), on_time)[0])
+                float(
+                    prices.begin(
+                        np.array([self._beat_of(place.score_s - place.rate * (place.at_s - began_s))]), on_time
+                    )[0]
+                )
                 + 0.5 * float(log(place.rate) / TEMPO_SD) ** 2
             )
         stopped = self._beat_of(self._stop_s)
@@ -261,7 +283,12 @@ class Online:
         here_s, rate, first_s = now.score_s, now.rate, self._note_s[0]
         if not self._is_settled:
             ends = [(first_s - 1.0, first_s + _NEAR_S)] + ([self._far(first_s)] if self._looks > 1 else [])
-            return [place for among in ends for place in found(self._written, self._tracker, window, _ANY_RATES, among)]
+            spots = [
+                place for among in ends for place in found(self._written, self._tracker, window, _ANY_RATES, among)
+            ]
+            since_s = now.at_s - self._times[0]
+            began = [place._replace(score_s=first_s + place.rate * since_s) for place in spots]
+            return spots + [fitted(self._tracker, window, place) for place in began]  # of bars alike the first
         tried = [
             (_RATES, here_s - _CLOSE_S, here_s + _CLOSE_S),
             (_NEAR_RATES, first_s - 1.0, first_s + _CLOSE_S),
@@ -333,6 +360,9 @@ _STOP_DOUBT = 3.0
 
 _MOST_FOR_TEMPO = 6.0
 """Nats at most against another tempo."""
+
+_ONE_BLOCK = np.zeros(1, np.int64)
+"""The first hit of the only block."""
 
 _NOWHERE = Offsets(np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(1))
 """No offset but none."""

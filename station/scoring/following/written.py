@@ -134,7 +134,8 @@ class Fits:
             table[classes, np.minimum(middle + off, self._size - 1)] = said[off]
             table[classes, np.maximum(middle - off, 0)] = said[off]
         self._table = table.ravel()
-        self._passed = np.concatenate(([0.0], np.cumsum(np.bincount(spot, minlength=self._last)))).astype(np.float32)
+        passed = np.concatenate(([0.0], np.cumsum(np.bincount(spot, minlength=self._last))))
+        self._unanswered = np.float32(MISS) * passed.astype(np.float32)
 
     def spots(self, beats: Floats) -> Indices:
         """Which places of the table beats lie at, any shape; they may lie outside."""
@@ -142,13 +143,12 @@ class Fits:
 
     def said(self, beats: Floats, classes: Indices, offsets: Indices) -> Nats:
         """What each hit (m,) at `beats` says if moved by each of `offsets` (s,) in parts of a beat; shape (m, s)."""
-        spots = np.clip(self.spots(beats), -self._far, self._last + self._far) + 2 * self._far
-        return np.asarray(self._table[(spots + classes * self._size)[:, None] + offsets[None, :]])
+        spots = np.minimum(np.maximum(self.spots(beats), -self._far), self._last + self._far) + 2 * self._far
+        return self._table.take((spots + classes * self._size)[:, None] + offsets)
 
     def unanswered(self, beats: Floats, offsets: Indices) -> Nats:
         """Nats against the notes before each of `beats` (k,), moved by `offsets` (s,); (k, s): differences count."""
-        places = np.clip(self.spots(beats)[:, None] + offsets[None, :], 0, len(self._passed) - 1)
-        return np.asarray(np.float32(MISS) * self._passed[places])
+        return self._unanswered.take(self.spots(beats)[:, None] + offsets, mode="clip")
 
 
 def gained(said: Nats, unanswered: Nats, slack: int = 0) -> Floats:
