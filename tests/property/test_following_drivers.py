@@ -45,7 +45,7 @@ def test_hit_by_hit_the_totals_are_those_of_the_whole(
             break  # from here on the offsets count from another place
         stepwise.append(live.totals)
 
-    offsets, end = offsets_of(written), len(stepwise)
+    offsets, end = offsets_of(written, slips=False), len(stepwise)
     blocks = offline._Blocks.of(written, hits, written.beats.beat(hits.at_s), 0, end, offsets)
     total = -offsets.price
     for block in range(len(blocks.starts)):

@@ -22,21 +22,21 @@ from station.scoring.following.written import PARTS, Nats, Written, gained
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-NEAR_BEATS = 2
-"""Thirds and eighths of a beat are tried as far as this, whole beats as far as `Written.far_beats`."""
-
-_FINE = (3, 8)
+_FINE = ((2, 8), (3, 2), (8, 2))
+"""Halves, thirds and eighths of a beat are tried as far as so many beats, whole ones as far as `Written.far_beats`."""
 
 
 @dataclass(frozen=True, eq=False)
 class Offsets:
-    """The offsets of one score: `parts` (s,) in parts of a beat, rising, 0 among them; which are `whole`; their prices.
+    """The offsets of one score: `parts` (s,) in parts of a beat, rising, 0 among them; whole beats are every `step`.
 
-    `price` (s,) is that of a jump without a pause.
+    `price` (s,) is that of a jump without a pause. A clock `slips` or not: who stays with the click may be off the
+    beat, but not so that they would be elsewhere.
     """
 
     parts: Indices
-    whole: Indices
+    step: int
+    slips: bool
     price: Floats
 
     @cached_property
@@ -52,21 +52,28 @@ class Offsets:
     @cached_property
     def only_whole(self) -> Floats:
         """0 for whole beats, −∞ for parts: for a clock whose beat was just found (s,)."""
-        return np.where(np.isin(self.parts, self.whole), 0.0, -np.inf)
+        return np.where(self.parts % self.step == 0, 0.0, -np.inf)
 
     def prices_from(self, state: int, written: Written) -> Floats:
         """Nats against a jump from one offset to each (s,)."""
-        return self.price if self.parts[state] == 0 else written.prices.on(self.beats - self.beats[state])
+        if self.parts[state] == 0:
+            return self.price
+        return _prices(written, self.parts - self.parts[state], self.step, self.slips)
 
 
-def offsets_of(written: Written) -> Offsets:
-    """The offsets that are tried in `written`."""
+def _prices(written: Written, parts: Indices, step: int, slips: bool) -> Floats:
+    price = written.prices.on(parts / PARTS)
+    return price if slips else np.where(parts % step == 0, price, np.inf)
+
+
+def offsets_of(written: Written, slips: bool) -> Offsets:
+    """The offsets that are tried in `written`, for a clock that `slips` or for the click."""
     step = gcd(round(written.beat * PARTS), round(written.bar * PARTS))
     steps = written.far_beats * PARTS // step
     whole = np.arange(-steps, steps + 1) * step
-    fine = [np.arange(-NEAR_BEATS * n, NEAR_BEATS * n + 1) * (PARTS // n) for n in _FINE]
+    fine = [np.arange(-far * n, far * n + 1) * (PARTS // n) for n, far in _FINE]
     parts = np.unique(np.concatenate([whole, *fine]))
-    return Offsets(parts, whole, written.prices.on(parts / PARTS))
+    return Offsets(parts, step, slips, _prices(written, parts, step, slips))
 
 
 def block_gains(

@@ -49,7 +49,8 @@ _ENOUGH = 0.8
 one note in ten brings .82."""
 
 _SURELY = 0.95
-"""As `_ENOUGH`, without a look at tempi close to what is written: a long roll shifted by one of its strokes fits to .9."""
+"""As `_ENOUGH`, without a look at tempi close to what is written, in a score short enough to be all alike: a long roll
+shifted by one of its strokes fits to .9."""
 
 _LOST, _LOST_HITS = 0.4, 24
 """Less than this share of what is possible over so many hits, at any offset: the clock has lost the beat."""
@@ -81,7 +82,7 @@ class RawWay:
 
 def clicked_way(written: Written, hits: Hits) -> RawWay:
     """The way of a player whose hits' times are score time, but for whole beats that they skipped or went back."""
-    offsets = offsets_of(written)
+    offsets = offsets_of(written, slips=False)
     beats, shift, jumps = written.beats.beat(hits.at_s), np.zeros(len(hits.at_s)), []
     start, now = 0, 0.0
     for _ in range(_MOST_JUMPS):
@@ -170,7 +171,7 @@ class _Free:
     def __init__(self, written: Written, hits: Hits, tempo: float = 1.0, ends: bool = True) -> None:
         self._written, self._hits, self._tempo, self._ends = written, hits, tempo, ends
         self._tracker = _tracker(written)
-        self._offsets = offsets_of(written)
+        self._offsets = offsets_of(written, slips=True)
         self._times, self._classes = hits.at_s.tolist(), hits.classes.tolist()
         self._score_s, self._distance_s = np.zeros(len(hits.at_s)), np.zeros(len(hits.at_s))
         self._silences = silences(hits.at_s)
@@ -191,7 +192,7 @@ class _Free:
         window = hits.window(0, end)
         usual = [Place(at_s, score_s, 1.0) for score_s in (at_s, first_s)]
         rivals = [self._at_best(window, place) for place in usual + [self._on_beat(window, p) for p in usual]]
-        if max(value for value, _ in rivals) < _SURELY * _possible(window):
+        if written.is_short and max(value for value, _ in rivals) < _SURELY * _possible(window):
             close = [self._on_beat(window, Place(at_s, first_s, rate)) for rate in _CLOSE_RATES]
             rivals += [self._at_best(window, place) for place in close]
         for among_s in ((first_s - 1.0, first_s + _EARLY_S), (-np.inf, np.inf)):

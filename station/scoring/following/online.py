@@ -71,7 +71,7 @@ class Online:
         self._written = written
         self._clocked = clocked
         self._tracker = Tracker(written.at_s, written.classes)
-        self._offsets: Offsets = offsets_of(written)
+        self._offsets: Offsets = offsets_of(written, slips=not clocked)
         self._known = set(np.unique(written.classes).tolist())
         self._note_s: list[float] = written.at_s.tolist()
         self._beat_s: list[float] = written.beat_s.tolist()
@@ -364,5 +364,5 @@ _MOST_FOR_TEMPO = 6.0
 _ONE_BLOCK = np.zeros(1, np.int64)
 """The first hit of the only block."""
 
-_NOWHERE = Offsets(np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(1))
+_NOWHERE = Offsets(np.zeros(1, np.int64), 1, False, np.zeros(1))
 """No offset but none."""

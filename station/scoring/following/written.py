@@ -27,8 +27,9 @@ _REACH_SDS = 3.2
 _AROUND_BEATS = 2
 """Empty beats kept before and after the score."""
 
-_FAR_BEATS, _SHORT_BEATS = 32, 256
-"""A player is looked for as many whole beats away, 8 bars of 4/4; everywhere in a score of no more than the second."""
+_FAR_BEATS, _SHORT_BEATS, _LEAST_FAR_BEATS = 32, 256, 8
+"""A player is looked for as many whole beats away, 8 bars of 4/4; everywhere, and as far as the third, in a score of no more
+than the second."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,8 +75,16 @@ class Written:
     @cached_property
     def far_beats(self) -> int:
         """As far as this many quarters a player is looked for at the beat that they keep."""
-        length = int(np.ceil(self.note_beats[-1] - self.note_beats[0] + self.bar))
-        return length if length <= _SHORT_BEATS else _FAR_BEATS
+        return max(int(np.ceil(self._length)), _LEAST_FAR_BEATS) if self.is_short else _FAR_BEATS
+
+    @property
+    def is_short(self) -> bool:
+        """Whether a player is looked for everywhere."""
+        return self._length <= _SHORT_BEATS
+
+    @cached_property
+    def _length(self) -> float:
+        return float(self.note_beats[-1] - self.note_beats[0]) + self.bar
 
     @cached_property
     def prices(self) -> Prices:
@@ -130,6 +139,8 @@ class Fits:
         table = np.zeros((int(classes.max(initial=0)) + 1, self._size), np.float32)
         said = heard(np.arange(reach + 1) * beat_s / PARTS)
         middle = spot + 2 * self._far
+        # to run beyond the end is no cheaper than to leave out notes
+        table[:, : int(middle.min(initial=0)) - reach] = table[:, int(middle.max(initial=0)) + reach :] = -MISS
         for off in range(reach, -1, -1):  # the nearest note speaks last
             table[classes, np.minimum(middle + off, self._size - 1)] = said[off]
             table[classes, np.maximum(middle - off, 0)] = said[off]

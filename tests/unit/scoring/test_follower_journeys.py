@@ -77,7 +77,7 @@ def test_without_a_click_the_student_is_found_within_two_bars(score: str, legs: 
         for leg in range(len(FREE[legs])):
             assert share_right(journey, first, journey.after(leg, 2.0)) >= 0.95
         assert share_right(journey, [last[i] for i in range(len(first))], journey.not_played_again()) >= 0.9
-        assert most <= 4 * 48  # what one hit may take back: two bars, each with its note's and its old hit's verdict
+        assert most <= 6 * 48  # what one hit may take back: three bars, each with its note's and its old hit's verdict
 
 
 @pytest.mark.parametrize("score", SCORES)
