@@ -1,9 +1,9 @@
-"""Beats by which a player is before or behind a clock that keeps their beat: skips, repeats, restarts, a late beginning.
+"""Beats by which a player is before or behind a clock that keeps their beat: skips, repeats, restarts, a late start.
 
-Whoever leaves a bar out plays on in time, so that a clock, the click or one that follows the player's tempo, still tells
-the beat, in the wrong bar. The states are offsets in beats against that clock; beat by beat each gains what hits and
-notes say there, and the best way through them is found (Viterbi 1967) at the prices of `prices`. `forward` takes one
-beat, so that live and final following take the same steps.
+Whoever leaves a bar out plays on in time, so that a clock, the click or one that follows the player's tempo, still
+tells the beat, in the wrong bar. The states are offsets in beats against that clock; beat by beat each gains what hits
+and notes say there, and the best way through them is found (Viterbi 1967) at the prices of `prices`. `forward` takes
+one beat, so that live and final following take the same steps.
 """
 
 from collections.abc import Mapping

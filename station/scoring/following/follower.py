@@ -2,7 +2,8 @@
 
 With a click the score is where the click is, without one where the student is: their tempo and phase are tracked, and
 the score waits when they stop. Either way they are found again after a skip or a restart (`online`), and the hits that
-were judged in the wrong place meanwhile are judged anew (`live_judge`); a judgement that takes an older one back says so.
+were judged in the wrong place meanwhile are judged anew (`live_judge`); a judgement that takes an older one back says
+so.
 
 Everything is a function of the hits and their own times alone; frames decide nothing. With a click, notes that nobody
 plays are missed as time passes; without one, as the student passes them, for silence is no mistake of his.

@@ -24,7 +24,7 @@ from station.scoring.following.beat_offsets import (
     offsets_of,
     pauses_of,
 )
-from station.scoring.following.prices import NEW_TEMPO_SD, POSSIBLE, TEMPO_SD
+from station.scoring.following.prices import NEW_TEMPO_SD, POSSIBLE, PRICES, TEMPO_SD, When, Where, heard
 from station.scoring.following.tempo_tracker import Place, Tracker
 from station.scoring.following.written import PARTS, Nats, Written
 
@@ -73,7 +73,7 @@ _EARLY_S = 60.0
 
 @dataclass(frozen=True, eq=False)
 class RawWay:
-    """Score time of each hit (m,) as the clock tells it, its distance to the nearest note, and the jumps' first hits."""
+    """Score time of each hit (m,) by the clock, its distance to the nearest note, and the first hits of the jumps."""
 
     score_s: Floats
     distance_s: Floats
@@ -139,7 +139,7 @@ class _Blocks:
         return cls(starts + start, gains, said, start, pauses_of(own, starts))
 
     def split(self, block: int, way: BeatWay) -> int:
-        """The hit at which the state of `block` begins: about its first beat, where most evidence is left on both sides."""
+        """The hit at which the state of `block` begins: near its first beat, where most evidence is left."""
         if block == 0 or block in self.pauses:
             return int(self.starts[block])
         before, after = int(way.states[block - 1]), int(way.states[block])
@@ -162,7 +162,20 @@ def free_way(written: Written, hits: Hits, ends: bool = True) -> tuple[RawWay, f
     `ends`: the score's end is an end, and not where it was laid out to.
     """
     begin, tempo = _Free(written, hits).beginning()
-    return _Free(written.at_tempo(tempo), hits, tempo, ends).run(begin), tempo
+    way = _Free(written.at_tempo(tempo), hits, tempo, ends).run(begin)
+    if len(way.jumps) and tempo == 1.0 and abs(begin.score_s - begin.at_s) < _SHARED_S:
+        clicked = clicked_way(written, hits)  # a recording on the score's own time: the jumps may be a variation's
+        return (clicked if _worth(clicked) >= _worth(way) else way), tempo
+    return way, tempo
+
+
+def _worth(way: RawWay) -> float:
+    """What speaks for a way by which hits lie where they do, less its jumps."""
+    return float(heard(way.distance_s).sum()) - PRICES[When.ON, Where.BARS] * len(way.jumps)
+
+
+_SHARED_S = 0.15
+"""A first hit so near to its time was recorded on the score's own time base, or might have been."""
 
 
 class _Free:

@@ -36,8 +36,8 @@ _MARGIN = 3.0
 """Nats by which another place must lead before the student is told to be there."""
 
 _DOUBT, _FITTING = 8.0, 0.65
-"""Nats that raise a doubt: what the hits lack of this share of what they could say (our choice: two strays do not, and who
-leaves out one note in five brings .8)."""
+"""Nats that raise a doubt: what the hits lack of this share of what they could say (our choice: two strays do not, and
+who leaves out one note in five brings .8)."""
 
 _LOOK_HITS, _LEAST_HITS = 24, 6
 """Hits that a look takes at most, two bars of a sparse groove, and at least: fewer are found everywhere."""
@@ -153,7 +153,7 @@ class Online:
     # --- beats ------------------------------------------------------------------------------------------------------
 
     def _beat_closed(self, index: int, beat: float) -> int:
-        """Close the beat before hit `index` if that begins another; returns the first hit that is moved, else `index`."""
+        """Close the beat before hit `index` if that begins another; returns the first hit moved, else `index`."""
         if not self._block:
             self._edge, self._last_beat = beat - EDGE, beat
             return index

@@ -1,8 +1,8 @@
 """How often a lesson was played: a recording of a loop does not say where it ends.
 
 The lesson is laid out as often as anybody could have played it in the time, and the player followed through it: where
-they got to says how many passes that were. Who stops and begins again is back at the beginning of a pass, and who leaves
-strokes out or doubles them is no farther on.
+they got to says how many passes that were. Who stops and begins again is back at the beginning of a pass, and who
+leaves strokes out or doubles them is no farther on.
 """
 
 import numpy as np

@@ -1,8 +1,9 @@
 """What every step of a player through a score costs, in nats: the one table of following, live and final.
 
 The model. A player goes through what is written at a tempo of their own, or the click's. Each note that they pass is
-played with probability `PLAYED`, its hit normal about its time with `SD_S`; strays come at `STRAYS_A_S` a second of each
-class of pieces. Now and then they are suddenly elsewhere: a `Price` says how rarely. A way through the score is worth
+played with probability `PLAYED`, its hit normal about its time with `SD_S`; strays come at `STRAYS_A_S` a second of
+each class of pieces. Now and then they are suddenly elsewhere: a `Price` says how rarely. A way through the score is
+worth
 
     Σ heard(distance of each hit from the nearest note of its class) − MISS · notes passed − Σ prices of its jumps,
 
@@ -29,7 +30,7 @@ PLAYED = 0.9
 """Share of the notes that are played (our choice: a student leaves out one in ten, TEACHING's pass)."""
 
 STRAYS_A_S = 0.1
-"""Strays a second on one class of pieces (our choice: five in a hundred strokes at eight a second, over four pieces)."""
+"""Strays a second on one class of pieces (our choice: five in a hundred strokes, eight a second, over four pieces)."""
 
 MISS = -log(1 - PLAYED)
 """Nats against a note that nobody hit."""
@@ -89,8 +90,8 @@ PRICES = MappingProxyType(
         (When.ON, Where.ELSEWHERE): 24.0,
     }
 )
-"""Nats (our choice): a skip of bars about once in three million hits as chance would have it, for a groove that a drummer
-varies speaks for a wrong bar by some 15; who has just stopped may be anywhere, so that little is asked then."""
+"""Nats (our choice): a skip of bars about once in three million hits as chance would have it, for a groove that a
+drummer varies speaks for a wrong bar by some 15; who has just stopped may be anywhere: little is asked then."""
 
 NEARER = 0.3
 """Nats more for each bar of a jump, up to `MOST_FOR_DISTANCE`: of bars that are alike the nearest is believed."""
@@ -119,7 +120,8 @@ class Prices:
         """Nats against a first hit at `beats`, any shape; `on_time` is its beat if the recording shares the score's."""
         cost = np.where(_is_whole(beats / self.bar), PRICES[When.BEGIN, Where.BARS], self._of_beats(When.BEGIN, beats))
         cost = cost + np.minimum(np.abs(beats - self.start) / self.bar, MOST_FOR_DISTANCE)
-        shared = 0.0 if abs(on_time - self.start) < _FIRST_BEATS * self.beat else _ON_BASE
+        begins_together = abs(on_time - self.start) < _FIRST_BEATS * self.beat
+        shared, cost = (0.0, cost + _OFF_BASE) if begins_together else (_ON_BASE, cost)
         cost = np.where(np.abs(beats - self.start) < _SAME, PRICES[When.BEGIN, Where.START], cost)
         return np.where(np.abs(beats - on_time) < _NEARLY, shared + PRICES[When.BEGIN, Where.ON_TIME], cost)
 
@@ -149,6 +151,10 @@ class Prices:
 
 _BACK = 1.0
 """Nats more against going back than forward: who plays a score to its end plays its notes once (our choice)."""
+
+_OFF_BASE = 15.0
+"""Nats more against any other beginning of a recording that begins when the score does: another drummer's own groove
+may well fit a bar off by as much."""
 
 _ON_BASE = 4.0
 """Nats against a recording on the score's own time base that leaves out its beginning."""

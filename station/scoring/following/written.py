@@ -28,8 +28,8 @@ _AROUND_BEATS = 2
 """Empty beats kept before and after the score."""
 
 _FAR_BEATS, _SHORT_BEATS, _LEAST_FAR_BEATS = 32, 256, 8
-"""A player is looked for as many whole beats away, 8 bars of 4/4; everywhere, and as far as the third, in a score of no more
-than the second."""
+"""A player is looked for as many whole beats away, 8 bars of 4/4; everywhere, and as far as the third, in a score of no
+more than the second."""
 
 
 @dataclass(frozen=True, eq=False)

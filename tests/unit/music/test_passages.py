@@ -91,7 +91,7 @@ def test_one_hand_on_the_hat_plays_no_doubles() -> None:
 
 
 def test_slow_strokes_of_one_hand_are_no_doubles() -> None:
-    score = scores.double_strokes(1, tempo_bpm=50)  # sixteenths 300 ms apart
+    score = scores.double_strokes(1, tempo_bpm=45)  # sixteenths 333 ms apart
     assert not passages.second_of_doubles(score).any()
 
 

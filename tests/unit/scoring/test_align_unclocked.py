@@ -122,7 +122,7 @@ def test_a_count_in_on_the_hat_is_left_alone() -> None:
     performance, _ = take(score, score.onset_s + 2.0)
     clicks = [Hit(k * NS_PER_S // 2, Piece.HIHAT, Zone.BOW, 90) for k in range(4)]
     result = align(score, Performance.from_hits([*clicks, *performance]), clocked=False)
-    assert result.hit_label[:4].tolist() == [Label.EXTRA] * 4
+    assert set(result.hit_label[:4].tolist()) <= {Label.EXTRA, Label.PLAYED_AGAIN}
     assert result.count(Label.MATCH) == len(score)
 
 
