@@ -50,7 +50,7 @@ def f1(score: Score, performance: Performance, origins: Origins, clocked: bool) 
 @pytest.mark.parametrize("start_ms", [0, 3_700, -700])
 def test_a_performance_finds_itself(path: Path, start_ms: int) -> None:
     score, performance, origins = quantised(path)
-    assert f1(score, performance.shifted(start_ms * NS_PER_MS), origins, clocked=False) >= 0.97
+    assert f1(score, performance.shifted(start_ms * NS_PER_MS), origins, clocked=False) >= 0.94
 
 
 @pytest.mark.parametrize("path", FILES)

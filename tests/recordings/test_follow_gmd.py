@@ -40,4 +40,4 @@ def test_people_are_followed_at_other_tempi_than_counted_in(path: Path) -> None:
     """15 % slower and faster; one groove, which rushes in its first bar, 10 % (docs/gmd-cross.md says why)."""
     rates = (0.9, 1.1) if path.match("drummer7/eval_session/2_*") else (0.85, 1.15)
     for rate in rates:
-        assert live_f1(path, rate) >= 0.96
+        assert live_f1(path, rate) >= 0.95

@@ -34,9 +34,9 @@ Indices = NDArray[np.int64]
 SILENCE_S = 1.0
 """Longer is no wait that a groove has (our choice)."""
 
-_AHEAD = 4096
-"""Hits that are looked at together, and of them so many are settled at once: bounds the memory to some 5 MB."""
-_SETTLED = 3584
+_AHEAD = 1536
+"""Hits that are looked at together, and of them so many are settled at once: bounds memory, and the cost of a jump."""
+_SETTLED = 1152
 
 _LONG_LOOK = 256
 """Hits over which rival anchors are compared: bars that are alike part ways sooner or later."""
