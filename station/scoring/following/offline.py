@@ -24,7 +24,7 @@ from station.scoring.following.beat_offsets import (
     offsets_of,
     pauses_of,
 )
-from station.scoring.following.prices import NEW_TEMPO_SD, POSSIBLE, PRICES, TEMPO_SD, When, Where, heard
+from station.scoring.following.prices import NEW_TEMPO_SD, POSSIBLE, TEMPO_SD
 from station.scoring.following.tempo_tracker import Place, Tracker
 from station.scoring.following.written import PARTS, Nats, Written
 
@@ -53,7 +53,7 @@ _SURELY = 0.95
 shifted by one of its strokes fits to .9."""
 
 _LOST, _LOST_HITS = 0.4, 24
-"""Less than this share of what is possible over so many hits, at any offset: the clock has lost the beat."""
+"""Less than this share of what is possible over so many hits, on the best way: the clock has lost the beat."""
 
 _MOST_JUMPS = 200
 """Nobody jumps so often who plays the score; what comes then is followed without."""
@@ -162,20 +162,7 @@ def free_way(written: Written, hits: Hits, ends: bool = True) -> tuple[RawWay, f
     `ends`: the score's end is an end, and not where it was laid out to.
     """
     begin, tempo = _Free(written, hits).beginning()
-    way = _Free(written.at_tempo(tempo), hits, tempo, ends).run(begin)
-    if len(way.jumps) and tempo == 1.0 and abs(begin.score_s - begin.at_s) < _SHARED_S:
-        clicked = clicked_way(written, hits)  # a recording on the score's own time: the jumps may be a variation's
-        return (clicked if _worth(clicked) >= _worth(way) else way), tempo
-    return way, tempo
-
-
-def _worth(way: RawWay) -> float:
-    """What speaks for a way by which hits lie where they do, less its jumps."""
-    return float(heard(way.distance_s).sum()) - PRICES[When.ON, Where.BARS] * len(way.jumps)
-
-
-_SHARED_S = 0.15
-"""A first hit so near to its time was recorded on the score's own time base, or might have been."""
+    return _Free(written.at_tempo(tempo), hits, tempo, ends).run(begin), tempo
 
 
 class _Free:

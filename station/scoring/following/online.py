@@ -258,14 +258,15 @@ class Online:
         if not self._is_settled:
             began_s = self._times[0]
             on_time = self._beat_of(began_s)
-            return lambda place: (
-                float(
-                    prices.begin(
-                        np.array([self._beat_of(place.score_s - place.rate * (place.at_s - began_s))]), on_time
-                    )[0]
-                )
-                + 0.5 * float(log(place.rate) / TEMPO_SD) ** 2
-            )
+            together = abs(on_time - prices.start) < self._written.beat
+
+            def late(place: Place) -> float:
+                beat = self._beat_of(place.score_s - place.rate * (place.at_s - began_s))
+                elsewhere = _COUNTED_IN if together and abs(beat - prices.start) > self._written.beat else 0.0
+                nats = float(prices.begin(np.array([beat]), on_time)[0])
+                return nats + elsewhere + 0.5 * log(place.rate) ** 2 / TEMPO_SD**2
+
+            return late
         stopped = self._beat_of(self._stop_s)
 
         def nats(place: Place) -> float:
@@ -357,6 +358,9 @@ class Online:
 
 _STOP_DOUBT = 3.0
 """Nats of doubt more than enough that follow a stop: a few hits must speak for the place (our choice)."""
+
+_COUNTED_IN = 15.0
+"""Nats against a student's beginning elsewhere who comes in when they were counted in (our choice: as a jump)."""
 
 _MOST_FOR_TEMPO = 6.0
 """Nats at most against another tempo."""

@@ -120,8 +120,7 @@ class Prices:
         """Nats against a first hit at `beats`, any shape; `on_time` is its beat if the recording shares the score's."""
         cost = np.where(_is_whole(beats / self.bar), PRICES[When.BEGIN, Where.BARS], self._of_beats(When.BEGIN, beats))
         cost = cost + np.minimum(np.abs(beats - self.start) / self.bar, MOST_FOR_DISTANCE)
-        begins_together = abs(on_time - self.start) < _FIRST_BEATS * self.beat
-        shared, cost = (0.0, cost + _OFF_BASE) if begins_together else (_ON_BASE, cost)
+        shared = 0.0 if abs(on_time - self.start) < _FIRST_BEATS * self.beat else _ON_BASE
         cost = np.where(np.abs(beats - self.start) < _SAME, PRICES[When.BEGIN, Where.START], cost)
         return np.where(np.abs(beats - on_time) < _NEARLY, shared + PRICES[When.BEGIN, Where.ON_TIME], cost)
 
@@ -152,10 +151,6 @@ class Prices:
 _BACK = 1.0
 """Nats more against going back than forward: who plays a score to its end plays its notes once (our choice)."""
 
-_OFF_BASE = 15.0
-"""Nats more against any other beginning of a recording that begins when the score does: another drummer's own groove
-may well fit a bar off by as much."""
-
 _ON_BASE = 4.0
 """Nats against a recording on the score's own time base that leaves out its beginning."""
 
@@ -173,6 +168,7 @@ def _is_whole(values: Floats) -> NDArray[np.bool_]:
 
 _SLIPPED = PRICES[When.ON, Where.SLIPPED]
 _SLIP = 0.6
+"""Beats: so far a stumble or a slip of the clock may lead (our choice: half a beat, and a little)."""
 
 _SLACK = 0.13
 """Beats by which a player's place may be off a whole one (our choice: an eighth)."""
