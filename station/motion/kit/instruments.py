@@ -98,7 +98,14 @@ class Instrument:
         tip = self.tip[i] * cmath.exp(self.fades * ago) * sin(self.turn_rad_s[i] * ago)
         flash = self.force[i] * exp(-ago / _FLASH_DECAY_S)
         if self.drum:
-            return tip.real, tip.imag, flash, RIPPLE_M * self.force[i] * exp(-ago / _RIPPLE_DECAY_S), *self.spot_m[i], ago
+            return (
+                tip.real,
+                tip.imag,
+                flash,
+                RIPPLE_M * self.force[i] * exp(-ago / _RIPPLE_DECAY_S),
+                *self.spot_m[i],
+                ago,
+            )
         tip += self.shiver[i] * exp(-ago / _SHIVER_DECAY_S) * sin(self.shiver_rad_s[i] * ago)
         return tip.real, tip.imag, flash, 0.0, 0.0, 0.0, 0.0
 

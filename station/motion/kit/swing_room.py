@@ -27,6 +27,8 @@ _OPEN_HAT = 0.25
 """The share of a free cymbal's swing that clutch and foot leave an open hi-hat (our choice)."""
 _STEP_RAD = math.radians(1.0)
 _LEAST_RAD = math.radians(1.0)
+_PAD = 0.35
+"""The share of a metal cymbal's swing that a rubber one has: its stopper and cable hold it (our choice)."""
 _SPARE = 1.2
 """A stroke on a cymbal that still moves may tip it so much farther (our choice)."""
 _CLEAR_M = 0.01
@@ -37,7 +39,7 @@ _AROUND = np.linspace(0.0, 2 * np.pi, 36, endpoint=False)
 def hardest_rad(piece: KitPiece) -> float:
     """The first swing of a cymbal that the hardest stroke hits on its edge, if nothing is in its way."""
     own = _REFERENCE_RAD * (_REFERENCE_M / piece.radius_m) ** _LIGHTENS
-    return own * _OPEN_HAT if piece.kind == "hihat" else own
+    return own * (_OPEN_HAT if piece.kind == "hihat" else 1.0) * (_PAD if piece.electronic else 1.0)
 
 
 def swing_room(kit: Kit) -> Mapping[Piece, float]:

@@ -21,7 +21,9 @@ AT = np.arange(0.0, 8.0, 0.001)
 ROOM = math.radians(30.0)
 
 
-def answer(piece: KitPiece, at_s: list[float], velocity: float = 127.0, share: float = 0.95, free: float = 1.0) -> Instrument:
+def answer(
+    piece: KitPiece, at_s: list[float], velocity: float = 127.0, share: float = 0.95, free: float = 1.0
+) -> Instrument:
     """What strokes on the near side do, `share` of the radius out."""
     near = np.add(piece.centre, [0.0, -share * piece.radius_m, 0.0])
     n = len(at_s)
