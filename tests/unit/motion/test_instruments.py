@@ -154,7 +154,7 @@ def test_a_shut_hi_hat_moves_less_than_an_open_one_and_the_foot_stills_it() -> N
 
 @pytest.mark.parametrize("name", kit_names())
 def test_swinging_cymbals_clear_each_other_and_the_drums(name: str) -> None:
-    """Edges of both at their farthest, any two ways, are apart: looked at here point by point against the tipped disc."""
+    """Edges of both at their farthest, any two ways, are apart."""
     kit = load_kit(name)
     room = swing_room(kit)
     cymbals = [p for p in kit.pieces.values() if p.piece in room]
