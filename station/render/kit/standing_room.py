@@ -9,7 +9,6 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Piece
 from station.motion.kit.kit import Kit
 from station.motion.kit.piece import KitPiece
 from station.motion.kit.swing_room import swing_room
@@ -99,7 +98,7 @@ class StandingRoom:
             if not lack.min():
                 break
         assert best is not None
-        self.lines += [(a, b, _PIPE_M) for a, b in stand_lines(best, top, spread_m, height_m)]
+        self.lines.extend([(a, b, _PIPE_M) for a, b in stand_lines(best, top, spread_m, height_m)])
         return best
 
 
@@ -137,5 +136,3 @@ def _legs_and_boards(kit: Kit) -> list[Line]:
         knee = hip + way / np.linalg.norm(way) * _KNEE_M + [0, 0, 0.04]
         lines += [(hip, knee, _THIGH_M), (knee, heel + [0, 0, 0.08], _SHIN_M), (heel, toe, _BOARD_M)]
     return lines
-
-
