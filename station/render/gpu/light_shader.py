@@ -35,7 +35,8 @@ in float ao;
 """
 )
 
-RIPPLE = """
+RIPPLE = (
+    """
 // how far a struck head's corner is moved along its normal, and how that changes across the head
 vec4 ripple() {
     vec4 struck = bone_ripple[bone];
@@ -45,11 +46,15 @@ vec4 ripple() {
     float bell = exp(-u * u);
     float depth = struck.w * normal.w * since / (since + RISE_S);
     float slope = depth * bell * u * (6.0 - 4.0 * u * u) / RING_M;
-    return vec4(away / max(r, 1e-4) * slope, -depth * bell * (1.0 - 2.0 * u * u));
+    return vec4(away / max(r, 1e-4) * slope * SHADED, -depth * bell * (1.0 - 2.0 * u * u));
 }
-""".replace("RING_M_S", "1.6").replace("RING_M", "0.040").replace("RISE_S", "0.008")
+""".replace("RING_M_S", "1.6")
+    .replace("RING_M", "0.032")
+    .replace("RISE_S", "0.008")
+    .replace("SHADED", "5.0")
+)
 """One ring that runs outward from the struck point. So slow and broad that pictures show it, and nothing at the instant
-of the stroke, when the tip is on the head (our choice, by eye); the real wave crosses a head in two milliseconds."""
+of the stroke, when the tip is on the head; shaded as if it were steeper, for heads are white (our choice, by eye); the real wave crosses a head in two milliseconds."""
 
 SKIN_IN = (
     _BONES

@@ -32,7 +32,11 @@ def pad(radius: float, depth: float, detail: Detail) -> Mesh:
         (inner, -0.004),
     ]
     shell = [(0, -depth), (radius * 0.80, -depth), (radius * 0.98, -depth + 0.012), (radius + 0.006, -0.022)]
-    parts = [head(radius, detail, Material.MESH_HEAD), lathe(rim, n, Material.RUBBER), lathe(shell, n, Material.LACQUER)]
+    parts = [
+        head(radius, detail, Material.MESH_HEAD),
+        lathe(rim, n, Material.RUBBER),
+        lathe(shell, n, Material.LACQUER),
+    ]
     return joined(parts)
 
 
