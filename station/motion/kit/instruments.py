@@ -58,8 +58,8 @@ _SOONEST_S = 1e-3
 
 _FLASH_DECAY_S = 0.12
 RIPPLE_M, _RIPPLE_DECAY_S = 0.008, 0.10
-"""A head gives way by 8 mm under the hardest stroke, 5 m/s (HUMANS: calculated), and is quiet again after a few pictures
-(our choice, by eye)."""
+"""A head gives way by 8 mm under the hardest stroke, 5 m/s (HUMANS: calculated), and is quiet again after a
+few pictures (our choice, by eye)."""
 
 _DECAYS = 9.2
 """After so many decays a ten-thousandth is left: the piece is still."""

@@ -53,8 +53,11 @@ vec4 ripple() {
     .replace("RISE_S", "0.008")
     .replace("SHADED", "5.0")
 )
-"""One ring that runs outward from the struck point. So slow and broad that pictures show it, and nothing at the instant
-of the stroke, when the tip is on the head; shaded as if it were steeper, for heads are white (our choice, by eye); the real wave crosses a head in two milliseconds."""
+"""One ring that runs outward from the struck point; nothing at the instant of the stroke, when the tip is on the head.
+
+The real wave crosses a head in two milliseconds: ours is so slow and broad that pictures show it, and shaded as if it
+were five times steeper, for heads are white (our choice, by eye).
+"""
 
 SKIN_IN = (
     _BONES

@@ -1,6 +1,7 @@
 """The corners of kit and figure as tables for OpenGL, and where the programs find what in them.
 
-Normals and tangents are half floats; the fourth of a normal tells how freely a head's corner moves. Weights and `ao` are 255ths.
+Normals and tangents are half floats; the fourth of a normal tells how freely a head's corner moves. Weights and `ao`
+are 255ths.
 """
 
 import numpy as np

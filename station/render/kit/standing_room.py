@@ -61,8 +61,8 @@ class StandingRoom:
 
     def without(self, piece: KitPiece) -> "StandingRoom":
         """The room as the stand of `piece` sees it, which is to touch it."""
-        drums, swept = (tuple(x for x in all_ if x is not piece) for all_ in (self.drums, self.swept))
-        return replace(self, drums=drums, swept=tuple(pair for pair in swept if pair[0] is not piece))
+        drums = tuple(drum for drum in self.drums if drum is not piece)
+        return replace(self, drums=drums, swept=tuple(pair for pair in self.swept if pair[0] is not piece))
 
     def clear_m(self, points: Array) -> Array:
         """How far each of `points` (…, 3) is from the nearest thing, negative inside it."""
