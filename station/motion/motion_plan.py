@@ -25,7 +25,7 @@ from station.motion.kinematics.trunk import TrunkAngles, trunk
 from station.motion.kit.instruments import Instrument, instruments
 from station.motion.kit.kit import Kit
 from station.motion.sticking.limbs import Assignment, assign_limbs
-from station.motion.strokes.grip import GRIPS, HELD, Hold
+from station.motion.kinematics.grip import Hold
 from station.motion.strokes.hand import HandPart
 from station.motion.strokes.hand_events import HandEvents, hand_events
 from station.motion.strokes.targets import strike_points
@@ -149,7 +149,7 @@ class MotionPlan:
 
 def holds(style: Style) -> tuple[Hold, Hold]:
     """What the right and the left hand hold, and how."""
-    return Hold(GRIPS[style.grip_right], HELD[style.held]), Hold(GRIPS[style.grip_left], HELD[style.held])
+    return Hold.of(style.grip_right, style.held), Hold.of(style.grip_left, style.held)
 
 
 def _ground(score: Score, kit: Kit, limbs: NDArray[np.int8], points: Array) -> Ground:

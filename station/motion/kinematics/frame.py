@@ -80,8 +80,8 @@ class Rig:
         leg_a, bent_a = stands(m, self.footings[0], (x + hip, y, z), board_a, heel * (0.6 + 0.4 * foot_a))
         leg_b, bent_b = stands(m, self.footings[1], (x - hip, y, z), board_b, heel * (0.6 + 0.4 * foot_b))
         kick, hat = boards if self.right_kicks else (foot_b, foot_a)
-        rolled_a = self.rolls[0] + (1 - right[0][TURNS]) * right[1][WRIST]
-        rolled_b = self.rolls[1] + (1 - left[0][TURNS]) * left[1][WRIST]
+        rolled_a = self.rolls[0] + right[0][ROLL] + (1 - right[0][TURNS]) * right[1][WRIST]
+        rolled_b = self.rolls[1] + left[0][ROLL] + (1 - left[0][TURNS]) * left[1][WRIST]
         return [
             *(x, y, z, *spine, *arm_a, *arm_b, x + hip, y, z, *leg_a, x - hip, y, z, *leg_b),
             *(*butt_a, *butt_b, *tip_a, *tip_b, *back_a, *back_b, *face),
@@ -92,7 +92,8 @@ class Rig:
         ]
 
 
-WING, TURNS, WRIST = Contact._fields.index("wing"), Contact._fields.index("turns"), Offsets._fields.index("wrist")
+WING, TURNS, ROLL = (Contact._fields.index(name) for name in ("wing", "turns", "roll"))
+WRIST = Offsets._fields.index("wrist")
 FOLLOWS = 0.9
 """How far the head turns to what is looked at; the eyes do the rest (our choice)."""
 LOOK_DOWN = 0.45
