@@ -6,6 +6,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from types import MappingProxyType
 
 import numpy as np
@@ -17,6 +18,7 @@ from station.motion.body.idle_motion import BREATH_M, BREATH_RATE, Blinks
 from station.motion.body.reach import reaching
 from station.motion.kinematics.arm import Contact
 from station.motion.kinematics.frame import HandNow, Rig
+from station.motion.kinematics.grip import Hold
 from station.motion.kinematics.leg import HEEL_RAD, Footing
 from station.motion.kinematics.maths import MANY, ONE, Number, Point
 from station.motion.kinematics.splines import SplineChannels
@@ -112,6 +114,11 @@ class Keys:
             rig=rig_of(plan, style),
             instruments=plan.instruments,
         )
+
+    @cached_property
+    def holds(self) -> tuple[Hold, Hold]:
+        """What the right and the left hand hold, and how."""
+        return self.parts[0].hold, self.parts[1].hold
 
     def at(self, time_s: float) -> list[float]:
         """The whole drummer at one instant as a row of `frame`, the instruments left out."""

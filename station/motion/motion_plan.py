@@ -17,6 +17,7 @@ from station.motion.body.gaze import GazeTargets, gaze_curve
 from station.motion.body.idle_motion import Blinks
 from station.motion.body.reach import reaching
 from station.motion.kinematics.figure import Figure
+from station.motion.kinematics.grip import Hold
 from station.motion.kinematics.maths import MANY, Point, blocks
 from station.motion.kinematics.pedal_motion import hat_board, kick_board
 from station.motion.kinematics.posture import pelvis_of
@@ -25,7 +26,6 @@ from station.motion.kinematics.trunk import TrunkAngles, trunk
 from station.motion.kit.instruments import Instrument, instruments
 from station.motion.kit.kit import Kit
 from station.motion.sticking.limbs import Assignment, assign_limbs
-from station.motion.kinematics.grip import Hold
 from station.motion.strokes.hand import HandPart
 from station.motion.strokes.hand_events import HandEvents, hand_events
 from station.motion.strokes.targets import strike_points

@@ -11,9 +11,11 @@ traditional left hand, palm 45–90° up, it lies in the web of the thumb, over 
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from types import MappingProxyType
 
 import numpy as np
+from numpy.typing import NDArray
 
 from station.motion.kinematics.arm import ArmLengths
 from station.motion.kinematics.figure import MEDIAN_STATURE_M, Figure
@@ -25,6 +27,14 @@ STICK_RADIUS_M = 0.0072
 
 
 @dataclass(frozen=True, slots=True)
+class Lie:
+    """A stick in the hand at the contact: μ in vertical planes and, in plan, how far the hand points outward of it."""
+
+    palm: float
+    crossing: float
+
+
+@dataclass(frozen=True)
 class Grip:
     """How the stick lies in a hand; angles in radians.
 
@@ -44,24 +54,24 @@ class Grip:
     to_butt: tuple[float, float, float]
     behind_m: float
 
-    def lie(self, roll: float | None = None) -> "Lie":
-        """How the stick lies to the line between wrist and fulcrum when the fingers are closed, with the hand at `roll`."""
-        roll = self.roll if roll is None else roll
+    @cached_property
+    def lie(self) -> Lie:
+        """How the stick lies in the hand as this grip turns it."""
+        return self._rolled(self.roll)
+
+    @cached_property
+    def flat(self) -> Lie:
+        """How it lies when the palm is turned down, as for a cross-stick."""
+        return self._rolled(0.0)
+
+    def _rolled(self, roll: float) -> Lie:
         x, y, z = (line_axes(self.fulcrum) @ self.to_butt).tolist()
         s, c = math.sin(roll), math.cos(roll)
         inward, up = x * c - y * s, x * s + y * c
         return Lie(-math.atan2(up, math.hypot(inward, z)), -math.atan2(inward, -z))
 
 
-@dataclass(frozen=True, slots=True)
-class Lie:
-    """A stick in the hand at the contact: μ in vertical planes and, in plan, how far the hand points outward of it."""
-
-    palm: float
-    crossing: float
-
-
-def line_axes(fulcrum: tuple[float, float, float]) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
+def line_axes(fulcrum: tuple[float, float, float]) -> NDArray[np.float64]:
     """Rows: x, y, z of the axes in which `fulcrum` lies on z and the hand's back is towards y, in the hand's own."""
     z = np.array(fulcrum) / math.hypot(*fulcrum)
     y = np.array([0.0, 1.0, 0.0]) - z[1] * z

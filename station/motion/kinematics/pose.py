@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.motion.kinematics import frame
+from station.motion.kinematics.grip import Hold
 
 RIGHT, LEFT = 0, 1
 
@@ -48,16 +49,22 @@ ANGLE_NAMES: tuple[str, ...] = (
 
 
 _STICKS = [ANGLE_NAMES.index("right_stick"), ANGLE_NAMES.index("left_stick")]
-OPEN_FINGERS_RAD = math.radians(60)
-"""The stick's angle in a hand whose fingers are quite open: the limit of `limits.Limits.fingers`."""
+OPEN_FINGERS_RAD = math.radians(40)
+"""How far the stick sinks in a hand whose fingers are quite open: with that of the contact, the limit of
+`limits.Limits.fingers`."""
+_PLAIN = Hold.of("american", "stick")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pose:
-    """Everything that moves at `time_s`: one `row` of numbers in the layout of `frame`, and views into it."""
+    """Everything that moves at `time_s`: one `row` of numbers in the layout of `frame`, and views into it.
+
+    `holds` are what the right and the left hand hold, and how.
+    """
 
     time_s: float
     row: NDArray[np.float64]
+    holds: tuple[Hold, Hold] = (_PLAIN, _PLAIN)
 
     @property
     def joints_m(self) -> NDArray[np.float64]:
@@ -100,7 +107,8 @@ class Pose:
 
         They open as the stick rises in the hand and close at the fulcrum for the stroke.
         """
-        return np.clip(1.0 - self.angles_rad[_STICKS] / OPEN_FINGERS_RAD, 0.0, 1.0)
+        closed = [hold.grip.lie.palm for hold in self.holds]
+        return np.clip(1.0 - (self.angles_rad[_STICKS] - closed) / OPEN_FINGERS_RAD, 0.0, 1.0)
 
     @property
     def footboard_rad(self) -> tuple[float, float]:

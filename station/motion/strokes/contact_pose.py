@@ -16,12 +16,12 @@ from station.core.pieces import Articulation, Limb, Piece
 from station.motion.kinematics.arm import Arm, ArmLengths, Contact, Offsets, solve
 from station.motion.kinematics.collisions import depth_in_kit
 from station.motion.kinematics.figure import Figure
+from station.motion.kinematics.grip import Grip, Hold, Lie
 from station.motion.kinematics.joint_limits import Limits
 from station.motion.kinematics.maths import MANY, ONE, Point
 from station.motion.kinematics.posture import natural_shoulder
 from station.motion.kit.kit import Kit
 from station.motion.kit.piece import RIM_ABOVE_HEAD_M, Target
-from station.motion.kinematics.grip import Grip, Hold, Lie
 from station.motion.strokes.hand_events import GRAB, SHOW, WAIT
 from station.motion.strokes.targets import Strike, laid_azimuth, target_of
 
@@ -31,7 +31,7 @@ _WINGS = np.radians(np.arange(0.0, 81.0, 8.0))
 _TURNS = np.radians(np.arange(-60.0, 61.0, 6.0))
 _EXTENSION_EASE, _DEVIATION_EASE = np.radians(25.0), np.radians(12.0)
 _NATURAL_WING, _WING_EASE = np.radians(12.0), np.radians(40.0)
-_TURN_EASE = np.radians(35.0)
+_TURN_EASE = np.radians(18.0)
 _SPARE, _BEYOND_EASE = np.radians(8.0), np.radians(1.0)
 """What is called comfortable: how far the wrist bends, the elbow leaves its place and the stick is turned from
 the grip's own way before each costs as much as the others; near its limits no wrist is comfortable, for strokes and styles need room (our
@@ -206,12 +206,12 @@ class _Slopes:
 
 
 def _slopes(lengths: ArmLengths, target: Target, hold: Hold, strike: Strike, length_m: float) -> _Slopes:
-    h, lie, ahead = lengths.hand, hold.grip.lie(), lengths.ahead
+    h, lie, ahead = lengths.hand, hold.grip.lie, lengths.ahead
     if strike.articulation == GRAB:
         return _Slopes(0.0, lengths.ahead, target.rise_rad, lie)
     if strike.articulation == Articulation.CROSS_STICK:
         laid = _LAID_AHEAD * length_m
-        return _Slopes(laid, ahead - laid, _LAID_RISE, hold.grip.lie(0.0), -hold.grip.roll)
+        return _Slopes(laid, ahead - laid, _LAID_RISE, hold.grip.flat, -hold.grip.roll)
     if target.shoulder:
         ahead -= SHOULDER_OF_STICK * length_m
     lean = math.atan2(

@@ -12,11 +12,11 @@ from station.core.labels import limb_name
 from station.core.pieces import Articulation, Limb, Piece, Zone, word
 from station.motion.kinematics.arm import Contact, Offsets, solve
 from station.motion.kinematics.figure import Figure
+from station.motion.kinematics.grip import Hold
 from station.motion.kinematics.maths import MANY, blocks
 from station.motion.kit.kit import Kit
 from station.motion.strokes.amplitudes import amplitudes, rebounds
 from station.motion.strokes.contact_pose import PROTRACTION_M, ContactPose, lie_of
-from station.motion.kinematics.grip import Hold
 from station.motion.strokes.hand_events import SHOW, WAIT, HandEvents
 from station.motion.strokes.stroke import NATURALLY, StrokePlan, Strokes
 from station.motion.strokes.targets import Strike

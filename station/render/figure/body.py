@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from station.motion.kinematics.figure import MEDIAN_STATURE_M, Figure
 from station.render.figure.face import face_meshes
 from station.render.figure.garments import Garment, bands, body_parts
-from station.render.figure.hand_solid import hand_surface
-from station.render.figure.skeleton import HEAD_M, Bone, Skeleton
+from station.render.figure.hand_solid import hand_skin
+from station.render.figure.skeleton import FINGERS, HEAD_M, Bone, Skeleton
 from station.render.geometry.implicit import Array, Field, Surface, surface
 from station.render.geometry.materials import Material
 from station.render.geometry.mesh import Mesh
@@ -42,7 +42,7 @@ def build_body(figure: Figure, fineness: float) -> Skin:
     parts = body_parts(skeleton, scale)
     whole = [part.field for part in parts]
     skins = [_part_skin(part, fineness * scale, whole) for part in parts]
-    skins += [_hand_skin(skeleton, scale, fineness, side) for side in (Bone.RIGHT_HAND, Bone.LEFT_HAND)]
+    skins += [_hand_skin(skeleton, fineness, side) for side in (Bone.RIGHT_HAND, Bone.LEFT_HAND)]
     segments = max(12, round(32 / fineness))
     for upper in (Bone.RIGHT_UPPER_ARM, Bone.LEFT_UPPER_ARM):
         skins += [_rigid_skin(mesh) for mesh in bands(skeleton, scale, upper, segments)]
@@ -81,20 +81,21 @@ def _open_sky(mesh: Surface, whole: Sequence[Field]) -> Array:
     return np.asarray(np.clip(1 - 0.62 * closed / sum(0.5**i for i in range(len(_AO_STEPS_M))) * 1.6, 0.15, 1))
 
 
-def _hand_skin(skeleton: Skeleton, scale: float, fineness: float, bone: Bone) -> Skin:
-    mesh = hand_surface(fineness)
-    position, normal, faces = mesh.position * scale, mesh.normal, mesh.faces
-    if bone is Bone.LEFT_HAND:
+def _hand_skin(skeleton: Skeleton, fineness: float, hand: Bone) -> Skin:
+    skin = hand_skin(fineness)
+    position, normal, faces = skin.position * skeleton.hand_scale, skin.normal, skin.faces
+    if hand is Bone.LEFT_HAND:
         mirror = np.array([-1.0, 1.0, 1.0])
         position, normal, faces = position * mirror, normal * mirror, faces[:, ::-1]
-    m = skeleton.frames[bone]
-    n = len(position)
+    m, n = skeleton.frames[hand], len(position)
     bones, weights = np.zeros((n, _INFLUENCES), np.uint8), np.zeros((n, _INFLUENCES))
-    bones[:, 0], weights[:, 0] = bone, 1.0
-    ao = np.clip(0.75 + 6 * position[:, 1] / scale, 0.35, 1)
+    strongest = np.argsort(-skin.weights, axis=1)
+    own = np.where(skin.bones > 0, FINGERS[hand] + skin.bones - 1, hand)
+    bones[:, :2] = np.take_along_axis(own, strongest, axis=1)
+    weights[:, :2] = np.take_along_axis(skin.weights, strongest, axis=1)
     turn = m[:3, :3].T
     return Skin(
-        position @ turn + m[:3, 3], normal @ turn, bones, weights, np.full(n, Material.SKIN, np.uint8), ao, faces
+        position @ turn + m[:3, 3], normal @ turn, bones, weights, np.full(n, Material.SKIN, np.uint8), skin.ao, faces
     )
 
 

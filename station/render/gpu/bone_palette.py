@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Limb, Piece
 from station.motion.kinematics.pose import Pose
-from station.render.figure.skeleton import LIMB_BONES, Bone, Skeleton
+from station.render.figure.skeleton import BONES, LIMB_BONES, Skeleton
 from station.render.geometry.transforms import Matrix
 from station.render.gpu.light_shader import MAX_BONES
 from station.render.kit import kit_rig
@@ -40,8 +40,8 @@ class BonePalette:
     def __init__(self, ctx: moderngl.Context, rig: KitRig, skeleton: Skeleton) -> None:
         self._rig, self._skeleton = rig, skeleton
         self.figure = rig.bone_count
-        self.double = self.figure + len(Bone)
-        self.double_sticks = self.double + len(Bone)
+        self.double = self.figure + BONES
+        self.double_sticks = self.double + BONES
         assert self.double_sticks + 2 <= MAX_BONES, "the kit has more pieces than a palette holds"
         self._matrices = np.tile(np.eye(4), (MAX_BONES, 1, 1))
         self._glow = np.zeros((MAX_BONES, 4), np.float32)

@@ -36,8 +36,8 @@ _GROUND = (0.060, 0.045, 0.040)
 _GHOST_OPACITY = 0.42
 """How opaque the student's double is where one looks straight at it (our choice: the demonstrator shows through)."""
 ANISOTROPY = 8.0
-_LIMBS = frozenset(bone for bones in LIMB_BONES.values() for bone in bones)
-_BUT_ARMS = frozenset(Bone) - {*LIMB_BONES[Limb.RIGHT_HAND], *LIMB_BONES[Limb.LEFT_HAND]}
+_LIMBS: frozenset[int] = frozenset(bone for bones in LIMB_BONES.values() for bone in bones)
+_BUT_ARMS: frozenset[int] = frozenset(Bone) - {*LIMB_BONES[Limb.RIGHT_HAND], *LIMB_BONES[Limb.LEFT_HAND]}
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,7 +159,7 @@ class SceneParts:
                 program[name] = unit_index
 
 
-def _some(ctx: moderngl.Context, skin: Skin, bones: Collection[Bone]) -> moderngl.Buffer:
+def _some(ctx: moderngl.Context, skin: Skin, bones: Collection[int]) -> moderngl.Buffer:
     """The faces that hang on some bones above all."""
     strongest: NDArray[np.uint8] = skin.bones[:, 0]
     return ctx.buffer(skin.faces[np.isin(strongest[skin.faces[:, 0]], list(bones))].tobytes())
