@@ -45,7 +45,7 @@ class Scene:
         self._bones = BonePalette(ctx, self.rig, self.skeleton)
         self._parts = SceneParts(ctx, self.rig, figure, quality)
         self._parts.ghost.skin.program["first_bone"] = self._bones.double
-        self._parts.ghost.rigid.program["first_bone"] = self._bones.double_sticks - self.rig.sticks[0]
+        self._parts.ghost.rigid.program["first_bone"] = self._bones.double_sticks - self.rig.sticks.start
         self._frame = BoneFrame()
         self._lit: dict[
             BoneFrame, set[Piece]
@@ -108,7 +108,7 @@ class Scene:
 
     def _draw_resting_shadows(self) -> None:
         self._begin_shadows()
-        _render(self._parts.rigid_depth, slice(0, self.rig.faces_of[self.rig.sticks[0]].start))
+        _render(self._parts.rigid_depth, slice(0, self.rig.faces_of[self.rig.sticks.start].start))
         if self.shows_figure:
             self._parts.resting_depth.render()
         self._resting_shadow = self.shows_figure
@@ -167,13 +167,13 @@ class Scene:
         if self._frame.double is None:
             return
         skin, rigid = self._parts.ghost.skin, self._parts.ghost.rigid
-        right, left = (self.rig.faces_of[bone] for bone in self.rig.sticks)
+        first, last = (self.rig.faces_of[bone] for bone in (self.rig.sticks[0], self.rig.sticks[-1]))
         self._aim(camera, viewport, skin, rigid)
         self._over_the_same()
         for seen in (False, True):
             target.color_mask = seen, seen, seen, seen
             skin.render()
-            _render(rigid, slice(right.start, left.stop))
+            _render(rigid, slice(first.start, last.stop))
 
     # --- OpenGL's state -----------------------------------------------------------------------------------------------
 

@@ -58,6 +58,8 @@ _SPREAD = ((0, 22, 26, 14, 0), (-5, 18, 24, 12, 0), (-14, 14, 22, 12, 0))
 """Middle, ring and little finger, quite closed and quite open, degrees."""
 _RELAXED = ((34, 22, 12, 12, -62), (4, 12, 14, 8, 0), (0, 12, 16, 9, 0), (-5, 14, 18, 10, 0), (-13, 16, 18, 10, 0))
 """A hand at rest; the skin is made in it."""
+_FLAT = ((34, 22, 12, 12, -62), (6, 4, 5, 3, 0), (0, 4, 5, 3, 0), (-6, 4, 5, 3, 0), (-15, 4, 6, 4, 0))
+"""A hand that plays the drum itself."""
 
 
 def bent(angles_deg: Array) -> Array:
@@ -150,7 +152,7 @@ _DIGITS: Mapping[str, tuple[tuple[tuple[int, ...], ...], tuple[tuple[int, ...], 
             ((39, 31, 60, 28, -91), (2, 62, 52, 26, 0), (0, 66, 52, 28, 0), (2, 70, 70, 36, 0), (6, 74, 78, 40, 0)),
             ((74, 37, 77, 15, -69), (6, 10, 14, 8, 0), (0, 14, 16, 8, 0), (-4, 30, 50, 24, 0), (-10, 40, 56, 28, 0)),
         ),
-        "bare": (_RELAXED, _RELAXED),
+        "bare": (_FLAT, _FLAT),
     }
 )
 """Closed, and open by `OPEN_FINGERS_RAD`, degrees. Thumbs, and the matched grips' index fingers, are as their bones and

@@ -10,7 +10,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from station.render.figure.hand_bones import BONES_M, DIGITS, JOINTS, RADII_M, REST
+from station.render.figure.hand_bones import BONES_M, DIGITS, JOINTS, KNUCKLES_M, RADII_M, REST
 from station.render.geometry.implicit import Array, Field, cone, egg, surface, united
 from station.render.geometry.materials import Material
 from station.render.geometry.mesh import lathe
@@ -19,6 +19,8 @@ _CELL_M = 0.0042
 _STRETCH_M = 0.006
 """How far beyond the nearest solid the other bone still pulls the palm's skin (our choice)."""
 _THUMB_BONE = 1
+_OVER_M = 0.0008
+"""So far the palm's skin lies over the roots of the fingers (our choice)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +39,8 @@ class HandSkin:
 def hand_skin(fineness: float) -> HandSkin:
     """The whole hand; `fineness` multiplies the size of its cells."""
     parts = [_palm(fineness)]
-    parts += [_phalanx(digit, joint, fineness) for digit in range(DIGITS) for joint in range(JOINTS)]
+    bones = [(digit, joint) for digit in range(DIGITS) for joint in range(JOINTS)]
+    parts += [_phalanx(digit, joint, fineness) for digit, joint in bones[_THUMB_BONE:]]
     starts = np.cumsum([0] + [len(part.position) for part in parts])
     return HandSkin(
         np.concatenate([part.position for part in parts]),
@@ -57,8 +60,13 @@ def _palm(fineness: float) -> HandSkin:
         cone((0.022, -0.001, 0.084), (-0.029, -0.005, 0.075), 0.0130, 0.0105),
     ]
     start, way = REST[0, :3, 3], REST[0, :3, 2]
-    ball = cone(start, start + 0.8 * BONES_M[0, 0] * way, 0.0165, 0.0125)
-    mesh = surface(united([*hand, ball], 0.020), (-0.06, -0.055, -0.04), (0.075, 0.035, 0.125), _CELL_M * fineness)
+    ball = cone(start, start + BONES_M[0, 0] * way, 0.0165, RADII_M[0, 1] + _OVER_M)
+    knuckles = [
+        cone(0.75 * knuckle, knuckle, radius, radius + _OVER_M)
+        for knuckle, radius in zip(KNUCKLES_M[1:], RADII_M[1:, 0], strict=True)
+    ]
+    whole = united([united([*hand, ball], 0.020), *knuckles], 0.008)
+    mesh = surface(whole, (-0.06, -0.055, -0.04), (0.075, 0.035, 0.125), _CELL_M * fineness)
     p = mesh.position
     nearer = np.min([field(p) for field in hand], axis=0) - ball(p)
     thumb = 1 / (1 + np.exp(-nearer / _STRETCH_M))

@@ -6,15 +6,12 @@ Sizes come from the kit; what a kit file does not say (hoops, lugs, bells) has t
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from station.motion.kit.piece import BELL_ABOVE_BOW_M, RIM_ABOVE_HEAD_M
 from station.render.geometry.materials import Material
 from station.render.geometry.mesh import Mesh, box, joined, lathe, rod
 from station.render.geometry.transforms import rotation, translation
 
-STICK_M = 0.406
-"""A 5A stick (HUMANS, Kit); longer or shorter ones are stretched."""
 HAT_GAP_M = 0.006
 """How far the lower hi-hat's edge lies below the upper one's plane when closed."""
 _HOOP_M = 0.010
@@ -185,23 +182,3 @@ def block(radius: float, depth: float) -> Mesh:
     """A cowbell or wood block: a box as wide as the piece, its top at z = 0."""
     mesh = box((1.3 * radius, 2 * radius, depth), Material.BLACK, 0.006)
     return mesh.moved(translation([0, 0, -depth / 2]))
-
-
-def stick(length: float) -> Mesh:
-    """A 5A stick along z: butt at 0, tip at `length`; taper and acorn tip after a common 5A's drawing."""
-    r = 0.0072
-    profile: NDArray[np.float64] = np.array(
-        [
-            (0.0, 0.0),
-            (r * 0.8, 0.001),
-            (r, 0.006),
-            (r, length * 0.72),
-            (r * 0.62, length * 0.93),
-            (r * 0.40, length - 0.014),
-            (r * 0.62, length - 0.009),
-            (r * 0.60, length - 0.005),
-            (r * 0.35, length - 0.001),
-            (0.0, length),
-        ]
-    )
-    return lathe(profile, 10, Material.WOOD)

@@ -15,8 +15,9 @@ from station.motion.kinematics.pose import Pose
 from station.motion.kit.kit import Kit
 from station.motion.kit.piece import KitPiece
 from station.render.geometry.mesh import Mesh, joined
-from station.render.geometry.transforms import Matrix, frames, rotation_at, translation
+from station.render.geometry.transforms import Matrix, rotation_at, translation
 from station.render.kit import hardware, instrument_meshes
+from station.render.kit.held_meshes import HELD_BONES, held_matrices, held_meshes
 from station.render.kit.instrument_meshes import Detail
 from station.render.kit.pedal_meshes import axle_of, pedal_meshes, pedals_by_foot, raised
 from station.render.kit.room import Disc
@@ -28,7 +29,7 @@ _RACK_LUGS = 6
 
 @dataclass(frozen=True)
 class KitRig:
-    """`mesh` in the pose of rest, and the bone of each moving part.
+    """`mesh` in the pose of rest, and the bone of each moving part; `sticks` of all that hands may hold.
 
     The mesh's faces lie bone by bone, `faces_of` tells where; the first `still_faces` hardly ever move: hardware and
     drums, which shake by less than a degree.
@@ -39,7 +40,7 @@ class KitRig:
     piece_bones: dict[Piece, int]
     boards: tuple[int, int]
     beater: int
-    sticks: tuple[int, int]
+    sticks: range
     axle_m: NDArray[np.float64]
     bone_count: int
     faces_of: dict[int, slice]
@@ -58,7 +59,7 @@ def kit_mesh(kit: Kit, detail: Detail) -> Mesh:
     parts += [hardware.stands(kit, p, detail) for p in kit.pieces.values()]
     parts += pedal_meshes(kit, bones.boards, bones.beater, axle_of(kit))
     parts.append(hardware.throne(kit.seat_m, detail))
-    parts += [instrument_meshes.stick(instrument_meshes.STICK_M).on_bone(bone) for bone in bones.sticks]
+    parts += held_meshes(bones.sticks.start, detail.segments)
     return _bone_by_bone(joined(parts), bones.still)
 
 
@@ -66,7 +67,7 @@ def rig_of(kit: Kit, mesh: Mesh) -> KitRig:
     """The rig of what `kit_mesh` has made of `kit`."""
     bones, faces_of = _bones(kit), _faces_of(mesh)
     still_faces = max(faces_of[bone].stop for bone in bones.still)
-    count = bones.sticks[1] + 1
+    count = bones.sticks.stop
     return KitRig(
         kit, mesh, bones.of, bones.boards, bones.beater, bones.sticks, axle_of(kit), count, faces_of, still_faces
     )
@@ -79,7 +80,7 @@ class _Bones:
     of: dict[Piece, int]
     boards: tuple[int, int]
     beater: int
-    sticks: tuple[int, int]
+    sticks: range
     still: list[int]
 
 
@@ -87,7 +88,7 @@ def _bones(kit: Kit) -> _Bones:
     of = {piece: 1 + i for i, piece in enumerate(kit.pieces)}
     first = 1 + len(of)
     still = [WORLD, *(of[p.piece] for p in kit.pieces.values() if p.kind not in _SWINGING)]
-    return _Bones(of, (first, first + 1), first + 2, (first + 3, first + 4), still)
+    return _Bones(of, (first, first + 1), first + 2, range(first + 3, first + 3 + 2 * HELD_BONES), still)
 
 
 _SWINGING = ("cymbal", "hihat")
@@ -133,7 +134,7 @@ def bone_matrices(rig: KitRig, pose: Pose | None) -> Matrix:
     """A matrix for every bone of the rig, (bones, 4, 4); without a pose the kit is at rest and the sticks are away."""
     m = np.tile(np.eye(4), (rig.bone_count, 1, 1))
     if pose is None:
-        m[list(rig.sticks)] = 0.0
+        m[rig.sticks] = 0.0
         return m
     for (piece, bone), swing in zip(rig.piece_bones.items(), pose.swing_rad, strict=True):
         part = rig.kit.pieces[piece]
@@ -144,7 +145,7 @@ def bone_matrices(rig: KitRig, pose: Pose | None) -> Matrix:
     for bone, pedal, angle in zip(rig.boards, pedals_by_foot(rig.kit), pose.footboard_rad, strict=True):
         m[bone] = raised(pedal, angle)
     m[rig.beater] = rotation_at(rig.axle_m, [1, 0, 0], pose.beater_rad)
-    m[list(rig.sticks)] = stick_matrices(pose)
+    m[rig.sticks] = held_matrices(pose, rig.kit)
     return m
 
 
@@ -155,14 +156,6 @@ def _tipped(piece: KitPiece, back_rad: float, side_rad: float) -> Matrix:
     m = np.eye(4)
     m[:3, :3] = piece.axes.T @ own @ piece.axes
     m[:3, 3] = piece.centre - m[:3, :3] @ piece.centre
-    return m
-
-
-def stick_matrices(pose: Pose) -> Matrix:
-    """The matrices of the right and the left stick, (2, 4, 4)."""
-    along = pose.tip_m - pose.butt_m
-    m = frames(pose.butt_m, along, np.tile([1.0, 0.0, 0.0], (2, 1)))
-    m[:, :3, 2] *= np.linalg.norm(along, axis=1, keepdims=True) / instrument_meshes.STICK_M
     return m
 
 
