@@ -24,7 +24,7 @@ FACING, HEAD_UP = slice(81, 84), slice(84, 87)
 ANGLES, BOARDS = slice(87, 115), slice(115, 117)
 BEATER, GAP, EYES = 117, 118, 119
 PLAYED = 120
-"""Where the instruments' four numbers each begin."""
+"""Where the instruments' numbers begin, `instruments.NUMBERS` each."""
 
 STAND_M = (0.10, 0.30)
 """How far forward and up the pelvis goes to stand (our choice)."""

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from station.motion.kinematics import frame
 from station.motion.kinematics.grip import Hold
+from station.motion.kit.instruments import NUMBERS
 
 RIGHT, LEFT = 0, 1
 
@@ -134,9 +135,18 @@ class Pose:
     @property
     def swing_rad(self) -> NDArray[np.float64]:
         """How far each piece, in `Kit.pieces`' order, has tipped about its own right and away axes, (pieces, 2)."""
-        return self.row[frame.PLAYED :].reshape(-1, 4)[:, :2]
+        return self._played[:, :2]
 
     @property
     def flash(self) -> NDArray[np.float64]:
         """How brightly each piece's last stroke still shows, (pieces,) 0 … 1."""
-        return self.row[frame.PLAYED + 2 :: 4]
+        return self._played[:, 2]
+
+    @property
+    def ripple(self) -> NDArray[np.float64]:
+        """How each head gives way, (pieces, 4): metres, where it was struck along right and away, seconds since."""
+        return self._played[:, 3:]
+
+    @property
+    def _played(self) -> NDArray[np.float64]:
+        return self.row[frame.PLAYED :].reshape(-1, NUMBERS)

@@ -14,9 +14,10 @@ from station.core.pieces import Piece
 from station.motion.kinematics.pose import Pose
 from station.motion.kit.kit import Kit
 from station.motion.kit.piece import KitPiece
+from station.render.geometry.materials import Material
 from station.render.geometry.mesh import Mesh, joined
 from station.render.geometry.transforms import Matrix, rotation_at, translation
-from station.render.kit import hardware, instrument_meshes
+from station.render.kit import hardware, instrument_meshes, pad_meshes
 from station.render.kit.held_meshes import HELD_BONES, held_matrices, held_meshes
 from station.render.kit.instrument_meshes import Detail
 from station.render.kit.pedal_meshes import axle_of, pedal_meshes, pedals_by_foot, raised
@@ -55,10 +56,10 @@ def build_kit(kit: Kit, detail: Detail) -> KitRig:
 def kit_mesh(kit: Kit, detail: Detail) -> Mesh:
     """The mesh of `build_kit` alone: all else follows from it at once."""
     bones = _bones(kit)
-    parts = [_piece_mesh(p, detail).moved(_place(p)).on_bone(bones.of[p.piece]) for p in kit.pieces.values()]
-    parts += [hardware.stands(kit, p, detail) for p in kit.pieces.values()]
+    shell = _SHELLS[kit.finish]
+    parts = [_piece_mesh(p, detail, shell).moved(_place(p)).on_bone(bones.of[p.piece]) for p in kit.pieces.values()]
+    parts += hardware.hardware(kit, detail)
     parts += pedal_meshes(kit, bones.boards, bones.beater, axle_of(kit))
-    parts.append(hardware.throne(kit.seat_m, detail))
     parts += held_meshes(bones.sticks.start, detail.segments)
     return _bone_by_bone(joined(parts), bones.still)
 
@@ -117,14 +118,23 @@ def _place(piece: KitPiece) -> Matrix:
     return m
 
 
-def _piece_mesh(piece: KitPiece, detail: Detail) -> Mesh:
-    if piece.kind == "kick":
-        return instrument_meshes.kick(piece.radius_m, piece.depth_m, detail)
-    if piece.kind in ("cymbal", "hihat"):
-        return instrument_meshes.cymbal(piece.radius_m, detail)
+_SHELLS = {"teal": Material.SHELL, "maple": Material.MAPLE, "black": Material.LACQUER}
+
+
+def _piece_mesh(piece: KitPiece, detail: Detail, shell: Material) -> Mesh:
+    radius, depth = piece.radius_m, piece.depth_m
     if piece.kind == "block":
-        return instrument_meshes.block(piece.radius_m, piece.depth_m)
-    return instrument_meshes.drum(piece.radius_m, piece.depth_m, _LUGS.get(piece.piece, _RACK_LUGS), detail)
+        return instrument_meshes.block(radius, depth)
+    if piece.kind in ("cymbal", "hihat"):
+        if piece.electronic:
+            return pad_meshes.rubber_cymbal(radius, detail)
+        mesh = instrument_meshes.cymbal(radius, detail, is_china=piece.piece is Piece.CHINA)
+        return joined([mesh, instrument_meshes.nut(detail)]) if piece.kind == "hihat" else mesh
+    if piece.electronic:
+        return (pad_meshes.kick_pad if piece.kind == "kick" else pad_meshes.pad)(radius, depth, detail)
+    if piece.kind == "kick":
+        return instrument_meshes.kick(radius, depth, detail, shell)
+    return instrument_meshes.drum(radius, depth, _LUGS.get(piece.piece, _RACK_LUGS), detail, shell)
 
 
 # --- posing -----------------------------------------------------------------------------------------------------------
@@ -140,7 +150,7 @@ def bone_matrices(rig: KitRig, pose: Pose | None) -> Matrix:
         part = rig.kit.pieces[piece]
         if swing[0] or swing[1]:
             m[bone] = _tipped(part, float(swing[0]), float(swing[1]))
-        if part.kind == "hihat":
+        if part.kind == "hihat" and not part.electronic:
             m[bone] = translation(part.normal * pose.hat_gap_m) @ m[bone]
     for bone, pedal, angle in zip(rig.boards, pedals_by_foot(rig.kit), pose.footboard_rad, strict=True):
         m[bone] = raised(pedal, angle)
@@ -150,12 +160,13 @@ def bone_matrices(rig: KitRig, pose: Pose | None) -> Matrix:
 
 
 def _tipped(piece: KitPiece, back_rad: float, side_rad: float) -> Matrix:
-    """A turn about the piece's away axis, then about its right axis, its centre staying where it is."""
+    """A turn about the piece's away axis, then about its right axis, round a cymbal's hole or a drum's centre."""
     (ca, sa), (cb, sb) = ((cos(angle), sin(angle)) for angle in (back_rad, side_rad))
     own = np.array([[cb, 0.0, sb], [sa * sb, ca, -sa * cb], [-ca * sb, sa, ca * cb]])
     m = np.eye(4)
     m[:3, :3] = piece.axes.T @ own @ piece.axes
-    m[:3, 3] = piece.centre - m[:3, :3] @ piece.centre
+    at = piece.centre + instrument_meshes.HOLE_M * piece.normal if piece.kind in _SWINGING else piece.centre
+    m[:3, 3] = at - m[:3, :3] @ at
     return m
 
 

@@ -10,7 +10,7 @@ from station.motion.kinematics.pose import LEFT, RIGHT, Pose
 from station.motion.kit.kit import load_kit
 from station.render.geometry.materials import Material
 from station.render.kit.held_meshes import HELD_BONES, STICK_M
-from station.render.kit.instrument_meshes import Detail, cymbal, drum
+from station.render.kit.instrument_meshes import HOLE_M, Detail, cymbal, drum
 from station.render.kit.kit_rig import WORLD, KitRig, bone_matrices, build_kit, floor_discs
 from tests.unit.render.poses import pose_of
 
@@ -72,7 +72,8 @@ def test_a_struck_cymbal_tips_about_its_own_axes() -> None:
     swing = np.zeros((len(KIT.pieces), 2))
     swing[index, 0] = 0.1
     still, tipped = (corners(RIG, RIG.piece_bones[Piece.CRASH_1], pose(swing_rad=s)) for s in (swing * 0, swing))
-    centre = KIT.pieces[Piece.CRASH_1].centre
+    crash = KIT.pieces[Piece.CRASH_1]
+    centre = crash.centre + HOLE_M * crash.normal  # where it hangs
     assert np.allclose(np.linalg.norm(tipped - centre, axis=1), np.linalg.norm(still - centre, axis=1))
     assert np.abs(tipped - still).max() == pytest.approx(0.1 * KIT.pieces[Piece.CRASH_1].radius_m, rel=0.05)
 
