@@ -14,6 +14,7 @@ from station.render.geometry.mesh import Mesh, ball, box, joined, lathe, rod, tu
 from station.render.geometry.transforms import frame, translation, unit
 from station.render.kit import instrument_meshes
 from station.render.kit.instrument_meshes import Detail
+from station.render.kit.pedal_meshes import TUBE_M, legs_turn
 
 _FLOOR_TOMS = frozenset({Piece.FLOOR_TOM_1, Piece.FLOOR_TOM_2})
 _POLE_M = 0.0125
@@ -32,7 +33,7 @@ def stands(kit: Kit, piece: KitPiece, detail: Detail) -> Mesh:
     if piece.piece in _FLOOR_TOMS:
         return _legs(piece, n)
     if piece.piece is Piece.SNARE:
-        return _snare_stand(piece, n)
+        return _snare_stand(kit, piece, n)
     return _tom_holder(kit, piece, n)
 
 
@@ -75,12 +76,11 @@ def _hat_stand(kit: Kit, piece: KitPiece, detail: Detail, segments: int) -> Mesh
     low = top - normal * instrument_meshes.HAT_GAP_M
     parts = [
         instrument_meshes.hat_bottom(piece.radius_m, detail).moved(frame(low, normal, piece.axes[0])),
-        *_tripod(x, y, 0.26, 0.26, segments, turn=2.2),
-        rod([x, y, 0.03], [x, y, low[2] - 0.05], _POLE_M, Material.CHROME, segments),
+        *_tripod(x, y, 0.26, 0.30, segments, turn=legs_turn(kit, x, y, 0.26)),
+        rod([x, y, TUBE_M], [x, y, low[2] - 0.05], _POLE_M, Material.CHROME, segments),
         lathe([(0, 0), (0.03, 0.0), (0.03, 0.014), (0, 0.014)], 14, Material.FELT).moved(
             translation([x, y, low[2] - 0.052])
         ),
-        rod([x, y, low[2] - 0.05], top + normal * 0.20, 0.0042, Material.STEEL, segments),
     ]
     return joined(parts)
 
@@ -113,12 +113,16 @@ def _legs(piece: KitPiece, segments: int) -> Mesh:
     return joined(parts)
 
 
-def _snare_stand(piece: KitPiece, segments: int) -> Mesh:
+_SNARE_LEGS_M = 0.20
+"""A snare stand's legs reach so far out: between the pedals there is no more room (our choice)."""
+
+
+def _snare_stand(kit: Kit, piece: KitPiece, segments: int) -> Mesh:
     right, away, normal = piece.axes
     under = piece.centre - normal * (piece.depth_m + 0.015)
     hub = under - normal * 0.10
     x, y = float(hub[0]), float(hub[1])
-    parts = _tripod(x, y, 0.24, 0.24, segments, turn=1.2)
+    parts = _tripod(x, y, _SNARE_LEGS_M, 0.24, segments, turn=legs_turn(kit, x, y, _SNARE_LEGS_M))
     parts.append(rod([x, y, 0.10], hub, _POLE_M, Material.CHROME, segments))
     for k in range(3):
         a = np.pi / 2 + 2 * np.pi * k / 3

@@ -8,17 +8,16 @@ from dataclasses import dataclass, replace
 from math import cos, sin
 
 import numpy as np
-from numpy.typing import NDArray
 
 from station.core.pieces import Piece
 from station.motion.kinematics.pose import Pose
 from station.motion.kit.kit import Kit
 from station.motion.kit.piece import KitPiece
 from station.render.geometry.mesh import Mesh, joined
-from station.render.geometry.transforms import Matrix, frames, rotation_at, translation
+from station.render.geometry.transforms import Matrix, frames, translation
 from station.render.kit import hardware, instrument_meshes
 from station.render.kit.instrument_meshes import Detail
-from station.render.kit.pedal_meshes import axle_of, pedal_meshes, pedals_by_foot, raised
+from station.render.kit.pedal_meshes import PedalBones, clutch_foot, pedal_matrices, pedal_meshes
 from station.render.kit.room import Disc
 
 WORLD = 0
@@ -37,10 +36,8 @@ class KitRig:
     kit: Kit
     mesh: Mesh
     piece_bones: dict[Piece, int]
-    boards: tuple[int, int]
-    beater: int
+    pedals: PedalBones
     sticks: tuple[int, int]
-    axle_m: NDArray[np.float64]
     bone_count: int
     faces_of: dict[int, slice]
     still_faces: int
@@ -56,7 +53,8 @@ def kit_mesh(kit: Kit, detail: Detail) -> Mesh:
     bones = _bones(kit)
     parts = [_piece_mesh(p, detail).moved(_place(p)).on_bone(bones.of[p.piece]) for p in kit.pieces.values()]
     parts += [hardware.stands(kit, p, detail) for p in kit.pieces.values()]
-    parts += pedal_meshes(kit, bones.boards, bones.beater, axle_of(kit))
+    parts += pedal_meshes(kit, bones.pedals)
+    parts += [clutch_foot(p).on_bone(bones.of[p.piece]) for p in kit.pieces.values() if p.kind == "hihat"]
     parts.append(hardware.throne(kit.seat_m, detail))
     parts += [instrument_meshes.stick(instrument_meshes.STICK_M).on_bone(bone) for bone in bones.sticks]
     return _bone_by_bone(joined(parts), bones.still)
@@ -67,9 +65,7 @@ def rig_of(kit: Kit, mesh: Mesh) -> KitRig:
     bones, faces_of = _bones(kit), _faces_of(mesh)
     still_faces = max(faces_of[bone].stop for bone in bones.still)
     count = bones.sticks[1] + 1
-    return KitRig(
-        kit, mesh, bones.of, bones.boards, bones.beater, bones.sticks, axle_of(kit), count, faces_of, still_faces
-    )
+    return KitRig(kit, mesh, bones.of, bones.pedals, bones.sticks, count, faces_of, still_faces)
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,8 +73,7 @@ class _Bones:
     """The numbers of a kit's bones: `of` its pieces, and the `still` ones, whose faces lie first."""
 
     of: dict[Piece, int]
-    boards: tuple[int, int]
-    beater: int
+    pedals: PedalBones
     sticks: tuple[int, int]
     still: list[int]
 
@@ -87,7 +82,8 @@ def _bones(kit: Kit) -> _Bones:
     of = {piece: 1 + i for i, piece in enumerate(kit.pieces)}
     first = 1 + len(of)
     still = [WORLD, *(of[p.piece] for p in kit.pieces.values() if p.kind not in _SWINGING)]
-    return _Bones(of, (first, first + 1), first + 2, (first + 3, first + 4), still)
+    pedals = PedalBones.of(first)
+    return _Bones(of, pedals, (pedals[-1] + 1, pedals[-1] + 2), still)
 
 
 _SWINGING = ("cymbal", "hihat")
@@ -141,9 +137,7 @@ def bone_matrices(rig: KitRig, pose: Pose | None) -> Matrix:
             m[bone] = _tipped(part, float(swing[0]), float(swing[1]))
         if part.kind == "hihat":
             m[bone] = translation(part.normal * pose.hat_gap_m) @ m[bone]
-    for bone, pedal, angle in zip(rig.boards, pedals_by_foot(rig.kit), pose.footboard_rad, strict=True):
-        m[bone] = raised(pedal, angle)
-    m[rig.beater] = rotation_at(rig.axle_m, [1, 0, 0], pose.beater_rad)
+    m[list(rig.pedals)] = pedal_matrices(rig.kit, pose)
     m[list(rig.sticks)] = stick_matrices(pose)
     return m
 
@@ -177,7 +171,7 @@ def floor_discs(kit: Kit) -> list[Disc]:
             discs += [(x, y, z, piece.radius_m * 0.8), (x, y, 0.02, 0.06)]
         else:
             discs.append((x, y, max(z - piece.depth_m, 0.05), piece.radius_m))
-    for pedal in kit.pedals.values():
+    for pedal in (*kit.pedals.values(), *([kit.slave] if kit.slave else [])):
         heel, toe = np.array(pedal.heel_m), np.array(pedal.toe_m)
         discs += [(*(heel + (toe - heel) * k)[:2].tolist(), 0.02, 0.05) for k in (0.1, 0.5, 0.9)]
     return discs

@@ -101,7 +101,7 @@ def test_a_missing_piece_has_a_stand_in(piece: Piece, played: Piece) -> None:
         ('kind = "hihat"', 'kind = "hat"', '"hat"', "hihat.kind: expected drum, cymbal, hihat, kick or block"),
         ("[-0.07, 0.45, 0.66]", "[-0.07, 0.45]", "[-0.07, 0.45]", "snare.centre_m: expected [right, forward, up]"),
         ("depth_m = 0.14", "deep_m = 0.14", "deep_m = 0.14", "no such key: deep_m; did you mean depth_m?"),
-        ("[pedals.kick]", "[pedals.drum]", "[pedals.drum]", "no such key: drum; there are kick, hihat"),
+        ("[pedals.kick]", "[pedals.drum]", "[pedals.drum]", "no such key: drum; there are kick, hihat, slave"),
         ("[0.20, 0.71, 0.03]", "[0.20, 0.44, 0.03]", "[0.20, 0.44", "pedals.kick.toe_m: the toe end is 0.00 m from"),
         ("[-0.42, 0.62, 0.86]", "[-0.07, 0.46, 0.67]", "[-0.07, 0.46, 0.67]", "hihat.centre_m: overlaps the snare"),
         ("[-0.02, 0.80, 0.80]", "[0.45, 0.38, 0.58]", "[0.55, 0.38, 0.62]", "floor_tom_1.centre_m: overlaps the tom_1"),
@@ -141,5 +141,6 @@ def test_the_mirrored_kit_is_the_left_handed_one_and_mirrored_again_itself() -> 
             for limb in (Limb.RIGHT_HAND, Limb.LEFT_HAND):
                 assert here.target(zone, limb).point_m == pytest.approx(there.target(zone, limb).point_m, abs=1e-12)
     assert right.mirrored.pedals == left.pedals
+    assert right.mirrored.slave == left.slave
     seven = load_kit("seven_piece")
     assert seven.mirrored.mirrored == seven
