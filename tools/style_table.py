@@ -169,6 +169,7 @@ EFFECTS = {
     "amplitude_twist": Effect("twist's extent, °", extent("torso_twist"), _TURNS, _SWAYING),
     "twist_deg_s": Effect("twist's top speed, °/s", speed("torso_twist"), _SWINGS, Style(amplitude_twist=100.0)),
     "amplitude_gaze": Effect("head turn's extent, °", extent("head_turn"), _TURNS, Style(amplitude_twist=0.0)),
+    "amplitude_heel": Effect("left ankle's rise, cm", _height(Joint.LEFT_ANKLE, np.ptp), _GROOVE),
     "shrug": Effect("shoulder's rise, cm", _height(Joint.RIGHT_SHOULDER, np.ptp), _STROKES),
     "breathing": Effect("shoulder's rise, cm", _height(Joint.RIGHT_SHOULDER, np.ptp), _STROKES),
     "wing_deg": Effect("elbow outward, cm", _aside, _STROKES),

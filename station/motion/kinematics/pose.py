@@ -113,7 +113,7 @@ class Pose:
 
     @property
     def footboard_rad(self) -> tuple[float, float]:
-        """How far the boards under the right and the left foot are raised over flat."""
+        """How far the boards at which the right and the left foot are at home are raised over flat."""
         right, left = self.row[frame.BOARDS].tolist()
         return right, left
 
@@ -121,6 +121,11 @@ class Pose:
     def beater_rad(self) -> float:
         """The kick beater's angle back from the head, which it touches at 0."""
         return self.row.item(frame.BEATER)
+
+    @property
+    def slave_rad(self) -> tuple[float, float]:
+        """The slave board of a double pedal, raised over flat, and its beater's angle back from the head."""
+        return self.row.item(frame.SLAVE_BOARD), self.row.item(frame.SLAVE_BEATER)
 
     @property
     def hat_gap_m(self) -> float:

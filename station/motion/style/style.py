@@ -73,6 +73,7 @@ class Style:
     amplitude_twist: float = NATURAL
     twist_deg_s: float = 80.0
     amplitude_gaze: float = NATURAL
+    amplitude_heel: float = NATURAL
     shrug: float = 20.0
     breathing: float = NATURAL
     wing_deg: float = 0.0

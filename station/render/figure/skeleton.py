@@ -73,6 +73,7 @@ _THIRD = _FIRST + np.array([3, 3, 2, 2])
 _TRUNK = slice(Bone.WAIST, Bone.HEAD + 1)
 _TRUNK_FROM = np.array([Joint.PELVIS, Joint.SPINE, Joint.NECK, Joint.HEAD])
 _TRUNK_TO = np.array([Joint.SPINE, Joint.NECK, Joint.HEAD, Joint.CROWN])
+_UP = np.array([[0.0, 0.0, 1.0]])
 EYE_HEIGHT = 0.098
 """Where the eyes are above the joint of head and neck, in metres for `HEAD_M`."""
 HEAD_M = 0.2146
@@ -142,7 +143,7 @@ def bone_frames(stance: Stance) -> Matrix:
     origin[_SECOND], along[_SECOND], side[_SECOND] = b, second, hinge
     origin[_TWIST], along[_TWIST], side[_TWIST] = b[:2], second[:2], palm[0]
     origin[_THIRD], along[_THIRD] = c, third
-    side[_THIRD[:2]], side[_THIRD[2:]] = palm[1], hinge[2:]
+    side[_THIRD[:2]], side[_THIRD[2:]] = palm[1], cross(third[2:], _UP)  # soles lie flat, wherever the knees point
     found = frames(origin, along, side)
     found[_HANDS, :3, :3] = found[_HANDS, :3, :3] @ stance.hands
     return found

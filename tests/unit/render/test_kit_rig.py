@@ -30,7 +30,7 @@ def corners(rig: KitRig, bone: int, at: Pose | None) -> NDArray[np.float64]:
 
 def test_at_angle_zero_the_beater_touches_the_head_and_no_more() -> None:
     head_y = KIT.pieces[Piece.KICK].centre_m[1]
-    struck, back = (corners(RIG, RIG.beater, pose(beater_rad=angle)) for angle in (0.0, 0.8))
+    struck, back = (corners(RIG, RIG.pedals.beater, pose(beater_rad=angle)) for angle in (0.0, 0.8))
     assert struck[:, 1].max() == pytest.approx(head_y, abs=1e-9)
     touching = struck[:, 1].argmax()
     assert back[touching, 1] < head_y - 0.1, "drawn back towards the player"
@@ -54,8 +54,8 @@ def test_without_a_drummer_no_stick_is_seen() -> None:
 
 def test_a_raised_footboard_turns_about_its_heel() -> None:
     pedal = KIT.pedals[Piece.KICK]
-    flat = corners(RIG, RIG.boards[RIGHT], pose())
-    raised = corners(RIG, RIG.boards[RIGHT], pose(footboard_rad=(0.35, 0.0)))
+    flat = corners(RIG, RIG.pedals.right_board, pose())
+    raised = corners(RIG, RIG.pedals.right_board, pose(footboard_rad=(0.35, 0.0)))
     assert raised[:, 2].max() > flat[:, 2].max() + 0.05
     heel = np.linalg.norm(flat - pedal.heel_m, axis=1).argmin()
     assert np.linalg.norm(raised[heel] - flat[heel]) < 0.02
