@@ -47,6 +47,8 @@ _TAP_GAP_S, _TAP_HEIGHT_M, _TAP_WANTED_M, _GAP_GROWTH = 0.15, 0.05, 0.15, 3.0
 """At the 6–7 strokes a second that a trained hand keeps up (HUMANS: 5–7 Hz) a stroke of 15 cm comes from 5 cm, a fast
 tap (3–6 cm, our choice: no published height at that rate is known). At four a second marching hands still play accents
 from 12 inches: from the one to the other the height grows with this power of the time."""
+_REBOUND_GAP_S = 0.17
+"""A rebound has room for all of its height in this time and for less in proportion (our choice)."""
 _REBOUND_IN_REST = 0.6
 _SHORT_REST = 0.5
 """Where strokes are near, the rest after a stroke is shortened to this share before the preparation is."""
@@ -126,8 +128,9 @@ class Strokes:
         gaps = np.concatenate(([_LONG_S], np.diff(strike_s), [_LONG_S]))
         own = np.where(plan.rebounds, sliders.gain[3:], sliders.gain)  # one motion of all joints
         room = most_height_m(gaps[:-1], own * height_m) / np.maximum(height_m, _LEAST_HEIGHT_M)
-        room = np.where(plan.rebounds, own * gaps[:-1] / _TAP_GAP_S, room)  # the head has thrown these up already
-        gain = np.minimum(np.minimum(own, room), plan.most)
+        room = np.where(plan.rebounds, own * gaps[:-1] / _REBOUND_GAP_S, room)  # the head has thrown these up already
+        gain = np.broadcast_to(np.minimum(np.minimum(own, room), plan.most), plan.amplitude.shape)
+        gain = np.where(plan.rebounds, np.minimum(gain, np.roll(gain, 1, axis=1)), gain)
         peak = np.minimum(plan.amplitude * gain, plan.ceiling)
         times, merged = _times(strike_s, gaps, np.maximum(height_m * gain.mean(0), _LEAST_HEIGHT_M), sliders)
         merged[:, plan.rebounds] = 1.0
