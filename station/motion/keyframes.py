@@ -27,6 +27,7 @@ from station.motion.strokes.flourish import NOTHING, Flourishes, Now, flourished
 from station.motion.strokes.hand import HandPart
 from station.motion.strokes.stroke import Sliders, Strokes
 from station.motion.strokes.travel import HandPath
+from station.motion.strokes.variation import spots, varied
 from station.motion.style.style import Style
 from station.music.score import Score
 
@@ -143,8 +144,10 @@ READS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "strokes": (
             *("amplitude_gain", "amplitude_wrist", "amplitude_elbow", "amplitude_shoulder", "amplitude_fingers"),
             *("frequency_gain", "frequency_wrist", "frequency_elbow", "frequency_shoulder", "whip", "pieces"),
+            *("variation", "seed"),
             *(word(piece) for piece in Piece),
         ),
+        "way": ("variation", "seed"),
         "flourishes": ("flourish", "seed"),
         "body": (
             *("amplitude_twist", "amplitude_back", "frequency_back", "amplitude_side", "half_time_bpm"),
@@ -173,7 +176,18 @@ def _hand(plan: MotionPlan, part: HandPart, style: Style, old: HandKeys | None, 
         old.strokes if old and "strokes" in same else Strokes.of(part.strokes, sliders(plan.score, part, style, bars))
     )
     flourishes = old.flourishes if old and "flourishes" in same else _flourishes(part, style, bars)
-    return HandKeys(part.way, strokes, flourishes, part.show, _sweeps(plan, part, strokes))
+    way = old.way if old and "way" in same else _way(plan, part, style, bars)
+    return HandKeys(way, strokes, flourishes, part.show, _sweeps(plan, part, strokes))
+
+
+def _way(plan: MotionPlan, part: HandPart, style: Style, bars: Array) -> HandPath:
+    """The hand's way, every strike as near to its aim as chance has it."""
+    amount = style.factor("variation", bars)
+    if not amount.any() or not len(part.events.row):
+        return part.way
+    contacts = part.contacts.copy()
+    contacts[:, :3] += spots(plan.kit, part.events, amount, (style.seed, int(part.limb)))
+    return HandPath.of(part.events.time_s, contacts, part.bump, part.early, part.gives)
 
 
 def _sweeps(plan: MotionPlan, part: HandPart, strokes: Strokes) -> Sweeps | None:
@@ -211,7 +225,9 @@ def sliders(score: Score, hand: HandPart, style: Style, bars: Array) -> Sliders:
         struck = score.notes["piece"][hand.events.row]
         for piece in style.own_pieces:
             gain = gain * np.where(struck == piece, style.piece_factor(piece, bars), 1.0)
-    return Sliders(gain, _pace(np.array(paces)), style.factor("whip", bars)[None])
+    found = Sliders(gain, _pace(np.array(paces)), style.factor("whip", bars)[None])
+    amount = style.factor("variation", bars)
+    return varied(found, hand.strokes.rebounds, amount, (style.seed, int(hand.limb))) if amount.any() else found
 
 
 SLOWEST = 0.3

@@ -80,6 +80,7 @@ class Style:
     stand: float = 0.0
     flourish: float = 0.0
     look_around: float = 20.0
+    variation: float = NATURAL
     bobs_per_beat: float = 1.0
     half_time_bpm: float = 130.0
     grip_right: str = "american"

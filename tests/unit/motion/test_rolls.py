@@ -15,6 +15,7 @@ from station.core.units import PPQ
 from station.motion.drummer import Drummer
 from station.motion.kinematics import frame
 from station.motion.kinematics.pose import ANGLE_NAMES
+from station.motion.style.style import Style
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 
@@ -25,7 +26,7 @@ HEAD_M = 0.66
 
 
 def drummer_of(notes: list[Note], tempo_bpm: float = 120) -> Drummer:
-    return Drummer(Score.from_notes(notes, TempoMap.constant(tempo_bpm)))
+    return Drummer(Score.from_notes(notes, TempoMap.constant(tempo_bpm)), style=Style(variation=0.0))
 
 
 def seen(drummer: Drummer, at: Array, limb: Limb = R) -> tuple[Array, Array, Array]:
