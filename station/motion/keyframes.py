@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Limb, Piece, word
-from station.motion.body import body_keys as body
+from station.motion.body.head_keys import head_curve
 from station.motion.body.idle_motion import BREATH_M, BREATH_RATE, Blinks
 from station.motion.body.reach import reaching
 from station.motion.kinematics.arm import Contact
@@ -106,7 +106,7 @@ class Keys:
             body=old.body
             if old is not None and "body" in same
             else reaching(ground, style, parts, plan.figure, plan.pelvis),
-            head=old.head if old is not None and "head" in same else body.head_curve(ground, style),
+            head=old.head if old is not None and "head" in same else head_curve(ground, style),
             gaze=old.gaze if old is not None and "gaze" in same else plan.gaze(style),
             blinks=old.blinks if old is not None and "blinks" in same else plan.blinks(style.seed),
             feet=(plan.hat, kick) if left_kick else (kick, plan.hat),
@@ -116,26 +116,28 @@ class Keys:
 
     def at(self, time_s: float) -> list[float]:
         """The whole drummer at one instant as a row of `frame`, the instruments left out."""
-        twist, lean, side, shrug, wing, stand, gaze, breath = self.body.at(time_s)
+        twist, lean, side, shrug, hunch, wing, stand, gaze, breath, *face = self.body.at(time_s)
         bearing, pitch = self.gaze.at(time_s)
         shrug += breath * BREATH_M * math.sin(BREATH_RATE * time_s)
-        nod, tilt = self.head.at(time_s)
+        nod, tilt, chin = self.head.at(time_s)
         (right, right_spin), (left, left_spin) = self.hands[0].at(time_s), self.hands[1].at(time_s)
         boards = self.feet[0].first(time_s), self.feet[1].first(time_s)
         look = gaze * bearing, gaze * pitch
-        now = (twist, lean, side, shrug, wing, stand, *look, nod, tilt, self.blinks.at(time_s))
+        eyes = self.blinks.at(time_s)
+        now = (twist, lean, side, shrug, hunch, wing, stand, *look, nod, tilt, chin, eyes, *face)
         return flourished(ONE, self.rig.row(ONE, now, right, left, boards), right_spin, left_spin)
 
     def many(self, time_s: Array) -> list[Number]:
         """The same at each time (n,): numbers and arrays (n,)."""
-        twist, lean, side, shrug, wing, stand, gaze, breath = self.body.many(time_s)
+        twist, lean, side, shrug, hunch, wing, stand, gaze, breath, *face = self.body.many(time_s)
         bearing, pitch = self.gaze.many(time_s)
         shrug = shrug + breath * BREATH_M * np.sin(BREATH_RATE * time_s)
-        nod, tilt = self.head.many(time_s)
+        nod, tilt, chin = self.head.many(time_s)
         (right, right_spin), (left, left_spin) = self.hands[0].many(time_s), self.hands[1].many(time_s)
         boards = self.feet[0].many(time_s)[0], self.feet[1].many(time_s)[0]
         look = gaze * bearing, gaze * pitch
-        now = (twist, lean, side, shrug, wing, stand, *look, nod, tilt, self.blinks.many(time_s))
+        eyes = self.blinks.many(time_s)
+        now = (twist, lean, side, shrug, hunch, wing, stand, *look, nod, tilt, chin, eyes, *face)
         return flourished(MANY, self.rig.row(MANY, now, right, left, boards), right_spin, left_spin)
 
 
@@ -152,9 +154,14 @@ READS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "body": (
             *("amplitude_twist", "amplitude_back", "frequency_back", "amplitude_side", "half_time_bpm"),
             *("twist_deg_s", "shrug", "wing_deg", "posture_deg", "stand", "amplitude_gaze", "breathing"),
+            *("hunch_deg", "shimmy", "phrase", "fill_lean", "rise", "mood", "expression"),
+            *("headbang", "lay_back_ms", "variation", "seed"),
         ),
-        "head": ("amplitude_neck", "frequency_neck", "bobs_per_beat", "amplitude_head_side"),
-        "gaze": ("look_around", "seed"),
+        "head": (
+            *("amplitude_neck", "frequency_neck", "bobs_per_beat", "amplitude_head_side", "backbeat", "chin"),
+            *("headbang", "lay_back_ms", "variation", "seed"),
+        ),
+        "gaze": ("look_around", "attention", "seed"),
         "blinks": ("seed",),
         "kick": ("beater",),
     }

@@ -16,6 +16,7 @@ from station.motion.kinematics.leg import chain as leg_chain
 from station.motion.kinematics.leg import settled as settled_leg
 from station.motion.kinematics.maths import ONE, Maths, Number, Point
 from station.motion.kinematics.pedal_motion import BEATER_SWING_RAD, OPEN_GAP_M
+from station.motion.kinematics.trunk import LEAN_TO_HEAD
 from station.motion.kinematics.trunk import chain as trunk_chain
 
 JOINTS = slice(0, 63)
@@ -23,7 +24,8 @@ BUTT, TIP, PALM = slice(63, 69), slice(69, 75), slice(75, 81)
 FACING, HEAD_UP = slice(81, 84), slice(84, 87)
 ANGLES, BOARDS = slice(87, 115), slice(115, 117)
 BEATER, GAP, EYES = 117, 118, 119
-PLAYED = 120
+FACE, GAZE = slice(120, 124), slice(124, 126)
+PLAYED = 126
 """Where the instruments' four numbers each begin."""
 
 STAND_M = (0.10, 0.30)
@@ -34,7 +36,8 @@ the way up they are there (our choice)."""
 
 
 BodyNow = tuple[Number, ...]
-"""What the body's channels say: `body.CHANNELS`, the look's bearing and pitch in space, head and eyes."""
+"""What the body's channels say: the first seven of `body.CHANNELS`, the look's bearing and pitch in space, the head's
+nod, tilt and chin, how far the eyes are open, and the face."""
 
 HandNow = tuple[Sequence[Number], Sequence[Number]]
 """What one hand's channels say: its contact without the style's wing, and its stroke, in the order of `Contact` and
@@ -58,7 +61,7 @@ class Rig:
 
     def row(self, m: Maths, now: BodyNow, right: HandNow, left: HandNow, boards: tuple[Number, Number]) -> list[Number]:
         """All numbers but the instruments'; `boards` of the right and the left foot, 0 down … 1 raised."""
-        twist, lean, side, shrug, wing, stand, bearing, pitch, bob, tilt, eyes = now
+        twist, lean, side, shrug, hunch, wing, stand, bearing, pitch, bob, tilt, chin, eyes, *face_now = now
         figure, hip, heel = self.figure, self.hip_m, self.heel
         x, y, z = self.pelvis
         y, z = y + STAND_M[0] * stand, z + STAND_M[1] * stand
@@ -68,8 +71,11 @@ class Rig:
         nod, tilt = bob + LOOK_DOWN * pitch, tilt - TILT_OF_TURN * turn
         hand = HAND_STANDING_RAD * m.least(2 * stand, 1.0)
         spine, right_shoulder, left_shoulder, face = trunk_chain(
-            m, figure, (x, y, z), (twist, lean, side, nod, turn, tilt, shrug)
+            m, figure, (x, y, z), (twist, lean, side, nod, turn, tilt, shrug, hunch, chin)
         )
+        # the eyes do what the head leaves of the look
+        aside, down = bearing - twist - turn, pitch - LEAN_TO_HEAD * lean - nod
+        aside, down = (m.most(m.least(a, EYES_RAD), -EYES_RAD) for a in (aside, down))
         arm_a, butt_a, tip_a, back_a, angles, _ = arm_chain(m, self.arms[0], right_shoulder, *right, (wing, hand))
         heading_a, shoulder_a, elbow_a, wrist_a, aside_a, palm_a = angles
         arm_b, butt_b, tip_b, back_b, angles, _ = arm_chain(m, self.arms[1], left_shoulder, *left, (-wing, hand))
@@ -89,6 +95,8 @@ class Rig:
             *(heading_a, shoulder_a, right[0][WING] + wing, elbow_a, wrist_a, aside_a, rolled_a, palm_a),
             *(heading_b, shoulder_b, wing - left[0][WING], elbow_b, wrist_b, -aside_b, rolled_b, palm_b),
             *(*bent_a, *bent_b, board_a, board_b, kick * BEATER_SWING_RAD, hat * OPEN_GAP_M, eyes),
+            *face_now,
+            *(aside, down),
         ]
 
 
@@ -97,5 +105,7 @@ FOLLOWS = 0.9
 """How far the head turns to what is looked at; the eyes do the rest (our choice)."""
 LOOK_DOWN = 0.45
 """How much of the way down to a drum the head nods; the eyes do the rest (our choice)."""
+EYES_RAD = math.radians(35)
+"""Eyes turn so far in the head before the neck does the rest (general knowledge: comfortable to 30–35°)."""
 TILT_OF_TURN = 0.12
 """A head that turns tilts a little with it (our choice)."""

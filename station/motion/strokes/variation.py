@@ -5,12 +5,11 @@ every stroke and half a slow wander, so that its spectrum falls with the frequen
 Nothing moves a strike in time, and none leaves its spot: the tip meets the head within `SPOT_M` of where it aims.
 """
 
-from functools import lru_cache
-
 import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Articulation, Piece, Zone
+from station.motion.kinematics.wander import wander
 from station.motion.kit.kit import Kit
 from station.motion.strokes.hand_events import SHOW, HandEvents
 from station.motion.strokes.stroke import Sliders
@@ -23,29 +22,8 @@ share it differently every time, and the preparation comes so much earlier or la
 SPOT_SD_M, SPOT_M = 0.004, 0.010
 """How far from its aim the tip lands on a head or a bow, in each direction and at most: worn heads show a spot of two
 centimetres (our choice)."""
-_MOST_SD = 2.2
-"""No number is farther out than this (our choice: one in forty)."""
-_OCTAVES = 6
 _BY_THE_TIP = np.isin(np.arange(len(Zone)), (Zone.HEAD, Zone.BOW))
 _ON_THE_SPOT = np.isin(np.arange(SHOW + 1), (Articulation.NORMAL, Articulation.BUZZ))
-
-
-@lru_cache(maxsize=16)
-def wander(seed: tuple[int, ...], channels: int, count: int) -> Array:
-    """Numbers of mean 0 and deviation 1, (channels, count), each with a spectrum that falls as 1/f; not to be written.
-
-    Value noise of periods 1, 2, 4 … 32: equal power in every octave. Sliders ask for the same again and again.
-    """
-    random = np.random.default_rng(seed)
-    total = np.zeros((channels, count))
-    for octave in range(_OCTAVES):
-        step = 2**octave
-        values = random.standard_normal((channels, count // step + 2))
-        share = np.arange(step) / step
-        ramp = np.array([1 - share, share]) / np.hypot(1 - share, share)
-        smooth = values[:, :-1, None] * ramp[0] + values[:, 1:, None] * ramp[1]
-        total += smooth.reshape(channels, -1)[:, :count]
-    return np.asarray(np.clip(total / np.sqrt(_OCTAVES), -_MOST_SD, _MOST_SD))
 
 
 def varied(sliders: Sliders, rebounds: NDArray[np.bool_], amount: Array, seed: tuple[int, int]) -> Sliders:
