@@ -55,6 +55,8 @@ OPEN_FINGERS_RAD = math.radians(40)
 `limits.Limits.fingers`."""
 _PLAIN = Hold.of("american", "stick")
 
+_FACE_LOW = np.array([-1.0, 0.0, -1.0, 0.0])
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pose:
@@ -136,6 +138,16 @@ class Pose:
     def eyes(self) -> float:
         """0 closed … 1 open."""
         return self.row.item(frame.EYES)
+
+    @property
+    def face(self) -> NDArray[np.float64]:
+        """Brow (−1 frown … 1 raised), mouth (0 shut … 1 open), smile (−1 … 1), effort (0 … 1 narrowed, tense), (4,)."""
+        return np.clip(self.row[frame.FACE], _FACE_LOW, 1.0)
+
+    @property
+    def gaze(self) -> NDArray[np.float64]:
+        """The eyes' turn in the head, to the left and down, radians, (2,)."""
+        return self.row[frame.GAZE]
 
     @property
     def swing_rad(self) -> NDArray[np.float64]:
