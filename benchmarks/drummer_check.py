@@ -104,6 +104,9 @@ def summary(reports: list[Report], worst: int) -> None:
     clean = sum(not r.own for r in done)
     length_s, strikes = sum(r.length_s for r in done), sum(r.strikes for r in done)
     print(f"\n{len(reports)} takes, {len(done)} played, {clean} clean, {length_s:.0f} s, {strikes} strikes")
+    print(
+        f"faults {sum(len(r.own) for r in done)}, in bars beyond a human {sum(len(r.findings) - len(r.own) for r in done)}"
+    )
     print(f"crashes {sum(bool(r.crash) for r in reports)}, refused {sum(bool(r.refused) for r in reports)}")
     table: dict[tuple[str, str], list[tuple[Finding, Report]]] = defaultdict(list)
     for report in done:

@@ -23,6 +23,10 @@ NEAR_STRIKE_S = 0.004
 _LOOKED_AT = 12
 
 
+NO_SPEED = ("upper arm backward (measured)", "upper arm across the chest (measured)")
+"""The upper arm's own speed is theirs."""
+
+
 def ranges_and_speeds(take: Take, found: Findings) -> None:
     """Each joint against its range and its greatest speed, by positions and by the stated angles."""
     poses = take.poses
@@ -44,8 +48,10 @@ def ranges_and_speeds(take: Take, found: Findings) -> None:
 
 
 def _bounded(found: Findings, name: str, values: Array, bound: Range, time_s: Array) -> None:
-    beyond = np.maximum(values - bound.most, bound.least - values)
-    found.note("limit", name, beyond, SLACK_DEG, "°", time_s)
+    found.note("limit", f"{name} over {bound.most:g}", values - bound.most, SLACK_DEG, "°", time_s)
+    found.note("limit", f"{name} under {bound.least:g}", bound.least - values, SLACK_DEG, "°", time_s)
+    if name.partition(" ")[2] in NO_SPEED:
+        return
     change = np.abs((np.diff(values) + 180) % 360 - 180)
     _fast(found, name, change, bound.speed, time_s)
 

@@ -165,12 +165,12 @@ def grip(take: Take, found: Findings) -> None:
                 found.note("grip", f"{side} butt not towards the heel of the hand", off, 0.0, "mm", poses.time_s)
 
 
-TAP_INTERVALS_S = (0.09, 0.13, 0.17, 0.22)
-TAP_M = (0.06, 0.08, 0.10, 0.14)
-"""How high a tip may rise between unaccented strokes of one hand so far apart. A wrist that oscillates with half the
-height h at the interval T accelerates by 2 π² h / T²; Fujii's 10 strokes a second and Dahl's taps of 5–10 cm agree with
-about 150 m/s² of the tip (our choice of the bound)."""
-TAP_VELOCITY = 100
+TAP_LONGEST_S, TAP_VELOCITY = 0.22, 100
+"""Quick unaccented strokes of one hand: nearer together than this, no louder."""
+TAP_M_S2, TAP_M = 80.0, 0.010
+"""A tip that swings to a height h and back in T is accelerated by 2 π² h / T²; 80 m/s² allow 10 cm at 200 a minute in
+sixteenths of two hands, 5 cm for one hand's ten a second, 20 cm at 70 in sixteenths of one hand (our choice, between
+marching practice's taps of 7.5 cm and forte of 23, HUMANS), and a centimetre for the piece's tilt."""
 
 
 def fast_taps(take: Take, found: Findings) -> None:
@@ -183,13 +183,13 @@ def fast_taps(take: Take, found: Findings) -> None:
         for k in range(len(mine) - 1):
             gap = times[k + 1] - times[k]
             soft = max(strikes.velocity[mine[k : k + 2]]) <= TAP_VELOCITY
-            if piece[k] != piece[k + 1] or not soft or not 0.05 < gap < TAP_INTERVALS_S[-1]:
+            if piece[k] != piece[k + 1] or not soft or not 0.05 < gap < TAP_LONGEST_S:
                 continue
             a, b = np.searchsorted(poses.time_s, times[k : k + 2])
             if b - a < 10 or b >= len(poses.time_s):
                 continue
             height = poses.tip_m[a:b, i, 2].max() - max(poses.tip_m[a, i, 2], poses.tip_m[b, i, 2])
-            bound = TAP_M[int(np.searchsorted(TAP_INTERVALS_S, gap))]
+            bound = TAP_M + TAP_M_S2 * gap * gap / (2 * np.pi**2)
             rise.append(1000 * (height - bound))
             at.append(times[k])
         found.note("height", f"{side} quick tap too high, beyond its bound", np.array(rise), 0.0, "mm", np.array(at))
@@ -204,7 +204,7 @@ def variation_mm(take: Take) -> float | None:
         keys: dict[tuple[str, float, int], list[float]] = {}
         for k, row in enumerate(mine):
             if 0.15 < gaps[k] < 1.0:
-                key = (str(strikes.piece[row]), float(strikes.velocity[row]), int(round(gaps[k] * 100)))
+                key = (str(strikes.piece[row]), float(strikes.velocity[row]), round(gaps[k] * 100))
                 keys.setdefault(key, []).append(float(strikes.time_s[row]))
         for times in keys.values():
             if len(times) >= 4:

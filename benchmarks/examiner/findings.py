@@ -10,7 +10,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """A fault: `amount` in `unit` against `allowed`, worst at `time_s` in `bar` (from 1), in `share` of the instants."""
+    """A fault: `amount` in `unit` against `allowed`, worst at `time_s` in `bar` (from 1), in a `share` of instants."""
 
     kind: str
     what: str
@@ -64,4 +64,5 @@ class BarAt:
         self.starts_s = starts_s
 
     def __call__(self, time_s: float) -> int:
+        """The bar, from 1, of `time_s`."""
         return max(1, int(np.searchsorted(self.starts_s, time_s + 1e-6, "right")))

@@ -1,4 +1,4 @@
-"""Random music that people could play: grooves with fills, ghosts, flams, double kick, a left-hand ride, crossing fills.
+"""Random music that people could play: grooves with fills, ghosts, flams, double kick, left-hand ride.
 
 Each is made from a seed alone. Bars are written on a grid as a drummer thinks them: an ostinato, backbeats, kicks, and
 every few bars a fill.
