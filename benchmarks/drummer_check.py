@@ -10,9 +10,9 @@
 
 It samples every millisecond and has its own solids for body, sticks and kit (`examiner/body.py`, `kit_solids.py`), its
 own ranges and speeds of joints with their sources (`examiner/anatomy.py`), and says what is wrong: `limit`, `speed`,
-`jump` (more than three times the greatest speed at 1 kHz), `kink` (velocity that breaks away from strikes), `through`,
-`strike`, `foot`, `waiting`, `grip`, `height`, `number`. A take is clean when it has none. Faults in bars that the station
-itself calls beyond a human are counted apart.
+`jump` (more than three times the greatest speed at 1 kHz), `kink` (velocity that breaks away from strikes),
+`through`, `strike`, `foot`, `waiting`, `grip`, `height`, `number`. A take is clean when it has none. Faults in bars
+that the station itself calls beyond a human are counted apart.
 """
 
 import argparse
@@ -22,11 +22,13 @@ from functools import partial
 from multiprocessing import get_context
 from pathlib import Path
 
-from examiner import cases
-from examiner.cases import Case, Report
-from examiner.findings import Finding
+from benchmarks.examiner import cases
+from benchmarks.examiner.cases import Case, Report
+from benchmarks.examiner.findings import Finding
 
 WORKERS = 2
+LIGHT = ("grip", "height", "waiting")
+"""Faults of taste, beside those of a body that breaks."""
 QUICK = (
     *(Case(name) for name in ("rock-1", "double-kick-1", "jazz-ride-1", "single-stroke-roll")),
     Case("funk-2", "funk", "seven_piece", "small", "open"),
@@ -101,12 +103,12 @@ def _line(report: Report) -> str:
 def summary(reports: list[Report], worst: int) -> None:
     """The table of kinds and the gravest places."""
     done = [r for r in reports if not (r.crash or r.refused)]
-    clean = sum(not r.own for r in done)
+    clean, unbroken = (sum(not [f for f in r.own if f.kind not in kinds] for r in done) for kinds in ((), LIGHT))
     length_s, strikes = sum(r.length_s for r in done), sum(r.strikes for r in done)
-    print(f"\n{len(reports)} takes, {len(done)} played, {clean} clean, {length_s:.0f} s, {strikes} strikes")
-    print(
-        f"faults {sum(len(r.own) for r in done)}, in bars beyond a human {sum(len(r.findings) - len(r.own) for r in done)}"
-    )
+    cleaned = f"{clean} clean ({unbroken} but for {', '.join(LIGHT)})"
+    print(f"\n{len(reports)} takes, {len(done)} played, {cleaned}, {length_s:.0f} s, {strikes} strikes")
+    own = sum(len(r.own) for r in done)
+    print(f"faults {own}, in bars beyond a human {sum(len(r.findings) for r in done) - own}")
     print(f"crashes {sum(bool(r.crash) for r in reports)}, refused {sum(bool(r.refused) for r in reports)}")
     table: dict[tuple[str, str], list[tuple[Finding, Report]]] = defaultdict(list)
     for report in done:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from examiner.take import SIDES, Sampled
+from benchmarks.examiner.take import SIDES, Sampled
 
 Array = NDArray[np.float64]
 
@@ -121,7 +121,10 @@ def arm(poses: Sampled, side: str) -> Arm:
 
 
 def measured(poses: Sampled, side: str) -> tuple[dict[str, Array], dict[str, Array]]:
-    """Angles in degrees of `side`'s arm and leg (n,), and the directions whose turning has a speed, (n, 3)."""
+    """Angles in degrees of `side`'s arm and leg (n,), and the directions whose turning has a speed, (n, 3).
+
+    NaN where a straight arm shows no angle.
+    """
     limb = arm(poses, side)
     sign = 1.0 if side == "right" else -1.0
     right, forward, up = trunk_axes(poses)
@@ -133,8 +136,8 @@ def measured(poses: Sampled, side: str) -> tuple[dict[str, Array], dict[str, Arr
         "upper arm backward": np.degrees(np.arcsin(np.clip(-_dot(limb.upper, forward), -1, 1))),
     }
     bent = angles["elbow"] > 15
-    angles["forearm pronation"] = np.where(bent, _pronation(limb, sign), 0.0)
-    angles["shoulder inward rotation"] = np.where(bent, _inward(limb, sign, forward, up), 0.0)
+    angles["forearm pronation"] = np.where(bent, _pronation(limb, sign), np.nan)
+    angles["shoulder inward rotation"] = np.where(bent, _inward(limb, sign, forward, up), np.nan)
     turning = {
         "upper arm": np.stack([_dot(limb.upper, axis) for axis in (right, forward, up)], 1),
         "stick in the hand": np.stack([_dot(limb.stick, axis) for axis in (limb.hand, limb.back, limb.thumb)], 1),

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from examiner.take import SIDES, Sampled
+from benchmarks.examiner.take import SIDES, Sampled
 
 Array = NDArray[np.float64]
 STICK_M, NECK_OF_STICK_M = 0.0072, 0.0040
@@ -55,7 +55,7 @@ class Capsule:
 
 
 def capsules(poses: Sampled, stature_m: float) -> dict[str, Capsule]:
-    """Every part by its name: `right forearm`, `left stick`, `trunk`, `head` …"""
+    """Every part by its name, such as `right forearm`, `left stick`, `trunk left`, `head`."""
     scale = stature_m / 1.759
     parts = {part.name: part for part in _limbs(poses, scale)}
     for i, side in enumerate(SIDES):
@@ -95,7 +95,7 @@ def _unit(v: Array) -> Array:
 def overlap_m(p: Capsule, q: Capsule) -> Array:
     """How deep two capsules are in each other at each instant, (n,); negative: their distance.
 
-    The nearest points of two segments after Ericson, Real-Time Collision Detection, 5.1.9.
+    The nearest points of two segments: Ericson, Real-Time Collision Detection, section 5.1.9.
     """
     d1, d2, r = p.b - p.a, q.b - q.a, p.a - q.a
     a, e = (d1 * d1).sum(1), (d2 * d2).sum(1)

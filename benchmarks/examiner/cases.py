@@ -1,17 +1,18 @@
 """What is examined: which score, style, kit, body and hands; lists of such cases, and one case's report."""
 
+import traceback
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import combinations, product
 from pathlib import Path
 from time import perf_counter
 
 import numpy as np
 
-from examiner import checks_contact, checks_joints, checks_strikes
-from examiner.findings import Finding, Findings
-from examiner.scores import random_score
-from examiner.take import Take, sampled
+from benchmarks.examiner import checks_contact, checks_joints, checks_strikes
+from benchmarks.examiner.findings import Finding, Findings
+from benchmarks.examiner.scores import random_score
+from benchmarks.examiner.take import Take, sampled
 from station.cli.input.read_scores import load_led_score
 from station.core.errors import BadInput
 from station.motion.drummer import Drummer
@@ -25,6 +26,7 @@ from station.music.score import Score
 
 RANDOM = "random:"
 CHECKS = (
+    checks_joints.numbers,
     checks_joints.ranges_and_speeds,
     checks_joints.kinks,
     checks_contact.contacts,
@@ -120,16 +122,12 @@ def examine(case: Case, most_s: float) -> Report:
     except BadInput as no:
         return Report(case, refused=str(no), took_s=perf_counter() - began)
     except Exception as crash:  # an examiner reports what it meets
-        import traceback
-
         last = traceback.extract_tb(crash.__traceback__)[-1]
         return Report(case, crash=f"{type(crash).__name__}: {crash} ({last.name}:{last.lineno})")
 
 
 def _seeds_mm(take: Take) -> float:
     """How far a tip strays at most between two seeds, in mm."""
-    from dataclasses import replace
-
     style = take.drummer.style
     other = take.drummer.with_style(replace(style, seed=style.seed + 1))
     times = take.poses.time_s[::20]

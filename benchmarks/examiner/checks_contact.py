@@ -5,10 +5,10 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from examiner.body import Capsule, capsules, overlap_m
-from examiner.findings import Findings
-from examiner.kit_solids import Solid, solids, stands
-from examiner.take import SIDES, Take
+from benchmarks.examiner.body import Capsule, capsules, overlap_m
+from benchmarks.examiner.findings import Findings
+from benchmarks.examiner.kit_solids import Solid, solids, stands, swinging
+from benchmarks.examiner.take import SIDES, Take
 from station.core.pieces import Articulation
 
 Array = NDArray[np.float64]
@@ -22,8 +22,14 @@ STROKE_M = 0.010
 STROKE_S = (0.030, 0.040)
 REST_S = 0.30
 """A hand that has not struck for so long and will not may lie on the thigh."""
+BARE_M = 0.028
+"""A bare hand strikes with fingers that the examiner's hand, a thick capsule from wrist to grip, overstates."""
 CROSS_S = 0.40
 """A cross-stick's stick lies on the head, its hand too, so long before and after (our choice)."""
+SWING_EVERY = 4
+"""Of the instants, where cymbals are looked at: they swing once a second."""
+CHOKE_S = 0.15
+"""A hand is at its cymbal so long before and after it grabs it (our choice)."""
 BRUSH_M = 0.012
 """Brushes lie on the head."""
 
@@ -32,14 +38,24 @@ def contacts(take: Take, found: Findings) -> None:
     """Note every pair of solids that are in each other."""
     parts = capsules(take.poses, take.drummer.figure.stature_m)
     _own(take, found, parts)
-    pieces = solids(take.drummer.kit)
-    for part in parts.values():
-        for solid in pieces:
-            _kit(take, found, part, solid)
+    for index, solid in enumerate(solids(take.drummer.kit)):
+        for part in parts.values():
+            _kit(take, found, part, _now(take, solid, index))
     for tube in stands(take.drummer.kit):
         for name, part in parts.items():
             if "trunk" not in name:
                 _note(take, found, name, part, _still(tube, len(part.a)), TOUCH_M if "stick" in name else SKIN_M)
+
+
+def _now(take: Take, solid: Solid, index: int) -> Solid:
+    """The piece as it swings."""
+    time_s = take.poses.time_s
+    every = np.append(time_s[::SWING_EVERY], time_s[-1])
+    swing = take.drummer.swings(index, every)
+    if not swing.any():
+        return solid
+    now = np.stack([np.interp(time_s, every, swing[:, k]) for k in (0, 1)], axis=1)
+    return swinging(take.drummer.kit, solid, index, now)
 
 
 def _still(tube: Capsule, count: int) -> Capsule:
@@ -101,18 +117,29 @@ def _crossed(take: Take, side: str) -> NDArray[np.bool_]:
 
 def _kit(take: Take, found: Findings, part: Capsule, solid: Solid) -> None:
     side, _, name = part.name.partition(" ")
-    if name == "foot" and solid.name in ("kick", "hihat") and solid.kind != "kick":
-        return
     deep = solid.depth_of(part)
     if not (deep > 0).any():
         return
     allowed: float | Array = TOUCH_M if name == "stick" else SKIN_M
     if name in ("stick", "hand", "forearm"):
+        held = take.drummer.style.held
         strikes = take.strikes.near(take.poses.time_s, f"{side}_hand", *STROKE_S, piece=solid.name)
         if name == "stick":
             allowed = np.where(strikes, STROKE_M, TOUCH_M)
-            if take.drummer.style.held == "brush" and solid.name == "snare":
-                allowed = np.full(len(deep), BRUSH_M)
-        crossed = _crossed(take, side)
-        allowed = np.where(crossed & (solid.name == "snare"), 0.020, allowed)
+        elif held == "hand" and name == "hand":
+            allowed = np.where(strikes, BARE_M, SKIN_M)
+        if held == "brush" and solid.name == "snare" and name == "stick":
+            allowed = np.full(len(deep), BRUSH_M)
+        allowed = np.where(_crossed(take, side) & (solid.name == "snare"), 0.020, allowed)
+        allowed = np.where(_choking(take, solid.name), 1.0, allowed)
     _deep(take, found, f"{part.name} in {solid.name}", deep, allowed)
+
+
+def _choking(take: Take, piece: str) -> NDArray[np.bool_]:
+    """When a hand grabs the cymbal `piece`."""
+    strikes, time_s = take.strikes, take.poses.time_s
+    grabs = np.zeros(len(time_s), bool)
+    mine = (strikes.choke_s > 0) & (strikes.piece == piece)
+    for at in strikes.time_s[mine] + strikes.choke_s[mine]:
+        grabs |= np.abs(time_s - at) < CHOKE_S
+    return grabs

@@ -5,9 +5,9 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from examiner.anatomy import HAND_M_S, MEASURED, SLACK_DEG, STATED, TIP_M_S, Range, measured, turned_deg
-from examiner.findings import Findings
-from examiner.take import RATE_HZ, SIDES, Sampled, Take
+from benchmarks.examiner.anatomy import HAND_M_S, MEASURED, SLACK_DEG, STATED, TIP_M_S, Range, measured, turned_deg
+from benchmarks.examiner.findings import Findings
+from benchmarks.examiner.take import RATE_HZ, SIDES, Sampled, Take
 
 Array = NDArray[np.float64]
 Point = Callable[[Sampled], Array]
@@ -48,12 +48,28 @@ def ranges_and_speeds(take: Take, found: Findings) -> None:
 
 
 def _bounded(found: Findings, name: str, values: Array, bound: Range, time_s: Array) -> None:
+    shown = ~np.isnan(values)
+    values = np.where(~shown, _held(values, bound), values)
     found.note("limit", f"{name} over {bound.most:g}", values - bound.most, SLACK_DEG, "°", time_s)
     found.note("limit", f"{name} under {bound.least:g}", bound.least - values, SLACK_DEG, "°", time_s)
     if name.partition(" ")[2] in NO_SPEED:
         return
-    change = np.abs((np.diff(values) + 180) % 360 - 180)
+    change = np.where(shown[1:] & shown[:-1], np.abs((np.diff(values) + 180) % 360 - 180), 0.0)
     _fast(found, name, change, bound.speed, time_s)
+
+
+def _held(values: Array, bound: Range) -> Array:
+    """The last value that is known, for instants where a straight arm shows none."""
+    known = np.maximum.accumulate(np.where(np.isnan(values), 0, np.arange(len(values))))
+    return np.nan_to_num(values[known], nan=float(np.clip(0.0, bound.least, bound.most)))
+
+
+def numbers(take: Take, found: Findings) -> None:
+    """No pose holds anything but numbers."""
+    poses = take.poses
+    for name in ("points_m", "tip_m", "butt_m", "back", "angles_deg", "boards_rad"):
+        values = getattr(poses, name).reshape(len(poses.time_s), -1)
+        found.note("number", name, np.where(np.isfinite(values).all(axis=1), 0.0, 1.0), 0.0, "n", poses.time_s)
 
 
 def _fast(found: Findings, name: str, change_deg: Array, most: float, time_s: Array) -> None:

@@ -1,11 +1,13 @@
-"""Strikes in their place and time, feet on their boards, waiting hands, the grip, and strokes that are never the same."""
+"""Strikes in place and time, feet on their boards, waiting hands, the grip, strokes that are never the same."""
+
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from examiner.findings import Findings
-from examiner.kit_solids import solids
-from examiner.take import SIDES, Take, sampled
+from benchmarks.examiner.findings import Findings
+from benchmarks.examiner.kit_solids import solids
+from benchmarks.examiner.take import SIDES, Take, sampled
 from station.core.pieces import Articulation, Piece
 
 Array = NDArray[np.float64]
@@ -104,7 +106,7 @@ def waiting(take: Take, found: Findings) -> None:
     for i, side in enumerate(SIDES):
         times = take.strikes.time_s[take.strikes.of(f"{side}_hand")]
         edges = np.concatenate(([poses.time_s[0]], times, [poses.time_s[-1]]))
-        for start, end in zip(edges[:-1], edges[1:], strict=True):
+        for start, end in pairwise(edges.tolist()):
             if end - start < WAIT_S:
                 continue
             inside = (poses.time_s > start + 0.8) & (poses.time_s < end - 0.8)

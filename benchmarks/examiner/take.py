@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from examiner.findings import BarAt
+from benchmarks.examiner.findings import BarAt
 from station.core.pieces import Articulation
 from station.motion.drummer import Drummer
 from station.motion.export.npz import motion_arrays
@@ -95,6 +95,7 @@ class Take:
             notes["articulation"],
             np.where(notes["articulation"] == Articulation.BUZZ, ends, 0.0),
             notes["piece"],
+            score.tempo_map.seconds_at(ticks + notes["choke_ticks"]) - score.tempo_map.seconds_at(ticks),
             arrays["strike_radius_m"][kept],
             arrays["strike_centre_m"][kept],
         )
@@ -113,7 +114,7 @@ class Take:
 
 @dataclass(frozen=True, eq=False)
 class Strikes:
-    """Strikes (m,) in order of time; `lasts_s` is a buzz's length, 0 for a stroke."""
+    """Strikes (m,) in order of time; `lasts_s` is a buzz's length, `choke_s` the time to its grab; or 0."""
 
     time_s: Array
     piece: NDArray[np.str_]
@@ -122,6 +123,7 @@ class Strikes:
     articulation: NDArray[np.uint8]
     lasts_s: Array
     written: NDArray[np.uint8]
+    choke_s: Array
     radius_m: Array
     centre_m: Array
 
