@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Limb, Piece
 from station.motion.kinematics.pose import Pose
-from station.render.figure.skeleton import LIMB_BONES, Bone, Skeleton
+from station.render.figure.bones import LIMB_BONES, Bone
+from station.render.figure.skeleton import Skeleton
 from station.render.geometry.transforms import Matrix
 from station.render.gpu.light_shader import MAX_BONES
 from station.render.kit import kit_rig

@@ -8,8 +8,8 @@ includes the screen's gamma. A shader that takes this in defines `QUALITY` first
 
 from station.render.geometry.materials import Material
 
-MAX_BONES = 128
-"""Matrices in the palette; 128 of 4 × vec4 fit the 16 KiB that every OpenGL 3.3 grants a block."""
+MAX_BONES = 256
+"""Matrices in the palette; 256 of 4 × vec4 fit the 16 KiB that every OpenGL 3.3 grants a block."""
 
 _BONES = f"""
 layout(std140) uniform Bones {{
