@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from station.core.errors import BadInput
 from station.core.pieces import Piece, word
+from station.motion.kinematics.figure import figure_names
 
 Array = NDArray[np.float64]
 
@@ -39,6 +40,9 @@ _NATURAL_SHARES = MappingProxyType(
     }
 )
 
+ANYBODY = "any"
+"""No drummer in particular."""
+
 Automation = tuple[tuple[float, float], ...]
 """(bar from 1, value) in rising order; a fraction is a place within the bar."""
 
@@ -49,8 +53,9 @@ class Style:
 
     Angles in degrees; `twist_deg_s` the ceiling of the torso's speed; `stand` 0 sits … 1 stands; `half_time_bpm` from
     which on the back sways in half time; `bobs_per_beat` of the head, a half, 1 or 2; `grip_right`, `grip_left`, `held`
-    name entries of `grip`; `heel` "down", "up"; `beater` "rebound" or "buried"; `pieces` an amplitude for single
-    pieces, 50 natural; `seed` of all that chance decides.
+    name entries of `grip`; `heel` "down", "up"; `beater` "rebound" or "buried"; `drummer` who plays so where the user
+    asks for nobody, a shipped figure or "any"; `pieces` an amplitude for single pieces, 50 natural; `seed` of all that
+    chance decides.
     """
 
     name: str = "natural"
@@ -87,6 +92,7 @@ class Style:
     held: str = "stick"
     heel: str = "down"
     beater: str = "rebound"
+    drummer: str = ANYBODY
     seed: int = 1
     pieces: Mapping[Piece, float] = field(default_factory=dict)
     automation: Mapping[str, Automation] = field(default_factory=dict)
@@ -163,6 +169,7 @@ WORDS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "held": ("stick", "brush", "mallet", "hand"),
         "heel": ("down", "up"),
         "beater": ("rebound", "buried"),
+        "drummer": (ANYBODY, *figure_names()),
     }
 )
 

@@ -4,6 +4,7 @@ Metres in the head's own axes (`head_shape`): x to the right, y where the face l
 """
 
 from dataclasses import dataclass
+from math import cos, sin
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +26,7 @@ HINGE_M = np.array([0.0, 0.010, 0.066])
 
 LID_OPEN_RAD, LOWER_LID_RAD = 0.60, -0.62
 """How far above and below straight ahead the lids' edges stand in open eyes (our choice: the iris's top is covered)."""
-_LIDS_MEET_RAD = -0.22
+_LIDS_MEET_RAD = -0.45
 """Where the lids meet: the upper one goes most of the way."""
 _MOST_GAZE_RAD = 0.6
 """Eyes turn no farther in the head; a head follows long before (our choice: a third of a turn of the whole white)."""
@@ -62,14 +63,14 @@ def face_matrices(shown: Expression) -> Matrix:
     m[:] = np.eye(4)
     smile, effort = shown.smile, shown.effort
     glad, sad = max(smile, 0.0), max(-smile, 0.0)
-    left, down = np.clip(shown.gaze, -_MOST_GAZE_RAD, _MOST_GAZE_RAD)
+    left, down = (min(max(turn, -_MOST_GAZE_RAD), _MOST_GAZE_RAD) for turn in shown.gaze)
     for bone, side in ((Bone.RIGHT_EYE, 1.0), (Bone.LEFT_EYE, -1.0)):
         _turn(m[_AT[bone]], _about_x(-down) @ _about_z(left), EYE_M * (side, 1.0, 1.0))
     narrow = 0.34 * effort + 0.16 * glad
     lower = LOWER_LID_RAD + (0.9 * narrow - 0.3 * min(down, 0.0)) * shown.eyes
     upper = LID_OPEN_RAD - narrow * 0.7 - 0.55 * down + 0.14 * max(shown.brow, 0.0) - 0.12 * max(-shown.brow, 0.0)
     upper = _LIDS_MEET_RAD + (max(upper, _LIDS_MEET_RAD + 0.05) - _LIDS_MEET_RAD) * shown.eyes
-    lower = _LIDS_MEET_RAD + (lower - _LIDS_MEET_RAD) * (0.35 + 0.65 * shown.eyes)
+    lower = _LIDS_MEET_RAD + (lower - _LIDS_MEET_RAD) * shown.eyes
     _turn(m[_AT[Bone.UPPER_LIDS]], _about_x(upper - LID_OPEN_RAD), EYE_M * (0.0, 1.0, 1.0))
     _turn(m[_AT[Bone.LOWER_LIDS]], _about_x(lower - LOWER_LID_RAD), EYE_M * (0.0, 1.0, 1.0))
     raised, frown = max(shown.brow, 0.0), max(-shown.brow, 0.0) + 0.45 * effort
@@ -94,15 +95,15 @@ def _turn(m: Matrix, turn: Array, about: Array, shift: tuple[float, float, float
 
 
 def _about_x(angle: float) -> Array:
-    c, s = np.cos(angle), np.sin(angle)
+    c, s = cos(angle), sin(angle)
     return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
 
 
 def _about_y(angle: float) -> Array:
-    c, s = np.cos(angle), np.sin(angle)
+    c, s = cos(angle), sin(angle)
     return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
 
 
 def _about_z(angle: float) -> Array:
-    c, s = np.cos(angle), np.sin(angle)
+    c, s = cos(angle), sin(angle)
     return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])

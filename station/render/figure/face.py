@@ -66,7 +66,7 @@ def _lids(girths: Girths, fineness: float) -> list[Skin]:
     parts = []
     for side in (-1.0, 1.0):
         centre = EYE_M * [side, 1, 1]
-        for bone, edge, back in ((Bone.UPPER_LIDS, LID_OPEN_RAD, 2.0), (Bone.LOWER_LIDS, LOWER_LID_RAD, -1.9)):
+        for bone, edge, back in ((Bone.UPPER_LIDS, LID_OPEN_RAD, 2.6), (Bone.LOWER_LIDS, LOWER_LID_RAD, -1.9)):
             along = np.linspace(-1.45, 1.45, wide + 1)
             over = np.linspace(edge, back, high + 1)
             tilt = 0.10 * side * np.sin(along)  # the outer corners stand a little higher
