@@ -54,56 +54,82 @@ class Expression:
         return cls(brow, mouth, smile, effort, (float(gaze[0]), float(gaze[1])), pose.eyes)
 
 
-_AT = {bone: i for i, bone in enumerate(FACE_BONES)}
+_Turn = tuple[float, float, float, float, float, float, float, float, float]
+"""A rotation, row by row."""
+_Point = tuple[float, float, float]
+_NO_TURN: _Turn = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 
 
 def face_matrices(shown: Expression) -> Matrix:
     """What each bone of `FACE_BONES` does to the face as it was made, (11, 4, 4) in the head's axes."""
-    m = np.zeros((len(FACE_BONES), 4, 4))
-    m[:] = np.eye(4)
-    smile, effort = shown.smile, shown.effort
+    smile, effort, opened = shown.smile, shown.effort, shown.mouth
     glad, sad = max(smile, 0.0), max(-smile, 0.0)
+    raised, lowered = max(shown.brow, 0.0), max(-shown.brow, 0.0)
+    frown = lowered + 0.45 * effort
     left, down = (min(max(turn, -_MOST_GAZE_RAD), _MOST_GAZE_RAD) for turn in shown.gaze)
-    for bone, side in ((Bone.RIGHT_EYE, 1.0), (Bone.LEFT_EYE, -1.0)):
-        _turn(m[_AT[bone]], _about_x(-down) @ _about_z(left), EYE_M * (side, 1.0, 1.0))
-    narrow = 0.34 * effort + 0.16 * glad
-    lower = LOWER_LID_RAD + (0.9 * narrow - 0.3 * min(down, 0.0)) * shown.eyes
-    upper = LID_OPEN_RAD - narrow * 0.7 - 0.55 * down + 0.14 * max(shown.brow, 0.0) - 0.12 * max(-shown.brow, 0.0)
-    upper = _LIDS_MEET_RAD + (max(upper, _LIDS_MEET_RAD + 0.05) - _LIDS_MEET_RAD) * shown.eyes
-    lower = _LIDS_MEET_RAD + (lower - _LIDS_MEET_RAD) * shown.eyes
-    _turn(m[_AT[Bone.UPPER_LIDS]], _about_x(upper - LID_OPEN_RAD), EYE_M * (0.0, 1.0, 1.0))
-    _turn(m[_AT[Bone.LOWER_LIDS]], _about_x(lower - LOWER_LID_RAD), EYE_M * (0.0, 1.0, 1.0))
-    raised, frown = max(shown.brow, 0.0), max(-shown.brow, 0.0) + 0.45 * effort
-    for bone, side in ((Bone.RIGHT_BROW, 1.0), (Bone.LEFT_BROW, -1.0)):
-        tip = side * (0.34 * frown - 0.12 * raised - 0.10 * sad)
-        shift = (-0.0035 * side * frown, 0.001 * frown, 0.0085 * raised - 0.0050 * frown)
-        _turn(m[_AT[bone]], _about_y(-tip), BROW_M * (side, 1.0, 1.0), shift)
-    opened = shown.mouth
-    _turn(m[_AT[Bone.JAW]], _about_x(-0.17 * opened), HINGE_M, (0.0, 0.0015 * effort, 0.0))
-    m[_AT[Bone.UPPER_LIP]][:3, 3] = 0.0, -0.001 * glad, 0.0025 * opened + 0.0012 * glad - 0.0008 * effort
-    m[_AT[Bone.LOWER_LIP]][:3, 3] = 0.0, -0.003 * opened, -0.0155 * opened + 0.0006 * glad + 0.0010 * effort
-    for bone, side in ((Bone.RIGHT_CORNER, 1.0), (Bone.LEFT_CORNER, -1.0)):
-        out = 0.0065 * glad - 0.0035 * opened + 0.0035 * effort - 0.001 * sad
-        m[_AT[bone]][:3, 3] = side * out, -0.0035 * glad, 0.0080 * glad - 0.0075 * sad - 0.0045 * opened
+    eye = _look(left, down)
+    upper, lower = _lids(shown, 0.34 * effort + 0.16 * glad, down, 0.14 * raised - 0.12 * lowered)
+    tip = 0.34 * frown - 0.12 * raised - 0.10 * sad
+    brow = 0.001 * frown, 0.0085 * raised - 0.0050 * frown
+    out = 0.0065 * glad - 0.0035 * opened + 0.0035 * effort - 0.001 * sad
+    corner = -0.0035 * glad, 0.0080 * glad - 0.0075 * sad - 0.0045 * opened
+    rows = [
+        _moved(eye, _RIGHT_EYE),
+        _moved(eye, _mirrored(_RIGHT_EYE)),
+        _moved(_about_x(upper - LID_OPEN_RAD), _RIGHT_EYE),
+        _moved(_about_x(lower - LOWER_LID_RAD), _RIGHT_EYE),
+        _moved(_about_y(-tip), _RIGHT_BROW, (-0.0035 * frown, *brow)),
+        _moved(_about_y(tip), _mirrored(_RIGHT_BROW), (0.0035 * frown, *brow)),
+        _moved(_about_x(-0.17 * opened), _HINGE, (0.0, 0.0015 * effort, 0.0)),
+        _moved(_NO_TURN, _HINGE, (0.0, -0.001 * glad, 0.0025 * opened + 0.0012 * glad - 0.0008 * effort)),
+        _moved(_NO_TURN, _HINGE, (0.0, -0.003 * opened, -0.0155 * opened + 0.0006 * glad + 0.0010 * effort)),
+        _moved(_NO_TURN, _HINGE, (out, *corner)),
+        _moved(_NO_TURN, _HINGE, (-out, *corner)),
+    ]
+    m = np.zeros((len(FACE_BONES), 4, 4))
+    m[:, :3] = np.array(rows).reshape(-1, 3, 4)
+    m[:, 3, 3] = 1.0
     return m
 
 
-def _turn(m: Matrix, turn: Array, about: Array, shift: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
-    """Make `m` the rotation `turn` about a point, and a shift after it."""
-    m[:3, :3] = turn
-    m[:3, 3] = about - turn @ about + shift
+def _lids(shown: Expression, narrow: float, down: float, wide: float) -> tuple[float, float]:
+    """How high the edges of the upper and the lower lids stand; both come together as the eyes close."""
+    upper = LID_OPEN_RAD - 0.7 * narrow - 0.55 * down + wide
+    lower = LOWER_LID_RAD + 0.9 * narrow - 0.3 * min(down, 0.0)
+    upper = max(upper, lower + 0.05)
+    meet, open_ = _LIDS_MEET_RAD, shown.eyes
+    return meet + (upper - meet) * open_, meet + (lower - meet) * open_
 
 
-def _about_x(angle: float) -> Array:
+_RIGHT_EYE, _RIGHT_BROW, _HINGE = ((float(p[0]), float(p[1]), float(p[2])) for p in (EYE_M, BROW_M, HINGE_M))
+
+
+def _mirrored(point: _Point) -> _Point:
+    return -point[0], point[1], point[2]
+
+
+def _moved(turn: _Turn, about: _Point, shift: _Point = (0.0, 0.0, 0.0)) -> tuple[float, ...]:
+    """The upper three rows of the matrix that turns about a point and then shifts."""
+    a, b, c, d, e, f, g, h, i = turn
+    x, y, z = about
+    return (
+        *(a, b, c, x - a * x - b * y - c * z + shift[0]),
+        *(d, e, f, y - d * x - e * y - f * z + shift[1]),
+        *(g, h, i, z - g * x - h * y - i * z + shift[2]),
+    )
+
+
+def _about_x(angle: float) -> _Turn:
     c, s = cos(angle), sin(angle)
-    return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+    return 1.0, 0.0, 0.0, 0.0, c, -s, 0.0, s, c
 
 
-def _about_y(angle: float) -> Array:
+def _about_y(angle: float) -> _Turn:
     c, s = cos(angle), sin(angle)
-    return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
+    return c, 0.0, s, 0.0, 1.0, 0.0, -s, 0.0, c
 
 
-def _about_z(angle: float) -> Array:
-    c, s = cos(angle), sin(angle)
-    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+def _look(left: float, down: float) -> _Turn:
+    """A turn to the left about z, then down about x."""
+    c, s, far, deep = cos(left), sin(left), cos(down), sin(down)
+    return c, -s, 0.0, far * s, far * c, deep, -deep * s, -deep * c, far
