@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Limb, Piece
 from station.motion.kinematics.pose import Pose
-from station.render.figure.skeleton import BONES, LIMB_BONES, Skeleton
+from station.render.figure.bones import BONES, LIMB_BONES
+from station.render.figure.skeleton import Skeleton
 from station.render.geometry.transforms import Matrix
 from station.render.gpu.light_shader import MAX_BONES
 from station.render.kit import kit_rig

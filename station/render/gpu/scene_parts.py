@@ -14,7 +14,7 @@ from station.core.pieces import Limb
 from station.motion.kinematics.figure import Figure
 from station.motion.kit.kit import Kit
 from station.render.figure.body import Skin
-from station.render.figure.skeleton import LIMB_BONES, Bone
+from station.render.figure.bones import LIMB_BONES, Bone
 from station.render.geometry.light import Light
 from station.render.geometry.materials import shader_table
 from station.render.geometry.mesh import Mesh
@@ -57,6 +57,7 @@ class SceneParts:
     def __init__(self, ctx: moderngl.Context, rig: KitRig, figure: Figure, quality: Quality) -> None:
         self._ctx = ctx
         self._quality = quality
+        self._colours = figure.look.colours
         self._textures(rig.kit)
         self._upload(rig.mesh, cached_body(figure, quality.figure_cell))
         fragment = pixel_shaders.solid_fragment(quality.level)
@@ -143,7 +144,7 @@ class SceneParts:
         return program
 
     def _constants(self, program: moderngl.Program) -> None:
-        first, second = shader_table()
+        first, second = shader_table(self._colours)
         values: dict[str, object] = {
             "look_a": first,
             "look_b": second,

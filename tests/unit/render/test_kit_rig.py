@@ -106,7 +106,7 @@ def test_nothing_of_the_hardware_is_under_the_floor() -> None:
 
 def test_the_palette_holds_the_largest_kit() -> None:
     from station.motion.kit.kit import kit_names
-    from station.render.figure.skeleton import BONES
+    from station.render.figure.bones import BONES
     from station.render.gpu.light_shader import MAX_BONES
 
     for name in kit_names():
