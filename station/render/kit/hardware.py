@@ -14,6 +14,7 @@ from station.render.geometry.mesh import Mesh, ball, box, joined, lathe, rod, tu
 from station.render.geometry.transforms import frame, translation, unit
 from station.render.kit import instrument_meshes
 from station.render.kit.instrument_meshes import Detail
+from station.render.kit.pedal_meshes import TUBE_M
 from station.render.kit.rack import rack, tower
 from station.render.kit.standing_room import StandingRoom, toes
 
@@ -111,11 +112,10 @@ def _hat_stand(kit: Kit, piece: KitPiece, detail: Detail, segments: int, room: S
     parts = [
         instrument_meshes.hat_bottom(piece.radius_m, detail).moved(frame(low, normal, piece.axes[0])),
         *_tripod(x, y, spread, height, segments, turn),
-        rod([x, y, 0.03], [x, y, low[2] - 0.05], _POLE_M, Material.CHROME, segments),
+        rod([x, y, TUBE_M], [x, y, low[2] - 0.05], _POLE_M, Material.CHROME, segments),
         lathe([(0, 0), (0.03, 0.0), (0.03, 0.014), (0, 0.014)], 14, Material.FELT).moved(
             translation([x, y, low[2] - 0.052])
         ),
-        rod([x, y, low[2] - 0.05], top + normal * 0.20, 0.0042, Material.STEEL, segments),
     ]
     return joined(parts)
 

@@ -13,8 +13,6 @@ from station.render.geometry.materials import Material
 from station.render.geometry.mesh import Mesh, box, joined, lathe, rod
 from station.render.geometry.transforms import rotation, translation
 
-STICK_M = 0.406
-"""A 5A stick (HUMANS, Kit); longer or shorter ones are stretched."""
 HOLE_M = BELL_ABOVE_BOW_M
 """How high a cymbal's hole is over its plane: there it hangs and tips."""
 HAT_GAP_M = 0.006
@@ -223,23 +221,3 @@ def block(radius: float, depth: float) -> Mesh:
 
 _COWBELL_NARROWS = 0.35
 """How much narrower a cowbell's closed end is (our choice)."""
-
-
-def stick(length: float) -> Mesh:
-    """A 5A stick along z: butt at 0, tip at `length`; taper and acorn tip after a common 5A's drawing."""
-    r = 0.0072
-    profile: NDArray[np.float64] = np.array(
-        [
-            (0.0, 0.0),
-            (r * 0.8, 0.001),
-            (r, 0.006),
-            (r, length * 0.72),
-            (r * 0.62, length * 0.93),
-            (r * 0.40, length - 0.014),
-            (r * 0.62, length - 0.009),
-            (r * 0.60, length - 0.005),
-            (r * 0.35, length - 0.001),
-            (0.0, length),
-        ]
-    )
-    return lathe(profile, 10, Material.WOOD)

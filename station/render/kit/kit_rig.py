@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from math import cos, sin
 
 import numpy as np
-from numpy.typing import NDArray
 
 from station.core.pieces import Piece
 from station.motion.kinematics.pose import Pose
@@ -16,10 +15,11 @@ from station.motion.kit.kit import Kit
 from station.motion.kit.piece import KitPiece
 from station.render.geometry.materials import Material
 from station.render.geometry.mesh import Mesh, joined
-from station.render.geometry.transforms import Matrix, frames, rotation_at, translation
+from station.render.geometry.transforms import Matrix, translation
 from station.render.kit import hardware, instrument_meshes, pad_meshes
+from station.render.kit.held_meshes import HELD_BONES, held_matrices, held_meshes
 from station.render.kit.instrument_meshes import Detail
-from station.render.kit.pedal_meshes import axle_of, pedal_meshes, pedals_by_foot, raised
+from station.render.kit.pedal_meshes import PedalBones, clutch_foot, pedal_matrices, pedal_meshes
 from station.render.kit.room import Disc
 
 WORLD = 0
@@ -29,7 +29,7 @@ _RACK_LUGS = 6
 
 @dataclass(frozen=True)
 class KitRig:
-    """`mesh` in the pose of rest, and the bone of each moving part.
+    """`mesh` in the pose of rest, and the bone of each moving part; `sticks` of all that hands may hold.
 
     The mesh's faces lie bone by bone, `faces_of` tells where; the first `still_faces` hardly ever move: hardware and
     drums, which shake by less than a degree.
@@ -38,10 +38,8 @@ class KitRig:
     kit: Kit
     mesh: Mesh
     piece_bones: dict[Piece, int]
-    boards: tuple[int, int]
-    beater: int
-    sticks: tuple[int, int]
-    axle_m: NDArray[np.float64]
+    pedals: PedalBones
+    sticks: range
     bone_count: int
     faces_of: dict[int, slice]
     still_faces: int
@@ -58,8 +56,9 @@ def kit_mesh(kit: Kit, detail: Detail) -> Mesh:
     shell = _SHELLS[kit.finish]
     parts = [_piece_mesh(p, detail, shell).moved(_place(p)).on_bone(bones.of[p.piece]) for p in kit.pieces.values()]
     parts += hardware.hardware(kit, detail)
-    parts += pedal_meshes(kit, bones.boards, bones.beater, axle_of(kit))
-    parts += [instrument_meshes.stick(instrument_meshes.STICK_M).on_bone(bone) for bone in bones.sticks]
+    parts += pedal_meshes(kit, bones.pedals)
+    parts += [clutch_foot(p).on_bone(bones.of[p.piece]) for p in kit.pieces.values() if p.kind == "hihat"]
+    parts += held_meshes(bones.sticks.start, detail.segments)
     return _bone_by_bone(joined(parts), bones.still)
 
 
@@ -67,10 +66,7 @@ def rig_of(kit: Kit, mesh: Mesh) -> KitRig:
     """The rig of what `kit_mesh` has made of `kit`."""
     bones, faces_of = _bones(kit), _faces_of(mesh)
     still_faces = max(faces_of[bone].stop for bone in bones.still)
-    count = bones.sticks[1] + 1
-    return KitRig(
-        kit, mesh, bones.of, bones.boards, bones.beater, bones.sticks, axle_of(kit), count, faces_of, still_faces
-    )
+    return KitRig(kit, mesh, bones.of, bones.pedals, bones.sticks, bones.sticks.stop, faces_of, still_faces)
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,9 +74,8 @@ class _Bones:
     """The numbers of a kit's bones: `of` its pieces, and the `still` ones, whose faces lie first."""
 
     of: dict[Piece, int]
-    boards: tuple[int, int]
-    beater: int
-    sticks: tuple[int, int]
+    pedals: PedalBones
+    sticks: range
     still: list[int]
 
 
@@ -88,7 +83,9 @@ def _bones(kit: Kit) -> _Bones:
     of = {piece: 1 + i for i, piece in enumerate(kit.pieces)}
     first = 1 + len(of)
     still = [WORLD, *(of[p.piece] for p in kit.pieces.values() if p.kind not in _SWINGING)]
-    return _Bones(of, (first, first + 1), first + 2, (first + 3, first + 4), still)
+    pedals = PedalBones.of(first)
+    held = pedals[-1] + 1
+    return _Bones(of, pedals, range(held, held + 2 * HELD_BONES), still)
 
 
 _SWINGING = ("cymbal", "hihat")
@@ -143,7 +140,7 @@ def bone_matrices(rig: KitRig, pose: Pose | None) -> Matrix:
     """A matrix for every bone of the rig, (bones, 4, 4); without a pose the kit is at rest and the sticks are away."""
     m = np.tile(np.eye(4), (rig.bone_count, 1, 1))
     if pose is None:
-        m[list(rig.sticks)] = 0.0
+        m[rig.sticks] = 0.0
         return m
     for (piece, bone), swing in zip(rig.piece_bones.items(), pose.swing_rad, strict=True):
         part = rig.kit.pieces[piece]
@@ -151,10 +148,8 @@ def bone_matrices(rig: KitRig, pose: Pose | None) -> Matrix:
             m[bone] = _tipped(part, float(swing[0]), float(swing[1]))
         if part.kind == "hihat" and not part.electronic:
             m[bone] = translation(part.normal * pose.hat_gap_m) @ m[bone]
-    for bone, pedal, angle in zip(rig.boards, pedals_by_foot(rig.kit), pose.footboard_rad, strict=True):
-        m[bone] = raised(pedal, angle)
-    m[rig.beater] = rotation_at(rig.axle_m, [1, 0, 0], pose.beater_rad)
-    m[list(rig.sticks)] = stick_matrices(pose)
+    m[list(rig.pedals)] = pedal_matrices(rig.kit, pose)
+    m[rig.sticks] = held_matrices(pose, rig.kit)
     return m
 
 
@@ -169,14 +164,6 @@ def _tipped(piece: KitPiece, back_rad: float, side_rad: float) -> Matrix:
     return m
 
 
-def stick_matrices(pose: Pose) -> Matrix:
-    """The matrices of the right and the left stick, (2, 4, 4)."""
-    along = pose.tip_m - pose.butt_m
-    m = frames(pose.butt_m, along, np.tile([1.0, 0.0, 0.0], (2, 1)))
-    m[:, :3, 2] *= np.linalg.norm(along, axis=1, keepdims=True) / instrument_meshes.STICK_M
-    return m
-
-
 def floor_discs(kit: Kit) -> list[Disc]:
     """What shades the floor, for `room.floor_picture`."""
     discs: list[Disc] = [(*kit.seat_m[:2], kit.seat_m[2] - 0.08, 0.22)]
@@ -188,7 +175,7 @@ def floor_discs(kit: Kit) -> list[Disc]:
             discs += [(x, y, z, piece.radius_m * 0.8), (x, y, 0.02, 0.06)]
         else:
             discs.append((x, y, max(z - piece.depth_m, 0.05), piece.radius_m))
-    for pedal in kit.pedals.values():
+    for pedal in (*kit.pedals.values(), *([kit.slave] if kit.slave else [])):
         heel, toe = np.array(pedal.heel_m), np.array(pedal.toe_m)
         discs += [(*(heel + (toe - heel) * k)[:2].tolist(), 0.02, 0.05) for k in (0.1, 0.5, 0.9)]
     return discs

@@ -137,4 +137,6 @@ def _legs_and_boards(kit: Kit) -> list[Line]:
         way = (heel - hip) * [1, 1, 0]
         knee = hip + way / np.linalg.norm(way) * _KNEE_M + _UP / 2
         lines += [(hip, knee, _THIGH_M), (knee, heel + _UP, _SHIN_M), (heel, toe, _BOARD_M)]
+    if kit.slave is not None:
+        lines.append((np.array(kit.slave.heel_m), np.array(kit.slave.toe_m), _BOARD_M))
     return lines

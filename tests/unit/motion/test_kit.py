@@ -101,7 +101,7 @@ def test_a_missing_piece_has_a_stand_in(piece: Piece, played: Piece) -> None:
         ('kind = "hihat"', 'kind = "hat"', '"hat"', "hihat.kind: expected drum, cymbal, hihat, kick or block"),
         ("[-0.07, 0.45, 0.66]", "[-0.07, 0.45]", "[-0.07, 0.45]", "snare.centre_m: expected [right, forward, up]"),
         ("depth_m = 0.14", "deep_m = 0.14", "deep_m = 0.14", "no such key: deep_m; did you mean depth_m?"),
-        ("[pedals.kick]", "[pedals.drum]", "[pedals.drum]", "no such key: drum; there are kick, hihat"),
+        ("[pedals.kick]", "[pedals.drum]", "[pedals.drum]", "no such key: drum; there are kick, hihat, slave"),
         ("[0.20, 0.71, 0.03]", "[0.20, 0.44, 0.03]", "[0.20, 0.44", "pedals.kick.toe_m: the toe end is 0.00 m from"),
         ("[-0.42, 0.62, 0.86]", "[-0.07, 0.46, 0.67]", "[-0.07, 0.46, 0.67]", "hihat.centre_m: overlaps the snare"),
         ("[-0.02, 0.80, 0.80]", "[0.45, 0.38, 0.58]", "[0.55, 0.38, 0.62]", "floor_tom_1.centre_m: overlaps the tom_1"),
@@ -147,6 +147,7 @@ def test_a_left_handed_kit_is_the_other_in_a_mirror(name: str, of: str) -> None:
                 assert left.target(piece, zone, other).point_m == pytest.approx([-x, y, z], abs=1e-12)
     assert left.mirrored.pieces == right.pieces
     assert left.mirrored.pedals == right.pedals
+    assert left.mirrored.slave == right.slave
 
 
 def test_a_file_that_mirrors_a_kit_says_nothing_else(tmp_path: Path) -> None:

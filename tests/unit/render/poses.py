@@ -20,6 +20,7 @@ _PLACES: dict[str, slice | int] = {
     "beater_rad": frame.BEATER,
     "hat_gap_m": frame.GAP,
     "eyes": frame.EYES,
+    "slave_rad": slice(frame.SLAVE_BOARD, frame.SLAVE_BEATER + 1),
 }
 
 
