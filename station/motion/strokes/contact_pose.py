@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Articulation, Limb, Piece
+from station.core.pieces import Articulation, Limb
 from station.motion.kinematics.arm import Arm, ArmLengths, Contact, Offsets, solve
 from station.motion.kinematics.collisions import depth_in_kit
 from station.motion.kinematics.figure import Figure
@@ -40,14 +40,9 @@ choice, within the limits of HUMANS)."""
 SHOULDER_OF_STICK = 0.25
 """From the tip back to the part that meets a cymbal's edge or a rim, as a share of the stick (our choice)."""
 _LAID_AHEAD = 0.55
-_LAID_RISE = math.radians(2.0)
-"""A cross-stick strikes the rim so far ahead of the fulcrum as a share of its length; the hand lies flat on it, palm
-down whatever its grip (our choice)."""
-
-_RIDES = (Piece.RIDE, Piece.RIDE_2)
-THUMB_UP_TURNS = 0.5
-"""On a ride the thumb comes up: half of the wrist's part of a stroke is the forearm's roll (our choice)."""
-
+_LAID_RISE, _LAID_IN_THE_WEB = math.radians(2.0), math.radians(9.0)
+"""A cross-stick strikes the rim so far ahead of the fulcrum as a share of its length; a matched hand lies flat
+on it, palm down; the back of a traditional one lies on the head (our choice)."""
 
 LEANS_RAD = np.radians([6.0, 12.0, 18.0, 24.0, 30.0])
 """How far the trunk may lean for a distant target, the least that serves (our choice)."""
@@ -78,8 +73,6 @@ def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike) -> ContactPose:
     if strike.articulation == WAIT and not hold.held.rest_m:  # a brush waits on the head
         strike = replace(strike, articulation=Articulation.NORMAL)
     target = target_of(kit, strike)
-    if kit.stand_in(strike.piece) in _RIDES and hold.held.name == "stick":
-        hold = replace(hold, grip=replace(hold.grip, turns_hand=min(hold.grip.turns_hand, THUMB_UP_TURNS)))
     right = strike.limb == Limb.RIGHT_HAND
     side = 1.0 if right else -1.0
     lengths = hold.lengths(figure, right)
@@ -211,7 +204,9 @@ def _slopes(lengths: ArmLengths, target: Target, hold: Hold, strike: Strike, len
         return _Slopes(0.0, lengths.ahead, target.rise_rad, lie)
     if strike.articulation == Articulation.CROSS_STICK:
         laid = _LAID_AHEAD * length_m
-        return _Slopes(laid, ahead - laid, _LAID_RISE, hold.grip.flat, -hold.grip.roll)
+        if hold.grip.turns_hand:
+            return _Slopes(laid, ahead - laid, _LAID_RISE, hold.grip.flat, -hold.grip.roll)
+        return _Slopes(laid, ahead - laid, _LAID_IN_THE_WEB, lie)
     if target.shoulder:
         ahead -= SHOULDER_OF_STICK * length_m
     lean = math.atan2(

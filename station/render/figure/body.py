@@ -42,7 +42,7 @@ def build_body(figure: Figure, fineness: float) -> Skin:
     parts = body_parts(skeleton, scale)
     whole = [part.field for part in parts]
     skins = [_part_skin(part, fineness * scale, whole) for part in parts]
-    skins += [_hand_skin(skeleton, fineness, side) for side in (Bone.RIGHT_HAND, Bone.LEFT_HAND)]
+    skins += [hand_part(skeleton, fineness, side) for side in (Bone.RIGHT_HAND, Bone.LEFT_HAND)]
     segments = max(12, round(32 / fineness))
     for upper in (Bone.RIGHT_UPPER_ARM, Bone.LEFT_UPPER_ARM):
         skins += [_rigid_skin(mesh) for mesh in bands(skeleton, scale, upper, segments)]
@@ -81,7 +81,8 @@ def _open_sky(mesh: Surface, whole: Sequence[Field]) -> Array:
     return np.asarray(np.clip(1 - 0.62 * closed / sum(0.5**i for i in range(len(_AO_STEPS_M))) * 1.6, 0.15, 1))
 
 
-def _hand_skin(skeleton: Skeleton, fineness: float, hand: Bone) -> Skin:
+def hand_part(skeleton: Skeleton, fineness: float, hand: Bone) -> Skin:
+    """The skin of one hand, in the stance of `skeleton`."""
     skin = hand_skin(fineness)
     position, normal, faces = skin.position * skeleton.hand_scale, skin.normal, skin.faces
     if hand is Bone.LEFT_HAND:

@@ -58,7 +58,7 @@ _SPREAD = ((0, 22, 26, 14, 0), (-5, 18, 24, 12, 0), (-14, 14, 22, 12, 0))
 """Middle, ring and little finger, quite closed and quite open, degrees."""
 _RELAXED = ((34, 22, 12, 12, -62), (4, 12, 14, 8, 0), (0, 12, 16, 9, 0), (-5, 14, 18, 10, 0), (-13, 16, 18, 10, 0))
 """A hand at rest; the skin is made in it."""
-_FLAT = ((34, 22, 12, 12, -62), (6, 4, 5, 3, 0), (0, 4, 5, 3, 0), (-6, 4, 5, 3, 0), (-15, 4, 6, 4, 0))
+_FLAT = ((34, 22, 12, 12, -62), (6, 7, 6, 4, 0), (0, 7, 6, 4, 0), (-6, 7, 6, 4, 0), (-15, 7, 6, 4, 0))
 """A hand that plays the drum itself."""
 
 
@@ -118,7 +118,7 @@ STEPS = 17
 _PINCHING = {"german": 2, "american": 2, "french": 2, "traditional": 1}
 """So many of the first digits stay at the fulcrum, however the stick turns in them."""
 _TRIES = 61
-_PRESSED_M = 0.0012
+_PRESSED_M = 0.0005
 """So deep the flesh of a finger gives where it holds (our choice)."""
 
 

@@ -60,7 +60,7 @@ def _palm(fineness: float) -> HandSkin:
         cone((0.022, -0.001, 0.084), (-0.029, -0.005, 0.075), 0.0130, 0.0105),
     ]
     start, way = REST[0, :3, 3], REST[0, :3, 2]
-    ball = cone(start, start + BONES_M[0, 0] * way, 0.0165, RADII_M[0, 1] + _OVER_M)
+    ball = cone(start, start + BONES_M[0, 0] * way, 0.0145, RADII_M[0, 1] + _OVER_M)
     knuckles = [
         cone(0.75 * knuckle, knuckle, radius, radius + _OVER_M)
         for knuckle, radius in zip(KNUCKLES_M[1:], RADII_M[1:, 0], strict=True)
