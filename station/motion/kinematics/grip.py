@@ -28,10 +28,14 @@ STICK_RADIUS_M = 0.0072
 
 @dataclass(frozen=True, slots=True)
 class Lie:
-    """A stick in the hand at the contact: μ in vertical planes and, in plan, how far the hand points outward of it."""
+    """A stick in the hand at the contact.
+
+    μ in vertical planes; in plan, how far the hand points outward of the stick; how far it is rolled from its grip.
+    """
 
     palm: float
     crossing: float
+    roll: float
 
 
 @dataclass(frozen=True)
@@ -55,21 +59,27 @@ class Grip:
     in_hand_m: float
     beyond_m: float
 
-    @cached_property
-    def lie(self) -> Lie:
-        """How the stick lies in the hand as this grip turns it."""
-        return self._rolled(self.roll)
+    def lie(self, stick_rise: float = 0.0, roll: float | None = None) -> Lie:
+        """How hand and stick lie to each other where the stick rises from the contact by `stick_rise`.
 
-    @cached_property
-    def flat(self) -> Lie:
-        """How it lies when the palm is turned down, as for a cross-stick."""
-        return self._rolled(0.0)
-
-    def _rolled(self, roll: float) -> Lie:
+        A hand that bends for its strokes stays at its `roll` and is pitched until the stick lies in it as it should;
+        one that turns for them is as steep as its stick, and is rolled.
+        """
         x, y, z = (line_axes(self.fulcrum) @ self.to_butt).tolist()
-        s, c = math.sin(roll), math.cos(roll)
-        inward, up = x * c - y * s, x * s + y * c
-        return Lie(-math.atan2(up, math.hypot(inward, z)), -math.atan2(inward, -z))
+        roll = self.roll if roll is None else roll
+        if self.turns_hand:
+            up = x * math.sin(roll) + y * math.cos(roll)
+            pitch = math.asin(math.sin(stick_rise) / math.hypot(up, z)) - math.atan2(up, -z)
+        else:
+            pitch, up = stick_rise, math.tan(stick_rise) * (1 + z)
+            roll = math.pi - math.asin(up / math.hypot(x, y)) - math.atan2(y, x)
+        inward, ahead = x * math.cos(roll) - y * math.sin(roll), -z * math.cos(pitch) - up * math.sin(pitch)
+        return Lie(pitch - stick_rise, -math.atan2(inward, ahead), roll - self.roll)
+
+    @cached_property
+    def closed_rad(self) -> float:
+        """μ at the contact of a level stick: the fingers are closed."""
+        return self.lie().palm
 
 
 def line_axes(fulcrum: tuple[float, float, float]) -> NDArray[np.float64]:

@@ -110,7 +110,9 @@ def finger_frames(grip: Grip) -> Array:
     free = _free(bent(tries), np.array(grip.fulcrum), to_butt(grip, opened))
     blocked = np.where(free, -1, np.arange(_TRIES)[:, None])  # the most open try that the stick forbids
     chosen = share[np.minimum(blocked.max(axis=1) + 1, _TRIES - 1)]
-    chosen[:, : _PINCHING[grip.name]] = (opened / OPEN_FINGERS_RAD)[:, None]
+    at_least = (opened / OPEN_FINGERS_RAD)[:, None]
+    chosen = np.maximum(chosen, at_least)
+    chosen[:, : _PINCHING[grip.name]] = at_least
     return bent(closed + chosen[..., None] * (wide - closed))
 
 
