@@ -188,7 +188,7 @@ def chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a 
     jz = sz + a_k * kz + a_e * ez + a_n * (kx * ey - ky * ex)
     # hand and stick, by their slopes up towards the player
     hand = hand_rise - lifted - turns * raised_wrist
-    stick = stick_rise - lifted - turns * raised_wrist - raised_stick
+    stick = stick_rise - turns * (lifted + raised_wrist) - raised_stick
     cos_h, sin_h, cos_s, sin_s = cos(hand), sin(hand), cos(stick), sin(stick)
     a = h * cos_h
     hx, hy, hz = wx - a * vx, wy - a * vy, wz - h * sin_h
@@ -199,7 +199,11 @@ def chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a 
     b = bx * vx + by * vy
     across, upward, rolled = lengths.roll_sine, lengths.roll_cosine, (1 - turns) * raised_wrist
     side, to_thumb, to_back = lengths.rolls_hand, lengths.off_thumb, lengths.off_back
-    if m is not ONE or rolled:  # the stick turns with the hand about the line between wrist and fulcrum
+    if m is not ONE or turns != 1.0:  # the stick goes with the hand, pitched by the arm and turned by the forearm
+        c, s = cos((1 - turns) * lifted), sin((1 - turns) * lifted)
+        along = vx * tx + vy * ty
+        pitched = (c - 1) * along + s * tz
+        tx, ty, tz = tx + pitched * vx, ty + pitched * vy, c * tz - s * along
         c, s = cos(rolled), -side * sin(rolled)
         lx, ly = cos_h * vx, cos_h * vy
         dot = (1 - c) * (lx * tx + ly * ty + sin_h * tz)
@@ -222,7 +226,7 @@ def chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a 
             inside + forearm + raised_elbow,
             atan2(sin_h * b - cos_h * bz, -(cos_h * b + sin_h * bz)) + to_thumb * side * across + to_back * upward,
             atan2(by * vx - bx * vy, sqrt(b * b + bz * bz)) + to_thumb * side * upward - to_back * across,
-            hand - stick,
+            hand - stick + (1 - turns) * lifted,
         ),
         missing,
     )

@@ -121,7 +121,7 @@ def _grip(
 
 _PINCH = (0.034, -0.022, 0.098)
 _KNUCKLES = (0.004, 0.0, 0.096)
-BARE = _grip("bare", (20.0, 0.0), 1.0, (1.0, 0.4), _KNUCKLES, _way(0.0, 8.0), 0.0, 0.0)
+BARE = _grip("bare", (20.0, 0.0), 1.0, (1.0, 0.4), _KNUCKLES, _way(0.0, -8.0), 0.0, 0.0)
 """A bare hand: its fingers are the stick, held a little bent, and the knuckles are where it turns."""
 GRIPS: Mapping[str, Grip] = MappingProxyType(
     {

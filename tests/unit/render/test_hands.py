@@ -146,8 +146,9 @@ def test_no_finger_goes_through_the_stick(grips: tuple[str, str], stature_m: flo
     for pose in poses(grips, "stick", stature_m)[0]:
         for side in (0, 1):
             corners, bones, _ = drawn(pose, side, stature_m)
-            gap, _ = beside(corners[bones >= 0], pose, side)
-            assert gap.min() > STICK_M - 0.003
+            gap, _ = beside(corners, pose, side)
+            assert gap[bones > 0].min() > STICK_M - 0.003
+            assert gap.min() > STICK_M - 0.0045  # the ball of the thumb and the web are soft
 
 
 def test_fingers_open_as_the_stick_sinks_in_the_hand() -> None:
