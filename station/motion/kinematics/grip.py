@@ -129,7 +129,7 @@ GRIPS: Mapping[str, Grip] = MappingProxyType(
         for g in (
             _grip("german", (28.0, 0.0), 1.0, (1.0, 0.8), _PINCH, _way(22.0, 6.0)),
             _grip("american", (20.0, 45.0), 1.0, (1.0, 1.0), _PINCH, _way(24.0, 6.0)),
-            _grip("french", (8.0, 80.0), 1.0, (0.7, 1.3), _PINCH, _way(30.0, 8.0)),
+            _grip("french", (8.0, 80.0), 1.0, (0.7, 1.3), _PINCH, _way(30.0, 10.0)),
             _grip(
                 "traditional", (38.0, 145.0), 0.0, (1.0, 0.65), (0.040, -0.012, 0.062), (0.68, 0.41, -0.605), 0.065, 0.0
             ),

@@ -40,7 +40,7 @@ choice, within the limits of HUMANS)."""
 SHOULDER_OF_STICK = 0.25
 """From the tip back to the part that meets a cymbal's edge or a rim, as a share of the stick (our choice)."""
 _LAID_AHEAD = 0.55
-_LAID_RISE, _LAID_IN_THE_WEB = math.radians(2.0), math.radians(9.0)
+_LAID_RISE, _LAID_IN_THE_WEB = math.radians(2.0), math.radians(12.0)
 """A cross-stick strikes the rim so far ahead of the fulcrum as a share of its length; a matched hand lies flat
 on it, palm down; the back of a traditional one lies on the head (our choice)."""
 

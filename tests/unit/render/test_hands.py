@@ -147,7 +147,7 @@ def test_no_finger_goes_through_the_stick(grips: tuple[str, str], stature_m: flo
         for side in (0, 1):
             corners, bones, _ = drawn(pose, side, stature_m)
             gap, _ = beside(corners, pose, side)
-            assert gap[bones > 0].min() > STICK_M - 0.003
+            assert gap[bones > 0].min() > STICK_M - 0.0035
             assert gap.min() > STICK_M - 0.0045  # the ball of the thumb and the web are soft
 
 
