@@ -121,7 +121,9 @@ TABS: tuple[ControlTab, ...] = (
                     Control("stand", "stand", "0 sits, 1 stands", _HUNDREDTHS),
                     Control("shrug", "shrug", "How far the shoulders rise with loud strokes"),
                     Control("breathing", "breathing", "How deeply the drummer breathes"),
-                    Control("amplitude_heel", "heels", "How far the heels rise and fall to the beat where the feet rest"),
+                    Control(
+                        "amplitude_heel", "heels", "How far the heels rise and fall to the beat where the feet rest"
+                    ),
                     Control("flourish", "flourish", "How often a stick is spun or tossed in a rest"),
                 ),
             ),
