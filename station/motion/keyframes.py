@@ -6,17 +6,19 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Limb, Piece, word
-from station.motion.body import body_keys as body
+from station.motion.body.head_keys import head_curve
 from station.motion.body.idle_motion import BREATH_M, BREATH_RATE, Blinks
 from station.motion.body.reach import reaching
 from station.motion.kinematics.arm import Contact
 from station.motion.kinematics.frame import FeetNow, HandNow, Rig
+from station.motion.kinematics.grip import Hold
 from station.motion.kinematics.leg import HEEL_RAD
 from station.motion.kinematics.maths import MANY, ONE, Number, Point
 from station.motion.kinematics.splines import SplineChannels
@@ -27,6 +29,7 @@ from station.motion.strokes.flourish import NOTHING, Flourishes, Now, flourished
 from station.motion.strokes.hand import HandPart
 from station.motion.strokes.stroke import Sliders, Strokes
 from station.motion.strokes.travel import HandPath
+from station.motion.strokes.variation import spots, varied
 from station.motion.style.style import Style
 from station.music.score import Score
 
@@ -106,7 +109,7 @@ class Keys:
             body=old.body
             if old is not None and "body" in same
             else reaching(ground, style, parts, plan.figure, plan.pelvis),
-            head=old.head if old is not None and "head" in same else body.head_curve(ground, style),
+            head=old.head if old is not None and "head" in same else head_curve(ground, style),
             gaze=old.gaze if old is not None and "gaze" in same else plan.gaze(style),
             blinks=old.blinks if old is not None and "blinks" in same else plan.blinks(style.seed),
             kicks=old.kicks if old is not None and "kicks" in same else plan.kicks(style),
@@ -116,34 +119,41 @@ class Keys:
             instruments=plan.instruments,
         )
 
+    @cached_property
+    def holds(self) -> tuple[Hold, Hold]:
+        """What the right and the left hand hold, and how."""
+        return self.parts[0].hold, self.parts[1].hold
+
     def at(self, time_s: float) -> list[float]:
         """The whole drummer at one instant as a row of `frame`, the instruments left out."""
-        twist, lean, side, shrug, wing, stand, gaze, breath = self.body.at(time_s)
+        twist, lean, side, shrug, hunch, wing, stand, gaze, breath, *face = self.body.at(time_s)
         bearing, pitch = self.gaze.at(time_s)
         shrug += breath * BREATH_M * math.sin(BREATH_RATE * time_s)
-        nod, tilt = self.head.at(time_s)
+        nod, tilt, chin = self.head.at(time_s)
         (right, right_spin), (left, left_spin) = self.hands[0].at(time_s), self.hands[1].at(time_s)
         path = self.rig.path
         phase = 0.0 if path is None else path.phase.first(time_s)
         kick, slave = self.kicks[0].first(time_s), self.kicks[1].first(time_s)
         feet = FeetNow(kick, self.hat.first(time_s), slave, *self.heels.at(time_s), phase)
         look = gaze * bearing, gaze * pitch
-        now = (twist, lean, side, shrug, wing, stand, *look, nod, tilt, self.blinks.at(time_s))
+        eyes = self.blinks.at(time_s)
+        now = (twist, lean, side, shrug, hunch, wing, stand, *look, nod, tilt, chin, eyes, *face)
         return flourished(ONE, self.rig.row(ONE, now, right, left, feet), right_spin, left_spin)
 
     def many(self, time_s: Array) -> list[Number]:
         """The same at each time (n,): numbers and arrays (n,)."""
-        twist, lean, side, shrug, wing, stand, gaze, breath = self.body.many(time_s)
+        twist, lean, side, shrug, hunch, wing, stand, gaze, breath, *face = self.body.many(time_s)
         bearing, pitch = self.gaze.many(time_s)
         shrug = shrug + breath * BREATH_M * np.sin(BREATH_RATE * time_s)
-        nod, tilt = self.head.many(time_s)
+        nod, tilt, chin = self.head.many(time_s)
         (right, right_spin), (left, left_spin) = self.hands[0].many(time_s), self.hands[1].many(time_s)
         path = self.rig.path
         phase = 0.0 if path is None else path.phase.many(time_s)[0]
         kick, slave = self.kicks[0].many(time_s)[0], self.kicks[1].many(time_s)[0]
         feet = FeetNow(kick, self.hat.many(time_s)[0], slave, *self.heels.many(time_s), phase)
         look = gaze * bearing, gaze * pitch
-        now = (twist, lean, side, shrug, wing, stand, *look, nod, tilt, self.blinks.many(time_s))
+        eyes = self.blinks.many(time_s)
+        now = (twist, lean, side, shrug, hunch, wing, stand, *look, nod, tilt, chin, eyes, *face)
         return flourished(MANY, self.rig.row(MANY, now, right, left, feet), right_spin, left_spin)
 
 
@@ -152,15 +162,22 @@ READS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "strokes": (
             *("amplitude_gain", "amplitude_wrist", "amplitude_elbow", "amplitude_shoulder", "amplitude_fingers"),
             *("frequency_gain", "frequency_wrist", "frequency_elbow", "frequency_shoulder", "whip", "pieces"),
+            *("variation", "seed"),
             *(word(piece) for piece in Piece),
         ),
+        "way": ("variation", "seed"),
         "flourishes": ("flourish", "seed"),
         "body": (
             *("amplitude_twist", "amplitude_back", "frequency_back", "amplitude_side", "half_time_bpm"),
             *("twist_deg_s", "shrug", "wing_deg", "posture_deg", "stand", "amplitude_gaze", "breathing"),
+            *("hunch_deg", "shimmy", "phrase", "fill_lean", "rise", "mood", "expression"),
+            *("headbang", "lay_back_ms", "variation", "seed"),
         ),
-        "head": ("amplitude_neck", "frequency_neck", "bobs_per_beat", "amplitude_head_side"),
-        "gaze": ("look_around", "seed"),
+        "head": (
+            *("amplitude_neck", "frequency_neck", "bobs_per_beat", "amplitude_head_side", "backbeat", "chin"),
+            *("headbang", "lay_back_ms", "variation", "seed"),
+        ),
+        "gaze": ("look_around", "attention", "seed"),
         "blinks": ("seed",),
         "kicks": ("beater",),
         "heels": ("amplitude_heel",),
@@ -183,7 +200,18 @@ def _hand(plan: MotionPlan, part: HandPart, style: Style, old: HandKeys | None, 
         old.strokes if old and "strokes" in same else Strokes.of(part.strokes, sliders(plan.score, part, style, bars))
     )
     flourishes = old.flourishes if old and "flourishes" in same else _flourishes(part, style, bars)
-    return HandKeys(part.way, strokes, flourishes, part.show, _sweeps(plan, part, strokes))
+    way = old.way if old and "way" in same else _way(plan, part, style, bars)
+    return HandKeys(way, strokes, flourishes, part.show, _sweeps(plan, part, strokes))
+
+
+def _way(plan: MotionPlan, part: HandPart, style: Style, bars: Array) -> HandPath:
+    """The hand's way, every strike as near to its aim as chance has it."""
+    amount = style.factor("variation", bars)
+    if not amount.any() or not len(part.events.row):
+        return part.way
+    contacts = part.contacts.copy()
+    contacts[:, :3] += spots(plan.kit, part.events, amount, (style.seed, int(part.limb)))
+    return HandPath.of(part.events.time_s, contacts, part.bump, part.early, part.gives)
 
 
 def _sweeps(plan: MotionPlan, part: HandPart, strokes: Strokes) -> Sweeps | None:
@@ -221,7 +249,9 @@ def sliders(score: Score, hand: HandPart, style: Style, bars: Array) -> Sliders:
         struck = score.notes["piece"][hand.events.row]
         for piece in style.own_pieces:
             gain = gain * np.where(struck == piece, style.piece_factor(piece, bars), 1.0)
-    return Sliders(gain, _pace(np.array(paces)), style.factor("whip", bars)[None])
+    found = Sliders(gain, _pace(np.array(paces)), style.factor("whip", bars)[None])
+    amount = style.factor("variation", bars)
+    return varied(found, hand.strokes.rebounds, amount, (style.seed, int(hand.limb))) if amount.any() else found
 
 
 SLOWEST = 0.3

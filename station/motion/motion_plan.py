@@ -16,10 +16,12 @@ from station.motion.body.body_keys import Ground, mean_bearing
 from station.motion.body.gaze import GazeTargets, gaze_curve
 from station.motion.body.heels import heel_curves
 from station.motion.body.idle_motion import Blinks
+from station.motion.body.intensity import Intensity
 from station.motion.body.reach import reaching
 from station.motion.kinematics.figure import Figure
 from station.motion.kinematics.foot_path import FootPath, Visits
 from station.motion.kinematics.footings import footings
+from station.motion.kinematics.grip import Hold
 from station.motion.kinematics.leg import Footing
 from station.motion.kinematics.maths import MANY, Point, blocks
 from station.motion.kinematics.pedal_motion import hat_board, kick_board
@@ -29,7 +31,6 @@ from station.motion.kinematics.trunk import TrunkAngles, trunk
 from station.motion.kit.instruments import Instrument, instruments
 from station.motion.kit.kit import Kit
 from station.motion.sticking.limbs import Assignment, assign_limbs
-from station.motion.strokes.grip import GRIPS, HELD, Hold
 from station.motion.strokes.hand import HandPart
 from station.motion.strokes.hand_events import HandEvents, hand_events
 from station.motion.strokes.targets import strike_points
@@ -38,7 +39,9 @@ from station.music.score import Score
 
 Array = NDArray[np.float64]
 
-LIVELY = Style(amplitude_twist=75.0, amplitude_back=95.0, amplitude_side=45.0, shrug=50.0)
+QUIET = Style(phrase=0.0, fill_lean=0.0, variation=0.0)
+"""The style whose shoulders are in the middle of what all others make of them."""
+LIVELY = Style(amplitude_twist=75.0, amplitude_back=95.0, amplitude_side=45.0, shrug=50.0, phrase=60.0, fill_lean=100.0)
 """The style whose shoulders are farthest from the natural ones: hands are so pointed that both serve their wrists."""
 HANDS = (Limb.RIGHT_HAND, Limb.LEFT_HAND)
 
@@ -124,7 +127,7 @@ class MotionPlan:
         if not (len(right.events.row) or len(left.events.row)):
             return right, left
         grid = looks(right.events.time_s, left.events.time_s)
-        roots = self._roots(grid, reaching(self.ground, Style(), (right, left), self.figure, self.pelvis))
+        roots = self._roots(grid, reaching(self.ground, QUIET, (right, left), self.figure, self.pelvis))
         right, left = (
             past_the_shoulder(hand.waiting_before(grid, root), self.figure, self.kit, grid, root)
             for hand, root in zip((right, left), roots, strict=True)
@@ -142,8 +145,8 @@ class MotionPlan:
         """Where the right and the left shoulder are at each time (n,) in a body that moves by `curves`, (3, n) each."""
         right, left = np.empty((3, len(time_s))), np.empty((3, len(time_s)))
         for block in blocks(len(time_s)):
-            twist, lean, side, shrug, *_ = curves.many(time_s[block])
-            frame = trunk(MANY, self.figure, self.pelvis, TrunkAngles(twist, lean, side, 0.0, 0.0, 0.0, shrug))
+            twist, lean, side, shrug, hunch, *_ = curves.many(time_s[block])
+            frame = trunk(MANY, self.figure, self.pelvis, TrunkAngles(twist, lean, side, 0.0, 0.0, 0.0, shrug, hunch))
             right[:, block], left[:, block] = frame.right_shoulder, frame.left_shoulder
         return right, left
 
@@ -151,7 +154,7 @@ class MotionPlan:
         """Where the drummer looks."""
         sights, ticks = self._sights
         bars = bar_places(self.score, ticks) if style.automation else np.ones(1)
-        return gaze_curve(sights, style.value("look_around", bars) / 100, style.seed)
+        return gaze_curve(sights, style.value("look_around", bars) / 100, style.seed, style.attention)
 
     @cached_property
     def note_bars(self) -> Array:
@@ -183,7 +186,7 @@ class MotionPlan:
 
 def holds(style: Style) -> tuple[Hold, Hold]:
     """What the right and the left hand hold, and how."""
-    return Hold(GRIPS[style.grip_right], HELD[style.held]), Hold(GRIPS[style.grip_left], HELD[style.held])
+    return Hold.of(style.grip_right, style.held), Hold.of(style.grip_left, style.held)
 
 
 def _ground(score: Score, kit: Kit, limbs: NDArray[np.int8], points: Array) -> Ground:
@@ -207,6 +210,7 @@ def _ground(score: Score, kit: Kit, limbs: NDArray[np.int8], points: Array) -> G
         bearing=mean_bearing(times, onset[hands], bearing),
         bob=bob,
         restart=restarts(beats.time_s, onset),
+        intensity=Intensity.of(times, onset, velocity, notes["piece"]),
     )
 
 

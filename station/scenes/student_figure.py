@@ -105,7 +105,7 @@ class StudentFigure:
                 if not limb.is_hand:
                     moved = [frame.BEATER] if limb is kicks else [frame.GAP, frame.SLAVE_BOARD, frame.SLAVE_BEATER]
                     row[moved] = borrowed[moved]
-        return StudentShown(Pose(position_s, row), self._partings(now_ns))
+        return StudentShown(Pose(position_s, row, now.holds), self._partings(now_ns))
 
     def _time_s(self, limb: Limb, drummer: Drummer, position_s: float) -> float:
         """The time at which the limb is: as late as its last stroke was, and not beyond where it waits."""

@@ -18,6 +18,7 @@ from station.motion.kinematics.leg import chain as leg_chain
 from station.motion.kinematics.leg import settled as settled_leg
 from station.motion.kinematics.maths import ONE, Maths, Number, Point
 from station.motion.kinematics.pedal_motion import BEATER_SWING_RAD, OPEN_GAP_M
+from station.motion.kinematics.trunk import LEAN_TO_HEAD
 from station.motion.kinematics.trunk import chain as trunk_chain
 
 JOINTS = slice(0, 63)
@@ -26,8 +27,9 @@ FACING, HEAD_UP = slice(81, 84), slice(84, 87)
 ANGLES, BOARDS = slice(87, 115), slice(115, 117)
 BEATER, GAP, EYES = 117, 118, 119
 SLAVE_BOARD, SLAVE_BEATER = 120, 121
-PLAYED = 122
-"""Where the instruments' four numbers each begin."""
+FACE, GAZE = slice(122, 126), slice(126, 128)
+PLAYED = 128
+"""Where the instruments' numbers begin, `instruments.NUMBERS` each."""
 
 STAND_M = (0.10, 0.30)
 """How far forward and up the pelvis goes to stand (our choice)."""
@@ -37,7 +39,8 @@ the way up they are there (our choice)."""
 
 
 BodyNow = tuple[Number, ...]
-"""What the body's channels say: `body.CHANNELS`, the look's bearing and pitch in space, head and eyes."""
+"""What the body's channels say: the first seven of `body.CHANNELS`, the look's bearing and pitch in space, the head's
+nod, tilt and chin, how far the eyes are open, and the face."""
 
 HandNow = tuple[Sequence[Number], Sequence[Number]]
 """What one hand's channels say: its contact without the style's wing, and its stroke, in the order of `Contact` and
@@ -81,7 +84,7 @@ class Rig:
 
     def row(self, m: Maths, now: BodyNow, right: HandNow, left: HandNow, feet: FeetNow) -> list[Number]:
         """All numbers but the instruments'."""
-        twist, lean, side, shrug, wing, stand, bearing, pitch, bob, tilt, eyes = now
+        twist, lean, side, shrug, hunch, wing, stand, bearing, pitch, bob, tilt, chin, eyes, *face_now = now
         figure, hip, heel = self.figure, self.hip_m, self.heel
         x, y, z = self.pelvis
         y, z = y + STAND_M[0] * stand, z + STAND_M[1] * stand
@@ -91,8 +94,11 @@ class Rig:
         nod, tilt = bob + LOOK_DOWN * pitch, tilt - TILT_OF_TURN * turn
         hand = HAND_STANDING_RAD * m.least(2 * stand, 1.0)
         spine, right_shoulder, left_shoulder, face = trunk_chain(
-            m, figure, (x, y, z), (twist, lean, side, nod, turn, tilt, shrug)
+            m, figure, (x, y, z), (twist, lean, side, nod, turn, tilt, shrug, hunch, chin)
         )
+        # the eyes do what the head leaves of the look
+        aside, down = bearing - twist - turn, pitch - LEAN_TO_HEAD * lean - nod
+        aside, down = (m.most(m.least(a, EYES_RAD), -EYES_RAD) for a in (aside, down))
         arm_a, butt_a, tip_a, back_a, angles, _ = arm_chain(m, self.arms[0], right_shoulder, *right, (wing, hand))
         heading_a, shoulder_a, elbow_a, wrist_a, aside_a, palm_a = angles
         arm_b, butt_b, tip_b, back_b, angles, _ = arm_chain(m, self.arms[1], left_shoulder, *left, (-wing, hand))
@@ -110,8 +116,8 @@ class Rig:
             legs, bent, boards = (*kick_leg, x - hip, y, z, *hat_leg), (*kick_bent, *hat_bent), (kick, hat)
         else:
             legs, bent, boards = (*hat_leg, x - hip, y, z, *kick_leg), (*hat_bent, *kick_bent), (hat, kick)
-        rolled_a = self.rolls[0] + (1 - right[0][TURNS]) * right[1][WRIST]
-        rolled_b = self.rolls[1] + (1 - left[0][TURNS]) * left[1][WRIST]
+        rolled_a = self.rolls[0] + right[0][ROLL] + (1 - right[0][TURNS]) * right[1][WRIST]
+        rolled_b = self.rolls[1] + left[0][ROLL] + (1 - left[0][TURNS]) * left[1][WRIST]
         return [
             *(x, y, z, *spine, *arm_a, *arm_b, x + hip, y, z, *legs),
             *(*butt_a, *butt_b, *tip_a, *tip_b, *back_a, *back_b, *face),
@@ -120,6 +126,8 @@ class Rig:
             *(heading_b, shoulder_b, wing - left[0][WING], elbow_b, wrist_b, -aside_b, rolled_b, palm_b),
             *(*bent, *boards, feet.kick * BEATER_SWING_RAD, feet.hat * OPEN_GAP_M, eyes),
             *(feet.slave * self.raised[2], feet.slave * BEATER_SWING_RAD),
+            *face_now,
+            *(aside, down),
         ]
 
     def _hat_foot(self, m: Maths, feet: FeetNow) -> tuple[Number, Place, Number, Number]:
@@ -136,10 +144,13 @@ class Rig:
         return board, footing.between(m, side, lift), board + side * (slave - board), tip
 
 
-WING, TURNS, WRIST = Contact._fields.index("wing"), Contact._fields.index("turns"), Offsets._fields.index("wrist")
+WING, TURNS, ROLL = (Contact._fields.index(name) for name in ("wing", "turns", "roll"))
+WRIST = Offsets._fields.index("wrist")
 FOLLOWS = 0.9
 """How far the head turns to what is looked at; the eyes do the rest (our choice)."""
 LOOK_DOWN = 0.45
 """How much of the way down to a drum the head nods; the eyes do the rest (our choice)."""
+EYES_RAD = math.radians(35)
+"""Eyes turn so far in the head before the neck does the rest (general knowledge: comfortable to 30–35°)."""
 TILT_OF_TURN = 0.12
 """A head that turns tilts a little with it (our choice)."""

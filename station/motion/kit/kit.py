@@ -1,8 +1,9 @@
 """The drum kit: its pieces, its pedals, which piece stands in for one that it lacks, and its TOML file.
 
-A file holds `title`, `handed` ("right" or "left"), `seat_m`, the tables `pedals.kick` and `pedals.hihat`, with a double
-pedal `pedals.slave`, and a table for each piece, named as `core.pieces` names it. Angles are degrees in the file. Every
-fault is named by its place; `station/motion/data/kits/four_piece.toml` is a commented example.
+A file holds `title`, `handed` ("right" or "left"), `make`, `finish`, `seat_m`, the tables `pedals.kick` and
+`pedals.hihat`, with a double pedal `pedals.slave`, and a table for each piece, named as `core.pieces` names it. Or it
+holds a `title` and which shipped kit it `mirrors`. Angles are degrees in the file. Every fault is named by its place;
+`station/motion/data/kits/four_piece.toml` is a commented example.
 """
 
 import math
@@ -39,6 +40,8 @@ from station.core.toml_faults import wrong
 from station.core.toml_source import read_source
 from station.motion.kit.piece import SPOTS, KitPiece, Target, Vector, ZoneSpot
 
+MAKES = ("acoustic", "electronic")
+FINISHES = ("teal", "maple", "black")
 KITS = Path(__file__).parents[1] / "data" / "kits"
 DEFAULT_KIT = "four_piece"
 
@@ -88,7 +91,10 @@ _SUBSTITUTES: Mapping[Piece, tuple[Piece, ...]] = MappingProxyType(
 
 @dataclass(frozen=True)
 class Kit:
-    """All pieces of a kit and its pedals; `left_handed` kits lead with the left hand."""
+    """All pieces of a kit and its pedals; `left_handed` kits lead with the left hand.
+
+    `make` is what kind of instruments they are, of `MAKES`; `finish` what the shells look like, of `FINISHES`.
+    """
 
     name: str
     title: str
@@ -96,6 +102,8 @@ class Kit:
     seat_m: tuple[float, float, float]
     pieces: Mapping[Piece, KitPiece]
     pedals: Mapping[Piece, Pedal]
+    make: str = "acoustic"
+    finish: str = "teal"
     slave: Pedal | None = None
     """The second board of a double pedal, which the hi-hat's foot plays."""
 
@@ -202,12 +210,14 @@ _PEDAL: Fields = {
 
 def kit_reader(name: str) -> Reader[Kit]:
     """The schema of the file of the kit called `name`."""
-    return record(partial(_kit, name), FIELDS, "piece or key")
+    whole, mirrored = record(partial(_kit, name), FIELDS, "piece or key"), record(partial(_mirrored, name), _MIRRORED)
+    return lambda raw: (mirrored if isinstance(raw, dict) and "mirrors" in raw else whole)(raw)
 
 
 def _kit(name: str, title: str | None, handed: str, pedals: Mapping[str, Pedal], **others: Any) -> Kit:  # noqa: ANN401
-    """A kit of what its file says; `others` are its seat and its pieces, None for those that it lacks."""
-    pieces = {_PIECES[key]: piece for key, piece in others.items() if piece is not None and key in _PIECES}
+    """A kit of what its file says; `others` are its seat, looks and pieces, None for those that it lacks."""
+    found = {_PIECES[key]: piece for key, piece in others.items() if piece is not None and key in _PIECES}
+    pieces = {name: replace(piece, electronic=others["make"] == "electronic") for name, piece in found.items()}
     _apart(list(pieces.values()))
     return Kit(
         name=name,
@@ -217,7 +227,14 @@ def _kit(name: str, title: str | None, handed: str, pedals: Mapping[str, Pedal],
         pieces=MappingProxyType(pieces),
         pedals=MappingProxyType({Piece.KICK: pedals["kick"], Piece.HIHAT_PEDAL: pedals["hihat"]}),
         slave=pedals["slave"],
+        make=others["make"],
+        finish=others["finish"],
     )
+
+
+def _mirrored(name: str, title: str | None, mirrors: str) -> Kit:
+    """A shipped kit built for the other hand."""
+    return replace(load_kit(mirrors).mirrored, name=name, title=name if title is None else title)
 
 
 def _piece(piece: Piece) -> Reader[KitPiece]:
@@ -252,11 +269,17 @@ _PEDALS: Fields = {
 FIELDS: Fields = {
     "title": optional(text),
     "handed": Field(one_of(("right", "left"), "hand"), "right"),
+    "make": Field(one_of(MAKES, "make"), MAKES[0]),
+    "finish": Field(one_of(FINISHES, "finish"), FINISHES[0]),
     "seat_m": Field(_LENGTHS, (0.0, 0.0, 0.5)),
     "pedals": needed(record(dict, _PEDALS), "tables [pedals.kick] and [pedals.hihat]"),
     **{key: Field(_piece(each), None, f"a table [{key}]" if key in _NEEDED else None) for key, each in _PIECES.items()},
 }
 """The schema of the file; a kit needs a kick and a snare."""
+_MIRRORED: Fields = {
+    "title": optional(text),
+    "mirrors": needed(one_of(kit_names(), "kit"), 'mirrors = "four_piece"'),
+}
 
 
 def _apart(pieces: list[KitPiece]) -> None:

@@ -115,21 +115,6 @@ def raised(pedal: Pedal, angle_rad: float) -> Matrix:
     return rotation_at(pedal.heel_m, (along[1], -along[0], 0.0), angle_rad)
 
 
-def legs_turn(kit: Kit, x: float, y: float, spread_m: float) -> float:
-    """How a tripod at x, y is turned so that its three legs lie clearest of the boards and the double pedal's shaft."""
-    lines = [(np.array(p.heel_m), np.array(p.toe_m)) for p in (*kit.pedals_by_foot, kit.slave) if p is not None]
-    if kit.slave is not None:
-        lines.append((_slave_axle(kit, kit.slave), axle_of(kit)))
-    share = np.linspace(-0.15, 1.1, 26)[:, None]
-    taken = np.concatenate([heel[:2] + share * (toe - heel)[:2] for heel, toe in lines])
-    turns = np.arange(0.0, 2 * np.pi / 3, np.radians(2.0))
-    around = turns[:, None] + np.arange(3) * 2 * np.pi / 3
-    ways = np.stack([np.cos(around), np.sin(around)], -1)[:, :, None] * (spread_m * np.linspace(0.5, 1.0, 5)[:, None])
-    legs = np.array([x, y]) + ways.reshape(len(turns), -1, 2)
-    apart = np.linalg.norm(legs[:, :, None] - taken, axis=-1).min(axis=(1, 2))
-    return float(turns[int(np.argmax(apart))])
-
-
 # --- parts ------------------------------------------------------------------------------------------------------------
 
 
