@@ -103,8 +103,8 @@ def _after_own(now: _Stroke, own: list[_Stroke]) -> Tally:
     gap, way = now.at_s - own[-1].at_s, float(np.linalg.norm(now.point - own[-1].point))
     moved = own[-1].piece != now.piece
     third = len(own) > 1 and max(gap, own[-1].at_s - own[-2].at_s) < THIRD_S
-    at_once = [int(moved and gap < s) for s in AT_ONCE_S]
-    return Tally(*at_once, 0, 0, way, int(way > max(A_MOVE_M, HURRY_M_S * gap)), int(third))
+    a, b, c, d = (int(moved and gap < s) for s in AT_ONCE_S)
+    return Tally(a, b, c, d, 0, 0, way, int(way > max(A_MOVE_M, HURRY_M_S * gap)), int(third))
 
 
 def unwritten(score: Score) -> Score:
