@@ -105,13 +105,13 @@ class Rig:
         heading_b, shoulder_b, elbow_b, wrist_b, aside_b, palm_b = angles
         kick = feet.kick * self.raised[0]
         kick_side = hip if self.right_kicks else -hip
-        stands = settled_leg if m is ONE else leg_chain  # the hi-hat's foot keeps time and hardly ever rests
+        stands = settled_leg if m is ONE else leg_chain
         kicking, hatting = self.footings
         kick_leg, kick_bent = stands(
             m, kicking, kicking.home, (x + kick_side, y, z), kick, heel * (0.6 + 0.4 * feet.kick) + feet.kick_heel
         )
         hat, place, under, tip = self._hat_foot(m, feet)
-        hat_leg, hat_bent = leg_chain(m, hatting, place, (x - kick_side, y, z), under, tip)
+        hat_leg, hat_bent = stands(m, hatting, place, (x - kick_side, y, z), under, tip)
         if self.right_kicks:
             legs, bent, boards = (*kick_leg, x - hip, y, z, *hat_leg), (*kick_bent, *hat_bent), (kick, hat)
         else:
