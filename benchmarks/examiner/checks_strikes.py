@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from benchmarks.examiner.findings import Findings
 from benchmarks.examiner.kit_solids import solids
 from benchmarks.examiner.take import SIDES, Take, sampled
-from station.core.pieces import Articulation, Piece
+from station.core.pieces import Articulation, Piece, word
 
 Array = NDArray[np.float64]
 ABOVE_M, INTO_M = 0.006, 0.010
@@ -51,46 +51,61 @@ def strikes_land(take: Take, found: Findings) -> None:
 PRESSED_DEG, LIFTED_DEG = 2.0, 3.0
 """A board is down at its strike, and was up so far within the 150 ms before."""
 LIFT_S = 0.15
-SOLE_M = 0.030
-"""A shoe's sole and the ball of the foot under the published toe; the toe stays within so much of the board."""
+TOE_OVER_M = 0.090
+"""The published toe is a sole and a lifted foot over its board: on its way to another board a foot goes over both."""
 
 
 def feet(take: Take, found: Findings) -> None:
-    """Each foot strike presses its own board, whose foot follows it."""
+    """Each foot strike presses its own board, whose foot follows it; the hi-hat's foot kicks on the slave board."""
     poses, strikes = take.poses, take.strikes
-    boards = np.degrees(poses.boards_rad)
+    second = word(take.drummer.kit.feet[1])
     for i, side in enumerate(SIDES):
         mine = strikes.of(f"{side}_foot")
-        times = strikes.time_s[mine]
-        if len(mine):
-            index = np.clip(np.rint((times - poses.time_s[0]) * 1000).astype(int), 0, len(boards) - 1)
-            found.note("foot", f"{side} board not pressed at its strike", boards[index, i], PRESSED_DEG, "°", times)
-            starts = np.maximum(index - int(LIFT_S * 1000), 0)
-            starts = np.maximum(starts, np.concatenate(([0], index[:-1])))
-            lifted = np.array([boards[a : b + 1, i].max() - boards[b, i] for a, b in zip(starts, index, strict=True)])
-            apart = np.diff(times, prepend=-9) > 0.06
-            low = np.where(apart, np.maximum(0.0, LIFTED_DEG - lifted), 0.0)
-            found.note("foot", f"{side} board not lifted before its strike", low, 0.0, "°", times)
-            kicked = strikes.written[mine] == Piece.KICK
-            beater = np.degrees(np.abs(poses.beater_rad[index]))
-            found.note("foot", "beater off the head", np.where(kicked, beater, 0.0), 3.0, "°", times)
-        _on_board(take, found, i, side)
+        kicked = strikes.written[mine] == Piece.KICK
+        over = kicked & (f"{side}_foot" == second)
+        for on, board, beater in (
+            (~over, poses.boards_rad[:, i], poses.beater_rad),
+            (over, poses.slave_rad[:, 0], poses.slave_rad[:, 1]),
+        ):
+            _pressed(take, found, side, (mine[on], kicked[on]), (np.degrees(board), np.degrees(np.abs(beater))))
+        _on_board(take, found, side)
 
 
-def _on_board(take: Take, found: Findings, i: int, side: str) -> None:
-    """The toe keeps its height over the tilting board."""
-    pedals = list(take.drummer.kit.pedals.values())
-    toe = take.poses.point(f"{side}_toe")
-    near = min(pedals, key=lambda p: float(np.linalg.norm(np.array(p.toe_m) - np.median(toe, axis=0))))
-    heel, flat = np.array(near.heel_m), np.array(near.toe_m)
-    along = (flat - heel) / np.linalg.norm(flat - heel)
-    raised = take.poses.boards_rad[:, i, None]
-    board = along * np.cos(raised) + np.array([0, 0, 1.0]) * np.sin(raised)
-    normal = np.cross(np.cross(along, [0, 0, 1.0]), board)
-    normal *= np.sign(normal[:, 2:])
-    height = ((toe - heel) * normal).sum(1)
-    found.note("foot", f"{side} toe over its board", 1000 * height, 1000 * 2 * SOLE_M, "mm", take.poses.time_s)
-    found.note("foot", f"{side} toe through its board", -1000 * height, 1.0, "mm", take.poses.time_s)
+def _pressed(
+    take: Take, found: Findings, side: str, strikes: tuple[Array, NDArray[np.bool_]], pedal: tuple[Array, Array]
+) -> None:
+    """The board is down at its strikes and was up before, and the beater is at the head at kicks."""
+    (mine, kicked), (board, beater), poses = strikes, pedal, take.poses
+    times = take.strikes.time_s[mine]
+    if not len(mine):
+        return
+    index = np.clip(np.rint((times - poses.time_s[0]) * 1000).astype(int), 0, len(board) - 1)
+    found.note("foot", f"{side} board not pressed at its strike", board[index], PRESSED_DEG, "°", times)
+    starts = np.maximum(index - int(LIFT_S * 1000), 0)
+    starts = np.maximum(starts, np.concatenate(([0], index[:-1])))
+    lifted = np.array([board[a : b + 1].max() - board[b] for a, b in zip(starts, index, strict=True)])
+    apart = np.diff(times, prepend=-9) > 0.06
+    low = np.where(apart, np.maximum(0.0, LIFTED_DEG - lifted), 0.0)
+    found.note("foot", f"{side} board not lifted before its strike", low, 0.0, "°", times)
+    found.note("foot", "beater off the head", np.where(kicked, beater[index], 0.0), 3.0, "°", times)
+
+
+def _on_board(take: Take, found: Findings, side: str) -> None:
+    """The toe keeps its height over the tilting board that it is nearest to."""
+    kit, poses = take.drummer.kit, take.poses
+    pedals = [*kit.pedals_by_foot, *([kit.slave] if kit.slave else [])]
+    angles = np.column_stack((poses.boards_rad, poses.slave_rad[:, 0]))
+    toe, heights, away = poses.point(f"{side}_toe"), [], []
+    for pedal, raised in zip(pedals, angles.T, strict=False):
+        heel, flat = np.array(pedal.heel_m), np.array(pedal.toe_m)
+        along = (flat - heel) / np.linalg.norm(flat - heel)
+        across = np.cross(along, [0, 0, 1.0])
+        board = along * np.cos(raised)[:, None] + np.array([0, 0, 1.0]) * np.sin(raised)[:, None]
+        heights.append(((toe - heel) * np.cross(across, board)).sum(1))
+        away.append(np.abs((toe - heel) @ across))
+    height = np.choose(np.argmin(away, axis=0), heights)
+    found.note("foot", f"{side} toe over its board", 1000 * height, 1000 * TOE_OVER_M, "mm", poses.time_s)
+    found.note("foot", f"{side} toe through its board", -1000 * height, 1.0, "mm", poses.time_s)
 
 
 WAIT_S = 2.0
