@@ -64,8 +64,8 @@ def test_the_body_leans_into_a_fill_rises_before_the_crash_and_falls_onto_it() -
 
 
 def test_the_breath_is_held_in_fills() -> None:
-    drummer = Drummer(SONG, style=plain(breathing=100.0, shrug=0.0, amplitude_back=0.0, fill_lean=0.0))
-    height = drummer.rows(AT)[:, 3 * Joint.RIGHT_SHOULDER + 2]
+    deep, none = (Drummer(SONG, style=plain(breathing=b, shrug=0.0)).rows(AT) for b in (100.0, 0.0))
+    height = (deep - none)[:, 3 * Joint.RIGHT_SHOULDER + 2]
     assert np.ptp(height[(AT > 8.1) & (AT < 8.8)]) < 0.25 * np.ptp(height[(AT > 1.0) & (AT < 6.0)])
 
 
