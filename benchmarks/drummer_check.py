@@ -11,8 +11,9 @@
 It samples every millisecond and has its own solids for body, sticks and kit (`examiner/body.py`, `kit_solids.py`), its
 own ranges and speeds of joints with their sources (`examiner/anatomy.py`), and says what is wrong: `limit`, `speed`,
 `jump` (more than three times the greatest speed at 1 kHz), `kink` (velocity that breaks away from strikes),
-`through`, `strike`, `foot`, `waiting`, `grip`, `height`, `number`. A take is clean when it has none. Faults in bars
-that the station itself calls beyond a human are counted apart.
+`through`, `strike`, `foot`, `waiting`, `grip`, `height`, `number`, `alike` (strokes, seeds),
+`stated` (angles that the file says and positions deny). A take is clean when it has none. Faults in bars that the
+station itself calls beyond a human are counted apart.
 """
 
 import argparse
@@ -27,7 +28,7 @@ from benchmarks.examiner.cases import Case, Report
 from benchmarks.examiner.findings import Finding
 
 WORKERS = 2
-LIGHT = ("grip", "height", "waiting")
+LIGHT = ("grip", "height", "waiting", "alike", "stated")
 """Faults of taste, beside those of a body that breaks."""
 QUICK = (
     *(Case(name) for name in ("rock-1", "double-kick-1", "jazz-ride-1", "single-stroke-roll")),

@@ -109,16 +109,10 @@ def examine(case: Case, most_s: float) -> Report:
         for check in CHECKS:
             check(take, found)
         asked = frozenset(1 + int(b.bar) for b in drummer.assignment.infeasible)
-        return Report(
-            case,
-            list(found),
-            asked,
-            len(take.strikes.time_s),
-            take.length_s,
-            checks_strikes.variation_mm(take),
-            _seeds_mm(take),
-            took_s=perf_counter() - began,
-        )
+        varies, seeds = checks_strikes.variation_mm(take), _seeds_mm(take)
+        checks_strikes.alike(take, varies, seeds, found)
+        played = len(take.strikes.time_s)
+        return Report(case, list(found), asked, played, take.length_s, varies, seeds, took_s=perf_counter() - began)
     except BadInput as no:
         return Report(case, refused=str(no), took_s=perf_counter() - began)
     except Exception as crash:  # an examiner reports what it meets

@@ -23,6 +23,10 @@ NEAR_STRIKE_S = 0.004
 _LOOKED_AT = 12
 
 
+SAID = {"elbow": "elbow", "knee": "knee", "wrist extension": "wrist", "wrist to the thumb": "wrist_side"}
+"""What is measured and what the file calls it."""
+STATED_DEG = 12.0
+"""The two wrist angles depend on their order by so much (our choice)."""
 NO_SPEED = ("upper arm backward (measured)", "upper arm across the chest (measured)")
 """The upper arm's own speed is theirs."""
 
@@ -34,6 +38,9 @@ def ranges_and_speeds(take: Take, found: Findings) -> None:
         _bounded(found, name, poses.angle(name), bound, poses.time_s)
     for side in SIDES:
         angles, turning = measured(poses, side)
+        for name, stated in SAID.items():
+            off = np.abs(poses.angle(f"{side}_{stated}") - angles[name])
+            found.note("stated", f"{side}_{stated} is not what is measured", off, STATED_DEG, "°", poses.time_s)
         for name, values in angles.items():
             _bounded(found, f"{side} {name} (measured)", values, MEASURED[name], poses.time_s)
         for name, directions in turning.items():

@@ -213,3 +213,17 @@ def variation_mm(take: Take) -> float | None:
                 lead = sampled(take.drummer, np.array(times) - 0.06).tip_m[:, i, 2]
                 spreads.append(1000 * float(np.std(lead)))
     return float(np.median(spreads)) if spreads else None
+
+
+ALIKE_MM, SEEDS_MM = 1.0, 1.0
+"""Equal strokes of 15 cm differ by some per cent, 5–15 mm (Dahl 2004, read off her figures, mem): less than one is a
+machine's; so is a second take of the same music by another seed."""
+
+
+def alike(take: Take, variation: float | None, seeds: float, found: Findings) -> None:
+    """Note strokes, and seeds, that are the same for ever."""
+    at = take.poses.time_s[:1]
+    if variation is not None:
+        found.note("alike", "equal strokes, short of a millimetre", np.array([ALIKE_MM - variation]), 0.0, "mm", at)
+    if len(take.strikes.time_s):
+        found.note("alike", "two seeds, short of a millimetre", np.array([SEEDS_MM - seeds]), 0.0, "mm", at)
