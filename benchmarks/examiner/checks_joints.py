@@ -92,12 +92,16 @@ def kinks(take: Take, found: Findings) -> None:
     time_s = take.poses.time_s
     for i, side in enumerate(SIDES):
         hand, foot = (~take.strikes.near(time_s, f"{side}_{x}", NEAR_STRIKE_S, NEAR_STRIKE_S) for x in ("hand", "foot"))
-        _kinks(take, found, f"{side} tip", lambda p, i=i: p.tip_m[:, i], hand)
+        _kinks(take, found, f"{side} tip", _tip(i), hand)
         for names, free in ((("elbow", "wrist", "hand"), hand), (("knee", "ankle", "toe"), foot)):
             for name in names:
                 _kinks(take, found, f"{side} {name}", _joint(f"{side}_{name}"), free)
     for name in ("neck", "crown"):
         _kinks(take, found, name, _joint(name), np.ones(len(time_s), bool))
+
+
+def _tip(index: int) -> Point:
+    return lambda poses: poses.tip_m[:, index]
 
 
 def _joint(name: str) -> Point:
@@ -107,8 +111,9 @@ def _joint(name: str) -> Point:
 def _kinks(take: Take, found: Findings, name: str, point: Point, free: NDArray[np.bool_]) -> None:
     time_s = take.poses.time_s
     velocity = np.diff(point(take.poses), axis=0) * RATE_HZ
-    change = np.linalg.norm(np.diff(velocity, axis=0), axis=1) * free[1:-1]
-    worst = np.argsort(change)[::-1][:_LOOKED_AT]
+    change: Array = np.asarray(np.linalg.norm(np.diff(velocity, axis=0), axis=1) * free[1:-1], np.float64)
+    beside = np.maximum(np.roll(change, 2), np.roll(change, -2))  # a break touches two of them at most
+    worst = np.argsort(change - beside)[::-1][:_LOOKED_AT]
     worst = worst[change[worst] > KINK_M_S]
     sharp = np.array([_sharpest(take, point, float(time_s[k + 1])) for k in worst])
     if len(sharp):
