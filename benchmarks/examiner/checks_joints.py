@@ -123,6 +123,6 @@ def _kinks(take: Take, found: Findings, name: str, point: Point, free: NDArray[n
 
 def _sharpest(take: Take, point: Point, time_s: float) -> float:
     """The greatest change of velocity within a sixteenth of a millisecond about `time_s`."""
-    close = time_s + np.arange(-24, 25) * _CLOSE_S
+    close = time_s + np.arange(-24, 25, dtype=np.float64) * _CLOSE_S
     velocity = np.diff(point(take.sample(close)), axis=0) / _CLOSE_S
     return float(np.linalg.norm(np.diff(velocity, axis=0), axis=1).max())
