@@ -69,7 +69,7 @@ STATED = {
 
 FULCRUM_DEG = {"traditional": (25.0, 4.0)}
 MATCHED_DEG = (18.0, 11.0)
-"""From the hand's bones (the middle metacarpal, at which a goniometer reads the wrist) to the line from wrist to fulcrum:
+"""From the hand's bones (the middle metacarpal, where a goniometer reads) to the line from wrist to fulcrum:
 towards the thumb, under the palm. Between thumb and index finger's middle joint the fulcrum is about 105 mm ahead of
 the wrist, 35 to the thumb's side and 20 under the bones; in the web of the thumb 75, 35 and 5 (our own hands, ± 5°)."""
 
