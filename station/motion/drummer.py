@@ -93,7 +93,7 @@ class Drummer:
         row = keys.at(time_s)
         for instrument in keys.instruments:
             row += instrument.at(time_s)
-        return Pose(time_s, np.frombuffer(_packing(len(row)).pack(*row)))
+        return Pose(time_s, np.frombuffer(_packing(len(row)).pack(*row)), keys.holds)
 
     def rows(self, time_s: Array) -> Array:
         """The poses at each time (n,) as rows (n, fields) in the layout of `frame`; the instruments are left out."""
