@@ -66,7 +66,7 @@ def bent(elbow_deg: float, wrist_deg: float) -> Sampled:
     back[0, 0] = [0, np.cos(w), np.sin(w)]
     tip = np.tile(points[:, None, Joint.RIGHT_HAND], (1, 2, 1)) + 0.3 * UP
     none = np.zeros((1, 2))
-    return Sampled(np.zeros(1), points, tip, tip - UP, back, np.zeros((1, 28)), none, np.zeros(1), np.zeros(1))
+    return Sampled(np.zeros(1), points, tip, tip - UP, back, np.zeros((1, 28)), none, np.zeros(1), np.zeros(1), none)
 
 
 @pytest.mark.parametrize(("elbow_deg", "wrist_deg"), [(90, 0), (100, 30), (70, -40)])
