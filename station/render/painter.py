@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from station.motion.kinematics.figure import Figure
 from station.motion.kit.kit import Kit
 from station.render import hud
-from station.render.camera import Camera, NamedView, named
+from station.render.camera import Camera, NamedView
+from station.render.framing import named, stage_of
 from station.render.gpu.cached_layer import CachedLayer
 from station.render.gpu.gl import RenderTarget, give_back
 from station.render.gpu.moving_parts import DoublePlace, frames_of
@@ -115,13 +116,14 @@ class Painter:
         scene_area = (left, low + score_height, width, height - score_height)
         place = ScorePlace(0.0, float(scene_area[3]), float(width), float(score_height))
         scene = self._scene_of(snapshot)
-        camera = camera or named(NamedView.SHOULDER, snapshot.kit.left_handed)
+        camera = camera or named(NamedView.SHOULDER, stage_of(snapshot))
         frames = frames_of(snapshot, arrangement.double, self.theme)
         places = _side_by_side(scene_area, len(frames))
         scene.set(frames[0])
 
         is_staff = shows_staff(snapshot, arrangement.form)
         corners, words = hud.corners(snapshot.hud), (width, height - score_height)
+        is_worded = corners != Hud()
 
         def each(draw: Callable[[moderngl.Framebuffer, Camera, Area], None], into: moderngl.Framebuffer) -> None:
             for frame, window in zip(frames[::-1], places[::-1], strict=True):  # the demonstrator's stays set
@@ -133,7 +135,8 @@ class Painter:
             self._ctx.viewport = area
             if with_score:
                 self._score.draw_paper(place, (width, height), is_staff)
-            self._draw_veil((width, height), words[1])
+            if is_worded:
+                self._draw_veil((width, height), words[1])
 
         def lay_still(into: moderngl.Framebuffer) -> None:
             into.clear(*themed(NIGHT, self.theme), depth=1.0)
@@ -146,7 +149,7 @@ class Painter:
             self._lay_lines(self._lines.of(corners, words), (width, height))
 
         if self.quality.is_layered:
-            shown = scene.shows_figure, len(frames)
+            shown = scene.shows_figure, len(frames), is_worded
             key = (scene, camera, area, with_score, is_staff, shown, self.theme, arrangement.is_rough)
             self._worded.under(target, (key, corners), lay_words)
             each(scene.draw_moving, target)

@@ -9,8 +9,9 @@ from station.render.kit.instrument_meshes import Detail
 class Quality:
     """How much work a picture is worth: shader level 0–2, the shadow map's size, roundness, small hardware.
 
-    `anisotropy` is how sharp the floor is where one looks along it: without a graphics card it takes a fifth of a picture's
-    time, so the middle level does without. `is_layered`: what does not move is drawn once for each camera and kept.
+    `anisotropy` is how sharp the floor is where one looks along it: without a graphics card it takes a fifth of a
+    picture's time, so the middle level does without. `is_layered`: what does not move is drawn once for each camera and
+    kept.
     """
 
     level: int

@@ -124,7 +124,7 @@ vec3 light(vec3 world, vec3 n, vec3 tangent, float ao, int material, float lit, 
     float coat = b.y > 1.5 ? 0.0 : b.y, gloss = max(coat, metal);
     vec3 mirror = mix(vec3(0.04 + 0.10 * coat), colour, metal);
     mirror += (1.0 - mirror) * fresnel * (1.0 - 0.6 * a.w) * gloss;
-    vec3 glints = key * (direct * highlight.x) + rim_colour * (from_rim * highlight.y);
+    vec3 glints = key * (direct * highlight.x) + rim_colour * (from_rim * highlight.y * 0.35);
     vec3 mirrored = studio(reflect(-to_eye, n), a.w) * (0.35 + 0.65 * ao) * gloss;
     vec3 total = diffuse + mirror * (glints * max(gloss, 0.35 * smooth_2) + mirrored);
     total += b.y > 1.5 ? colour * 2.5 : vec3(0.0);
