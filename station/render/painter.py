@@ -123,7 +123,6 @@ class Painter:
 
         is_staff = shows_staff(snapshot, arrangement.form)
         corners, words = hud.corners(snapshot.hud), (width, height - score_height)
-        is_worded = corners != Hud()
 
         def each(draw: Callable[[moderngl.Framebuffer, Camera, Area], None], into: moderngl.Framebuffer) -> None:
             for frame, window in zip(frames[::-1], places[::-1], strict=True):  # the demonstrator's stays set
@@ -135,8 +134,7 @@ class Painter:
             self._ctx.viewport = area
             if with_score:
                 self._score.draw_paper(place, (width, height), is_staff)
-            if is_worded:
-                self._draw_veil((width, height), words[1])
+            self._draw_veil((width, height), words[1])
 
         def lay_still(into: moderngl.Framebuffer) -> None:
             into.clear(*themed(NIGHT, self.theme), depth=1.0)
@@ -149,7 +147,7 @@ class Painter:
             self._lay_lines(self._lines.of(corners, words), (width, height))
 
         if self.quality.is_layered:
-            shown = scene.shows_figure, len(frames), is_worded
+            shown = scene.shows_figure, len(frames)
             key = (scene, camera, area, with_score, is_staff, shown, self.theme, arrangement.is_rough)
             self._worded.under(target, (key, corners), lay_words)
             each(scene.draw_moving, target)

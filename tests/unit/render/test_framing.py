@@ -1,4 +1,4 @@
-"""Named views against where things are in the picture: what must be seen lies in it, whatever the kit and the player."""
+"""Named views: what must be seen lies in the picture, whatever the kit and the player."""
 
 from itertools import product
 
