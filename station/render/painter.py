@@ -32,6 +32,8 @@ SCORE_SHARE = 0.30
 """The score's share of the picture's height."""
 INSET_SHARE = 0.36
 """The second picture's share of the scene's width or height, whichever is less (our choice: hands at arm's length)."""
+_STILL_SAMPLES = 4
+"""A pixel of what is drawn once for each camera; fewer for one that moves."""
 _INSET_MARGIN = 0.03
 _INSET_EDGE = 2
 """Pixels of the line round the second picture."""
@@ -141,7 +143,7 @@ class Painter:
             lay(into, partial(scene.draw_still, is_rough=arrangement.is_rough))
 
         def lay_words(into: moderngl.Framebuffer) -> None:
-            self._still.under(into, key, lay_still)
+            self._still.under(into, key, lay_still, 0 if arrangement.is_rough else _STILL_SAMPLES)
             into.use()
             self._ctx.viewport = area
             self._lay_lines(self._lines.of(corners, words), (width, height))
@@ -222,7 +224,7 @@ class Painter:
             self._inset = RenderTarget(self._ctx, size)
         whole, into = (0, 0, *size), self._inset.framebuffer
         key = (scene, camera, scene.shows_figure)
-        self._inset_still.under(into, key, lambda still: scene.draw_still(still, camera, whole))
+        self._inset_still.under(into, key, lambda still: scene.draw_still(still, camera, whole), _STILL_SAMPLES)
         scene.draw_moving(into, camera, whole)
         scene.draw_glow(into, camera, whole)
         return self._inset.resolved()

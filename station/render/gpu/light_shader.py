@@ -57,7 +57,7 @@ mat3x4 roughly_skinned() {                  // by the two strongest bones: withi
 
 FILM = """
 vec3 film(vec3 c) {                         // to the screen: a curve that leaves the dark its drawing
-    c = sqrt(c * (1.0 + c * 0.12) / (0.80 + c));
+    c = min(sqrt(c * (1.0 + c * 0.12) / (0.80 + c)), 1.0);
     return c * (0.60 + c * (1.20 - 0.80 * c));
 }
 """
