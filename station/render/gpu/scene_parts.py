@@ -32,8 +32,8 @@ _TO_TEXTURE = np.array([[0.5, 0, 0, 0.5], [0, 0.5, 0, 0.5], [0, 0, 0.5, 0.5], [0
 """From clip space −1 … 1 to texture space 0 … 1."""
 _GHOST_OPACITY = 0.42
 """How opaque the student's double is where one looks straight at it (our choice: the demonstrator shows through)."""
-_FINEST = 2
-"""The shader level of what is drawn once and kept."""
+_STILL_LEVEL = 1
+"""The shader level of what is drawn once and kept (our choice: the highest takes twice as long, and little is seen)."""
 _BOARDS, _RUG = 0, 1
 _PLACES = {"wall_map": 2, "light_map": 3, "shadow_map": 4}
 """Where the shaders find the pictures; boards and rug come first."""
@@ -73,8 +73,8 @@ class SceneParts:
         self.room = self._room_parts(quality.level)
         self.still_rigid, self.still_room = self.solid.rigid, self.room
         if quality.level == 0:  # the one that may be drawn in layers
-            self.still_rigid = self._rigid_part(pixel_shaders.RIGID_VERTEX, pixel_shaders.solid_fragment(_FINEST))
-            self.still_room = self._room_parts(_FINEST)
+            self.still_rigid = self._rigid_part(pixel_shaders.RIGID_VERTEX, pixel_shaders.solid_fragment(_STILL_LEVEL))
+            self.still_room = self._room_parts(_STILL_LEVEL)
         for part in (self.solid.skin, self.quick.skin, self.skin_depth):
             part.program["first_bone"] = rig.bone_count
 
@@ -142,7 +142,7 @@ class SceneParts:
         )
 
     def _room_parts(self, level: int) -> tuple[moderngl.VertexArray, ...]:
-        floor, rug = (room_shaders.floor_fragment(level, is_varnished=has) for has in (True, False))
+        floor, rug = (room_shaders.floor_fragment(level, is_varnished=has) for has in (level > 0, False))
         boards, carpet = self._room_part(floor, room.floor_mesh()), self._room_part(rug, room.rug_mesh())
         boards.program["paint_map"], carpet.program["paint_map"] = _BOARDS, _RUG
         return carpet, boards, self._room_part(room_shaders.WALL_FRAGMENT, room.wall_mesh())
