@@ -80,7 +80,11 @@ class AnimateOptions:
     )
     drums: DrumsOptions = group(DrumsOptions)
     drummer: str = option(
-        "NAME", f"{', '.join(figure_names())}, or a file (the style's own, else {DEFAULT_FIGURE})", str, "", rivals="body"
+        "NAME",
+        f"{', '.join(figure_names())}, or a file (the style's own, else {DEFAULT_FIGURE})",
+        str,
+        "",
+        rivals="body",
     )
     stature: float | None = option(
         "M", "the drummer's height in metres, usual proportions", number, None, rivals="body"

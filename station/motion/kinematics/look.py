@@ -21,7 +21,7 @@ Colour = tuple[float, float, float]
 class Girths:
     """How thick the body is beside a median man's: 1 is his, 0.7–1.4 are people's.
 
-    `chin` is the breadth of the jaw, `bust` how much of a breast stands out (0 none … 1), `locks` the hair's fullness.
+    `chin` is the breadth of the jaw, `brows` their thickness, `bust` how far breasts stand out (0 a man's … 1).
     """
 
     chest: float = 1.0
@@ -32,7 +32,6 @@ class Girths:
     neck: float = 1.0
     chin: float = 1.0
     brows: float = 1.0
-    locks: float = 1.0
     bust: float = 0.0
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.motion.kinematics.pose import Pose
-from station.render.figure.bones import FACE_BONES, Bone
+from station.render.figure.bones import FACE_BONES
 from station.render.geometry.transforms import Matrix
 
 Array = NDArray[np.float64]
@@ -34,8 +34,11 @@ _MOST_GAZE_RAD = 0.6
 
 @dataclass(frozen=True, slots=True)
 class Expression:
-    """`brow` −1 frowns … 1 raised, `mouth` 0 shut … 1 open, `smile` −1 … 1, `effort` 0 … 1, `gaze` left and down in
-    radians, `eyes` 0 closed … 1 open."""
+    """What a face shows.
+
+    `brow` −1 frowns … 1 raised, `mouth` 0 shut … 1 open, `smile` −1 … 1, `effort` 0 … 1, `gaze` left and down in
+    radians, `eyes` 0 closed … 1 open.
+    """
 
     brow: float = 0.0
     mouth: float = 0.0

@@ -119,11 +119,16 @@ class _Lips:
     def skins(self) -> list[Skin]:
         """Lips, dark inside, upper teeth."""
         full = 0.8 + 0.5 * self.girths.bust
-        upper, lower = self._lip(0.0012, 0.0021 * full, Bone.UPPER_LIP), self._lip(
-            -0.0017, 0.0026 * full, Bone.LOWER_LIP
+        upper, lower = (
+            self._lip(0.0012, 0.0021 * full, Bone.UPPER_LIP),
+            self._lip(-0.0017, 0.0026 * full, Bone.LOWER_LIP),
         )
-        return [self._between(0.0, 1.0, 0.0014, Material.MOUTH), self._between(0.02, 0.42, 0.0020, Material.TEETH),
-                upper, lower]
+        return [
+            self._between(0.0, 1.0, 0.0014, Material.MOUTH),
+            self._between(0.02, 0.42, 0.0020, Material.TEETH),
+            upper,
+            lower,
+        ]
 
     def _lip(self, above: float, thick: float, bone: Bone) -> Skin:
         middle = 1 - self.t**2

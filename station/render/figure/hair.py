@@ -83,16 +83,14 @@ def _behind(field: Field, wall: Field) -> Field:
     return lambda p: -smooth_min(-field(p), -wall(p), 0.010)
 
 
-# --- haircuts: each a solid, a wave on it, and the wave's depth in metres -----------------------------------------------
+# --- haircuts: each a solid, a wave on it, and the wave's depth in metres ---------------------------------------------
 
 _CAP = egg((0, -0.014, 0.134), (0.0855, 0.0985, 0.094))
 
 
 def _hairline(front_y: float, front_z: float, neck_z: float) -> Field:
     """What lies behind the forehead's line and above the neck's, with whiskers before the ears."""
-    return united(
-        [plane((0, front_y, front_z), (0, 0.86, -0.5)), plane((0, -0.002, neck_z), (0, 0.38, -0.92))], 0.018
-    )
+    return united([plane((0, front_y, front_z), (0, 0.86, -0.5)), plane((0, -0.002, neck_z), (0, 0.38, -0.92))], 0.018)
 
 
 def _quiff() -> tuple[Field, Wave, float]:
@@ -115,7 +113,7 @@ def _cropped() -> tuple[Field, Wave, float]:
 
 
 def _ponytail() -> tuple[Field, Wave, float]:
-    """Combed back from the forehead to a band, from where a tail hangs down to the shoulders; two locks beside the face."""
+    """Combed back from the forehead to a band, from where a tail hangs to the shoulders; two locks beside the face."""
     cap = _behind(egg((0, -0.014, 0.134), (0.0865, 0.100, 0.0955)), _hairline(0.066, 0.142, 0.062))
     fringe = [
         cone((0.012, 0.070, 0.204), (0.066, 0.058, 0.150), 0.017, 0.014),

@@ -53,12 +53,16 @@ def _glasses(fineness: float) -> Skin:
     parts: list[Mesh] = []
     for side in (-1.0, 1.0):
         x, y, z = EYE_M * [side, 1, 1] + [side * 0.001, 0.030, -0.002]
-        rim = np.stack([x + 0.0245 * np.cos(a), y - 0.35 * np.abs(x + 0.0245 * np.cos(a)) ** 2 * 9, z + 0.0215 * np.sin(a)], axis=1)
+        rim = np.stack(
+            [x + 0.0245 * np.cos(a), y - 0.35 * np.abs(x + 0.0245 * np.cos(a)) ** 2 * 9, z + 0.0215 * np.sin(a)], axis=1
+        )
         parts.append(tube(rim, thin, Material.BLACK, cuts(6, fineness)))
-        ear = np.array([[side * 0.058, y - 0.012, z + 0.004], [side * 0.073, 0.056, z + 0.004], [side * 0.084, -0.002, z]])
+        ear = np.array(
+            [[side * 0.058, y - 0.012, z + 0.004], [side * 0.073, 0.056, z + 0.004], [side * 0.084, -0.002, z]]
+        )
         parts.append(tube(ear, thin, Material.BLACK, cuts(6, fineness)))
     t = np.linspace(-1, 1, 7)
-    x, y, z = EYE_M + [0, 0.031, -0.002]
+    x, y, z = EYE_M + np.array([0, 0.031, -0.002])
     bridge = np.stack([0.0105 * t, np.full_like(t, y), z + 0.006 + 0.003 * (1 - t**2)], axis=1)
     parts.append(tube(bridge, thin, Material.BLACK, cuts(6, fineness)))
     return rigid_skin(joined(parts).on_bone(Bone.HEAD))
@@ -69,7 +73,9 @@ def _beanie(fineness: float) -> Skin:
     dome: list[Field] = [egg((0, -0.018, 0.152), (0.094, 0.106, 0.098)), egg((0, -0.046, 0.206), (0.060, 0.060, 0.058))]
     low = plane((0, 0.0, 0.133), (0, -0.26, -1.0))
     cap = cut(united(dome, 0.05), low)
-    roll = cut(cut(egg((0, -0.018, 0.145), (0.1005, 0.113, 0.105)), low, 0.008), plane((0, 0, 0.168), (0, 0.26, 1.0)), 0.008)
+    roll = cut(
+        cut(egg((0, -0.018, 0.145), (0.1005, 0.113, 0.105)), low, 0.008), plane((0, 0, 0.168), (0, 0.26, 1.0)), 0.008
+    )
     whole = united([cap, roll], 0.004)
     cell = 0.0075 * fineness
     ribs = 0.0016 if cell < 0.009 else 0.0

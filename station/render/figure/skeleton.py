@@ -13,7 +13,6 @@ from station.render.figure.bones import BODY_BONES, Bone
 from station.render.figure.expression import Expression, face_matrices
 from station.render.geometry.transforms import Matrix, Vector, cross, frames, unit
 
-
 _ARMS = (
     (Bone.RIGHT_UPPER_ARM, Joint.RIGHT_SHOULDER, Joint.RIGHT_ELBOW, Joint.RIGHT_WRIST, Joint.RIGHT_HAND),
     (Bone.LEFT_UPPER_ARM, Joint.LEFT_SHOULDER, Joint.LEFT_ELBOW, Joint.LEFT_WRIST, Joint.LEFT_HAND),

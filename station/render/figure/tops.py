@@ -20,8 +20,12 @@ _ARMS = (Bone.RIGHT_UPPER_ARM, Bone.LEFT_UPPER_ARM)
 
 @dataclass(frozen=True, slots=True)
 class Cut:
-    """How a top is cut: how far its sleeves go down the arm (1 the elbow, 2 the wrist, 0 none), how wide they are, the
-    neck's hole (how far before the neck its middle is, how wide, how long), how thick its hems are, how loose it hangs."""
+    """How a top is cut.
+
+    `sleeve`: how far sleeves go down the arm, 1 to the elbow, 2 to the wrist, 0 not at all; `hole_m` of the neck: how
+    far before the neck its middle is, half its breadth, half its length; `hem_m` how thick hems are; `loose`, `width`
+    of trunk and sleeves beside a tee's.
+    """
 
     sleeve: float
     width: float
@@ -32,7 +36,7 @@ class Cut:
 
 CUTS: Mapping[str, Cut] = {
     "tee": Cut(0.58, 1.0, (0.012, 0.082, 0.072), 0.0055, 1.0),
-    "tank": Cut(0.0, 1.0, (0.024, 0.094, 0.086), 0.0045, 0.95),
+    "tank": Cut(0.0, 1.0, (0.010, 0.092, 0.082), 0.0045, 0.95),
     "shirt": Cut(1.16, 0.96, (0.016, 0.072, 0.066), 0.0085, 1.0),
     "hoodie": Cut(1.55, 1.04, (0.004, 0.066, 0.060), 0.0120, 1.06),
 }
@@ -176,7 +180,9 @@ def _folds(m: Measures, style: Cut) -> tuple[Crease, ...]:
         Crease(spine + m.by(0, -0.10, -0.10), unit([0.15, 0.0, 1.0]), 0.080 * m.k, 0.060, 0.8 * depth),
     ]
     for side, upper in zip((1.0, -1.0), _ARMS, strict=True):
-        folds.append(Crease(spine + m.by(side * 0.13, 0, -0.06), unit([side * 0.55, 0.2, 1.0]), 0.07 * m.k, 0.052, depth))
+        folds.append(
+            Crease(spine + m.by(side * 0.13, 0, -0.06), unit([side * 0.35, 0.1, 1.0]), 0.07 * m.k, 0.056, 0.7 * depth)
+        )
         shoulder, elbow, wrist = m.arm(upper)
         pit = neck + (shoulder - neck) * 0.72 + m.by(0, 0.05, -0.10)
         folds.append(Crease(pit, unit([side * 0.8, 0.0, -0.7]), 0.055 * m.k, 0.056, 0.6 * depth))
@@ -207,7 +213,10 @@ def top_trimmings(m: Measures, word: str, garment: Garment, fineness: float) -> 
     if style.sleeve > 0:
         skins += [garment.hem(*_sleeve_end(m, upper, style), style.hem_m * k, fineness, trimmed) for upper in _ARMS]
     if word == "tee":
-        skins += [_ring_print(garment, m, 0.0, 0.060, -1.0, fineness), _ring_print(garment, m, 0.075, 0.024, 1.0, fineness)]
+        skins += [
+            _ring_print(garment, m, 0.0, 0.060, -1.0, fineness),
+            _ring_print(garment, m, 0.075, 0.024, 1.0, fineness),
+        ]
     elif word == "shirt":
         skins.append(_buttons(garment, m, fineness))
     elif word == "hoodie":
@@ -246,8 +255,13 @@ def _buttons(garment: Garment, m: Measures, fineness: float) -> Skin:
     x = np.zeros_like(z)
     y = _surface_y(garment, x, z, 1.0, float(pelvis[1]))
     path = np.stack([x, y - 0.001, z], axis=1)
-    parts = [tube(path + [s * 0.012, 0, 0], 0.0022, Material.SHIRT, max(4, round(6 / fineness))) for s in (-1.0, 1.0)]
-    parts += [ball(path[i] + [0, 0.001, 0], 0.0052, Material.TRIM, max(5, round(8 / fineness))) for i in range(1, 13, 2)]
+    parts = [
+        tube(path + np.array([s * 0.012, 0, 0]), 0.0022, Material.SHIRT, max(4, round(6 / fineness)))
+        for s in (-1.0, 1.0)
+    ]
+    parts += [
+        ball(path[i] + [0, 0.001, 0], 0.0052, Material.TRIM, max(5, round(8 / fineness))) for i in range(1, 13, 2)
+    ]
     mesh = joined(parts)
     return skin_of(mesh, garment.weights(mesh.position))
 
@@ -261,7 +275,10 @@ def _strings(garment: Garment, m: Measures, fineness: float) -> Skin:
         x = side * m.k * (0.040 + 0.004 * np.sin(np.linspace(0, 4, 8)))
         y = _surface_y(garment, x, z, 1.0, float(neck[1]) - 0.02) + 0.0025
         path = np.stack([x, y, z], axis=1)
-        parts += [tube(path, 0.0028, Material.TRIM, max(4, round(6 / fineness))), ball(path[-1], 0.0052, Material.TRIM, 8)]
+        parts += [
+            tube(path, 0.0028, Material.TRIM, max(4, round(6 / fineness))),
+            ball(path[-1], 0.0052, Material.TRIM, 8),
+        ]
     mesh = joined(parts)
     return skin_of(mesh, garment.weights(mesh.position))
 

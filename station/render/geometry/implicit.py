@@ -164,9 +164,13 @@ def _sampled(field: Field, axes: Sequence[Array], cell: float) -> Array:
     """The field on a grid; blocks that lie far from its surface have the value of their middle throughout."""
     counts = [len(axis) for axis in axes]
     blocks = [-(-count // _BLOCK) for count in counts]
-    middles = [axis[0] + cell * (_BLOCK * np.arange(n) + (_BLOCK - 1) / 2) for axis, n in zip(axes, blocks, strict=True)]
+    middles = [
+        axis[0] + cell * (_BLOCK * np.arange(n) + (_BLOCK - 1) / 2) for axis, n in zip(axes, blocks, strict=True)
+    ]
     rough = field(np.stack(np.meshgrid(*middles, indexing="ij"), axis=-1).reshape(-1, 3))
-    whole = np.broadcast_to(rough.reshape(blocks[0], 1, blocks[1], 1, blocks[2], 1), [s for n in blocks for s in (n, _BLOCK)])
+    whole = np.broadcast_to(
+        rough.reshape(blocks[0], 1, blocks[1], 1, blocks[2], 1), [s for n in blocks for s in (n, _BLOCK)]
+    )
     values = whole.reshape([n * _BLOCK for n in blocks])[: counts[0], : counts[1], : counts[2]].copy()
     reach = _STEEPEST * cell * np.sqrt(3) * (_BLOCK + 1) / 2
     near = np.nonzero(np.abs(values) < reach)

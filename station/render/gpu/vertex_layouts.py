@@ -6,7 +6,7 @@ Normals and tangents are half floats with a fourth number that nobody reads; wei
 import numpy as np
 from numpy.typing import NDArray
 
-from station.render.figure.body import Skin
+from station.render.figure.skin import Skin
 from station.render.geometry.mesh import Mesh
 
 RIGID_DTYPE = np.dtype(

@@ -12,8 +12,7 @@ from station.render.figure.body import build_body
 from station.render.figure.bones import Bone
 from station.render.figure.skeleton import Skeleton, bind_stance
 from station.render.figure.skin import Skin
-from station.render.geometry.implicit import egg, plane, surface
-from station.render.geometry.implicit import clipped
+from station.render.geometry.implicit import clipped, egg, plane, surface
 from station.render.geometry.materials import Material, shader_table
 from tests.unit.render.poses import pose_of
 
@@ -24,10 +23,10 @@ MOST_TRIANGLES = 16_000
 """Of a figure at the lowest quality: as many as leave it its 60 pictures a second on two cores."""
 
 
-def skin_in(figure: Figure, **joints: NDArray[np.float64]) -> Skin:
+def skin_in(figure: Figure, joints_m: NDArray[np.float64], facing: NDArray[np.float64]) -> Skin:
     """The skin where a pose carries it."""
     skin = build_body(figure, COARSE)
-    m = Skeleton(figure).matrices(pose_of(figure, **joints))
+    m = Skeleton(figure).matrices(pose_of(figure, joints_m=joints_m, facing=facing))
     carried = np.einsum("nbij,nj->nbi", m[skin.bones], np.c_[skin.position, np.ones(len(skin.position))])
     return replace(skin, position=np.einsum("nb,nbi->ni", skin.weights, carried)[:, :3])
 
@@ -41,7 +40,9 @@ def test_a_drummer_is_whole(name: str) -> None:
     assert len(skin.faces) < MOST_TRIANGLES
     crown = bind_stance(figure).joints_m[Joint.CROWN][2]
     assert crown - 0.01 < skin.position[:, 2].max() < crown + 0.10, "hair or a hat above the crown"
-    assert {Material.SKIN, Material.HAIR, Material.IRIS, Material.LIP} <= {Material(m) for m in np.unique(skin.material)}
+    assert {Material.SKIN, Material.HAIR, Material.IRIS, Material.LIP} <= {
+        Material(m) for m in np.unique(skin.material)
+    }
 
 
 def test_drummers_differ_in_breadth_and_height() -> None:
@@ -60,7 +61,7 @@ def _breadth(name: str, joint: Joint) -> float:
 
 @pytest.mark.parametrize(("part", "word"), [(part, word) for part, words in WORDS.items() for word in words])
 def test_every_word_of_a_look_can_be_worn(part: str, word: str) -> None:
-    look = replace(Look(), **{part: word})
+    look = replace(Look(), **{part: word})  # type: ignore[arg-type] # words alone
     skin = build_body(replace(figure_of(), look=look), 4.0)
     assert np.isfinite(skin.position).all()
 
@@ -86,7 +87,7 @@ def test_a_trunk_that_twists_keeps_its_waist() -> None:
     axis = joints[Joint.NECK] * [1, 1, 0]
     joints[above] = (joints[above] - axis) @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]).T + axis
     facing = np.array([-s, c, 0.0])
-    before, after = build_body(figure, COARSE), skin_in(figure, joints_m=joints, facing=facing)
+    before, after = build_body(figure, COARSE), skin_in(figure, joints, facing)
     spine = bind_stance(figure).joints_m[Joint.SPINE]
     ring = (before.material == Material.SHIRT) & (np.abs(before.position[:, 2] - spine[2]) < 0.05)
     ring &= np.isin(before.bones[:, 0], (Bone.WAIST, Bone.CHEST))
