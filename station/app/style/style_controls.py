@@ -140,7 +140,7 @@ WORD_LABELS: Mapping[str, tuple[str, str]] = MappingProxyType(
         "held": ("plays with", "What the hands hold: sticks, brushes, mallets, or nothing"),
         "heel": ("heels", "Whether the heel stays on the board or is lifted with the thigh"),
         "beater": ("beater", "Whether the kick's beater comes back at once or stays at the head"),
-        "drummer": ("whose style", "Who plays in this style where the drummer above is left to the style"),
+        "drummer": ("style's drummer", "Who plays in this style where the drummer above is left to the style"),
     }
 )
 """Every control that is a word: its label and what it does."""
