@@ -41,7 +41,7 @@ class Colours:
 
     skin: Colour = (0.86, 0.62, 0.48)
     lips: Colour = (0.66, 0.36, 0.32)
-    hair: Colour = (0.24, 0.15, 0.11)
+    hair: Colour = (0.31, 0.19, 0.13)
     iris: Colour = (0.30, 0.42, 0.46)
     top: Colour = (0.91, 0.49, 0.20)
     trim: Colour = (0.10, 0.30, 0.36)

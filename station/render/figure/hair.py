@@ -69,7 +69,9 @@ def _beard(girths: Girths, fineness: float) -> Surface:
     )
 
 
-_MOUSTACHE = united([egg((s * 0.015, 0.098, 0.0435), (0.017, 0.014, 0.0075)) for s in (-1.0, 1.0)], 0.006)
+_MOUSTACHE = united(
+    [cone((0.0, 0.098, 0.0440), (s * 0.030, 0.086, 0.0345), 0.0085, 0.0080) for s in (-1.0, 1.0)], 0.006
+)
 
 
 def _waved(field: Field, wave: Wave, depth: float, cell: float) -> Field:
