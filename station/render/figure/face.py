@@ -112,6 +112,7 @@ class _Lips:
 
     def __init__(self, girths: Girths, fineness: float) -> None:
         self.girths, self.fineness = girths, fineness
+        self.out = 0.0007 * max(fineness - 1.0, 0.0)  # coarse cheeks stand out between their corners
         self.t = np.linspace(-1, 1, 2 * (cuts(9, fineness) // 2) + 1)
         self.x = MOUTH_M[0] * self.t
         self.z = MOUTH_M[2] - 0.0020 * (1 - self.t**2)
@@ -133,7 +134,7 @@ class _Lips:
     def _lip(self, above: float, thick: float, bone: Bone) -> Skin:
         middle = 1 - self.t**2
         z = self.z + above * middle
-        path = np.stack([self.x, front(self.girths, self.x, z) - 0.0002, z], axis=1)
+        path = np.stack([self.x, front(self.girths, self.x, z) + self.out, z], axis=1)
         radius = thick * (0.45 + 0.55 * middle)
         rounds = cuts(7, self.fineness)
         mesh = tube(path, radius, Material.LIP, rounds)
@@ -143,7 +144,7 @@ class _Lips:
     def _between(self, top: float, bottom: float, out: float, material: Material) -> Skin:
         """A sheet from `top` to `bottom` of the way from the upper to the lower lip."""
         share = np.linspace(top, bottom, 4)
-        y = front(self.girths, self.x, self.z) + out
+        y = front(self.girths, self.x, self.z) + self.out + out
         line = np.stack([self.x, y, self.z], axis=1)
         mesh = grid_mesh(np.repeat(line[:, None], len(share), axis=1), material)
         forward = np.broadcast_to(np.array([0.0, 1.0, 0.0]), mesh.position.shape).copy()
