@@ -10,8 +10,10 @@ from station.motion.kinematics.figure import Figure, Joint, figure_names, figure
 from station.motion.kinematics.look import WORDS, WORN, Colours, Look
 from station.render.figure.body import build_body
 from station.render.figure.bones import Bone
+from station.render.figure.hair import _surface
 from station.render.figure.skeleton import Skeleton, bind_stance
 from station.render.figure.skin import Skin
+from station.render.geometry import implicit
 from station.render.geometry.implicit import clipped, egg, plane, surface
 from station.render.geometry.materials import Material, shader_table
 from tests.unit.render.poses import pose_of
@@ -108,3 +110,14 @@ def test_a_clipped_surface_ends_exactly_at_the_wall() -> None:
     assert (np.einsum("ij,ij->i", normal, corners.mean(axis=1)) > 0).all(), "faces still look outward"
     area = np.linalg.norm(normal, axis=1).sum() / 2
     assert area == pytest.approx(2 * np.pi * 1.3, rel=0.02)  # Archimedes: 2πrh
+
+
+def test_what_lies_far_from_a_surface_need_not_be_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The whole skin is the same where every cell is looked at."""
+    figure = replace(figure_of(), look=Look(hair="curls", top="hoodie"))
+    quick = build_body(figure, 2.0)
+    monkeypatch.setattr(implicit, "_BLOCK", 1)
+    _surface.cache_clear()
+    whole = build_body(figure, 2.0)
+    assert np.array_equal(quick.faces, whole.faces)
+    assert np.allclose(quick.position, whole.position, atol=1e-12)
