@@ -12,7 +12,7 @@ from station.render.geometry.materials import Material
 from station.render.geometry.mesh import Mesh, ball, grid_mesh, joined, lathe, tube
 from station.render.geometry.transforms import frame, translation
 
-_BALL_M, _LID_M = 0.0185, 0.0197
+_BALL_M, _LID_M = 0.0185, 0.0206
 """Radii of the eyeball and of the lids over it."""
 
 
@@ -41,7 +41,7 @@ def _eyes(fineness: float) -> list[Skin]:
         iris = _cap(_BALL_M + 0.0005, 0.60, rounds, 3, Material.IRIS).moved(ahead)
         rim = _ring(_BALL_M + 0.0006, 0.53, 0.62, rounds, Material.EYE).moved(ahead)
         pupil = _cap(_BALL_M + 0.0009, 0.32, rounds, 2, Material.EYE).moved(ahead)
-        glint = ball((-0.0042, -0.0048, _BALL_M - 0.0008), 0.0024, Material.EYE_WHITE, 6).moved(
+        glint = ball((-0.0042, -0.0048, _BALL_M - 0.0022), 0.0021, Material.EYE_WHITE, 6).moved(
             frame(centre, [0, 1, 0], [1, 0, 0])
         )
         parts.append(rigid_skin(white.on_bone(Bone.HEAD)))
