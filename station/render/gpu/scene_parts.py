@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from station.core.pieces import Limb
 from station.motion.kinematics.figure import Figure
 from station.motion.kit.kit import Kit
-from station.render.figure.body import Skin
 from station.render.figure.bones import LIMB_BONES, Bone
+from station.render.figure.skin import Skin
 from station.render.geometry.light import Light
 from station.render.geometry.materials import shader_table
 from station.render.geometry.mesh import Mesh
