@@ -42,8 +42,8 @@ def leans(curves: SplineChannels, hands: tuple[HandPart, HandPart], figure: Figu
         if not len(hand.events.row):
             continue
         times = hand.strokes.strike_s
-        twist, lean, tilt, shrug, *_ = curves.many(times)
-        body = trunk(MANY, figure, pelvis, TrunkAngles(twist, lean, tilt, 0.0, 0.0, 0.0, shrug))
+        twist, lean, tilt, shrug, hunch, *_ = curves.many(times)
+        body = trunk(MANY, figure, pelvis, TrunkAngles(twist, lean, tilt, 0.0, 0.0, 0.0, shrug, hunch))
         shoulder = body.left_shoulder if side else body.right_shoulder
         far = np.sqrt(sum((s - w) ** 2 for s, w in zip(shoulder, hand.wrist_m.T, strict=True)))
         lack = np.clip((far - length) / (_ARM_OF_LEAN * figure.trunk_m), 0.0, MOST_RAD)

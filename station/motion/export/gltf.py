@@ -16,7 +16,7 @@ from station.motion.export import plain_solids
 from station.motion.export.glb_file import Glb, quaternions
 from station.motion.export.joint_tree import BONES, STICKS, TURN, local, skeleton
 from station.motion.kinematics import frame
-from station.motion.kinematics.pedal_motion import BEATER_LENGTH_M
+from station.motion.kinematics.pedal_motion import BEATER_HALF_M, BEATER_LENGTH_M
 from station.motion.kit.kit import Kit
 from station.motion.kit.piece import KitPiece
 
@@ -112,9 +112,11 @@ def _tips(swing: Array) -> Array:
 
 
 def _pedals(scene: Glb, materials: dict[str, int], kit: Kit, rows: Array) -> None:
-    kick, hat = kit.pedals[Piece.KICK], kit.pedals[Piece.HIHAT_PEDAL]
-    feet = (hat, kick) if kit.left_handed else (kick, hat)
-    for name, pedal, angle in zip(("right_board", "left_board"), feet, rows[:, frame.BOARDS].T, strict=True):
+    right, left = zip(kit.pedals_by_foot, rows[:, frame.BOARDS].T, strict=True)
+    boards = [("right_board", *right), ("left_board", *left)]
+    if kit.slave is not None:
+        boards.append(("slave_board", kit.slave, rows[:, frame.SLAVE_BOARD]))
+    for name, pedal, angle in boards:
         along = np.array(pedal.toe_m) - np.array(pedal.heel_m)
         length = float(np.linalg.norm(along))
         mesh = scene.mesh(name, plain_solids.plate(0.045, length), materials["steel"])
@@ -125,13 +127,14 @@ def _pedals(scene: Glb, materials: dict[str, int], kit: Kit, rows: Array) -> Non
         frames = np.stack([np.broadcast_to(across, turned.shape), np.cross(turned, across), turned], 2)
         place = np.repeat((TURN @ np.array(pedal.heel_m))[None], len(angle), 0)
         _move(scene, scene.node(name, None, mesh), place, TURN @ frames)
-    _beater(scene, materials, kit, rows[:, frame.BEATER])
+    axle = kit.pieces[Piece.KICK].centre - np.array([0.0, BEATER_HALF_M, BEATER_LENGTH_M])
+    _beater(scene, materials, "beater", axle, rows[:, frame.BEATER])
+    if kit.slave is not None:
+        _beater(scene, materials, "slave_beater", axle + kit.second_beater_m, rows[:, frame.SLAVE_BEATER])
 
 
-def _beater(scene: Glb, materials: dict[str, int], kit: Kit, angle: Array) -> None:
-    head = kit.pieces[Piece.KICK].centre
-    axle = head - np.array([0.0, 0.016, BEATER_LENGTH_M])
-    mesh = scene.mesh("beater", plain_solids.beater(BEATER_LENGTH_M), materials["steel"])
+def _beater(scene: Glb, materials: dict[str, int], name: str, axle: Array, angle: Array) -> None:
+    mesh = scene.mesh(name, plain_solids.beater(BEATER_LENGTH_M), materials["steel"])
     c, s, one, zero = np.cos(angle), np.sin(angle), np.ones_like(angle), np.zeros_like(angle)
     turn = np.stack([one, zero, zero, zero, c, -s, zero, s, c], 1).reshape(-1, 3, 3)
-    _move(scene, scene.node("beater", None, mesh), np.repeat((TURN @ axle)[None], len(angle), 0), TURN @ turn)
+    _move(scene, scene.node(name, None, mesh), np.repeat((TURN @ axle)[None], len(angle), 0), TURN @ turn)

@@ -2,9 +2,8 @@
 
 Segment lengths and joint heights after Winter and Drillis & Contini (HUMANS, Body); their shoulder breadth of .259 is
 drawn about the deltoids, and from acromion to acromion a median man has .23 (Pheasant, Bodyspace: 400 of 1740 mm). The
-joints lie farther in: .34 m apart in the 1.70 m man of Rajagopal 2016 (doi 10.1109/TBME.2016.2586891). The distance
-from the wrist to the fulcrum of the grip is measured: 0.163 m in the 1.9 m player of Pearl 2023 (doi
-10.1101/2023.10.09.561270).
+joints lie farther in: .34 m apart in the 1.70 m man of Rajagopal 2016 (doi 10.1109/TBME.2016.2586891). Where in the
+hand the fulcrum of a grip is, `grip` says.
 """
 
 from collections.abc import Mapping
@@ -84,7 +83,7 @@ class Figure:
     head_m: float  # from the joint on the neck to the crown
     upper_arm_m: float
     forearm_m: float
-    hand_m: float  # wrist to the fulcrum of the grip
+    hand_m: float  # wrist to the fingertips of the straight hand
     thigh_m: float
     shank_m: float
     foot_m: float
@@ -104,7 +103,7 @@ _SHARES: Mapping[str, float] = {
     "head_m": 0.122,
     "upper_arm_m": 0.186,
     "forearm_m": 0.146,
-    "hand_m": 0.086,
+    "hand_m": 0.108,
     "thigh_m": 0.245,
     "shank_m": 0.246,
     "foot_m": 0.152,

@@ -1,8 +1,9 @@
 """How a hand lies when its stick touches: from the kit's targets to the numbers that the arm is solved from.
 
-The kit's wrist radius and height give the slope of the line from the struck point up to the wrist. What they leave
-open, the elbow's wing and the way the hand points, is chosen once for each target so that the wrist is bent least, at
-the natural posture of the body for that target: drummers lift the elbow for a high hi-hat and keep the wrist straight.
+The kit's wrist radius and height give the slope of the line from the struck point up to the wrist, the grip how the
+stick lies in the hand. What they leave open, the elbow's wing and the way that hand and stick point, is chosen once for
+each target so that the wrist is bent least, at the natural posture of the body for that target: drummers lift the elbow
+for a high hi-hat and keep the wrist straight.
 """
 
 import math
@@ -15,33 +16,33 @@ from station.core.pieces import Articulation, Limb, Piece
 from station.motion.kinematics.arm import Arm, ArmLengths, Contact, Offsets, solve
 from station.motion.kinematics.collisions import depth_in_kit
 from station.motion.kinematics.figure import Figure
+from station.motion.kinematics.grip import Grip, Hold, Lie
 from station.motion.kinematics.joint_limits import Limits
 from station.motion.kinematics.maths import MANY, ONE, Point
 from station.motion.kinematics.posture import natural_shoulder
 from station.motion.kit.kit import Kit
 from station.motion.kit.piece import RIM_ABOVE_HEAD_M, Target
-from station.motion.strokes.grip import Grip, Hold
 from station.motion.strokes.hand_events import GRAB, SHOW, WAIT
 from station.motion.strokes.targets import Strike, laid_azimuth, target_of
 
 Array = NDArray[np.float64]
 
 _WINGS = np.radians(np.arange(0.0, 81.0, 8.0))
-_HAND_YAWS = np.radians(np.arange(-60.0, 61.0, 6.0))
+_TURNS = np.radians(np.arange(-60.0, 61.0, 6.0))
 _EXTENSION_EASE, _DEVIATION_EASE = np.radians(25.0), np.radians(12.0)
 _NATURAL_WING, _WING_EASE = np.radians(12.0), np.radians(40.0)
-_CROSSING_EASE = np.radians(35.0)
+_TURN_EASE = np.radians(18.0)
 _SPARE, _BEYOND_EASE = np.radians(8.0), np.radians(1.0)
-"""What is called comfortable: how far the wrist bends, the elbow leaves its place and the stick crosses the palm
-before each costs as much as the others; near its limits no wrist is comfortable, for strokes and styles need room (our
+"""What is called comfortable: how far the wrist bends, the elbow leaves its place and the stick is turned from
+the grip's own way before each costs as much as the others; near its limits no wrist is comfortable, for strokes and styles need room (our
 choice, within the limits of HUMANS)."""
 
 SHOULDER_OF_STICK = 0.25
 """From the tip back to the part that meets a cymbal's edge or a rim, as a share of the stick (our choice)."""
 _LAID_AHEAD = 0.55
-_LAID_RISE, _LAID_PALM = math.radians(2.0), math.radians(12.0)
-"""A cross-stick strikes the rim so far ahead of the fulcrum as a share of its length; the wrist is a little higher than
-the fingers, else it would be bent to its limit (our choice)."""
+_LAID_RISE = math.radians(2.0)
+"""A cross-stick strikes the rim so far ahead of the fulcrum as a share of its length; the hand lies flat on it, palm
+down whatever its grip (our choice)."""
 
 _RIDES = (Piece.RIDE, Piece.RIDE_2)
 THUMB_UP_TURNS = 0.5
@@ -96,7 +97,7 @@ def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike) -> ContactPose:
     for share in _STRAIGHTER:  # the butt may be in the way of a neighbour: the stick is turned until it is not
         if not _caught(kit, lengths, root, touch):
             break
-        grip = replace(hold.grip, yaw=share * hold.grip.yaw, crossing=share * hold.grip.crossing)
+        grip = replace(hold.grip, yaw=share * hold.grip.yaw)
         touch, _ = _easiest(lengths, root, target, slopes, grip, (side, figure.limits))
         arm = solve(ONE, lengths, root, touch, Offsets(0.0, 0.0, 0.0, 0.0))
     limits = figure.limits
@@ -138,30 +139,42 @@ _EASY = 0.95
 def _easiest(
     lengths: ArmLengths, root: Point, target: Target, slopes: "_Slopes", grip: Grip, arm_of: tuple[float, Limits]
 ) -> tuple[Contact, bool]:
-    """Among all wings and ways to point the hand the easiest one, and whether the arm is stretched for it.
+    """Among all wings and ways to turn hand and stick the easiest one, and whether the arm is stretched for it.
 
     `arm_of` is the arm's side, 1 right and −1 left, and its limits.
     """
     side, limits = arm_of
-    wing, yaw = (g.ravel() for g in np.meshgrid(side * _WINGS, _HAND_YAWS, indexing="ij"))
-    x, y, z = target.point_m.tolist()
-    stick_yaw = side * grip.yaw if slopes.azimuth is None else _turn(root, target, slopes.azimuth)
-    stick_rise = _over_the_piece(target, root, stick_yaw, slopes)
-    hand_rise = stick_rise + slopes.palm
-    trial = Contact(x, y, z, stick_rise, hand_rise, stick_yaw, stick_yaw + yaw, slopes.ahead_m, wing, grip.turns_hand)
-    arm = solve(MANY, lengths, root, trial, Offsets(0.0, 0.0, 0.0, 0.0))
+    wing, turn = (g.ravel() for g in np.meshgrid(side * _WINGS, _TURNS, indexing="ij"))
+    if slopes.azimuth is not None:
+        turn = np.zeros_like(turn)
+    way = side * grip.yaw if slopes.azimuth is None else _turn(root, target, slopes.azimuth)
+    rises = {t: _over_the_piece(target, root, way + t, slopes) for t in set(turn.tolist())}
+    rise = np.array([rises[t] for t in turn.tolist()])
+    lie, stick_yaw = slopes.lie, way + turn
+    tries = Contact(
+        *target.point_m.tolist(),
+        stick_rise=rise,
+        hand_rise=rise + lie.palm,
+        stick_yaw=stick_yaw,
+        hand_yaw=stick_yaw - side * lie.crossing,
+        ahead_m=slopes.ahead_m,
+        wing=wing,
+        turns=grip.turns_hand,
+        roll=slopes.roll,
+    )
+    arm = solve(MANY, lengths, root, tries, Offsets(0.0, 0.0, 0.0, 0.0))
     price = (
         (arm.extension / _EXTENSION_EASE) ** 2
         + (arm.deviation / _DEVIATION_EASE) ** 2
         + ((side * wing - _NATURAL_WING) / _WING_EASE) ** 2
-        + ((yaw + side * grip.crossing) / _CROSSING_EASE) ** 2
+        + (turn / _TURN_EASE) ** 2
         + 100.0 * arm.missing_m
         + (_beyond(arm, side, limits) / _BEYOND_EASE) ** 2
     )
     best = int(np.argmin(price))
     wx, wy, wz = (float(np.broadcast_to(w, price.shape)[best]) for w in arm.wrist)
     stretched = math.dist((wx, wy, wz), root) > _EASY * (lengths.upper + lengths.fore)
-    return trial._replace(hand_yaw=stick_yaw + float(yaw[best]), wing=float(wing[best])), stretched
+    return Contact(*(float(np.broadcast_to(t, price.shape)[best]) for t in tries)), stretched
 
 
 def _beyond(arm: Arm, side: float, limits: Limits) -> Array:
@@ -179,31 +192,34 @@ def _beyond(arm: Arm, side: float, limits: Limits) -> Array:
 class _Slopes:
     """How the stick wants to lie.
 
-    What touches and how much stick is beyond it, its slope, its angle in the hand, its way in plan where that is fixed,
-    and whether its shaft lies on the rim.
+    What touches and how much stick is beyond it, its slope, how it lies in the hand and how far that is rolled from its
+    grip's own way, its way in plan where that is fixed, and whether its shaft lies on the rim.
     """
 
     ahead_m: float
     beyond_m: float
     rise: float
-    palm: float
+    lie: Lie
+    roll: float = 0.0
     azimuth: float | None = None
     on_rim: bool = False
 
 
 def _slopes(lengths: ArmLengths, target: Target, hold: Hold, strike: Strike, length_m: float) -> _Slopes:
-    h, palm, ahead = lengths.hand, hold.grip.palm, lengths.ahead
+    h, lie, ahead = lengths.hand, hold.grip.lie, lengths.ahead
     if strike.articulation == GRAB:
-        return _Slopes(0.0, lengths.ahead, target.rise_rad, palm)
+        return _Slopes(0.0, lengths.ahead, target.rise_rad, lie)
     if strike.articulation == Articulation.CROSS_STICK:
         laid = _LAID_AHEAD * length_m
-        return _Slopes(laid, ahead - laid, _LAID_RISE, _LAID_PALM)
+        return _Slopes(laid, ahead - laid, _LAID_RISE, hold.grip.flat, -hold.grip.roll)
     if target.shoulder:
         ahead -= SHOULDER_OF_STICK * length_m
-    lean = math.atan2(h * math.sin(palm), ahead + h * math.cos(palm))  # between the stick and the line to the wrist
+    lean = math.atan2(
+        h * math.sin(lie.palm), ahead + h * math.cos(lie.palm)
+    )  # between the stick and the line to the wrist
     rise = target.rise_rad - lean
     on_rim = strike.articulation == Articulation.RIM_SHOT
-    return _Slopes(ahead, lengths.ahead - ahead, rise, palm, on_rim=on_rim)
+    return _Slopes(ahead, lengths.ahead - ahead, rise, lie, on_rim=on_rim)
 
 
 def _over_the_piece(target: Target, root: Point, stick_yaw: float, slopes: _Slopes) -> float:

@@ -9,14 +9,14 @@ from numpy.typing import NDArray
 
 from station.core.errors import BadInput
 from station.core.labels import limb_name
-from station.core.pieces import Limb, Piece, Zone, word
+from station.core.pieces import Articulation, Limb, Piece, Zone, word
 from station.motion.kinematics.arm import Contact, Offsets, solve
 from station.motion.kinematics.figure import Figure
+from station.motion.kinematics.grip import Hold
 from station.motion.kinematics.maths import MANY, blocks
 from station.motion.kit.kit import Kit
 from station.motion.strokes.amplitudes import amplitudes, rebounds
 from station.motion.strokes.contact_pose import PROTRACTION_M, ContactPose, lie_of
-from station.motion.strokes.grip import Hold
 from station.motion.strokes.hand_events import SHOW, WAIT, HandEvents
 from station.motion.strokes.stroke import NATURALLY, StrokePlan, Strokes
 from station.motion.strokes.targets import Strike
@@ -35,7 +35,8 @@ _VIGOROUS = 2.0
 """Styles may make strokes so much higher, and on its ways the wrist must bear them (our choice)."""
 _MOST_AHEAD_M = 0.12
 """A hand waits so much farther forward at most: it stays over the snare (our choice)."""
-_Y, _HAND_YAW, _TURNS = Contact._fields.index("y"), Contact._fields.index("hand_yaw"), Contact._fields.index("turns")
+_Y, _TURNS = Contact._fields.index("y"), Contact._fields.index("turns")
+_STICK_YAW, _HAND_YAW = Contact._fields.index("stick_yaw"), Contact._fields.index("hand_yaw")
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,7 +106,7 @@ class HandPart:
         return HandPath.of(self.events.time_s, self.contacts, self.bump, self.early, self.gives)
 
     def eased(self, figure: Figure, time_s: Array, roots: tuple[Array, Array]) -> "HandPart":
-        """The same with the hand so pointed at each contact that its wrist stays within its limits sideways.
+        """The same with hand and stick so turned at each contact that the wrist stays within its limits sideways.
 
         `roots` are where the shoulder is at `time_s` (k,) as the body naturally is, and as a lively one has it, which
         counts while the hand stays; (3, k) each.
@@ -114,6 +115,7 @@ class HandPart:
         most, least = limits.wrist_radial - _SPARE_RAD, _SPARE_RAD - limits.wrist_ulnar
         strokes = Strokes.of(self.strokes, NATURALLY)
         part, side = self, 1.0 if self.limb == Limb.RIGHT_HAND else -1.0
+        laid = self.events.key[:, 2] == Articulation.CROSS_STICK  # its way over the head is given
         for _ in range(_EASINGS):
             contacts = part.contacts.copy()
             bent, lively = (part._sideways(figure, time_s, root, strokes) for root in roots)
@@ -129,6 +131,7 @@ class HandPart:
             least_turn, most_turn = high - most, low - least
             middle = 0.5 * (least_turn + most_turn)
             turn = np.clip(turn, np.minimum(least_turn, middle), np.maximum(most_turn, middle))
+            contacts[:, _STICK_YAW] -= np.where(laid, 0.0, side * turn)
             contacts[:, _HAND_YAW] -= side * turn
             part = replace(part, contacts=contacts)
         if not len(self.bump):
@@ -153,7 +156,7 @@ class HandPart:
     def _turned_on_ways(
         self, side: float, time_s: Array, bends: tuple[Array, ...], bounds: tuple[float, float]
     ) -> "HandPart":
-        """The same with the hand turned on its ways as far as its wrist's `bends` at `time_s` are beyond `bounds`."""
+        """The same with hand and stick turned on their ways as far as its wrist's `bends` at `time_s` are beyond `bounds`."""
         k, hump = self.way.humps(time_s)
         helped = hump > _LEAST_HUMP
         turn = np.zeros((2, len(self.bump)))

@@ -11,16 +11,16 @@ import numpy as np
 
 from station.motion.kinematics.figure import Figure
 from station.render.figure import flesh, legwear, shoes, tops
-from station.render.figure.bones import Bone
+from station.render.figure.bones import FINGERS, Bone
 from station.render.figure.face import face_skins
 from station.render.figure.garments import Garment
 from station.render.figure.hair import hair_skins
-from station.render.figure.hand_solid import hand_surface
+from station.render.figure.hand_solid import hand_skin
 from station.render.figure.head_shape import head_skins
 from station.render.figure.headwear import headwear_skins
 from station.render.figure.measures import Measures
 from station.render.figure.skeleton import HEAD_M, Skeleton
-from station.render.figure.skin import Skin, hung, joined_skins, skin_of
+from station.render.figure.skin import INFLUENCES, Skin, joined_skins, skin_of
 from station.render.geometry.implicit import Array, Surface, clipped, surface
 from station.render.geometry.materials import Material
 
@@ -35,7 +35,7 @@ def build_body(figure: Figure, fineness: float) -> Skin:
     dressed = _Dressed(m, figure, fineness)
     skins = [_part_skin(part, fineness * m.k, dressed.parts) for part in dressed.parts]
     skins += dressed.trimmings
-    skins += [_hand_skin(skeleton, m.k, fineness, side) for side in (Bone.RIGHT_HAND, Bone.LEFT_HAND)]
+    skins += [_hand_skin(skeleton, fineness, side) for side in (Bone.RIGHT_HAND, Bone.LEFT_HAND)]
     look = figure.look
     head = [
         *head_skins(look.girths, fineness),
@@ -102,11 +102,17 @@ def _open_sky(mesh: Surface, whole: Sequence[Garment]) -> Array:
     return np.asarray(np.clip(1 - 0.62 * closed / sum(0.5**i for i in range(len(_AO_STEPS_M))) * 1.6, 0.15, 1))
 
 
-def _hand_skin(skeleton: Skeleton, scale: float, fineness: float, bone: Bone) -> Skin:
-    mesh = hand_surface(fineness)
-    if bone is Bone.LEFT_HAND:
+def _hand_skin(skeleton: Skeleton, fineness: float, hand: Bone) -> Skin:
+    made = hand_skin(fineness)
+    n = len(made.position)
+    bones, weights = np.zeros((n, INFLUENCES), np.uint8), np.zeros((n, INFLUENCES))
+    strongest = np.argsort(-made.weights, axis=1)
+    own = np.where(made.bones > 0, FINGERS[hand] + made.bones - 1, hand)
+    bones[:, :2] = np.take_along_axis(own, strongest, axis=1)
+    weights[:, :2] = np.take_along_axis(made.weights, strongest, axis=1)
+    material = np.full(n, Material.SKIN, np.uint8)
+    skin = Skin(made.position, made.normal, bones, weights, material, made.ao, made.faces)
+    if hand is Bone.LEFT_HAND:
         mirror = np.array([-1.0, 1.0, 1.0])
-        mesh = replace(mesh, position=mesh.position * mirror, normal=mesh.normal * mirror, faces=mesh.faces[:, ::-1])
-    ao = np.clip(0.75 + 6 * mesh.position[:, 1], 0.35, 1)
-    skin = skin_of(mesh, hung(bone, len(mesh.position)), Material.SKIN, ao)
-    return skin.scaled(scale).moved(skeleton.frames[bone])
+        skin = replace(skin, position=skin.position * mirror, normal=skin.normal * mirror, faces=skin.faces[:, ::-1])
+    return skin.scaled(skeleton.hand_scale).moved(skeleton.frames[hand])

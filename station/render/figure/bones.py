@@ -3,6 +3,7 @@
 from enum import IntEnum
 
 from station.core.pieces import Limb
+from station.render.figure.hand_bones import DIGITS, JOINTS
 
 
 class Bone(IntEnum):
@@ -41,11 +42,19 @@ class Bone(IntEnum):
 
 FACE_BONES = tuple(bone for bone in Bone if bone >= Bone.RIGHT_EYE)
 BODY_BONES = tuple(bone for bone in Bone if bone < Bone.RIGHT_EYE)
+FINGERS = {Bone.RIGHT_HAND: len(Bone), Bone.LEFT_HAND: len(Bone) + DIGITS * JOINTS}
+"""Where the bones of each hand's digits begin: they follow those that have names."""
+BONES = len(Bone) + 2 * DIGITS * JOINTS
 
 
-LIMB_BONES = {
-    Limb.RIGHT_HAND: (Bone.RIGHT_UPPER_ARM, Bone.RIGHT_FOREARM, Bone.RIGHT_TWIST, Bone.RIGHT_HAND),
-    Limb.LEFT_HAND: (Bone.LEFT_UPPER_ARM, Bone.LEFT_FOREARM, Bone.LEFT_TWIST, Bone.LEFT_HAND),
+def _digits(hand: Bone) -> range:
+    return range(FINGERS[hand], FINGERS[hand] + DIGITS * JOINTS)
+
+
+LIMB_BONES: dict[Limb, tuple[int, ...]] = {
+    Limb.RIGHT_HAND: (*range(Bone.RIGHT_UPPER_ARM, Bone.RIGHT_HAND + 1), *_digits(Bone.RIGHT_HAND)),
+    Limb.LEFT_HAND: (*range(Bone.LEFT_UPPER_ARM, Bone.LEFT_HAND + 1), *_digits(Bone.LEFT_HAND)),
     Limb.RIGHT_FOOT: (Bone.RIGHT_THIGH, Bone.RIGHT_SHANK, Bone.RIGHT_FOOT),
     Limb.LEFT_FOOT: (Bone.LEFT_THIGH, Bone.LEFT_SHANK, Bone.LEFT_FOOT),
 }
+"""The bones of each limb, a hand's digits with it."""

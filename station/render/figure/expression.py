@@ -42,7 +42,7 @@ class Expression:
 
     brow: float = 0.0
     mouth: float = 0.0
-    smile: float = 0.25
+    smile: float = 0.0
     effort: float = 0.0
     gaze: tuple[float, float] = (0.0, 0.0)
     eyes: float = 1.0
@@ -50,11 +50,9 @@ class Expression:
     @classmethod
     def of(cls, pose: Pose) -> "Expression":
         """That of a pose."""
-        face, gaze = getattr(pose, "face", None), getattr(pose, "gaze", (0.0, 0.0))
-        if face is None:
-            return cls(eyes=pose.eyes)
-        brow, mouth, smile, effort = (float(value) for value in face)
-        return cls(brow, mouth, smile, effort, (float(gaze[0]), float(gaze[1])), pose.eyes)
+        brow, mouth, smile, effort = pose.face.tolist()
+        left, down = pose.gaze.tolist()
+        return cls(brow, mouth, smile, effort, (left, down), pose.eyes)
 
 
 _Turn = tuple[float, float, float, float, float, float, float, float, float]

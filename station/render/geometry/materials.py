@@ -44,6 +44,11 @@ class Material(IntEnum):
     GLOW = 23
     SHELL_RING = 24
     BAND = 25
+    MAPLE = 26
+    LACQUER = 27
+    PAD = 28
+    MESH_HEAD = 29
+    SCREEN = 30
     IRIS = 26
     TRIM = 27
     MOUTH = 28
@@ -90,6 +95,11 @@ TABLE: dict[Material, SurfaceLook] = {
     Material.GLOW: SurfaceLook((1.00, 0.60, 0.24), 1.0, emission=1.0),
     Material.SHELL_RING: SurfaceLook((0.97, 0.55, 0.20), 0.35, coat=0.8),
     Material.BAND: SurfaceLook((0.06, 0.36, 0.42), 0.95, sheen=0.6),
+    Material.MAPLE: SurfaceLook((0.72, 0.45, 0.22), 0.35, coat=0.9),
+    Material.LACQUER: SurfaceLook((0.10, 0.10, 0.12), 0.30, coat=1.0),
+    Material.PAD: SurfaceLook((0.17, 0.17, 0.18), 0.80, coat=0.1),
+    Material.MESH_HEAD: SurfaceLook((0.80, 0.81, 0.83), 0.85),
+    Material.SCREEN: SurfaceLook((0.25, 0.62, 0.95), 1.0, emission=1.0),
     Material.IRIS: SurfaceLook((0.30, 0.42, 0.46), 0.15, coat=1.0),
     Material.TRIM: SurfaceLook((0.10, 0.30, 0.36), 0.85, sheen=0.5),
     Material.MOUTH: SurfaceLook((0.22, 0.06, 0.06), 0.60),

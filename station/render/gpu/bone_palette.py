@@ -1,6 +1,6 @@
 """Where every bone is and how it glows, as the one buffer that the shaders read.
 
-The kit's bones come first, then the drummer's, the student's double's, and the double's two sticks.
+The kit's bones come first, then the drummer's, the student's double's, and what the double holds.
 """
 
 from dataclasses import dataclass, field
@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Limb, Piece
 from station.motion.kinematics.pose import Pose
-from station.render.figure.bones import LIMB_BONES, Bone
+from station.render.figure.bones import BONES, LIMB_BONES
 from station.render.figure.skeleton import Skeleton
 from station.render.geometry.transforms import Matrix
 from station.render.gpu.light_shader import MAX_BONES
 from station.render.kit import kit_rig
+from station.render.kit.held_meshes import HELD_BONES, held_matrices
 from station.render.kit.kit_rig import KitRig
 
 Colour = NDArray[np.float64]
@@ -41,9 +42,9 @@ class BonePalette:
     def __init__(self, ctx: moderngl.Context, rig: KitRig, skeleton: Skeleton) -> None:
         self._rig, self._skeleton = rig, skeleton
         self.figure = rig.bone_count
-        self.double = self.figure + len(Bone)
-        self.double_sticks = self.double + len(Bone)
-        assert self.double_sticks + 2 <= MAX_BONES, "the kit has more pieces than a palette holds"
+        self.double = self.figure + BONES
+        self.double_sticks = self.double + BONES
+        assert self.double_sticks + 2 * HELD_BONES <= MAX_BONES, "the kit has more pieces than a palette holds"
         self._matrices = np.tile(np.eye(4), (MAX_BONES, 1, 1))
         self._glow = np.zeros((MAX_BONES, 4), np.float32)
         self._now = ctx.buffer(reserve=MAX_BONES * 64, dynamic=True)
@@ -60,7 +61,8 @@ class BonePalette:
             matrices[self.figure : self.double] = self._skeleton.matrices(frame.pose)
         if frame.double is not None:
             matrices[self.double : self.double_sticks] = self._skeleton.matrices(frame.double)
-            matrices[self.double_sticks : self.double_sticks + 2] = kit_rig.stick_matrices(frame.double)
+            held = held_matrices(frame.double, rig.kit)
+            matrices[self.double_sticks : self.double_sticks + len(held)] = held
             for limb, colour in frame.double_glow.items():
                 glow[[self.double + bone for bone in LIMB_BONES[limb]], :3] = colour
         self._now.write(_rows(matrices) + glow.tobytes())

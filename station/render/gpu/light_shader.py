@@ -2,14 +2,16 @@
 
 A key spotlight with a shadow map, a cool rim light from behind, a sky that is brighter above than below, and for
 varnish and metal a made-up studio of soft boxes to mirror. Highlights follow Blinn and Phong, stretched along the
-tangent for lathe-cut metal (Kajiya and Kay); Fresnel after Schlick; the film curve is Hejl and Burgess-Dawson's, which
-includes the screen's gamma. A shader that takes this in defines `QUALITY` first.
+tangent for lathe-cut metal (Kajiya and Kay); Fresnel after Schlick. The film curve is Reinhard's extended one (2002),
+whose white lies at about three times the key light; a square root brings it to the screen, as materials' colours are
+squared to make them light, and two fifths of a smooth step give it contrast. A shader that takes this in defines
+`QUALITY` first.
 """
 
 from station.render.geometry.materials import Material
 
 MAX_BONES = 256
-"""Matrices in the palette; 256 of 4 × vec4 fit the 16 KiB that every OpenGL 3.3 grants a block."""
+"""Matrices in the palette; 256 of 4 × vec4 are the 16 KiB that every OpenGL 3.3 grants a block."""
 
 _BONES = f"""
 layout(std140) uniform Bones {{
@@ -53,15 +55,15 @@ mat3x4 roughly_skinned() {                  // by the two strongest bones: withi
 """
 )
 
-_FILM = """
-vec3 film(vec3 c) {
-    c = max(vec3(0.0), c - 0.004);
-    return (c * (6.2 * c + 0.5)) / (c * (6.2 * c + 1.7) + 0.06);
+FILM = """
+vec3 film(vec3 c) {                         // to the screen: a curve that leaves the dark its drawing
+    c = sqrt(c * (1.0 + c * 0.12) / (0.80 + c));
+    return c * (0.60 + c * (1.20 - 0.80 * c));
 }
 """
 
 LIGHT = (
-    _FILM
+    FILM
     + f"""
 uniform vec4 look_a[{len(Material)}];      // linear colour, roughness
 uniform vec4 look_b[{len(Material)}];      // metal, coat + 2 emission, grain, sheen
@@ -127,7 +129,7 @@ vec3 light(vec3 world, vec3 n, vec3 tangent, float ao, int material, float lit, 
     vec3 total = diffuse + mirror * (glints * max(gloss, 0.35 * smooth_2) + mirrored);
     total += b.y > 1.5 ? colour * 2.5 : vec3(0.0);
     float glow = max(glowing.r, max(glowing.g, glowing.b));
-    return film(total * (1.0 - 0.8 * min(glow, 1.0)) + glowing * (0.35 + 0.65 * view) * (0.6 * colour + 0.25));
+    return film(total * (1.0 - 0.55 * min(glow, 1.0)) + glowing * (0.35 + 0.65 * view) * (0.6 * colour + 0.25));
 }}
 """
 )

@@ -6,7 +6,7 @@ import pytest
 from station.motion.kinematics.figure import Joint, figure_of
 from station.motion.kinematics.pose import Pose
 from station.render.figure.body import build_body
-from station.render.figure.bones import BODY_BONES, FACE_BONES, Bone
+from station.render.figure.bones import BODY_BONES, BONES, FACE_BONES, Bone
 from station.render.figure.skeleton import Skeleton, bind_stance, bone_frames
 from station.render.geometry.materials import TABLE, Material, shader_table
 from tests.unit.render.poses import pose_of
@@ -21,7 +21,7 @@ def moved(shift: tuple[float, float, float]) -> Pose:
 
 def test_weights_add_up_and_no_corner_hangs_on_nothing() -> None:
     assert np.allclose(SKIN.weights.sum(axis=1), 1)
-    assert SKIN.bones.max() < len(Bone)
+    assert SKIN.bones.max() < BONES
     assert SKIN.faces.max() < len(SKIN.position)
     assert ((SKIN.ao > 0) & (SKIN.ao <= 1)).all()
 
