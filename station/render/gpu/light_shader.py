@@ -85,7 +85,7 @@ mat3x4 roughly_skinned() {                  // by the two strongest bones: withi
 
 FILM = """
 vec3 film(vec3 c) {                         // to the screen: a curve that leaves the dark its drawing
-    c = sqrt(c * (1.0 + c * 0.12) / (0.80 + c));
+    c = min(sqrt(c * (1.0 + c * 0.12) / (0.80 + c)), 1.0);
     return c * (0.60 + c * (1.20 - 0.80 * c));
 }
 """
@@ -152,7 +152,7 @@ vec3 light(vec3 world, vec3 n, vec3 tangent, float ao, int material, float lit, 
     float coat = b.y > 1.5 ? 0.0 : b.y, gloss = max(coat, metal);
     vec3 mirror = mix(vec3(0.04 + 0.10 * coat), colour, metal);
     mirror += (1.0 - mirror) * fresnel * (1.0 - 0.6 * a.w) * gloss;
-    vec3 glints = key * (direct * highlight.x) + rim_colour * (from_rim * highlight.y);
+    vec3 glints = key * (direct * highlight.x) + rim_colour * (from_rim * highlight.y * 0.35);
     vec3 mirrored = studio(reflect(-to_eye, n), a.w) * (0.35 + 0.65 * ao) * gloss;
     vec3 total = diffuse + mirror * (glints * max(gloss, 0.35 * smooth_2) + mirrored);
     total += b.y > 1.5 ? colour * 2.5 : vec3(0.0);

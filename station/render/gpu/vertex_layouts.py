@@ -7,7 +7,7 @@ are 255ths.
 import numpy as np
 from numpy.typing import NDArray
 
-from station.render.figure.body import Skin
+from station.render.figure.skin import Skin
 from station.render.geometry.materials import Material
 from station.render.geometry.mesh import Mesh
 
