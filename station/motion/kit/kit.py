@@ -119,6 +119,12 @@ class Kit:
         kick, hat = self.pedals[Piece.KICK], self.pedals[Piece.HIHAT_PEDAL]
         return (hat, kick) if self.left_handed else (kick, hat)
 
+    @property
+    def pulled_hat(self) -> KitPiece | None:
+        """The hi-hat whose upper cymbal the pedal's rod moves; a pad's controller moves nothing."""
+        hat = self.pieces.get(Piece.HIHAT)
+        return None if hat is None or hat.electronic else hat
+
     def stand_in(self, piece: Piece) -> Piece:
         """`piece` if this kit has it, else the piece that is played in its place."""
         played = Piece.HIHAT if piece is Piece.HIHAT_PEDAL else piece
