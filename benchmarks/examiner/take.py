@@ -26,7 +26,7 @@ SIDES = ("right", "left")
 class Sampled:
     """Poses at `time_s` (n,): `points_m` (n, 21, 3), `tip_m`, `butt_m`, `back` (n, 2, 3), `angles_deg` (n, 28).
 
-    `boards_rad` of the boards at which the feet are at home, `slave_rad` a double pedal's second board and beater.
+    `slave_rad` (n, 2): a double pedal's second board and beater.
     """
 
     time_s: Array
