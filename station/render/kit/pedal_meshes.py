@@ -207,15 +207,16 @@ def _shaft(kit: Kit, slave: Pedal) -> list[Mesh]:
 
 
 def _hat_frame(piece: KitPiece, pedal: Pedal) -> Mesh:
-    """What stands about the hi-hat's strap: two posts beside the board's toe end, and the bridge under the tube."""
+    """What stands about the hi-hat's strap: two posts beside the pole, wider than a shoe, and the bridge over them."""
     side = _side(pedal)
     top = np.array([piece.centre_m[0], piece.centre_m[1], TUBE_M])
-    toe = np.array([pedal.toe_m[0], pedal.toe_m[1], 0.012])
+    low = top * [1, 1, 0] + [0, 0, 0.012]
     posts = [
-        rod(toe + s * _POST_M * side, top + 0.6 * s * _POST_M * side, 0.008, Material.BLACK, 8) for s in (-1.0, 1.0)
+        rod(low + s * _POST_M * side, top + 0.8 * s * _POST_M * side, 0.007, Material.BLACK, 8) for s in (-1.0, 1.0)
     ]
-    bridge = box((1.4 * _POST_M, 0.03, 0.03), Material.BLACK, 0.005).moved(frame(top, [0, 0, 1], side))
-    return joined([*posts, bridge])
+    foot = box((2.3 * _POST_M, 0.03, 0.012), Material.BLACK, 0.003).moved(frame(low, [0, 0, 1], side))
+    bridge = box((1.9 * _POST_M, 0.03, 0.028), Material.BLACK, 0.005).moved(frame(top, [0, 0, 1], side))
+    return joined([*posts, foot, bridge])
 
 
 def _pull_rod(piece: KitPiece) -> Mesh:
