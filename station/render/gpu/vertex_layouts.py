@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.render.figure.skin import Skin
+from station.render.geometry.materials import Material
 from station.render.geometry.mesh import Mesh
 
 RIGID_DTYPE = np.dtype(
