@@ -42,7 +42,7 @@ class Expression:
 
     brow: float = 0.0
     mouth: float = 0.0
-    smile: float = 0.25
+    smile: float = 0.0
     effort: float = 0.0
     gaze: tuple[float, float] = (0.0, 0.0)
     eyes: float = 1.0
@@ -50,7 +50,8 @@ class Expression:
     @classmethod
     def of(cls, pose: Pose) -> "Expression":
         """That of a pose."""
-        (brow, mouth, smile, effort), (left, down) = pose.face.tolist(), pose.gaze.tolist()
+        brow, mouth, smile, effort = pose.face.tolist()
+        left, down = pose.gaze.tolist()
         return cls(brow, mouth, smile, effort, (left, down), pose.eyes)
 
 
