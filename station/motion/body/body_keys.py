@@ -192,5 +192,6 @@ def spline(times: Array, values: Array, steep: Array) -> SplineChannels:
     """Through `values` (channels, n); where `steep` is over 0 the slopes at a key are that share of its chords."""
     tension, continuity = np.where(steep > 0, 1 - steep, 0.0), np.where(steep > 0, -1.0, 0.0)
     into, out = slopes(np.broadcast_to(times, values.shape), values, tension, continuity)
+    into[:, -1] = 0.0  # after the last key it stays, and comes to that gently
     rows = cubics(times[None], values, into, out)
     return SplineChannels(times, np.ascontiguousarray(np.moveaxis(rows, 0, 1)))

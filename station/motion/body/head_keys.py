@@ -29,8 +29,8 @@ SLOW_BOB, FAST_BOB = 0.75, 1.5
 """Under and from so many bobs a beat the head bobs on every other beat and on the half beats."""
 DRIFT = 0.18
 """How much chance makes nods deeper and flatter (our choice: more than strokes, for nobody aims with the head)."""
-_NECK_RAD = np.radians((-35.0, 42.0))
-"""How far the nod goes back and down of its own; looking at the drums comes on top (necks bend 50–60° each way)."""
+_NECK_RAD = np.radians((-35.0, 34.0))
+"""How far the nod goes back and down of its own; looking down adds up to 25° (necks bend 50–60° each way)."""
 _MOST_RAD_S, _ROUND = 0.9 * FASTEST_RAD_S["head_nod"], 1.5
 """No nod is faster than vigorous shaking; a round spline is so much faster than its chord at its peak."""
 

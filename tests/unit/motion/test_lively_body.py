@@ -158,3 +158,12 @@ def test_each_style_looks_where_its_attention_is() -> None:
 def test_another_seed_sways_nods_and_looks_otherwise() -> None:
     one, two = (Drummer(SONG, style=Style(seed=s)).rows(AT)[:, frame.JOINTS].reshape(-1, 21, 3) for s in (1, 2))
     assert np.linalg.norm(one - two, axis=2)[:, Joint.CROWN].max() > 0.01
+
+
+@pytest.mark.parametrize("style", ["wild", "funk", "natural"])
+def test_trunk_and_head_turn_without_a_jerk(style: str) -> None:
+    """Looked at 1000 times a second, from before the first stroke to long after the last, no speed jumps."""
+    rows = Drummer(SONG, style=load_style(style)).rows(np.arange(-4.0, 16.0, 0.001))
+    for name in ("torso_twist", "torso_lean", "torso_side", "head_nod", "head_turn", "head_tilt"):
+        speed = np.degrees(np.diff(rows[:, frame.ANGLES.start + ANGLE_NAMES.index(name)])) / 0.001
+        assert np.abs(np.diff(speed)).max() < 25, name  # 25,000°/s²; a head that stops at once would jump by 300
