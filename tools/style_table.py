@@ -224,6 +224,7 @@ EFFECTS = {
     "frequency_back": Effect("half of the fall done, % of the half beat", _late("torso_lean"), _STROKES, _SWAYING),
     "amplitude_side": Effect("side sway's extent, °", extent("torso_side"), _GROOVE),
     "amplitude_twist": Effect("twist's extent, °", extent("torso_twist"), _TURNS, _SWAYING),
+    "amplitude_heel": Effect("left ankle's rise, cm", _height(Joint.LEFT_ANKLE, np.ptp), _GROOVE),
     "twist_deg_s": Effect(
         "twist's top speed, °/s", speed("torso_twist"), _SWINGS, replace(_SWAYING, amplitude_twist=100.0)
     ),

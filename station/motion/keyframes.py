@@ -6,6 +6,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from types import MappingProxyType
 
 import numpy as np
@@ -16,8 +17,9 @@ from station.motion.body.head_keys import head_curve
 from station.motion.body.idle_motion import BREATH_M, BREATH_RATE, Blinks
 from station.motion.body.reach import reaching
 from station.motion.kinematics.arm import Contact
-from station.motion.kinematics.frame import HandNow, Rig
-from station.motion.kinematics.leg import HEEL_RAD, Footing
+from station.motion.kinematics.frame import FeetNow, HandNow, Rig
+from station.motion.kinematics.grip import Hold
+from station.motion.kinematics.leg import HEEL_RAD
 from station.motion.kinematics.maths import MANY, ONE, Number, Point
 from station.motion.kinematics.splines import SplineChannels
 from station.motion.kit.instruments import Instrument
@@ -74,7 +76,8 @@ def _swept(now: HandNow, sweep: Point) -> HandNow:
 class Keys:
     """All keyframes under one style.
 
-    `hands` of the right and the left, `feet` the boards under them; the rest is the body's.
+    `hands` of the right and the left, `kicks` the boards of the kick and of its slave, `hat` the hi-hat's opening,
+    `heels` how the soles of the kick's and the hi-hat's foot tip; the rest is the body's.
     """
 
     style: Style
@@ -84,7 +87,9 @@ class Keys:
     head: SplineChannels
     gaze: SplineChannels
     blinks: Blinks
-    feet: tuple[SplineChannels, SplineChannels]
+    kicks: tuple[SplineChannels, SplineChannels]
+    hat: SplineChannels
+    heels: SplineChannels
     rig: Rig
     instruments: tuple[Instrument, ...]
 
@@ -97,8 +102,6 @@ class Keys:
         same = {stage for stage in READS if old is not None and _alike(old.style, style, READS[stage])}
         (right, left), ground = parts, plan.ground
         hands = old.hands if old is not None else (None, None)
-        left_kick = plan.kit.left_handed
-        kick = old.feet[left_kick] if old is not None and "kick" in same else plan.kick(style)
         return cls(
             style=style,
             parts=parts,
@@ -109,10 +112,17 @@ class Keys:
             head=old.head if old is not None and "head" in same else head_curve(ground, style),
             gaze=old.gaze if old is not None and "gaze" in same else plan.gaze(style),
             blinks=old.blinks if old is not None and "blinks" in same else plan.blinks(style.seed),
-            feet=(plan.hat, kick) if left_kick else (kick, plan.hat),
+            kicks=old.kicks if old is not None and "kicks" in same else plan.kicks(style),
+            hat=plan.hat,
+            heels=old.heels if old is not None and "heels" in same else plan.heels(style),
             rig=rig_of(plan, style),
             instruments=plan.instruments,
         )
+
+    @cached_property
+    def holds(self) -> tuple[Hold, Hold]:
+        """What the right and the left hand hold, and how."""
+        return self.parts[0].hold, self.parts[1].hold
 
     def at(self, time_s: float) -> list[float]:
         """The whole drummer at one instant as a row of `frame`, the instruments left out."""
@@ -121,11 +131,14 @@ class Keys:
         shrug += breath * BREATH_M * math.sin(BREATH_RATE * time_s)
         nod, tilt, chin = self.head.at(time_s)
         (right, right_spin), (left, left_spin) = self.hands[0].at(time_s), self.hands[1].at(time_s)
-        boards = self.feet[0].first(time_s), self.feet[1].first(time_s)
+        path = self.rig.path
+        phase = 0.0 if path is None else path.phase.first(time_s)
+        kick, slave = self.kicks[0].first(time_s), self.kicks[1].first(time_s)
+        feet = FeetNow(kick, self.hat.first(time_s), slave, *self.heels.at(time_s), phase)
         look = gaze * bearing, gaze * pitch
         eyes = self.blinks.at(time_s)
         now = (twist, lean, side, shrug, hunch, wing, stand, *look, nod, tilt, chin, eyes, *face)
-        return flourished(ONE, self.rig.row(ONE, now, right, left, boards), right_spin, left_spin)
+        return flourished(ONE, self.rig.row(ONE, now, right, left, feet), right_spin, left_spin)
 
     def many(self, time_s: Array) -> list[Number]:
         """The same at each time (n,): numbers and arrays (n,)."""
@@ -134,11 +147,14 @@ class Keys:
         shrug = shrug + breath * BREATH_M * np.sin(BREATH_RATE * time_s)
         nod, tilt, chin = self.head.many(time_s)
         (right, right_spin), (left, left_spin) = self.hands[0].many(time_s), self.hands[1].many(time_s)
-        boards = self.feet[0].many(time_s)[0], self.feet[1].many(time_s)[0]
+        path = self.rig.path
+        phase = 0.0 if path is None else path.phase.many(time_s)[0]
+        kick, slave = self.kicks[0].many(time_s)[0], self.kicks[1].many(time_s)[0]
+        feet = FeetNow(kick, self.hat.many(time_s)[0], slave, *self.heels.many(time_s), phase)
         look = gaze * bearing, gaze * pitch
         eyes = self.blinks.many(time_s)
         now = (twist, lean, side, shrug, hunch, wing, stand, *look, nod, tilt, chin, eyes, *face)
-        return flourished(MANY, self.rig.row(MANY, now, right, left, boards), right_spin, left_spin)
+        return flourished(MANY, self.rig.row(MANY, now, right, left, feet), right_spin, left_spin)
 
 
 READS: Mapping[str, tuple[str, ...]] = MappingProxyType(
@@ -163,7 +179,8 @@ READS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         ),
         "gaze": ("look_around", "attention", "seed"),
         "blinks": ("seed",),
-        "kick": ("beater",),
+        "kicks": ("beater",),
+        "heels": ("amplitude_heel",),
     }
 )
 """Which controls each stage of keyframes reads: under all others it stays as it is. What is not here is made anew."""
@@ -248,17 +265,15 @@ def _pace(frequency: Array) -> Array:
 
 def rig_of(plan: MotionPlan, style: Style) -> Rig:
     """The parts that do not move, for `style`."""
-    kick, hat = plan.kit.pedals[Piece.KICK], plan.kit.pedals[Piece.HIHAT_PEDAL]
-    pedals = (hat, kick) if plan.kit.left_handed else (kick, hat)
-    right, left = (Footing.of(p, plan.figure, r) for p, r in zip(pedals, (True, False), strict=True))
     hold_right, hold_left = holds(style)
     return Rig(
         figure=plan.figure,
         pelvis=plan.pelvis,
         arms=(hold_right.lengths(plan.figure), hold_left.lengths(plan.figure, right=False)),
         rolls=(hold_right.grip.roll, hold_left.grip.roll),
-        footings=(right, left),
-        raised=(pedals[0].raised_rad, pedals[1].raised_rad),
+        footings=plan.footings,
+        raised=plan.raised_rad,
+        path=plan.path,
         heel=HEEL_RAD[style.heel],
         right_kicks=not plan.kit.left_handed,
         neck_rad=plan.figure.limits.neck_rotation,

@@ -134,6 +134,9 @@ TABS: tuple[ControlTab, ...] = (
                     Control("rise", "rise", "How far the drummer stands up for crashes"),
                     Control("shrug", "shrug", "How far the shoulders rise with loud strokes"),
                     Control("breathing", "breathing", "How deeply the drummer breathes"),
+                    Control(
+                        "amplitude_heel", "heels", "How far the heels rise and fall to the beat where the feet rest"
+                    ),
                     Control("flourish", "flourish", "How often a stick is spun or tossed in a rest"),
                     Control("variation", "variation", "How much chance makes of strokes, sway and nods"),
                 ),
@@ -156,6 +159,7 @@ WORD_LABELS: Mapping[str, tuple[str, str]] = MappingProxyType(
         "mood": ("mood", "What the face says"),
         "attention": ("looks at", "Where the eyes go while the hands play on"),
         "beater": ("beater", "Whether the kick's beater comes back at once or stays at the head"),
+        "drummer": ("style's drummer", "Who plays in this style where the drummer above is left to the style"),
     }
 )
 """Every control that is a word: its label and what it does."""

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from station.core.errors import BadInput
 from station.core.pieces import Piece, word
+from station.motion.kinematics.figure import figure_names
 
 Array = NDArray[np.float64]
 
@@ -39,6 +40,9 @@ _NATURAL_SHARES = MappingProxyType(
     }
 )
 
+ANYBODY = "any"
+"""No drummer in particular."""
+
 Automation = tuple[tuple[float, float], ...]
 """(bar from 1, value) in rising order; a fraction is a place within the bar."""
 
@@ -51,7 +55,8 @@ class Style:
     which on the back sways in half time; `bobs_per_beat` of the head, a half, 1 or 2; `lay_back_ms` how long after the
     beat body and head reach it; `mood` names the face, `attention` what is looked at in between;
     `grip_right`, `grip_left`, `held` name entries of `grip`; `heel` "down", "up"; `beater` "rebound" or "buried";
-    `pieces` an amplitude for single pieces, 50 natural; `seed` of all that chance decides.
+    `drummer` who plays so where the user asks for nobody, a shipped figure or "any"; `pieces` an amplitude for single
+    pieces, 50 natural; `seed` of all that chance decides.
     """
 
     name: str = "natural"
@@ -74,6 +79,7 @@ class Style:
     amplitude_twist: float = NATURAL
     twist_deg_s: float = 80.0
     amplitude_gaze: float = NATURAL
+    amplitude_heel: float = NATURAL
     shrug: float = 20.0
     breathing: float = NATURAL
     wing_deg: float = 0.0
@@ -101,6 +107,7 @@ class Style:
     beater: str = "rebound"
     mood: str = "focused"
     attention: str = "kit"
+    drummer: str = ANYBODY
     seed: int = 1
     pieces: Mapping[Piece, float] = field(default_factory=dict)
     automation: Mapping[str, Automation] = field(default_factory=dict)
@@ -183,6 +190,7 @@ WORDS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "beater": ("rebound", "buried"),
         "mood": ("focused", "calm", "joyful", "intense", "cool", "soulful"),
         "attention": ("kit", "hands", "friend", "audience", "above"),
+        "drummer": (ANYBODY, *figure_names()),
     }
 )
 
