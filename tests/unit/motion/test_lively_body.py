@@ -5,6 +5,7 @@ import pytest
 from numpy.typing import NDArray
 
 from station.core.pieces import Piece
+from station.motion.body.body_keys import CHANNELS, keys
 from station.motion.body.face import HIGH, LOW
 from station.motion.body.intensity import Intensity
 from station.motion.drummer import Drummer
@@ -54,13 +55,15 @@ def test_drums_alone_are_no_fill() -> None:
 
 
 def test_the_body_leans_into_a_fill_rises_before_the_crash_and_falls_onto_it() -> None:
-    still = {"amplitude_back": 0.0, "frequency_back": 50.0}
-    lean = np.degrees(angle(plain(fill_lean=100.0, **still), "torso_lean"))
-    groove, fill = lean[(AT > 2) & (AT < 6)].mean(), lean[(AT > 7.8) & (AT < 8.8)].mean()
-    before, on = lean[np.searchsorted(AT, CRASH_S - 0.3)], lean[np.searchsorted(AT, CRASH_S)]
-    assert fill > groove + 3.0
+    plan = Drummer(SONG, style=plain()).plan
+    assert plan is not None
+    at = plan.ground.time_s
+    most, none = (keys(plan.ground, plain(fill_lean=f))[CHANNELS.index("lean")] for f in (100.0, 0.0))
+    lean = np.degrees(most - none)  # before it reaches for anything
+    assert np.abs(lean[(at > 1) & (at < 6)]).max() < 0.5
+    assert lean[(at > 7.8) & (at < 8.8)].min() > 3.0
+    before, on = lean[np.searchsorted(at, CRASH_S - 0.31)], lean[np.searchsorted(at, CRASH_S - 0.01)]
     assert on > before + 3.0
-    assert np.ptp(np.degrees(angle(plain(fill_lean=0.0, **still), "torso_lean"))) < 1.0
 
 
 def test_the_breath_is_held_in_fills() -> None:
