@@ -159,7 +159,7 @@ WORD_LABELS: Mapping[str, tuple[str, str]] = MappingProxyType(
         "mood": ("mood", "What the face says"),
         "attention": ("looks at", "Where the eyes go while the hands play on"),
         "beater": ("beater", "Whether the kick's beater comes back at once or stays at the head"),
-        "drummer": ("whose style", "Who plays in this style where the drummer above is left to the style"),
+        "drummer": ("style's drummer", "Who plays in this style where the drummer above is left to the style"),
     }
 )
 """Every control that is a word: its label and what it does."""

@@ -21,7 +21,7 @@ Colour = tuple[float, float, float]
 class Girths:
     """How thick the body is beside a median man's: 1 is his, 0.7–1.4 are people's.
 
-    `chin` is the breadth of the jaw, `bust` how much of a breast stands out (0 none … 1), `locks` the hair's fullness.
+    `chin` is the breadth of the jaw, `brows` their thickness, `bust` how far breasts stand out (0 a man's … 1).
     """
 
     chest: float = 1.0
@@ -32,7 +32,6 @@ class Girths:
     neck: float = 1.0
     chin: float = 1.0
     brows: float = 1.0
-    locks: float = 1.0
     bust: float = 0.0
 
 
@@ -42,7 +41,7 @@ class Colours:
 
     skin: Colour = (0.86, 0.62, 0.48)
     lips: Colour = (0.66, 0.36, 0.32)
-    hair: Colour = (0.24, 0.15, 0.11)
+    hair: Colour = (0.31, 0.19, 0.13)
     iris: Colour = (0.30, 0.42, 0.46)
     top: Colour = (0.91, 0.49, 0.20)
     trim: Colour = (0.10, 0.30, 0.36)

@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 EYE_M = np.array([0.0335, 0.0720, 0.098])
 """The middle of the right eyeball."""
-MOUTH_M = np.array([0.0215, 0.0880, 0.0330])
+MOUTH_M = np.array([0.0235, 0.0880, 0.0330])
 """The right corner of the mouth."""
 BROW_M = np.array([0.0330, 0.0920, 0.1260])
 """The middle of the right brow."""
@@ -34,13 +34,15 @@ _MOST_GAZE_RAD = 0.6
 
 @dataclass(frozen=True, slots=True)
 class Expression:
-    """`brow` −1 frowns … 1 raised, `mouth` 0 shut … 1 open, `smile` −1 … 1, `effort` 0 … 1, `gaze` left and down in
+    """What a face shows.
+
+    `brow` −1 frowns … 1 raised, `mouth` 0 shut … 1 open, `smile` −1 … 1, `effort` 0 … 1, `gaze` left and down in
     radians, `eyes` 0 closed … 1 open.
     """
 
     brow: float = 0.0
     mouth: float = 0.0
-    smile: float = 0.25
+    smile: float = 0.0
     effort: float = 0.0
     gaze: tuple[float, float] = (0.0, 0.0)
     eyes: float = 1.0
@@ -48,7 +50,8 @@ class Expression:
     @classmethod
     def of(cls, pose: Pose) -> "Expression":
         """That of a pose."""
-        (brow, mouth, smile, effort), (left, down) = pose.face.tolist(), pose.gaze.tolist()
+        brow, mouth, smile, effort = pose.face.tolist()
+        left, down = pose.gaze.tolist()
         return cls(brow, mouth, smile, effort, (left, down), pose.eyes)
 
 

@@ -12,7 +12,7 @@ from station.render.geometry.materials import Material
 from station.render.geometry.mesh import Mesh, ball, grid_mesh, joined, lathe, tube
 from station.render.geometry.transforms import frame, translation
 
-_BALL_M, _LID_M = 0.0185, 0.0197
+_BALL_M, _LID_M = 0.0185, 0.0206
 """Radii of the eyeball and of the lids over it."""
 
 
@@ -41,7 +41,7 @@ def _eyes(fineness: float) -> list[Skin]:
         iris = _cap(_BALL_M + 0.0005, 0.60, rounds, 3, Material.IRIS).moved(ahead)
         rim = _ring(_BALL_M + 0.0006, 0.53, 0.62, rounds, Material.EYE).moved(ahead)
         pupil = _cap(_BALL_M + 0.0009, 0.32, rounds, 2, Material.EYE).moved(ahead)
-        glint = ball((-0.0042, -0.0048, _BALL_M - 0.0008), 0.0024, Material.EYE_WHITE, 6).moved(
+        glint = ball((-0.0042, -0.0048, _BALL_M - 0.0022), 0.0021, Material.EYE_WHITE, 6).moved(
             frame(centre, [0, 1, 0], [1, 0, 0])
         )
         parts.append(rigid_skin(white.on_bone(Bone.HEAD)))
@@ -112,6 +112,7 @@ class _Lips:
 
     def __init__(self, girths: Girths, fineness: float) -> None:
         self.girths, self.fineness = girths, fineness
+        self.out = 0.0007 * max(fineness - 1.0, 0.0)  # coarse cheeks stand out between their corners
         self.t = np.linspace(-1, 1, 2 * (cuts(9, fineness) // 2) + 1)
         self.x = MOUTH_M[0] * self.t
         self.z = MOUTH_M[2] - 0.0020 * (1 - self.t**2)
@@ -133,7 +134,7 @@ class _Lips:
     def _lip(self, above: float, thick: float, bone: Bone) -> Skin:
         middle = 1 - self.t**2
         z = self.z + above * middle
-        path = np.stack([self.x, front(self.girths, self.x, z) - 0.0002, z], axis=1)
+        path = np.stack([self.x, front(self.girths, self.x, z) + self.out, z], axis=1)
         radius = thick * (0.45 + 0.55 * middle)
         rounds = cuts(7, self.fineness)
         mesh = tube(path, radius, Material.LIP, rounds)
@@ -143,7 +144,7 @@ class _Lips:
     def _between(self, top: float, bottom: float, out: float, material: Material) -> Skin:
         """A sheet from `top` to `bottom` of the way from the upper to the lower lip."""
         share = np.linspace(top, bottom, 4)
-        y = front(self.girths, self.x, self.z) + out
+        y = front(self.girths, self.x, self.z) + self.out + out
         line = np.stack([self.x, y, self.z], axis=1)
         mesh = grid_mesh(np.repeat(line[:, None], len(share), axis=1), material)
         forward = np.broadcast_to(np.array([0.0, 1.0, 0.0]), mesh.position.shape).copy()

@@ -38,13 +38,13 @@ def arm(m: Measures, upper: Bone, begins: float) -> Garment:
     """An arm from a place on: 0 is the shoulder, 1 the elbow, 2 the wrist."""
     shoulder, elbow, wrist = m.arm(upper)
     k = m.k * m.girths.arms
-    stations = [(0.0, 0.050), (0.5, 0.048), (1.0, 0.038), (1.24, 0.0435), (1.5, 0.037), (2.03, 0.0265 / m.girths.arms)]
-    left = [(begins, float(np.interp(begins, *zip(*stations, strict=True))))]
-    left += [station for station in stations if station[0] > begins + 0.05]
-    ends = [(shoulder + min(s, 1.0) * (elbow - shoulder) + max(s - 1, 0.0) * (wrist - elbow), r * k) for s, r in left]
+    along = (0.0, 0.5, 1.0, 1.24, 1.5, 2.03)
+    radii = (0.050, 0.048, 0.038, 0.0435, 0.037, 0.0265 / m.girths.arms)
+    at = [begins, *(place for place in along if place > begins + 0.05)]
+    points = [shoulder + min(s, 1.0) * (elbow - shoulder) + max(s - 1, 0.0) * (wrist - elbow) for s in at]
+    thick = [k * float(np.interp(s, along, radii)) for s in at]
     solids: list[tuple[Bone, Solid]] = [
-        (_arm_bone(upper, left[i][0]), cone(*(ends[j][0] for j in (i, i + 1)), *(ends[j][1] for j in (i, i + 1))))
-        for i in range(len(ends) - 1)
+        (_arm_bone(upper, at[i]), cone(points[i], points[i + 1], thick[i], thick[i + 1])) for i in range(len(at) - 1)
     ]
     return Garment(Material.SKIN, solids, 0.02 * k, 0.0095, softness=0.030)
 

@@ -24,9 +24,9 @@ from station.render.geometry.implicit import (
 from station.render.geometry.materials import Material
 
 _CELL_M = 0.0068
-_BLURRED_CELL_M = 0.020
-"""In cells as large as this no lock is seen, and its waves would be noise."""
 Wave = Callable[[Array], Array]
+Haircut = tuple[Field, Wave, float, float]
+"""A solid, a wave on it, the wave's depth and its length in metres."""
 
 
 def hair_skins(look: Look, fineness: float) -> list[Skin]:
@@ -45,11 +45,11 @@ def _sky(part: Surface) -> Array:
 @cache
 def _surface(style: str, is_covered: bool, fineness: float) -> Surface:
     """The surface of a haircut; under a beanie only what looks out."""
-    field, wave, depth = _HAIR[style]()
+    field, *waves = _HAIR[style]()
     if is_covered:
         field = _behind(field, plane((0, -0.02, 0.125), (0, 0.12, 1.0)))
     cell = _CELL_M * fineness
-    return surface(_waved(field, wave, depth, cell), (-0.16, -0.21, -0.10), (0.16, 0.15, 0.29), cell)
+    return surface(_waved(field, *waves, cell), (-0.16, -0.21, -0.10), (0.16, 0.15, 0.29), cell)
 
 
 @cache
@@ -65,16 +65,18 @@ def _beard(girths: Girths, fineness: float) -> Surface:
     whole = without(layer, egg((0, 0.105, 0.0305), (0.0235, 0.030, 0.0085)), 0.004)
     cell = _CELL_M * fineness
     return surface(
-        _waved(whole, _curly(150.0), 0.0010, cell), (-0.10, -0.03, -0.05), (0.10, 0.14, 0.10), min(cell, 0.014)
+        _waved(whole, _curly(150.0), 0.0015, 0.042, cell), (-0.10, -0.03, -0.05), (0.10, 0.14, 0.10), min(cell, 0.014)
     )
 
 
-_MOUSTACHE = united([egg((s * 0.015, 0.098, 0.0435), (0.017, 0.014, 0.0075)) for s in (-1.0, 1.0)], 0.006)
+_MOUSTACHE = united(
+    [cone((0.0, 0.098, 0.0440), (s * 0.030, 0.086, 0.0345), 0.0085, 0.0080) for s in (-1.0, 1.0)], 0.006
+)
 
 
-def _waved(field: Field, wave: Wave, depth: float, cell: float) -> Field:
-    """A solid with waves so deep on its surface, less where the cells are too coarse to show them."""
-    shown = depth * float(np.clip((_BLURRED_CELL_M - cell) / _BLURRED_CELL_M, 0, 1))
+def _waved(field: Field, wave: Wave, depth: float, length: float, cell: float) -> Field:
+    """A solid with waves on its surface, the flatter the fewer cells a wave has; with two it would be noise."""
+    shown = depth * max(1 - 2 * cell / length, 0.0)
     return lambda p: np.asarray(field(p) + shown * wave(p), np.float64)
 
 
@@ -83,7 +85,7 @@ def _behind(field: Field, wall: Field) -> Field:
     return lambda p: -smooth_min(-field(p), -wall(p), 0.010)
 
 
-# --- haircuts: each a solid, a wave on it, and the wave's depth in metres -----------------------------------------------
+# --- haircuts ------------------------------------------------------------------------------------------------------
 
 _CAP = egg((0, -0.014, 0.134), (0.0855, 0.0985, 0.094))
 
@@ -93,7 +95,7 @@ def _hairline(front_y: float, front_z: float, neck_z: float) -> Field:
     return united([plane((0, front_y, front_z), (0, 0.86, -0.5)), plane((0, -0.002, neck_z), (0, 0.38, -0.92))], 0.018)
 
 
-def _quiff() -> tuple[Field, Wave, float]:
+def _quiff() -> Haircut:
     """Short sides, and locks combed up and over from one side."""
     locks = [
         cone((-0.050, 0.048, 0.188), (0.030, 0.074, 0.226), 0.024, 0.021),
@@ -103,17 +105,17 @@ def _quiff() -> tuple[Field, Wave, float]:
         cone((-0.040, -0.050, 0.200), (0.040, -0.044, 0.206), 0.028, 0.026),
     ]
     sides = _behind(_CAP, _hairline(0.060, 0.150, 0.072))
-    return united([sides, united(locks, 0.010)], 0.016), _combed(0.0, 0.35), 0.0013
+    return united([sides, united(locks, 0.010)], 0.016), _combed(0.0, 0.35), 0.0022, 0.033
 
 
-def _cropped() -> tuple[Field, Wave, float]:
+def _cropped() -> Haircut:
     """Short all over, a little longer in front."""
     front = egg((0.004, 0.040, 0.200), (0.056, 0.034, 0.024))
-    return united([_behind(_CAP, _hairline(0.058, 0.152, 0.066)), front], 0.02), _curly(120.0), 0.0009
+    return united([_behind(_CAP, _hairline(0.058, 0.152, 0.066)), front], 0.02), _curly(120.0), 0.0013, 0.052
 
 
-def _ponytail() -> tuple[Field, Wave, float]:
-    """Combed back from the forehead to a band, from where a tail hangs down to the shoulders; two locks beside the face."""
+def _ponytail() -> Haircut:
+    """Combed back from the forehead to a band, from where a tail hangs to the shoulders; two locks beside the face."""
     cap = _behind(egg((0, -0.014, 0.134), (0.0865, 0.100, 0.0955)), _hairline(0.066, 0.142, 0.062))
     fringe = [
         cone((0.012, 0.070, 0.204), (0.066, 0.058, 0.150), 0.017, 0.014),
@@ -127,10 +129,10 @@ def _ponytail() -> tuple[Field, Wave, float]:
         cone((0.004, -0.158, 0.120), (0.0, -0.158, 0.040), 0.033, 0.029),
         cone((0.0, -0.158, 0.040), (0.006, -0.144, -0.050), 0.029, 0.010),
     ]
-    return united([united([cap, *fringe], 0.014), united(tail, 0.012)], 0.008), _combed(0.5, 1.0), 0.0011
+    return united([united([cap, *fringe], 0.014), united(tail, 0.012)], 0.008), _combed(0.5, 1.0), 0.0018, 0.033
 
 
-def _curls() -> tuple[Field, Wave, float]:
+def _curls() -> Haircut:
     """A round mass of curls, high and wide, open at the face."""
     mass = united(
         [
@@ -140,7 +142,7 @@ def _curls() -> tuple[Field, Wave, float]:
         0.04,
     )
     line = united([plane((0, 0.064, 0.158), (0, 0.90, -0.44)), plane((0, -0.020, 0.080), (0, 0.62, -0.78))], 0.02)
-    return _behind(mass, line), _curly(105.0), 0.0060
+    return _behind(mass, line), _curly(105.0), 0.0080, 0.060
 
 
 def _combed(lean: float, across: float) -> Wave:
@@ -161,7 +163,7 @@ def _curly(per_m: float) -> Wave:
     return wave
 
 
-_HAIR: Mapping[str, Callable[[], tuple[Field, Wave, float]]] = {
+_HAIR: Mapping[str, Callable[[], Haircut]] = {
     "quiff": _quiff,
     "ponytail": _ponytail,
     "curls": _curls,

@@ -16,7 +16,7 @@ from station.render.geometry.implicit import Array, Field, Surface, cone, egg, s
 from station.render.geometry.materials import Material
 
 _COARSE = 2.0
-"""Cells that are so many times as large as designed lose a nose: then it is a solid of its own, set on the face."""
+"""Cells so many times as large as designed lose nose and ears: then they are solids of their own, set on the face."""
 _BOX = (-0.11, -0.12, -0.03), (0.11, 0.14, 0.235)
 _CELL_M = 0.0075
 
@@ -28,7 +28,7 @@ def head_skins(girths: Girths, fineness: float) -> list[Skin]:
 
 def skull_field(girths: Girths) -> Field:
     """The whole head without hair."""
-    return united([_bare_field(girths), _nose_field(girths)], 0.012)
+    return united([united([_face_field(girths), _EARS], 0.008), _nose_field(girths)], 0.012)
 
 
 @cache
@@ -37,7 +37,8 @@ def _surfaces(girths: Girths, fineness: float) -> list[Surface]:
     if fineness <= _COARSE:
         return [surface(skull_field(girths), *_BOX, cell)]
     nose = surface(_nose_field(girths), (-0.03, 0.06, 0.03), (0.03, 0.13, 0.12), 0.4 * cell)
-    return [surface(_bare_field(girths), *_BOX, 0.8 * cell), nose]
+    ears = surface(_EARS, (-0.105, -0.04, 0.05), (0.105, 0.03, 0.13), 0.5 * cell)
+    return [surface(_face_field(girths), *_BOX, 0.8 * cell), nose, ears]
 
 
 def _nose_field(girths: Girths) -> Field:
@@ -51,7 +52,7 @@ def _nose_field(girths: Girths) -> Field:
     )
 
 
-def _bare_field(girths: Girths) -> Field:
+def _face_field(girths: Girths) -> Field:
     chin = girths.chin
     solids: list[Field] = [
         egg((0, -0.008, 0.128), (0.079, 0.096, 0.092)),
@@ -65,9 +66,14 @@ def _bare_field(girths: Girths) -> Field:
     sockets = united([egg((s * 0.034, 0.104, EYE_M[2]), (0.026, 0.024, 0.020)) for s in (-1.0, 1.0)], 0.004)
     face = without(united([head, brows], 0.014), sockets, 0.020)
     mouth = egg((0, 0.090, 0.031), (0.022, 0.006, 0.010))  # the lips' swelling
-    ears = united([egg((s * 0.083, -0.006, 0.088), (0.011, 0.021, 0.030)) for s in (-1.0, 1.0)], 0.002)
-    hollows = united([egg((s * 0.094, -0.002, 0.091), (0.006, 0.011, 0.018)) for s in (-1.0, 1.0)], 0.002)
-    return united([united([face, mouth], 0.012), without(ears, hollows, 0.004)], 0.008)
+    return united([face, mouth], 0.012)
+
+
+_EARS = without(
+    united([egg((s * 0.083, -0.006, 0.088), (0.011, 0.021, 0.030)) for s in (-1.0, 1.0)], 0.002),
+    united([egg((s * 0.094, -0.002, 0.091), (0.006, 0.011, 0.018)) for s in (-1.0, 1.0)], 0.002),
+)
+"""Both ears, hollow outside."""
 
 
 def front(girths: Girths, x: Array, z: Array) -> Array:

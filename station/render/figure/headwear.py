@@ -58,11 +58,11 @@ def _glasses(fineness: float) -> Skin:
         )
         parts.append(tube(rim, thin, Material.BLACK, cuts(6, fineness)))
         ear = np.array(
-            [[side * 0.058, y - 0.012, z + 0.004], [side * 0.073, 0.056, z + 0.004], [side * 0.084, -0.002, z]]
+            [[side * 0.058, y - 0.012, z + 0.004], [side * 0.0655, 0.056, z + 0.004], [side * 0.0815, -0.002, z]]
         )
         parts.append(tube(ear, thin, Material.BLACK, cuts(6, fineness)))
     t = np.linspace(-1, 1, 7)
-    x, y, z = EYE_M + [0, 0.031, -0.002]
+    x, y, z = EYE_M + np.array([0, 0.031, -0.002])
     bridge = np.stack([0.0105 * t, np.full_like(t, y), z + 0.006 + 0.003 * (1 - t**2)], axis=1)
     parts.append(tube(bridge, thin, Material.BLACK, cuts(6, fineness)))
     return rigid_skin(joined(parts).on_bone(Bone.HEAD))
@@ -71,10 +71,10 @@ def _glasses(fineness: float) -> Skin:
 def _beanie(fineness: float) -> Skin:
     """A knitted cap that sits on the back of the head, its rim turned up."""
     dome: list[Field] = [egg((0, -0.018, 0.152), (0.094, 0.106, 0.098)), egg((0, -0.046, 0.206), (0.060, 0.060, 0.058))]
-    low = plane((0, 0.0, 0.133), (0, -0.26, -1.0))
+    low = plane((0, 0.0, 0.128), (0, 0.22, -1.0))
     cap = cut(united(dome, 0.05), low)
     roll = cut(
-        cut(egg((0, -0.018, 0.145), (0.1005, 0.113, 0.105)), low, 0.008), plane((0, 0, 0.168), (0, 0.26, 1.0)), 0.008
+        cut(egg((0, -0.018, 0.145), (0.1005, 0.113, 0.105)), low, 0.008), plane((0, 0, 0.164), (0, -0.22, 1.0)), 0.008
     )
     whole = united([cap, roll], 0.004)
     cell = 0.0075 * fineness

@@ -30,7 +30,7 @@ def legwear(m: Measures, word: str) -> Garment:
             calf = knee + 0.45 * shin
             solids.append((thigh, cone(hip + m.by(0, 0.01, 0), knee, 0.092 * r, 0.068 * r)))
             solids.append((Bone(thigh + 1), cone(knee, calf, 0.066 * r, 0.062 * r)))
-            solids.append((Bone(thigh + 1), cone(calf, ankle, 0.062 * r, 0.055 * r)))
+            solids.append((Bone(thigh + 1), cone(calf, ankle, 0.062 * r, 0.058 * r)))
             folds.append(Crease(knee - 0.05 * unit(down), unit(shin - down), 0.045, 0.042, 0.0034))
             folds.append(Crease(knee + m.by(0, -0.05, -0.03), unit(shin), 0.045, 0.042, 0.0034))
             folds.append(Crease(ankle - 0.10 * shin, unit(shin), 0.045, 0.040, 0.0036))
@@ -53,15 +53,28 @@ def _end(m: Measures, thigh: Bone, word: str) -> tuple[Array, Array]:
 
 
 def legwear_trimmings(m: Measures, word: str, garment: Garment, fineness: float) -> list[Skin]:
-    """The legs' rounded hems."""
+    """The legs' rounded hems; under shorts the socks'."""
     radius = 0.0075 if word == "jeans" else 0.006
-    return [garment.hem(*_end(m, thigh, word), radius * m.k, fineness) for thigh in HIP_OF]
+    hems = [garment.hem(*_end(m, thigh, word), radius * m.k, fineness) for thigh in HIP_OF]
+    if word == "shorts":
+        hems += [sock(m, thigh).hem(_sock_top(m, thigh), _shin(m, thigh), 0.005 * m.k, fineness) for thigh in HIP_OF]
+    return hems
+
+
+def _shin(m: Measures, thigh: Bone) -> Array:
+    """From the knee to the ankle."""
+    _, knee, ankle = m.leg(thigh)
+    return ankle - knee
+
+
+def _sock_top(m: Measures, thigh: Bone) -> Array:
+    """Where a sock ends."""
+    return m.leg(thigh)[2] - 0.30 * _shin(m, thigh)
 
 
 def sock(m: Measures, thigh: Bone) -> Garment:
     """A sock under shorts."""
-    _, knee, ankle = m.leg(thigh)
-    up = 0.34 * (knee - ankle)
-    k = m.k * (0.5 + 0.5 * m.girths.legs)
-    shank = Bone(thigh + 1)
-    return Garment(Material.FELT, [(shank, cone(ankle + up, ankle, 0.0455 * k, 0.042 * k))], 0.02, 0.011)
+    ankle, top, shin = m.leg(thigh)[2], _sock_top(m, thigh), _shin(m, thigh)
+    k = m.k * m.girths.legs
+    solid = cone(top - 0.04 * shin, ankle, 0.0490 * k, 0.0430 * k)
+    return Garment(Material.FELT, [(Bone(thigh + 1), solid)], 0.02, 0.011, lambda f: cut(f, plane(top, -shin)))

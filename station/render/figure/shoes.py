@@ -27,7 +27,7 @@ class Make:
     welt: float
 
 
-MAKES: Mapping[str, Make] = {"trainers": Make(0.104, 0.026, 0.002), "boots": Make(0.165, 0.022, 0.004)}
+MAKES: Mapping[str, Make] = {"trainers": Make(0.104, 0.026, 0.002), "boots": Make(0.122, 0.030, 0.004)}
 _CIRCLES = ((0.000, -0.022, 0.0435), (0.005, 0.118, 0.0490), (-0.002, 0.192, 0.0385))
 """Heel, ball and toes of a right foot from above: x outward, y, radius."""
 
@@ -38,7 +38,7 @@ def shoe(m: Measures, foot: Bone, word: str) -> Garment:
     solids: list[tuple[Bone, Solid]] = [
         (foot, cone(place(0, -0.022, 0.044), place(0.004, 0.118, 0.038), 0.0405 * k, 0.0435 * k)),
         (foot, cone(place(0.004, 0.118, 0.038), place(-0.002, 0.190, 0.031), 0.0435 * k, 0.0325 * k)),
-        (foot, cone(place(0, -0.014, 0.05), place(0, -0.008, make.shaft), 0.043 * k, 0.047 * k)),
+        (foot, cone(place(0, -0.014, 0.05), place(0, -0.010, make.shaft), 0.043 * k, 0.0425 * k)),
         (foot, cone(place(0, 0.0, 0.078), place(0, 0.105, 0.046), 0.037 * k, 0.037 * k)),
     ]
     floor, mouth = plane(place(0, 0, 0.012), [0, 0, -1]), plane(place(0, 0, make.shaft), [0, -0.10, 1])

@@ -20,8 +20,11 @@ _ARMS = (Bone.RIGHT_UPPER_ARM, Bone.LEFT_UPPER_ARM)
 
 @dataclass(frozen=True, slots=True)
 class Cut:
-    """How a top is cut: how far its sleeves go down the arm (1 the elbow, 2 the wrist, 0 none), how wide they are, the
-    neck's hole (how far before the neck its middle is, how wide, how long), how thick its hems are, how loose it hangs.
+    """How a top is cut.
+
+    `sleeve`: how far sleeves go down the arm, 1 to the elbow, 2 to the wrist, 0 not at all; `hole_m` of the neck: how
+    far before the neck its middle is, half its breadth, half its length; `hem_m` how thick hems are; `loose`, `width`
+    of trunk and sleeves beside a tee's.
     """
 
     sleeve: float
@@ -33,7 +36,7 @@ class Cut:
 
 CUTS: Mapping[str, Cut] = {
     "tee": Cut(0.58, 1.0, (0.012, 0.082, 0.072), 0.0055, 1.0),
-    "tank": Cut(0.0, 1.0, (0.024, 0.094, 0.086), 0.0045, 0.95),
+    "tank": Cut(0.0, 1.0, (0.010, 0.092, 0.082), 0.0045, 0.95),
     "shirt": Cut(1.16, 0.96, (0.016, 0.072, 0.066), 0.0085, 1.0),
     "hoodie": Cut(1.55, 1.04, (0.004, 0.066, 0.060), 0.0120, 1.06),
 }
@@ -178,7 +181,7 @@ def _folds(m: Measures, style: Cut) -> tuple[Crease, ...]:
     ]
     for side, upper in zip((1.0, -1.0), _ARMS, strict=True):
         folds.append(
-            Crease(spine + m.by(side * 0.13, 0, -0.06), unit([side * 0.55, 0.2, 1.0]), 0.07 * m.k, 0.052, depth)
+            Crease(spine + m.by(side * 0.13, 0, -0.06), unit([side * 0.35, 0.1, 1.0]), 0.07 * m.k, 0.056, 0.7 * depth)
         )
         shoulder, elbow, wrist = m.arm(upper)
         pit = neck + (shoulder - neck) * 0.72 + m.by(0, 0.05, -0.10)
@@ -252,7 +255,10 @@ def _buttons(garment: Garment, m: Measures, fineness: float) -> Skin:
     x = np.zeros_like(z)
     y = _surface_y(garment, x, z, 1.0, float(pelvis[1]))
     path = np.stack([x, y - 0.001, z], axis=1)
-    parts = [tube(path + [s * 0.012, 0, 0], 0.0022, Material.SHIRT, max(4, round(6 / fineness))) for s in (-1.0, 1.0)]
+    parts = [
+        tube(path + np.array([s * 0.012, 0, 0]), 0.0022, Material.SHIRT, max(4, round(6 / fineness)))
+        for s in (-1.0, 1.0)
+    ]
     parts += [
         ball(path[i] + [0, 0.001, 0], 0.0052, Material.TRIM, max(5, round(8 / fineness))) for i in range(1, 13, 2)
     ]

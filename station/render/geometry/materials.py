@@ -122,7 +122,10 @@ _WORN_BY: Mapping[Material, str] = {
 """Which of a drummer's colours a material has."""
 
 
-def shader_table(colours: Colours = Colours()) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+_DEFAULT = Colours()
+
+
+def shader_table(colours: Colours = _DEFAULT) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """Two arrays (materials, 4): linear colour and roughness; metal, coat + 2·emission, grain, sheen.
 
     `colours` are those of the drummer's skin, hair and clothes.

@@ -20,6 +20,8 @@ _PLACES: dict[str, slice | int] = {
     "beater_rad": frame.BEATER,
     "hat_gap_m": frame.GAP,
     "eyes": frame.EYES,
+    "face": frame.FACE,
+    "gaze": frame.GAZE,
     "slave_rad": slice(frame.SLAVE_BOARD, frame.SLAVE_BEATER + 1),
 }
 

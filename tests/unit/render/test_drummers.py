@@ -10,8 +10,10 @@ from station.motion.kinematics.figure import Figure, Joint, figure_names, figure
 from station.motion.kinematics.look import WORDS, WORN, Colours, Look
 from station.render.figure.body import build_body
 from station.render.figure.bones import Bone
+from station.render.figure.hair import _surface
 from station.render.figure.skeleton import Skeleton, bind_stance
 from station.render.figure.skin import Skin
+from station.render.geometry import implicit
 from station.render.geometry.implicit import clipped, egg, plane, surface
 from station.render.geometry.materials import Material, shader_table
 from tests.unit.render.poses import pose_of
@@ -23,10 +25,10 @@ MOST_TRIANGLES = 16_000
 """Of a figure at the lowest quality: as many as leave it its 60 pictures a second on two cores."""
 
 
-def skin_in(figure: Figure, **joints: NDArray[np.float64]) -> Skin:
+def skin_in(figure: Figure, joints_m: NDArray[np.float64], facing: NDArray[np.float64]) -> Skin:
     """The skin where a pose carries it."""
     skin = build_body(figure, COARSE)
-    m = Skeleton(figure).matrices(pose_of(figure, **joints))
+    m = Skeleton(figure).matrices(pose_of(figure, joints_m=joints_m, facing=facing))
     carried = np.einsum("nbij,nj->nbi", m[skin.bones], np.c_[skin.position, np.ones(len(skin.position))])
     return replace(skin, position=np.einsum("nb,nbi->ni", skin.weights, carried)[:, :3])
 
@@ -61,7 +63,7 @@ def _breadth(name: str, joint: Joint) -> float:
 
 @pytest.mark.parametrize(("part", "word"), [(part, word) for part, words in WORDS.items() for word in words])
 def test_every_word_of_a_look_can_be_worn(part: str, word: str) -> None:
-    look = replace(Look(), **{part: word})
+    look = replace(Look(), **{part: word})  # type: ignore[arg-type] # words alone
     skin = build_body(replace(figure_of(), look=look), 4.0)
     assert np.isfinite(skin.position).all()
 
@@ -87,7 +89,7 @@ def test_a_trunk_that_twists_keeps_its_waist() -> None:
     axis = joints[Joint.NECK] * [1, 1, 0]
     joints[above] = (joints[above] - axis) @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]).T + axis
     facing = np.array([-s, c, 0.0])
-    before, after = build_body(figure, COARSE), skin_in(figure, joints_m=joints, facing=facing)
+    before, after = build_body(figure, COARSE), skin_in(figure, joints, facing)
     spine = bind_stance(figure).joints_m[Joint.SPINE]
     ring = (before.material == Material.SHIRT) & (np.abs(before.position[:, 2] - spine[2]) < 0.05)
     ring &= np.isin(before.bones[:, 0], (Bone.WAIST, Bone.CHEST))
@@ -108,3 +110,14 @@ def test_a_clipped_surface_ends_exactly_at_the_wall() -> None:
     assert (np.einsum("ij,ij->i", normal, corners.mean(axis=1)) > 0).all(), "faces still look outward"
     area = np.linalg.norm(normal, axis=1).sum() / 2
     assert area == pytest.approx(2 * np.pi * 1.3, rel=0.02)  # Archimedes: 2πrh
+
+
+def test_what_lies_far_from_a_surface_need_not_be_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The whole skin is the same where every cell is looked at."""
+    figure = replace(figure_of(), look=Look(hair="curls", top="hoodie"))
+    quick = build_body(figure, 2.0)
+    monkeypatch.setattr(implicit, "_BLOCK", 1)
+    _surface.cache_clear()
+    whole = build_body(figure, 2.0)
+    assert np.array_equal(quick.faces, whole.faces)
+    assert np.allclose(quick.position, whole.position, atol=1e-12)

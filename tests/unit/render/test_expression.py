@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from station.motion.kinematics.look import Girths
 from station.render.figure.bones import FACE_BONES, Bone
 from station.render.figure.expression import (
     BROW_M,
@@ -16,6 +17,8 @@ from station.render.figure.expression import (
     Expression,
     face_matrices,
 )
+from station.render.figure.face import face_skins
+from station.render.geometry.materials import Material
 
 REST = Expression(smile=0.0)
 LEFT = np.array([-1.0, 1.0, 1.0])
@@ -103,3 +106,19 @@ def test_eyes_turn_where_they_look_and_the_upper_lids_follow_down() -> None:
         assert left[0] == pytest.approx(-0.0185 * np.sin(0.3))  # left is −x
         assert down[2] == pytest.approx(-0.0185 * np.sin(0.3))
     assert opening_m(replace(REST, gaze=(0.0, 0.3))) < opening_m(REST)
+
+
+@pytest.mark.parametrize("fineness", [1.0, 3.0])
+def test_nothing_of_the_eye_looks_through_shut_lids(fineness: float) -> None:
+    """All that turns with the eye lies deeper than the lids do, their triangles' middles included."""
+    skins = face_skins(Girths(), fineness)
+    lids = [s for s in skins if s.bones[0, 0] == Bone.UPPER_LIDS and s.material[0] == Material.SKIN]
+    eyes = [s for s in skins if s.bones[0, 0] in (Bone.RIGHT_EYE, Bone.LEFT_EYE)]
+    assert len(lids) == len(eyes) == 2
+    deepest_lid = min(_depth(s.position[s.faces].mean(axis=1)).min() for s in lids)
+    assert max(_depth(s.position).max() for s in eyes) < deepest_lid
+
+
+def _depth(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """How far points are from the middle of the eye on their side."""
+    return np.asarray(np.linalg.norm(points * np.where(points[:, :1] < 0, LEFT, 1.0) - EYE_M, axis=1))
