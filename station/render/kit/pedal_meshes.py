@@ -73,9 +73,8 @@ def pedal_meshes(kit: Kit, bones: PedalBones) -> list[Mesh]:
         ]
     out = np.array([_POST_M, 0.0, 0.0])
     parts += _frame(low - out, high + out)
-    if Piece.HIHAT in kit.pieces:
-        parts += [_strap().on_bone(bones.hat_strap), _pull_rod(kit.pieces[Piece.HIHAT]).on_bone(bones.hat_rod)]
-        parts.append(_hat_frame(kit.pieces[Piece.HIHAT], hat))
+    if (pulled := kit.pulled_hat) is not None:
+        parts += [_strap().on_bone(bones.hat_strap), _pull_rod(pulled).on_bone(bones.hat_rod), _hat_frame(pulled, hat)]
     return parts
 
 
@@ -95,8 +94,7 @@ def pedal_matrices(kit: Kit, pose: Pose) -> Matrix:
         m[bones.slave_board] = raised(kit.slave, board)
         m[bones.slave_beater] = rotation_at(axle + kit.second_beater_m, [1, 0, 0], beater)
         ends.append((bones.slave_strap, kit.slave, board, _slave_axle(kit, kit.slave) + cam))
-    if Piece.HIHAT in kit.pieces:
-        piece = kit.pieces[Piece.HIHAT]
+    if (piece := kit.pulled_hat) is not None:
         lifted = piece.normal * (OPEN_GAP_M * angles[hat] / hat.raised_rad if hat.raised_rad else 0.0)
         m[bones.hat_rod] = translation(lifted)
         x, y, _ = piece.centre_m
