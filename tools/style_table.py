@@ -137,7 +137,7 @@ def _shown(poses: Array) -> float:
 def _tops(poses: Array) -> Array:
     """How high the right tip rises before each of the strokes on the beats 1 to 6."""
     z = poses[:, frame.TIP.start + 2]
-    return np.array([z[int(k * _RATE_HZ) : int((k + 1) * _RATE_HZ)].max() for k in range(6)]) - z.min()
+    return np.asarray([z[int(k * _RATE_HZ) : int((k + 1) * _RATE_HZ)].max() for k in range(6)] - z.min())
 
 
 def _scatter(poses: Array) -> float:

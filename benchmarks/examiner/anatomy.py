@@ -67,6 +67,12 @@ STATED = {
 }
 """What the file's own angles may be; the arm plane's heading has no range, it spins where the arm hangs."""
 
+FULCRUM_DEG = {"traditional": (25.0, 4.0)}
+MATCHED_DEG = (18.0, 11.0)
+"""From the hand's bones (the middle metacarpal, where a goniometer reads) to the line from wrist to fulcrum:
+towards the thumb, under the palm. Between thumb and index finger's middle joint the fulcrum is about 105 mm ahead of
+the wrist, 35 to the thumb's side and 20 under the bones; in the web of the thumb 75, 35 and 5 (our own hands, ± 5°)."""
+
 TIP_M_S, HAND_M_S = 16.0, 9.0
 """Peak of a stick's tip 9.4 in a full stroke, of a boxer's fist 9 (Pearl 2023; Walilko 2005): the loudest rim shot
 of a tall player is given 16 (our choice)."""
@@ -107,8 +113,8 @@ class Arm(NamedTuple):
     stick: Array
 
 
-def arm(poses: Sampled, side: str) -> Arm:
-    """The directions of `side`'s arm."""
+def arm(poses: Sampled, side: str, grip: str = "american") -> Arm:
+    """The directions of `side`'s arm; the hand's are its bones', whose fulcrum lies where `grip` has it."""
     i, sign = SIDES.index(side), 1.0 if side == "right" else -1.0
     shoulder, elbow = poses.point(f"{side}_shoulder"), poses.point(f"{side}_elbow")
     wrist, fist = poses.point(f"{side}_wrist"), poses.point(f"{side}_hand")
@@ -116,16 +122,19 @@ def arm(poses: Sampled, side: str) -> Arm:
     back = poses.back[:, i]
     back = _unit(back - _dot(back, hand)[:, None] * hand)
     thumb = sign * np.cross(back, hand)
+    aside, under = np.radians(FULCRUM_DEG.get(grip, MATCHED_DEG))
+    hand, thumb = np.cos(aside) * hand - np.sin(aside) * thumb, np.cos(aside) * thumb + np.sin(aside) * hand
+    hand, back = np.cos(under) * hand + np.sin(under) * back, np.cos(under) * back - np.sin(under) * hand
     stick = _unit(poses.tip_m[:, i] - poses.butt_m[:, i])
     return Arm(_unit(elbow - shoulder), _unit(wrist - elbow), hand, back, thumb, stick)
 
 
-def measured(poses: Sampled, side: str) -> tuple[dict[str, Array], dict[str, Array]]:
+def measured(poses: Sampled, side: str, grip: str = "american") -> tuple[dict[str, Array], dict[str, Array]]:
     """Angles in degrees of `side`'s arm and leg (n,), and the directions whose turning has a speed, (n, 3).
 
     NaN where a straight arm shows no angle.
     """
-    limb = arm(poses, side)
+    limb = arm(poses, side, grip)
     sign = 1.0 if side == "right" else -1.0
     right, forward, up = trunk_axes(poses)
     angles = {

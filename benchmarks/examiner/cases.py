@@ -16,13 +16,14 @@ from benchmarks.examiner.take import Take, sampled
 from station.cli.input.read_scores import load_led_score
 from station.core.errors import BadInput
 from station.motion.drummer import Drummer
-from station.motion.kinematics.figure import figure_names, load_figure
+from station.motion.kinematics.figure import figure_names
 from station.motion.kit.kit import kit_names, load_kit
 from station.motion.motion_plan import MotionPlan
 from station.motion.sticking.hand_notes import Hands
 from station.motion.sticking.limbs import assign_limbs
 from station.motion.style.style_file import load_style, style_names
 from station.music.score import Score
+from station.scenes.demonstrator import figure_for
 
 RANDOM = "random:"
 CHECKS = (
@@ -45,7 +46,7 @@ class Case:
     score: str
     style: str = "natural"
     kit: str = "four_piece"
-    figure: str = "median"
+    figure: str = ""
     hands: str = ""
 
     @property
@@ -92,8 +93,10 @@ def _hands(case: Case) -> Hands | None:
 def drummer_of(case: Case) -> Drummer:
     """The drummer of a case, as `station animate` makes it."""
     score, kit = score_of(case), load_kit(case.kit)
-    plan = MotionPlan.of(score, kit, load_figure(case.figure), assign_limbs(score, kit, hands=_hands(case)))
-    return Drummer(score, plan.kit, plan.figure, load_style(case.style), plan)
+    style = load_style(case.style)
+    limbs = assign_limbs(score, kit, hands=_hands(case))
+    plan = MotionPlan.of(score, kit, figure_for(style, case.figure), limbs)
+    return Drummer(score, plan.kit, plan.figure, style, plan)
 
 
 def examine(case: Case, most_s: float) -> Report:
@@ -109,16 +112,10 @@ def examine(case: Case, most_s: float) -> Report:
         for check in CHECKS:
             check(take, found)
         asked = frozenset(1 + int(b.bar) for b in drummer.assignment.infeasible)
-        return Report(
-            case,
-            list(found),
-            asked,
-            len(take.strikes.time_s),
-            take.length_s,
-            checks_strikes.variation_mm(take),
-            _seeds_mm(take),
-            took_s=perf_counter() - began,
-        )
+        varies, seeds = checks_strikes.variation_mm(take), _seeds_mm(take)
+        checks_strikes.alike(take, varies, seeds, found)
+        played = len(take.strikes.time_s)
+        return Report(case, list(found), asked, played, take.length_s, varies, seeds, took_s=perf_counter() - began)
     except BadInput as no:
         return Report(case, refused=str(no), took_s=perf_counter() - began)
     except Exception as crash:  # an examiner reports what it meets

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from benchmarks.examiner.body import Capsule, capsules, overlap_m
 from benchmarks.examiner.findings import Findings
-from benchmarks.examiner.kit_solids import Solid, solids, stands, swinging
+from benchmarks.examiner.kit_solids import Solid, hat_stand, solids, swinging
 from benchmarks.examiner.take import SIDES, Take
 from station.core.pieces import Articulation
 
@@ -41,10 +41,10 @@ def contacts(take: Take, found: Findings) -> None:
     for index, solid in enumerate(solids(take.drummer.kit)):
         for part in parts.values():
             _kit(take, found, part, _now(take, solid, index))
-    for tube in stands(take.drummer.kit):
-        for name, part in parts.items():
-            if "trunk" not in name:
-                _note(take, found, name, part, _still(tube, len(part.a)), TOUCH_M if "stick" in name else SKIN_M)
+    tube = hat_stand(take.drummer.kit)
+    for name, part in parts.items() if tube else ():
+        if not name.startswith(("trunk", "head", "neck")) and tube:
+            _note(take, found, name, part, _still(tube, len(part.a)), TOUCH_M if "stick" in name else SKIN_M)
 
 
 def _now(take: Take, solid: Solid, index: int) -> Solid:

@@ -23,6 +23,10 @@ NEAR_STRIKE_S = 0.004
 _LOOKED_AT = 12
 
 
+SAID = {"elbow": "elbow", "knee": "knee", "wrist extension": "wrist", "wrist to the thumb": "wrist_side"}
+"""What is measured and what the file calls it."""
+STATED_DEG = 15.0
+"""The two wrist angles depend on their order, and the hand's bones on the fulcrum's place, by so much (our choice)."""
 NO_SPEED = ("upper arm backward (measured)", "upper arm across the chest (measured)")
 """The upper arm's own speed is theirs."""
 
@@ -33,7 +37,11 @@ def ranges_and_speeds(take: Take, found: Findings) -> None:
     for name, bound in STATED.items():
         _bounded(found, name, poses.angle(name), bound, poses.time_s)
     for side in SIDES:
-        angles, turning = measured(poses, side)
+        style = take.drummer.style
+        angles, turning = measured(poses, side, style.grip_left if side == "left" else style.grip_right)
+        for name, stated in SAID.items():
+            off = np.abs(poses.angle(f"{side}_{stated}") - angles[name])
+            found.note("stated", f"{side}_{stated} is not what is measured", off, STATED_DEG, "°", poses.time_s)
         for name, values in angles.items():
             _bounded(found, f"{side} {name} (measured)", values, MEASURED[name], poses.time_s)
         for name, directions in turning.items():
@@ -85,12 +93,16 @@ def kinks(take: Take, found: Findings) -> None:
     time_s = take.poses.time_s
     for i, side in enumerate(SIDES):
         hand, foot = (~take.strikes.near(time_s, f"{side}_{x}", NEAR_STRIKE_S, NEAR_STRIKE_S) for x in ("hand", "foot"))
-        _kinks(take, found, f"{side} tip", lambda p, i=i: p.tip_m[:, i], hand)
+        _kinks(take, found, f"{side} tip", _tip(i), hand)
         for names, free in ((("elbow", "wrist", "hand"), hand), (("knee", "ankle", "toe"), foot)):
             for name in names:
                 _kinks(take, found, f"{side} {name}", _joint(f"{side}_{name}"), free)
     for name in ("neck", "crown"):
         _kinks(take, found, name, _joint(name), np.ones(len(time_s), bool))
+
+
+def _tip(index: int) -> Point:
+    return lambda poses: poses.tip_m[:, index]
 
 
 def _joint(name: str) -> Point:
@@ -100,8 +112,9 @@ def _joint(name: str) -> Point:
 def _kinks(take: Take, found: Findings, name: str, point: Point, free: NDArray[np.bool_]) -> None:
     time_s = take.poses.time_s
     velocity = np.diff(point(take.poses), axis=0) * RATE_HZ
-    change = np.linalg.norm(np.diff(velocity, axis=0), axis=1) * free[1:-1]
-    worst = np.argsort(change)[::-1][:_LOOKED_AT]
+    change: Array = np.asarray(np.linalg.norm(np.diff(velocity, axis=0), axis=1) * free[1:-1], np.float64)
+    beside = np.maximum(np.roll(change, 2), np.roll(change, -2))  # a break touches two of them at most
+    worst = np.argsort(change - beside)[::-1][:_LOOKED_AT]
     worst = worst[change[worst] > KINK_M_S]
     sharp = np.array([_sharpest(take, point, float(time_s[k + 1])) for k in worst])
     if len(sharp):
@@ -111,6 +124,6 @@ def _kinks(take: Take, found: Findings, name: str, point: Point, free: NDArray[n
 
 def _sharpest(take: Take, point: Point, time_s: float) -> float:
     """The greatest change of velocity within a sixteenth of a millisecond about `time_s`."""
-    close = time_s + np.arange(-24, 25) * _CLOSE_S
+    close = time_s + np.arange(-24, 25, dtype=np.float64) * _CLOSE_S
     velocity = np.diff(point(take.sample(close)), axis=0) / _CLOSE_S
     return float(np.linalg.norm(np.diff(velocity, axis=0), axis=1).max())

@@ -1,5 +1,6 @@
 """Strikes in place and time, feet on their boards, waiting hands, the grip, strokes that are never the same."""
 
+from collections.abc import Iterator
 from itertools import pairwise
 
 import numpy as np
@@ -9,6 +10,7 @@ from benchmarks.examiner.findings import Findings
 from benchmarks.examiner.kit_solids import solids
 from benchmarks.examiner.take import SIDES, Take, sampled
 from station.core.pieces import Articulation, Piece
+from station.motion.kit.kit import Pedal
 
 Array = NDArray[np.float64]
 ABOVE_M, INTO_M = 0.006, 0.010
@@ -51,46 +53,69 @@ def strikes_land(take: Take, found: Findings) -> None:
 PRESSED_DEG, LIFTED_DEG = 2.0, 3.0
 """A board is down at its strike, and was up so far within the 150 ms before."""
 LIFT_S = 0.15
+BOARD_HALF_M = 0.045
+"""Footboards are 8–10 cm wide."""
 SOLE_M = 0.030
 """A shoe's sole and the ball of the foot under the published toe; the toe stays within so much of the board."""
 
 
 def feet(take: Take, found: Findings) -> None:
-    """Each foot strike presses its own board, whose foot follows it."""
+    """Each foot strike presses its own board, which was up before; toes are on their boards."""
     poses, strikes = take.poses, take.strikes
-    boards = np.degrees(poses.boards_rad)
     for i, side in enumerate(SIDES):
         mine = strikes.of(f"{side}_foot")
-        times = strikes.time_s[mine]
-        if len(mine):
-            index = np.clip(np.rint((times - poses.time_s[0]) * 1000).astype(int), 0, len(boards) - 1)
-            found.note("foot", f"{side} board not pressed at its strike", boards[index, i], PRESSED_DEG, "°", times)
-            starts = np.maximum(index - int(LIFT_S * 1000), 0)
-            starts = np.maximum(starts, np.concatenate(([0], index[:-1])))
-            lifted = np.array([boards[a : b + 1, i].max() - boards[b, i] for a, b in zip(starts, index, strict=True)])
-            apart = np.diff(times, prepend=-9) > 0.06
-            low = np.where(apart, np.maximum(0.0, LIFTED_DEG - lifted), 0.0)
-            found.note("foot", f"{side} board not lifted before its strike", low, 0.0, "°", times)
-            kicked = strikes.written[mine] == Piece.KICK
-            beater = np.degrees(np.abs(poses.beater_rad[index]))
-            found.note("foot", "beater off the head", np.where(kicked, beater, 0.0), 3.0, "°", times)
-        _on_board(take, found, i, side)
+        kicked = strikes.written[mine] == Piece.KICK
+        on_slave = kicked & (_leads(take) != side)
+        for name, which, board, beater in (
+            (f"{side} board", ~on_slave, poses.boards_rad[:, i], poses.beater_rad),
+            ("slave board", on_slave, poses.slave_rad[:, 0], poses.slave_rad[:, 1]),
+        ):
+            times = strikes.time_s[mine][which]
+            if not len(times):
+                continue
+            index = np.clip(np.rint((times - poses.time_s[0]) * 1000).astype(int), 0, len(board) - 1)
+            deg = np.degrees(board)
+            found.note("foot", f"{name} not pressed at its strike", deg[index], PRESSED_DEG, "°", times)
+            starts = np.maximum(index - int(LIFT_S * 1000), np.concatenate(([0], index[:-1])))
+            lifted = np.array([deg[a : b + 1].max() - deg[b] for a, b in zip(starts, index, strict=True)])
+            low = np.where(np.diff(times, prepend=-9) > 0.06, np.maximum(0.0, LIFTED_DEG - lifted), 0.0)
+            found.note("foot", f"{name} not lifted before its strike", low, 0.0, "°", times)
+            off = np.where(kicked[which], np.degrees(np.abs(beater[index])), 0.0)
+            found.note("foot", f"{name}'s beater off the head", off, 3.0, "°", times)
+        _on_board(take, found, side)
 
 
-def _on_board(take: Take, found: Findings, i: int, side: str) -> None:
-    """The toe keeps its height over the tilting board."""
-    pedals = list(take.drummer.kit.pedals.values())
+def _leads(take: Take) -> str:
+    """The side whose foot has the kick's own pedal."""
+    return "left" if take.drummer.kit.left_handed else "right"
+
+
+def _boards(take: Take) -> Iterator[tuple[Pedal, Array]]:
+    """Every board and how far it is raised, (n,)."""
+    kit, poses = take.drummer.kit, take.poses
+    kick, hat = (1, 0) if kit.left_handed else (0, 1)
+    yield kit.pedals[Piece.KICK], poses.boards_rad[:, kick]
+    yield kit.pedals[Piece.HIHAT_PEDAL], poses.boards_rad[:, hat]
+    if kit.slave:
+        yield kit.slave, poses.slave_rad[:, 0]
+
+
+def _on_board(take: Take, found: Findings, side: str) -> None:
+    """A toe over a board is not in it, and where its foot does not travel, not far above."""
     toe = take.poses.point(f"{side}_toe")
-    near = min(pedals, key=lambda p: float(np.linalg.norm(np.array(p.toe_m) - np.median(toe, axis=0))))
-    heel, flat = np.array(near.heel_m), np.array(near.toe_m)
-    along = (flat - heel) / np.linalg.norm(flat - heel)
-    raised = take.poses.boards_rad[:, i, None]
-    board = along * np.cos(raised) + np.array([0, 0, 1.0]) * np.sin(raised)
-    normal = np.cross(np.cross(along, [0, 0, 1.0]), board)
-    normal *= np.sign(normal[:, 2:])
-    height = ((toe - heel) * normal).sum(1)
-    found.note("foot", f"{side} toe over its board", 1000 * height, 1000 * 2 * SOLE_M, "mm", take.poses.time_s)
-    found.note("foot", f"{side} toe through its board", -1000 * height, 1.0, "mm", take.poses.time_s)
+    slow = np.linalg.norm(np.gradient(toe[:, :2], axis=0), axis=1) * 1000 < 0.05
+    for pedal, raised in _boards(take):
+        heel, flat = np.array(pedal.heel_m), np.array(pedal.toe_m)
+        length = float(np.linalg.norm(flat - heel))
+        along = (flat - heel) / length
+        board = along * np.cos(raised[:, None]) + np.array([0, 0, 1.0]) * np.sin(raised[:, None])
+        aside = np.cross(along, [0, 0, 1.0])
+        over = (np.abs((toe - heel) @ aside) < BOARD_HALF_M) & ((toe - heel) @ along < length + 0.02)
+        height = 1000 * ((toe - heel) * np.cross(aside, board)).sum(1)
+        high = np.where(over & slow, height, 0.0)
+        found.note("foot", f"{side} toe high over its board", high, 1000 * 2 * SOLE_M, "mm", take.poses.time_s)
+        deep = np.where(over, -height, 0.0)
+        found.note("foot", f"{side} toe through a board", deep, 1.0, "mm", take.poses.time_s)
 
 
 WAIT_S = 2.0
@@ -213,3 +238,17 @@ def variation_mm(take: Take) -> float | None:
                 lead = sampled(take.drummer, np.array(times) - 0.06).tip_m[:, i, 2]
                 spreads.append(1000 * float(np.std(lead)))
     return float(np.median(spreads)) if spreads else None
+
+
+ALIKE_MM, SEEDS_MM = 1.0, 1.0
+"""Equal strokes of 15 cm differ by some per cent, 5–15 mm (Dahl 2004, read off her figures, mem): less than one is a
+machine's; so is a second take of the same music by another seed."""
+
+
+def alike(take: Take, variation: float | None, seeds: float, found: Findings) -> None:
+    """Note strokes, and seeds, that are the same for ever."""
+    at = take.poses.time_s[:1]
+    if variation is not None:
+        found.note("alike", "equal strokes, short of a millimetre", np.array([ALIKE_MM - variation]), 0.0, "mm", at)
+    if len(take.strikes.time_s):
+        found.note("alike", "two seeds, short of a millimetre", np.array([SEEDS_MM - seeds]), 0.0, "mm", at)

@@ -1,4 +1,4 @@
-"""The examiner's kit: drums are closed cylinders, cymbals thin discs, stands upright tubes; from the kit's file alone.
+"""The examiner's kit: drums are closed cylinders, cymbals thin discs; from the kit's file alone.
 
 Cymbals are flat; they swing as `Pose.swing_rad` says.
 """
@@ -94,13 +94,13 @@ def _depth_m(kind: str, depth_m: float) -> float:
     return {"cymbal": 0.002, "hihat": 0.03}.get(kind, depth_m)
 
 
-def stands(kit: Kit) -> list[Capsule]:
-    """The upright tubes under cymbals, 25 mm thick, from 5 cm under the metal to the floor; at one instant."""
-    tubes = []
-    for name, piece in kit.pieces.items():
-        if piece.kind in ("cymbal", "hihat"):
-            x, y, z = piece.centre_m
-            tubes.append(
-                Capsule(f"{word(name)} stand", np.array([[x, y, z - 0.05]]), np.array([[x, y, 0.0]]), 0.0125, 0.0125)
-            )
-    return tubes
+def hat_stand(kit: Kit) -> Capsule | None:
+    """The upright tube of a hi-hat, 25 mm thick, from 5 cm under the metal to a hand over the floor; at one instant.
+
+    Cymbals' stands may have booms, of which a kit's file says nothing.
+    """
+    hats = [piece for piece in kit.pieces.values() if piece.kind == "hihat"]
+    if not hats:
+        return None
+    x, y, z = hats[0].centre_m
+    return Capsule("hi-hat stand", np.array([[x, y, z - 0.05]]), np.array([[x, y, 0.15]]), 0.0125, 0.0125)

@@ -24,7 +24,10 @@ SIDES = ("right", "left")
 
 @dataclass(frozen=True, eq=False)
 class Sampled:
-    """Poses at `time_s` (n,): `points_m` (n, 21, 3), `tip_m`, `butt_m`, `back` (n, 2, 3), `angles_deg` (n, 28)."""
+    """Poses at `time_s` (n,): `points_m` (n, 21, 3), `tip_m`, `butt_m`, `back` (n, 2, 3), `angles_deg` (n, 28).
+
+    `slave_rad` (n, 2): a double pedal's second board and beater.
+    """
 
     time_s: Array
     points_m: Array
@@ -35,6 +38,7 @@ class Sampled:
     boards_rad: Array
     beater_rad: Array
     gap_m: Array
+    slave_rad: Array
 
     def point(self, name: str) -> Array:
         """The positions of one joint, (n, 3)."""
@@ -58,6 +62,7 @@ def sampled(drummer: Drummer, time_s: Array) -> Sampled:
         rows[:, frame.BOARDS],
         rows[:, frame.BEATER],
         rows[:, frame.GAP],
+        rows[:, [frame.SLAVE_BOARD, frame.SLAVE_BEATER]],
     )
 
 

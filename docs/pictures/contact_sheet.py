@@ -27,16 +27,17 @@ from station.motion.kinematics.pose import LEFT, RIGHT
 from station.motion.kit.kit import kit_names, load_kit
 from station.motion.strokes.grip import GRIPS, HELD
 from station.motion.style.style_file import load_style, style_names
-from station.render.camera import Camera, NamedView, named
+from station.render.camera import Camera, NamedView
 from station.render.files.png_file import write_png
 from station.render.files.video_file import EFFORTS, VideoFormat, VideoSink, video_file
+from station.render.framing import Stage, named
 from station.render.gpu.gl import RenderTarget, standalone_context
 from station.render.gpu.shape_renderer import ShapeRenderer, Transform
 from station.render.palette import BRAND, INK, INK_SOFT, NIGHT
 from station.render.picture import PictureMaker, Shot
 from station.render.quality import QUALITIES
 from station.render.render_pool import artist
-from station.render.snapshot import Snapshot
+from station.render.snapshot import Hud, Snapshot
 from station.render.text.atlas import Atlas
 from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face
@@ -94,7 +95,7 @@ def covering(options: Mapping[str, Sequence[str]], count: int, seed: int = 8) ->
     seen: set[tuple[tuple[str, str], ...]] = set()
     rows: list[Row] = []
     while len(rows) < count:
-        lots = [{name: names[lot.integers(len(names))] for name, names in options.items()} for _ in range(_LOTS)]
+        lots = [{name: names[int(lot.integers(len(names)))] for name, names in options.items()} for _ in range(_LOTS)]
         best = max(lots, key=lambda row: len(_pairs(row) - seen))
         try:
             drummer_of(best)
@@ -136,9 +137,9 @@ def moment_s(drummer: Drummer, moment: str) -> float:
 
 
 def snapshot_of(row: Row) -> Snapshot:
-    """The instant that a still shows."""
+    """The instant that a still shows, without words over it."""
     drummer = drummer_of(row)
-    return picture_of(drummer, moment_s(drummer, row["moment"]))
+    return replace(picture_of(drummer, moment_s(drummer, row["moment"])), hud=Hud())
 
 
 # --- the sheet --------------------------------------------------------------------------------------------------------
@@ -173,7 +174,8 @@ def draw_sheet(rows: Sequence[Row], quality: int, path: Path) -> None:
 
 
 def _camera(row: Row) -> Camera:
-    return named(NamedView[row["view"].upper()], load_kit(row["kit"]).left_handed)
+    drummer = drummer_of(row)
+    return named(NamedView[row["view"].upper()], Stage(drummer.kit, drummer.figure, drummer.style.stand))
 
 
 def _label(row: Row) -> str:

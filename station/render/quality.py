@@ -9,8 +9,9 @@ from station.render.kit.instrument_meshes import Detail
 class Quality:
     """How much work a picture is worth: shader level 0–2, the shadow map's size, roundness, small hardware.
 
-    `anisotropy` is how sharp the floor is where one looks along it: without a graphics card it takes a fifth of a picture's
-    time, so the middle level does without. `is_layered`: what does not move is drawn once for each camera and kept.
+    `anisotropy` is how sharp the floor is where one looks along it: without a graphics card it takes a fifth of a
+    picture's time, so the middle level does without. `is_layered`: what does not move is drawn once for each camera and
+    kept.
     """
 
     level: int
@@ -23,7 +24,7 @@ class Quality:
 
 
 QUALITIES = (
-    Quality(0, 768, Detail(28, hardware=False), 2.5, 0, 8.0, is_layered=True),
+    Quality(0, 1024, Detail(28, hardware=False), 2.5, 0, 8.0, is_layered=True),
     Quality(1, 1024, Detail(48, hardware=True), 1.5, 4, 1.0),
     Quality(2, 2048, Detail(80, hardware=True), 1.0, 4, 8.0),
 )

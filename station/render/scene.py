@@ -98,11 +98,12 @@ class Scene:
             self._draw_resting_shadows()
         self._begin(target, viewport, camera)
         target.clear(depth=1.0, viewport=viewport)
-        rigid = self._parts.quick.rigid if is_rough else self._parts.solid.rigid
-        self._parts.sharpen(is_rough)
-        self._aim(camera, viewport, rigid, *self._room)
+        parts = self._parts
+        rigid, room = (parts.quick.rigid, parts.room) if is_rough else (parts.still_rigid, parts.still_room)
+        parts.sharpen(is_rough)
+        self._aim(camera, viewport, rigid, *room)
         _render(rigid, slice(0, self.rig.still_faces))
-        for part in self._room:
+        for part in room:
             part.render()
         self._end()
 
@@ -159,12 +160,8 @@ class Scene:
     @property
     def picture_parts(self) -> tuple[moderngl.VertexArray, ...]:
         """What the picture pass draws: the figure, then nearest first, so that what is hidden is not shaded."""
-        parts = (self._parts.solid.skin, self._parts.solid.rigid, *self._room)
+        parts = (self._parts.solid.skin, self._parts.solid.rigid, *self._parts.room)
         return parts if self.shows_figure else parts[1:]
-
-    @property
-    def _room(self) -> tuple[moderngl.VertexArray, ...]:
-        return self._parts.rug, self._parts.floor, self._parts.wall
 
     def _draw_double(self, target: moderngl.Framebuffer, camera: Camera, viewport: Viewport) -> None:
         """Draw the limbs and sticks of the student's double: first their depth, so that their outside alone is seen."""

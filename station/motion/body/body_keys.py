@@ -151,7 +151,7 @@ def keys(ground: Ground, style: Style) -> Array:
     values[6] = np.clip(style.value("stand", bars) + style.value("rise", bars) / 100 * RISE * now.rise, 0.0, 1.0)
     values[7] = style.factor("amplitude_gaze", bars)
     values[8] = breath * (1 - now.fill)
-    values[9:] = face_keys(ground, style)
+    values[9:] = face_keys(now, bars, style)
     return values
 
 

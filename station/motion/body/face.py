@@ -6,16 +6,13 @@ numbers for it: all are our choice, in the ranges of `Pose.face`.
 
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from station.motion.body.intensity import Intensity
 from station.motion.kinematics.wander import wander
 from station.motion.style.style import Style
-
-if TYPE_CHECKING:
-    from station.motion.body.body_keys import Ground
 
 Array = NDArray[np.float64]
 
@@ -44,12 +41,11 @@ _PLAY = 0.10
 """How far chance moves a face (our choice)."""
 
 
-def face_keys(ground: "Ground", style: Style) -> Array:
-    """The face at the ground's keys, (4, k) by `CHANNELS`."""
+def face_keys(now: Intensity, bars: Array, style: Style) -> Array:
+    """The face at keys in `bars` (k,) from 1, when so much goes on there: (4, k) by `CHANNELS`."""
     rest, *answers = (np.array(row) for row in _FACES[style.mood])
-    now = ground.intensity
     loud = np.clip((now.loud - _LOUD_FROM) / (_LOUD_TO - _LOUD_FROM), 0.0, 1.0)
     felt = rest[:, None] + np.array(answers).T @ np.stack([loud, now.fill, now.rise])
-    drift = _PLAY * style.factor("variation", ground.bars) * wander((style.seed, 5), 4, len(ground.bars))
-    shown = style.factor("expression", ground.bars) * (felt + drift)
+    drift = _PLAY * style.factor("variation", bars) * wander((style.seed, 5), 4, len(bars))
+    shown = style.factor("expression", bars) * (felt + drift)
     return np.asarray(np.clip(shown, LOW[:, None], HIGH[:, None]))

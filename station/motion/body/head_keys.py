@@ -29,6 +29,8 @@ SLOW_BOB, FAST_BOB = 0.75, 1.5
 """Under and from so many bobs a beat the head bobs on every other beat and on the half beats."""
 DRIFT = 0.18
 """How much chance makes nods deeper and flatter (our choice: more than strokes, for nobody aims with the head)."""
+_NECK_RAD = np.radians((-35.0, 42.0))
+"""How far the nod goes back and down of its own; looking at the drums comes on top (necks bend 50–60° each way)."""
 _MOST_RAD_S, _ROUND = 0.9 * FASTEST_RAD_S["head_nod"], 1.5
 """No nod is faster than vigorous shaking; a round spline is so much faster than its chord at its peak."""
 
@@ -59,7 +61,7 @@ def head_curve(ground: Ground, style: Style) -> SplineChannels:
     chin = style.value("chin", bars) / 100 * CHIN_RAD * share
     steep = np.where(share > 0, *sharpness(style.factor("frequency_neck", bars)))
     kept = beat | (place == 2) & (fast | ~slow | (lift < 0) | (bang > 0)) | fast
-    nod = limited(times[kept], nod[kept], _MOST_RAD_S / np.maximum(steep[kept], _ROUND))
+    nod = limited(times[kept], np.clip(nod[kept], *_NECK_RAD), _MOST_RAD_S / np.maximum(steep[kept], _ROUND))
     flat = np.zeros((2, len(nod)))
     return spline(times[kept], np.stack([nod, tilt[kept], chin[kept]]), np.stack([steep[kept], *flat]))
 

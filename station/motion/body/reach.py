@@ -26,10 +26,7 @@ def reaching(
 ) -> SplineChannels:
     """The body's curves under `style`, leaning to what is out of the arms' reach."""
     values = body.keys(ground, style)
-    curves = body.curves(ground, style, values)
-    needed = leans(curves, hands, figure, pelvis)
-    if not needed.any():
-        return curves
+    needed = leans(body.curves(ground, style, values[: body.CHANNELS.index("wing")]), hands, figure, pelvis)
     values[1] += needed
     return body.curves(ground, style, values)
 

@@ -18,7 +18,7 @@ from station.motion.export.joint_tree import BONES, STICKS, TURN, local, skeleto
 from station.motion.kinematics import frame
 from station.motion.kinematics.pedal_motion import BEATER_HALF_M, BEATER_LENGTH_M
 from station.motion.kit.kit import Kit
-from station.motion.kit.piece import KitPiece
+from station.motion.kit.piece import BELL_ABOVE_BOW_M, KitPiece
 
 Array = NDArray[np.float64]
 
@@ -41,6 +41,7 @@ _MATERIALS = {
     "wood": ((0.62, 0.44, 0.24), 0.0, 0.6),
     "shell": ((0.35, 0.03, 0.05), 0.1, 0.35),
     "bronze": ((0.80, 0.58, 0.25), 1.0, 0.35),
+    "rubber": ((0.02, 0.02, 0.022), 0.0, 0.8),
     "steel": ((0.55, 0.56, 0.58), 1.0, 0.4),
 }
 _BARE = ("head", "neck", "right_forearm", "left_forearm", "right_hand", "left_hand")
@@ -92,14 +93,19 @@ _STILL = 1e-6
 
 
 def _piece(scene: Glb, materials: dict[str, int], piece: KitPiece, swing: Array) -> None:
-    """One piece; its swing (n, 2) tips it about its own right and away axes."""
-    if piece.kind in ("cymbal", "hihat"):
-        solid, material = plain_solids.cymbal(piece.radius_m), "bronze"
+    """One piece; its swing (n, 2) tips it about its own right and away axes, a cymbal where it hangs."""
+    hangs = BELL_ABOVE_BOW_M if piece.kind in ("cymbal", "hihat") else 0.0
+    if hangs:
+        solid, material = plain_solids.cymbal(piece.radius_m, hangs), "bronze"
+    elif piece.kind == "block":
+        solid, material = plain_solids.block(piece.radius_m, piece.depth_m), "steel"
     else:
         solid, material = plain_solids.drum(piece.radius_m, piece.depth_m), "shell"
+    material = "rubber" if piece.electronic else material
     node = scene.node(word(piece.piece), None, scene.mesh(word(piece.piece), solid, materials[material]))
+    at = piece.centre + hangs * piece.normal
     world = (TURN @ piece.axes.T)[None] @ _tips(swing)
-    _move(scene, node, np.repeat((TURN @ piece.centre)[None], len(swing), 0), world)
+    _move(scene, node, np.repeat((TURN @ at)[None], len(swing), 0), world)
 
 
 def _tips(swing: Array) -> Array:

@@ -31,8 +31,10 @@ LINGERS_S = 0.5
 
 
 class FootNow(NamedTuple):
-    """Where the foot is: `side` 0 over its home … 1 over the other board, `lift` 0 … 1 of its height in the air,
-    `released` 0 … 1 how far it has let go of its home's board.
+    """Where the foot is.
+
+    `side` 0 over its home … 1 over the other board, `lift` 0 … 1 of its height in the air, `released` 0 … 1 how far it
+    has let go of its home's board.
     """
 
     side: Number

@@ -28,10 +28,14 @@ STICK_RADIUS_M = 0.0072
 
 @dataclass(frozen=True, slots=True)
 class Lie:
-    """A stick in the hand at the contact: μ in vertical planes and, in plan, how far the hand points outward of it."""
+    """A stick in the hand at the contact.
+
+    μ in vertical planes; in plan, how far the hand points outward of the stick; how far it is rolled from its grip.
+    """
 
     palm: float
     crossing: float
+    roll: float
 
 
 @dataclass(frozen=True)
@@ -41,7 +45,7 @@ class Grip:
     `yaw` by which the stick is best turned in from the line between shoulder and struck point; `roll` of the hand's
     back from facing up, thumb upward; `turns_hand` as `turns` in `Contact`; `wrist` and `fingers` their parts of a
     stroke, 1 as in the measured stroke. In the hand's axes: `fulcrum`, and `to_butt`, the stick's way from there when
-    the fingers are closed, a unit vector; `behind_m` of the stick is behind the fulcrum.
+    the fingers are closed, a unit vector. Behind the fulcrum `in_hand_m` of the stick is in the hand, `beyond_m` out of it.
     """
 
     name: str
@@ -52,23 +56,30 @@ class Grip:
     fingers: float
     fulcrum: tuple[float, float, float]
     to_butt: tuple[float, float, float]
-    behind_m: float
+    in_hand_m: float
+    beyond_m: float
 
-    @cached_property
-    def lie(self) -> Lie:
-        """How the stick lies in the hand as this grip turns it."""
-        return self._rolled(self.roll)
+    def lie(self, stick_rise: float = 0.0, roll: float | None = None) -> Lie:
+        """How hand and stick lie to each other where the stick rises from the contact by `stick_rise`.
 
-    @cached_property
-    def flat(self) -> Lie:
-        """How it lies when the palm is turned down, as for a cross-stick."""
-        return self._rolled(0.0)
-
-    def _rolled(self, roll: float) -> Lie:
+        A hand that bends for its strokes stays at its `roll` and is pitched until the stick lies in it as it should;
+        one that turns for them is as steep as its stick, and is rolled.
+        """
         x, y, z = (line_axes(self.fulcrum) @ self.to_butt).tolist()
-        s, c = math.sin(roll), math.cos(roll)
-        inward, up = x * c - y * s, x * s + y * c
-        return Lie(-math.atan2(up, math.hypot(inward, z)), -math.atan2(inward, -z))
+        roll = self.roll if roll is None else roll
+        if self.turns_hand:
+            up = x * math.sin(roll) + y * math.cos(roll)
+            pitch = math.asin(math.sin(stick_rise) / math.hypot(up, z)) - math.atan2(up, -z)
+        else:
+            pitch, up = stick_rise, math.tan(stick_rise) * (1 + z)
+            roll = math.pi - math.asin(up / math.hypot(x, y)) - math.atan2(y, x)
+        inward, ahead = x * math.cos(roll) - y * math.sin(roll), -z * math.cos(pitch) - up * math.sin(pitch)
+        return Lie(pitch - stick_rise, -math.atan2(inward, ahead), roll - self.roll)
+
+    @cached_property
+    def closed_rad(self) -> float:
+        """μ at the contact of a level stick: the fingers are closed."""
+        return self.lie().palm
 
 
 def line_axes(fulcrum: tuple[float, float, float]) -> NDArray[np.float64]:
@@ -79,8 +90,10 @@ def line_axes(fulcrum: tuple[float, float, float]) -> NDArray[np.float64]:
     return np.stack([np.cross(y, z), y, z])
 
 
-_MATCHED_BEHIND_M = 0.406 / 3
-"""A stick's pivot is a third from the butt (HUMANS); brushes and mallets end as far past the heel."""
+HEEL_M = 0.012
+"""From the middle of the wrist to the heel of the hand."""
+_BEYOND_M = 0.04
+"""What is beyond the heel in the matched grips: with it the pivot of a stick is a third from its butt (HUMANS)."""
 
 
 def _way(across_deg: float, under_deg: float) -> tuple[float, float, float]:
@@ -96,15 +109,19 @@ def _grip(
     parts: tuple[float, float],
     fulcrum: tuple[float, float, float],
     to_butt: tuple[float, float, float],
-    behind_m: float = _MATCHED_BEHIND_M,
+    beyond_m: float = _BEYOND_M,
+    in_hand_m: float | None = None,
 ) -> Grip:
     yaw, roll = np.radians(degrees).tolist()
-    return Grip(name, yaw, roll, turns, *parts, fulcrum, to_butt, behind_m)
+    under_palm = (HEEL_M - fulcrum[2]) / to_butt[2]
+    return Grip(
+        name, yaw, roll, turns, *parts, fulcrum, to_butt, under_palm if in_hand_m is None else in_hand_m, beyond_m
+    )
 
 
 _PINCH = (0.034, -0.022, 0.098)
 _KNUCKLES = (0.004, 0.0, 0.096)
-BARE = _grip("bare", (20.0, 0.0), 1.0, (1.0, 0.4), _KNUCKLES, _way(0.0, 8.0), 0.0)
+BARE = _grip("bare", (20.0, 0.0), 1.0, (1.0, 0.4), _KNUCKLES, _way(0.0, -8.0), 0.0, 0.0)
 """A bare hand: its fingers are the stick, held a little bent, and the knuckles are where it turns."""
 GRIPS: Mapping[str, Grip] = MappingProxyType(
     {
@@ -112,8 +129,10 @@ GRIPS: Mapping[str, Grip] = MappingProxyType(
         for g in (
             _grip("german", (28.0, 0.0), 1.0, (1.0, 0.8), _PINCH, _way(22.0, 6.0)),
             _grip("american", (20.0, 45.0), 1.0, (1.0, 1.0), _PINCH, _way(24.0, 6.0)),
-            _grip("french", (8.0, 80.0), 0.4, (1.0, 0.8), _PINCH, _way(30.0, 8.0)),
-            _grip("traditional", (38.0, 145.0), 0.0, (1.0, 0.65), (0.040, -0.012, 0.062), (0.68, 0.41, -0.605), 0.065),
+            _grip("french", (8.0, 80.0), 1.0, (0.7, 1.3), _PINCH, _way(30.0, 10.0)),
+            _grip(
+                "traditional", (38.0, 145.0), 0.0, (1.0, 0.65), (0.040, -0.012, 0.062), (0.68, 0.41, -0.605), 0.065, 0.0
+            ),
         )
     }
 )
@@ -163,15 +182,16 @@ class Hold:
     def lengths(self, figure: Figure, right: bool = True) -> ArmLengths:
         """The measures of the right or left arm of `figure` that holds this."""
         length, side = self.length_m(figure), 1.0 if right else -1.0
-        hand = math.hypot(*self.grip.fulcrum) * figure.hand_m / HAND_M
+        size = figure.hand_m / HAND_M
+        hand, behind = math.hypot(*self.grip.fulcrum) * size, self.grip.in_hand_m * size + self.grip.beyond_m
         x, y, z = line_axes(self.grip.fulcrum)[:, 2].tolist()
         tilt = math.acos(z) / math.hypot(x, y)
         return ArmLengths(
             upper=figure.upper_arm_m,
             fore=figure.forearm_m,
             hand=hand,
-            ahead=length - self.grip.behind_m if length else figure.hand_m - hand,
-            behind=self.grip.behind_m,
+            ahead=length - behind if length else figure.hand_m - hand,
+            behind=behind,
             rolls_hand=side,
             roll_sine=math.sin(self.grip.roll) * side,
             roll_cosine=math.cos(self.grip.roll),

@@ -110,7 +110,7 @@ class Pose:
 
         They open as the stick rises in the hand and close at the fulcrum for the stroke.
         """
-        closed = [hold.grip.lie.palm for hold in self.holds]
+        closed = [hold.grip.closed_rad for hold in self.holds]
         return np.clip(1.0 - (self.angles_rad[_STICKS] - closed) / OPEN_FINGERS_RAD, 0.0, 1.0)
 
     @property

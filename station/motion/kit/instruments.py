@@ -57,8 +57,9 @@ _SOONEST_S = 1e-3
 """Strokes nearer to one another are one push after the other (our choice)."""
 
 _FLASH_DECAY_S = 0.12
-RIPPLE_M, _RIPPLE_DECAY_S = 0.008, 0.035
-"""A head gives way by 8 mm under the hardest stroke, 5 m/s (HUMANS: calculated), and is quiet again soon."""
+RIPPLE_M, _RIPPLE_DECAY_S = 0.008, 0.10
+"""A head gives way by 8 mm under the hardest stroke, 5 m/s (HUMANS: calculated), and is quiet again after a
+few pictures (our choice, by eye)."""
 
 _DECAYS = 9.2
 """After so many decays a ten-thousandth is left: the piece is still."""

@@ -21,8 +21,7 @@ INCH_M = 0.0254
 _MOST_RAD = math.radians(30.0)
 """No cymbal tips farther: its wing nut holds it (crashes on loose felts tip 15–30° under full force)."""
 _REFERENCE_M, _REFERENCE_RAD = 8 * INCH_M, math.radians(25.0)
-_LIGHTENS = 2.0
-"""A 16″ crash tips by this much, and others by this power of the size less, as their weight rises (our choice)."""
+"""A 16″ crash tips by this much, and larger ones less, as the square of the size: by their weight."""
 _OPEN_HAT = 0.25
 """The share of a free cymbal's swing that clutch and foot leave an open hi-hat (our choice)."""
 _STEP_RAD = math.radians(1.0)
@@ -38,7 +37,7 @@ _AROUND = np.linspace(0.0, 2 * np.pi, 36, endpoint=False)
 
 def hardest_rad(piece: KitPiece) -> float:
     """The first swing of a cymbal that the hardest stroke hits on its edge, if nothing is in its way."""
-    own = _REFERENCE_RAD * (_REFERENCE_M / piece.radius_m) ** _LIGHTENS
+    own = _REFERENCE_RAD * (_REFERENCE_M / piece.radius_m) ** 2
     return own * (_OPEN_HAT if piece.kind == "hihat" else 1.0) * (_PAD if piece.electronic else 1.0)
 
 

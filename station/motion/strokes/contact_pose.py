@@ -7,16 +7,16 @@ for a high hi-hat and keep the wrist straight.
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import astuple, dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Articulation, Limb, Piece
+from station.core.pieces import Articulation, Limb
 from station.motion.kinematics.arm import Arm, ArmLengths, Contact, Offsets, solve
 from station.motion.kinematics.collisions import depth_in_kit
 from station.motion.kinematics.figure import Figure
-from station.motion.kinematics.grip import Grip, Hold, Lie
+from station.motion.kinematics.grip import Grip, Hold
 from station.motion.kinematics.joint_limits import Limits
 from station.motion.kinematics.maths import MANY, ONE, Point
 from station.motion.kinematics.posture import natural_shoulder
@@ -40,14 +40,9 @@ choice, within the limits of HUMANS)."""
 SHOULDER_OF_STICK = 0.25
 """From the tip back to the part that meets a cymbal's edge or a rim, as a share of the stick (our choice)."""
 _LAID_AHEAD = 0.55
-_LAID_RISE = math.radians(2.0)
-"""A cross-stick strikes the rim so far ahead of the fulcrum as a share of its length; the hand lies flat on it, palm
-down whatever its grip (our choice)."""
-
-_RIDES = (Piece.RIDE, Piece.RIDE_2)
-THUMB_UP_TURNS = 0.5
-"""On a ride the thumb comes up: half of the wrist's part of a stroke is the forearm's roll (our choice)."""
-
+_LAID_RISE, _LAID_IN_THE_WEB = math.radians(2.0), math.radians(12.0)
+"""A cross-stick strikes the rim so far ahead of the fulcrum as a share of its length; a matched hand lies flat
+on it, palm down; the back of a traditional one lies on the head (our choice)."""
 
 LEANS_RAD = np.radians([6.0, 12.0, 18.0, 24.0, 30.0])
 """How far the trunk may lean for a distant target, the least that serves (our choice)."""
@@ -78,8 +73,6 @@ def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike) -> ContactPose:
     if strike.articulation == WAIT and not hold.held.rest_m:  # a brush waits on the head
         strike = replace(strike, articulation=Articulation.NORMAL)
     target = target_of(kit, strike)
-    if kit.stand_in(strike.piece) in _RIDES and hold.held.name == "stick":
-        hold = replace(hold, grip=replace(hold.grip, turns_hand=min(hold.grip.turns_hand, THUMB_UP_TURNS)))
     right = strike.limb == Limb.RIGHT_HAND
     side = 1.0 if right else -1.0
     lengths = hold.lengths(figure, right)
@@ -150,17 +143,19 @@ def _easiest(
     way = side * grip.yaw if slopes.azimuth is None else _turn(root, target, slopes.azimuth)
     rises = {t: _over_the_piece(target, root, way + t, slopes) for t in set(turn.tolist())}
     rise = np.array([rises[t] for t in turn.tolist()])
-    lie, stick_yaw = slopes.lie, way + turn
+    lies = {r: grip.lie(r, slopes.hand_roll) for r in rises.values()}
+    palm, crossing, roll = (np.array(part) for part in zip(*(astuple(lies[r]) for r in rise.tolist()), strict=True))
+    stick_yaw = way + turn
     tries = Contact(
         *target.point_m.tolist(),
         stick_rise=rise,
-        hand_rise=rise + lie.palm,
+        hand_rise=rise + palm,
         stick_yaw=stick_yaw,
-        hand_yaw=stick_yaw - side * lie.crossing,
+        hand_yaw=stick_yaw - side * crossing,
         ahead_m=slopes.ahead_m,
         wing=wing,
         turns=grip.turns_hand,
-        roll=slopes.roll,
+        roll=roll,
     )
     arm = solve(MANY, lengths, root, tries, Offsets(0.0, 0.0, 0.0, 0.0))
     price = (
@@ -192,34 +187,32 @@ def _beyond(arm: Arm, side: float, limits: Limits) -> Array:
 class _Slopes:
     """How the stick wants to lie.
 
-    What touches and how much stick is beyond it, its slope, how it lies in the hand and how far that is rolled from its
-    grip's own way, its way in plan where that is fixed, and whether its shaft lies on the rim.
+    What touches and how much stick is beyond it, its slope, the hand's roll where it is not its grip's, its way in plan where that is fixed, and whether its shaft lies on the rim.
     """
 
     ahead_m: float
     beyond_m: float
     rise: float
-    lie: Lie
-    roll: float = 0.0
+    hand_roll: float | None = None
     azimuth: float | None = None
     on_rim: bool = False
 
 
 def _slopes(lengths: ArmLengths, target: Target, hold: Hold, strike: Strike, length_m: float) -> _Slopes:
-    h, lie, ahead = lengths.hand, hold.grip.lie, lengths.ahead
+    h, palm, ahead = lengths.hand, hold.grip.closed_rad, lengths.ahead
     if strike.articulation == GRAB:
-        return _Slopes(0.0, lengths.ahead, target.rise_rad, lie)
+        return _Slopes(0.0, lengths.ahead, target.rise_rad)
     if strike.articulation == Articulation.CROSS_STICK:
         laid = _LAID_AHEAD * length_m
-        return _Slopes(laid, ahead - laid, _LAID_RISE, hold.grip.flat, -hold.grip.roll)
+        if hold.grip.turns_hand:
+            return _Slopes(laid, ahead - laid, _LAID_RISE, hand_roll=0.0)
+        return _Slopes(laid, ahead - laid, _LAID_IN_THE_WEB)
     if target.shoulder:
         ahead -= SHOULDER_OF_STICK * length_m
-    lean = math.atan2(
-        h * math.sin(lie.palm), ahead + h * math.cos(lie.palm)
-    )  # between the stick and the line to the wrist
+    lean = math.atan2(h * math.sin(palm), ahead + h * math.cos(palm))  # between the stick and the line to the wrist
     rise = target.rise_rad - lean
     on_rim = strike.articulation == Articulation.RIM_SHOT
-    return _Slopes(ahead, lengths.ahead - ahead, rise, lie, on_rim=on_rim)
+    return _Slopes(ahead, lengths.ahead - ahead, rise, on_rim=on_rim)
 
 
 def _over_the_piece(target: Target, root: Point, stick_yaw: float, slopes: _Slopes) -> float:

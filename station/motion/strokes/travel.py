@@ -55,8 +55,8 @@ class HandPath:
     def of(cls, strike_s: Array, contacts: Array, bump: Array, early: NDArray[np.bool_], gives: Array) -> "HandPath":
         """The way through `contacts` (n, FIELDS) at `strike_s` (n,).
 
-        Each stretch goes round by `bump` (n − 1, 4) in its middle: right, forward and up in metres, and hand and stick
-        turned to the left in radians. An `early` one (n − 1,) is travelled at once, the others late in their gap. After each
+        Each stretch goes round by `bump` (n − 1, 4) in its middle: right, forward and up in metres, and the hand turned
+        to the left in radians. An `early` one (n − 1,) is travelled at once, the others late in their gap. After each
         strike, before the first one too, the hand `gives` (n, 6) way.
         """
         gaps = np.diff(strike_s)
@@ -124,7 +124,7 @@ class HandPath:
         dx, dy, dz, dsr, dhr, dsy, dhy, d_ahead, d_wing, d_turns, d_roll = steps
         h = (4 * u * (1 - u)) ** 2
         x, y, z = x + s * dx + h * bx, y + s * dy + h * by, z + s * dz + h * bz
-        sr, hr, sy, hy = sr + s * dsr, hr + s * dhr, sy + s * dsy + h * turn, hy + s * dhy + h * turn
+        sr, hr, sy, hy = sr + s * dsr, hr + s * dhr, sy + s * dsy, hy + s * dhy + h * turn
         return x, y, z, sr, hr, sy, hy, ahead + s * d_ahead, wing + s * d_wing, turns + s * d_turns, roll + s * d_roll
 
     def many(self, time_s: Array) -> Contact:
@@ -136,7 +136,7 @@ class HandPath:
         x, y, z, sr, hr, sy, hy, *rest = (a + s * d for a, d in zip(way[:FIELDS], way[FIELDS:], strict=True))
         h, g = (4 * u * (1 - u)) ** 2, moved_off(time_s, off, back, pace)
         x, y, z = x + h * bx + g * gx, y + h * by + g * gy, z + h * bz + g * gz
-        return Contact(x, y, z, sr, hr, sy + h * turn, hy + h * turn, *rest)
+        return Contact(x, y, z, sr, hr, sy, hy + h * turn, *rest)
 
     def nearest(self, time_s: Array) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
         """The contact that the hand is at, or nearer to on its way, at each time; and whether it stays there."""

@@ -31,8 +31,9 @@ def varied(sliders: Sliders, rebounds: NDArray[np.bool_], amount: Array, seed: t
 
     The `rebounds` (n,) vary with the strokes that throw them up.
     """
-    height, pace, *joints = _chance(6, rebounds, amount, (*seed, 3))
-    gain = np.maximum(1 + HEIGHT_SD * height + JOINT_SD * np.array(joints), 0.0)
+    chance = _chance(6, rebounds, amount, (*seed, 3))
+    height, pace, joints = chance[0], chance[1], chance[2:]
+    gain = np.maximum(1 + HEIGHT_SD * height + JOINT_SD * joints, 0.0)
     return Sliders(sliders.gain * gain, sliders.speed * np.exp(PACE_SD * pace), sliders.whip)
 
 
@@ -50,5 +51,7 @@ def spots(kit: Kit, events: HandEvents, amount: Array, seed: tuple[int, int]) ->
 
 def _chance(channels: int, rebounds: NDArray[np.bool_], amount: Array, seed: tuple[int, ...]) -> Array:
     """`wander` for strokes, (channels, n), `amount` as wide; what a stroke throws up shares its numbers."""
-    thrown_by = np.maximum.accumulate(np.where(rebounds, 0, np.arange(len(rebounds))))
-    return np.asarray(amount * wander(seed, channels, len(rebounds))[:, thrown_by])
+    found = wander(seed, channels, len(rebounds))
+    if rebounds.any():
+        found = found[:, np.maximum.accumulate(np.where(rebounds, 0, np.arange(len(rebounds))))]
+    return np.asarray(amount * found)

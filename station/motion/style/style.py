@@ -135,6 +135,8 @@ class Style:
 
     def factor(self, control: str, bars: ArrayLike) -> Array:
         """What multiplies the natural movement, from a control that is natural at 50."""
+        if control not in self.automation:  # one number for all bars is bent once
+            return np.broadcast_to(bent(float(getattr(self, control)) / NATURAL), np.shape(bars))
         return bent(self.value(control, bars) / NATURAL)
 
     def joint_factor(self, kind: str, joint: str, bars: ArrayLike) -> Array:

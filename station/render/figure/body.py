@@ -35,7 +35,7 @@ def build_body(figure: Figure, fineness: float) -> Skin:
     dressed = _Dressed(m, figure, fineness)
     skins = [_part_skin(part, fineness * m.k, dressed.parts) for part in dressed.parts]
     skins += dressed.trimmings
-    skins += [_hand_skin(skeleton, fineness, side) for side in (Bone.RIGHT_HAND, Bone.LEFT_HAND)]
+    skins += [hand_part(skeleton, fineness, side) for side in (Bone.RIGHT_HAND, Bone.LEFT_HAND)]
     look = figure.look
     head = [
         *head_skins(look.girths, fineness),
@@ -102,7 +102,8 @@ def _open_sky(mesh: Surface, whole: Sequence[Garment]) -> Array:
     return np.asarray(np.clip(1 - 0.62 * closed / sum(0.5**i for i in range(len(_AO_STEPS_M))) * 1.6, 0.15, 1))
 
 
-def _hand_skin(skeleton: Skeleton, fineness: float, hand: Bone) -> Skin:
+def hand_part(skeleton: Skeleton, fineness: float, hand: Bone) -> Skin:
+    """The skin of one hand, in the stance of `skeleton`."""
     made = hand_skin(fineness)
     n = len(made.position)
     bones, weights = np.zeros((n, INFLUENCES), np.uint8), np.zeros((n, INFLUENCES))

@@ -58,7 +58,7 @@ _SPREAD = ((0, 22, 26, 14, 0), (-5, 18, 24, 12, 0), (-14, 14, 22, 12, 0))
 """Middle, ring and little finger, quite closed and quite open, degrees."""
 _RELAXED = ((34, 22, 12, 12, -62), (4, 12, 14, 8, 0), (0, 12, 16, 9, 0), (-5, 14, 18, 10, 0), (-13, 16, 18, 10, 0))
 """A hand at rest; the skin is made in it."""
-_FLAT = ((34, 22, 12, 12, -62), (6, 4, 5, 3, 0), (0, 4, 5, 3, 0), (-6, 4, 5, 3, 0), (-15, 4, 6, 4, 0))
+_FLAT = ((34, 22, 12, 12, -62), (6, 7, 6, 4, 0), (0, 7, 6, 4, 0), (-6, 7, 6, 4, 0), (-15, 7, 6, 4, 0))
 """A hand that plays the drum itself."""
 
 
@@ -110,7 +110,9 @@ def finger_frames(grip: Grip) -> Array:
     free = _free(bent(tries), np.array(grip.fulcrum), to_butt(grip, opened))
     blocked = np.where(free, -1, np.arange(_TRIES)[:, None])  # the most open try that the stick forbids
     chosen = share[np.minimum(blocked.max(axis=1) + 1, _TRIES - 1)]
-    chosen[:, : _PINCHING[grip.name]] = (opened / OPEN_FINGERS_RAD)[:, None]
+    at_least = (opened / OPEN_FINGERS_RAD)[:, None]
+    chosen = np.maximum(chosen, at_least)
+    chosen[:, : _PINCHING[grip.name]] = at_least
     return bent(closed + chosen[..., None] * (wide - closed))
 
 
@@ -118,7 +120,7 @@ STEPS = 17
 _PINCHING = {"german": 2, "american": 2, "french": 2, "traditional": 1}
 """So many of the first digits stay at the fulcrum, however the stick turns in them."""
 _TRIES = 61
-_PRESSED_M = 0.0012
+_PRESSED_M = 0.0005
 """So deep the flesh of a finger gives where it holds (our choice)."""
 
 
@@ -149,8 +151,8 @@ _DIGITS: Mapping[str, tuple[tuple[tuple[int, ...], ...], tuple[tuple[int, ...], 
             ((49, 34, 77, -30, -108), (9, 29, 106, 11, 13), *_SPREAD),
         ),
         "traditional": (
-            ((39, 31, 60, 28, -91), (2, 62, 52, 26, 0), (0, 66, 52, 28, 0), (2, 70, 70, 36, 0), (6, 74, 78, 40, 0)),
-            ((74, 37, 77, 15, -69), (6, 10, 14, 8, 0), (0, 14, 16, 8, 0), (-4, 30, 50, 24, 0), (-10, 40, 56, 28, 0)),
+            ((39, 31, 60, 28, -91), (2, 62, 52, 26, 0), (0, 66, 52, 28, 0), (2, 66, 34, 8, 0), (6, 66, 62, 32, 0)),
+            ((74, 37, 77, 15, -69), (6, 10, 14, 8, 0), (0, 14, 16, 8, 0), (0, 6, 14, 5, 0), (-8, 30, 44, 22, 0)),
         ),
         "bare": (_FLAT, _FLAT),
     }

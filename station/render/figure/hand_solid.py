@@ -60,12 +60,12 @@ def _palm(fineness: float) -> HandSkin:
         cone((0.022, -0.001, 0.084), (-0.029, -0.005, 0.075), 0.0130, 0.0105),
     ]
     start, way = REST[0, :3, 3], REST[0, :3, 2]
-    ball = cone(start, start + BONES_M[0, 0] * way, 0.0165, RADII_M[0, 1] + _OVER_M)
+    ball = cone(start, start + BONES_M[0, 0] * way, 0.0145, RADII_M[0, 1] + _OVER_M)
     knuckles = [
         cone(0.75 * knuckle, knuckle, radius, radius + _OVER_M)
         for knuckle, radius in zip(KNUCKLES_M[1:], RADII_M[1:, 0], strict=True)
     ]
-    whole = united([united([*hand, ball], 0.020), *knuckles], 0.008)
+    whole = united([united([*hand, ball], 0.012), *knuckles], 0.008)
     mesh = surface(whole, (-0.06, -0.055, -0.04), (0.075, 0.035, 0.125), _CELL_M * fineness)
     p = mesh.position
     nearer = np.min([field(p) for field in hand], axis=0) - ball(p)

@@ -32,6 +32,8 @@ _TO_TEXTURE = np.array([[0.5, 0, 0, 0.5], [0, 0.5, 0, 0.5], [0, 0, 0.5, 0.5], [0
 """From clip space −1 … 1 to texture space 0 … 1."""
 _GHOST_OPACITY = 0.42
 """How opaque the student's double is where one looks straight at it (our choice: the demonstrator shows through)."""
+_STILL_LEVEL = 1
+"""The shader level of what is drawn once and kept (our choice: the highest takes twice as long, and little is seen)."""
 _BOARDS, _RUG = 0, 1
 _PLACES = {"wall_map": 2, "light_map": 3, "shadow_map": 4}
 """Where the shaders find the pictures; boards and rug come first."""
@@ -50,8 +52,9 @@ class KitAndFigure:
 class SceneParts:
     """`solid`, `quick`, `ghost`: kit and figure pixel by pixel, corner by corner, and the student's double's limbs.
 
-    `glow` lays light over the kit; `rug`, `floor`, `wall` are the room; `rigid_depth`, `skin_depth` and, without the
-    arms, `resting_depth` cast shadows into `shadow_buffer`.
+    `glow` lays light over the kit; `room` is rug, floor and wall. `still_rigid` and `still_room` are kit and room as
+    finely as can be, to be drawn once and kept. `rigid_depth`, `skin_depth` and, without the arms, `resting_depth`
+    cast shadows into `shadow_buffer`.
     """
 
     def __init__(self, ctx: moderngl.Context, rig: KitRig, figure: Figure, quality: Quality) -> None:
@@ -68,10 +71,11 @@ class SceneParts:
             self._skin_part(corner_shaders.SKIN_GHOST, corner_shaders.QUICK_FRAGMENT, self._limb_faces),
         )
         self.glow = self._rigid_part(corner_shaders.RIGID_GLOW, corner_shaders.QUICK_FRAGMENT)
-        floor, rug = (room_shaders.floor_fragment(quality.level, is_varnished=has) for has in (True, False))
-        self.floor, self.rug = self._room_part(floor, room.floor_mesh()), self._room_part(rug, room.rug_mesh())
-        self.floor.program["paint_map"], self.rug.program["paint_map"] = _BOARDS, _RUG
-        self.wall = self._room_part(room_shaders.WALL_FRAGMENT, room.wall_mesh())
+        self.room = self._room_parts(quality.level)
+        self.still_rigid, self.still_room = self.solid.rigid, self.room
+        if quality.level == 0:  # the one that may be drawn in layers
+            self.still_rigid = self._rigid_part(pixel_shaders.RIGID_VERTEX, pixel_shaders.solid_fragment(_STILL_LEVEL))
+            self.still_room = self._room_parts(_STILL_LEVEL)
         for part in (self.solid.skin, self.quick.skin, self.skin_depth):
             part.program["first_bone"] = rig.bone_count
 
@@ -137,6 +141,12 @@ class SceneParts:
         return self._ctx.vertex_array(
             self._program(room_shaders.ROOM_VERTEX, fragment), content, faces, skip_errors=True
         )
+
+    def _room_parts(self, level: int) -> tuple[moderngl.VertexArray, ...]:
+        floor, rug = (room_shaders.floor_fragment(level, is_varnished=has) for has in (level > 0, False))
+        boards, carpet = self._room_part(floor, room.floor_mesh()), self._room_part(rug, room.rug_mesh())
+        boards.program["paint_map"], carpet.program["paint_map"] = _BOARDS, _RUG
+        return carpet, boards, self._room_part(room_shaders.WALL_FRAGMENT, room.wall_mesh())
 
     def _program(self, vertex: str, fragment: str) -> moderngl.Program:
         program = self._ctx.program(vertex, fragment)

@@ -78,7 +78,7 @@ def _tripod(x: float, y: float, spread: float, height: float, segments: int, tur
 
 
 def _stand_of(top: NDArray[np.float64], normal: NDArray[np.float64], segments: int, room: StandingRoom) -> Mesh:
-    """A stand under `top`, its last inches along `normal`: straight, or with a boom where a pole would be in the way."""
+    """A stand under `top`, its last inches along `normal`: straight, or with a boom where a pole has no room."""
     joint = top - _TILTER_M * normal
     spread, height = _TRIPODS_M["cymbal"]
     standing = room.place(joint, spread, height)
@@ -179,13 +179,13 @@ def _hoop_arm(kit: Kit, piece: KitPiece, segments: int) -> Mesh:
     base = kit.pieces[Piece.KICK]
     under = piece.centre - piece.normal * (piece.depth_m + 0.004) + piece.axes[1] * 0.5 * piece.radius_m
     angle = float(np.clip((under[0] - base.centre[0]) / base.radius_m, -0.7, 0.7))
-    up = np.sqrt(1 - angle**2)
-    hoop = base.centre + (base.radius_m + 0.022) * np.array([angle, 0.0, up])
+    _, forth, up_m = np.eye(3)
+    hoop = base.centre + (base.radius_m + 0.022) * np.array([angle, 0.0, np.sqrt(1 - angle**2)])
     knee = np.array([hoop[0], hoop[1] - 0.01, under[2] - 0.02])
     return joined(
         [
             box((0.03, 0.05, 0.045), Material.CHROME, 0.006).moved(translation(hoop)),
-            tube([hoop, knee - [0, 0, 0.03], knee + [0, -0.02, 0], under], 0.005, Material.CHROME, segments),
+            tube([hoop, knee - 0.03 * up_m, knee - 0.02 * forth, under], 0.005, Material.CHROME, segments),
             ball(under, 0.013, Material.BLACK, 8),
         ]
     )

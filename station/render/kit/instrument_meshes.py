@@ -33,7 +33,7 @@ def drum(radius: float, depth: float, lugs: int, detail: Detail, shell: int = Ma
     """A snare or tom: head, hoops, shell, lugs and tension rods, from z = RIM_ABOVE_HEAD_M down to −depth."""
     n = detail.segments
     parts = [
-        head(radius, n),
+        head(radius, detail),
         _hoop(radius, RIM_ABOVE_HEAD_M, n),
         lathe([(radius, -depth + 0.012), (radius, -0.012)], n, shell),
         _hoop(radius, -depth + 0.022, n),
@@ -44,10 +44,16 @@ def drum(radius: float, depth: float, lugs: int, detail: Detail, shell: int = Ma
     return joined(parts)
 
 
-def head(radius: float, segments: int, material: int = Material.HEAD) -> Mesh:
+def _rings(radius: float, detail: Detail) -> list[float]:
+    """The radii of a head's rings from `radius` to its middle, fine enough for ripples where those are drawn."""
+    count = detail.segments // 6 if detail.hardware else 2
+    return [radius * k / count for k in range(count, -1, -1)]
+
+
+def head(radius: float, detail: Detail, material: int = Material.HEAD) -> Mesh:
     """The skin: white, a little darker towards the hoop, with a bearing edge."""
-    profile = [(radius * 1.0, -0.006), (radius * 0.965, 0.0), (radius * 0.90, 0.0), (radius * 0.45, 0.0), (0.0, 0.0)]
-    mesh = lathe(profile, segments, material)
+    profile = [(radius, -0.006), (radius * 0.965, 0.0), *((r, 0.0) for r in _rings(0.90 * radius, detail))]
+    mesh = lathe(profile, detail.segments, material)
     edge = np.hypot(mesh.position[:, 0], mesh.position[:, 1]) > radius * 0.93
     return mesh.shaded(np.where(edge, 0.6, 1.0))
 
@@ -94,7 +100,7 @@ def kick(radius: float, depth: float, detail: Detail, shell: int = Material.SHEL
     ]
     front_hoop = [(r, -depth - z) for r, z in reversed(hoop)]
     parts = [
-        lathe([(radius * 0.99, 0), (radius * 0.5, 0), (0, 0)], n, Material.HEAD),
+        lathe([(r, 0.0) for r in _rings(0.99 * radius, detail)], n, Material.HEAD),
         lathe(hoop, n, shell, smooth=False),
         lathe([(radius, -depth + 0.02), (radius, -0.02)], n, shell),
         lathe(front_hoop, n, shell, smooth=False),

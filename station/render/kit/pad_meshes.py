@@ -32,7 +32,11 @@ def pad(radius: float, depth: float, detail: Detail) -> Mesh:
         (inner, -0.004),
     ]
     shell = [(0, -depth), (radius * 0.80, -depth), (radius * 0.98, -depth + 0.012), (radius + 0.006, -0.022)]
-    parts = [head(radius, n, Material.MESH_HEAD), lathe(rim, n, Material.RUBBER), lathe(shell, n, Material.LACQUER)]
+    parts = [
+        head(radius, detail, Material.MESH_HEAD),
+        lathe(rim, n, Material.RUBBER),
+        lathe(shell, n, Material.LACQUER),
+    ]
     return joined(parts)
 
 
@@ -44,7 +48,7 @@ def kick_pad(radius: float, depth: float, detail: Detail) -> Mesh:
     n = detail.segments
     frame = [(0, -depth), (radius + 0.025, -depth), (radius + 0.03, -depth + 0.01), (radius + 0.03, 0.006)]
     frame += [(radius + 0.02, 0.014), (radius * 0.99, 0.010), (radius * 0.985, 0.0)]
-    return joined([head(radius, n, Material.MESH_HEAD), lathe(frame, n, Material.LACQUER)])
+    return joined([head(radius, detail, Material.MESH_HEAD), lathe(frame, n, Material.LACQUER)])
 
 
 def rubber_cymbal(radius: float, detail: Detail) -> Mesh:

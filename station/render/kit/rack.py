@@ -3,6 +3,7 @@
 All of it follows from where the pieces are, on the drummer's own side for left-handed kits too; metres.
 """
 
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -24,14 +25,16 @@ _BAR_Z: Final = 0.60
 _TUBE_M = 0.019
 _OUT_M, _BEHIND_M = 0.03, 0.10
 """How far the rack's bars lie outside the outermost pads, and behind the toms (our choice, as compact racks are)."""
-_TILT = np.radians(35.0)
+_TILT, _MODULE_M = np.radians(35.0), 0.17
+"""How far the module leans to the drummer, and how high it stands over its bar."""
+_UP = np.array([0.0, 0.0, 1.0])
 
 
 def rack(kit: Kit, detail: Detail) -> list[Mesh]:
     """The rack with an arm for each pad and cymbal, and the module beside the hi-hat."""
     n = 12 if detail.hardware else 7
     posts = _posts(kit)
-    bars = list(zip(posts[:-1], posts[1:], strict=True))
+    bars = list(pairwise(posts))
     parts = [_post(post, posts[1:-1], n) for post in posts]
     parts += [rod(_at(a, _BAR_Z), _at(b, _BAR_Z), _TUBE_M, Material.LACQUER, n) for a, b in bars]
     for piece in kit.pieces.values():
@@ -65,7 +68,7 @@ def _at(plan: Point, z: float) -> Point:
 def _post(plan: Point, taller: list[Point], segments: int) -> Mesh:
     """An upright tube in its clamp, on a foot that lies along the floor."""
     high = _BAR_Z + (0.22 if any(plan is other for other in taller) else 0.12)
-    foot = [_at(plan + [0, y], 0.016) for y in (-0.14, 0.14)]
+    foot = [np.array([plan[0], plan[1] + y, 0.016]) for y in (-0.14, 0.14)]
     return joined(
         [
             rod(_at(plan, 0.016), _at(plan, high), _TUBE_M, Material.LACQUER, segments),
@@ -100,7 +103,7 @@ def _pad_arm(piece: KitPiece, bars: list[tuple[Point, Point]], segments: int) ->
     return joined(
         [
             _clamp(bar),
-            tube([bar, knee - [0, 0, 0.03], knee + 0.06 * unit(low - knee), low], 0.008, Material.CHROME, segments),
+            tube([bar, knee - 0.03 * _UP, knee + 0.06 * unit(low - knee), low], 0.008, Material.CHROME, segments),
             ball(low, 0.018, Material.BLACK, 10),
             rod(low, under + piece.normal * 0.012, (0.012, 0.022), Material.BLACK, segments),
         ]
@@ -130,11 +133,11 @@ def _cymbal_arm(piece: KitPiece, posts: list[Point], segments: int, detail: Deta
 def _module(kit: Kit, bars: list[tuple[Point, Point]], segments: int, detail: Detail) -> Mesh:
     """The module on the bar at the hi-hat's side, where the drummer reads it."""
     a, b = bars[0]
-    bar = _at(a + 0.12 * (b - a), _BAR_Z)
-    at = bar + [0.0, 0.0, 0.17]
+    bar = _at(a + 0.05 * (b - a), _BAR_Z)
+    at = bar + _MODULE_M * _UP
     look = unit(np.array([*kit.seat_m[:2], 0.0]) - at * [1, 1, 0])
-    normal = np.cos(_TILT) * np.array([0.0, 0.0, 1.0]) + np.sin(_TILT) * look
-    right = np.cross(-look, [0.0, 0.0, 1.0])
+    normal = np.cos(_TILT) * _UP + np.sin(_TILT) * look
+    right = np.cross(-look, _UP)
     face = module(detail).moved(frame(at, normal, right))
     return joined([face, _clamp(bar), rod(bar, at - 0.02 * normal, 0.010, Material.CHROME, segments)])
 
@@ -148,7 +151,7 @@ def tower(piece: KitPiece, segments: int) -> Mesh:
         top = np.array([x + side * 0.085, back, z - 0.02])
         foot = np.array([x + side * 0.20, back + 0.22, 0.012])
         parts += [
-            rod([top[0], back, 0.01], top + [0, 0, 0.05], 0.014, Material.LACQUER, segments),
+            rod([top[0], back, 0.01], top + 0.05 * _UP, 0.014, Material.LACQUER, segments),
             rod(top, foot, 0.010, Material.CHROME, segments),
             ball(foot, 0.016, Material.RUBBER, 8),
         ]

@@ -27,6 +27,8 @@ _BOOM_DROP = 0.45
 _BOOM_PRICE = 0.05
 """What a metre of boom is worth in metres of what it is in the way (our choice: a boom is cheap)."""
 _ALONG = np.linspace(0.0, 1.0, 9)[:, None]
+_UP = np.array([0.0, 0.0, 0.08])
+"""An ankle over its heel."""
 _PIPE_M, _POLE_LOW_M = 0.012, 0.12
 """How thick pipes are, and how low a pole reaches."""
 _KNEE_M, _THIGH_M, _SHIN_M, _BOARD_M = 0.46, 0.09, 0.065, 0.055
@@ -59,8 +61,8 @@ class StandingRoom:
 
     def without(self, piece: KitPiece) -> "StandingRoom":
         """The room as the stand of `piece` sees it, which is to touch it."""
-        drums, swept = (tuple(x for x in all_ if x is not piece) for all_ in (self.drums, self.swept))
-        return replace(self, drums=drums, swept=tuple(pair for pair in swept if pair[0] is not piece))
+        drums = tuple(drum for drum in self.drums if drum is not piece)
+        return replace(self, drums=drums, swept=tuple(pair for pair in self.swept if pair[0] is not piece))
 
     def clear_m(self, points: Array) -> Array:
         """How far each of `points` (…, 3) is from the nearest thing, negative inside it."""
@@ -133,8 +135,8 @@ def _legs_and_boards(kit: Kit) -> list[Line]:
         heel, toe = np.array(pedal.heel_m), np.array(pedal.toe_m)
         hip = np.array([x + 0.09 * np.sign(heel[0] - x), y, z + 0.05])
         way = (heel - hip) * [1, 1, 0]
-        knee = hip + way / np.linalg.norm(way) * _KNEE_M + [0, 0, 0.04]
-        lines += [(hip, knee, _THIGH_M), (knee, heel + [0, 0, 0.08], _SHIN_M), (heel, toe, _BOARD_M)]
+        knee = hip + way / np.linalg.norm(way) * _KNEE_M + _UP / 2
+        lines += [(hip, knee, _THIGH_M), (knee, heel + _UP, _SHIN_M), (heel, toe, _BOARD_M)]
     if kit.slave is not None:
         lines.append((np.array(kit.slave.heel_m), np.array(kit.slave.toe_m), _BOARD_M))
     return lines

@@ -136,13 +136,14 @@ def test_a_left_handed_kit_is_the_mirror() -> None:
     assert other.slave_rad == pytest.approx(one.slave_rad)
 
 
-@pytest.mark.parametrize("kit", [load_kit(name) for name in kit_names()], ids=lambda kit: kit.name)
+@pytest.mark.parametrize("name", kit_names())
 @pytest.mark.parametrize("stature_m", [1.62, 1.76, 1.90])
-@pytest.mark.parametrize("heel", ["down", "up"])
-def test_legs_keep_clear_of_the_drums(kit: Kit, stature_m: float, heel: str) -> None:
-    score = as_led(score_of(*sixteenths(4, 2), hats=(0, 1, 2, 8)), kit)
-    drummer = Drummer(score, kit, figure_of(stature_m), Style(heel=heel, amplitude_heel=60.0))
-    joints = drummer.rows(np.arange(-0.5, 10 * BEAT_S, 0.005))[:, frame.JOINTS].reshape(-1, 21, 3)
-    for hip in (Joint.RIGHT_HIP, Joint.LEFT_HIP):
-        points, radii = capsules(drummer.figure, *(joints[:, hip + k] for k in range(3)))
-        assert depth_in_drums(kit, points, radii).max() <= 0.001
+def test_legs_keep_clear_of_the_drums(name: str, stature_m: float) -> None:
+    kit = load_kit(name)
+    score = as_led(score_of(*sixteenths(2, 1), hats=(0, 1, 4)), kit)
+    for heel in ("down", "up"):
+        drummer = Drummer(score, kit, figure_of(stature_m), Style(heel=heel, amplitude_heel=60.0))
+        joints = drummer.rows(np.arange(-0.5, 5 * BEAT_S, 0.01))[:, frame.JOINTS].reshape(-1, 21, 3)
+        for hip in (Joint.RIGHT_HIP, Joint.LEFT_HIP):
+            points, radii = capsules(drummer.figure, *(joints[:, hip + k] for k in range(3)))
+            assert depth_in_drums(kit, points, radii).max() <= 0.001
