@@ -76,9 +76,9 @@ def _figure(scene: Glb, materials: dict[str, int], drummer: Drummer, rows: Array
         nodes[bone.name] = scene.node(bone.name, None if bone.parent is None else nodes[bone.parent], mesh)
         _move(scene, nodes[bone.name], *local(bones, bone.name))
     for name in STICKS:
-        solid = plain_solids.HELD.get(hold.held.name)
-        mesh = None if solid is None else scene.mesh(name, solid(bones.length_m[name]), materials["wood"])
-        _move(scene, scene.node(name, None, mesh), *local(bones, name))
+        held = plain_solids.HELD.get(hold.held.name)
+        in_hand = None if held is None else scene.mesh(name, held(bones.length_m[name]), materials["wood"])
+        _move(scene, scene.node(name, None, in_hand), *local(bones, name))
 
 
 def _move(scene: Glb, node: int, place: Array, turn: Array) -> None:

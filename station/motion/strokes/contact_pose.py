@@ -33,9 +33,9 @@ _EXTENSION_EASE, _DEVIATION_EASE = np.radians(25.0), np.radians(12.0)
 _NATURAL_WING, _WING_EASE = np.radians(12.0), np.radians(40.0)
 _TURN_EASE = np.radians(18.0)
 _SPARE, _BEYOND_EASE = np.radians(8.0), np.radians(1.0)
-"""What is called comfortable: how far the wrist bends, the elbow leaves its place and the stick is turned from
-the grip's own way before each costs as much as the others; near its limits no wrist is comfortable, for strokes and styles need room (our
-choice, within the limits of HUMANS)."""
+"""What is called comfortable: how far the wrist bends, the elbow leaves its place and the stick is turned from its
+grip's own way before each costs as much as the others; near its limits no wrist is comfortable, for strokes and styles
+need room (our choice, within the limits of HUMANS)."""
 
 SHOULDER_OF_STICK = 0.25
 """From the tip back to the part that meets a cymbal's edge or a rim, as a share of the stick (our choice)."""
@@ -146,8 +146,11 @@ def _easiest(
     lies = {r: grip.lie(r, slopes.hand_roll) for r in rises.values()}
     palm, crossing, roll = (np.array(part) for part in zip(*(astuple(lies[r]) for r in rise.tolist()), strict=True))
     stick_yaw = way + turn
+    x, y, z = target.point_m.tolist()
     tries = Contact(
-        *target.point_m.tolist(),
+        x,
+        y,
+        z,
         stick_rise=rise,
         hand_rise=rise + palm,
         stick_yaw=stick_yaw,
@@ -187,7 +190,8 @@ def _beyond(arm: Arm, side: float, limits: Limits) -> Array:
 class _Slopes:
     """How the stick wants to lie.
 
-    What touches and how much stick is beyond it, its slope, the hand's roll where it is not its grip's, its way in plan where that is fixed, and whether its shaft lies on the rim.
+    What touches and how much stick is beyond it, its slope, the hand's roll where it is not its grip's, its way in plan
+    where that is fixed, and whether its shaft lies on the rim.
     """
 
     ahead_m: float

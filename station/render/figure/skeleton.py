@@ -124,7 +124,7 @@ def bind_stance(figure: Figure) -> Stance:
 
 
 def bone_frames(stance: Stance) -> Matrix:
-    """The frame of every bone but `EYES` and the fingers', (18, 4, 4): z along the bone, a hand's as `hand_bones` says."""
+    """The frame of every bone but eyes and fingers, (18, 4, 4): z along the bone, a hand's as `hand_bones` has it."""
     j = stance.joints_m
     origin, along, side = np.empty((3, len(Bone) - 1, 3))
     shoulders = j[Joint.RIGHT_SHOULDER] - j[Joint.LEFT_SHOULDER]
