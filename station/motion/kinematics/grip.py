@@ -107,13 +107,13 @@ _PINCH = (0.034, -0.022, 0.098)
 
 
 def _matched(
-    name: str, yaw_deg: float, roll_deg: float, parts: tuple[float, float], way_deg: tuple[float, float]
+    name: str, degrees: tuple[float, float], turns: float, parts: tuple[float, float], way_deg: tuple[float, float]
 ) -> Grip:
     """A grip in which the stick is pinched and runs under the palm by `way_deg`."""
     to_butt = _way(*way_deg)
     under_palm = (HEEL_M - _PINCH[2]) / to_butt[2]
-    yaw, roll = math.radians(yaw_deg), math.radians(roll_deg)
-    return Grip(name, yaw, roll, 1.0, *parts, _PINCH, to_butt, under_palm, _BEYOND_M)
+    yaw, roll = np.radians(degrees).tolist()
+    return Grip(name, yaw, roll, turns, *parts, _PINCH, to_butt, under_palm, _BEYOND_M)
 
 
 _TRADITIONAL = Grip(
@@ -145,9 +145,9 @@ GRIPS: Mapping[str, Grip] = MappingProxyType(
     {
         g.name: g
         for g in (
-            _matched("german", 28.0, 0.0, (1.0, 0.8), (22.0, 6.0)),
-            _matched("american", 20.0, 45.0, (1.0, 1.0), (24.0, 6.0)),
-            _matched("french", 8.0, 80.0, (0.7, 1.3), (30.0, 10.0)),
+            _matched("german", (28.0, 0.0), 1.0, (1.0, 0.8), (22.0, 6.0)),
+            _matched("american", (20.0, 45.0), 1.0, (1.0, 1.0), (24.0, 6.0)),
+            _matched("french", (8.0, 80.0), 0.5, (0.7, 1.3), (30.0, 10.0)),
             _TRADITIONAL,
         )
     }
@@ -211,6 +211,7 @@ class Hold:
             rolls_hand=side,
             roll_sine=math.sin(self.grip.roll) * side,
             roll_cosine=math.cos(self.grip.roll),
+            across=not self.grip.turns_hand,
             off_thumb=tilt * x,
             off_back=tilt * y,
             most_bend=figure.limits.elbow_flexion,

@@ -12,7 +12,7 @@ from dataclasses import astuple, dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Articulation, Limb
+from station.core.pieces import Articulation, Limb, Piece
 from station.motion.kinematics.arm import Arm, ArmLengths, Contact, Offsets, solve
 from station.motion.kinematics.collisions import depth_in_kit
 from station.motion.kinematics.figure import Figure
@@ -44,6 +44,10 @@ _LAID_RISE, _LAID_IN_THE_WEB = math.radians(2.0), math.radians(12.0)
 """A cross-stick strikes the rim so far ahead of the fulcrum as a share of its length; a matched hand lies flat
 on it, palm down; the back of a traditional one lies on the head (our choice)."""
 
+_RIDES = (Piece.RIDE, Piece.RIDE_2)
+THUMB_UP_TURNS = 0.75
+"""On a ride the thumb comes up: a quarter of the wrist's part of a stroke is the forearm's roll (our choice)."""
+
 LEANS_RAD = np.radians([6.0, 12.0, 18.0, 24.0, 30.0])
 """How far the trunk may lean for a distant target, the least that serves (our choice)."""
 PROTRACTION_M = 0.08
@@ -73,6 +77,8 @@ def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike) -> ContactPose:
     if strike.articulation == WAIT and not hold.held.rest_m:  # a brush waits on the head
         strike = replace(strike, articulation=Articulation.NORMAL)
     target = target_of(kit, strike)
+    if kit.stand_in(strike.piece) in _RIDES and hold.held.name == "stick":
+        hold = replace(hold, grip=replace(hold.grip, turns_hand=min(hold.grip.turns_hand, THUMB_UP_TURNS)))
     right = strike.limb == Limb.RIGHT_HAND
     side = 1.0 if right else -1.0
     lengths = hold.lengths(figure, right)
