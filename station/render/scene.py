@@ -21,7 +21,7 @@ from station.render.figure.skeleton import Skeleton
 from station.render.geometry.transforms import gl_bytes
 from station.render.gpu.bone_palette import BoneFrame, BonePalette
 from station.render.gpu.scene_cache import cached_kit
-from station.render.gpu.scene_parts import ANISOTROPY, SceneParts, write
+from station.render.gpu.scene_parts import SceneParts, write
 from station.render.kit.kit_rig import KitRig
 from station.render.quality import Quality
 
@@ -98,12 +98,13 @@ class Scene:
             self._draw_resting_shadows()
         self._begin(target, viewport, camera)
         target.clear(depth=1.0, viewport=viewport)
-        rigid = self._parts.quick.rigid if is_rough else self._parts.solid.rigid
-        self._parts.floor_map.anisotropy = 1.0 if is_rough else ANISOTROPY
-        self._aim(camera, viewport, rigid, self._parts.floor, self._parts.wall)
+        parts = self._parts
+        rigid, room = (parts.quick.rigid, parts.room) if is_rough else (parts.still_rigid, parts.still_room)
+        parts.sharpen(is_rough)
+        self._aim(camera, viewport, rigid, *room)
         _render(rigid, slice(0, self.rig.still_faces))
-        self._parts.floor.render()
-        self._parts.wall.render()
+        for part in room:
+            part.render()
         self._end()
 
     def _draw_resting_shadows(self) -> None:
@@ -159,7 +160,7 @@ class Scene:
     @property
     def picture_parts(self) -> tuple[moderngl.VertexArray, ...]:
         """What the picture pass draws: the figure, then nearest first, so that what is hidden is not shaded."""
-        parts = (self._parts.solid.skin, self._parts.solid.rigid, self._parts.floor, self._parts.wall)
+        parts = (self._parts.solid.skin, self._parts.solid.rigid, *self._parts.room)
         return parts if self.shows_figure else parts[1:]
 
     def _draw_double(self, target: moderngl.Framebuffer, camera: Camera, viewport: Viewport) -> None:

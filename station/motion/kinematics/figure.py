@@ -16,6 +16,7 @@ from station.core.schema import Field, Fields, Reader, needed, number, optional,
 from station.core.shipped import find_shipped, shipped
 from station.core.toml_source import read_source
 from station.motion.kinematics.joint_limits import Limits
+from station.motion.kinematics.look import LOOK, Look
 
 
 class Joint(IntEnum):
@@ -72,7 +73,7 @@ PARENT: dict[Joint, Joint | None] = {
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """Lengths in metres, and the joints' limits."""
+    """Lengths in metres, the joints' limits, and what pictures show of it."""
 
     stature_m: float
     trunk_m: float  # hip to shoulder height
@@ -89,6 +90,7 @@ class Figure:
     ankle_height_m: float
     stick_m: float = 0.406  # 5A (HUMANS, Kit)
     limits: Limits = field(default_factory=Limits)
+    look: Look = field(default_factory=Look)
 
 
 MEDIAN_STATURE_M = 1.759
@@ -118,22 +120,24 @@ def figure_of(stature_m: float = MEDIAN_STATURE_M) -> Figure:
 
 # --- files ------------------------------------------------------------------------------------------------------------
 
-FIGURES = Path(__file__).parents[1] / "data" / "figures"
+FIGURES = Path(__file__).parents[1] / "data" / "drummers"
+DEFAULT_FIGURE = "headphones"
+"""Who plays where nobody is asked for: `figure_of()`."""
 LEAST_STATURE_M, GREATEST_STATURE_M = 0.8, 2.4
 
 
 def figure_names() -> list[str]:
-    """The figures that ship with the station."""
+    """The drummers that ship with the station."""
     return shipped(FIGURES)
 
 
 def load_figure(name_or_path: str | Path) -> Figure:
-    """A shipped figure by its name, or a figure file; raises `BadInput` with the place of the first fault.
+    """A shipped drummer by name, or a drummer's file; raises `BadInput` with the place of the first fault.
 
     A file holds `stature_m`, and where they differ from the published proportions a table `segments` of lengths in
-    metres and a table `limits` of angles in degrees, both by the names of the fields here.
+    metres and a table `limits` of angles in degrees, both by the names of the fields here; a table `look` (`look`).
     """
-    path = find_shipped(name_or_path, FIGURES, "figure")
+    path = find_shipped(name_or_path, FIGURES, "drummer")
     return read(read_source(path), FIGURE)
 
 
@@ -142,9 +146,11 @@ def _angle(value: object) -> float:
     return radians(number(0.0, 200.0)(value))
 
 
-def _figure(title: str, stature_m: float, segments: Mapping[str, float], limits: Mapping[str, float]) -> Figure:
+def _figure(
+    title: str, stature_m: float, segments: Mapping[str, float], limits: Mapping[str, float], look: Look
+) -> Figure:
     """The figure that a file describes; its title is for people alone."""
-    return replace(figure_of(stature_m), limits=replace(Limits(), **limits), **segments)
+    return replace(figure_of(stature_m), limits=replace(Limits(), **limits), look=look, **segments)
 
 
 FIELDS: Fields = {
@@ -152,6 +158,7 @@ FIELDS: Fields = {
     "stature_m": needed(number(LEAST_STATURE_M, GREATEST_STATURE_M), "stature_m = 1.76"),
     "segments": Field(said({name: optional(number(0.01, 1.5)) for name in _SHARES}, "segment"), {}),
     "limits": Field(said({each.name: optional(_angle) for each in fields(Limits)}, "limit"), {}),
+    "look": Field(LOOK, Look()),
 }
 FIGURE: Reader[Figure] = record(_figure, FIELDS)
 """The schema of the file."""

@@ -4,58 +4,17 @@ The skin is made sitting, arms half bent, near to how a drummer always is, so th
 """
 
 from dataclasses import dataclass
-from enum import IntEnum
 from functools import lru_cache
 
 import numpy as np
 
-from station.core.pieces import Limb
 from station.motion.kinematics.figure import Figure, Joint
 from station.motion.kinematics.grip import GRIPS, HAND_M, Grip, line_axes
 from station.motion.kinematics.pose import Pose
-from station.render.figure.hand_bones import DIGITS, JOINTS, REST, STEPS, finger_frames
+from station.render.figure.bones import BODY_BONES, BONES, FINGERS, Bone
+from station.render.figure.expression import Expression, face_matrices
+from station.render.figure.hand_bones import REST, STEPS, finger_frames
 from station.render.geometry.transforms import Matrix, Vector, cross, frames, unit
-
-
-class Bone(IntEnum):
-    """What moves as one; right before left."""
-
-    WAIST = 0
-    CHEST = 1
-    NECK = 2
-    HEAD = 3
-    RIGHT_UPPER_ARM = 4
-    RIGHT_FOREARM = 5
-    RIGHT_TWIST = 6  # the forearm's far half, which turns with the palm
-    RIGHT_HAND = 7
-    LEFT_UPPER_ARM = 8
-    LEFT_FOREARM = 9
-    LEFT_TWIST = 10
-    LEFT_HAND = 11
-    RIGHT_THIGH = 12
-    RIGHT_SHANK = 13
-    RIGHT_FOOT = 14
-    LEFT_THIGH = 15
-    LEFT_SHANK = 16
-    LEFT_FOOT = 17
-    EYES = 18  # the head, squeezed upright as the lids close
-
-
-FINGERS = {Bone.RIGHT_HAND: len(Bone), Bone.LEFT_HAND: len(Bone) + DIGITS * JOINTS}
-"""Where the bones of each hand's digits begin: they follow those that have names."""
-BONES = len(Bone) + 2 * DIGITS * JOINTS
-
-
-def _digits(hand: Bone) -> range:
-    return range(FINGERS[hand], FINGERS[hand] + DIGITS * JOINTS)
-
-
-LIMB_BONES: dict[Limb, tuple[int, ...]] = {
-    Limb.RIGHT_HAND: (*range(Bone.RIGHT_UPPER_ARM, Bone.RIGHT_HAND + 1), *_digits(Bone.RIGHT_HAND)),
-    Limb.LEFT_HAND: (*range(Bone.LEFT_UPPER_ARM, Bone.LEFT_HAND + 1), *_digits(Bone.LEFT_HAND)),
-    Limb.RIGHT_FOOT: (Bone.RIGHT_THIGH, Bone.RIGHT_SHANK, Bone.RIGHT_FOOT),
-    Limb.LEFT_FOOT: (Bone.LEFT_THIGH, Bone.LEFT_SHANK, Bone.LEFT_FOOT),
-}
 
 _ARMS = (
     (Bone.RIGHT_UPPER_ARM, Joint.RIGHT_SHOULDER, Joint.RIGHT_ELBOW, Joint.RIGHT_WRIST, Joint.RIGHT_HAND),
@@ -73,8 +32,7 @@ _THIRD = _FIRST + np.array([3, 3, 2, 2])
 _TRUNK = slice(Bone.WAIST, Bone.HEAD + 1)
 _TRUNK_FROM = np.array([Joint.PELVIS, Joint.SPINE, Joint.NECK, Joint.HEAD])
 _TRUNK_TO = np.array([Joint.SPINE, Joint.NECK, Joint.HEAD, Joint.CROWN])
-EYE_HEIGHT = 0.098
-"""Where the eyes are above the joint of head and neck, in metres for `HEAD_M`."""
+_UP = np.array([[0.0, 0.0, 1.0]])
 HEAD_M = 0.2146
 """The head's height that the face was designed for."""
 
@@ -124,9 +82,9 @@ def bind_stance(figure: Figure) -> Stance:
 
 
 def bone_frames(stance: Stance) -> Matrix:
-    """The frame of every bone but eyes and fingers, (18, 4, 4): z along the bone, a hand's as `hand_bones` has it."""
+    """The frame of every bone of `BODY_BONES`, (18, 4, 4): z along the bone, a hand's as `hand_bones` says."""
     j = stance.joints_m
-    origin, along, side = np.empty((3, len(Bone) - 1, 3))
+    origin, along, side = np.empty((3, len(BODY_BONES), 3))
     shoulders = j[Joint.RIGHT_SHOULDER] - j[Joint.LEFT_SHOULDER]
     hips = j[Joint.RIGHT_HIP] - j[Joint.LEFT_HIP]
     right = cross(stance.facing, stance.head_up)
@@ -140,9 +98,10 @@ def bone_frames(stance: Stance) -> Matrix:
     palm = cross(stance.palm, second[:2]), cross(stance.palm, third[:2])
     origin[_FIRST], along[_FIRST], side[_FIRST] = a, first, hinge
     origin[_SECOND], along[_SECOND], side[_SECOND] = b, second, hinge
-    origin[_TWIST], along[_TWIST], side[_TWIST] = b[:2], second[:2], palm[0]
+    origin[_TWIST], along[_TWIST] = b[:2], second[:2]
+    side[_TWIST] = unit(palm[0]) - unit(hinge[:2])  # half of the palm's turn: its other half is the wrist's
     origin[_THIRD], along[_THIRD] = c, third
-    side[_THIRD[:2]], side[_THIRD[2:]] = palm[1], hinge[2:]
+    side[_THIRD[:2]], side[_THIRD[2:]] = palm[1], cross(third[2:], _UP)  # soles lie flat, wherever the knees point
     found = frames(origin, along, side)
     found[_HANDS, :3, :3] = found[_HANDS, :3, :3] @ stance.hands
     return found
@@ -180,21 +139,20 @@ class Skeleton:
         self.frames = bone_frames(self.bind)
         self._back = np.linalg.inv(self.frames)
         self.hand_scale = figure.hand_m / HAND_M
-        self._eye_height = EYE_HEIGHT * figure.head_m / HEAD_M
+        self._face_scale = figure.head_m / HEAD_M
 
     def matrices(self, pose: Pose) -> Matrix:
         """One matrix a bone, (BONES, 4, 4)."""
         out = np.empty((BONES, 4, 4))
         now = bone_frames(Stance.of(pose))
-        out[: Bone.EYES] = now @ self._back
+        out[: len(BODY_BONES)] = now @ self._back
+        face = face_matrices(Expression.of(pose))
+        face[:, :3, 3] *= self._face_scale
+        out[len(BODY_BONES) : len(Bone)] = now[Bone.HEAD] @ face @ self._back[Bone.HEAD]
         for hand, hold, closed in zip(_HANDS, pose.holds, pose.fingers.tolist(), strict=True):
             step, share = divmod(closed * (STEPS - 1), 1.0)
             moves = _moves(hold.grip, self.hand_scale)[_HANDS.index(hand)]
             low, high = moves[int(step)], moves[min(int(step) + 1, STEPS - 1)]
             first = FINGERS[hand]
             out[first : first + len(low)] = now[hand] @ (low + share * (high - low)) @ self._back[hand]
-        lids = np.eye(4)
-        lids[2, 2] = 0.12 + 0.88 * pose.eyes
-        lids[2, 3] = self._eye_height * (1 - lids[2, 2])
-        out[Bone.EYES] = now[Bone.HEAD] @ lids @ self._back[Bone.HEAD]
         return out

@@ -11,12 +11,16 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Limb, Piece
 from station.motion.kinematics.pose import Pose
-from station.render.figure.skeleton import BONES, LIMB_BONES, Skeleton
+from station.render.figure.bones import BONES, LIMB_BONES
+from station.render.figure.skeleton import Skeleton
 from station.render.geometry.transforms import Matrix
-from station.render.gpu.light_shader import MAX_BONES
+from station.render.gpu.light_shader import MAX_BONES, RIPPLING_BONES
 from station.render.kit import kit_rig
 from station.render.kit.held_meshes import HELD_BONES, held_matrices
 from station.render.kit.kit_rig import KitRig
+
+_STILL_M = 1e-5
+"""A head that gives way by less is still."""
 
 Colour = NDArray[np.float64]
 """Linear red, green and blue, (3,)."""
@@ -46,8 +50,10 @@ class BonePalette:
         assert self.double_sticks + 2 * HELD_BONES <= MAX_BONES, "the kit has more pieces than a palette holds"
         self._matrices = np.tile(np.eye(4), (MAX_BONES, 1, 1))
         self._glow = np.zeros((MAX_BONES, 4), np.float32)
-        self._now = ctx.buffer(reserve=MAX_BONES * 64, dynamic=True)
-        self._rest = ctx.buffer(_rows(self._matrices) + self._glow.tobytes())
+        self._ripple = np.zeros((RIPPLING_BONES, 4), np.float32)
+        still = self._bytes()
+        self._now = ctx.buffer(reserve=len(still), dynamic=True)
+        self._rest = ctx.buffer(still)
 
     def set(self, frame: BoneFrame) -> None:
         """Pose all bones as `frame` says."""
@@ -64,7 +70,21 @@ class BonePalette:
             matrices[self.double_sticks : self.double_sticks + len(held)] = held
             for limb, colour in frame.double_glow.items():
                 glow[[self.double + bone for bone in LIMB_BONES[limb]], :3] = colour
-        self._now.write(_rows(matrices) + glow.tobytes())
+        self._set_ripples(frame.pose)
+        self._now.write(self._bytes())
+
+    def _set_ripples(self, pose: Pose | None) -> None:
+        self._ripple[:] = 0.0
+        for (piece, bone), (depth_m, right, away, since_s) in zip(
+            self._rig.piece_bones.items(), pose.ripple.tolist() if pose is not None else (), strict=pose is not None
+        ):
+            if depth_m > _STILL_M:
+                part = self._rig.kit.pieces[piece]
+                self._ripple[bone, :3] = part.centre + right * part.axes[0] + away * part.axes[1]
+                self._ripple[bone, 3], self._glow[bone, 3] = depth_m, since_s
+
+    def _bytes(self) -> bytes:
+        return _rows(self._matrices) + self._glow.tobytes() + self._ripple.tobytes()
 
     def use(self) -> None:
         """Let the shaders read how the bones are now."""
