@@ -147,7 +147,7 @@ GRIPS: Mapping[str, Grip] = MappingProxyType(
         for g in (
             _matched("german", (28.0, 0.0), 1.0, (1.0, 0.8), (22.0, 6.0)),
             _matched("american", (20.0, 45.0), 1.0, (1.0, 1.0), (24.0, 6.0)),
-            _matched("french", (8.0, 80.0), 0.55, (0.7, 1.3), (31.0, 13.0)),
+            _matched("french", (8.0, 80.0), 0.5, (0.75, 1.25), (31.0, 13.0)),
             _TRADITIONAL,
         )
     }
