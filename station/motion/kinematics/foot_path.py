@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 MOVE_S = 0.42
 """A foot takes so long, if it has the time, to lift, to go a board's breadth aside and to land (our choice)."""
 LEAST_MOVE_S = 0.18
-"""Quicker it cannot: up and down by 6 cm at the 5 Hz at which a foot taps, heel up (HUMANS)."""
+"""Quicker it cannot: up and down once at the 5 Hz at which a foot taps, heel up (HUMANS)."""
 READY_S = 0.18
 """It is there so long before its stroke, if it has the time: a kick's own upswing takes 0.16 s."""
 STAYS_S = 2.0
