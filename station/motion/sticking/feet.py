@@ -45,7 +45,7 @@ def feet(score: Score, kit: Kit) -> tuple[NDArray[np.int8], list[str]]:
 def _in_turn(score: Score, limbs: NDArray[np.int8], kit: Kit) -> NDArray[np.int64]:
     """The rows of free kicks that the hi-hat's foot takes: every second one of the runs that one foot cannot keep up."""
     onset = score.onset_s
-    rows = np.flatnonzero((score.notes["piece"] == Piece.KICK))
+    rows = np.flatnonzero(score.notes["piece"] == Piece.KICK)
     rows = rows[np.argsort(onset[rows], kind="stable")]
     quick = np.diff(onset[rows]) < ONE_FOOT_S
     ends = np.flatnonzero(~np.concatenate(([False], quick, [False])))

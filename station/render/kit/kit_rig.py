@@ -59,7 +59,8 @@ def kit_mesh(kit: Kit, detail: Detail) -> Mesh:
     parts = [_piece_mesh(p, detail, shell).moved(_place(p)).on_bone(bones.of[p.piece]) for p in kit.pieces.values()]
     parts += hardware.hardware(kit, detail)
     parts += pedal_meshes(kit, bones.pedals)
-    parts += [clutch_foot(p).on_bone(bones.of[p.piece]) for p in kit.pieces.values() if p.kind == "hihat"]
+    if (pulled := kit.pulled_hat) is not None:
+        parts.append(clutch_foot(pulled).on_bone(bones.of[pulled.piece]))
     parts += held_meshes(bones.sticks.start, detail.segments)
     return _bone_by_bone(joined(parts), bones.still)
 
@@ -128,8 +129,7 @@ def _piece_mesh(piece: KitPiece, detail: Detail, shell: Material) -> Mesh:
     if piece.kind in ("cymbal", "hihat"):
         if piece.electronic:
             return pad_meshes.rubber_cymbal(radius, detail)
-        mesh = instrument_meshes.cymbal(radius, detail, is_china=piece.piece is Piece.CHINA)
-        return joined([mesh, instrument_meshes.nut(detail)]) if piece.kind == "hihat" else mesh
+        return instrument_meshes.cymbal(radius, detail, is_china=piece.piece is Piece.CHINA)
     if piece.electronic:
         return (pad_meshes.kick_pad if piece.kind == "kick" else pad_meshes.pad)(radius, depth, detail)
     if piece.kind == "kick":
@@ -150,7 +150,7 @@ def bone_matrices(rig: KitRig, pose: Pose | None) -> Matrix:
         part = rig.kit.pieces[piece]
         if swing[0] or swing[1]:
             m[bone] = _tipped(part, float(swing[0]), float(swing[1]))
-        if part.kind == "hihat" and not part.electronic:
+        if part is rig.kit.pulled_hat:
             m[bone] = translation(part.normal * pose.hat_gap_m) @ m[bone]
     m[list(rig.pedals)] = rig.pedal_rig.matrices(pose)
     m[rig.sticks] = held_matrices(pose, rig.kit)

@@ -39,9 +39,8 @@ def pedal_meshes(kit: Kit, bones: PedalBones) -> list[Mesh]:
         ]
     out = np.array([_POST_M, 0.0, 0.0])
     parts += _frame(low - out, high + out)
-    if Piece.HIHAT in kit.pieces:
-        parts += [_strap().on_bone(bones.hat_strap), _pull_rod(kit.pieces[Piece.HIHAT]).on_bone(bones.hat_rod)]
-        parts.append(_hat_frame(kit.pieces[Piece.HIHAT], hat))
+    if (pulled := kit.pulled_hat) is not None:
+        parts += [_strap().on_bone(bones.hat_strap), _pull_rod(pulled).on_bone(bones.hat_rod), _hat_frame(pulled, hat)]
     return parts
 
 

@@ -97,8 +97,8 @@ class PedalRig:
         if kit.slave is not None:
             ends.append((_BONES.slave_strap, _BONES.slave_board, slave_axle(kit, slave) + cam))
         lift = np.zeros(3)
-        if Piece.HIHAT in kit.pieces:
-            piece, raised = kit.pieces[Piece.HIHAT], kit.pedals[Piece.HIHAT_PEDAL].raised_rad
+        if (piece := kit.pulled_hat) is not None:
+            raised = kit.pedals[Piece.HIHAT_PEDAL].raised_rad
             ends.append((_BONES.hat_strap, hat_board, np.array([*piece.centre_m[:2], TUBE_M])))
             lift = piece.normal * (OPEN_GAP_M / raised if raised else 0.0)
         bones, hung, top = zip(*ends, strict=True)
