@@ -140,7 +140,7 @@ class Rig:
         hat = feet.hat + (1.0 - feet.hat) * released
         share = hat + side * (feet.slave - hat)
         board, slave = hat * raised[1], feet.slave * raised[2]
-        tip = heel * (0.6 + 0.4 * share) + feet.hat_heel
+        tip = (heel * (0.6 + 0.4 * share) + feet.hat_heel) * (1.0 - lift)  # in the air the heel hangs: low knees
         return board, footing.between(m, side, lift), board + side * (slave - board), tip
 
 
