@@ -85,7 +85,7 @@ def capsules(figure: Figure, hip: Array, knee: Array, ankle: Array) -> tuple[Arr
 def depth_in_drums(kit: Kit, points: Array, radii: Array) -> Array:
     """How deep balls of `radii` (k,) about `points` (n, k, 3) are in the deepest drum, (n,); negative outside."""
     drums = [piece for piece in kit.pieces.values() if piece.kind in ("drum", "kick")]
-    return np.max([_depth(drum, points, radii) for drum in drums], axis=0)
+    return np.asarray(np.max([_depth(drum, points, radii) for drum in drums], axis=0))
 
 
 def _depth(drum: KitPiece, points: Array, radii: Array) -> Array:

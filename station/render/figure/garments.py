@@ -107,7 +107,12 @@ class Garment:
     ) -> Skin:
         """A rounded edge where the plane through `at` across `way` cuts the garment."""
         rim = self.rim(at, way, max(10, round(30 / fineness)))
-        mesh = tube(rim, radius, self.material if material is None else material, max(5, round(8 / fineness)))
+        return self.piping(rim, radius, fineness, self.material if material is None else material)
+
+    def piping(self, rim: Array, radius: float, fineness: float, material: Material) -> Skin:
+        """A rounded edge along a closed line (k, 3) whose last point is its first."""
+        overlapped = np.concatenate([rim[-2:-1], rim, rim[1:2]])  # so that no seam gapes
+        mesh = tube(overlapped, radius, material, max(5, round(8 / fineness)))
         return skin_of(mesh, self.weights(mesh.position))
 
     def rim(self, at: ArrayLike, way: ArrayLike, count: int, most: float = 0.30) -> Array:

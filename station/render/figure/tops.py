@@ -208,8 +208,7 @@ def top_trimmings(m: Measures, word: str, garment: Garment, fineness: float) -> 
     if word != "hoodie":
         edge = _collar(m, style, garment, max(12, round(36 / fineness)))
         thick = (1.5 if word == "shirt" else 1.1) * style.hem_m * k
-        collar = tube(edge, thick, trimmed, max(5, round(8 / fineness)))
-        skins.append(skin_of(collar, garment.weights(collar.position)))
+        skins.append(garment.piping(edge, thick, fineness, trimmed))
     if style.sleeve > 0:
         skins += [garment.hem(*_sleeve_end(m, upper, style), style.hem_m * k, fineness, trimmed) for upper in _ARMS]
     if word == "tee":

@@ -19,7 +19,8 @@ from station.render.geometry.transforms import Matrix, translation
 from station.render.kit import hardware, instrument_meshes, pad_meshes
 from station.render.kit.held_meshes import HELD_BONES, held_matrices, held_meshes
 from station.render.kit.instrument_meshes import Detail
-from station.render.kit.pedal_meshes import PedalBones, clutch_foot, pedal_matrices, pedal_meshes
+from station.render.kit.pedal_meshes import clutch_foot, pedal_meshes
+from station.render.kit.pedal_rig import PedalBones, PedalRig
 from station.render.kit.room import Disc
 
 WORLD = 0
@@ -39,6 +40,7 @@ class KitRig:
     mesh: Mesh
     piece_bones: dict[Piece, int]
     pedals: PedalBones
+    pedal_rig: PedalRig
     sticks: range
     bone_count: int
     faces_of: dict[int, slice]
@@ -67,7 +69,9 @@ def rig_of(kit: Kit, mesh: Mesh) -> KitRig:
     """The rig of what `kit_mesh` has made of `kit`."""
     bones, faces_of = _bones(kit), _faces_of(mesh)
     still_faces = max(faces_of[bone].stop for bone in bones.still)
-    return KitRig(kit, mesh, bones.of, bones.pedals, bones.sticks, bones.sticks.stop, faces_of, still_faces)
+    return KitRig(
+        kit, mesh, bones.of, bones.pedals, PedalRig.of(kit), bones.sticks, bones.sticks.stop, faces_of, still_faces
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,7 +152,7 @@ def bone_matrices(rig: KitRig, pose: Pose | None) -> Matrix:
             m[bone] = _tipped(part, float(swing[0]), float(swing[1]))
         if part is rig.kit.pulled_hat:
             m[bone] = translation(part.normal * pose.hat_gap_m) @ m[bone]
-    m[list(rig.pedals)] = pedal_matrices(rig.kit, pose)
+    m[list(rig.pedals)] = rig.pedal_rig.matrices(pose)
     m[rig.sticks] = held_matrices(pose, rig.kit)
     return m
 

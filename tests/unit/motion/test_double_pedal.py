@@ -127,6 +127,39 @@ def test_too_short_a_way_between_the_pedals_is_named_by_its_bar() -> None:
     assert not assign_limbs(score_of((4, L), hats=(5,)), load_kit()).warnings
 
 
+def kicks_every(gap_s: float, count: int, *others: Note) -> Score:
+    """Kicks that say no foot, from 2 s on."""
+    ticks = [round((2 + k * gap_s) / BEAT_S * PPQ) for k in range(count)]
+    return Score.from_notes([*(Note(tick, Piece.KICK) for tick in ticks), *others], TempoMap.constant(120))
+
+
+def feet_of(score: Score, kit: Kit) -> str:
+    limbs = assign_limbs(score, kit).limbs[score.notes["piece"] == Piece.KICK]
+    return "".join("RL"[limb - R] for limb in limbs.tolist())
+
+
+def test_free_kicks_too_quick_for_one_foot_are_played_in_turn() -> None:
+    """A foot keeps up 5–6 strokes a second heel up (HUMANS); twelve a second are six of each."""
+    kit = load_kit()
+    assert feet_of(kicks_every(1 / 12, 8), kit) == "RLRLRLRL"
+    assert feet_of(kicks_every(1 / 12, 8), kit.mirrored) == "LRLRLRLR"
+    assert not assign_limbs(kicks_every(1 / 15, 16), kit).warnings
+    assert feet_of(kicks_every(1 / 12, 8), replace(kit, slave=None)) == "RRRRRRRR"
+
+
+def test_what_one_foot_can_play_it_plays() -> None:
+    kit = load_kit()
+    assert feet_of(kicks_every(1 / 4, 8), kit) == "RRRRRRRR"
+    assert feet_of(kicks_every(1 / 12, 3), kit) == "RRR"
+
+
+def test_a_foot_that_is_busy_with_the_hat_stays_there() -> None:
+    chick = Note(round(2.3 / BEAT_S * PPQ), Piece.HIHAT_PEDAL, Zone.PEDAL)
+    early = Note(round(1.0 / BEAT_S * PPQ), Piece.HIHAT_PEDAL, Zone.PEDAL)
+    assert feet_of(kicks_every(1 / 12, 8, chick), load_kit()) == "RRRRRRRR"
+    assert feet_of(kicks_every(1 / 12, 8, early), load_kit()) == "RLRLRLRL"
+
+
 def test_a_left_handed_kit_is_the_mirror() -> None:
     score, left = score_of(*sixteenths(4, 2)), load_kit("left_handed")
     one, other = Drummer(score).pose(4.6), Drummer(as_led(score, left), left).pose(4.6)
