@@ -37,7 +37,7 @@ class Cut:
 CUTS: Mapping[str, Cut] = {
     "tee": Cut(0.58, 1.0, (0.012, 0.082, 0.072), 0.0055, 1.0),
     "tank": Cut(0.0, 1.0, (0.010, 0.092, 0.082), 0.0045, 0.95),
-    "shirt": Cut(1.16, 0.96, (0.016, 0.072, 0.066), 0.0085, 1.0),
+    "shirt": Cut(1.30, 1.14, (0.016, 0.072, 0.066), 0.0085, 1.0),
     "hoodie": Cut(1.55, 1.04, (0.004, 0.066, 0.060), 0.0120, 1.06),
 }
 
@@ -56,7 +56,7 @@ def top(m: Measures, word: str) -> Garment:
     wide, deep = k * g.chest * loose, k * (0.4 + 0.6 * g.chest) * loose
     waist, hips = k * g.waist * loose, k * g.hips * loose
     solids: list[tuple[Bone, Solid]] = [
-        (Bone.WAIST, egg(pelvis + m.by(0, 0.002, 0.035), np.array([0.172 * hips, 0.130 * hips, 0.110 * k]))),
+        (Bone.WAIST, egg(pelvis + m.by(0, 0.002, 0.035), np.array([0.182 * hips, 0.134 * hips, 0.112 * k]))),
         (Bone.WAIST, egg(spine + m.by(0, 0.006, -0.045), np.array([0.163 * waist, 0.121 * waist, 0.165 * k]))),
         (Bone.CHEST, egg(chest + m.by(0, 0.002, 0.0), np.array([0.172 * wide, 0.120 * deep, 0.160 * k]))),
         (Bone.CHEST, cone(neck + m.by(0.02, -0.022, 0.012), neck + m.by(-0.02, -0.022, 0.012), 0.072 * k, 0.072 * k)),
@@ -145,7 +145,7 @@ def _collar(m: Measures, style: Cut, garment: Garment, count: int) -> Array:
 
 def _waist(m: Measures) -> End:
     """The lower hem: low behind, in front above the thighs of one who sits."""
-    return End(m.joints[Joint.PELVIS] + m.by(0, 0.0, 0.012), np.array([0.0, 0.40, -1.0]))
+    return End(m.joints[Joint.PELVIS] + m.by(0, 0.0, 0.032), np.array([0.0, 0.36, -1.0]))
 
 
 def _sleeve_end(m: Measures, upper: Bone, style: Cut) -> End:
