@@ -12,21 +12,32 @@ from functools import lru_cache
 
 import moderngl
 import numpy as np
+from numpy.typing import NDArray
 
 from station.core.pieces import Piece
-from station.motion.kinematics.figure import Figure
+from station.motion.kinematics.figure import PARENT, Figure, Joint
 from station.motion.kit.kit import Kit
 from station.render.camera import Camera
 from station.render.figure.skeleton import Skeleton
 from station.render.geometry.transforms import gl_bytes
 from station.render.gpu.bone_palette import BoneFrame, BonePalette
+from station.render.gpu.edge_smoothing import Tiles, tiles_of
 from station.render.gpu.scene_cache import cached_kit
 from station.render.gpu.scene_parts import SceneParts, write
-from station.render.kit.kit_rig import KitRig
+from station.render.kit.kit_rig import SWINGING, KitRig
 from station.render.quality import Quality
 
 _NEARER = (-1.0, -4.0)
 """Depth offset of what is drawn over the very same surface once more."""
+_CHILDREN, _PARENTS = np.array([(child, parent) for child, parent in PARENT.items() if parent is not None]).T
+_TRUNK = (Joint.PELVIS, Joint.SPINE, Joint.NECK, Joint.HEAD, Joint.CROWN)
+_BODY_REACH_M = np.array([0.20 if joint in _TRUNK else 0.12 for joint in (*Joint, *_CHILDREN.tolist())])
+"""How far flesh, clothes and hair reach from a joint or the middle of a bone (our choice: a tenth more than it is)."""
+_NEAR_M = 0.15
+"""What is nearer to the eye than this is taken to be so far away: it fills the picture all the same."""
+_ALONG = np.linspace(0, 1, 5)
+_STICK_REACH_M = np.full(2 * len(_ALONG), 0.06)
+"""Places along each stick, and how far a stick reaches from the nearest."""
 _DARK = 0.003
 """A glow below this is not seen: less than one of 255 steps on the screen."""
 
@@ -46,6 +57,8 @@ class Scene:
         self._parts = SceneParts(ctx, self.rig, figure, quality)
         self._parts.ghost.skin.program["first_bone"] = self._bones.double
         self._parts.ghost.rigid.program["first_bone"] = self._bones.double_sticks - self.rig.sticks[0]
+        swinging = [p for p in kit.pieces.values() if p.kind in SWINGING]
+        self._swinging = np.array([p.centre for p in swinging]).reshape(-1, 3), np.array([p.radius_m for p in swinging])
         self._frame = BoneFrame()
         self._lit: dict[
             BoneFrame, set[Piece]
@@ -102,7 +115,9 @@ class Scene:
         rigid, room = (parts.quick.rigid, parts.room) if is_rough else (parts.still_rigid, parts.still_room)
         parts.sharpen(is_rough)
         self._aim(camera, viewport, rigid, *room)
+        target.color_mask = True, True, True, False  # only what moves marks its pixels
         _render(rigid, slice(0, self.rig.still_faces))
+        target.color_mask = True, True, True, True
         for part in room:
             part.render()
         self._end()
@@ -125,6 +140,30 @@ class Scene:
         _render(rigid, slice(self.rig.still_faces, len(self.rig.mesh.faces)))
         self._lit[self._frame] = {piece for piece in self._glowing if self._faces(piece).start >= self.rig.still_faces}
         self._end()
+
+    def moving_tiles(self, camera: Camera, viewport: Viewport) -> Tiles:
+        """Where in `viewport` all that moves is seen."""
+        left, low, width, height = viewport
+        points, reach = self._moving_points()
+        clip = np.column_stack([points, np.ones(len(points))]) @ camera.matrix(width / height).T
+        deep = np.maximum(clip[:, 3:], _NEAR_M)
+        middle = (clip[:, :2] / deep + 1) / 2 * [width, height] + [left, low]
+        nearest = np.maximum(clip[:, 3] - reach, _NEAR_M)
+        return tiles_of(middle, reach * height / (2 * np.tan(camera.fov_rad / 2) * nearest), viewport)
+
+    def _moving_points(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Points (n, 3), and how far from the nearest of them (n,) all is that moves."""
+        points, reach = self._swinging
+        pose = self._frame.pose
+        if pose is None:
+            return points, reach
+        joints = pose.joints_m
+        sticks = pose.butt_m + _ALONG[:, None, None] * (pose.tip_m - pose.butt_m)
+        bones = (joints[_CHILDREN] + joints[_PARENTS]) / 2
+        return (
+            np.concatenate([points, joints, bones, sticks.reshape(-1, 3)]),
+            np.concatenate([reach, _BODY_REACH_M, _STICK_REACH_M]),
+        )
 
     def draw_glow(self, target: moderngl.Framebuffer, camera: Camera, viewport: Viewport) -> None:
         """Lay over what `draw_moving` has drawn what glows, and the double; what has begun to glow since then too."""

@@ -86,11 +86,11 @@ class _Bones:
 def _bones(kit: Kit) -> _Bones:
     of = {piece: 1 + i for i, piece in enumerate(kit.pieces)}
     first = 1 + len(of)
-    still = [WORLD, *(of[p.piece] for p in kit.pieces.values() if p.kind not in _SWINGING)]
+    still = [WORLD, *(of[p.piece] for p in kit.pieces.values() if p.kind not in SWINGING)]
     return _Bones(of, (first, first + 1), first + 2, (first + 3, first + 4), still)
 
 
-_SWINGING = ("cymbal", "hihat")
+SWINGING = ("cymbal", "hihat")
 
 
 def _bone_by_bone(mesh: Mesh, first: list[int]) -> Mesh:
