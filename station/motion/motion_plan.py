@@ -14,9 +14,15 @@ from station.motion.body import body_keys
 from station.motion.body.beats import Beats, bob_cofactors, restarts
 from station.motion.body.body_keys import Ground, mean_bearing
 from station.motion.body.gaze import GazeTargets, gaze_curve
+from station.motion.body.heels import heel_curves
 from station.motion.body.idle_motion import Blinks
+from station.motion.body.intensity import Intensity
 from station.motion.body.reach import reaching
 from station.motion.kinematics.figure import Figure
+from station.motion.kinematics.foot_path import FootPath, Visits
+from station.motion.kinematics.footings import footings
+from station.motion.kinematics.grip import Hold
+from station.motion.kinematics.leg import Footing
 from station.motion.kinematics.maths import MANY, Point, blocks
 from station.motion.kinematics.pedal_motion import hat_board, kick_board
 from station.motion.kinematics.posture import pelvis_of
@@ -25,7 +31,6 @@ from station.motion.kinematics.trunk import TrunkAngles, trunk
 from station.motion.kit.instruments import Instrument, instruments
 from station.motion.kit.kit import Kit
 from station.motion.sticking.limbs import Assignment, assign_limbs
-from station.motion.strokes.grip import GRIPS, HELD, Hold
 from station.motion.strokes.hand import HandPart
 from station.motion.strokes.hand_events import HandEvents, hand_events
 from station.motion.strokes.targets import strike_points
@@ -34,7 +39,9 @@ from station.music.score import Score
 
 Array = NDArray[np.float64]
 
-LIVELY = Style(amplitude_twist=75.0, amplitude_back=95.0, amplitude_side=45.0, shrug=50.0)
+QUIET = Style(phrase=0.0, fill_lean=0.0, variation=0.0)
+"""The style whose shoulders are in the middle of what all others make of them."""
+LIVELY = Style(amplitude_twist=75.0, amplitude_back=95.0, amplitude_side=45.0, shrug=50.0, phrase=60.0, fill_lean=100.0)
 """The style whose shoulders are farthest from the natural ones: hands are so pointed that both serve their wrists."""
 HANDS = (Limb.RIGHT_HAND, Limb.LEFT_HAND)
 
@@ -52,12 +59,16 @@ class MotionPlan:
     ground: Ground
     pelvis: Point
     hat: SplineChannels
+    visits: Visits
+    path: FootPath | None
+    footings: tuple[Footing, Footing]
     instruments: tuple[Instrument, ...]
 
     @classmethod
     def of(cls, score: Score, kit: Kit, figure: Figure, assignment: Assignment | None = None) -> "MotionPlan":
         """The plan of `score`; `assignment` is `assign_limbs`' own where none is given."""
         who = assignment or assign_limbs(score, kit)
+        visits = Visits.of(score, who.limbs, kit.feet[1])
         points = strike_points(score, kit, who.limbs)
         return cls(
             score=score,
@@ -69,16 +80,42 @@ class MotionPlan:
             ground=_ground(score, kit, who.limbs, points),
             pelvis=pelvis_of(kit, figure),
             hat=hat_board(score, score.onset_s),
+            visits=visits,
+            path=FootPath.of(visits),
+            footings=footings(kit, figure),
             instruments=tuple(instruments(score, kit, score.onset_s, points)),
         )
 
-    def kick(self, style: Style) -> SplineChannels:
-        """The kick's board over time."""
-        score = self.score
+    @property
+    def raised_rad(self) -> tuple[float, float, float]:
+        """How far the boards of kick, hi-hat and slave are raised at rest."""
+        kick, hat = self.kit.pedals[Piece.KICK], self.kit.pedals[Piece.HIHAT_PEDAL]
+        return kick.raised_rad, hat.raised_rad, 0.0 if self.kit.slave is None else self.kit.slave.raised_rad
+
+    @cached_property
+    def _kicks(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """The rows of the kick's foot's strokes and of the slave's, in order of time."""
+        score, limbs = self.score, self.assignment.limbs
         kicks = np.flatnonzero(score.notes["piece"] == Piece.KICK)
         kicks = kicks[np.argsort(score.onset_ns[kicks], kind="stable")]
-        velocity = score.notes["velocity"][kicks].astype(np.float64)
-        return kick_board(score.onset_s[kicks], velocity, style.beater == "buried")
+        second = limbs[kicks] == self.kit.feet[1]
+        return kicks[~second], kicks[second]
+
+    def kicks(self, style: Style) -> tuple[SplineChannels, SplineChannels]:
+        """The boards of the kick and of its slave over time."""
+        first, second = (
+            kick_board(
+                self.score.onset_s[rows], self.score.notes["velocity"][rows].astype(float), style.beater == "buried"
+            )
+            for rows in self._kicks
+        )
+        return first, second
+
+    def heels(self, style: Style) -> SplineChannels:
+        """How the soles of the kick's and the hi-hat's foot tip in time."""
+        moving = np.zeros(0) if self.path is None else self.path.busy_s
+        busy = self.score.onset_s[self._kicks[0]], np.union1d(self.visits.time_s, moving)
+        return heel_curves(self.ground, style, busy)
 
     def hands(self, style: Style) -> tuple[HandPart, HandPart]:
         """Both hands' parts with what `style` makes them hold."""
@@ -90,7 +127,7 @@ class MotionPlan:
         if not (len(right.events.row) or len(left.events.row)):
             return right, left
         grid = looks(right.events.time_s, left.events.time_s)
-        roots = self._roots(grid, reaching(self.ground, Style(), (right, left), self.figure, self.pelvis))
+        roots = self._roots(grid, reaching(self.ground, QUIET, (right, left), self.figure, self.pelvis))
         right, left = (
             past_the_shoulder(hand.waiting_before(grid, root), self.figure, self.kit, grid, root)
             for hand, root in zip((right, left), roots, strict=True)
@@ -108,8 +145,8 @@ class MotionPlan:
         """Where the right and the left shoulder are at each time (n,) in a body that moves by `curves`, (3, n) each."""
         right, left = np.empty((3, len(time_s))), np.empty((3, len(time_s)))
         for block in blocks(len(time_s)):
-            twist, lean, side, shrug, *_ = curves.many(time_s[block])
-            frame = trunk(MANY, self.figure, self.pelvis, TrunkAngles(twist, lean, side, 0.0, 0.0, 0.0, shrug))
+            twist, lean, side, shrug, hunch, *_ = curves.many(time_s[block])
+            frame = trunk(MANY, self.figure, self.pelvis, TrunkAngles(twist, lean, side, 0.0, 0.0, 0.0, shrug, hunch))
             right[:, block], left[:, block] = frame.right_shoulder, frame.left_shoulder
         return right, left
 
@@ -117,7 +154,7 @@ class MotionPlan:
         """Where the drummer looks."""
         sights, ticks = self._sights
         bars = bar_places(self.score, ticks) if style.automation else np.ones(1)
-        return gaze_curve(sights, style.value("look_around", bars) / 100, style.seed)
+        return gaze_curve(sights, style.value("look_around", bars) / 100, style.seed, style.attention)
 
     @cached_property
     def note_bars(self) -> Array:
@@ -149,7 +186,7 @@ class MotionPlan:
 
 def holds(style: Style) -> tuple[Hold, Hold]:
     """What the right and the left hand hold, and how."""
-    return Hold(GRIPS[style.grip_right], HELD[style.held]), Hold(GRIPS[style.grip_left], HELD[style.held])
+    return Hold.of(style.grip_right, style.held), Hold.of(style.grip_left, style.held)
 
 
 def _ground(score: Score, kit: Kit, limbs: NDArray[np.int8], points: Array) -> Ground:
@@ -173,6 +210,7 @@ def _ground(score: Score, kit: Kit, limbs: NDArray[np.int8], points: Array) -> G
         bearing=mean_bearing(times, onset[hands], bearing),
         bob=bob,
         restart=restarts(beats.time_s, onset),
+        intensity=Intensity.of(times, onset, velocity, notes["piece"]),
     )
 
 

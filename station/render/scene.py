@@ -8,36 +8,31 @@ moves is drawn once for each camera with the figure's resting shadow (`draw_stil
 with its depth, and each frame adds what moves, lit corner by corner (`draw_moving`), and what glows (`draw_glow`).
 """
 
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Piece
-from station.motion.kinematics.figure import PARENT, Figure, Joint
+from station.motion.kinematics.figure import Figure
 from station.motion.kit.kit import Kit
 from station.render.camera import Camera
 from station.render.figure.skeleton import Skeleton
 from station.render.geometry.transforms import gl_bytes
 from station.render.gpu.bone_palette import BoneFrame, BonePalette
-from station.render.gpu.edge_smoothing import Tiles, tiles_of
+from station.render.gpu.edge_smoothing import Tiles, balls_of, tiles_of
 from station.render.gpu.scene_cache import cached_kit
 from station.render.gpu.scene_parts import SceneParts, write
-from station.render.kit.kit_rig import SWINGING, KitRig
+from station.render.kit.kit_rig import KitRig
 from station.render.quality import Quality
 
 _NEARER = (-1.0, -4.0)
 """Depth offset of what is drawn over the very same surface once more."""
-_CHILDREN, _PARENTS = np.array([(child, parent) for child, parent in PARENT.items() if parent is not None]).T
-_TRUNK = (Joint.PELVIS, Joint.SPINE, Joint.NECK, Joint.HEAD, Joint.CROWN)
-_BODY_REACH_M = np.array([0.20 if joint in _TRUNK else 0.12 for joint in (*Joint, *_CHILDREN.tolist())])
-"""How far flesh, clothes and hair reach from a joint or the middle of a bone (our choice: a tenth more than it is)."""
 _NEAR_M = 0.15
 """What is nearer to the eye than this is taken to be so far away: it fills the picture all the same."""
-_ALONG = np.linspace(0, 1, 5)
-_STICK_REACH_M = np.full(2 * len(_ALONG), 0.06)
-"""Places along each stick, and how far a stick reaches from the nearest."""
+_ALONG = 9
+"""Places on each edge of what moves: 10 cm apart on the longest."""
 _DARK = 0.003
 """A glow below this is not seen: less than one of 255 steps on the screen."""
 
@@ -56,9 +51,7 @@ class Scene:
         self._bones = BonePalette(ctx, self.rig, self.skeleton)
         self._parts = SceneParts(ctx, self.rig, figure, quality)
         self._parts.ghost.skin.program["first_bone"] = self._bones.double
-        self._parts.ghost.rigid.program["first_bone"] = self._bones.double_sticks - self.rig.sticks[0]
-        swinging = [p for p in kit.pieces.values() if p.kind in SWINGING]
-        self._swinging = np.array([p.centre for p in swinging]).reshape(-1, 3), np.array([p.radius_m for p in swinging])
+        self._parts.ghost.rigid.program["first_bone"] = self._bones.double_sticks - self.rig.sticks.start
         self._frame = BoneFrame()
         self._lit: dict[
             BoneFrame, set[Piece]
@@ -124,7 +117,7 @@ class Scene:
 
     def _draw_resting_shadows(self) -> None:
         self._begin_shadows()
-        _render(self._parts.rigid_depth, slice(0, self.rig.faces_of[self.rig.sticks[0]].start))
+        _render(self._parts.rigid_depth, slice(0, self.rig.faces_of[self.rig.sticks.start].start))
         if self.shows_figure:
             self._parts.resting_depth.render()
         self._resting_shadow = self.shows_figure
@@ -152,18 +145,22 @@ class Scene:
         return tiles_of(middle, reach * height / (2 * np.tan(camera.fov_rad / 2) * nearest), viewport)
 
     def _moving_points(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Points (n, 3), and how far from the nearest of them (n,) all is that moves."""
-        points, reach = self._swinging
-        pose = self._frame.pose
-        if pose is None:
-            return points, reach
-        joints = pose.joints_m
-        sticks = pose.butt_m + _ALONG[:, None, None] * (pose.tip_m - pose.butt_m)
-        bones = (joints[_CHILDREN] + joints[_PARENTS]) / 2
-        return (
-            np.concatenate([points, joints, bones, sticks.reshape(-1, 3)]),
-            np.concatenate([reach, _BODY_REACH_M, _STICK_REACH_M]),
-        )
+        """Points (n, 3), and how far (n,) from the nearest all lies that moves."""
+        bone, middle, reach = self._moving
+        bones = slice(0, None if self.shows_figure else np.searchsorted(bone, self._bones.figure))
+        matrices = self._bones.matrices[bone[bones]]
+        return np.einsum("nij,nj->ni", matrices[:, :3], middle[bones]), reach[bones] * matrices[:, 3, 3]
+
+    @cached_property
+    def _moving(self) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
+        """Balls round all that moves: their bones in rising order, their middles (n, 4) in rest, their radii."""
+        mesh, skin = self.rig.mesh, self._parts.skin
+        edges = mesh.faces[self.rig.still_faces :][:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+        one, other = (mesh.position[edges[:, k]] for k in (0, 1))
+        along = one + np.linspace(0, 1, _ALONG)[:, None, None] * (other - one)  # a rod has corners at its ends alone
+        bone = np.tile(mesh.bone[edges[:, 0]].astype(int), _ALONG)
+        own = self._bones.figure + skin.bones[:, 0].astype(int)
+        return balls_of(np.concatenate([bone, own]), np.concatenate([along.reshape(-1, 3), skin.position]))
 
     def draw_glow(self, target: moderngl.Framebuffer, camera: Camera, viewport: Viewport) -> None:
         """Lay over what `draw_moving` has drawn what glows, and the double; what has begun to glow since then too."""
@@ -207,13 +204,13 @@ class Scene:
         if self._frame.double is None:
             return
         skin, rigid = self._parts.ghost.skin, self._parts.ghost.rigid
-        right, left = (self.rig.faces_of[bone] for bone in self.rig.sticks)
+        first, last = (self.rig.faces_of[bone] for bone in (self.rig.sticks[0], self.rig.sticks[-1]))
         self._aim(camera, viewport, skin, rigid)
         self._over_the_same()
         for seen in (False, True):
             target.color_mask = seen, seen, seen, seen
             skin.render()
-            _render(rigid, slice(right.start, left.stop))
+            _render(rigid, slice(first.start, last.stop))
 
     # --- OpenGL's state -----------------------------------------------------------------------------------------------
 

@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from station.motion.kinematics.maths import Maths, Number, Point
+from station.motion.kinematics.maths import ONE, Maths, Number, Point
 
 BACK_SINE, BACK_COSINE = math.sin(math.radians(25)), math.cos(math.radians(25))
 """Elbows hang down and a little back: with the wrist in front the arm's plane is vertical, as DESIGN has it, and with
@@ -31,8 +31,8 @@ class Contact(NamedTuple):
     along the hand from there to the wrist. `stick_yaw` and `hand_yaw`: by how much those two are turned in plan, to
     the left positive, from the direction towards the shoulder. `ahead_m` from the fulcrum to the part of the stick
     that touches. `wing`: how far the elbow is swung to the drummer's right about the line from shoulder to wrist.
-    `turns`: 1 where the wrist's part of a stroke bends the hand, 0 where the forearm's roll swings the stick alone (a
-    traditional left hand), between them where both do (thumb up).
+    `turns`: 1 where the wrist's part of a stroke bends the hand, 0 where the forearm's roll turns hand and stick (a
+    traditional left hand). `roll` of the hand's back beyond its grip's.
     """
 
     x: Number
@@ -45,6 +45,7 @@ class Contact(NamedTuple):
     ahead_m: Number
     wing: Number
     turns: Number = 1.0
+    roll: Number = 0.0
 
 
 class Offsets(NamedTuple):
@@ -85,7 +86,8 @@ class ArmLengths:
     """Upper arm, forearm, hand to the fulcrum, fulcrum to the tip and to the butt, in metres.
 
     `rolls_hand` is 1 for a right and −1 for a left hand. `roll_sine` and `roll_cosine` of the hand's roll from palm
-    down, to the drummer's right.
+    down, to the drummer's right. The hand's bones are turned from the line between wrist and fulcrum by `off_thumb`
+    and `off_back` radians, to the thumb and to the back: the fulcrum lies beside them, under the palm.
     `most_bend` is the elbow's limit: a hand that travels close past the shoulder keeps farther off instead.
     """
 
@@ -97,6 +99,8 @@ class ArmLengths:
     roll_sine: float = 0.0
     roll_cosine: float = 1.0
     rolls_hand: float = 1.0
+    off_thumb: float = 0.0
+    off_back: float = 0.0
     most_bend: float = math.pi
 
     def nearest_m(self, m: Maths, bend: Number) -> Number:
@@ -134,7 +138,7 @@ def chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a 
     """
     sin, cos, sqrt, atan2, acos, most = m.sin, m.cos, m.sqrt, m.atan2, m.acos, m.most
     sx, sy, sz = shoulder
-    cx, cy, cz, stick_rise, hand_rise, stick_yaw, hand_yaw, touching, wing, turns = contact
+    cx, cy, cz, stick_rise, hand_rise, stick_yaw, hand_yaw, touching, wing, turns, roll = contact
     raised_shoulder, raised_elbow, raised_wrist, raised_stick = offsets
     hand_rise = hand_rise + more[1]
     upper, fore, h = lengths.upper, lengths.fore, lengths.hand
@@ -184,31 +188,45 @@ def chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a 
     jz = sz + a_k * kz + a_e * ez + a_n * (kx * ey - ky * ex)
     # hand and stick, by their slopes up towards the player
     hand = hand_rise - lifted - turns * raised_wrist
-    stick = stick_rise - lifted - raised_wrist - raised_stick
+    stick = stick_rise - turns * (lifted + raised_wrist) - raised_stick
     cos_h, sin_h, cos_s, sin_s = cos(hand), sin(hand), cos(stick), sin(stick)
     a = h * cos_h
     hx, hy, hz = wx - a * vx, wy - a * vy, wz - h * sin_h
-    tx, ty = cos_s * ux, cos_s * uy
+    tx, ty, tz = cos_s * ux, cos_s * uy, sin_s
     ahead, behind = lengths.ahead, lengths.behind
     # the wrist's angles: the forearm seen from the hand's own axes, and the hand's rolled back
     bx, by, bz = wx - jx, wy - jy, wz - jz
     b = bx * vx + by * vy
     across, upward, rolled = lengths.roll_sine, lengths.roll_cosine, (1 - turns) * raised_wrist
-    c, s = cos(rolled), lengths.rolls_hand * sin(rolled)
+    side, to_thumb, to_back = lengths.rolls_hand, lengths.off_thumb, lengths.off_back
+    if m is not ONE or turns != 1.0:  # the stick goes with the hand, pitched by the arm and turned by the forearm
+        c, s = cos((1 - turns) * lifted), sin((1 - turns) * lifted)
+        along = vx * tx + vy * ty
+        pitched = (c - 1) * along + s * tz
+        tx, ty, tz = tx + pitched * vx, ty + pitched * vy, c * tz - s * along
+        c, s = cos(rolled), -side * sin(rolled)
+        lx, ly = cos_h * vx, cos_h * vy
+        dot = (1 - c) * (lx * tx + ly * ty + sin_h * tz)
+        tx, ty, tz = (
+            c * tx + s * (ly * tz - sin_h * ty) + dot * lx,
+            c * ty + s * (sin_h * tx - lx * tz) + dot * ly,
+            c * tz + s * (lx * ty - ly * tx) + dot * sin_h,
+        )
+    c, s = cos(rolled + roll), side * sin(rolled + roll)
     across, upward = across * c + upward * s, upward * c - across * s
     tilted = sin_h * upward
     return (
         (sx, sy, sz, jx, jy, jz, wx, wy, wz, hx, hy, hz),
-        (hx + behind * tx, hy + behind * ty, hz + behind * sin_s),
-        (hx - ahead * tx, hy - ahead * ty, hz - ahead * sin_s),
+        (hx + behind * tx, hy + behind * ty, hz + behind * tz),
+        (hx - ahead * tx, hy - ahead * ty, hz - ahead * tz),
         (-tilted * vx - across * vy, across * vx - tilted * vy, cos_h * upward),
         (
             atan2(gx, -gy),
             atan2(-(cos_u * kx + sin_u * ex) * gx - (cos_u * ky + sin_u * ey) * gy, -(cos_u * kz + sin_u * ez)),
             inside + forearm + raised_elbow,
-            atan2(sin_h * b - cos_h * bz, -(cos_h * b + sin_h * bz)),
-            atan2(by * vx - bx * vy, sqrt(b * b + bz * bz)),
-            hand - stick - rolled,
+            atan2(sin_h * b - cos_h * bz, -(cos_h * b + sin_h * bz)) + to_thumb * side * across + to_back * upward,
+            atan2(by * vx - bx * vy, sqrt(b * b + bz * bz)) + to_thumb * side * upward - to_back * across,
+            hand - stick + (1 - turns) * lifted,
         ),
         missing,
     )

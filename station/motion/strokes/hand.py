@@ -12,11 +12,11 @@ from station.core.labels import limb_name
 from station.core.pieces import Limb, Piece, Zone, word
 from station.motion.kinematics.arm import Contact, Offsets, solve
 from station.motion.kinematics.figure import Figure
+from station.motion.kinematics.grip import Hold
 from station.motion.kinematics.maths import MANY, blocks
 from station.motion.kit.kit import Kit
 from station.motion.strokes.amplitudes import amplitudes, rebounds
 from station.motion.strokes.contact_pose import PROTRACTION_M, ContactPose, lie_of
-from station.motion.strokes.grip import Hold
 from station.motion.strokes.hand_events import SHOW, WAIT, HandEvents
 from station.motion.strokes.stroke import NATURALLY, StrokePlan, Strokes
 from station.motion.strokes.targets import Strike
@@ -28,14 +28,18 @@ Array = NDArray[np.float64]
 _SPARE_RAD = radians(5)
 """What is left of a wrist's limits sideways in the natural style, for others to use (our choice)."""
 _EASINGS = 4
-_LEAST_HUMP, _MOST_TURN_RAD = 0.3, radians(60)
-"""Moments at which so little of a detour is left are not helped by turning the hand; nor is it turned more than this
-(our choice)."""
+_LEAST_HUMP = 0.3
+"""Moments at which so little of a detour is left are not helped by turning the hand (our choice)."""
+SLACK_RAD = radians(10)
+"""So far the stick may turn in the palm to either side: its butt still leaves under the heel (our choice)."""
+_ELBOW_FOR_WRIST, _MOST_ELBOW_RAD, _WINGS_RAD = 1.0, radians(15), (radians(-10), radians(80))
+"""An elbow that goes out by so much of it takes a bend to the thumb's side from the wrist, step by step."""
 _VIGOROUS = 2.0
 """Styles may make strokes so much higher, and on its ways the wrist must bear them (our choice)."""
 _MOST_AHEAD_M = 0.12
 """A hand waits so much farther forward at most: it stays over the snare (our choice)."""
-_Y, _HAND_YAW, _TURNS = Contact._fields.index("y"), Contact._fields.index("hand_yaw"), Contact._fields.index("turns")
+_Y, _TURNS = Contact._fields.index("y"), Contact._fields.index("turns")
+_HAND_YAW, _WING = Contact._fields.index("hand_yaw"), Contact._fields.index("wing")
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,7 +109,7 @@ class HandPart:
         return HandPath.of(self.events.time_s, self.contacts, self.bump, self.early, self.gives)
 
     def eased(self, figure: Figure, time_s: Array, roots: tuple[Array, Array]) -> "HandPart":
-        """The same with the hand so pointed at each contact that its wrist stays within its limits sideways.
+        """The same, hand turned on its stick and elbow so far out that the wrist stays within its limits sideways.
 
         `roots` are where the shoulder is at `time_s` (k,) as the body naturally is, and as a lively one has it, which
         counts while the hand stays; (3, k) each.
@@ -114,6 +118,7 @@ class HandPart:
         most, least = limits.wrist_radial - _SPARE_RAD, _SPARE_RAD - limits.wrist_ulnar
         strokes = Strokes.of(self.strokes, NATURALLY)
         part, side = self, 1.0 if self.limb == Limb.RIGHT_HAND else -1.0
+        out = np.zeros(len(self.contacts))
         for _ in range(_EASINGS):
             contacts = part.contacts.copy()
             bent, lively = (part._sideways(figure, time_s, root, strokes) for root in roots)
@@ -129,7 +134,11 @@ class HandPart:
             least_turn, most_turn = high - most, low - least
             middle = 0.5 * (least_turn + most_turn)
             turn = np.clip(turn, np.minimum(least_turn, middle), np.maximum(most_turn, middle))
-            contacts[:, _HAND_YAW] -= side * turn
+            in_hand = np.clip(out + turn, -SLACK_RAD, SLACK_RAD) - out
+            out += in_hand
+            contacts[:, _HAND_YAW] -= side * in_hand
+            elbow = np.clip(_ELBOW_FOR_WRIST * (turn - in_hand), -_MOST_ELBOW_RAD, _MOST_ELBOW_RAD)
+            contacts[:, _WING] = side * np.clip(side * contacts[:, _WING] + elbow, *_WINGS_RAD)
             part = replace(part, contacts=contacts)
         if not len(self.bump):
             return part
@@ -153,7 +162,7 @@ class HandPart:
     def _turned_on_ways(
         self, side: float, time_s: Array, bends: tuple[Array, ...], bounds: tuple[float, float]
     ) -> "HandPart":
-        """The same with the hand turned on its ways as far as its wrist's `bends` at `time_s` are beyond `bounds`."""
+        """The same with the hand turned on its stick on its ways as far as its wrist's `bends` at `time_s` are beyond `bounds`."""
         k, hump = self.way.humps(time_s)
         helped = hump > _LEAST_HUMP
         turn = np.zeros((2, len(self.bump)))
@@ -162,7 +171,7 @@ class HandPart:
             np.maximum.at(turn[0], k[helped], over)
             np.minimum.at(turn[1], k[helped], over)
         bump = self.bump.copy()
-        bump[:, 3] -= side * np.clip(turn.sum(0), -_MOST_TURN_RAD, _MOST_TURN_RAD)
+        bump[:, 3] -= side * np.clip(turn.sum(0), -SLACK_RAD, SLACK_RAD)
         return replace(self, bump=bump)
 
     def waiting_before(self, time_s: Array, root: Array) -> "HandPart":

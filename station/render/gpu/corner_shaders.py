@@ -3,7 +3,7 @@
 Without a graphics card a pixel is dear and a corner cheap. No shadow falls on what they draw.
 """
 
-from station.render.figure.skeleton import Bone
+from station.render.figure.bones import Bone
 from station.render.gpu.edge_smoothing import MOVING
 from station.render.gpu.light_shader import LIGHT, RIGID_IN, SKIN_IN
 

@@ -47,6 +47,33 @@ void main() {{
 """
 
 
+_PARTS = 4
+"""Into so many balls the corners of a bone are put, one after the other along it (our choice: a forearm is long)."""
+
+
+def balls_of(
+    bone: NDArray[np.int64], corners: NDArray[np.float64]
+) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
+    """Balls that hold all `corners` (n, 3): their bones in rising order, their middles (m, 4) and radii (m,)."""
+    bones, middles, radii = [], [], []
+    for one in np.unique(bone):
+        own = corners[bone == one]
+        longest = int(np.argmax(np.ptp(own, axis=0)))
+        cuts = np.linspace(own[:, longest].min(), own[:, longest].max() + 1e-9, _PARTS + 1)
+        place = np.searchsorted(cuts, own[:, longest], "right")
+        for part in np.unique(place):
+            some = own[place == part]
+            middle = (some.min(axis=0) + some.max(axis=0)) / 2
+            bones.append(one)
+            middles.append([*middle, 1.0])
+            radii.append(np.linalg.norm(some - middle, axis=1).max() + _SPAN_M)
+    return np.array(bones), np.array(middles), np.array(radii)
+
+
+_SPAN_M = 0.03
+"""What lies between corners of two parts may be so far from both, and bends away from its bone (our choice)."""
+
+
 def tiles_of(middle: NDArray[np.float64], reach: NDArray[np.float64], area: tuple[int, int, int, int]) -> Tiles:
     """The tiles that squares touch: of `middle` (n, 2) and half their sides (n,), all in pixels; within `area`."""
     left, low, width, height = area

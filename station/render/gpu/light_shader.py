@@ -10,13 +10,17 @@ squared to make them light, and two fifths of a smooth step give it contrast. A 
 
 from station.render.geometry.materials import Material
 
-MAX_BONES = 128
-"""Matrices in the palette; 128 of 4 × vec4 fit the 16 KiB that every OpenGL 3.3 grants a block."""
+MAX_BONES = 250
+"""Matrices in the palette: with the ripples the 16 KiB that every OpenGL 3.3 grants a block."""
+
+RIPPLING_BONES = 24
+"""The first bones alone may be drums: one more than there are pieces in a kit, rounded up."""
 
 _BONES = f"""
 layout(std140) uniform Bones {{
     mat3x4 bone_matrix[{MAX_BONES}];         // the upper three rows, so that a row vector goes before it
-    vec4 bone_glow[{MAX_BONES}];
+    vec4 bone_glow[{MAX_BONES}];             // and since when a head ripples, seconds
+    vec4 bone_ripple[{RIPPLING_BONES}];             // where a head was struck, and how deep
 }};
 uniform int first_bone;                     // where the bones of what is drawn begin
 """
@@ -25,13 +29,37 @@ RIGID_IN = (
     _BONES
     + """
 in vec3 position;
-in vec4 normal;
+in vec4 normal;                             // and how freely the corner moves when its head is struck, 0-1
 in vec4 tangent;
 in int bone;
 in int material;
 in float ao;
 """
 )
+
+RIPPLE = (
+    """
+// how far a struck head's corner is moved along its normal, and how that changes across the head
+vec4 ripple() {
+    vec4 struck = bone_ripple[bone];
+    float since = bone_glow[bone].w;
+    vec3 away = position - struck.xyz;
+    float r = length(away), u = (r - RING_M_S * since) / RING_M;
+    float bell = exp(-u * u);
+    float depth = struck.w * normal.w * since / (since + RISE_S);
+    float slope = depth * bell * u * (6.0 - 4.0 * u * u) / RING_M;
+    return vec4(away / max(r, 1e-4) * slope * SHADED, -depth * bell * (1.0 - 2.0 * u * u));
+}
+""".replace("RING_M_S", "1.6")
+    .replace("RING_M", "0.032")
+    .replace("RISE_S", "0.008")
+    .replace("SHADED", "5.0")
+)
+"""One ring that runs outward from the struck point; nothing at the instant of the stroke, when the tip is on the head.
+
+The real wave crosses a head in two milliseconds: ours is so slow and broad that pictures show it, and shaded as if it
+were five times steeper, for heads are white (our choice, by eye).
+"""
 
 SKIN_IN = (
     _BONES

@@ -3,7 +3,7 @@
 How light falls is `light_shader`'s affair, how shadows do `shadow_shader`'s.
 """
 
-from station.render.gpu.light_shader import LIGHT, RIGID_IN, SKIN_IN
+from station.render.gpu.light_shader import LIGHT, RIGID_IN, RIPPLE, SKIN_IN
 from station.render.gpu.shadow_shader import NOISE, SHADOW
 
 _OUT = """
@@ -28,11 +28,18 @@ void place(vec3 world, vec3 normal) {
 RIGID_VERTEX = (
     "#version 330 core\n"
     + RIGID_IN
+    + RIPPLE
     + _OUT
     + """
 void main() {
     mat3x4 m = bone_matrix[bone + first_bone];
-    place(vec4(position, 1.0) * m, vec4(normal.xyz, 0.0) * m);
+    vec3 at = position, up = normal.xyz;
+    if (normal.w > 0.0) {
+        vec4 moved = ripple();
+        at += moved.w * up;
+        up -= moved.xyz;
+    }
+    place(vec4(at, 1.0) * m, vec4(up, 0.0) * m);
     v_tangent = vec4(tangent.xyz, 0.0) * m;
     v_glow = bone_glow[bone + first_bone].rgb;
     v_ao = ao;

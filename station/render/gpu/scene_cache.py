@@ -27,7 +27,8 @@ from station.core.errors import DeviceError
 from station.core.files import write_whole
 from station.motion.kinematics.figure import Figure
 from station.motion.kit.kit import Kit
-from station.render.figure.body import Skin, build_body
+from station.render.figure.body import build_body
+from station.render.figure.skin import Skin
 from station.render.geometry.light import Light
 from station.render.geometry.mesh import Mesh
 from station.render.kit.floor_paint import boards_picture, rug_picture

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from station.core.pieces import Limb
 from station.motion.kinematics.figure import Figure
 from station.motion.kit.kit import Kit
-from station.render.figure.body import Skin
-from station.render.figure.skeleton import LIMB_BONES, Bone
+from station.render.figure.bones import LIMB_BONES, Bone
+from station.render.figure.skin import Skin
 from station.render.geometry.light import Light
 from station.render.geometry.materials import shader_table
 from station.render.geometry.mesh import Mesh
@@ -37,8 +37,8 @@ _STILL_LEVEL = 1
 _BOARDS, _RUG = 0, 1
 _PLACES = {"wall_map": 2, "light_map": 3, "shadow_map": 4}
 """Where the shaders find the pictures; boards and rug come first."""
-_LIMBS = frozenset(bone for bones in LIMB_BONES.values() for bone in bones)
-_BUT_ARMS = frozenset(Bone) - {*LIMB_BONES[Limb.RIGHT_HAND], *LIMB_BONES[Limb.LEFT_HAND]}
+_LIMBS: frozenset[int] = frozenset(bone for bones in LIMB_BONES.values() for bone in bones)
+_BUT_ARMS: frozenset[int] = frozenset(Bone) - {*LIMB_BONES[Limb.RIGHT_HAND], *LIMB_BONES[Limb.LEFT_HAND]}
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,8 +60,10 @@ class SceneParts:
     def __init__(self, ctx: moderngl.Context, rig: KitRig, figure: Figure, quality: Quality) -> None:
         self._ctx = ctx
         self._quality = quality
+        self._colours = figure.look.colours
         self._textures(rig.kit)
-        self._upload(rig.mesh, cached_body(figure, quality.figure_cell))
+        self.skin = cached_body(figure, quality.figure_cell)
+        self._upload(rig.mesh, self.skin)
         fragment = pixel_shaders.solid_fragment(quality.level)
         self.solid = self._pair(pixel_shaders.RIGID_VERTEX, pixel_shaders.SKIN_VERTEX, fragment)
         self.quick = self._pair(corner_shaders.RIGID_QUICK, corner_shaders.SKIN_QUICK, corner_shaders.QUICK_FRAGMENT)
@@ -153,7 +155,7 @@ class SceneParts:
         return program
 
     def _constants(self, program: moderngl.Program) -> None:
-        first, second = shader_table()
+        first, second = shader_table(self._colours)
         values: dict[str, object] = {
             "look_a": first,
             "look_b": second,
@@ -177,7 +179,7 @@ class SceneParts:
                 program[name] = place
 
 
-def _some(ctx: moderngl.Context, skin: Skin, bones: Collection[Bone]) -> moderngl.Buffer:
+def _some(ctx: moderngl.Context, skin: Skin, bones: Collection[int]) -> moderngl.Buffer:
     """The faces that hang on some bones above all."""
     strongest: NDArray[np.uint8] = skin.bones[:, 0]
     return ctx.buffer(skin.faces[np.isin(strongest[skin.faces[:, 0]], list(bones))].tobytes())
