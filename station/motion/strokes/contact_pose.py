@@ -85,7 +85,7 @@ def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike) -> ContactPose:
     slopes = _slopes(lengths, target, hold, strike, hold.length_m(figure))
     if strike.articulation == Articulation.CROSS_STICK:
         azimuth = laid_azimuth(kit, kit.pieces[kit.stand_in(strike.piece)], strike.limb)
-        slopes = replace(slopes, azimuth=azimuth)
+        slopes = replace(slopes, azimuth=azimuth, free=0.0)
     faced = np.array([0.0, 1.0, 0.0]) if strike.articulation in (WAIT, SHOW) else target.point_m  # for anything
     for lean in LEANS_RAD.tolist():
         root = natural_shoulder(kit, figure, strike.limb, faced, lean)
@@ -97,7 +97,9 @@ def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike) -> ContactPose:
         if not _caught(kit, lengths, root, touch):
             break
         grip = replace(hold.grip, yaw=share * hold.grip.yaw)
-        touch, _ = _easiest(lengths, root, target, slopes, grip, (side, figure.limits))
+        touch, _ = _easiest(
+            lengths, root, target, replace(slopes, free=_LED * slopes.free), grip, (side, figure.limits)
+        )
         arm = solve(ONE, lengths, root, touch, Offsets(0.0, 0.0, 0.0, 0.0))
     limits = figure.limits
     return ContactPose(
@@ -124,6 +126,8 @@ def _caught(kit: Kit, lengths: ArmLengths, root: Point, touch: Contact) -> bool:
 
 
 _STRAIGHTER = (0.7, 0.4, 0.1, -0.2, -0.5)
+_LED = 0.15
+"""Shares of its grip's own yaw that a stick is turned to, clear of a neighbour, and how free it is then (our choice)."""
 _TOUCHING_M = 0.002
 _RAISED = Offsets(0.0, 0.05, 0.35, 0.15)
 """A middling stroke at its top."""
@@ -144,8 +148,7 @@ def _easiest(
     """
     side, limits = arm_of
     wing, turn = (g.ravel() for g in np.meshgrid(side * _WINGS, _TURNS, indexing="ij"))
-    if slopes.azimuth is not None:
-        turn = np.zeros_like(turn)
+    turn = slopes.free * turn
     way = side * grip.yaw if slopes.azimuth is None else _turn(root, target, slopes.azimuth)
     rises = {t: _over_the_piece(target, root, way + t, slopes) for t in set(turn.tolist())}
     rise = np.array([rises[t] for t in turn.tolist()])
@@ -197,7 +200,7 @@ class _Slopes:
     """How the stick wants to lie.
 
     What touches and how much stick is beyond it, its slope, the hand's roll where it is not its grip's, its way in plan
-    where that is fixed, and whether its shaft lies on the rim.
+    where that is fixed, whether its shaft lies on the rim, and how `free` it is to turn, 0 … 1.
     """
 
     ahead_m: float
@@ -206,6 +209,7 @@ class _Slopes:
     hand_roll: float | None = None
     azimuth: float | None = None
     on_rim: bool = False
+    free: float = 1.0
 
 
 def _slopes(lengths: ArmLengths, target: Target, hold: Hold, strike: Strike, length_m: float) -> _Slopes:
