@@ -64,8 +64,10 @@ def test_no_cymbal_lies_under_the_title_over_the_shoulder(kit: str, figure: str,
 
 @pytest.mark.parametrize(("kit", "figure", "stand"), CASES)
 def test_from_the_eyes_one_sees_every_piece_that_hands_strike(kit: str, figure: str, stand: float) -> None:
+    """But for a second floor tom beside the drummer, for which one turns the head."""
     stage = Stage(load_kit(kit), load_figure(figure), stand)
-    struck = np.array([piece.centre for word, piece in stage.kit.pieces.items() if word is not Piece.KICK])
+    before = {word: piece for word, piece in stage.kit.pieces.items() if word not in (Piece.KICK, Piece.FLOOR_TOM_2)}
+    struck = np.array([piece.centre for piece in before.values()])
     assert np.abs(places(struck, stage, NamedView.EYES, 2.54)).max() < 0.95
 
 
