@@ -39,7 +39,7 @@ FILL_RAD, CRASH_RAD = np.radians((3.5, 3.0))
 """How far the back goes into a fill, and falls onto a crash, at the natural setting (our choice)."""
 BANG_LEAN_RAD, SHIMMY_RAD = np.radians((9.0, 7.0))
 """What the back has of head-banging, and how far the shoulders turn to and fro with the beat, at most (our choice)."""
-RISE = 0.6
+RISE = 0.5
 """How much of standing up the highest rise to a crash is (our choice)."""
 DRIFT, DRIFT_S = 0.25, 0.012
 """How much chance makes the sway wider and narrower, and shifts it in time (our choice: under a visible 25 ms)."""

@@ -34,8 +34,8 @@ PLAYED = 128
 STAND_M = (0.10, 0.30)
 """How far forward and up the pelvis goes to stand (our choice)."""
 HAND_STANDING_RAD = math.radians(30)
-"""Who stands plays from above: the wrists are higher over the sticks, and bend back no farther than they can. By half
-the way up they are there (our choice)."""
+"""Who stands plays from above: the wrists are higher over the sticks, and bend back no farther than they can; from half
+the way up on, for who is half up for a crash plays upward (our choice)."""
 
 
 BodyNow = tuple[Number, ...]
@@ -92,7 +92,7 @@ class Rig:
         most = self.neck_rad
         turn = m.most(m.least(FOLLOWS * bearing - twist, most), -most)
         nod, tilt = bob + LOOK_DOWN * pitch, tilt - TILT_OF_TURN * turn
-        hand = HAND_STANDING_RAD * m.least(2 * stand, 1.0)
+        hand = HAND_STANDING_RAD * m.most(2 * stand - 1, 0.0)
         spine, right_shoulder, left_shoulder, face = trunk_chain(
             m, figure, (x, y, z), (twist, lean, side, nod, turn, tilt, shrug, hunch, chin)
         )
