@@ -78,8 +78,9 @@ def _camera(view: NamedView, stage: Stage) -> Camera:
         return _fitted(wide, _pieces(stage.kit, wide.is_whole), _body(stage))
     if view is NamedView.EYES:
         eye = _crown(stage) + np.array(_EYES_M)
-        eye[2] = max(eye[2], _ABOVE_M + max(piece.centre[2] for piece in stage.kit.pieces.values()))
-        return _from_the_eyes(eye, _pieces(stage.kit, is_whole=False))
+        seen = {word: piece for word, piece in stage.kit.pieces.items() if _is_ahead(piece.centre - eye)}
+        eye[2] = max(eye[2], _ABOVE_M + max(piece.centre[2] for piece in seen.values()))
+        return _from_the_eyes(eye, _pieces(replace(stage.kit, pieces=seen), is_whole=False))
     close = _CLOSE[view]
     middle = _feet(stage.kit) if view is NamedView.FEET else _hands(stage)
     x, y, z = (middle + np.array(close.target)).tolist()
@@ -198,6 +199,16 @@ _EYES_LOW, _EYES_HIGH = -1.1, 0.74
 """Between which shares of the picture the rims lie: those next to the player may be cropped, none under the title."""
 _ABOVE_M = 0.12
 """So high at least over the middle of the highest piece the camera is, that a small player's sees it (our choice)."""
+
+
+_GAZE = np.array([0.0, np.cos(50 * _DEG), -np.sin(50 * _DEG)])
+_ASIDE_RAD = 60 * _DEG
+"""Where a player looks who sees the snare and the toms, and how far beside that eyes see without a turn of the head."""
+
+
+def _is_ahead(way: Points) -> bool:
+    """Whether one sees what lies that way from the eyes: not a drum at the hip nor a cymbal at the ear."""
+    return bool(way @ _GAZE > np.cos(_ASIDE_RAD) * np.linalg.norm(way))
 
 
 def _from_the_eyes(eye: Points, pieces: Points) -> Camera:

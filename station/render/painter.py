@@ -14,6 +14,7 @@ from station.render import hud
 from station.render.camera import Camera, NamedView
 from station.render.framing import named, stage_of
 from station.render.gpu.cached_layer import CachedLayer
+from station.render.gpu.edge_smoothing import EdgeSmoother
 from station.render.gpu.gl import RenderTarget, give_back
 from station.render.gpu.moving_parts import DoublePlace, frames_of
 from station.render.gpu.shape_renderer import ShapeRenderer, Transform
@@ -75,6 +76,7 @@ class Painter:
         self._score = ScoreView(self.printer, self.atlas)
         self._scene: Scene | None = None
         self._still, self._worded, self._inset_still = CachedLayer(ctx), CachedLayer(ctx), CachedLayer(ctx)
+        self._smoother, self._inset_smoother = EdgeSmoother(ctx), EdgeSmoother(ctx)
         self._inset: RenderTarget | None = None
         self._lines = _Kept(lambda words, size: hud.hud_lines(words, self.atlas, size))
         self._calls = _Kept(lambda words, size: hud.hud_calls(words, self.atlas, size))
@@ -152,7 +154,7 @@ class Painter:
             shown = scene.shows_figure, len(frames)
             key = (scene, camera, area, with_score, is_staff, shown, self.theme, arrangement.is_rough)
             self._worded.under(target, (key, corners), lay_words)
-            each(scene.draw_moving, target)
+            each(partial(_draw_moving, scene, self._smoother), target)
         else:
             lay(target, scene.draw)
 
@@ -225,7 +227,7 @@ class Painter:
         whole, into = (0, 0, *size), self._inset.framebuffer
         key = (scene, camera, scene.shows_figure)
         self._inset_still.under(into, key, lambda still: scene.draw_still(still, camera, whole), _STILL_SAMPLES)
-        scene.draw_moving(into, camera, whole)
+        _draw_moving(scene, self._inset_smoother, into, camera, whole)
         scene.draw_glow(into, camera, whole)
         return self._inset.resolved()
 
@@ -254,6 +256,12 @@ class _Kept:
         if (words, size) != self._last[0]:
             self._last = (words, size), self._made(words, (float(size[0]), float(size[1])))
         return self._last[1]
+
+
+def _draw_moving(scene: Scene, smoother: EdgeSmoother, into: moderngl.Framebuffer, camera: Camera, place: Area) -> None:
+    """Draw what moves over what stands still, its edges smooth."""
+    scene.draw_moving(into, camera, place)
+    smoother.smooth(into, scene.moving_tiles(camera, place), place)
 
 
 def _same(one: tuple[Kit, Figure], other: tuple[Kit, Figure]) -> bool:

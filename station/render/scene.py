@@ -8,10 +8,11 @@ moves is drawn once for each camera with the figure's resting shadow (`draw_stil
 with its depth, and each frame adds what moves, lit corner by corner (`draw_moving`), and what glows (`draw_glow`).
 """
 
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import moderngl
 import numpy as np
+from numpy.typing import NDArray
 
 from station.core.pieces import Piece
 from station.motion.kinematics.figure import Figure
@@ -20,6 +21,7 @@ from station.render.camera import Camera
 from station.render.figure.skeleton import Skeleton
 from station.render.geometry.transforms import gl_bytes
 from station.render.gpu.bone_palette import BoneFrame, BonePalette
+from station.render.gpu.edge_smoothing import Tiles, balls_of, tiles_of
 from station.render.gpu.scene_cache import cached_kit
 from station.render.gpu.scene_parts import SceneParts, write
 from station.render.kit.kit_rig import KitRig
@@ -27,6 +29,10 @@ from station.render.quality import Quality
 
 _NEARER = (-1.0, -4.0)
 """Depth offset of what is drawn over the very same surface once more."""
+_NEAR_M = 0.15
+"""What is nearer to the eye than this is taken to be so far away: it fills the picture all the same."""
+_ALONG = 9
+"""Places on each edge of what moves: 10 cm apart on the longest."""
 _DARK = 0.003
 """A glow below this is not seen: less than one of 255 steps on the screen."""
 
@@ -102,7 +108,9 @@ class Scene:
         rigid, room = (parts.quick.rigid, parts.room) if is_rough else (parts.still_rigid, parts.still_room)
         parts.sharpen(is_rough)
         self._aim(camera, viewport, rigid, *room)
+        target.color_mask = True, True, True, False  # only what moves marks its pixels
         _render(rigid, slice(0, self.rig.still_faces))
+        target.color_mask = True, True, True, True
         for part in room:
             part.render()
         self._end()
@@ -125,6 +133,34 @@ class Scene:
         _render(rigid, slice(self.rig.still_faces, len(self.rig.mesh.faces)))
         self._lit[self._frame] = {piece for piece in self._glowing if self._faces(piece).start >= self.rig.still_faces}
         self._end()
+
+    def moving_tiles(self, camera: Camera, viewport: Viewport) -> Tiles:
+        """Where in `viewport` all that moves is seen."""
+        left, low, width, height = viewport
+        points, reach = self._moving_points()
+        clip = np.column_stack([points, np.ones(len(points))]) @ camera.matrix(width / height).T
+        deep = np.maximum(clip[:, 3:], _NEAR_M)
+        middle = (clip[:, :2] / deep + 1) / 2 * [width, height] + [left, low]
+        nearest = np.maximum(clip[:, 3] - reach, _NEAR_M)
+        return tiles_of(middle, reach * height / (2 * np.tan(camera.fov_rad / 2) * nearest), viewport)
+
+    def _moving_points(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Points (n, 3), and how far (n,) from the nearest all lies that moves."""
+        bone, middle, reach = self._moving
+        bones = slice(0, None if self.shows_figure else np.searchsorted(bone, self._bones.figure))
+        matrices = self._bones.matrices[bone[bones]]
+        return np.einsum("nij,nj->ni", matrices[:, :3], middle[bones]), reach[bones] * matrices[:, 3, 3]
+
+    @cached_property
+    def _moving(self) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
+        """Balls round all that moves: their bones in rising order, their middles (n, 4) in rest, their radii."""
+        mesh, skin = self.rig.mesh, self._parts.skin
+        edges = mesh.faces[self.rig.still_faces :][:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+        one, other = (mesh.position[edges[:, k]] for k in (0, 1))
+        along = one + np.linspace(0, 1, _ALONG)[:, None, None] * (other - one)  # a rod has corners at its ends alone
+        bone = np.tile(mesh.bone[edges[:, 0]].astype(int), _ALONG)
+        own = self._bones.figure + skin.bones[:, 0].astype(int)
+        return balls_of(np.concatenate([bone, own]), np.concatenate([along.reshape(-1, 3), skin.position]))
 
     def draw_glow(self, target: moderngl.Framebuffer, camera: Camera, viewport: Viewport) -> None:
         """Lay over what `draw_moving` has drawn what glows, and the double; what has begun to glow since then too."""

@@ -12,7 +12,7 @@ from dataclasses import astuple, dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Articulation, Limb
+from station.core.pieces import Articulation, Limb, Piece
 from station.motion.kinematics.arm import Arm, ArmLengths, Contact, Offsets, solve
 from station.motion.kinematics.collisions import depth_in_kit
 from station.motion.kinematics.figure import Figure
@@ -33,9 +33,9 @@ _EXTENSION_EASE, _DEVIATION_EASE = np.radians(25.0), np.radians(12.0)
 _NATURAL_WING, _WING_EASE = np.radians(12.0), np.radians(40.0)
 _TURN_EASE = np.radians(18.0)
 _SPARE, _BEYOND_EASE = np.radians(8.0), np.radians(1.0)
-"""What is called comfortable: how far the wrist bends, the elbow leaves its place and the stick is turned from
-the grip's own way before each costs as much as the others; near its limits no wrist is comfortable, for strokes and styles need room (our
-choice, within the limits of HUMANS)."""
+"""What is called comfortable: how far the wrist bends, the elbow leaves its place and the stick is turned from its
+grip's own way before each costs as much as the others; near its limits no wrist is comfortable, for strokes and styles
+need room (our choice, within the limits of HUMANS)."""
 
 SHOULDER_OF_STICK = 0.25
 """From the tip back to the part that meets a cymbal's edge or a rim, as a share of the stick (our choice)."""
@@ -43,6 +43,10 @@ _LAID_AHEAD = 0.55
 _LAID_RISE, _LAID_IN_THE_WEB = math.radians(2.0), math.radians(12.0)
 """A cross-stick strikes the rim so far ahead of the fulcrum as a share of its length; a matched hand lies flat
 on it, palm down; the back of a traditional one lies on the head (our choice)."""
+
+_RIDES = (Piece.RIDE, Piece.RIDE_2)
+THUMB_UP_TURNS = 0.75
+"""On a ride the thumb comes up: a quarter of the wrist's part of a stroke is the forearm's roll (our choice)."""
 
 LEANS_RAD = np.radians([6.0, 12.0, 18.0, 24.0, 30.0])
 """How far the trunk may lean for a distant target, the least that serves (our choice)."""
@@ -73,6 +77,8 @@ def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike) -> ContactPose:
     if strike.articulation == WAIT and not hold.held.rest_m:  # a brush waits on the head
         strike = replace(strike, articulation=Articulation.NORMAL)
     target = target_of(kit, strike)
+    if kit.stand_in(strike.piece) in _RIDES and hold.held.name == "stick":
+        hold = replace(hold, grip=replace(hold.grip, turns_hand=min(hold.grip.turns_hand, THUMB_UP_TURNS)))
     right = strike.limb == Limb.RIGHT_HAND
     side = 1.0 if right else -1.0
     lengths = hold.lengths(figure, right)
@@ -146,8 +152,11 @@ def _easiest(
     lies = {r: grip.lie(r, slopes.hand_roll) for r in rises.values()}
     palm, crossing, roll = (np.array(part) for part in zip(*(astuple(lies[r]) for r in rise.tolist()), strict=True))
     stick_yaw = way + turn
+    x, y, z = target.point_m.tolist()
     tries = Contact(
-        *target.point_m.tolist(),
+        x,
+        y,
+        z,
         stick_rise=rise,
         hand_rise=rise + palm,
         stick_yaw=stick_yaw,
@@ -187,7 +196,8 @@ def _beyond(arm: Arm, side: float, limits: Limits) -> Array:
 class _Slopes:
     """How the stick wants to lie.
 
-    What touches and how much stick is beyond it, its slope, the hand's roll where it is not its grip's, its way in plan where that is fixed, and whether its shaft lies on the rim.
+    What touches and how much stick is beyond it, its slope, the hand's roll where it is not its grip's, its way in plan
+    where that is fixed, and whether its shaft lies on the rim.
     """
 
     ahead_m: float

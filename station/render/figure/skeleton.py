@@ -120,7 +120,6 @@ def _lines(grip: Grip) -> Vector:
     return np.stack([turn, _MIRROR @ turn @ _MIRROR])
 
 
-@lru_cache(maxsize=16)
 def _moves(grip: Grip, scale: float) -> Matrix:
     """How the digits of both hands move in them from where the skin was made, (2, STEPS, 15, 4, 4), open to closed."""
     right = finger_frames(grip) @ np.linalg.inv(REST)
@@ -140,6 +139,7 @@ class Skeleton:
         self._back = np.linalg.inv(self.frames)
         self.hand_scale = figure.hand_m / HAND_M
         self._face_scale = figure.head_m / HEAD_M
+        self._moves: dict[str, Matrix] = {}
 
     def matrices(self, pose: Pose) -> Matrix:
         """One matrix a bone, (BONES, 4, 4)."""
@@ -149,10 +149,17 @@ class Skeleton:
         face = face_matrices(Expression.of(pose))
         face[:, :3, 3] *= self._face_scale
         out[len(BODY_BONES) : len(Bone)] = now[Bone.HEAD] @ face @ self._back[Bone.HEAD]
-        for hand, hold, closed in zip(_HANDS, pose.holds, pose.fingers.tolist(), strict=True):
+        for side, (hold, closed) in enumerate(zip(pose.holds, pose.fingers.tolist(), strict=True)):
             step, share = divmod(closed * (STEPS - 1), 1.0)
-            moves = _moves(hold.grip, self.hand_scale)[_HANDS.index(hand)]
+            moves = self._digits(hold.grip)[side]
             low, high = moves[int(step)], moves[min(int(step) + 1, STEPS - 1)]
-            first = FINGERS[hand]
-            out[first : first + len(low)] = now[hand] @ (low + share * (high - low)) @ self._back[hand]
+            first = FINGERS[_HANDS[side]]
+            out[first : first + len(low)] = now[_HANDS[side]] @ (low + share * (high - low))
         return out
+
+    def _digits(self, grip: Grip) -> Matrix:
+        """From where the skin was made to the digits in both hands' axes, (2, STEPS, 15, 4, 4), open to closed."""
+        if grip.name not in self._moves:
+            back = self._back[_HANDS][:, None, None]
+            self._moves[grip.name] = _moves(grip, self.hand_scale) @ back
+        return self._moves[grip.name]

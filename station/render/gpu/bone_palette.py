@@ -73,6 +73,11 @@ class BonePalette:
         self._set_ripples(frame.pose)
         self._now.write(self._bytes())
 
+    @property
+    def matrices(self) -> Matrix:
+        """Where every bone is, (n, 4, 4)."""
+        return self._matrices
+
     def _set_ripples(self, pose: Pose | None) -> None:
         self._ripple[:] = 0.0
         for (piece, bone), (depth_m, right, away, since_s) in zip(

@@ -4,6 +4,7 @@ Without a graphics card a pixel is dear and a corner cheap. No shadow falls on w
 """
 
 from station.render.figure.bones import Bone
+from station.render.gpu.edge_smoothing import MOVING
 from station.render.gpu.light_shader import LIGHT, RIGID_IN, SKIN_IN
 
 _HEAD = "#version 330 core\n#define QUALITY 0\n"
@@ -17,9 +18,10 @@ out vec4 v_seen;                            // premultiplied
 
 _LIT = (
     _OUT
+    + f"const float MOVING_MARK = {MOVING};"
     + """
 void place(vec3 world, vec3 normal, vec3 tangent, vec3 glow) {
-    v_seen = vec4(light(world, normalize(normal), tangent, ao, material, 1.0, glow), 1.0);
+    v_seen = vec4(light(world, normalize(normal), tangent, ao, material, 1.0, glow), MOVING_MARK);
     gl_Position = view_projection * vec4(world, 1.0);
 }
 """

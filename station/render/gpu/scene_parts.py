@@ -62,7 +62,8 @@ class SceneParts:
         self._quality = quality
         self._colours = figure.look.colours
         self._textures(rig.kit)
-        self._upload(rig.mesh, cached_body(figure, quality.figure_cell))
+        self.skin = cached_body(figure, quality.figure_cell)
+        self._upload(rig.mesh, self.skin)
         fragment = pixel_shaders.solid_fragment(quality.level)
         self.solid = self._pair(pixel_shaders.RIGID_VERTEX, pixel_shaders.SKIN_VERTEX, fragment)
         self.quick = self._pair(corner_shaders.RIGID_QUICK, corner_shaders.SKIN_QUICK, corner_shaders.QUICK_FRAGMENT)
