@@ -42,7 +42,10 @@ VIEW_NAMES = {
 
 @dataclass(frozen=True, slots=True)
 class Camera:
-    """Looks at `target` from `distance_m` away: `azimuth_rad` about z from +x, `height_rad` above the horizon."""
+    """Looks at `target` from `distance_m` away: `azimuth_rad` about z from +x, `height_rad` above the horizon.
+
+    What is nearer than `near_m` is not drawn.
+    """
 
     target: tuple[float, float, float]
     azimuth_rad: float
@@ -50,6 +53,7 @@ class Camera:
     distance_m: float
     fov_rad: float = 0.70
     mirrored: bool = False
+    near_m: float = _NEAR_M
 
     @property
     def eye(self) -> tuple[float, float, float]:
@@ -65,7 +69,7 @@ class Camera:
     def matrix(self, aspect: float) -> Matrix:
         """World to clip for a picture `aspect` times as wide as high; narrow pictures widen their angle."""
         fov = self.fov_rad if aspect >= NARROW else 2 * np.arctan(np.tan(self.fov_rad / 2) * NARROW / aspect)
-        clip = perspective(float(fov), aspect, _NEAR_M, _FAR_M)
+        clip = perspective(float(fov), aspect, self.near_m, _FAR_M)
         if self.mirrored:
             clip[0] = -clip[0]
         return clip @ look_at(self.eye, self.target)

@@ -75,7 +75,11 @@ def _usual_stage() -> Stage:
 def _camera(view: NamedView, stage: Stage) -> Camera:
     if view in _WIDE:
         wide = _WIDE[view]
-        return _fitted(wide, _pieces(stage.kit, wide.is_whole), _body(stage))
+        points = _pieces(stage.kit, wide.is_whole), _body(stage)
+        if view is not NamedView.FRONT:
+            return _fitted(wide, *points)
+        cameras = [_fitted(replace(wide, azimuth_rad=azimuth), *points) for azimuth in _FRONT_AZIMUTHS]
+        return max(cameras, key=lambda camera: min(_clearance(camera, stage), _FREE))
     if view is NamedView.EYES:
         eye = _crown(stage) + np.array(_EYES_M)
         seen = {word: piece for word, piece in stage.kit.pieces.items() if _is_ahead(piece.centre - eye)}
@@ -162,11 +166,30 @@ class _Wide:
 
 
 _WIDE = {
-    NamedView.FRONT: _Wide(70 * _DEG, 13 * _DEG, 0.66, 0.76, 0.93, is_whole=True),
+    NamedView.FRONT: _Wide(70 * _DEG, 16 * _DEG, 0.66, 0.76, 0.93, is_whole=True),
     NamedView.SHOULDER: _Wide(-56 * _DEG, 38 * _DEG, 0.78, 0.68, 0.93),
     NamedView.TOP: _Wide(-90 * _DEG, 88 * _DEG, 0.80, 0.90, 0.96),
 }
 """Titles are in the corners of the upper sixth: pieces stay below, a head may stand between them."""
+
+
+_FRONT_AZIMUTHS = [angle * _DEG for angle in (70, 60, 80, 52, 90, 100)]
+"""From where the front is seen: the first from which no piece is before the face, else where least of one is."""
+_FREE = 1.5
+"""A face is free so many radii from a piece's middle: the piece swings, the head moves (our choice)."""
+
+
+def _clearance(camera: Camera, stage: Stage) -> float:
+    """How many radii from a piece's middle the line from the eye to the player's face passes, of the nearest piece."""
+    eye, least = np.array(camera.eye), np.inf
+    for low_m in _FACE_LOW_M:
+        way = _crown(stage) + np.array([0.0, _FACE_FORWARD_M, -low_m]) - eye
+        for piece in stage.kit.pieces.values():
+            across = way @ piece.axes[2]
+            share = (piece.centre - eye) @ piece.axes[2] / across if across else 0.0
+            if 0 < share < 1:
+                least = min(least, float(np.linalg.norm(eye + share * way - piece.centre) / piece.radius_m))
+    return least
 
 
 def _fitted(view: _Wide, pieces: Points, body: Points) -> Camera:
@@ -192,6 +215,8 @@ def _fitted(view: _Wide, pieces: Points, body: Points) -> Camera:
 
 _EYES_M = (0.0, 0.17, -0.15)
 """The eyes from the crown, and a little before them, so that no hair and no brow is in the way (our choice)."""
+_OWN_HEAD_M = 0.14
+"""What is nearer is the player's own head, which leans into the picture."""
 _PITCHES = np.linspace(-70, -25, 31) * _DEG
 _LEAST_RAD, _WIDEST_RAD = 0.9, 1.6
 """Angles of view between which a picture looks as eyes see (our choice)."""
@@ -211,6 +236,10 @@ def _is_ahead(way: Points) -> bool:
     return bool(way @ _GAZE > np.cos(_ASIDE_RAD) * np.linalg.norm(way))
 
 
+_FACE_FORWARD_M, _FACE_LOW_M = 0.10, (0.12, 0.22, 0.32)
+"""Where a face may be, before and below the crown with its hair: upright, and bent over the drums."""
+
+
 def _from_the_eyes(eye: Points, pieces: Points) -> Camera:
     """What the player sees of the pieces, looking so far down that the least angle shows them."""
     needed = []
@@ -224,7 +253,7 @@ def _from_the_eyes(eye: Points, pieces: Points) -> Camera:
     distance = float(np.linalg.norm(pieces.mean(axis=0) - eye))
     target = eye + distance * np.array([0.0, np.cos(_PITCHES[best]), np.sin(_PITCHES[best])])
     fov = float(np.clip(2 * np.arctan(needed[best]), _LEAST_RAD, _WIDEST_RAD))
-    return Camera((*target.tolist(),), -90 * _DEG, float(-_PITCHES[best]), distance, fov)
+    return Camera((*target.tolist(),), -90 * _DEG, float(-_PITCHES[best]), distance, fov, near_m=_OWN_HEAD_M)
 
 
 # --- close views ------------------------------------------------------------------------------------------------------

@@ -77,3 +77,16 @@ def test_the_eyes_are_before_the_face_and_no_farther_than_a_hand(kit: str, figur
     for pose in poses(stage):
         head = pose.joints_m[[Joint.HEAD, Joint.CROWN]].mean(axis=0)
         assert 0.09 < np.linalg.norm(eye - head) < 0.30
+
+
+@pytest.mark.parametrize(("kit", "figure", "stand"), CASES)
+def test_the_front_view_shows_the_face(kit: str, figure: str, stand: float) -> None:
+    """No cymbal's middle is seen within a face's half height, 11 cm, of the face."""
+    stage = Stage(load_kit(kit), load_figure(figure), stand)
+    pose = poses(stage)[0]
+    face = pose.joints_m[[Joint.HEAD, Joint.CROWN]].mean(axis=0)
+    cymbals = [piece.centre for piece in stage.kit.pieces.values() if piece.kind == "cymbal"]
+    eye = np.array(named(NamedView.FRONT, stage).eye)
+    way = (face - eye) / np.linalg.norm(face - eye)
+    beside = np.array(cymbals) - eye
+    assert np.linalg.norm(beside - np.outer(beside @ way, way), axis=1).min() > 0.11
