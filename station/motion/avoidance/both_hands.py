@@ -95,7 +95,7 @@ class BothHands:
 
     def lengths(self, side: int) -> ArmLengths:
         """Of one arm with what it holds."""
-        return self.hands[side].hold.lengths(self.stage.figure, right=side == 0)
+        return self.hands[side].hold.lengths(self.stage.figure, right=side == 0).unlimited
 
     def tangled(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """The pairs (p, 2) of stretches on which the hands come too near, and of each moment which, −1 none."""

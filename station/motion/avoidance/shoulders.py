@@ -7,7 +7,7 @@ and the stick out of the kit.
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from math import pi, radians
+from math import radians
 
 import numpy as np
 from numpy.typing import NDArray
@@ -82,7 +82,7 @@ class _Scene:
 
     @classmethod
     def of(cls, part: HandPart, figure: Figure, kit: Kit, time_s: Array, root: Array) -> "_Scene":
-        lengths = replace(part.hold.lengths(figure, part.limb == Limb.RIGHT_HAND), most_bend=pi)
+        lengths = part.hold.lengths(figure, part.limb == Limb.RIGHT_HAND).unlimited
         raised = np.array(Strokes.of(part.strokes, NATURALLY).many(time_s))
         near = lengths.nearest_m(MANY, figure.limits.elbow_flexion - SPARE_RAD - raised[1])
         return cls(kit, lengths, time_s, raised, root, np.asarray(near))

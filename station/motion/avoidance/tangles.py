@@ -5,8 +5,8 @@ and under, of either hand, if need be with lower strokes; the one that stays far
 best. Where neither hand travels, the upper stick is held steeper. Metres, radians, seconds.
 """
 
-from dataclasses import dataclass, replace
-from math import pi, radians
+from dataclasses import dataclass
+from math import radians
 
 import numpy as np
 from numpy.typing import NDArray
@@ -162,7 +162,7 @@ def cheapest(scene: BothHands, moves: Moves) -> tuple[int, float, float]:
     x, y, z = (c + made * w[:, None] for c, w in zip(contact[:3], ways.T, strict=True))
     every = Contact(x, y, z, *(np.broadcast_to(c, x.shape) for c in contact[3:]))
     strokes = moves.share * np.array(scene.strokes[side].many(times))
-    lengths, (rx, ry, rz) = replace(scene.lengths(side), most_bend=pi), scene.stage.roots[side][:, moves.on]
+    lengths, (rx, ry, rz) = scene.lengths(side), scene.stage.roots[side][:, moves.on]
     arms = [solve(MANY, lengths, (rx, ry, rz), every, Offsets(*(low * strokes))) for low in (1.0, LOW)]
     own, flat = ([np.broadcast_to(p, (*x.shape, 3)) for p in limbs(arm)] for arm in arms)
     apart = [

@@ -11,7 +11,7 @@ so that a traditional left hand, whose stick crosses the palm, is solved by the 
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from station.motion.kinematics.maths import Maths, Number, Point
@@ -19,6 +19,18 @@ from station.motion.kinematics.maths import Maths, Number, Point
 BACK_SINE, BACK_COSINE = math.sin(math.radians(25)), math.cos(math.radians(25))
 """Elbows hang down and a little back: with the wrist in front the arm's plane is vertical, as DESIGN has it, and with
 the wrist under the shoulder the elbow is behind (our choice)."""
+FARTHER_BACK, _UNDER2 = 2.0, 0.1**2
+"""Where the wrist comes behind the shoulder the elbow is so much farther back, softly from a tenth of the way before it:
+else the plane would have no direction where the wrist is just where elbows hang to (our choice)."""
+BEHIND_M = 0.30
+"""Yaws count from the direction to a point so far behind the shoulder: stick and hand turn with the shoulder, and what
+passes under the shoulder has a direction too (our choice: no tip comes so far behind)."""
+EASE_RAD, _SPARE_RAD = math.radians(1), math.radians(2)
+"""So far before and behind its limit a joint gives in, so that its speed has no jump; a hand that turns about the fulcrum
+does so a little sooner, for that takes the tip nowhere (our choice)."""
+_GIVES, _MOST_GIVE = 0.85, math.radians(40)
+"""A hand turns so much for each degree that its wrist is too far bent, for the forearm turns against it (over the snare
+a degree of the hand is 1.2 of the wrist); but no farther, for then it no longer holds the stick (our choice)."""
 SOFT_FROM, SOFT_OVER = 0.93, 0.10
 """From this share of the arm's length on the shoulder comes along, softly over the next tenth: an arm is never quite
 straight, for there the elbow's angle has no slope (our choice)."""
@@ -29,9 +41,9 @@ class Contact(NamedTuple):
 
     Point `x`, `y`, `z`. `stick_rise` and `hand_rise`: the slopes up along the stick from the point to the fulcrum and
     along the hand from there to the wrist. `stick_yaw` and `hand_yaw`: by how much those two are turned in plan, to
-    the left positive, from the direction towards the shoulder. `ahead_m` from the fulcrum to the part of the stick
-    that touches. `wing`: how far the elbow is swung to the drummer's right about the line from shoulder to wrist.
-    `turns`: 1 where the wrist's part of a stroke bends the hand, 0 where the forearm's roll swings the stick alone (a
+    the left positive, from the direction towards `BEHIND_M` behind the shoulder. `ahead_m` from the fulcrum to the part
+    of the stick that touches. `wing`: how far the elbow is swung to the drummer's right about the line from shoulder to
+    wrist. `turns`: 1 where the wrist's part of a stroke bends the hand, 0 where the forearm's roll swings the stick alone (a
     traditional left hand), between them where both do (thumb up).
     """
 
@@ -86,7 +98,9 @@ class ArmLengths:
 
     `rolls_hand` is 1 for a right and −1 for a left hand. `roll_sine` and `roll_cosine` of the hand's roll from palm
     down, to the drummer's right.
-    `most_bend` is the elbow's limit: a hand that travels close past the shoulder keeps farther off instead.
+    `most_bend` is the elbow's limit: a hand that travels close past the shoulder keeps farther off instead. `wrist` are
+    the limits of extension and of deviation to the left, least and most each: beyond them the hand is turned about the
+    fulcrum, and the stick stays where it is.
     """
 
     upper: float
@@ -98,6 +112,12 @@ class ArmLengths:
     roll_cosine: float = 1.0
     rolls_hand: float = 1.0
     most_bend: float = math.pi
+    wrist: tuple[float, float, float, float] = (-math.pi, math.pi, -math.pi, math.pi)
+
+    @property
+    def unlimited(self) -> "ArmLengths":
+        """The same with joints that bend as far as they are asked to, as whoever looks for a better way needs it."""
+        return replace(self, most_bend=math.pi, wrist=(-math.pi, math.pi, -math.pi, math.pi))
 
     def nearest_m(self, m: Maths, bend: Number) -> Number:
         """How near to the shoulder an elbow bent by `bend` brings the wrist, metres."""
@@ -120,7 +140,7 @@ ArmChain = tuple[tuple[Number, ...], Point, Point, Point, tuple[Number, ...], Nu
 """`Arm` without names: x, y, z of root, elbow, wrist and hand in one, butt, tip, back, the six angles, the missing."""
 
 
-def chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a tenth of a pose
+def chain(
     m: Maths,
     lengths: ArmLengths,
     shoulder: Point,
@@ -131,18 +151,70 @@ def chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a 
     """`solve` in plain tuples, as a row takes it; `contact` and `offsets` in the order of `Contact` and `Offsets`.
 
     `more`: by how much the elbow is farther out than the contact's `wing`, the wrist higher than its `hand_rise`.
+    The wrist keeps within its limits: the hand turns about the fulcrum, so that the tip stays where it is; only where
+    that is not enough the tip goes with the hand.
     """
+    arm = _chain(m, lengths, shoulder, contact, offsets, more)
+    least_rise, most_rise, least_yaw, most_yaw = lengths.wrist
+    flexed, extended = least_rise + _SPARE_RAD, most_rise - _SPARE_RAD
+    right, left = least_yaw + _SPARE_RAD, most_yaw - _SPARE_RAD
+    rise: Number = 0.0
+    yaw: Number = 0.0
+    for clamped in (False, True):
+        extension, deviation = arm[4][3], arm[4][4]
+        if not m.any(
+            (extension > extended - EASE_RAD)
+            | (extension < flexed + EASE_RAD)
+            | (deviation > left - EASE_RAD)
+            | (deviation < right + EASE_RAD)
+        ):
+            break
+        rise = rise + _GIVES * (extension - _bounded(m, extension, flexed, extended))
+        yaw = yaw - _GIVES * (deviation - _bounded(m, deviation, right, left))
+        given = _within(m, rise, _MOST_GIVE), _within(m, yaw, _MOST_GIVE)
+        arm = _chain(m, lengths, shoulder, contact, offsets, more, given, clamped)
+    return arm
+
+
+def _bounded(m: Maths, angle: Number, least: float, most: float) -> Number:
+    """An `angle` that gives in to its limits."""
+    return angle - excess(m, angle, most) + excess(m, -angle, -least)
+
+
+def _within(m: Maths, angle: Number, most: float) -> Number:
+    """An angle that nears but never passes `most` to both sides."""
+    return angle / m.sqrt(m.sqrt(1.0 + (angle / most) ** 4))
+
+
+def excess(m: Maths, angle: Number, limit: Number) -> Number:
+    """By how much an `angle` must give in to stay under its `limit`: nothing until `EASE_RAD` before it."""
+    eased = m.least(m.most(angle - limit + EASE_RAD, 0.0), 2 * EASE_RAD)
+    return eased * eased / (4 * EASE_RAD) + m.most(angle - limit - EASE_RAD, 0.0)
+
+
+def _chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a tenth of a pose
+    m: Maths,
+    lengths: ArmLengths,
+    shoulder: Point,
+    contact: Sequence[Number],
+    offsets: Sequence[Number],
+    more: tuple[Number, Number],
+    gives: tuple[Number, Number] = (0.0, 0.0),
+    clamped: bool = False,
+) -> ArmChain:
+    """`chain` with a hand that `gives`, so much steeper and farther to the left, and a wrist that may be `clamped`."""
     sin, cos, sqrt, atan2, acos, most = m.sin, m.cos, m.sqrt, m.atan2, m.acos, m.most
     sx, sy, sz = shoulder
     cx, cy, cz, stick_rise, hand_rise, stick_yaw, hand_yaw, touching, wing, turns = contact
     raised_shoulder, raised_elbow, raised_wrist, raised_stick = offsets
-    hand_rise = hand_rise + more[1]
+    hand_rise, hand_yaw = hand_rise + more[1] + gives[0], hand_yaw + gives[1]
     upper, fore, h = lengths.upper, lengths.fore, lengths.hand
     whole = upper + fore
-    # plan directions: towards the player (gx, gy), and turned from it those of the stick (ux, uy) and hand (vx, vy)
+    # plan directions: towards behind the shoulder (gx, gy), and turned from it those of the stick (ux, uy) and hand (vx, vy)
     dx, dy = sx - cx, sy - cy
-    plan = sqrt(dx * dx + dy * dy)
-    gx, gy = dx / plan, dy / plan
+    gy = dy - BEHIND_M
+    plan = sqrt(dx * dx + gy * gy)
+    gx, gy = dx / plan, gy / plan
     c, s = cos(stick_yaw), sin(stick_yaw)
     ux, uy = gx * c - gy * s, gx * s + gy * c
     c, s = cos(hand_yaw), sin(hand_yaw)
@@ -161,11 +233,14 @@ def chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a 
     d = most(distance - missing, 1.0001 * abs(upper - fore))
     dd, uu_ff = d * d, whole * (upper - fore)
     inside = acos((dd + uu_ff) / (2 * upper * d))
-    forearm = m.least(acos((dd - uu_ff) / (2 * fore * d)), lengths.most_bend - inside - raised_elbow)
+    forearm = acos((dd - uu_ff) / (2 * fore * d))
+    forearm = forearm - excess(m, inside + forearm + raised_elbow, lengths.most_bend)
     # the arm's plane: along the line to the wrist, and down and back from it, where elbows hang
-    along = BACK_SINE * (gx * kx + gy * ky) - BACK_COSINE * kz
-    norm = sqrt(1 - along * along)
-    ex, ey = (BACK_SINE * gx - along * kx) / norm, (BACK_SINE * gy - along * ky) / norm
+    behind = gx * kx + gy * ky
+    back = BACK_SINE + 0.5 * FARTHER_BACK * (behind + sqrt(behind * behind + _UNDER2))
+    along = back * behind - BACK_COSINE * kz
+    norm = sqrt(back * back + BACK_COSINE * BACK_COSINE - along * along)
+    ex, ey = (back * gx - along * kx) / norm, (back * gy - along * ky) / norm
     ez = (-BACK_COSINE - along * kz) / norm
     # forward again, with the stroke on top: angles from the line towards the elbow's side
     lifted = raised_shoulder + raised_elbow
@@ -185,14 +260,30 @@ def chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a 
     # hand and stick, by their slopes up towards the player
     hand = hand_rise - lifted - turns * raised_wrist
     stick = stick_rise - lifted - raised_wrist - raised_stick
-    cos_h, sin_h, cos_s, sin_s = cos(hand), sin(hand), cos(stick), sin(stick)
+    # the wrist's angles: the forearm seen from the hand's own axes
+    bx, by, bz = wx - jx, wy - jy, wz - jz
+    b, aside = bx * vx + by * vy, by * vx - bx * vy
+    deviation = atan2(aside, sqrt(b * b + bz * bz))
+    if clamped:
+        flexed, extended, right, left = lengths.wrist
+        deviation = _bounded(m, deviation, right, left)
+        flat2 = bx * bx + by * by
+        aside_now = fore * sin(deviation)
+        turn = atan2(aside_now, sqrt(most(flat2 - aside_now * aside_now, 1e-12))) - atan2(aside, -b)
+        c, s = cos(turn), sin(turn)
+        ux, uy, vx, vy = ux * c - uy * s, ux * s + uy * c, vx * c - vy * s, vx * s + vy * c
+        b = bx * vx + by * vy
+    cos_h, sin_h = cos(hand), sin(hand)
+    extension = atan2(sin_h * b - cos_h * bz, -(cos_h * b + sin_h * bz))
+    if clamped:
+        less = extension - _bounded(m, extension, flexed, extended)
+        hand, stick, extension = hand + less, stick + less, extension - less
+        cos_h, sin_h = cos(hand), sin(hand)
+    cos_s, sin_s = cos(stick), sin(stick)
     a = h * cos_h
     hx, hy, hz = wx - a * vx, wy - a * vy, wz - h * sin_h
     tx, ty = cos_s * ux, cos_s * uy
     ahead, behind = lengths.ahead, lengths.behind
-    # the wrist's angles: the forearm seen from the hand's own axes, and the hand's rolled back
-    bx, by, bz = wx - jx, wy - jy, wz - jz
-    b = bx * vx + by * vy
     across, upward, rolled = lengths.roll_sine, lengths.roll_cosine, (1 - turns) * raised_wrist
     c, s = cos(rolled), lengths.rolls_hand * sin(rolled)
     across, upward = across * c + upward * s, upward * c - across * s
@@ -206,8 +297,8 @@ def chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a 
             atan2(gx, -gy),
             atan2(-(cos_u * kx + sin_u * ex) * gx - (cos_u * ky + sin_u * ey) * gy, -(cos_u * kz + sin_u * ez)),
             inside + forearm + raised_elbow,
-            atan2(sin_h * b - cos_h * bz, -(cos_h * b + sin_h * bz)),
-            atan2(by * vx - bx * vy, sqrt(b * b + bz * bz)),
+            extension,
+            deviation,
             hand - stick - rolled,
         ),
         missing,

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Articulation, Limb, Piece
-from station.motion.kinematics.arm import Arm, ArmLengths, Contact, Offsets, solve
+from station.motion.kinematics.arm import BEHIND_M, Arm, ArmLengths, Contact, Offsets, solve
 from station.motion.kinematics.collisions import depth_in_kit
 from station.motion.kinematics.figure import Figure
 from station.motion.kinematics.joint_limits import Limits
@@ -81,7 +81,7 @@ def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike) -> ContactPose:
         hold = replace(hold, grip=replace(hold.grip, turns_hand=min(hold.grip.turns_hand, THUMB_UP_TURNS)))
     right = strike.limb == Limb.RIGHT_HAND
     side = 1.0 if right else -1.0
-    lengths = hold.lengths(figure, right)
+    lengths = hold.lengths(figure, right).unlimited
     slopes = _slopes(lengths, target, hold, strike, hold.length_m(figure))
     if strike.articulation == Articulation.CROSS_STICK:
         azimuth = laid_azimuth(kit, kit.pieces[kit.stand_in(strike.piece)], strike.limb)
@@ -147,6 +147,7 @@ def _easiest(
     x, y, z = target.point_m.tolist()
     stick_yaw = side * grip.yaw if slopes.azimuth is None else _turn(root, target, slopes.azimuth)
     stick_rise = _over_the_piece(target, root, stick_yaw, slopes)
+    stick_yaw += math.atan2(root[1] - y, root[0] - x) - math.atan2(root[1] - BEHIND_M - y, root[0] - x)
     hand_rise = stick_rise + slopes.palm
     trial = Contact(x, y, z, stick_rise, hand_rise, stick_yaw, stick_yaw + yaw, slopes.ahead_m, wing, grip.turns_hand)
     arm = solve(MANY, lengths, root, trial, Offsets(0.0, 0.0, 0.0, 0.0))

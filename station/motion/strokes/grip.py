@@ -97,7 +97,8 @@ class Hold:
 
     def lengths(self, figure: Figure, right: bool = True) -> ArmLengths:
         """The measures of the right or left arm of `figure` that holds this."""
-        length, pivot = self.length_m(figure), self.held.pivot
+        length, pivot, limits = self.length_m(figure), self.held.pivot, figure.limits
+        sideways = (-limits.wrist_ulnar, limits.wrist_radial) if right else (-limits.wrist_radial, limits.wrist_ulnar)
         hand, ahead = figure.hand_m, length * (1 - pivot)
         if not length:
             hand, ahead = _KNUCKLES * figure.stature_m, (_FINGERTIPS - _KNUCKLES) * figure.stature_m
@@ -110,7 +111,8 @@ class Hold:
             rolls_hand=1.0 if right else -1.0,
             roll_sine=math.sin(self.grip.roll) * (1 if right else -1),
             roll_cosine=math.cos(self.grip.roll),
-            most_bend=figure.limits.elbow_flexion,
+            most_bend=limits.elbow_flexion,
+            wrist=(-limits.wrist_flexion, limits.wrist_extension, *sideways),
         )
 
     def length_m(self, figure: Figure) -> float:

@@ -142,7 +142,7 @@ class HandPart:
         With this share of the `strokes`.
         """
         right = self.limb == Limb.RIGHT_HAND
-        lengths, bent = self.hold.lengths(figure, right), np.empty(len(time_s))
+        lengths, bent = self.hold.lengths(figure, right).unlimited, np.empty(len(time_s))
         for block in blocks(len(time_s)):
             at = time_s[block]
             raised = Offsets(*(share * o for o in strokes.many(at)))
