@@ -83,7 +83,7 @@ class MotionPlan:
     def hands(self, style: Style) -> tuple[HandPart, HandPart]:
         """Both hands' parts with what `style` makes them hold."""
         right, left = (
-            HandPart.of(self.score, self.kit, self.figure, hold, limb, events)
+            HandPart.of(self.score, self.kit, self.figure, hold, limb, events, style.heel)
             for limb, hold, events in zip(HANDS, holds(style), self.events, strict=True)
         )
         right, left = cleared((right, left), self.figure)

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from station.motion.avoidance.both_hands import BothHands
 from station.motion.avoidance.tangles import Moves, cheapest
 from station.motion.kinematics.arm import Contact
-from station.motion.strokes.hand_events import LONG_AGO_S
 from station.motion.strokes.travel import HAND_M_S, MINIMUM_JERK_PEAK, moved_off
 
 Array = NDArray[np.float64]
@@ -78,7 +77,7 @@ def _given(scene: BothHands, side: int, stretch: int, moments: NDArray[np.int64]
     off, back = float(grid[moments[0]]), float(grid[moments[-1]])
     if already.any():  # once in a rest: what it had moved off for counts too
         off, back = min(off, already[0] + 1 / already[2]), max(back, already[1] - 1 / already[2])
-    leaves, returns = _rest(hand.events.time_s, stretch, float(grid[moments[0]]))
+    leaves, returns = _rest(hand.events.time_s, stretch)
     if returns - leaves < 2 * _QUICKEST_S:
         return None
     time_s = max(
@@ -99,9 +98,9 @@ def _given(scene: BothHands, side: int, stretch: int, moments: NDArray[np.int64]
     return Giving(side, off - event_s, back - event_s, 1 / time_s, ways[k], price, near)
 
 
-def _rest(event_s: Array, stretch: int, off_s: float) -> tuple[float, float]:
-    """From when until when a hand may be away around `off_s`, after the event at `stretch` or before the first."""
-    if off_s < event_s[0] or event_s[0] <= LONG_AGO_S:
-        return -inf, inf if event_s[0] <= LONG_AGO_S else float(event_s[0]) - _BEFORE_S
+def _rest(event_s: Array, stretch: int) -> tuple[float, float]:
+    """From when until when a hand may be away after the event at `stretch`."""
+    if len(event_s) == 1:
+        return -inf, inf
     after = float(event_s[stretch + 1]) - _BEFORE_S if stretch + 1 < len(event_s) else inf
     return float(event_s[stretch]) + _AFTER_S, after

@@ -25,6 +25,8 @@ else the plane would have no direction where the wrist is just where elbows hang
 BEHIND_M = 0.30
 """Yaws count from the direction to a point so far behind the shoulder: stick and hand turn with the shoulder, and what
 passes under the shoulder has a direction too (our choice: no tip comes so far behind)."""
+_SWING_EASE = 0.02
+"""An elbow that would be too far behind the shoulder swings out softly: of the cosine of its swing (our choice)."""
 EASE_RAD, _SPARE_RAD = math.radians(1), math.radians(2)
 """So far before and behind its limit a joint gives in, so that its speed has no jump; a hand that turns about the fulcrum
 does so a little sooner, for that takes the tip nowhere (our choice)."""
@@ -72,8 +74,8 @@ class Arm(NamedTuple):
     """The solved arm.
 
     Points, from the shoulder `root` on; `back`, the normal of the hand's back; the heading κ towards the struck point
-    (to the left positive), γ, β; the wrist's extension and its deviation to the left, as of a palm that faces down; μ,
-    the stick's angle in the hand; and how far the shoulder had to come forward because the contact was out of reach.
+    (to the left positive), γ, how far the upper arm points forward from hanging, β; the wrist's extension and its deviation to the left, as of a palm that faces down; μ,
+    the stick's angle in the hand; how far the elbow is swung to the right; and how far the shoulder had to come forward because the contact was out of reach.
     """
 
     root: Point
@@ -89,6 +91,7 @@ class Arm(NamedTuple):
     extension: Number
     deviation: Number
     palm: Number
+    swing: Number
     missing_m: Number
 
 
@@ -98,7 +101,8 @@ class ArmLengths:
 
     `rolls_hand` is 1 for a right and −1 for a left hand. `roll_sine` and `roll_cosine` of the hand's roll from palm
     down, to the drummer's right.
-    `most_bend` is the elbow's limit: a hand that travels close past the shoulder keeps farther off instead. `wrist` are
+    `most_bend` is the elbow's limit: a hand that travels close past the shoulder keeps farther off instead.
+    `most_back_m` is how far the elbow may be behind the shoulder: one that would be farther swings out. `wrist` are
     the limits of extension and of deviation to the left, least and most each: beyond them the hand is turned about the
     fulcrum, and the stick stays where it is.
     """
@@ -112,12 +116,13 @@ class ArmLengths:
     roll_cosine: float = 1.0
     rolls_hand: float = 1.0
     most_bend: float = math.pi
+    most_back_m: float = 1.0
     wrist: tuple[float, float, float, float] = (-math.pi, math.pi, -math.pi, math.pi)
 
     @property
     def unlimited(self) -> "ArmLengths":
         """The same with joints that bend as far as they are asked to, as whoever looks for a better way needs it."""
-        return replace(self, most_bend=math.pi, wrist=(-math.pi, math.pi, -math.pi, math.pi))
+        return replace(self, most_bend=math.pi, most_back_m=1.0, wrist=(-math.pi, math.pi, -math.pi, math.pi))
 
     def nearest_m(self, m: Maths, bend: Number) -> Number:
         """How near to the shoulder an elbow bent by `bend` brings the wrist, metres."""
@@ -137,7 +142,7 @@ def solve(
 
 
 ArmChain = tuple[tuple[Number, ...], Point, Point, Point, tuple[Number, ...], Number]
-"""`Arm` without names: x, y, z of root, elbow, wrist and hand in one, butt, tip, back, the six angles, the missing."""
+"""`Arm` without names: x, y, z of root, elbow, wrist and hand in one, butt, tip, back, the seven angles, the missing."""
 
 
 def chain(
@@ -186,10 +191,10 @@ def _within(m: Maths, angle: Number, most: float) -> Number:
     return angle / m.sqrt(m.sqrt(1.0 + (angle / most) ** 4))
 
 
-def excess(m: Maths, angle: Number, limit: Number) -> Number:
-    """By how much an `angle` must give in to stay under its `limit`: nothing until `EASE_RAD` before it."""
-    eased = m.least(m.most(angle - limit + EASE_RAD, 0.0), 2 * EASE_RAD)
-    return eased * eased / (4 * EASE_RAD) + m.most(angle - limit - EASE_RAD, 0.0)
+def excess(m: Maths, value: Number, limit: Number, ease: float = EASE_RAD) -> Number:
+    """By how much a `value` must give in to stay under its `limit`: nothing until an `ease` before it."""
+    eased = m.least(m.most(value - limit + ease, 0.0), 2 * ease)
+    return eased * eased / (4 * ease) + m.most(value - limit - ease, 0.0)
 
 
 def _chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a tenth of a pose
@@ -248,15 +253,23 @@ def _chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a
     cos_u, sin_u = upper * cos(at_shoulder), upper * sin(at_shoulder)
     on, off = cos_u + fore * cos(at_elbow), sin_u - fore * sin(at_elbow)
     wx, wy, wz = sx + on * kx + off * ex, sy + on * ky + off * ey, sz + on * kz + off * ez
-    # the elbow: its foot on the line to the wrist, and from there out, swung about the line
+    # the elbow: its foot on the line to the wrist, and from there out, swung about the line; out where it would be too
+    # far behind the shoulder
     wing = wing + more[0]
     reach2 = on * on + off * off
     foot, out = (cos_u * on + sin_u * off) / reach2, (sin_u * on - cos_u * off) / reach2
+    aback, across = ex * gx + ey * gy, (kz * ey - ky * ez) * gx + (kx * ez - kz * ex) * gy
+    hanging, swung = on * aback - off * behind, sqrt(reach2) * across
+    hangs = cos(wing - atan2(swung, hanging))
+    room = most(lengths.most_back_m - foot * (on * behind + off * aback), 0.0)
+    less = excess(m, hangs, room / (abs(out) * sqrt(hanging * hanging + swung * swung) + 1e-6), _SWING_EASE)
+    wing = wing + lengths.rolls_hand * (acos(hangs - less) - acos(hangs))
     down = out * cos(wing)
     a_k, a_e, a_n = foot * on - down * off, foot * off + down * on, -out * sqrt(reach2) * sin(wing)
     jx = sx + a_k * kx + a_e * ex + a_n * (ky * ez - kz * ey)
     jy = sy + a_k * ky + a_e * ey + a_n * (kz * ex - kx * ez)
     jz = sz + a_k * kz + a_e * ez + a_n * (kx * ey - ky * ex)
+    rx, ry, rz = sx - jx, sy - jy, sz - jz
     # hand and stick, by their slopes up towards the player
     hand = hand_rise - lifted - turns * raised_wrist
     stick = stick_rise - lifted - raised_wrist - raised_stick
@@ -295,11 +308,12 @@ def _chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a
         (-tilted * vx - across * vy, across * vx - tilted * vy, cos_h * upward),
         (
             atan2(gx, -gy),
-            atan2(-(cos_u * kx + sin_u * ex) * gx - (cos_u * ky + sin_u * ey) * gy, -(cos_u * kz + sin_u * ez)),
+            atan2(rx * gx + ry * gy, sqrt(most((rx * gy - ry * gx) ** 2 + rz * rz, 1e-12))),
             inside + forearm + raised_elbow,
             extension,
             deviation,
             hand - stick - rolled,
+            wing,
         ),
         missing,
     )

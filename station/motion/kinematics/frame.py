@@ -71,9 +71,9 @@ class Rig:
             m, figure, (x, y, z), (twist, lean, side, nod, turn, tilt, shrug)
         )
         arm_a, butt_a, tip_a, back_a, angles, _ = arm_chain(m, self.arms[0], right_shoulder, *right, (wing, hand))
-        heading_a, shoulder_a, elbow_a, wrist_a, aside_a, palm_a = angles
+        heading_a, shoulder_a, elbow_a, wrist_a, aside_a, palm_a, swing_a = angles
         arm_b, butt_b, tip_b, back_b, angles, _ = arm_chain(m, self.arms[1], left_shoulder, *left, (-wing, hand))
-        heading_b, shoulder_b, elbow_b, wrist_b, aside_b, palm_b = angles
+        heading_b, shoulder_b, elbow_b, wrist_b, aside_b, palm_b, swing_b = angles
         foot_a, foot_b = boards
         board_a, board_b = foot_a * self.raised[0], foot_b * self.raised[1]
         stands = settled_leg if m is ONE else leg_chain
@@ -86,13 +86,13 @@ class Rig:
             *(x, y, z, *spine, *arm_a, *arm_b, x + hip, y, z, *leg_a, x - hip, y, z, *leg_b),
             *(*butt_a, *butt_b, *tip_a, *tip_b, *back_a, *back_b, *face),
             *(twist, lean, side, nod, turn, tilt),
-            *(heading_a, shoulder_a, right[0][WING] + wing, elbow_a, wrist_a, aside_a, rolled_a, palm_a),
-            *(heading_b, shoulder_b, wing - left[0][WING], elbow_b, wrist_b, -aside_b, rolled_b, palm_b),
+            *(heading_a, shoulder_a, swing_a, elbow_a, wrist_a, aside_a, rolled_a, palm_a),
+            *(heading_b, shoulder_b, -swing_b, elbow_b, wrist_b, -aside_b, rolled_b, palm_b),
             *(*bent_a, *bent_b, board_a, board_b, kick * BEATER_SWING_RAD, hat * OPEN_GAP_M, eyes),
         ]
 
 
-WING, TURNS, WRIST = Contact._fields.index("wing"), Contact._fields.index("turns"), Offsets._fields.index("wrist")
+TURNS, WRIST = Contact._fields.index("turns"), Offsets._fields.index("wrist")
 FOLLOWS = 0.9
 """How far the head turns to what is looked at; the eyes do the rest (our choice)."""
 LOOK_DOWN = 0.45

@@ -21,7 +21,8 @@ from station.motion.kinematics.posture import natural_shoulder
 from station.motion.kit.kit import Kit
 from station.motion.kit.piece import RIM_ABOVE_HEAD_M, Target
 from station.motion.strokes.grip import Grip, Hold
-from station.motion.strokes.hand_events import GRAB, SHOW, WAIT
+from station.motion.strokes.hand_events import GRAB, LAP, SHOW, WAIT
+from station.motion.strokes.lap import lap
 from station.motion.strokes.targets import Strike, laid_azimuth, target_of
 
 Array = NDArray[np.float64]
@@ -42,6 +43,9 @@ _LAID_AHEAD = 0.55
 _LAID_RISE, _LAID_PALM = math.radians(2.0), math.radians(12.0)
 """A cross-stick strikes the rim so far ahead of the fulcrum as a share of its length; the wrist is a little higher than
 the fingers, else it would be bent to its limit (our choice)."""
+
+_LAP_PALM = math.radians(6.0)
+"""On the thigh the wrist lies as low as the fingers, nearly (our choice)."""
 
 _RIDES = (Piece.RIDE, Piece.RIDE_2)
 THUMB_UP_TURNS = 0.5
@@ -72,9 +76,9 @@ class ContactPose:
     shoulder_of_stick: bool
 
 
-def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike) -> ContactPose:
-    """The most comfortable way for `strike` with `hold`."""
-    if strike.articulation == WAIT and not hold.held.rest_m:  # a brush waits on the head
+def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike, heel: str = "down") -> ContactPose:
+    """The most comfortable way for `strike` with `hold`; `heel` as in `Style`, for the thigh on which a hand lies."""
+    if strike.articulation in (WAIT, LAP) and not hold.held.rest_m:  # a brush waits on the head
         strike = replace(strike, articulation=Articulation.NORMAL)
     target = target_of(kit, strike)
     if kit.stand_in(strike.piece) in _RIDES and hold.held.name == "stick":
@@ -86,7 +90,10 @@ def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike) -> ContactPose:
     if strike.articulation == Articulation.CROSS_STICK:
         azimuth = laid_azimuth(kit, kit.pieces[kit.stand_in(strike.piece)], strike.limb)
         slopes = replace(slopes, azimuth=azimuth)
-    faced = np.array([0.0, 1.0, 0.0]) if strike.articulation in (WAIT, SHOW) else target.point_m  # for anything
+    elif strike.articulation == LAP:
+        target, azimuth = lap(kit, figure, strike.limb, heel)
+        slopes = _Slopes(0.0, lengths.ahead, target.rise_rad, _LAP_PALM, azimuth)
+    faced = np.array([0.0, 1.0, 0.0]) if strike.articulation in (WAIT, SHOW, LAP) else target.point_m  # for anything
     for lean in LEANS_RAD.tolist():
         root = natural_shoulder(kit, figure, strike.limb, faced, lean)
         touch, stretched = _easiest(lengths, root, target, slopes, hold.grip, (side, figure.limits))

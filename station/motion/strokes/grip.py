@@ -12,7 +12,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from station.motion.kinematics.arm import ArmLengths
+from station.motion.kinematics.arm import EASE_RAD, ArmLengths
 from station.motion.kinematics.figure import Figure
 
 
@@ -112,6 +112,7 @@ class Hold:
             roll_sine=math.sin(self.grip.roll) * (1 if right else -1),
             roll_cosine=math.cos(self.grip.roll),
             most_bend=limits.elbow_flexion,
+            most_back_m=figure.upper_arm_m * math.sin(min(limits.shoulder_extension - EASE_RAD, 0.5 * math.pi)),
             wrist=(-limits.wrist_flexion, limits.wrist_extension, *sideways),
         )
 

@@ -17,7 +17,7 @@ from station.motion.kit.kit import Kit
 from station.motion.strokes.amplitudes import amplitudes, rebounds
 from station.motion.strokes.contact_pose import PROTRACTION_M, ContactPose, lie_of
 from station.motion.strokes.grip import Hold
-from station.motion.strokes.hand_events import SHOW, WAIT, HandEvents
+from station.motion.strokes.hand_events import LAP, SHOW, WAIT, HandEvents
 from station.motion.strokes.stroke import NATURALLY, StrokePlan, Strokes
 from station.motion.strokes.targets import Strike
 from station.motion.strokes.travel import DETOUR, GIVES, HandPath, lifts
@@ -62,15 +62,17 @@ class HandPart:
     show: Contact
 
     @classmethod
-    def of(cls, score: Score, kit: Kit, figure: Figure, hold: Hold, limb: Limb, events: HandEvents) -> "HandPart":
-        """The part of `limb` with `events`.
+    def of(
+        cls, score: Score, kit: Kit, figure: Figure, hold: Hold, limb: Limb, events: HandEvents, heel: str
+    ) -> "HandPart":
+        """The part of `limb` with `events`; `heel` as in `Style`.
 
         Raises `BadInput` for a piece out of reach: it names the piece, the note and the missing distance.
         """
         kinds, which = np.unique(events.key, axis=0, return_inverse=True)
         which = which.reshape(-1)
         strikes = [Strike(Piece(p), Zone(z), a, limb) for p, z, a in kinds.tolist()]
-        lies = tuple(lie_of(kit, figure, hold, strike) for strike in strikes)
+        lies = tuple(lie_of(kit, figure, hold, strike, heel) for strike in strikes)
         for k, lie in enumerate(lies):
             if lie.missing_m > PROTRACTION_M and len(events.row):
                 _out_of_reach(score, kit, strikes[k], int(events.row[np.argmax(which == k)]), lie.missing_m)
@@ -88,10 +90,10 @@ class HandPart:
             ceiling=np.array([lie.ceiling for lie in lies])[which].T,
             most=np.full(len(height), np.inf),
             lever_m=lengths.hand + lengths.ahead,
-            rest_m=hold.held.rest_m,
+            rest_m=np.where(np.append(False, events.key[:-1, 2] == LAP), 0.0, hold.held.rest_m),  # there it lies
         )
         left_at_once = np.array([lie.shoulder_of_stick for lie in lies])[which]
-        played = np.array([kit.stand_in(s.piece) for s in strikes])[which]
+        played = np.array([-1 if s.articulation == LAP else kit.stand_in(s.piece) for s in strikes])[which]
         wrists = np.array([lie.wrist for lie in lies])[which]
         bump = np.zeros((len(contacts) - 1, DETOUR))
         bump[:, 2] = lifts(kit, contacts, played)
@@ -102,7 +104,13 @@ class HandPart:
     @cached_property
     def way(self) -> HandPath:
         """The way between the contacts."""
-        return HandPath.of(self.events.time_s, self.contacts, self.bump, self.early, self.gives)
+        return HandPath.of(self.events.time_s, self.contacts, self.bump, self.early, self._easy, self.gives)
+
+    @property
+    def _easy(self) -> NDArray[np.bool_]:
+        """Which stretches lead to the thigh or from it, (n − 1,)."""
+        lies = self.events.key[:, 2] == LAP
+        return np.asarray(lies[:-1] | lies[1:])
 
     def eased(self, figure: Figure, time_s: Array, roots: tuple[Array, Array]) -> "HandPart":
         """The same with the hand so pointed at each contact that its wrist stays within its limits sideways.
