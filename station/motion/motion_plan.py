@@ -8,14 +8,14 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Limb, Piece
 from station.motion.avoidance.clearance import cleared
-from station.motion.avoidance.detours import detoured, looks
-from station.motion.avoidance.shoulders import past_the_shoulder
-from station.motion.body import body_keys
+from station.motion.avoidance.cost import Stage
+from station.motion.avoidance.optimise import looks, optimised
 from station.motion.body.beats import Beats, bob_cofactors, restarts
 from station.motion.body.body_keys import Ground, mean_bearing
 from station.motion.body.gaze import GazeTargets, gaze_curve
 from station.motion.body.idle_motion import Blinks
 from station.motion.body.reach import reaching
+from station.motion.kinematics.body_solids import BodyPoints
 from station.motion.kinematics.figure import Figure
 from station.motion.kinematics.maths import MANY, Point, blocks
 from station.motion.kinematics.pedal_motion import hat_board, kick_board
@@ -28,14 +28,13 @@ from station.motion.sticking.limbs import Assignment, assign_limbs
 from station.motion.strokes.grip import GRIPS, HELD, Hold
 from station.motion.strokes.hand import HandPart
 from station.motion.strokes.hand_events import HandEvents, hand_events
+from station.motion.strokes.lap import thigh
 from station.motion.strokes.targets import strike_points
 from station.motion.style.style import Style
 from station.music.score import Score
 
 Array = NDArray[np.float64]
 
-LIVELY = Style(amplitude_twist=75.0, amplitude_back=95.0, amplitude_side=45.0, shrug=50.0)
-"""The style whose shoulders are farthest from the natural ones: hands are so pointed that both serve their wrists."""
 HANDS = (Limb.RIGHT_HAND, Limb.LEFT_HAND)
 
 
@@ -89,29 +88,24 @@ class MotionPlan:
         right, left = cleared((right, left), self.figure)
         if not (len(right.events.row) or len(left.events.row)):
             return right, left
-        grid = looks(right.events.time_s, left.events.time_s)
-        roots = self._roots(grid, reaching(self.ground, Style(), (right, left), self.figure, self.pelvis))
-        right, left = (
-            past_the_shoulder(hand.waiting_before(grid, root), self.figure, self.kit, grid, root)
-            for hand, root in zip((right, left), roots, strict=True)
-        )
-        lively = body_keys.curves(
-            self.ground, LIVELY, body_keys.keys(self.ground, LIVELY)
-        )  # leaning too would bend wrists
-        shoulders = list(zip(roots, self._roots(grid, lively), strict=True))
-        right, left = (hand.eased(self.figure, grid, r) for hand, r in zip((right, left), shoulders, strict=True))
-        right, left = detoured((right, left), self.figure, self.kit, grid, roots)
-        right, left = (hand.eased(self.figure, grid, r) for hand, r in zip((right, left), shoulders, strict=True))
+        (right, left), _ = optimised((right, left), self._stage((right, left), style.heel))
         return right, left
 
-    def _roots(self, time_s: Array, curves: SplineChannels) -> tuple[Array, Array]:
-        """Where the right and the left shoulder are at each time (n,) in a body that moves by `curves`, (3, n) each."""
-        right, left = np.empty((3, len(time_s))), np.empty((3, len(time_s)))
-        for block in blocks(len(time_s)):
-            twist, lean, side, shrug, *_ = curves.many(time_s[block])
+    def _stage(self, hands: tuple[HandPart, HandPart], heel: str) -> Stage:
+        """The body in its natural posture, in which the `hands` must find their ways."""
+        grid = looks(*(hand.events.time_s for hand in hands))
+        curves = reaching(self.ground, Style(), hands, self.figure, self.pelvis)
+        points = np.empty((6, 3, len(grid)))
+        for block in blocks(len(grid)):
+            twist, lean, side, shrug, *_ = curves.many(grid[block])
             frame = trunk(MANY, self.figure, self.pelvis, TrunkAngles(twist, lean, side, 0.0, 0.0, 0.0, shrug))
-            right[:, block], left[:, block] = frame.right_shoulder, frame.left_shoulder
-        return right, left
+            ends = (self.pelvis, frame.neck, frame.head, frame.crown, frame.right_shoulder, frame.left_shoulder)
+            for k, point in enumerate(ends):
+                points[k, :, block] = np.stack(np.broadcast_arrays(*point, twist)[:3])
+        pelvis, neck, head, crown, right, left = (p.T for p in points)
+        thighs = thigh(self.kit, self.figure, True, heel), thigh(self.kit, self.figure, False, heel)
+        body = BodyPoints(pelvis, neck, head, crown, (right, left), thighs)
+        return Stage(self.figure, self.kit, grid, (points[4], points[5]), body, (hands[0].bump, hands[1].bump))
 
     def gaze(self, style: Style) -> SplineChannels:
         """Where the drummer looks."""

@@ -13,11 +13,12 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Articulation, Limb, Piece
 from station.motion.kinematics.arm import BEHIND_M, Arm, ArmLengths, Contact, Offsets, solve
+from station.motion.kinematics.body_solids import CHEST, Capsules, in_capsules, points_of, trunk_capsules
 from station.motion.kinematics.collisions import depth_in_kit
 from station.motion.kinematics.figure import Figure
 from station.motion.kinematics.joint_limits import Limits
 from station.motion.kinematics.maths import MANY, ONE, Point
-from station.motion.kinematics.posture import natural_shoulder
+from station.motion.kinematics.posture import natural_shoulder, pelvis_of
 from station.motion.kit.kit import Kit
 from station.motion.kit.piece import RIM_ABOVE_HEAD_M, Target
 from station.motion.strokes.grip import Grip, Hold
@@ -96,7 +97,9 @@ def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike, heel: str = "do
     faced = np.array([0.0, 1.0, 0.0]) if strike.articulation in (WAIT, SHOW, LAP) else target.point_m  # for anything
     for lean in LEANS_RAD.tolist():
         root = natural_shoulder(kit, figure, strike.limb, faced, lean)
-        touch, stretched = _easiest(lengths, root, target, slopes, hold.grip, (side, figure.limits))
+        other = natural_shoulder(kit, figure, Limb.LEFT_HAND if right else Limb.RIGHT_HAND, faced, lean)
+        body = _Body.of(kit, figure, root, other, side)
+        touch, stretched = _easiest(lengths, root, target, slopes, hold.grip, body)
         if not stretched:
             break
     arm = solve(ONE, lengths, root, touch, Offsets(0.0, 0.0, 0.0, 0.0))
@@ -104,7 +107,7 @@ def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike, heel: str = "do
         if not _caught(kit, lengths, root, touch):
             break
         grip = replace(hold.grip, yaw=share * hold.grip.yaw, crossing=share * hold.grip.crossing)
-        touch, _ = _easiest(lengths, root, target, slopes, grip, (side, figure.limits))
+        touch, _ = _easiest(lengths, root, target, slopes, grip, body)
         arm = solve(ONE, lengths, root, touch, Offsets(0.0, 0.0, 0.0, 0.0))
     limits = figure.limits
     return ContactPose(
@@ -143,13 +146,10 @@ _EASY = 0.95
 
 
 def _easiest(
-    lengths: ArmLengths, root: Point, target: Target, slopes: "_Slopes", grip: Grip, arm_of: tuple[float, Limits]
+    lengths: ArmLengths, root: Point, target: Target, slopes: "_Slopes", grip: Grip, body: "_Body"
 ) -> tuple[Contact, bool]:
-    """Among all wings and ways to point the hand the easiest one, and whether the arm is stretched for it.
-
-    `arm_of` is the arm's side, 1 right and −1 left, and its limits.
-    """
-    side, limits = arm_of
+    """Among all wings and ways to point the hand the easiest one, and whether the arm is stretched for it."""
+    side, limits = body.side, body.limits
     wing, yaw = (g.ravel() for g in np.meshgrid(side * _WINGS, _HAND_YAWS, indexing="ij"))
     x, y, z = target.point_m.tolist()
     stick_yaw = side * grip.yaw if slopes.azimuth is None else _turn(root, target, slopes.azimuth)
@@ -165,11 +165,42 @@ def _easiest(
         + ((yaw + side * grip.crossing) / _CROSSING_EASE) ** 2
         + 100.0 * arm.missing_m
         + (_beyond(arm, side, limits) / _BEYOND_EASE) ** 2
+        + (body.deep(arm) / _BODY_EASE_M) ** 2
     )
     best = int(np.argmin(price))
     wx, wy, wz = (float(np.broadcast_to(w, price.shape)[best]) for w in arm.wrist)
     stretched = math.dist((wx, wy, wz), root) > _EASY * (lengths.upper + lengths.fore)
     return trial._replace(hand_yaw=stick_yaw + float(yaw[best]), wing=float(wing[best])), stretched
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Body:
+    """What an arm must heed of its body: its side, 1 right and −1 left, its joints' limits and the trunk."""
+
+    side: float
+    limits: Limits
+    trunk: Capsules
+    stature_m: float
+
+    @classmethod
+    def of(cls, kit: Kit, figure: Figure, root: Point, other: Point, side: float) -> "_Body":
+        """The body with the arm's own and the other shoulder there."""
+        right, left = (np.array(p)[None] for p in ((root, other) if side > 0 else (other, root)))
+        pelvis = np.array(pelvis_of(kit, figure))[None]
+        capsules = trunk_capsules(pelvis, 0.5 * (right + left), (right, left), figure.stature_m)
+        return cls(side, figure.limits, capsules, figure.stature_m)
+
+    def deep(self, arm: Arm) -> Array:
+        """How deep the arm and hand are in the trunk, or nearer than they like, (n,)."""
+        points = points_of(arm)
+        parts = ("hand", "forearm", "upper arm")
+        deep = [in_capsules(points, part, self.trunk, CHEST, self.stature_m) for part in parts]
+        return np.asarray(np.maximum(np.max(deep, axis=0) + _OFF_M, 0.0))
+
+
+_BODY_EASE_M, _OFF_M = 0.008, 0.020
+"""An arm is this far off the trunk where it can be, for the trunk moves, and so much nearer costs as much as 25° of the
+wrist (our choice)."""
 
 
 def _beyond(arm: Arm, side: float, limits: Limits) -> Array:

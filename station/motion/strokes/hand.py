@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import radians
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,32 +9,21 @@ from numpy.typing import NDArray
 from station.core.errors import BadInput
 from station.core.labels import limb_name
 from station.core.pieces import Limb, Piece, Zone, word
-from station.motion.kinematics.arm import Contact, Offsets, solve
+from station.motion.kinematics.arm import Contact
 from station.motion.kinematics.figure import Figure
-from station.motion.kinematics.maths import MANY, blocks
 from station.motion.kit.kit import Kit
 from station.motion.strokes.amplitudes import amplitudes, rebounds
 from station.motion.strokes.contact_pose import PROTRACTION_M, ContactPose, lie_of
 from station.motion.strokes.grip import Hold
-from station.motion.strokes.hand_events import LAP, SHOW, WAIT, HandEvents
-from station.motion.strokes.stroke import NATURALLY, StrokePlan, Strokes
+from station.motion.strokes.hand_events import LAP, SHOW, HandEvents
+from station.motion.strokes.stroke import StrokePlan
 from station.motion.strokes.targets import Strike
 from station.motion.strokes.travel import DETOUR, GIVES, HandPath, lifts
 from station.music.score import Score
 
 Array = NDArray[np.float64]
 
-_SPARE_RAD = radians(5)
-"""What is left of a wrist's limits sideways in the natural style, for others to use (our choice)."""
-_EASINGS = 4
-_LEAST_HUMP, _MOST_TURN_RAD = 0.3, radians(60)
-"""Moments at which so little of a detour is left are not helped by turning the hand; nor is it turned more than this
-(our choice)."""
-_VIGOROUS = 2.0
-"""Styles may make strokes so much higher, and on its ways the wrist must bear them (our choice)."""
-_MOST_AHEAD_M = 0.12
-"""A hand waits so much farther forward at most: it stays over the snare (our choice)."""
-_Y, _HAND_YAW, _TURNS = Contact._fields.index("y"), Contact._fields.index("hand_yaw"), Contact._fields.index("turns")
+_TURNS = Contact._fields.index("turns")
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,77 +100,6 @@ class HandPart:
         lies = self.events.key[:, 2] == LAP
         return np.asarray(lies[:-1] | lies[1:])
 
-    def eased(self, figure: Figure, time_s: Array, roots: tuple[Array, Array]) -> "HandPart":
-        """The same with the hand so pointed at each contact that its wrist stays within its limits sideways.
-
-        `roots` are where the shoulder is at `time_s` (k,) as the body naturally is, and as a lively one has it, which
-        counts while the hand stays; (3, k) each.
-        """
-        limits = figure.limits
-        most, least = limits.wrist_radial - _SPARE_RAD, _SPARE_RAD - limits.wrist_ulnar
-        strokes = Strokes.of(self.strokes, NATURALLY)
-        part, side = self, 1.0 if self.limb == Limb.RIGHT_HAND else -1.0
-        for _ in range(_EASINGS):
-            contacts = part.contacts.copy()
-            bent, lively = (part._sideways(figure, time_s, root, strokes) for root in roots)
-            nearest, stays = part.way.nearest(time_s)
-            low, high = np.full(len(contacts), np.inf), np.full(len(contacts), -np.inf)
-            np.maximum.at(high, nearest[stays], np.maximum(bent, lively)[stays])
-            np.minimum.at(low, nearest[stays], np.minimum(bent, lively)[stays])
-            turn = np.zeros(len(contacts))  # what the ways want, within what the stays allow
-            np.maximum.at(turn, nearest, bent - most)
-            under = np.zeros(len(contacts))
-            np.minimum.at(under, nearest, bent - least)
-            turn += under
-            least_turn, most_turn = high - most, low - least
-            middle = 0.5 * (least_turn + most_turn)
-            turn = np.clip(turn, np.minimum(least_turn, middle), np.maximum(most_turn, middle))
-            contacts[:, _HAND_YAW] -= side * turn
-            part = replace(part, contacts=contacts)
-        if not len(self.bump):
-            return part
-        vigorous = part._sideways(figure, time_s, roots[1], strokes, _VIGOROUS)
-        return part._turned_on_ways(side, time_s, (bent, vigorous), (least, most))
-
-    def _sideways(self, figure: Figure, time_s: Array, root: Array, strokes: Strokes, share: float = 1.0) -> Array:
-        """How far the wrist is bent to the thumb's side at `time_s` (k,) with the shoulder at `root` (3, k).
-
-        With this share of the `strokes`.
-        """
-        right = self.limb == Limb.RIGHT_HAND
-        lengths, bent = self.hold.lengths(figure, right).unlimited, np.empty(len(time_s))
-        for block in blocks(len(time_s)):
-            at = time_s[block]
-            raised = Offsets(*(share * o for o in strokes.many(at)))
-            x, y, z = root[:, block]
-            bent[block] = solve(MANY, lengths, (x, y, z), self.way.many(at), raised).deviation
-        return bent if right else -bent
-
-    def _turned_on_ways(
-        self, side: float, time_s: Array, bends: tuple[Array, ...], bounds: tuple[float, float]
-    ) -> "HandPart":
-        """The same with the hand turned on its ways as far as its wrist's `bends` at `time_s` are beyond `bounds`."""
-        k, hump = self.way.humps(time_s)
-        helped = hump > _LEAST_HUMP
-        turn = np.zeros((2, len(self.bump)))
-        for bent in bends:
-            over = (bent - np.clip(bent, *bounds))[helped] / hump[helped]
-            np.maximum.at(turn[0], k[helped], over)
-            np.minimum.at(turn[1], k[helped], over)
-        bump = self.bump.copy()
-        bump[:, 3] -= side * np.clip(turn.sum(0), -_MOST_TURN_RAD, _MOST_TURN_RAD)
-        return replace(self, bump=bump)
-
-    def waiting_before(self, time_s: Array, root: Array) -> "HandPart":
-        """The same, waiting farther forward where the shoulder comes forward meanwhile: `root` (3, k) at `time_s`."""
-        nearest, _ = self.way.nearest(time_s)
-        comes = np.zeros(len(self.contacts))
-        ahead = root[1] - np.array([lie.root[1] for lie in self.lies])[self.which][nearest]
-        np.maximum.at(comes, nearest, ahead)
-        contacts = self.contacts.copy()
-        contacts[:, _Y] += np.where(self.events.key[:, 2] == WAIT, np.minimum(comes, _MOST_AHEAD_M), 0.0)
-        return replace(self, contacts=contacts)
-
     def held_under(self, height_m: Array) -> "HandPart":
         """The same, no stroke higher than `height_m` (n,), whatever the sliders say."""
         most = height_m / np.maximum(self.strokes.height_m, 1e-6)
@@ -194,11 +111,6 @@ class HandPart:
         `gives` (n, 6) is how the hand gives way.
         """
         return replace(self, bump=bump, contacts=contacts, gives=gives, strokes=replace(self.strokes, most=most))
-
-    @cached_property
-    def on_the_shoulder(self) -> NDArray[np.int64]:
-        """Which of `lies` have the stick's shoulder on an edge or a rim."""
-        return np.flatnonzero([lie.shoulder_of_stick for lie in self.lies])
 
 
 def parts(hold: Hold) -> Array:

@@ -132,6 +132,15 @@ class HandPath:
         u, gives = (time_s - t0) * rate, (off < time_s) & (time_s < back)
         return np.where(u > 0.5, np.minimum(i + 1, len(self.strike_s) - 1), i), ((u <= 0.0) | (u >= 1.0)) & ~gives
 
+    def about(self, event: int, time_s: Array) -> tuple[NDArray[np.int64], Array]:
+        """Which of the times (n,) the contact at `event` has a part in, and how much of it is made there, 0 … 1."""
+        i = np.maximum(np.searchsorted(self.strike_s, time_s, side="right") - 1, 0)
+        on = np.flatnonzero((i == event) | (i == event - 1))
+        u = np.clip((time_s[on] - self.rows[i[on], 0]) * self.rows[i[on], 1], 0.0, 1.0)
+        s = u * u * u * (10 + u * (6 * u - 15))
+        share = np.where(i[on] == event, 1.0 - s, s)
+        return on[share > 0], share[share > 0]
+
     def humps(self, time_s: Array) -> tuple[NDArray[np.int64], Array]:
         """The stretch that each time is on, by the strike before it, and how much of its detour is made there, 0 … 1.
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from station.drills.library import find_lesson
 from station.motion.drummer import Drummer
 from station.motion.kinematics import frame
-from station.motion.kinematics.collisions import segments_apart
+from station.motion.kinematics.body_solids import segments_apart
 from station.motion.kinematics.figure import Joint
 from station.motion.kit.kit import load_kit
 from station.motion.sticking.limbs import as_led
