@@ -54,7 +54,15 @@ _GROOVE = _score(
     + [(15.0, Piece.TOM_1, Zone.HEAD, _L), (15.5, Piece.FLOOR_TOM_1, Zone.HEAD, _R)],
     100.0,
 )
-"""Single strokes, wide turns, long rests, quick turns; eighths, backbeat and the beginning of a fill."""
+_FILL = _score(
+    [(0.5 * i, Piece.HIHAT, Zone.BOW, _R) for i in range(24)]
+    + [(12.0 + 0.25 * i, Piece.TOM_1, Zone.HEAD, (_R, _L)[i % 2]) for i in range(16)]
+    + [(16.0, Piece.CRASH_1, Zone.EDGE, _L), (18.0, Piece.SNARE, Zone.HEAD, _R)],
+    120.0,
+    100,
+)
+"""Single strokes, wide turns, long rests, quick turns; eighths, backbeat and the beginning of a fill; a fill
+and a crash."""
 
 
 @cache
@@ -126,12 +134,56 @@ def _shown(poses: Array) -> float:
     return float((np.diff(high.astype(int)) > 0).sum())
 
 
+def _tops(poses: Array) -> Array:
+    """How high the right tip rises before each of the strokes on the beats 1 to 6."""
+    z = poses[:, frame.TIP.start + 2]
+    return np.asarray([z[int(k * _RATE_HZ) : int((k + 1) * _RATE_HZ)].max() for k in range(6)] - z.min())
+
+
+def _scatter(poses: Array) -> float:
+    tops = _tops(poses)
+    return 100 * float(tops.std() / tops.mean())
+
+
+def _backbeat(poses: Array) -> float:
+    nod = _angle(poses, "head_nod")[:: int(_RATE_HZ)]
+    return float(nod[1:6:2].mean() - nod[2:7:2].mean())
+
+
+def _push(poses: Array) -> float:
+    """How far the head moves to and fro over the neck."""
+    neck, head = (poses[:, 3 * joint : 3 * joint + 3] for joint in (Joint.NECK, Joint.HEAD))
+    return 100 * float(np.ptp((head - neck)[:, 1]))
+
+
+def _behind_ms(poses: Array) -> float:
+    """From beat 3 to the deepest nod beside it."""
+    near = slice(int(2.8 * _RATE_HZ), int(3.2 * _RATE_HZ))
+    at = np.arange(len(poses))[near] / _RATE_HZ
+    nod = _angle(poses, "head_nod")[near]
+    k = int(np.argmax(nod))
+    a, b, c = nod[k - 1 : k + 2]  # the parabola through the three highest
+    return 1000 * float(at[k] - 3.0 + 0.5 * (a - c) / (a - 2 * b + c) / _RATE_HZ)
+
+
+def _rounding(poses: Array) -> float:
+    """The mean angle of the upper back over the lower one, forward."""
+    pelvis, spine, neck = (poses[:, 3 * j : 3 * j + 3] for j in (Joint.PELVIS, Joint.SPINE, Joint.NECK))
+    lower, upper = spine - pelvis, neck - spine
+    tips = [np.degrees(np.arctan2(v[:, 1], v[:, 2])) for v in (lower, upper)]
+    return float((tips[1] - tips[0]).mean())
+
+
+def _brow(poses: Array) -> float:
+    return 100 * float(np.ptp(poses[:, frame.FACE.start]))
+
+
 _SHOWN_M = 1.05
 """A hand so high over the floor shows a flourish: no stroke on the snare raises it so far."""
 
 
-_STILL = Style(breathing=0.0, shrug=0.0, amplitude_back=0.0, amplitude_side=0.0, amplitude_twist=0.0)
-_SWAYING = Style(breathing=0.0)
+_SWAYING = Style(breathing=0.0, variation=0.0, phrase=0.0, fill_lean=0.0, look_around=0.0)
+_STILL = replace(_SWAYING, shrug=0.0, amplitude_back=0.0, amplitude_side=0.0, amplitude_twist=0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,7 +198,7 @@ class Effect:
     """Whether it goes by chance or in steps, so that not every part of its range can count."""
 
 
-_NO_LOOK = Style(amplitude_gaze=0.0)
+_NO_LOOK = replace(_SWAYING, amplitude_gaze=0.0)
 EFFECTS = {
     **{
         f"amplitude_{j}": Effect(f"{j}'s extent, °", extent(f"right_{j}"), _STROKES)
@@ -167,8 +219,13 @@ EFFECTS = {
     "frequency_back": Effect("fall in its last quarter, %", _late("torso_lean"), _STROKES, _SWAYING),
     "amplitude_side": Effect("side sway's extent, °", extent("torso_side"), _GROOVE),
     "amplitude_twist": Effect("twist's extent, °", extent("torso_twist"), _TURNS, _SWAYING),
-    "twist_deg_s": Effect("twist's top speed, °/s", speed("torso_twist"), _SWINGS, Style(amplitude_twist=100.0)),
-    "amplitude_gaze": Effect("head turn's extent, °", extent("head_turn"), _TURNS, Style(amplitude_twist=0.0)),
+    "amplitude_heel": Effect("left ankle's rise, cm", _height(Joint.LEFT_ANKLE, np.ptp), _GROOVE),
+    "twist_deg_s": Effect(
+        "twist's top speed, °/s", speed("torso_twist"), _SWINGS, replace(_SWAYING, amplitude_twist=100.0)
+    ),
+    "amplitude_gaze": Effect(
+        "head turn's extent, °", extent("head_turn"), _TURNS, replace(_SWAYING, amplitude_twist=0.0)
+    ),
     "shrug": Effect("shoulder's rise, cm", _height(Joint.RIGHT_SHOULDER, np.ptp), _STROKES),
     "breathing": Effect("shoulder's rise, cm", _height(Joint.RIGHT_SHOULDER, np.ptp), _STROKES),
     "wing_deg": Effect("elbow outward, cm", _aside, _STROKES),
@@ -179,9 +236,20 @@ EFFECTS = {
         "looks in 39 rests",
         _times_over("head_turn", 12.0),
         _RESTS,
-        Style(amplitude_gaze=100.0, amplitude_twist=0.0),
+        replace(_SWAYING, amplitude_gaze=100.0, amplitude_twist=0.0),
         steps=True,
     ),
+    "variation": Effect("tops of equal strokes, scatter in %", _scatter, _STROKES),
+    "backbeat": Effect("nod on 2 and 4 over 1 and 3, °", _backbeat, _STROKES, _NO_LOOK),
+    "chin": Effect("neck's push, cm", _push, _STROKES),
+    "headbang": Effect("nod's extent, °", extent("head_nod"), _GROOVE, _NO_LOOK),
+    "lay_back_ms": Effect("deepest nod after the beat, ms", _behind_ms, _STROKES, _NO_LOOK),
+    "hunch_deg": Effect("upper back over the lower, °", _rounding, _STROKES),
+    "shimmy": Effect("twist's extent, °", extent("torso_twist"), _STROKES, _SWAYING),
+    "phrase": Effect("side sway's extent, °", extent("torso_side"), _GROOVE, replace(_STILL, amplitude_side=0.0)),
+    "fill_lean": Effect("lean's extent, °", extent("torso_lean"), _FILL),
+    "rise": Effect("pelvis' rise, cm", _height(Joint.PELVIS, np.ptp), _FILL),
+    "expression": Effect("brow's extent, %", _brow, _FILL),
     "bobs_per_beat": Effect("nod's top speed, °/s", speed("head_nod"), _GROOVE, _NO_LOOK, steps=True),
     "half_time_bpm": Effect("lean's top speed, °/s", speed("torso_lean"), _GROOVE, _SWAYING, steps=True),
 }

@@ -10,8 +10,9 @@ from station.motion.drummer import Drummer
 from station.motion.kinematics.figure import figure_of
 from station.motion.kit.kit import load_kit
 from station.music.judgement import Label
-from station.render.camera import NamedView, named
+from station.render.camera import NamedView
 from station.render.files.png_file import write_png
+from station.render.framing import named
 from station.render.picture import PictureMaker
 from station.render.quality import QUALITIES
 from station.render.report.report_picture import draw_report_png

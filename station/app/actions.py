@@ -300,7 +300,7 @@ StyleAction = EditStyle | LoadStyle | ProposeStyle | SaveStyle | KeepSlot | List
 
 @dataclass(frozen=True, slots=True)
 class Embody:
-    """Let another body demonstrate: a name or a file."""
+    """Let another drummer demonstrate: a name or a file, empty for the style's own."""
 
     figure: str
 

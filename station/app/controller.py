@@ -170,8 +170,7 @@ class Controller:
         elif isinstance(action, do.CalibrationAction):
             self._measure(action)
         elif isinstance(action, do.StyleAction):
-            self._style.act(action, self.sessions.practice.session.plan.lesson.score)
-            self.sessions.perform_as(self._style.demonstrator)
+            self._restyle(action)
         elif isinstance(action, do.SettingsAction):
             self._set(action)
         elif isinstance(action, do.FileAction):
@@ -254,6 +253,13 @@ class Controller:
     def _set_view(self, view_settings: ViewSettings) -> None:
         self._view_settings = view_settings
         self._store.update(lambda settings: with_view_settings(settings, view_settings))
+
+    def _restyle(self, action: do.StyleAction) -> None:
+        before = self._style.demonstrator.figure
+        self._style.act(action, self.sessions.practice.session.plan.lesson.score)
+        self.sessions.perform_as(self._style.demonstrator)
+        if self._style.demonstrator.figure is not before:
+            self._chooser.show_anew()
 
     def _embody(self, figure: str) -> None:
         before = self._style.figure

@@ -191,7 +191,8 @@ def _place(lesson: Lesson, bars: Bars, settings: Settings, ending: str) -> Path:
 def film_words(view_settings: ViewSettings, settings: Settings) -> tuple[str, ...]:
     """How `station animate` is to film what is seen in the window."""
     words = ["--quality", "low", "--view", view_settings.view.name.lower()]
-    words += ["--style", settings.style, "--figure", settings.figure]
+    words += ["--style", settings.style]
+    words += ["--drummer", settings.figure] if settings.figure else []
     words += ["--mirror"] if view_settings.mirrored else []
     words += ["--hands", settings.hands] if settings.hands else []
     return tuple(words)

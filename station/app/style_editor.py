@@ -21,11 +21,10 @@ from station.app.settings_store import SettingsStore
 from station.app.style.style_library import StyleEntry, StyleLibrary
 from station.app.style.style_options import StyleOptions
 from station.core.errors import StationError
-from station.motion.kinematics.figure import load_figure
 from station.motion.style.proposal import propose_style
 from station.motion.style.style import Style
 from station.music.score import Score
-from station.scenes.demonstrator import Demonstrator, demonstrator_of
+from station.scenes.demonstrator import Demonstrator, demonstrator_of, figure_for
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +51,7 @@ class StyleEditor:
         self._options = StyleOptions.of(self.demonstrator.style)
         self._source: str | None = store.now.style
         self.figure = store.now.figure
-        """Which body demonstrates: a name or a file."""
+        """Who is asked to demonstrate: a name or a file, empty for the style's own drummer."""
         self._entries: tuple[StyleEntry, ...] = ()
         self._kept = self.demonstrator.style
         self._is_held = False
@@ -86,12 +85,15 @@ class StyleEditor:
                 self._entries = tuple(self._library.entries())
             case _:
                 assert_never(action)
-        if self._options.style is not self.demonstrator.style:
-            self.demonstrator = replace(self.demonstrator, style=self._options.style)
+        style, before = self._options.style, self.demonstrator
+        if style is not before.style:
+            is_same = style.drummer == before.style.drummer
+            self.demonstrator = Demonstrator(before.figure if is_same else figure_for(style, self.figure), style)
 
     def embody(self, figure: str) -> None:
-        """Let another body demonstrate: a name or a file; raises `BadInput`."""
-        self.demonstrator = Demonstrator(load_figure(figure), self.demonstrator.style)
+        """Let another drummer demonstrate: a name or a file, empty for the style's own; raises `BadInput`."""
+        style = self.demonstrator.style
+        self.demonstrator = Demonstrator(figure_for(style, figure), style)
         self.figure = figure
 
     def keep(self) -> None:

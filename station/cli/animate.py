@@ -14,11 +14,13 @@ from station.cli.options.option_fields import Command
 from station.core.errors import BadInput
 from station.core.units import NS_PER_S
 from station.motion.drummer import Drummer
-from station.motion.kinematics.figure import GREATEST_STATURE_M, LEAST_STATURE_M, Figure, figure_of, load_figure
+from station.motion.kinematics.figure import GREATEST_STATURE_M, LEAST_STATURE_M, Figure, figure_of
 from station.motion.motion_plan import MotionPlan
 from station.motion.style.proposal import PROPOSED, propose_style
+from station.motion.style.style import Style
 from station.motion.style.style_file import load_style
 from station.music.score import Score
+from station.scenes.demonstrator import figure_for
 
 MIN_FPS, MAX_FPS = 1.0, 1000.0
 LEAD_S = 1.0
@@ -47,7 +49,7 @@ def run(options: AnimateOptions) -> int:
     if ending == _LOOP:
         score = _looped(whole, options)
     style = propose_style(score) if options.style == PROPOSED else load_style(options.style)
-    plan = _planned(score, options)
+    plan = _planned(score, style, options)
     drummer = Drummer(score, plan.kit, plan.figure, style, plan)
     if ending in WRITERS:
         start_s, length_s = _stretch(drummer.score, options, 0.0)
@@ -61,10 +63,10 @@ def run(options: AnimateOptions) -> int:
     return 0
 
 
-def _planned(score: Score, options: AnimateOptions) -> MotionPlan:
-    """The plan of `score` on the kit, by the body and with the hands that are asked for."""
+def _planned(score: Score, style: Style, options: AnimateOptions) -> MotionPlan:
+    """The plan of `score` on the kit, by the drummer and with the hands that are asked for."""
     kit = drums_of(options.score, options.drums)
-    return MotionPlan.of(score, kit, _figure(options), assigned(score, kit, options.drums))
+    return MotionPlan.of(score, kit, _figure(style, options), assigned(score, kit, options.drums))
 
 
 def _made(out: Path) -> str:
@@ -116,10 +118,10 @@ def _draw(drummer: Drummer, whole: Score, options: AnimateOptions) -> str:
     return "video  "
 
 
-def _figure(options: AnimateOptions) -> Figure:
-    """The body that plays."""
+def _figure(style: Style, options: AnimateOptions) -> Figure:
+    """The drummer who plays."""
     if options.stature is None:
-        return load_figure(options.figure or "median")
+        return figure_for(style, options.drummer)
     if not LEAST_STATURE_M <= options.stature <= GREATEST_STATURE_M:
         expected = f"expected {LEAST_STATURE_M:g} to {GREATEST_STATURE_M:g} metres"
         raise BadInput("--stature", f"{options.stature:g}", expected)

@@ -17,7 +17,7 @@ from station.cli.options.option_fields import (
     whole_number,
 )
 from station.core.errors import BadInput
-from station.motion.kinematics.figure import figure_names
+from station.motion.kinematics.figure import DEFAULT_FIGURE, figure_names
 from station.motion.style.proposal import PROPOSED
 from station.motion.style.style_file import style_names
 from station.render.camera import NamedView
@@ -79,7 +79,13 @@ class AnimateOptions:
         "NAME", f"{', '.join(style_names())}, {PROPOSED} (what the score itself suggests), or a file", str, "natural"
     )
     drums: DrumsOptions = group(DrumsOptions)
-    figure: str = option("NAME", f"{', '.join(figure_names())}, or a file", str, "", rivals="body")
+    drummer: str = option(
+        "NAME",
+        f"{', '.join(figure_names())}, or a file (the style's own, else {DEFAULT_FIGURE})",
+        str,
+        "",
+        rivals="body",
+    )
     stature: float | None = option(
         "M", "the drummer's height in metres, usual proportions", number, None, rivals="body"
     )

@@ -11,7 +11,7 @@ from station.cli.console import Progress
 from station.core.settings import load_settings
 from station.motion.drummer import Drummer
 from station.music.score import Score
-from station.render.camera import named
+from station.render.framing import Stage, named
 from station.render.picture import Shot
 from station.render.quality import QUALITIES
 from station.scenes.film import FilmLoop, FilmStretch, write_film, write_loop, write_pictures
@@ -83,5 +83,7 @@ def _numbered(out: Path, stretch: FilmStretch) -> Iterator[Path]:
 
 
 def _shot(drummer: Drummer, picture: PictureOptions) -> Shot:
-    camera = replace(named(picture.view, drummer.kit.left_handed), mirrored=picture.mirror)
+    camera = replace(
+        named(picture.view, Stage(drummer.kit, drummer.figure, drummer.style.stand)), mirrored=picture.mirror
+    )
     return Shot(picture.size, QUALITIES[picture.quality], camera, not picture.no_score)

@@ -56,7 +56,7 @@ class Settings:
     the student is asked for an opinion before a result is shown. `kicks_start` whether two kicks start the count-in,
     `auto_pause` whether a session waits for a student who has stopped, `pause` what pauses it: two pads at once,
     switches (`practice.control.pause_options`). `style` names how the demonstrator moves, a shipped style or a style
-    file, `figure` the body, a shipped one or a figure file, and `hands` whose hand leads: `right`, `left`, `open`,
+    file, `figure` who demonstrates, a shipped drummer or a file, empty for the style's own, and `hands` whose hand leads: `right`, `left`, `open`,
     empty for as a lesson's kit is built (`practice.session.leading_hand`). `view`, `mirrored`, `inset` and `viewpoints`
     are where the window looks from, `score` how it shows the score, `theme` its colours (`app.view_settings`),
     `panel_scale` how many times as large as designed its panels are, `double` whether the student is shown as a second
@@ -86,7 +86,7 @@ class Settings:
     auto_pause: bool = True
     pause: str = "crash_1+crash_2 cc=64"
     style: str = "natural"
-    figure: str = "median"
+    figure: str = ""
     hands: str = ""
     view: str = "shoulder"
     mirrored: bool = False

@@ -23,7 +23,8 @@ from station.app.room_state import ShownResult
 from station.app.view_settings import ViewSettings
 from station.core.errors import DeviceError
 from station.gui import theme
-from station.render.camera import Camera, NamedView, named
+from station.render.camera import Camera, NamedView
+from station.render.framing import Stage, named, stage_of
 from station.render.gpu.gl import GL_VERSION, RenderTarget
 from station.render.painter import Area, Arrangement, Painter
 from station.render.palette import NIGHT, themed
@@ -62,14 +63,14 @@ class Viewport:
         self._times_ms: list[float] = []
         self._page: tuple[ShownResult, ReportPage, NDArray[np.void]] | None = None
         self.view_settings = view_settings
-        self._left_handed = False
-        self.camera: Camera = replace(named(view_settings.view), mirrored=view_settings.mirrored)
+        self._stage: Stage | None = None
+        self.camera = self._named(None)
         self._seen_from = self.camera
 
     def follow(self, view_settings: ViewSettings) -> None:
         """Show the picture so; another named view, or the other side, turns it, and what is so already stays turned."""
         if view_settings.view is not self.view_settings.view:
-            self.camera = named(view_settings.view, self._left_handed)
+            self.camera = named(view_settings.view, self._stage)
         self.view_settings = view_settings
         self.camera = replace(self.camera, mirrored=view_settings.mirrored)
 
@@ -90,10 +91,13 @@ class Viewport:
         """The camera of the second picture."""
         if self.view_settings.inset is None:
             return None
-        return replace(named(self.view_settings.inset, self._left_handed), mirrored=self.view_settings.mirrored)
+        return replace(named(self.view_settings.inset, self._stage), mirrored=self.view_settings.mirrored)
 
     def _back_to_the_view(self) -> None:
-        self.camera = replace(named(self.view_settings.view, self._left_handed), mirrored=self.view_settings.mirrored)
+        self.camera = self._named(self._stage)
+
+    def _named(self, stage: Stage | None) -> Camera:
+        return replace(named(self.view_settings.view, stage), mirrored=self.view_settings.mirrored)
 
     def steer(self, io: imgui.IO) -> None:
         """Turn, shift or approach with the mouse; a double click goes back to the named view."""
@@ -118,9 +122,7 @@ class Viewport:
         painter.theme = self.view_settings.theme
         if min(area[2:]) < _LEAST_AREA:
             return lambda _: None
-        if snapshot.kit.left_handed != self._left_handed:
-            self._left_handed = snapshot.kit.left_handed
-            self._back_to_the_view()
+        self._follow_stage(stage_of(snapshot))
         began = perf_counter()
         target = self._target_for(painter, ctx, whole)
         is_rough = self.camera != self._seen_from
@@ -140,6 +142,13 @@ class Viewport:
                 ctx.viewport = (0, 0, *whole)
 
         return finish
+
+    def _follow_stage(self, stage: Stage) -> None:
+        """Frame another kit or player; where the user has turned the picture only another side turns it back."""
+        before, self._stage = self._stage, stage
+        is_turned = self.camera != self._named(before)
+        if stage != before and not (is_turned and before and stage.kit.left_handed == before.kit.left_handed):
+            self._back_to_the_view()
 
     def draw_report(self, report: ShownResult, area: Area) -> None:
         """Draw a result in place of the room; raises `DeviceError` if OpenGL fails."""

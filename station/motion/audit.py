@@ -5,6 +5,7 @@ strike. What no human can play (`Assignment.infeasible`) is left out of the join
 and after it, for there the strokes come first.
 """
 
+import math
 from dataclasses import dataclass, replace
 from math import inf
 
@@ -19,6 +20,7 @@ from station.motion.kinematics.joint_limits import FASTEST_RAD_S, Limits
 from station.motion.kinematics.pose import ANGLE_NAMES
 from station.motion.strokes.hand_events import SAME_STROKE_S
 from station.motion.strokes.targets import Strike, target_of
+from station.motion.strokes.variation import SPOT_M
 
 Array = NDArray[np.float64]
 
@@ -49,7 +51,7 @@ class Audit:
     `kit_m` how deep a stick is in a drum or cymbal, `hands_m` a stick, hand or arm in the other, `body_m` in trunk, head
     or thighs, and a hand or forearm in the kit, `limit_rad` how far a
     joint is beyond its limit, `speed` the share of the fastest that people turn it, `strike_m` how far a tip is from
-    the point that it strikes.
+    the spot of `SPOT_M` that it strikes.
     """
 
     kit_m: Worst = Worst()
@@ -128,7 +130,10 @@ def _strikes(drummer: Drummer, end_s: float) -> Worst:
             continue  # one hand makes one movement of both; in far places the assignment says so
         target = target_of(drummer.kit, Strike(note.piece, note.zone, note.articulation, limb))
         if not target.shoulder:
-            off = float(np.linalg.norm(tips[k, limb] - target.point_m))
+            away = tips[k, limb] - target.point_m
+            over = float(away @ target.normal)  # a spot has a size, but a head has no thickness
+            aside = float(np.linalg.norm(away - over * target.normal))
+            off = math.hypot(over, max(aside - SPOT_M, 0.0))
             if off > worst.value:
                 worst = Worst(off, float(score.onset_s[row]), f"{word(limb)} on {word(note.piece)}")
     return worst

@@ -17,6 +17,7 @@ from station.core.pieces import Limb
 from station.motion.keyframes import Keys
 from station.motion.kinematics.figure import Figure, figure_of
 from station.motion.kinematics.pose import Pose
+from station.motion.kinematics.posture import seated
 from station.motion.kit.kit import Kit, load_kit
 from station.motion.motion_plan import MotionPlan, holds
 from station.motion.sticking.limbs import Assignment
@@ -31,6 +32,8 @@ Array = NDArray[np.float64]
 class Drummer:
     """Plays `score` on `kit` with the body of `figure` in the manner of `style`; ask `pose` for any time.
 
+    The throne of `kit` is set to the figure.
+
     Raises `BadInput` for a piece that a limb cannot reach: it names the piece, the note and the missing distance.
     """
 
@@ -43,8 +46,9 @@ class Drummer:
     keys: Keys | None = None
 
     def __post_init__(self) -> None:
-        plan = self.plan or MotionPlan.of(self.score, self.kit, self.figure)
+        plan = self.plan or MotionPlan.of(self.score, seated(self.kit, self.figure), self.figure)
         object.__setattr__(self, "plan", plan)
+        object.__setattr__(self, "kit", plan.kit)
         parts = self.parts or plan.hands(self.style)
         object.__setattr__(self, "parts", parts)
         object.__setattr__(self, "keys", self.keys or Keys.of(plan, parts, self.style))
@@ -94,7 +98,7 @@ class Drummer:
         row = keys.at(time_s)
         for instrument in keys.instruments:
             row += instrument.at(time_s)
-        return Pose(time_s, np.frombuffer(_packing(len(row)).pack(*row)))
+        return Pose(time_s, np.frombuffer(_packing(len(row)).pack(*row)), keys.holds)
 
     def rows(self, time_s: Array) -> Array:
         """The poses at each time (n,) as rows (n, fields) in the layout of `frame`; the instruments are left out."""

@@ -5,19 +5,21 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Limb, Piece, word
-from station.motion.body import body_keys as body
+from station.motion.body.head_keys import head_curve
 from station.motion.body.idle_motion import BREATH_M, BREATH_RATE, Blinks
 from station.motion.body.reach import reaching
 from station.motion.kinematics.arm import Contact
-from station.motion.kinematics.frame import HandNow, Rig
-from station.motion.kinematics.leg import HEEL_RAD, Footing
+from station.motion.kinematics.frame import FeetNow, HandNow, Rig
+from station.motion.kinematics.grip import Hold
+from station.motion.kinematics.leg import HEEL_RAD
 from station.motion.kinematics.maths import MANY, ONE, Number, Point
 from station.motion.kinematics.splines import SplineChannels
 from station.motion.kit.instruments import Instrument
@@ -27,6 +29,7 @@ from station.motion.strokes.flourish import NOTHING, Flourishes, Now, flourished
 from station.motion.strokes.hand import HandPart
 from station.motion.strokes.stroke import Sliders, Strokes
 from station.motion.strokes.travel import HandPath
+from station.motion.strokes.variation import spots, varied
 from station.motion.style.style import Style
 from station.music.score import Score
 
@@ -73,7 +76,8 @@ def _swept(now: HandNow, sweep: Point) -> HandNow:
 class Keys:
     """All keyframes under one style.
 
-    `hands` of the right and the left, `feet` the boards under them; the rest is the body's.
+    `hands` of the right and the left, `kicks` the boards of the kick and of its slave, `hat` the hi-hat's opening,
+    `heels` how the soles of the kick's and the hi-hat's foot tip; the rest is the body's.
     """
 
     style: Style
@@ -83,7 +87,9 @@ class Keys:
     head: SplineChannels
     gaze: SplineChannels
     blinks: Blinks
-    feet: tuple[SplineChannels, SplineChannels]
+    kicks: tuple[SplineChannels, SplineChannels]
+    hat: SplineChannels
+    heels: SplineChannels
     rig: Rig
     instruments: tuple[Instrument, ...]
 
@@ -96,8 +102,6 @@ class Keys:
         same = {stage for stage in READS if old is not None and _alike(old.style, style, READS[stage])}
         (right, left), ground = parts, plan.ground
         hands = old.hands if old is not None else (None, None)
-        left_kick = plan.kit.left_handed
-        kick = old.feet[left_kick] if old is not None and "kick" in same else plan.kick(style)
         return cls(
             style=style,
             parts=parts,
@@ -105,37 +109,52 @@ class Keys:
             body=old.body
             if old is not None and "body" in same
             else reaching(ground, style, parts, plan.figure, plan.pelvis),
-            head=old.head if old is not None and "head" in same else body.head_curve(ground, style),
+            head=old.head if old is not None and "head" in same else head_curve(ground, style),
             gaze=old.gaze if old is not None and "gaze" in same else plan.gaze(style),
             blinks=old.blinks if old is not None and "blinks" in same else plan.blinks(style.seed),
-            feet=(plan.hat, kick) if left_kick else (kick, plan.hat),
+            kicks=old.kicks if old is not None and "kicks" in same else plan.kicks(style),
+            hat=plan.hat,
+            heels=old.heels if old is not None and "heels" in same else plan.heels(style),
             rig=rig_of(plan, style),
             instruments=plan.instruments,
         )
 
+    @cached_property
+    def holds(self) -> tuple[Hold, Hold]:
+        """What the right and the left hand hold, and how."""
+        return self.parts[0].hold, self.parts[1].hold
+
     def at(self, time_s: float) -> list[float]:
         """The whole drummer at one instant as a row of `frame`, the instruments left out."""
-        twist, lean, side, shrug, wing, stand, gaze, breath = self.body.at(time_s)
+        twist, lean, side, shrug, hunch, wing, stand, gaze, breath, *face = self.body.at(time_s)
         bearing, pitch = self.gaze.at(time_s)
         shrug += breath * BREATH_M * math.sin(BREATH_RATE * time_s)
-        nod, tilt = self.head.at(time_s)
+        nod, tilt, chin = self.head.at(time_s)
         (right, right_spin), (left, left_spin) = self.hands[0].at(time_s), self.hands[1].at(time_s)
-        boards = self.feet[0].first(time_s), self.feet[1].first(time_s)
+        path = self.rig.path
+        phase = 0.0 if path is None else path.phase.first(time_s)
+        kick, slave = self.kicks[0].first(time_s), self.kicks[1].first(time_s)
+        feet = FeetNow(kick, self.hat.first(time_s), slave, *self.heels.at(time_s), phase)
         look = gaze * bearing, gaze * pitch
-        now = (twist, lean, side, shrug, wing, stand, *look, nod, tilt, self.blinks.at(time_s))
-        return flourished(ONE, self.rig.row(ONE, now, right, left, boards), right_spin, left_spin)
+        eyes = self.blinks.at(time_s)
+        now = (twist, lean, side, shrug, hunch, wing, stand, *look, nod, tilt, chin, eyes, *face)
+        return flourished(ONE, self.rig.row(ONE, now, right, left, feet), right_spin, left_spin)
 
     def many(self, time_s: Array) -> list[Number]:
         """The same at each time (n,): numbers and arrays (n,)."""
-        twist, lean, side, shrug, wing, stand, gaze, breath = self.body.many(time_s)
+        twist, lean, side, shrug, hunch, wing, stand, gaze, breath, *face = self.body.many(time_s)
         bearing, pitch = self.gaze.many(time_s)
         shrug = shrug + breath * BREATH_M * np.sin(BREATH_RATE * time_s)
-        nod, tilt = self.head.many(time_s)
+        nod, tilt, chin = self.head.many(time_s)
         (right, right_spin), (left, left_spin) = self.hands[0].many(time_s), self.hands[1].many(time_s)
-        boards = self.feet[0].many(time_s)[0], self.feet[1].many(time_s)[0]
+        path = self.rig.path
+        phase = 0.0 if path is None else path.phase.many(time_s)[0]
+        kick, slave = self.kicks[0].many(time_s)[0], self.kicks[1].many(time_s)[0]
+        feet = FeetNow(kick, self.hat.many(time_s)[0], slave, *self.heels.many(time_s), phase)
         look = gaze * bearing, gaze * pitch
-        now = (twist, lean, side, shrug, wing, stand, *look, nod, tilt, self.blinks.many(time_s))
-        return flourished(MANY, self.rig.row(MANY, now, right, left, boards), right_spin, left_spin)
+        eyes = self.blinks.many(time_s)
+        now = (twist, lean, side, shrug, hunch, wing, stand, *look, nod, tilt, chin, eyes, *face)
+        return flourished(MANY, self.rig.row(MANY, now, right, left, feet), right_spin, left_spin)
 
 
 READS: Mapping[str, tuple[str, ...]] = MappingProxyType(
@@ -143,17 +162,25 @@ READS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "strokes": (
             *("amplitude_gain", "amplitude_wrist", "amplitude_elbow", "amplitude_shoulder", "amplitude_fingers"),
             *("frequency_gain", "frequency_wrist", "frequency_elbow", "frequency_shoulder", "whip", "pieces"),
+            *("variation", "seed"),
             *(word(piece) for piece in Piece),
         ),
+        "way": ("variation", "seed"),
         "flourishes": ("flourish", "seed"),
         "body": (
             *("amplitude_twist", "amplitude_back", "frequency_back", "amplitude_side", "half_time_bpm"),
             *("twist_deg_s", "shrug", "wing_deg", "posture_deg", "stand", "amplitude_gaze", "breathing"),
+            *("hunch_deg", "shimmy", "phrase", "fill_lean", "rise", "mood", "expression"),
+            *("headbang", "lay_back_ms", "variation", "seed"),
         ),
-        "head": ("amplitude_neck", "frequency_neck", "bobs_per_beat", "amplitude_head_side"),
-        "gaze": ("look_around", "seed"),
+        "head": (
+            *("amplitude_neck", "frequency_neck", "bobs_per_beat", "amplitude_head_side", "backbeat", "chin"),
+            *("headbang", "lay_back_ms", "variation", "seed"),
+        ),
+        "gaze": ("look_around", "attention", "seed"),
         "blinks": ("seed",),
-        "kick": ("beater",),
+        "kicks": ("beater",),
+        "heels": ("amplitude_heel",),
     }
 )
 """Which controls each stage of keyframes reads: under all others it stays as it is. What is not here is made anew."""
@@ -173,7 +200,18 @@ def _hand(plan: MotionPlan, part: HandPart, style: Style, old: HandKeys | None, 
         old.strokes if old and "strokes" in same else Strokes.of(part.strokes, sliders(plan.score, part, style, bars))
     )
     flourishes = old.flourishes if old and "flourishes" in same else _flourishes(part, style, bars)
-    return HandKeys(part.way, strokes, flourishes, part.show, _sweeps(plan, part, strokes))
+    way = old.way if old and "way" in same else _way(plan, part, style, bars)
+    return HandKeys(way, strokes, flourishes, part.show, _sweeps(plan, part, strokes))
+
+
+def _way(plan: MotionPlan, part: HandPart, style: Style, bars: Array) -> HandPath:
+    """The hand's way, every strike as near to its aim as chance has it."""
+    amount = style.factor("variation", bars)
+    if not amount.any() or not len(part.events.row):
+        return part.way
+    contacts = part.contacts.copy()
+    contacts[:, :3] += spots(plan.kit, part.events, amount, (style.seed, int(part.limb)))
+    return replace(part, contacts=contacts).way
 
 
 def _sweeps(plan: MotionPlan, part: HandPart, strokes: Strokes) -> Sweeps | None:
@@ -211,7 +249,9 @@ def sliders(score: Score, hand: HandPart, style: Style, bars: Array) -> Sliders:
         struck = score.notes["piece"][hand.events.row]
         for piece in style.own_pieces:
             gain = gain * np.where(struck == piece, style.piece_factor(piece, bars), 1.0)
-    return Sliders(gain, _pace(np.array(paces)), style.factor("whip", bars)[None])
+    found = Sliders(gain, _pace(np.array(paces)), style.factor("whip", bars)[None])
+    amount = style.factor("variation", bars)
+    return varied(found, hand.strokes.rebounds, amount, (style.seed, int(hand.limb))) if amount.any() else found
 
 
 SLOWEST = 0.3
@@ -225,17 +265,15 @@ def _pace(frequency: Array) -> Array:
 
 def rig_of(plan: MotionPlan, style: Style) -> Rig:
     """The parts that do not move, for `style`."""
-    kick, hat = plan.kit.pedals[Piece.KICK], plan.kit.pedals[Piece.HIHAT_PEDAL]
-    pedals = (hat, kick) if plan.kit.left_handed else (kick, hat)
-    right, left = (Footing.of(p, plan.figure, r) for p, r in zip(pedals, (True, False), strict=True))
     hold_right, hold_left = holds(style)
     return Rig(
         figure=plan.figure,
         pelvis=plan.pelvis,
         arms=(hold_right.lengths(plan.figure), hold_left.lengths(plan.figure, right=False)),
         rolls=(hold_right.grip.roll, hold_left.grip.roll),
-        footings=(right, left),
-        raised=(pedals[0].raised_rad, pedals[1].raised_rad),
+        footings=plan.footings,
+        raised=plan.raised_rad,
+        path=plan.path,
         heel=HEEL_RAD[style.heel],
         right_kicks=not plan.kit.left_handed,
         neck_rad=plan.figure.limits.neck_rotation,

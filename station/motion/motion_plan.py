@@ -10,13 +10,20 @@ from station.core.pieces import Limb, Piece
 from station.motion.avoidance.clearance import cleared
 from station.motion.avoidance.cost import Stage
 from station.motion.avoidance.optimise import looks, optimised
+from station.motion.body import body_keys
 from station.motion.body.beats import Beats, bob_cofactors, restarts
 from station.motion.body.body_keys import Ground, mean_bearing
 from station.motion.body.gaze import GazeTargets, gaze_curve
+from station.motion.body.heels import heel_curves
 from station.motion.body.idle_motion import Blinks
+from station.motion.body.intensity import Intensity
 from station.motion.body.reach import reaching
 from station.motion.kinematics.body_solids import BodyPoints
 from station.motion.kinematics.figure import Figure
+from station.motion.kinematics.foot_path import FootPath, Visits
+from station.motion.kinematics.footings import footings
+from station.motion.kinematics.grip import Hold
+from station.motion.kinematics.leg import Footing
 from station.motion.kinematics.maths import MANY, Point, blocks
 from station.motion.kinematics.pedal_motion import hat_board, kick_board
 from station.motion.kinematics.posture import pelvis_of
@@ -25,16 +32,19 @@ from station.motion.kinematics.trunk import TrunkAngles, trunk
 from station.motion.kit.instruments import Instrument, instruments
 from station.motion.kit.kit import Kit
 from station.motion.sticking.limbs import Assignment, assign_limbs
-from station.motion.strokes.grip import GRIPS, HELD, Hold
 from station.motion.strokes.hand import HandPart
 from station.motion.strokes.hand_events import HandEvents, hand_events
-from station.motion.strokes.lap import thigh
+from station.motion.strokes.lap import Thigh, thighs
 from station.motion.strokes.targets import strike_points
 from station.motion.style.style import Style
 from station.music.score import Score
 
 Array = NDArray[np.float64]
 
+QUIET = Style(phrase=0.0, fill_lean=0.0, variation=0.0)
+"""The style whose shoulders are in the middle of what all others make of them."""
+LIVELY = Style(amplitude_twist=75.0, amplitude_back=95.0, amplitude_side=45.0, shrug=50.0, phrase=60.0, fill_lean=100.0)
+"""The style whose shoulders are farthest from the natural ones: hands are so pointed that both serve their wrists."""
 HANDS = (Limb.RIGHT_HAND, Limb.LEFT_HAND)
 
 
@@ -51,12 +61,16 @@ class MotionPlan:
     ground: Ground
     pelvis: Point
     hat: SplineChannels
+    visits: Visits
+    path: FootPath | None
+    footings: tuple[Footing, Footing]
     instruments: tuple[Instrument, ...]
 
     @classmethod
     def of(cls, score: Score, kit: Kit, figure: Figure, assignment: Assignment | None = None) -> "MotionPlan":
         """The plan of `score`; `assignment` is `assign_limbs`' own where none is given."""
         who = assignment or assign_limbs(score, kit)
+        visits = Visits.of(score, who.limbs, kit.feet[1])
         points = strike_points(score, kit, who.limbs)
         return cls(
             score=score,
@@ -68,50 +82,85 @@ class MotionPlan:
             ground=_ground(score, kit, who.limbs, points),
             pelvis=pelvis_of(kit, figure),
             hat=hat_board(score, score.onset_s),
+            visits=visits,
+            path=FootPath.of(visits),
+            footings=footings(kit, figure),
             instruments=tuple(instruments(score, kit, score.onset_s, points)),
         )
 
-    def kick(self, style: Style) -> SplineChannels:
-        """The kick's board over time."""
-        score = self.score
+    @property
+    def raised_rad(self) -> tuple[float, float, float]:
+        """How far the boards of kick, hi-hat and slave are raised at rest."""
+        kick, hat = self.kit.pedals[Piece.KICK], self.kit.pedals[Piece.HIHAT_PEDAL]
+        return kick.raised_rad, hat.raised_rad, 0.0 if self.kit.slave is None else self.kit.slave.raised_rad
+
+    @cached_property
+    def _kicks(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """The rows of the kick's foot's strokes and of the slave's, in order of time."""
+        score, limbs = self.score, self.assignment.limbs
         kicks = np.flatnonzero(score.notes["piece"] == Piece.KICK)
         kicks = kicks[np.argsort(score.onset_ns[kicks], kind="stable")]
-        velocity = score.notes["velocity"][kicks].astype(np.float64)
-        return kick_board(score.onset_s[kicks], velocity, style.beater == "buried")
+        second = limbs[kicks] == self.kit.feet[1]
+        return kicks[~second], kicks[second]
+
+    def kicks(self, style: Style) -> tuple[SplineChannels, SplineChannels]:
+        """The boards of the kick and of its slave over time."""
+        first, second = (
+            kick_board(
+                self.score.onset_s[rows], self.score.notes["velocity"][rows].astype(float), style.beater == "buried"
+            )
+            for rows in self._kicks
+        )
+        return first, second
+
+    def heels(self, style: Style) -> SplineChannels:
+        """How the soles of the kick's and the hi-hat's foot tip in time."""
+        moving = np.zeros(0) if self.path is None else self.path.busy_s
+        busy = self.score.onset_s[self._kicks[0]], np.union1d(self.visits.time_s, moving)
+        return heel_curves(self.ground, style, busy)
 
     def hands(self, style: Style) -> tuple[HandPart, HandPart]:
         """Both hands' parts with what `style` makes them hold."""
+        legs = thighs(self.kit, self.figure, self.footings, style.heel)
         right, left = (
-            HandPart.of(self.score, self.kit, self.figure, hold, limb, events, style.heel)
-            for limb, hold, events in zip(HANDS, holds(style), self.events, strict=True)
+            HandPart.of(self.score, self.kit, self.figure, hold, limb, events, own)
+            for limb, hold, events, own in zip(HANDS, holds(style), self.events, legs, strict=True)
         )
         right, left = cleared((right, left), self.figure)
         if not (len(right.events.row) or len(left.events.row)):
             return right, left
-        (right, left), _ = optimised((right, left), self._stage((right, left), style.heel))
+        stage = self._stage((right, left), legs)
+        lively = self._body(stage.grid, body_keys.curves(self.ground, LIVELY, body_keys.keys(self.ground, LIVELY)))
+        shoulders = list(zip(stage.roots, lively[4:], strict=True))  # leaning too would bend wrists
+        right, left = (hand.eased(self.figure, stage.grid, r) for hand, r in zip((right, left), shoulders, strict=True))
+        (right, left), _ = optimised((right, left), stage)
+        right, left = (hand.eased(self.figure, stage.grid, r) for hand, r in zip((right, left), shoulders, strict=True))
         return right, left
 
-    def _stage(self, hands: tuple[HandPart, HandPart], heel: str) -> Stage:
+    def _stage(self, hands: tuple[HandPart, HandPart], legs: tuple[Thigh, Thigh]) -> Stage:
         """The body in its natural posture, in which the `hands` must find their ways."""
         grid = looks(*(hand.events.time_s for hand in hands))
-        curves = reaching(self.ground, Style(), hands, self.figure, self.pelvis)
-        points = np.empty((6, 3, len(grid)))
-        for block in blocks(len(grid)):
-            twist, lean, side, shrug, *_ = curves.many(grid[block])
-            frame = trunk(MANY, self.figure, self.pelvis, TrunkAngles(twist, lean, side, 0.0, 0.0, 0.0, shrug))
+        points = self._body(grid, reaching(self.ground, QUIET, hands, self.figure, self.pelvis))
+        pelvis, neck, head, crown, right, left = (p.T for p in points)
+        body = BodyPoints(pelvis, neck, head, crown, (right, left), legs)
+        return Stage(self.figure, self.kit, grid, (points[4], points[5]), body, (hands[0].bump, hands[1].bump))
+
+    def _body(self, time_s: Array, curves: SplineChannels) -> Array:
+        """Pelvis, neck's base, head, crown and shoulders at each time (n,) in a body that moves by `curves`, (6, 3, n)."""
+        points = np.empty((6, 3, len(time_s)))
+        for block in blocks(len(time_s)):
+            twist, lean, side, shrug, hunch, *_ = curves.many(time_s[block])
+            frame = trunk(MANY, self.figure, self.pelvis, TrunkAngles(twist, lean, side, 0.0, 0.0, 0.0, shrug, hunch))
             ends = (self.pelvis, frame.neck, frame.head, frame.crown, frame.right_shoulder, frame.left_shoulder)
             for k, point in enumerate(ends):
                 points[k, :, block] = np.stack(np.broadcast_arrays(*point, twist)[:3])
-        pelvis, neck, head, crown, right, left = (p.T for p in points)
-        thighs = thigh(self.kit, self.figure, True, heel), thigh(self.kit, self.figure, False, heel)
-        body = BodyPoints(pelvis, neck, head, crown, (right, left), thighs)
-        return Stage(self.figure, self.kit, grid, (points[4], points[5]), body, (hands[0].bump, hands[1].bump))
+        return points
 
     def gaze(self, style: Style) -> SplineChannels:
         """Where the drummer looks."""
         sights, ticks = self._sights
         bars = bar_places(self.score, ticks) if style.automation else np.ones(1)
-        return gaze_curve(sights, style.value("look_around", bars) / 100, style.seed)
+        return gaze_curve(sights, style.value("look_around", bars) / 100, style.seed, style.attention)
 
     @cached_property
     def note_bars(self) -> Array:
@@ -143,7 +192,7 @@ class MotionPlan:
 
 def holds(style: Style) -> tuple[Hold, Hold]:
     """What the right and the left hand hold, and how."""
-    return Hold(GRIPS[style.grip_right], HELD[style.held]), Hold(GRIPS[style.grip_left], HELD[style.held])
+    return Hold.of(style.grip_right, style.held), Hold.of(style.grip_left, style.held)
 
 
 def _ground(score: Score, kit: Kit, limbs: NDArray[np.int8], points: Array) -> Ground:
@@ -167,6 +216,7 @@ def _ground(score: Score, kit: Kit, limbs: NDArray[np.int8], points: Array) -> G
         bearing=mean_bearing(times, onset[hands], bearing),
         bob=bob,
         restart=restarts(beats.time_s, onset),
+        intensity=Intensity.of(times, onset, velocity, notes["piece"]),
     )
 
 

@@ -9,7 +9,8 @@ import numpy as np
 
 from station.motion.kinematics.figure import Figure
 from station.motion.kit.kit import Kit
-from station.render.camera import NamedView, named
+from station.render.camera import NamedView
+from station.render.framing import named
 from station.render.gpu.bone_palette import BoneFrame
 from station.render.gpu.gl import RenderTarget, standalone_context
 from station.render.painter import SCORE_SHARE

@@ -1,4 +1,4 @@
-"""Viewpoints: named ones that follow the kit and the drummer, and orbiting, panning and zooming from any of them."""
+"""Viewpoints: what the named ones are called, and orbiting, panning and zooming; `framing` says where they stand."""
 
 from dataclasses import dataclass, replace
 from enum import IntEnum
@@ -7,6 +7,8 @@ import numpy as np
 
 from station.render.geometry.transforms import Matrix, look_at, perspective
 
+NARROW = 1.5
+"""Width over height below which pictures widen their angle (our choice: a kit is wider than high)."""
 _NEAR_M, _FAR_M = 0.06, 16.0
 _MIN_DISTANCE_M, _MAX_DISTANCE_M = 0.5, 4.4
 """Orbiting stays within the room."""
@@ -62,7 +64,7 @@ class Camera:
 
     def matrix(self, aspect: float) -> Matrix:
         """World to clip for a picture `aspect` times as wide as high; narrow pictures widen their angle."""
-        fov = self.fov_rad if aspect >= 1.5 else 2 * np.arctan(np.tan(self.fov_rad / 2) * 1.5 / aspect)
+        fov = self.fov_rad if aspect >= NARROW else 2 * np.arctan(np.tan(self.fov_rad / 2) * NARROW / aspect)
         clip = perspective(float(fov), aspect, _NEAR_M, _FAR_M)
         if self.mirrored:
             clip[0] = -clip[0]
@@ -84,29 +86,3 @@ class Camera:
     def zoomed(self, factor: float) -> "Camera":
         """Nearer for factors above 1."""
         return replace(self, distance_m=float(np.clip(self.distance_m / factor, _MIN_DISTANCE_M, _MAX_DISTANCE_M)))
-
-
-_DEG = np.pi / 180
-
-
-def named(view: NamedView, left_handed: bool = False) -> Camera:
-    """The camera of a named view, on the other side for a kit that leads with the left hand."""
-    camera = _CAMERAS[_OTHER_HAND.get(view, view) if left_handed else view]
-    if not left_handed:
-        return camera
-    x, y, z = camera.target
-    return replace(camera, target=(-x, y, z), azimuth_rad=np.pi - camera.azimuth_rad)
-
-
-_CAMERAS = {
-    NamedView.FRONT: Camera((0.06, 0.40, 0.70), 70 * _DEG, 13 * _DEG, 2.95, 0.66),
-    NamedView.SHOULDER: Camera((0.02, 0.60, 0.70), -54 * _DEG, 50 * _DEG, 1.85, 0.78),
-    NamedView.EYES: Camera((0.05, 0.74, 0.62), -90 * _DEG, 54 * _DEG, 0.86, 1.15),
-    NamedView.TOP: Camera((0.08, 0.48, 0.6), -90 * _DEG, 88 * _DEG, 2.1, 0.80),
-    NamedView.HANDS: Camera((-0.03, 0.42, 0.78), 70 * _DEG, 44 * _DEG, 1.20, 0.62),
-    NamedView.FEET: Camera((-0.02, 0.50, 0.18), 222 * _DEG, 22 * _DEG, 1.50, 0.62),
-    NamedView.LEFT_HAND: Camera((-0.12, 0.33, 0.74), 176 * _DEG, 46 * _DEG, 0.86, 0.60),
-    NamedView.RIGHT_HAND: Camera((0.00, 0.42, 0.82), 38 * _DEG, 34 * _DEG, 0.86, 0.66),
-}
-_OTHER_HAND = {NamedView.LEFT_HAND: NamedView.RIGHT_HAND, NamedView.RIGHT_HAND: NamedView.LEFT_HAND}
-"""A kit that leads with the left hand is the other one in a mirror: so are its hands."""

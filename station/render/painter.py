@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from station.motion.kinematics.figure import Figure
 from station.motion.kit.kit import Kit
 from station.render import hud
-from station.render.camera import Camera, NamedView, named
+from station.render.camera import Camera, NamedView
+from station.render.framing import named, stage_of
 from station.render.gpu.cached_layer import CachedLayer
 from station.render.gpu.gl import RenderTarget, give_back
 from station.render.gpu.moving_parts import DoublePlace, frames_of
@@ -31,6 +32,8 @@ SCORE_SHARE = 0.30
 """The score's share of the picture's height."""
 INSET_SHARE = 0.36
 """The second picture's share of the scene's width or height, whichever is less (our choice: hands at arm's length)."""
+_STILL_SAMPLES = 4
+"""A pixel of what is drawn once for each camera; fewer for one that moves."""
 _INSET_MARGIN = 0.03
 _INSET_EDGE = 2
 """Pixels of the line round the second picture."""
@@ -115,7 +118,7 @@ class Painter:
         scene_area = (left, low + score_height, width, height - score_height)
         place = ScorePlace(0.0, float(scene_area[3]), float(width), float(score_height))
         scene = self._scene_of(snapshot)
-        camera = camera or named(NamedView.SHOULDER, snapshot.kit.left_handed)
+        camera = camera or named(NamedView.SHOULDER, stage_of(snapshot))
         frames = frames_of(snapshot, arrangement.double, self.theme)
         places = _side_by_side(scene_area, len(frames))
         scene.set(frames[0])
@@ -140,7 +143,7 @@ class Painter:
             lay(into, partial(scene.draw_still, is_rough=arrangement.is_rough))
 
         def lay_words(into: moderngl.Framebuffer) -> None:
-            self._still.under(into, key, lay_still)
+            self._still.under(into, key, lay_still, 0 if arrangement.is_rough else _STILL_SAMPLES)
             into.use()
             self._ctx.viewport = area
             self._lay_lines(self._lines.of(corners, words), (width, height))
@@ -221,7 +224,7 @@ class Painter:
             self._inset = RenderTarget(self._ctx, size)
         whole, into = (0, 0, *size), self._inset.framebuffer
         key = (scene, camera, scene.shows_figure)
-        self._inset_still.under(into, key, lambda still: scene.draw_still(still, camera, whole))
+        self._inset_still.under(into, key, lambda still: scene.draw_still(still, camera, whole), _STILL_SAMPLES)
         scene.draw_moving(into, camera, whole)
         scene.draw_glow(into, camera, whole)
         return self._inset.resolved()

@@ -21,7 +21,7 @@ from station.render.figure.skeleton import Skeleton
 from station.render.geometry.transforms import gl_bytes
 from station.render.gpu.bone_palette import BoneFrame, BonePalette
 from station.render.gpu.scene_cache import cached_kit
-from station.render.gpu.scene_parts import ANISOTROPY, SceneParts, write
+from station.render.gpu.scene_parts import SceneParts, write
 from station.render.kit.kit_rig import KitRig
 from station.render.quality import Quality
 
@@ -45,7 +45,7 @@ class Scene:
         self._bones = BonePalette(ctx, self.rig, self.skeleton)
         self._parts = SceneParts(ctx, self.rig, figure, quality)
         self._parts.ghost.skin.program["first_bone"] = self._bones.double
-        self._parts.ghost.rigid.program["first_bone"] = self._bones.double_sticks - self.rig.sticks[0]
+        self._parts.ghost.rigid.program["first_bone"] = self._bones.double_sticks - self.rig.sticks.start
         self._frame = BoneFrame()
         self._lit: dict[
             BoneFrame, set[Piece]
@@ -98,17 +98,18 @@ class Scene:
             self._draw_resting_shadows()
         self._begin(target, viewport, camera)
         target.clear(depth=1.0, viewport=viewport)
-        rigid = self._parts.quick.rigid if is_rough else self._parts.solid.rigid
-        self._parts.floor_map.anisotropy = 1.0 if is_rough else ANISOTROPY
-        self._aim(camera, viewport, rigid, self._parts.floor, self._parts.wall)
+        parts = self._parts
+        rigid, room = (parts.quick.rigid, parts.room) if is_rough else (parts.still_rigid, parts.still_room)
+        parts.sharpen(is_rough)
+        self._aim(camera, viewport, rigid, *room)
         _render(rigid, slice(0, self.rig.still_faces))
-        self._parts.floor.render()
-        self._parts.wall.render()
+        for part in room:
+            part.render()
         self._end()
 
     def _draw_resting_shadows(self) -> None:
         self._begin_shadows()
-        _render(self._parts.rigid_depth, slice(0, self.rig.faces_of[self.rig.sticks[0]].start))
+        _render(self._parts.rigid_depth, slice(0, self.rig.faces_of[self.rig.sticks.start].start))
         if self.shows_figure:
             self._parts.resting_depth.render()
         self._resting_shadow = self.shows_figure
@@ -159,7 +160,7 @@ class Scene:
     @property
     def picture_parts(self) -> tuple[moderngl.VertexArray, ...]:
         """What the picture pass draws: the figure, then nearest first, so that what is hidden is not shaded."""
-        parts = (self._parts.solid.skin, self._parts.solid.rigid, self._parts.floor, self._parts.wall)
+        parts = (self._parts.solid.skin, self._parts.solid.rigid, *self._parts.room)
         return parts if self.shows_figure else parts[1:]
 
     def _draw_double(self, target: moderngl.Framebuffer, camera: Camera, viewport: Viewport) -> None:
@@ -167,13 +168,13 @@ class Scene:
         if self._frame.double is None:
             return
         skin, rigid = self._parts.ghost.skin, self._parts.ghost.rigid
-        right, left = (self.rig.faces_of[bone] for bone in self.rig.sticks)
+        first, last = (self.rig.faces_of[bone] for bone in (self.rig.sticks[0], self.rig.sticks[-1]))
         self._aim(camera, viewport, skin, rigid)
         self._over_the_same()
         for seen in (False, True):
             target.color_mask = seen, seen, seen, seen
             skin.render()
-            _render(rigid, slice(right.start, left.stop))
+            _render(rigid, slice(first.start, last.stop))
 
     # --- OpenGL's state -----------------------------------------------------------------------------------------------
 

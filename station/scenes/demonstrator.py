@@ -6,8 +6,8 @@ from typing import TypeVar
 
 from station.core.errors import BadInput
 from station.core.settings import Settings
-from station.motion.kinematics.figure import Figure, figure_of, load_figure
-from station.motion.style.style import Style
+from station.motion.kinematics.figure import DEFAULT_FIGURE, Figure, figure_of, load_figure
+from station.motion.style.style import ANYBODY, Style
 from station.motion.style.style_file import load_style
 
 T = TypeVar("T")
@@ -24,10 +24,14 @@ class Demonstrator:
 def demonstrator_of(settings: Settings, notify: Callable[[str], None]) -> Demonstrator:
     """The one of the settings; `notify` hears what cannot be loaded, in whose place the natural one is."""
     natural = Demonstrator()
-    return Demonstrator(
-        _or(natural.figure, lambda: load_figure(settings.figure), notify),
-        _or(natural.style, lambda: load_style(settings.style), notify),
-    )
+    style = _or(natural.style, lambda: load_style(settings.style), notify)
+    return Demonstrator(_or(natural.figure, lambda: figure_for(style, settings.figure), notify), style)
+
+
+def figure_for(style: Style, wanted: str) -> Figure:
+    """The drummer that is `wanted`, by name or file; if none, the style's own. Raises `BadInput`."""
+    own = DEFAULT_FIGURE if style.drummer == ANYBODY else style.drummer
+    return load_figure(wanted or own)
 
 
 def _or(default: T, load: Callable[[], T], notify: Callable[[str], None]) -> T:

@@ -96,16 +96,16 @@ class StudentFigure:
         now = drummer.pose(position_s)
         row = now.row.copy()
         row[frame.PLAYED :] = 0.0
-        kicks = Limb.LEFT_FOOT if drummer.kit.left_handed else Limb.RIGHT_FOOT
+        kicks, _ = drummer.kit.feet
         for limb, fields in _FIELDS.items():
             time_s = self._time_s(limb, drummer, position_s)
             if time_s != position_s:
                 borrowed = drummer.pose(time_s).row
                 row[fields] = borrowed[fields]
                 if not limb.is_hand:
-                    pedal = frame.BEATER if limb is kicks else frame.GAP
-                    row[pedal] = borrowed[pedal]
-        return StudentShown(Pose(position_s, row), self._partings(now_ns))
+                    moved = [frame.BEATER] if limb is kicks else [frame.GAP, frame.SLAVE_BOARD, frame.SLAVE_BEATER]
+                    row[moved] = borrowed[moved]
+        return StudentShown(Pose(position_s, row, now.holds), self._partings(now_ns))
 
     def _time_s(self, limb: Limb, drummer: Drummer, position_s: float) -> float:
         """The time at which the limb is: as late as its last stroke was, and not beyond where it waits."""

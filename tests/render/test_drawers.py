@@ -20,7 +20,8 @@ from station.core.errors import DeviceError
 from station.motion.drummer import Drummer
 from station.motion.kinematics.figure import figure_of
 from station.motion.kit.kit import load_kit
-from station.render.camera import NamedView, named
+from station.render.camera import NamedView
+from station.render.framing import named
 from station.render.picture import Artist, Shot, renderer_name
 from station.render.quality import QUALITIES
 from station.render.render_pool import RenderPool, artist

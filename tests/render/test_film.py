@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from station.motion.drummer import Drummer
 from station.motion.kinematics.figure import figure_of
 from station.motion.kit.kit import load_kit
-from station.render.camera import NamedView, named
+from station.render.camera import NamedView
+from station.render.framing import named
 from station.render.picture import PictureMaker, Shot
 from station.render.quality import QUALITIES
 from station.scenes.film import FilmStretch, write_film, write_pictures

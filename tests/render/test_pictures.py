@@ -18,7 +18,8 @@ from station.motion.kinematics.pose import RIGHT, Pose
 from station.motion.kit.kit import load_kit
 from station.music.judgement import Label
 from station.music.score import Note
-from station.render.camera import Camera, NamedView, named
+from station.render.camera import Camera, NamedView
+from station.render.framing import named
 from station.render.gpu.gl import RenderTarget, standalone_context
 from station.render.gpu.moving_parts import DoublePlace
 from station.render.notation.score_view import AFTER_S, BEFORE_S, ScoreForm, ScorePlace

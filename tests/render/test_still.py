@@ -11,7 +11,8 @@ from station.core.pieces import Piece
 from station.motion.drummer import Drummer
 from station.motion.kinematics.figure import figure_of
 from station.motion.kit.kit import load_kit
-from station.render.camera import NamedView, named
+from station.render.camera import NamedView
+from station.render.framing import named
 from station.render.gpu.bone_palette import BoneFrame
 from station.render.gpu.cached_layer import CachedLayer
 from station.render.gpu.gl import RenderTarget, standalone_context

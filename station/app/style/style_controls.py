@@ -80,14 +80,21 @@ TABS: tuple[ControlTab, ...] = (
                         "bobs_per_beat", "nods/beat", "Under 0.75 every other beat, from 1.5 on half beats", "%.1f"
                     ),
                     Control("amplitude_head_side", "tilt", "How far the head leans from side to side"),
+                    Control("backbeat", "backbeat", "0 nods on 1 and 3, 50 on every beat, 100 on 2 and 4"),
+                    Control("chin", "chin", "How far the neck pushes forward on the beat"),
+                    Control("headbang", "head-banging", "How far the whole head swings down on the beat and back"),
                 ),
             ),
             ControlGroup(
                 "Eyes",
                 (
                     Control("amplitude_gaze", "gaze", "How far the head turns to the piece that comes next"),
-                    Control("look_around", "look around", "How often the drummer looks up in rests"),
+                    Control("look_around", "look around", "How often the drummer looks up from what is played"),
                 ),
+            ),
+            ControlGroup(
+                "Face",
+                (Control("expression", "expression", "How much the face shows of the mood and of the music"),),
             ),
         ),
     ),
@@ -108,6 +115,10 @@ TABS: tuple[ControlTab, ...] = (
                     ),
                     Control("amplitude_side", "side to side", "How far the back sways to the sides"),
                     Control("amplitude_twist", "twist", "How far the torso turns to the struck piece"),
+                    Control("shimmy", "shimmy", "How far the shoulders turn to and fro with the beat"),
+                    Control("phrase", "phrase", "How far the body sways over four bars"),
+                    Control("fill_lean", "fills", "How far the body leans into fills and falls onto crashes"),
+                    Control("lay_back_ms", "lay back", "How long after the beat body and head reach it", "%.0f ms"),
                     Control(
                         "twist_deg_s", "twist speed", "The torso turns no faster than so many degrees a second", "%.0f"
                     ),
@@ -118,10 +129,16 @@ TABS: tuple[ControlTab, ...] = (
                 (
                     Control("posture_deg", "lean", "Upright and back, or bent forward, throughout", _DEGREES),
                     Control("wing_deg", "wing", "Elbows in to the body, or outward", _DEGREES),
+                    Control("hunch_deg", "hunch", "An arched back, or a round one", _DEGREES),
                     Control("stand", "stand", "0 sits, 1 stands", _HUNDREDTHS),
+                    Control("rise", "rise", "How far the drummer stands up for crashes"),
                     Control("shrug", "shrug", "How far the shoulders rise with loud strokes"),
                     Control("breathing", "breathing", "How deeply the drummer breathes"),
+                    Control(
+                        "amplitude_heel", "heels", "How far the heels rise and fall to the beat where the feet rest"
+                    ),
                     Control("flourish", "flourish", "How often a stick is spun or tossed in a rest"),
+                    Control("variation", "variation", "How much chance makes of strokes, sway and nods"),
                 ),
             ),
         ),
@@ -139,7 +156,10 @@ WORD_LABELS: Mapping[str, tuple[str, str]] = MappingProxyType(
         "grip_left": ("left grip", "How the left hand holds the stick"),
         "held": ("plays with", "What the hands hold: sticks, brushes, mallets, or nothing"),
         "heel": ("heels", "Whether the heel stays on the board or is lifted with the thigh"),
+        "mood": ("mood", "What the face says"),
+        "attention": ("looks at", "Where the eyes go while the hands play on"),
         "beater": ("beater", "Whether the kick's beater comes back at once or stays at the head"),
+        "drummer": ("style's drummer", "Who plays in this style where the drummer above is left to the style"),
     }
 )
 """Every control that is a word: its label and what it does."""

@@ -40,7 +40,10 @@ _LEADS = {
     Hands.LEFT: ("Left-handed", "The kit stands mirrored and the left hand leads; stickings change sides"),
     Hands.OPEN: ("Open-handed", "A right-handed kit whose hi-hat the left hand plays, uncrossed"),
 }
-_STATURES = {name: f"{name}, {100 * load_figure(name).stature_m:.0f} cm" for name in figure_names()}
+_DRUMMERS = {
+    "": "as the style says",
+    **{name: f"{name}, {100 * load_figure(name).stature_m:.0f} cm" for name in figure_names()},
+}
 
 
 class StylePanel:
@@ -172,12 +175,12 @@ class StylePanel:
 
     def _body(self, figure: str, waits: str) -> None:
         imgui.set_next_item_width(theme.points(_WORD_WIDTH))
-        if imgui.begin_combo("figure##body", _STATURES.get(figure, figure)):
-            for name, words in _STATURES.items():
+        if imgui.begin_combo("drummer##body", _DRUMMERS.get(figure, figure)):
+            for name, words in _DRUMMERS.items():
                 if imgui.selectable(f"{words}##{name}", name == figure)[0]:
                     self._dispatch(Embody(name))
             imgui.end_combo()
-        theme.tooltip(f"How tall the drummer is{waits}")
+        theme.tooltip(f"Who plays: how they are built, and what they wear{waits}")
 
 
 def _word(options: StyleOptions, name: str, label: str, about: str) -> StyleOptions:

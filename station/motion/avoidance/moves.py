@@ -42,7 +42,7 @@ ROUND = amounts(
 OFF = amounts("x", "y", "z", values=_grid((0.0, 0.1, 0.2, 0.3), (0.0, -0.1, -0.2), (0.0, 0.08, 0.16, 0.24, 0.32)))
 """Where a hand that rests may move off to while the other passes."""
 SWING = amounts(
-    "wing", "hand_yaw", values=_grid(tuple(np.radians((0.0, -16.0, 16.0, 32.0, 48.0))), (0.0, -0.25, 0.25))[1:]
+    "wing", "hand_yaw", values=_grid(tuple(np.radians((0.0, -16.0, 16.0, 32.0, 48.0))), (0.0, -0.12, 0.12))[1:]
 )
 """How much farther out the elbow may be, and how much farther to the left the hand may point, about a contact."""
 RISE = amounts("stick_rise", "hand_rise", values=[(r, r) for r in np.radians((4.0, 8.0, 12.0, 16.0, 20.0)).tolist()])

@@ -91,6 +91,11 @@ def restarts(beats_s: Array, onset_s: Array) -> NDArray[np.bool_]:
     return found
 
 
+def on_odd_beats(beats: Beats) -> NDArray[np.bool_]:
+    """The first, third … beats of each bar, but not the last before another bar's first, (n,)."""
+    return np.asarray((beats.in_bar % 2 == 0) & ((beats.in_bar + 1 < beats.of_bar) | (beats.of_bar == 1)))
+
+
 def bob_cofactors(beats_s: Array, onset_s: Array, velocity: Array, piece: NDArray[np.uint8]) -> Array:
     """Velocity times density cofactor of each beat, (n,); onsets (m,) in order of time, velocities 1–127."""
     return _velocity(beats_s, onset_s, velocity, piece) * _density(beats_s, onset_s)

@@ -12,9 +12,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from station.motion.body.beats import Beats
+from station.motion.body.beats import Beats, on_odd_beats
+from station.motion.body.face import CHANNELS as FACE
+from station.motion.body.face import face_keys
+from station.motion.body.idle_motion import BREATH_M
+from station.motion.body.intensity import Intensity
+from station.motion.kinematics.joint_limits import FASTEST_RAD_S
 from station.motion.kinematics.posture import TWIST_SHARE
 from station.motion.kinematics.splines import SplineChannels, cubics, slopes
+from station.motion.kinematics.wander import wander
 from station.motion.style.style import Style
 
 Array = NDArray[np.float64]
@@ -25,16 +31,23 @@ TWIST_WINDOW_S = 0.35
 """The torso follows the middle of what is struck within this time to each side (our choice)."""
 REST_S, TURN_BACK_S = 3.5, 1.5
 """In rests of this length the torso turns back to straight ahead, within so long after the stroke (our choice)."""
-SWAY_RAD, SIDE_RAD, BOB_RAD, TILT_RAD = np.radians((3.0, 2.5, 9.0, 6.0))
-"""Sway of the back forward and sideways, bob and tilt of the head at the natural setting (our choice)."""
-LIFT = 0.5
-"""Before the music starts again the head goes back by this share of a full bob (a wish of SMED's users; our choice)."""
-SLOW_BOB, FAST_BOB = 0.75, 1.5
-"""Under and from so many bobs a beat the head bobs on every other beat and on the half beats."""
+SWAY_RAD, SIDE_RAD = np.radians((3.0, 2.5))
+"""Sway of the back forward and sideways at the natural setting (our choice)."""
+PHRASE_LEAN_RAD, PHRASE_SIDE_RAD, PHRASE_BARS = *np.radians((1.5, 2.5)), 4
+"""The slow sway with the phrase, of four bars in most music for the drum set, at the natural setting (our choice)."""
+FILL_RAD, CRASH_RAD = np.radians((3.5, 3.0))
+"""How far the back goes into a fill, and falls onto a crash, at the natural setting (our choice)."""
+BANG_LEAN_RAD, SHIMMY_RAD = np.radians((9.0, 7.0))
+"""What the back has of head-banging, and how far the shoulders turn to and fro with the beat, at most (our choice)."""
+RISE = 0.6
+"""How much of standing up the highest rise to a crash is (our choice)."""
+DRIFT, DRIFT_S = 0.25, 0.012
+"""How much chance makes the sway wider and narrower, and shifts it in time (our choice: under a visible 25 ms)."""
+_MOST_LEAN_RAD_S = 0.9 * FASTEST_RAD_S["torso_lean"] / SPLINE_RUSH
 SHRUG_M = 0.012
 """How far the shoulders rise on the beat at the natural setting (our choice)."""
 
-CHANNELS = ("twist", "lean", "side", "shrug", "wing", "stand", "gaze", "breath")
+CHANNELS = ("twist", "lean", "side", "shrug", "hunch", "wing", "stand", "gaze", "breath", *FACE)
 
 
 def limited(times_s: Array, angles: Array, speed: Array) -> Array:
@@ -97,31 +110,55 @@ class Ground:
     bearing: Array
     bob: Array
     restart: NDArray[np.bool_]
+    intensity: Intensity
+
+
+def shifted(ground: Ground, style: Style) -> Array:
+    """When the body and the head reach the ground's keys: behind the beat or before it, and as chance has it."""
+    bars = ground.bars
+    late = style.value("lay_back_ms", bars) / 1000
+    late = late + DRIFT_S * style.factor("variation", bars) * wander((style.seed, 7), 1, len(bars))[0]
+    room = 0.3 * np.diff(ground.time_s).min(initial=1.0)
+    return np.asarray(ground.time_s + np.clip(late, -room, room))
 
 
 def keys(ground: Ground, style: Style) -> Array:
-    """Values of all `CHANNELS` at the ground's keys, before any reaching, (8, 2n − 1)."""
-    bars = ground.bars
+    """Values of all `CHANNELS` at the ground's keys, before any reaching, (13, 2n − 1)."""
+    bars, now = ground.bars, ground.intensity
     values = np.zeros((len(CHANNELS), len(bars)))
     forward, side = _sway(ground, style)
-    twist = style.factor("amplitude_twist", bars) * TWIST_SHARE * ground.bearing
+    drift, *phases = wander((style.seed, 8), 3, len(bars))
+    drift = 1 + DRIFT * style.factor("variation", bars) * drift
+    forward, side = forward * drift, side * drift
+    phrase, turn = style.factor("phrase", bars), 2 * np.pi * (bars - 1) / PHRASE_BARS
+    lags = [0.4 * style.factor("variation", bars) * p for p in phases]
+    bang = style.value("headbang", bars) / 100
+    into, breath = style.factor("fill_lean", bars), style.factor("breathing", bars)
     ceiling = np.radians(style.value("twist_deg_s", bars)) / SPLINE_RUSH
-    values[0] = limited(ground.time_s, np.clip(twist, -1.0, 1.0), ceiling)
-    back = style.factor("amplitude_back", bars)
-    values[1] = np.radians(style.value("posture_deg", bars)) + back * SWAY_RAD * forward
-    values[2] = style.factor("amplitude_side", bars) * SIDE_RAD * side
-    values[3] = style.factor("shrug", bars) * SHRUG_M * forward
-    values[4] = np.radians(style.value("wing_deg", bars))
-    values[5] = style.value("stand", bars)
-    values[6] = style.factor("amplitude_gaze", bars)
-    values[7] = style.factor("breathing", bars)
+    twist = style.factor("amplitude_twist", bars) * TWIST_SHARE * ground.bearing
+    twist = np.clip(twist, -1.0, 1.0) + style.value("shimmy", bars) / 100 * SHIMMY_RAD * side
+    values[0] = limited(ground.time_s, twist, ceiling)
+    lean = np.radians(style.value("posture_deg", bars)) + style.factor("amplitude_back", bars) * SWAY_RAD * forward
+    lean += into * (FILL_RAD * now.fill + CRASH_RAD * now.fall) + bang * BANG_LEAN_RAD * (forward - 0.5)
+    lean += phrase * PHRASE_LEAN_RAD * np.sin(2 * turn + lags[0])
+    values[1] = limited(ground.time_s, lean, np.full(len(bars), _MOST_LEAN_RAD_S))
+    values[2] = style.factor("amplitude_side", bars) * SIDE_RAD * side + phrase * PHRASE_SIDE_RAD * np.sin(
+        turn + lags[1]
+    )
+    values[3] = style.factor("shrug", bars) * SHRUG_M * forward + breath * BREATH_M * now.fill  # the breath is held
+    values[4] = np.radians(style.value("hunch_deg", bars))
+    values[5] = np.radians(style.value("wing_deg", bars))
+    values[6] = np.clip(style.value("stand", bars) + style.value("rise", bars) / 100 * RISE * now.rise, 0.0, 1.0)
+    values[7] = style.factor("amplitude_gaze", bars)
+    values[8] = breath * (1 - now.fill)
+    values[9:] = face_keys(now, bars, style)
     return values
 
 
 def _sway(ground: Ground, style: Style) -> tuple[Array, Array]:
     """How far forward, 0 … 1, and to which side, −1 … 1, the body is at each key, (2n − 1,) each."""
     half_time = ground.beats.rate_bpm > style.value("half_time_bpm", ground.bars[::2])
-    down = ~half_time | _odd_beats(ground.beats)
+    down = ~half_time | on_odd_beats(ground.beats)
     count = np.arange(len(down))
     to = down * (1.0 - 2.0 * (np.where(half_time, count // 2, count) % 2))
     between = 0.5 * (half_time[:-1] & half_time[1:])
@@ -131,42 +168,12 @@ def _sway(ground: Ground, style: Style) -> tuple[Array, Array]:
     return forward, side
 
 
-def _odd_beats(beats: Beats) -> NDArray[np.bool_]:
-    """The first, third … beats of each bar, but not the last before another bar's first."""
-    return np.asarray((beats.in_bar % 2 == 0) & ((beats.in_bar + 1 < beats.of_bar) | (beats.of_bar == 1)))
-
-
 def curves(ground: Ground, style: Style, values: Array) -> SplineChannels:
-    """The splines through `values` (8, 2n − 1); the back's frequency makes it fall later or earlier."""
+    """The splines through `values` (13, 2n − 1); the back's frequency makes it fall later or earlier."""
     on_beat, between = sharpness(style.factor("frequency_back", ground.bars))
     steep = np.zeros(values.shape)
     steep[1, ::2], steep[1, 1::2] = on_beat[::2], between[1::2]
-    return _spline(ground.time_s, values, steep)
-
-
-def head_curve(ground: Ground, style: Style) -> SplineChannels:
-    """The head's nod, down on the beat by the music's cofactors, and its tilt, to the right and the left in turn."""
-    times, bars = _with_quarters(ground.time_s), _with_quarters(ground.bars)
-    place = np.arange(len(times)) % 4  # beat, quarter, middle, quarter
-    rate = style.value("bobs_per_beat", bars)
-    slow, fast = rate < SLOW_BOB, rate >= FAST_BOB
-    odd = np.repeat(_odd_beats(ground.beats), 4)[: len(times)]
-    down = (place == 0) & (odd | ~slow) | (place == 2) & fast
-    amount = style.factor("amplitude_neck", bars) * BOB_RAD
-    lift = np.zeros(len(times))
-    lift[2::4] = -LIFT * ground.restart[1:]
-    nod = amount * np.where(down, _with_quarters(ground.bob), lift)
-    halves = np.arange(len(times)) // 2
-    side = down * (1.0 - 2.0 * ((halves // np.where(slow, 4, np.where(fast, 1, 2))) % 2))
-    tilt = style.factor("amplitude_head_side", bars) * TILT_RAD * side
-    steep = np.where(down, *sharpness(style.factor("frequency_neck", bars)))
-    kept = (place == 0) | (place == 2) & (fast | ~slow | (lift < 0)) | fast
-    return _spline(times[kept], np.stack([nod, tilt])[:, kept], np.stack([steep, np.zeros(len(steep))])[:, kept])
-
-
-def _with_quarters(values: Array) -> Array:
-    """Values at the beats and middles (n,) with the means between them, (2n − 1,)."""
-    return np.insert(values, np.arange(1, len(values)), 0.5 * (values[1:] + values[:-1]))
+    return spline(shifted(ground, style), values, steep)
 
 
 def sharpness(frequency: Array) -> tuple[Array, Array]:
@@ -181,7 +188,7 @@ LATE_FALL, EARLY_FALL = 4.0, 2.0
 """Three times the chord, which the greatest frequency nears, is the steepest that does not overshoot (our choice)."""
 
 
-def _spline(times: Array, values: Array, steep: Array) -> SplineChannels:
+def spline(times: Array, values: Array, steep: Array) -> SplineChannels:
     """Through `values` (channels, n); where `steep` is over 0 the slopes at a key are that share of its chords."""
     tension, continuity = np.where(steep > 0, 1 - steep, 0.0), np.where(steep > 0, -1.0, 0.0)
     into, out = slopes(np.broadcast_to(times, values.shape), values, tension, continuity)

@@ -26,10 +26,7 @@ def reaching(
 ) -> SplineChannels:
     """The body's curves under `style`, leaning to what is out of the arms' reach."""
     values = body.keys(ground, style)
-    curves = body.curves(ground, style, values)
-    needed = leans(curves, hands, figure, pelvis)
-    if not needed.any():
-        return curves
+    needed = leans(body.curves(ground, style, values[: body.CHANNELS.index("wing")]), hands, figure, pelvis)
     values[1] += needed
     return body.curves(ground, style, values)
 
@@ -42,8 +39,8 @@ def leans(curves: SplineChannels, hands: tuple[HandPart, HandPart], figure: Figu
         if not len(hand.events.row):
             continue
         times = hand.strokes.strike_s
-        twist, lean, tilt, shrug, *_ = curves.many(times)
-        body = trunk(MANY, figure, pelvis, TrunkAngles(twist, lean, tilt, 0.0, 0.0, 0.0, shrug))
+        twist, lean, tilt, shrug, hunch, *_ = curves.many(times)
+        body = trunk(MANY, figure, pelvis, TrunkAngles(twist, lean, tilt, 0.0, 0.0, 0.0, shrug, hunch))
         shoulder = body.left_shoulder if side else body.right_shoulder
         far = np.sqrt(sum((s - w) ** 2 for s, w in zip(shoulder, hand.wrist_m.T, strict=True)))
         lack = np.clip((far - length) / (_ARM_OF_LEAN * figure.trunk_m), 0.0, MOST_RAD)

@@ -16,9 +16,9 @@ from station.motion.export import plain_solids
 from station.motion.export.glb_file import Glb, quaternions
 from station.motion.export.joint_tree import BONES, STICKS, TURN, local, skeleton
 from station.motion.kinematics import frame
-from station.motion.kinematics.pedal_motion import BEATER_LENGTH_M
+from station.motion.kinematics.pedal_motion import BEATER_HALF_M, BEATER_LENGTH_M
 from station.motion.kit.kit import Kit
-from station.motion.kit.piece import KitPiece
+from station.motion.kit.piece import BELL_ABOVE_BOW_M, KitPiece
 
 Array = NDArray[np.float64]
 
@@ -41,6 +41,7 @@ _MATERIALS = {
     "wood": ((0.62, 0.44, 0.24), 0.0, 0.6),
     "shell": ((0.35, 0.03, 0.05), 0.1, 0.35),
     "bronze": ((0.80, 0.58, 0.25), 1.0, 0.35),
+    "rubber": ((0.02, 0.02, 0.022), 0.0, 0.8),
     "steel": ((0.55, 0.56, 0.58), 1.0, 0.4),
 }
 _BARE = ("head", "neck", "right_forearm", "left_forearm", "right_hand", "left_hand")
@@ -92,14 +93,19 @@ _STILL = 1e-6
 
 
 def _piece(scene: Glb, materials: dict[str, int], piece: KitPiece, swing: Array) -> None:
-    """One piece; its swing (n, 2) tips it about its own right and away axes."""
-    if piece.kind in ("cymbal", "hihat"):
-        solid, material = plain_solids.cymbal(piece.radius_m), "bronze"
+    """One piece; its swing (n, 2) tips it about its own right and away axes, a cymbal where it hangs."""
+    hangs = BELL_ABOVE_BOW_M if piece.kind in ("cymbal", "hihat") else 0.0
+    if hangs:
+        solid, material = plain_solids.cymbal(piece.radius_m, hangs), "bronze"
+    elif piece.kind == "block":
+        solid, material = plain_solids.block(piece.radius_m, piece.depth_m), "steel"
     else:
         solid, material = plain_solids.drum(piece.radius_m, piece.depth_m), "shell"
+    material = "rubber" if piece.electronic else material
     node = scene.node(word(piece.piece), None, scene.mesh(word(piece.piece), solid, materials[material]))
+    at = piece.centre + hangs * piece.normal
     world = (TURN @ piece.axes.T)[None] @ _tips(swing)
-    _move(scene, node, np.repeat((TURN @ piece.centre)[None], len(swing), 0), world)
+    _move(scene, node, np.repeat((TURN @ at)[None], len(swing), 0), world)
 
 
 def _tips(swing: Array) -> Array:
@@ -112,9 +118,11 @@ def _tips(swing: Array) -> Array:
 
 
 def _pedals(scene: Glb, materials: dict[str, int], kit: Kit, rows: Array) -> None:
-    kick, hat = kit.pedals[Piece.KICK], kit.pedals[Piece.HIHAT_PEDAL]
-    feet = (hat, kick) if kit.left_handed else (kick, hat)
-    for name, pedal, angle in zip(("right_board", "left_board"), feet, rows[:, frame.BOARDS].T, strict=True):
+    right, left = zip(kit.pedals_by_foot, rows[:, frame.BOARDS].T, strict=True)
+    boards = [("right_board", *right), ("left_board", *left)]
+    if kit.slave is not None:
+        boards.append(("slave_board", kit.slave, rows[:, frame.SLAVE_BOARD]))
+    for name, pedal, angle in boards:
         along = np.array(pedal.toe_m) - np.array(pedal.heel_m)
         length = float(np.linalg.norm(along))
         mesh = scene.mesh(name, plain_solids.plate(0.045, length), materials["steel"])
@@ -125,13 +133,14 @@ def _pedals(scene: Glb, materials: dict[str, int], kit: Kit, rows: Array) -> Non
         frames = np.stack([np.broadcast_to(across, turned.shape), np.cross(turned, across), turned], 2)
         place = np.repeat((TURN @ np.array(pedal.heel_m))[None], len(angle), 0)
         _move(scene, scene.node(name, None, mesh), place, TURN @ frames)
-    _beater(scene, materials, kit, rows[:, frame.BEATER])
+    axle = kit.pieces[Piece.KICK].centre - np.array([0.0, BEATER_HALF_M, BEATER_LENGTH_M])
+    _beater(scene, materials, "beater", axle, rows[:, frame.BEATER])
+    if kit.slave is not None:
+        _beater(scene, materials, "slave_beater", axle + kit.second_beater_m, rows[:, frame.SLAVE_BEATER])
 
 
-def _beater(scene: Glb, materials: dict[str, int], kit: Kit, angle: Array) -> None:
-    head = kit.pieces[Piece.KICK].centre
-    axle = head - np.array([0.0, 0.016, BEATER_LENGTH_M])
-    mesh = scene.mesh("beater", plain_solids.beater(BEATER_LENGTH_M), materials["steel"])
+def _beater(scene: Glb, materials: dict[str, int], name: str, axle: Array, angle: Array) -> None:
+    mesh = scene.mesh(name, plain_solids.beater(BEATER_LENGTH_M), materials["steel"])
     c, s, one, zero = np.cos(angle), np.sin(angle), np.ones_like(angle), np.zeros_like(angle)
     turn = np.stack([one, zero, zero, zero, c, -s, zero, s, c], 1).reshape(-1, 3, 3)
-    _move(scene, scene.node("beater", None, mesh), np.repeat((TURN @ axle)[None], len(angle), 0), TURN @ turn)
+    _move(scene, scene.node(name, None, mesh), np.repeat((TURN @ axle)[None], len(angle), 0), TURN @ turn)

@@ -45,6 +45,7 @@ def motion_arrays(drummer: Drummer, time_s: Array) -> dict[str, NDArray[Any]]:
         "footboard_rad": rows[:, frame.BOARDS],
         "beater_rad": rows[:, frame.BEATER],
         "hat_gap_m": rows[:, frame.GAP],
+        "slave_rad": rows[:, [frame.SLAVE_BOARD, frame.SLAVE_BEATER]],
         **_strikes(drummer),
     }
 
@@ -104,9 +105,11 @@ def _touching(drummer: Drummer, order: NDArray[np.int64], limbs: NDArray[np.int8
     hat = kit.pieces[kit.stand_in(Piece.HIHAT)]
     for i, limb in enumerate(limbs.tolist()):
         if limb in (Limb.RIGHT_FOOT, Limb.LEFT_FOOT):
+            slave = limb == kit.feet[1]
+            angle = float(rows[i, frame.SLAVE_BEATER if slave else frame.BEATER])
             kicked = score.notes["piece"][order[i]] == Piece.KICK
-            gap = float(rows[i, frame.GAP])
-            points[i] = beater_m(kit, float(rows[i, frame.BEATER])) if kicked else hat.centre + gap * hat.normal
+            lifted = float(rows[i, frame.GAP]) * hat.normal
+            points[i] = beater_m(kit, angle, slave) if kicked else hat.centre + lifted
             continue
         ahead = drummer.touching_m(int(order[i]))
         hand, tip = joints[i, _HANDS[Limb(limb)]], tips[i, limb]

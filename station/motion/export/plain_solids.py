@@ -51,10 +51,15 @@ def stick(length: float) -> Solid:
     return lathe([(0.0, 0.0), (r, 0.0), (r, 0.75 * length), *taper], 8)
 
 
-def cymbal(radius: float) -> Solid:
-    """A cymbal whose bow is highest at z 0, with its bell above."""
+def cymbal(radius: float, hangs: float) -> Solid:
+    """A cymbal that hangs at z 0, its bow so far below, with its bell between."""
     bow = [(0.0, -0.012), (radius, -0.008), (radius, -0.006), (0.2 * radius, 0.0)]
-    return lathe([*bow, (0.12 * radius, 0.02), (0.0, 0.022)], 32)
+    return lathe([(r, z - hangs) for r, z in (*bow, (0.12 * radius, 0.02), (0.0, 0.022))], 32)
+
+
+def block(radius: float, depth: float) -> Solid:
+    """A cowbell: four flat sides, the struck one at z 0."""
+    return lathe([(0.0, -depth), (radius, -depth), (radius, 0.0), (0.0, 0.0)], 4)
 
 
 def drum(radius: float, depth: float) -> Solid:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Limb
+from station.motion.kinematics.foot_path import Visits
 from station.motion.kit.kit import Kit
 from station.motion.strokes.bounces import bounces_on
 from station.motion.strokes.hand_events import SAME_STROKE_S
@@ -62,6 +63,7 @@ def infeasible_demands(score: Score, kit: Kit, limbs: NDArray[np.int8]) -> tuple
         times = score.onset_s[rows]
         on = bounces_on(times, score.notes["piece"][rows], score.notes["velocity"][rows]) & limb.is_hand
         found += _repeated(limb, times, score.bar[rows], on)
+    found += _two_boards(score, kit, limbs)
     return tuple(sorted(found, key=lambda b: (b.bar, b.limb, b.start_s)))
 
 
@@ -85,6 +87,20 @@ def _repeated(limb: Limb, times: Array, bars: NDArray[np.int64], on: NDArray[np.
         InfeasibleDemand(bar, limb, start, end, f"bar {bar + 1} needs {rate:.0f} strokes a second of one {word}")
         for bar, (rate, start, end) in worst.items()
     ]
+
+
+def _two_boards(score: Score, kit: Kit, limbs: NDArray[np.int8]) -> list[InfeasibleDemand]:
+    """Bars in which the hi-hat's foot must be on the slave board and on its own too soon after each other."""
+    visits, foot = Visits.of(score, limbs, kit.feet[1]), kit.feet[1]
+    late, bars = visits.too_soon, score.bar[visits.row]
+    result = []
+    for bar in np.unique(bars[late]).tolist():
+        at = late[bars[late] == bar]
+        gap_s = float((visits.time_s[at] - visits.time_s[at - 1]).min())
+        asked = f"within {1000 * gap_s:.0f} ms" if gap_s > SAME_STROKE_S else "at once"
+        text = f"bar {bar + 1} needs one foot on the hi-hat's pedal and on the double pedal {asked}"
+        result.append(InfeasibleDemand(bar, foot, float(visits.time_s[at[0] - 1]), float(visits.time_s[at[-1]]), text))
+    return result
 
 
 def _sundered(limb: Limb, times: Array, bars: NDArray[np.int64], points: Array) -> list[InfeasibleDemand]:

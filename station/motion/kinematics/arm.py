@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
-from station.motion.kinematics.maths import Maths, Number, Point
+from station.motion.kinematics.maths import ONE, Maths, Number, Point
 
 BACK_SINE, BACK_COSINE = math.sin(math.radians(25)), math.cos(math.radians(25))
 """Elbows hang down and a little back: with the wrist in front the arm's plane is vertical, as DESIGN has it, and with
@@ -30,9 +30,9 @@ _SWING_EASE = 0.02
 EASE_RAD, _SPARE_RAD = math.radians(1), math.radians(2)
 """So far before and behind its limit a joint gives in, so that its speed has no jump; a hand that turns about the fulcrum
 does so a little sooner, for that takes the tip nowhere (our choice)."""
-_GIVES, _MOST_GIVE = 0.85, math.radians(40)
+_GIVES, _MOST_GIVE = 0.85, math.radians(10)
 """A hand turns so much for each degree that its wrist is too far bent, for the forearm turns against it (over the snare
-a degree of the hand is 1.2 of the wrist); but no farther, for then it no longer holds the stick (our choice)."""
+a degree of the hand is 1.2 of the wrist); but no farther than a stick may turn in the palm (our choice)."""
 SOFT_FROM, SOFT_OVER = 0.93, 0.10
 """From this share of the arm's length on the shoulder comes along, softly over the next tenth: an arm is never quite
 straight, for there the elbow's angle has no slope (our choice)."""
@@ -45,8 +45,8 @@ class Contact(NamedTuple):
     along the hand from there to the wrist. `stick_yaw` and `hand_yaw`: by how much those two are turned in plan, to
     the left positive, from the direction towards `BEHIND_M` behind the shoulder. `ahead_m` from the fulcrum to the part
     of the stick that touches. `wing`: how far the elbow is swung to the drummer's right about the line from shoulder to
-    wrist. `turns`: 1 where the wrist's part of a stroke bends the hand, 0 where the forearm's roll swings the stick alone (a
-    traditional left hand), between them where both do (thumb up).
+    wrist. `turns`: 1 where the wrist's part of a stroke bends the hand, 0 where the forearm's roll turns hand and stick
+    (a traditional left hand). `roll` of the hand's back beyond its grip's.
     """
 
     x: Number
@@ -59,6 +59,7 @@ class Contact(NamedTuple):
     ahead_m: Number
     wing: Number
     turns: Number = 1.0
+    roll: Number = 0.0
 
 
 class Offsets(NamedTuple):
@@ -100,7 +101,8 @@ class ArmLengths:
     """Upper arm, forearm, hand to the fulcrum, fulcrum to the tip and to the butt, in metres.
 
     `rolls_hand` is 1 for a right and −1 for a left hand. `roll_sine` and `roll_cosine` of the hand's roll from palm
-    down, to the drummer's right.
+    down, to the drummer's right. The hand's bones are turned from the line between wrist and fulcrum by `off_thumb`
+    and `off_back` radians, to the thumb and to the back: the fulcrum lies beside them, under the palm.
     `most_bend` is the elbow's limit: a hand that travels close past the shoulder keeps farther off instead.
     `most_back_m` is how far the elbow may be behind the shoulder: one that would be farther swings out. `wrist` are
     the limits of extension and of deviation to the left, least and most each: beyond them the hand is turned about the
@@ -115,6 +117,8 @@ class ArmLengths:
     roll_sine: float = 0.0
     roll_cosine: float = 1.0
     rolls_hand: float = 1.0
+    off_thumb: float = 0.0
+    off_back: float = 0.0
     most_bend: float = math.pi
     most_back_m: float = 1.0
     wrist: tuple[float, float, float, float] = (-math.pi, math.pi, -math.pi, math.pi)
@@ -210,7 +214,7 @@ def _chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a
     """`chain` with a hand that `gives`, so much steeper and farther to the left, and a wrist that may be `clamped`."""
     sin, cos, sqrt, atan2, acos, most = m.sin, m.cos, m.sqrt, m.atan2, m.acos, m.most
     sx, sy, sz = shoulder
-    cx, cy, cz, stick_rise, hand_rise, stick_yaw, hand_yaw, touching, wing, turns = contact
+    cx, cy, cz, stick_rise, hand_rise, stick_yaw, hand_yaw, touching, wing, turns, roll = contact
     raised_shoulder, raised_elbow, raised_wrist, raised_stick = offsets
     hand_rise, hand_yaw = hand_rise + more[1] + gives[0], hand_yaw + gives[1]
     upper, fore, h = lengths.upper, lengths.fore, lengths.hand
@@ -272,22 +276,27 @@ def _chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a
     rx, ry, rz = sx - jx, sy - jy, sz - jz
     # hand and stick, by their slopes up towards the player
     hand = hand_rise - lifted - turns * raised_wrist
-    stick = stick_rise - lifted - raised_wrist - raised_stick
-    # the wrist's angles: the forearm seen from the hand's own axes
+    stick = stick_rise - turns * (lifted + raised_wrist) - raised_stick
+    across, upward, rolled = lengths.roll_sine, lengths.roll_cosine, (1 - turns) * raised_wrist
+    side, to_thumb, to_back = lengths.rolls_hand, lengths.off_thumb, lengths.off_back
+    c, s = cos(rolled + roll), side * sin(rolled + roll)
+    across, upward = across * c + upward * s, upward * c - across * s
+    # the wrist's angles: the forearm seen from the hand's own axes, and the hand's bones beside its line
+    extended_by, deviated_by = to_thumb * side * across + to_back * upward, to_thumb * side * upward - to_back * across
     bx, by, bz = wx - jx, wy - jy, wz - jz
     b, aside = bx * vx + by * vy, by * vx - bx * vy
-    deviation = atan2(aside, sqrt(b * b + bz * bz))
+    deviation = atan2(aside, sqrt(b * b + bz * bz)) + deviated_by
     if clamped:
         flexed, extended, right, left = lengths.wrist
         deviation = _bounded(m, deviation, right, left)
         flat2 = bx * bx + by * by
-        aside_now = fore * sin(deviation)
+        aside_now = fore * sin(deviation - deviated_by)
         turn = atan2(aside_now, sqrt(most(flat2 - aside_now * aside_now, 1e-12))) - atan2(aside, -b)
         c, s = cos(turn), sin(turn)
         ux, uy, vx, vy = ux * c - uy * s, ux * s + uy * c, vx * c - vy * s, vx * s + vy * c
         b = bx * vx + by * vy
     cos_h, sin_h = cos(hand), sin(hand)
-    extension = atan2(sin_h * b - cos_h * bz, -(cos_h * b + sin_h * bz))
+    extension = atan2(sin_h * b - cos_h * bz, -(cos_h * b + sin_h * bz)) + extended_by
     if clamped:
         less = extension - _bounded(m, extension, flexed, extended)
         hand, stick, extension = hand + less, stick + less, extension - less
@@ -295,16 +304,26 @@ def _chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a
     cos_s, sin_s = cos(stick), sin(stick)
     a = h * cos_h
     hx, hy, hz = wx - a * vx, wy - a * vy, wz - h * sin_h
-    tx, ty = cos_s * ux, cos_s * uy
+    tx, ty, tz = cos_s * ux, cos_s * uy, sin_s
     ahead, behind = lengths.ahead, lengths.behind
-    across, upward, rolled = lengths.roll_sine, lengths.roll_cosine, (1 - turns) * raised_wrist
-    c, s = cos(rolled), lengths.rolls_hand * sin(rolled)
-    across, upward = across * c + upward * s, upward * c - across * s
+    if m is not ONE or turns != 1.0:  # the stick goes with the hand, pitched by the arm and turned by the forearm
+        c, s = cos((1 - turns) * lifted), sin((1 - turns) * lifted)
+        along = vx * tx + vy * ty
+        pitched = (c - 1) * along + s * tz
+        tx, ty, tz = tx + pitched * vx, ty + pitched * vy, c * tz - s * along
+        c, s = cos(rolled), -side * sin(rolled)
+        lx, ly = cos_h * vx, cos_h * vy
+        dot = (1 - c) * (lx * tx + ly * ty + sin_h * tz)
+        tx, ty, tz = (
+            c * tx + s * (ly * tz - sin_h * ty) + dot * lx,
+            c * ty + s * (sin_h * tx - lx * tz) + dot * ly,
+            c * tz + s * (lx * ty - ly * tx) + dot * sin_h,
+        )
     tilted = sin_h * upward
     return (
         (sx, sy, sz, jx, jy, jz, wx, wy, wz, hx, hy, hz),
-        (hx + behind * tx, hy + behind * ty, hz + behind * sin_s),
-        (hx - ahead * tx, hy - ahead * ty, hz - ahead * sin_s),
+        (hx + behind * tx, hy + behind * ty, hz + behind * tz),
+        (hx - ahead * tx, hy - ahead * ty, hz - ahead * tz),
         (-tilted * vx - across * vy, across * vx - tilted * vy, cos_h * upward),
         (
             atan2(gx, -gy),
@@ -312,7 +331,7 @@ def _chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a
             inside + forearm + raised_elbow,
             extension,
             deviation,
-            hand - stick - rolled,
+            hand - stick + (1 - turns) * lifted,
             wing,
         ),
         missing,

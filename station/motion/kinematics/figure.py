@@ -2,9 +2,8 @@
 
 Segment lengths and joint heights after Winter and Drillis & Contini (HUMANS, Body); their shoulder breadth of .259 is
 drawn about the deltoids, and from acromion to acromion a median man has .23 (Pheasant, Bodyspace: 400 of 1740 mm). The
-joints lie farther in: .34 m apart in the 1.70 m man of Rajagopal 2016 (doi 10.1109/TBME.2016.2586891). The distance
-from the wrist to the fulcrum of the grip is measured: 0.163 m in the 1.9 m player of Pearl 2023 (doi
-10.1101/2023.10.09.561270).
+joints lie farther in: .34 m apart in the 1.70 m man of Rajagopal 2016 (doi 10.1109/TBME.2016.2586891). Where in the
+hand the fulcrum of a grip is, `grip` says.
 """
 
 from collections.abc import Mapping
@@ -17,6 +16,7 @@ from station.core.schema import Field, Fields, Reader, needed, number, optional,
 from station.core.shipped import find_shipped, shipped
 from station.core.toml_source import read_source
 from station.motion.kinematics.joint_limits import Limits
+from station.motion.kinematics.look import LOOK, Look
 
 
 class Joint(IntEnum):
@@ -73,7 +73,7 @@ PARENT: dict[Joint, Joint | None] = {
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """Lengths in metres, and the joints' limits."""
+    """Lengths in metres, the joints' limits, and what pictures show of it."""
 
     stature_m: float
     trunk_m: float  # hip to shoulder height
@@ -83,13 +83,14 @@ class Figure:
     head_m: float  # from the joint on the neck to the crown
     upper_arm_m: float
     forearm_m: float
-    hand_m: float  # wrist to the fulcrum of the grip
+    hand_m: float  # wrist to the fingertips of the straight hand
     thigh_m: float
     shank_m: float
     foot_m: float
     ankle_height_m: float
     stick_m: float = 0.406  # 5A (HUMANS, Kit)
     limits: Limits = field(default_factory=Limits)
+    look: Look = field(default_factory=Look)
 
 
 MEDIAN_STATURE_M = 1.759
@@ -102,7 +103,7 @@ _SHARES: Mapping[str, float] = {
     "head_m": 0.122,
     "upper_arm_m": 0.186,
     "forearm_m": 0.146,
-    "hand_m": 0.086,
+    "hand_m": 0.108,
     "thigh_m": 0.245,
     "shank_m": 0.246,
     "foot_m": 0.152,
@@ -119,22 +120,24 @@ def figure_of(stature_m: float = MEDIAN_STATURE_M) -> Figure:
 
 # --- files ------------------------------------------------------------------------------------------------------------
 
-FIGURES = Path(__file__).parents[1] / "data" / "figures"
+FIGURES = Path(__file__).parents[1] / "data" / "drummers"
+DEFAULT_FIGURE = "headphones"
+"""Who plays where nobody is asked for: `figure_of()`."""
 LEAST_STATURE_M, GREATEST_STATURE_M = 0.8, 2.4
 
 
 def figure_names() -> list[str]:
-    """The figures that ship with the station."""
+    """The drummers that ship with the station."""
     return shipped(FIGURES)
 
 
 def load_figure(name_or_path: str | Path) -> Figure:
-    """A shipped figure by its name, or a figure file; raises `BadInput` with the place of the first fault.
+    """A shipped drummer by name, or a drummer's file; raises `BadInput` with the place of the first fault.
 
     A file holds `stature_m`, and where they differ from the published proportions a table `segments` of lengths in
-    metres and a table `limits` of angles in degrees, both by the names of the fields here.
+    metres and a table `limits` of angles in degrees, both by the names of the fields here; a table `look` (`look`).
     """
-    path = find_shipped(name_or_path, FIGURES, "figure")
+    path = find_shipped(name_or_path, FIGURES, "drummer")
     return read(read_source(path), FIGURE)
 
 
@@ -143,9 +146,11 @@ def _angle(value: object) -> float:
     return radians(number(0.0, 200.0)(value))
 
 
-def _figure(title: str, stature_m: float, segments: Mapping[str, float], limits: Mapping[str, float]) -> Figure:
+def _figure(
+    title: str, stature_m: float, segments: Mapping[str, float], limits: Mapping[str, float], look: Look
+) -> Figure:
     """The figure that a file describes; its title is for people alone."""
-    return replace(figure_of(stature_m), limits=replace(Limits(), **limits), **segments)
+    return replace(figure_of(stature_m), limits=replace(Limits(), **limits), look=look, **segments)
 
 
 FIELDS: Fields = {
@@ -153,6 +158,7 @@ FIELDS: Fields = {
     "stature_m": needed(number(LEAST_STATURE_M, GREATEST_STATURE_M), "stature_m = 1.76"),
     "segments": Field(said({name: optional(number(0.01, 1.5)) for name in _SHARES}, "segment"), {}),
     "limits": Field(said({each.name: optional(_angle) for each in fields(Limits)}, "limit"), {}),
+    "look": Field(LOOK, Look()),
 }
 FIGURE: Reader[Figure] = record(_figure, FIELDS)
 """The schema of the file."""

@@ -1,7 +1,8 @@
 """A leg on its footboard: the sole follows the board, the ankle the sole, and the knee closes the chain to the hip.
 
 The foot stands heel down, its sole on the board, or heel up, its ball on the board and the heel in the air (thesis
-§ 3.3.2). The knee's plane contains the hip, the ankle and the direction in which the knee points.
+§ 3.3.2). The knee's plane contains the hip, the ankle and the direction in which the knee points. A foot with two
+boards goes from one to the other through the air.
 """
 
 import math
@@ -24,6 +25,11 @@ BALL_ALONG = 0.75
 
 HEEL_RAD: Mapping[str, float] = MappingProxyType({"down": 0.0, "up": math.radians(24.0)})
 """How far the sole is tipped over the board, heel up (our choice)."""
+ROCK_RAD = math.radians(7.0)
+"""How far a sole that keeps time is tipped between the beats at the natural setting: the heel is 2.5 cm up (our
+choice)."""
+LIFT_M = 0.06
+"""How high the foot is over the boards between them: over the slave's raised toe and its post (our choice)."""
 
 
 class Leg(NamedTuple):
@@ -39,37 +45,53 @@ _STRAIGHT = 0.9999
 """A leg is never straighter than this share of its length (our choice)."""
 
 
+class Place(NamedTuple):
+    """Where a foot stands: x, y, z of its board's hinge, the board's heading in plan, and where the knee points."""
+
+    x: Number
+    y: Number
+    z: Number
+    hx: Number
+    hy: Number
+    out_x: Number
+    out_y: Number
+    out_z: Number
+
+    @classmethod
+    def on(cls, pedal: Pedal, knee_out: Point) -> "Place":
+        """The place on `pedal`."""
+        along = np.array(pedal.toe_m[:2]) - np.array(pedal.heel_m[:2])
+        hx, hy = (along / np.linalg.norm(along)).tolist()
+        return cls(*pedal.heel_m, hx, hy, *knee_out)
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Footing:
-    """A foot's place: its board's hinge, heading in plan (unit) and the sole's length beyond the ball and ankle."""
+    """One foot: its measures, its place at home, and the other board's if it has one."""
 
-    heel: tuple[float, float, float]
-    heading: tuple[float, float]
     foot_m: float
     ankle_m: float
     thigh_m: float
     shank_m: float
-    knee_out: tuple[float, float, float]
+    home: Place
+    away: Place | None = None
 
     @classmethod
-    def of(cls, pedal: Pedal, figure: Figure, right: bool) -> "Footing":
-        """The footing of one foot on `pedal`."""
-        along = np.array(pedal.toe_m[:2]) - np.array(pedal.heel_m[:2])
-        along = along / np.linalg.norm(along)
-        return cls(
-            heel=pedal.heel_m,
-            heading=(float(along[0]), float(along[1])),
-            foot_m=figure.foot_m,
-            ankle_m=figure.ankle_height_m,
-            thigh_m=figure.thigh_m,
-            shank_m=figure.shank_m,
-            knee_out=(0.35 if right else -0.35, 0.6, 0.72),
-        )
+    def of(cls, figure: Figure, home: Place, away: Place | None = None) -> "Footing":
+        """The footing of a foot of `figure`."""
+        return cls(figure.foot_m, figure.ankle_height_m, figure.thigh_m, figure.shank_m, home, away)
+
+    def between(self, m: Maths, share: Number, lift: Number) -> Place:
+        """The place `share` of the way from home to the other board, 0 … 1, lifted by that share of `LIFT_M`."""
+        assert self.away is not None
+        x, y, z, hx, hy, *out = (a + share * (b - a) for a, b in zip(self.home, self.away, strict=True))
+        norm = m.sqrt(hx * hx + hy * hy)
+        return Place(x, y, z + LIFT_M * lift, hx / norm, hy / norm, *out)
 
 
 def leg(m: Maths, footing: Footing, hip: Point, board_rad: Number, heel_rad: Number) -> Leg:
-    """The leg from `hip` with the board raised by `board_rad` and the sole tipped by `heel_rad` over it, heel up."""
-    points, angles = chain(m, footing, hip, board_rad, heel_rad)
+    """The leg at home from `hip`, the board raised by `board_rad` and the sole tipped by `heel_rad` over it."""
+    points, angles = chain(m, footing, footing.home, hip, board_rad, heel_rad)
     return Leg(points[:3], points[3:6], points[6:], angles)
 
 
@@ -77,11 +99,10 @@ LegChain = tuple[tuple[Number, ...], tuple[Number, Number, Number]]
 """`Leg` without names: x, y, z of knee, ankle and toe in one, and the angles."""
 
 
-def chain(m: Maths, footing: Footing, hip: Point, board_rad: Number, heel_rad: Number) -> LegChain:
-    """`leg` in plain tuples, as a row takes it."""
+def chain(m: Maths, footing: Footing, place: Place, hip: Point, board_rad: Number, heel_rad: Number) -> LegChain:
+    """`leg` at any place and in plain tuples, as a row takes it."""
     sin, cos, sqrt, acos, atan2 = m.sin, m.cos, m.sqrt, m.acos, m.atan2
-    hx, hy = footing.heading
-    x0, y0, z0 = footing.heel
+    x0, y0, z0, hx, hy, ox, oy, oz = place
     sole = board_rad - heel_rad
     sin_b, cos_b, sin_s, cos_s = sin(board_rad), cos(board_rad), sin(sole), cos(sole)
     # along the heading and up: the ball on the board, behind it the ankle over the sole, before it the toe
@@ -98,7 +119,6 @@ def chain(m: Maths, footing: Footing, hip: Point, board_rad: Number, heel_rad: N
     d = m.least(sqrt(dx * dx + dy * dy + dz * dz), _STRAIGHT * whole)
     dd, tt_ss = d * d, whole * (thigh - shank)
     inside, below = (dd + tt_ss) / (2 * thigh * d), (dd - tt_ss) / (2 * shank * d)
-    ox, oy, oz = footing.knee_out
     share = (ox * dx + oy * dy + oz * dz) / dd
     ox, oy, oz = ox - share * dx, oy - share * dy, oz - share * dz
     side = thigh * sqrt((1 - inside * inside) / (ox * ox + oy * oy + oz * oz))
@@ -113,4 +133,4 @@ def chain(m: Maths, footing: Footing, hip: Point, board_rad: Number, heel_rad: N
 
 
 settled = lru_cache(maxsize=256)(chain)
-"""`chain` on floats, remembered: feet rest on their boards most of the time."""
+"""`chain` on floats, remembered: feet rest on their boards much of the time."""

@@ -96,17 +96,17 @@ def hat_board(score: Score, onset_s: Array) -> SplineChannels:
     return _curve(np.maximum.accumulate(table[:, 0]), table[:, 1], table[:, 2], _HAT_TENSION)
 
 
-BEATER_LENGTH_M, _BEATER_HALF_M = 0.20, 0.016
+BEATER_LENGTH_M, BEATER_HALF_M = 0.20, 0.016
 """From the axle to the middle of the beater, and half its thickness; common pedals set the first to 19–22 cm."""
 
 
-def beater_m(kit: Kit, angle_rad: float) -> Array:
-    """The middle of the beater's striking face, which is on the kick's head at angle 0."""
-    head = kit.pieces[Piece.KICK].centre
+def beater_m(kit: Kit, angle_rad: float, slave: bool = False) -> Array:
+    """The middle of the beater's striking face, or the slave's, which is on the kick's head at angle 0."""
+    head = kit.pieces[Piece.KICK].centre + (kit.second_beater_m if slave else 0.0)
     sine, cosine = math.sin(angle_rad), math.cos(angle_rad)
-    forward = _BEATER_HALF_M * cosine - BEATER_LENGTH_M * sine
-    up = _BEATER_HALF_M * sine + BEATER_LENGTH_M * cosine
-    moved: Array = head + np.array([0.0, forward - _BEATER_HALF_M, up - BEATER_LENGTH_M])
+    forward = BEATER_HALF_M * cosine - BEATER_LENGTH_M * sine
+    up = BEATER_HALF_M * sine + BEATER_LENGTH_M * cosine
+    moved: Array = head + np.array([0.0, forward - BEATER_HALF_M, up - BEATER_LENGTH_M])
     return moved
 
 

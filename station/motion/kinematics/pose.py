@@ -12,6 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.motion.kinematics import frame
+from station.motion.kinematics.grip import Hold
+from station.motion.kit.instruments import NUMBERS
 
 RIGHT, LEFT = 0, 1
 
@@ -48,16 +50,24 @@ ANGLE_NAMES: tuple[str, ...] = (
 
 
 _STICKS = [ANGLE_NAMES.index("right_stick"), ANGLE_NAMES.index("left_stick")]
-OPEN_FINGERS_RAD = math.radians(60)
-"""The stick's angle in a hand whose fingers are quite open: the limit of `limits.Limits.fingers`."""
+OPEN_FINGERS_RAD = math.radians(40)
+"""How far the stick sinks in a hand whose fingers are quite open: with that of the contact, the limit of
+`limits.Limits.fingers`."""
+_PLAIN = Hold.of("american", "stick")
+
+_FACE_LOW = np.array([-1.0, 0.0, -1.0, 0.0])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pose:
-    """Everything that moves at `time_s`: one `row` of numbers in the layout of `frame`, and views into it."""
+    """Everything that moves at `time_s`: one `row` of numbers in the layout of `frame`, and views into it.
+
+    `holds` are what the right and the left hand hold, and how.
+    """
 
     time_s: float
     row: NDArray[np.float64]
+    holds: tuple[Hold, Hold] = (_PLAIN, _PLAIN)
 
     @property
     def joints_m(self) -> NDArray[np.float64]:
@@ -100,11 +110,12 @@ class Pose:
 
         They open as the stick rises in the hand and close at the fulcrum for the stroke.
         """
-        return np.clip(1.0 - self.angles_rad[_STICKS] / OPEN_FINGERS_RAD, 0.0, 1.0)
+        closed = [hold.grip.closed_rad for hold in self.holds]
+        return np.clip(1.0 - (self.angles_rad[_STICKS] - closed) / OPEN_FINGERS_RAD, 0.0, 1.0)
 
     @property
     def footboard_rad(self) -> tuple[float, float]:
-        """How far the boards under the right and the left foot are raised over flat."""
+        """How far the boards at which the right and the left foot are at home are raised over flat."""
         right, left = self.row[frame.BOARDS].tolist()
         return right, left
 
@@ -112,6 +123,11 @@ class Pose:
     def beater_rad(self) -> float:
         """The kick beater's angle back from the head, which it touches at 0."""
         return self.row.item(frame.BEATER)
+
+    @property
+    def slave_rad(self) -> tuple[float, float]:
+        """The slave board of a double pedal, raised over flat, and its beater's angle back from the head."""
+        return self.row.item(frame.SLAVE_BOARD), self.row.item(frame.SLAVE_BEATER)
 
     @property
     def hat_gap_m(self) -> float:
@@ -124,11 +140,30 @@ class Pose:
         return self.row.item(frame.EYES)
 
     @property
+    def face(self) -> NDArray[np.float64]:
+        """Brow (−1 frown … 1 raised), mouth (0 shut … 1 open), smile (−1 … 1), effort (0 … 1 narrowed, tense), (4,)."""
+        return np.clip(self.row[frame.FACE], _FACE_LOW, 1.0)
+
+    @property
+    def gaze(self) -> NDArray[np.float64]:
+        """The eyes' turn in the head, to the left and down, radians, (2,)."""
+        return self.row[frame.GAZE]
+
+    @property
     def swing_rad(self) -> NDArray[np.float64]:
         """How far each piece, in `Kit.pieces`' order, has tipped about its own right and away axes, (pieces, 2)."""
-        return self.row[frame.PLAYED :].reshape(-1, 4)[:, :2]
+        return self._played[:, :2]
 
     @property
     def flash(self) -> NDArray[np.float64]:
         """How brightly each piece's last stroke still shows, (pieces,) 0 … 1."""
-        return self.row[frame.PLAYED + 2 :: 4]
+        return self._played[:, 2]
+
+    @property
+    def ripple(self) -> NDArray[np.float64]:
+        """How each head gives way, (pieces, 4): metres, where it was struck along right and away, seconds since."""
+        return self._played[:, 3:]
+
+    @property
+    def _played(self) -> NDArray[np.float64]:
+        return self.row[frame.PLAYED :].reshape(-1, NUMBERS)

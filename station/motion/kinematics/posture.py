@@ -1,9 +1,14 @@
-"""Where the body is when nothing moves it: the pelvis on the throne, the shoulder as it naturally faces a target."""
+"""Where the body is when nothing moves it: the pelvis on the throne, the shoulder as it naturally faces a target.
+
+A kit's file says where the throne stands for a median figure; others set it to their knees, and so far from the snare
+that their elbows hang beside the ribs.
+"""
 
 import math
+from dataclasses import replace
 
 from station.core.pieces import Limb
-from station.motion.kinematics.figure import Figure
+from station.motion.kinematics.figure import Figure, figure_of
 from station.motion.kinematics.maths import ONE, Point
 from station.motion.kinematics.trunk import TrunkAngles, trunk
 from station.motion.kit.kit import Kit
@@ -15,6 +20,28 @@ POSTURE_RAD = math.radians(6.0)
 """How far the trunk leans forward at rest (our choice)."""
 TWIST_SHARE = 0.45
 """How much of the way to the struck piece the torso turns; eyes and head do the rest (our choice)."""
+THIGH_SLOPE_RAD = math.radians(10)
+"""Teachers ask for hips a little over the knees: thighs that fall by 5–15° (the middle)."""
+ARM_SHARE = 0.7
+"""A longer arm moves the throne back by so much of its length more: the elbow stays bent as it was (our choice)."""
+
+
+def seated(kit: Kit, figure: Figure) -> Kit:
+    """The `kit` with its throne as `figure` sets it."""
+    median = figure_of()
+    x, y, z = kit.seat_m
+    y -= ARM_SHARE * (_arm_m(figure) - _arm_m(median))
+    return replace(kit, seat_m=(x, y, z + _seat_height_m(figure) - _seat_height_m(median)))
+
+
+def _arm_m(figure: Figure) -> float:
+    return figure.upper_arm_m + figure.forearm_m + figure.hand_m
+
+
+def _seat_height_m(figure: Figure) -> float:
+    """The seat's height from which the thighs fall as they should to soles flat on the floor."""
+    knee = figure.ankle_height_m + figure.shank_m
+    return knee + figure.thigh_m * math.sin(THIGH_SLOPE_RAD) - HIP_ABOVE_SEAT * figure.stature_m
 
 
 def pelvis_of(kit: Kit, figure: Figure) -> Point:

@@ -18,7 +18,11 @@ LEAN_TO_HEAD = 0.35
 
 
 class TrunkAngles(NamedTuple):
-    """All angles of trunk and head, radians; `shrug_m` lifts both shoulders; head angles are against the trunk."""
+    """All angles of trunk and head, radians; head angles are against the trunk.
+
+    `shrug_m` lifts both shoulders; `hunch` rounds the back, its upper part forward over the lower, under 0 it arches;
+    `chin` pushes the neck forward under a level head.
+    """
 
     twist: Number
     lean: Number
@@ -27,6 +31,8 @@ class TrunkAngles(NamedTuple):
     turn: Number
     tilt: Number
     shrug_m: Number
+    hunch: Number = 0.0
+    chin: Number = 0.0
 
 
 class Trunk(NamedTuple):
@@ -55,15 +61,16 @@ TrunkChain = tuple[tuple[Number, ...], Point, Point, tuple[Number, ...]]
 def chain(m: Maths, figure: Figure, pelvis: Point, angles: tuple[Number, ...]) -> TrunkChain:
     """`trunk` in plain tuples, as a row takes it; `angles` in the order of `TrunkAngles`."""
     sin, cos = m.sin, m.cos
-    twist, lean, side, nod, turn, tilt, shrug = angles
+    twist, lean, side, nod, turn, tilt, shrug, hunch, chin = angles
     sin_t, cos_t, sin_s, cos_s = sin(twist), cos(twist), sin(side), cos(side)
     length = figure.trunk_m
     lower, upper = LOWER_SHARE * length, (1 - LOWER_SHARE) * length
     px, py, pz = pelvis
     # the trunk in its own plane, which is turned by the twist: to the right and forward
-    right, forward, bend = 0.5 * lower * sin_s, lower * sin(0.5 * lean), 0.5 * lean
+    bend, round_ = 0.5 * (lean - hunch), lean + 0.5 * hunch
+    right, forward = 0.5 * lower * sin_s, lower * sin(bend)
     ax, ay, az = px + right * cos_t - forward * sin_t, py + right * sin_t + forward * cos_t, pz + lower * cos(bend)
-    right, forward, up = upper * sin_s, upper * sin(lean) * cos_s, upper * cos(lean) * cos_s
+    right, forward, up = upper * sin_s, upper * sin(round_) * cos_s, upper * cos(round_) * cos_s
     nx, ny, nz = ax + right * cos_t - forward * sin_t, ay + right * sin_t + forward * cos_t, az + up
     half = 0.5 * figure.shoulder_breadth_m
     across = half * cos_s
@@ -71,7 +78,7 @@ def chain(m: Maths, figure: Figure, pelvis: Point, angles: tuple[Number, ...]) -
     # the head keeps level against the lean but for its own nod
     heading, pitch, roll = twist + turn, LEAN_TO_HEAD * lean + nod, LEAN_TO_HEAD * side + tilt
     sin_h, cos_h, sin_p, cos_p, sin_r, cos_r = sin(heading), cos(heading), sin(pitch), cos(pitch), sin(roll), cos(roll)
-    neck, skull, bend = figure.neck_m, figure.head_m, 0.5 * (lean + pitch)
+    neck, skull, bend = figure.neck_m, figure.head_m, 0.5 * (round_ + pitch) + chin
     right, forward = neck * sin(0.5 * (side + roll)), neck * sin(bend)
     hx, hy, hz = nx + right * cos_h - forward * sin_h, ny + right * sin_h + forward * cos_h, nz + neck * cos(bend)
     forward = sin_p * cos_r

@@ -1,7 +1,8 @@
 """The drum kit: its pieces, its pedals, which piece stands in for one that it lacks, and its TOML file.
 
-A file holds `title`, `handed` ("right" or "left"), `seat_m`, the tables `pedals.kick` and `pedals.hihat`, and a table
-for each piece, named as `core.pieces` names it. Angles are degrees in the file. Every fault is named by its place;
+A file holds `title`, `handed` ("right" or "left"), `make`, `finish`, `seat_m`, the tables `pedals.kick` and
+`pedals.hihat`, with a double pedal `pedals.slave`, and a table for each piece, named as `core.pieces` names it. Or it
+holds a `title` and which shipped kit it `mirrors`. Angles are degrees in the file. Every fault is named by its place;
 `station/motion/data/kits/four_piece.toml` is a commented example.
 """
 
@@ -37,8 +38,10 @@ from station.core.schema import (
 from station.core.shipped import find_shipped, shipped
 from station.core.toml_faults import wrong
 from station.core.toml_source import read_source
-from station.motion.kit.piece import SPOTS, KitPiece, Target, ZoneSpot
+from station.motion.kit.piece import SPOTS, KitPiece, Target, Vector, ZoneSpot
 
+MAKES = ("acoustic", "electronic")
+FINISHES = ("teal", "maple", "black")
 KITS = Path(__file__).parents[1] / "data" / "kits"
 DEFAULT_KIT = "four_piece"
 
@@ -57,6 +60,9 @@ class Pedal:
         (heel_x, *heel), (toe_x, *toe) = self.heel_m, self.toe_m
         return replace(self, heel_m=(-heel_x, heel[0], heel[1]), toe_m=(-toe_x, toe[0], toe[1]))
 
+
+BEATERS_APART_M = 0.075
+"""Between the beaters of a double pedal, whose felts are 5 cm thick (our choice)."""
 
 _SUBSTITUTES: Mapping[Piece, tuple[Piece, ...]] = MappingProxyType(
     {
@@ -85,7 +91,10 @@ _SUBSTITUTES: Mapping[Piece, tuple[Piece, ...]] = MappingProxyType(
 
 @dataclass(frozen=True)
 class Kit:
-    """All pieces of a kit and its pedals; `left_handed` kits lead with the left hand."""
+    """All pieces of a kit and its pedals; `left_handed` kits lead with the left hand.
+
+    `make` is what kind of instruments they are, of `MAKES`; `finish` what the shells look like, of `FINISHES`.
+    """
 
     name: str
     title: str
@@ -93,6 +102,22 @@ class Kit:
     seat_m: tuple[float, float, float]
     pieces: Mapping[Piece, KitPiece]
     pedals: Mapping[Piece, Pedal]
+    make: str = "acoustic"
+    finish: str = "teal"
+    slave: Pedal | None = None
+    """The second board of a double pedal, which the hi-hat's foot plays."""
+
+    @property
+    def feet(self) -> tuple[Limb, Limb]:
+        """The kick's foot and the hi-hat's, which also plays the slave board."""
+        right, left = Limb.RIGHT_FOOT, Limb.LEFT_FOOT
+        return (left, right) if self.left_handed else (right, left)
+
+    @property
+    def pedals_by_foot(self) -> tuple[Pedal, Pedal]:
+        """The pedals on which the right and the left foot are at home."""
+        kick, hat = self.pedals[Piece.KICK], self.pedals[Piece.HIHAT_PEDAL]
+        return (hat, kick) if self.left_handed else (kick, hat)
 
     def stand_in(self, piece: Piece) -> Piece:
         """`piece` if this kit has it, else the piece that is played in its place."""
@@ -116,11 +141,20 @@ class Kit:
             seat_m=(-x, y, z),
             pieces=MappingProxyType({name: piece.mirrored for name, piece in self.pieces.items()}),
             pedals=MappingProxyType({name: pedal.mirrored for name, pedal in self.pedals.items()}),
+            slave=self.slave and self.slave.mirrored,
         )
 
     def target(self, piece: Piece, zone: Zone, limb: Limb) -> Target:
         """The point that `limb` aims at for `zone` of `piece`, on the piece that stands in for it if need be."""
-        return self.pieces[self.stand_in(piece)].target(zone, limb)
+        found = self.pieces[self.stand_in(piece)].target(zone, limb)
+        if piece is not Piece.KICK or limb is not self.feet[1]:
+            return found
+        return replace(found, point_m=found.point_m + self.second_beater_m)
+
+    @property
+    def second_beater_m(self) -> Vector:
+        """From the first beater to the slave's: to the hi-hat's side, (3,)."""
+        return np.array([BEATERS_APART_M if self.left_handed else -BEATERS_APART_M, 0.0, 0.0])
 
 
 _PIECES = members_by_label(Piece)
@@ -176,12 +210,14 @@ _PEDAL: Fields = {
 
 def kit_reader(name: str) -> Reader[Kit]:
     """The schema of the file of the kit called `name`."""
-    return record(partial(_kit, name), FIELDS, "piece or key")
+    whole, mirrored = record(partial(_kit, name), FIELDS, "piece or key"), record(partial(_mirrored, name), _MIRRORED)
+    return lambda raw: (mirrored if isinstance(raw, dict) and "mirrors" in raw else whole)(raw)
 
 
-def _kit(name: str, title: str | None, handed: str, pedals: Mapping[Piece, Pedal], **others: Any) -> Kit:  # noqa: ANN401
-    """A kit of what its file says; `others` are its seat and its pieces, None for those that it lacks."""
-    pieces = {_PIECES[key]: piece for key, piece in others.items() if piece is not None and key in _PIECES}
+def _kit(name: str, title: str | None, handed: str, pedals: Mapping[str, Pedal], **others: Any) -> Kit:  # noqa: ANN401
+    """A kit of what its file says; `others` are its seat, looks and pieces, None for those that it lacks."""
+    found = {_PIECES[key]: piece for key, piece in others.items() if piece is not None and key in _PIECES}
+    pieces = {name: replace(piece, electronic=others["make"] == "electronic") for name, piece in found.items()}
     _apart(list(pieces.values()))
     return Kit(
         name=name,
@@ -189,8 +225,16 @@ def _kit(name: str, title: str | None, handed: str, pedals: Mapping[Piece, Pedal
         left_handed=handed == "left",
         seat_m=others["seat_m"],
         pieces=MappingProxyType(pieces),
-        pedals=pedals,
+        pedals=MappingProxyType({Piece.KICK: pedals["kick"], Piece.HIHAT_PEDAL: pedals["hihat"]}),
+        slave=pedals["slave"],
+        make=others["make"],
+        finish=others["finish"],
     )
+
+
+def _mirrored(name: str, title: str | None, mirrors: str) -> Kit:
+    """A shipped kit built for the other hand."""
+    return replace(load_kit(mirrors).mirrored, name=name, title=name if title is None else title)
 
 
 def _piece(piece: Piece) -> Reader[KitPiece]:
@@ -216,23 +260,26 @@ def _pedal(**values: Any) -> Pedal:  # noqa: ANN401 - the fields of a pedal
     return pedal
 
 
-def _pedals(kick: Pedal, hihat: Pedal) -> Mapping[Piece, Pedal]:
-    return MappingProxyType({Piece.KICK: kick, Piece.HIHAT_PEDAL: hihat})
-
-
 _NEEDED = ("kick", "snare")
-_BOTH_PEDALS: Fields = {
+_PEDALS: Fields = {
     "kick": needed(record(_pedal, _PEDAL), "a table [pedals.kick]"),
     "hihat": needed(record(_pedal, _PEDAL), "a table [pedals.hihat]"),
+    "slave": optional(record(_pedal, _PEDAL)),
 }
 FIELDS: Fields = {
     "title": optional(text),
     "handed": Field(one_of(("right", "left"), "hand"), "right"),
+    "make": Field(one_of(MAKES, "make"), MAKES[0]),
+    "finish": Field(one_of(FINISHES, "finish"), FINISHES[0]),
     "seat_m": Field(_LENGTHS, (0.0, 0.0, 0.5)),
-    "pedals": needed(record(_pedals, _BOTH_PEDALS), "tables [pedals.kick] and [pedals.hihat]"),
+    "pedals": needed(record(dict, _PEDALS), "tables [pedals.kick] and [pedals.hihat]"),
     **{key: Field(_piece(each), None, f"a table [{key}]" if key in _NEEDED else None) for key, each in _PIECES.items()},
 }
 """The schema of the file; a kit needs a kick and a snare."""
+_MIRRORED: Fields = {
+    "title": optional(text),
+    "mirrors": needed(one_of(kit_names(), "kit"), 'mirrors = "four_piece"'),
+}
 
 
 def _apart(pieces: list[KitPiece]) -> None:

@@ -61,7 +61,7 @@ _DRUM_SPOTS = {
 }
 _CYMBAL_SPOTS = {
     Zone.BOW: ZoneSpot(0.0, -0.6, 0.03),
-    Zone.BELL: ZoneSpot(0.0, -0.12, 0.05, BELL_ABOVE_BOW_M, shoulder=True),
+    Zone.BELL: ZoneSpot(0.0, -0.12, 0.05, BELL_ABOVE_BOW_M, shoulder=True, wrist_radius_m=0.41, wrist_height_m=0.06),
     Zone.EDGE: ZoneSpot(0.0, -0.98, 0.14, shoulder=True),
 }
 SPOTS: Mapping[str, Mapping[Zone, ZoneSpot]] = MappingProxyType(
@@ -109,7 +109,10 @@ class Target:
 
 @dataclass(frozen=True)
 class KitPiece:
-    """One piece: a disc of `radius_m` at `centre_m` with tilts ε and φ, and a shell of `depth_m` under it."""
+    """One piece: a disc of `radius_m` at `centre_m` with tilts ε and φ, and a shell of `depth_m` under it.
+
+    An `electronic` one is a pad.
+    """
 
     piece: Piece
     kind: str
@@ -121,6 +124,7 @@ class KitPiece:
     wrist_radius_m: float = 0.40
     wrist_height_m: float = 0.06
     spots: Mapping[Zone, ZoneSpot] = field(default_factory=dict)
+    electronic: bool = False
 
     @property
     def mirrored(self) -> "KitPiece":

@@ -36,7 +36,7 @@ WRITTEN = 1e6
 IMPOSSIBLE = 1000.0
 CRUSHED = 200.0
 UNEVEN = 12.0
-BOUNCED_AGAIN = 3.0
+BOUNCED_AGAIN = 5.0
 GRACE = 8.0
 LATE = 7.0
 SLOW = 4.0
@@ -46,11 +46,13 @@ SKIP = 0.6
 LATE_BOUNCE = 0.25
 METRE = 0.8
 CROSSING = 1.8
+FAR_CROSSING = 100.0
 NATURAL = 0.6
 FIRM = 1.8
 OSTINATO = 0.9
 SWITCH = 0.6
 LAID = 1.0
+BOTH_LIE = 6.0
 HOME = 0.15
 BEGIN = 0.1
 
@@ -60,6 +62,8 @@ CROSSING_MARGIN_M = 0.02
 """Hands this near in x are beside each other, not crossed (half of what parts the two snare spots)."""
 FULL_CROSSING_M = 0.2
 """Hands so far past each other are fully crossed."""
+FAR_CROSSING_M = 0.56
+"""Hands farther past each other than this have one arm across the other, and it grows worse."""
 
 
 # --- a note alone -----------------------------------------------------------------------------------------------------
@@ -142,22 +146,24 @@ def is_rebound(notes: HandNotes, i: int, own: int) -> bool:
 
 # --- beside the other hand's last note --------------------------------------------------------------------------------
 
-BESIDE = ("the hands stay uncrossed", "the ostinato stays in its hand")
+BESIDE = ("the hands stay uncrossed", "the ostinato stays in its hand", "one hand lies on the drum")
 
 
 def beside(notes: HandNotes, i: int, hand: int, other: int) -> tuple[float, ...]:
     """What note `i` costs `hand` when the other hand played `other` last (−1: nothing); as `BESIDE` names."""
     if other < 0:
-        return 0.0, 0.0
+        return 0.0, 0.0, 0.0
     fresh = 1.0 - (notes.time_s[i] - notes.time_s[other]) / CROSSING_FADES_S
     if fresh <= 0.0:
-        return 0.0, 0.0
-    shared = notes.ostinato[i] and notes.piece[other] == notes.piece[i]
-    return CROSSING * fresh * _crossed(notes, i, hand, other), SWITCH * fresh if shared else 0.0
+        return 0.0, 0.0, 0.0
+    same = notes.piece[other] == notes.piece[i]
+    switched = SWITCH * fresh if same and notes.ostinato[i] else 0.0
+    both_lie = BOTH_LIE if same and notes.laid[i] and notes.laid[other] else 0.0
+    return CROSSING * fresh * _crossed(notes, i, hand, other), switched, both_lie
 
 
 def _crossed(notes: HandNotes, i: int, hand: int, other: int) -> float:
-    """How far the hands are crossed, 0–1; the leading hand on the hat over the other on the snare is home posture."""
+    """How far the hands are crossed, 0–1, and more for the arms; none in home posture, the leading hand on the hat."""
     over = notes.spot[1 - hand][other][0] - notes.spot[hand][i][0]
     over = (over if hand == RIGHT else -over) - CROSSING_MARGIN_M
     if over <= 0.0:
@@ -166,7 +172,7 @@ def _crossed(notes: HandNotes, i: int, hand: int, other: int) -> float:
     lead_on, other_on = (own_piece, other_piece) if hand == notes.lead else (other_piece, own_piece)
     if lead_on == Piece.HIHAT and other_on == Piece.SNARE and not notes.open_handed:
         return 0.0
-    return min(1.0, over / FULL_CROSSING_M)
+    return min(1.0, over / FULL_CROSSING_M) + FAR_CROSSING * max(0.0, over - FAR_CROSSING_M)
 
 
 def settled_s(notes: HandNotes) -> float:

@@ -83,6 +83,9 @@ class HandNotes:
         ostinato = _ostinato(score.onset_s[rows], for_ostinato)
         quick = for_ostinato & ~ostinato
         firm = _with_another(score.onset_s[rows], played, quick)
+        natural = np.where(odd ^ (firm & quick), 1 - lead, lead)
+        keeps = np.where((played == Piece.HIHAT) & (hands is Hands.OPEN), 1 - lead, lead)
+        natural = _between(score.onset_s[rows], ostinato, keeps, natural)
         return cls(
             time_s=score.onset_s[rows].tolist(),
             piece=played.tolist(),
@@ -91,7 +94,7 @@ class HandNotes:
             velocity=notes["velocity"].tolist(),
             written=notes["limb"].tolist(),
             ostinato=ostinato.tolist(),
-            natural=np.where(odd ^ (firm & quick), 1 - lead, lead).tolist(),
+            natural=natural.tolist(),
             firm=firm.tolist(),
             odd=odd.tolist(),
             laid=(notes["articulation"] == Articulation.CROSS_STICK).tolist(),
@@ -115,6 +118,34 @@ def _ostinato(time_s: NDArray[np.float64], on_piece: NDArray[np.bool_]) -> NDArr
     return ostinato
 
 
+def _between(
+    time_s: NDArray[np.float64],
+    ostinato: NDArray[np.bool_],
+    keeps: NDArray[np.int64],
+    natural: NDArray[np.int64],
+) -> NDArray[np.int64]:
+    """The `natural` hands, but for a lone stroke between an ostinato's, or after its last, the other hand.
+
+    `keeps` (n,) is who has each note if it belongs to an ostinato. What is struck at once counts as one.
+    """
+    if not len(time_s):
+        return natural
+    chord = np.cumsum(np.diff(time_s, prepend=time_s[:1]) > AT_ONCE_S)
+    carries = np.full(int(chord[-1]) + 1, _NO_OSTINATO)
+    carries[chord[ostinato]] = keeps[ostinato]
+    near = np.diff(time_s[np.searchsorted(chord, np.arange(len(carries)))]) < OSTINATO_GAP_S
+    before = np.append(_NOTHING, np.where(near, carries[:-1], _NOTHING))[chord]
+    after = np.append(np.where(near, carries[1:], _NOTHING), _NOTHING)[chord]
+    alone = ~ostinato & (before >= 0) & ((after == before) | (after == _NOTHING))
+    return np.where(alone, 1 - before, natural)
+
+
+_NO_OSTINATO, _NOTHING = -1, -2
+"""Beside a stroke: strokes that are no ostinato's, or none that is near."""
+OSTINATO_GAP_S = 0.6
+"""An ostinato's strokes are at most so far from what falls between them: eighths at 50 a minute (our choice)."""
+
+
 def _with_another(time_s: NDArray[np.float64], piece: NDArray[np.int64], quick: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """The notes of a quick run that fall together with another piece's, and those: natural sticking has that one."""
     pair = (np.diff(time_s) < AT_ONCE_S) & (np.diff(piece) != 0) & (quick[1:] != quick[:-1])
@@ -130,7 +161,8 @@ def _paired(notes: NDArray[np.void]) -> NDArray[np.int8]:
     pairs[1:][grace[:-1] & ~grace[1:]] = -1  # the stroke that grace notes lead to
     pairs[1:][grace[:-1] & grace[1:]] = 1  # both strokes of a drag
     diddle = notes["ornament"] == Ornament.DIDDLE
-    starts = diddle & ~np.concatenate(([False], diddle[:-1]))
+    moved = np.concatenate(([True], np.diff(notes["piece"].astype(np.int64)) != 0))  # no rebound goes there
+    starts = diddle & (moved | ~np.concatenate(([False], diddle[:-1])))
     index = np.arange(len(notes)) - np.maximum.accumulate(np.where(starts, np.arange(len(notes)), 0))
     pairs[diddle & (index % 2 == 1)] = 1
     pairs[diddle & (index % 2 == 0) & (index > 0)] = -1

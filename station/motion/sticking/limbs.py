@@ -48,7 +48,7 @@ def assign_limbs(score: Score, kit: Kit, method: str = "station", hands: Hands |
     if method not in METHODS:
         raise BadInput("method", method, f"no such method of limb assignment; there are {' and '.join(METHODS)}")
     lead = hands or (Hands.LEFT if kit.left_handed else Hands.RIGHT)
-    limbs, why = _feet(score, kit.left_handed)
+    limbs, why = _feet(score, kit)
     rows = np.flatnonzero(limbs == Limb.UNKNOWN)
     written = np.isin(score.notes["limb"], (Limb.RIGHT_HAND, Limb.LEFT_HAND))
     if len(rows):
@@ -60,17 +60,22 @@ def assign_limbs(score: Score, kit: Kit, method: str = "station", hands: Hands |
     return Assignment(limbs, tuple(why), method, infeasible_demands(score, kit, limbs))
 
 
-def _feet(score: Score, left_handed: bool) -> tuple[NDArray[np.int8], list[str]]:
-    """The notes that a foot plays; `Limb.UNKNOWN` and no reason at the others."""
+def _feet(score: Score, kit: Kit) -> tuple[NDArray[np.int8], list[str]]:
+    """The notes that a foot plays; `Limb.UNKNOWN` and no reason at the others.
+
+    Each foot has its pedal. A kick written for the hi-hat's foot is on the slave of a double pedal; a kit without one
+    leaves it to the kick's foot, and nobody else can close the hi-hat.
+    """
     pieces, written = score.notes["piece"], score.notes["limb"]
     limbs = np.full(len(score), Limb.UNKNOWN, np.int8)
     why = [""] * len(score)
-    kick, hat = (Limb.LEFT_FOOT, Limb.RIGHT_FOOT) if left_handed else (Limb.RIGHT_FOOT, Limb.LEFT_FOOT)
+    kick, hat = kit.feet
     for piece, foot, reason in ((Piece.KICK, kick, "the kick's foot"), (Piece.HIHAT_PEDAL, hat, "the hi-hat's foot")):
         for row in np.flatnonzero(pieces == piece):
-            said = written[row] in (Limb.LEFT_FOOT, Limb.RIGHT_FOOT)
-            limbs[row] = written[row] if said else foot
-            why[row] = "written" if said else reason
+            said = Limb(written[row])
+            limbs[row], why[row] = foot, "written" if said is foot else reason
+            if piece is Piece.KICK and said is hat:
+                limbs[row], why[row] = (hat, "written") if kit.slave else (kick, "this kit has no second pedal")
     return limbs, why
 
 

@@ -16,6 +16,8 @@ _STILL_BELOW_M = np.array([[0.10], [0.06], [0.0], [0.0]])
 """Taps and ghost strokes are wrist and fingers: below these heights shoulder and elbow are still."""
 _GROWTH = np.array([[0.8], [0.75], [0.8], [0.65]])
 """How each joint's part grows with the height over that: distal joints are used first (Altenmüller 2020)."""
+_ACROSS = 0.8
+"""A stick that lies across the hand keeps its slope but for the rest of this while the arm pitches the hand."""
 _DIP_RAD, _DIP_SHARE = 0.03, 0.5
 """How far the wrist goes on down within a double, and at most in shares of the second stroke's angle (our choice)."""
 
@@ -42,6 +44,7 @@ def _rise(amplitude: Array, contact_angles: Array, lengths: ArmLengths, turns: A
     offsets = SHARES_NEAR_TOP[..., None] * amplitude  # (moments, 4, n)
     turn = np.cumsum(offsets, axis=1)
     turn[:, 2] -= (1 - turns) * offsets[:, WRIST]
+    turn[:, 3] -= (1 - turns) * _ACROSS * (offsets[:, 0] + offsets[:, 1])
     angles = contact_angles + turn
     rise = (segments * (np.cos(contact_angles) - np.cos(angles))).sum(1)
     slope = (segments * turn * np.sin(angles)).sum(1)

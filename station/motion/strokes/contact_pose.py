@@ -1,57 +1,50 @@
 """How a hand lies when its stick touches: from the kit's targets to the numbers that the arm is solved from.
 
-The kit's wrist radius and height give the slope of the line from the struck point up to the wrist. What they leave
-open, the elbow's wing and the way the hand points, is chosen once for each target so that the wrist is bent least, at
-the natural posture of the body for that target: drummers lift the elbow for a high hi-hat and keep the wrist straight.
+The kit's wrist radius and height give the slope of the line from the struck point up to the wrist, the grip how the
+stick lies in the hand. What they leave open, the elbow's wing and the way that hand and stick point, is chosen once for
+each target so that the wrist is bent least, at the natural posture of the body for that target: drummers lift the elbow
+for a high hi-hat and keep the wrist straight.
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import astuple, dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Articulation, Limb, Piece
+from station.core.pieces import Articulation, Limb
 from station.motion.kinematics.arm import BEHIND_M, Arm, ArmLengths, Contact, Offsets, solve
 from station.motion.kinematics.body_solids import CHEST, Capsules, in_capsules, points_of, trunk_capsules
 from station.motion.kinematics.collisions import depth_in_kit
 from station.motion.kinematics.figure import Figure
+from station.motion.kinematics.grip import Grip, Hold
 from station.motion.kinematics.joint_limits import Limits
 from station.motion.kinematics.maths import MANY, ONE, Point
 from station.motion.kinematics.posture import natural_shoulder, pelvis_of
 from station.motion.kit.kit import Kit
 from station.motion.kit.piece import RIM_ABOVE_HEAD_M, Target
-from station.motion.strokes.grip import Grip, Hold
 from station.motion.strokes.hand_events import GRAB, LAP, SHOW, WAIT
-from station.motion.strokes.lap import lap
+from station.motion.strokes.lap import Thigh, lap
 from station.motion.strokes.targets import Strike, laid_azimuth, target_of
 
 Array = NDArray[np.float64]
 
 _WINGS = np.radians(np.arange(0.0, 81.0, 8.0))
-_HAND_YAWS = np.radians(np.arange(-60.0, 61.0, 6.0))
+_TURNS = np.radians(np.arange(-60.0, 61.0, 6.0))
 _EXTENSION_EASE, _DEVIATION_EASE = np.radians(25.0), np.radians(12.0)
 _NATURAL_WING, _WING_EASE = np.radians(12.0), np.radians(40.0)
-_CROSSING_EASE = np.radians(35.0)
+_TURN_EASE = np.radians(18.0)
 _SPARE, _BEYOND_EASE = np.radians(8.0), np.radians(1.0)
-"""What is called comfortable: how far the wrist bends, the elbow leaves its place and the stick crosses the palm
-before each costs as much as the others; near its limits no wrist is comfortable, for strokes and styles need room (our
+"""What is called comfortable: how far the wrist bends, the elbow leaves its place and the stick is turned from
+the grip's own way before each costs as much as the others; near its limits no wrist is comfortable, for strokes and styles need room (our
 choice, within the limits of HUMANS)."""
 
 SHOULDER_OF_STICK = 0.25
 """From the tip back to the part that meets a cymbal's edge or a rim, as a share of the stick (our choice)."""
 _LAID_AHEAD = 0.55
-_LAID_RISE, _LAID_PALM = math.radians(2.0), math.radians(12.0)
-"""A cross-stick strikes the rim so far ahead of the fulcrum as a share of its length; the wrist is a little higher than
-the fingers, else it would be bent to its limit (our choice)."""
-
-_LAP_PALM = math.radians(6.0)
-"""On the thigh the wrist lies as low as the fingers, nearly (our choice)."""
-
-_RIDES = (Piece.RIDE, Piece.RIDE_2)
-THUMB_UP_TURNS = 0.5
-"""On a ride the thumb comes up: half of the wrist's part of a stroke is the forearm's roll (our choice)."""
-
+_LAID_RISE, _LAID_IN_THE_WEB = math.radians(2.0), math.radians(12.0)
+"""A cross-stick strikes the rim so far ahead of the fulcrum as a share of its length; a matched hand lies flat
+on it, palm down; the back of a traditional one lies on the head (our choice)."""
 
 LEANS_RAD = np.radians([6.0, 12.0, 18.0, 24.0, 30.0])
 """How far the trunk may lean for a distant target, the least that serves (our choice)."""
@@ -77,13 +70,11 @@ class ContactPose:
     shoulder_of_stick: bool
 
 
-def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike, heel: str = "down") -> ContactPose:
-    """The most comfortable way for `strike` with `hold`; `heel` as in `Style`, for the thigh on which a hand lies."""
+def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike, thigh: Thigh | None = None) -> ContactPose:
+    """The most comfortable way for `strike` with `hold`; `thigh` on which a hand may lie."""
     if strike.articulation in (WAIT, LAP) and not hold.held.rest_m:  # a brush waits on the head
         strike = replace(strike, articulation=Articulation.NORMAL)
     target = target_of(kit, strike)
-    if kit.stand_in(strike.piece) in _RIDES and hold.held.name == "stick":
-        hold = replace(hold, grip=replace(hold.grip, turns_hand=min(hold.grip.turns_hand, THUMB_UP_TURNS)))
     right = strike.limb == Limb.RIGHT_HAND
     side = 1.0 if right else -1.0
     lengths = hold.lengths(figure, right).unlimited
@@ -92,8 +83,9 @@ def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike, heel: str = "do
         azimuth = laid_azimuth(kit, kit.pieces[kit.stand_in(strike.piece)], strike.limb)
         slopes = replace(slopes, azimuth=azimuth)
     elif strike.articulation == LAP:
-        target, azimuth = lap(kit, figure, strike.limb, heel)
-        slopes = _Slopes(0.0, lengths.ahead, target.rise_rad, _LAP_PALM, azimuth)
+        assert thigh is not None
+        target, azimuth = lap(figure, thigh)
+        slopes = _Slopes(0.0, lengths.ahead, target.rise_rad, azimuth=azimuth)
     faced = np.array([0.0, 1.0, 0.0]) if strike.articulation in (WAIT, SHOW, LAP) else target.point_m  # for anything
     for lean in LEANS_RAD.tolist():
         root = natural_shoulder(kit, figure, strike.limb, faced, lean)
@@ -106,7 +98,7 @@ def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike, heel: str = "do
     for share in _STRAIGHTER:  # the butt may be in the way of a neighbour: the stick is turned until it is not
         if not _caught(kit, lengths, root, touch):
             break
-        grip = replace(hold.grip, yaw=share * hold.grip.yaw, crossing=share * hold.grip.crossing)
+        grip = replace(hold.grip, yaw=share * hold.grip.yaw)
         touch, _ = _easiest(lengths, root, target, slopes, grip, body)
         arm = solve(ONE, lengths, root, touch, Offsets(0.0, 0.0, 0.0, 0.0))
     limits = figure.limits
@@ -148,21 +140,38 @@ _EASY = 0.95
 def _easiest(
     lengths: ArmLengths, root: Point, target: Target, slopes: "_Slopes", grip: Grip, body: "_Body"
 ) -> tuple[Contact, bool]:
-    """Among all wings and ways to point the hand the easiest one, and whether the arm is stretched for it."""
+    """Among all wings and ways to turn hand and stick the easiest one, and whether the arm is stretched for it."""
     side, limits = body.side, body.limits
-    wing, yaw = (g.ravel() for g in np.meshgrid(side * _WINGS, _HAND_YAWS, indexing="ij"))
+    wing, turn = (g.ravel() for g in np.meshgrid(side * _WINGS, _TURNS, indexing="ij"))
+    if slopes.azimuth is not None:
+        turn = np.zeros_like(turn)
     x, y, z = target.point_m.tolist()
-    stick_yaw = side * grip.yaw if slopes.azimuth is None else _turn(root, target, slopes.azimuth)
-    stick_rise = _over_the_piece(target, root, stick_yaw, slopes)
-    stick_yaw += math.atan2(root[1] - y, root[0] - x) - math.atan2(root[1] - BEHIND_M - y, root[0] - x)
-    hand_rise = stick_rise + slopes.palm
-    trial = Contact(x, y, z, stick_rise, hand_rise, stick_yaw, stick_yaw + yaw, slopes.ahead_m, wing, grip.turns_hand)
-    arm = solve(MANY, lengths, root, trial, Offsets(0.0, 0.0, 0.0, 0.0))
+    way = side * grip.yaw if slopes.azimuth is None else _turn(root, target, slopes.azimuth)
+    rises = {t: _over_the_piece(target, root, way + t, slopes) for t in set(turn.tolist())}
+    rise = np.array([rises[t] for t in turn.tolist()])
+    lies = {r: grip.lie(r, slopes.hand_roll) for r in rises.values()}
+    palm, crossing, roll = (np.array(part) for part in zip(*(astuple(lies[r]) for r in rise.tolist()), strict=True))
+    way += math.atan2(root[1] - y, root[0] - x) - math.atan2(root[1] - BEHIND_M - y, root[0] - x)
+    stick_yaw = way + turn
+    tries = Contact(
+        x,
+        y,
+        z,
+        stick_rise=rise,
+        hand_rise=rise + palm,
+        stick_yaw=stick_yaw,
+        hand_yaw=stick_yaw - side * crossing,
+        ahead_m=slopes.ahead_m,
+        wing=wing,
+        turns=grip.turns_hand,
+        roll=roll,
+    )
+    arm = solve(MANY, lengths, root, tries, Offsets(0.0, 0.0, 0.0, 0.0))
     price = (
         (arm.extension / _EXTENSION_EASE) ** 2
         + (arm.deviation / _DEVIATION_EASE) ** 2
         + ((side * wing - _NATURAL_WING) / _WING_EASE) ** 2
-        + ((yaw + side * grip.crossing) / _CROSSING_EASE) ** 2
+        + (turn / _TURN_EASE) ** 2
         + 100.0 * arm.missing_m
         + (_beyond(arm, side, limits) / _BEYOND_EASE) ** 2
         + (body.deep(arm) / _BODY_EASE_M) ** 2
@@ -170,7 +179,7 @@ def _easiest(
     best = int(np.argmin(price))
     wx, wy, wz = (float(np.broadcast_to(w, price.shape)[best]) for w in arm.wrist)
     stretched = math.dist((wx, wy, wz), root) > _EASY * (lengths.upper + lengths.fore)
-    return trial._replace(hand_yaw=stick_yaw + float(yaw[best]), wing=float(wing[best])), stretched
+    return Contact(*(float(np.broadcast_to(t, price.shape)[best]) for t in tries)), stretched
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -218,31 +227,32 @@ def _beyond(arm: Arm, side: float, limits: Limits) -> Array:
 class _Slopes:
     """How the stick wants to lie.
 
-    What touches and how much stick is beyond it, its slope, its angle in the hand, its way in plan where that is fixed,
-    and whether its shaft lies on the rim.
+    What touches and how much stick is beyond it, its slope, the hand's roll where it is not its grip's, its way in plan where that is fixed, and whether its shaft lies on the rim.
     """
 
     ahead_m: float
     beyond_m: float
     rise: float
-    palm: float
+    hand_roll: float | None = None
     azimuth: float | None = None
     on_rim: bool = False
 
 
 def _slopes(lengths: ArmLengths, target: Target, hold: Hold, strike: Strike, length_m: float) -> _Slopes:
-    h, palm, ahead = lengths.hand, hold.grip.palm, lengths.ahead
+    h, palm, ahead = lengths.hand, hold.grip.closed_rad, lengths.ahead
     if strike.articulation == GRAB:
-        return _Slopes(0.0, lengths.ahead, target.rise_rad, palm)
+        return _Slopes(0.0, lengths.ahead, target.rise_rad)
     if strike.articulation == Articulation.CROSS_STICK:
         laid = _LAID_AHEAD * length_m
-        return _Slopes(laid, ahead - laid, _LAID_RISE, _LAID_PALM)
+        if hold.grip.turns_hand:
+            return _Slopes(laid, ahead - laid, _LAID_RISE, hand_roll=0.0)
+        return _Slopes(laid, ahead - laid, _LAID_IN_THE_WEB)
     if target.shoulder:
         ahead -= SHOULDER_OF_STICK * length_m
     lean = math.atan2(h * math.sin(palm), ahead + h * math.cos(palm))  # between the stick and the line to the wrist
     rise = target.rise_rad - lean
     on_rim = strike.articulation == Articulation.RIM_SHOT
-    return _Slopes(ahead, lengths.ahead - ahead, rise, palm, on_rim=on_rim)
+    return _Slopes(ahead, lengths.ahead - ahead, rise, on_rim=on_rim)
 
 
 def _over_the_piece(target: Target, root: Point, stick_yaw: float, slopes: _Slopes) -> float:

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from math import radians
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,21 +10,35 @@ from numpy.typing import NDArray
 from station.core.errors import BadInput
 from station.core.labels import limb_name
 from station.core.pieces import Limb, Piece, Zone, word
-from station.motion.kinematics.arm import Contact
+from station.motion.kinematics.arm import Contact, Offsets, solve
 from station.motion.kinematics.figure import Figure
+from station.motion.kinematics.grip import Hold
+from station.motion.kinematics.maths import MANY, blocks
 from station.motion.kit.kit import Kit
 from station.motion.strokes.amplitudes import amplitudes, rebounds
 from station.motion.strokes.contact_pose import PROTRACTION_M, ContactPose, lie_of
-from station.motion.strokes.grip import Hold
 from station.motion.strokes.hand_events import LAP, SHOW, HandEvents
-from station.motion.strokes.stroke import StrokePlan
+from station.motion.strokes.lap import Thigh
+from station.motion.strokes.stroke import NATURALLY, StrokePlan, Strokes
 from station.motion.strokes.targets import Strike
 from station.motion.strokes.travel import DETOUR, GIVES, HandPath, lifts
 from station.music.score import Score
 
 Array = NDArray[np.float64]
 
+_SPARE_RAD = radians(5)
+"""What is left of a wrist's limits sideways in the natural style, for others to use (our choice)."""
+_EASINGS = 4
+_LEAST_HUMP = 0.3
+"""Moments at which so little of a detour is left are not helped by turning the hand (our choice)."""
+SLACK_RAD = radians(10)
+"""So far the stick may turn in the palm to either side: its butt still leaves under the heel (our choice)."""
+_ELBOW_FOR_WRIST, _MOST_ELBOW_RAD, _WINGS_RAD = 1.0, radians(15), (radians(-10), radians(80))
+"""An elbow that goes out by so much of it takes a bend to the thumb's side from the wrist, step by step."""
+_VIGOROUS = 2.0
+"""Styles may make strokes so much higher, and on its ways the wrist must bear them (our choice)."""
 _TURNS = Contact._fields.index("turns")
+_HAND_YAW, _WING = Contact._fields.index("hand_yaw"), Contact._fields.index("wing")
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,16 +66,16 @@ class HandPart:
 
     @classmethod
     def of(
-        cls, score: Score, kit: Kit, figure: Figure, hold: Hold, limb: Limb, events: HandEvents, heel: str
+        cls, score: Score, kit: Kit, figure: Figure, hold: Hold, limb: Limb, events: HandEvents, thigh: Thigh
     ) -> "HandPart":
-        """The part of `limb` with `events`; `heel` as in `Style`.
+        """The part of `limb` with `events`; `thigh` on which it rests.
 
         Raises `BadInput` for a piece out of reach: it names the piece, the note and the missing distance.
         """
         kinds, which = np.unique(events.key, axis=0, return_inverse=True)
         which = which.reshape(-1)
         strikes = [Strike(Piece(p), Zone(z), a, limb) for p, z, a in kinds.tolist()]
-        lies = tuple(lie_of(kit, figure, hold, strike, heel) for strike in strikes)
+        lies = tuple(lie_of(kit, figure, hold, strike, thigh) for strike in strikes)
         for k, lie in enumerate(lies):
             if lie.missing_m > PROTRACTION_M and len(events.row):
                 _out_of_reach(score, kit, strikes[k], int(events.row[np.argmax(which == k)]), lie.missing_m)
@@ -99,6 +114,72 @@ class HandPart:
         """Which stretches lead to the thigh or from it, (n − 1,)."""
         lies = self.events.key[:, 2] == LAP
         return np.asarray(lies[:-1] | lies[1:])
+
+    def eased(self, figure: Figure, time_s: Array, roots: tuple[Array, Array]) -> "HandPart":
+        """The same, hand turned on its stick and elbow so far out that the wrist stays within its limits sideways.
+
+        `roots` are where the shoulder is at `time_s` (k,) as the body naturally is, and as a lively one has it, which
+        counts while the hand stays; (3, k) each.
+        """
+        limits = figure.limits
+        most, least = limits.wrist_radial - _SPARE_RAD, _SPARE_RAD - limits.wrist_ulnar
+        strokes = Strokes.of(self.strokes, NATURALLY)
+        part, side = self, 1.0 if self.limb == Limb.RIGHT_HAND else -1.0
+        out = np.zeros(len(self.contacts))
+        for _ in range(_EASINGS):
+            contacts = part.contacts.copy()
+            bent, lively = (part._sideways(figure, time_s, root, strokes) for root in roots)
+            nearest, stays = part.way.nearest(time_s)
+            low, high = np.full(len(contacts), np.inf), np.full(len(contacts), -np.inf)
+            np.maximum.at(high, nearest[stays], np.maximum(bent, lively)[stays])
+            np.minimum.at(low, nearest[stays], np.minimum(bent, lively)[stays])
+            turn = np.zeros(len(contacts))  # what the ways want, within what the stays allow
+            np.maximum.at(turn, nearest, bent - most)
+            under = np.zeros(len(contacts))
+            np.minimum.at(under, nearest, bent - least)
+            turn += under
+            least_turn, most_turn = high - most, low - least
+            middle = 0.5 * (least_turn + most_turn)
+            turn = np.clip(turn, np.minimum(least_turn, middle), np.maximum(most_turn, middle))
+            in_hand = np.clip(out + turn, -SLACK_RAD, SLACK_RAD) - out
+            out += in_hand
+            contacts[:, _HAND_YAW] -= side * in_hand
+            elbow = np.clip(_ELBOW_FOR_WRIST * (turn - in_hand), -_MOST_ELBOW_RAD, _MOST_ELBOW_RAD)
+            contacts[:, _WING] = side * np.clip(side * contacts[:, _WING] + elbow, *_WINGS_RAD)
+            part = replace(part, contacts=contacts)
+        if not len(self.bump):
+            return part
+        vigorous = part._sideways(figure, time_s, roots[1], strokes, _VIGOROUS)
+        return part._turned_on_ways(side, time_s, (bent, vigorous), (least, most))
+
+    def _sideways(self, figure: Figure, time_s: Array, root: Array, strokes: Strokes, share: float = 1.0) -> Array:
+        """How far the wrist is bent to the thumb's side at `time_s` (k,) with the shoulder at `root` (3, k).
+
+        With this share of the `strokes`.
+        """
+        right = self.limb == Limb.RIGHT_HAND
+        lengths, bent = self.hold.lengths(figure, right), np.empty(len(time_s))
+        for block in blocks(len(time_s)):
+            at = time_s[block]
+            raised = Offsets(*(share * o for o in strokes.many(at)))
+            x, y, z = root[:, block]
+            bent[block] = solve(MANY, lengths, (x, y, z), self.way.many(at), raised).deviation
+        return bent if right else -bent
+
+    def _turned_on_ways(
+        self, side: float, time_s: Array, bends: tuple[Array, ...], bounds: tuple[float, float]
+    ) -> "HandPart":
+        """The same with the hand turned on its stick on its ways as far as its wrist's `bends` at `time_s` are beyond `bounds`."""
+        k, hump = self.way.humps(time_s)
+        helped = hump > _LEAST_HUMP
+        turn = np.zeros((2, len(self.bump)))
+        for bent in bends:
+            over = (bent - np.clip(bent, *bounds))[helped] / hump[helped]
+            np.maximum.at(turn[0], k[helped], over)
+            np.minimum.at(turn[1], k[helped], over)
+        bump = self.bump.copy()
+        bump[:, 3] -= side * np.clip(turn.sum(0), -SLACK_RAD, SLACK_RAD)
+        return replace(self, bump=bump)
 
     def held_under(self, height_m: Array) -> "HandPart":
         """The same, no stroke higher than `height_m` (n,), whatever the sliders say."""

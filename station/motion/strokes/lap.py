@@ -7,15 +7,17 @@ knee down. Metres; azimuths in radians from straight ahead, to the left positive
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
-from station.core.pieces import Limb, Piece
+from station.core.pieces import Piece
 from station.motion.kinematics.figure import Figure
-from station.motion.kinematics.leg import HEEL_RAD, Footing
-from station.motion.kinematics.leg import settled as settled_leg
+from station.motion.kinematics.leg import HEEL_RAD, Footing, leg
 from station.motion.kinematics.maths import ONE
 from station.motion.kinematics.posture import pelvis_of
 from station.motion.kit.kit import Kit
 from station.motion.kit.piece import Target
+
+Array = NDArray[np.float64]
 
 THIGH_SHARE = 0.043
 """A thigh's radius where a hand lies, as a share of the stature: 7.6 cm in a man of 1.759 m, whose mid-thigh is 55 cm
@@ -26,18 +28,29 @@ _ALONG, _LIES_M = 0.72, 0.034
 choice)."""
 
 
-def thigh(kit: Kit, figure: Figure, right: bool, heel: str) -> tuple[np.ndarray, np.ndarray]:
-    """Hip and knee of a seated figure with its foot at rest, (3,) each; `heel` "down" or "up"."""
+Thigh = tuple[Array, Array]
+"""Hip and knee, (3,) each."""
+
+
+def thighs(kit: Kit, figure: Figure, feet: tuple[Footing, Footing], heel: str) -> tuple[Thigh, Thigh]:
+    """The right and the left thigh of a seated figure whose `feet`, the kick's and the hi-hat's, rest on their boards.
+
+    `heel` is "down" or "up".
+    """
     x, y, z = pelvis_of(kit, figure)
-    pedal = kit.pedals[Piece.KICK if right != kit.left_handed else Piece.HIHAT_PEDAL]
-    hip = (x + (0.5 if right else -0.5) * figure.hip_breadth_m, y, z)
-    points, _ = settled_leg(ONE, Footing.of(pedal, figure, right), hip, pedal.raised_rad, HEEL_RAD[heel])
-    return np.array(hip), np.array(points[:3])
+    found = []
+    for right in (True, False):
+        kicks = right != kit.left_handed
+        footing, pedal = feet[not kicks], kit.pedals[Piece.KICK if kicks else Piece.HIHAT_PEDAL]
+        hip = (x + (0.5 if right else -0.5) * figure.hip_breadth_m, y, z)
+        knee = leg(ONE, footing, hip, pedal.raised_rad, HEEL_RAD[heel]).knee
+        found.append((np.array(hip), np.array(knee)))
+    return found[0], found[1]
 
 
-def lap(kit: Kit, figure: Figure, limb: Limb, heel: str) -> tuple[Target, float]:
-    """Where the fulcrum of a waiting hand lies, and where its stick points."""
-    hip, knee = thigh(kit, figure, limb == Limb.RIGHT_HAND, heel)
+def lap(figure: Figure, thigh: Thigh) -> tuple[Target, float]:
+    """Where the fulcrum of a waiting hand lies on a thigh, and where its stick points."""
+    hip, knee = thigh
     x, y, z = ((knee - hip) / np.linalg.norm(knee - hip)).tolist()
     up = np.array([0.0, 0.0, 1.0]) - z * np.array([x, y, z])
     up /= np.linalg.norm(up)

@@ -4,8 +4,8 @@ Each is the measured stroke (`whip`) with its joints as far as `amplitudes` says
 that neither sliders nor the body's movement can take the tip off the drum. Seconds, radians, metres; joints in the
 order of `arm.Offsets`.
 
-Where strikes are near, the preparation is squeezed first; then rebound and preparation run into one another, and
-nearer still the amplitude shrinks in proportion to the gap (thesis figure 4.10).
+Where strikes are near, the preparation is squeezed and lower (`most_height_m`); then rebound and preparation run into
+one another, and nearer still the amplitude shrinks in proportion to the gap (thesis figure 4.10).
 """
 
 from bisect import bisect_right
@@ -43,9 +43,12 @@ _LEAST_HEIGHT_M = 1e-3
 """Even a stroke of no height takes its time, that of one of this height (our choice)."""
 _REST_SHARE = 0.6
 """Between strokes that are far apart the tip rests no higher than this share of the next (our choice)."""
-_FULL_GAP_S = 0.16
-_FULL_GAP_HEIGHT_M = 0.15
-"""A repetition in `_FULL_GAP_S` leaves room for a stroke of `_FULL_GAP_HEIGHT_M`; the time goes with its root."""
+_TAP_GAP_S, _TAP_HEIGHT_M, _TAP_WANTED_M, _GAP_GROWTH = 0.15, 0.05, 0.15, 3.0
+"""At the 6–7 strokes a second that a trained hand keeps up (HUMANS: 5–7 Hz) a stroke of 15 cm comes from 5 cm, a fast
+tap (3–6 cm, our choice: no published height at that rate is known). At four a second marching hands still play accents
+from 12 inches: from the one to the other the height grows with this power of the time."""
+_REBOUND_GAP_S = 0.17
+"""A rebound has room for all of its height in this time and for less in proportion (our choice)."""
 _REBOUND_IN_REST = 0.6
 _SHORT_REST = 0.5
 """Where strokes are near, the rest after a stroke is shortened to this share before the preparation is."""
@@ -97,6 +100,16 @@ class StrokePlan:
     rest_m: Array
 
 
+def most_height_m(gap_s: Array, wanted_m: Array) -> Array:
+    """How high a stick that is wanted at `wanted_m` can rise within `gap_s` after the stroke before.
+
+    Quicker than `_TAP_GAP_S`, where the hand is at its limit, it goes with the gap (thesis figure 4.10). Louder strokes
+    are driven harder: by the root of what is wanted, so that accents still stand out.
+    """
+    quick = gap_s / _TAP_GAP_S
+    return np.asarray(_TAP_HEIGHT_M * np.maximum(quick, quick**_GAP_GROWTH) * np.sqrt(wanted_m / _TAP_WANTED_M))
+
+
 _CUBIC = Struct("4d")
 
 
@@ -113,9 +126,11 @@ class Strokes:
         """The keyframes of `plan` under `sliders`."""
         strike_s, height_m = plan.strike_s, plan.height_m
         gaps = np.concatenate(([_LONG_S], np.diff(strike_s), [_LONG_S]))
-        room = gaps[:-1] / (_FULL_GAP_S * np.sqrt(np.maximum(height_m, 0.01) / _FULL_GAP_HEIGHT_M))
         own = np.where(plan.rebounds, sliders.gain[3:], sliders.gain)  # one motion of all joints
-        gain = np.minimum(own * np.minimum(room, 1.0), plan.most)
+        room = most_height_m(gaps[:-1], own * height_m) / np.maximum(height_m, _LEAST_HEIGHT_M)
+        room = np.where(plan.rebounds, own * gaps[:-1] / _REBOUND_GAP_S, room)  # the head has thrown these up already
+        gain = np.broadcast_to(np.minimum(np.minimum(own, room), plan.most), plan.amplitude.shape)
+        gain = np.where(plan.rebounds, np.minimum(gain, np.roll(gain, 1, axis=1)), gain)
         peak = np.minimum(plan.amplitude * gain, plan.ceiling)
         times, merged = _times(strike_s, gaps, np.maximum(height_m * gain.mean(0), _LEAST_HEIGHT_M), sliders)
         merged[:, plan.rebounds] = 1.0

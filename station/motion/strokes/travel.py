@@ -96,23 +96,46 @@ class HandPath:
         strikes, rows = self._fast
         i = max(bisect_right(strikes, time_s) - 1, 0)
         row = _ROW.unpack_from(rows, i * _ROW.size)
-        t0, rate, bx, by, bz, turn, off, back, pace, gx, gy, gz, x, y, z, sr, hr, sy, hy, ahead, wing, turns, *steps = (
-            row
-        )
+        (
+            t0,
+            rate,
+            bx,
+            by,
+            bz,
+            turn,
+            off,
+            back,
+            pace,
+            gx,
+            gy,
+            gz,
+            x,
+            y,
+            z,
+            sr,
+            hr,
+            sy,
+            hy,
+            ahead,
+            wing,
+            turns,
+            roll,
+            *steps,
+        ) = row
         if off < time_s < back:
             u = min((time_s - off) * pace, (back - time_s) * pace, 1.0)
             s = u * u * u * (10 + u * (6 * u - 15))
             x, y, z = x + s * gx, y + s * gy, z + s * gz
         u = (time_s - t0) * rate
         if u <= 0.0:
-            return x, y, z, sr, hr, sy, hy, ahead, wing, turns
+            return x, y, z, sr, hr, sy, hy, ahead, wing, turns, roll
         u = min(u, 1.0)
         s = u * u * u * (10 + u * (6 * u - 15))
-        dx, dy, dz, dsr, dhr, dsy, dhy, d_ahead, d_wing, d_turns = steps
+        dx, dy, dz, dsr, dhr, dsy, dhy, d_ahead, d_wing, d_turns, d_roll = steps
         h = (4 * u * (1 - u)) ** 2
         x, y, z = x + s * dx + h * bx, y + s * dy + h * by, z + s * dz + h * bz
         sr, hr, sy, hy = sr + s * dsr, hr + s * dhr, sy + s * dsy, hy + s * dhy + h * turn
-        return x, y, z, sr, hr, sy, hy, ahead + s * d_ahead, wing + s * d_wing, turns + s * d_turns
+        return x, y, z, sr, hr, sy, hy, ahead + s * d_ahead, wing + s * d_wing, turns + s * d_turns, roll + s * d_roll
 
     def many(self, time_s: Array) -> Contact:
         """The contact at each time."""

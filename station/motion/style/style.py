@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from station.core.errors import BadInput
 from station.core.pieces import Piece, word
+from station.motion.kinematics.figure import figure_names
 
 Array = NDArray[np.float64]
 
@@ -39,6 +40,9 @@ _NATURAL_SHARES = MappingProxyType(
     }
 )
 
+ANYBODY = "any"
+"""No drummer in particular."""
+
 Automation = tuple[tuple[float, float], ...]
 """(bar from 1, value) in rising order; a fraction is a place within the bar."""
 
@@ -48,8 +52,10 @@ class Style:
     """All controls; the module's head tells the scale of amplitudes and frequencies.
 
     Angles in degrees; `twist_deg_s` the ceiling of the torso's speed; `stand` 0 sits … 1 stands; `half_time_bpm` from
-    which on the back sways in half time; `bobs_per_beat` of the head, a half, 1 or 2; `grip_right`, `grip_left`, `held`
-    name entries of `grip`; `heel` "down", "up"; `beater` "rebound" or "buried"; `pieces` an amplitude for single
+    which on the back sways in half time; `bobs_per_beat` of the head, a half, 1 or 2; `lay_back_ms` how long after the
+    beat body and head reach it; `mood` names the face, `attention` what is looked at in between;
+    `grip_right`, `grip_left`, `held` name entries of `grip`; `heel` "down", "up"; `beater` "rebound" or "buried";
+    `drummer` who plays so where the user asks for nobody, a shipped figure or "any"; `pieces` an amplitude for single
     pieces, 50 natural; `seed` of all that chance decides.
     """
 
@@ -73,6 +79,7 @@ class Style:
     amplitude_twist: float = NATURAL
     twist_deg_s: float = 80.0
     amplitude_gaze: float = NATURAL
+    amplitude_heel: float = NATURAL
     shrug: float = 20.0
     breathing: float = NATURAL
     wing_deg: float = 0.0
@@ -80,6 +87,17 @@ class Style:
     stand: float = 0.0
     flourish: float = 0.0
     look_around: float = 20.0
+    variation: float = NATURAL
+    backbeat: float = NATURAL
+    chin: float = 10.0
+    headbang: float = 0.0
+    lay_back_ms: float = 0.0
+    hunch_deg: float = 0.0
+    shimmy: float = 0.0
+    phrase: float = 25.0
+    fill_lean: float = NATURAL
+    rise: float = 0.0
+    expression: float = NATURAL
     bobs_per_beat: float = 1.0
     half_time_bpm: float = 130.0
     grip_right: str = "american"
@@ -87,6 +105,9 @@ class Style:
     held: str = "stick"
     heel: str = "down"
     beater: str = "rebound"
+    mood: str = "focused"
+    attention: str = "kit"
+    drummer: str = ANYBODY
     seed: int = 1
     pieces: Mapping[Piece, float] = field(default_factory=dict)
     automation: Mapping[str, Automation] = field(default_factory=dict)
@@ -114,6 +135,8 @@ class Style:
 
     def factor(self, control: str, bars: ArrayLike) -> Array:
         """What multiplies the natural movement, from a control that is natural at 50."""
+        if control not in self.automation:  # one number for all bars is bent once
+            return np.broadcast_to(bent(float(getattr(self, control)) / NATURAL), np.shape(bars))
         return bent(self.value(control, bars) / NATURAL)
 
     def joint_factor(self, kind: str, joint: str, bars: ArrayLike) -> Array:
@@ -154,6 +177,8 @@ _RANGES: Mapping[str, tuple[float, float]] = MappingProxyType(
         "twist_deg_s": (5.0, 100.0),
         "bobs_per_beat": (0.5, 2.0),
         "half_time_bpm": (30.0, 1000.0),
+        "lay_back_ms": (-40.0, 80.0),
+        "hunch_deg": (-10.0, 20.0),
     }
 )
 WORDS: Mapping[str, tuple[str, ...]] = MappingProxyType(
@@ -163,6 +188,9 @@ WORDS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "held": ("stick", "brush", "mallet", "hand"),
         "heel": ("down", "up"),
         "beater": ("rebound", "buried"),
+        "mood": ("focused", "calm", "joyful", "intense", "cool", "soulful"),
+        "attention": ("kit", "hands", "friend", "audience", "above"),
+        "drummer": (ANYBODY, *figure_names()),
     }
 )
 

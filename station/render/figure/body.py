@@ -1,120 +1,119 @@
-"""The drummer's body: a stylised hero in a shirt, made of smoothly blended solids in the stance of `skeleton`.
+"""The drummer's body: a stylised hero in clothes, made of smoothly blended solids in the stance of `skeleton`.
 
-Garments, hands and head come from modules of their own; here they become one table of corners with their bones. Metres;
-designed for the median figure and scaled with the stature.
+Garments, hands and head come from modules of their own; here they become one table of corners with their bones. What is
+worn and how thick the body is are the figure's `look`. Metres.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from station.motion.kinematics.figure import MEDIAN_STATURE_M, Figure
-from station.render.figure.face import face_meshes
-from station.render.figure.garments import Garment, bands, body_parts
-from station.render.figure.hand_solid import hand_surface
-from station.render.figure.skeleton import HEAD_M, Bone, Skeleton
-from station.render.geometry.implicit import Array, Field, Surface, surface
+from station.motion.kinematics.figure import Figure
+from station.render.figure import flesh, legwear, shoes, tops
+from station.render.figure.bones import FINGERS, Bone
+from station.render.figure.face import face_skins
+from station.render.figure.garments import Garment
+from station.render.figure.hair import hair_skins
+from station.render.figure.hand_solid import hand_skin
+from station.render.figure.head_shape import head_skins
+from station.render.figure.headwear import headwear_skins
+from station.render.figure.measures import Measures
+from station.render.figure.skeleton import HEAD_M, Skeleton
+from station.render.figure.skin import INFLUENCES, Skin, joined_skins, skin_of
+from station.render.geometry.implicit import Array, Surface, clipped, surface
 from station.render.geometry.materials import Material
-from station.render.geometry.mesh import Mesh
 
-_INFLUENCES = 4
-
-
-@dataclass(frozen=True, eq=False)
-class Skin:
-    """The figure's surface: `position`, `normal` (n, 3), `bones`, `weights` (n, 4), `material`, `ao` (n,)."""
-
-    position: Array
-    normal: Array
-    bones: NDArray[np.uint8]
-    weights: Array
-    material: NDArray[np.uint8]
-    ao: Array
-    faces: NDArray[np.uint32]
+_ARMS = (Bone.RIGHT_UPPER_ARM, Bone.LEFT_UPPER_ARM)
+_LEGS = (Bone.RIGHT_THIGH, Bone.LEFT_THIGH)
 
 
 def build_body(figure: Figure, fineness: float) -> Skin:
     """The skin of `figure`; `fineness` multiplies the cells that its surfaces are cut with (1 is fine, 2 coarse)."""
     skeleton = Skeleton(figure)
-    scale = figure.stature_m / MEDIAN_STATURE_M
-    parts = body_parts(skeleton, scale)
-    whole = [part.field for part in parts]
-    skins = [_part_skin(part, fineness * scale, whole) for part in parts]
-    skins += [_hand_skin(skeleton, scale, fineness, side) for side in (Bone.RIGHT_HAND, Bone.LEFT_HAND)]
-    segments = max(12, round(32 / fineness))
-    for upper in (Bone.RIGHT_UPPER_ARM, Bone.LEFT_UPPER_ARM):
-        skins += [_rigid_skin(mesh) for mesh in bands(skeleton, scale, upper, segments)]
-    head = skeleton.frames[Bone.HEAD]
-    skins += [_rigid_skin(mesh.moved(head)) for mesh in face_meshes(figure.head_m / HEAD_M, fineness)]
-    return _joined(skins)
+    m = Measures.of(figure, skeleton)
+    dressed = _Dressed(m, figure, fineness)
+    skins = [_part_skin(part, fineness * m.k, dressed.parts) for part in dressed.parts]
+    skins += dressed.trimmings
+    skins += [hand_part(skeleton, fineness, side) for side in (Bone.RIGHT_HAND, Bone.LEFT_HAND)]
+    look = figure.look
+    head = [
+        *head_skins(look.girths, fineness),
+        *face_skins(look.girths, fineness),
+        *hair_skins(look, fineness),
+        *headwear_skins(look, fineness),
+    ]
+    at = skeleton.frames[Bone.HEAD]
+    skins += [skin.scaled(figure.head_m / HEAD_M).moved(at) for skin in head]
+    return joined_skins(skins)
+
+
+class _Dressed:
+    """The `parts` that a figure's body is made of, and their `trimmings`."""
+
+    def __init__(self, m: Measures, figure: Figure, fineness: float) -> None:
+        look = figure.look
+        shirt, trousers = tops.top(m, look.top), legwear.legwear(m, look.legs)
+        self.parts: list[Garment] = [shirt, trousers, *flesh.torso(m, look.top == "tank")]
+        self.trimmings: list[Skin] = [
+            *tops.top_trimmings(m, look.top, shirt, fineness),
+            *legwear.legwear_trimmings(m, look.legs, trousers, fineness),
+        ]
+        for upper in _ARMS:
+            if look.top != "tank":
+                self.parts.append(flesh.arm(m, upper, tops.arm_begins(look.top)))
+            if "sweatbands" in look.worn:
+                self.trimmings.append(tops.sweatband(m, upper, fineness))
+        for thigh in _LEGS:
+            foot = Bone(thigh + 2)
+            upper_shoe = shoes.shoe(m, foot, look.shoes)
+            self.parts.append(upper_shoe)
+            self.trimmings += shoes.shoe_trimmings(m, foot, look.shoes, upper_shoe, fineness)
+            if look.legs == "shorts":
+                self.parts += [flesh.shank(m, thigh), legwear.sock(m, thigh)]
 
 
 # --- from parts to skin -----------------------------------------------------------------------------------------------
 
 
-def _part_skin(part: Garment, fineness: float, whole: Sequence[Field]) -> Skin:
+def _part_skin(part: Garment, fineness: float, whole: Sequence[Garment]) -> Skin:
     cell = part.cell * fineness
-    mesh = surface(part.field, *replace(part, cell=cell).bounds(), cell)
-    bones, weights = _strongest(part.weights(mesh.position))
-    material = np.full(len(mesh.position), part.material, np.uint8)
-    return Skin(mesh.position, mesh.normal, bones, weights, material, _open_sky(mesh, whole), mesh.faces)
-
-
-def _strongest(weights: Array) -> tuple[NDArray[np.uint8], Array]:
-    order = np.argsort(-weights, axis=1)[:, :_INFLUENCES]
-    kept = np.take_along_axis(weights, order, axis=1)
-    return order.astype(np.uint8), kept / kept.sum(axis=1, keepdims=True)
+    mesh = surface(part.creased(cell), *part.bounds(cell), cell)
+    if part.hole is not None:
+        mesh = clipped(mesh, part.hole)
+    return skin_of(mesh, part.weights(mesh.position), part.material, _open_sky(mesh, whole))
 
 
 _AO_STEPS_M = (0.02, 0.05, 0.10, 0.16)
 
 
-def _open_sky(mesh: Surface, whole: Sequence[Field]) -> Array:
+def _open_sky(mesh: Surface, whole: Sequence[Garment]) -> Array:
     """How little the body stands in its own way: distance to it along the normal, against the way gone (Evans 2006)."""
     closed = np.zeros(len(mesh.position))
     for i, step in enumerate(_AO_STEPS_M):
         p = mesh.position + step * mesh.normal
-        near = np.min([field(p) for field in whole], axis=0)
+        near = np.full(len(p), step)
+        for part in whole:
+            low, high = part.bounds(0.0)
+            beside = np.flatnonzero(((p > low - step) & (p < high + step)).all(axis=1))
+            if len(beside):
+                near[beside] = np.minimum(near[beside], part.whole(p[beside]))
         closed += 0.5**i * np.clip((step - near) / step, 0, 1)
     return np.asarray(np.clip(1 - 0.62 * closed / sum(0.5**i for i in range(len(_AO_STEPS_M))) * 1.6, 0.15, 1))
 
 
-def _hand_skin(skeleton: Skeleton, scale: float, fineness: float, bone: Bone) -> Skin:
-    mesh = hand_surface(fineness)
-    position, normal, faces = mesh.position * scale, mesh.normal, mesh.faces
-    if bone is Bone.LEFT_HAND:
+def hand_part(skeleton: Skeleton, fineness: float, hand: Bone) -> Skin:
+    """The skin of one hand, in the stance of `skeleton`."""
+    made = hand_skin(fineness)
+    n = len(made.position)
+    bones, weights = np.zeros((n, INFLUENCES), np.uint8), np.zeros((n, INFLUENCES))
+    strongest = np.argsort(-made.weights, axis=1)
+    own = np.where(made.bones > 0, FINGERS[hand] + made.bones - 1, hand)
+    bones[:, :2] = np.take_along_axis(own, strongest, axis=1)
+    weights[:, :2] = np.take_along_axis(made.weights, strongest, axis=1)
+    material = np.full(n, Material.SKIN, np.uint8)
+    skin = Skin(made.position, made.normal, bones, weights, material, made.ao, made.faces)
+    if hand is Bone.LEFT_HAND:
         mirror = np.array([-1.0, 1.0, 1.0])
-        position, normal, faces = position * mirror, normal * mirror, faces[:, ::-1]
-    m = skeleton.frames[bone]
-    n = len(position)
-    bones, weights = np.zeros((n, _INFLUENCES), np.uint8), np.zeros((n, _INFLUENCES))
-    bones[:, 0], weights[:, 0] = bone, 1.0
-    ao = np.clip(0.75 + 6 * position[:, 1] / scale, 0.35, 1)
-    turn = m[:3, :3].T
-    return Skin(
-        position @ turn + m[:3, 3], normal @ turn, bones, weights, np.full(n, Material.SKIN, np.uint8), ao, faces
-    )
-
-
-def _rigid_skin(mesh: Mesh) -> Skin:
-    n = len(mesh.position)
-    bones, weights = np.zeros((n, _INFLUENCES), np.uint8), np.zeros((n, _INFLUENCES))
-    bones[:, 0], weights[:, 0] = mesh.bone, 1.0
-    return Skin(mesh.position, mesh.normal, bones, weights, mesh.material, mesh.ao, mesh.faces)
-
-
-def _joined(skins: Sequence[Skin]) -> Skin:
-    """One skin; faces with near corners are neighbours, for then a software driver shades fewer corners twice."""
-    starts = np.cumsum([0] + [len(s.position) for s in skins])
-    faces = np.concatenate([s.faces + np.uint32(a) for s, a in zip(skins, starts, strict=False)])
-    return Skin(
-        np.concatenate([s.position for s in skins]),
-        np.concatenate([s.normal for s in skins]),
-        np.concatenate([s.bones for s in skins]),
-        np.concatenate([s.weights for s in skins]),
-        np.concatenate([s.material for s in skins]),
-        np.concatenate([s.ao for s in skins]),
-        faces[np.argsort(faces.min(axis=1), kind="stable")],
-    )
+        skin = replace(skin, position=skin.position * mirror, normal=skin.normal * mirror, faces=skin.faces[:, ::-1])
+    return skin.scaled(skeleton.hand_scale).moved(skeleton.frames[hand])

@@ -1,209 +1,162 @@
-"""The head: skull and face, hair, eyes, brows, mouth and headphones, in the head's own axes.
-
-Origin at the joint of head and neck, x to the right, y where the face looks, z up; designed for a head 0.2146 m high.
-The features are few and round, so that they read from across a room.
-"""
-
-from functools import cache
+"""Eyes, lids, lashes, brows, lips and mouth, each on the bones that move it (`expression`); axes as in `head_shape`."""
 
 import numpy as np
 
-from station.render.figure.skeleton import EYE_HEIGHT, Bone
-from station.render.geometry.implicit import (
-    Array,
-    Field,
-    Surface,
-    cone,
-    egg,
-    plane,
-    smooth_min,
-    surface,
-    united,
-    without,
-)
+from station.motion.kinematics.look import Girths
+from station.render.figure.bones import Bone
+from station.render.figure.expression import EYE_M, LID_OPEN_RAD, LOWER_LID_RAD, MOUTH_M
+from station.render.figure.head_shape import front
+from station.render.figure.skin import Skin, hung, rigid_skin, skin_of
+from station.render.geometry.implicit import Array
 from station.render.geometry.materials import Material
-from station.render.geometry.mesh import Mesh, ball, joined, lathe, new_mesh, tube
-from station.render.geometry.transforms import frame, rotation, translation
+from station.render.geometry.mesh import Mesh, ball, grid_mesh, joined, lathe, tube
+from station.render.geometry.transforms import frame, translation
 
-_EYE = np.array([0.0335, 0.079, EYE_HEIGHT])
-
-
-def face_meshes(scale: float, fineness: float) -> list[Mesh]:
-    """Everything above the neck, on the bones `HEAD` and `EYES`, `scale` times as large as designed."""
-    parts = [
-        *(_mesh(part, Material.SKIN) for part in _skull(fineness)),
-        _mesh(_hair(fineness), Material.HAIR),
-        *_lids(fineness),
-        *_brows(fineness),
-        *_mouth(fineness),
-        *_headphones(fineness),
-    ]
-    meshes = [
-        _scaled(joined(parts).on_bone(Bone.HEAD), scale),
-        _scaled(joined(_eyes(fineness)).on_bone(Bone.EYES), scale),
-    ]
-    return meshes
+_BALL_M, _LID_M = 0.0185, 0.0206
+"""Radii of the eyeball and of the lids over it."""
 
 
-def _scaled(mesh: Mesh, scale: float) -> Mesh:
-    return Mesh(
-        mesh.position * scale, mesh.normal, mesh.tangent, mesh.uv, mesh.material, mesh.bone, mesh.ao, mesh.faces
-    )
+def face_skins(girths: Girths, fineness: float) -> list[Skin]:
+    """All features of the face."""
+    lips = _Lips(girths, fineness)
+    return [*_eyes(fineness), *_lids(girths, fineness), *_brows(girths, fineness), *lips.skins()]
 
 
-def _mesh(skin: Surface, material: Material) -> Mesh:
-    return new_mesh(skin.position, skin.normal, skin.faces, material)
-
-
-def _skull_field() -> Field:
-    return united([_bare_skull_field(), _nose_field()], 0.014)
-
-
-def _nose_field() -> Field:
-    return united(
-        [cone((0, 0.088, 0.096), (0, 0.1045, 0.067), 0.008, 0.0120), egg((0, 0.099, 0.063), (0.0165, 0.011, 0.0095))],
-        0.010,
-    )
-
-
-def _bare_skull_field() -> Field:
-    solids: list[Field] = [
-        egg((0, -0.008, 0.128), (0.079, 0.096, 0.092)),
-        egg((0, 0.030, 0.066), (0.064, 0.064, 0.072)),
-        egg((0, 0.060, 0.018), (0.034, 0.034, 0.028)),
-        egg((0.036, 0.056, 0.060), (0.030, 0.030, 0.028)),
-        egg((-0.036, 0.056, 0.060), (0.030, 0.030, 0.028)),
-    ]
-    head = united(solids, 0.035)
-    sockets = united([egg((s * 0.034, 0.104, EYE_HEIGHT), (0.026, 0.024, 0.020)) for s in (-1.0, 1.0)], 0.004)
-    face = without(head, sockets, 0.022)
-    ears = united([egg((s * 0.083, -0.006, 0.088), (0.012, 0.022, 0.030)) for s in (-1.0, 1.0)], 0.002)
-    return united([face, ears], 0.008)
-
-
-_COARSE = 2.0
-"""Cells that are so many times as large as designed lose a nose: then it is a solid of its own, set on the face."""
-_BOX = (-0.11, -0.12, -0.03), (0.11, 0.14, 0.235)
-
-
-@cache
-def _skull(fineness: float) -> list[Surface]:
-    cell = 0.0075 * fineness
-    if fineness <= _COARSE:
-        return [surface(_skull_field(), *_BOX, cell)]
-    nose = surface(_nose_field(), (-0.03, 0.06, 0.03), (0.03, 0.13, 0.12), 0.4 * cell)
-    return [surface(_bare_skull_field(), *_BOX, cell), nose]
-
-
-@cache
-def _hair(fineness: float) -> Surface:
-    """A cap with a quiff: the skull a little larger, behind the hairline, with combed locks on top."""
-    cap = egg((0, -0.016, 0.134), (0.086, 0.099, 0.096))
-    line = united([plane((0, 0.062, 0.150), (0, 0.86, -0.5)), plane((0, -0.002, 0.075), (0, 0.35, -0.94))], 0.02)
-    locks = [
-        cone((-0.045, 0.050, 0.192), (0.035, 0.070, 0.222), 0.026, 0.022),
-        cone((0.000, 0.058, 0.208), (0.052, 0.074, 0.212), 0.024, 0.016),
-        cone((-0.050, 0.010, 0.206), (0.040, 0.020, 0.226), 0.030, 0.026),
-        cone((-0.040, -0.040, 0.205), (0.040, -0.035, 0.212), 0.030, 0.028),
-    ]
-    body = _behind(cap, line)
-    hair = united([body, united(locks, 0.014)], 0.018)
-
-    def combed(p: Array) -> Array:
-        wave = np.sin(95 * (p[:, 1] + 0.35 * p[:, 0]) + 3 * np.sin(40 * p[:, 2]))
-        return np.asarray(hair(p) + 0.0012 * wave, np.float64)
-
-    return surface(combed, (-0.12, -0.14, 0.0), (0.12, 0.13, 0.265), 0.0075 * fineness)
-
-
-def _behind(field: Field, wall: Field) -> Field:
-    return lambda p: -smooth_min(-field(p), -wall(p), 0.012)
-
-
-def _eyes(fineness: float) -> list[Mesh]:
-    parts: list[Mesh] = []
-    for side in (-1.0, 1.0):
-        centre = _EYE * [side, 1, 1]
-        white = ball((0, 0, 0), 0.0185, Material.EYE_WHITE, max(10, round(20 / fineness)))
-        parts.append(_stretched(white, (0.98, 0.62, 1.06)).moved(translation(centre)))
-        look = frame(centre + np.array([0, 0.0088, 0]), [side * 0.06, 1, -0.04], [1, 0, 0])
-        iris = lathe(
-            [(0.0118, 0.0), (0.0108, 0.0022), (0.0068, 0.0038), (0.0, 0.0044)], _cuts(16, fineness), Material.EYE
-        )
-        parts.append(iris.moved(look))
-        parts.append(ball(centre + np.array([0.0042, 0.0126, 0.0040]), 0.0023, Material.EYE_WHITE, 6))
-    return parts
-
-
-def _cuts(most: int, fineness: float) -> int:
+def cuts(most: int, fineness: float) -> int:
     """Into how many pieces a round is cut: `most`, less where the surface is cut coarser than usual."""
     return max(5, round(most * min(1.0, 1.8 / fineness)))
 
 
-def _lids(fineness: float) -> list[Mesh]:
-    """Upper lids: caps a little larger than the eyes."""
-    a = np.linspace(np.pi / 2, 0.42, 7)
-    profile = np.stack([0.0203 * np.cos(a), 0.0203 * np.sin(a)], axis=1)[::-1]
-    cap = lathe(profile, _cuts(18, fineness), Material.SKIN)
-    lid = _stretched(cap, (1.0, 0.66, 1.06))
-    return [lid.moved(translation(_EYE * [side, 1, 1]) @ rotation([1, 0, 0], -0.12)) for side in (-1.0, 1.0)]
+# --- eyes -------------------------------------------------------------------------------------------------------------
 
 
-def _stretched(mesh: Mesh, factors: tuple[float, float, float]) -> Mesh:
-    f = np.array(factors)
-    normal = mesh.normal / f
-    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
-    return Mesh(mesh.position * f, normal, mesh.tangent, mesh.uv, mesh.material, mesh.bone, mesh.ao, mesh.faces)
+def _eyes(fineness: float) -> list[Skin]:
+    """White balls that stay, and on them iris, pupil and a glint, which turn."""
+    parts = []
+    rounds = cuts(18, fineness)
+    for side, bone in ((1.0, Bone.RIGHT_EYE), (-1.0, Bone.LEFT_EYE)):
+        centre = EYE_M * [side, 1, 1]
+        ahead = frame(centre, [side * 0.03, 1, 0.0], [1, 0, 0])
+        white = _cap(_BALL_M, 1.45, rounds, 6, Material.EYE_WHITE).moved(ahead)
+        iris = _cap(_BALL_M + 0.0005, 0.60, rounds, 3, Material.IRIS).moved(ahead)
+        rim = _ring(_BALL_M + 0.0006, 0.53, 0.62, rounds, Material.EYE).moved(ahead)
+        pupil = _cap(_BALL_M + 0.0009, 0.32, rounds, 2, Material.EYE).moved(ahead)
+        glint = ball((-0.0042, -0.0048, _BALL_M - 0.0022), 0.0021, Material.EYE_WHITE, 6).moved(
+            frame(centre, [0, 1, 0], [1, 0, 0])
+        )
+        parts.append(rigid_skin(white.on_bone(Bone.HEAD)))
+        parts.append(rigid_skin(joined([iris, rim, pupil, glint]).on_bone(bone)))
+    return parts
 
 
-def _brows(fineness: float) -> list[Mesh]:
-    t = np.linspace(0, 1, _cuts(7, fineness))
+def _cap(radius: float, reach: float, segments: int, rings: int, material: Material) -> Mesh:
+    """A ball's cap about z, out to the angle `reach` from it."""
+    return _ring(radius, 0.0, reach, segments, material, rings)
+
+
+def _ring(radius: float, low: float, high: float, segments: int, material: Material, rings: int = 1) -> Mesh:
+    """What of a ball lies between two angles from z."""
+    a = np.linspace(high, low, rings + 1)
+    return lathe(np.stack([radius * np.sin(a), radius * np.cos(a)], axis=1), segments, material)
+
+
+def _lids(girths: Girths, fineness: float) -> list[Skin]:
+    """Slices of a ball a little larger than the eyes', like an orange's, that turn about the line through both eyes."""
+    wide, high = cuts(12, fineness), cuts(6, fineness)
     parts = []
     for side in (-1.0, 1.0):
-        x = 0.013 + 0.040 * t
-        z = 0.127 + 0.009 * np.sin(np.pi * (0.2 + 0.65 * t)) - 0.006 * t
-        y = _front(x, z) + 0.002
+        centre = EYE_M * [side, 1, 1]
+        for bone, edge, back in ((Bone.UPPER_LIDS, LID_OPEN_RAD, 2.6), (Bone.LOWER_LIDS, LOWER_LID_RAD, -1.9)):
+            along = np.linspace(-1.45, 1.45, wide + 1)
+            over = np.linspace(edge, back, high + 1)
+            tilt = 0.10 * side * np.sin(along)  # the outer corners stand a little higher
+            grid = _slice(_LID_M, along[:, None], over[None, :] + tilt[:, None])
+            skin = Material.SKIN
+            lid = grid_mesh(grid if bone is Bone.LOWER_LIDS else grid[::-1], skin).moved(translation(centre))
+            parts.append(rigid_skin(lid.on_bone(bone)))
+            if bone is Bone.UPPER_LIDS or girths.bust > 0:
+                rim = _slice(_LID_M + 0.0003, along[1:-1], edge + tilt[1:-1])
+                thick = 0.0013 if bone is Bone.UPPER_LIDS else 0.0006
+                lash = tube(rim, thick * (1 + 0.45 * girths.bust), Material.EYE, cuts(5, fineness))
+                parts.append(rigid_skin(lash.moved(translation(centre)).on_bone(bone)))
+    return parts
+
+
+def _slice(radius: float, along: Array, over: Array) -> Array:
+    """Points of a ball: `along` from its middle towards x, `over` up from straight ahead; (…, 3)."""
+    x, ring = np.sin(along), np.cos(along)
+    return radius * np.stack(np.broadcast_arrays(x, ring * np.cos(over), ring * np.sin(over)), axis=-1)
+
+
+def _brows(girths: Girths, fineness: float) -> list[Skin]:
+    t = np.linspace(0, 1, cuts(9, fineness))
+    parts = []
+    for side, bone in ((1.0, Bone.RIGHT_BROW), (-1.0, Bone.LEFT_BROW)):
+        x = 0.012 + 0.042 * t
+        z = 0.1252 + 0.0088 * np.sin(np.pi * (0.11 + 0.70 * t)) - 0.0035 * t
+        y = front(girths, x, z) + 0.0015
         path = np.stack([side * x, y, z], axis=1)
-        parts.append(tube(path, 0.0052, Material.HAIR, _cuts(6, fineness)))
-        parts += [ball(path[end], 0.0052, Material.HAIR, _cuts(8, fineness)) for end in (0, -1)]
+        thick = 0.0050 * girths.brows * (0.72 + 0.5 * np.sin(np.pi * np.clip(0.25 + 0.75 * t, 0, 1)))
+        thick[-1] *= 0.45
+        mesh = tube(path, thick, Material.HAIR, cuts(7, fineness))
+        ends = [ball(path[end], thick[end], Material.HAIR, cuts(7, fineness)) for end in (0, -1)]
+        parts.append(rigid_skin(joined([mesh, *ends]).on_bone(bone)))
     return parts
 
 
-def _mouth(fineness: float) -> list[Mesh]:
-    t = np.linspace(-1, 1, _cuts(9, fineness))
-    x = 0.021 * t + 0.002
-    z = 0.031 + 0.0055 * t**2 + 0.0015 * t
-    path = np.stack([x, _front(x, z) - 0.0004, z], axis=1)
-    return [
-        tube(path, 0.0026, Material.LIP, _cuts(6, fineness)),
-        *(ball(path[end], 0.0026, Material.LIP, _cuts(6, fineness)) for end in (0, -1)),
-    ]
+# --- mouth ------------------------------------------------------------------------------------------------------------
 
 
-def _front(x: Array, z: Array) -> Array:
-    """Where the face's surface lies in y at (x, z), by bisection from outside."""
-    field = _skull_field()
-    near, far = np.full_like(x, 0.02), np.full_like(x, 0.16)
-    for _ in range(24):
-        middle = (near + far) / 2
-        inside = field(np.stack([x, middle, z], axis=1)) < 0
-        near, far = np.where(inside, middle, near), np.where(inside, far, middle)
-    return near
+class _Lips:
+    """Two lips from corner to corner, and between them a mouth that is nothing while it is shut."""
 
+    def __init__(self, girths: Girths, fineness: float) -> None:
+        self.girths, self.fineness = girths, fineness
+        self.out = 0.0007 * max(fineness - 1.0, 0.0)  # coarse cheeks stand out between their corners
+        self.t = np.linspace(-1, 1, 2 * (cuts(9, fineness) // 2) + 1)
+        self.x = MOUTH_M[0] * self.t
+        self.z = MOUTH_M[2] - 0.0020 * (1 - self.t**2)
 
-def _headphones(fineness: float) -> list[Mesh]:
-    angle = np.linspace(0.10, np.pi - 0.10, max(9, round(30 / fineness)))
-    band = np.stack([0.098 * np.cos(angle), np.full_like(angle, -0.006), 0.100 + 0.132 * np.sin(angle)], axis=1)
-    parts = [
-        tube(band + np.array([0, dy, 0]), 0.0065, Material.HEADPHONES, _cuts(6, fineness))
-        for dy in (-0.009, 0.0, 0.009)
-    ]
-    segments = max(10, round(28 / fineness))
-    cup = [(0.0, 0.0), (0.030, 0.0), (0.041, 0.006), (0.042, 0.018), (0.036, 0.027), (0.020, 0.031), (0.0, 0.031)]
-    ring = [(0.0265, 0.0300), (0.0265, 0.0312), (0.0215, 0.0322)]
-    for side in (-1.0, 1.0):
-        turn = rotation([0, 1, 0], side * np.pi / 2)
-        at = translation([side * 0.079, -0.006, 0.088])
-        parts.append(lathe(cup, segments, Material.HEADPHONES).moved(at @ turn))
-        parts.append(lathe(ring, segments, Material.GLOW).moved(at @ turn))
-    return parts
+    def skins(self) -> list[Skin]:
+        """Lips, dark inside, upper teeth."""
+        full = 0.8 + 0.5 * self.girths.bust
+        upper, lower = (
+            self._lip(0.0012, 0.0021 * full, Bone.UPPER_LIP),
+            self._lip(-0.0017, 0.0026 * full, Bone.LOWER_LIP),
+        )
+        return [
+            self._between(0.0, 1.0, 0.0014, Material.MOUTH),
+            self._between(0.02, 0.42, 0.0020, Material.TEETH),
+            upper,
+            lower,
+        ]
+
+    def _lip(self, above: float, thick: float, bone: Bone) -> Skin:
+        middle = 1 - self.t**2
+        z = self.z + above * middle
+        path = np.stack([self.x, front(self.girths, self.x, z) + self.out, z], axis=1)
+        radius = thick * (0.45 + 0.55 * middle)
+        rounds = cuts(7, self.fineness)
+        mesh = tube(path, radius, Material.LIP, rounds)
+        t = np.repeat(self.t, rounds + 1)
+        return skin_of(mesh, self._weights(t, {bone: np.ones_like(t)}))
+
+    def _between(self, top: float, bottom: float, out: float, material: Material) -> Skin:
+        """A sheet from `top` to `bottom` of the way from the upper to the lower lip."""
+        share = np.linspace(top, bottom, 4)
+        y = front(self.girths, self.x, self.z) + self.out + out
+        line = np.stack([self.x, y, self.z], axis=1)
+        mesh = grid_mesh(np.repeat(line[:, None], len(share), axis=1), material)
+        forward = np.broadcast_to(np.array([0.0, 1.0, 0.0]), mesh.position.shape).copy()
+        t, s = np.repeat(self.t, len(share)), np.tile(share, len(self.t))
+        weights = self._weights(t, {Bone.UPPER_LIP: 1 - s, Bone.LOWER_LIP: s})
+        skin = skin_of(mesh, weights, ao=0.9)
+        return Skin(skin.position, forward, skin.bones, skin.weights, skin.material, skin.ao, skin.faces)
+
+    @staticmethod
+    def _weights(t: Array, lips: dict[Bone, Array]) -> Array:
+        """The lips' own bones in the middle, the corners' at the ends."""
+        end = np.abs(t) ** 2.2
+        pull: dict[Bone, Array | float] = {bone: share * (1 - end) for bone, share in lips.items()}
+        pull[Bone.RIGHT_CORNER], pull[Bone.LEFT_CORNER] = end * (t > 0), end * (t < 0)
+        return hung(Bone.HEAD, len(t), pull)

@@ -4,46 +4,17 @@ The skin is made sitting, arms half bent, near to how a drummer always is, so th
 """
 
 from dataclasses import dataclass
-from enum import IntEnum
+from functools import lru_cache
 
 import numpy as np
 
-from station.core.pieces import Limb
 from station.motion.kinematics.figure import Figure, Joint
+from station.motion.kinematics.grip import GRIPS, HAND_M, Grip, line_axes
 from station.motion.kinematics.pose import Pose
+from station.render.figure.bones import BODY_BONES, BONES, FINGERS, Bone
+from station.render.figure.expression import Expression, face_matrices
+from station.render.figure.hand_bones import REST, STEPS, finger_frames
 from station.render.geometry.transforms import Matrix, Vector, cross, frames, unit
-
-
-class Bone(IntEnum):
-    """What moves as one; right before left."""
-
-    WAIST = 0
-    CHEST = 1
-    NECK = 2
-    HEAD = 3
-    RIGHT_UPPER_ARM = 4
-    RIGHT_FOREARM = 5
-    RIGHT_TWIST = 6  # the forearm's far half, which turns with the palm
-    RIGHT_HAND = 7
-    LEFT_UPPER_ARM = 8
-    LEFT_FOREARM = 9
-    LEFT_TWIST = 10
-    LEFT_HAND = 11
-    RIGHT_THIGH = 12
-    RIGHT_SHANK = 13
-    RIGHT_FOOT = 14
-    LEFT_THIGH = 15
-    LEFT_SHANK = 16
-    LEFT_FOOT = 17
-    EYES = 18  # the head, squeezed upright as the lids close
-
-
-LIMB_BONES = {
-    Limb.RIGHT_HAND: (Bone.RIGHT_UPPER_ARM, Bone.RIGHT_FOREARM, Bone.RIGHT_TWIST, Bone.RIGHT_HAND),
-    Limb.LEFT_HAND: (Bone.LEFT_UPPER_ARM, Bone.LEFT_FOREARM, Bone.LEFT_TWIST, Bone.LEFT_HAND),
-    Limb.RIGHT_FOOT: (Bone.RIGHT_THIGH, Bone.RIGHT_SHANK, Bone.RIGHT_FOOT),
-    Limb.LEFT_FOOT: (Bone.LEFT_THIGH, Bone.LEFT_SHANK, Bone.LEFT_FOOT),
-}
 
 _ARMS = (
     (Bone.RIGHT_UPPER_ARM, Joint.RIGHT_SHOULDER, Joint.RIGHT_ELBOW, Joint.RIGHT_WRIST, Joint.RIGHT_HAND),
@@ -61,25 +32,29 @@ _THIRD = _FIRST + np.array([3, 3, 2, 2])
 _TRUNK = slice(Bone.WAIST, Bone.HEAD + 1)
 _TRUNK_FROM = np.array([Joint.PELVIS, Joint.SPINE, Joint.NECK, Joint.HEAD])
 _TRUNK_TO = np.array([Joint.SPINE, Joint.NECK, Joint.HEAD, Joint.CROWN])
-EYE_HEIGHT = 0.098
-"""Where the eyes are above the joint of head and neck, in metres for `HEAD_M`."""
+_UP = np.array([[0.0, 0.0, 1.0]])
 HEAD_M = 0.2146
 """The head's height that the face was designed for."""
 
 
 @dataclass(frozen=True, eq=False)
 class Stance:
-    """What the frames follow from: `joints_m` (21, 3), backs of the hands `palm` (2, 3), the head's directions."""
+    """What the frames follow from: `joints_m` (21, 3), backs of the hands `palm` (2, 3), the head's directions.
+
+    `hands` (2, 3, 3) turn from the axes of each hand to those of its line between wrist and fulcrum.
+    """
 
     joints_m: Vector
     palm: Vector
     facing: Vector
     head_up: Vector
+    hands: Vector
 
     @classmethod
     def of(cls, pose: Pose) -> "Stance":
         """That of a pose."""
-        return cls(pose.joints_m, pose.palm, pose.facing, pose.head_up)
+        hands = np.stack([_lines(hold.grip)[side] for side, hold in enumerate(pose.holds)])
+        return cls(pose.joints_m, pose.palm, pose.facing, pose.head_up, hands)
 
 
 def bind_stance(figure: Figure) -> Stance:
@@ -103,13 +78,13 @@ def bind_stance(figure: Figure) -> Stance:
         j[ankle] = j[knee] + figure.shank_m * unit([0.0, 0.10, -0.99])
         j[toe] = j[ankle] + [0.0, 0.75 * figure.foot_m, -figure.ankle_height_m]
     palm = np.array([unit([0.0, 0.13, 0.99]), unit([0.0, 0.13, 0.99])])
-    return Stance(j, palm, np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0]))
+    return Stance(j, palm, np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0]), _lines(_BIND_GRIP))
 
 
 def bone_frames(stance: Stance) -> Matrix:
-    """The frame of every bone but `EYES`, (18, 4, 4): z along the bone."""
+    """The frame of every bone of `BODY_BONES`, (18, 4, 4): z along the bone, a hand's as `hand_bones` says."""
     j = stance.joints_m
-    origin, along, side = np.empty((3, len(Bone) - 1, 3))
+    origin, along, side = np.empty((3, len(BODY_BONES), 3))
     shoulders = j[Joint.RIGHT_SHOULDER] - j[Joint.LEFT_SHOULDER]
     hips = j[Joint.RIGHT_HIP] - j[Joint.LEFT_HIP]
     right = cross(stance.facing, stance.head_up)
@@ -123,10 +98,37 @@ def bone_frames(stance: Stance) -> Matrix:
     palm = cross(stance.palm, second[:2]), cross(stance.palm, third[:2])
     origin[_FIRST], along[_FIRST], side[_FIRST] = a, first, hinge
     origin[_SECOND], along[_SECOND], side[_SECOND] = b, second, hinge
-    origin[_TWIST], along[_TWIST], side[_TWIST] = b[:2], second[:2], palm[0]
+    origin[_TWIST], along[_TWIST] = b[:2], second[:2]
+    side[_TWIST] = unit(palm[0]) - unit(hinge[:2])  # half of the palm's turn: its other half is the wrist's
     origin[_THIRD], along[_THIRD] = c, third
-    side[_THIRD[:2]], side[_THIRD[2:]] = palm[1], hinge[2:]
-    return frames(origin, along, side)
+    side[_THIRD[:2]], side[_THIRD[2:]] = palm[1], cross(third[2:], _UP)  # soles lie flat, wherever the knees point
+    found = frames(origin, along, side)
+    found[_HANDS, :3, :3] = found[_HANDS, :3, :3] @ stance.hands
+    return found
+
+
+_HANDS = [Bone.RIGHT_HAND, Bone.LEFT_HAND]
+_BIND_GRIP = GRIPS["american"]
+_MIRROR = np.diag([-1.0, 1.0, 1.0])
+"""A left hand is a right one with x turned round."""
+
+
+@lru_cache(maxsize=16)
+def _lines(grip: Grip) -> Vector:
+    """`Stance.hands` for two hands with `grip`."""
+    turn = line_axes(grip.fulcrum)
+    return np.stack([turn, _MIRROR @ turn @ _MIRROR])
+
+
+@lru_cache(maxsize=16)
+def _moves(grip: Grip, scale: float) -> Matrix:
+    """How the digits of both hands move in them from where the skin was made, (2, STEPS, 15, 4, 4), open to closed."""
+    right = finger_frames(grip) @ np.linalg.inv(REST)
+    right[..., :3, 3] *= scale
+    left = right.copy()
+    left[..., :3, :3] = _MIRROR @ right[..., :3, :3] @ _MIRROR
+    left[..., 0, 3] *= -1
+    return np.stack([right, left])
 
 
 class Skeleton:
@@ -136,15 +138,21 @@ class Skeleton:
         self.bind = bind_stance(figure)
         self.frames = bone_frames(self.bind)
         self._back = np.linalg.inv(self.frames)
-        self._eye_height = EYE_HEIGHT * figure.head_m / HEAD_M
+        self.hand_scale = figure.hand_m / HAND_M
+        self._face_scale = figure.head_m / HEAD_M
 
     def matrices(self, pose: Pose) -> Matrix:
-        """One matrix a bone, (19, 4, 4)."""
-        out = np.empty((len(Bone), 4, 4))
+        """One matrix a bone, (BONES, 4, 4)."""
+        out = np.empty((BONES, 4, 4))
         now = bone_frames(Stance.of(pose))
-        out[:-1] = now @ self._back
-        lids = np.eye(4)
-        lids[2, 2] = 0.12 + 0.88 * pose.eyes
-        lids[2, 3] = self._eye_height * (1 - lids[2, 2])
-        out[Bone.EYES] = now[Bone.HEAD] @ lids @ self._back[Bone.HEAD]
+        out[: len(BODY_BONES)] = now @ self._back
+        face = face_matrices(Expression.of(pose))
+        face[:, :3, 3] *= self._face_scale
+        out[len(BODY_BONES) : len(Bone)] = now[Bone.HEAD] @ face @ self._back[Bone.HEAD]
+        for hand, hold, closed in zip(_HANDS, pose.holds, pose.fingers.tolist(), strict=True):
+            step, share = divmod(closed * (STEPS - 1), 1.0)
+            moves = _moves(hold.grip, self.hand_scale)[_HANDS.index(hand)]
+            low, high = moves[int(step)], moves[min(int(step) + 1, STEPS - 1)]
+            first = FINGERS[hand]
+            out[first : first + len(low)] = now[hand] @ (low + share * (high - low)) @ self._back[hand]
         return out

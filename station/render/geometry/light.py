@@ -14,12 +14,20 @@ _EDGE = (0.70, 0.93)
 
 @dataclass(frozen=True, slots=True)
 class Light:
-    """A spotlight at `at` towards `target` (metres), its linear `colour`, and the `sky` that lights the rest."""
+    """A warm spotlight at `at` towards `target` (metres), its linear `colour`; `sky` and `ground` light the rest.
+
+    `ground` is what the rug and the boards throw back. A cool light shines from behind, where `rim_from` points; the
+    lamps at the wall are of its colour and of `warm_colour`.
+    """
 
     at: tuple[float, float, float] = (1.15, 2.0, 3.3)
     target: tuple[float, float, float] = (0.03, 0.35, 0.6)
-    colour: tuple[float, float, float] = (1.62, 1.42, 1.20)
-    sky: tuple[float, float, float] = (0.185, 0.205, 0.255)
+    colour: tuple[float, float, float] = (2.05, 1.76, 1.44)
+    sky: tuple[float, float, float] = (0.215, 0.245, 0.320)
+    ground: tuple[float, float, float] = (0.140, 0.085, 0.070)
+    rim_from: tuple[float, float, float] = (-0.55, -0.65, 0.52)
+    warm_colour: tuple[float, float, float] = (0.75, 0.36, 0.14)
+    rim_colour: tuple[float, float, float] = (0.30, 0.54, 0.86)
     fov_rad: float = 0.82
 
     @property

@@ -5,11 +5,14 @@ closely enough. `roughness` 0 mirror … 1 chalk, `metal` 0 or 1, `coat` a clear
 stretch across the tangent (lathe grooves), `sheen` the soft rim of cloth and skin, `emission` light of its own.
 """
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from enum import IntEnum
 
 import numpy as np
 from numpy.typing import NDArray
+
+from station.motion.kinematics.look import Colours
 
 
 class Material(IntEnum):
@@ -41,6 +44,15 @@ class Material(IntEnum):
     GLOW = 23
     SHELL_RING = 24
     BAND = 25
+    MAPLE = 26
+    LACQUER = 27
+    PAD = 28
+    MESH_HEAD = 29
+    SCREEN = 30
+    IRIS = 26
+    TRIM = 27
+    MOUTH = 28
+    TEETH = 29
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,12 +95,43 @@ TABLE: dict[Material, SurfaceLook] = {
     Material.GLOW: SurfaceLook((1.00, 0.60, 0.24), 1.0, emission=1.0),
     Material.SHELL_RING: SurfaceLook((0.97, 0.55, 0.20), 0.35, coat=0.8),
     Material.BAND: SurfaceLook((0.06, 0.36, 0.42), 0.95, sheen=0.6),
+    Material.MAPLE: SurfaceLook((0.72, 0.45, 0.22), 0.35, coat=0.9),
+    Material.LACQUER: SurfaceLook((0.10, 0.10, 0.12), 0.30, coat=1.0),
+    Material.PAD: SurfaceLook((0.17, 0.17, 0.18), 0.80, coat=0.1),
+    Material.MESH_HEAD: SurfaceLook((0.80, 0.81, 0.83), 0.85),
+    Material.SCREEN: SurfaceLook((0.25, 0.62, 0.95), 1.0, emission=1.0),
+    Material.IRIS: SurfaceLook((0.30, 0.42, 0.46), 0.15, coat=1.0),
+    Material.TRIM: SurfaceLook((0.10, 0.30, 0.36), 0.85, sheen=0.5),
+    Material.MOUTH: SurfaceLook((0.22, 0.06, 0.06), 0.60),
+    Material.TEETH: SurfaceLook((0.95, 0.93, 0.88), 0.30, coat=0.4),
 }
 
 
-def shader_table() -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Two arrays (materials, 4): linear colour and roughness; metal, coat + 2·emission, grain, sheen."""
-    looks = [TABLE[m] for m in Material]
+_WORN_BY: Mapping[Material, str] = {
+    Material.SKIN: "skin",
+    Material.LIP: "lips",
+    Material.HAIR: "hair",
+    Material.IRIS: "iris",
+    Material.SHIRT: "top",
+    Material.TRIM: "trim",
+    Material.TROUSERS: "legs",
+    Material.SHOE: "shoes",
+    Material.SOLE: "soles",
+    Material.BAND: "band",
+}
+"""Which of a drummer's colours a material has."""
+
+
+_DEFAULT = Colours()
+
+
+def shader_table(colours: Colours = _DEFAULT) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Two arrays (materials, 4): linear colour and roughness; metal, coat + 2·emission, grain, sheen.
+
+    `colours` are those of the drummer's skin, hair and clothes.
+    """
+    own = {material: getattr(colours, name) for material, name in _WORN_BY.items()}
+    looks = [replace(TABLE[m], colour=own.get(m, TABLE[m].colour)) for m in Material]
     first = np.array([(*(c * c for c in look.colour), look.roughness) for look in looks], np.float32)
     second = np.array([(k.metal, k.coat + 2 * k.emission, k.grain, k.sheen) for k in looks], np.float32)
     return first, second

@@ -191,17 +191,25 @@ def _outward(corners: Points) -> Mesh:
     return _flat(corners if np.dot(normal, corners.mean(axis=0)) > 0 else corners[::-1])
 
 
-def tube(path: ArrayLike, radius: float, material: int, segments: int = 8) -> Mesh:
-    """A bent pipe along `path` (k, 3), k ≥ 2, open at its ends."""
+def grid_mesh(grid: Points, material: int) -> Mesh:
+    """A sheet through points (rows, columns, 3): it faces where a row's way and a column's, in this order, turn to."""
+    along_rows, along_columns = np.gradient(grid, axis=0), np.gradient(grid, axis=1)
+    normal = unit(np.cross(along_rows, along_columns))
+    return new_mesh(grid.reshape(-1, 3), normal.reshape(-1, 3), _grid_faces(*grid.shape[:2]), material)
+
+
+def tube(path: ArrayLike, radius: float | Points, material: int, segments: int = 8) -> Mesh:
+    """A bent pipe along `path` (k, 3), k ≥ 2, open at its ends; `radius` may be one for each point (k,)."""
     p = np.asarray(path, np.float64)
+    radii = np.broadcast_to(radius, len(p))
     along = unit(np.gradient(p, axis=0))
     side = np.cross(along[0], [0.0, 0.0, 1.0] if abs(along[0][2]) < 0.9 else [0.0, 1.0, 0.0])
     rings, normals = [], []
     angle = np.linspace(0, 2 * np.pi, segments + 1)
-    for point, way in zip(p, along, strict=True):
+    for point, way, thick in zip(p, along, radii, strict=True):
         side = unit(side - way * np.dot(side, way))
         normal = np.cos(angle)[:, None] * side + np.sin(angle)[:, None] * np.cross(way, side)
-        rings.append(point + radius * normal)
+        rings.append(point + thick * normal)
         normals.append(normal)
     faces = _grid_faces(len(p), len(angle))[:, ::-1]
     return new_mesh(np.concatenate(rings), np.concatenate(normals), faces, material)

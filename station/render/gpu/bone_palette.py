@@ -1,6 +1,6 @@
 """Where every bone is and how it glows, as the one buffer that the shaders read.
 
-The kit's bones come first, then the drummer's, the student's double's, and the double's two sticks.
+The kit's bones come first, then the drummer's, the student's double's, and what the double holds.
 """
 
 from dataclasses import dataclass, field
@@ -11,11 +11,16 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Limb, Piece
 from station.motion.kinematics.pose import Pose
-from station.render.figure.skeleton import LIMB_BONES, Bone, Skeleton
+from station.render.figure.bones import BONES, LIMB_BONES
+from station.render.figure.skeleton import Skeleton
 from station.render.geometry.transforms import Matrix
-from station.render.gpu.light_shader import MAX_BONES
+from station.render.gpu.light_shader import MAX_BONES, RIPPLING_BONES
 from station.render.kit import kit_rig
+from station.render.kit.held_meshes import HELD_BONES, held_matrices
 from station.render.kit.kit_rig import KitRig
+
+_STILL_M = 1e-5
+"""A head that gives way by less is still."""
 
 Colour = NDArray[np.float64]
 """Linear red, green and blue, (3,)."""
@@ -40,13 +45,15 @@ class BonePalette:
     def __init__(self, ctx: moderngl.Context, rig: KitRig, skeleton: Skeleton) -> None:
         self._rig, self._skeleton = rig, skeleton
         self.figure = rig.bone_count
-        self.double = self.figure + len(Bone)
-        self.double_sticks = self.double + len(Bone)
-        assert self.double_sticks + 2 <= MAX_BONES, "the kit has more pieces than a palette holds"
+        self.double = self.figure + BONES
+        self.double_sticks = self.double + BONES
+        assert self.double_sticks + 2 * HELD_BONES <= MAX_BONES, "the kit has more pieces than a palette holds"
         self._matrices = np.tile(np.eye(4), (MAX_BONES, 1, 1))
         self._glow = np.zeros((MAX_BONES, 4), np.float32)
-        self._now = ctx.buffer(reserve=MAX_BONES * 64, dynamic=True)
-        self._rest = ctx.buffer(_rows(self._matrices) + self._glow.tobytes())
+        self._ripple = np.zeros((RIPPLING_BONES, 4), np.float32)
+        still = self._bytes()
+        self._now = ctx.buffer(reserve=len(still), dynamic=True)
+        self._rest = ctx.buffer(still)
 
     def set(self, frame: BoneFrame) -> None:
         """Pose all bones as `frame` says."""
@@ -59,10 +66,25 @@ class BonePalette:
             matrices[self.figure : self.double] = self._skeleton.matrices(frame.pose)
         if frame.double is not None:
             matrices[self.double : self.double_sticks] = self._skeleton.matrices(frame.double)
-            matrices[self.double_sticks : self.double_sticks + 2] = kit_rig.stick_matrices(frame.double)
+            held = held_matrices(frame.double, rig.kit)
+            matrices[self.double_sticks : self.double_sticks + len(held)] = held
             for limb, colour in frame.double_glow.items():
                 glow[[self.double + bone for bone in LIMB_BONES[limb]], :3] = colour
-        self._now.write(_rows(matrices) + glow.tobytes())
+        self._set_ripples(frame.pose)
+        self._now.write(self._bytes())
+
+    def _set_ripples(self, pose: Pose | None) -> None:
+        self._ripple[:] = 0.0
+        for (piece, bone), (depth_m, right, away, since_s) in zip(
+            self._rig.piece_bones.items(), pose.ripple.tolist() if pose is not None else (), strict=pose is not None
+        ):
+            if depth_m > _STILL_M:
+                part = self._rig.kit.pieces[piece]
+                self._ripple[bone, :3] = part.centre + right * part.axes[0] + away * part.axes[1]
+                self._ripple[bone, 3], self._glow[bone, 3] = depth_m, since_s
+
+    def _bytes(self) -> bytes:
+        return _rows(self._matrices) + self._glow.tobytes() + self._ripple.tobytes()
 
     def use(self) -> None:
         """Let the shaders read how the bones are now."""

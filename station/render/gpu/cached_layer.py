@@ -16,21 +16,38 @@ class CachedLayer:
         self._key: tuple[object, ...] = ()
 
     def under(
-        self, target: moderngl.Framebuffer, key: tuple[object, ...], draw: Callable[[moderngl.Framebuffer], None]
+        self,
+        target: moderngl.Framebuffer,
+        key: tuple[object, ...],
+        draw: Callable[[moderngl.Framebuffer], None],
+        samples: int = 0,
     ) -> None:
         """Fill `target`, which is as deep as a `RenderTarget` of one sample a pixel, with what `draw` draws.
 
-        `draw` is called only when `key`, all that its picture depends on, or the size has changed.
+        `draw` is called only when `key`, all that its picture depends on, or the size has changed; it draws with so
+        many `samples` a pixel.
         """
         if self._target is None or self._target.size != target.size:
             self.release()
             self._target = RenderTarget(self._ctx, target.size)
         framebuffer = self._target.framebuffer
         if key != self._key:
-            framebuffer.use()
-            draw(framebuffer)
+            self._draw(framebuffer, draw, samples)
             self._key = key
         self._ctx.copy_framebuffer(target, framebuffer)
+
+    def _draw(
+        self, framebuffer: moderngl.Framebuffer, draw: Callable[[moderngl.Framebuffer], None], samples: int
+    ) -> None:
+        if not samples:
+            framebuffer.use()
+            draw(framebuffer)
+            return
+        fine = RenderTarget(self._ctx, framebuffer.size, samples)
+        fine.framebuffer.use()
+        draw(fine.framebuffer)
+        self._ctx.copy_framebuffer(framebuffer, fine.framebuffer)
+        fine.release()
 
     def release(self) -> None:
         """Give the memory back."""

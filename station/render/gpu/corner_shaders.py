@@ -3,7 +3,7 @@
 Without a graphics card a pixel is dear and a corner cheap. No shadow falls on what they draw.
 """
 
-from station.render.figure.skeleton import Bone
+from station.render.figure.bones import Bone
 from station.render.gpu.light_shader import LIGHT, RIGID_IN, SKIN_IN
 
 _HEAD = "#version 330 core\n#define QUALITY 0\n"
@@ -31,7 +31,7 @@ _GLOWING = (
 void place(vec3 world, vec3 normal, vec3 tangent, vec3 glow) {
     float view = max(dot(normalize(normal), normalize(eye - world)), 0.0);
     vec3 seen = film(glow * (0.35 + 0.65 * view) * (0.6 * look_a[material].rgb + 0.25));
-    v_seen = vec4(seen, 0.8 * min(max(glow.r, max(glow.g, glow.b)), 1.0));
+    v_seen = vec4(seen, 0.55 * min(max(glow.r, max(glow.g, glow.b)), 1.0));
     gl_Position = view_projection * vec4(world, 1.0);
 }
 """

@@ -2,19 +2,25 @@
 
 A key spotlight with a shadow map, a cool rim light from behind, a sky that is brighter above than below, and for
 varnish and metal a made-up studio of soft boxes to mirror. Highlights follow Blinn and Phong, stretched along the
-tangent for lathe-cut metal (Kajiya and Kay); Fresnel after Schlick; the film curve is Hejl and Burgess-Dawson's, which
-includes the screen's gamma. A shader that takes this in defines `QUALITY` first.
+tangent for lathe-cut metal (Kajiya and Kay); Fresnel after Schlick. The film curve is Reinhard's extended one (2002),
+whose white lies at about three times the key light; a square root brings it to the screen, as materials' colours are
+squared to make them light, and two fifths of a smooth step give it contrast. A shader that takes this in defines
+`QUALITY` first.
 """
 
 from station.render.geometry.materials import Material
 
-MAX_BONES = 128
-"""Matrices in the palette; 128 of 4 × vec4 fit the 16 KiB that every OpenGL 3.3 grants a block."""
+MAX_BONES = 250
+"""Matrices in the palette: with the ripples the 16 KiB that every OpenGL 3.3 grants a block."""
+
+RIPPLING_BONES = 24
+"""The first bones alone may be drums: one more than there are pieces in a kit, rounded up."""
 
 _BONES = f"""
 layout(std140) uniform Bones {{
     mat3x4 bone_matrix[{MAX_BONES}];         // the upper three rows, so that a row vector goes before it
-    vec4 bone_glow[{MAX_BONES}];
+    vec4 bone_glow[{MAX_BONES}];             // and since when a head ripples, seconds
+    vec4 bone_ripple[{RIPPLING_BONES}];             // where a head was struck, and how deep
 }};
 uniform int first_bone;                     // where the bones of what is drawn begin
 """
@@ -23,13 +29,37 @@ RIGID_IN = (
     _BONES
     + """
 in vec3 position;
-in vec4 normal;
+in vec4 normal;                             // and how freely the corner moves when its head is struck, 0-1
 in vec4 tangent;
 in int bone;
 in int material;
 in float ao;
 """
 )
+
+RIPPLE = (
+    """
+// how far a struck head's corner is moved along its normal, and how that changes across the head
+vec4 ripple() {
+    vec4 struck = bone_ripple[bone];
+    float since = bone_glow[bone].w;
+    vec3 away = position - struck.xyz;
+    float r = length(away), u = (r - RING_M_S * since) / RING_M;
+    float bell = exp(-u * u);
+    float depth = struck.w * normal.w * since / (since + RISE_S);
+    float slope = depth * bell * u * (6.0 - 4.0 * u * u) / RING_M;
+    return vec4(away / max(r, 1e-4) * slope * SHADED, -depth * bell * (1.0 - 2.0 * u * u));
+}
+""".replace("RING_M_S", "1.6")
+    .replace("RING_M", "0.032")
+    .replace("RISE_S", "0.008")
+    .replace("SHADED", "5.0")
+)
+"""One ring that runs outward from the struck point; nothing at the instant of the stroke, when the tip is on the head.
+
+The real wave crosses a head in two milliseconds: ours is so slow and broad that pictures show it, and shaded as if it
+were five times steeper, for heads are white (our choice, by eye).
+"""
 
 SKIN_IN = (
     _BONES
@@ -53,15 +83,15 @@ mat3x4 roughly_skinned() {                  // by the two strongest bones: withi
 """
 )
 
-_FILM = """
-vec3 film(vec3 c) {
-    c = max(vec3(0.0), c - 0.004);
-    return (c * (6.2 * c + 0.5)) / (c * (6.2 * c + 1.7) + 0.06);
+FILM = """
+vec3 film(vec3 c) {                         // to the screen: a curve that leaves the dark its drawing
+    c = min(sqrt(c * (1.0 + c * 0.12) / (0.80 + c)), 1.0);
+    return c * (0.60 + c * (1.20 - 0.80 * c));
 }
 """
 
 LIGHT = (
-    _FILM
+    FILM
     + f"""
 uniform vec4 look_a[{len(Material)}];      // linear colour, roughness
 uniform vec4 look_b[{len(Material)}];      // metal, coat + 2 emission, grain, sheen
@@ -122,12 +152,12 @@ vec3 light(vec3 world, vec3 n, vec3 tangent, float ao, int material, float lit, 
     float coat = b.y > 1.5 ? 0.0 : b.y, gloss = max(coat, metal);
     vec3 mirror = mix(vec3(0.04 + 0.10 * coat), colour, metal);
     mirror += (1.0 - mirror) * fresnel * (1.0 - 0.6 * a.w) * gloss;
-    vec3 glints = key * (direct * highlight.x) + rim_colour * (from_rim * highlight.y);
+    vec3 glints = key * (direct * highlight.x) + rim_colour * (from_rim * highlight.y * 0.35);
     vec3 mirrored = studio(reflect(-to_eye, n), a.w) * (0.35 + 0.65 * ao) * gloss;
     vec3 total = diffuse + mirror * (glints * max(gloss, 0.35 * smooth_2) + mirrored);
     total += b.y > 1.5 ? colour * 2.5 : vec3(0.0);
     float glow = max(glowing.r, max(glowing.g, glowing.b));
-    return film(total * (1.0 - 0.8 * min(glow, 1.0)) + glowing * (0.35 + 0.65 * view) * (0.6 * colour + 0.25));
+    return film(total * (1.0 - 0.55 * min(glow, 1.0)) + glowing * (0.35 + 0.65 * view) * (0.6 * colour + 0.25));
 }}
 """
 )

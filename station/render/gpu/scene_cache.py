@@ -27,12 +27,14 @@ from station.core.errors import DeviceError
 from station.core.files import write_whole
 from station.motion.kinematics.figure import Figure
 from station.motion.kit.kit import Kit
-from station.render.figure.body import Skin, build_body
+from station.render.figure.body import build_body
+from station.render.figure.skin import Skin
 from station.render.geometry.light import Light
 from station.render.geometry.mesh import Mesh
+from station.render.kit.floor_paint import boards_picture, rug_picture
 from station.render.kit.instrument_meshes import Detail
 from station.render.kit.kit_rig import KitRig, floor_discs, kit_mesh, rig_of
-from station.render.kit.room import floor_picture, wall_picture
+from station.render.kit.room import floor_light, wall_picture
 
 Arrays = Mapping[str, NDArray[Any]]
 
@@ -53,10 +55,20 @@ def cached_body(figure: Figure, fineness: float) -> Skin:
     return Skin(**cached("body", (figure, fineness), lambda: _arrays(build_body(figure, fineness))))
 
 
-def cached_floor(kit: Kit, light: Light, texels: int) -> NDArray[np.uint8]:
-    """`floor_picture` under a kit, from disk where it was made before."""
+def cached_paint() -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
+    """`boards_picture` and `rug_picture` in 255ths, from disk where they were made before."""
+    pictures = cached("paint", None, lambda: {"boards": _bytes(boards_picture()), "rug": _bytes(rug_picture())})
+    return pictures["boards"], pictures["rug"]
+
+
+def _bytes(picture: NDArray[np.float32]) -> NDArray[np.uint8]:
+    return np.asarray(np.clip(np.rint(picture * 255), 0, 255), np.uint8)
+
+
+def cached_light(kit: Kit, light: Light) -> NDArray[np.uint8]:
+    """`floor_light` under a kit, from disk where it was made before."""
     discs = floor_discs(kit)
-    return cached("floor", (discs, light, texels), lambda: {_PICTURE: floor_picture(discs, light, texels)})[_PICTURE]
+    return cached("light", (discs, light), lambda: {_PICTURE: floor_light(discs, light)})[_PICTURE]
 
 
 def cached_wall() -> NDArray[np.uint8]:

@@ -13,14 +13,14 @@ from numpy.typing import NDArray
 from station.core.pieces import Limb
 from station.motion.kinematics.figure import Figure
 from station.motion.kit.kit import Kit
-from station.render.figure.body import Skin
-from station.render.figure.skeleton import LIMB_BONES, Bone
+from station.render.figure.bones import LIMB_BONES, Bone
+from station.render.figure.skin import Skin
 from station.render.geometry.light import Light
 from station.render.geometry.materials import shader_table
 from station.render.geometry.mesh import Mesh
 from station.render.geometry.transforms import gl_bytes, unit
-from station.render.gpu import corner_shaders, pixel_shaders
-from station.render.gpu.scene_cache import cached_body, cached_floor, cached_wall
+from station.render.gpu import corner_shaders, pixel_shaders, room_shaders
+from station.render.gpu.scene_cache import cached_body, cached_light, cached_paint, cached_wall
 from station.render.gpu.vertex_layouts import RIGID, RIGID_PLACES, SKIN, SKIN_PLACES, rigid_rows, skin_rows
 from station.render.kit import room
 from station.render.kit.kit_rig import KitRig
@@ -30,14 +30,15 @@ from station.render.quality import Quality
 _KEY = Light()
 _TO_TEXTURE = np.array([[0.5, 0, 0, 0.5], [0, 0.5, 0, 0.5], [0, 0, 0.5, 0.5], [0, 0, 0, 1.0]])
 """From clip space −1 … 1 to texture space 0 … 1."""
-_RIM_WAY = unit([-0.55, -0.65, 0.52])
-_RIM_COLOUR = (0.20, 0.34, 0.52)
-_GROUND = (0.060, 0.045, 0.040)
 _GHOST_OPACITY = 0.42
 """How opaque the student's double is where one looks straight at it (our choice: the demonstrator shows through)."""
-ANISOTROPY = 8.0
-_LIMBS = frozenset(bone for bones in LIMB_BONES.values() for bone in bones)
-_BUT_ARMS = frozenset(Bone) - {*LIMB_BONES[Limb.RIGHT_HAND], *LIMB_BONES[Limb.LEFT_HAND]}
+_STILL_LEVEL = 1
+"""The shader level of what is drawn once and kept (our choice: the highest takes twice as long, and little is seen)."""
+_BOARDS, _RUG = 0, 1
+_PLACES = {"wall_map": 2, "light_map": 3, "shadow_map": 4}
+"""Where the shaders find the pictures; boards and rug come first."""
+_LIMBS: frozenset[int] = frozenset(bone for bones in LIMB_BONES.values() for bone in bones)
+_BUT_ARMS: frozenset[int] = frozenset(Bone) - {*LIMB_BONES[Limb.RIGHT_HAND], *LIMB_BONES[Limb.LEFT_HAND]}
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,13 +52,15 @@ class KitAndFigure:
 class SceneParts:
     """`solid`, `quick`, `ghost`: kit and figure pixel by pixel, corner by corner, and the student's double's limbs.
 
-    `glow` lays light over the kit; `floor`, `wall` are the room; `rigid_depth`, `skin_depth` and, without the arms,
-    `resting_depth` cast shadows into `shadow_buffer`.
+    `glow` lays light over the kit; `room` is rug, floor and wall. `still_rigid` and `still_room` are kit and room as
+    finely as can be, to be drawn once and kept. `rigid_depth`, `skin_depth` and, without the arms, `resting_depth`
+    cast shadows into `shadow_buffer`.
     """
 
     def __init__(self, ctx: moderngl.Context, rig: KitRig, figure: Figure, quality: Quality) -> None:
         self._ctx = ctx
         self._quality = quality
+        self._colours = figure.look.colours
         self._textures(rig.kit)
         self._upload(rig.mesh, cached_body(figure, quality.figure_cell))
         fragment = pixel_shaders.solid_fragment(quality.level)
@@ -68,26 +71,35 @@ class SceneParts:
             self._skin_part(corner_shaders.SKIN_GHOST, corner_shaders.QUICK_FRAGMENT, self._limb_faces),
         )
         self.glow = self._rigid_part(corner_shaders.RIGID_GLOW, corner_shaders.QUICK_FRAGMENT)
-        self.floor = self._room_part(pixel_shaders.floor_fragment(quality.level), room.floor_mesh())
-        self.wall = self._room_part(pixel_shaders.WALL_FRAGMENT, room.wall_mesh())
+        self.room = self._room_parts(quality.level)
+        self.still_rigid, self.still_room = self.solid.rigid, self.room
+        if quality.level == 0:  # the one that may be drawn in layers
+            self.still_rigid = self._rigid_part(pixel_shaders.RIGID_VERTEX, pixel_shaders.solid_fragment(_STILL_LEVEL))
+            self.still_room = self._room_parts(_STILL_LEVEL)
         for part in (self.solid.skin, self.quick.skin, self.skin_depth):
             part.program["first_bone"] = rig.bone_count
 
     def use_textures(self) -> None:
         """Let the shaders read the room's pictures and the shadow map."""
-        self.floor_map.use(0)
-        self._wall_map.use(1)
-        self._shadow.use(2)
+        for place, texture in enumerate((*self._pictures, self._shadow)):
+            texture.use(place)
+
+    def sharpen(self, is_rough: bool) -> None:
+        """Let what is seen at a flat angle be as sharp as can be, or be drawn soon."""
+        for picture in self._pictures[: _RUG + 1]:
+            picture.anisotropy = 1.0 if is_rough else self._quality.anisotropy
 
     def _textures(self, kit: Kit) -> None:
         ctx = self._ctx
-        floor, wall = cached_floor(kit, _KEY, self._quality.floor_texels), cached_wall()
-        self.floor_map = ctx.texture(floor.shape[1::-1], 4, floor.tobytes())
-        self.floor_map.build_mipmaps()
-        self.floor_map.filter = moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR
-        self.floor_map.anisotropy = ANISOTROPY
-        self._wall_map = ctx.texture(wall.shape[1::-1], 3, wall.tobytes())
-        self._wall_map.repeat_y = False
+        pictures = (*cached_paint(), cached_wall(), cached_light(kit, _KEY))
+        self._pictures = [ctx.texture(p.shape[1::-1], p.shape[2], p.tobytes()) for p in pictures]
+        for picture in self._pictures[: _RUG + 1]:  # the others are seen larger than they are
+            picture.build_mipmaps()
+            picture.filter = moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR
+        self._pictures[_RUG].repeat_x = False
+        for picture in self._pictures[_RUG:]:
+            picture.repeat_y = False
+        self.sharpen(is_rough=False)
         size = (self._quality.shadow_texels,) * 2
         self._shadow = ctx.depth_texture(size)
         self._shadow.compare_func = "<="
@@ -127,8 +139,14 @@ class SceneParts:
         content = [(self._ctx.buffer(rows.tobytes()), "3f 2f", "position", "uv")]
         faces = self._ctx.buffer(mesh.faces.tobytes())
         return self._ctx.vertex_array(
-            self._program(pixel_shaders.ROOM_VERTEX, fragment), content, faces, skip_errors=True
+            self._program(room_shaders.ROOM_VERTEX, fragment), content, faces, skip_errors=True
         )
+
+    def _room_parts(self, level: int) -> tuple[moderngl.VertexArray, ...]:
+        floor, rug = (room_shaders.floor_fragment(level, is_varnished=has) for has in (level > 0, False))
+        boards, carpet = self._room_part(floor, room.floor_mesh()), self._room_part(rug, room.rug_mesh())
+        boards.program["paint_map"], carpet.program["paint_map"] = _BOARDS, _RUG
+        return carpet, boards, self._room_part(room_shaders.WALL_FRAGMENT, room.wall_mesh())
 
     def _program(self, vertex: str, fragment: str) -> moderngl.Program:
         program = self._ctx.program(vertex, fragment)
@@ -136,17 +154,18 @@ class SceneParts:
         return program
 
     def _constants(self, program: moderngl.Program) -> None:
-        first, second = shader_table()
+        first, second = shader_table(self._colours)
         values: dict[str, object] = {
             "look_a": first,
             "look_b": second,
             "key_at": _KEY.at,
             "key_axis": _KEY.axis,
             "key_colour": _KEY.colour,
-            "rim_way": _RIM_WAY,
-            "rim_colour": _RIM_COLOUR,
+            "rim_way": unit(_KEY.rim_from),
+            "rim_colour": _KEY.rim_colour,
+            "warm_colour": _KEY.warm_colour,
             "sky": _KEY.sky,
-            "ground": _GROUND,
+            "ground": _KEY.ground,
             "light_projection": (_TO_TEXTURE @ _KEY.matrix()).T,
             "tint": GOOD[:3],
             "opacity": _GHOST_OPACITY,
@@ -154,12 +173,12 @@ class SceneParts:
         for name, value in values.items():
             if name in program:
                 write(program, name, np.ascontiguousarray(value, np.float32).tobytes())
-        for unit_index, name in enumerate(("floor_map", "wall_map", "shadow_map")):
+        for name, place in _PLACES.items():
             if name in program:
-                program[name] = unit_index
+                program[name] = place
 
 
-def _some(ctx: moderngl.Context, skin: Skin, bones: Collection[Bone]) -> moderngl.Buffer:
+def _some(ctx: moderngl.Context, skin: Skin, bones: Collection[int]) -> moderngl.Buffer:
     """The faces that hang on some bones above all."""
     strongest: NDArray[np.uint8] = skin.bones[:, 0]
     return ctx.buffer(skin.faces[np.isin(strongest[skin.faces[:, 0]], list(bones))].tobytes())

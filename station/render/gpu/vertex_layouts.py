@@ -1,12 +1,14 @@
 """The corners of kit and figure as tables for OpenGL, and where the programs find what in them.
 
-Normals and tangents are half floats with a fourth number that nobody reads; weights and `ao` are 255ths.
+Normals and tangents are half floats; the fourth of a normal tells how freely a head's corner moves. Weights and `ao`
+are 255ths.
 """
 
 import numpy as np
 from numpy.typing import NDArray
 
-from station.render.figure.body import Skin
+from station.render.figure.skin import Skin
+from station.render.geometry.materials import Material
 from station.render.geometry.mesh import Mesh
 
 RIGID_DTYPE = np.dtype(
@@ -42,11 +44,28 @@ def rigid_rows(mesh: Mesh) -> NDArray[np.void]:
     """The corners of what is rigid, (n,) of `RIGID_DTYPE`."""
     rows = np.zeros(len(mesh.position), RIGID_DTYPE)
     rows["position"] = mesh.position
-    rows["normal"][:, :3] = mesh.normal
+    rows["normal"][:, :3], rows["normal"][:, 3] = mesh.normal, _gives(mesh)
     rows["tangent"][:, :3] = mesh.tangent
     rows["bone"], rows["material"] = mesh.bone, mesh.material
     rows["ao"] = np.rint(np.clip(mesh.ao, 0, 1) * 255)
     return rows
+
+
+_HEADS = (Material.HEAD, Material.MESH_HEAD)
+
+
+def _gives(mesh: Mesh) -> NDArray[np.float64]:
+    """How freely each corner moves when its head is struck: 1 in the middle, 0 at the hoop and off the heads, (n,).
+
+    Heads are lathes, whose first uv is the distance from their middle.
+    """
+    gives = np.zeros(len(mesh.position))
+    heads = np.isin(mesh.material, _HEADS)
+    for bone in np.unique(mesh.bone[heads]):
+        its = heads & (mesh.bone == bone)
+        far = mesh.uv[its, 0]
+        gives[its] = 1.0 - (far / far.max()) ** 2
+    return gives
 
 
 def skin_rows(skin: Skin) -> NDArray[np.void]:

@@ -3,7 +3,7 @@
 Sizes come from the kit; what a kit file does not say (hoops, lugs, bells) has the proportions of common hardware.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,8 +13,8 @@ from station.render.geometry.materials import Material
 from station.render.geometry.mesh import Mesh, box, joined, lathe, rod
 from station.render.geometry.transforms import rotation, translation
 
-STICK_M = 0.406
-"""A 5A stick (HUMANS, Kit); longer or shorter ones are stretched."""
+HOLE_M = BELL_ABOVE_BOW_M
+"""How high a cymbal's hole is over its plane: there it hangs and tips."""
 HAT_GAP_M = 0.006
 """How far the lower hi-hat's edge lies below the upper one's plane when closed."""
 _HOOP_M = 0.010
@@ -29,13 +29,13 @@ class Detail:
     hardware: bool
 
 
-def drum(radius: float, depth: float, lugs: int, detail: Detail) -> Mesh:
+def drum(radius: float, depth: float, lugs: int, detail: Detail, shell: int = Material.SHELL) -> Mesh:
     """A snare or tom: head, hoops, shell, lugs and tension rods, from z = RIM_ABOVE_HEAD_M down to −depth."""
     n = detail.segments
     parts = [
-        _head(radius, n),
+        head(radius, detail),
         _hoop(radius, RIM_ABOVE_HEAD_M, n),
-        lathe([(radius, -depth + 0.012), (radius, -0.012)], n, Material.SHELL),
+        lathe([(radius, -depth + 0.012), (radius, -0.012)], n, shell),
         _hoop(radius, -depth + 0.022, n),
         lathe([(0, -depth), (radius * 0.98, -depth)], n, Material.HEAD).shaded(0.35),
     ]
@@ -44,10 +44,16 @@ def drum(radius: float, depth: float, lugs: int, detail: Detail) -> Mesh:
     return joined(parts)
 
 
-def _head(radius: float, segments: int) -> Mesh:
+def _rings(radius: float, detail: Detail) -> list[float]:
+    """The radii of a head's rings from `radius` to its middle, fine enough for ripples where those are drawn."""
+    count = detail.segments // 6 if detail.hardware else 2
+    return [radius * k / count for k in range(count, -1, -1)]
+
+
+def head(radius: float, detail: Detail, material: int = Material.HEAD) -> Mesh:
     """The skin: white, a little darker towards the hoop, with a bearing edge."""
-    profile = [(radius * 1.0, -0.006), (radius * 0.965, 0.0), (radius * 0.90, 0.0), (radius * 0.45, 0.0), (0.0, 0.0)]
-    mesh = lathe(profile, segments, Material.HEAD)
+    profile = [(radius, -0.006), (radius * 0.965, 0.0), *((r, 0.0) for r in _rings(0.90 * radius, detail))]
+    mesh = lathe(profile, detail.segments, material)
     edge = np.hypot(mesh.position[:, 0], mesh.position[:, 1]) > radius * 0.93
     return mesh.shaded(np.where(edge, 0.6, 1.0))
 
@@ -82,7 +88,7 @@ def _lug_column(radius: float, depth: float, angle: float) -> Mesh:
     return joined(parts).moved(turn)
 
 
-def kick(radius: float, depth: float, detail: Detail) -> Mesh:
+def kick(radius: float, depth: float, detail: Detail, shell: int = Material.SHELL) -> Mesh:
     """A bass drum whose batter head faces z; the front head, at −depth, bears the ring of the house."""
     n = detail.segments
     hoop = [
@@ -94,10 +100,10 @@ def kick(radius: float, depth: float, detail: Detail) -> Mesh:
     ]
     front_hoop = [(r, -depth - z) for r, z in reversed(hoop)]
     parts = [
-        lathe([(radius * 0.99, 0), (radius * 0.5, 0), (0, 0)], n, Material.HEAD),
-        lathe(hoop, n, Material.SHELL, smooth=False),
-        lathe([(radius, -depth + 0.02), (radius, -0.02)], n, Material.SHELL),
-        lathe(front_hoop, n, Material.SHELL, smooth=False),
+        lathe([(r, 0.0) for r in _rings(0.99 * radius, detail)], n, Material.HEAD),
+        lathe(hoop, n, shell, smooth=False),
+        lathe([(radius, -depth + 0.02), (radius, -0.02)], n, shell),
+        lathe(front_hoop, n, shell, smooth=False),
         *_front_head(radius, -depth, n),
     ]
     if detail.hardware:
@@ -131,7 +137,7 @@ _TOP, _UNDER = [0, 1, 3, 5, 7, 9, 10, 11, 12, 13], [0, 4, 10, 13]
 """The rings of a cymbal's sides where small things are left out; the underside is rarely seen."""
 
 
-def cymbal(radius: float, detail: Detail, bell: float = 0.19) -> Mesh:
+def cymbal(radius: float, detail: Detail, bell: float = 0.19, is_china: bool = False) -> Mesh:
     """A cymbal whose bow lies in the plane z = 0 at 0.6 of its radius; the bell rises above, the edge falls below."""
     rise = 0.055 * radius
     r = np.array(
@@ -141,7 +147,7 @@ def cymbal(radius: float, detail: Detail, bell: float = 0.19) -> Mesh:
         r = np.sort(np.concatenate([r, np.linspace(bell * 1.3, 0.97, 22)]))[::-1]
     bow = rise * (1 - (r / 0.98) ** 2) - rise * (1 - (0.6 / 0.98) ** 2)
     dome = np.where(r < bell, (BELL_ABOVE_BOW_M - 0.4 * rise) * np.sqrt(np.clip(1 - (r / bell) ** 2, 0, 1)), 0)
-    top = np.stack([r * radius, bow + dome], axis=1)
+    top = np.stack([r * radius, bow + dome + (china_lip(radius, r) if is_china else 0.0)], axis=1)
     under = top[::-1] - [0.0, 0.0015]
     if not detail.hardware:
         top, under = top[_TOP], top[_UNDER][::-1] - [0.0, 0.0015]
@@ -151,9 +157,31 @@ def cymbal(radius: float, detail: Detail, bell: float = 0.19) -> Mesh:
             lathe(under, detail.segments, Material.BRONZE).shaded(0.55),
         ]
     )
-    nut = lathe([(0.012, top[-1, 1]), (0.012, top[-1, 1] + 0.014), (0, top[-1, 1] + 0.016)], 10, Material.FELT)
-    wing = rod([0, 0, top[-1, 1] + 0.014], [0, 0, top[-1, 1] + 0.034], 0.006, Material.CHROME, 8)
-    return joined([mesh, nut, wing])
+    return mesh
+
+
+def china_lip(radius: float, r: NDArray[np.float64]) -> NDArray[np.float64]:
+    """How much higher a china is than a crash at shares `r` of its radius: its rim is turned up."""
+    return np.asarray(np.where(r > _LIP, 0.16 * radius * (r - _LIP) / (1 - _LIP), 0.0))
+
+
+_LIP = 0.80
+"""The share of the radius at which a china's rim begins (our choice: common ones)."""
+
+
+def nut(detail: Detail) -> Mesh:
+    """What holds a cymbal on its stand, from its plane up: rod, felt and wing nut."""
+    n = 10 if detail.hardware else 6
+    felt = [(0, 0), (0.015, 0), (0.015, 0.010), (0, 0.010)]
+    parts = [
+        rod([0, 0, -0.012], [0, 0, HOLE_M + 0.040], 0.004, Material.STEEL, 6),
+        lathe(felt, n, Material.FELT).moved(translation([0, 0, HOLE_M + 0.001])),
+        rod([0, 0, HOLE_M + 0.011], [0, 0, HOLE_M + 0.026], (0.008, 0.006), Material.CHROME, n),
+        box((0.040, 0.005, 0.012), Material.CHROME, 0.002 if detail.hardware else 0.0).moved(
+            translation([0, 0, HOLE_M + 0.026])
+        ),
+    ]
+    return joined(parts)
 
 
 def _grooved(mesh: Mesh, detail: Detail) -> Mesh:
@@ -182,26 +210,14 @@ def hat_bottom(radius: float, detail: Detail) -> Mesh:
 
 
 def block(radius: float, depth: float) -> Mesh:
-    """A cowbell or wood block: a box as wide as the piece, its top at z = 0."""
-    mesh = box((1.3 * radius, 2 * radius, depth), Material.BLACK, 0.006)
-    return mesh.moved(translation([0, 0, -depth / 2]))
-
-
-def stick(length: float) -> Mesh:
-    """A 5A stick along z: butt at 0, tip at `length`; taper and acorn tip after a common 5A's drawing."""
-    r = 0.0072
-    profile: NDArray[np.float64] = np.array(
-        [
-            (0.0, 0.0),
-            (r * 0.8, 0.001),
-            (r, 0.006),
-            (r, length * 0.72),
-            (r * 0.62, length * 0.93),
-            (r * 0.40, length - 0.014),
-            (r * 0.62, length - 0.009),
-            (r * 0.60, length - 0.005),
-            (r * 0.35, length - 0.001),
-            (0.0, length),
-        ]
+    """A cowbell, its top at z = 0: wider and deeper at its mouth, which is turned to the player (−y)."""
+    mesh = box((1.5 * radius, 2 * radius, depth), Material.BLACK, 0.004).moved(translation([0, 0, -depth / 2]))
+    narrows = 1 - _COWBELL_NARROWS * (mesh.position[:, 1:2] / (2 * radius) + 0.5)
+    mouth = box((1.2 * radius, 0.002, 0.75 * depth), Material.RUBBER).moved(
+        translation([0, -radius - 0.0005, -depth / 2])
     )
-    return lathe(profile, 10, Material.WOOD)
+    return joined([replace(mesh, position=mesh.position * np.hstack((narrows, narrows * 0 + 1, narrows))), mouth])
+
+
+_COWBELL_NARROWS = 0.35
+"""How much narrower a cowbell's closed end is (our choice)."""

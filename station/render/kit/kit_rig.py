@@ -8,17 +8,18 @@ from dataclasses import dataclass, replace
 from math import cos, sin
 
 import numpy as np
-from numpy.typing import NDArray
 
 from station.core.pieces import Piece
 from station.motion.kinematics.pose import Pose
 from station.motion.kit.kit import Kit
 from station.motion.kit.piece import KitPiece
+from station.render.geometry.materials import Material
 from station.render.geometry.mesh import Mesh, joined
-from station.render.geometry.transforms import Matrix, frames, rotation_at, translation
-from station.render.kit import hardware, instrument_meshes
+from station.render.geometry.transforms import Matrix, translation
+from station.render.kit import hardware, instrument_meshes, pad_meshes
+from station.render.kit.held_meshes import HELD_BONES, held_matrices, held_meshes
 from station.render.kit.instrument_meshes import Detail
-from station.render.kit.pedal_meshes import axle_of, pedal_meshes, pedals_by_foot, raised
+from station.render.kit.pedal_meshes import PedalBones, clutch_foot, pedal_matrices, pedal_meshes
 from station.render.kit.room import Disc
 
 WORLD = 0
@@ -28,7 +29,7 @@ _RACK_LUGS = 6
 
 @dataclass(frozen=True)
 class KitRig:
-    """`mesh` in the pose of rest, and the bone of each moving part.
+    """`mesh` in the pose of rest, and the bone of each moving part; `sticks` of all that hands may hold.
 
     The mesh's faces lie bone by bone, `faces_of` tells where; the first `still_faces` hardly ever move: hardware and
     drums, which shake by less than a degree.
@@ -37,10 +38,8 @@ class KitRig:
     kit: Kit
     mesh: Mesh
     piece_bones: dict[Piece, int]
-    boards: tuple[int, int]
-    beater: int
-    sticks: tuple[int, int]
-    axle_m: NDArray[np.float64]
+    pedals: PedalBones
+    sticks: range
     bone_count: int
     faces_of: dict[int, slice]
     still_faces: int
@@ -54,11 +53,12 @@ def build_kit(kit: Kit, detail: Detail) -> KitRig:
 def kit_mesh(kit: Kit, detail: Detail) -> Mesh:
     """The mesh of `build_kit` alone: all else follows from it at once."""
     bones = _bones(kit)
-    parts = [_piece_mesh(p, detail).moved(_place(p)).on_bone(bones.of[p.piece]) for p in kit.pieces.values()]
-    parts += [hardware.stands(kit, p, detail) for p in kit.pieces.values()]
-    parts += pedal_meshes(kit, bones.boards, bones.beater, axle_of(kit))
-    parts.append(hardware.throne(kit.seat_m, detail))
-    parts += [instrument_meshes.stick(instrument_meshes.STICK_M).on_bone(bone) for bone in bones.sticks]
+    shell = _SHELLS[kit.finish]
+    parts = [_piece_mesh(p, detail, shell).moved(_place(p)).on_bone(bones.of[p.piece]) for p in kit.pieces.values()]
+    parts += hardware.hardware(kit, detail)
+    parts += pedal_meshes(kit, bones.pedals)
+    parts += [clutch_foot(p).on_bone(bones.of[p.piece]) for p in kit.pieces.values() if p.kind == "hihat"]
+    parts += held_meshes(bones.sticks.start, detail.segments)
     return _bone_by_bone(joined(parts), bones.still)
 
 
@@ -66,10 +66,7 @@ def rig_of(kit: Kit, mesh: Mesh) -> KitRig:
     """The rig of what `kit_mesh` has made of `kit`."""
     bones, faces_of = _bones(kit), _faces_of(mesh)
     still_faces = max(faces_of[bone].stop for bone in bones.still)
-    count = bones.sticks[1] + 1
-    return KitRig(
-        kit, mesh, bones.of, bones.boards, bones.beater, bones.sticks, axle_of(kit), count, faces_of, still_faces
-    )
+    return KitRig(kit, mesh, bones.of, bones.pedals, bones.sticks, bones.sticks.stop, faces_of, still_faces)
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,9 +74,8 @@ class _Bones:
     """The numbers of a kit's bones: `of` its pieces, and the `still` ones, whose faces lie first."""
 
     of: dict[Piece, int]
-    boards: tuple[int, int]
-    beater: int
-    sticks: tuple[int, int]
+    pedals: PedalBones
+    sticks: range
     still: list[int]
 
 
@@ -87,7 +83,9 @@ def _bones(kit: Kit) -> _Bones:
     of = {piece: 1 + i for i, piece in enumerate(kit.pieces)}
     first = 1 + len(of)
     still = [WORLD, *(of[p.piece] for p in kit.pieces.values() if p.kind not in _SWINGING)]
-    return _Bones(of, (first, first + 1), first + 2, (first + 3, first + 4), still)
+    pedals = PedalBones.of(first)
+    held = pedals[-1] + 1
+    return _Bones(of, pedals, range(held, held + 2 * HELD_BONES), still)
 
 
 _SWINGING = ("cymbal", "hihat")
@@ -116,14 +114,23 @@ def _place(piece: KitPiece) -> Matrix:
     return m
 
 
-def _piece_mesh(piece: KitPiece, detail: Detail) -> Mesh:
-    if piece.kind == "kick":
-        return instrument_meshes.kick(piece.radius_m, piece.depth_m, detail)
-    if piece.kind in ("cymbal", "hihat"):
-        return instrument_meshes.cymbal(piece.radius_m, detail)
+_SHELLS = {"teal": Material.SHELL, "maple": Material.MAPLE, "black": Material.LACQUER}
+
+
+def _piece_mesh(piece: KitPiece, detail: Detail, shell: Material) -> Mesh:
+    radius, depth = piece.radius_m, piece.depth_m
     if piece.kind == "block":
-        return instrument_meshes.block(piece.radius_m, piece.depth_m)
-    return instrument_meshes.drum(piece.radius_m, piece.depth_m, _LUGS.get(piece.piece, _RACK_LUGS), detail)
+        return instrument_meshes.block(radius, depth)
+    if piece.kind in ("cymbal", "hihat"):
+        if piece.electronic:
+            return pad_meshes.rubber_cymbal(radius, detail)
+        mesh = instrument_meshes.cymbal(radius, detail, is_china=piece.piece is Piece.CHINA)
+        return joined([mesh, instrument_meshes.nut(detail)]) if piece.kind == "hihat" else mesh
+    if piece.electronic:
+        return (pad_meshes.kick_pad if piece.kind == "kick" else pad_meshes.pad)(radius, depth, detail)
+    if piece.kind == "kick":
+        return instrument_meshes.kick(radius, depth, detail, shell)
+    return instrument_meshes.drum(radius, depth, _LUGS.get(piece.piece, _RACK_LUGS), detail, shell)
 
 
 # --- posing -----------------------------------------------------------------------------------------------------------
@@ -133,36 +140,27 @@ def bone_matrices(rig: KitRig, pose: Pose | None) -> Matrix:
     """A matrix for every bone of the rig, (bones, 4, 4); without a pose the kit is at rest and the sticks are away."""
     m = np.tile(np.eye(4), (rig.bone_count, 1, 1))
     if pose is None:
-        m[list(rig.sticks)] = 0.0
+        m[rig.sticks] = 0.0
         return m
     for (piece, bone), swing in zip(rig.piece_bones.items(), pose.swing_rad, strict=True):
         part = rig.kit.pieces[piece]
         if swing[0] or swing[1]:
             m[bone] = _tipped(part, float(swing[0]), float(swing[1]))
-        if part.kind == "hihat":
+        if part.kind == "hihat" and not part.electronic:
             m[bone] = translation(part.normal * pose.hat_gap_m) @ m[bone]
-    for bone, pedal, angle in zip(rig.boards, pedals_by_foot(rig.kit), pose.footboard_rad, strict=True):
-        m[bone] = raised(pedal, angle)
-    m[rig.beater] = rotation_at(rig.axle_m, [1, 0, 0], pose.beater_rad)
-    m[list(rig.sticks)] = stick_matrices(pose)
+    m[list(rig.pedals)] = pedal_matrices(rig.kit, pose)
+    m[rig.sticks] = held_matrices(pose, rig.kit)
     return m
 
 
 def _tipped(piece: KitPiece, back_rad: float, side_rad: float) -> Matrix:
-    """A turn about the piece's away axis, then about its right axis, its centre staying where it is."""
+    """A turn about the piece's away axis, then about its right axis, round a cymbal's hole or a drum's centre."""
     (ca, sa), (cb, sb) = ((cos(angle), sin(angle)) for angle in (back_rad, side_rad))
     own = np.array([[cb, 0.0, sb], [sa * sb, ca, -sa * cb], [-ca * sb, sa, ca * cb]])
     m = np.eye(4)
     m[:3, :3] = piece.axes.T @ own @ piece.axes
-    m[:3, 3] = piece.centre - m[:3, :3] @ piece.centre
-    return m
-
-
-def stick_matrices(pose: Pose) -> Matrix:
-    """The matrices of the right and the left stick, (2, 4, 4)."""
-    along = pose.tip_m - pose.butt_m
-    m = frames(pose.butt_m, along, np.tile([1.0, 0.0, 0.0], (2, 1)))
-    m[:, :3, 2] *= np.linalg.norm(along, axis=1, keepdims=True) / instrument_meshes.STICK_M
+    at = piece.centre + instrument_meshes.HOLE_M * piece.normal if piece.kind in _SWINGING else piece.centre
+    m[:3, 3] = at - m[:3, :3] @ at
     return m
 
 
@@ -177,7 +175,7 @@ def floor_discs(kit: Kit) -> list[Disc]:
             discs += [(x, y, z, piece.radius_m * 0.8), (x, y, 0.02, 0.06)]
         else:
             discs.append((x, y, max(z - piece.depth_m, 0.05), piece.radius_m))
-    for pedal in kit.pedals.values():
+    for pedal in (*kit.pedals.values(), *([kit.slave] if kit.slave else [])):
         heel, toe = np.array(pedal.heel_m), np.array(pedal.toe_m)
         discs += [(*(heel + (toe - heel) * k)[:2].tolist(), 0.02, 0.05) for k in (0.1, 0.5, 0.9)]
     return discs

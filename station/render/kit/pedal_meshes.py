@@ -1,86 +1,249 @@
-"""The two pedals: footboards, bases, the kick's axle and its beater.
+"""The pedals: boards, frames, beaters and what links them; a double pedal's slave and its shaft; the hi-hat's pull rod.
 
-The beater's felt meets the kick's head at its centre when its angle is 0; metres.
+A beater's felt meets the kick's head when its angle is 0. The hi-hat's rod goes down with its board; its clutch takes
+the upper cymbal along, or leaves it lying where the foot has dropped it. Metres.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Piece
+from station.motion.kinematics.pedal_motion import BEATER_HALF_M, BEATER_LENGTH_M, OPEN_GAP_M
+from station.motion.kinematics.pose import Pose
 from station.motion.kit.kit import Kit, Pedal
+from station.motion.kit.piece import KitPiece
 from station.render.geometry.materials import Material
-from station.render.geometry.mesh import Mesh, box, joined, lathe, rod
-from station.render.geometry.transforms import Matrix, frame, rotation_at, unit
+from station.render.geometry.mesh import Mesh, ball, box, joined, lathe, rod
+from station.render.geometry.transforms import Matrix, frame, frames, rotation_at, translation, unit
 
-_BEATER_LENGTH_M = 0.20
-"""From the pedal's axle to the middle of the beater; common pedals set it to 19–22 cm."""
-_BEATER_HALF_M = 0.016
-"""Half the felt's thickness, from the shaft to the face that strikes (our choice)."""
+Vector = NDArray[np.float64]
+
+TUBE_M = 0.20
+"""Height at which the hi-hat's frame holds its tube, into which the board's strap pulls the rod (our choice)."""
+_AXLE_AHEAD_M = 0.045
+"""From a board's toe end to the axle that its strap turns (our choice)."""
+_CAM_M = 0.02
+"""The strap's end is so far above the axle (our choice)."""
+_POST_M = 0.052
+"""Half the breadth of a pedal's frame, a little over half its board's (our choice)."""
 
 
-def axle_of(kit: Kit) -> NDArray[np.float64]:
+class PedalBones(NamedTuple):
+    """The numbers of the bones that move with the feet; straps reach from the first to the second place."""
+
+    right_board: int
+    left_board: int
+    beater: int
+    slave_board: int
+    slave_beater: int
+    kick_strap: int
+    slave_strap: int
+    hat_strap: int
+    hat_rod: int
+
+    @classmethod
+    def of(cls, first: int) -> "PedalBones":
+        """The bones from `first` on."""
+        return cls(*range(first, first + len(cls._fields)))
+
+
+def axle_of(kit: Kit) -> Vector:
     """The middle of the bass pedal's axle: right below the beater's rest on the head, a beater's length under it."""
     head = kit.pieces[Piece.KICK].centre
-    return np.array([head[0], head[1] - _BEATER_HALF_M, head[2] - _BEATER_LENGTH_M])
+    return np.array([head[0], head[1] - BEATER_HALF_M, head[2] - BEATER_LENGTH_M])
 
 
-def pedal_meshes(kit: Kit, boards: tuple[int, int], beater: int, axle: NDArray[np.float64]) -> list[Mesh]:
-    """Both pedals at rest: boards and beater on their bones, the rest on the world's."""
+def pedal_meshes(kit: Kit, bones: PedalBones) -> list[Mesh]:
+    """All pedals at rest: what moves on its bone, the rest on the world's."""
     kick, hat = kit.pedals[Piece.KICK], kit.pedals[Piece.HIHAT_PEDAL]
-    parts = [_board(pedal).on_bone(bone) for pedal, bone in zip(pedals_by_foot(kit), boards, strict=True)]
-    parts += [_base(kick), _base(hat)]
-    x, y, z = axle
-    for side in (-0.055, 0.055):
-        parts.append(rod([x + side, y, 0.01], [x + side, y, z], 0.011, Material.BLACK, 8))
-    parts.append(rod([x - 0.07, y, z], [x + 0.07, y, z], 0.007, Material.STEEL, 8))
-    top, half = axle + np.array([0, 0, _BEATER_LENGTH_M]), _BEATER_HALF_M
-    felt = [(0, -half), (0.02, -half), (0.025, -half / 2), (0.025, half / 2), (0.02, half), (0, half)]
-    shaft = [
-        rod(axle, top, 0.0045, Material.STEEL, 6),
-        lathe(felt, 14, Material.FELT).moved(frame(top, [0, 1, 0], [1, 0, 0])),
-    ]
-    parts += [p.on_bone(beater) for p in shaft]
+    parts = [_board(p).on_bone(b) for p, b in zip(kit.pedals_by_foot, bones[:2], strict=True)]
+    parts += [_base(kick), _base(hat), _strap().on_bone(bones.kick_strap), _beater(axle_of(kit)).on_bone(bones.beater)]
+    low = high = axle_of(kit)
+    if kit.slave is not None:
+        second = axle_of(kit) + kit.second_beater_m
+        low, high = sorted((low, second), key=lambda p: float(p[0]))
+        parts += [
+            _board(kit.slave).on_bone(bones.slave_board),
+            _base(kit.slave),
+            _strap().on_bone(bones.slave_strap),
+            _beater(second).on_bone(bones.slave_beater),
+            *_shaft(kit, kit.slave),
+        ]
+    out = np.array([_POST_M, 0.0, 0.0])
+    parts += _frame(low - out, high + out)
+    if Piece.HIHAT in kit.pieces:
+        parts += [_strap().on_bone(bones.hat_strap), _pull_rod(kit.pieces[Piece.HIHAT]).on_bone(bones.hat_rod)]
+        parts.append(_hat_frame(kit.pieces[Piece.HIHAT], hat))
     return parts
 
 
-def pedals_by_foot(kit: Kit) -> tuple[Pedal, Pedal]:
-    """The pedals under the right and the left foot."""
+def pedal_matrices(kit: Kit, pose: Pose) -> Matrix:
+    """The matrices of `PedalBones`, (9, 4, 4)."""
+    m = np.tile(np.eye(4), (len(PedalBones._fields), 1, 1))
+    bones = PedalBones.of(0)
+    angles = dict(zip(kit.pedals_by_foot, pose.footboard_rad, strict=True))
+    for bone, (pedal, angle) in enumerate(angles.items()):
+        m[bone] = raised(pedal, angle)
     kick, hat = kit.pedals[Piece.KICK], kit.pedals[Piece.HIHAT_PEDAL]
-    return (hat, kick) if kit.left_handed else (kick, hat)
-
-
-def _board(pedal: Pedal) -> Mesh:
-    """The footboard lying flat."""
-    heel, toe = np.array(pedal.heel_m), np.array(pedal.toe_m)
-    along = unit(toe - heel)
-    length = float(np.linalg.norm(toe - heel))
-    side = unit(np.cross(along, [0.0, 0.0, 1.0]))
-    plate = box((0.085, 0.012, length), Material.STEEL, 0.004).moved(
-        frame((heel + toe) / 2 - np.array([0, 0, 0.008]), along, side)
-    )
-    grip = box((0.06, 0.004, length * 0.55), Material.RUBBER, 0.001).moved(
-        frame(heel + along * length * 0.62, along, side)
-    )
-    return joined([plate, grip])
-
-
-def _base(pedal: Pedal) -> Mesh:
-    heel, toe = np.array(pedal.heel_m), np.array(pedal.toe_m)
-    along = unit(toe - heel)
-    side = unit(np.cross(along, [0.0, 0.0, 1.0]))
-    middle = (heel + toe) / 2
-    length = float(np.linalg.norm(toe - heel))
-    plate = box((0.10, 0.008, length + 0.06), Material.BLACK, 0.002).moved(
-        frame([middle[0], middle[1], 0.006], along, side)
-    )
-    block = box((0.09, 0.02, 0.05), Material.STEEL, 0.004).moved(
-        frame(heel - along * 0.035 - np.array([0, 0, 0.012]), along, side)
-    )
-    return joined([plate, block])
+    axle, cam = axle_of(kit), np.array([0.0, 0.0, _CAM_M])
+    m[bones.beater] = rotation_at(axle, [1, 0, 0], pose.beater_rad)
+    ends = [(bones.kick_strap, kick, angles[kick], axle + cam)]
+    if kit.slave is not None:
+        board, beater = pose.slave_rad
+        m[bones.slave_board] = raised(kit.slave, board)
+        m[bones.slave_beater] = rotation_at(axle + kit.second_beater_m, [1, 0, 0], beater)
+        ends.append((bones.slave_strap, kit.slave, board, _slave_axle(kit, kit.slave) + cam))
+    if Piece.HIHAT in kit.pieces:
+        piece = kit.pieces[Piece.HIHAT]
+        lifted = piece.normal * (OPEN_GAP_M * angles[hat] / hat.raised_rad if hat.raised_rad else 0.0)
+        m[bones.hat_rod] = translation(lifted)
+        x, y, _ = piece.centre_m
+        ends.append((bones.hat_strap, hat, angles[hat], np.array([x, y, TUBE_M]) + lifted))
+    froms = np.array([(raised(pedal, angle) @ [*pedal.toe_m, 1.0])[:3] for _, pedal, angle, _ in ends])
+    ways = np.array([to for *_, to in ends]) - froms
+    straps = frames(froms, ways, np.tile([1.0, 0.0, 0.0], (len(ends), 1)))
+    straps[:, :3, 2] = ways
+    m[[bone for bone, *_ in ends]] = straps
+    return m
 
 
 def raised(pedal: Pedal, angle_rad: float) -> Matrix:
     """A footboard turned up about its heel."""
-    heel = np.array(pedal.heel_m)
-    along = unit(np.array(pedal.toe_m) - heel)
-    return rotation_at(heel, (along[1], -along[0], 0.0), angle_rad)
+    along = _along(pedal)
+    return rotation_at(pedal.heel_m, (along[1], -along[0], 0.0), angle_rad)
+
+
+# --- parts ------------------------------------------------------------------------------------------------------------
+
+
+def _along(pedal: Pedal) -> Vector:
+    return unit(np.array(pedal.toe_m) - np.array(pedal.heel_m))
+
+
+def _side(pedal: Pedal) -> Vector:
+    """To the right of the board."""
+    return unit(np.cross(_along(pedal), [0.0, 0.0, 1.0]))
+
+
+def _board(pedal: Pedal) -> Mesh:
+    """The footboard lying flat; the top of its grip is where the sole is."""
+    heel, toe = np.array(pedal.heel_m), np.array(pedal.toe_m)
+    along, side = _along(pedal), _side(pedal)
+    length = float(np.linalg.norm(toe - heel))
+    down = np.array([0.0, 0.0, -1.0])
+    plate = box((0.085, 0.012, length), Material.STEEL, 0.004)
+    grip = box((0.06, 0.004, length * 0.55), Material.RUBBER, 0.001)
+    return joined(
+        [
+            plate.moved(frame((heel + toe) / 2 + 0.008 * down, along, side)),
+            grip.moved(frame(heel + along * length * 0.62 + 0.002 * down, along, side)),
+        ]
+    )
+
+
+def _base(pedal: Pedal) -> Mesh:
+    heel, toe = np.array(pedal.heel_m), np.array(pedal.toe_m)
+    along, side = _along(pedal), _side(pedal)
+    length = float(np.linalg.norm(toe - heel))
+    middle = (heel + toe) / 2
+    plate = box((0.10, 0.008, length + 0.06), Material.BLACK, 0.002)
+    block = box((0.09, 0.02, 0.05), Material.STEEL, 0.004)
+    return joined(
+        [
+            plate.moved(frame([middle[0], middle[1], 0.006], along, side)),
+            block.moved(frame(heel - along * 0.035 - np.array([0, 0, 0.012]), along, side)),
+        ]
+    )
+
+
+def _beater(axle: Vector) -> Mesh:
+    top, half = axle + np.array([0, 0, BEATER_LENGTH_M]), BEATER_HALF_M
+    felt = [(0, -half), (0.02, -half), (0.025, -half / 2), (0.025, half / 2), (0.02, half), (0, half)]
+    hub = [(0, -0.012), (0.013, -0.012), (0.013, 0.012), (0, 0.012)]
+    return joined(
+        [
+            rod(axle, top, 0.0045, Material.STEEL, 6),
+            lathe(felt, 14, Material.FELT).moved(frame(top, [0, 1, 0], [1, 0, 0])),
+            lathe(hub, 10, Material.BLACK).moved(frame(axle, [1, 0, 0], [0, 1, 0])),
+        ]
+    )
+
+
+def _strap() -> Mesh:
+    """A strap from z = 0 to 1, which its bone stretches between its ends."""
+    return box((0.018, 0.004, 1.0), Material.STEEL, 0.0).moved(translation([0.0, 0.0, 0.5]))
+
+
+def _frame(left: Vector, right: Vector) -> list[Mesh]:
+    """Two posts and the axle between them."""
+    posts = [rod([x, y, 0.01], [x, y, z], 0.011, Material.BLACK, 8) for x, y, z in (left, right)]
+    return [*posts, rod(left, right, 0.007, Material.STEEL, 8)]
+
+
+def _slave_axle(kit: Kit, slave: Pedal) -> Vector:
+    """The middle of the slave's axle, as high as the kick's."""
+    x, y, _ = np.array(slave.toe_m) + _AXLE_AHEAD_M * _along(slave)
+    return np.array([x, y, axle_of(kit)[2]])
+
+
+def _shaft(kit: Kit, slave: Pedal) -> list[Mesh]:
+    """The slave's own frame, and the shaft with a joint at each end that turns the second beater."""
+    axle, side = _slave_axle(kit, slave), _side(slave)
+    inward = side if kit.second_beater_m[0] < 0 else -side
+    near = axle + (_POST_M + 0.02) * inward
+    far = axle_of(kit) + kit.second_beater_m * (1 + (_POST_M + 0.02) / np.linalg.norm(kit.second_beater_m))
+    way = unit(far - near)
+    return [
+        *_frame(axle - _POST_M * side, axle + _POST_M * side),
+        rod(axle, near, 0.007, Material.STEEL, 8),
+        ball(near, 0.014, Material.BLACK, 8),
+        ball(far, 0.014, Material.BLACK, 8),
+        rod(near, near + 0.55 * (far - near), 0.0085, Material.BLACK, 8),
+        rod(near + 0.5 * (far - near), far, 0.006, Material.CHROME, 8),
+        rod(near + way * 0.1, near + way * 0.115, 0.012, Material.CHROME, 8),
+    ]
+
+
+def _hat_frame(piece: KitPiece, pedal: Pedal) -> Mesh:
+    """What stands about the hi-hat's strap: two posts beside the board's toe end, and the bridge under the tube."""
+    side = _side(pedal)
+    top = np.array([piece.centre_m[0], piece.centre_m[1], TUBE_M])
+    toe = np.array([pedal.toe_m[0], pedal.toe_m[1], 0.012])
+    posts = [
+        rod(toe + s * _POST_M * side, top + 0.6 * s * _POST_M * side, 0.008, Material.BLACK, 8) for s in (-1.0, 1.0)
+    ]
+    bridge = box((1.4 * _POST_M, 0.03, 0.03), Material.BLACK, 0.005).moved(frame(top, [0, 0, 1], side))
+    return joined([*posts, bridge])
+
+
+def _pull_rod(piece: KitPiece) -> Mesh:
+    """The rod with the clutch's upper half, the board lying flat; below it runs in the tube."""
+    top, normal = piece.centre, piece.normal
+    x, y, _ = piece.centre_m
+    clutch = [(0, 0.0), (0.011, 0.0), (0.011, 0.034), (0.006, 0.040), (0, 0.040)]
+    return joined(
+        [
+            rod([x, y, TUBE_M + 0.01], top - 0.05 * normal, 0.004, Material.STEEL, 6),
+            rod(top - 0.05 * normal, top + 0.20 * normal, 0.004, Material.STEEL, 6),
+            lathe(clutch, 10, Material.CHROME).moved(frame(top + CLUTCH_M * normal, normal, piece.axes[0])),
+            rod(
+                top + (CLUTCH_M + 0.022) * normal,
+                top + (CLUTCH_M + 0.022) * normal - 0.03 * piece.axes[0],
+                0.004,
+                Material.CHROME,
+                6,
+            ),
+        ]
+    )
+
+
+CLUTCH_M = 0.044
+"""The clutch's upper half sits so high over the upper cymbal's bow, on the felts over its bell."""
+
+
+def clutch_foot(piece: KitPiece) -> Mesh:
+    """What of the clutch is the upper cymbal's: the felts over its bell and the nut under it."""
+    felts = [(0, 0.016), (0.017, 0.016), (0.017, 0.036), (0.008, 0.038), (0.008, CLUTCH_M), (0, CLUTCH_M)]
+    return lathe(felts, 12, Material.FELT).moved(frame(piece.centre, piece.normal, piece.axes[0]))

@@ -1,13 +1,19 @@
 """What the figure panel sets: when it is kept, and under which name. Shipped styles are read from their own files."""
 
+from dataclasses import replace
 from pathlib import Path
+
+import pytest
 
 from station.app.actions import EditStyle, KeepSlot, LoadStyle, SaveStyle
 from station.app.settings_store import SettingsStore
 from station.app.style_editor import StyleEditor
+from station.core.errors import BadInput
 from station.core.settings import Settings, load_settings, save_settings
 from station.drills.library import find_lesson
+from station.motion.kinematics.figure import load_figure
 from station.motion.style.style_file import load_style
+from station.scenes.demonstrator import demonstrator_of
 
 SCORE = find_lesson("rock-1").score
 
@@ -50,3 +56,31 @@ def test_a_saved_style_is_no_change_any_more(tmp_path: Path) -> None:
     store.write()
     assert not made.view().options.is_changed
     assert load_style(load_settings(tmp_path / "settings.toml").style).amplitude_neck == 12.0
+
+
+def test_a_style_brings_its_drummer_unless_one_is_chosen(tmp_path: Path) -> None:
+    made, store = editor(tmp_path)
+    mine = tmp_path / "mine.toml"
+    mine.write_text('drummer = "curls"\namplitude_gain = 60.0\n')
+    assert made.demonstrator.figure == load_figure("headphones")
+    made.act(LoadStyle(str(mine)), SCORE)
+    assert made.demonstrator.figure == load_figure("curls")
+    body = made.demonstrator.figure
+    made.act(EditStyle(made.view().options.put("amplitude_gain", 90.0)), SCORE)
+    assert made.demonstrator.figure is body, "a slider makes no new drummer"
+    made.embody("beard")
+    assert made.demonstrator.figure == load_figure("beard")
+    made.act(LoadStyle("natural"), SCORE)
+    made.act(LoadStyle(str(mine)), SCORE)
+    assert made.demonstrator.figure == load_figure("beard")
+    made.embody("")
+    assert made.demonstrator.figure == load_figure("curls")
+    assert demonstrator_of(replace(store.now, style=str(mine)), print).figure == load_figure("curls")
+
+
+def test_a_style_that_names_nobody_there_is_refused(tmp_path: Path) -> None:
+    made, _ = editor(tmp_path)
+    mine = tmp_path / "mine.toml"
+    mine.write_text('drummer = "curl"\n')
+    with pytest.raises(BadInput, match="curls"):
+        made.act(LoadStyle(str(mine)), SCORE)

@@ -8,7 +8,10 @@ import pytest
 from station.app.view_settings import SLOTS, ViewSettings, view_settings_of, with_view_settings
 from station.core.errors import BadInput
 from station.core.settings import Settings, load_settings, save_settings
-from station.render.camera import NamedView, named
+from station.motion.kinematics.figure import figure_of
+from station.motion.kit.kit import load_kit
+from station.render.camera import NamedView
+from station.render.framing import Stage, named
 from station.render.gpu.moving_parts import DoublePlace
 from station.render.painter import inset_area
 from station.render.palette import Theme
@@ -77,7 +80,7 @@ def test_what_is_no_look_is_named(settings: Settings, fault: str) -> None:
 
 def test_on_a_left_handed_kit_the_hands_close_ups_change_sides() -> None:
     """A left-handed kit is the right-handed one mirrored in x = 0: what was the right hand's is the left's."""
-    right, left = named(NamedView.RIGHT_HAND), named(NamedView.LEFT_HAND, left_handed=True)
+    right, left = named(NamedView.RIGHT_HAND), named(NamedView.LEFT_HAND, Stage(load_kit().mirrored, figure_of()))
     assert left.eye == pytest.approx((-right.eye[0], *right.eye[1:]))
 
 

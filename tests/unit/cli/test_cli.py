@@ -340,7 +340,7 @@ def test_limbs_can_be_edited_as_text(capsys: pytest.CaptureFixture[str], tmp_pat
     assert limbs == ["right_hand", "left_hand", "left_hand", "left_hand"]
 
 
-def test_animate_draws_the_figure_that_is_asked_for(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_animate_draws_the_drummer_who_is_asked_for(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "x.npz"
     assert main(["animate", "rock-1", "--end-bar", "1", "--fps", "10", "--stature", "1.5", "--out", str(out)]) == 0
     with np.load(out) as read:
@@ -350,8 +350,8 @@ def test_animate_draws_the_figure_that_is_asked_for(tmp_path: Path, capsys: pyte
     capsys.readouterr()
     assert "expected 0.8 to 2.4 metres" in refused(capsys, "animate", "rock-1", "--stature", "17", "--out", str(out))
     assert "the score has bars 1 to 2" in refused(capsys, "animate", "rock-1", "--end-bar", "0", "--out", str(out))
-    assert "no such figure; there is small" in refused(
-        capsys, "animate", "rock-1", "--figure", "smal", "--out", str(out)
+    assert "no such drummer; there is beard" in refused(
+        capsys, "animate", "rock-1", "--drummer", "bear", "--out", str(out)
     )
 
 

@@ -8,8 +8,8 @@ import pytest
 
 from station.motion.kinematics.arm import Arm, ArmLengths, Contact, Offsets, solve
 from station.motion.kinematics.figure import figure_of
+from station.motion.kinematics.grip import GRIPS, HELD, Hold
 from station.motion.kinematics.maths import MANY, ONE
-from station.motion.strokes.grip import GRIPS, HELD, Hold
 
 LENGTHS = ArmLengths(upper=0.33, fore=0.26, hand=0.15, ahead=0.27, behind=0.135)
 SHOULDER = (0.22, 0.03, 1.09)

@@ -103,7 +103,7 @@ def test_the_ends_of_posture_leave_the_wrists_within_their_limits(lesson: str, s
 
 
 def test_a_drum_that_is_bigger_than_the_drummer_knows_is_gone_through() -> None:
-    drummer = Drummer(score_of(ROCK))
+    drummer = Drummer(score_of(ROCK), style=Style(variation=0.0))
     snare = drummer.kit.pieces[Piece.SNARE]
     x, y, z = snare.centre_m
     raised = replace(snare, centre_m=(x, y, z + 0.02))
@@ -111,7 +111,7 @@ def test_a_drum_that_is_bigger_than_the_drummer_knows_is_gone_through() -> None:
     found = audit(replace(drummer, kit=kit))
     assert found.kit_m.value == pytest.approx(0.02, abs=0.004)
     assert "snare" in found.kit_m.what
-    assert found.strike_m.value == pytest.approx(0.02, abs=1e-6)
+    assert found.strike_m.value == pytest.approx(0.02, abs=1e-4)
 
 
 def test_a_joint_beyond_its_limit_is_named() -> None:

@@ -16,6 +16,11 @@ from tests.unit.motion.patterns import ROCK, score_of
 RNG = np.random.default_rng(7)
 
 
+def plain(**controls: float) -> Style:
+    """The beat alone: no chance, no phrase, no fills, no glances, but for `controls`."""
+    return Style(**{"variation": 0.0, "phrase": 0.0, "fill_lean": 0.0, "look_around": 0.0, **controls})  # type: ignore[arg-type] # numbers only
+
+
 def angle(drummer: Drummer, name: str, at: np.ndarray) -> np.ndarray:
     return drummer.rows(at)[:, ANGLES.start + ANGLE_NAMES.index(name)]
 
@@ -59,7 +64,7 @@ def test_a_higher_frequency_falls_later_onto_the_beat() -> None:
     score = score_of([(4 * i, Piece.SNARE) for i in range(16)])
     last = []
     for frequency in (0.0, 25.0, 50.0, 75.0, 100.0):
-        drummer = Drummer(score, style=Style(frequency_back=frequency))
+        drummer = Drummer(score, style=plain(frequency_back=frequency))
         up, near, down = angle(drummer, "torso_lean", 4.8 - np.array([0.3, 0.075, 0.0]))
         last.append((down - near) / (down - up))
     assert last[2] == pytest.approx(0.156, abs=0.005)
@@ -68,14 +73,14 @@ def test_a_higher_frequency_falls_later_onto_the_beat() -> None:
 
 
 def test_the_back_sways_forward_on_the_beat_and_up_between() -> None:
-    drummer = Drummer(score_of([(4 * i, p) for i in range(32) for p in (1,)], tempo_bpm=100))  # type: ignore[misc]
+    drummer = Drummer(score_of([(4 * i, p) for i in range(32) for p in (1,)], tempo_bpm=100), style=plain())  # type: ignore[misc]
     beats = 0.6 * np.arange(4, 20)
     on, between = angle(drummer, "torso_lean", beats), angle(drummer, "torso_lean", beats + 0.3)
     assert (on - between).min() > np.radians(2.0)
 
 
 def test_above_130_bpm_it_sways_in_half_time() -> None:
-    drummer = Drummer(score_of(ROCK * 1, tempo_bpm=150))
+    drummer = Drummer(score_of(ROCK * 1, tempo_bpm=150), style=plain())
     lean = angle(drummer, "torso_lean", 0.4 * np.arange(4))
     assert lean[0] > lean[1] + np.radians(1.5)
     assert lean[2] > lean[1] + np.radians(1.5)
@@ -86,7 +91,7 @@ def test_the_torso_turns_no_faster_than_its_ceiling(ceiling: float) -> None:
     """Measured on the angles, through a tempo change, between the crash on the left and the floor tom on the right."""
     notes = [Note(4 * i * PPQ, p) for i in range(24) for p in ((Piece.FLOOR_TOM_1,) if i % 2 else (Piece.CRASH_1,))]
     tempo_map = TempoMap.build([TempoChange(0, 500_000), TempoChange(32 * PPQ, 250_000)], [MeterChange(0, 4, 4)])
-    drummer = Drummer(Score.from_notes(notes, tempo_map), style=Style(amplitude_twist=100, twist_deg_s=ceiling))
+    drummer = Drummer(Score.from_notes(notes, tempo_map), style=plain(amplitude_twist=100, twist_deg_s=ceiling))
     at = np.arange(-1.0, 33.0, 0.005)
     speed = np.degrees(np.abs(np.diff(angle(drummer, "torso_twist", at)))) / 0.005
     assert 0.5 * ceiling < speed.max() <= 1.001 * ceiling
@@ -95,20 +100,20 @@ def test_the_torso_turns_no_faster_than_its_ceiling(ceiling: float) -> None:
 def test_half_time_keeps_to_the_bar() -> None:
     """In 3/4 at 180 bpm the body goes forward on the first beat alone, in every bar."""
     tempo_map = TempoMap.build([TempoChange(0, 333_333)], [MeterChange(0, 3, 4)])
-    drummer = Drummer(Score.from_notes([Note(i * PPQ, Piece.SNARE) for i in range(24)], tempo_map))
+    drummer = Drummer(Score.from_notes([Note(i * PPQ, Piece.SNARE) for i in range(24)], tempo_map), style=plain())
     lean = angle(drummer, "torso_lean", np.arange(24) / 3).reshape(8, 3)
     assert (lean[1:, 0] > lean[1:, 1:].max(axis=1) + np.radians(2)).all()
 
 
 def test_the_body_sways_from_side_to_side_with_the_beat() -> None:
-    drummer = Drummer(score_of(ROCK), style=Style(amplitude_side=80))
+    drummer = Drummer(score_of(ROCK), style=plain(amplitude_side=80))
     side = angle(drummer, "torso_side", 0.6 * np.arange(4))
     assert (np.abs(side) > np.radians(2)).all()
     assert (side[1:] * side[:-1] < 0).all()
 
 
 def test_the_head_tilts_from_side_to_side() -> None:
-    on, off = (Drummer(score_of(ROCK), style=Style(amplitude_head_side=a, amplitude_gaze=0)) for a in (80.0, 0.0))
+    on, off = (Drummer(score_of(ROCK), style=plain(amplitude_head_side=a, amplitude_gaze=0)) for a in (80.0, 0.0))
     tilt = angle(on, "head_tilt", 0.6 * np.arange(4)) - angle(off, "head_tilt", 0.6 * np.arange(4))
     assert (np.abs(tilt) > np.radians(5)).all()
     assert (tilt[1:] * tilt[:-1] < 0).all()
@@ -116,20 +121,20 @@ def test_the_head_tilts_from_side_to_side() -> None:
 
 def test_the_head_bobs_on_every_other_beat_where_it_is_told() -> None:
     score = score_of([(4 * i, Piece.SNARE) for i in range(16)])
-    slow = Drummer(score, style=Style(bobs_per_beat=0.5, amplitude_gaze=0))
+    slow = Drummer(score, style=plain(bobs_per_beat=0.5, amplitude_gaze=0))
     nod = angle(slow, "head_nod", 0.6 * np.arange(16)).reshape(8, 2)
     assert (nod[:, 0] > nod[:, 1] + np.radians(3)).all()
 
 
 def test_the_head_goes_back_before_the_music_starts_again() -> None:
     score = score_of([(0, Piece.SNARE), (16, Piece.SNARE), (20, Piece.SNARE)])
-    drummer = Drummer(score, style=Style(amplitude_gaze=0))
+    drummer = Drummer(score, style=plain(amplitude_gaze=0))
     before, within = angle(drummer, "head_nod", np.array([4 * 0.6 - 0.3, 5 * 0.6 - 0.3]))
     assert before < -np.radians(3) < within
 
 
 def test_the_back_is_upright_between_the_beats_and_breathing_goes_on() -> None:
-    quiet, deep = (Drummer(score_of(ROCK), style=Style(breathing=b, shrug=0)) for b in (0.0, 100.0))
+    quiet, deep = (Drummer(score_of(ROCK), style=plain(breathing=b, shrug=0)) for b in (0.0, 100.0))
     at = np.arange(0.0, 8.0, 0.05)
     height = [d.rows(at)[:, JOINTS][:, 3 * Joint.RIGHT_SHOULDER + 2] for d in (quiet, deep)]
     assert 0.008 < np.ptp(height[1] - height[0]) < 0.03  # HUMANS has no number; a breath lifts by a centimetre or two
@@ -137,6 +142,6 @@ def test_the_back_is_upright_between_the_beats_and_breathing_goes_on() -> None:
 
 def test_bobs_on_half_beats() -> None:
     score = score_of(ROCK)
-    whole, half = (Drummer(score, style=Style(bobs_per_beat=n, amplitude_gaze=0)) for n in (1, 2))
+    whole, half = (Drummer(score, style=plain(bobs_per_beat=n, amplitude_gaze=0)) for n in (1, 2))
     between = 0.3 + 0.6 * np.arange(3)
     assert angle(half, "head_nod", between).mean() > angle(whole, "head_nod", between).mean() + np.radians(0.5)

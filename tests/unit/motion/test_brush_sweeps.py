@@ -16,7 +16,7 @@ from station.music.tempo import TempoMap
 Array = NDArray[np.float64]
 
 R, L = Limb.RIGHT_HAND, Limb.LEFT_HAND
-BRUSHES = Style(held="brush")
+BRUSHES = Style(held="brush", variation=0.0)
 
 
 def jazz(left: bool, tempo_bpm: float = 100) -> Drummer:

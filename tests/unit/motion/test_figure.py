@@ -9,7 +9,7 @@ from station.core.errors import BadInput
 from station.core.pieces import Articulation, Limb, Piece, Zone
 from station.motion.drummer import Drummer
 from station.motion.kinematics.arm import Offsets, solve
-from station.motion.kinematics.figure import PARENT, Joint, figure_of, load_figure
+from station.motion.kinematics.figure import PARENT, Joint, figure_names, figure_of, load_figure
 from station.motion.kinematics.frame import ANGLES
 from station.motion.kinematics.maths import ONE
 from station.motion.kinematics.pose import ANGLE_NAMES
@@ -38,9 +38,31 @@ def test_limits_are_the_published_ones() -> None:
     assert math.degrees(limits.wrist_radial) == pytest.approx(20)
 
 
-@pytest.mark.parametrize("name", ["median", "tall", "small"])
-def test_shipped_figures_load(name: str) -> None:
-    assert 1.5 < load_figure(name).stature_m < 2.0
+def test_shipped_drummers_are_of_different_build_and_look() -> None:
+    figures = [load_figure(name) for name in figure_names()]
+    assert len(figures) >= 3
+    assert figure_of() in figures, "who plays where nobody is asked for has a name"
+    looks = {(f.look.hair, f.look.top, f.look.colours.skin, f.look.colours.top) for f in figures}
+    assert len(looks) == len({f.stature_m for f in figures}) == len(figures)
+
+
+@pytest.mark.parametrize("name", figure_names())
+def test_breadths_are_of_people(name: str) -> None:
+    """Pheasant (Bodyspace): from the 5th of a hundred women to the 95th of a hundred men.
+
+    Stature 1505 to 1855 mm, from acromion to acromion 325 to 430 mm; the joints lie .2 of .23 as far apart.
+    """
+    figure = load_figure(name)
+    assert 1.505 <= figure.stature_m <= 1.90
+    assert 0.325 <= figure.shoulder_breadth_m * 0.23 / 0.20 <= 0.442
+
+
+def test_a_look_says_what_differs_from_the_default(tmp_path: Path) -> None:
+    path = tmp_path / "me.toml"
+    path.write_text('stature_m = 1.7\n[look]\nhair = "curls"\nworn = ["glasses"]\n[look.colours]\nskin = "#804020"\n')
+    look = load_figure(path).look
+    assert (look.hair, look.worn, look.top) == ("curls", ("glasses",), "tee")
+    assert look.colours.skin == pytest.approx((128 / 255, 64 / 255, 32 / 255))
 
 
 def test_a_file_sets_segments_and_limits(tmp_path: Path) -> None:
@@ -59,6 +81,10 @@ def test_a_file_sets_segments_and_limits(tmp_path: Path) -> None:
         ("title = 'x'", "stature_m"),
         ("stature_m = 1.8\n[limits]\nwrist = 3", "no such limit: wrist"),
         ("stature_m = 1.8\n[segments]\nforearm_m = 'long'", "segments.forearm_m"),
+        ("stature_m = 1.8\n[look]\nhair = 'curl'", "look.hair"),
+        ("stature_m = 1.8\n[look]\nworn = ['hat']", "look.worn"),
+        ("stature_m = 1.8\n[look.colours]\nskin = 'brown'", 'a colour such as "#d94f2b"'),
+        ("stature_m = 1.8\n[look.girths]\nwaist = 7", "look.girths.waist"),
     ],
 )
 def test_a_faulty_figure_names_the_place(tmp_path: Path, text: str, place: str) -> None:

@@ -66,7 +66,7 @@ def test_what_comes_once_a_bar_is_an_ostinato_however_slow() -> None:
 def test_the_face_is_turned_to_a_new_piece_a_quarter_second_before_it_is_struck() -> None:
     """Measured on the drummer: two bars of hi-hat at 100 bpm, then the floor tom on the right."""
     score = score_of([*((i, Piece.HIHAT) for i in range(0, 32, 2)), (32, Piece.FLOOR_TOM_1), (40, Piece.SNARE)])
-    drummer = Drummer(score, style=Style(amplitude_neck=0))
+    drummer = Drummer(score, style=Style(amplitude_neck=0, look_around=0))
     strike_s = 8 * 0.6
     at = strike_s + np.array([-1.5, -0.3, -0.2, 0.0])
     rows = drummer.rows(at)
@@ -84,6 +84,8 @@ def test_a_groove_leaves_the_face_where_it_is() -> None:
     slow = score_of(
         [(i, p) for i in range(0, 128, 16) for p in (Piece.HIHAT,)] + [(8 + 16 * i, Piece.SNARE) for i in range(8)], 60
     )
-    rows = Drummer(slow, style=Style(amplitude_neck=0, amplitude_twist=0)).rows(np.arange(8.0, 28.0, 0.02))
+    rows = Drummer(slow, style=Style(amplitude_neck=0, amplitude_twist=0, look_around=0, variation=0)).rows(
+        np.arange(8.0, 28.0, 0.02)
+    )
     turn = np.degrees(rows[:, ANGLES.start + ANGLE_NAMES.index("head_turn")])
     assert np.ptp(turn) < 3.0

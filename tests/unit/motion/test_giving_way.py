@@ -9,6 +9,7 @@ from station.core.pieces import Limb, Piece, Zone
 from station.core.units import PPQ
 from station.motion.audit import audit
 from station.motion.drummer import Drummer
+from station.motion.kinematics.arm import Contact
 from station.motion.kit.kit import load_kit
 from station.motion.strokes.travel import HandPath
 from station.music.score import Note, Score
@@ -48,7 +49,7 @@ def test_sticks_pass_a_hand_at_rest(kit: str, right: dict[int, Piece], left: dic
 @pytest.mark.parametrize(("off", "back"), [(1.2, 1.8), (-np.inf, 0.9), (2.1, np.inf)])
 def test_a_hand_moves_off_and_comes_back(off: float, back: float) -> None:
     """By hand: 25 cm up in the middle, nothing outside, and no jump (a minimum jerk of 25 cm in 0.1 s: 4.7 m/s)."""
-    contacts = np.zeros((2, 10))
+    contacts = np.zeros((2, len(Contact._fields)))
     contacts[:, :3] = 0.1, 0.5, 0.7
     gives = np.zeros((2, 6))
     gives[0 if off < 1.9 else 1] = off, back, 10.0, 0.0, 0.0, 0.25

@@ -20,7 +20,7 @@ KIT = load_kit("four_piece")
 AT_ONCE_S = (0.005, 0.01, 0.025, 0.05)
 """An outsider may call any of these "at once"."""
 RECENT_S = 0.6
-MARGIN_M = 0.03
+MARGIN_M, FAR_M = 0.03, 0.60
 
 
 def hand_rows(score: Score) -> np.ndarray:
@@ -61,9 +61,9 @@ def fewest_impossible(times: list[float], pieces: list[int], at_once_s: float) -
 
 
 def crossings_and_travel(score: Score, limbs: np.ndarray) -> np.ndarray:
-    """Crossings that are not home posture, and metres between the spots that a hand strikes one after the other."""
+    """Crossings that are not home posture, those of arms, and metres between the spots that a hand strikes in turn."""
     points, rows = strike_points(score, KIT, limbs), hand_rows(score)
-    crossings, travel = 0, 0.0
+    crossings, far, travel = 0, 0, 0.0
     last: dict[int, tuple[float, int, np.ndarray]] = {}
     for i, piece in zip(rows.tolist(), pieces_of(score, rows), strict=True):
         limb, at, point = int(limbs[i]), float(score.onset_s[i]), points[i]
@@ -74,8 +74,9 @@ def crossings_and_travel(score: Score, limbs: np.ndarray) -> np.ndarray:
             over = (other[2][0] - point[0]) * (1 if limb == Limb.RIGHT_HAND else -1)
             right, left = (piece, other[1]) if limb == Limb.RIGHT_HAND else (other[1], piece)
             crossings += over > MARGIN_M and (right, left) != (Piece.HIHAT, Piece.SNARE)
+            far += over > FAR_M
         last[limb] = (at, piece, point)
-    return np.array([crossings, travel])
+    return np.array([crossings, far, travel])
 
 
 @pytest.mark.parametrize("path", real_files("gmd/**/*.mid")[::2])
@@ -95,10 +96,11 @@ def test_no_hand_is_in_two_places_where_another_way_exists(path: Path) -> None:
 
 
 def test_ours_crosses_and_travels_less_than_smed() -> None:
-    """Over every third file; `benchmarks/gmd_limbs.py` counts over all."""
-    totals = {method: np.zeros(2) for method in METHODS}
+    """Over every third file, where `smed` has one crossing of arms; `benchmarks/gmd_limbs.py` counts over all."""
+    totals = {method: np.zeros(3) for method in METHODS}
     for path in sorted((DATA / "gmd").rglob("*.mid"))[::3]:
         score = score_from_midi(read_midi(path))
         for method in METHODS:
             totals[method] += crossings_and_travel(score, assign_limbs(score, KIT, method).limbs)
-    assert (totals["station"] < totals["smed"]).all()
+    assert (totals["station"] <= totals["smed"]).all()
+    assert totals["station"][0] < totals["smed"][0]

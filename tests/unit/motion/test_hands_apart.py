@@ -104,7 +104,7 @@ def test_a_hand_does_not_go_home_past_the_other() -> None:
 @pytest.mark.parametrize("kit", ["seven_piece", "left_handed", "four_piece"])
 def test_a_waiting_hand_comes_along_when_a_small_drummer_leans(kit: str, idle: bool) -> None:
     """At 1.62 m the far cymbals are struck leaning: the other shoulder comes over where its hand waits."""
-    played, figure = load_kit(kit), load_figure("small")
+    played, figure = load_kit(kit), load_figure("ponytail")
     far = Piece.CRASH_2 if Piece.CRASH_2 in played.pieces else Piece.RIDE
     zone = Zone.EDGE if far is Piece.CRASH_2 else Zone.BOW
     lead, other = (L, R) if played.left_handed else (R, L)

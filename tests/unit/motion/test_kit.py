@@ -101,7 +101,7 @@ def test_a_missing_piece_has_a_stand_in(piece: Piece, played: Piece) -> None:
         ('kind = "hihat"', 'kind = "hat"', '"hat"', "hihat.kind: expected drum, cymbal, hihat, kick or block"),
         ("[-0.07, 0.45, 0.66]", "[-0.07, 0.45]", "[-0.07, 0.45]", "snare.centre_m: expected [right, forward, up]"),
         ("depth_m = 0.14", "deep_m = 0.14", "deep_m = 0.14", "no such key: deep_m; did you mean depth_m?"),
-        ("[pedals.kick]", "[pedals.drum]", "[pedals.drum]", "no such key: drum; there are kick, hihat"),
+        ("[pedals.kick]", "[pedals.drum]", "[pedals.drum]", "no such key: drum; there are kick, hihat, slave"),
         ("[0.20, 0.71, 0.03]", "[0.20, 0.44, 0.03]", "[0.20, 0.44", "pedals.kick.toe_m: the toe end is 0.00 m from"),
         ("[-0.42, 0.62, 0.86]", "[-0.07, 0.46, 0.67]", "[-0.07, 0.46, 0.67]", "hihat.centre_m: overlaps the snare"),
         ("[-0.02, 0.80, 0.80]", "[0.45, 0.38, 0.58]", "[0.55, 0.38, 0.62]", "floor_tom_1.centre_m: overlaps the tom_1"),
@@ -128,18 +128,36 @@ def test_an_unknown_kit_names_those_there_are() -> None:
         load_kit("four_pieces")
 
 
-def test_the_mirrored_kit_is_the_left_handed_one_and_mirrored_again_itself() -> None:
-    """`left_handed.toml` was written by hand, number by number."""
-    right, left = load_kit("four_piece"), load_kit("left_handed")
-    assert right.mirrored.left_handed
-    assert right.mirrored.seat_m == left.seat_m
-    for piece, there in left.pieces.items():
-        here = right.mirrored.pieces[piece]
-        assert here.centre_m == there.centre_m
-        assert here.tilt_y_rad == there.tilt_y_rad
+@pytest.mark.parametrize(
+    ("name", "of"),
+    [
+        ("left_handed", "four_piece"),
+        ("left_handed_seven_piece", "seven_piece"),
+        ("left_handed_electronic", "electronic"),
+    ],
+)
+def test_a_left_handed_kit_is_the_other_in_a_mirror(name: str, of: str) -> None:
+    left, right = load_kit(name), load_kit(of)
+    assert (left.name, left.left_handed, left.make) == (name, True, right.make)
+    assert "left-handed" in left.title.lower()
+    for piece, there in right.pieces.items():
         for zone in there.spots:
-            for limb in (Limb.RIGHT_HAND, Limb.LEFT_HAND):
-                assert here.target(zone, limb).point_m == pytest.approx(there.target(zone, limb).point_m, abs=1e-12)
-    assert right.mirrored.pedals == left.pedals
-    seven = load_kit("seven_piece")
-    assert seven.mirrored.mirrored == seven
+            for limb, other in ((Limb.RIGHT_HAND, Limb.LEFT_HAND), (Limb.LEFT_HAND, Limb.RIGHT_HAND)):
+                x, y, z = there.target(zone, limb).point_m
+                assert left.target(piece, zone, other).point_m == pytest.approx([-x, y, z], abs=1e-12)
+    assert left.mirrored.pieces == right.pieces
+    assert left.mirrored.pedals == right.pedals
+    assert left.mirrored.slave == right.slave
+
+
+def test_a_file_that_mirrors_a_kit_says_nothing_else(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text('mirrors = "jazz"\n')
+    assert load_kit(path).name == "mine"
+    for text, fault in (
+        ('mirrors = "jaz"', "did you mean jazz"),
+        ('mirrors = "jazz"\nseat_m = [0, 0, 0.4]', "no such key: seat_m"),
+    ):
+        path.write_text(text)
+        with pytest.raises(BadInput, match=fault):
+            load_kit(path)

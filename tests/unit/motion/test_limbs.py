@@ -58,6 +58,31 @@ def test_a_bounce_that_dies_away_stays_in_its_hand_while_the_other_is_away() -> 
     assert found.infeasible == ()
 
 
+@pytest.mark.parametrize("tempo_bpm", [60, 100, 140, 180])
+def test_a_snare_between_the_hats_is_the_other_hands(tempo_bpm: float) -> None:
+    """Punk's eighths, hat and snare in turn: nobody goes to and fro with one hand."""
+    beat = [(i, SNARE if i % 4 else HAT) for i in range(0, 16, 2)]
+    assert letters(beat, HAT, tempo_bpm) == "RRRR"
+    assert letters(beat, SNARE, tempo_bpm) == "LLLL"
+
+
+def test_two_hands_do_not_lie_on_one_drum() -> None:
+    clicks = [Note(i * PPQ // 4, SNARE, Zone.RIM, articulation=Articulation.CROSS_STICK) for i in range(8)]
+    for hands, hand in ((Hands.RIGHT, Limb.LEFT_HAND), (Hands.LEFT, Limb.RIGHT_HAND)):
+        limbs = assign_limbs(Score.from_notes(clicks, TempoMap.constant(115)), KIT, hands=hands).limbs
+        assert set(limbs.tolist()) == {hand}
+
+
+def test_a_diddles_second_stroke_is_on_the_same_drum() -> None:
+    """Three on the snare and two on the tom are a double, a single and a double: no stick rebounds elsewhere."""
+    drums = (SNARE, SNARE, SNARE, TOM, TOM)
+    notes = [Note(i * PPQ // 8, drum, ornament=Ornament.DIDDLE) for i, drum in enumerate(drums)]
+    limbs = assign_limbs(Score.from_notes(notes, TempoMap.constant(120)), KIT).limbs
+    assert limbs[0] == limbs[1]
+    assert limbs[2] != limbs[3]
+    assert limbs[3] == limbs[4]
+
+
 def test_sixteenths_alternate_from_the_leading_hand() -> None:
     assert letters(sixteenths(SNARE, 0, 16), SNARE) == "RL" * 8
 

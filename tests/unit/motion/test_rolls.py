@@ -15,6 +15,7 @@ from station.core.units import PPQ
 from station.motion.drummer import Drummer
 from station.motion.kinematics import frame
 from station.motion.kinematics.pose import ANGLE_NAMES
+from station.motion.style.style import Style
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 
@@ -25,7 +26,7 @@ HEAD_M = 0.66
 
 
 def drummer_of(notes: list[Note], tempo_bpm: float = 120) -> Drummer:
-    return Drummer(Score.from_notes(notes, TempoMap.constant(tempo_bpm)))
+    return Drummer(Score.from_notes(notes, TempoMap.constant(tempo_bpm)), style=Style(variation=0.0))
 
 
 def seen(drummer: Drummer, at: Array, limb: Limb = R) -> tuple[Array, Array, Array]:
@@ -60,7 +61,7 @@ def test_an_open_roll_is_one_motion_of_the_wrist_for_two_strokes(tempo_bpm: floa
     at = np.arange(16 * gap - 1.5 * gap, 16 * gap + 2.5 * gap, 0.0005)
     wrist, stick, height = seen(drummer, at)
     assert len(valleys(wrist, 1.0)) == 1
-    assert len(valleys(stick, 1.6)) == 2
+    assert len(valleys(stick[at < 17.2 * gap], 0.5)) == 2  # the upstroke after them is no third
     first, second = height[at < 16 * gap].max(), height[(at > 16 * gap) & (at < 17 * gap)].max()
     assert 0.02 < second < 0.6 * first
     assert height.min() > -0.001

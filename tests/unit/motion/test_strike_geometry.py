@@ -15,6 +15,7 @@ from station.motion.kinematics import frame
 from station.motion.kinematics.figure import Joint
 from station.motion.kit.kit import load_kit
 from station.motion.strokes.stroke_heights import INCH_M, LEVELS
+from station.motion.style.style import Style
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 
@@ -25,7 +26,7 @@ STICK_M = 0.406
 
 
 def drummer_of(notes: list[Note], tempo_bpm: float = 100, kit: str = "four_piece") -> Drummer:
-    return Drummer(Score.from_notes(notes, TempoMap.constant(tempo_bpm)), load_kit(kit))
+    return Drummer(Score.from_notes(notes, TempoMap.constant(tempo_bpm)), load_kit(kit), style=Style(variation=0.0))
 
 
 def out_from(drummer: Drummer, piece: Piece, points: Array) -> tuple[Array, Array]:

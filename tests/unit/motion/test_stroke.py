@@ -139,3 +139,25 @@ def test_impact_and_rebound_speeds_are_the_measured_ones() -> None:
     rising = np.gradient(rise(strokes, 1.8 + np.arange(step, 0.012, step)), step).max()
     assert -falling == pytest.approx(9.4, rel=0.20)
     assert rising / -falling == pytest.approx(0.5, abs=0.1)
+
+
+@pytest.mark.parametrize("inches", [6.0, 9.0])
+def test_fast_taps_stay_low(inches: float) -> None:
+    """Sixteenths at 200 bpm, the hands in turn: 6.7 strokes a second of each, which players tap from 3–6 cm."""
+    gap = 0.15
+    strokes = Strokes.of(plan_of([i * gap for i in range(9)], [inches * INCH_M] * 9), NATURAL)
+    assert 0.03 <= rise(strokes, np.linspace(4 * gap, 5 * gap, 201)).max() <= 0.065
+
+
+def test_an_accent_still_stands_out_of_fast_taps() -> None:
+    """Accent 12 inches, tap 3 (HUMANS): four times as high with time enough, and twice at 6.7 strokes a second."""
+
+    def ratio(gap: float) -> float:
+        strokes = Strokes.of(
+            plan_of([i * gap for i in range(9)], ([3 * INCH_M] * 3 + [12 * INCH_M]) * 2 + [0.1]), NATURAL
+        )
+        before = [rise(strokes, np.linspace((i - 1) * gap, i * gap, 201)).max() for i in (6, 7)]
+        return float(before[1] / before[0])
+
+    assert ratio(0.6) == pytest.approx(4.0, rel=0.1)
+    assert 1.6 < ratio(0.15) < 2.6

@@ -21,7 +21,7 @@ from station.music.tempo import TempoMap
 Array = NDArray[np.float64]
 
 R, L = Limb.RIGHT_HAND, Limb.LEFT_HAND
-STILL = replace(Style(), amplitude_back=0.0, amplitude_side=0.0, amplitude_twist=0.0, breathing=0.0, shrug=0.0)
+STILL = Style(amplitude_back=0.0, amplitude_side=0.0, amplitude_twist=0.0, breathing=0.0, shrug=0.0, phrase=0.0)
 ACCENT, TAP = 112, 49  # 12 and 3 inches
 
 

@@ -181,7 +181,13 @@ def test_a_proposed_style_follows_the_music() -> None:
 
 RESTS = [(i, Piece.SNARE) for i in (*range(0, 16, 4), 64, 128, *range(192, 208, 4))]
 """A bar of quarters, rests of three bars and more, and a bar again: at 100 bpm bars 1 to 13."""
-RESTING = Drummer(score_of([*RESTS, *((i + 2, Piece.RIDE) for i, _ in RESTS)], tempo_bpm=100, velocity=90))
+RESTING = Drummer(
+    score_of(
+        [*((i + 4, Piece.CRASH_1) for i in (0, 200)), *RESTS, *((i + 2, Piece.RIDE) for i, _ in RESTS)],
+        tempo_bpm=100,
+        velocity=90,
+    )
+)
 ENDS = {"stand": (0.0, 1.0), "bobs_per_beat": (0.5, 2.0), "half_time_bpm": (30.0, 1000.0)}
 
 
@@ -195,7 +201,7 @@ def test_every_control_can_change_over_the_bars(control: str) -> None:
         replace(Style(), automation={control: ((7.5, low), (8.0, high))}),
     )
     at = np.arange(0.0, 31.0, 0.04)
-    first, last, changing = (RESTING.with_style(style).rows(at)[:, :115] for style in styles)
+    first, last, changing = (RESTING.with_style(style).rows(at) for style in styles)
     early, late = at < 9.0, at > 27.0
     assert np.abs(changing[early] - first[early]).max() < 1e-6
     assert np.abs(changing[late] - last[late]).max() < 1e-6

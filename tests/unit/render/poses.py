@@ -6,6 +6,7 @@ from numpy.typing import ArrayLike, NDArray
 from station.motion.kinematics import frame
 from station.motion.kinematics.figure import Figure, Joint
 from station.motion.kinematics.pose import Pose
+from station.motion.kit.instruments import NUMBERS
 from station.render.figure.skeleton import bind_stance
 
 _PLACES: dict[str, slice | int] = {
@@ -19,6 +20,9 @@ _PLACES: dict[str, slice | int] = {
     "beater_rad": frame.BEATER,
     "hat_gap_m": frame.GAP,
     "eyes": frame.EYES,
+    "face": frame.FACE,
+    "gaze": frame.GAZE,
+    "slave_rad": slice(frame.SLAVE_BOARD, frame.SLAVE_BEATER + 1),
 }
 
 
@@ -26,7 +30,7 @@ def pose_of(figure: Figure, pieces: int = 0, **values: ArrayLike) -> Pose:
     """The pose in which the skin was made, eyes open and kit at rest, but for `values`, by the names of `Pose`."""
     stance = bind_stance(figure)
     hands = stance.joints_m[[Joint.RIGHT_HAND, Joint.LEFT_HAND]]
-    row: NDArray[np.float64] = np.zeros(frame.PLAYED + 4 * pieces)
+    row: NDArray[np.float64] = np.zeros(frame.PLAYED + NUMBERS * pieces)
     plain: dict[str, ArrayLike] = {
         "joints_m": stance.joints_m,
         "butt_m": hands - np.array([0, 0.1, 0]),
@@ -41,5 +45,5 @@ def pose_of(figure: Figure, pieces: int = 0, **values: ArrayLike) -> Pose:
         place = _PLACES[name]
         row[place] = np.ravel(value) if isinstance(place, slice) else float(np.asarray(value))
     if swing is not None:
-        row[frame.PLAYED :].reshape(-1, 4)[:, :2] = swing
+        row[frame.PLAYED :].reshape(-1, NUMBERS)[:, :2] = swing
     return Pose(0.0, row)

@@ -9,7 +9,8 @@ from station.motion.kinematics.figure import figure_of
 from station.motion.kinematics.pose import LEFT, RIGHT, Pose
 from station.motion.kit.kit import load_kit
 from station.render.geometry.materials import Material
-from station.render.kit.instrument_meshes import STICK_M, Detail, cymbal, drum
+from station.render.kit.held_meshes import HELD_BONES, STICK_M
+from station.render.kit.instrument_meshes import HOLE_M, Detail, cymbal, drum
 from station.render.kit.kit_rig import WORLD, KitRig, bone_matrices, build_kit, floor_discs
 from tests.unit.render.poses import pose_of
 
@@ -29,7 +30,7 @@ def corners(rig: KitRig, bone: int, at: Pose | None) -> NDArray[np.float64]:
 
 def test_at_angle_zero_the_beater_touches_the_head_and_no_more() -> None:
     head_y = KIT.pieces[Piece.KICK].centre_m[1]
-    struck, back = (corners(RIG, RIG.beater, pose(beater_rad=angle)) for angle in (0.0, 0.8))
+    struck, back = (corners(RIG, RIG.pedals.beater, pose(beater_rad=angle)) for angle in (0.0, 0.8))
     assert struck[:, 1].max() == pytest.approx(head_y, abs=1e-9)
     touching = struck[:, 1].argmax()
     assert back[touching, 1] < head_y - 0.1, "drawn back towards the player"
@@ -38,7 +39,7 @@ def test_at_angle_zero_the_beater_touches_the_head_and_no_more() -> None:
 @pytest.mark.parametrize("side", [RIGHT, LEFT])
 def test_sticks_reach_from_butt_to_tip(side: int) -> None:
     butt, tip = np.array([[0.1, 0.2, 0.9], [-0.1, 0.2, 0.9]]), np.array([[0.2, 0.6, 0.8], [-0.2, 0.5, 0.8]])
-    stick = corners(RIG, RIG.sticks[side], pose(butt_m=butt, tip_m=tip))
+    stick = corners(RIG, RIG.sticks[HELD_BONES * side], pose(butt_m=butt, tip_m=tip))
     along = (tip[side] - butt[side]) / np.linalg.norm(tip[side] - butt[side])
     reach = (stick - butt[side]) @ along
     assert reach.min() == pytest.approx(0, abs=1e-9)
@@ -53,8 +54,8 @@ def test_without_a_drummer_no_stick_is_seen() -> None:
 
 def test_a_raised_footboard_turns_about_its_heel() -> None:
     pedal = KIT.pedals[Piece.KICK]
-    flat = corners(RIG, RIG.boards[RIGHT], pose())
-    raised = corners(RIG, RIG.boards[RIGHT], pose(footboard_rad=(0.35, 0.0)))
+    flat = corners(RIG, RIG.pedals.right_board, pose())
+    raised = corners(RIG, RIG.pedals.right_board, pose(footboard_rad=(0.35, 0.0)))
     assert raised[:, 2].max() > flat[:, 2].max() + 0.05
     heel = np.linalg.norm(flat - pedal.heel_m, axis=1).argmin()
     assert np.linalg.norm(raised[heel] - flat[heel]) < 0.02
@@ -71,7 +72,8 @@ def test_a_struck_cymbal_tips_about_its_own_axes() -> None:
     swing = np.zeros((len(KIT.pieces), 2))
     swing[index, 0] = 0.1
     still, tipped = (corners(RIG, RIG.piece_bones[Piece.CRASH_1], pose(swing_rad=s)) for s in (swing * 0, swing))
-    centre = KIT.pieces[Piece.CRASH_1].centre
+    crash = KIT.pieces[Piece.CRASH_1]
+    centre = crash.centre + HOLE_M * crash.normal  # where it hangs
     assert np.allclose(np.linalg.norm(tipped - centre, axis=1), np.linalg.norm(still - centre, axis=1))
     assert np.abs(tipped - still).max() == pytest.approx(0.1 * KIT.pieces[Piece.CRASH_1].radius_m, rel=0.05)
 
@@ -104,12 +106,14 @@ def test_nothing_of_the_hardware_is_under_the_floor() -> None:
 
 def test_the_palette_holds_the_largest_kit() -> None:
     from station.motion.kit.kit import kit_names
-    from station.render.figure.skeleton import Bone
+    from station.render.figure.bones import BONES
     from station.render.gpu.light_shader import MAX_BONES
 
     for name in kit_names():
         rig = build_kit(load_kit(name), Detail(12, hardware=False))
-        assert rig.bone_count + 2 * len(Bone) + 2 <= MAX_BONES, "the drummer, the student's double and his sticks"
+        assert rig.bone_count + 2 * BONES + 2 * HELD_BONES <= MAX_BONES, (
+            "the drummer, the student's double and his sticks"
+        )
         assert floor_discs(load_kit(name))
 
 

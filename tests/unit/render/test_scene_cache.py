@@ -9,10 +9,10 @@ from station.motion.kit.kit import load_kit
 from station.render.figure.body import build_body
 from station.render.geometry.light import Light
 from station.render.gpu import scene_cache as module
-from station.render.gpu.scene_cache import Arrays, cached, cached_body, cached_floor, cached_kit, cached_wall
+from station.render.gpu.scene_cache import Arrays, cached, cached_body, cached_kit, cached_light, cached_wall
 from station.render.kit.instrument_meshes import Detail
 from station.render.kit.kit_rig import build_kit, floor_discs
-from station.render.kit.room import floor_picture, wall_picture
+from station.render.kit.room import floor_light, wall_picture
 
 COARSE = Detail(8, hardware=False)
 MADE = {"a": np.arange(1000.0), "b": np.array([[1, 2], [3, 4]], np.uint8)}
@@ -103,13 +103,13 @@ def test_kits_bodies_and_pictures_come_back_as_they_were_made(tmp_path: Path, mo
     monkeypatch.setattr(module, "cache_folder", lambda _: tmp_path)
     kit, figure, light = load_kit(), figure_of(), Light()
     rig, skin = build_kit(kit, COARSE), build_body(figure, 4.0)
-    floor, wall = floor_picture(floor_discs(kit), light, 32), wall_picture()
+    falls, wall = floor_light(floor_discs(kit), light), wall_picture()
     for _ in range(2):  # made, and read
         again, body = cached_kit(kit, COARSE), cached_body(figure, 4.0)
         for one, other in ((rig.mesh, again.mesh), (skin, body)):
             for field in fields(one):
                 assert np.array_equal(getattr(one, field.name), getattr(other, field.name)), field.name
         assert (again.faces_of, again.still_faces, again.sticks) == (rig.faces_of, rig.still_faces, rig.sticks)
-        assert np.array_equal(cached_floor(kit, light, 32), floor)
+        assert np.array_equal(cached_light(kit, light), falls)
         assert np.array_equal(cached_wall(), wall)
     assert len(list(tmp_path.iterdir())) == 4

@@ -3,7 +3,10 @@
 import numpy as np
 import pytest
 
-from station.render.camera import Camera, NamedView, named
+from station.motion.kinematics.figure import figure_of
+from station.motion.kit.kit import load_kit
+from station.render.camera import Camera, NamedView
+from station.render.framing import Stage, named
 from station.render.geometry.transforms import frame, gl_bytes, look_at, perspective, rotation, rotation_at
 
 
@@ -89,6 +92,6 @@ def test_narrow_pictures_see_as_far_to_the_sides() -> None:
 
 
 def test_a_left_handed_kit_is_seen_from_the_other_side() -> None:
-    right, left = named(NamedView.SHOULDER), named(NamedView.SHOULDER, left_handed=True)
+    right, left = named(NamedView.SHOULDER), named(NamedView.SHOULDER, Stage(load_kit().mirrored, figure_of()))
     assert np.allclose(np.array(left.eye), np.array(right.eye) * [-1, 1, 1])
     assert project(left, (-0.42, 0.62, 0.86))[0] == pytest.approx(-project(right, (0.42, 0.62, 0.86))[0])

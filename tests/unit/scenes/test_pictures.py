@@ -16,7 +16,7 @@ from station.simulation.student_spec import parse_spec
 def test_the_picture_shows_who_demonstrated_in_his_own_style(tmp_path: Path) -> None:
     plan = plan_practice(find_lesson("rock-1"), PlanOptions(loops=2))
     result = practise_virtually(plan, parse_spec("pro,seed=3"), tmp_path / "session.capture").result
-    demonstrator = Demonstrator(load_figure("median"), replace(Style(), amplitude_gain=80.0))
+    demonstrator = Demonstrator(load_figure("headphones"), replace(Style(), amplitude_gain=80.0))
     drummer = drummer_of(result, demonstrator)
     assert drummer.style.amplitude_gain == 80.0
     assert drummer.figure is demonstrator.figure

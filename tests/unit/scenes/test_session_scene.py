@@ -102,7 +102,7 @@ def test_hands_that_stay_hold_what_they_held_while_sliders_move_on() -> None:
 
 def test_a_style_that_is_gone_is_told_and_the_rest_is_kept() -> None:
     told: list[str] = []
-    demonstrator = demonstrator_of(Settings(style="/gone/mine.toml", figure="tall", hands="left"), told.append)
+    demonstrator = demonstrator_of(Settings(style="/gone/mine.toml", figure="beard", hands="left"), told.append)
     assert demonstrator.style == Style()
     assert demonstrator.figure.stature_m == 1.90
     assert len(told) == 1
