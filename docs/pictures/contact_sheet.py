@@ -23,9 +23,9 @@ from station.core.settings import load_settings
 from station.drills.library import find_lesson
 from station.motion.drummer import Drummer
 from station.motion.kinematics.figure import figure_names, load_figure
+from station.motion.kinematics.grip import GRIPS, HELD
 from station.motion.kinematics.pose import LEFT, RIGHT
 from station.motion.kit.kit import kit_names, load_kit
-from station.motion.kinematics.grip import GRIPS, HELD
 from station.motion.style.style_file import load_style, style_names
 from station.render.camera import Camera, NamedView
 from station.render.files.png_file import write_png

@@ -32,7 +32,7 @@ _AROUND_S = 0.5
 _LEAST_STEP_S = 1e-4
 """Nearer moments tell no speed."""
 
-KINDS = ("kit_m", "hands_m", "limit_rad", "speed", "strike_m")
+KINDS = ("kit_m", "hands_m", "body_m", "limit_rad", "speed", "strike_m")
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,13 +48,15 @@ class Worst:
 class Audit:
     """The worst of each of `KINDS`.
 
-    `kit_m` how deep a stick is in a drum or cymbal, `hands_m` in the other stick or forearm, `limit_rad` how far a
+    `kit_m` how deep a stick is in a drum or cymbal, `hands_m` a stick, hand or arm in the other, `body_m` in trunk, head
+    or thighs, and a hand or forearm in the kit, `limit_rad` how far a
     joint is beyond its limit, `speed` the share of the fastest that people turn it, `strike_m` how far a tip is from
     the spot of `SPOT_M` that it strikes.
     """
 
     kit_m: Worst = Worst()
     hands_m: Worst = Worst()
+    body_m: Worst = Worst()
     limit_rad: Worst = Worst()
     speed: Worst = Worst()
     strike_m: Worst = Worst()
@@ -84,10 +86,9 @@ def audit(drummer: Drummer, until_s: float = inf) -> Audit:
 
 def _block(drummer: Drummer, times: Array, low: Array, high: Array) -> Audit:
     rows = drummer.rows(times)
-    found = collisions(rows, drummer.kit)
+    found = collisions(rows, drummer.kit, drummer.figure.stature_m)
     sides = ("right", "left")
     kit = {f"{s} stick in {word(p)}": d[:, k] for p, d in found.pieces.items() for k, s in enumerate(sides)}
-    hands = {f"{s} stick in the other forearm": found.arms[:, k] for k, s in enumerate(sides)}
     angles = rows[:, frame.ANGLES]
     human = np.ones(len(times), bool)
     for demand in drummer.assignment.infeasible:
@@ -98,7 +99,8 @@ def _block(drummer: Drummer, times: Array, low: Array, high: Array) -> Audit:
     over = np.maximum(angles - high, low - angles)[human]
     return Audit(
         kit_m=_worst(kit, times),
-        hands_m=_worst(hands | {"sticks in each other": found.sticks}, times),
+        hands_m=_worst({what: d for what, d in found.limbs.items() if "other" in what}, times),
+        body_m=_worst({what: d for what, d in found.limbs.items() if "other" not in what}, times),
         limit_rad=_worst(dict(zip(ANGLE_NAMES, over.T, strict=True)), times[human]),
         speed=_worst(dict(zip(ANGLE_NAMES, speed.T, strict=True)), times[1:][counted]),
     )

@@ -56,7 +56,8 @@ class Drummer:
     def with_style(self, style: Style) -> "Drummer":
         """The same drummer in another style; what it does not change is shared."""
         plan = self._plan
-        parts = self._hands if holds(style) == holds(self.style) else plan.hands(style)
+        same = holds(style) == holds(self.style) and style.heel == self.style.heel
+        parts = self._hands if same else plan.hands(style)
         keys = Keys.of(plan, parts, style, self._keys)
         return Drummer(self.score, self.kit, self.figure, style, plan, parts, keys)
 

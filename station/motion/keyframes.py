@@ -5,7 +5,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from types import MappingProxyType
 
@@ -213,7 +213,7 @@ def _way(plan: MotionPlan, part: HandPart, style: Style, bars: Array) -> HandPat
         return part.way
     contacts = part.contacts.copy()
     contacts[:, :3] += spots(plan.kit, part.events, amount, (style.seed, int(part.limb)))
-    return HandPath.of(part.events.time_s, contacts, part.bump, part.early, part.gives)
+    return replace(part, contacts=contacts).way
 
 
 def _sweeps(plan: MotionPlan, part: HandPart, strokes: Strokes) -> Sweeps | None:

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Limb, Piece
 from station.motion.avoidance.clearance import cleared
-from station.motion.avoidance.detours import detoured, looks
-from station.motion.avoidance.shoulders import past_the_shoulder
+from station.motion.avoidance.cost import Stage
+from station.motion.avoidance.optimise import looks, optimised
 from station.motion.body import body_keys
 from station.motion.body.beats import Beats, bob_cofactors, restarts
 from station.motion.body.body_keys import Ground, mean_bearing
@@ -18,6 +18,7 @@ from station.motion.body.heels import heel_curves
 from station.motion.body.idle_motion import Blinks
 from station.motion.body.intensity import Intensity
 from station.motion.body.reach import reaching
+from station.motion.kinematics.body_solids import BodyPoints
 from station.motion.kinematics.figure import Figure
 from station.motion.kinematics.foot_path import FootPath, Visits
 from station.motion.kinematics.footings import footings
@@ -33,6 +34,7 @@ from station.motion.kit.kit import Kit
 from station.motion.sticking.limbs import Assignment, assign_limbs
 from station.motion.strokes.hand import HandPart
 from station.motion.strokes.hand_events import HandEvents, hand_events
+from station.motion.strokes.lap import Thigh, thighs
 from station.motion.strokes.targets import strike_points
 from station.motion.style.style import Style
 from station.music.score import Score
@@ -119,36 +121,40 @@ class MotionPlan:
 
     def hands(self, style: Style) -> tuple[HandPart, HandPart]:
         """Both hands' parts with what `style` makes them hold."""
+        legs = thighs(self.kit, self.figure, self.footings, style.heel)
         right, left = (
-            HandPart.of(self.score, self.kit, self.figure, hold, limb, events)
-            for limb, hold, events in zip(HANDS, holds(style), self.events, strict=True)
+            HandPart.of(self.score, self.kit, self.figure, hold, limb, events, own)
+            for limb, hold, events, own in zip(HANDS, holds(style), self.events, legs, strict=True)
         )
         right, left = cleared((right, left), self.figure)
         if not (len(right.events.row) or len(left.events.row)):
             return right, left
-        grid = looks(right.events.time_s, left.events.time_s)
-        roots = self._roots(grid, reaching(self.ground, QUIET, (right, left), self.figure, self.pelvis))
-        right, left = (
-            past_the_shoulder(hand.waiting_before(grid, root), self.figure, self.kit, grid, root)
-            for hand, root in zip((right, left), roots, strict=True)
-        )
-        lively = body_keys.curves(
-            self.ground, LIVELY, body_keys.keys(self.ground, LIVELY)
-        )  # leaning too would bend wrists
-        shoulders = list(zip(roots, self._roots(grid, lively), strict=True))
-        right, left = (hand.eased(self.figure, grid, r) for hand, r in zip((right, left), shoulders, strict=True))
-        right, left = detoured((right, left), self.figure, self.kit, grid, roots)
-        right, left = (hand.eased(self.figure, grid, r) for hand, r in zip((right, left), shoulders, strict=True))
+        stage = self._stage((right, left), legs)
+        lively = self._body(stage.grid, body_keys.curves(self.ground, LIVELY, body_keys.keys(self.ground, LIVELY)))
+        shoulders = list(zip(stage.roots, lively[4:], strict=True))  # leaning too would bend wrists
+        right, left = (hand.eased(self.figure, stage.grid, r) for hand, r in zip((right, left), shoulders, strict=True))
+        (right, left), _ = optimised((right, left), stage)
+        right, left = (hand.eased(self.figure, stage.grid, r) for hand, r in zip((right, left), shoulders, strict=True))
         return right, left
 
-    def _roots(self, time_s: Array, curves: SplineChannels) -> tuple[Array, Array]:
-        """Where the right and the left shoulder are at each time (n,) in a body that moves by `curves`, (3, n) each."""
-        right, left = np.empty((3, len(time_s))), np.empty((3, len(time_s)))
+    def _stage(self, hands: tuple[HandPart, HandPart], legs: tuple[Thigh, Thigh]) -> Stage:
+        """The body in its natural posture, in which the `hands` must find their ways."""
+        grid = looks(*(hand.events.time_s for hand in hands))
+        points = self._body(grid, reaching(self.ground, QUIET, hands, self.figure, self.pelvis))
+        pelvis, neck, head, crown, right, left = (p.T for p in points)
+        body = BodyPoints(pelvis, neck, head, crown, (right, left), legs)
+        return Stage(self.figure, self.kit, grid, (points[4], points[5]), body, (hands[0].bump, hands[1].bump))
+
+    def _body(self, time_s: Array, curves: SplineChannels) -> Array:
+        """Pelvis, neck's base, head, crown and shoulders at each time (n,) in a body that moves by `curves`, (6, 3, n)."""
+        points = np.empty((6, 3, len(time_s)))
         for block in blocks(len(time_s)):
             twist, lean, side, shrug, hunch, *_ = curves.many(time_s[block])
             frame = trunk(MANY, self.figure, self.pelvis, TrunkAngles(twist, lean, side, 0.0, 0.0, 0.0, shrug, hunch))
-            right[:, block], left[:, block] = frame.right_shoulder, frame.left_shoulder
-        return right, left
+            ends = (self.pelvis, frame.neck, frame.head, frame.crown, frame.right_shoulder, frame.left_shoulder)
+            for k, point in enumerate(ends):
+                points[k, :, block] = np.stack(np.broadcast_arrays(*point, twist)[:3])
+        return points
 
     def gaze(self, style: Style) -> SplineChannels:
         """Where the drummer looks."""

@@ -61,7 +61,7 @@ def test_every_tip_stroke_is_on_its_drum_and_no_stick_in_one(score: Score) -> No
         tip = rows[i, frame.TIP].reshape(2, 3)[int(limb)]
         assert np.linalg.norm(tip - target.point_m) < 1e-6
     at = np.arange(-1.0, float(score.onset_s[-1]) + 1.0, 1 / 240)
-    for piece, found in collisions(drummer.rows(at), KIT).pieces.items():
+    for piece, found in collisions(drummer.rows(at), KIT, drummer.figure.stature_m).pieces.items():
         assert found.max() <= 0.003, piece
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Limb
 from station.motion.kinematics.arm import Arm, Contact, Offsets, solve
-from station.motion.kinematics.collisions import segments_apart
+from station.motion.kinematics.body_solids import segments_apart
 from station.motion.kinematics.figure import Figure
 from station.motion.kinematics.maths import MANY, ONE
 from station.motion.strokes.amplitudes import amplitudes, top

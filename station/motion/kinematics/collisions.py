@@ -1,4 +1,4 @@
-"""How deep sticks pass through drums, cymbals, each other and the arms, over many poses at once.
+"""How deep sticks and arms pass through drums, cymbals, each other and the body, over many poses at once.
 
 For tests and benchmarks, which hold the motion to it, and for whoever edits a kit. Drums are cylinders under their
 heads, cymbals thin discs, all at rest; sticks are lines, arms capsules. Depths in metres, 0 where nothing touches: for
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Piece
 from station.motion.kinematics import frame
+from station.motion.kinematics.body_solids import ArmPoints, BodyPoints, arm_in_kit, in_each_other, in_the_body
 from station.motion.kinematics.figure import Joint
 from station.motion.kinematics.maths import blocks
 from station.motion.kit.kit import Kit
@@ -26,49 +27,55 @@ ALONG = np.linspace(0.0, 1.0, 33)
 """Places on the stick at which it is looked at, from butt to tip: 13 mm apart."""
 TOUCH_M = 0.001
 """A point this near to a surface touches it (the tip's own exactness)."""
-STICK_RADIUS_M = 0.007
-ARM_RADIUS_M = 0.035
-"""A 5A stick is 14 mm thick (ASTM has no standard; makers agree); a forearm near the wrist 7 cm (our choice)."""
 
 
 @dataclass(frozen=True, eq=False)
 class Collisions:
-    """Depths at each time: `pieces` (n, 2) per piece for the right and left stick, `sticks` (n,), `arms` (n, 2).
-
-    `sticks`: the sticks through each other; `arms`: each stick through the other forearm.
-    """
+    """Depths at each time: `pieces` (n, 2) per piece for the right and left stick, `limbs` (n,) by what is in what."""
 
     pieces: Mapping[Piece, Array]
-    sticks: Array
-    arms: Array
+    limbs: Mapping[str, Array]
 
 
-def collisions(rows: Array, kit: Kit) -> Collisions:
+def collisions(rows: Array, kit: Kit, stature_m: float) -> Collisions:
     """The depths in poses given as rows (n, fields) in the layout of `frame`."""
-    butt, tip = rows[:, frame.BUTT].reshape(-1, 2, 3), rows[:, frame.TIP].reshape(-1, 2, 3)
-    joints = rows[:, frame.JOINTS].reshape(-1, 21, 3)
-    points = butt[:, :, None] + ALONG[:, None] * (tip - butt)[:, :, None]
+    right, left, body = points_of(rows)
+    points = np.stack([arm.butt[:, None] + ALONG[:, None] * (arm.tip - arm.butt)[:, None] for arm in (right, left)], 1)
     through = {
         p.piece: np.stack([depth(p, points[:, side]) for side in (0, 1)], 1)
         for p in kit.pieces.values()
         if p.kind != "kick"
     }
-    gap = segments_apart(butt[:, 0], tip[:, 0], butt[:, 1], tip[:, 1])
-    elbows, wrists = joints[:, (Joint.LEFT_ELBOW, Joint.RIGHT_ELBOW)], joints[:, (Joint.LEFT_WRIST, Joint.RIGHT_WRIST)]
+    limbs = {f"right {name}": d for name, d in in_each_other(right, left, stature_m).items()}
+    for side, arm in (("right", right), ("left", left)):
+        own = in_the_body(arm, body, stature_m) | arm_in_kit(kit, arm, stature_m)
+        limbs |= {f"{side} {name}": d for name, d in own.items()}
+    return Collisions(through, {name: np.maximum(d, 0.0) for name, d in limbs.items()})
+
+
+def points_of(rows: Array) -> tuple[ArmPoints, ArmPoints, BodyPoints]:
+    """The right and the left arm and the body in rows of `frame`."""
+    joints = rows[:, frame.JOINTS].reshape(-1, 21, 3)
+    ends = [rows[:, part].reshape(-1, 2, 3) for part in (frame.BUTT, frame.TIP)]
     arms = [
-        np.maximum(ARM_RADIUS_M - segments_apart(butt[:, k], tip[:, k], elbows[:, k], wrists[:, k]), 0.0)
-        for k in range(2)
+        ArmPoints(*(joints[:, first + k] for k in range(4)), *(end[:, side] for end in ends))
+        for side, first in enumerate((Joint.RIGHT_SHOULDER, Joint.LEFT_SHOULDER))
     ]
-    return Collisions(through, np.maximum(2 * STICK_RADIUS_M - gap, 0.0), np.stack(arms, 1))
+    pelvis, neck, head, crown = (joints[:, j] for j in (Joint.PELVIS, Joint.NECK, Joint.HEAD, Joint.CROWN))
+    thighs = [(joints[:, hip], joints[:, hip + 1]) for hip in (Joint.RIGHT_HIP, Joint.LEFT_HIP)]
+    body = BodyPoints(pelvis, neck, head, crown, (arms[0].shoulder, arms[1].shoulder), (thighs[0], thighs[1]))
+    return arms[0], arms[1], body
 
 
-def depth_in_kit(kit: Kit, butt: Array, tip: Array) -> Array:
+def depth_in_kit(kit: Kit, butt: Array, tip: Array, follows: NDArray[np.bool_] | None = None) -> Array:
     """How deep sticks from `butt` to `tip` (n, 3), at n moments in order, are in the deepest of the kit's pieces, (n,).
 
-    The kick is left out: no stick comes to it.
+    The kick is left out: no stick comes to it. Only moments that follow one another tell whether a cymbal was jumped
+    through: `follows` (n,), whether each follows the one before; all, where it is not given.
     """
     middle, reach = 0.5 * (butt + tip), 0.5 * np.linalg.norm(tip - butt, axis=1)
     deepest = np.zeros(len(butt))
+    follows = np.ones(len(butt), bool) if follows is None else follows
     for piece in kit.pieces.values():
         size = np.hypot(piece.radius_m, piece.depth_m)
         away = middle - piece.centre
@@ -76,7 +83,7 @@ def depth_in_kit(kit: Kit, butt: Array, tip: Array) -> Array:
         for block in blocks(len(near), _STICKS_AT_ONCE):
             on = near[max(block.start - 1, 0) : block.stop]  # with the one before, from which a cymbal is jumped
             points = butt[on, None] + ALONG[:, None] * (tip - butt)[on, None]
-            deepest[on] = np.maximum(deepest[on], depth(piece, points, np.diff(on) == 1))
+            deepest[on] = np.maximum(deepest[on], depth(piece, points, follows[on[1:]] & (np.diff(on) == 1)))
     return deepest
 
 
@@ -105,18 +112,6 @@ def depth(piece: KitPiece, points: Array, follows: NDArray[np.bool_] | bool = Tr
     jumped = (before * after < 0) & np.reshape(follows, (-1, 1)) & (np.minimum(np.abs(before), np.abs(after)) > TOUCH_M)
     swept = np.where(jumped, piece.radius_m - np.maximum(radial[:-1], radial[1:]), 0.0).max(-1)
     return np.asarray(np.maximum(np.maximum(through, np.concatenate((np.zeros(1), swept))), 0.0))
-
-
-def segments_apart(a: Array, b: Array, c: Array, d: Array) -> Array:
-    """The least distance between segments ab and cd, all (n, 3) (Ericson, Real-Time Collision Detection, § 5.1.9)."""
-    u, v, w = b - a, d - c, a - c
-    uu, vv, uv, uw, vw = _dot(u, u), _dot(v, v), _dot(u, v), _dot(u, w), _dot(v, w)
-    denominator = np.maximum(uu * vv - uv * uv, 1e-12)
-    s = np.clip((uv * vw - vv * uw) / denominator, 0.0, 1.0)
-    t = np.clip((uv * s + vw) / vv, 0.0, 1.0)
-    s = np.clip((uv * t - uw) / uu, 0.0, 1.0)
-    apart = w + s[:, None] * u - t[:, None] * v
-    return np.sqrt(_dot(apart, apart))
 
 
 def _dot(a: Array, b: Array) -> Array:

@@ -100,9 +100,9 @@ class Rig:
         aside = m.most(m.least(bearing - twist - turn, EYES_RAD), -EYES_RAD)
         down = m.most(m.least(pitch - LEAN_TO_HEAD * lean - nod, EYES_RAD), -EYES_RAD)
         arm_a, butt_a, tip_a, back_a, angles, _ = arm_chain(m, self.arms[0], right_shoulder, *right, (wing, hand))
-        heading_a, shoulder_a, elbow_a, wrist_a, aside_a, palm_a = angles
+        heading_a, shoulder_a, elbow_a, wrist_a, aside_a, palm_a, swing_a = angles
         arm_b, butt_b, tip_b, back_b, angles, _ = arm_chain(m, self.arms[1], left_shoulder, *left, (-wing, hand))
-        heading_b, shoulder_b, elbow_b, wrist_b, aside_b, palm_b = angles
+        heading_b, shoulder_b, elbow_b, wrist_b, aside_b, palm_b, swing_b = angles
         kick = feet.kick * self.raised[0]
         kick_side = hip if self.right_kicks else -hip
         stands = settled_leg if m is ONE else leg_chain
@@ -122,8 +122,8 @@ class Rig:
             *(x, y, z, *spine, *arm_a, *arm_b, x + hip, y, z, *legs),
             *(*butt_a, *butt_b, *tip_a, *tip_b, *back_a, *back_b, *face),
             *(twist, lean, side, nod, turn, tilt),
-            *(heading_a, shoulder_a, right[0][WING] + wing, elbow_a, wrist_a, aside_a, rolled_a, palm_a),
-            *(heading_b, shoulder_b, wing - left[0][WING], elbow_b, wrist_b, -aside_b, rolled_b, palm_b),
+            *(heading_a, shoulder_a, swing_a, elbow_a, wrist_a, aside_a, rolled_a, palm_a),
+            *(heading_b, shoulder_b, -swing_b, elbow_b, wrist_b, -aside_b, rolled_b, palm_b),
             *(*bent, *boards, feet.kick * BEATER_SWING_RAD, feet.hat * OPEN_GAP_M, eyes),
             *(feet.slave * self.raised[2], feet.slave * BEATER_SWING_RAD),
             *face_now,
@@ -144,7 +144,7 @@ class Rig:
         return board, footing.between(m, side, lift), board + side * (slave - board), tip
 
 
-WING, TURNS, ROLL = (Contact._fields.index(name) for name in ("wing", "turns", "roll"))
+TURNS, ROLL = (Contact._fields.index(name) for name in ("turns", "roll"))
 WRIST = Offsets._fields.index("wrist")
 FOLLOWS = 0.9
 """How far the head turns to what is looked at; the eyes do the rest (our choice)."""

@@ -17,7 +17,7 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-from station.motion.kinematics.arm import ArmLengths
+from station.motion.kinematics.arm import EASE_RAD, ArmLengths
 from station.motion.kinematics.figure import MEDIAN_STATURE_M, Figure
 
 HAND_M = 0.108 * MEDIAN_STATURE_M
@@ -200,6 +200,8 @@ class Hold:
         length, side = self.length_m(figure), 1.0 if right else -1.0
         size = figure.hand_m / HAND_M
         hand, behind = math.hypot(*self.grip.fulcrum) * size, self.grip.in_hand_m * size + self.grip.beyond_m
+        limits = figure.limits
+        sideways = (-limits.wrist_ulnar, limits.wrist_radial) if right else (-limits.wrist_radial, limits.wrist_ulnar)
         x, y, z = line_axes(self.grip.fulcrum)[:, 2].tolist()
         tilt = math.acos(z) / math.hypot(x, y)
         return ArmLengths(
@@ -214,7 +216,9 @@ class Hold:
             across=not self.grip.turns_hand,
             off_thumb=tilt * x,
             off_back=tilt * y,
-            most_bend=figure.limits.elbow_flexion,
+            most_bend=limits.elbow_flexion,
+            most_back_m=figure.upper_arm_m * math.sin(min(limits.shoulder_extension - EASE_RAD, 0.5 * math.pi)),
+            wrist=(-limits.wrist_flexion, limits.wrist_extension, *sideways),
         )
 
     def length_m(self, figure: Figure) -> float:

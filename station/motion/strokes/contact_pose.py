@@ -13,16 +13,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Articulation, Limb, Piece
-from station.motion.kinematics.arm import Arm, ArmLengths, Contact, Offsets, solve
+from station.motion.kinematics.arm import BEHIND_M, Arm, ArmLengths, Contact, Offsets, solve
+from station.motion.kinematics.body_solids import CHEST, Capsules, in_capsules, points_of, trunk_capsules
 from station.motion.kinematics.collisions import depth_in_kit
 from station.motion.kinematics.figure import Figure
 from station.motion.kinematics.grip import Grip, Hold
 from station.motion.kinematics.joint_limits import Limits
 from station.motion.kinematics.maths import MANY, ONE, Point
-from station.motion.kinematics.posture import natural_shoulder
+from station.motion.kinematics.posture import natural_shoulder, pelvis_of
 from station.motion.kit.kit import Kit
 from station.motion.kit.piece import RIM_ABOVE_HEAD_M, Target
-from station.motion.strokes.hand_events import GRAB, SHOW, WAIT
+from station.motion.strokes.hand_events import GRAB, LAP, SHOW, WAIT
+from station.motion.strokes.lap import Thigh, lap
 from station.motion.strokes.targets import Strike, laid_azimuth, target_of
 
 Array = NDArray[np.float64]
@@ -72,24 +74,30 @@ class ContactPose:
     shoulder_of_stick: bool
 
 
-def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike) -> ContactPose:
-    """The most comfortable way for `strike` with `hold`."""
-    if strike.articulation == WAIT and not hold.held.rest_m:  # a brush waits on the head
+def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike, thigh: Thigh | None = None) -> ContactPose:
+    """The most comfortable way for `strike` with `hold`; `thigh` on which a hand may lie."""
+    if strike.articulation in (WAIT, LAP) and not hold.held.rest_m:  # a brush waits on the head
         strike = replace(strike, articulation=Articulation.NORMAL)
     target = target_of(kit, strike)
     if kit.stand_in(strike.piece) in _RIDES and hold.held.name == "stick":
         hold = replace(hold, grip=replace(hold.grip, turns_hand=min(hold.grip.turns_hand, THUMB_UP_TURNS)))
     right = strike.limb == Limb.RIGHT_HAND
     side = 1.0 if right else -1.0
-    lengths = hold.lengths(figure, right)
+    lengths = hold.lengths(figure, right).unlimited
     slopes = _slopes(lengths, target, hold, strike, hold.length_m(figure))
     if strike.articulation == Articulation.CROSS_STICK:
         azimuth = laid_azimuth(kit, kit.pieces[kit.stand_in(strike.piece)], strike.limb)
         slopes = replace(slopes, azimuth=azimuth, free=0.0)
-    faced = np.array([0.0, 1.0, 0.0]) if strike.articulation in (WAIT, SHOW) else target.point_m  # for anything
+    elif strike.articulation == LAP:
+        assert thigh is not None
+        target, azimuth = lap(figure, thigh)
+        slopes = _Slopes(0.0, lengths.ahead, target.rise_rad, azimuth=azimuth, free=0.0)
+    faced = np.array([0.0, 1.0, 0.0]) if strike.articulation in (WAIT, SHOW, LAP) else target.point_m  # for anything
     for lean in LEANS_RAD.tolist():
         root = natural_shoulder(kit, figure, strike.limb, faced, lean)
-        touch, stretched = _easiest(lengths, root, target, slopes, hold.grip, (side, figure.limits))
+        other = natural_shoulder(kit, figure, Limb.LEFT_HAND if right else Limb.RIGHT_HAND, faced, lean)
+        body = _Body.of(kit, figure, root, other, side)
+        touch, stretched = _easiest(lengths, root, target, slopes, hold.grip, body)
         if not stretched:
             break
     arm = solve(ONE, lengths, root, touch, Offsets(0.0, 0.0, 0.0, 0.0))
@@ -97,9 +105,7 @@ def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike) -> ContactPose:
         if not _caught(kit, lengths, root, touch):
             break
         grip = replace(hold.grip, yaw=share * hold.grip.yaw)
-        touch, _ = _easiest(
-            lengths, root, target, replace(slopes, free=_LED * slopes.free), grip, (side, figure.limits)
-        )
+        touch, _ = _easiest(lengths, root, target, replace(slopes, free=_LED * slopes.free), grip, body)
         arm = solve(ONE, lengths, root, touch, Offsets(0.0, 0.0, 0.0, 0.0))
     limits = figure.limits
     return ContactPose(
@@ -140,22 +146,20 @@ _EASY = 0.95
 
 
 def _easiest(
-    lengths: ArmLengths, root: Point, target: Target, slopes: "_Slopes", grip: Grip, arm_of: tuple[float, Limits]
+    lengths: ArmLengths, root: Point, target: Target, slopes: "_Slopes", grip: Grip, body: "_Body"
 ) -> tuple[Contact, bool]:
-    """Among all wings and ways to turn hand and stick the easiest one, and whether the arm is stretched for it.
-
-    `arm_of` is the arm's side, 1 right and −1 left, and its limits.
-    """
-    side, limits = arm_of
+    """Among all wings and ways to turn hand and stick the easiest one, and whether the arm is stretched for it."""
+    side, limits = body.side, body.limits
     wing, turn = (g.ravel() for g in np.meshgrid(side * _WINGS, _TURNS, indexing="ij"))
     turn = slopes.free * turn
+    x, y, z = target.point_m.tolist()
     way = side * grip.yaw if slopes.azimuth is None else _turn(root, target, slopes.azimuth)
     rises = {t: _over_the_piece(target, root, way + t, slopes) for t in set(turn.tolist())}
     rise = np.array([rises[t] for t in turn.tolist()])
     lies = {r: grip.lie(r, slopes.hand_roll) for r in rises.values()}
     palm, crossing, roll = (np.array(part) for part in zip(*(astuple(lies[r]) for r in rise.tolist()), strict=True))
+    way += math.atan2(root[1] - y, root[0] - x) - math.atan2(root[1] - BEHIND_M - y, root[0] - x)
     stick_yaw = way + turn
-    x, y, z = target.point_m.tolist()
     tries = Contact(
         x,
         y,
@@ -177,11 +181,42 @@ def _easiest(
         + (turn / _TURN_EASE) ** 2
         + 100.0 * arm.missing_m
         + (_beyond(arm, side, limits) / _BEYOND_EASE) ** 2
+        + (body.deep(arm) / _BODY_EASE_M) ** 2
     )
     best = int(np.argmin(price))
     wx, wy, wz = (float(np.broadcast_to(w, price.shape)[best]) for w in arm.wrist)
     stretched = math.dist((wx, wy, wz), root) > _EASY * (lengths.upper + lengths.fore)
     return Contact(*(float(np.broadcast_to(t, price.shape)[best]) for t in tries)), stretched
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Body:
+    """What an arm must heed of its body: its side, 1 right and −1 left, its joints' limits and the trunk."""
+
+    side: float
+    limits: Limits
+    trunk: Capsules
+    stature_m: float
+
+    @classmethod
+    def of(cls, kit: Kit, figure: Figure, root: Point, other: Point, side: float) -> "_Body":
+        """The body with the arm's own and the other shoulder there."""
+        right, left = (np.array(p)[None] for p in ((root, other) if side > 0 else (other, root)))
+        pelvis = np.array(pelvis_of(kit, figure))[None]
+        capsules = trunk_capsules(pelvis, 0.5 * (right + left), (right, left), figure.stature_m)
+        return cls(side, figure.limits, capsules, figure.stature_m)
+
+    def deep(self, arm: Arm) -> Array:
+        """How deep the arm and hand are in the trunk, or nearer than they like, (n,)."""
+        points = points_of(arm)
+        parts = ("hand", "forearm", "upper arm")
+        deep = [in_capsules(points, part, self.trunk, CHEST, self.stature_m) for part in parts]
+        return np.asarray(np.maximum(np.max(deep, axis=0) + _OFF_M, 0.0))
+
+
+_BODY_EASE_M, _OFF_M = 0.008, 0.020
+"""An arm is this far off the trunk where it can be, for the trunk moves, and so much nearer costs as much as 25° of the
+wrist (our choice)."""
 
 
 def _beyond(arm: Arm, side: float, limits: Limits) -> Array:

@@ -17,7 +17,8 @@ from station.motion.kinematics.maths import MANY, blocks
 from station.motion.kit.kit import Kit
 from station.motion.strokes.amplitudes import amplitudes, rebounds
 from station.motion.strokes.contact_pose import PROTRACTION_M, ContactPose, lie_of
-from station.motion.strokes.hand_events import SHOW, WAIT, HandEvents
+from station.motion.strokes.hand_events import LAP, SHOW, HandEvents
+from station.motion.strokes.lap import Thigh
 from station.motion.strokes.stroke import NATURALLY, StrokePlan, Strokes
 from station.motion.strokes.targets import Strike
 from station.motion.strokes.travel import DETOUR, GIVES, HandPath, lifts
@@ -36,9 +37,7 @@ _ELBOW_FOR_WRIST, _MOST_ELBOW_RAD, _WINGS_RAD = 1.0, radians(15), (radians(-10),
 """An elbow that goes out by so much of it takes a bend to the thumb's side from the wrist, step by step."""
 _VIGOROUS = 2.0
 """Styles may make strokes so much higher, and on its ways the wrist must bear them (our choice)."""
-_MOST_AHEAD_M = 0.12
-"""A hand waits so much farther forward at most: it stays over the snare (our choice)."""
-_Y, _TURNS = Contact._fields.index("y"), Contact._fields.index("turns")
+_TURNS = Contact._fields.index("turns")
 _HAND_YAW, _WING = Contact._fields.index("hand_yaw"), Contact._fields.index("wing")
 
 
@@ -66,15 +65,17 @@ class HandPart:
     show: Contact
 
     @classmethod
-    def of(cls, score: Score, kit: Kit, figure: Figure, hold: Hold, limb: Limb, events: HandEvents) -> "HandPart":
-        """The part of `limb` with `events`.
+    def of(
+        cls, score: Score, kit: Kit, figure: Figure, hold: Hold, limb: Limb, events: HandEvents, thigh: Thigh
+    ) -> "HandPart":
+        """The part of `limb` with `events`; `thigh` on which it rests.
 
         Raises `BadInput` for a piece out of reach: it names the piece, the note and the missing distance.
         """
         kinds, which = np.unique(events.key, axis=0, return_inverse=True)
         which = which.reshape(-1)
         strikes = [Strike(Piece(p), Zone(z), a, limb) for p, z, a in kinds.tolist()]
-        lies = tuple(lie_of(kit, figure, hold, strike) for strike in strikes)
+        lies = tuple(lie_of(kit, figure, hold, strike, thigh) for strike in strikes)
         for k, lie in enumerate(lies):
             if lie.missing_m > PROTRACTION_M and len(events.row):
                 _out_of_reach(score, kit, strikes[k], int(events.row[np.argmax(which == k)]), lie.missing_m)
@@ -92,10 +93,10 @@ class HandPart:
             ceiling=np.array([lie.ceiling for lie in lies])[which].T,
             most=np.full(len(height), np.inf),
             lever_m=lengths.hand + lengths.ahead,
-            rest_m=hold.held.rest_m,
+            rest_m=np.where(np.append(False, events.key[:-1, 2] == LAP), 0.0, hold.held.rest_m),  # there it lies
         )
         left_at_once = np.array([lie.shoulder_of_stick for lie in lies])[which]
-        played = np.array([kit.stand_in(s.piece) for s in strikes])[which]
+        played = np.array([-1 if s.articulation == LAP else kit.stand_in(s.piece) for s in strikes])[which]
         wrists = np.array([lie.wrist for lie in lies])[which]
         bump = np.zeros((len(contacts) - 1, DETOUR))
         bump[:, 2] = lifts(kit, contacts, played)
@@ -106,7 +107,13 @@ class HandPart:
     @cached_property
     def way(self) -> HandPath:
         """The way between the contacts."""
-        return HandPath.of(self.events.time_s, self.contacts, self.bump, self.early, self.gives)
+        return HandPath.of(self.events.time_s, self.contacts, self.bump, self.early, self._easy, self.gives)
+
+    @property
+    def _easy(self) -> NDArray[np.bool_]:
+        """Which stretches lead to the thigh or from it, (n − 1,)."""
+        lies = self.events.key[:, 2] == LAP
+        return np.asarray(lies[:-1] | lies[1:])
 
     def eased(self, figure: Figure, time_s: Array, roots: tuple[Array, Array]) -> "HandPart":
         """The same, hand turned on its stick and elbow so far out that the wrist stays within its limits sideways.
@@ -174,16 +181,6 @@ class HandPart:
         bump[:, 3] -= side * np.clip(turn.sum(0), -SLACK_RAD, SLACK_RAD)
         return replace(self, bump=bump)
 
-    def waiting_before(self, time_s: Array, root: Array) -> "HandPart":
-        """The same, waiting farther forward where the shoulder comes forward meanwhile: `root` (3, k) at `time_s`."""
-        nearest, _ = self.way.nearest(time_s)
-        comes = np.zeros(len(self.contacts))
-        ahead = root[1] - np.array([lie.root[1] for lie in self.lies])[self.which][nearest]
-        np.maximum.at(comes, nearest, ahead)
-        contacts = self.contacts.copy()
-        contacts[:, _Y] += np.where(self.events.key[:, 2] == WAIT, np.minimum(comes, _MOST_AHEAD_M), 0.0)
-        return replace(self, contacts=contacts)
-
     def held_under(self, height_m: Array) -> "HandPart":
         """The same, no stroke higher than `height_m` (n,), whatever the sliders say."""
         most = height_m / np.maximum(self.strokes.height_m, 1e-6)
@@ -195,11 +192,6 @@ class HandPart:
         `gives` (n, 6) is how the hand gives way.
         """
         return replace(self, bump=bump, contacts=contacts, gives=gives, strokes=replace(self.strokes, most=most))
-
-    @cached_property
-    def on_the_shoulder(self) -> NDArray[np.int64]:
-        """Which of `lies` have the stick's shoulder on an edge or a rim."""
-        return np.flatnonzero([lie.shoulder_of_stick for lie in self.lies])
 
 
 def parts(hold: Hold) -> Array:

@@ -18,9 +18,9 @@ from station.music.score import Score
 
 Array = NDArray[np.float64]
 
-GRAB, WAIT, SHOW = (len(Articulation) + k for k in range(3))
-"""Stand where an articulation stands: the hand grabs the cymbal's edge, waits on its own side over the snare, or shows
-a spin or toss above that."""
+GRAB, WAIT, SHOW, LAP = (len(Articulation) + k for k in range(4))
+"""Stand where an articulation stands: the hand grabs the cymbal's edge, waits on its own side over the snare, shows a
+spin or toss above that, or rests on its thigh."""
 SAME_STROKE_S = 0.004
 """Events of one hand nearer than this are one movement."""
 GRACE_HEIGHT_M, LAID_HEIGHT_M, PRESS_HEIGHT_M, GRAB_HEIGHT_M = 0.045, 0.06, 0.02, 0.03
@@ -38,9 +38,11 @@ BUSY_S = 0.12
 
 REST_S, LEAVE_S = 1.1, 0.5
 """A hand with so long a rest that is not at home goes there, so long after its last stroke (our choice)."""
+LONG_REST_S, OVER_SNARE_S, LIE_DOWN_S = 3.5, 0.7, 1.5
+"""In so long a rest, a bar and a half of a middling tempo, it lies down on the thigh: it is over the snare so long after
+its last stroke and before its next, and on the thigh so long after and before (our choice)."""
 
 LONG_AGO_S = -60.0
-_IDLE_HEIGHT_M = 0.05
 
 Event = tuple[float, int, int, float, bool]
 """Time, row of the score, articulation, height, and whether it is a pressed stick's bounce."""
@@ -90,25 +92,40 @@ _STATIONS = (Piece.HIHAT, Piece.RIDE, Piece.RIDE_2)
 
 
 def _with_waits(notes: NDArray[np.void], events: list[Event], others: list[Event]) -> list[Event]:
-    """The same with a wait in every long rest, but where the hand is at home or stationed at its cymbal.
+    """The same with a wait in every rest, but where the hand is at home or stationed at its cymbal.
 
-    Nor does it go home past the other hand, which has come to where this one is.
+    Nor does it go home past the other hand, which has come to where this one is. In long rests, before the first and
+    after the last stroke it lies on its thigh.
     """
-    result = []
+    result = [event for first in events[:1] for event in reversed(_lies_down(first, notes["piece"][first[1]], -1))]
     other_s = [other[0] for other in others]
     for event, after in zip_longest(events, events[1:]):
         result.append(event)
         at, row, *_ = event
         piece = notes["piece"][row]
-        if piece in _HOME or (after is not None and after[0] - at < REST_S):
+        if after is None or after[0] - at >= LONG_REST_S:
+            result += _lies_down(event, piece, 1)
+        if after is None:
             continue
-        if after is not None and piece in _STATIONS and notes["piece"][after[1]] == piece:
+        if after[0] - at >= LONG_REST_S:
+            result += reversed(_lies_down(after, notes["piece"][after[1]], -1))
+            continue
+        if piece in _HOME or after[0] - at < REST_S:
+            continue
+        if piece in _STATIONS and notes["piece"][after[1]] == piece:
             continue
         beside = others[bisect_left(other_s, at) : bisect_right(other_s, at + REST_S)]
         if any(notes["piece"][other[1]] == piece for other in beside):
             continue
         result.append((at + LEAVE_S, row, WAIT, PRESS_HEIGHT_M, False))
     return result
+
+
+def _lies_down(event: Event, piece: int, sign: int) -> list[Event]:
+    """How a hand gets to its thigh after `event`, or from there to it if `sign` is −1: past the kit over the snare."""
+    at, row, *_ = event
+    home = [] if piece in _HOME else [(at + sign * OVER_SNARE_S, row, WAIT, PRESS_HEIGHT_M, False)]
+    return [*home, (at + sign * LIE_DOWN_S, row, LAP, 0.0, False)]
 
 
 def _with_bounces(events: list[Event]) -> list[Event]:
@@ -165,15 +182,16 @@ def _grab(score: Score, row: int, limbs: NDArray[np.int8], found: list[list[Even
 
 def _events(notes: NDArray[np.void], found: list[Event]) -> HandEvents:
     if not found:
-        key = np.array([[Piece.SNARE, Zone.HEAD, WAIT]], np.int64)
-        ago, height, none = np.array([LONG_AGO_S]), np.array([_IDLE_HEIGHT_M]), np.zeros(1, bool)
+        key = np.array([[Piece.SNARE, Zone.HEAD, LAP]], np.int64)
+        ago, height, none = np.array([LONG_AGO_S]), np.zeros(1), np.zeros(1, bool)
         return HandEvents(ago, np.zeros(0, np.int64), key, height, none, none)
     time, row, articulation, height, bounces = (np.array(column) for column in zip(*found, strict=True))
     keep = np.diff(time, prepend=-np.inf) > SAME_STROKE_S
     time, row, articulation, height, bounces = (x[keep] for x in (time, row, articulation, height, bounces))
     zone = np.where(articulation == GRAB, int(Zone.EDGE), notes["zone"][row])
-    zone = np.where(articulation == WAIT, int(Zone.HEAD), zone)
-    piece = np.where(articulation == WAIT, int(Piece.SNARE), notes["piece"][row])
+    waits = np.isin(articulation, (WAIT, LAP))
+    zone = np.where(waits, int(Zone.HEAD), zone)
+    piece = np.where(waits, int(Piece.SNARE), notes["piece"][row])
     key = np.stack([piece, zone, articulation], 1).astype(np.int64)
     on = bounces_on(time, piece, notes["velocity"][row]) & (articulation < GRAB)
     rebounds = np.zeros(len(time), bool)

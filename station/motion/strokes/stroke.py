@@ -86,8 +86,8 @@ class StrokePlan:
     `rebounds` (n,) come out of the stroke before them, moved by the fingers alone.
 
     `amplitude` (4, n) is what `amplitudes` and `rebounds` give, `ceiling` (4, n) what the joints' limits leave, `most`
-    (n,) how often the height is the highest that has room, `lever_m` the distance from wrist to tip, and `rest_m` how
-    high the tip rests.
+    (n,) how often the height is the highest that has room, `lever_m` the distance from wrist to tip, and `rest_m` (n,)
+    how high the tip rests before each.
     """
 
     strike_s: Array
@@ -97,7 +97,7 @@ class StrokePlan:
     ceiling: Array
     most: Array
     lever_m: float
-    rest_m: float
+    rest_m: Array
 
 
 def most_height_m(gap_s: Array, wanted_m: Array) -> Array:

@@ -29,8 +29,9 @@ _LEAST_STAY = 0.4
 """Where the way is far for its time, the stays are shortened down to this share (our choice)."""
 MOST_TRAVEL = 1.0 - _LEAST_STAY * (_LEAVE_SHARE + _ARRIVE_SHARE)
 """The greatest share of a gap that is travelled."""
-_TRAVEL_S = 0.45
-"""Long gaps leave this long for the travel; HUMANS has 0.25 s for 40 cm at full speed."""
+_TRAVEL_S, _EASY_TRAVEL_S = 0.45, 0.7
+"""Long gaps leave this long for the travel; HUMANS has 0.25 s for 40 cm at full speed. To the thigh and from it nobody
+hurries (our choice)."""
 
 
 FIELDS = len(Contact._fields)
@@ -52,11 +53,19 @@ class HandPath:
     rows: Array
 
     @classmethod
-    def of(cls, strike_s: Array, contacts: Array, bump: Array, early: NDArray[np.bool_], gives: Array) -> "HandPath":
+    def of(
+        cls,
+        strike_s: Array,
+        contacts: Array,
+        bump: Array,
+        early: NDArray[np.bool_],
+        easy: NDArray[np.bool_],
+        gives: Array,
+    ) -> "HandPath":
         """The way through `contacts` (n, FIELDS) at `strike_s` (n,).
 
         Each stretch goes round by `bump` (n − 1, 4) in its middle: right, forward and up in metres, and the hand turned
-        to the left in radians. An `early` one (n − 1,) is travelled at once, the others late in their gap. After each
+        to the left in radians. An `early` one (n − 1,) is travelled at once, the others late in their gap, an `easy` one slowly. After each
         strike, before the first one too, the hand `gives` (n, 6) way.
         """
         gaps = np.diff(strike_s)
@@ -65,9 +74,10 @@ class HandPath:
         lacking = MINIMUM_JERK_PEAK * way_m / HAND_M_S - (gaps - leave - arrive)
         hurry = np.clip(1 - lacking / np.maximum(leave + arrive, 1e-9), _LEAST_STAY, 1.0)
         start, end = strike_s[:-1] + hurry * leave, strike_s[1:] - hurry * arrive
+        longest = np.where(easy, _EASY_TRAVEL_S, _TRAVEL_S)
         start, end = (
-            np.where(early, start, np.maximum(start, end - _TRAVEL_S)),
-            np.where(early, np.minimum(end, start + _TRAVEL_S), end),
+            np.where(early, start, np.maximum(start, end - longest)),
+            np.where(early, np.minimum(end, start + longest), end),
         )
         rows = np.zeros((len(strike_s), _HEAD + 2 * FIELDS))
         rows[:-1, 0], rows[:-1, 1], rows[:-1, 2 : 2 + DETOUR] = start, 1 / np.maximum(end - start, 1e-6), bump
@@ -144,6 +154,15 @@ class HandPath:
         t0, rate, off, back = (self.rows[i, k] for k in (0, 1, 2 + DETOUR, 3 + DETOUR))
         u, gives = (time_s - t0) * rate, (off < time_s) & (time_s < back)
         return np.where(u > 0.5, np.minimum(i + 1, len(self.strike_s) - 1), i), ((u <= 0.0) | (u >= 1.0)) & ~gives
+
+    def about(self, event: int, time_s: Array) -> tuple[NDArray[np.int64], Array]:
+        """Which of the times (n,) the contact at `event` has a part in, and how much of it is made there, 0 … 1."""
+        i = np.maximum(np.searchsorted(self.strike_s, time_s, side="right") - 1, 0)
+        on = np.flatnonzero((i == event) | (i == event - 1))
+        u = np.clip((time_s[on] - self.rows[i[on], 0]) * self.rows[i[on], 1], 0.0, 1.0)
+        s = u * u * u * (10 + u * (6 * u - 15))
+        share = np.where(i[on] == event, 1.0 - s, s)
+        return on[share > 0], share[share > 0]
 
     def humps(self, time_s: Array) -> tuple[NDArray[np.int64], Array]:
         """The stretch that each time is on, by the strike before it, and how much of its detour is made there, 0 … 1.

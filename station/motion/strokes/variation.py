@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from station.core.pieces import Articulation, Piece, Zone
 from station.motion.kinematics.wander import wander
 from station.motion.kit.kit import Kit
-from station.motion.strokes.hand_events import SHOW, HandEvents
+from station.motion.strokes.hand_events import LAP, HandEvents
 from station.motion.strokes.stroke import Sliders
 
 Array = NDArray[np.float64]
@@ -23,7 +23,7 @@ SPOT_SD_M, SPOT_M = 0.004, 0.010
 """How far from its aim the tip lands on a head or a bow, in each direction and at most: worn heads show a spot of two
 centimetres (our choice)."""
 _BY_THE_TIP = np.isin(np.arange(len(Zone)), (Zone.HEAD, Zone.BOW))
-_ON_THE_SPOT = np.isin(np.arange(SHOW + 1), (Articulation.NORMAL, Articulation.BUZZ))
+_ON_THE_SPOT = np.isin(np.arange(LAP + 1), (Articulation.NORMAL, Articulation.BUZZ))
 
 
 def varied(sliders: Sliders, rebounds: NDArray[np.bool_], amount: Array, seed: tuple[int, int]) -> Sliders:

@@ -5,7 +5,8 @@ import pytest
 from numpy.typing import NDArray
 
 from station.core.pieces import Piece
-from station.motion.kinematics.collisions import ALONG, depth, segments_apart
+from station.motion.kinematics.body_solids import segments_apart
+from station.motion.kinematics.collisions import ALONG, depth
 from station.motion.kit.piece import KitPiece
 
 Array = NDArray[np.float64]

@@ -95,7 +95,7 @@ def test_the_tip_meets_the_plane_at_the_strike_and_not_before() -> None:
 @pytest.mark.parametrize("style", style_names())
 def test_no_stick_passes_through_a_drum_or_cymbal(style: str) -> None:
     drummer = Drummer(SCORE, style=load_style(style))
-    found = collisions(drummer.rows(grid(SCORE)), drummer.kit)
+    found = collisions(drummer.rows(grid(SCORE)), drummer.kit, drummer.figure.stature_m)
     for piece, depth in found.pieces.items():
         assert depth.max() <= 0.003, piece
 

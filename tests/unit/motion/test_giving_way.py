@@ -53,7 +53,7 @@ def test_a_hand_moves_off_and_comes_back(off: float, back: float) -> None:
     contacts[:, :3] = 0.1, 0.5, 0.7
     gives = np.zeros((2, 6))
     gives[0 if off < 1.9 else 1] = off, back, 10.0, 0.0, 0.0, 0.25
-    way = HandPath.of(np.array([1.0, 2.0]), contacts, np.zeros((1, 4)), np.zeros(1, bool), gives)
+    way = HandPath.of(np.array([1.0, 2.0]), contacts, np.zeros((1, 4)), np.zeros(1, bool), np.zeros(1, bool), gives)
     time_s = np.arange(0.5, 3.0, 0.005)
     height = np.asarray(way.many(time_s).z)
     assert height == pytest.approx([way.at(t)[2] for t in time_s.tolist()])

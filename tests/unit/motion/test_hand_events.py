@@ -3,7 +3,7 @@ import pytest
 
 from station.core.pieces import Articulation, Limb, Ornament, Piece, Zone
 from station.core.units import PPQ
-from station.motion.strokes.hand_events import GRAB, WAIT, hand_events
+from station.motion.strokes.hand_events import GRAB, LAP, WAIT, hand_events
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 
@@ -11,14 +11,19 @@ R, L = Limb.RIGHT_HAND, Limb.LEFT_HAND
 
 
 def events_of(notes: list[Note], tempo_bpm: float = 120) -> tuple[list[tuple[float, int]], list[tuple[float, int]]]:
-    """Time and articulation of what each hand does."""
+    """Time and articulation of what each hand does from its first stroke to its last."""
     score = Score.from_notes(notes, TempoMap.constant(tempo_bpm))
     right, left = hand_events(score, score.notes["limb"])
     pairs = [
         [(round(t, 4), int(k[2])) for t, k in zip(e.time_s.tolist(), e.key, strict=True)] if len(e.row) else []
         for e in (right, left)
     ]
-    return pairs[0], pairs[1]
+    return _from_first_to_last(pairs[0]), _from_first_to_last(pairs[1])
+
+
+def _from_first_to_last(events: list[tuple[float, int]]) -> list[tuple[float, int]]:
+    struck = [t for t, a in events if a not in (WAIT, LAP)]
+    return [(t, a) for t, a in events if struck[0] <= t <= struck[-1]]
 
 
 def test_strikes_come_in_order_of_sound_grace_notes_included() -> None:
@@ -65,12 +70,27 @@ def test_a_busy_hand_leaves_the_choke_to_the_other() -> None:
 
 
 def test_a_hand_waits_at_home_in_a_long_rest_but_not_at_its_station() -> None:
-    away = [Note(0, Piece.FLOOR_TOM_1, limb=R), Note(16 * PPQ, Piece.FLOOR_TOM_1, limb=R)]
-    assert [a for _, a in events_of(away)[0]] == [0, WAIT, 0, WAIT]
-    station = [Note(0, Piece.RIDE, limb=R), Note(16 * PPQ, Piece.RIDE, limb=R)]
-    assert [a for _, a in events_of(station)[0]] == [0, 0, WAIT]
-    home = [Note(0, Piece.SNARE, limb=L), Note(16 * PPQ, Piece.SNARE, limb=L)]
+    away = [Note(0, Piece.FLOOR_TOM_1, limb=R), Note(5 * PPQ, Piece.FLOOR_TOM_1, limb=R)]
+    assert [a for _, a in events_of(away)[0]] == [0, WAIT, 0]
+    station = [Note(0, Piece.RIDE, limb=R), Note(5 * PPQ, Piece.RIDE, limb=R)]
+    assert [a for _, a in events_of(station)[0]] == [0, 0]
+    home = [Note(0, Piece.SNARE, limb=L), Note(5 * PPQ, Piece.SNARE, limb=L)]
     assert [a for _, a in events_of(home)[1]] == [0, 0]
+
+
+@pytest.mark.parametrize("piece", [Piece.RIDE, Piece.SNARE, Piece.FLOOR_TOM_1])
+def test_a_hand_lies_down_in_long_rests_before_its_first_stroke_and_after_its_last(piece: Piece) -> None:
+    """At 120 bpm eight beats are 4 s."""
+    notes = [Note(40 * PPQ, piece, limb=R), Note(48 * PPQ, piece, limb=R)]
+    score = Score.from_notes(notes, TempoMap.constant(120))
+    right, left = hand_events(score, score.notes["limb"])
+    via = [WAIT] if piece != Piece.SNARE else []  # past the kit
+    assert right.key[:, 2].tolist() == [LAP, *via, 0, *via, LAP, LAP, *via, 0, *via, LAP]
+    assert left.key[:, 2].tolist() == [LAP]
+    assert 18.0 < right.time_s[0] < 19.4  # rises in time, up to then it lies
+    lies = right.time_s[right.key[:, 2] == LAP]
+    assert (lies[1:3] > 20.6).all()
+    assert (lies[1:3] < 23.4).all()
 
 
 def test_grace_notes_and_cross_sticks_stay_low() -> None:
@@ -82,5 +102,5 @@ def test_grace_notes_and_cross_sticks_stay_low() -> None:
     score = Score.from_notes(notes, TempoMap.constant(120))
     right, left = hand_events(score, score.notes["limb"])
     assert right.height_m.max() <= 0.06
-    assert left.height_m.tolist() == pytest.approx([15 * 0.0254])
+    assert left.height_m.tolist() == pytest.approx([0.0, 15 * 0.0254, 0.0])
     assert np.diff(right.time_s).min() > 0

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from station.drills.library import find_lesson
 from station.motion.drummer import Drummer
 from station.motion.kinematics import frame
-from station.motion.kinematics.collisions import segments_apart
+from station.motion.kinematics.body_solids import segments_apart
 from station.motion.kinematics.figure import Joint
 from station.motion.kit.kit import load_kit
 from station.motion.sticking.limbs import as_led
@@ -47,4 +47,4 @@ def test_the_leading_forearm_and_stick_pass_over_the_backbeat(lesson: str, kit: 
     assert segments_apart(butt[:, other], tip[:, other], elbow, wrist).min() >= FOREARM_OVER_M
     sticks = over_where_they_cross(butt[:, lead], tip[:, lead], butt[:, other], tip[:, other])
     assert len(sticks) > 0.2 * len(TIMES)  # they are crossed much of the time, else forearm and stick
-    assert sticks.min() > 0.05  # and the backbeat's stick stays under the leading one
+    assert sticks.min() > 0.045  # and the backbeat's stick stays under the leading one

@@ -1,0 +1,193 @@
+"""The optimiser: both hands' parts in, the same parts out, led so that little is wrong with them.
+
+Both hands are looked at `RATE_HZ` times a second and at every event. Moments that cost something, on one stretch of
+each hand, are a trouble; all moves of both hands are tried on it, and the one that takes most off its cost is made. What
+it does elsewhere is seen in the next round. Nothing is left to chance, and what is found for a figure of the score
+serves where the figure comes again.
+"""
+
+from collections import Counter
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.motion.avoidance.cost import WRONG_M, Array, Hands, Moments, Stage, near, stick_cost
+from station.motion.avoidance.moves import Move, done, moves
+from station.motion.kinematics.arm import Contact
+from station.motion.kinematics.body_solids import points_of
+from station.motion.strokes.hand import HandPart
+from station.motion.strokes.hand_events import LONG_AGO_S
+
+RATE_HZ = 100.0
+ROUNDS = 8
+"""A move may need another: so often the whole is looked at (our choice)."""
+_TRIED, _FIRST_LOOKS = 16, 4
+"""All moves are looked at in so many of the worst moments, and so many of the best of them in all (our choice)."""
+_WAY, _TURN, _LOW = 0.05, 0.01, 0.02
+"""A metre of way round, a radian of turning and a stroke that is not made at all are taken for so many metres less near
+(our choice: natural ways are left for what is worth it)."""
+_LEAST_GAIN = 0.002
+"""What takes less off is not worth a move (our choice)."""
+
+
+def looks(*event_s: Array) -> Array:
+    """The times at which hands with events at `event_s` are looked at; an event long ago is no event."""
+    times = np.concatenate(event_s)
+    times = times[times > LONG_AGO_S]
+    return np.union1d(np.arange(times.min() - 1.0, times.max() + 1.0, 1 / RATE_HZ), times)
+
+
+def optimised(parts: tuple[HandPart, HandPart], stage: Stage) -> tuple[tuple[HandPart, HandPart], Array]:
+    """Both parts with the least wrong that was found, and what still is at each moment of the stage, (n,)."""
+    known: dict[tuple[object, ...], Found | None] = {}
+    hopeless: set[tuple[int, int]] = set()
+    tries: Counter[tuple[int, int]] = Counter()
+    hands = Hands(stage, parts)
+    cost = hands.cost(np.arange(len(stage.grid)))
+    for _ in range(ROUNDS):
+        new, changed = list(hands.parts), [set[int](), set[int]()]
+        for pair, moments in _troubles(hands, cost, tries):
+            if pair in hopeless or any(set(range(k - 1, k + 2)) & c for k, c in zip(pair, changed, strict=True)):
+                continue  # what helped its neighbour may have helped it too; if not, its turn is next
+            key = _figure_of(hands, pair)
+            if key not in known:
+                known[key] = _found(hands, pair, best_move(hands, pair, moments, cost))
+            found = known[key]
+            tries[pair] += 1
+            if found is None:
+                hopeless.add(pair)
+                continue
+            move, chosen = found.at(hands, pair)
+            new[move.side] = done(new[move.side], move, chosen)
+            changed[move.side].add(pair[move.side])
+        if not any(changed):
+            break
+        before, hands = hands, Hands(stage, (new[0], new[1]))
+        on = np.flatnonzero(_differ(before, hands))
+        cost[on] = hands.cost(on)
+    return hands.parts, cost
+
+
+def _troubles(hands: Hands, cost: Array, tries: Counter[tuple[int, int]]) -> list[tuple[tuple[int, int], Moments]]:
+    """Where something is wrong: the stretches that the hands are on and the moments, the least tried and worst first."""
+    wrong = np.flatnonzero(cost > WRONG_M)
+    k = np.stack([part.way.humps(hands.stage.grid[wrong])[0] for part in hands.parts], 1)
+    pairs, which = np.unique(k, axis=0, return_inverse=True)
+    found = [((int(r), int(s)), wrong[which.reshape(-1) == i]) for i, (r, s) in enumerate(pairs.tolist())]
+    return sorted(found, key=lambda trouble: (tries[trouble[0]], -float(cost[trouble[1]].max())))
+
+
+def best_move(hands: Hands, pair: tuple[int, int], moments: Moments, cost: Array) -> tuple[Move, int] | None:
+    """What takes most off the cost of a trouble; None where nothing does."""
+    worst = np.sort(moments[np.argsort(-cost[moments], kind="stable")[:_FIRST_LOOKS]])
+    table = moves(hands, list(pair), moments, worst)
+    every = [Trial(move, k, np.isin(move.on, worst)) for move in table for k in range(len(move.amounts))]
+    first = tried(hands, [trial for trial in every if trial.at.any()])
+    few = [replace(trial, at=np.ones(len(trial.move.on), bool)) for trial, _ in first[:_TRIED]]
+    best, gain = None, _LEAST_GAIN
+    for trial, after in tried(hands, few):
+        before, rest = cost[trial.move.on], float(cost[worst[~np.isin(worst, trial.move.on)]].max(initial=0.0))
+        wrong = max(int((before > WRONG_M).sum()), 1)
+        most = max(float(before.max()), rest) - max(float(after.max()), rest)
+        won = 0.5 * most + 0.5 * float((before - after).sum()) / wrong - trial.price
+        if won > gain:
+            best, gain = (trial.move, trial.row), won
+    return best
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """A row of a move that is looked `at` some of its moments (n,)."""
+
+    move: Move
+    row: int
+    at: NDArray[np.bool_]
+
+    @property
+    def price(self) -> float:
+        """What leaving the natural way costs."""
+        row = self.move.amounts[self.row]
+        way, turn = float(np.linalg.norm(row[:3])), float(np.abs(row[3:]).sum())
+        return _WAY * way + _TURN * turn + _LOW * (1.0 - self.move.low)
+
+
+def tried(hands: Hands, trials: list[Trial]) -> list[tuple[Trial, Array]]:
+    """The trials with the cost after each at its moments; what leaves least of it, its price counted, first."""
+    found: list[tuple[Trial, Array]] = []
+    for side in (0, 1):
+        own = [trial for trial in trials if trial.move.side == side]
+        if not own:
+            continue
+        on = [trial.move.on[trial.at] for trial in own]
+        added = [trial.move.made[trial.at][:, None] * trial.move.amounts[trial.row] for trial in own]
+        low = [np.full(len(k), trial.move.low) for k, trial in zip(on, own, strict=True)]
+        cost = _after(hands, side, np.concatenate(on), np.concatenate(added), np.concatenate(low))
+        found += zip(own, np.split(cost, np.cumsum([len(k) for k in on[:-1]])), strict=True)
+    return sorted(found, key=lambda pair: 0.5 * float(pair[1].max() + pair[1].mean()) + pair[0].price)
+
+
+def _after(hands: Hands, side: int, on: Moments, added: Array, low: Array) -> Array:
+    """What is wrong at moments (n,), any of them more than once, with `added` (n, fields) on one hand's way.
+
+    Its strokes are as `low` (n,) as that.
+    """
+    stage = hands.stage
+    contact = hands.parts[side].way.many(stage.grid[on])
+    led = Contact(*(c + a for c, a in zip(contact, added.T, strict=True)))
+    once, which = np.unique(on, return_inverse=True)
+    whole = np.zeros(len(on))
+    for arm, other in zip(hands.arms(side, on, led, low), hands.arms(1 - side, once), strict=True):
+        own, his = points_of(arm), points_of(other)
+        again = type(his)(*(getattr(his, name)[which] for name in his.__slots__))
+        each = np.maximum(near(stage, own, again), 0.0) + hands.alone(arm, own, on) + stick_cost(stage, own, on)
+        whole = np.maximum(whole, each + (hands.alone(other, his, once) + stick_cost(stage, his, once))[which])
+    return whole
+
+
+def _figure_of(hands: Hands, pair: tuple[int, int]) -> tuple[object, ...]:
+    """What a trouble is like: the kinds and relative times of both hands' events about it, and the ways there."""
+    start = hands.parts[0].events.time_s[pair[0]]
+    words: list[object] = []
+    for part, k in zip(hands.parts, pair, strict=True):
+        about = slice(max(k - 1, 0), k + 3)
+        words += [tuple(part.which[about].tolist()), tuple(np.round(part.events.time_s[about] - start, 3).tolist())]
+        for rows in (part.bump[k : k + 1], part.strokes.most[about], part.contacts[about], part.gives[k, 2:]):
+            words.append(tuple(np.round(rows.ravel(), 3).tolist()))
+    return tuple(words)
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """A move and its chosen row, found on the stretch `k` of its hand, whose event is at `event_s`."""
+
+    move: Move
+    chosen: int
+    k: int
+    event_s: float
+
+    def at(self, hands: Hands, pair: tuple[int, int]) -> tuple[Move, int]:
+        """The same for a like trouble on the stretches `pair`."""
+        move, k = self.move, pair[self.move.side]
+        later_s = float(hands.parts[move.side].events.time_s[k]) - self.event_s
+        off, back, pace = move.window
+        return replace(move, index=move.index + k - self.k, window=(off + later_s, back + later_s, pace)), self.chosen
+
+
+def _found(hands: Hands, pair: tuple[int, int], best: tuple[Move, int] | None) -> Found | None:
+    if best is None:
+        return None
+    move, chosen = best
+    k = pair[move.side]
+    return Found(move, chosen, k, float(hands.parts[move.side].events.time_s[k]))
+
+
+def _differ(before: Hands, after: Hands) -> NDArray[np.bool_]:
+    """Where a hand is not as it was, (n,)."""
+    found = np.zeros(len(after.stage.grid), bool)
+    for side in (0, 1):
+        old, new = before.parts[side], after.parts[side]
+        if old is not new:
+            way = (old.way.rows != new.way.rows).any(1) | after.strokes[side].differ(before.strokes[side])
+            found |= way[after.parts[side].way.humps(after.stage.grid)[0]]
+    return found
