@@ -19,6 +19,7 @@ from station.app.actions import (
     JudgeAt,
     LearnPause,
     Leave,
+    PutUp,
     Select,
     SetPreferences,
     SetView,
@@ -298,6 +299,15 @@ def test_an_engine_that_dies_in_a_take_loses_none_of_it(tmp_path: Path) -> None:
     assert room(station).stage is Stage.IDLE
     assert room(station).take is not None
     assert len(list(tmp_path.glob("*/*_just-play/take.json"))) == 1
+
+
+def test_the_kit_of_the_student_s_choice_is_put_up(tmp_path: Path) -> None:
+    station = station_at([Line()], tmp_path)
+    station.dispatch(PutUp("jazz"))
+    assert shown(station, 0).kit.finish == "maple"
+    station.dispatch(PutUp(""))
+    assert shown(station, 0).kit.finish == "teal"
+    station.close()
 
 
 def test_whoever_was_met_is_kept_through_a_new_engine(tmp_path: Path) -> None:
