@@ -50,7 +50,7 @@ THUMB_UP_TURNS = 0.75
 
 LEANS_RAD = np.radians([6.0, 12.0, 18.0, 24.0, 30.0])
 """How far the trunk may lean for a distant target, the least that serves (our choice)."""
-PROTRACTION_M = 0.08
+PROTRACTION_M = 0.10
 """A shoulder comes forward by so much for what is still out of reach; the rest is missing (our choice)."""
 
 
