@@ -127,7 +127,7 @@ def _caught(kit: Kit, lengths: ArmLengths, root: Point, touch: Contact) -> bool:
 
 _STRAIGHTER = (0.7, 0.4, 0.1, -0.2, -0.5)
 _LED = 0.15
-"""Shares of its grip's own yaw that a stick is turned to, clear of a neighbour, and how free it is then (our choice)."""
+"""Shares of its own yaw that a stick is turned to, clear of a neighbour, and how free it is then (our choice)."""
 _TOUCHING_M = 0.002
 _RAISED = Offsets(0.0, 0.05, 0.35, 0.15)
 """A middling stroke at its top."""
