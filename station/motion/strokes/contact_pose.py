@@ -52,7 +52,7 @@ THUMB_UP_TURNS = 0.75
 
 LEANS_RAD = np.radians([6.0, 12.0, 18.0, 24.0, 30.0])
 """How far the trunk may lean for a distant target, the least that serves (our choice)."""
-PROTRACTION_M = 0.08
+PROTRACTION_M = 0.10
 """A shoulder comes forward by so much for what is still out of reach; the rest is missing (our choice)."""
 
 
@@ -133,7 +133,7 @@ def _caught(kit: Kit, lengths: ArmLengths, root: Point, touch: Contact) -> bool:
 
 _STRAIGHTER = (0.7, 0.4, 0.1, -0.2, -0.5)
 _LED = 0.15
-"""Shares of its grip's own yaw that a stick is turned to, clear of a neighbour, and how free it is then (our choice)."""
+"""Shares of its own yaw that a stick is turned to, clear of a neighbour, and how free it is then (our choice)."""
 _TOUCHING_M = 0.002
 _RAISED = Offsets(0.0, 0.05, 0.35, 0.15)
 """A middling stroke at its top."""

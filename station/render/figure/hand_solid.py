@@ -21,6 +21,8 @@ _STRETCH_M = 0.006
 _THUMB_BONE = 1
 _OVER_M = 0.0008
 """So far the palm's skin lies over the roots of the fingers (our choice)."""
+_INSIDE = 0.96
+"""A bone's flesh begins inside the round end of the one before, so that one of the two alone is seen."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +89,9 @@ def _phalanx(digit: int, joint: int, fineness: float) -> HandSkin:
     length = float(BONES_M[digit, joint]) - (high if joint == JOINTS - 1 else 0.0)
     a = np.linspace(0, np.pi / 2, rounds + 1)
     end = np.stack([high * np.cos(a), length + high * np.sin(a)], axis=1)
-    mesh = lathe(np.concatenate([[(low, 0.0), (0.49 * (low + high), 0.5 * length)], end]), segments, Material.SKIN)
+    mesh = lathe(
+        np.concatenate([[(_INSIDE * low, 0.0), (0.49 * (low + high), 0.5 * length)], end]), segments, Material.SKIN
+    )
     mesh = mesh.moved(REST[JOINTS * digit + joint])
     n = len(mesh.position)
     bones = np.tile(np.array([1 + JOINTS * digit + joint, 0], np.uint8), (n, 1))
