@@ -108,7 +108,7 @@ def test_a_drum_that_is_bigger_than_the_drummer_knows_is_gone_through() -> None:
     x, y, z = snare.centre_m
     raised = replace(snare, centre_m=(x, y, z + 0.02))
     kit = replace(drummer.kit, pieces=MappingProxyType({**drummer.kit.pieces, Piece.SNARE: raised}))
-    found = audit(replace(drummer, kit=kit))
+    found = audit(replace(drummer, plan=replace(drummer._plan, kit=kit)))
     assert found.kit_m.value == pytest.approx(0.02, abs=0.004)
     assert "snare" in found.kit_m.what
     assert found.strike_m.value == pytest.approx(0.02, abs=1e-4)

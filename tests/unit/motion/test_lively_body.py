@@ -74,7 +74,7 @@ def test_the_breath_is_held_in_fills() -> None:
 
 @pytest.mark.parametrize(("backbeat", "deep"), [(100.0, (1, 3)), (0.0, (0, 2))])
 def test_the_head_nods_on_the_beats_that_the_style_says(backbeat: float, deep: tuple[int, ...]) -> None:
-    nod = angle(plain(backbeat=backbeat, amplitude_gaze=0.0), "head_nod", BEAT_S * np.arange(4))
+    nod = angle(plain(backbeat=backbeat, amplitude_gaze=0.0), "head_nod", BEAT_S * np.arange(4.0))
     others = [k for k in range(4) if k not in deep]
     assert nod[list(deep)].min() > nod[others].max() + np.radians(2.0)
 
