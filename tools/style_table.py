@@ -46,7 +46,7 @@ _FAR = ((Piece.CRASH_1, Zone.EDGE, _L), (Piece.FLOOR_TOM_1, Zone.HEAD, _R))
 _STROKES = _score([(float(i), Piece.SNARE, Zone.HEAD, _R) for i in range(8)], velocity=120)
 _TURNS = _score([(8.0 * i, *_FAR[i % 2]) for i in range(6)])
 _RESTS = _score([(8.0 * i, Piece.SNARE, Zone.HEAD, _R) for i in range(40)], 120.0)
-_SWINGS = _score([(4.0 * i + 0.25 * k, *_FAR[i % 2]) for i in range(6) for k in range(8)], 120.0)
+_SWINGS = _score([(2.0 * i + 0.125 * k, *_FAR[i % 2]) for i in range(12) for k in range(12)], 120.0)
 _GROOVE = _score(
     [(0.5 * i, Piece.HIHAT, Zone.BOW, _R) for i in range(32)]
     + [(2.0 * i + 1, Piece.SNARE, Zone.HEAD, _L) for i in range(8)]
@@ -106,13 +106,18 @@ def _whip_ms(poses: Array) -> float:
 
 
 def _late(name: str) -> Measure:
-    """Of the fall onto the beats 2 to 6 of single strokes, how much is left for its last quarter, in per cent."""
+    """When half of the fall onto the beats 2 to 6 of single strokes is done, in per cent of the half beat before."""
 
     def share(poses: Array) -> float:
-        ends = np.round(np.arange(2, 7) * _RATE_HZ).astype(int)
-        at = _angle(poses, name)
-        near = at[ends - round(_RATE_HZ / 8)]
-        return 100 * float(((at[ends] - near) / (at[ends] - at[ends - round(_RATE_HZ / 2)])).mean())
+        at, beat = _angle(poses, name), int(_RATE_HZ)
+        found = []
+        for end in range(2 * beat, 7 * beat, beat):
+            fall = at[end - beat : end + 1]
+            low = int(np.argmin(fall))
+            done = (fall[low:] - fall[low]) / (fall[-1] - fall[low])
+            half = low + float(np.interp(0.5, done, np.arange(len(done))))
+            found.append(100 * (1 - (beat - half) / (beat / 2)))
+        return float(np.mean(found))
 
     return share
 
@@ -213,10 +218,10 @@ EFFECTS = {
     "amplitude_fingers": Effect("stick's extent in the hand, °", extent("right_stick"), _STROKES),
     "whip": Effect("shoulder's top to wrist's, ms", _whip_ms, _STROKES),
     "amplitude_neck": Effect("nod's extent, °", extent("head_nod"), _GROOVE, _NO_LOOK),
-    "frequency_neck": Effect("fall in its last quarter, %", _late("head_nod"), _STROKES, _NO_LOOK),
+    "frequency_neck": Effect("half of the fall done, % of the half beat", _late("head_nod"), _STROKES, _NO_LOOK),
     "amplitude_head_side": Effect("head tilt's extent, °", extent("head_tilt"), _GROOVE, _NO_LOOK),
     "amplitude_back": Effect("lean's extent, °", extent("torso_lean"), _STROKES, _SWAYING),
-    "frequency_back": Effect("fall in its last quarter, %", _late("torso_lean"), _STROKES, _SWAYING),
+    "frequency_back": Effect("half of the fall done, % of the half beat", _late("torso_lean"), _STROKES, _SWAYING),
     "amplitude_side": Effect("side sway's extent, °", extent("torso_side"), _GROOVE),
     "amplitude_twist": Effect("twist's extent, °", extent("torso_twist"), _TURNS, _SWAYING),
     "amplitude_heel": Effect("left ankle's rise, cm", _height(Joint.LEFT_ANKLE, np.ptp), _GROOVE),

@@ -15,6 +15,8 @@ Array = NDArray[np.float64]
 TOUCH_M = 0.001
 SKIN_M = 0.010
 """Flesh and clothes give way so far (our choice)."""
+FLAT_M = 0.010
+"""A forearm near its wrist is 55 mm broad and 40 thick: the butt under the palm passes so far inside a round one."""
 ARM_ON_CHEST_M = 0.030
 """An upper arm that hangs lies against the ribs (our choice)."""
 STROKE_M = 0.010
@@ -84,7 +86,7 @@ def _own(take: Take, found: Findings, parts: dict[str, Capsule]) -> None:
         for name in ("hand", "forearm", "upper arm"):
             _note(take, found, stick.name, stick, parts[f"{other} {name}"], TOUCH_M)
         own = parts[f"{side} forearm"].cut(0.0, 0.7)
-        _note(take, found, stick.name, stick, own, TOUCH_M)
+        _note(take, found, stick.name, stick, own, FLAT_M)
         _note(take, found, stick.name, stick, parts[f"{side} upper arm"], TOUCH_M)
         for name in ("trunk right", "trunk left", "head", "neck"):
             _note(take, found, stick.name, stick, parts[name], TOUCH_M)

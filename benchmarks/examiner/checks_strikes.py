@@ -162,6 +162,8 @@ def waiting(take: Take, found: Findings) -> None:
 FULCRUM_M = 0.005
 GRIP_SHARE = (0.22, 0.45)
 """The fulcrum is about a third from the butt (HUMANS), in quick playing some fingers' breadths to and fro."""
+WEB_SHARE = (0.12, 0.40)
+"""In the web of the thumb the butt stands 5–8 cm out behind."""
 BEHIND_M = 0.010
 """In matched grips the butt may come as far to the knuckles' side of the wrist-to-fulcrum line (fingers open)."""
 
@@ -179,10 +181,11 @@ def grip(take: Take, found: Findings) -> None:
         off = np.linalg.norm(fist - poses.butt_m[:, i] - (along / length)[:, None] * stick, axis=1)
         found.note("grip", f"{side} stick off its fulcrum", 1000 * off, 1000 * FULCRUM_M, "mm", poses.time_s)
         if style.held == "stick" and style.flourish == 0:
-            share = along / length
-            off = 1000 * length * np.maximum(GRIP_SHARE[0] - share, share - GRIP_SHARE[1])
+            web = (style.grip_left if side == "left" else style.grip_right) == "traditional"
+            share, (least, most) = along / length, WEB_SHARE if web else GRIP_SHARE
+            off = 1000 * length * np.maximum(least - share, share - most)
             found.note("grip", f"{side} fulcrum not a third from the butt", off, 0.0, "mm", poses.time_s)
-            if (style.grip_left if side == "left" else style.grip_right) != "traditional":
+            if not web:
                 behind = ((poses.butt_m[:, i] - fist) * poses.back[:, i]).sum(1)
                 off = 1000 * behind
                 found.note("grip", f"{side} butt on the knuckles' side", off, 1000 * BEHIND_M, "mm", poses.time_s)

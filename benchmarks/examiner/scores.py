@@ -72,17 +72,18 @@ def _groove(random: np.random.Generator, kind: str, start: int, beats: int) -> l
             tick = start + k * PPQ // 4
             if tick not in taken and random.random() < 0.35:
                 notes.append(Note(tick, Piece.SNARE, Zone.HEAD, _loud(random, 30), dynamic=Dynamic.GHOST))
-    return notes + _kicks(random, kind, start, beats)
+    return notes + _kicks(random, kind, start, beats, hat == Piece.RIDE)
 
 
-def _kicks(random: np.random.Generator, kind: str, start: int, beats: int) -> list[Note]:
+def _kicks(random: np.random.Generator, kind: str, start: int, beats: int, free: bool) -> list[Note]:
+    """Kicks, and chicks where the hi-hat is `free`: one that is held shut cannot be shut."""
     if kind == "double kick":
         feet = (Limb.RIGHT_FOOT, Limb.LEFT_FOOT)
         return [Note(start + k * PPQ // 4, Piece.KICK, Zone.HEAD, 95, limb=feet[k % 2]) for k in range(beats * 4)]
     notes = [Note(start, Piece.KICK, Zone.HEAD, _loud(random, 100))]
     ticks = [k for k in range(1, beats * 2) if random.random() < 0.3]
     notes += [Note(start + k * _EIGHTH, Piece.KICK, Zone.HEAD, _loud(random, 95)) for k in ticks]
-    if random.random() < 0.3:
+    if free and random.random() < 0.5:
         notes += [
             Note(start + b * PPQ, Piece.HIHAT_PEDAL, Zone.PEDAL, 70, Articulation.CHICK) for b in range(1, beats, 2)
         ]

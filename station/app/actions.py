@@ -306,6 +306,13 @@ class Embody:
 
 
 @dataclass(frozen=True, slots=True)
+class PutUp:
+    """Put another kit before the demonstrator: a name or a file, empty for the lesson's."""
+
+    stands: str
+
+
+@dataclass(frozen=True, slots=True)
 class LeadWith:
     """Let another hand lead."""
 
@@ -351,7 +358,7 @@ class LearnPause:
     on: bool
 
 
-SettingsAction = FinishFirstStart | SetView | KeepViewpoint | SetPreferences | LearnPause | Embody | LeadWith
+SettingsAction = FinishFirstStart | SetView | KeepViewpoint | SetPreferences | LearnPause | Embody | PutUp | LeadWith
 
 # --- kits -------------------------------------------------------------------------------------------------------------
 

@@ -245,6 +245,9 @@ class Controller:
             case do.LeadWith(hands):
                 self._store.update(lambda settings: replace(settings, hands=hands.value))
                 self._chooser.show_anew()
+            case do.PutUp(stands):
+                self._store.update(lambda settings: replace(settings, stands=stands))
+                self._chooser.show_anew()
             case do.Embody(figure):
                 self._embody(figure)
             case _:

@@ -193,6 +193,7 @@ def film_words(view_settings: ViewSettings, settings: Settings) -> tuple[str, ..
     words = ["--quality", "low", "--view", view_settings.view.name.lower()]
     words += ["--style", settings.style]
     words += ["--drummer", settings.figure] if settings.figure else []
+    words += ["--drums", settings.stands] if settings.stands else []
     words += ["--mirror"] if view_settings.mirrored else []
     words += ["--hands", settings.hands] if settings.hands else []
     return tuple(words)

@@ -261,7 +261,9 @@ def _plan_options(options: PracticeOptions, lesson: Lesson, settings: Settings) 
     pattern = parse_click(settings.click_pattern, setting_source("click_pattern"))
     click = None if options.no_click else replace(pattern, gap=options.gap)
     hands = hands_of(settings)
-    return PlanOptions(tempo_bpm, options.loops, options.bars, demonstrations, click, settings.guide, hands)
+    return PlanOptions(
+        tempo_bpm, options.loops, options.bars, demonstrations, click, settings.guide, hands, stands=settings.stands
+    )
 
 
 def _level(options: PracticeOptions, lesson: Lesson, settings: Settings) -> Level:

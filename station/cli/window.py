@@ -22,7 +22,7 @@ def run(options: WatchOptions) -> int:
     from station.drills.library import FIRST_LESSON, find_lesson
 
     store = SettingsStore()
-    first = plan_practice(find_lesson(FIRST_LESSON), PlanOptions(hands=hands_of(store.now)))
+    first = plan_practice(find_lesson(FIRST_LESSON), PlanOptions(hands=hands_of(store.now), stands=store.now.stands))
     return open_window(store, first, adapt=True, watch=options.watch())
 
 

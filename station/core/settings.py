@@ -56,8 +56,9 @@ class Settings:
     the student is asked for an opinion before a result is shown. `kicks_start` whether two kicks start the count-in,
     `auto_pause` whether a session waits for a student who has stopped, `pause` what pauses it: two pads at once,
     switches (`practice.control.pause_options`). `style` names how the demonstrator moves, a shipped style or a style
-    file, `figure` who demonstrates, a shipped drummer or a file, empty for the style's own, and `hands` whose hand leads: `right`, `left`, `open`,
-    empty for as a lesson's kit is built (`practice.session.leading_hand`). `view`, `mirrored`, `inset` and `viewpoints`
+    file, `figure` who demonstrates, a shipped drummer or a file, empty for the style's own, `stands` which kit stands
+    before them, a shipped one or a file, empty for the lesson's, and `hands` whose hand leads: `right`, `left`, `open`,
+    empty for as that kit is built (`practice.session.leading_hand`). `view`, `mirrored`, `inset` and `viewpoints`
     are where the window looks from, `score` how it shows the score, `theme` its colours (`app.view_settings`),
     `panel_scale` how many times as large as designed its panels are, `double` whether the student is shown as a second
     drummer, `double_beside` whether beside the demonstrator and not over them, `course` names the course whose lessons
@@ -87,6 +88,7 @@ class Settings:
     pause: str = "crash_1+crash_2 cc=64"
     style: str = "natural"
     figure: str = ""
+    stands: str = ""
     hands: str = ""
     view: str = "shoulder"
     mirrored: bool = False

@@ -134,7 +134,8 @@ class Keys:
         path = self.rig.path
         phase = 0.0 if path is None else path.phase.first(time_s)
         kick, slave = self.kicks[0].first(time_s), self.kicks[1].first(time_s)
-        feet = FeetNow(kick, self.hat.first(time_s), slave, *self.heels.at(time_s), phase)
+        kick_heel, hat_heel = self.heels.at(time_s)
+        feet = FeetNow(kick, self.hat.first(time_s), slave, kick_heel, hat_heel, phase)
         look = gaze * bearing, gaze * pitch
         eyes = self.blinks.at(time_s)
         now = (twist, lean, side, shrug, hunch, wing, stand, *look, nod, tilt, chin, eyes, *face)
@@ -150,7 +151,8 @@ class Keys:
         path = self.rig.path
         phase = 0.0 if path is None else path.phase.many(time_s)[0]
         kick, slave = self.kicks[0].many(time_s)[0], self.kicks[1].many(time_s)[0]
-        feet = FeetNow(kick, self.hat.many(time_s)[0], slave, *self.heels.many(time_s), phase)
+        kick_heel, hat_heel = self.heels.many(time_s)
+        feet = FeetNow(kick, self.hat.many(time_s)[0], slave, kick_heel, hat_heel, phase)
         look = gaze * bearing, gaze * pitch
         eyes = self.blinks.many(time_s)
         now = (twist, lean, side, shrug, hunch, wing, stand, *look, nod, tilt, chin, eyes, *face)

@@ -24,7 +24,7 @@ class Quality:
 
 
 QUALITIES = (
-    Quality(0, 1024, Detail(28, hardware=False), 3.0, 0, 8.0, is_layered=True),
+    Quality(0, 1024, Detail(28, hardware=False), 2.5, 0, 8.0, is_layered=True),
     Quality(1, 1024, Detail(48, hardware=True), 1.5, 4, 1.0),
     Quality(2, 2048, Detail(80, hardware=True), 1.0, 4, 8.0),
 )

@@ -116,7 +116,7 @@ class DemoPlayer:
     def load(self, watched: DemonstratedLesson, bars: tuple[int, int] | None) -> None:
         """Take a lesson, its `bars` (first, last, from 1) as the loop; the same lesson stays where it is."""
         before, self._watched = self._watched, watched
-        if watched.lesson is not before.lesson or watched.hands != before.hands:
+        if watched.lesson is not before.lesson or watched.hands != before.hands or watched.kit != before.kit:
             self._drummer = None
         if watched.lesson is not before.lesson:
             self.halt()

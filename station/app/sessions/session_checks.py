@@ -6,6 +6,7 @@ Each word goes through the parser of whoever uses it later, so that nothing is r
 from station.app.view_settings import view_settings_of
 from station.core.settings import Settings, setting_source
 from station.engine.engine_config import EngineConfig
+from station.motion.kit.kit import load_kit
 from station.practice.control.pause_options import parse_pause
 from station.practice.session.click_options import parse_click
 from station.practice.session.leading_hand import hands_of
@@ -21,5 +22,7 @@ def check_settings(settings: Settings) -> None:
     parse_click(settings.click_pattern, setting_source("click_pattern"))
     parse_pause(settings.pause, setting_source("pause"))
     hands_of(settings)
+    if settings.stands:
+        load_kit(settings.stands)
     settings.sessions_dir  # noqa: B018 - raises where there can be none
     view_settings_of(settings)

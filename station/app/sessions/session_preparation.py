@@ -60,7 +60,15 @@ class SessionPreparation:
         click = self._click() if request.click else None
         hands = hands_of(settings)
         options = PlanOptions(
-            tempo_bpm, request.loops, request.bars, request.demonstrations, click, settings.guide, hands, level
+            tempo_bpm,
+            request.loops,
+            request.bars,
+            request.demonstrations,
+            click,
+            settings.guide,
+            hands,
+            level,
+            settings.stands,
         )
         plan = plan_practice(lesson, options)
         if not request.adapt:

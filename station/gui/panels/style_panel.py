@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 from imgui_bundle import imgui
 
-from station.app.actions import Action, EditStyle, Embody, LeadWith
+from station.app.actions import Action, EditStyle, Embody, LeadWith, PutUp
 from station.app.room_state import Stage
 from station.app.style.style_controls import TABS, WORD_LABELS, Control, ControlGroup
 from station.app.style.style_options import PIECES, StyleOptions
@@ -18,6 +18,7 @@ from station.gui import theme
 from station.gui.panels.lanes_editor import LanesEditor
 from station.gui.panels.styles_head import StylesHead
 from station.motion.kinematics.figure import figure_names, load_figure
+from station.motion.kit.kit import kit_names, load_kit
 from station.motion.motion_plan import bar_places
 from station.motion.sticking.hand_notes import Hands
 from station.motion.style.style import HOLDS, WORDS, range_of
@@ -40,6 +41,7 @@ _LEADS = {
     Hands.LEFT: ("Left-handed", "The kit stands mirrored and the left hand leads; stickings change sides"),
     Hands.OPEN: ("Open-handed", "A right-handed kit whose hi-hat the left hand plays, uncrossed"),
 }
+_KITS = {"": "as the lesson says", **{name: load_kit(name).title for name in kit_names()}}
 _DRUMMERS = {
     "": "as the style says",
     **{name: f"{name}, {100 * load_figure(name).stature_m:.0f} cm" for name in figure_names()},
@@ -162,6 +164,7 @@ class StylePanel:
                 self._dispatch(LeadWith(hands))
             theme.tooltip(f"{about}. It holds for what you are asked to play too{waits}")
         self._body(state.style.figure, waits)
+        self._kit(state.settings.stands, waits)
         imgui.end_disabled()
         imgui.separator_text("Hands and feet")
         for name, (label, about) in WORD_LABELS.items():
@@ -172,6 +175,15 @@ class StylePanel:
         sown, seed = imgui.input_int("chance##seed", options.style.seed)
         theme.tooltip("Another number, other blinks, looks and spun sticks; the same number, the same ones")
         return options.sow(seed) if sown else options
+
+    def _kit(self, stands: str, waits: str) -> None:
+        imgui.set_next_item_width(theme.points(_WORD_WIDTH))
+        if imgui.begin_combo("kit##stands", _KITS.get(stands, stands)):
+            for name, title in _KITS.items():
+                if imgui.selectable(f"{title}##{name}", name == stands)[0]:
+                    self._dispatch(PutUp(name))
+            imgui.end_combo()
+        theme.tooltip(f"The kit before the demonstrator, as your own stands before you{waits}")
 
     def _body(self, figure: str, waits: str) -> None:
         imgui.set_next_item_width(theme.points(_WORD_WIDTH))

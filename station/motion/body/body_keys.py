@@ -19,7 +19,7 @@ from station.motion.body.idle_motion import BREATH_M
 from station.motion.body.intensity import Intensity
 from station.motion.kinematics.joint_limits import FASTEST_RAD_S
 from station.motion.kinematics.posture import TWIST_SHARE
-from station.motion.kinematics.splines import SplineChannels, cubics, slopes
+from station.motion.kinematics.splines import SplineChannels, cubics, monotone_slopes
 from station.motion.kinematics.wander import wander
 from station.motion.style.style import Style
 
@@ -39,7 +39,7 @@ FILL_RAD, CRASH_RAD = np.radians((3.5, 3.0))
 """How far the back goes into a fill, and falls onto a crash, at the natural setting (our choice)."""
 BANG_LEAN_RAD, SHIMMY_RAD = np.radians((9.0, 7.0))
 """What the back has of head-banging, and how far the shoulders turn to and fro with the beat, at most (our choice)."""
-RISE = 0.6
+RISE = 0.5
 """How much of standing up the highest rise to a crash is (our choice)."""
 DRIFT, DRIFT_S = 0.25, 0.012
 """How much chance makes the sway wider and narrower, and shifts it in time (our choice: under a visible 25 ms)."""
@@ -124,7 +124,7 @@ def shifted(ground: Ground, style: Style) -> Array:
 
 def keys(ground: Ground, style: Style) -> Array:
     """Values of all `CHANNELS` at the ground's keys, before any reaching, (13, 2n − 1)."""
-    bars, now = ground.bars, ground.intensity
+    bars, now, times = ground.bars, ground.intensity, _key_times(ground, style)
     values = np.zeros((len(CHANNELS), len(bars)))
     forward, side = _sway(ground, style)
     drift, *phases = wander((style.seed, 8), 3, len(bars))
@@ -137,11 +137,11 @@ def keys(ground: Ground, style: Style) -> Array:
     ceiling = np.radians(style.value("twist_deg_s", bars)) / SPLINE_RUSH
     twist = style.factor("amplitude_twist", bars) * TWIST_SHARE * ground.bearing
     twist = np.clip(twist, -1.0, 1.0) + style.value("shimmy", bars) / 100 * SHIMMY_RAD * side
-    values[0] = limited(ground.time_s, twist, ceiling)
+    values[0] = limited(times, twist, ceiling)
     lean = np.radians(style.value("posture_deg", bars)) + style.factor("amplitude_back", bars) * SWAY_RAD * forward
     lean += into * (FILL_RAD * now.fill + CRASH_RAD * now.fall) + bang * BANG_LEAN_RAD * (forward - 0.5)
     lean += phrase * PHRASE_LEAN_RAD * np.sin(2 * turn + lags[0])
-    values[1] = limited(ground.time_s, lean, np.full(len(bars), _MOST_LEAN_RAD_S))
+    values[1] = limited(times, lean, np.full(len(bars), _MOST_LEAN_RAD_S))
     values[2] = style.factor("amplitude_side", bars) * SIDE_RAD * side + phrase * PHRASE_SIDE_RAD * np.sin(
         turn + lags[1]
     )
@@ -169,28 +169,33 @@ def _sway(ground: Ground, style: Style) -> tuple[Array, Array]:
 
 
 def curves(ground: Ground, style: Style, values: Array) -> SplineChannels:
-    """The splines through `values` (13, 2n − 1); the back's frequency makes it fall later or earlier."""
-    on_beat, between = sharpness(style.factor("frequency_back", ground.bars))
-    steep = np.zeros(values.shape)
-    steep[1, ::2], steep[1, 1::2] = on_beat[::2], between[1::2]
-    return spline(shifted(ground, style), values, steep)
+    """The splines through `values` (13, 2n − 1)."""
+    return spline(_key_times(ground, style), values)
 
 
-def sharpness(frequency: Array) -> tuple[Array, Array]:
-    """How steeply a movement to the beat turns on the beat and between, in shares of the chords; 0 is a round turn.
+def _key_times(ground: Ground, style: Style) -> Array:
+    """When the body is at the ground's keys; the back's frequency makes it fall later or earlier."""
+    middles = np.arange(len(ground.time_s)) % 2 == 1
+    return fallen(shifted(ground, style), middles, style.factor("frequency_back", ground.bars))
 
-    A higher frequency than the natural falls late onto the beat and bounces, a lower one falls early and settles.
+
+def fallen(times: Array, is_up: NDArray[np.bool_], frequency: Array) -> Array:
+    """`times` (n,) of keys, those that are `up` (n,) so moved that the way down from them is quick and late or slow.
+
+    A higher frequency than the natural waits and falls late onto the beat, a lower one falls early and settles.
     """
-    return LATE_FALL * np.maximum(frequency - 1, 0.0), EARLY_FALL * np.maximum(1 - frequency, 0.0)
+    share = np.where(frequency > 1, LATE_FALL * (frequency - 1), EARLY_FALL * (frequency - 1)) * is_up
+    steps = np.diff(times)
+    room = np.where(share > 0, np.append(steps, 0.0), np.append(0.0, steps))
+    return np.asarray(times + share * room)
 
 
-LATE_FALL, EARLY_FALL = 4.0, 2.0
-"""Three times the chord, which the greatest frequency nears, is the steepest that does not overshoot (our choice)."""
+LATE_FALL, EARLY_FALL = 0.65, 0.5
+"""At the greatest frequency the fall takes half of its natural time, at the least as much more (our choice)."""
 
 
-def spline(times: Array, values: Array, steep: Array) -> SplineChannels:
-    """Through `values` (channels, n); where `steep` is over 0 the slopes at a key are that share of its chords."""
-    tension, continuity = np.where(steep > 0, 1 - steep, 0.0), np.where(steep > 0, -1.0, 0.0)
-    into, out = slopes(np.broadcast_to(times, values.shape), values, tension, continuity)
-    rows = cubics(times[None], values, into, out)
+def spline(times: Array, values: Array) -> SplineChannels:
+    """Through `values` (channels, n), round and never beyond them."""
+    slope = monotone_slopes(times[None], values)
+    rows = cubics(times[None], values, slope, slope)
     return SplineChannels(times, np.ascontiguousarray(np.moveaxis(rows, 0, 1)))

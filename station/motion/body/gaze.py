@@ -42,7 +42,8 @@ PLACES: Mapping[str, Array] = MappingProxyType(
         "above": np.array([-0.25, -0.40]),  # far away, the chin up
     }
 )
-"""Where the look goes, bearing to the left and pitch down, but for "kit": one of the pieces in play (our choice)."""
+"""Where the look goes, bearing to the left and pitch down, but for "kit": half the way to one of the pieces in play
+(our choice)."""
 HOME_SHARE = 0.7
 """Who looks somewhere all the time has the head so far there in between (our choice)."""
 GLANCE_S, GLANCE_STAY_S, GLANCE_SPREAD_RAD = 2.2, (0.5, 1.8), 0.15
@@ -76,7 +77,7 @@ def gaze_curve(sights: GazeTargets, around: Array, seed: int, attention: str = "
     middle = np.median(direction, axis=0)
     homes = middle + HOME_SHARE * around[:, None] * (PLACES.get(attention, middle) - middle)
     keys: list[tuple[float, float, float]] = [(float(strike_s[0]) - 60.0, *homes[0].tolist())]
-    looks = sorted([*_looks(sights, around, seed), *_glances(sights, around, seed, attention)])
+    looks = sorted([*_looks(sights, around, seed), *_glances(sights, around, middle, seed, attention)])
     after = np.minimum(np.searchsorted(strike_s, [at for at, *_ in looks]), len(strike_s) - 1)
     for (at, stay, look), home in zip(looks, homes[after].tolist(), strict=True):
         turn = max(abs(look[0] - keys[-1][1]), abs(look[1] - keys[-1][2]))
@@ -115,15 +116,15 @@ def _looks(sights: GazeTargets, around: Array, seed: int) -> list[Look]:
     return looks
 
 
-def _glances(sights: GazeTargets, around: Array, seed: int, attention: str) -> list[Look]:
-    """Where the style's attention goes while the hands play on: there and back, now and then, by chance."""
+def _glances(sights: GazeTargets, around: Array, middle: Array, seed: int, attention: str) -> list[Look]:
+    """Where the style's attention goes from the `middle` while the hands play on: now and then, by chance."""
     strike_s = sights.strike_s
     first, last = float(strike_s[0]), float(strike_s[-1]) - GLANCE_STAY_S[1] - 1.0
     count = int(max(last - first, 0.0) / GLANCE_S * 1.5) + 1
     steps, stays, aside, picks, drawn = np.random.default_rng([seed, 9]).random((5, count))
     times = first + np.cumsum((0.4 - 0.6 * np.log(1 - steps)) * GLANCE_S)
     kept = (times < last) & (drawn < around[np.searchsorted(strike_s, times).clip(max=len(strike_s) - 1)])
-    near = sights.direction[(picks[kept] * len(sights.direction)).astype(int)]
+    near = 0.5 * (middle + sights.direction[(picks[kept] * len(sights.direction)).astype(int)])
     where = np.broadcast_to(PLACES.get(attention, near), near.shape).copy()
     where[:, 0] += GLANCE_SPREAD_RAD * (2 * aside[kept] - 1)
     stay = GLANCE_STAY_S[0] + stays[kept] * (GLANCE_STAY_S[1] - GLANCE_STAY_S[0])

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.motion.body.beats import on_odd_beats
-from station.motion.body.body_keys import Ground, limited, sharpness, shifted, spline
+from station.motion.body.body_keys import SPLINE_RUSH, Ground, fallen, limited, shifted, spline
 from station.motion.kinematics.joint_limits import FASTEST_RAD_S
 from station.motion.kinematics.splines import SplineChannels
 from station.motion.kinematics.wander import wander
@@ -29,10 +29,10 @@ SLOW_BOB, FAST_BOB = 0.75, 1.5
 """Under and from so many bobs a beat the head bobs on every other beat and on the half beats."""
 DRIFT = 0.18
 """How much chance makes nods deeper and flatter (our choice: more than strokes, for nobody aims with the head)."""
-_NECK_RAD = np.radians((-35.0, 42.0))
-"""How far the nod goes back and down of its own; looking at the drums comes on top (necks bend 50–60° each way)."""
-_MOST_RAD_S, _ROUND = 0.9 * FASTEST_RAD_S["head_nod"], 1.5
-"""No nod is faster than vigorous shaking; a round spline is so much faster than its chord at its peak."""
+_NECK_RAD = np.radians((-35.0, 28.0))
+"""How far the nod goes back and down of its own; looking down adds up to 32° (necks bend 50–60° each way)."""
+_MOST_RAD_S = 0.9 * FASTEST_RAD_S["head_nod"] / SPLINE_RUSH
+"""No nod is faster than vigorous shaking."""
 
 
 def head_curve(ground: Ground, style: Style) -> SplineChannels:
@@ -59,11 +59,10 @@ def head_curve(ground: Ground, style: Style) -> SplineChannels:
     to = (share > 0) * (1.0 - 2.0 * ((halves // np.where(slow, 4, np.where(fast, 1, 2))) % 2))
     tilt = style.factor("amplitude_head_side", bars) * TILT_RAD * to * drift
     chin = style.value("chin", bars) / 100 * CHIN_RAD * share
-    steep = np.where(share > 0, *sharpness(style.factor("frequency_neck", bars)))
     kept = beat | (place == 2) & (fast | ~slow | (lift < 0) | (bang > 0)) | fast
-    nod = limited(times[kept], np.clip(nod[kept], *_NECK_RAD), _MOST_RAD_S / np.maximum(steep[kept], _ROUND))
-    flat = np.zeros((2, len(nod)))
-    return spline(times[kept], np.stack([nod, tilt[kept], chin[kept]]), np.stack([steep[kept], *flat]))
+    times = fallen(times[kept], share[kept] == 0, style.factor("frequency_neck", bars)[kept])
+    nod = limited(times, np.clip(nod[kept], *_NECK_RAD), np.full(len(times), _MOST_RAD_S))
+    return spline(times, np.stack([nod, tilt[kept], chin[kept]]))
 
 
 def _share(backbeat: Array, odd: NDArray[np.bool_], slow: NDArray[np.bool_]) -> Array:

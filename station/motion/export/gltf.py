@@ -19,6 +19,7 @@ from station.motion.kinematics import frame
 from station.motion.kinematics.pedal_motion import BEATER_HALF_M, BEATER_LENGTH_M
 from station.motion.kit.kit import Kit
 from station.motion.kit.piece import BELL_ABOVE_BOW_M, KitPiece
+from station.motion.motion_plan import holds
 
 Array = NDArray[np.float64]
 
@@ -66,7 +67,8 @@ def glb_bytes(drummer: Drummer, time_s: Array) -> bytes:
 
 
 def _figure(scene: Glb, materials: dict[str, int], drummer: Drummer, rows: Array) -> None:
-    bones = skeleton(rows, drummer.figure, drummer.figure.stick_m)
+    hold, _ = holds(drummer.style)
+    bones = skeleton(rows, drummer.figure, hold.length_m(drummer.figure))
     nodes: dict[str, int] = {}
     for bone in BONES:
         thick = _THICKNESS_M[bone.name.removeprefix("right_").removeprefix("left_")]
@@ -75,8 +77,9 @@ def _figure(scene: Glb, materials: dict[str, int], drummer: Drummer, rows: Array
         nodes[bone.name] = scene.node(bone.name, None if bone.parent is None else nodes[bone.parent], mesh)
         _move(scene, nodes[bone.name], *local(bones, bone.name))
     for name in STICKS:
-        mesh = scene.mesh(name, plain_solids.stick(bones.length_m[name]), materials["wood"])
-        _move(scene, scene.node(name, None, mesh), *local(bones, name))
+        held = plain_solids.HELD.get(hold.held.name)
+        in_hand = None if held is None else scene.mesh(name, held(bones.length_m[name]), materials["wood"])
+        _move(scene, scene.node(name, None, in_hand), *local(bones, name))
 
 
 def _move(scene: Glb, node: int, place: Array, turn: Array) -> None:

@@ -1,7 +1,9 @@
 """The plain solids that an exported drummer and kit are made of: triangle meshes with normals, in metres, along z."""
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,6 +51,31 @@ def stick(length: float) -> Solid:
     r = STICK_RADIUS_M
     taper = [(0.6 * r, 0.965 * length), (0.85 * r, 0.985 * length), (0.0, length)]
     return lathe([(0.0, 0.0), (r, 0.0), (r, 0.75 * length), *taper], 8)
+
+
+def brush(length: float) -> Solid:
+    """A brush: a handle, and its wires as one flat fan."""
+    r, end, half = STICK_RADIUS_M, 0.48 * length, 0.046
+    handle = lathe([(0.0, 0.0), (r, 0.0), (0.85 * r, end), (0.0, end)], 8)
+    fan = lathe([(0.5 * r, end), (half, length), (0.0, length)], 12)
+    flat, steep = np.array([1.0, 0.03, 1.0]), np.array([1.0, 1 / 0.03, 1.0])
+    normals = fan.normals * steep / np.linalg.norm(fan.normals * steep, axis=1, keepdims=True)
+    return Solid(
+        np.concatenate([handle.points, flat * fan.points]),
+        np.concatenate([handle.normals, normals]),
+        np.concatenate([handle.triangles, fan.triangles + len(handle.points)]),
+    )
+
+
+def mallet(length: float) -> Solid:
+    """A mallet: a shaft and a felt head."""
+    r, felt = 0.9 * STICK_RADIUS_M, 0.015
+    ball = [(0.7 * felt, length - 2 * felt), (felt, length - felt), (0.7 * felt, length - 0.2 * felt), (0.0, length)]
+    return lathe([(0.0, 0.0), (r, 0.0), (0.7 * r, length - 2.3 * felt), *ball], 10)
+
+
+HELD: Mapping[str, Callable[[float], Solid]] = MappingProxyType({"stick": stick, "brush": brush, "mallet": mallet})
+"""What hands hold, by the names of `grip.HELD`; a bare hand holds nothing."""
 
 
 def cymbal(radius: float, hangs: float) -> Solid:

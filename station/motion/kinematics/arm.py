@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from station.motion.kinematics.maths import ONE, Maths, Number, Point
+from station.motion.kinematics.maths import Maths, Number, Point
 
 BACK_SINE, BACK_COSINE = math.sin(math.radians(25)), math.cos(math.radians(25))
 """Elbows hang down and a little back: with the wrist in front the arm's plane is vertical, as DESIGN has it, and with
@@ -32,7 +32,8 @@ class Contact(NamedTuple):
     the left positive, from the direction towards the shoulder. `ahead_m` from the fulcrum to the part of the stick
     that touches. `wing`: how far the elbow is swung to the drummer's right about the line from shoulder to wrist.
     `turns`: 1 where the wrist's part of a stroke bends the hand, 0 where the forearm's roll turns hand and stick (a
-    traditional left hand). `roll` of the hand's back beyond its grip's.
+    traditional left hand), between them where the thumb comes up: the hand bends less and rolls, the stick sinks in
+    it. `roll` of the hand's back beyond its grip's.
     """
 
     x: Number
@@ -88,6 +89,7 @@ class ArmLengths:
     `rolls_hand` is 1 for a right and −1 for a left hand. `roll_sine` and `roll_cosine` of the hand's roll from palm
     down, to the drummer's right. The hand's bones are turned from the line between wrist and fulcrum by `off_thumb`
     and `off_back` radians, to the thumb and to the back: the fulcrum lies beside them, under the palm.
+    A stick that lies `across` the hand turns with it.
     `most_bend` is the elbow's limit: a hand that travels close past the shoulder keeps farther off instead.
     """
 
@@ -99,6 +101,7 @@ class ArmLengths:
     roll_sine: float = 0.0
     roll_cosine: float = 1.0
     rolls_hand: float = 1.0
+    across: bool = False
     off_thumb: float = 0.0
     off_back: float = 0.0
     most_bend: float = math.pi
@@ -188,7 +191,7 @@ def chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a 
     jz = sz + a_k * kz + a_e * ez + a_n * (kx * ey - ky * ex)
     # hand and stick, by their slopes up towards the player
     hand = hand_rise - lifted - turns * raised_wrist
-    stick = stick_rise - turns * (lifted + raised_wrist) - raised_stick
+    stick = stick_rise - raised_stick - (0.0 if lengths.across else lifted + raised_wrist)
     cos_h, sin_h, cos_s, sin_s = cos(hand), sin(hand), cos(stick), sin(stick)
     a = h * cos_h
     hx, hy, hz = wx - a * vx, wy - a * vy, wz - h * sin_h
@@ -199,8 +202,8 @@ def chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a 
     b = bx * vx + by * vy
     across, upward, rolled = lengths.roll_sine, lengths.roll_cosine, (1 - turns) * raised_wrist
     side, to_thumb, to_back = lengths.rolls_hand, lengths.off_thumb, lengths.off_back
-    if m is not ONE or turns != 1.0:  # the stick goes with the hand, pitched by the arm and turned by the forearm
-        c, s = cos((1 - turns) * lifted), sin((1 - turns) * lifted)
+    if lengths.across:  # the stick goes with the hand, pitched by the arm and turned by the forearm
+        c, s = cos(lifted), sin(lifted)
         along = vx * tx + vy * ty
         pitched = (c - 1) * along + s * tz
         tx, ty, tz = tx + pitched * vx, ty + pitched * vy, c * tz - s * along
@@ -226,7 +229,7 @@ def chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a 
             inside + forearm + raised_elbow,
             atan2(sin_h * b - cos_h * bz, -(cos_h * b + sin_h * bz)) + to_thumb * side * across + to_back * upward,
             atan2(by * vx - bx * vy, sqrt(b * b + bz * bz)) + to_thumb * side * upward - to_back * across,
-            hand - stick + (1 - turns) * lifted,
+            hand - stick + (lifted if lengths.across else 0.0),
         ),
         missing,
     )

@@ -6,6 +6,7 @@ it is away the hi-hat's board is up on its spring and its clutch holds the cymba
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -21,13 +22,14 @@ Array = NDArray[np.float64]
 MOVE_S = 0.42
 """A foot takes so long, if it has the time, to lift, to go a board's breadth aside and to land (our choice)."""
 LEAST_MOVE_S = 0.18
-"""Quicker it cannot: up and down by 6 cm at the 5 Hz at which a foot taps, heel up (HUMANS)."""
+"""Quicker it cannot: up and down once at the 5 Hz at which a foot taps, heel up (HUMANS)."""
 READY_S = 0.18
 """It is there so long before its stroke, if it has the time: a kick's own upswing takes 0.16 s."""
 STAYS_S = 2.0
 """It stays at the slave over rests of less than this (our choice: a bar at 120 a minute)."""
 LINGERS_S = 0.5
 """After the last stroke of a passage it stays so long (our choice)."""
+BACK_S = LINGERS_S + MOVE_S + READY_S
 
 
 class FootNow(NamedTuple):
@@ -43,6 +45,62 @@ class FootNow(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
+class Visits:
+    """What the foot has to do: `row` (n,) of the score in order of `time_s`, and whether on the `slave` board."""
+
+    row: NDArray[np.int64]
+    time_s: Array
+    slave: NDArray[np.bool_]
+
+    @classmethod
+    def of(cls, score: Score, limbs: NDArray[np.int8], foot: Limb) -> "Visits":
+        """The hi-hat foot's visits: its kicks, its strokes on the hi-hat, and where the hi-hat opens or closes."""
+        piece, onset = score.notes["piece"], score.onset_s
+        opened = _changes(score)
+        slave = (limbs == foot) & (piece == Piece.KICK)
+        rows = np.flatnonzero(slave | opened | (piece == Piece.HIHAT_PEDAL))
+        rows = rows[np.argsort(onset[rows], kind="stable")]
+        return cls(rows, onset[rows], slave[rows])
+
+    @cached_property
+    def _journey(self) -> tuple[list[tuple[float, float, float]], list[int]]:
+        """When the foot goes over and back, each start, end and side; and the visits that it cannot reach in time."""
+        moves: list[tuple[float, float, float]] = []
+        missed: list[int] = []
+        on_slave, before = False, -np.inf  # where it was of use last, and when
+
+        def go(latest: float) -> None:
+            nonlocal on_slave
+            end = latest - min(READY_S, 0.35 * (latest - before))
+            on_slave = not on_slave
+            moves.append((max(end - MOVE_S, before + min(0.05, 0.1 * (end - before))), end, float(on_slave)))
+
+        for k, (at, slave) in enumerate(zip(self.time_s.tolist(), self.slave.tolist(), strict=True)):
+            if on_slave and at - before > STAYS_S:
+                go(before + BACK_S)
+                before = moves[-1][1]
+            if slave != on_slave:
+                if at - before < LEAST_MOVE_S:
+                    missed.append(k)
+                    continue
+                go(at)
+            before = at
+        if on_slave:
+            go(before + BACK_S)
+        return moves, missed
+
+    @property
+    def moves(self) -> Array:
+        """When the foot goes over and back, (m, 3) of start, end and the side that it comes to."""
+        return np.array(self._journey[0]).reshape(-1, 3)
+
+    @property
+    def too_soon(self) -> NDArray[np.int64]:
+        """The visits to which no foot comes in time from the other board."""
+        return np.array(self._journey[1], np.int64)
+
+
+@dataclass(frozen=True, eq=False)
 class FootPath:
     """`moves` (m, 3): when each move begins and ends, and the side on which it ends."""
 
@@ -50,9 +108,9 @@ class FootPath:
     moves: Array
 
     @classmethod
-    def of(cls, visits: "Visits") -> "FootPath | None":
+    def of(cls, visits: Visits) -> "FootPath | None":
         """The path to all `visits` that can be reached; None for a foot that never leaves its home."""
-        moves = _moves(visits)
+        moves = visits.moves
         if not len(moves):
             return None
         start, end, to = moves.T
@@ -78,31 +136,6 @@ def _ramp(m: Maths, x: Number, low: float, high: float) -> Number:
     return u * u * (3.0 - 2.0 * u)
 
 
-@dataclass(frozen=True, eq=False)
-class Visits:
-    """What the foot has to do: `row` (n,) of the score in order of `time_s`, and whether on the `slave` board."""
-
-    row: NDArray[np.int64]
-    time_s: Array
-    slave: NDArray[np.bool_]
-
-    @classmethod
-    def of(cls, score: Score, limbs: NDArray[np.int8], foot: Limb) -> "Visits":
-        """The hi-hat foot's visits: its kicks, its strokes on the hi-hat, and where the hi-hat opens or closes."""
-        piece, onset = score.notes["piece"], score.onset_s
-        opened = _changes(score)
-        slave = (limbs == foot) & (piece == Piece.KICK)
-        rows = np.flatnonzero(slave | opened | (piece == Piece.HIHAT_PEDAL))
-        rows = rows[np.argsort(onset[rows], kind="stable")]
-        return cls(rows, onset[rows], slave[rows])
-
-    @property
-    def too_soon(self) -> NDArray[np.int64]:
-        """The visits to which no foot comes in time from the one before, on the other board."""
-        changed = np.flatnonzero(np.diff(self.slave)) + 1
-        return changed[self.time_s[changed] - self.time_s[changed - 1] < LEAST_MOVE_S]
-
-
 def _changes(score: Score) -> NDArray[np.bool_]:
     """The strokes of hands on the hi-hat (n,) before which it opens or closes; it is closed at first."""
     notes = score.notes
@@ -113,26 +146,3 @@ def _changes(score: Score) -> NDArray[np.bool_]:
     changed = np.zeros(len(notes), np.bool_)
     changed[rows[(np.diff(openness, prepend=0.0) != 0.0) & by_hand]] = True
     return changed
-
-
-def _moves(visits: Visits) -> Array:
-    """When the foot goes over and back, (m, 3) of start, end and the side it comes to."""
-    found: list[tuple[float, float, float]] = []
-    on_slave, before, late = False, -np.inf, set(visits.too_soon.tolist())
-
-    def go(earliest: float, latest: float, to_slave: bool) -> None:
-        nonlocal on_slave
-        end = latest - min(READY_S, 0.35 * (latest - earliest))
-        found.append((max(end - MOVE_S, earliest + min(0.05, 0.1 * (end - earliest))), end, float(to_slave)))
-        on_slave = to_slave
-
-    for k, (at, slave) in enumerate(zip(visits.time_s.tolist(), visits.slave.tolist(), strict=True)):
-        if on_slave and at - before > STAYS_S:
-            go(before, before + LINGERS_S + MOVE_S + READY_S, False)
-            before = found[-1][1]
-        if slave != on_slave and k not in late:
-            go(before, at, slave)
-        before = at
-    if on_slave:
-        go(before, before + LINGERS_S + MOVE_S + READY_S, False)
-    return np.array(found).reshape(-1, 3)

@@ -30,7 +30,7 @@ def footings(kit: Kit, figure: Figure) -> tuple[Footing, Footing]:
     kick, hat = kit.pedals[Piece.KICK], kit.pedals[Piece.HIHAT_PEDAL]
     kicks_right = not kit.left_handed
     first = Footing.of(figure, _place(kit, figure, kick, kicks_right))
-    slave = kit.slave and _place(kit, figure, kit.slave, not kicks_right)
+    slave = None if kit.slave is None else _place(kit, figure, kit.slave, not kicks_right)
     return first, Footing.of(figure, _place(kit, figure, hat, not kicks_right), slave)
 
 
@@ -49,7 +49,7 @@ def _place(kit: Kit, figure: Figure, pedal: Pedal, right: bool) -> Place:
 def _stances(pedal: Pedal) -> list[tuple[float, float, float]]:
     """How a foot may stand: the board raised, the sole tipped, and the foot lifted over the board."""
     high = HEEL_RAD["up"] + ROCK_RAD
-    return [(0.0, 0.0, 0.0), (pedal.raised_rad, high, 0.0), (pedal.raised_rad, high, LIFT_M)]
+    return [(0.0, 0.0, 0.0), (pedal.raised_rad, high, 0.0), (pedal.raised_rad, 0.0, LIFT_M)]
 
 
 def _knee_out(swivel_deg: float, right: bool) -> Point:
@@ -85,7 +85,7 @@ def capsules(figure: Figure, hip: Array, knee: Array, ankle: Array) -> tuple[Arr
 def depth_in_drums(kit: Kit, points: Array, radii: Array) -> Array:
     """How deep balls of `radii` (k,) about `points` (n, k, 3) are in the deepest drum, (n,); negative outside."""
     drums = [piece for piece in kit.pieces.values() if piece.kind in ("drum", "kick")]
-    return np.max([_depth(drum, points, radii) for drum in drums], axis=0)
+    return np.asarray(np.max([_depth(drum, points, radii) for drum in drums], axis=0))
 
 
 def _depth(drum: KitPiece, points: Array, radii: Array) -> Array:

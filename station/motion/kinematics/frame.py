@@ -34,8 +34,8 @@ PLAYED = 128
 STAND_M = (0.10, 0.30)
 """How far forward and up the pelvis goes to stand (our choice)."""
 HAND_STANDING_RAD = math.radians(30)
-"""Who stands plays from above: the wrists are higher over the sticks, and bend back no farther than they can. By half
-the way up they are there (our choice)."""
+"""Who stands plays from above: the wrists are higher over the sticks, and bend back no farther than they can; from half
+the way up on, for who is half up for a crash plays upward (our choice)."""
 
 
 BodyNow = tuple[Number, ...]
@@ -92,13 +92,13 @@ class Rig:
         most = self.neck_rad
         turn = m.most(m.least(FOLLOWS * bearing - twist, most), -most)
         nod, tilt = bob + LOOK_DOWN * pitch, tilt - TILT_OF_TURN * turn
-        hand = HAND_STANDING_RAD * m.least(2 * stand, 1.0)
+        hand = HAND_STANDING_RAD * m.most(2 * stand - 1, 0.0)
         spine, right_shoulder, left_shoulder, face = trunk_chain(
             m, figure, (x, y, z), (twist, lean, side, nod, turn, tilt, shrug, hunch, chin)
         )
         # the eyes do what the head leaves of the look
-        aside, down = bearing - twist - turn, pitch - LEAN_TO_HEAD * lean - nod
-        aside, down = (m.most(m.least(a, EYES_RAD), -EYES_RAD) for a in (aside, down))
+        aside = m.most(m.least(bearing - twist - turn, EYES_RAD), -EYES_RAD)
+        down = m.most(m.least(pitch - LEAN_TO_HEAD * lean - nod, EYES_RAD), -EYES_RAD)
         arm_a, butt_a, tip_a, back_a, angles, _ = arm_chain(m, self.arms[0], right_shoulder, *right, (wing, hand))
         heading_a, shoulder_a, elbow_a, wrist_a, aside_a, palm_a = angles
         arm_b, butt_b, tip_b, back_b, angles, _ = arm_chain(m, self.arms[1], left_shoulder, *left, (-wing, hand))
@@ -140,7 +140,7 @@ class Rig:
         hat = feet.hat + (1.0 - feet.hat) * released
         share = hat + side * (feet.slave - hat)
         board, slave = hat * raised[1], feet.slave * raised[2]
-        tip = heel * (0.6 + 0.4 * share) + feet.hat_heel
+        tip = (heel * (0.6 + 0.4 * share) + feet.hat_heel) * (1.0 - lift)  # in the air the heel hangs: low knees
         return board, footing.between(m, side, lift), board + side * (slave - board), tip
 
 

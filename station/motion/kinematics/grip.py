@@ -45,7 +45,8 @@ class Grip:
     `yaw` by which the stick is best turned in from the line between shoulder and struck point; `roll` of the hand's
     back from facing up, thumb upward; `turns_hand` as `turns` in `Contact`; `wrist` and `fingers` their parts of a
     stroke, 1 as in the measured stroke. In the hand's axes: `fulcrum`, and `to_butt`, the stick's way from there when
-    the fingers are closed, a unit vector. Behind the fulcrum `in_hand_m` of the stick is in the hand, `beyond_m` out of it.
+    the fingers are closed, a unit vector. Behind the fulcrum `in_hand_m` of the stick is in the hand, `beyond_m`
+    out of it.
     """
 
     name: str
@@ -102,37 +103,52 @@ def _way(across_deg: float, under_deg: float) -> tuple[float, float, float]:
     return -math.sin(a) * math.cos(u), -math.sin(u), -math.cos(a) * math.cos(u)
 
 
-def _grip(
-    name: str,
-    degrees: tuple[float, float],
-    turns: float,
-    parts: tuple[float, float],
-    fulcrum: tuple[float, float, float],
-    to_butt: tuple[float, float, float],
-    beyond_m: float = _BEYOND_M,
-    in_hand_m: float | None = None,
-) -> Grip:
-    yaw, roll = np.radians(degrees).tolist()
-    under_palm = (HEEL_M - fulcrum[2]) / to_butt[2]
-    return Grip(
-        name, yaw, roll, turns, *parts, fulcrum, to_butt, under_palm if in_hand_m is None else in_hand_m, beyond_m
-    )
-
-
 _PINCH = (0.034, -0.022, 0.098)
-_KNUCKLES = (0.004, 0.0, 0.096)
-BARE = _grip("bare", (20.0, 0.0), 1.0, (1.0, 0.4), _KNUCKLES, _way(0.0, -8.0), 0.0, 0.0)
+
+
+def _matched(
+    name: str, degrees: tuple[float, float], turns: float, parts: tuple[float, float], way_deg: tuple[float, float]
+) -> Grip:
+    """A grip in which the stick is pinched and runs under the palm by `way_deg`."""
+    to_butt = _way(*way_deg)
+    under_palm = (HEEL_M - _PINCH[2]) / to_butt[2]
+    yaw, roll = np.radians(degrees).tolist()
+    return Grip(name, yaw, roll, turns, *parts, _PINCH, to_butt, under_palm, _BEYOND_M)
+
+
+_TRADITIONAL = Grip(
+    "traditional",
+    yaw=math.radians(38.0),
+    roll=math.radians(145.0),
+    turns_hand=0.0,
+    wrist=1.0,
+    fingers=0.65,
+    fulcrum=(0.040, -0.012, 0.062),
+    to_butt=(0.68, 0.41, -0.605),
+    in_hand_m=0.0,
+    beyond_m=0.065,
+)
+BARE = Grip(
+    "bare",
+    yaw=math.radians(20.0),
+    roll=0.0,
+    turns_hand=1.0,
+    wrist=1.0,
+    fingers=0.4,
+    fulcrum=(0.004, 0.0, 0.096),
+    to_butt=_way(0.0, -8.0),
+    in_hand_m=0.0,
+    beyond_m=0.0,
+)
 """A bare hand: its fingers are the stick, held a little bent, and the knuckles are where it turns."""
 GRIPS: Mapping[str, Grip] = MappingProxyType(
     {
         g.name: g
         for g in (
-            _grip("german", (28.0, 0.0), 1.0, (1.0, 0.8), _PINCH, _way(22.0, 6.0)),
-            _grip("american", (20.0, 45.0), 1.0, (1.0, 1.0), _PINCH, _way(24.0, 6.0)),
-            _grip("french", (8.0, 80.0), 1.0, (0.7, 1.3), _PINCH, _way(30.0, 10.0)),
-            _grip(
-                "traditional", (38.0, 145.0), 0.0, (1.0, 0.65), (0.040, -0.012, 0.062), (0.68, 0.41, -0.605), 0.065, 0.0
-            ),
+            _matched("german", (28.0, 0.0), 1.0, (1.0, 0.8), (22.0, 6.0)),
+            _matched("american", (20.0, 45.0), 1.0, (1.0, 1.0), (24.0, 6.0)),
+            _matched("french", (8.0, 80.0), 0.5, (0.75, 1.25), (31.0, 13.0)),
+            _TRADITIONAL,
         )
     }
 )
@@ -195,6 +211,7 @@ class Hold:
             rolls_hand=side,
             roll_sine=math.sin(self.grip.roll) * side,
             roll_cosine=math.cos(self.grip.roll),
+            across=not self.grip.turns_hand,
             off_thumb=tilt * x,
             off_back=tilt * y,
             most_bend=figure.limits.elbow_flexion,

@@ -23,13 +23,13 @@ ANKLE_ALONG = 0.25
 BALL_ALONG = 0.75
 """The ball's (our choice)."""
 
-HEEL_RAD: Mapping[str, float] = MappingProxyType({"down": 0.0, "up": math.radians(24.0)})
-"""How far the sole is tipped over the board, heel up (our choice)."""
+HEEL_RAD: Mapping[str, float] = MappingProxyType({"down": 0.0, "up": math.radians(18.0)})
+"""How far the sole is tipped over the board, heel up: the heel is 6 cm high (our choice; higher knees meet hands)."""
 ROCK_RAD = math.radians(7.0)
 """How far a sole that keeps time is tipped between the beats at the natural setting: the heel is 2.5 cm up (our
 choice)."""
-LIFT_M = 0.06
-"""How high the foot is over the boards between them: over the slave's raised toe and its post (our choice)."""
+LIFT_M = 0.04
+"""How high the foot is over the boards on its way from one to the other (our choice: it clears both)."""
 
 
 class Leg(NamedTuple):

@@ -93,6 +93,21 @@ def slopes(
     return into, out
 
 
+def monotone_slopes(times_s: Array, values: Array) -> Array:
+    """Slopes at every key (..., m) that never overshoot: level at the turns, else the chords' weighted harmonic mean.
+
+    Fritsch and Butland 1984 (SIAM Journal on Scientific and Statistical Computing 5(2), 300–304); level at both ends.
+    """
+    steps, chords = lines(times_s, values)
+    before, after = chords[..., :-1], chords[..., 1:]
+    first, second = 2 * steps[..., 1:] + steps[..., :-1], steps[..., 1:] + 2 * steps[..., :-1]
+    result = np.zeros(values.shape)
+    bottom = first * after + second * before
+    on = before * after
+    np.divide((first + second) * on, bottom, out=result[..., 1:-1], where=on > 0)
+    return result
+
+
 def cubics(times_s: Array, values: Array, into: Array, out: Array) -> Array:
     """Power form of the Hermite segments, (..., m, 4) from the key's own time on; the last holds the last value."""
     return power_form(values, lines(times_s, values), into, out)

@@ -119,6 +119,12 @@ class Kit:
         kick, hat = self.pedals[Piece.KICK], self.pedals[Piece.HIHAT_PEDAL]
         return (hat, kick) if self.left_handed else (kick, hat)
 
+    @property
+    def pulled_hat(self) -> KitPiece | None:
+        """The hi-hat whose upper cymbal the pedal's rod moves; a pad's controller moves nothing."""
+        hat = self.pieces.get(Piece.HIHAT)
+        return None if hat is None or hat.electronic else hat
+
     def stand_in(self, piece: Piece) -> Piece:
         """`piece` if this kit has it, else the piece that is played in its place."""
         played = Piece.HIHAT if piece is Piece.HIHAT_PEDAL else piece
@@ -186,6 +192,10 @@ def _degrees(low: float, high: float) -> Reader[float]:
     return lambda value: math.radians(number(low, high)(value))
 
 
+_RIDES = (Piece.RIDE, Piece.RIDE_2)
+"""Their bells are struck with the stick's shoulder; those of other cymbals, which hang farther off, with its tip."""
+_UP_TO_BELL_M = -0.06
+"""And from farther below, so that the arm reaches (our choice)."""
 _LENGTHS = point(_MAX_LENGTH_M)
 _TILT = _degrees(-_MAX_TILT_DEG, _MAX_TILT_DEG)
 _SHARE = number(-1.0, 1.0)
@@ -249,6 +259,8 @@ def _spots(piece: KitPiece, zones: Mapping[Zone, Mapping[str, Any]]) -> dict[Zon
     """Where each zone is struck: as on any piece of its kind, but for what the file says in `zones`."""
     inward = max(-1.0, min(1.0, -piece.centre_m[0] / _ASIDE_M))
     usual = {zone: replace(spot, right=inward * spot.right) for zone, spot in SPOTS[piece.kind].items()}
+    if Zone.BELL in usual and piece.piece not in _RIDES:
+        usual[Zone.BELL] = replace(usual[Zone.BELL], shoulder=False, wrist_height_m=_UP_TO_BELL_M)
     return usual | {zone: replace(usual.get(zone, ZoneSpot(0.0, 0.0)), **changes) for zone, changes in zones.items()}
 
 

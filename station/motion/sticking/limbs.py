@@ -1,8 +1,8 @@
 """Who plays what: a limb for every stroke of a score.
 
 `station` (the default) chooses the hands that are cheapest together over the whole score (`hand_choice`), `smed` runs
-the five passes of the thesis (`smed_limbs`). Both leave the feet where the pedals are and a written limb as it is
-written.
+the five passes of the thesis (`smed_limbs`). Both leave the feet where the pedals are (`feet`) and a written limb as it
+is written.
 """
 
 from dataclasses import dataclass
@@ -14,6 +14,7 @@ from station.core.errors import BadInput
 from station.core.pieces import Limb, Piece
 from station.motion.feasibility.on_a_kit import InfeasibleDemand, infeasible_demands
 from station.motion.kit.kit import Kit
+from station.motion.sticking.feet import feet
 from station.motion.sticking.hand_choice import choose_hands
 from station.motion.sticking.hand_notes import HandNotes, Hands
 from station.motion.sticking.smed_limbs import smed_hands
@@ -48,7 +49,7 @@ def assign_limbs(score: Score, kit: Kit, method: str = "station", hands: Hands |
     if method not in METHODS:
         raise BadInput("method", method, f"no such method of limb assignment; there are {' and '.join(METHODS)}")
     lead = hands or (Hands.LEFT if kit.left_handed else Hands.RIGHT)
-    limbs, why = _feet(score, kit)
+    limbs, why = feet(score, kit)
     rows = np.flatnonzero(limbs == Limb.UNKNOWN)
     written = np.isin(score.notes["limb"], (Limb.RIGHT_HAND, Limb.LEFT_HAND))
     if len(rows):
@@ -58,25 +59,6 @@ def assign_limbs(score: Score, kit: Kit, method: str = "station", hands: Hands |
         for row, reason in zip(rows, reasons, strict=True):
             why[row] = "written" if written[row] else reason
     return Assignment(limbs, tuple(why), method, infeasible_demands(score, kit, limbs))
-
-
-def _feet(score: Score, kit: Kit) -> tuple[NDArray[np.int8], list[str]]:
-    """The notes that a foot plays; `Limb.UNKNOWN` and no reason at the others.
-
-    Each foot has its pedal. A kick written for the hi-hat's foot is on the slave of a double pedal; a kit without one
-    leaves it to the kick's foot, and nobody else can close the hi-hat.
-    """
-    pieces, written = score.notes["piece"], score.notes["limb"]
-    limbs = np.full(len(score), Limb.UNKNOWN, np.int8)
-    why = [""] * len(score)
-    kick, hat = kit.feet
-    for piece, foot, reason in ((Piece.KICK, kick, "the kick's foot"), (Piece.HIHAT_PEDAL, hat, "the hi-hat's foot")):
-        for row in np.flatnonzero(pieces == piece):
-            said = Limb(written[row])
-            limbs[row], why[row] = foot, "written" if said is foot else reason
-            if piece is Piece.KICK and said is hat:
-                limbs[row], why[row] = (hat, "written") if kit.slave else (kick, "this kit has no second pedal")
-    return limbs, why
 
 
 def as_led(score: Score, kit: Kit, hands: Hands | None = None) -> Score:

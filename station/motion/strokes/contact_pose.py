@@ -12,7 +12,7 @@ from dataclasses import astuple, dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Articulation, Limb
+from station.core.pieces import Articulation, Limb, Piece
 from station.motion.kinematics.arm import Arm, ArmLengths, Contact, Offsets, solve
 from station.motion.kinematics.collisions import depth_in_kit
 from station.motion.kinematics.figure import Figure
@@ -33,9 +33,9 @@ _EXTENSION_EASE, _DEVIATION_EASE = np.radians(25.0), np.radians(12.0)
 _NATURAL_WING, _WING_EASE = np.radians(12.0), np.radians(40.0)
 _TURN_EASE = np.radians(18.0)
 _SPARE, _BEYOND_EASE = np.radians(8.0), np.radians(1.0)
-"""What is called comfortable: how far the wrist bends, the elbow leaves its place and the stick is turned from
-the grip's own way before each costs as much as the others; near its limits no wrist is comfortable, for strokes and styles need room (our
-choice, within the limits of HUMANS)."""
+"""What is called comfortable: how far the wrist bends, the elbow leaves its place and the stick is turned from its
+grip's own way before each costs as much as the others; near its limits no wrist is comfortable, for strokes and styles
+need room (our choice, within the limits of HUMANS)."""
 
 SHOULDER_OF_STICK = 0.25
 """From the tip back to the part that meets a cymbal's edge or a rim, as a share of the stick (our choice)."""
@@ -43,6 +43,10 @@ _LAID_AHEAD = 0.55
 _LAID_RISE, _LAID_IN_THE_WEB = math.radians(2.0), math.radians(12.0)
 """A cross-stick strikes the rim so far ahead of the fulcrum as a share of its length; a matched hand lies flat
 on it, palm down; the back of a traditional one lies on the head (our choice)."""
+
+_RIDES = (Piece.RIDE, Piece.RIDE_2)
+THUMB_UP_TURNS = 0.75
+"""On a ride the thumb comes up: a quarter of the wrist's part of a stroke is the forearm's roll (our choice)."""
 
 LEANS_RAD = np.radians([6.0, 12.0, 18.0, 24.0, 30.0])
 """How far the trunk may lean for a distant target, the least that serves (our choice)."""
@@ -73,13 +77,15 @@ def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike) -> ContactPose:
     if strike.articulation == WAIT and not hold.held.rest_m:  # a brush waits on the head
         strike = replace(strike, articulation=Articulation.NORMAL)
     target = target_of(kit, strike)
+    if kit.stand_in(strike.piece) in _RIDES and hold.held.name == "stick":
+        hold = replace(hold, grip=replace(hold.grip, turns_hand=min(hold.grip.turns_hand, THUMB_UP_TURNS)))
     right = strike.limb == Limb.RIGHT_HAND
     side = 1.0 if right else -1.0
     lengths = hold.lengths(figure, right)
     slopes = _slopes(lengths, target, hold, strike, hold.length_m(figure))
     if strike.articulation == Articulation.CROSS_STICK:
         azimuth = laid_azimuth(kit, kit.pieces[kit.stand_in(strike.piece)], strike.limb)
-        slopes = replace(slopes, azimuth=azimuth)
+        slopes = replace(slopes, azimuth=azimuth, free=0.0)
     faced = np.array([0.0, 1.0, 0.0]) if strike.articulation in (WAIT, SHOW) else target.point_m  # for anything
     for lean in LEANS_RAD.tolist():
         root = natural_shoulder(kit, figure, strike.limb, faced, lean)
@@ -91,7 +97,9 @@ def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike) -> ContactPose:
         if not _caught(kit, lengths, root, touch):
             break
         grip = replace(hold.grip, yaw=share * hold.grip.yaw)
-        touch, _ = _easiest(lengths, root, target, slopes, grip, (side, figure.limits))
+        touch, _ = _easiest(
+            lengths, root, target, replace(slopes, free=_LED * slopes.free), grip, (side, figure.limits)
+        )
         arm = solve(ONE, lengths, root, touch, Offsets(0.0, 0.0, 0.0, 0.0))
     limits = figure.limits
     return ContactPose(
@@ -118,6 +126,8 @@ def _caught(kit: Kit, lengths: ArmLengths, root: Point, touch: Contact) -> bool:
 
 
 _STRAIGHTER = (0.7, 0.4, 0.1, -0.2, -0.5)
+_LED = 0.15
+"""Shares of its grip's own yaw that a stick is turned to, clear of a neighbour, and how free it is then (our choice)."""
 _TOUCHING_M = 0.002
 _RAISED = Offsets(0.0, 0.05, 0.35, 0.15)
 """A middling stroke at its top."""
@@ -138,16 +148,18 @@ def _easiest(
     """
     side, limits = arm_of
     wing, turn = (g.ravel() for g in np.meshgrid(side * _WINGS, _TURNS, indexing="ij"))
-    if slopes.azimuth is not None:
-        turn = np.zeros_like(turn)
+    turn = slopes.free * turn
     way = side * grip.yaw if slopes.azimuth is None else _turn(root, target, slopes.azimuth)
     rises = {t: _over_the_piece(target, root, way + t, slopes) for t in set(turn.tolist())}
     rise = np.array([rises[t] for t in turn.tolist()])
     lies = {r: grip.lie(r, slopes.hand_roll) for r in rises.values()}
     palm, crossing, roll = (np.array(part) for part in zip(*(astuple(lies[r]) for r in rise.tolist()), strict=True))
     stick_yaw = way + turn
+    x, y, z = target.point_m.tolist()
     tries = Contact(
-        *target.point_m.tolist(),
+        x,
+        y,
+        z,
         stick_rise=rise,
         hand_rise=rise + palm,
         stick_yaw=stick_yaw,
@@ -187,7 +199,8 @@ def _beyond(arm: Arm, side: float, limits: Limits) -> Array:
 class _Slopes:
     """How the stick wants to lie.
 
-    What touches and how much stick is beyond it, its slope, the hand's roll where it is not its grip's, its way in plan where that is fixed, and whether its shaft lies on the rim.
+    What touches and how much stick is beyond it, its slope, the hand's roll where it is not its grip's, its way in plan
+    where that is fixed, whether its shaft lies on the rim, and how `free` it is to turn, 0 … 1.
     """
 
     ahead_m: float
@@ -196,6 +209,7 @@ class _Slopes:
     hand_roll: float | None = None
     azimuth: float | None = None
     on_rim: bool = False
+    free: float = 1.0
 
 
 def _slopes(lengths: ArmLengths, target: Target, hold: Hold, strike: Strike, length_m: float) -> _Slopes:

@@ -16,7 +16,7 @@ from station.motion.strokes.stroke import Sliders
 
 Array = NDArray[np.float64]
 
-HEIGHT_SD, JOINT_SD, PACE_SD = 0.11, 0.08, 0.07
+HEIGHT_SD, JOINT_SD, PACE_SD = 0.11, 0.08, 0.04
 """Together a scatter of 6–10 % within a dozen strokes, as of professionals' velocities (HUMANS); the joints
 share it differently every time, and the preparation comes so much earlier or later (our choice)."""
 SPOT_SD_M, SPOT_M = 0.004, 0.010

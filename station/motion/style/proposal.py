@@ -1,7 +1,8 @@
 """A style proposed from the score: its tempo, how dense it is, and how loud and how varied.
 
 The music's own signs, nothing else: a fast or dense score leaves little room for large movement, a loud one asks for
-it, wide dynamics ask for the whole arm, swung soft rides for the traditional grip. Each rule is our choice; the user's
+it, wide dynamics ask for the whole arm, swung soft rides for the traditional grip and a calm face, loudness for a grim
+one. Each rule is our choice; the user's
 hand on the controls comes after it.
 """
 
@@ -30,7 +31,7 @@ class Character:
 
 _ORDINARY = Character(tempo_bpm=105.0, strokes_s=8.0, velocity=72.0, spread=27.0, ride=0.1)
 """What human grooves are like on the whole: means of rock, funk and soul in the Groove MIDI Dataset."""
-_CALM_VELOCITY = 70.0
+_CALM_VELOCITY, _INTENSE_VELOCITY = 70.0, 85.0
 _MUCH_RIDE = 0.25
 
 
@@ -65,6 +66,7 @@ def propose_style(score: Score) -> Style:
         frequency_gain=NATURAL * _clip((is_like.spread / _ORDINARY.spread) ** 0.5),
         grip_left="traditional" if calm else "american",
         heel="down" if is_like.velocity < _ORDINARY.velocity else "up",
+        mood="calm" if calm else "intense" if is_like.velocity > _INTENSE_VELOCITY else "focused",
     )
     wrist = 40.0 * _clip(1.0 / room)
     return style.with_share("amplitude", "wrist", min(wrist, 70.0))

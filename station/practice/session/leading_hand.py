@@ -20,9 +20,12 @@ def hands_of(settings: Settings) -> Hands | None:
     return Hands(settings.hands) if settings.hands else None
 
 
-def drummers_kit(lesson: Lesson, hands: Hands | None) -> Kit:
-    """The lesson's kit, mirrored where it is built for the other hand; raises `BadInput` for a kit that is none."""
-    kit = load_kit(lesson.kit or DEFAULT_KIT)
+def drummers_kit(lesson: Lesson, hands: Hands | None, stands: str = "") -> Kit:
+    """The kit that `stands` names, else the lesson's, mirrored where it is built for the other hand.
+
+    Raises `BadInput` for a kit that is none.
+    """
+    kit = load_kit(stands or lesson.kit or DEFAULT_KIT)
     if hands is None or kit.left_handed == (hands is Hands.LEFT):
         return kit
     return kit.mirrored

@@ -62,7 +62,8 @@ class PlanOptions:
 
     `click` is for the demonstrations and passes; the count-in clicks, or counts, every beat. With None the passes have
     no click, and the score follows the student. With `guide` the demonstration plays along in the passes. `hands` says
-    whose hand leads, None as the lesson's kit is built. `level` is how strictly is judged, None as the lesson suggests.
+    whose hand leads, None as the lesson's kit is built. `level` is how strictly is judged, None as the lesson suggests;
+    `stands` which kit stands before the demonstrator, empty for the lesson's.
     """
 
     tempo_bpm: float | None = None
@@ -73,6 +74,7 @@ class PlanOptions:
     guide: bool = False
     hands: Hands | None = None
     level: Level | None = None
+    stands: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,7 +165,7 @@ def plan_practice(lesson: Lesson, options: PlanOptions) -> Plan:
     tempo_bpm = _checked_tempo(options.tempo_bpm, lesson)
     passes = _checked_loops(options.loops, lesson)
     first, last = _checked_bars(options.bars, lesson)
-    kit = drummers_kit(lesson, options.hands)
+    kit = drummers_kit(lesson, options.hands, options.stands)
     section = lesson.score.bars(first, last).at_speed(tempo_bpm / lesson.tempo_bpm)
     section = with_sticking(section, kit, options.hands)
     demonstrations = lesson.demonstrations if options.demonstrations is None else options.demonstrations

@@ -21,7 +21,7 @@ from station.render.figure.headwear import headwear_skins
 from station.render.figure.measures import Measures
 from station.render.figure.skeleton import HEAD_M, Skeleton
 from station.render.figure.skin import INFLUENCES, Skin, joined_skins, skin_of
-from station.render.geometry.implicit import Array, Surface, clipped, surface
+from station.render.geometry.implicit import Array, Surface
 from station.render.geometry.materials import Material
 
 _ARMS = (Bone.RIGHT_UPPER_ARM, Bone.LEFT_UPPER_ARM)
@@ -78,9 +78,7 @@ class _Dressed:
 
 def _part_skin(part: Garment, fineness: float, whole: Sequence[Garment]) -> Skin:
     cell = part.cell * fineness
-    mesh = surface(part.creased(cell), *part.bounds(cell), cell)
-    if part.hole is not None:
-        mesh = clipped(mesh, part.hole)
+    mesh = part.surface(cell)
     return skin_of(mesh, part.weights(mesh.position), part.material, _open_sky(mesh, whole))
 
 

@@ -27,17 +27,19 @@ class Bone(IntEnum):
     LEFT_THIGH = 15
     LEFT_SHANK = 16
     LEFT_FOOT = 17
-    RIGHT_EYE = 18  # from here on bones of the face, which hang on the head (`expression`)
-    LEFT_EYE = 19
-    UPPER_LIDS = 20
-    LOWER_LIDS = 21
-    RIGHT_BROW = 22
-    LEFT_BROW = 23
-    JAW = 24
-    UPPER_LIP = 25
-    LOWER_LIP = 26
-    RIGHT_CORNER = 27
-    LEFT_CORNER = 28
+    RIGHT_TOES = 18  # before the ball, where a shoe bends
+    LEFT_TOES = 19
+    RIGHT_EYE = 20  # from here on bones of the face, which hang on the head (`expression`)
+    LEFT_EYE = 21
+    UPPER_LIDS = 22
+    LOWER_LIDS = 23
+    RIGHT_BROW = 24
+    LEFT_BROW = 25
+    JAW = 26
+    UPPER_LIP = 27
+    LOWER_LIP = 28
+    RIGHT_CORNER = 29
+    LEFT_CORNER = 30
 
 
 FACE_BONES = tuple(bone for bone in Bone if bone >= Bone.RIGHT_EYE)
@@ -54,7 +56,7 @@ def _digits(hand: Bone) -> range:
 LIMB_BONES: dict[Limb, tuple[int, ...]] = {
     Limb.RIGHT_HAND: (*range(Bone.RIGHT_UPPER_ARM, Bone.RIGHT_HAND + 1), *_digits(Bone.RIGHT_HAND)),
     Limb.LEFT_HAND: (*range(Bone.LEFT_UPPER_ARM, Bone.LEFT_HAND + 1), *_digits(Bone.LEFT_HAND)),
-    Limb.RIGHT_FOOT: (Bone.RIGHT_THIGH, Bone.RIGHT_SHANK, Bone.RIGHT_FOOT),
-    Limb.LEFT_FOOT: (Bone.LEFT_THIGH, Bone.LEFT_SHANK, Bone.LEFT_FOOT),
+    Limb.RIGHT_FOOT: (Bone.RIGHT_THIGH, Bone.RIGHT_SHANK, Bone.RIGHT_FOOT, Bone.RIGHT_TOES),
+    Limb.LEFT_FOOT: (Bone.LEFT_THIGH, Bone.LEFT_SHANK, Bone.LEFT_FOOT, Bone.LEFT_TOES),
 }
 """The bones of each limb, a hand's digits with it."""

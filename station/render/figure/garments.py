@@ -5,7 +5,7 @@ of their distances, so that weights and shape come from one description; round t
 its height, so that a shirt twists over its whole length.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -14,15 +14,17 @@ from numpy.typing import ArrayLike
 
 from station.render.figure.bones import Bone
 from station.render.figure.skin import Skin, skin_of
-from station.render.geometry.implicit import Array, Cone, Egg, Field, united
+from station.render.geometry.implicit import Array, Cone, Egg, Field, Surface, clipped, surface, united
 from station.render.geometry.materials import Material
-from station.render.geometry.mesh import tube
-from station.render.geometry.transforms import frame
+from station.render.geometry.mesh import grid_mesh, tube
+from station.render.geometry.transforms import frame, unit
 
 Solid = Cone | Egg
 
 _SOFTNESS_M = 0.022
 """How far beyond the nearest solid another bone still pulls the skin (our choice: a third of an arm's width)."""
+_INSIDE_SKY = 0.35
+"""How dark it is inside a sleeve (our choice)."""
 _CREASED_CELL_M, _SMOOTH_CELL_M = 0.016, 0.030
 """In cells up to the first creases are as deep as designed; in cells from the second there are none."""
 
@@ -45,41 +47,55 @@ class Crease:
         return np.asarray(self.depth_m * near * np.sin(2 * np.pi * (away @ self.axis) / self.wave_m + bent), np.float64)
 
 
+@dataclass(frozen=True, slots=True)
+class End:
+    """Where a garment ends: at the plane through `at` across `way`, the way out, no farther than `reach_m` from it."""
+
+    at: Array
+    way: Array
+    reach_m: float = 1.0
+
+    def __call__(self, p: Array) -> Array:
+        """How far beyond the end each point lies."""
+        away = p - self.at
+        far = np.sqrt(np.einsum("ij,ij->i", away, away))
+        return np.asarray(np.minimum(away @ unit(self.way), self.reach_m - far), np.float64)
+
+
 @dataclass(frozen=True, eq=False)
 class Garment:
-    """One garment or stretch of skin: its solids by bone, how they join, what is cut off, the cell it is cut with.
+    """One garment or stretch of skin: its solids by bone, how they join, the cell it is cut with.
 
-    `spine`: from which height on it follows the chest, and from which on the chest alone; `hole`: what is cut out of
-    its surface, under which there is something to see.
+    What lies in `holes`, where their fields are positive, is cut out of its surface. `spine`: from which height on it
+    follows the chest, and from which on the chest alone.
     """
 
     material: Material
     solids: Sequence[tuple[Bone, Solid]]
     blend: float
     cell: float
-    trim: Callable[[Field], Field] = lambda f: f
+    holes: tuple[Field, ...] = ()
     creases: tuple[Crease, ...] = ()
     softness: float = _SOFTNESS_M
     spine: tuple[float, float] | None = None
-    hole: Field | None = None
 
     @cached_property
     def whole(self) -> Field:
-        """The shape before anything is cut off, without folds."""
+        """The shape without folds and holes."""
         return united([s for _, s in self.solids], self.blend)
 
-    @property
-    def field(self) -> Field:
-        """The shape without folds."""
-        return self.trim(self.whole)
+    def surface(self, cell: float) -> Surface:
+        """The cloth, in cells of this size."""
+        mesh = surface(self._creased(cell), *self.bounds(cell), cell)
+        return clipped(mesh, lambda p: np.max([hole(p) for hole in self.holes], axis=0)) if self.holes else mesh
 
-    def creased(self, cell: float) -> Field:
+    def _creased(self, cell: float) -> Field:
         """The shape with its folds, as far as cells of this size show them."""
         share = float(np.clip((_SMOOTH_CELL_M - cell) / (_SMOOTH_CELL_M - _CREASED_CELL_M), 0, 1))
         if share == 0.0 or not self.creases:
-            return self.field
+            return self.whole
         whole, creases = self.whole, self.creases
-        return self.trim(lambda p: np.asarray(whole(p) + share * sum(crease(p) for crease in creases), np.float64))
+        return lambda p: np.asarray(whole(p) + share * sum(crease(p) for crease in creases), np.float64)
 
     def bounds(self, cell: float) -> tuple[Array, Array]:
         """A box that holds every solid and its rounding."""
@@ -102,12 +118,17 @@ class Garment:
             pull[:, Bone.WAIST] = trunk - pull[:, Bone.CHEST]
         return np.asarray(pull, np.float64)
 
-    def hem(
-        self, at: ArrayLike, way: ArrayLike, radius: float, fineness: float, material: Material | None = None
-    ) -> Skin:
-        """A rounded edge where the plane through `at` across `way` cuts the garment."""
-        rim = self.rim(at, way, max(10, round(30 / fineness)))
-        mesh = tube(rim, radius, self.material if material is None else material, max(5, round(8 / fineness)))
+    def hem(self, end: End, radius: float, fineness: float, material: Material | None = None) -> list[Skin]:
+        """A rounded edge where the garment ends, and what closes it."""
+        rim = self.rim(end.at, end.way, max(10, round(30 / fineness)))
+        lid = grid_mesh(np.stack([rim, end.at + 0.02 * (rim - end.at)]), self.material)
+        edge = self.piping(rim, radius, fineness, self.material if material is None else material)
+        return [edge, skin_of(lid, self.weights(lid.position), ao=_INSIDE_SKY)]
+
+    def piping(self, rim: Array, radius: float, fineness: float, material: Material) -> Skin:
+        """A rounded edge along a closed line (k, 3) whose last point is its first."""
+        overlapped = np.concatenate([rim[-2:-1], rim, rim[1:2]])  # so that no seam gapes
+        mesh = tube(overlapped, radius, material, max(5, round(8 / fineness)))
         return skin_of(mesh, self.weights(mesh.position))
 
     def rim(self, at: ArrayLike, way: ArrayLike, count: int, most: float = 0.30) -> Array:

@@ -45,11 +45,11 @@ def _sky(part: Surface) -> Array:
 @cache
 def _surface(style: str, is_covered: bool, fineness: float) -> Surface:
     """The surface of a haircut; under a beanie only what looks out."""
-    field, *waves = _HAIR[style]()
+    field, wave, depth, length = _HAIR[style]()
     if is_covered:
         field = _behind(field, plane((0, -0.02, 0.125), (0, 0.12, 1.0)))
     cell = _CELL_M * fineness
-    return surface(_waved(field, *waves, cell), (-0.16, -0.21, -0.10), (0.16, 0.15, 0.29), cell)
+    return surface(_waved(field, wave, depth, length, cell), (-0.16, -0.21, -0.10), (0.16, 0.15, 0.29), cell)
 
 
 @cache

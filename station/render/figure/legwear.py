@@ -2,10 +2,10 @@
 
 from station.motion.kinematics.figure import Joint
 from station.render.figure.bones import Bone
-from station.render.figure.garments import Crease, Garment, Solid
+from station.render.figure.garments import Crease, End, Garment, Solid
 from station.render.figure.measures import HIP_OF, Measures
 from station.render.figure.skin import Skin
-from station.render.geometry.implicit import Array, Field, cone, cut, egg, plane
+from station.render.geometry.implicit import cone, egg
 from station.render.geometry.materials import Material
 from station.render.geometry.transforms import unit
 
@@ -36,45 +36,39 @@ def legwear(m: Measures, word: str) -> Garment:
             folds.append(Crease(ankle - 0.10 * shin, unit(shin), 0.045, 0.040, 0.0036))
         folds.append(Crease(hip + 0.14 * down + m.by(0, 0, 0.08), unit([down[0], 0.6, 0.0]), 0.055, 0.048, 0.0036))
 
-    def trim(field: Field) -> Field:
-        for thigh in HIP_OF:
-            field = cut(field, plane(*_end(m, thigh, word)), 0.008 * k)
-        return field
-
-    return Garment(Material.TROUSERS, solids, 0.035 * k, 0.0125, trim, tuple(folds), 0.030)
+    ends = tuple(_end(m, thigh, word) for thigh in HIP_OF)
+    return Garment(Material.TROUSERS, solids, 0.035 * k, 0.0125, ends, tuple(folds), 0.030)
 
 
-def _end(m: Measures, thigh: Bone, word: str) -> tuple[Array, Array]:
-    """The plane where a leg ends."""
+def _end(m: Measures, thigh: Bone, word: str) -> End:
+    """Where a leg ends."""
     hip, knee, ankle = m.leg(thigh)
+    reach = 0.16 * m.k * m.girths.legs
     if word == "shorts":
-        return hip + _SHORT * (knee - hip), knee - hip
-    return ankle - 0.045 * (ankle - knee), ankle - knee
+        return End(hip + _SHORT * (knee - hip), knee - hip, reach)
+    return End(ankle - 0.045 * (ankle - knee), ankle - knee, reach)
 
 
 def legwear_trimmings(m: Measures, word: str, garment: Garment, fineness: float) -> list[Skin]:
     """The legs' rounded hems; under shorts the socks'."""
     radius = 0.0075 if word == "jeans" else 0.006
-    hems = [garment.hem(*_end(m, thigh, word), radius * m.k, fineness) for thigh in HIP_OF]
-    if word == "shorts":
-        hems += [sock(m, thigh).hem(_sock_top(m, thigh), _shin(m, thigh), 0.005 * m.k, fineness) for thigh in HIP_OF]
+    hems = []
+    for thigh in HIP_OF:
+        hems += garment.hem(_end(m, thigh, word), radius * m.k, fineness)
+        if word == "shorts":
+            hems += sock(m, thigh).hem(_sock_top(m, thigh), 0.005 * m.k, fineness)
     return hems
 
 
-def _shin(m: Measures, thigh: Bone) -> Array:
-    """From the knee to the ankle."""
-    _, knee, ankle = m.leg(thigh)
-    return ankle - knee
-
-
-def _sock_top(m: Measures, thigh: Bone) -> Array:
+def _sock_top(m: Measures, thigh: Bone) -> End:
     """Where a sock ends."""
-    return m.leg(thigh)[2] - 0.30 * _shin(m, thigh)
+    _, knee, ankle = m.leg(thigh)
+    return End(ankle + 0.30 * (knee - ankle), knee - ankle)
 
 
 def sock(m: Measures, thigh: Bone) -> Garment:
     """A sock under shorts."""
-    ankle, top, shin = m.leg(thigh)[2], _sock_top(m, thigh), _shin(m, thigh)
+    ankle, top = m.leg(thigh)[2], _sock_top(m, thigh)
     k = m.k * m.girths.legs
-    solid = cone(top - 0.04 * shin, ankle, 0.0490 * k, 0.0430 * k)
-    return Garment(Material.FELT, [(Bone(thigh + 1), solid)], 0.02, 0.011, lambda f: cut(f, plane(top, -shin)))
+    solid = cone(top.at + 0.13 * (top.at - ankle), ankle, 0.0490 * k, 0.0430 * k)
+    return Garment(Material.FELT, [(Bone(thigh + 1), solid)], 0.02, 0.011, (top,))

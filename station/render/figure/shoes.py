@@ -10,10 +10,10 @@ import numpy as np
 
 from station.motion.kinematics.figure import Joint
 from station.render.figure.bones import Bone
-from station.render.figure.garments import Garment, Solid
+from station.render.figure.garments import End, Garment, Solid
 from station.render.figure.measures import HIP_OF, Measures
-from station.render.figure.skin import Skin, rigid_skin
-from station.render.geometry.implicit import Array, cone, cut, plane
+from station.render.figure.skin import Skin, hung, rigid_skin, skin_of
+from station.render.geometry.implicit import Array, cone
 from station.render.geometry.materials import Material
 from station.render.geometry.mesh import Mesh, grid_mesh, joined, tube
 
@@ -35,25 +35,47 @@ _CIRCLES = ((0.000, -0.022, 0.0435), (0.005, 0.118, 0.0490), (-0.002, 0.192, 0.0
 def shoe(m: Measures, foot: Bone, word: str) -> Garment:
     """The upper of a shoe."""
     place, k, make = _Place(m, foot), m.foot, MAKES[word]
+    toes = _toes_of(foot)
     solids: list[tuple[Bone, Solid]] = [
         (foot, cone(place(0, -0.022, 0.044), place(0.004, 0.118, 0.038), 0.0405 * k, 0.0435 * k)),
-        (foot, cone(place(0.004, 0.118, 0.038), place(-0.002, 0.190, 0.031), 0.0435 * k, 0.0325 * k)),
+        (toes, cone(place(0.004, 0.118, 0.038), place(-0.002, 0.190, 0.031), 0.0435 * k, 0.0325 * k)),
         (foot, cone(place(0, -0.014, 0.05), place(0, -0.010, make.shaft), 0.043 * k, 0.0425 * k)),
         (foot, cone(place(0, 0.0, 0.078), place(0, 0.105, 0.046), 0.037 * k, 0.037 * k)),
     ]
-    floor, mouth = plane(place(0, 0, 0.012), [0, 0, -1]), plane(place(0, 0, make.shaft), [0, -0.10, 1])
-    return Garment(Material.SHOE, solids, 0.028 * k, 0.010, lambda f: cut(cut(f, floor), mouth, 0.006))
+    floor = End(place(0, 0, 0.012), np.array([0.0, 0.0, -1.0]))
+    return Garment(Material.SHOE, solids, 0.028 * k, 0.010, (floor, _mouth(place, make)))
+
+
+def _mouth(place: "_Place", make: Make) -> End:
+    """Where the foot goes in."""
+    return End(place(0, -0.009, make.shaft), np.array([0.0, -0.10, 1.0]))
 
 
 def shoe_trimmings(m: Measures, foot: Bone, word: str, upper: Garment, fineness: float) -> list[Skin]:
     """Sole, laces, and the padded edge round the ankle."""
     place, make = _Place(m, foot), MAKES[word]
-    edge = upper.hem(place(0, -0.009, make.shaft), [0, -0.10, 1], 0.0055 * m.foot, fineness)
+    edge = upper.hem(_mouth(place, make), 0.0055 * m.foot, fineness)
     laces = [
         _lace(upper, place, y, (1.0 if i % 2 else -1.0), fineness)
         for i, y in enumerate(np.linspace(0.066, 0.120, max(2, round(4 / fineness**0.5))))
     ]
-    return [edge, *(rigid_skin(part.on_bone(foot)) for part in (_sole(place, make, fineness), joined(laces)))]
+    sole = _sole(place, make, fineness)
+    ahead = (sole.position[:, 1] - place.origin[1]) / place.k - _BALL_M
+    bends = np.clip(0.5 + ahead / _BEND_M, 0.0, 1.0)
+    toes = bends * bends * (3 - 2 * bends)
+    return [
+        *edge,
+        skin_of(sole, hung(foot, len(toes), {_toes_of(foot): toes})),
+        rigid_skin(joined(laces).on_bone(foot)),
+    ]
+
+
+_BALL_M, _BEND_M = 0.134, 0.05
+"""A sole bends under the ball, half a foot before the ankle, over so much of its length (our choice)."""
+
+
+def _toes_of(foot: Bone) -> Bone:
+    return Bone.RIGHT_TOES if foot is Bone.RIGHT_FOOT else Bone.LEFT_TOES
 
 
 class _Place:

@@ -10,6 +10,7 @@ import numpy as np
 
 from station.motion.kinematics.figure import Figure, Joint
 from station.motion.kinematics.grip import GRIPS, HAND_M, Grip, line_axes
+from station.motion.kinematics.leg import ANKLE_ALONG, BALL_ALONG
 from station.motion.kinematics.pose import Pose
 from station.render.figure.bones import BODY_BONES, BONES, FINGERS, Bone
 from station.render.figure.expression import Expression, face_matrices
@@ -29,9 +30,11 @@ _FIRST = np.array([Bone.RIGHT_UPPER_ARM, Bone.LEFT_UPPER_ARM, Bone.RIGHT_THIGH, 
 _SECOND = _FIRST + 1
 _TWIST = _FIRST[:2] + 2
 _THIRD = _FIRST + np.array([3, 3, 2, 2])
+_BEFORE_BALL = slice(Bone.RIGHT_TOES, Bone.LEFT_TOES + 1)
 _TRUNK = slice(Bone.WAIST, Bone.HEAD + 1)
 _TRUNK_FROM = np.array([Joint.PELVIS, Joint.SPINE, Joint.NECK, Joint.HEAD])
 _TRUNK_TO = np.array([Joint.SPINE, Joint.NECK, Joint.HEAD, Joint.CROWN])
+_ANKLES, _TOES = [Joint.RIGHT_ANKLE, Joint.LEFT_ANKLE], [Joint.RIGHT_TOE, Joint.LEFT_TOE]
 _UP = np.array([[0.0, 0.0, 1.0]])
 HEAD_M = 0.2146
 """The head's height that the face was designed for."""
@@ -41,7 +44,8 @@ HEAD_M = 0.2146
 class Stance:
     """What the frames follow from: `joints_m` (21, 3), backs of the hands `palm` (2, 3), the head's directions.
 
-    `hands` (2, 3, 3) turn from the axes of each hand to those of its line between wrist and fulcrum.
+    `hands` (2, 3, 3) turn from the axes of each hand to those of its line between wrist and fulcrum; `balls` (2, 3) are
+    where the soles bend.
     """
 
     joints_m: Vector
@@ -49,12 +53,32 @@ class Stance:
     facing: Vector
     head_up: Vector
     hands: Vector
+    balls: Vector
 
     @classmethod
-    def of(cls, pose: Pose) -> "Stance":
-        """That of a pose."""
+    def of(cls, pose: Pose, sole_m: tuple[float, float]) -> "Stance":
+        """That of a pose of somebody whose ball of the foot is `sole_m` from ankle and toe."""
         hands = np.stack([_lines(hold.grip)[side] for side, hold in enumerate(pose.holds)])
-        return cls(pose.joints_m, pose.palm, pose.facing, pose.head_up, hands)
+        return cls(pose.joints_m, pose.palm, pose.facing, pose.head_up, hands, _balls(pose.joints_m, sole_m))
+
+
+def sole_of(figure: Figure) -> tuple[float, float]:
+    """From the ball of the foot to the ankle and to the toe."""
+    behind = (BALL_ALONG - ANKLE_ALONG) * figure.foot_m
+    return float(np.hypot(behind, figure.ankle_height_m)), (1 - BALL_ALONG) * figure.foot_m
+
+
+def _balls(joints_m: Vector, sole_m: tuple[float, float]) -> Vector:
+    """The balls of both feet, (2, 3): under the line from ankle to toe, so far from both."""
+    ankle, toe = joints_m[_ANKLES], joints_m[_TOES]
+    way = toe - ankle
+    reach = np.sqrt((way * way).sum(axis=1, keepdims=True))
+    way = way / reach
+    behind, before = sole_m
+    along = (reach**2 + behind**2 - before**2) / (2 * reach)
+    under = way[:, 2:] * way - _UP
+    under /= np.sqrt((under * under).sum(axis=1, keepdims=True))
+    return np.asarray(ankle + along * way + np.sqrt(np.maximum(behind**2 - along**2, 0.0)) * under)
 
 
 def bind_stance(figure: Figure) -> Stance:
@@ -78,11 +102,13 @@ def bind_stance(figure: Figure) -> Stance:
         j[ankle] = j[knee] + figure.shank_m * unit([0.0, 0.10, -0.99])
         j[toe] = j[ankle] + [0.0, 0.75 * figure.foot_m, -figure.ankle_height_m]
     palm = np.array([unit([0.0, 0.13, 0.99]), unit([0.0, 0.13, 0.99])])
-    return Stance(j, palm, np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0]), _lines(_BIND_GRIP))
+    return Stance(
+        j, palm, np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0]), _lines(_BIND_GRIP), _balls(j, sole_of(figure))
+    )
 
 
 def bone_frames(stance: Stance) -> Matrix:
-    """The frame of every bone of `BODY_BONES`, (18, 4, 4): z along the bone, a hand's as `hand_bones` says."""
+    """The frame of every bone of `BODY_BONES`, (20, 4, 4): z along the bone, a hand's as `hand_bones` says."""
     j = stance.joints_m
     origin, along, side = np.empty((3, len(BODY_BONES), 3))
     shoulders = j[Joint.RIGHT_SHOULDER] - j[Joint.LEFT_SHOULDER]
@@ -100,8 +126,11 @@ def bone_frames(stance: Stance) -> Matrix:
     origin[_SECOND], along[_SECOND], side[_SECOND] = b, second, hinge
     origin[_TWIST], along[_TWIST] = b[:2], second[:2]
     side[_TWIST] = unit(palm[0]) - unit(hinge[:2])  # half of the palm's turn: its other half is the wrist's
+    third[2:] = stance.balls - c[2:]
     origin[_THIRD], along[_THIRD] = c, third
-    side[_THIRD[:2]], side[_THIRD[2:]] = palm[1], cross(third[2:], _UP)  # soles lie flat, wherever the knees point
+    origin[_BEFORE_BALL], along[_BEFORE_BALL] = stance.balls, d[2:] - stance.balls
+    level = cross(third[2:], _UP)  # soles lie flat, wherever the knees point
+    side[_THIRD[:2]], side[_THIRD[2:]], side[_BEFORE_BALL] = palm[1], level, level
     found = frames(origin, along, side)
     found[_HANDS, :3, :3] = found[_HANDS, :3, :3] @ stance.hands
     return found
@@ -120,7 +149,6 @@ def _lines(grip: Grip) -> Vector:
     return np.stack([turn, _MIRROR @ turn @ _MIRROR])
 
 
-@lru_cache(maxsize=16)
 def _moves(grip: Grip, scale: float) -> Matrix:
     """How the digits of both hands move in them from where the skin was made, (2, STEPS, 15, 4, 4), open to closed."""
     right = finger_frames(grip) @ np.linalg.inv(REST)
@@ -137,22 +165,31 @@ class Skeleton:
     def __init__(self, figure: Figure) -> None:
         self.bind = bind_stance(figure)
         self.frames = bone_frames(self.bind)
+        self._sole_m = sole_of(figure)
         self._back = np.linalg.inv(self.frames)
         self.hand_scale = figure.hand_m / HAND_M
         self._face_scale = figure.head_m / HEAD_M
+        self._moves: dict[str, Matrix] = {}
 
     def matrices(self, pose: Pose) -> Matrix:
         """One matrix a bone, (BONES, 4, 4)."""
         out = np.empty((BONES, 4, 4))
-        now = bone_frames(Stance.of(pose))
+        now = bone_frames(Stance.of(pose, self._sole_m))
         out[: len(BODY_BONES)] = now @ self._back
         face = face_matrices(Expression.of(pose))
         face[:, :3, 3] *= self._face_scale
         out[len(BODY_BONES) : len(Bone)] = now[Bone.HEAD] @ face @ self._back[Bone.HEAD]
-        for hand, hold, closed in zip(_HANDS, pose.holds, pose.fingers.tolist(), strict=True):
+        for side, (hold, closed) in enumerate(zip(pose.holds, pose.fingers.tolist(), strict=True)):
             step, share = divmod(closed * (STEPS - 1), 1.0)
-            moves = _moves(hold.grip, self.hand_scale)[_HANDS.index(hand)]
+            moves = self._digits(hold.grip)[side]
             low, high = moves[int(step)], moves[min(int(step) + 1, STEPS - 1)]
-            first = FINGERS[hand]
-            out[first : first + len(low)] = now[hand] @ (low + share * (high - low)) @ self._back[hand]
+            first = FINGERS[_HANDS[side]]
+            out[first : first + len(low)] = now[_HANDS[side]] @ (low + share * (high - low))
         return out
+
+    def _digits(self, grip: Grip) -> Matrix:
+        """From where the skin was made to the digits in both hands' axes, (2, STEPS, 15, 4, 4), open to closed."""
+        if grip.name not in self._moves:
+            back = self._back[_HANDS][:, None, None]
+            self._moves[grip.name] = _moves(grip, self.hand_scale) @ back
+        return self._moves[grip.name]

@@ -7,10 +7,10 @@ import numpy as np
 
 from station.motion.kinematics.figure import Joint
 from station.render.figure.bones import Bone
-from station.render.figure.garments import Crease, Garment, Solid
+from station.render.figure.garments import Crease, End, Garment, Solid
 from station.render.figure.measures import Measures
 from station.render.figure.skin import Skin, rigid_skin, skin_of
-from station.render.geometry.implicit import Array, Field, cone, cut, egg, plane
+from station.render.geometry.implicit import Array, Field, cone, egg
 from station.render.geometry.materials import Material
 from station.render.geometry.mesh import ball, grid_mesh, joined, tube
 from station.render.geometry.transforms import unit
@@ -37,7 +37,7 @@ class Cut:
 CUTS: Mapping[str, Cut] = {
     "tee": Cut(0.58, 1.0, (0.012, 0.082, 0.072), 0.0055, 1.0),
     "tank": Cut(0.0, 1.0, (0.010, 0.092, 0.082), 0.0045, 0.95),
-    "shirt": Cut(1.16, 0.96, (0.016, 0.072, 0.066), 0.0085, 1.0),
+    "shirt": Cut(1.30, 1.14, (0.016, 0.072, 0.066), 0.0085, 1.0),
     "hoodie": Cut(1.55, 1.04, (0.004, 0.066, 0.060), 0.0120, 1.06),
 }
 
@@ -56,7 +56,7 @@ def top(m: Measures, word: str) -> Garment:
     wide, deep = k * g.chest * loose, k * (0.4 + 0.6 * g.chest) * loose
     waist, hips = k * g.waist * loose, k * g.hips * loose
     solids: list[tuple[Bone, Solid]] = [
-        (Bone.WAIST, egg(pelvis + m.by(0, 0.002, 0.035), np.array([0.172 * hips, 0.130 * hips, 0.110 * k]))),
+        (Bone.WAIST, egg(pelvis + m.by(0, 0.002, 0.035), np.array([0.182 * hips, 0.134 * hips, 0.112 * k]))),
         (Bone.WAIST, egg(spine + m.by(0, 0.006, -0.045), np.array([0.163 * waist, 0.121 * waist, 0.165 * k]))),
         (Bone.CHEST, egg(chest + m.by(0, 0.002, 0.0), np.array([0.172 * wide, 0.120 * deep, 0.160 * k]))),
         (Bone.CHEST, cone(neck + m.by(0.02, -0.022, 0.012), neck + m.by(-0.02, -0.022, 0.012), 0.072 * k, 0.072 * k)),
@@ -74,11 +74,10 @@ def top(m: Measures, word: str) -> Garment:
         solids,
         0.042 * k,
         0.0125,
-        lambda field: _trimmed(m, style, field),
+        (_hole(m, style), _waist(m), *(_sleeve_end(m, upper, style) for upper in _ARMS if style.sleeve > 0)),
         _folds(m, style),
         0.028,
         (float(pelvis[2]) + 0.02 * k, float(chest[2]) + 0.02 * k),
-        _hole(m, style),
     )
 
 
@@ -144,31 +143,18 @@ def _collar(m: Measures, style: Cut, garment: Garment, count: int) -> Array:
     return edge
 
 
-def _waist(m: Measures) -> tuple[Array, Array]:
-    """The plane of the lower hem: low behind, in front above the thighs of one who sits."""
-    return m.joints[Joint.PELVIS] + m.by(0, 0.0, 0.012), np.array([0.0, 0.40, -1.0])
+def _waist(m: Measures) -> End:
+    """The lower hem: low behind, in front above the thighs of one who sits."""
+    return End(m.joints[Joint.PELVIS] + m.by(0, 0.0, 0.032), np.array([0.0, 0.36, -1.0]))
 
 
-def _sleeve_end(m: Measures, upper: Bone, style: Cut) -> tuple[Array, Array]:
-    """The plane of a sleeve's hem."""
+def _sleeve_end(m: Measures, upper: Bone, style: Cut) -> End:
+    """A sleeve's hem."""
     shoulder, elbow, wrist = m.arm(upper)
+    reach = 0.105 * m.k * m.girths.arms
     if style.sleeve <= 1:
-        return shoulder + (elbow - shoulder) * style.sleeve, unit(elbow - shoulder)
-    return elbow + (wrist - elbow) * (style.sleeve - 1), unit(wrist - elbow)
-
-
-def _trimmed(m: Measures, style: Cut, field: Field) -> Field:
-    k = m.k
-    for upper in _ARMS:
-        if style.sleeve > 0:
-            at, way = _sleeve_end(m, upper, style)
-            field = cut(field, _beside(plane(at, way), at, 0.105 * k * m.girths.arms), 0.010 * k)
-    return cut(field, plane(*_waist(m)), 0.008 * k)
-
-
-def _beside(wall: Field, at: Array, reach: float) -> Field:
-    """A cutting plane that cuts near a point alone."""
-    return lambda p: np.asarray(np.minimum(wall(p), reach - np.linalg.norm(p - at, axis=1)), np.float64)
+        return End(shoulder + (elbow - shoulder) * style.sleeve, elbow - shoulder, reach)
+    return End(elbow + (wrist - elbow) * (style.sleeve - 1), wrist - elbow, reach)
 
 
 def _folds(m: Measures, style: Cut) -> tuple[Crease, ...]:
@@ -204,14 +190,14 @@ def top_trimmings(m: Measures, word: str, garment: Garment, fineness: float) -> 
     """Rounded hems at neck, sleeves and waist, and what tells this top from others."""
     style, k = CUTS[word], m.k
     trimmed = Material.SHIRT if word == "shirt" else Material.TRIM
-    skins = [garment.hem(*_waist(m), 0.0065 * k, fineness)]
+    skins = garment.hem(_waist(m), 0.0065 * k, fineness)
     if word != "hoodie":
         edge = _collar(m, style, garment, max(12, round(36 / fineness)))
         thick = (1.5 if word == "shirt" else 1.1) * style.hem_m * k
-        collar = tube(edge, thick, trimmed, max(5, round(8 / fineness)))
-        skins.append(skin_of(collar, garment.weights(collar.position)))
+        skins.append(garment.piping(edge, thick, fineness, trimmed))
     if style.sleeve > 0:
-        skins += [garment.hem(*_sleeve_end(m, upper, style), style.hem_m * k, fineness, trimmed) for upper in _ARMS]
+        for upper in _ARMS:
+            skins += garment.hem(_sleeve_end(m, upper, style), style.hem_m * k, fineness, trimmed)
     if word == "tee":
         skins += [
             _ring_print(garment, m, 0.0, 0.060, -1.0, fineness),

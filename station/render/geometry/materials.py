@@ -7,7 +7,7 @@ stretch across the tangent (lathe grooves), `sheen` the soft rim of cloth and sk
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from enum import IntEnum
+from enum import IntEnum, unique
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from station.motion.kinematics.look import Colours
 
 
+@unique
 class Material(IntEnum):
     """Index into `TABLE`."""
 
@@ -44,15 +45,15 @@ class Material(IntEnum):
     GLOW = 23
     SHELL_RING = 24
     BAND = 25
-    MAPLE = 26
-    LACQUER = 27
-    PAD = 28
-    MESH_HEAD = 29
-    SCREEN = 30
     IRIS = 26
     TRIM = 27
     MOUTH = 28
     TEETH = 29
+    MAPLE = 30
+    LACQUER = 31
+    PAD = 32
+    MESH_HEAD = 33
+    SCREEN = 34
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,7 @@ from station.render.geometry.mesh import Mesh, ball, box, joined, lathe, rod, tu
 from station.render.geometry.transforms import frame, translation, unit
 from station.render.kit import instrument_meshes
 from station.render.kit.instrument_meshes import Detail
-from station.render.kit.pedal_meshes import TUBE_M
+from station.render.kit.pedal_rig import TUBE_M
 from station.render.kit.rack import rack, tower
 from station.render.kit.standing_room import StandingRoom, toes
 

@@ -4,6 +4,8 @@ Each lies along z, butt at 0. A brush's wires have two bones, for they bend wher
 the first of the right hand's, `HELD_BONES` a hand, in the order of `_STICK` … `_FAR_WIRES`.
 """
 
+import math
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -14,7 +16,7 @@ from station.motion.kinematics.pose import Pose
 from station.motion.kit.kit import Kit
 from station.render.geometry.materials import Material
 from station.render.geometry.mesh import Mesh, joined, lathe, tube
-from station.render.geometry.transforms import Matrix, Vector, cross, frame
+from station.render.geometry.transforms import Matrix, Vector, cross
 
 STICK_M = 0.406
 """A 5A stick (HUMANS, Kit); longer or shorter ones are stretched."""
@@ -107,10 +109,18 @@ def held_matrices(pose: Pose | None, kit: Kit) -> Matrix:
 
 def _stretched(start: Vector, end: Vector, low: float, high: float, side: ArrayLike = (1.0, 0.0, 0.0)) -> Matrix:
     """What carries the stretch of z from `low` to `high` to the line between two points, x to one `side`."""
-    m = frame(start, end - start, side)
-    m[:3, 2] = (end - start) / (high - low)
-    m[:3, 3] = start - low * m[:3, 2]
-    return m
+    way = end - start
+    x, y, z = way.tolist()
+    a, b, c = np.asarray(side).tolist()
+    along = (a * x + b * y + c * z) / (x * x + y * y + z * z)
+    a, b, c = a - along * x, b - along * y, c - along * z  # the side across the line; numbers outrun small arrays
+    length, wide = math.sqrt(x * x + y * y + z * z), math.sqrt(a * a + b * b + c * c)
+    a, b, c, grown = a / wide, b / wide, c / wide, 1 / (high - low)
+    d, e, f = ((y * c - z * b) / length, (z * a - x * c) / length, (x * b - y * a) / length)
+    x, y, z = x * grown, y * grown, z * grown
+    i, j, k = start.tolist()
+    rows = (a, d, x, i - low * x), (b, e, y, j - low * y), (c, f, z, k - low * z), (0.0, 0.0, 0.0, 1.0)
+    return np.array(rows)
 
 
 def _on_its_felt(butt: Vector, tip: Vector, hand: Vector) -> Matrix:

@@ -19,7 +19,8 @@ from station.render.geometry.transforms import Matrix, translation
 from station.render.kit import hardware, instrument_meshes, pad_meshes
 from station.render.kit.held_meshes import HELD_BONES, held_matrices, held_meshes
 from station.render.kit.instrument_meshes import Detail
-from station.render.kit.pedal_meshes import PedalBones, clutch_foot, pedal_matrices, pedal_meshes
+from station.render.kit.pedal_meshes import clutch_foot, pedal_meshes
+from station.render.kit.pedal_rig import PedalBones, PedalRig
 from station.render.kit.room import Disc
 
 WORLD = 0
@@ -39,6 +40,7 @@ class KitRig:
     mesh: Mesh
     piece_bones: dict[Piece, int]
     pedals: PedalBones
+    pedal_rig: PedalRig
     sticks: range
     bone_count: int
     faces_of: dict[int, slice]
@@ -57,7 +59,8 @@ def kit_mesh(kit: Kit, detail: Detail) -> Mesh:
     parts = [_piece_mesh(p, detail, shell).moved(_place(p)).on_bone(bones.of[p.piece]) for p in kit.pieces.values()]
     parts += hardware.hardware(kit, detail)
     parts += pedal_meshes(kit, bones.pedals)
-    parts += [clutch_foot(p).on_bone(bones.of[p.piece]) for p in kit.pieces.values() if p.kind == "hihat"]
+    if (pulled := kit.pulled_hat) is not None:
+        parts.append(clutch_foot(pulled).on_bone(bones.of[pulled.piece]))
     parts += held_meshes(bones.sticks.start, detail.segments)
     return _bone_by_bone(joined(parts), bones.still)
 
@@ -66,7 +69,9 @@ def rig_of(kit: Kit, mesh: Mesh) -> KitRig:
     """The rig of what `kit_mesh` has made of `kit`."""
     bones, faces_of = _bones(kit), _faces_of(mesh)
     still_faces = max(faces_of[bone].stop for bone in bones.still)
-    return KitRig(kit, mesh, bones.of, bones.pedals, bones.sticks, bones.sticks.stop, faces_of, still_faces)
+    return KitRig(
+        kit, mesh, bones.of, bones.pedals, PedalRig.of(kit), bones.sticks, bones.sticks.stop, faces_of, still_faces
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,8 +129,7 @@ def _piece_mesh(piece: KitPiece, detail: Detail, shell: Material) -> Mesh:
     if piece.kind in ("cymbal", "hihat"):
         if piece.electronic:
             return pad_meshes.rubber_cymbal(radius, detail)
-        mesh = instrument_meshes.cymbal(radius, detail, is_china=piece.piece is Piece.CHINA)
-        return joined([mesh, instrument_meshes.nut(detail)]) if piece.kind == "hihat" else mesh
+        return instrument_meshes.cymbal(radius, detail, is_china=piece.piece is Piece.CHINA)
     if piece.electronic:
         return (pad_meshes.kick_pad if piece.kind == "kick" else pad_meshes.pad)(radius, depth, detail)
     if piece.kind == "kick":
@@ -146,9 +150,9 @@ def bone_matrices(rig: KitRig, pose: Pose | None) -> Matrix:
         part = rig.kit.pieces[piece]
         if swing[0] or swing[1]:
             m[bone] = _tipped(part, float(swing[0]), float(swing[1]))
-        if part.kind == "hihat" and not part.electronic:
+        if part is rig.kit.pulled_hat:
             m[bone] = translation(part.normal * pose.hat_gap_m) @ m[bone]
-    m[list(rig.pedals)] = pedal_matrices(rig.kit, pose)
+    m[list(rig.pedals)] = rig.pedal_rig.matrices(pose)
     m[rig.sticks] = held_matrices(pose, rig.kit)
     return m
 

@@ -1,58 +1,24 @@
 """The pedals: boards, frames, beaters and what links them; a double pedal's slave and its shaft; the hi-hat's pull rod.
 
-A beater's felt meets the kick's head when its angle is 0. The hi-hat's rod goes down with its board; its clutch takes
-the upper cymbal along, or leaves it lying where the foot has dropped it. Metres.
+A beater's felt meets the kick's head when its angle is 0; `pedal_rig` moves what moves. Metres.
 """
-
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Piece
-from station.motion.kinematics.pedal_motion import BEATER_HALF_M, BEATER_LENGTH_M, OPEN_GAP_M
-from station.motion.kinematics.pose import Pose
+from station.motion.kinematics.pedal_motion import BEATER_HALF_M, BEATER_LENGTH_M
 from station.motion.kit.kit import Kit, Pedal
 from station.motion.kit.piece import KitPiece
 from station.render.geometry.materials import Material
 from station.render.geometry.mesh import Mesh, ball, box, joined, lathe, rod
-from station.render.geometry.transforms import Matrix, frame, frames, rotation_at, translation, unit
+from station.render.geometry.transforms import frame, translation, unit
+from station.render.kit.pedal_rig import TUBE_M, PedalBones, along, axle_of, slave_axle
 
 Vector = NDArray[np.float64]
 
-TUBE_M = 0.20
-"""Height at which the hi-hat's frame holds its tube, into which the board's strap pulls the rod (our choice)."""
-_AXLE_AHEAD_M = 0.045
-"""From a board's toe end to the axle that its strap turns (our choice)."""
-_CAM_M = 0.02
-"""The strap's end is so far above the axle (our choice)."""
 _POST_M = 0.052
 """Half the breadth of a pedal's frame, a little over half its board's (our choice)."""
-
-
-class PedalBones(NamedTuple):
-    """The numbers of the bones that move with the feet; straps reach from the first to the second place."""
-
-    right_board: int
-    left_board: int
-    beater: int
-    slave_board: int
-    slave_beater: int
-    kick_strap: int
-    slave_strap: int
-    hat_strap: int
-    hat_rod: int
-
-    @classmethod
-    def of(cls, first: int) -> "PedalBones":
-        """The bones from `first` on."""
-        return cls(*range(first, first + len(cls._fields)))
-
-
-def axle_of(kit: Kit) -> Vector:
-    """The middle of the bass pedal's axle: right below the beater's rest on the head, a beater's length under it."""
-    head = kit.pieces[Piece.KICK].centre
-    return np.array([head[0], head[1] - BEATER_HALF_M, head[2] - BEATER_LENGTH_M])
 
 
 def pedal_meshes(kit: Kit, bones: PedalBones) -> list[Mesh]:
@@ -73,87 +39,46 @@ def pedal_meshes(kit: Kit, bones: PedalBones) -> list[Mesh]:
         ]
     out = np.array([_POST_M, 0.0, 0.0])
     parts += _frame(low - out, high + out)
-    if Piece.HIHAT in kit.pieces:
-        parts += [_strap().on_bone(bones.hat_strap), _pull_rod(kit.pieces[Piece.HIHAT]).on_bone(bones.hat_rod)]
-        parts.append(_hat_frame(kit.pieces[Piece.HIHAT], hat))
+    if (pulled := kit.pulled_hat) is not None:
+        parts += [_strap().on_bone(bones.hat_strap), _pull_rod(pulled).on_bone(bones.hat_rod), _hat_frame(pulled, hat)]
     return parts
-
-
-def pedal_matrices(kit: Kit, pose: Pose) -> Matrix:
-    """The matrices of `PedalBones`, (9, 4, 4)."""
-    m = np.tile(np.eye(4), (len(PedalBones._fields), 1, 1))
-    bones = PedalBones.of(0)
-    angles = dict(zip(kit.pedals_by_foot, pose.footboard_rad, strict=True))
-    for bone, (pedal, angle) in enumerate(angles.items()):
-        m[bone] = raised(pedal, angle)
-    kick, hat = kit.pedals[Piece.KICK], kit.pedals[Piece.HIHAT_PEDAL]
-    axle, cam = axle_of(kit), np.array([0.0, 0.0, _CAM_M])
-    m[bones.beater] = rotation_at(axle, [1, 0, 0], pose.beater_rad)
-    ends = [(bones.kick_strap, kick, angles[kick], axle + cam)]
-    if kit.slave is not None:
-        board, beater = pose.slave_rad
-        m[bones.slave_board] = raised(kit.slave, board)
-        m[bones.slave_beater] = rotation_at(axle + kit.second_beater_m, [1, 0, 0], beater)
-        ends.append((bones.slave_strap, kit.slave, board, _slave_axle(kit, kit.slave) + cam))
-    if Piece.HIHAT in kit.pieces:
-        piece = kit.pieces[Piece.HIHAT]
-        lifted = piece.normal * (OPEN_GAP_M * angles[hat] / hat.raised_rad if hat.raised_rad else 0.0)
-        m[bones.hat_rod] = translation(lifted)
-        x, y, _ = piece.centre_m
-        ends.append((bones.hat_strap, hat, angles[hat], np.array([x, y, TUBE_M]) + lifted))
-    froms = np.array([(raised(pedal, angle) @ [*pedal.toe_m, 1.0])[:3] for _, pedal, angle, _ in ends])
-    ways = np.array([to for *_, to in ends]) - froms
-    straps = frames(froms, ways, np.tile([1.0, 0.0, 0.0], (len(ends), 1)))
-    straps[:, :3, 2] = ways
-    m[[bone for bone, *_ in ends]] = straps
-    return m
-
-
-def raised(pedal: Pedal, angle_rad: float) -> Matrix:
-    """A footboard turned up about its heel."""
-    along = _along(pedal)
-    return rotation_at(pedal.heel_m, (along[1], -along[0], 0.0), angle_rad)
 
 
 # --- parts ------------------------------------------------------------------------------------------------------------
 
 
-def _along(pedal: Pedal) -> Vector:
-    return unit(np.array(pedal.toe_m) - np.array(pedal.heel_m))
-
-
 def _side(pedal: Pedal) -> Vector:
     """To the right of the board."""
-    return unit(np.cross(_along(pedal), [0.0, 0.0, 1.0]))
+    return unit(np.cross(along(pedal), [0.0, 0.0, 1.0]))
 
 
 def _board(pedal: Pedal) -> Mesh:
     """The footboard lying flat; the top of its grip is where the sole is."""
     heel, toe = np.array(pedal.heel_m), np.array(pedal.toe_m)
-    along, side = _along(pedal), _side(pedal)
+    way, side = along(pedal), _side(pedal)
     length = float(np.linalg.norm(toe - heel))
     down = np.array([0.0, 0.0, -1.0])
     plate = box((0.085, 0.012, length), Material.STEEL, 0.004)
     grip = box((0.06, 0.004, length * 0.55), Material.RUBBER, 0.001)
     return joined(
         [
-            plate.moved(frame((heel + toe) / 2 + 0.008 * down, along, side)),
-            grip.moved(frame(heel + along * length * 0.62 + 0.002 * down, along, side)),
+            plate.moved(frame((heel + toe) / 2 + 0.008 * down, way, side)),
+            grip.moved(frame(heel + way * length * 0.62 + 0.002 * down, way, side)),
         ]
     )
 
 
 def _base(pedal: Pedal) -> Mesh:
     heel, toe = np.array(pedal.heel_m), np.array(pedal.toe_m)
-    along, side = _along(pedal), _side(pedal)
+    way, side = along(pedal), _side(pedal)
     length = float(np.linalg.norm(toe - heel))
     middle = (heel + toe) / 2
     plate = box((0.10, 0.008, length + 0.06), Material.BLACK, 0.002)
     block = box((0.09, 0.02, 0.05), Material.STEEL, 0.004)
     return joined(
         [
-            plate.moved(frame([middle[0], middle[1], 0.006], along, side)),
-            block.moved(frame(heel - along * 0.035 - np.array([0, 0, 0.012]), along, side)),
+            plate.moved(frame([middle[0], middle[1], 0.006], way, side)),
+            block.moved(frame(heel - way * 0.035 - np.array([0, 0, 0.012]), way, side)),
         ]
     )
 
@@ -182,15 +107,9 @@ def _frame(left: Vector, right: Vector) -> list[Mesh]:
     return [*posts, rod(left, right, 0.007, Material.STEEL, 8)]
 
 
-def _slave_axle(kit: Kit, slave: Pedal) -> Vector:
-    """The middle of the slave's axle, as high as the kick's."""
-    x, y, _ = np.array(slave.toe_m) + _AXLE_AHEAD_M * _along(slave)
-    return np.array([x, y, axle_of(kit)[2]])
-
-
 def _shaft(kit: Kit, slave: Pedal) -> list[Mesh]:
     """The slave's own frame, and the shaft with a joint at each end that turns the second beater."""
-    axle, side = _slave_axle(kit, slave), _side(slave)
+    axle, side = slave_axle(kit, slave), _side(slave)
     inward = side if kit.second_beater_m[0] < 0 else -side
     near = axle + (_POST_M + 0.02) * inward
     far = axle_of(kit) + kit.second_beater_m * (1 + (_POST_M + 0.02) / np.linalg.norm(kit.second_beater_m))
@@ -207,15 +126,16 @@ def _shaft(kit: Kit, slave: Pedal) -> list[Mesh]:
 
 
 def _hat_frame(piece: KitPiece, pedal: Pedal) -> Mesh:
-    """What stands about the hi-hat's strap: two posts beside the board's toe end, and the bridge under the tube."""
+    """What stands about the hi-hat's strap: two posts beside the pole, wider than a shoe, and the bridge over them."""
     side = _side(pedal)
     top = np.array([piece.centre_m[0], piece.centre_m[1], TUBE_M])
-    toe = np.array([pedal.toe_m[0], pedal.toe_m[1], 0.012])
+    low = top * [1, 1, 0] + [0, 0, 0.012]
     posts = [
-        rod(toe + s * _POST_M * side, top + 0.6 * s * _POST_M * side, 0.008, Material.BLACK, 8) for s in (-1.0, 1.0)
+        rod(low + s * _POST_M * side, top + 0.8 * s * _POST_M * side, 0.007, Material.BLACK, 8) for s in (-1.0, 1.0)
     ]
-    bridge = box((1.4 * _POST_M, 0.03, 0.03), Material.BLACK, 0.005).moved(frame(top, [0, 0, 1], side))
-    return joined([*posts, bridge])
+    foot = box((2.3 * _POST_M, 0.03, 0.012), Material.BLACK, 0.003).moved(frame(low, [0, 0, 1], side))
+    bridge = box((1.9 * _POST_M, 0.03, 0.028), Material.BLACK, 0.005).moved(frame(top, [0, 0, 1], side))
+    return joined([*posts, foot, bridge])
 
 
 def _pull_rod(piece: KitPiece) -> Mesh:

@@ -85,9 +85,10 @@ def test_a_take_is_filmed_beside_its_capture(tmp_path: Path) -> None:
 def test_it_is_filmed_as_it_is_seen() -> None:
     """Every word is one that the command knows."""
     look = ViewSettings(view=NamedView.EYES, mirrored=True)
-    words = film_words(look, replace(Settings(), hands="left", figure="curls"))
+    words = film_words(look, replace(Settings(), hands="left", figure="curls", stands="electronic"))
     read = read_options(AnimateOptions, ["rock-1", "--out", "x.mp4", *words])
     assert (read.style, read.drummer, read.drums.hands) == ("natural", "curls", Hands.LEFT)
+    assert read.drums.drums == "electronic"
     assert (read.picture.view, read.picture.mirror, read.picture.quality) == (NamedView.EYES, True, LEVELS["low"])
 
 

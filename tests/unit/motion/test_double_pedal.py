@@ -11,8 +11,9 @@ from station.core.units import PPQ
 from station.motion.drummer import Drummer
 from station.motion.kinematics import frame
 from station.motion.kinematics.figure import Joint, figure_of
-from station.motion.kinematics.foot_path import LEAST_MOVE_S
+from station.motion.kinematics.foot_path import LEAST_MOVE_S, FootPath, Visits
 from station.motion.kinematics.footings import capsules, depth_in_drums
+from station.motion.kinematics.maths import MANY
 from station.motion.kit.kit import Kit, kit_names, load_kit
 from station.motion.sticking.limbs import as_led, assign_limbs
 from station.motion.style.style import Style
@@ -125,6 +126,60 @@ def test_too_short_a_way_between_the_pedals_is_named_by_its_bar() -> None:
     )
     assert 0.125 < LEAST_MOVE_S < 0.5
     assert not assign_limbs(score_of((4, L), hats=(5,)), load_kit()).warnings
+
+
+def kicks_every(gap_s: float, count: int, *others: Note) -> Score:
+    """Kicks that say no foot, from 2 s on."""
+    ticks = [round((2 + k * gap_s) / BEAT_S * PPQ) for k in range(count)]
+    return Score.from_notes([*(Note(tick, Piece.KICK) for tick in ticks), *others], TempoMap.constant(120))
+
+
+def feet_of(score: Score, kit: Kit) -> str:
+    limbs = assign_limbs(score, kit).limbs[score.notes["piece"] == Piece.KICK]
+    return "".join("RL"[limb - R] for limb in limbs.tolist())
+
+
+def test_free_kicks_too_quick_for_one_foot_are_played_in_turn() -> None:
+    """A foot keeps up 5–6 strokes a second heel up (HUMANS); twelve a second are six of each."""
+    kit = load_kit()
+    assert feet_of(kicks_every(1 / 12, 8), kit) == "RLRLRLRL"
+    assert feet_of(kicks_every(1 / 12, 8), kit.mirrored) == "LRLRLRLR"
+    assert not assign_limbs(kicks_every(1 / 15, 16), kit).warnings
+    assert feet_of(kicks_every(1 / 12, 8), replace(kit, slave=None)) == "RRRRRRRR"
+
+
+def test_what_one_foot_can_play_it_plays() -> None:
+    kit = load_kit()
+    assert feet_of(kicks_every(1 / 4, 8), kit) == "RRRRRRRR"
+    assert feet_of(kicks_every(1 / 12, 3), kit) == "RRR"
+
+
+def test_a_foot_that_is_busy_with_the_hat_stays_there() -> None:
+    chick = Note(round(2.3 / BEAT_S * PPQ), Piece.HIHAT_PEDAL, Zone.PEDAL)
+    early = Note(round(1.0 / BEAT_S * PPQ), Piece.HIHAT_PEDAL, Zone.PEDAL)
+    assert feet_of(kicks_every(1 / 12, 8, chick), load_kit()) == "RRRRRRRR"
+    assert feet_of(kicks_every(1 / 12, 8, early), load_kit()) == "RLRLRLRL"
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_whatever_is_asked_the_foot_is_there_or_it_is_named(seed: int) -> None:
+    """Between random strokes on both boards it never jumps, and no move begins before another has ended."""
+    random = np.random.default_rng(seed)
+    count = int(random.integers(1, 40))
+    eighths = np.sort(random.integers(0, 40, count)) / 8
+    visits = Visits(
+        np.arange(count), eighths if seed % 2 else np.cumsum(random.exponential(0.3, count)), random.random(count) < 0.4
+    )
+    path = FootPath.of(visits)
+    if path is None:
+        assert set(np.flatnonzero(visits.slave)) <= set(visits.too_soon)
+        return
+    start, end, _ = visits.moves.T
+    assert (end - start).min() > 0.1
+    assert (start[1:] >= end[:-1]).all()
+    side = path.at(MANY, path.phase.many(visits.time_s)[0]).side
+    elsewhere = np.flatnonzero(np.abs(side - visits.slave) > 1e-9)
+    assert set(elsewhere) <= set(visits.too_soon)
 
 
 def test_a_left_handed_kit_is_the_mirror() -> None:

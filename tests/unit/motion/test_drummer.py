@@ -143,7 +143,7 @@ def test_without_variation_another_seed_moves_no_stick() -> None:
 def test_out_of_reach_names_the_piece_the_note_and_the_lack(tmp_path: Path) -> None:
     text = Path("station/motion/data/kits/four_piece.toml").read_text()
     far = tmp_path / "far.toml"
-    far.write_text(text.replace("centre_m = [0.65, 0.75, 0.95]", "centre_m = [1.40, 1.30, 1.40]"))
+    far.write_text(text.replace("centre_m = [0.63, 0.70, 0.94]", "centre_m = [1.40, 1.30, 1.40]"))
     score = score_of([(0, Piece.SNARE), (20, Piece.RIDE)])
     with pytest.raises(BadInput) as caught:
         Drummer(score, load_kit(far))

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from station.motion.kinematics.splines import SplineChannels, cubics, slopes
+from station.motion.kinematics.splines import SplineChannels, cubics, monotone_slopes, slopes
 
 TIMES = np.array([0.0, 1.0, 2.0, 3.0, 4.0])
 VALUES = np.array([0.0, 2.0, 1.0, 5.0, 5.0])
@@ -58,3 +58,16 @@ def test_keys_at_one_time_are_a_step_without_a_nan() -> None:
     curves = SplineChannels(times, cubics(times, values, into, out)[:, None, :])
     assert curves.at(0.5) == [pytest.approx(0.0)]
     assert curves.at(1.5) == [pytest.approx(1.0)]
+
+
+def test_monotone_slopes_never_overshoot_and_are_those_of_the_paper() -> None:
+    """Fritsch and Butland: chords 1 and 2 over steps 1 and 2 give 9/(5/1 + 4/2) = 9/7 by hand; level at a turn."""
+    slope = monotone_slopes(np.array([0.0, 1.0, 3.0]), np.array([0.0, 1.0, 5.0]))
+    assert slope.tolist() == pytest.approx([0.0, 9 / 7, 0.0])
+    random = np.random.default_rng(4)
+    times, values = np.sort(random.uniform(0, 10, 30)), random.uniform(-1, 1, (2, 30))
+    slope = monotone_slopes(times[None], values)
+    rows = np.moveaxis(cubics(times[None], values, slope, slope), 0, 1)
+    seen = SplineChannels(times, np.ascontiguousarray(rows)).many(np.linspace(times[0], times[-1], 4000))
+    assert (seen.max(axis=1) <= values.max(axis=1) + 1e-9).all()
+    assert (seen.min(axis=1) >= values.min(axis=1) - 1e-9).all()

@@ -151,6 +151,9 @@ def test_a_kit_that_is_built_for_the_student_s_hand_is_not_mirrored() -> None:
     left = replace(lesson(), kit="left_handed")
     assert plan_practice(left, PlanOptions()).kit.left_handed
     assert plan_practice(left, PlanOptions(hands=Hands.LEFT)).kit == load_kit("left_handed")
+    own = PlanOptions(hands=Hands.LEFT, stands="electronic")
+    assert plan_practice(left, own).kit.pieces == load_kit("left_handed_electronic").pieces
+    assert plan_practice(left, PlanOptions(stands="jazz")).kit == load_kit("jazz")
     assert not plan_practice(left, PlanOptions(hands=Hands.RIGHT)).kit.left_handed
 
 

@@ -16,13 +16,14 @@ from station.render.figure.skin import Skin
 from station.render.geometry import implicit
 from station.render.geometry.implicit import clipped, egg, plane, surface
 from station.render.geometry.materials import Material, shader_table
+from station.render.quality import QUALITIES
 from tests.unit.render.poses import pose_of
 
-COARSE = 3.0
+COARSE = QUALITIES[0].figure_cell
 PEOPLE = {name: load_figure(name) for name in figure_names()}
 SKINS = {name: build_body(figure, COARSE) for name, figure in PEOPLE.items()}
-MOST_TRIANGLES = 16_000
-"""Of a figure at the lowest quality: as many as leave it its 60 pictures a second on two cores."""
+MOST_TRIANGLES = 25_000
+"""Of a figure at the lowest quality: with a kit 37,000, which take two cores 12 ms, of 16 that a picture may take."""
 
 
 def skin_in(figure: Figure, joints_m: NDArray[np.float64], facing: NDArray[np.float64]) -> Skin:

@@ -35,7 +35,10 @@ THUMB_TIP, INDEX_MIDDLE = 2, 4
 
 def score() -> Score:
     """Singles, doubles, a buzz and cross-sticks on the snare, then toms and cymbals, hand to hand."""
-    rows = [(0, Piece.SNARE, Zone.HEAD, Articulation.NORMAL, 0), (1, Piece.SNARE, Zone.HEAD, Articulation.NORMAL, 1)]
+    rows: list[tuple[float, Piece, Zone, Articulation, int]] = [
+        (0, Piece.SNARE, Zone.HEAD, Articulation.NORMAL, 0),
+        (1, Piece.SNARE, Zone.HEAD, Articulation.NORMAL, 1),
+    ]
     rows += [(2 + k / 4, Piece.SNARE, Zone.HEAD, Articulation.NORMAL, k // 2 % 2) for k in range(8)]
     rows += [(4, Piece.SNARE, Zone.HEAD, Articulation.BUZZ, 0), (5, Piece.SNARE, Zone.HEAD, Articulation.BUZZ, 1)]
     rows += [
@@ -73,8 +76,8 @@ def skins(stature_m: float) -> tuple[Skeleton, tuple[Skin, Skin]]:
     return skeleton, (hand_part(skeleton, 1.0, Bone.RIGHT_HAND), hand_part(skeleton, 1.0, Bone.LEFT_HAND))
 
 
-def drawn(pose: Pose, side: int, stature_m: float) -> tuple[Array, Array, Array]:
-    """The corners of a hand as drawn (n, 3), the bone of each, and the hand's axes (3, 3): thumb or not, back, along."""
+def drawn(pose: Pose, side: int, stature_m: float) -> tuple[Array, NDArray[np.int64], Array]:
+    """A hand's corners as drawn (n, 3), the bone of each, and its axes (3, 3): across, back, along."""
     skeleton, both = skins(stature_m)
     matrices, skin = skeleton.matrices(pose), both[side]
     whole = np.einsum("nk,nkij->nij", skin.weights, matrices[skin.bones])
@@ -158,7 +161,7 @@ def test_fingers_open_as_the_stick_sinks_in_the_hand() -> None:
     assert least.fingers[1] < most.fingers[1] - 0.15
     reach = []
     for pose in (most, least):
-        corners, bones, axes = drawn(pose, 1, 1.759)
+        corners, bones, _ = drawn(pose, 1, 1.759)
         ring_tip = corners[bones == 11].mean(axis=0)
         reach.append(np.linalg.norm(ring_tip - pose.joints_m[Joint.LEFT_WRIST]))
     assert reach[1] > reach[0] + 0.005
