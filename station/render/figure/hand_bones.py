@@ -101,7 +101,7 @@ def finger_frames(grip: Grip) -> Array:
     """The frames (STEPS, 15, 4, 4) of the digits' bones from open to closed, evenly over `Pose.fingers` 0 … 1."""
     opened = (1 - np.linspace(0.0, 1.0, STEPS)) * OPEN_FINGERS_RAD
     closed, wide = (np.array(pose, np.float64) for pose in _DIGITS[grip.name])
-    if grip is BARE:  # the fingers are what is held: they themselves turn about the knuckles
+    if grip.name == BARE.name:  # the fingers are what is held: they themselves turn about the knuckles
         angles = np.tile(closed, (STEPS, 1, 1))
         angles[:, INDEX:, 1] -= np.degrees(opened)[:, None]
         return bent(angles)

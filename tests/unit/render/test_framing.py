@@ -1,5 +1,6 @@
 """Named views: what must be seen lies in the picture, whatever the kit and the player."""
 
+from functools import lru_cache
 from itertools import product
 
 import numpy as np
@@ -19,7 +20,8 @@ TITLE_BOTTOM = 1 - 2 * 84 / 504
 """The phase under the title ends 84 of 504 pixels below the scene's upper edge (`hud`)."""
 ASPECTS = (4 / 3, 16 / 9, 2.54, 21 / 9)
 """Pictures, and 16:9 less the score."""
-CASES = list(product(kit_names(), figure_names(), (0.0, 1.0)))
+_BY_STATURE = sorted(figure_names(), key=lambda name: load_figure(name).stature_m)
+CASES = list(product(kit_names(), (_BY_STATURE[0], _BY_STATURE[-1]), (0.0, 1.0)))
 
 
 def places(points: np.ndarray, stage: Stage, view: NamedView, aspect: float) -> np.ndarray:
@@ -29,19 +31,19 @@ def places(points: np.ndarray, stage: Stage, view: NamedView, aspect: float) -> 
     return np.asarray(clip[:, :2] / clip[:, 3:])
 
 
+@lru_cache(maxsize=2 * len(CASES))
 def poses(stage: Stage) -> list[Pose]:
     drummer = Drummer(rock(2), stage.kit, stage.figure, Style(stand=stage.stand))
     return [drummer.pose(float(at_s)) for at_s in np.arange(0.0, 4.0, 0.21)]
 
 
-@pytest.mark.parametrize("aspect", ASPECTS)
 @pytest.mark.parametrize(("kit", "figure", "stand"), CASES)
 @pytest.mark.parametrize("view", [NamedView.FRONT, NamedView.SHOULDER, NamedView.TOP])
-def test_wide_views_crop_no_piece(view: NamedView, kit: str, figure: str, stand: float, aspect: float) -> None:
+def test_wide_views_crop_no_piece(view: NamedView, kit: str, figure: str, stand: float) -> None:
     stage = Stage(load_kit(kit), load_figure(figure), stand)
     middles = np.array([piece.centre for piece in stage.kit.pieces.values()])
     reach = np.array([piece.radius_m for piece in stage.kit.pieces.values()])
-    for side in (-1, 1):
+    for side, aspect in product((-1, 1), ASPECTS):
         seen = places(middles + np.outer(reach * side, [1, 0, 0]), stage, view, aspect)
         assert np.abs(seen).max() < 1
 

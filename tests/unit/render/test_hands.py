@@ -5,6 +5,7 @@ middle of the wrist (Buryanov and Kotiuk 2010 measure from it); in matched grips
 traditional left hand 5–8 cm past the web of the thumb.
 """
 
+import pickle
 from dataclasses import replace
 from functools import cache
 
@@ -16,11 +17,13 @@ from station.core.pieces import Articulation, Limb, Piece, Zone
 from station.core.units import PPQ
 from station.motion.drummer import Drummer
 from station.motion.kinematics.figure import Joint, figure_of
+from station.motion.kinematics.grip import BARE
 from station.motion.kinematics.pose import Pose
 from station.motion.style.style import Style
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.render.figure.body import Skin, hand_part
+from station.render.figure.hand_bones import finger_frames
 from station.render.figure.skeleton import FINGERS, Bone, Skeleton
 
 Array = NDArray[np.float64]
@@ -175,3 +178,9 @@ def test_a_bare_hand_is_flat_and_its_middle_finger_touches_the_head(stature_m: f
         assert np.linalg.norm(tip - pose.tip_m[side], axis=1).min() < 0.015
         middle, ring = corners[bones == 8].mean(axis=0), corners[bones == 11].mean(axis=0)
         assert np.linalg.norm(middle - ring) > 0.015, "the fingers are spread"
+
+
+def test_a_bare_hand_that_another_process_draws_has_the_same_fingers() -> None:
+    """Pictures of a film are drawn from copies of what was posed."""
+    copy = pickle.loads(pickle.dumps(BARE))
+    assert np.array_equal(finger_frames(copy), finger_frames(BARE))
