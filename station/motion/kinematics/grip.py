@@ -45,7 +45,8 @@ class Grip:
     `yaw` by which the stick is best turned in from the line between shoulder and struck point; `roll` of the hand's
     back from facing up, thumb upward; `turns_hand` as `turns` in `Contact`; `wrist` and `fingers` their parts of a
     stroke, 1 as in the measured stroke. In the hand's axes: `fulcrum`, and `to_butt`, the stick's way from there when
-    the fingers are closed, a unit vector. Behind the fulcrum `in_hand_m` of the stick is in the hand, `beyond_m` out of it.
+    the fingers are closed, a unit vector. Behind the fulcrum `in_hand_m` of the stick is in the hand, `beyond_m` out
+    of it.
     """
 
     name: str

@@ -36,7 +36,8 @@ _NATURAL_WING, _WING_EASE = np.radians(12.0), np.radians(40.0)
 _TURN_EASE = np.radians(18.0)
 _SPARE, _BEYOND_EASE = np.radians(8.0), np.radians(1.0)
 """What is called comfortable: how far the wrist bends, the elbow leaves its place and the stick is turned from
-the grip's own way before each costs as much as the others; near its limits no wrist is comfortable, for strokes and styles need room (our
+the grip's own way before each costs as much as the others; near its limits no wrist is comfortable, for strokes and
+styles need room (our
 choice, within the limits of HUMANS)."""
 
 SHOULDER_OF_STICK = 0.25
@@ -227,7 +228,8 @@ def _beyond(arm: Arm, side: float, limits: Limits) -> Array:
 class _Slopes:
     """How the stick wants to lie.
 
-    What touches and how much stick is beyond it, its slope, the hand's roll where it is not its grip's, its way in plan where that is fixed, and whether its shaft lies on the rim.
+    What touches and how much stick is beyond it, its slope, the hand's roll where it is not its grip's, its way in
+    plan where that is fixed, and whether its shaft lies on the rim.
     """
 
     ahead_m: float

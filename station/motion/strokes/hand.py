@@ -169,7 +169,9 @@ class HandPart:
     def _turned_on_ways(
         self, side: float, time_s: Array, bends: tuple[Array, ...], bounds: tuple[float, float]
     ) -> "HandPart":
-        """The same with the hand turned on its stick on its ways as far as its wrist's `bends` at `time_s` are beyond `bounds`."""
+        """The same with the hand turned on its stick on its ways as far as its wrist's `bends` at `time_s` are beyond
+        `bounds`.
+        """
         k, hump = self.way.humps(time_s)
         helped = hump > _LEAST_HUMP
         turn = np.zeros((2, len(self.bump)))
