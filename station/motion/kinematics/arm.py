@@ -224,8 +224,7 @@ def _chain(  # noqa: PLR0913, PLR0915, PLR0917 - one chain of formulas; cut in t
     hand_rise, hand_yaw = hand_rise + more[1] + gives[0], hand_yaw + gives[1]
     upper, fore, h = lengths.upper, lengths.fore, lengths.hand
     whole = upper + fore
-    # plan directions: towards behind the shoulder (gx, gy), and turned from it those of the stick (ux, uy) and hand
-    # (vx, vy)
+    # in plan: towards behind the shoulder g, and turned from it u of the stick and v of the hand
     dx, dy = sx - cx, sy - cy
     gy = dy - BEHIND_M
     plan = sqrt(dx * dx + gy * gy)
