@@ -41,16 +41,14 @@ ROUND = amounts(
 """Ways round in the middle of a stretch: to the hand's own side, forward, up."""
 OFF = amounts("x", "y", "z", values=_grid((0.0, 0.1, 0.2, 0.3), (0.0, -0.1, -0.2), (0.0, 0.08, 0.16, 0.24, 0.32)))
 """Where a hand that rests may move off to while the other passes."""
-SWING = amounts(
-    "wing", "hand_yaw", values=_grid(tuple(np.radians((0.0, -16.0, 16.0, 32.0, 48.0))), (0.0, -0.12, 0.12))[1:]
-)
-"""How much farther out the elbow may be, and how much farther to the left the hand may point, about a contact."""
+SWING = amounts("wing", values=[(w,) for w in np.radians((-16.0, 16.0, 32.0, 48.0)).tolist()])
+"""How much farther out the elbow may be about a contact."""
 RISE = amounts("stick_rise", "hand_rise", values=[(r, r) for r in np.radians((4.0, 8.0, 12.0, 16.0, 20.0)).tolist()])
 """How much steeper a stick may be held."""
 ASIDE = amounts("x", "y", "z", values=_grid((0.0, 0.06, 0.12), (0.0, -0.06, 0.08), (0.0, 0.06))[1:])
 """Where else a hand may wait."""
 TURNS_ABOUT = (Articulation.NORMAL, Articulation.BUZZ, WAIT)
-"""Here a stick may be steeper about the point that touches; what else of it lies on the piece is in the cost."""
+"""Here a stick may be steeper about its tip; a stick's shoulder and shaft lie as the piece does."""
 LOWER = (0.5, 0.2)
 """To what share strokes may be lowered."""
 MOST_M, MOST_RISE_RAD = 0.45, np.radians(20.5)
@@ -108,7 +106,7 @@ def _of_one(hands: Hands, side: int, stretch: int, moments: Moments, worst: Mome
     for event in np.unique(nearest).tolist():
         around, share = part.way.about(event, grid)
         kinds = [("contact", SWING)]
-        if part.events.key[event, 2] in TURNS_ABOUT:
+        if part.events.key[event, 2] in TURNS_ABOUT and not part.lies[int(part.which[event])].shoulder_of_stick:
             left = MOST_RISE_RAD - (part.contacts[event, 3] - part.lies[int(part.which[event])].contact.stick_rise)
             kinds.append(("contact", RISE[RISE[:, _AT["stick_rise"]] <= left]))
         if part.events.key[event, 2] == WAIT:
