@@ -48,7 +48,8 @@ class Worst:
 class Audit:
     """The worst of each of `KINDS`.
 
-    `kit_m` how deep a stick is in a drum or cymbal, `hands_m` a stick, hand or arm in the other, `body_m` in trunk, head
+    `kit_m` how deep a stick is in a drum or cymbal, `hands_m` a stick, hand or arm in the other, `body_m` in trunk,
+    head
     or thighs, and a hand or forearm in the kit, `limit_rad` how far a
     joint is beyond its limit, `speed` the share of the fastest that people turn it, `strike_m` how far a tip is from
     the spot of `SPOT_M` that it strikes.

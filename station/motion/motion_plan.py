@@ -133,9 +133,8 @@ class MotionPlan:
         lively = self._body(stage.grid, body_keys.curves(self.ground, LIVELY, body_keys.keys(self.ground, LIVELY)))
         shoulders = list(zip(stage.roots, lively[4:], strict=True))  # leaning too would bend wrists
         right, left = (hand.eased(self.figure, stage.grid, r) for hand, r in zip((right, left), shoulders, strict=True))
-        (right, left), _ = optimised((right, left), stage)
-        right, left = (hand.eased(self.figure, stage.grid, r) for hand, r in zip((right, left), shoulders, strict=True))
-        return right, left
+        hands, _ = optimised((right, left), stage)
+        return hands
 
     def _stage(self, hands: tuple[HandPart, HandPart], legs: tuple[Thigh, Thigh]) -> Stage:
         """The body in its natural posture, in which the `hands` must find their ways."""
@@ -146,7 +145,9 @@ class MotionPlan:
         return Stage(self.figure, self.kit, grid, (points[4], points[5]), body, (hands[0].bump, hands[1].bump))
 
     def _body(self, time_s: Array, curves: SplineChannels) -> Array:
-        """Pelvis, neck's base, head, crown and shoulders at each time (n,) in a body that moves by `curves`, (6, 3, n)."""
+        """Pelvis, neck's base, head, crown and shoulders at each time (n,) in a body that moves by `curves`, (6, 3,
+        n).
+        """
         points = np.empty((6, 3, len(time_s)))
         for block in blocks(len(time_s)):
             twist, lean, side, shrug, hunch, *_ = curves.many(time_s[block])

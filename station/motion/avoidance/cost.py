@@ -38,8 +38,11 @@ _RADIAN_M = 0.5
 _KIT, _FLESH = 2.0, 0.4
 """Wood on wood is heard and flesh gives way: a stick in the kit and an arm or hand at the body weigh so much (our
 choice)."""
-WRONG_M = 0.001
-"""What costs more than this is wrong: the tips' own exactness."""
+_YIELDS_M = 0.008
+"""Flesh and cloth of arm and trunk yield so much together before anything is wrong (our choice)."""
+WRONG_M = 0.003
+"""What costs more than this is wrong: of the spare between hands a quarter, of a stick in the kit 1.5 mm (our
+choice)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,7 +117,7 @@ class Hands:
         """What is wrong with one arm but for its stick in the kit, (n,)."""
         stature = self.stage.figure.stature_m
         body = in_the_body(own, self.stage.body_at(moments), stature) | arm_in_kit(self.stage.kit, own, stature)
-        deep = np.maximum(np.max(list(body.values()), axis=0), 0.0)
+        deep = np.maximum(np.max(list(body.values()), axis=0) - _YIELDS_M, 0.0)
         return np.asarray(_FLESH * deep + _RADIAN_M * self._beyond(arm) + arm.missing_m)
 
     def _beyond(self, arm: Arm) -> Array:

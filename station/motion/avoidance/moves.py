@@ -36,21 +36,19 @@ ROUND = amounts(
     "x",
     "y",
     "z",
-    values=_grid((0.0, -0.08, 0.08, 0.16), (0.0, -0.08, -0.16, -0.24), (0.0, -0.14, -0.07, 0.06, 0.12, 0.2))[1:],
+    values=_grid((0.0, -0.08, 0.08, 0.16), (0.0, -0.08, -0.16, -0.24), (0.0, -0.14, -0.07, 0.06, 0.12, 0.2, 0.28))[1:],
 )
 """Ways round in the middle of a stretch: to the hand's own side, forward, up."""
 OFF = amounts("x", "y", "z", values=_grid((0.0, 0.1, 0.2, 0.3), (0.0, -0.1, -0.2), (0.0, 0.08, 0.16, 0.24, 0.32)))
 """Where a hand that rests may move off to while the other passes."""
-SWING = amounts(
-    "wing", "hand_yaw", values=_grid(tuple(np.radians((0.0, -16.0, 16.0, 32.0, 48.0))), (0.0, -0.12, 0.12))[1:]
-)
-"""How much farther out the elbow may be, and how much farther to the left the hand may point, about a contact."""
+SWING = amounts("wing", values=[(w,) for w in np.radians((-16.0, 16.0, 32.0, 48.0)).tolist()])
+"""How much farther out the elbow may be about a contact."""
 RISE = amounts("stick_rise", "hand_rise", values=[(r, r) for r in np.radians((4.0, 8.0, 12.0, 16.0, 20.0)).tolist()])
 """How much steeper a stick may be held."""
 ASIDE = amounts("x", "y", "z", values=_grid((0.0, 0.06, 0.12), (0.0, -0.06, 0.08), (0.0, 0.06))[1:])
 """Where else a hand may wait."""
 TURNS_ABOUT = (Articulation.NORMAL, Articulation.BUZZ, WAIT)
-"""Here a stick may be steeper about the point that touches; what else of it lies on the piece is in the cost."""
+"""Here a stick may be steeper about its tip; a stick's shoulder and shaft lie as the piece does."""
 LOWER = (0.5, 0.2)
 """To what share strokes may be lowered."""
 MOST_M, MOST_RISE_RAD = 0.45, np.radians(20.5)
@@ -60,7 +58,7 @@ _LEAST_MADE = 0.08
 _AFTER_S, _BEFORE_S, _MOVES_S, _QUICKEST_S, _SPARE_S = 0.05, 0.10, 0.25, 0.10, 0.03
 """A hand that moves off stays so long after its strike and is back so long before the next; that takes it so long, at
 least if there is no more time, and it is off so much sooner (our choice)."""
-_LOOKS = 40
+_LOOKS = 24
 """So many moments of a longer move are looked at (our choice)."""
 
 
@@ -79,7 +77,9 @@ class Move:
 
 
 def moves(hands: Hands, stretches: list[int], moments: Moments, worst: Moments) -> list[Move]:
-    """The moves of both hands on their stretches that may help at the troubled `moments`, the `worst` of them above all."""
+    """The moves of both hands on their stretches that may help at the troubled `moments`, the `worst` of them above
+    all.
+    """
     found: list[Move] = []
     for side, stretch in enumerate(stretches):
         found += _of_one(hands, side, stretch, moments, worst)
@@ -101,12 +101,12 @@ def _of_one(hands: Hands, side: int, stretch: int, moments: Moments, worst: Mome
         ways = ways[np.linalg.norm(part.bump[stretch, :3] + ways[:, :3], axis=1) <= MOST_M]
         on = _thinned(here[hump > 0], worst)
         made = part.way.humps(grid[on])[1]
-        found += [Move("round", side, stretch, on, made, ways, low) for low in (1.0, LOWER[0])]
+        found += [Move("round", side, stretch, on, made, ways, low) for low in (1.0, *LOWER)]
     nearest, _ = part.way.nearest(grid[moments])
     for event in np.unique(nearest).tolist():
         around, share = part.way.about(event, grid)
         kinds = [("contact", SWING)]
-        if part.events.key[event, 2] in TURNS_ABOUT:
+        if part.events.key[event, 2] in TURNS_ABOUT and not part.lies[int(part.which[event])].shoulder_of_stick:
             left = MOST_RISE_RAD - (part.contacts[event, 3] - part.lies[int(part.which[event])].contact.stick_rise)
             kinds.append(("contact", RISE[RISE[:, _AT["stick_rise"]] <= left]))
         if part.events.key[event, 2] == WAIT:

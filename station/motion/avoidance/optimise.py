@@ -1,7 +1,8 @@
 """The optimiser: both hands' parts in, the same parts out, led so that little is wrong with them.
 
 Both hands are looked at `RATE_HZ` times a second and at every event. Moments that cost something, on one stretch of
-each hand, are a trouble; all moves of both hands are tried on it, and the one that takes most off its cost is made. What
+each hand, are a trouble; all moves of both hands are tried on it, and the one that takes most off its cost is made.
+What
 it does elsewhere is seen in the next round. Nothing is left to chance, and what is found for a figure of the score
 serves where the figure comes again.
 """
@@ -22,8 +23,9 @@ from station.motion.strokes.hand_events import LONG_AGO_S
 RATE_HZ = 100.0
 ROUNDS = 8
 """A move may need another: so often the whole is looked at (our choice)."""
-_TRIED, _FIRST_LOOKS = 16, 4
-"""All moves are looked at in so many of the worst moments, and so many of the best of them in all (our choice)."""
+_TRIED, _FIRST_LOOKS = 20, 4
+"""All moves are looked at in the worst moment and so many others, and so many of the best of them in all (our
+choice)."""
 _WAY, _TURN, _LOW = 0.05, 0.01, 0.02
 """A metre of way round, a radian of turning and a stroke that is not made at all are taken for so many metres less near
 (our choice: natural ways are left for what is worth it)."""
@@ -70,7 +72,9 @@ def optimised(parts: tuple[HandPart, HandPart], stage: Stage) -> tuple[tuple[Han
 
 
 def _troubles(hands: Hands, cost: Array, tries: Counter[tuple[int, int]]) -> list[tuple[tuple[int, int], Moments]]:
-    """Where something is wrong: the stretches that the hands are on and the moments, the least tried and worst first."""
+    """Where something is wrong: the stretches that the hands are on and the moments, the least tried and worst
+    first.
+    """
     wrong = np.flatnonzero(cost > WRONG_M)
     k = np.stack([part.way.humps(hands.stage.grid[wrong])[0] for part in hands.parts], 1)
     pairs, which = np.unique(k, axis=0, return_inverse=True)
@@ -80,7 +84,8 @@ def _troubles(hands: Hands, cost: Array, tries: Counter[tuple[int, int]]) -> lis
 
 def best_move(hands: Hands, pair: tuple[int, int], moments: Moments, cost: Array) -> tuple[Move, int] | None:
     """What takes most off the cost of a trouble; None where nothing does."""
-    worst = np.sort(moments[np.argsort(-cost[moments], kind="stable")[:_FIRST_LOOKS]])
+    spread = moments[:: max(len(moments) // _FIRST_LOOKS, 1)]
+    worst = np.union1d(spread, moments[[int(np.argmax(cost[moments]))]])
     table = moves(hands, list(pair), moments, worst)
     every = [Trial(move, k, np.isin(move.on, worst)) for move in table for k in range(len(move.amounts))]
     first = tried(hands, [trial for trial in every if trial.at.any()])

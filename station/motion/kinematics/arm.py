@@ -20,7 +20,8 @@ BACK_SINE, BACK_COSINE = math.sin(math.radians(25)), math.cos(math.radians(25))
 """Elbows hang down and a little back: with the wrist in front the arm's plane is vertical, as DESIGN has it, and with
 the wrist under the shoulder the elbow is behind (our choice)."""
 FARTHER_BACK, _UNDER2 = 2.0, 0.1**2
-"""Where the wrist comes behind the shoulder the elbow is so much farther back, softly from a tenth of the way before it:
+"""Where the wrist comes behind the shoulder the elbow is so much farther back, softly from a tenth of the way before
+it:
 else the plane would have no direction where the wrist is just where elbows hang to (our choice)."""
 BEHIND_M = 0.30
 """Yaws count from the direction to a point so far behind the shoulder: stick and hand turn with the shoulder, and what
@@ -28,7 +29,8 @@ passes under the shoulder has a direction too (our choice: no tip comes so far b
 _SWING_EASE = 0.02
 """An elbow that would be too far behind the shoulder swings out softly: of the cosine of its swing (our choice)."""
 EASE_RAD, _SPARE_RAD = math.radians(1), math.radians(2)
-"""So far before and behind its limit a joint gives in, so that its speed has no jump; a hand that turns about the fulcrum
+"""So far before and behind its limit a joint gives in, so that its speed has no jump; a hand that turns about the
+fulcrum
 does so a little sooner, for that takes the tip nowhere (our choice)."""
 _GIVES, _MOST_GIVE = 0.85, math.radians(10)
 """A hand turns so much for each degree that its wrist is too far bent, for the forearm turns against it (over the snare
@@ -76,8 +78,10 @@ class Arm(NamedTuple):
     """The solved arm.
 
     Points, from the shoulder `root` on; `back`, the normal of the hand's back; the heading κ towards the struck point
-    (to the left positive), γ, how far the upper arm points forward from hanging, β; the wrist's extension and its deviation to the left, as of a palm that faces down; μ,
-    the stick's angle in the hand; how far the elbow is swung to the right; and how far the shoulder had to come forward because the contact was out of reach.
+    (to the left positive), γ, how far the upper arm points forward from hanging, β; the wrist's extension and its
+    deviation to the left, as of a palm that faces down; μ,
+    the stick's angle in the hand; how far the elbow is swung to the right; and how far the shoulder had to come
+    forward because the contact was out of reach.
     """
 
     root: Point
@@ -149,7 +153,8 @@ def solve(
 
 
 ArmChain = tuple[tuple[Number, ...], Point, Point, Point, tuple[Number, ...], Number]
-"""`Arm` without names: x, y, z of root, elbow, wrist and hand in one, butt, tip, back, the seven angles, the missing."""
+"""`Arm` without names: x, y, z of root, elbow, wrist and hand in one, butt, tip, back, the seven angles, the
+missing."""
 
 
 def chain(
@@ -204,7 +209,7 @@ def excess(m: Maths, value: Number, limit: Number, ease: float = EASE_RAD) -> Nu
     return eased * eased / (4 * ease) + m.most(value - limit - ease, 0.0)
 
 
-def _chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a tenth of a pose
+def _chain(  # noqa: PLR0913, PLR0915, PLR0917 - one chain of formulas; cut in two it would cost a tenth of a pose
     m: Maths,
     lengths: ArmLengths,
     shoulder: Point,
@@ -222,7 +227,7 @@ def _chain(  # noqa: PLR0915 - one chain of formulas; cut in two it would cost a
     hand_rise, hand_yaw = hand_rise + more[1] + gives[0], hand_yaw + gives[1]
     upper, fore, h = lengths.upper, lengths.fore, lengths.hand
     whole = upper + fore
-    # plan directions: towards behind the shoulder (gx, gy), and turned from it those of the stick (ux, uy) and hand (vx, vy)
+    # in plan: towards behind the shoulder g, and turned from it u of the stick and v of the hand
     dx, dy = sx - cx, sy - cy
     gy = dy - BEHIND_M
     plan = sqrt(dx * dx + gy * gy)

@@ -29,7 +29,8 @@ _ASIDE = 0.020
 """The trunk is two upright capsules so far to each side of the spine: 28 cm broad, as ANSUR's man's chest without the
 arms (28.9); elbows that lie at the waist's flesh touch as they do in life."""
 _CHEST_TOP = 0.08
-"""So far under the neck's base the trunk narrows to where arms hang: what crosses above that is the shoulder's flesh."""
+"""So far under the neck's base the trunk narrows to where arms hang: what crosses above that is the shoulder's
+flesh."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

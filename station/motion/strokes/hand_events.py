@@ -39,7 +39,8 @@ BUSY_S = 0.12
 REST_S, LEAVE_S = 1.1, 0.5
 """A hand with so long a rest that is not at home goes there, so long after its last stroke (our choice)."""
 LONG_REST_S, OVER_SNARE_S, LIE_DOWN_S = 3.5, 0.7, 1.5
-"""In so long a rest, a bar and a half of a middling tempo, it lies down on the thigh: it is over the snare so long after
+"""In so long a rest, a bar and a half of a middling tempo, it lies down on the thigh: it is over the snare so long
+after
 its last stroke and before its next, and on the thigh so long after and before (our choice)."""
 
 LONG_AGO_S = -60.0

@@ -23,7 +23,7 @@ THIGH_SHARE = 0.043
 """A thigh's radius where a hand lies, as a share of the stature: 7.6 cm in a man of 1.759 m, whose mid-thigh is 55 cm
 round standing (ANSUR II, Gordon and others 2014: 1st to 99th percentile 47–74 cm at its thickest) and thinner to the
 knee."""
-_ALONG, _LIES_M = 0.72, 0.034
+_ALONG, _LIES_M = 0.80, 0.034
 """The fulcrum lies so far along the thigh, where an arm that hangs and bends comes to, a hand and a little over it (our
 choice)."""
 

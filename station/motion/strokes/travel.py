@@ -65,7 +65,8 @@ class HandPath:
         """The way through `contacts` (n, FIELDS) at `strike_s` (n,).
 
         Each stretch goes round by `bump` (n − 1, 4) in its middle: right, forward and up in metres, and the hand turned
-        to the left in radians. An `early` one (n − 1,) is travelled at once, the others late in their gap, an `easy` one slowly. After each
+        to the left in radians. An `early` one (n − 1,) is travelled at once, the others late in their gap, an `easy`
+        one slowly. After each
         strike, before the first one too, the hand `gives` (n, 6) way.
         """
         gaps = np.diff(strike_s)

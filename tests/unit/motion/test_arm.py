@@ -125,7 +125,8 @@ def test_angles_are_continuous_where_the_tip_passes_under_the_shoulder(x: float)
 
 @pytest.mark.parametrize("yaw", [-0.5, -0.35, 0.5, 0.7])
 def test_a_wrist_gives_in_at_its_limit_and_the_tip_stays(yaw: float) -> None:
-    """The hand may turn about the fulcrum while the stick stays on the drum: a few degrees too much take nothing off."""
+    """The hand may turn about the fulcrum while the stick stays on the drum: a few degrees too much take nothing
+    off."""
     held = replace(LENGTHS, wrist=tuple(np.radians((-80.0, 70.0, -30.0, 20.0)).tolist()))
     asked, given = (solve(ONE, k, SHOULDER, SNARE._replace(hand_yaw=yaw), STILL) for k in (LENGTHS, held))
     most = math.radians(20 if yaw > 0 else 30)
