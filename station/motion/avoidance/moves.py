@@ -77,9 +77,7 @@ class Move:
 
 
 def moves(hands: Hands, stretches: list[int], moments: Moments, worst: Moments) -> list[Move]:
-    """The moves of both hands on their stretches that may help at the troubled `moments`, the `worst` of them above
-    all.
-    """
+    """The moves of both hands that may help at the troubled `moments`, the `worst` of them above all."""
     found: list[Move] = []
     for side, stretch in enumerate(stretches):
         found += _of_one(hands, side, stretch, moments, worst)

@@ -72,9 +72,7 @@ def optimised(parts: tuple[HandPart, HandPart], stage: Stage) -> tuple[tuple[Han
 
 
 def _troubles(hands: Hands, cost: Array, tries: Counter[tuple[int, int]]) -> list[tuple[tuple[int, int], Moments]]:
-    """Where something is wrong: the stretches that the hands are on and the moments, the least tried and worst
-    first.
-    """
+    """Both hands' stretches and the moments where something is wrong, the least tried and worst first."""
     wrong = np.flatnonzero(cost > WRONG_M)
     k = np.stack([part.way.humps(hands.stage.grid[wrong])[0] for part in hands.parts], 1)
     pairs, which = np.unique(k, axis=0, return_inverse=True)

@@ -123,7 +123,7 @@ def test_angles_are_continuous_where_the_tip_passes_under_the_shoulder(x: float)
     assert found[:, 4].min() >= -math.degrees(limits.wrist_ulnar) - 1e-9
 
 
-@pytest.mark.parametrize("yaw", [-0.5, -0.35, 0.5, 0.7])
+@pytest.mark.parametrize("yaw", [-0.25, -0.3, 0.5])
 def test_a_wrist_gives_in_at_its_limit_and_the_tip_stays(yaw: float) -> None:
     """The hand may turn about the fulcrum while the stick stays on the drum: a few degrees too much take nothing
     off."""
