@@ -45,7 +45,7 @@ _R, _L, _K = Limb.RIGHT_HAND, Limb.LEFT_HAND, Limb.RIGHT_FOOT
 _FAR = ((Piece.CRASH_1, Zone.EDGE, _L), (Piece.FLOOR_TOM_1, Zone.HEAD, _R))
 _STROKES = _score([(float(i), Piece.SNARE, Zone.HEAD, _R) for i in range(8)], velocity=120)
 _TURNS = _score([(8.0 * i, *_FAR[i % 2]) for i in range(6)])
-_RESTS = _score([(8.0 * i, Piece.SNARE, Zone.HEAD, _R) for i in range(40)], 120.0)
+_RESTS = _score([(6.0 * i, Piece.SNARE, Zone.HEAD, _R) for i in range(40)], 120.0)
 _SWINGS = _score([(2.0 * i + 0.125 * k, *_FAR[i % 2]) for i in range(12) for k in range(12)], 120.0)
 _GROOVE = _score(
     [(0.5 * i, Piece.HIHAT, Zone.BOW, _R) for i in range(32)]

@@ -40,7 +40,7 @@ KINDS = (
     LESSON,
     COURSE,
     TomlKind("device kit", device_file.KEYS, lambda path: device_file.kit_reader(path.stem), ("kits/*.toml",)),
-    TomlKind("drummer's kit", kit.FIELDS, lambda path: kit.kit_reader(path.stem)),
+    TomlKind("drummer's kit", kit.KEYS, lambda path: kit.kit_reader(path.stem)),
     TomlKind("figure", figure.FIELDS, lambda _: figure.FIGURE),
     TomlKind("style", style_file.FIELDS, lambda path: style_file.style_reader(path.stem), ("styles/*.toml",)),
     TomlKind("slots of styles", style_file.SLOT_FIELDS, lambda _: style_file.SLOTS_FILE, ("slots.toml",)),

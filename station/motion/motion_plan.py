@@ -145,9 +145,7 @@ class MotionPlan:
         return Stage(self.figure, self.kit, grid, (points[4], points[5]), body, (hands[0].bump, hands[1].bump))
 
     def _body(self, time_s: Array, curves: SplineChannels) -> Array:
-        """Pelvis, neck's base, head, crown and shoulders at each time (n,) in a body that moves by `curves`, (6, 3,
-        n).
-        """
+        """Pelvis, neck's base, head, crown, shoulders at each time (n,) in a body moved by `curves`, (6, 3, n)."""
         points = np.empty((6, 3, len(time_s)))
         for block in blocks(len(time_s)):
             twist, lean, side, shrug, hunch, *_ = curves.many(time_s[block])

@@ -292,6 +292,8 @@ _MIRRORED: Fields = {
     "title": optional(text),
     "mirrors": needed(one_of(kit_names(), "kit"), 'mirrors = "four_piece"'),
 }
+KEYS = (*FIELDS, *(_MIRRORED.keys() - FIELDS.keys()))
+"""What the top table of either kind of file may hold."""
 
 
 def _apart(pieces: list[KitPiece]) -> None:

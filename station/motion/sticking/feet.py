@@ -5,6 +5,8 @@ nobody else can close the hi-hat. Kicks that say no foot are the kick's foot's, 
 foot keeps up: there the feet alternate, if the other has the time to come over from the hi-hat.
 """
 
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -43,7 +45,7 @@ def feet(score: Score, kit: Kit) -> tuple[NDArray[np.int8], list[str]]:
 
 
 def _in_turn(score: Score, limbs: NDArray[np.int8], kit: Kit) -> NDArray[np.int64]:
-    """The rows of free kicks that the hi-hat's foot takes: every second one of the runs that one foot cannot keep up."""
+    """The rows of free kicks that the hi-hat's foot takes: every second one of runs that are too quick for one foot."""
     onset = score.onset_s
     rows = np.flatnonzero(score.notes["piece"] == Piece.KICK)
     rows = rows[np.argsort(onset[rows], kind="stable")]
@@ -51,7 +53,7 @@ def _in_turn(score: Score, limbs: NDArray[np.int8], kit: Kit) -> NDArray[np.int6
     ends = np.flatnonzero(~np.concatenate(([False], quick, [False])))
     busy = Visits.of(score, limbs, kit.feet[1]).time_s
     taken = [np.zeros(0, np.int64)]
-    for first, last in zip(ends[:-1], ends[1:], strict=True):
+    for first, last in pairwise(ends.tolist()):
         run = rows[first:last]
         if len(run) < RUN or (score.notes["limb"][run] != Limb.UNKNOWN).any():
             continue

@@ -65,7 +65,7 @@ class HandPart:
     show: Contact
 
     @classmethod
-    def of(
+    def of(  # noqa: PLR0913, PLR0917 - who plays what, on what, with what
         cls, score: Score, kit: Kit, figure: Figure, hold: Hold, limb: Limb, events: HandEvents, thigh: Thigh
     ) -> "HandPart":
         """The part of `limb` with `events`; `thigh` on which it rests.

@@ -6,7 +6,7 @@ hands. Times in seconds from tick 0.
 
 from bisect import bisect_left, bisect_right
 from dataclasses import dataclass
-from itertools import zip_longest
+from itertools import compress, zip_longest
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,8 +40,7 @@ REST_S, LEAVE_S = 1.1, 0.5
 """A hand with so long a rest that is not at home goes there, so long after its last stroke (our choice)."""
 LONG_REST_S, OVER_SNARE_S, LIE_DOWN_S = 3.5, 0.7, 1.5
 """In so long a rest, a bar and a half of a middling tempo, it lies down on the thigh: it is over the snare so long
-after
-its last stroke and before its next, and on the thigh so long after and before (our choice)."""
+after its last stroke and before its next, and on the thigh so long after and before (our choice)."""
 
 LONG_AGO_S = -60.0
 
@@ -186,9 +185,9 @@ def _events(notes: NDArray[np.void], found: list[Event]) -> HandEvents:
         key = np.array([[Piece.SNARE, Zone.HEAD, LAP]], np.int64)
         ago, height, none = np.array([LONG_AGO_S]), np.zeros(1), np.zeros(1, bool)
         return HandEvents(ago, np.zeros(0, np.int64), key, height, none, none)
-    time, row, articulation, height, bounces = (np.array(column) for column in zip(*found, strict=True))
-    keep = np.diff(time, prepend=-np.inf) > SAME_STROKE_S
-    time, row, articulation, height, bounces = (x[keep] for x in (time, row, articulation, height, bounces))
+    keep = np.diff([event[0] for event in found], prepend=-np.inf) > SAME_STROKE_S
+    kept = zip(*compress(found, keep), strict=True)
+    time, row, articulation, height, bounces = (np.array(column) for column in kept)
     zone = np.where(articulation == GRAB, int(Zone.EDGE), notes["zone"][row])
     waits = np.isin(articulation, (WAIT, LAP))
     zone = np.where(waits, int(Zone.HEAD), zone)
