@@ -61,13 +61,9 @@ class Stage:
 
     def body_at(self, moments: Moments) -> BodyPoints:
         """The body at some moments."""
-        b = self.body
-        (a, c), (d, e) = b.thighs
-        return BodyPoints(
-            *(p[moments] for p in (b.pelvis, b.neck, b.head, b.crown)),
-            (b.shoulders[0][moments], b.shoulders[1][moments]),
-            ((a, c), (d, e)),
-        )
+        body, (right, left) = self.body, self.body.shoulders
+        pelvis, neck, head, crown = (p[moments] for p in (body.pelvis, body.neck, body.head, body.crown))
+        return BodyPoints(pelvis, neck, head, crown, (right[moments], left[moments]), body.thighs)
 
 
 @dataclass(frozen=True, eq=False)

@@ -44,7 +44,8 @@ def _rise(amplitude: Array, contact_angles: Array, lengths: ArmLengths, turns: A
     offsets = SHARES_NEAR_TOP[..., None] * amplitude  # (moments, 4, n)
     turn = np.cumsum(offsets, axis=1)
     turn[:, 2] -= (1 - turns) * offsets[:, WRIST]
-    turn[:, 3] -= (1 - turns) * _ACROSS * (offsets[:, 0] + offsets[:, 1])
+    if lengths.across:
+        turn[:, 3] -= _ACROSS * (offsets[:, 0] + offsets[:, 1])
     angles = contact_angles + turn
     rise = (segments * (np.cos(contact_angles) - np.cos(angles))).sum(1)
     slope = (segments * turn * np.sin(angles)).sum(1)

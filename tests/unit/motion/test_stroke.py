@@ -23,7 +23,9 @@ def plan_of(times: list[float], heights: list[float], most: float = np.inf) -> S
     height = np.array(heights)
     amplitude = amplitudes(height, np.repeat(CONTACT[:, None], n, 1), LENGTHS, np.ones((4, 1)), np.ones(1))
     alone = np.zeros(n, bool)
-    return StrokePlan(np.array(times), height, amplitude, alone, np.full((4, n), 3.0), np.full(n, most), 0.43, 0.045)
+    return StrokePlan(
+        np.array(times), height, amplitude, alone, np.full((4, n), 3.0), np.full(n, most), 0.43, np.full(n, 0.045)
+    )
 
 
 def rise(strokes: Strokes, at: Array) -> Array:

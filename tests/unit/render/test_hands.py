@@ -22,9 +22,11 @@ from station.motion.kinematics.pose import Pose
 from station.motion.style.style import Style
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
-from station.render.figure.body import Skin, hand_part
+from station.render.figure.body import hand_part
+from station.render.figure.bones import FINGERS, Bone
 from station.render.figure.hand_bones import finger_frames
-from station.render.figure.skeleton import FINGERS, Bone, Skeleton
+from station.render.figure.skeleton import Skeleton
+from station.render.figure.skin import Skin
 
 Array = NDArray[np.float64]
 STATURES_M = (1.60, 1.759, 1.95)

@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 
 from station.core.pieces import Piece
-from station.motion.kinematics.collisions import segments_apart
+from station.motion.kinematics.body_solids import segments_apart
 from station.motion.kit.kit import Kit, kit_names, load_kit
 from station.render.geometry.materials import Material
 from station.render.kit.hardware import hardware
@@ -44,7 +44,8 @@ def test_no_cymbal_stand_goes_through_a_drum(name: str) -> None:
 
 def _long(lines: Array) -> NDArray[np.bool_]:
     """A straight stand has no boom."""
-    return np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1) > 0.001
+    long: NDArray[np.bool_] = np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1) > 0.001
+    return long
 
 
 @pytest.mark.parametrize("name", ACOUSTIC)

@@ -76,7 +76,7 @@ def test_lanes_count_the_lesson_s_bars_in_every_pass_and_in_a_section() -> None:
     demonstrated = tips(view, plan, start_of(plan, Phase.DEMONSTRATION))
     assert demonstrated == pytest.approx(large, abs=0.02)
     again = tips(view, plan, start_of(plan, Phase.PASS, 1))
-    assert again == pytest.approx(large, abs=0.05), "the pass before it ends in a preparation of its own"
+    assert again[1:] == pytest.approx(large[1:], abs=0.05), "the pass before it ends in a preparation of its own"
 
 
 def test_the_kit_is_the_plan_s_for_the_hand_that_leads() -> None:
