@@ -46,6 +46,7 @@ class _Kind:
 _KINDS = (
     _Kind("kit_m", "stick_in_kit", "mm", 1000.0, 3.0),
     _Kind("hands_m", "stick_in_other_hand", "mm", 1000.0, 3.0),
+    _Kind("body_m", "arm_in_body_or_kit", "mm", 1000.0, 8.0),
     _Kind("limit_rad", "joint_beyond_limit", "deg", degrees(1), 1.0),
     _Kind("speed", "fastest_joint", "of the fastest people", 1.0, 1.0),
     _Kind("strike_m", "tip_off_strike", "mm", 1000.0, 1.0),

@@ -14,7 +14,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
-from station.motion.kinematics.maths import Maths, Number, Point
+import numpy as np
+
+from station.motion.kinematics.maths import ONE, Maths, Number, Point
 
 BACK_SINE, BACK_COSINE = math.sin(math.radians(25)), math.cos(math.radians(25))
 """Elbows hang down and a little back: with the wrist in front the arm's plane is vertical, as DESIGN has it, and with
@@ -179,12 +181,13 @@ def chain(
     yaw: Number = 0.0
     for clamped in (False, True):
         extension, deviation = arm[4][3], arm[4][4]
-        if not m.any(
-            (extension > extended - EASE_RAD)
-            | (extension < flexed + EASE_RAD)
-            | (deviation > left - EASE_RAD)
-            | (deviation < right + EASE_RAD)
-        ):
+        if m is ONE:  # on floats in a third of the time
+            free = flexed + EASE_RAD <= extension <= extended - EASE_RAD
+            free = free and right + EASE_RAD <= deviation <= left - EASE_RAD
+        else:
+            within = (extension >= flexed + EASE_RAD) & (extension <= extended - EASE_RAD)
+            free = bool(np.all(within & (deviation >= right + EASE_RAD) & (deviation <= left - EASE_RAD)))
+        if free:
             break
         rise = rise + _GIVES * (extension - _bounded(m, extension, flexed, extended))
         yaw = yaw - _GIVES * (deviation - _bounded(m, deviation, right, left))
@@ -205,6 +208,8 @@ def _within(m: Maths, angle: Number, most: float) -> Number:
 
 def excess(m: Maths, value: Number, limit: Number, ease: float = EASE_RAD) -> Number:
     """By how much a `value` must give in to stay under its `limit`: nothing until an `ease` before it."""
+    if m is ONE and value <= limit - ease:
+        return 0.0
     eased = m.least(m.most(value - limit + ease, 0.0), 2 * ease)
     return eased * eased / (4 * ease) + m.most(value - limit - ease, 0.0)
 
@@ -275,7 +280,8 @@ def _chain(  # noqa: PLR0913, PLR0915, PLR0917 - one chain of formulas; cut in t
     hangs = cos(wing - atan2(swung, hanging))
     room = most(lengths.most_back_m - foot * (on * behind + off * aback), 0.0)
     less = excess(m, hangs, room / (abs(out) * sqrt(hanging * hanging + swung * swung) + 1e-6), _SWING_EASE)
-    wing = wing + lengths.rolls_hand * (acos(hangs - less) - acos(hangs))
+    if m is not ONE or less:
+        wing = wing + lengths.rolls_hand * (acos(hangs - less) - acos(hangs))
     down = out * cos(wing)
     a_k, a_e, a_n = foot * on - down * off, foot * off + down * on, -out * sqrt(reach2) * sin(wing)
     jx = sx + a_k * kx + a_e * ex + a_n * (ky * ez - kz * ey)

@@ -15,7 +15,6 @@ from station.motion.kinematics.figure import Figure
 from station.motion.kinematics.foot_path import FootPath
 from station.motion.kinematics.leg import Footing, Place
 from station.motion.kinematics.leg import chain as leg_chain
-from station.motion.kinematics.leg import settled as settled_leg
 from station.motion.kinematics.maths import ONE, Maths, Number, Point
 from station.motion.kinematics.pedal_motion import BEATER_SWING_RAD, OPEN_GAP_M
 from station.motion.kinematics.trunk import LEAN_TO_HEAD
@@ -105,13 +104,12 @@ class Rig:
         heading_b, shoulder_b, elbow_b, wrist_b, aside_b, palm_b, swing_b = angles
         kick = feet.kick * self.raised[0]
         kick_side = hip if self.right_kicks else -hip
-        stands = settled_leg if m is ONE else leg_chain
         kicking, hatting = self.footings
-        kick_leg, kick_bent = stands(
+        kick_leg, kick_bent = leg_chain(
             m, kicking, kicking.home, (x + kick_side, y, z), kick, heel * (0.6 + 0.4 * feet.kick) + feet.kick_heel
         )
         hat, place, under, tip = self._hat_foot(m, feet)
-        hat_leg, hat_bent = stands(m, hatting, place, (x - kick_side, y, z), under, tip)
+        hat_leg, hat_bent = leg_chain(m, hatting, place, (x - kick_side, y, z), under, tip)
         if self.right_kicks:
             legs, bent, boards = (*kick_leg, x - hip, y, z, *hat_leg), (*kick_bent, *hat_bent), (kick, hat)
         else:

@@ -8,7 +8,6 @@ boards goes from one to the other through the air.
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import lru_cache
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -130,7 +129,3 @@ def chain(m: Maths, footing: Footing, place: Place, hip: Point, board_rad: Numbe
         (kx, ky, kz, ax, ay, up, x0 + reach * hx, y0 + reach * hy, z0 + foot * sin_b),
         (atan2(sqrt(tx * tx + ty * ty), -tz), acos(inside) + acos(below), 0.5 * math.pi - shin + sole),
     )
-
-
-settled = lru_cache(maxsize=256)(chain)
-"""`chain` on floats, remembered: feet rest on their boards much of the time."""

@@ -28,7 +28,6 @@ class Maths:
     sqrt: Callable[[Number], Number]
     least: Callable[[Number, Number], Number]
     most: Callable[[Number, Number], Number]
-    any: Callable[[Number], bool]
 
 
 def _least(a: float, b: float) -> float:
@@ -39,8 +38,8 @@ def _most(a: float, b: float) -> float:
     return a if a > b else b
 
 
-ONE = Maths(math.sin, math.cos, math.acos, math.atan2, math.sqrt, _least, _most, bool)
-MANY = Maths(np.sin, np.cos, np.arccos, np.arctan2, np.sqrt, np.minimum, np.maximum, lambda found: bool(np.any(found)))
+ONE = Maths(math.sin, math.cos, math.acos, math.atan2, math.sqrt, _least, _most)
+MANY = Maths(np.sin, np.cos, np.arccos, np.arctan2, np.sqrt, np.minimum, np.maximum)
 
 _BLOCK = 4096
 """So many instants at once are computed as fast as all of them (our choice)."""
