@@ -132,7 +132,8 @@ class Strokes:
         gain = np.broadcast_to(np.minimum(np.minimum(own, room), plan.most), plan.amplitude.shape)
         gain = np.where(plan.rebounds, np.minimum(gain, np.roll(gain, 1, axis=1)), gain)
         peak = np.minimum(plan.amplitude * gain, plan.ceiling)
-        times, merged = _times(strike_s, gaps, np.maximum(height_m * gain.mean(0), _LEAST_HEIGHT_M), sliders)
+        haste_m = np.where(height_m > 0, np.maximum(height_m * gain.mean(0), _LEAST_HEIGHT_M), FULL_HEIGHT_M)
+        times, merged = _times(strike_s, gaps, haste_m, sliders)  # where nothing is struck there is no haste
         merged[:, plan.rebounds] = 1.0
         struck = np.where(plan.rebounds, _REBOUNDS_AGAIN, 1.0) * np.maximum(peak, 0.0)
         values = _values(times, merged, (peak, struck), np.minimum(plan.rest_m, _REST_SHARE * height_m) / plan.lever_m)
