@@ -132,8 +132,7 @@ class Strokes:
         gain = np.broadcast_to(np.minimum(np.minimum(own, room), plan.most), plan.amplitude.shape)
         gain = np.where(plan.rebounds, np.minimum(gain, np.roll(gain, 1, axis=1)), gain)
         peak = np.minimum(plan.amplitude * gain, plan.ceiling)
-        haste_m = np.where(height_m > 0, np.maximum(height_m * gain.mean(0), _LEAST_HEIGHT_M), FULL_HEIGHT_M)
-        times, merged = _times(strike_s, gaps, haste_m, sliders)  # where nothing is struck there is no haste
+        times, merged = _times(strike_s, gaps, np.maximum(height_m * gain.mean(0), _LEAST_HEIGHT_M), sliders)
         merged[:, plan.rebounds] = 1.0
         struck = np.where(plan.rebounds, _REBOUNDS_AGAIN, 1.0) * np.maximum(peak, 0.0)
         values = _values(times, merged, (peak, struck), np.minimum(plan.rest_m, _REST_SHARE * height_m) / plan.lever_m)
@@ -200,11 +199,12 @@ def _times(strike_s: Array, gaps: Array, height_m: Array, sliders: Sliders) -> t
     down = np.minimum(pace, 0.5 * before / DOWN_S)
     # what the whip leaves of the gap is shared by the rest after the last stroke and the preparation
     left = (1 - _LEAST_PAUSE) * before - DOWN_S * down
-    whole_rest = np.concatenate((np.zeros((4, 1)), (REST_S * pace)[:, :-1]), 1)
+    resting = REST_S * np.where(height_m > _LEAST_HEIGHT_M, pace, 1 / sliders.speed)  # after a wait there is no haste
+    whole_rest = np.concatenate((np.zeros((4, 1)), resting[:, :-1]), 1)
     lacking = np.maximum(whole_rest + (LONGEST_S - DOWN_S) * rise - left, 0.0)
     rest_before = np.maximum(whole_rest - lacking, np.minimum(_SHORT_REST * whole_rest, 0.3 * before))
     up = np.clip((left - rest_before) / (LONGEST_S - DOWN_S), 0.0, rise)
-    rest = np.concatenate((rest_before[:, 1:], (REST_S * pace)[:, -1:]), 1)
+    rest = np.concatenate((rest_before[:, 1:], resting[:, -1:]), 1)
     times = np.empty((4, len(strike_s), KEYS))
     together = BEFORE_S.mean(0)
     whip, share = np.atleast_2d(sliders.whip)[..., None], BEFORE_S[:, None, :] / together
