@@ -104,3 +104,11 @@ def test_grace_notes_and_cross_sticks_stay_low() -> None:
     assert right.height_m.max() <= 0.06
     assert left.height_m.tolist() == pytest.approx([0.0, 15 * 0.0254, 0.0])
     assert np.diff(right.time_s).min() > 0
+
+
+@pytest.mark.parametrize("piece", [Piece.KICK, Piece.HIHAT_PEDAL, Piece.SNARE])
+def test_a_choke_on_what_does_not_ring_is_nobodys(piece: Piece) -> None:
+    """A pad's aftertouch may say it of any pad; only cymbals are grabbed."""
+    notes = [Note(0, Piece.SNARE, limb=R), Note(PPQ, piece, choke_ticks=60), Note(4 * PPQ, Piece.SNARE, limb=R)]
+    score = Score.from_notes(notes, TempoMap.constant(120))
+    assert all(GRAB not in events.key[:, 2] for events in hand_events(score, score.notes["limb"]))
