@@ -114,7 +114,9 @@ def after_own(notes: HandNotes, i: int, hand: int, own: int, bounced: bool) -> t
 
 
 def _repeat(notes: HandNotes, i: int, own: int, bounced: bool) -> float:
-    """The price of one hand's next stroke, after `own`, on the same piece."""
+    """The price of one hand's next stroke, after `own`, on the same piece; none where no hand is free to spare it."""
+    if notes.again[i]:
+        return 0.0
     gap_s = notes.time_s[i] - notes.time_s[own]
     if gap_s < BOUNCE_S:
         price = 0.0 if notes.paired[i] == 1 else SKIP if notes.ostinato[i] else BOUNCE

@@ -264,6 +264,15 @@ def test_a_jazz_ride_is_the_leading_hands() -> None:
     assert letters(groove, SNARE, tempo_bpm=160, division=3) == "LL"
 
 
+@pytest.mark.parametrize("tempo_bpm", [200, 240, 300])
+def test_in_blast_beats_each_hand_stays_on_its_piece(tempo_bpm: float) -> None:
+    """Hat and snare at once in eighths, up to 10 a second: hands that change places would strike as often."""
+    blast = [(i, piece) for i in range(0, 32, 2) for piece in (HAT, SNARE, Piece.KICK)]
+    assert letters(blast, SNARE, tempo_bpm) == "L" * 16
+    assert letters(blast, HAT, tempo_bpm) == "R" * 16
+    assert assign_limbs(score_of(blast, tempo_bpm), KIT).warnings == ()  # a champion's rate, no way to go
+
+
 def test_two_hands_never_share_an_instant() -> None:
     score = score_of([(0, SNARE), (0, Piece.CRASH_1), (4, FLOOR), (4, TOM), (8, HAT), (8, SNARE)])
     limbs = assign_limbs(score, KIT).limbs.reshape(3, 2)
