@@ -235,6 +235,13 @@ def test_a_third_note_at_once_says_that_it_is_impossible() -> None:
     assert assignment.warnings[0].startswith("bar 1 needs one hand to be in two places at once")
 
 
+def test_a_third_stroke_at_once_on_one_drum_is_impossible_too() -> None:
+    assignment = assign_limbs(score_of([(0, SNARE), (0, SNARE), (0, SNARE), (4, SNARE)]), KIT)
+    assert [why.startswith("impossible") for why in assignment.why] == [False, False, True, False]
+    assert assignment.warnings == ("bar 1 needs one hand to strike twice at once",)
+    assert assign_limbs(score_of([(0, SNARE), (0, SNARE), (4, SNARE)]), KIT).warnings == ()
+
+
 def test_the_hat_under_the_foot_is_no_hands() -> None:
     score = score_of([(0, HAT), (2, Piece.HIHAT_PEDAL), (4, SNARE), (4, HAT), (6, Piece.HIHAT_PEDAL)])
     assert "".join("RLrl"[m] for m in assign_limbs(score, KIT).limbs) == "RlLRl"
