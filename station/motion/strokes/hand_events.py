@@ -80,7 +80,7 @@ def hand_events(score: Score, limbs: NDArray[np.int8]) -> tuple[HandEvents, Hand
         ]
     for row in np.flatnonzero(notes["articulation"] == Articulation.BUZZ).tolist():
         _press(score, row, limbs, onset, found)
-    for row in np.flatnonzero(notes["choke_ticks"] > 0).tolist():
+    for row in np.flatnonzero(score.is_choked).tolist():
         _grab(score, row, limbs, found)
     ordered = [_with_bounces(sorted(events)) for events in found]
     right, left = (_events(notes, _with_waits(notes, own, other)) for own, other in (ordered, reversed(ordered)))

@@ -123,3 +123,11 @@ def test_a_stick_that_waits_strikes_the_air_nowhere(piece: Piece) -> None:
     for at in waits.tolist():
         tip = drummer.rows(at + np.arange(-10, 11) * 1e-3)[:, frame.TIP][:, :3]
         assert np.linalg.norm(np.diff(tip, 2, axis=0), axis=1).max() < 1e-4
+
+
+@pytest.mark.parametrize("piece", [Piece.KICK, Piece.HIHAT_PEDAL, Piece.SNARE])
+def test_a_choke_on_what_does_not_ring_is_nobodys(piece: Piece) -> None:
+    """A pad's aftertouch may say it of any pad; only cymbals are grabbed."""
+    notes = [Note(0, Piece.SNARE, limb=R), Note(PPQ, piece, choke_ticks=60), Note(4 * PPQ, Piece.SNARE, limb=R)]
+    score = Score.from_notes(notes, TempoMap.constant(120))
+    assert all(GRAB not in events.key[:, 2] for events in hand_events(score, score.notes["limb"]))
