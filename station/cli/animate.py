@@ -58,7 +58,7 @@ def run(options: AnimateOptions) -> int:
         kind = "motion "
     else:
         kind = _draw(drummer, whole, options)
-    say_infeasible(drummer.assignment.warnings)
+    say_infeasible((*drummer.assignment.warnings, *(demand.text for demand in drummer.left_over)))
     say(f"{kind}  {out}")
     return 0
 

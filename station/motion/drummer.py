@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Limb
+from station.motion.feasibility.on_a_kit import InfeasibleDemand
 from station.motion.keyframes import Keys
 from station.motion.kinematics.figure import Figure, figure_of
 from station.motion.kinematics.pose import Pose
@@ -65,6 +66,11 @@ class Drummer:
     def assignment(self) -> Assignment:
         """Who plays what, and why."""
         return self._plan.assignment
+
+    @property
+    def left_over(self) -> tuple[InfeasibleDemand, ...]:
+        """The bars in which no way was found on which the hands meet nothing; looked for anew at each call."""
+        return self._plan.left_over(self.style, self._hands)
 
     @property
     def _plan(self) -> MotionPlan:

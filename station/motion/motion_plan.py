@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from station.core.pieces import Limb, Piece
 from station.motion.avoidance.clearance import cleared
 from station.motion.avoidance.cost import Stage
+from station.motion.avoidance.left_over import left_over
 from station.motion.avoidance.optimise import looks, optimised
 from station.motion.body import body_keys
 from station.motion.body.beats import Beats, bob_cofactors, restarts
@@ -18,6 +19,7 @@ from station.motion.body.heels import heel_curves
 from station.motion.body.idle_motion import Blinks
 from station.motion.body.intensity import Intensity
 from station.motion.body.reach import reaching
+from station.motion.feasibility.on_a_kit import InfeasibleDemand
 from station.motion.kinematics.body_solids import BodyPoints
 from station.motion.kinematics.figure import Figure
 from station.motion.kinematics.foot_path import FootPath, Visits
@@ -135,6 +137,14 @@ class MotionPlan:
         right, left = (hand.eased(self.figure, stage.grid, r) for hand, r in zip((right, left), shoulders, strict=True))
         hands, _ = optimised((right, left), stage)
         return hands
+
+    def left_over(self, style: Style, parts: tuple[HandPart, HandPart]) -> tuple[InfeasibleDemand, ...]:
+        """Where both hands of `parts`, made for `style`, are in something all the same, by bar."""
+        if not any(len(hand.events.row) for hand in parts):
+            return ()
+        return left_over(
+            self.score, parts, self._stage(parts, thighs(self.kit, self.figure, self.footings, style.heel))
+        )
 
     def _stage(self, hands: tuple[HandPart, HandPart], legs: tuple[Thigh, Thigh]) -> Stage:
         """The body in its natural posture, in which the `hands` must find their ways."""

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from station.core.pieces import Limb, Piece, Zone, word
+from station.core.pieces import Limb, Piece, Zone
 from station.core.schema import (
     Field,
     Fields,
@@ -38,6 +38,7 @@ from station.core.schema import (
 from station.core.shipped import find_shipped, shipped
 from station.core.toml_faults import wrong
 from station.core.toml_source import read_source
+from station.motion.kit.fits import check_apart, check_boards, check_off_the_player
 from station.motion.kit.piece import SPOTS, KitPiece, Target, Vector, ZoneSpot
 
 MAKES = ("acoustic", "electronic")
@@ -167,8 +168,6 @@ class Kit:
 _PIECES = members_by_label(Piece)
 _MAX_TILT_DEG = 80.0
 _MAX_LENGTH_M = 3.0
-_LEAST_APART_M, _MOST_INSIDE_M = 0.04, 0.03
-"""Nearer centres, or a surface deeper in another's shell, are no kit that stands (our choice; hoops may touch)."""
 _LEAST_BOARD_M = 0.1
 """A shorter footboard points nowhere (our choice; real ones are 25–33 cm long)."""
 
@@ -229,7 +228,9 @@ def _kit(name: str, title: str | None, handed: str, pedals: Mapping[str, Pedal],
     """A kit of what its file says; `others` are its seat, looks and pieces, None for those that it lacks."""
     found = {_PIECES[key]: piece for key, piece in others.items() if piece is not None and key in _PIECES}
     pieces = {name: replace(piece, electronic=others["make"] == "electronic") for name, piece in found.items()}
-    _apart(list(pieces.values()))
+    check_apart(list(pieces.values()))
+    check_off_the_player(list(pieces.values()), others["seat_m"])
+    check_boards({key: (p.heel_m, p.toe_m) for key, p in pedals.items() if p is not None})
     return Kit(
         name=name,
         title=name if title is None else title,
@@ -295,26 +296,3 @@ _MIRRORED: Fields = {
 }
 KEYS = (*FIELDS, *(_MIRRORED.keys() - FIELDS.keys()))
 """What the top table of either kind of file may hold."""
-
-
-def _apart(pieces: list[KitPiece]) -> None:
-    """Refuse pieces in one place, or of which one's head or bow is inside another's shell."""
-    for k, one in enumerate(pieces):
-        for other in pieces[:k]:
-            apart_m = math.dist(one.centre_m, other.centre_m)
-            deep_m = max(_inside_m(one, other), _inside_m(other, one))
-            if apart_m < _LEAST_APART_M or deep_m > _MOST_INSIDE_M:
-                how = f"{100 * deep_m:.0f} cm deep" if deep_m > _MOST_INSIDE_M else "their centres are in one place"
-                fault = f"overlaps the {word(other.piece)}: {how}"
-                raise wrong(fault, word(one.piece), "centre_m")
-
-
-def _inside_m(one: KitPiece, other: KitPiece) -> float:
-    """How deep the struck surface of `one` is in the shell of `other`, negative outside."""
-    around = np.linspace(0.0, 2 * math.pi, 24, endpoint=False)
-    right, away, _ = one.axes
-    edge = one.centre + one.radius_m * (np.cos(around)[:, None] * right + np.sin(around)[:, None] * away)
-    off = np.vstack((one.centre, edge)) - other.centre
-    height = off @ other.normal
-    radial = np.sqrt(np.maximum((off**2).sum(1) - height**2, 0.0))
-    return float(np.minimum(np.minimum(-height, height + other.depth_m), other.radius_m - radial).max())

@@ -106,6 +106,7 @@ def test_in_a_kit_of_kick_and_snare_a_hand_has_the_snare_for_everything(tmp_path
         assert kit.stand_in(piece) is (Piece.KICK if piece is Piece.KICK else Piece.SNARE)
     notes = [Note(i * PPQ, piece) for i, piece in enumerate((Piece.SNARE, Piece.HIHAT, Piece.CRASH_1, Piece.KICK))]
     drummer = Drummer(Score.from_notes(notes, TempoMap.constant(100)), kit)  # refused what no hand reaches
+    assert drummer.plan is not None
     assert np.linalg.norm(drummer.plan.strike_m[1:3] - kit.pieces[Piece.SNARE].centre, axis=1) == pytest.approx(
         0.025, abs=1e-3
     )
@@ -123,6 +124,24 @@ def test_in_a_kit_of_kick_and_snare_a_hand_has_the_snare_for_everything(tmp_path
         ("[0.20, 0.71, 0.03]", "[0.20, 0.44, 0.03]", "[0.20, 0.44", "pedals.kick.toe_m: the toe end is 0.00 m from"),
         ("[-0.42, 0.62, 0.86]", "[-0.07, 0.46, 0.67]", "[-0.07, 0.46, 0.67]", "hihat.centre_m: overlaps the snare"),
         ("[-0.02, 0.80, 0.80]", "[0.45, 0.38, 0.58]", "[0.55, 0.38, 0.62]", "floor_tom_1.centre_m: overlaps the tom_1"),
+        (
+            "[-0.07, 0.45, 0.66]",
+            "[-0.07, 0.05, 0.86]",
+            "[-0.07, 0.05, 0.86]",
+            "snare.centre_m: is where the drummer sits",
+        ),
+        (
+            "[0.55, 0.38, 0.62]",
+            "[0.20, -0.25, 0.62]",
+            "[0.20, -0.25, 0.62]",
+            "floor_tom_1.centre_m: is where the drummer",
+        ),
+        (
+            "heel_m = [0.20, 0.44, 0.03]\ntoe_m = [0.20, 0.71, 0.03]",
+            "heel_m = [-0.31, 0.34, 0.03]\ntoe_m = [-0.385, 0.60, 0.03]",
+            "[-0.30, 0.34, 0.03]",
+            "pedals.hihat.heel_m: is 1 cm from the board of the kick's pedal",
+        ),
         ("[ride]", "[ride.zones.top]\nright = 0\n\n[ride]", "[ride.zones.top]", "no such zone: top"),
     ],
 )

@@ -5,7 +5,7 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
-from station.core.pieces import Limb, Piece, Zone
+from station.core.pieces import Articulation, Limb, Piece, Zone
 from station.core.units import PPQ
 from station.motion.audit import audit
 from station.motion.avoidance.clearance import cleared
@@ -16,6 +16,7 @@ from station.motion.strokes.hand import HandPart
 from station.motion.strokes.lap import thighs
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
+from tests.unit.motion.patterns import ROCK, score_of
 
 R, L = Limb.RIGHT_HAND, Limb.LEFT_HAND
 CROSSING = {R: (Piece.HIHAT, Piece.SNARE), L: (Piece.SNARE, Piece.FLOOR_TOM_1)}
@@ -57,6 +58,18 @@ def test_less_is_wrong_than_before_and_strikes_stay() -> None:
         assert np.array_equal(old.contacts[struck, :3], new.contacts[struck, :3])
     again, _ = optimised(parts, stage)
     assert all(np.array_equal(a.way.rows, b.way.rows) for a, b in zip(led, again, strict=True))
+
+
+def test_hands_that_cannot_but_meet_are_named_with_their_bar_and_a_groove_has_none() -> None:
+    """Both hands lie on the snare's head for cross-sticks at once, in bar 2: two hands are 18 cm broad, the head 36."""
+    clicks = [Note(4 * PPQ, Piece.SNARE, Zone.RIM, 80, Articulation.CROSS_STICK, limb=limb) for limb in (R, L)]
+    score = Score.from_notes([Note(0, Piece.SNARE, limb=R), *clicks], TempoMap.constant(110))
+    drummer = Drummer(score)
+    (met,) = (demand for demand in drummer.left_over if demand.bar == 1)
+    assert met.text == "bar 2: the hands meet"
+    assert met.start_s <= score.onset_s[1] <= met.end_s
+    assert audit(drummer).hands_m.value > 0.001
+    assert Drummer(score_of(ROCK)).left_over == ()
 
 
 def test_left_on_the_ride_while_the_right_crashes_breaks_no_arm() -> None:
