@@ -91,6 +91,8 @@ class Ornament(IntEnum):
 
 HAND_PIECES = frozenset(Piece) - {Piece.KICK, Piece.HIHAT_PEDAL}
 CYMBALS = frozenset({Piece.RIDE, Piece.RIDE_2, Piece.CRASH_1, Piece.CRASH_2, Piece.SPLASH, Piece.CHINA})
+CHOKEABLE = CYMBALS | {Piece.HIHAT}
+"""What rings and can be grabbed."""
 TOMS = (Piece.TOM_1, Piece.TOM_2, Piece.TOM_3, Piece.TOM_4, Piece.FLOOR_TOM_1, Piece.FLOOR_TOM_2)
 
 

@@ -15,7 +15,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone
+from station.core.pieces import CHOKEABLE, Articulation, Dynamic, Limb, Ornament, Piece, Zone
 from station.core.units import NS_PER_MS, NS_PER_S, PPQ
 from station.music.tempo import TempoMap
 
@@ -135,6 +135,11 @@ class Score:
     def is_grace(self) -> NDArray[np.bool_]:
         """Which rows are the grace strokes of flams and drags."""
         return np.asarray(self.notes["lead_ms"] > 0)
+
+    @cached_property
+    def is_choked(self) -> NDArray[np.bool_]:
+        """Which rows are cymbals that a hand grabs; a choke on anything else, as aftertouch may say, means nothing."""
+        return np.asarray((self.notes["choke_ticks"] > 0) & np.isin(self.notes["piece"], sorted(CHOKEABLE)))
 
     @cached_property
     def bar(self) -> NDArray[np.int64]:

@@ -13,15 +13,12 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 
 from station.core.note_map import KitMap, NoteMeaning, strike_of
-from station.core.pieces import CYMBALS, Piece
+from station.core.pieces import Piece
 from station.core.units import NS_PER_MS
 from station.devices.mapping.velocity_curve import AS_SENT, VelocityCurve
 
 PEDAL_CONTROLLER = 4
 """The foot controller: the hi-hat pedal of every module whose maker says so, unless its owner chose another."""
-
-CHOKEABLE = CYMBALS | {Piece.HIHAT}
-"""What rings and can be grabbed."""
 
 CROSSTALK_WITHIN_NS = 30 * NS_PER_MS
 """How long after a stroke its crosstalk may come where nothing else is said: edrumulus' default."""

@@ -15,9 +15,9 @@ from dataclasses import dataclass, replace
 from enum import Enum
 
 from station.core.events import Choke, DeviceEvent, Hit, PedalMoved
-from station.core.pieces import Articulation, Piece
+from station.core.pieces import CHOKEABLE, Articulation, Piece
 from station.core.units import NS_PER_MS
-from station.devices.mapping.device_map import CHOKEABLE, Crosstalk, DeviceMap
+from station.devices.mapping.device_map import Crosstalk, DeviceMap
 
 GRAB_BEFORE_NS, GRAB_AFTER_NS = 30 * NS_PER_MS, 60 * NS_PER_MS
 """How long before and after the choke a grabbing hand's own stroke comes (our choice: the hand closes in between)."""

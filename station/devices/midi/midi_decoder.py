@@ -14,8 +14,8 @@ Groove MIDI Dataset has its own, just before it.
 """
 
 from station.core.events import Choke, DeviceEvent, Hit, Switched
-from station.core.pieces import Piece
-from station.devices.mapping.device_map import CHOKEABLE, DeviceMap
+from station.core.pieces import CHOKEABLE, Piece
+from station.devices.mapping.device_map import DeviceMap
 from station.devices.mapping.hihat_pedal import Hihat
 from station.devices.midi.midi_tokens import MidiTokenizer
 

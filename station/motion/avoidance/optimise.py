@@ -23,9 +23,12 @@ from station.motion.strokes.hand_events import LONG_AGO_S
 RATE_HZ = 100.0
 ROUNDS = 8
 """A move may need another: so often the whole is looked at (our choice)."""
-_TRIED, _FIRST_LOOKS = 20, 4
-"""All moves are looked at in the worst moment and so many others, and so many of the best of them in all (our
-choice)."""
+_LIKELY, _TRIED, _FIRST_LOOKS = 100, 20, 4
+"""All moves are looked at in the worst moment, so many of the best of them in so many others too, and of those again so
+many in all (our choice)."""
+_NO_WORSE = 1.2
+"""What is no more than so much worse than something like it that no move helped is not tried: who plays a figure again
+comes not at quite the same times (our choice)."""
 _WAY, _TURN, _LOW = 0.05, 0.01, 0.02
 """A metre of way round, a radian of turning and a stroke that is not made at all are taken for so many metres less near
 (our choice: natural ways are left for what is worth it)."""
@@ -44,6 +47,7 @@ def optimised(parts: tuple[HandPart, HandPart], stage: Stage) -> tuple[tuple[Han
     """Both parts with the least wrong that was found, and what still is at each moment of the stage, (n,)."""
     known: dict[tuple[object, ...], Found | None] = {}
     hopeless: set[tuple[int, int]] = set()
+    alike: dict[tuple[object, ...], float] = {}
     tries: Counter[tuple[int, int]] = Counter()
     hands = Hands(stage, parts)
     cost = hands.cost(np.arange(len(stage.grid)))
@@ -52,13 +56,16 @@ def optimised(parts: tuple[HandPart, HandPart], stage: Stage) -> tuple[tuple[Han
         for pair, moments in _troubles(hands, cost, tries):
             if pair in hopeless or any(set(range(k - 1, k + 2)) & c for k, c in zip(pair, changed, strict=True)):
                 continue  # what helped its neighbour may have helped it too; if not, its turn is next
-            key = _figure_of(hands, pair)
+            key, kind, worst = _figure_of(hands, pair), _kind_of(hands, pair), float(cost[moments].max())
+            if key not in known and worst <= _NO_WORSE * alike.get(kind, 0.0):
+                known[key] = None
             if key not in known:
                 known[key] = _found(hands, pair, best_move(hands, pair, moments, cost))
             found = known[key]
             tries[pair] += 1
             if found is None:
                 hopeless.add(pair)
+                alike[kind] = max(alike.get(kind, 0.0), worst)
                 continue
             move, chosen = found.at(hands, pair)
             new[move.side] = done(new[move.side], move, chosen)
@@ -83,10 +90,15 @@ def _troubles(hands: Hands, cost: Array, tries: Counter[tuple[int, int]]) -> lis
 def best_move(hands: Hands, pair: tuple[int, int], moments: Moments, cost: Array) -> tuple[Move, int] | None:
     """What takes most off the cost of a trouble; None where nothing does."""
     spread = moments[:: max(len(moments) // _FIRST_LOOKS, 1)]
-    worst = np.union1d(spread, moments[[int(np.argmax(cost[moments]))]])
+    gravest = moments[[int(np.argmax(cost[moments]))]]
+    worst = np.union1d(spread, gravest)
     table = moves(hands, list(pair), moments, worst)
-    every = [Trial(move, k, np.isin(move.on, worst)) for move in table for k in range(len(move.amounts))]
-    first = tried(hands, [trial for trial in every if trial.at.any()])
+    likely = [trial for move in table for trial in _trials(move, gravest)]
+    if len(worst) > 1:
+        likely = [trial for move in table if not len(_trials(move, gravest)) for trial in _trials(move, worst)] + [
+            replace(trial, at=np.isin(trial.move.on, worst)) for trial, _ in tried(hands, likely)[:_LIKELY]
+        ]
+    first = tried(hands, likely)
     few = [replace(trial, at=np.ones(len(trial.move.on), bool)) for trial, _ in first[:_TRIED]]
     best, gain = None, _LEAST_GAIN
     for trial, after in tried(hands, few):
@@ -113,6 +125,12 @@ class Trial:
         row = self.move.amounts[self.row]
         way, turn = float(np.linalg.norm(row[:3])), float(np.abs(row[3:]).sum())
         return _WAY * way + _TURN * turn + _LOW * (1.0 - self.move.low)
+
+
+def _trials(move: Move, moments: Moments) -> list[Trial]:
+    """All rows of a move looked at those of the `moments` that it has a part in; none where it has none."""
+    at = np.isin(move.on, moments)
+    return [Trial(move, k, at) for k in range(len(move.amounts))] if at.any() else []
 
 
 def tried(hands: Hands, trials: list[Trial]) -> list[tuple[Trial, Array]]:
@@ -157,6 +175,14 @@ def _figure_of(hands: Hands, pair: tuple[int, int]) -> tuple[object, ...]:
         words += [tuple(part.which[about].tolist()), tuple(np.round(part.events.time_s[about] - start, 3).tolist())]
         for rows in (part.bump[k : k + 1], part.strokes.most[about], part.contacts[about], part.gives[k, 2:]):
             words.append(tuple(np.round(rows.ravel(), 3).tolist()))
+    return tuple(words)
+
+
+def _kind_of(hands: Hands, pair: tuple[int, int]) -> tuple[object, ...]:
+    """What hopeless troubles are alike by: from what to what both hands are on their way, and whether one gives way."""
+    words: list[object] = []
+    for part, k in zip(hands.parts, pair, strict=True):
+        words += [*part.which[k : k + 2].tolist(), bool(part.gives[k].any())]
     return tuple(words)
 
 

@@ -104,20 +104,22 @@ def _two_boards(score: Score, kit: Kit, limbs: NDArray[np.int8]) -> list[Infeasi
 
 
 def _sundered(limb: Limb, times: Array, bars: NDArray[np.int64], points: Array) -> list[InfeasibleDemand]:
-    """Bars in which the hand must be at places too far from each other for the time between.
+    """Bars in which the hand must be at places too far from each other for the time between, or strike twice at once.
 
     Of that time a stroke's rebound and the next one's whip have their share: only the rest is for the way.
     """
     gap, way = np.diff(times), np.linalg.norm(np.diff(points, axis=0), axis=1)
     quickest = MINIMUM_JERK_PEAK * way / FASTEST_HAND_M_S / MOST_TRAVEL
-    late = np.flatnonzero((way > _NEAR_M) & (gap < np.maximum(quickest, BOUNCE_S)))
+    far = way > _NEAR_M
+    late = np.flatnonzero((far & (gap < np.maximum(quickest, BOUNCE_S))) | (gap <= SAME_STROKE_S))
     result = []
     for bar in np.unique(bars[late + 1]).tolist():
         at = late[bars[late + 1] == bar]
         worst = at[np.argmax(quickest[at] - gap[at])]
         asked = f"to go {100 * way[worst]:.0f} cm in {1000 * gap[worst]:.0f} ms"
         if gap[worst] <= SAME_STROKE_S:
-            asked = f"to be in two places at once, {100 * way[worst]:.0f} cm apart"
+            places = f"to be in two places at once, {100 * way[worst]:.0f} cm apart"
+            asked = places if far[worst] else "to strike twice at once"
         text = f"bar {bar + 1} needs one hand {asked}"
         result.append(InfeasibleDemand(bar, limb, float(times[at[0]]), float(times[at[-1] + 1]), text))
     return result

@@ -170,7 +170,10 @@ def _ends(arm: ArmPoints, part: str) -> tuple[Array, Array]:
 def _gaps(pairs: list[tuple[Array, Array, Array, Array]]) -> Array:
     """How far apart pairs of segments are, all at once, which is much faster than one by one, (pairs, n)."""
     shape = np.broadcast_shapes(*(p.shape for pair in pairs for p in pair))
-    every = [np.stack([np.broadcast_to(pair[k], shape) for pair in pairs]) for k in range(4)]
+    every = [
+        np.stack([p if p.shape == shape else np.broadcast_to(p, shape) for p in (pair[k] for pair in pairs)])
+        for k in range(4)
+    ]
     return segments_apart(*every)
 
 

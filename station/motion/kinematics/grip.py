@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from station.motion.kinematics.arm import EASE_RAD, ArmLengths
 from station.motion.kinematics.figure import MEDIAN_STATURE_M, Figure
+from station.motion.kinematics.maths import arcsine
 
 HAND_M = 0.108 * MEDIAN_STATURE_M
 """From the wrist to the fingertips of the hand that the places below are said for, the median man's (HUMANS)."""
@@ -70,10 +71,10 @@ class Grip:
         roll = self.roll if roll is None else roll
         if self.turns_hand:
             up = x * math.sin(roll) + y * math.cos(roll)
-            pitch = math.asin(math.sin(stick_rise) / math.hypot(up, z)) - math.atan2(up, -z)
+            pitch = arcsine(math.sin(stick_rise) / math.hypot(up, z)) - math.atan2(up, -z)
         else:
             pitch, up = stick_rise, math.tan(stick_rise) * (1 + z)
-            roll = math.pi - math.asin(up / math.hypot(x, y)) - math.atan2(y, x)
+            roll = math.pi - arcsine(up / math.hypot(x, y)) - math.atan2(y, x)
         inward, ahead = x * math.cos(roll) - y * math.sin(roll), -z * math.cos(pitch) - up * math.sin(pitch)
         return Lie(pitch - stick_rise, -math.atan2(inward, ahead), roll - self.roll)
 

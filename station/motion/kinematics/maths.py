@@ -41,6 +41,12 @@ def _most(a: float, b: float) -> float:
 ONE = Maths(math.sin, math.cos, math.acos, math.atan2, math.sqrt, _least, _most)
 MANY = Maths(np.sin, np.cos, np.arccos, np.arctan2, np.sqrt, np.minimum, np.maximum)
 
+
+def arcsine(sine: float) -> float:
+    """The angle of `sine`, the steepest there is where it is out of −1 … 1."""
+    return math.asin(max(-1.0, min(1.0, sine)))
+
+
 _BLOCK = 4096
 """So many instants at once are computed as fast as all of them (our choice)."""
 

@@ -130,7 +130,7 @@ def instruments(score: Score, kit: Kit, onset_s: Array, strike_m: Array) -> list
     result = []
     for piece in kit.pieces.values():
         rows = np.flatnonzero(played == piece.piece)
-        choked = rows[notes["choke_ticks"][rows] > 0]
+        choked = rows[score.is_choked[rows]]
         free = np.ones(len(rows))
         if piece.kind == "hihat":
             open_share = np.nan_to_num(notes["openness"][rows].astype(np.float64))

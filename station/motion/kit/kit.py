@@ -86,7 +86,8 @@ _SUBSTITUTES: Mapping[Piece, tuple[Piece, ...]] = MappingProxyType(
         Piece.SNARE: (Piece.TOM_1,),
     }
 )
-"""Which piece stands in for one that the kit lacks, best first: its like, then its neighbour (our choice)."""
+"""Which piece stands in for one that the kit lacks, best first: its like, then its neighbour, at last the snare, which
+every kit has (our choice)."""
 
 
 @dataclass(frozen=True)
@@ -130,7 +131,7 @@ class Kit:
         played = Piece.HIHAT if piece is Piece.HIHAT_PEDAL else piece
         if played in self.pieces:
             return played
-        return next((p for p in _SUBSTITUTES.get(played, ()) if p in self.pieces), next(iter(self.pieces)))
+        return next((p for p in _SUBSTITUTES.get(played, ()) if p in self.pieces), Piece.SNARE)
 
     @cached_property
     def stand_in_table(self) -> tuple[Piece, ...]:

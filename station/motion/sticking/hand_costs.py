@@ -10,6 +10,7 @@ import math
 from station.core.pieces import Limb, Piece
 from station.motion.sticking.hand_notes import AT_ONCE_S, EASY_REPEAT_S, LEFT, RIGHT, HandNotes
 from station.motion.strokes.bounces import AGAIN_S
+from station.motion.strokes.hand_events import SAME_STROKE_S
 
 # --- speeds -----------------------------------------------------------------------------------------------------------
 
@@ -106,7 +107,7 @@ def after_own(notes: HandNotes, i: int, hand: int, own: int, bounced: bool) -> t
         return 0.0, partner, 0.0, 0.0
     gap = notes.time_s[i] - notes.time_s[own]
     if notes.piece[own] == notes.piece[i]:
-        crushed = CRUSHED * max(0.0, 1.0 - gap / CRUSHED_S)
+        crushed = IMPOSSIBLE if gap <= SAME_STROKE_S else CRUSHED * max(0.0, 1.0 - gap / CRUSHED_S)
         return crushed, partner, 0.0, _repeat(notes, i, own, bounced)
     if gap < AT_ONCE_S:  # the nearer, the worse, so that what must be impossible is so where it is so most
         return IMPOSSIBLE * (3.0 - 2.0 * gap / AT_ONCE_S), partner, 0.0, 0.0
@@ -114,7 +115,9 @@ def after_own(notes: HandNotes, i: int, hand: int, own: int, bounced: bool) -> t
 
 
 def _repeat(notes: HandNotes, i: int, own: int, bounced: bool) -> float:
-    """The price of one hand's next stroke, after `own`, on the same piece."""
+    """The price of one hand's next stroke, after `own`, on the same piece; none where no hand is free to spare it."""
+    if notes.again[i]:
+        return 0.0
     gap_s = notes.time_s[i] - notes.time_s[own]
     if gap_s < BOUNCE_S:
         price = 0.0 if notes.paired[i] == 1 else SKIP if notes.ostinato[i] else BOUNCE

@@ -54,6 +54,7 @@ class HandNotes:
     natural: list[int]  # the hand of natural sticking
     firm: list[bool]  # whether drummers insist on that hand: a drum and a hat at once in a quick run
     odd: list[bool]  # whether it falls between the strokes that the leading hand has
+    again: list[bool]  # whether both hands strike the same two pieces at once as they did just before
     laid: list[bool]  # whether it is a cross-stick
     paired: list[int]  # +1: with the same hand as the note before (the second of a double), −1 another, 0 free
     lead: int
@@ -83,8 +84,10 @@ class HandNotes:
         ostinato = _ostinato(score.onset_s[rows], for_ostinato)
         quick = for_ostinato & ~ostinato
         firm = _with_another(score.onset_s[rows], played, quick)
-        natural = np.where(odd ^ (firm & quick), 1 - lead, lead)
+        again = _again(score.onset_s[rows], played)
+        firm &= ~again
         keeps = np.where((played == Piece.HIHAT) & (hands is Hands.OPEN), 1 - lead, lead)
+        natural = np.where(again & quick, keeps, np.where(odd ^ (firm & quick), 1 - lead, lead))
         natural = _between(score.onset_s[rows], ostinato, keeps, natural)
         return cls(
             time_s=score.onset_s[rows].tolist(),
@@ -97,6 +100,7 @@ class HandNotes:
             natural=natural.tolist(),
             firm=firm.tolist(),
             odd=odd.tolist(),
+            again=again.tolist(),
             laid=(notes["articulation"] == Articulation.CROSS_STICK).tolist(),
             paired=_paired(notes).tolist(),
             lead=lead,
@@ -150,6 +154,17 @@ def _with_another(time_s: NDArray[np.float64], piece: NDArray[np.int64], quick: 
     """The notes of a quick run that fall together with another piece's, and those: natural sticking has that one."""
     pair = (np.diff(time_s) < AT_ONCE_S) & (np.diff(piece) != 0) & (quick[1:] != quick[:-1])
     return np.concatenate(([False], pair)) | np.concatenate((pair, [False]))
+
+
+def _again(time_s: NDArray[np.float64], piece: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """The notes of two pieces at once that are the same two as at the strokes before, as in a blast beat."""
+    chord = np.cumsum(np.diff(time_s, prepend=time_s[:1]) > AT_ONCE_S)
+    low, high = (np.full(int(chord.max(initial=-1)) + 1, fill) for fill in (len(Piece), -1))
+    np.minimum.at(low, chord, piece)
+    np.maximum.at(high, chord, piece)
+    two = (np.bincount(chord, minlength=len(low)) == 2) & (low != high)
+    same = two[1:] & two[:-1] & (np.diff(low) == 0) & (np.diff(high) == 0)
+    return np.asarray(np.concatenate(([False], same))[chord])
 
 
 def _paired(notes: NDArray[np.void]) -> NDArray[np.int8]:

@@ -19,7 +19,7 @@ from station.motion.kinematics.collisions import depth_in_kit
 from station.motion.kinematics.figure import Figure
 from station.motion.kinematics.grip import Grip, Hold
 from station.motion.kinematics.joint_limits import Limits
-from station.motion.kinematics.maths import MANY, ONE, Point
+from station.motion.kinematics.maths import MANY, ONE, Point, arcsine
 from station.motion.kinematics.posture import natural_shoulder, pelvis_of
 from station.motion.kit.kit import Kit
 from station.motion.kit.piece import RIM_ABOVE_HEAD_M, Target
@@ -276,11 +276,11 @@ def _over_the_piece(target: Target, root: Point, stick_yaw: float, slopes: _Slop
     size, turn = math.hypot(lean, nz), math.atan2(lean, nz)
     if slopes.on_rim:
         to_rim_m = _way_to_the_rim(target, math.cos(towards), math.sin(towards))
-        return math.asin(math.sin(math.atan2(RIM_ABOVE_HEAD_M, to_rim_m)) / size) - turn
+        return arcsine(math.sin(math.atan2(RIM_ABOVE_HEAD_M, to_rim_m)) / size) - turn
     if slopes.beyond_m <= 0 or not target.shoulder:
-        return max(slopes.rise, math.asin(_SHAFT_CLEAR / size) - turn) if slopes.azimuth is None else slopes.rise
+        return max(slopes.rise, arcsine(_SHAFT_CLEAR / size) - turn) if slopes.azimuth is None else slopes.rise
     over = (_END_CLEAR_M - target.raised_m) / slopes.beyond_m
-    return min(slopes.rise, math.asin(max(min(-over / size, 1.0), -1.0)) - turn)
+    return min(slopes.rise, arcsine(-over / size) - turn)
 
 
 def _way_to_the_rim(target: Target, ux: float, uy: float) -> float:

@@ -80,7 +80,7 @@ def hand_events(score: Score, limbs: NDArray[np.int8]) -> tuple[HandEvents, Hand
         ]
     for row in np.flatnonzero(notes["articulation"] == Articulation.BUZZ).tolist():
         _press(score, row, limbs, onset, found)
-    for row in np.flatnonzero(notes["choke_ticks"] > 0).tolist():
+    for row in np.flatnonzero(score.is_choked).tolist():
         _grab(score, row, limbs, found)
     ordered = [_with_bounces(sorted(events)) for events in found]
     right, left = (_events(notes, _with_waits(notes, own, other)) for own, other in (ordered, reversed(ordered)))
@@ -117,14 +117,14 @@ def _with_waits(notes: NDArray[np.void], events: list[Event], others: list[Event
         beside = others[bisect_left(other_s, at) : bisect_right(other_s, at + REST_S)]
         if any(notes["piece"][other[1]] == piece for other in beside):
             continue
-        result.append((at + LEAVE_S, row, WAIT, PRESS_HEIGHT_M, False))
+        result.append((at + LEAVE_S, row, WAIT, 0.0, False))
     return result
 
 
 def _lies_down(event: Event, piece: int, sign: int) -> list[Event]:
     """How a hand gets to its thigh after `event`, or from there to it if `sign` is −1: past the kit over the snare."""
     at, row, *_ = event
-    home = [] if piece in _HOME else [(at + sign * OVER_SNARE_S, row, WAIT, PRESS_HEIGHT_M, False)]
+    home = [] if piece in _HOME else [(at + sign * OVER_SNARE_S, row, WAIT, 0.0, False)]
     return [*home, (at + sign * LIE_DOWN_S, row, LAP, 0.0, False)]
 
 

@@ -199,11 +199,12 @@ def _times(strike_s: Array, gaps: Array, height_m: Array, sliders: Sliders) -> t
     down = np.minimum(pace, 0.5 * before / DOWN_S)
     # what the whip leaves of the gap is shared by the rest after the last stroke and the preparation
     left = (1 - _LEAST_PAUSE) * before - DOWN_S * down
-    whole_rest = np.concatenate((np.zeros((4, 1)), (REST_S * pace)[:, :-1]), 1)
+    resting = REST_S * np.where(height_m > _LEAST_HEIGHT_M, pace, 1 / sliders.speed)  # after a wait there is no haste
+    whole_rest = np.concatenate((np.zeros((4, 1)), resting[:, :-1]), 1)
     lacking = np.maximum(whole_rest + (LONGEST_S - DOWN_S) * rise - left, 0.0)
     rest_before = np.maximum(whole_rest - lacking, np.minimum(_SHORT_REST * whole_rest, 0.3 * before))
     up = np.clip((left - rest_before) / (LONGEST_S - DOWN_S), 0.0, rise)
-    rest = np.concatenate((rest_before[:, 1:], (REST_S * pace)[:, -1:]), 1)
+    rest = np.concatenate((rest_before[:, 1:], resting[:, -1:]), 1)
     times = np.empty((4, len(strike_s), KEYS))
     together = BEFORE_S.mean(0)
     whip, share = np.atleast_2d(sliders.whip)[..., None], BEFORE_S[:, None, :] / together

@@ -3,6 +3,8 @@ import pytest
 
 from station.core.pieces import Articulation, Limb, Ornament, Piece, Zone
 from station.core.units import PPQ
+from station.motion.drummer import Drummer
+from station.motion.kinematics import frame
 from station.motion.strokes.hand_events import GRAB, LAP, WAIT, hand_events
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
@@ -104,3 +106,28 @@ def test_grace_notes_and_cross_sticks_stay_low() -> None:
     assert right.height_m.max() <= 0.06
     assert left.height_m.tolist() == pytest.approx([0.0, 15 * 0.0254, 0.0])
     assert np.diff(right.time_s).min() > 0
+
+
+@pytest.mark.parametrize("piece", [Piece.RIDE, Piece.TOM_1])
+def test_a_stick_that_waits_strikes_the_air_nowhere(piece: Piece) -> None:
+    """Away from strikes the velocity of a tip has no break: it changes by less than 0.1 m/s from one ms to the next.
+
+    That is 10 g; hands that strike bring their sticks to 30 g and more, hands that wait have no haste.
+    """
+    notes = [Note(0, Piece.RIDE, Zone.BOW, 100, limb=R), Note(8 * PPQ, piece, limb=R)]
+    drummer = Drummer(Score.from_notes(notes, TempoMap.constant(120)))
+    assert drummer.parts is not None
+    events = drummer.parts[0].events
+    waits = events.time_s[events.key[:, 2] == WAIT]
+    assert len(waits) >= 4
+    for at in waits.tolist():
+        tip = drummer.rows(at + np.arange(-10, 11) * 1e-3)[:, frame.TIP][:, :3]
+        assert np.linalg.norm(np.diff(tip, 2, axis=0), axis=1).max() < 1e-4
+
+
+@pytest.mark.parametrize("piece", [Piece.KICK, Piece.HIHAT_PEDAL, Piece.SNARE])
+def test_a_choke_on_what_does_not_ring_is_nobodys(piece: Piece) -> None:
+    """A pad's aftertouch may say it of any pad; only cymbals are grabbed."""
+    notes = [Note(0, Piece.SNARE, limb=R), Note(PPQ, piece, choke_ticks=60), Note(4 * PPQ, Piece.SNARE, limb=R)]
+    score = Score.from_notes(notes, TempoMap.constant(120))
+    assert all(GRAB not in events.key[:, 2] for events in hand_events(score, score.notes["limb"]))

@@ -7,7 +7,11 @@ import pytest
 
 from station.core.errors import BadInput
 from station.core.pieces import Limb, Piece, Zone
+from station.core.units import PPQ
+from station.motion.drummer import Drummer
 from station.motion.kit.kit import kit_names, load_kit
+from station.music.score import Note, Score
+from station.music.tempo import TempoMap
 
 SHIPPED = Path("station/motion/data/kits/four_piece.toml")
 
@@ -91,6 +95,20 @@ def test_the_ride_is_struck_at_six_tenths_of_its_radius_on_the_near_side() -> No
 )
 def test_a_missing_piece_has_a_stand_in(piece: Piece, played: Piece) -> None:
     assert load_kit("four_piece").stand_in(piece) is played
+
+
+def test_in_a_kit_of_kick_and_snare_a_hand_has_the_snare_for_everything(tmp_path: Path) -> None:
+    text = SHIPPED.read_text()
+    path = tmp_path / "two.toml"
+    path.write_text(text[: text.index("[hihat]\n")])
+    kit = load_kit(path)
+    for piece in Piece:
+        assert kit.stand_in(piece) is (Piece.KICK if piece is Piece.KICK else Piece.SNARE)
+    notes = [Note(i * PPQ, piece) for i, piece in enumerate((Piece.SNARE, Piece.HIHAT, Piece.CRASH_1, Piece.KICK))]
+    drummer = Drummer(Score.from_notes(notes, TempoMap.constant(100)), kit)  # refused what no hand reaches
+    assert np.linalg.norm(drummer.plan.strike_m[1:3] - kit.pieces[Piece.SNARE].centre, axis=1) == pytest.approx(
+        0.025, abs=1e-3
+    )
 
 
 @pytest.mark.parametrize(

@@ -235,6 +235,13 @@ def test_a_third_note_at_once_says_that_it_is_impossible() -> None:
     assert assignment.warnings[0].startswith("bar 1 needs one hand to be in two places at once")
 
 
+def test_a_third_stroke_at_once_on_one_drum_is_impossible_too() -> None:
+    assignment = assign_limbs(score_of([(0, SNARE), (0, SNARE), (0, SNARE), (4, SNARE)]), KIT)
+    assert [why.startswith("impossible") for why in assignment.why] == [False, False, True, False]
+    assert assignment.warnings == ("bar 1 needs one hand to strike twice at once",)
+    assert assign_limbs(score_of([(0, SNARE), (0, SNARE), (4, SNARE)]), KIT).warnings == ()
+
+
 def test_the_hat_under_the_foot_is_no_hands() -> None:
     score = score_of([(0, HAT), (2, Piece.HIHAT_PEDAL), (4, SNARE), (4, HAT), (6, Piece.HIHAT_PEDAL)])
     assert "".join("RLrl"[m] for m in assign_limbs(score, KIT).limbs) == "RlLRl"
@@ -262,6 +269,15 @@ def test_a_jazz_ride_is_the_leading_hands() -> None:
     groove = [(0, RIDE), (3, RIDE), (5, RIDE), (6, RIDE), (9, RIDE), (11, RIDE), (2, SNARE), (8, SNARE)]
     assert letters(groove, RIDE, tempo_bpm=160, division=3) == "R" * 6
     assert letters(groove, SNARE, tempo_bpm=160, division=3) == "LL"
+
+
+@pytest.mark.parametrize("tempo_bpm", [200, 240, 300])
+def test_in_blast_beats_each_hand_stays_on_its_piece(tempo_bpm: float) -> None:
+    """Hat and snare at once in eighths, up to 10 a second: hands that change places would strike as often."""
+    blast = [(i, piece) for i in range(0, 32, 2) for piece in (HAT, SNARE, Piece.KICK)]
+    assert letters(blast, SNARE, tempo_bpm) == "L" * 16
+    assert letters(blast, HAT, tempo_bpm) == "R" * 16
+    assert assign_limbs(score_of(blast, tempo_bpm), KIT).warnings == ()  # a champion's rate, no way to go
 
 
 def test_two_hands_never_share_an_instant() -> None:

@@ -13,6 +13,7 @@ from station.motion.audit import audit
 from station.motion.drummer import Drummer
 from station.motion.kinematics import frame
 from station.motion.kinematics.figure import Joint
+from station.motion.kinematics.grip import GRIPS, Grip
 from station.motion.kit.kit import load_kit
 from station.motion.strokes.stroke_heights import INCH_M, LEVELS
 from station.motion.style.style import Style
@@ -107,3 +108,11 @@ def test_a_splash_closes_the_hat_for_a_moment_only() -> None:
     assert drummer.pose(1.2 + 0.15).hat_gap_m > 0.01
     assert drummer.pose(3.6).hat_gap_m < 0.001
     assert drummer.pose(3.6 + 0.15).hat_gap_m < 0.001  # a chick stays shut
+
+
+@pytest.mark.parametrize("grip", GRIPS.values(), ids=GRIPS)
+@pytest.mark.parametrize("rise_deg", [-90, -75, 75, 90])
+def test_the_steepest_stick_still_lies_in_the_hand(grip: Grip, rise_deg: float) -> None:
+    """A kit may stand so that a stick comes straight down; no grip makes the hand follow it all the way."""
+    lie = grip.lie(np.radians(rise_deg))
+    assert np.isfinite([lie.palm, lie.crossing, lie.roll]).all()

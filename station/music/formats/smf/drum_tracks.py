@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from station.core.note_map import KitMap, strike_of
-from station.core.pieces import CYMBALS, Dynamic, Limb, Ornament, Piece
+from station.core.pieces import CHOKEABLE, Dynamic, Limb, Ornament, Piece
 from station.core.units import NS_PER_US, PPQ
 from station.music.formats.smf.contents import MidiFile, MidiSequence
 from station.music.formats.smf.drum_channels import (
@@ -36,7 +36,6 @@ _LEAST_SHUT = 32
 """What controller 4 says below this while closed numbers sound is not "shut": no pedal was sent (our choice)."""
 _FULL = 127
 
-_CHOKEABLE = CYMBALS | {Piece.HIHAT}
 _GRAB_DTYPE = np.dtype([("tick", np.int64), ("piece", np.uint8)])
 _ALL_NUMBERS = range(128)
 
@@ -99,10 +98,10 @@ def _chokes(drums: Drums, meaning: _Meaning) -> NDArray[np.void]:
 
     A new stroke on the cymbal lets it go, for some modules never send the release.
     """
-    presses = drums.aftertouch[np.isin(meaning.piece[drums.aftertouch["number"]], sorted(_CHOKEABLE))]
+    presses = drums.aftertouch[np.isin(meaning.piece[drums.aftertouch["number"]], sorted(CHOKEABLE))]
     pieces = meaning.piece[presses["number"]]
     strokes = _strokes_before(presses["tick"], pieces, drums.notes["tick"], meaning.piece[drums.notes["number"]])
-    held: dict[int, set[int]] = {int(piece): set() for piece in _CHOKEABLE}
+    held: dict[int, set[int]] = {int(piece): set() for piece in CHOKEABLE}
     strokes_seen = dict.fromkeys(held, 0)
     chokes: list[tuple[int, int]] = []
     columns = (presses["tick"], pieces, presses["number"], presses["value"], strokes)
