@@ -40,7 +40,7 @@ def measured(matcher: Matcher, notes: int) -> tuple[float, float]:
     """F1, and seconds of one run."""
     score = grooves(notes, _SEED)
     played = play(score, WorkPlayer(), _SEED)
-    took = []
+    took: list[float] = []
     while not took or (len(took) < _TIMES and took[0] < _QUICK_S):
         begun = time.process_time()
         said = matcher(score, played)
