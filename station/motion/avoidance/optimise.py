@@ -2,8 +2,7 @@
 
 Both hands are looked at `RATE_HZ` times a second and at every event. Moments that cost something, on one stretch of
 each hand, are a trouble; all moves of both hands are tried on it, and the one that takes most off its cost is made.
-What
-it does elsewhere is seen in the next round. Nothing is left to chance, and what is found for a figure of the score
+What it does elsewhere is seen in the next round. Nothing is left to chance, and what is found for a figure of the score
 serves where the figure comes again.
 """
 
@@ -29,7 +28,7 @@ many in all (our choice)."""
 _NO_WORSE = 1.2
 """What is no more than so much worse than something like it that no move helped is not tried: who plays a figure again
 comes not at quite the same times (our choice)."""
-_WAY, _TURN, _LOW = 0.05, 0.01, 0.02
+_WAY, _TURN, _LOW = 0.03, 0.01, 0.005
 """A metre of way round, a radian of turning and a stroke that is not made at all are taken for so many metres less near
 (our choice: natural ways are left for what is worth it)."""
 _LEAST_GAIN = 0.002
@@ -47,14 +46,14 @@ def optimised(parts: tuple[HandPart, HandPart], stage: Stage) -> tuple[tuple[Han
     """Both parts with the least wrong that was found, and what still is at each moment of the stage, (n,)."""
     known: dict[tuple[object, ...], Found | None] = {}
     hopeless: set[tuple[int, int]] = set()
-    alike: dict[tuple[object, ...], float] = {}
     tries: Counter[tuple[int, int]] = Counter()
     hands = Hands(stage, parts)
     cost = hands.cost(np.arange(len(stage.grid)))
     for _ in range(ROUNDS):
+        alike: dict[tuple[object, ...], float] = {}
         new, changed = list(hands.parts), [set[int](), set[int]()]
         for pair, moments in _troubles(hands, cost, tries):
-            if pair in hopeless or any(set(range(k - 1, k + 2)) & c for k, c in zip(pair, changed, strict=True)):
+            if pair in hopeless or _near(pair, changed):
                 continue  # what helped its neighbour may have helped it too; if not, its turn is next
             key, kind, worst = _figure_of(hands, pair), _kind_of(hands, pair), float(cost[moments].max())
             if key not in known and worst <= _NO_WORSE * alike.get(kind, 0.0):
@@ -72,10 +71,16 @@ def optimised(parts: tuple[HandPart, HandPart], stage: Stage) -> tuple[tuple[Han
             changed[move.side].add(pair[move.side])
         if not any(changed):
             break
+        hopeless -= {pair for pair in hopeless if _near(pair, changed)}
         before, hands = hands, Hands(stage, (new[0], new[1]))
         on = np.flatnonzero(_differ(before, hands))
         cost[on] = hands.cost(on)
     return hands.parts, cost
+
+
+def _near(pair: tuple[int, int], changed: list[set[int]]) -> bool:
+    """Whether a stretch of the pair or one beside it has changed."""
+    return any(not c.isdisjoint(range(k - 1, k + 2)) for k, c in zip(pair, changed, strict=True))
 
 
 def _troubles(hands: Hands, cost: Array, tries: Counter[tuple[int, int]]) -> list[tuple[tuple[int, int], Moments]]:
