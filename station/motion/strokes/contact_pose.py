@@ -78,6 +78,8 @@ def lie_of(kit: Kit, figure: Figure, hold: Hold, strike: Strike, thigh: Thigh | 
     """The most comfortable way for `strike` with `hold`; `thigh` on which a hand may lie."""
     if strike.articulation in (WAIT, LAP) and not hold.held.rest_m:  # a brush waits on the head
         strike = replace(strike, articulation=Articulation.NORMAL)
+    elif strike.articulation == LAP and not hold.grip.turns_hand:  # on the thigh its wrist would be bent to its end
+        strike = replace(strike, articulation=WAIT)
     target = target_of(kit, strike)
     if kit.stand_in(strike.piece) in _RIDES and hold.held.name == "stick":
         hold = replace(hold, grip=replace(hold.grip, turns_hand=min(hold.grip.turns_hand, THUMB_UP_TURNS)))

@@ -115,6 +115,11 @@ class HandPart:
         lies = self.events.key[:, 2] == LAP
         return np.asarray(lies[:-1] | lies[1:])
 
+    @property
+    def _slack_rad(self) -> float:
+        """How far the hand may turn on its stick: one that lies across the hand moves with it."""
+        return SLACK_RAD if self.hold.grip.turns_hand else 0.0
+
     def eased(self, figure: Figure, time_s: Array, roots: tuple[Array, Array]) -> "HandPart":
         """The same, hand turned on its stick and elbow so far out that the wrist stays within its limits sideways.
 
@@ -141,7 +146,7 @@ class HandPart:
             least_turn, most_turn = high - most, low - least
             middle = 0.5 * (least_turn + most_turn)
             turn = np.clip(turn, np.minimum(least_turn, middle), np.maximum(most_turn, middle))
-            in_hand = np.clip(out + turn, -SLACK_RAD, SLACK_RAD) - out
+            in_hand = np.clip(out + turn, -self._slack_rad, self._slack_rad) - out
             out += in_hand
             contacts[:, _HAND_YAW] -= side * in_hand
             elbow = np.clip(_ELBOW_FOR_WRIST * (turn - in_hand), -_MOST_ELBOW_RAD, _MOST_ELBOW_RAD)
@@ -178,7 +183,7 @@ class HandPart:
             np.maximum.at(turn[0], k[helped], over)
             np.minimum.at(turn[1], k[helped], over)
         bump = self.bump.copy()
-        bump[:, 3] -= side * np.clip(turn.sum(0), -SLACK_RAD, SLACK_RAD)
+        bump[:, 3] -= side * np.clip(turn.sum(0), -self._slack_rad, self._slack_rad)
         return replace(self, bump=bump)
 
     def held_under(self, height_m: Array) -> "HandPart":

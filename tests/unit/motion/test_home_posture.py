@@ -47,4 +47,4 @@ def test_the_leading_forearm_and_stick_pass_over_the_backbeat(lesson: str, kit: 
     assert segments_apart(butt[:, other], tip[:, other], elbow, wrist).min() >= FOREARM_OVER_M
     sticks = over_where_they_cross(butt[:, lead], tip[:, lead], butt[:, other], tip[:, other])
     assert len(sticks) > 0.2 * len(TIMES)  # they are crossed much of the time, else forearm and stick
-    assert sticks.min() > 0.045  # and the backbeat's stick stays under the leading one
+    assert sticks.min() > 0.035  # and the backbeat's stick stays under the leading one
