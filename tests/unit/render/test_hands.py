@@ -150,7 +150,7 @@ def test_thumb_and_finger_hold_it_at_the_fulcrum_all_the_time(grips: tuple[str, 
 
 AT_THE_LIMIT = pytest.mark.xfail(
     strict=True,
-    reason="where a wrist is at its limit the hand turns on its stick, for which a traditional one lacks room",
+    reason="at its wrist's limit the hand turns on its stick; a traditional one lacks the room",
 )
 
 
