@@ -28,7 +28,7 @@ many in all (our choice)."""
 _NO_WORSE = 1.2
 """What is no more than so much worse than something like it that no move helped is not tried: who plays a figure again
 comes not at quite the same times (our choice)."""
-_WAY, _TURN, _LOW = 0.03, 0.01, 0.005
+_WAY, _TURN, _LOW = 0.05, 0.01, 0.02
 """A metre of way round, a radian of turning and a stroke that is not made at all are taken for so many metres less near
 (our choice: natural ways are left for what is worth it)."""
 _LEAST_GAIN = 0.002
