@@ -47,11 +47,10 @@ def _pose() -> Measurement:
 
 
 def _moved(style: Style) -> Iterator[tuple[str, Style]]:
-    """Every control of `style` moved alone, by its name; what the hands hold is a choice, not a slider."""
+    """Every control of `style` moved alone, by its name; grips and heels, for which hands are planned anew, are choices, no sliders."""
     for control in NUMBERS:
         low, high = range_of(control)
         yield control, replace(style, **{control: low + 0.37 * (high - low)})  # type: ignore[arg-type] # floats only
-    yield "heel", replace(style, heel="up")
     yield "beater", replace(style, beater="buried")
     yield "seed", replace(style, seed=style.seed + 1)
     yield "pieces", replace(style, pieces={Piece.SNARE: 80.0})

@@ -27,7 +27,7 @@ MOST = 2.5
 """No control more than this multiplies what a natural drummer does (our choice)."""
 
 JOINTS = ("wrist", "elbow", "shoulder")
-HOLDS = ("grip_right", "grip_left", "held")
+HOLDS = ("grip_right", "grip_left", "held", "heel")
 """What changes the hands' whole way through a score, and takes longer to make anew than a picture lasts."""
 _NATURAL_SHARES = MappingProxyType(
     {
