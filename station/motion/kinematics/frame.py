@@ -116,17 +116,19 @@ class Rig:
             legs, bent, boards = (*hat_leg, x - hip, y, z, *kick_leg), (*hat_bent, *kick_bent), (hat, kick)
         rolled_a = self.rolls[0] + right[0][ROLL] + (1 - right[0][TURNS]) * right[1][WRIST]
         rolled_b = self.rolls[1] + left[0][ROLL] + (1 - left[0][TURNS]) * left[1][WRIST]
+        # fmt: off - a row a line, as the layout has them
         return [
-            *(x, y, z, *spine, *arm_a, *arm_b, x + hip, y, z, *legs),
-            *(*butt_a, *butt_b, *tip_a, *tip_b, *back_a, *back_b, *face),
-            *(twist, lean, side, nod, turn, tilt),
-            *(heading_a, shoulder_a, swing_a, elbow_a, wrist_a, aside_a, rolled_a, palm_a),
-            *(heading_b, shoulder_b, -swing_b, elbow_b, wrist_b, -aside_b, rolled_b, palm_b),
-            *(*bent, *boards, feet.kick * BEATER_SWING_RAD, feet.hat * OPEN_GAP_M, eyes),
-            *(feet.slave * self.raised[2], feet.slave * BEATER_SWING_RAD),
+            x, y, z, *spine, *arm_a, *arm_b, x + hip, y, z, *legs,
+            *butt_a, *butt_b, *tip_a, *tip_b, *back_a, *back_b, *face,
+            twist, lean, side, nod, turn, tilt,
+            heading_a, shoulder_a, swing_a, elbow_a, wrist_a, aside_a, rolled_a, palm_a,
+            heading_b, shoulder_b, -swing_b, elbow_b, wrist_b, -aside_b, rolled_b, palm_b,
+            *bent, *boards, feet.kick * BEATER_SWING_RAD, feet.hat * OPEN_GAP_M, eyes,
+            feet.slave * self.raised[2], feet.slave * BEATER_SWING_RAD,
             *face_now,
-            *(aside, down),
+            aside, down,
         ]
+        # fmt: on
 
     def _hat_foot(self, m: Maths, feet: FeetNow) -> tuple[Number, Place, Number, Number]:
         """The hi-hat's board, where its foot is, how far the board under the foot is raised, and the sole's tip."""
