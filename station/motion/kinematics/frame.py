@@ -116,7 +116,8 @@ class Rig:
             legs, bent, boards = (*hat_leg, x - hip, y, z, *kick_leg), (*hat_bent, *kick_bent), (hat, kick)
         rolled_a = self.rolls[0] + right[0][ROLL] + (1 - right[0][TURNS]) * right[1][WRIST]
         rolled_b = self.rolls[1] + left[0][ROLL] + (1 - left[0][TURNS]) * left[1][WRIST]
-        # fmt: off - a row a line, as the layout has them
+        # a row a line, as the layout has them
+        # fmt: off
         return [
             x, y, z, *spine, *arm_a, *arm_b, x + hip, y, z, *legs,
             *butt_a, *butt_b, *tip_a, *tip_b, *back_a, *back_b, *face,
