@@ -18,6 +18,7 @@ from station.render.quality import QUALITIES
 from station.render.report.report_picture import draw_report_png
 from station.render.report.result_facts import ResultWords, result_facts
 from station.render.snapshot import Hud, SeenStrike, Snapshot, TimingCue, no_marks
+from station.scoring.matching.hit_windows import DEFAULT_LEVEL
 
 SIZE = (960, 540)
 HERE = Path(__file__).parent
@@ -66,7 +67,8 @@ def main() -> None:
         ("Nothing stands out: raise the tempo.",),
         pass_bars=lesson.loop_score.bar_count,
     )
-    draw_report_png(result_facts(score, label, late_ns, np.empty(0), words), HERE / "result.png", (960, 600))
+    right = (label == Label.MATCH) & (np.abs(late_ns) <= 1e6 * DEFAULT_LEVEL.edges_ms[-1])
+    draw_report_png(result_facts(score, label, late_ns, right, np.empty(0), words), HERE / "result.png", (960, 600))
 
 
 if __name__ == "__main__":
