@@ -47,7 +47,10 @@ def _pose() -> Measurement:
 
 
 def _moved(style: Style) -> Iterator[tuple[str, Style]]:
-    """Every control of `style` moved alone, by its name; grips and heels, for which hands are planned anew, are choices, no sliders."""
+    """Every control of `style` moved alone, by its name.
+
+    Grips and heels, for which hands are planned anew, are choices, no sliders.
+    """
     for control in NUMBERS:
         low, high = range_of(control)
         yield control, replace(style, **{control: low + 0.37 * (high - low)})  # type: ignore[arg-type] # floats only
