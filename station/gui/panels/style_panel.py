@@ -3,7 +3,7 @@
 What it changes moves the demonstrator from the next picture on.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import numpy as np
 from imgui_bundle import imgui
@@ -163,8 +163,10 @@ class StylePanel:
             if imgui.radio_button(f"{words}##lead", state.hands is hands):
                 self._dispatch(LeadWith(hands))
             theme.tooltip(f"{about}. It holds for what you are asked to play too{waits}")
-        self._body(state.style.figure, waits)
-        self._kit(state.settings.stands, waits)
+        self._one_of("drummer##body", _DRUMMERS, state.style.figure, Embody)
+        theme.tooltip(f"Who plays: how they are built, and what they wear{waits}")
+        self._one_of("kit##stands", _KITS, state.settings.stands, PutUp)
+        theme.tooltip(f"The kit before the demonstrator, as your own stands before you{waits}")
         imgui.end_disabled()
         imgui.separator_text("Hands and feet")
         for name, (label, about) in WORD_LABELS.items():
@@ -176,23 +178,14 @@ class StylePanel:
         theme.tooltip("Another number, other blinks, looks and spun sticks; the same number, the same ones")
         return options.sow(seed) if sown else options
 
-    def _kit(self, stands: str, waits: str) -> None:
+    def _one_of(self, label: str, titles: Mapping[str, str], chosen: str, choose: type[PutUp] | type[Embody]) -> None:
+        """A list of names by their titles; what is picked is asked for."""
         imgui.set_next_item_width(theme.points(_WORD_WIDTH))
-        if imgui.begin_combo("kit##stands", _KITS.get(stands, stands)):
-            for name, title in _KITS.items():
-                if imgui.selectable(f"{title}##{name}", name == stands)[0]:
-                    self._dispatch(PutUp(name))
+        if imgui.begin_combo(label, titles.get(chosen, chosen)):
+            for name, title in titles.items():
+                if imgui.selectable(f"{title}##{name}", name == chosen)[0]:
+                    self._dispatch(choose(name))
             imgui.end_combo()
-        theme.tooltip(f"The kit before the demonstrator, as your own stands before you{waits}")
-
-    def _body(self, figure: str, waits: str) -> None:
-        imgui.set_next_item_width(theme.points(_WORD_WIDTH))
-        if imgui.begin_combo("drummer##body", _DRUMMERS.get(figure, figure)):
-            for name, words in _DRUMMERS.items():
-                if imgui.selectable(f"{words}##{name}", name == figure)[0]:
-                    self._dispatch(Embody(name))
-            imgui.end_combo()
-        theme.tooltip(f"Who plays: how they are built, and what they wear{waits}")
 
 
 def _word(options: StyleOptions, name: str, label: str, about: str) -> StyleOptions:
