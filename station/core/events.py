@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from station.core.imu import ImuSample, Mounting, Quaternion
 from station.core.pieces import Articulation, Limb, Piece, Zone
 
 
@@ -80,3 +81,102 @@ class DeviceFound:
 
 
 DeviceEvent = Hit | Choke | PedalMoved | Switched | DeviceLost | DeviceFound
+
+
+# --- motion sensors ---------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class SensorMounted:
+    """The sensor `device` is mounted so from now on; its sample clock and its orientation start afresh."""
+
+    at_ns: int
+    device: str
+    mounting: Mounting
+
+
+@dataclass(frozen=True, slots=True)
+class SensorSamples:
+    """What a sensor measured, in order; they came at session time `at_ns`."""
+
+    at_ns: int
+    device: str
+    samples: tuple[ImuSample, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class SensorStatus:
+    """How a sensor does, about once a second: what it sends and what was lost since it was found.
+
+    `battery` 0 … 1 and `temperature_c` are None where it tells none.
+    """
+
+    at_ns: int
+    device: str
+    protocol: str
+    rate_hz: float | None = None
+    samples: int = 0
+    lost: int = 0
+    bad_bytes: int = 0
+    battery: float | None = None
+    temperature_c: float | None = None
+
+
+SensorEvent = SensorMounted | SensorSamples | SensorStatus
+"""What decoders make of a sensor's bytes; samples stay in the engine."""
+
+
+@dataclass(frozen=True, slots=True)
+class StickStroke:
+    """A stroke that a stick's sensor felt; `at_ns` the onset of the contact, or, in the air, the intended beat.
+
+    `speed_m_s` of the tip just before; `height_m` how far above the point of impact the tip had been raised; `rebound`
+    its speed just after over that before, 0 … 1; `angle_rad` of the stick above (+) or below (−) the horizontal at
+    impact. None where the sensor could not tell. `clipped` says that the sensor was at its limit: the speed is a lower
+    bound.
+    """
+
+    at_ns: int
+    device: str
+    limb: Limb
+    speed_m_s: float | None
+    height_m: float | None = None
+    rebound: float | None = None
+    angle_rad: float | None = None
+    clipped: bool = False
+    in_air: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class StickPose:
+    """How a stick is held, a few dozen times a second, for a picture; `turn` earth from stick.
+
+    `resting` whether it lies still; `drift_rad` how far its heading may be wrong by now, None where nobody knows.
+    """
+
+    at_ns: int
+    device: str
+    limb: Limb
+    turn: Quaternion
+    resting: bool = False
+    drift_rad: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class PhaseEstimate:
+    """Where in its cycle a periodic motion is; see `sync.phase`.
+
+    `phase_rad` in (−π, π]; `quality` E_max of the paper; `confidence` 0 … 1 that it is this motion, going forward;
+    `cadence_rad_s` how fast the phase runs, `locked` whether it follows.
+    """
+
+    at_ns: int
+    phase_rad: float
+    quality: float
+    confidence: float
+    cadence_rad_s: float
+    locked: bool
+
+
+StickEvent = StickStroke | StickPose | SensorStatus | PhaseEstimate
+"""What is told of sensors beyond the engine."""

@@ -3,11 +3,11 @@
 What is a stroke is judged by what the pads sent; what comes out has the velocities as they count (`velocity_curve`).
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
-from station.core.events import DeviceEvent, DeviceFound, DeviceLost, Hit
+from station.core.events import DeviceEvent, DeviceFound, DeviceLost, Hit, SensorEvent
 from station.devices.mapping.device_map import DeviceMap
 from station.devices.mapping.presets import preset_for
 from station.devices.mapping.trigger_filter import FalseTrigger, TriggerFilter
@@ -16,10 +16,11 @@ from station.devices.midi.midi_decoder import MidiDecoder
 
 
 class DecodedEvents(NamedTuple):
-    """What bytes brought: the events that may sound at once, and those that are certain now."""
+    """What bytes brought: the events that may sound at once, those that are certain now, and what sensors `sensed`."""
 
     sounding: list[DeviceEvent]
     certain: list[DeviceEvent]
+    sensed: Sequence[SensorEvent] = ()
 
 
 class _Kit:
