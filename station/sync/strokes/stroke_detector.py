@@ -47,7 +47,7 @@ TURNING_M_S = 0.5
 """How fast the hand may be while the stick turns round at the top: in the recorded stroke (HUMANS.md) it sinks 5 cm in
 the slow fall of 92 ms."""
 CONTACT_M_S = 10.0
-"""How wrong the sensor's velocity may be after a contact, which an accelerometer cannot follow: the fastest tip's own."""
+"""How wrong the sensor's velocity may be after a contact, which no accelerometer follows: the fastest tip's own."""
 DRIFT_M_S2 = 0.35
 """How fast the integrated velocity goes wrong: a tilt that is 2° off, as VQF's is in motion (Laidig & Seel 2023)."""
 
@@ -55,7 +55,6 @@ DRIFT_M_S2 = 0.35
 class _Instant(NamedTuple):
     at_s: float
     fall: float
-    acceleration: Vector
     speed: float
     height: float
     sine: float
@@ -120,7 +119,7 @@ class StrokeDetector:
         before = kept[-1] if kept else None
         dt_s = 0.0 if before is None else at_s - before.at_s
         speed = self._tip(rows, motion, fall, dt_s)
-        now = _Instant(at_s, fall, motion.acceleration_m_s2, speed, self._below, rows[2][0], motion.is_clipped)
+        now = _Instant(at_s, fall, speed, self._below, rows[2][0], motion.is_clipped)
         kept.append(now)
         while kept[0].at_s < at_s - max(KEPT_S, 4 * dt_s):
             kept.popleft()
@@ -175,7 +174,7 @@ class StrokeDetector:
         return self._earlier(now).fall - now.fall >= SUDDEN_SHARE * self._fastest
 
     def _earlier(self, now: _Instant) -> _Instant:
-        """What was `SUDDEN_S` ago; with a coarse sensor two samples ago if that is no longer than `COARSE_S`, or one."""
+        """What was `SUDDEN_S` ago; with a coarse sensor two samples ago, within `COARSE_S`, or one."""
         kept = self._kept
         interval_s = now.at_s - kept[-2].at_s
         back_s = 1.01 * max(SUDDEN_S, min(2 * interval_s, COARSE_S))
@@ -195,16 +194,11 @@ class StrokeDetector:
         kept = list(self._kept)
         pairs = list(pairwise(kept))
         interval_s = min(b.at_s - a.at_s for a, b in pairs)
-        is_clipped = any(instant.is_clipped for instant in kept)
-        if is_clipped:
-            times = [instant.at_s for instant in kept]
-            pulse = [math.dist(instant.acceleration, kept[0].acceleration) for instant in kept]
-        else:
-            times = [(a.at_s + b.at_s) / 2 for a, b in pairs]
-            pulse = [max(0.0, (a.fall - b.fall) / (b.at_s - a.at_s)) for a, b in pairs]
+        times = [(a.at_s + b.at_s) / 2 for a, b in pairs]
+        pulse = [max(0.0, (a.fall - b.fall) / (b.at_s - a.at_s)) for a, b in pairs]
         contact = contact_of(times, pulse, interval_s, pulse.index(max(pulse)))
         onset_s = contact.onset_s - (interval_s / 2 if is_derived else 0.0)
-        foot = max(contact.first - is_clipped, 1)
+        foot = max(contact.first, 1)
         clean = kept[foot] if kept[foot].fall > kept[foot - 1].fall else kept[foot - 1]  # the foot's own may be smeared
         earlier = max((i for i in kept if i.at_s <= clean.at_s - SUDDEN_S), default=kept[0])
         left_s = max(0.0, onset_s - clean.at_s)
@@ -220,7 +214,7 @@ class StrokeDetector:
             clean.height + speed * left_s,
             min(max(up / down, 0.0), 1.0) if down > 0 else None,
             math.asin(min(max(clean.sine - fall * left_s, -1.0), 1.0)),
-            is_clipped,
+            any(instant.is_clipped for instant in kept),
         )
 
 
