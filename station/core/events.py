@@ -88,11 +88,19 @@ DeviceEvent = Hit | Choke | PedalMoved | Switched | DeviceLost | DeviceFound
 
 @dataclass(frozen=True, slots=True)
 class SensorMounted:
-    """The sensor `device` is mounted so from now on; its sample clock and its orientation start afresh."""
+    """The sensor `device` is here, and mounted so from now on; its sample clock and its orientation start afresh."""
 
     at_ns: int
     device: str
     mounting: Mounting
+
+
+@dataclass(frozen=True, slots=True)
+class SensorLost:
+    """The sensor `device` vanished; no kit is lost with it."""
+
+    at_ns: int
+    device: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,8 +130,8 @@ class SensorStatus:
     temperature_c: float | None = None
 
 
-SensorEvent = SensorMounted | SensorSamples | SensorStatus
-"""What decoders make of a sensor's bytes; samples stay in the engine."""
+SensorEvent = SensorMounted | SensorLost | SensorSamples | SensorStatus
+"""What decoders make of a sensor and its bytes; samples stay in the engine unless somebody watches them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -178,5 +186,5 @@ class PhaseEstimate:
     locked: bool
 
 
-StickEvent = StickStroke | StickPose | SensorStatus | PhaseEstimate
+StickEvent = SensorMounted | SensorLost | SensorStatus | StickStroke | StickPose | PhaseEstimate
 """What is told of sensors beyond the engine."""
