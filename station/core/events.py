@@ -116,7 +116,8 @@ class SensorSamples:
 class SensorStatus:
     """How a sensor does, about once a second: what it sends and what was lost since it was found.
 
-    `battery` 0 … 1 and `temperature_c` are None where it tells none.
+    `battery` 0 … 1 and `temperature_c` are None where it tells none; `note` is what it said last of itself, such as an
+    error. An empty `protocol` means that nothing readable comes.
     """
 
     at_ns: int
@@ -128,6 +129,7 @@ class SensorStatus:
     bad_bytes: int = 0
     battery: float | None = None
     temperature_c: float | None = None
+    note: str = ""
 
 
 SensorEvent = SensorMounted | SensorLost | SensorSamples | SensorStatus
