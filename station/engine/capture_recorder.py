@@ -13,7 +13,7 @@ from station.devices.capture.capture import CaptureRecord, RecordKind, device_re
 from station.devices.capture.capture_writer import CaptureSink
 from station.devices.decoders import DecoderBank
 from station.devices.mapping.device_writer import kit_text
-from station.devices.mapping.presets import PRESETS
+from station.devices.mapping.presets import KNOWN_KITS
 
 OpenCapture = Callable[[Path, int], CaptureSink]
 """Begins a capture at a path and a session time; raises `StationError`."""
@@ -35,7 +35,7 @@ class Recorder:
     def add_device(self, device: str, at_ns: int) -> None:
         """Record who `device` is and how it stands; later bytes refer to it."""
         preset = self._decoders.preset_of(device)
-        own = None if PRESETS.get(preset.name) == preset else kit_text(preset)
+        own = None if KNOWN_KITS.get(preset.name) == preset else kit_text(preset)
         number = self._numbers.setdefault(device, len(self._numbers) + 1)
         self._sink.append(device_record(number, at_ns, device, preset.name, own))
         self._sink.append(CaptureRecord(RecordKind.BYTES, number, at_ns, self._decoders.restart_state(device)))
