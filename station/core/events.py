@@ -89,11 +89,19 @@ DeviceEvent = Hit | Choke | PedalMoved | Switched | DeviceLost | DeviceFound
 
 @dataclass(frozen=True, slots=True)
 class SensorMounted:
-    """The sensor `device` is mounted so from now on; its sample clock and its orientation start afresh."""
+    """The sensor `device` is here, and mounted so from now on; its sample clock and its orientation start afresh."""
 
     at_ns: int
     device: str
     mounting: Mounting
+
+
+@dataclass(frozen=True, slots=True)
+class SensorLost:
+    """The sensor `device` vanished; no kit is lost with it."""
+
+    at_ns: int
+    device: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,7 +117,8 @@ class SensorSamples:
 class SensorStatus:
     """How a sensor does, about once a second: what it sends and what was lost since it was found.
 
-    `battery` 0 … 1 and `temperature_c` are None where it tells none.
+    `battery` 0 … 1 and `temperature_c` are None where it tells none; `note` is what it said last of itself, such as an
+    error. An empty `protocol` means that nothing readable comes.
     """
 
     at_ns: int
@@ -121,10 +130,11 @@ class SensorStatus:
     bad_bytes: int = 0
     battery: float | None = None
     temperature_c: float | None = None
+    note: str = ""
 
 
-SensorEvent = SensorMounted | SensorSamples | SensorStatus
-"""What decoders make of a sensor's bytes; samples stay in the engine."""
+SensorEvent = SensorMounted | SensorLost | SensorSamples | SensorStatus
+"""What decoders make of a sensor and its bytes; samples stay in the engine unless somebody watches them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,5 +189,5 @@ class PhaseEstimate:
     locked: bool
 
 
-StickEvent = StickStroke | StickPose | SensorStatus | PhaseEstimate
+StickEvent = SensorMounted | SensorLost | SensorStatus | StickStroke | StickPose | PhaseEstimate
 """What is told of sensors beyond the engine."""

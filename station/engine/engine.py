@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.errors import DeviceError, StationError
-from station.core.events import DeviceFound, DeviceLost, Hit
+from station.core.events import DeviceFound, DeviceLost, Hit, SensorEvent, SensorSamples
 from station.core.units import NS_PER_S
 from station.devices.capture.capture_writer import CaptureFile
 from station.devices.decoders import DecoderBank
@@ -47,11 +47,13 @@ from station.engine.messages import (
     Status,
     Stop,
     WatchRawBytes,
+    WatchSensors,
 )
 from station.engine.midi_player import MidiOut, OpenMidiOut, no_midi_out
 from station.engine.sound_player import SoundPlayer
 from station.sound.mixer import Mixer
 from station.sound.track import load
+from station.sync.sticks import Sticks
 
 STATUS_EVERY_NS = NS_PER_S
 KEYBOARD = "keyboard"
@@ -95,7 +97,8 @@ class Engine:
         self._midi = MidiOut(open_midi_out, self.notify)
         self._decoders = DecoderBank()
         self._devices: list[str] = []
-        self._watches_bytes = False
+        self._watches_bytes = self._watches_sensors = False
+        self._sticks = Sticks()
         self._recording = RunningCapture(open_capture, self._decoders)
         self._zero_ns: int | None = None
         self._events: list[EngineEvent] = []
@@ -119,6 +122,18 @@ class Engine:
         for event in heard.sounding:
             self._player.sound(event)
         self._events += heard.certain
+        for sensed in heard.sensed:
+            self._sense(sensed)
+
+    def _sense(self, event: SensorEvent) -> None:
+        """Take what a sensor told; a stroke in the air sounds, and is kept with the hand that played it."""
+        if self._watches_sensors and isinstance(event, SensorSamples):
+            self._events.append(event)
+        for told in self._sticks.handle(event):
+            if isinstance(told, Hit):
+                self._player.sound(told)
+                self._recording.stroke(told)
+            self._events.append(told)
 
     def device_found(self, device: str, at_ns: int) -> None:
         """`device` is connected, or connected again; the user's own kit for it, if there is one, holds from now on."""
@@ -171,6 +186,8 @@ class Engine:
                 self._recording.annotate(text, self._now_ns)
             case WatchRawBytes(on):
                 self._watches_bytes = on
+            case WatchSensors(on):
+                self._watches_sensors = on
             case ReloadDevice(device):
                 self._load_own_kit(device)
             case Quit():

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.events import DeviceEvent
+from station.core.events import DeviceEvent, SensorSamples, StickEvent
 from station.core.pieces import Articulation, Piece, Zone
 from station.sound.buses import Bus, ClickVoice
 from station.sound.track import PreparedTrack, Track
@@ -41,6 +41,7 @@ __all__ = [
     "Status",
     "Stop",
     "WatchRawBytes",
+    "WatchSensors",
 ]
 
 CUE_DTYPE = np.dtype(
@@ -154,8 +155,15 @@ class WatchRawBytes:
 
 
 @dataclass(frozen=True, slots=True)
+class WatchSensors:
+    """Tell every sample of the sticks as `SensorSamples` from now on, for who learns from them; or no longer."""
+
+    on: bool
+
+
+@dataclass(frozen=True, slots=True)
 class ReloadDevice:
-    """Read the user's own kit for `device` anew: it was changed."""
+    """Read what the user taught of `device` anew, a kit's pads or a sensor's mounting: it was changed."""
 
     device: str
 
@@ -166,7 +174,8 @@ class Quit:
 
 
 Setting = SetLevel | SetPiece | SetBacking | SetMidiOut
-Command = Play | Resume | Stop | Setting | KeyHit | RecordCapture | Annotate | WatchRawBytes | ReloadDevice | Quit
+Watch = WatchRawBytes | WatchSensors
+Command = Play | Resume | Stop | Setting | KeyHit | RecordCapture | Annotate | Watch | ReloadDevice | Quit
 
 
 # --- from the engine -------------------------------------------------------------------------------------------------
@@ -241,4 +250,5 @@ class RawBytes:
     data: bytes
 
 
-EngineEvent = DeviceEvent | RawBytes | Ready | Sounding | CaptureSaved | Started | Notice | Status
+Heard = DeviceEvent | StickEvent | SensorSamples | RawBytes
+EngineEvent = Heard | Ready | Sounding | CaptureSaved | Started | Notice | Status

@@ -9,7 +9,7 @@ no session.
 from collections import deque
 from collections.abc import Iterable
 
-from station.core.events import Choke, Hit
+from station.core.events import Choke, Hit, SensorMounted, SensorSamples, SensorStatus
 from station.core.pieces import word
 from station.devices.capture.capture import Capture
 from station.devices.capture.replay import CaptureBegan, Entry, LoggedText, OutputChanged, TransportZero, replay_all
@@ -82,6 +82,10 @@ class RejudgedSessions:
                     self._hits.append(entry)
                 self._hand_over(entry)
                 self._strokes += 1
+            case (
+                SensorMounted() | SensorSamples() | SensorStatus()
+            ):  # what sticks did is found anew from them elsewhere
+                pass
             case _:
                 self._hand_over(entry)
 
