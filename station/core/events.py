@@ -56,7 +56,8 @@ class PedalMoved:
 class Switched:
     """A switch that plays nothing is pressed, and reported again while it moves.
 
-    `switch` is `cc=64` for a controller, `program=5` for a program.
+    `switch` is `cc=64` for a controller, `program=5` for a program, `key=5` for a key of a keyboard and `button=10` for
+    a button of a game kit, both by their numbers in the HID usage tables.
     """
 
     at_ns: int

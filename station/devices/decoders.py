@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 from station.core.events import DeviceEvent, DeviceFound, DeviceLost, Hit, SensorEvent, SensorLost
 from station.core.imu import Mounting
+from station.devices.hid.hid_decoder import HidDecoder
 from station.devices.imu.imu_sensor import ImuSensor
 from station.devices.mapping.device_map import DeviceMap
 from station.devices.mapping.presets import preset_for
@@ -30,7 +31,7 @@ class _Kit:
     """One kit: what it sends, and which of it counts."""
 
     def __init__(self, preset: DeviceMap, device: str, with_curves: bool) -> None:
-        self.decoder = MidiDecoder(preset, device)
+        self.decoder = HidDecoder(preset, device) if preset.reports else MidiDecoder(preset, device)
         self.filter = TriggerFilter(preset)
         self.is_filtered = preset.has_rules
         pads = preset.pads if with_curves else {}
