@@ -12,7 +12,6 @@ from station.core.schema import either
 from station.sync.signals.amc import skeleton_beside
 from station.sync.signals.asf import AsfSkeleton, Bone, read_asf
 from station.sync.signals.bvh_motion import BONES, BvhMotion, read_bvh
-from station.sync.signals.signal import Signal
 from station.sync.walking.skeleton import Channel, Joint, Skeleton
 
 INCH_M = 0.0254
@@ -66,10 +65,10 @@ def of_bvh(motion: BvhMotion) -> Skeleton:
     return Skeleton(tuple(joints), BVH_UNIT_M)
 
 
-def walking_signal(path: Path, signal: Signal) -> tuple[Skeleton, Signal]:
-    """A file's skeleton with heels, and its signal; raises `BadInput` where there are no legs."""
+def skeleton_with_heels(path: Path) -> Skeleton:
+    """A file's skeleton with its heels; raises `BadInput` where there are no legs."""
     try:
-        return skeleton_of(path).with_heels(), signal
+        return skeleton_of(path).with_heels()
     except KeyError as missing:
         raise BadInput(path, "", f"the skeleton has no {missing.args[0]}") from None
 
