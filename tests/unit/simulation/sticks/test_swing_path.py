@@ -2,14 +2,13 @@
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from station.simulation.sticks.swing_path import Knot, along, smooth_steps
 
 
 def test_reach_is_minimum_jerk() -> None:
     # Flash & Hogan 1985, eq. 3: x = d·(10 s³ − 15 s⁴ + 6 s⁵)
-    s: NDArray[np.float64] = np.arange(11) / 10.0
+    s = np.arange(11).astype(np.float64) / 10
     assert along([Knot(0, 0.0), Knot(1, 0.4)], s) == pytest.approx(0.4 * (10 * s**3 - 15 * s**4 + 6 * s**5))
 
 
