@@ -3,15 +3,17 @@
 The stick swings in a vertical plane about a grip that moves with it (HUMANS, Pearl 2023: the hand has a third of the
 tip's speed). A stroke speeds the tip up along a raised cosine and brakes it along another, shorter one. Position is
 summed from it at 20 kHz and differentiated twice; the beat is where the acceleration at the sensor is greatest while
-the tip is being braked (L. Dahl, NIME 2014), found on that fine grid. No code of the station's own is used.
+the tip is being braked (L. Dahl, NIME 2014), found on that fine grid. No reckoning of the station's own is used.
 """
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.imu import Quaternion, Vector
+from station.core.imu import ImuSample, Quaternion, Vector
+from station.sync.strokes.stick_orientation import StickMotion
 
 Array = NDArray[np.float64]
 FINE_HZ = 20_000.0
@@ -36,7 +38,7 @@ class Stroke:
 
 @dataclass(frozen=True)
 class Played:
-    """Samples: `at_ns` (n,), acceleration and rate (n, 3) in the stick's axes, turn (n, 4) earth from stick; the truth."""
+    """`at_ns` (n,), acceleration and rate (n, 3) in the stick's axes, turn (n, 4) earth from stick; true beats."""
 
     at_ns: NDArray[np.int64]
     acceleration: Array
@@ -45,14 +47,19 @@ class Played:
     beat_s: Array
     strokes: tuple[Stroke, ...]
 
-    def rows(self) -> list[tuple[int, Vector, Vector, Quaternion]]:
-        """Sample after sample as plain numbers."""
-        columns = zip(self.at_ns, self.acceleration, self.rate, self.turn, strict=True)
-        return [(int(t), _three(a), _three(r), _four(q)) for t, a, r, q in columns]
+    def motions(self) -> list[StickMotion]:
+        """What a perfect orientation filter would tell."""
+        columns = zip(self.at_ns, self.turn, self.rate, self.acceleration, strict=True)
+        return [StickMotion(int(t), _four(q), _three(r), _three(a), False, False, False) for t, q, r, a in columns]
+
+    def samples(self) -> list[ImuSample]:
+        """What the sensor sends."""
+        columns = zip(self.at_ns, self.acceleration, self.rate, strict=True)
+        return [ImuSample(int(t), _three(a), _three(r)) for t, a, r in columns]
 
 
 def play(strokes: tuple[Stroke, ...], rate_hz: float, seconds: float, seed: int = 1, offset_s: float = 0.0) -> Played:
-    """The strokes as a sensor at `rate_hz` measures them, with the noise of a usual MEMS sensor (0.03 m/s², 0.1 °/s)."""
+    """The strokes as a sensor at `rate_hz` measures them, with a usual MEMS sensor's noise (0.03 m/s², 0.1 °/s)."""
     fine_s = np.arange(0.0, seconds, 1.0 / FINE_HZ)
     elevation, heading = _elevation(strokes, fine_s), _heading(strokes, fine_s)
     along = np.stack([np.cos(elevation) * np.cos(heading), np.cos(elevation) * np.sin(heading), np.sin(elevation)], 1)
@@ -70,7 +77,9 @@ def play(strokes: tuple[Stroke, ...], rate_hz: float, seconds: float, seed: int 
     noise = np.random.default_rng(seed)
     force += noise.normal(0.0, 0.03, force.shape)
     rate += noise.normal(0.0, np.radians(0.1), rate.shape)
-    return Played((fine_s[pick] * 1e9).astype(np.int64), force, rate, _turn(elevation[pick], heading[pick]), beats, strokes)
+    return Played(
+        (fine_s[pick] * 1e9).astype(np.int64), force, rate, _turn(elevation[pick], heading[pick]), beats, strokes
+    )
 
 
 def _elevation(strokes: tuple[Stroke, ...], fine_s: Array) -> Array:
@@ -84,7 +93,10 @@ def _elevation(strokes: tuple[Stroke, ...], fine_s: Array) -> Array:
         rate[push] = -fastest * (1 + np.cos(np.pi * since[push] / each.push_s)) / 2
         rate[brake] = -fastest * (1 + np.cos(np.pi * since[brake] / each.brake_s)) / 2
         fall = fastest * (each.push_s + each.brake_s) / 2
-        knots += [(each.at_s - each.push_s, np.radians(each.low_deg) + fall), (each.at_s + each.brake_s + LINGERS_S, np.radians(each.low_deg))]
+        knots += [
+            (each.at_s - each.push_s, np.radians(each.low_deg) + fall),
+            (each.at_s + each.brake_s + LINGERS_S, np.radians(each.low_deg)),
+        ]
     for (begin, low), (end, high) in zip(knots[1::2], knots[2::2], strict=False):
         way = (fine_s >= begin) & (fine_s < end)
         rate[way] = (high - low) / (end - begin) * (1 - np.cos(2 * np.pi * (fine_s[way] - begin) / (end - begin)))
@@ -94,7 +106,7 @@ def _elevation(strokes: tuple[Stroke, ...], fine_s: Array) -> Array:
 def _heading(strokes: tuple[Stroke, ...], fine_s: Array) -> Array:
     """Heading (n,): it moves between strokes, while the stick rises."""
     heading = np.full_like(fine_s, np.radians(strokes[0].heading_deg))
-    for one, after in zip(strokes, strokes[1:], strict=False):
+    for one, after in pairwise(strokes):
         begin, end = one.at_s + one.brake_s + LINGERS_S, after.at_s - after.push_s
         share = np.clip((fine_s - begin) / (end - begin), 0.0, 1.0)
         heading += np.radians(after.heading_deg - one.heading_deg) * (1 - np.cos(np.pi * share)) / 2

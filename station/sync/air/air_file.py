@@ -93,7 +93,7 @@ def _zone(limb: Limb, piece: object, zone: Zone, **angles_deg: float) -> AirZone
 def _kit(normal_speed_m_s: float, zones: tuple[AirZone, ...]) -> AirKit:
     meant = [(zone.limb, zone.piece, zone.zone) for zone in zones]
     if len(set(meant)) < len(meant):
-        raise wrong("a hand has the same zone twice", ("zones",))
+        raise wrong("a hand has the same zone twice", "zones")
     return AirKit(zones, normal_speed_m_s)
 
 

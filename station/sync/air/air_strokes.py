@@ -5,10 +5,10 @@ acceleration's magnitude. L. Dahl, "Triggering sounds from discrete air gestures
 timing?", NIME 2014, measured it: that peak comes at the same time whatever the tempo, while the end of the movement
 (the lowest point) comes after the beat and the later the slower one plays.
 
-A stroke is: the tip falls (`_FALLS`), is braked by half its weight or more, and loses most of its speed within a moment.
-The peak of acceleration counts from the fastest point on, for the push that starts a stroke has a peak of its own. A
-stick that turns sideways, is lowered or twirled, or comes up, makes none. The next one needs the stick to have risen
-again: armed by angle, not by time.
+A stroke is: the tip falls (`STARTS_M_S`), is braked by half its weight or more, and loses much of its speed within a
+moment. The peak of acceleration counts from the fastest point on, for the push that starts a stroke has a peak of its
+own. A stick that turns sideways, is lowered or twirled, or comes up, makes none. The next one needs the stick to have
+risen again: armed by angle, not by time.
 """
 
 from enum import Enum, auto
@@ -22,15 +22,16 @@ from station.sync.air.stick_swing import Swing, wrapped
 STARTS_M_S = 0.2
 """A tip that falls so fast may be a stroke; our choice: half of the slowest one."""
 SLOWEST_M_S = 0.4
-"""At least so fast is a stroke: a third of the 1.2 m/s that a tip gains in falling from a soft stroke's 3 inches (HUMANS: p)."""
+"""At least so fast is a stroke; a third of the 1.2 m/s that a tip gains in falling from a soft stroke's 3 inches
+(HUMANS: p)."""
 LEAST_FALL_RAD = radians(4.0)
 """An inch at the tip of a stick that turns a third from its butt (HUMANS): lower than any stroke that is meant."""
 _DOWNWARD = 0.5
 """Share of the tip's speed that goes down where it is fastest: within 60° of the vertical (our choice)."""
-_BRAKED = 0.9
+BRAKED = 0.9
 """Below this share of its greatest speed a tip is being braked: beyond what noise does (our choice)."""
 _STOPPED = 0.6
-"""Below this share a stroke is told from a fall that goes on; our choice: the peak of a bell-shaped brake is at half."""
+"""Below this share a stroke is told from a fall that goes on; our choice: a bell-shaped brake peaks at half."""
 _SLOWED = 0.75
 """The tip has lost a quarter of its speed in all directions too: a stick that swings through sideways has not (our
 choice)."""
@@ -41,14 +42,16 @@ _TURNED_BACK = 0.5
 _LEAST_BRAKE_M_S2 = STANDARD_GRAVITY_M_S2 / 2.0
 """Softer braking is a stick that is lowered; our choice: 1 m/s lost in 200 ms."""
 _LONGEST_BRAKE_NS = 250_000_000
-"""Longer is no stop: one hand's strokes follow each other at up to 5–7 Hz in general (HUMANS), so half of one is less."""
+"""Longer is no stop; our choice: a second's quarter is two strokes of a fast hand (HUMANS: 5–7 Hz)."""
 _RISEN_RAD, _RISEN_SHARE = radians(3.0), 0.2
 """A stick that has risen by this, and by this share of its last fall, may strike again (our choice)."""
-_CONTACT_NS = 10_000_000
-"""A stick that loses half its speed within this has struck something: contacts last 3–6 ms (HUMANS, Wagner 2006), and
-no muscle brakes so fast."""
 _FEWEST_SAMPLES = 4
 """Fewer samples from the start of a fall to its end cannot show that it sped up and was stopped (our choice)."""
+
+
+def most_strokes_hz(rate_hz: float) -> float:
+    """How many strokes a second of one stick a sensor's rate tells apart: each falls and rises in as many samples."""
+    return rate_hz / (2.0 * _FEWEST_SAMPLES)
 
 
 class _State(Enum):
@@ -62,8 +65,7 @@ class _State(Enum):
 class AirBeat(NamedTuple):
     """A stroke in the air: when it was meant, and how the stick stood then.
 
-    `told_ns` is the sample at which it was certain; the tip was fastest at `fastest_ns`, with `speed_m_s`. `contact`
-    says that something solid stopped it.
+    `told_ns` is the sample at which it was certain; the tip was fastest at `fastest_ns`, with `speed_m_s`.
     """
 
     at_ns: int
@@ -72,7 +74,6 @@ class AirBeat(NamedTuple):
     speed_m_s: float
     heading_rad: float
     elevation_rad: float
-    contact: bool
 
 
 class AirStrokes:
@@ -86,9 +87,13 @@ class AirStrokes:
         self._since_fastest: list[Swing] = []
 
     @property
-    def falling(self) -> Swing | None:
-        """The fastest point so far of a stroke that has begun and is not told yet, or None."""
-        return self._since_fastest[0] if self._since_fastest else None
+    def goes_on(self) -> bool:
+        """Whether the tip falls or is being braked."""
+        return bool(self._since_fastest)
+
+    def begun(self, swing: Swing) -> Swing | None:
+        """The fastest point of a stroke that goes on with this sample, the last that was fed, or None without one."""
+        return self._since_fastest[0] if self._since_fastest and self._is_swung(swing) else None
 
     def feed(self, swing: Swing) -> AirBeat | None:
         """The stroke that is certain with this sample, or None."""
@@ -118,7 +123,7 @@ class AirStrokes:
             self._state, self._since_fastest = _State.FALLS, [swing]
             return None
         self._since_fastest.append(swing)
-        if swing.down_m_s < _BRAKED * fastest.down_m_s:
+        if swing.down_m_s < BRAKED * fastest.down_m_s:
             self._state = _State.BRAKES
         if swing.at_ns - fastest.at_ns > _LONGEST_BRAKE_NS:
             self._end(swing)
@@ -140,26 +145,27 @@ class AirStrokes:
     def _is_stroke(self, swing: Swing) -> bool:
         """Whether the fall that this sample ends was meant to strike."""
         fastest = self._since_fastest[0]
-        brake = (fastest.down_m_s - swing.down_m_s) / ((swing.at_ns - fastest.at_ns) / NS_PER_S)
-        meant = (
-            fastest.speed_m_s >= SLOWEST_M_S
-            and fastest.down_m_s >= _DOWNWARD * fastest.speed_m_s
-            and swing.speed_m_s <= _SLOWED * fastest.speed_m_s
-            and self._top_rad - swing.elevation_rad >= LEAST_FALL_RAD
-            and brake >= _LEAST_BRAKE_M_S2
-        )
+        is_slowed = swing.speed_m_s <= _SLOWED * fastest.speed_m_s
+        meant = self._is_swung(swing) and is_slowed and brake_of(fastest, swing) >= _LEAST_BRAKE_M_S2
         if meant and self._samples < _FEWEST_SAMPLES:
             self.unresolved += 1
             return False
         return meant
 
+    def _is_swung(self, swing: Swing) -> bool:
+        """Whether it fell as fast, as straight down and as far as a stroke does."""
+        fastest = self._since_fastest[0]
+        is_fast = fastest.speed_m_s >= SLOWEST_M_S and fastest.down_m_s >= _DOWNWARD * fastest.speed_m_s
+        return is_fast and self._top_rad - swing.elevation_rad >= LEAST_FALL_RAD
+
     def _beat(self, hardest: int) -> AirBeat:
         """The stroke whose acceleration was greatest at this sample since the fastest one."""
         run = self._since_fastest
-        offset = _vertex(*(each.jolt_m_s2 for each in run[hardest - 1 : hardest + 2])) if 0 < hardest < len(run) - 1 else 0.0
+        offset = (
+            _vertex(*(each.jolt_m_s2 for each in run[hardest - 1 : hardest + 2])) if 0 < hardest < len(run) - 1 else 0.0
+        )
         beside = run[hardest + (1 if offset > 0 else -1)] if offset else run[hardest]
         share, near = abs(offset), run[hardest]
-        halved = next(each.at_ns for each in run if each.down_m_s <= _STOPPED * run[0].down_m_s)
         return AirBeat(
             near.at_ns + round(share * (beside.at_ns - near.at_ns)),
             run[-1].at_ns,
@@ -167,12 +173,16 @@ class AirStrokes:
             run[0].speed_m_s,
             near.heading_rad + share * wrapped(beside.heading_rad - near.heading_rad),
             near.elevation_rad + share * (beside.elevation_rad - near.elevation_rad),
-            halved - run[0].at_ns <= _CONTACT_NS,
         )
 
     def _end(self, swing: Swing) -> None:
         self._fall_rad = self._top_rad - swing.elevation_rad
         self._state, self._lowest_rad, self._since_fastest = _State.SPENT, swing.elevation_rad, []
+
+
+def brake_of(fastest: Swing, now: Swing) -> float:
+    """How hard the tip's fall has been braked since its fastest point, m/s²; `now` is later."""
+    return (fastest.down_m_s - now.down_m_s) * NS_PER_S / (now.at_ns - fastest.at_ns)
 
 
 def _vertex(before: float, peak: float, after: float) -> float:

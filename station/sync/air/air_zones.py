@@ -8,7 +8,7 @@ that could have been meant, a stroke at no zone included, is `CLEAR` or more; el
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import exp, pi
+from math import exp, pi, sqrt
 
 from station.core.pieces import Limb, Piece, Zone
 from station.sync.air.stick_swing import FULL_SPEED_M_S, wrapped
@@ -28,7 +28,7 @@ AIR_DEVICE = "air sticks"
 
 @dataclass(frozen=True, slots=True)
 class AirZone:
-    """Where a hand's stick points when it means a piece; `heading_sd_rad` and `elevation_sd_rad` its strokes' scatter."""
+    """Where a hand's stick points when it means a piece, and one deviation of its strokes about that."""
 
     limb: Limb
     piece: Piece
@@ -56,7 +56,7 @@ def velocity_of(speed_m_s: float, normal_speed_m_s: float) -> float:
 
     So v grows with the root of the speed; twice the speed is 6 dB more.
     """
-    velocity = NORMAL_VELOCITY * max(0.0, speed_m_s / normal_speed_m_s) ** 0.5
+    velocity = NORMAL_VELOCITY * sqrt(max(0.0, speed_m_s / normal_speed_m_s))
     return min(127.0, max(1.0, velocity))
 
 
@@ -79,8 +79,8 @@ def separation(one: AirZone, other: AirZone) -> float:
     elevation = one.elevation_rad - other.elevation_rad
     heading_var = (one.heading_sd_rad**2 + other.heading_sd_rad**2) / 2.0
     elevation_var = (one.elevation_sd_rad**2 + other.elevation_sd_rad**2) / 2.0
-    return float((heading**2 / heading_var + elevation**2 / elevation_var) ** 0.5)
+    return sqrt(heading**2 / heading_var + elevation**2 / elevation_var)
 
 
 def _density(miss: float, deviation: float) -> float:
-    return exp(-0.5 * (miss / deviation) ** 2) / (deviation * (2.0 * pi) ** 0.5)
+    return exp(-0.5 * (miss / deviation) ** 2) / (deviation * sqrt(2.0 * pi))

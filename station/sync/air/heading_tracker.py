@@ -68,7 +68,14 @@ class HeadingTracker:
         if self.lost:
             return [0.0] * len(self.zones)
         state, spread = self._moved(at_ns)
-        return shares([self._miss(index, state, spread, heading_rad, elevation_rad) for index in range(len(self.zones))])
+        return shares(
+            [self._miss(index, state, spread, heading_rad, elevation_rad) for index in range(len(self.zones))]
+        )
+
+    def clear_zone(self, at_ns: int, heading_rad: float, elevation_rad: float) -> AirZone | None:
+        """The zone that a stick in this direction means, None where that is unclear; changes nothing."""
+        clear = self._clear(at_ns, heading_rad, elevation_rad)
+        return None if clear is None else self.zones[clear[0]]
 
     def strike(self, at_ns: int, heading_rad: float, elevation_rad: float) -> tuple[AirZone, float] | None:
         """The zone that a stroke meant and how likely that is, or None where it is unclear; corrects the drift."""
@@ -77,13 +84,13 @@ class HeadingTracker:
         if self.lost:
             self.fix(at_ns, 0, heading_rad)
             return self.zones[0], 1.0
-        found = self.confidences(at_ns, heading_rad, elevation_rad)
-        best = max(range(len(found)), key=found.__getitem__)
-        if found[best] < CLEAR:
+        clear = self._clear(at_ns, heading_rad, elevation_rad)
+        if clear is None:
             return None
+        best, confidence = clear
         self._correct(at_ns, best, heading_rad)
         self._lift(best, elevation_rad)
-        return self.zones[best], found[best]
+        return self.zones[best], confidence
 
     def fix(self, at_ns: int, index: int, heading_rad: float) -> None:
         """A stroke that is known to have meant zone `index`: a pad was hit there, or the player was asked for it."""
@@ -94,6 +101,11 @@ class HeadingTracker:
             self._at_ns, self.lost = at_ns, False
             return
         self._correct(at_ns, index, heading_rad)
+
+    def _clear(self, at_ns: int, heading_rad: float, elevation_rad: float) -> tuple[int, float] | None:
+        found = self.confidences(at_ns, heading_rad, elevation_rad)
+        best = max(range(len(found)), key=found.__getitem__, default=None)
+        return None if best is None or found[best] < CLEAR else (best, found[best])
 
     def _moved(self, at_ns: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """State and covariance at a later time."""
@@ -106,7 +118,12 @@ class HeadingTracker:
         return step @ self._state, spread
 
     def _miss(
-        self, index: int, state: NDArray[np.float64], spread: NDArray[np.float64], heading_rad: float, elevation_rad: float
+        self,
+        index: int,
+        state: NDArray[np.float64],
+        spread: NDArray[np.float64],
+        heading_rad: float,
+        elevation_rad: float,
     ) -> tuple[float, float, float, float]:
         zone, own = self.zones[index], _FIRST + index
         heading = wrapped(heading_rad - zone.heading_rad - float(state[_TURN] + state[own]))

@@ -5,10 +5,12 @@ times the way from sensor to tip: in the air the hand's own velocity is a few te
 9.4 m/s in a full stroke) and no sensor of rates tells it. Lengthwise twirling about the stick's own axis moves no tip.
 """
 
-from math import asin, atan2, hypot, pi, remainder, sqrt
+from math import asin, atan2, hypot, pi, remainder
 from typing import NamedTuple
 
-from station.core.imu import STANDARD_GRAVITY_M_S2, Quaternion, Vector
+from station.core.imu import STANDARD_GRAVITY_M_S2
+from station.sync.strokes.stick_axes import rows_of
+from station.sync.strokes.stick_orientation import StickMotion
 
 FULL_SPEED_M_S = 9.4
 """The tip of a full stroke (HUMANS: Pearl 2023)."""
@@ -30,21 +32,20 @@ class Swing(NamedTuple):
     elevation_rad: float
 
 
-def swing_of(at_ns: int, acceleration_m_s2: Vector, rate_rad_s: Vector, turn: Quaternion, tip_m: float) -> Swing:
-    """The swing of a stick from what is measured in its own axes; `turn` earth from stick, `tip_m` sensor to tip."""
-    w, x, y, z = turn
-    # the third row of the rotation matrix is the vertical in the stick's axes; the first column is the stick in the earth's
-    up_x, up_y, up_z = 2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)
-    ax, ay, az = acceleration_m_s2
+def swing_of(motion: StickMotion, tip_m: float) -> Swing:
+    """The swing of a stick whose tip is `tip_m` from its sensor."""
+    (_, _, along_z), (_, _, left_z), (_, _, up_z) = columns = tuple(zip(*rows_of(motion.turn), strict=True))
+    x, y, _ = columns[0]
+    _, pitching, yawing = motion.rate_rad_s
+    ahead, aside, above = motion.acceleration_m_s2
     g = STANDARD_GRAVITY_M_S2
-    _, pitching, yawing = rate_rad_s
     return Swing(
-        at_ns,
+        motion.at_ns,
         tip_m * hypot(pitching, yawing),
-        tip_m * (up_z * pitching - up_y * yawing),
-        sqrt((ax - g * up_x) ** 2 + (ay - g * up_y) ** 2 + (az - g * up_z) ** 2),
-        atan2(2.0 * (x * y + w * z), 1.0 - 2.0 * (y * y + z * z)),
-        asin(min(1.0, max(-1.0, up_x))),
+        tip_m * (up_z * pitching - left_z * yawing),
+        hypot(ahead - g * along_z, aside - g * left_z, above - g * up_z),
+        atan2(y, x),
+        asin(min(1.0, max(-1.0, along_z))),
     )
 
 

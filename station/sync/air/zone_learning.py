@@ -19,7 +19,7 @@ STROKES = 8
 MOST_CONFUSED = 0.02
 """Two zones that are taken for each other more often lie too close (our choice: a stroke in fifty)."""
 _LEAST_SD_RAD = radians(3.0)
-"""Strokes scatter by this at the least, whatever eight of them say: later ones are not played as carefully (our choice)."""
+"""Strokes scatter by this at the least, whatever eight of them say: later ones are less careful (our choice)."""
 _FROM_MEDIAN = 1.4826
 """The normal distribution's deviation over its median absolute deviation, 1/Φ⁻¹(3/4)."""
 
@@ -85,7 +85,9 @@ class ZoneLearning:
 
     def learnt(self) -> LearntAir:
         """The zones that have all their strokes so far."""
-        full = [(asked, aims) for asked, aims in zip(self._asked, self._aims, strict=False) if len(aims) == self._strokes]
+        full = [
+            (asked, aims) for asked, aims in zip(self._asked, self._aims, strict=False) if len(aims) == self._strokes
+        ]
         zones = tuple(zone_of(asked, aims) for asked, aims in full)
         if not zones:
             return LearntAir(AirKit(()), ())
