@@ -10,7 +10,8 @@ pedal or a key plays the kick. A piece whose pad has been struck sounds by its p
 hit tells exactly where the stick points.
 
 A hit's time is the beat that was meant. It is told when that is certain, or up to `ahead_ns` before the beat where it
-is foretold (`air_latency`): its time may then lie in the future, and it should sound at once. It is told once.
+is foretold (`air_latency`): its time may then lie in the future, and it should sound at once. It is told once. Without
+`ahead_ns` nothing is foretold, and times are as exact as the sensor: right for practice that is judged.
 """
 
 from station.core.events import Hit, PhaseEstimate
@@ -26,7 +27,7 @@ from station.sync.strokes.stick_orientation import StickMotion
 class AirDrums:
     """An air kit played by sticks; set `learning` to have strokes taught instead of sounded."""
 
-    def __init__(self, kit: AirKit, ahead_ns: int = 0) -> None:
+    def __init__(self, kit: AirKit, ahead_ns: int | None = None) -> None:
         self.kit = kit
         self.learning: ZoneLearning | None = None
         self._ahead_ns = ahead_ns

@@ -43,7 +43,7 @@ class _Pending:
 class AirHand:
     """One hand's stick; `feed` every motion, then `settle` the beat that it brought, or else `foretell`."""
 
-    def __init__(self, mounting: Mounting, zones: tuple[AirZone, ...], ahead_ns: int) -> None:
+    def __init__(self, mounting: Mounting, zones: tuple[AirZone, ...], ahead_ns: int | None) -> None:
         self.mounting = mounting
         self.tracker = HeadingTracker(zones)
         self._ahead_ns = ahead_ns
@@ -101,7 +101,7 @@ class AirHand:
             self._check()
             return None
         fastest = self._strokes.begun(now)
-        if fastest is None or len(self._swings) < 2:
+        if self._ahead_ns is None or fastest is None or len(self._swings) < 2:
             return None
         call = self._by_habit(fastest, now) or self._by_place(fastest, now)
         if call is None or now.at_ns < call.at_ns - self._ahead_ns:

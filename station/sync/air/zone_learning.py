@@ -18,8 +18,9 @@ STROKES = 8
 """So many strokes of each piece; at two a second six pieces take half a minute."""
 MOST_CONFUSED = 0.02
 """Two zones that are taken for each other more often lie too close (our choice: a stroke in fifty)."""
-_LEAST_SD_RAD = radians(3.0)
-"""Strokes scatter by this at the least, whatever eight of them say: later ones are less careful (our choice)."""
+_LEAST_HEADING_SD_RAD, _LEAST_ELEVATION_SD_RAD = radians(6.0), radians(8.0)
+"""Strokes scatter by this at the least, whatever eight of them say: so do half a minute of one player's strokes at one
+piece (imu/airdrums, recordings 1 and 2, medians of both sticks), and the first eight by half of it."""
 _FROM_MEDIAN = 1.4826
 """The normal distribution's deviation over its median absolute deviation, 1/Φ⁻¹(3/4)."""
 
@@ -98,8 +99,8 @@ class ZoneLearning:
 def zone_of(asked: AskedZone, aims: Sequence[AirAim]) -> AirZone:
     """The zone that these strokes, one or more, show."""
     near = aims[0].heading_rad
-    heading, heading_sd = _middle([wrapped(aim.heading_rad - near) for aim in aims])
-    elevation, elevation_sd = _middle([aim.elevation_rad for aim in aims])
+    heading, heading_sd = _middle([wrapped(aim.heading_rad - near) for aim in aims], _LEAST_HEADING_SD_RAD)
+    elevation, elevation_sd = _middle([aim.elevation_rad for aim in aims], _LEAST_ELEVATION_SD_RAD)
     return AirZone(*asked, wrapped(near + heading), elevation, heading_sd, elevation_sd)
 
 
@@ -110,7 +111,7 @@ def too_close(zones: Sequence[AirZone]) -> tuple[CloseZones, ...]:
     return tuple(sorted((pair for pair in close if pair.confused > MOST_CONFUSED), key=lambda pair: -pair.confused))
 
 
-def _middle(angles_rad: Sequence[float]) -> tuple[float, float]:
+def _middle(angles_rad: Sequence[float], least_rad: float) -> tuple[float, float]:
     """Median and scatter, which one slip does not move."""
     middle = median(angles_rad)
-    return middle, max(_LEAST_SD_RAD, _FROM_MEDIAN * median(abs(angle - middle) for angle in angles_rad))
+    return middle, max(least_rad, _FROM_MEDIAN * median(abs(angle - middle) for angle in angles_rad))
