@@ -38,6 +38,7 @@ from station.engine.messages import (
     RecordCapture,
     ReloadDevice,
     Resume,
+    SetAirDrums,
     SetBacking,
     SetLevel,
     SetMidiOut,
@@ -212,7 +213,7 @@ class Engine:
                 self._zero_ns = None
                 self._player.stop()
                 self._midi.stop()
-            case SetLevel() | SetPiece() | SetBacking() | SetMidiOut():
+            case SetLevel() | SetPiece() | SetBacking() | SetMidiOut() | SetAirDrums():
                 self._set(command)
             case KeyHit():
                 self._strike_key(command)
@@ -241,6 +242,8 @@ class Engine:
                 self._set_backing(command)
             case SetMidiOut():
                 self._midi.choose(command.port)
+            case SetAirDrums():
+                self._sticks.play_air(command.kit, command.ahead_ns)
 
     def _set_backing(self, command: SetBacking) -> None:
         track = command.loaded
