@@ -3,12 +3,13 @@
 Timing is Wing and Kristofferson's model with a click to lean on; a player's velocities vary by a share of themselves.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Articulation, Limb, Ornament, Piece, Zone
+from station.core.pieces import Articulation, Limb, Piece, Zone
 from station.core.units import NS_PER_S
 from station.music.score import Score
 from station.simulation.sticks.swing_spec import StickStrokeSpec, StrokeKind, height_for, speed_for_velocity
@@ -17,6 +18,10 @@ FLAM_S, DRAG_S = 0.028, 0.055
 """A flam's grace stroke comes 15–40 ms early, a drag's notes are 40–70 ms apart (`shared/HUMANS.md`)."""
 GRACE, ACCENT = 0.4, 1.45
 """Grace strokes have 25–50 % of the main velocity; an accent of 116 stands beside a normal 80 (`shared/HUMANS.md`)."""
+SPEED_FOR_VELOCITY = 1.25
+"""A velocity that is 1 % higher needs a tip about 1.25 % faster: `speed_for_velocity` from 40 to 112, in logarithms."""
+_HANDS = (Limb.RIGHT_HAND, Limb.LEFT_HAND)
+_OTHER = {Limb.RIGHT_HAND: Limb.LEFT_HAND, Limb.LEFT_HAND: Limb.RIGHT_HAND}
 _HANDS_OF = {
     "R": (Limb.RIGHT_HAND,),
     "L": (Limb.LEFT_HAND,),
@@ -30,21 +35,21 @@ LOW_M = 0.09
 
 @dataclass(frozen=True, slots=True)
 class PlayerSpec:
-    """A player: the beat's own unsteadiness as a share of the interval, the hands' in s, the forces' as a share.
+    """A player: the beat's own unsteadiness as a share of the interval, the hands' in s, the velocities' as a share.
 
-    `wrong_sticking` is the share of hand strokes that the other hand plays; `correction` how much of an error to the
-    click the next beat takes back. A professional by `shared/HUMANS.md`: 2–3 %, 4–8 ms, 6–10 %.
+    `wrong_sticking` is the share of strokes that the other hand plays; `correction` how much of an error to the click
+    is taken back, per second. A professional by `shared/HUMANS.md`: 2–3 %, 4–8 ms, 6–10 %; `correction` is our choice.
     """
 
     clock_share: float = 0.025
     motor_s: float = 0.005
     force_share: float = 0.08
-    correction: float = 0.4
+    correction: float = 2.0
     wrong_sticking: float = 0.0
 
 
 PROFESSIONAL = PlayerSpec()
-NOVICE = PlayerSpec(0.08, 0.008, 0.25, 0.3, 0.05)
+NOVICE = PlayerSpec(0.08, 0.008, 0.25, 1.0, 0.05)
 EXACT = PlayerSpec(0.0, 0.0, 0.0)
 
 
@@ -55,29 +60,23 @@ def spec_from_score(
 
     Feet and grabbed cymbals are left out. In the air every stroke is of kind `AIR`.
     """
-    rng = np.random.default_rng(seed)
-    limbs = _limbs(score, player, rng)
-    onset_s = start_s + _played_s(score, player, rng)
-    hands = np.flatnonzero(np.isin(limbs, (Limb.RIGHT_HAND, Limb.LEFT_HAND)))
-    strokes = []
-    for row in hands[np.argsort(onset_s[hands], kind="stable")].tolist():
-        note = score[row]
-        velocity = float(np.clip(note.velocity * (1 + rng.normal(0, player.force_share)), 8, 127))
-        speed = speed_for_velocity(velocity)
-        strokes.append(
-            StickStrokeSpec(
-                at_s=float(onset_s[row]),
-                limb=Limb(int(limbs[row])),
-                piece=note.piece,
-                zone=note.zone,
-                speed_m_s=speed,
-                height_m=height_for(speed) * float(np.exp(rng.normal(0, player.force_share))),
-                kind=StrokeKind.AIR if in_air else _buzz_or_full(note.articulation),
-                shoulder=note.zone is Zone.EDGE and note.piece in (Piece.CRASH_1, Piece.CRASH_2),
-                lasts_s=_lasts_s(score, row),
-            )
+    limbs = _limbs(score)
+    strokes = [
+        StickStrokeSpec(
+            at_s=start_s + float(score.onset_s[row]),
+            limb=Limb(int(limbs[row])),
+            piece=note.piece,
+            zone=note.zone,
+            speed_m_s=speed_for_velocity(note.velocity),
+            kind=StrokeKind.AIR if in_air else _buzz_or_full(note.articulation),
+            shoulder=note.zone is Zone.EDGE and note.piece in (Piece.CRASH_1, Piece.CRASH_2),
+            lasts_s=_lasts_s(score, row),
         )
-    return strokes if in_air else _stroke_types(strokes)
+        for row, note in enumerate(score)
+        if limbs[row] in _HANDS
+    ]
+    played = as_played_by(player, strokes, seed)
+    return played if in_air else _stroke_types(played)
 
 
 def spec_from_sticking(
@@ -86,21 +85,55 @@ def spec_from_sticking(
     """Strokes on the snare as a method book writes them, an even `every_s` apart, `times` over.
 
     `R` and `L` are strokes, `-` a rest, `>` after a letter accents it, `B` both hands at once; lower-case letters are
-    grace strokes of the next one (a flam's `FLAM_S`, a drag's `DRAG_S` before it), spaces mean nothing.
+    grace strokes of the next one (a flam's `FLAM_S`, a drag's `DRAG_S` before it), spaces mean nothing. `as_played_by`
+    makes a human of the machine.
     """
     strokes: list[StickStrokeSpec] = []
     place, graces = 0, ""
-    text = (sticking.replace(" ", "") + " ") * times
+    text = sticking.replace(" ", "") * times
     for sign, following in zip(text, text[1:] + " ", strict=True):
         if sign in "rl":
             graces += sign
-        elif sign in "RLB-":
+        elif sign in _HANDS_OF:
             at_s = start_s + place * every_s
             loudness = min(velocity * ACCENT, 127.0) if following == ">" else velocity
             strokes += [_struck(at_s, hand, loudness) for hand in _HANDS_OF[sign]]
             strokes += _graces(graces, at_s, velocity)
             place, graces = place + 1, ""
-    return sorted(strokes, key=lambda stroke: stroke.at_s)
+    return _stroke_types(as_played_by(EXACT, strokes))
+
+
+def as_played_by(player: PlayerSpec, strokes: Sequence[StickStrokeSpec], seed: int = 0) -> list[StickStrokeSpec]:
+    """The strokes by time with `player`'s unsteadiness: one clock for both hands, a motor delay for each stroke."""
+    rng = np.random.default_rng(seed)
+    ordered = sorted(strokes, key=lambda stroke: stroke.at_s)
+    times, beat = np.unique([stroke.at_s for stroke in ordered], return_inverse=True)
+    lean = _lean_s(np.diff(times, prepend=times[:1]), player, rng)
+    played = []
+    for stroke, index in zip(ordered, beat.tolist(), strict=True):
+        force = float(np.exp(rng.normal(0, player.force_share)))
+        speed = stroke.speed_m_s * force**SPEED_FOR_VELOCITY
+        height = height_for(speed) if stroke.height_m is None else stroke.height_m
+        wrong = rng.uniform() < player.wrong_sticking
+        played.append(
+            replace(
+                stroke,
+                at_s=stroke.at_s + float(lean[index] + rng.normal(0, player.motor_s)),
+                limb=_OTHER[stroke.limb] if wrong else stroke.limb,
+                speed_m_s=speed,
+                height_m=height * float(np.exp(rng.normal(0, player.force_share))),
+            )
+        )
+    return sorted(played, key=lambda stroke: stroke.at_s)
+
+
+def _lean_s(gaps_s: NDArray[np.float64], player: PlayerSpec, rng: np.random.Generator) -> NDArray[np.float64]:
+    """How late each beat is, (n,) in s: errors of the clock add up, and a part of them is taken back each second."""
+    lean, error = np.zeros(len(gaps_s)), 0.0
+    for i, gap in enumerate(gaps_s.tolist()):
+        error = error * float(np.exp(-gap * player.correction)) + rng.normal(0, player.clock_share * gap)
+        lean[i] = error
+    return lean
 
 
 def _struck(at_s: float, limb: Limb, velocity: float) -> StickStrokeSpec:
@@ -124,32 +157,15 @@ def _lasts_s(score: Score, row: int) -> float:
     return float(score.tempo_map.ns_at(tick + ticks) - score.tempo_map.ns_at(tick)) / NS_PER_S
 
 
-def _limbs(score: Score, player: PlayerSpec, rng: np.random.Generator) -> NDArray[np.int8]:
+def _limbs(score: Score) -> NDArray[np.int8]:
+    """Who plays each note: as written; else a foot what feet play, and the hands in turn."""
     limbs = score.notes["limb"].copy()
     feet = np.isin(score.notes["piece"], (Piece.KICK, Piece.HIHAT_PEDAL))
     unknown = (limbs == Limb.UNKNOWN) & ~feet
     limbs[unknown] = np.where(np.arange(unknown.sum()) % 2 == 0, Limb.RIGHT_HAND, Limb.LEFT_HAND)
     limbs[feet] = Limb.RIGHT_FOOT
-    hands = np.isin(limbs, (Limb.RIGHT_HAND, Limb.LEFT_HAND))
-    wrong = hands & (rng.uniform(size=len(limbs)) < player.wrong_sticking)
-    limbs[wrong] = np.where(limbs[wrong] == Limb.RIGHT_HAND, Limb.LEFT_HAND, Limb.RIGHT_HAND)
     result: NDArray[np.int8] = limbs
     return result
-
-
-def _played_s(score: Score, player: PlayerSpec, rng: np.random.Generator) -> NDArray[np.float64]:
-    """When each note is played, in s from tick 0: one clock for all limbs, a motor delay for each stroke."""
-    ticks, inverse = np.unique(score.notes["tick"], return_inverse=True)
-    beats_s = np.array(score.tempo_map.ns_at(ticks)) / NS_PER_S
-    gaps = np.diff(beats_s, prepend=beats_s[0] if len(beats_s) else 0.0)
-    lean = np.zeros(len(beats_s))
-    error = 0.0
-    for i, gap in enumerate(gaps.tolist()):
-        error = (1 - player.correction) * error + rng.normal(0, player.clock_share * gap)
-        lean[i] = error
-    hand = rng.normal(0, player.motor_s, len(score.notes))
-    hand[score.notes["ornament"] == Ornament.DIDDLE] *= 0.5  # a bounce follows its stroke
-    return np.asarray(score.onset_s + lean[inverse] + hand)
 
 
 def _stroke_types(strokes: list[StickStrokeSpec]) -> list[StickStrokeSpec]:

@@ -22,6 +22,8 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 BITS = 16
+ROOM_C, WARMER_BY_C, WARMS_IN_S = 24.0, 9.0, 240.0
+"""A small board in a hand that plays warms by some degrees within minutes (our choice)."""
 HEADROOM = 1.05
 """How far beyond its range a sensing element still follows (our choice: data sheets promise none)."""
 
@@ -36,14 +38,15 @@ class Chip:
     rate_bias_dps: float
     scale_error: float = 0.005
     rate_wander_dps: float = 0.02  # in a √minute; our choice, of the order of the bias instabilities that are sold
+    rate_dps_a_kelvin: float = 0.005  # ICM-42688-P: "gyro zero-rate output variation over temperature"
 
 
 CHIPS = MappingProxyType(
     {
         "icm42688": Chip(70e-6, 2.8e-3, 0.020, 0.5),
         "bmi270": Chip(160e-6, 7e-3, 0.020, 0.5),
-        "mpu9250": Chip(300e-6, 10e-3, 0.060, 5.0, 0.03),
-        "perfect": Chip(0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+        "mpu9250": Chip(300e-6, 10e-3, 0.060, 5.0, 0.03, 0.02, 0.24),
+        "perfect": Chip(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
     }
 )
 """TDK DS-000347 (ICM-42688-P), Bosch BST-BMI270-DS000, InvenSense PS-MPU-9250A-01: tables of sensor specifications."""
@@ -93,7 +96,8 @@ class SimulatedStick:
 
     Rows are samples that arrived, in order: `time_s` (n,) when they were measured, `stamp_ns` (n,) the same by the
     recovered clock, `arrival_ns` (n,), `acceleration` (n, 3) in m/s² and `rate` (n, 3) in rad/s in the sensor's axes,
-    `orientation` (n, 4) or None. `measured` counts all samples, also those that were lost; `number` (n,) numbers them.
+    `orientation` (n, 4) or None, `temperature_c` (n,) of the chip. `measured` counts all samples, also those that were
+    lost; `number` (n,) numbers them.
     """
 
     limb: Limb
@@ -106,6 +110,7 @@ class SimulatedStick:
     acceleration: Floats
     rate: Floats | None
     orientation: Floats | None
+    temperature_c: Floats
     measured: int
     motion: StickMotion
 
@@ -160,6 +165,7 @@ def measure(motion: StickMotion, sensor: SensorSpec, device: str, rng: np.random
             chip.rate_bias_dps * degrees,
             chip.scale_error,
             chip.rate_wander_dps * degrees,
+            chip.rate_dps_a_kelvin * degrees,
         ),
         sensor,
         rng,
@@ -178,6 +184,7 @@ def measure(motion: StickMotion, sensor: SensorSpec, device: str, rng: np.random
         acceleration=acceleration[kept],
         rate=rate[kept] if sensor.has_gyro else None,
         orientation=orientation,
+        temperature_c=temperature_c(time_s[kept] - motion.time_s[0]),
         measured=len(time_s),
         motion=motion,
     )
@@ -192,6 +199,7 @@ class _Element:
     bias: float
     scale_error: float
     wander: float
+    warming: float = 0.0  # per kelvin
 
 
 def _through_chip(
@@ -206,6 +214,8 @@ def _through_chip(
     if element.wander and len(time_s) > 1:
         steps = rng.normal(0, 1, sampled.shape) * element.wander * math.sqrt(1 / (60 * sensor.rate_hz))
         sampled += np.cumsum(steps, axis=0)
+    warmer = temperature_c(time_s - fine_s[0]) - ROOM_C
+    sampled += warmer[:, None] * rng.uniform(-1, 1, 3) * element.warming
     step = element.range / 2 ** (BITS - 1)
     rounded: Floats = np.clip(np.rint(sampled / step), -(2 ** (BITS - 1)), 2 ** (BITS - 1) - 1) * step
     return rounded
@@ -231,6 +241,11 @@ def _sample_times(fine_s: Floats, sensor: SensorSpec, rng: np.random.Generator) 
     first = fine_s[0] + rng.uniform(0, period)
     times: Floats = first + period * np.arange(math.floor((fine_s[-1] - first) / period))
     return times
+
+
+def temperature_c(since_s: Floats) -> Floats:
+    """The chip's temperature (n,) in °C, `since_s` (n,) after it was switched on."""
+    return np.asarray(ROOM_C + WARMER_BY_C * (1 - np.exp(-since_s / WARMS_IN_S)))
 
 
 def _wander(time_s: Floats, size_s: float, rng: np.random.Generator) -> Floats:

@@ -8,8 +8,8 @@ from station.simulation.sticks.swing_path import Knot, along, smooth_steps
 
 def test_reach_is_minimum_jerk() -> None:
     # Flash & Hogan 1985, eq. 3: x = d·(10 s³ − 15 s⁴ + 6 s⁵)
-    s = np.arange(11) / 10.0
-    assert along([Knot(0, 0.0), Knot(2, 0.4)], 2 * s) == pytest.approx(0.4 * (10 * s**3 - 15 * s**4 + 6 * s**5))
+    s = np.arange(11).astype(np.float64) / 10
+    assert along([Knot(0, 0.0), Knot(1, 0.4)], s) == pytest.approx(0.4 * (10 * s**3 - 15 * s**4 + 6 * s**5))
 
 
 def test_passes_its_knots_with_their_speeds_and_accelerations() -> None:

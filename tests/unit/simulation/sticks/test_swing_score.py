@@ -7,7 +7,7 @@ from station.core.pieces import Articulation, Limb, Piece
 from station.core.units import PPQ
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
-from station.simulation.sticks.swing_score import NOVICE, PlayerSpec, spec_from_score, spec_from_sticking
+from station.simulation.sticks.swing_score import NOVICE, PROFESSIONAL, PlayerSpec, spec_from_score, spec_from_sticking
 from station.simulation.sticks.swing_spec import StrokeKind, speed_for, speed_for_velocity, velocity_for_speed
 
 R, L = Limb.RIGHT_HAND, Limb.LEFT_HAND
@@ -86,6 +86,14 @@ def test_player_is_as_unsteady_as_asked() -> None:
     off = np.array([s.at_s for s in played]) - 3.0 - score.onset_s
     assert off.std() == pytest.approx(0.006, rel=4 / np.sqrt(800))
     assert abs(off.mean()) < 4 * 0.006 / 20
+
+
+def test_a_click_is_leant_on() -> None:
+    """Errors of the clock are taken back: over 400 beats a professional never strays a sixteenth (125 ms)."""
+    played = spec_from_score(_score([80] * 400), player=PROFESSIONAL, seed=5)
+    off = np.array([s.at_s for s in played]) - 3.0 - 0.5 * np.arange(400)
+    assert 0.008 < off.std() < 0.03  # 2–3 % of 500 ms and 4–8 ms of the hands
+    assert np.abs(off).max() < 0.125
 
 
 def test_novice_takes_the_wrong_hand_now_and_then() -> None:

@@ -140,3 +140,17 @@ def test_quaternions_and_matrices_are_each_others_inverse() -> None:
     turns = [random_turn(rng) for _ in range(50)] + [(0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0), (0.0, 0.0, 0.0, 1.0)]
     back = quaternions(np.array([matrix_of(turn) for turn in turns]))
     assert np.abs(np.einsum("ni,ni->n", back, np.array(turns))) == pytest.approx(1.0)
+
+
+def test_chip_warms_and_its_bias_with_it() -> None:
+    """MPU-9250: 0.24 °/s a kelvin at the most; within 42 s it warms by 9 K·(1 − e^(−42/240)) = 1.4 K."""
+    resting = [StickGesture(3.5, 38.0, R, GestureKind.REST)]
+    sensor = SensorSpec(rate_hz=100, chip="mpu9250", turn=STILL)
+    strokes = [StickStrokeSpec(43.0, R)]
+    stick = play(strokes, resting, pair=StickPair(dict.fromkeys(HANDS, sensor)), seed=6).sticks[R]
+    assert stick.rate is not None
+    assert stick.temperature_c[-1] - stick.temperature_c[0] == pytest.approx(1.5, abs=0.1)
+    early, late = ((stick.time_s > t) & (stick.time_s < t + 5) for t in (5.0, 34.0))
+    drift = np.degrees(stick.rate[late].mean(axis=0) - stick.rate[early].mean(axis=0))
+    assert np.abs(drift).max() < 0.24 * 1.4 + 0.06
+    assert np.abs(drift).max() > 0.02
