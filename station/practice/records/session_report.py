@@ -20,6 +20,7 @@ from station.devices.mapping.device_file import own_kit
 from station.drills.lesson import Goals
 from station.engine.engine import KEYBOARD
 from station.practice.records.mastery_report import passes_text
+from station.practice.records.stick_words import sticking_words, sticks_document, sticks_text
 from station.practice.records.what_next import advice_of, table_in, what_next
 from station.practice.session.adaptation import lesson_bars
 from station.practice.session.lesson_places import written_hands
@@ -75,6 +76,7 @@ def practice_document(result: SessionResult, settings: Settings) -> dict[str, Js
         ],
         "next": [*what_next(document, plan)],
     }
+    document["sticks"] = sticks_document(result.felt)
     return document
 
 
@@ -150,7 +152,7 @@ def report_text(document: dict[str, Json]) -> str:
     return (
         f"{head}{'' if session['complete'] else ' (stopped early)'}\n\n"
         f"{_figures_text(document)}{_praise_text(document)}{_passes(document)}"
-        f"{_steps_text(map(str, steps))}{_paused(session)}"
+        f"{_steps_text(map(str, steps))}{sticks_text(document)}{_paused(session)}"
         f"\nLatency taken out: {session['latency']}.\n"
     )
 
@@ -205,26 +207,9 @@ def _figures_text(document: dict[str, Json]) -> str:
     if rows:
         lines += ["", f"{'piece':17}" + "".join(f"{name:>9}" for name in _COLUMNS)]
     lines += [f"{name_of(piece):17}" + "".join(f"{cell:>9}" for cell in _cells(group)) for piece, group in rows]
-    lines += _sticking_words(document)
+    lines += sticking_words(document)
     craft = technique_lines(document)
     return "\n".join([*lines, "", *craft] if craft else lines) + "\n"
-
-
-def _sticking_words(document: dict[str, Json]) -> list[str]:
-    """A line on the hands, none without sensors on the sticks or where no hand is asked for."""
-    if document.get("sticking") is None:
-        return []
-    sticking = table_in(document, "sticking")
-    right, wrong, open_ = (sticking[key] for key in ("right", "wrong", "cannot_tell"))
-    bars = sticking["wrong_bars"]
-    assert isinstance(right, int)
-    assert isinstance(wrong, int)
-    assert isinstance(bars, list), "the report is ours"
-    if not right + wrong:
-        return []
-    where = f" (bars {', '.join(str(one['bar']) for one in bars if isinstance(one, dict))})" if bars else ""
-    doubt = f"; {open_} cannot be told" if open_ else ""
-    return ["", f"Sticking: {right} of {right + wrong} strokes from the hand that is written{where}{doubt}"]
 
 
 _COLUMNS = ("notes", "hit", "missed", "wrong", "extra", "mean ms", "SD ms")

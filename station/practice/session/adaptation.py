@@ -266,11 +266,7 @@ def whole(results: list[SessionResult], bars: tuple[int, int]) -> SessionResult:
             for start, result in zip(row.start_bars, results, strict=True)
             for pause in result.pauses
         ),
-        strokes=tuple(
-            replace(stroke, at_ns=stroke.at_ns + start_ns)
-            for start_ns, result in zip(row.start_ns, results, strict=True)
-            for stroke in result.strokes
-        ),
+        felt=tuple(pair for result in results for pair in result.felt),
     )
 
 

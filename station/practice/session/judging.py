@@ -8,12 +8,12 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import TypeVar
 
-from station.core.events import Choke, Hit, StickStroke
+from station.core.events import Choke, Hit
+from station.core.pieces import Limb
 from station.music.judgement import Judgement, Label
 from station.music.performance import Performance
 from station.music.score import Score
 from station.scoring.following.follower import Follower
-from station.sync.strokes.hand_naming import name_hands
 
 _Played = TypeVar("_Played", Hit, Choke)
 
@@ -64,13 +64,14 @@ class Judging:
         if strokes:
             self._judge_anew([hit for hit in self.hits if hit not in strokes])
 
-    def performance(self, strokes: Sequence[StickStroke] = ()) -> Performance:
+    def performance(self, limbs: Sequence[Limb] | None = None) -> Performance:
         """What was played; where the score waited for the student, so does the time of what came after.
 
-        `strokes` of the sticks, in score time, tell which hand played it.
+        `limbs` are those of the hits, where more is known than the hits tell themselves.
         """
-        limbs = name_hands(self.hits, strokes) if strokes else [hit.limb for hit in self.hits]
-        hits = [replace(hit, limb=limb) for hit, limb in zip(self.hits, limbs, strict=True)]
+        hits = self.hits
+        if limbs is not None:
+            hits = [replace(hit, limb=limb) for hit, limb in zip(hits, limbs, strict=True)]
         waited = [(self.hits[hit].at_ns, by_ns) for hit, by_ns in self._follower.waited]
 
         def moved(event: _Played) -> _Played:

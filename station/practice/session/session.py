@@ -32,6 +32,7 @@ from station.practice.session.plan import TAIL_NS, Phase, Plan, Segment
 from station.scoring.align import align
 from station.scoring.matching.alignment import Alignment
 from station.sound.track import PreparedTrack
+from station.sync.strokes.hand_naming import limb_of, strokes_of_hits
 
 LEAD_IN_NS = 300 * NS_PER_MS
 """How long after `start` the first click is heard: time for the engine to wake; our choice."""
@@ -57,8 +58,8 @@ class SessionResult:
 
     `score` is what is judged: the plan's, or, when the session was stopped early (`complete` False), its strokes up to
     there. `device` is what most hits were played on, `output` what the click was heard on; None where there was none.
-    `pauses` are those after which it went on, each by its bar of `score`; `strokes` are those that the sticks' sensors
-    felt, in score time.
+    `pauses` are those after which it went on, each by its bar of `score`; `felt` are the hits, each with its
+    stroke, of which the sticks' sensors told the hand, in its own score's time.
     """
 
     plan: Plan
@@ -70,7 +71,7 @@ class SessionResult:
     device: str | None
     output: str | None = None
     pauses: tuple[SessionPause, ...] = ()
-    strokes: tuple[StickStroke, ...] = ()
+    felt: tuple[tuple[Hit, StickStroke], ...] = ()
 
 
 @dataclass(eq=False)
@@ -255,7 +256,9 @@ class Session:
 
     def result(self) -> SessionResult:
         """The final alignment of all that was heard so far."""
-        performance, last_ns = self._judging.performance(self._strokes), self._judging.last_ns
+        hits, strokes = self._judging.hits, strokes_of_hits(self._judging.hits, self._strokes)
+        limbs = [limb_of(hit, stroke) for hit, stroke in zip(hits, strokes, strict=True)] if self._strokes else None
+        performance, last_ns = self._judging.performance(limbs), self._judging.last_ns
         heard_until_ns = self.state().score_ns
         if self.paused:  # what came after the last stroke is nobody's
             heard_until_ns = 0 if last_ns is None else last_ns + NEAR_NS
@@ -272,7 +275,7 @@ class Session:
             self._played_on(),
             self.heard.output,
             tuple(self.pauses),
-            tuple(self._strokes),
+            tuple((hit, stroke) for hit, stroke in zip(hits, strokes, strict=True) if stroke is not None),
         )
 
     def _played_on(self) -> str | None:

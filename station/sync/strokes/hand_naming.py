@@ -51,10 +51,11 @@ def name_hands(hits: Sequence[Hit], strokes: Sequence[StickStroke]) -> tuple[Lim
     for nothing.
     """
     found = strokes_of_hits(hits, strokes)
-    return tuple(_limb_of(hit, stroke) for hit, stroke in zip(hits, found, strict=True))
+    return tuple(limb_of(hit, stroke) for hit, stroke in zip(hits, found, strict=True))
 
 
-def _limb_of(hit: Hit, stroke: StickStroke | None) -> Limb:
+def limb_of(hit: Hit, stroke: StickStroke | None) -> Limb:
+    """Who played a hit that `stroke` made, None where nobody can tell."""
     if hit.limb is not Limb.UNKNOWN:
         return hit.limb
     return FOOT_OF.get(hit.piece, Limb.UNKNOWN) if stroke is None else stroke.limb

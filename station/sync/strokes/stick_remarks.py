@@ -17,12 +17,12 @@ FEWEST = 12
 """Strokes of a hand, at least, before anything is said of it; our choice, as for praise."""
 Z_95 = 1.96
 HEIGHT_RATIO = 1.22
-"""Hands whose heights differ more are uneven: half a step between levels (3, 4.5, 6 inches, HUMANS.md)."""
+"""Hands whose heights differ more are uneven: half a step between levels (3, 4.5, 6 inches: HUMANS)."""
 REBOUND_APART = 0.1
 """So much more of a stroke's speed comes back in one hand than in the other; our choice: a fifth of a usual rebound."""
 HELD_BACK = 0.9
-"""A stick that reaches less than this share of the speed of a free fall from its height is held back. Pivoted at a third
-of its length a stick's tip falls with g (rod of uniform mass: 0.27 m · g · 0.068 m / 0.0183 m² = 1.0 g)."""
+"""A stick that reaches less than this share of the speed of a free fall from its height is held back. Pivoted at
+a third of its length, its tip falls with g (rod of uniform mass: 0.27 m · g · 0.068 m / 0.0183 m² = 1.0 g)."""
 HELD_BACK_SHARE = 0.25
 """When more of a hand's strokes are held back it is a habit; our choice."""
 HEIGHT_SLOPE = 0.5
