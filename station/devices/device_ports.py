@@ -40,14 +40,14 @@ class DeviceRequest:
         return self.part.removeprefix(SERIAL) if self.part.startswith(SERIAL) else ""
 
 
-def parse_device(text: str) -> DeviceRequest:
-    """The request that `text` spells; raises `BadInput` for a rate that no serial port has."""
+def parse_device(text: str, baud: int = MIDI_BAUD) -> DeviceRequest:
+    """The request that `text` spells; at `baud` where it says none. Raises `BadInput` for a rate that no port has."""
     request = text.strip()
     rated = _BAUD.fullmatch(request)
     if rated is None:
         if request.startswith(SERIAL) and "@" in request:
             raise BadInput(f"kit {request}", "", "expected serial:PATH@BAUD, such as serial:/dev/ttyUSB0@115200")
-        return DeviceRequest(request)
+        return DeviceRequest(request, baud)
     baud = int(rated[2])
     if not SLOWEST_BAUD <= baud <= FASTEST_BAUD:
         raise BadInput(f"kit {request}", "", f"{baud} baud: expected {SLOWEST_BAUD} to {FASTEST_BAUD}")
