@@ -5,7 +5,7 @@ A rig plays known messages and can pull the plug. Expected values are what was p
 
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 from typing import Protocol
@@ -15,10 +15,12 @@ import pytest
 from station.bench.rigs.serial_kit import SerialKit
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_MS, NS_PER_S
+from station.devices.imu.ble_ports import BleDirectory, Radio
 from station.devices.midi.midi_clients import SILENT_SERVER_NS
 from station.devices.midi.midi_ports import MidiDirectory
 from station.devices.serial.serial_ports import SerialDirectory
 from station.devices.transport import Packet, Transport
+from tests.fakes.ble_air import FakeAir, FakeSensor, until
 from tests.fakes.jack_server import JackServer, jackd_is_installed, joined
 from tests.fakes.kit_player import KitPlayer, Stroke
 from tests.fakes.port_reader import PortReader
@@ -80,6 +82,34 @@ class SerialRig:
         self._kit.unplug()
 
 
+class BleRig:
+    """A Bluetooth sensor, whose notifications carry the messages."""
+
+    def __init__(self) -> None:
+        self._sensor = FakeSensor("kit")
+        self._radio = Radio(FakeAir(self._sensor))
+
+    def open(self) -> Transport:
+        directory = BleDirectory(self._radio, "kit")
+        assert until(lambda: bool(directory.names()))
+        port = directory.open(directory.names()[0])
+        assert self._sensor.is_subscribed.wait(20)
+        return port
+
+    def play(self) -> list[Packet]:
+        sent = []
+        for message in MESSAGES:
+            sent.append(Packet(message, time.monotonic_ns()))
+            self._sensor.notify(message)
+        return sent
+
+    def unplug(self) -> None:
+        self._sensor.switch_off()
+
+    def close(self) -> None:
+        self._radio.close()
+
+
 class JackRig:
     """rtmidi on a real JACK server, with a kit in another process."""
 
@@ -103,7 +133,7 @@ class JackRig:
         self._directory.close()
 
 
-@pytest.fixture(params=["fake", "serial", pytest.param("jack", marks=pytest.mark.jack)])
+@pytest.fixture(params=["fake", "serial", "ble", pytest.param("jack", marks=pytest.mark.jack)])
 def rig(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Rig]:
     if request.param == "serial":
         if sys.platform != "linux":
@@ -115,17 +145,12 @@ def rig(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Rig]:
         jack_rig = JackRig(request.getfixturevalue("jack_server"), tmp_path)
         yield jack_rig
         jack_rig.close()
+    elif request.param == "ble":
+        ble_rig = BleRig()
+        yield ble_rig
+        ble_rig.close()
     else:
         yield FakeRig()
-
-
-def until(enough: Callable[[], bool], within_s: float = 60.0) -> bool:
-    give_up_s = time.monotonic() + within_s
-    while not enough():
-        if time.monotonic() > give_up_s:
-            return False
-        time.sleep(0.0005)
-    return True
 
 
 def read_all(transport: Transport, count: int) -> list[Packet]:
