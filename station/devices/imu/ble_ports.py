@@ -49,8 +49,13 @@ MISSING = "Bluetooth needs the package bleak: pip install 'drum-station[ble]'"
 class BleLibrary(Protocol):
     """What of bleak is used; its classes have these names."""
 
-    BleakScanner: Any
-    BleakClient: Any
+    @property
+    def BleakScanner(self) -> Any:  # noqa: ANN401, N802 - bleak's name, which has no types of its own here
+        """Looks for sensors."""
+
+    @property
+    def BleakClient(self) -> Any:  # noqa: ANN401, N802
+        """A connection."""
 
 
 class _Handle(Protocol):
@@ -68,8 +73,7 @@ def load_bleak() -> BleLibrary:
         import bleak  # noqa: PLC0415 - optional
     except ImportError:
         raise DeviceError(MISSING) from None
-    library: BleLibrary = bleak
-    return library
+    return bleak
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,6 +15,7 @@ from station.devices.imu.ble_ports import BleDirectory, Radio
 from station.devices.port_watch import PortPoll
 from station.devices.serial.serial_ports import SerialDirectory
 from station.devices.stick_ports import StickWatches, parse_sticks, watch_sticks
+from station.devices.transport import Packet
 from tests.fakes.ble_air import WIT_WRITTEN, FakeAir, FakeSensor, until
 
 linux = pytest.mark.skipif(sys.platform != "linux", reason="ptys that speak as serial ports are Linux's")
@@ -58,8 +59,8 @@ def test_what_is_written_reaches_the_sensor(tmp_path: Path) -> None:
             port.write(b"x")
 
 
-def _polled(watches: StickWatches, count: int) -> list[ble_ports.Packet]:
-    packets: list[ble_ports.Packet] = []
+def _polled(watches: StickWatches, count: int) -> list[Packet]:
+    packets: list[Packet] = []
 
     def enough() -> bool:
         packets.extend(watches.sticks[0].hear().packets)
