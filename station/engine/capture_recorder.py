@@ -13,7 +13,7 @@ from station.devices.capture.capture import CaptureRecord, RecordKind, device_re
 from station.devices.capture.capture_writer import CaptureSink
 from station.devices.decoders import DecoderBank
 from station.devices.mapping.device_writer import kit_text
-from station.devices.mapping.presets import PRESETS
+from station.devices.mapping.presets import KNOWN_KITS
 from station.devices.mapping.stick_file import SENSOR_PRESET, stick_text
 
 OpenCapture = Callable[[Path, int], CaptureSink]
@@ -45,7 +45,7 @@ class Recorder:
         if mounting is not None:
             return SENSOR_PRESET, stick_text(mounting)
         preset = self._decoders.preset_of(device)
-        return preset.name, None if PRESETS.get(preset.name) == preset else kit_text(preset)
+        return preset.name, None if KNOWN_KITS.get(preset.name) == preset else kit_text(preset)
 
     def put(self, kind: RecordKind, device: str, at_ns: int, payload: bytes = b"") -> None:
         """Record something of `device`."""

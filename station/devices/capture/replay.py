@@ -3,12 +3,12 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from station.core.events import DeviceEvent, SensorEvent, SensorMounted, SensorSamples, SensorStatus
+from station.core.events import DeviceEvent, SensorEvent, SensorLost, SensorMounted, SensorSamples, SensorStatus
 from station.devices.capture.capture import Capture, CaptureRecord, DeviceWord, RecordKind, device_of, stroke_of
 from station.devices.decoders import DecoderBank
 from station.devices.mapping.device_file import parse_kit
 from station.devices.mapping.device_map import DeviceMap
-from station.devices.mapping.presets import GENERAL_MIDI_PRESET, PRESETS
+from station.devices.mapping.presets import GENERAL_MIDI_PRESET, KNOWN_KITS
 from station.devices.mapping.stick_file import SENSOR_PRESET, parse_stick
 
 
@@ -49,6 +49,7 @@ def replay(capture: Capture) -> Iterator[DeviceEvent]:
 
 _BESIDE_KITS = (
     SensorMounted,
+    SensorLost,
     SensorSamples,
     SensorStatus,
     CaptureBegan,
@@ -114,7 +115,7 @@ def _of_device(decoders: DecoderBank, name: str, record: CaptureRecord) -> Itera
 def _kit_of(device: DeviceWord) -> DeviceMap:
     if device.kit is not None:
         return parse_kit(device.kit, device.preset)
-    return PRESETS.get(device.preset, GENERAL_MIDI_PRESET)
+    return KNOWN_KITS.get(device.preset, GENERAL_MIDI_PRESET)
 
 
 def transport_zeros_ns(capture: Capture) -> list[int]:
