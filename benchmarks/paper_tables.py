@@ -35,6 +35,10 @@ SETTLED = 0.75
 """Of a cycle: what comes later is converged (the paper's longest)."""
 
 
+LEAP = 0.05
+"""Of a cycle from one sample to the next: six times what the motion does (our choice)."""
+
+
 @dataclass(frozen=True, slots=True)
 class Row:
     """A trial: where it lies, which seconds of it, and what it holds, looked at by where its pelvis goes and faces."""
@@ -162,17 +166,19 @@ def gaits(data: Data, model: PeriodicModel, rows: Sequence[Row], preset: str) ->
         low, contact = trigger_errors(model, trial, preset)
         quality = np.median(track_recording(model, trial.signal).quality)
         print(
-            f"{row.title:16} {cycle_s(trial):5.2f}  {quality:5.3f}  {np.median(after):6.2f} {np.quantile(after, 0.9):6.2f}"
-            f" {after.max():6.2f}  {at_zero.mean() if len(at_zero) else np.nan:6.3f} {sd(at_zero)}"
+            f"{row.title:16} {cycle_s(trial):5.2f}  {quality:5.3f}  {np.median(after):6.2f}"
+            f" {np.quantile(after, 0.9):6.2f} {after.max():6.2f}  {at_zero.mean():6.3f} {sd(at_zero)}"
             f"   {np.median(abs(low)):.3f} {abs(low).max():.3f}   {len(low):2d}   {row.holds}"
         )
         lows.append(low)
         contacts.append(contact)
         all_after.append(after)
     every = np.concatenate(all_after)
-    share = float((every <= SETTLED).mean())
-    print(f"converged: median {np.median(every):.2f} cycles, 95 % {np.quantile(every, 0.95):.2f}, most {every.max():.2f};"
-          f" within {SETTLED} of a cycle {100 * share:.0f} % of {len(every)} starts")  # fmt: skip
+    share = 100 * float((every <= SETTLED).mean())
+    print(
+        f"converged: median {np.median(every):.2f} cycles, 95 % {np.quantile(every, 0.95):.2f}, most {every.max():.2f};"
+        f" within {SETTLED} of a cycle {share:.0f} % of {len(every)} starts"
+    )
     for name, parts in (("heel lows", lows), ("first contacts", contacts)):
         error = abs(np.concatenate(parts))
         print(f"{name}: median {np.median(error):.3f}, 95 % {np.quantile(error, 0.95):.3f}, within .1 of a cycle"
@@ -186,9 +192,13 @@ def qualities(data: Data, model: PeriodicModel) -> None:
         trial = data.trial(row)
         for smoothing in (100.0, 0.0):
             track = track_recording(model, trial.signal, TrackerSettings(smoothing=smoothing))
-            rate = np.diff(np.unwrap(track.phase_rad)).sum() / TURN / (len(track.phase_rad) / trial.signal.rate_hz)
-            print(f"{row.title:16} λ {smoothing:3.0f}   {np.median(track.quality):6.3f}     {np.quantile(track.quality, 0.1):6.3f}"
-                  f"  {100 * float((track.quality < 0.5).mean()):5.0f} %   {rate:6.2f}/s    {row.holds}")  # fmt: skip
+            length_s = len(track.phase_rad) / trial.signal.rate_hz
+            rate = np.diff(np.unwrap(track.phase_rad)).sum() / TURN / length_s
+            low = 100 * float((track.quality < 0.5).mean())
+            print(
+                f"{row.title:16} λ {smoothing:3.0f}   {np.median(track.quality):6.3f}     "
+                f"{np.quantile(track.quality, 0.1):6.3f}  {low:5.0f} %   {rate:6.2f}/s    {row.holds}"
+            )
 
 
 def backward(data: Data, model: PeriodicModel) -> None:
@@ -198,9 +208,9 @@ def backward(data: Data, model: PeriodicModel) -> None:
         track = track_recording(model, trial.signal, TrackerSettings(smoothing=smoothing))
         steps = wrapped(np.diff(track.phase_rad))
         turns = np.diff(np.unwrap(track.phase_rad)).sum() / TURN
-        jitter = np.median(abs(np.diff(steps))) / TURN
-        print(f"λ {smoothing:3.0f}: {turns:+.2f} cycles in {len(steps) / trial.signal.rate_hz:.1f} s, {100 * (steps < 0).mean():.0f} %"
-              f" of steps downward, a step differs from the one before by {jitter:.4f} cycles in the median")  # fmt: skip
+        down, length_s = 100 * float((steps < 0).mean()), len(steps) / trial.signal.rate_hz
+        leaps = int((abs(steps) > LEAP * TURN).sum())
+        print(f"λ {smoothing:3.0f}: {turns:+.2f} cycles in {length_s:.1f} s, {down:.0f} % of steps down, {leaps} leaps")
 
 
 def main() -> None:

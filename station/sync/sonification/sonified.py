@@ -12,11 +12,11 @@ from station.sync.phase.periodic_model import PeriodicModel
 from station.sync.phase.phase_tracker import PhaseTrack, TrackerSettings
 from station.sync.signals.signal import Signal
 from station.sync.sonification.triggers import Trigger, triggered
-from station.sync.walking.trial import track_recording
+from station.sync.walking.trial import PAPER, track_recording
 
 LEAST_QUALITY = 0.5
-"""A phase is trusted from this E_max on (our choice: after convergence a plain walk is never below .8, the paper's "low"
-values while a phase converges or a body turns are below it)."""
+"""A phase is trusted from this E_max on (our choice: once converged a plain walk is never below .8; while a phase
+converges, or a body turns, it falls below)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -35,7 +35,7 @@ def is_sure(track: PhaseTrack) -> NDArray[np.bool_]:
 
 
 def sonified(
-    model: PeriodicModel, signal: Signal, triggers: Sequence[Trigger], settings: TrackerSettings = TrackerSettings()
+    model: PeriodicModel, signal: Signal, triggers: Sequence[Trigger], settings: TrackerSettings = PAPER
 ) -> Sonified:
     """Track a whole recording and let its phase trigger sounds; raises `BadInput` where it lacks a channel."""
     track = track_recording(model, signal, settings)

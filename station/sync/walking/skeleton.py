@@ -81,7 +81,8 @@ class Skeleton:
 
     def at_rest(self) -> Points:
         """Where the joints are with every channel at 0, shape (joints, 3)."""
-        return self.positions((), np.zeros((1, 0)))[0]
+        rest: Points = self.positions((), np.zeros((1, 0)))[0]
+        return rest
 
     def positions(self, names: Sequence[str], values: NDArray[np.float64]) -> Points:
         """Where the joints are: `values` (n, channels) of the channels `names`; a channel that is missing is 0."""

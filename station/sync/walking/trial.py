@@ -18,6 +18,8 @@ from station.sync.walking.skeleton import Points, Skeleton
 from station.sync.walking.skeleton_of import skeleton_with_heels
 
 GAIT_CHANNELS = CHANNEL_SETS["walk"]
+PAPER = TrackerSettings()
+"""Δφ 0.05, λ 100: § 4.1."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -67,6 +69,6 @@ def zero_mean(model: PeriodicModel, signal: Signal) -> Signal:
     return replace(channels, values=channels.values - channels.values.mean(axis=0) + model.mean)
 
 
-def track_recording(model: PeriodicModel, signal: Signal, settings: TrackerSettings = TrackerSettings()) -> PhaseTrack:
+def track_recording(model: PeriodicModel, signal: Signal, settings: TrackerSettings = PAPER) -> PhaseTrack:
     """The phase of a whole recording, made zero-mean; raises `BadInput` where it lacks a channel."""
     return tracked(model, zero_mean(model, signal).values, settings)
