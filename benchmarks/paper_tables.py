@@ -5,7 +5,7 @@
 Walk model from 07_01, run model from 09_01, Δφ 0.05, λ 100, n_m 16, right and left femur and tibia about x, zero-mean.
 
 * convergence: from every one of `STARTS` phases, how much of a gait cycle passes until the phase stays within `NEAR` of
-  that of a tracker that started at the right one, which one that goes through the take backwards has found;
+  that of the tracker that fits best in the first `SETTLED` of a cycle: it began where the motion did;
 * scatter: SD of the phase at the right femur's zero crossings, of a cycle, once converged;
 * footfalls: how far from its trigger's threshold the phase is where the heel is lowest, and where it first touches;
 * backward: how the phase runs while the body walks backwards, with λ = 100 and with λ = 0.
@@ -115,14 +115,13 @@ def cycle_s(trial: Trial) -> float:
 def convergence(model: PeriodicModel, trial: Trial) -> NDArray[np.float64]:
     """Of every start the share of a cycle until the phase stays where it belongs, (STARTS,)."""
     values = zero_mean(model, trial.signal).values
-    cadence_rad = TrackerSettings().cadence_rad
-    first_rad = float(tracked(model, values[::-1], TrackerSettings(-cadence_rad)).phase_rad[-1])
-    belongs = tracked(model, values, TrackerSettings(start_rad=first_rad - cadence_rad)).phase_rad
     rate_hz, cycle = trial.signal.rate_hz, cycle_s(trial)
+    tracks = [tracked(model, values, TrackerSettings(start_rad=TURN * start / STARTS)) for start in range(STARTS)]
+    first = round(SETTLED * cycle * rate_hz)
+    belongs = max(tracks, key=lambda track: float(track.quality[:first].mean())).phase_rad
     found = []
-    for start in range(STARTS):
-        phase = tracked(model, values, TrackerSettings(start_rad=TURN * start / STARTS)).phase_rad
-        far = np.flatnonzero(abs(wrapped(phase - belongs)) > NEAR * TURN)
+    for track in tracks:
+        far = np.flatnonzero(abs(wrapped(track.phase_rad - belongs)) > NEAR * TURN)
         found.append((far[-1] + 1 if len(far) else 0) / rate_hz / cycle)
     return np.array(found)
 

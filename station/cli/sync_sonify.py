@@ -19,6 +19,7 @@ from station.cli.options.option_fields import (
 from station.core.errors import BadInput
 from station.core.units import NS_PER_S
 from station.sync.phase.model_file import load_model
+from station.sync.phase.phase_tracker import ADAPTIVE, PAPER
 from station.sync.signals.signal import Signal
 from station.sync.signals.signal_files import read_signal
 from station.sync.sonification.sonified import Sonified, sonified
@@ -53,6 +54,7 @@ class SonifyOptions:
     )
     drums: str | None = option("--sounds KIT", "the drum kit that sounds (the settings')", str, None)
     time: float | None = option("S", "the second that a picture shows (the recording's middle)", number, None)
+    paper: bool = flag("track as Boyd and Godbout 2012 do: a cadence that never changes")
     json: bool = flag("say what sounds as one JSON document")
 
 
@@ -63,14 +65,14 @@ def run(options: SonifyOptions) -> int:
         raise BadInput(options.out, "", f"expected a name that ends in {ENDINGS}")
     triggers = _triggers(options)
     model, signal = load_model(options.model), read_signal(options.signal)
-    told = sonified(model, signal, triggers)
+    told = sonified(model, signal, triggers, PAPER if options.paper else ADAPTIVE)
     _write(options, ending, triggers, told)
     if options.json:
         print_json(_document(told))
     else:
-        trusted = 100 * float(told.sure.mean())
+        locked = 100 * float(told.track.locked.mean())
         length_s = len(signal) / signal.rate_hz
-        say(f"{len(told.hits)} sounds in {length_s:.1f} s, the phase trusted in {trusted:.0f} % of it")
+        say(f"{len(told.hits)} sounds in {length_s:.1f} s, locked in {locked:.0f} % of it")
         say(f"{'film' if ending == FILM else ending[1:]}  {options.out}")
     return 0
 
@@ -158,7 +160,7 @@ def _document(told: Sonified) -> dict[str, object]:
         "phase_rad": told.track.phase_rad.tolist(),
         "phase": [share_of(phase) for phase in told.track.phase_rad.tolist()],
         "quality": told.track.quality.tolist(),
-        "trusted": told.sure.tolist(),
+        "locked": told.track.locked.tolist(),
     }
 
 

@@ -37,7 +37,7 @@ def test_both_editions_put_the_legs_in_one_place(trial: str) -> None:
 
 @pytest.mark.parametrize("path", oracles("CMU's walks"))
 def test_a_body_walks_upright_on_the_floor(path: Path) -> None:
-    """Heels at the floor's height, within 8 cm (a marker's shift, a shoe's sole), whenever a heel is lowest; the head a stature above."""
+    """Heels within 8 cm of the floor (a marker's shift, a sole) whenever they are lowest; the head a stature above."""
     trial = Trial.read(path)
     places = trial.places
     for side, foot in zip("rl", trial.steps, strict=True):

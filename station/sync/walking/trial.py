@@ -10,7 +10,7 @@ from pathlib import Path
 
 from station.sync.phase.exemplars import cycles
 from station.sync.phase.periodic_model import CENTRES, PeriodicModel, fitted
-from station.sync.phase.phase_tracker import PhaseTrack, TrackerSettings, tracked
+from station.sync.phase.phase_tracker import PAPER, PhaseTrack, TrackerSettings, tracked
 from station.sync.signals.signal import CHANNEL_SETS, Signal
 from station.sync.signals.signal_files import read_signal
 from station.sync.walking.footfall import Steps, footfalls
@@ -18,8 +18,6 @@ from station.sync.walking.skeleton import Points, Skeleton
 from station.sync.walking.skeleton_of import skeleton_with_heels
 
 GAIT_CHANNELS = CHANNEL_SETS["walk"]
-PAPER = TrackerSettings()
-"""Δφ 0.05, λ 100: § 4.1."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
