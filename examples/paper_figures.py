@@ -137,7 +137,10 @@ def model_figure(maker: FlatPictures, exemplar: Trial, model: PeriodicModel) -> 
 
 def _heading(draw_list: DrawList, words: str) -> None:
     draw_list.text(words, (_EDGE, 36), TypeStyle(24, INK, Face.BOLD))
-    about = "After Boyd and Godbout, ICAD 2012. Data: mocap.cs.cmu.edu, created with funding from NSF EIA-0196217."
+    about = (
+        "After Boyd and Godbout, ICAD 2012. Data: mocap.cs.cmu.edu, created with funding from NSF EIA-0196217."
+        "   Pale: not locked. Discs: what sounds. Triangles: a heel comes down, right orange, left pink."
+    )
     draw_list.text(about, (_EDGE, 60), TypeStyle(14, INK_SOFT))
 
 

@@ -26,6 +26,8 @@ QUALITY_RANGE = (-1.0, 1.0)
 _LEFT, _RIGHT, _HEAD, _FOOT, _BETWEEN = 54.0, 16.0, 54.0, 26.0, 16.0
 """Units round the two axes: for their numbers, for the title, and between them."""
 _QUALITY_SHARE = 0.36
+_UNSURE = 0.5
+"""How opaque a phase is that nobody should use."""
 _WRAP = 0.5
 """A phase that changes by more between two samples has wrapped."""
 _TEXT = 13.0
@@ -141,7 +143,7 @@ def time_ticks(span_s: tuple[float, float]) -> list[tuple[float, str]]:
 def _curves(draw_list: DrawList, axes: PlotAxes) -> None:
     trace = axes.trace
     for is_sure, part in _runs(trace.sure):
-        colour = with_opacity(GOOD, 1.0 if is_sure else 0.4)
+        colour = with_opacity(GOOD, 1.0 if is_sure else _UNSURE)
         for piece in _unwrapped(trace.share, part):
             _polyline(draw_list, [(axes.x(trace.time_s[k]), axes.y_of_share(trace.share[k])) for k in piece], colour)
         _polyline(draw_list, [(axes.x(trace.time_s[k]), axes.y_of_quality(trace.quality[k])) for k in part], colour)
