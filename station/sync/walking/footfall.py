@@ -18,7 +18,8 @@ from station.sync.walking.skeleton import SIDES, Skeleton
 SMOOTHED_S = 0.04
 """The heel's height is averaged over so long before its velocity is taken (our choice: five frames at 120 Hz)."""
 SETTLED = 0.1
-"""A fall is over where the heel sinks at a tenth of the fall's greatest speed (our choice)."""
+"""A fall is over where the heel sinks at a tenth of the fall's greatest speed (our choice; a twentieth or a fifth moves
+contacts by 12 and 17 ms in the median, lows not at all)."""
 LOW = 0.35
 """A heel is down in the lowest 35 % of its range (O'Connor et al. 2007)."""
 LEAST_RANGE_M = 0.1
