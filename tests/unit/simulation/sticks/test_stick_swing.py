@@ -198,6 +198,14 @@ def test_air_stroke_has_its_greatest_push_at_the_beat() -> None:
     assert not played.pad_hits
 
 
+@pytest.mark.parametrize("speed", [2.0, 5.0, 8.0])
+def test_sensor_on_the_butt_feels_an_air_stroke_at_its_beat(speed: float) -> None:
+    """Nothing before or after pushes as much: at ± 40 ms |acceleration| is past its peak, without any touch."""
+    motion = play([StickStrokeSpec(3.0, R, speed_m_s=speed, kind=StrokeKind.AIR)]).sticks[R].motion
+    felt = np.linalg.norm(motion.force_free_of_gravity(0.076), axis=1)
+    assert abs(motion.time_s[felt.argmax()] - 3.0) < 0.03
+
+
 def test_buzz_bounces_ever_weaker() -> None:
     truth = play([StickStrokeSpec(3.0, R, speed_m_s=3.0, kind=StrokeKind.BUZZ, lasts_s=0.3)]).truth
     assert len(truth) >= 8
