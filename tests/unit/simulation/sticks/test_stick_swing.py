@@ -234,6 +234,16 @@ def test_crash_is_struck_with_the_shoulder() -> None:
     assert played.truth["lasts_s"][0] < 0.002
 
 
+@pytest.mark.parametrize("kind", list(GestureKind))
+@pytest.mark.parametrize("lasts_s", [0.1, 1.0])
+def test_every_motion_ends_where_it_began(kind: GestureKind, lasts_s: float) -> None:
+    """Tips are back over their drums a moment later, within sway's centimetres."""
+    motion = play([StickStrokeSpec(3.0, R)], [StickGesture(4.0, lasts_s, R, kind)]).sticks[R].motion
+    tip = motion.point_m(LENGTH_M)
+    before, after = np.searchsorted(motion.time_s, [3.95, 4.05 + lasts_s])
+    assert np.linalg.norm(tip[after] - tip[before]) < 0.03
+
+
 def test_same_seed_same_bits_other_seed_others() -> None:
     strokes = [StickStrokeSpec(3.0, R), StickStrokeSpec(3.2, L)]
     first, again, other = (play(strokes, seed=s).sticks[L].acceleration for s in (4, 4, 5))
