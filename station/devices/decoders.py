@@ -9,8 +9,8 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from station.core.events import DeviceEvent, DeviceFound, DeviceLost, Hit, SensorEvent
-from station.devices.hid.hid_decoder import HidDecoder
 from station.core.imu import Mounting
+from station.devices.hid.hid_decoder import HidDecoder
 from station.devices.imu.imu_sensor import ImuSensor
 from station.devices.mapping.device_map import DeviceMap
 from station.devices.mapping.presets import preset_for
