@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
-from station.core.events import DeviceEvent, DeviceFound, DeviceLost, Hit, SensorEvent
+from station.core.events import DeviceEvent, DeviceFound, DeviceLost, Hit, SensorEvent, SensorLost
 from station.core.imu import Mounting
 from station.devices.hid.hid_decoder import HidDecoder
 from station.devices.imu.imu_sensor import ImuSensor
@@ -142,20 +142,21 @@ class DecoderBank:
         kit.filter.reset()
         return kit.decoder.restart_state()
 
-    def lost(self, device: str, at_ns: int) -> list[DeviceEvent]:
+    def lost(self, device: str, at_ns: int) -> list[DeviceEvent | SensorEvent]:
         """`device` is gone: half a message and the pedal's position mean nothing any more."""
-        return [*self._reset(device), DeviceLost(at_ns, device)]
+        sensor = self._sensors.get(device)
+        if sensor is None:
+            return [*self._kit(device).reset(), DeviceLost(at_ns, device)]
+        sensor.reset()
+        return [SensorLost(at_ns, device)]
 
-    def found(self, device: str, at_ns: int) -> list[DeviceEvent]:
+    def found(self, device: str, at_ns: int) -> list[DeviceEvent | SensorEvent]:
         """`device` is there, or there again."""
-        return [*self._reset(device), DeviceFound(at_ns, device)]
-
-    def _reset(self, device: str) -> list[DeviceEvent]:
-        """Start `device` afresh; returns what still waited."""
-        if device in self._sensors:
-            self._sensors[device].reset()
-            return []
-        return self._kit(device).reset()
+        sensor = self._sensors.get(device)
+        if sensor is None:
+            return [*self._kit(device).reset(), DeviceFound(at_ns, device)]
+        sensor.reset()
+        return [sensor.found(at_ns)]
 
     def _kit(self, device: str) -> _Kit:
         kit = self._kits.get(device)

@@ -14,6 +14,7 @@ from station.core.events import DeviceEvent, SensorSamples, StickEvent
 from station.core.pieces import Articulation, Piece, Zone
 from station.sound.buses import Bus, ClickVoice
 from station.sound.track import PreparedTrack, Track
+from station.sync.air.air_zones import AirKit
 
 __all__ = [
     "CUE_DTYPE",
@@ -32,6 +33,7 @@ __all__ = [
     "RecordCapture",
     "ReloadDevice",
     "Resume",
+    "SetAirDrums",
     "SetBacking",
     "SetLevel",
     "SetMidiOut",
@@ -40,6 +42,7 @@ __all__ = [
     "Started",
     "Status",
     "Stop",
+    "Watch",
     "WatchRawBytes",
     "WatchSensors",
 ]
@@ -122,6 +125,17 @@ class SetMidiOut:
 
 
 @dataclass(frozen=True, slots=True)
+class SetAirDrums:
+    """Make hits of what the sticks play in the air, by `kit`; None for no air drums.
+
+    `ahead_ns` is how long before its beat a stroke may sound, where it is foretold; None for none that is.
+    """
+
+    kit: AirKit | None
+    ahead_ns: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class KeyHit:
     """A stroke played on the computer's keyboard, stamped `at_ns` when it was polled."""
 
@@ -173,7 +187,7 @@ class Quit:
     """End the engine process."""
 
 
-Setting = SetLevel | SetPiece | SetBacking | SetMidiOut
+Setting = SetLevel | SetPiece | SetBacking | SetMidiOut | SetAirDrums
 Watch = WatchRawBytes | WatchSensors
 Command = Play | Resume | Stop | Setting | KeyHit | RecordCapture | Annotate | Watch | ReloadDevice | Quit
 

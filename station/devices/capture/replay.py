@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from station.core.events import DeviceEvent, SensorEvent, SensorMounted, SensorSamples, SensorStatus
+from station.core.events import DeviceEvent, SensorEvent, SensorLost, SensorMounted, SensorSamples, SensorStatus
 from station.devices.capture.capture import Capture, CaptureRecord, DeviceWord, RecordKind, device_of, stroke_of
 from station.devices.decoders import DecoderBank
 from station.devices.mapping.device_file import parse_kit
@@ -49,6 +49,7 @@ def replay(capture: Capture) -> Iterator[DeviceEvent]:
 
 _BESIDE_KITS = (
     SensorMounted,
+    SensorLost,
     SensorSamples,
     SensorStatus,
     CaptureBegan,

@@ -19,20 +19,25 @@ class ImuSensor:
         self.reset()
 
     def reset(self) -> None:
-        """Start afresh, as when the sensor is found anew: with the next bytes it says how it is mounted."""
+        """Start afresh: with the next bytes it says how it is mounted."""
+        self._is_announced = False
         self._decoder = DetectingDecoder()
         self._clock: SampleClock | None = None
         self._told = Told()
         self._next_status_ns: int | None = None
 
+    def found(self, at_ns: int) -> SensorMounted:
+        """It is here, and is mounted so."""
+        self._is_announced = True
+        return SensorMounted(at_ns, self._device, self.mounting)
+
     def feed(self, data: bytes, at_ns: int) -> list[SensorEvent]:
         """What the bytes that came at `at_ns` bring."""
         if not data:  # a capture that begins has no bytes to say how a sensor stands
             return []
-        events: list[SensorEvent] = []
+        events: list[SensorEvent] = [] if self._is_announced else [self.found(at_ns)]
         if self._next_status_ns is None:
             self._next_status_ns = at_ns + STATUS_EVERY_NS
-            events.append(SensorMounted(at_ns, self._device, self.mounting))
         samples = self._samples(data, at_ns)
         if samples:
             events.append(SensorSamples(at_ns, self._device, samples))

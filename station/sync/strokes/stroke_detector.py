@@ -41,14 +41,20 @@ AFTER_S = 0.012
 """So long after a contact was noticed its pulse and rebound are gathered: twice the longest contact."""
 KEPT_S = 0.045
 """How much of the past is kept: contact, gathering and what came just before; at 100 Hz four samples."""
-STILL_RAD_S = 0.2
+STILL_RAD_S, STILL_M_S = 0.2, 0.05
 """A stick that turns more slowly, at about 1 g, stands still: 5 cm/s at the tip; our choice."""
+TURNING_M_S = 0.5
+"""How fast the hand may be while the stick turns round at the top: in the recorded stroke (HUMANS.md) it sinks 5 cm in
+the slow fall of 92 ms."""
+CONTACT_M_S = 10.0
+"""How wrong the sensor's velocity may be after a contact, which no accelerometer follows: the fastest tip's own."""
+DRIFT_M_S2 = 0.35
+"""How fast the integrated velocity goes wrong: a tilt that is 2° off, as VQF's is in motion (Laidig & Seel 2023)."""
 
 
 class _Instant(NamedTuple):
     at_s: float
     fall: float
-    acceleration: Vector
     speed: float
     height: float
     sine: float
@@ -67,6 +73,7 @@ class StrokeDetector:
     def _start(self) -> None:
         self._kept: deque[_Instant] = deque()
         self._velocity = self._force = (0.0, 0.0, 0.0)  # of the sensor, in the earth's axes
+        self._doubt = CONTACT_M_S
         self._below = self._sink = 0.0  # how far the tip has sunk since its top, and how fast it does
         self._is_armed = True
         self._fastest = 0.0  # of this fall
@@ -90,6 +97,7 @@ class StrokeDetector:
         self._arm(now)
         if self._due_s is None:
             if self._is_armed and self._is_contact(now):
+                self._doubt = CONTACT_M_S
                 self._is_armed, self._due_s, self._low = False, now.at_s + self._after_s(), now.sine
                 self._raise = max(LEAST_FALL_RAD, self._fastest * RAISED_S)
             return None
@@ -111,7 +119,7 @@ class StrokeDetector:
         before = kept[-1] if kept else None
         dt_s = 0.0 if before is None else at_s - before.at_s
         speed = self._tip(rows, motion, fall, dt_s)
-        now = _Instant(at_s, fall, motion.acceleration_m_s2, speed, self._below, rows[2][0], motion.is_clipped)
+        now = _Instant(at_s, fall, speed, self._below, rows[2][0], motion.is_clipped)
         kept.append(now)
         while kept[0].at_s < at_s - max(KEPT_S, 4 * dt_s):
             kept.popleft()
@@ -121,20 +129,24 @@ class StrokeDetector:
         """The tip's speed; keeps the sensor's velocity and how far the tip is below its highest point."""
         force = turned(rows, motion.acceleration_m_s2)
         before = self._kept[-1].fall if self._kept else 0.0
-        is_top = before <= 0.0 < fall
-        if is_top or self._is_still(fall, force):
-            vx = vy = vz = 0.0
-        else:
-            half = 0.5 * dt_s
-            (vx, vy, vz), (fx, fy, fz) = self._velocity, self._force
-            vx, vy = vx + half * (fx + force[0]), vy + half * (fy + force[1])
-            vz += half * (fz + force[2] - 2.0 * STANDARD_GRAVITY_M_S2)
+        half = 0.5 * dt_s
+        (vx, vy, vz), (fx, fy, fz) = self._velocity, self._force
+        vx, vy = vx + half * (fx + force[0]), vy + half * (fy + force[1])
+        vz += half * (fz + force[2] - 2.0 * STANDARD_GRAVITY_M_S2)
+        self._doubt += DRIFT_M_S2 * dt_s
+        if before <= 0.0 < fall or self._is_still(fall, force):
+            known = STILL_M_S if self._is_still(fall, force) else TURNING_M_S
+            share = known**2 / (known**2 + self._doubt**2)
+            if share < 0.5:
+                self._below = 0.0
+            vx, vy, vz = vx * share, vy * share, vz * share
+            self._doubt *= math.sqrt(share)
         self._velocity, self._force = (vx, vy, vz), force
         lever = self.mounting.tip_m
         _, p, q = motion.rate_rad_s
         wx, wy, wz = turned(rows, (0.0, q * lever, -p * lever))
         sink = max(0.0, -(vz + wz))
-        self._below = self._below + 0.5 * (self._sink + sink) * dt_s if sink > 0.0 and not is_top else 0.0
+        self._below = self._below + 0.5 * (self._sink + sink) * dt_s if sink > 0.0 else 0.0
         self._sink = sink
         return math.sqrt((vx + wx) ** 2 + (vy + wy) ** 2 + (vz + wz) ** 2)
 
@@ -162,7 +174,7 @@ class StrokeDetector:
         return self._earlier(now).fall - now.fall >= SUDDEN_SHARE * self._fastest
 
     def _earlier(self, now: _Instant) -> _Instant:
-        """What was `SUDDEN_S` ago; with a coarse sensor two samples ago if that is no longer than `COARSE_S`, or one."""
+        """What was `SUDDEN_S` ago; with a coarse sensor two samples ago, within `COARSE_S`, or one."""
         kept = self._kept
         interval_s = now.at_s - kept[-2].at_s
         back_s = 1.01 * max(SUDDEN_S, min(2 * interval_s, COARSE_S))
@@ -182,17 +194,14 @@ class StrokeDetector:
         kept = list(self._kept)
         pairs = list(pairwise(kept))
         interval_s = min(b.at_s - a.at_s for a, b in pairs)
-        is_clipped = any(instant.is_clipped for instant in kept)
-        if is_clipped:
-            times = [instant.at_s for instant in kept]
-            pulse = [math.dist(instant.acceleration, kept[0].acceleration) for instant in kept]
-        else:
-            times = [(a.at_s + b.at_s) / 2 for a, b in pairs]
-            pulse = [max(0.0, (a.fall - b.fall) / (b.at_s - a.at_s)) for a, b in pairs]
+        times = [(a.at_s + b.at_s) / 2 for a, b in pairs]
+        pulse = [max(0.0, (a.fall - b.fall) / (b.at_s - a.at_s)) for a, b in pairs]
         contact = contact_of(times, pulse, interval_s, pulse.index(max(pulse)))
         onset_s = contact.onset_s - (interval_s / 2 if is_derived else 0.0)
-        clean, earlier = _before(kept, onset_s - interval_s / 2)
-        left_s = onset_s - clean.at_s
+        foot = max(contact.first, 1)
+        clean = kept[foot] if kept[foot].fall > kept[foot - 1].fall else kept[foot - 1]  # the foot's own may be smeared
+        earlier = max((i for i in kept if i.at_s <= clean.at_s - SUDDEN_S), default=kept[0])
+        left_s = max(0.0, onset_s - clean.at_s)
         speed, fall = _at_onset(clean.speed, earlier.speed, clean, earlier, left_s), clean.fall
         up = max((-i.fall for i in kept if i.at_s > onset_s), default=0.0)
         down = _at_onset(clean.fall, earlier.fall, clean, earlier, left_s)
@@ -205,15 +214,8 @@ class StrokeDetector:
             clean.height + speed * left_s,
             min(max(up / down, 0.0), 1.0) if down > 0 else None,
             math.asin(min(max(clean.sine - fall * left_s, -1.0), 1.0)),
-            is_clipped,
+            any(instant.is_clipped for instant in kept),
         )
-
-
-def _before(kept: list[_Instant], at_s: float) -> tuple[_Instant, _Instant]:
-    """The last instant before `at_s`, and one that is `SUDDEN_S` or a sample earlier."""
-    clean = max((k for k, instant in enumerate(kept) if instant.at_s <= at_s), default=1)
-    earlier = max((k for k in range(clean) if kept[k].at_s <= kept[clean].at_s - SUDDEN_S), default=max(clean - 1, 0))
-    return kept[clean], kept[earlier]
 
 
 def _at_onset(value: float, before: float, clean: _Instant, earlier: _Instant, left_s: float) -> float:

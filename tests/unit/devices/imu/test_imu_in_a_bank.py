@@ -9,6 +9,7 @@ from station.core.events import (
     DeviceLost,
     Hit,
     SensorEvent,
+    SensorLost,
     SensorMounted,
     SensorSamples,
     SensorStatus,
@@ -34,7 +35,14 @@ def test_a_sensor_says_first_how_it_is_mounted() -> None:
     bank = DecoderBank()
     bank.add_sensor("stick", STICK)
     assert bank.mounting_of("stick") == STICK
-    assert bank.found("stick", 5) == [DeviceFound(5, "stick")]
+    assert bank.found("stick", 5) == [SensorMounted(5, "stick", STICK)]
+    assert not any(isinstance(event, SensorMounted) for event in bank.feed("stick", csv_line(ramp(1)[0]), 7).sensed)
+    assert bank.lost("stick", 9) == [SensorLost(9, "stick")]
+
+
+def test_a_sensor_that_was_not_found_says_so_with_its_first_bytes() -> None:
+    bank = DecoderBank()
+    bank.add_sensor("stick", STICK)
     first, *others = bank.feed("stick", csv_line(ramp(1)[0]), 7).sensed
     assert first == SensorMounted(7, "stick", STICK)
     assert not any(isinstance(event, SensorMounted) for event in others)
