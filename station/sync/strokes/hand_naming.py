@@ -19,7 +19,7 @@ from station.core.events import Hit, StickStroke
 from station.core.pieces import HAND_PIECES, Limb, Piece
 from station.core.units import NS_PER_MS
 from station.sync.strokes.stick_offsets import offset_candidates
-from station.sync.strokes.stroke_matching import Matching, Stroke, Weigh, match
+from station.sync.strokes.stroke_matching import GATE_MS, Matching, Stroke, Weigh, match
 
 FOOT_OF = {Piece.KICK: Limb.RIGHT_FOOT, Piece.HIHAT_PEDAL: Limb.LEFT_FOOT}
 """Who plays what no stick plays, where the kit tells no limb."""
@@ -33,8 +33,11 @@ SAMPLE_HITS = 200
 """So many hits weigh the candidates before all do; our choice."""
 CLEARLY = 25.0
 """A candidate this much less likely (natural logarithm) on the sample is given up; our choice: e⁻²⁵."""
-USUAL_OFFSET_MS = 40.0
+USUAL_OFFSET_MS = 25.0
 """Spread of the offsets that sensors have before anything is heard; our choice, a guide where all else is equal."""
+USUAL_APART_MS = 15.0
+"""Spread of the difference between the two sticks' offsets: sensors of one make, a link each; our choice. It decides
+only where hands alternate like a machine, so that either may have begun."""
 ENOUGH = 8
 """So many sure strokes teach a mean; our choice."""
 LEAST_HABIT = 0.05
@@ -103,9 +106,7 @@ class _Played:
         for stick in range(len(self._devices)):
             own = np.array([at for at, of in zip(self._strokes_ms, self._stick, strict=True) if of == stick])
             found.append(offset_candidates(hits, own) or [0.0])
-        return [
-            _Offsets(ms, sum(-0.5 * (one / USUAL_OFFSET_MS) ** 2 for one in ms)) for ms in itertools.product(*found)
-        ]
+        return [_Offsets(ms, _log_prior(ms)) for ms in itertools.product(*found)]
 
     def _weighed(self, candidates: list[_Offsets]) -> list[tuple[float, Matching]]:
         """The candidates that stay, each with its probability and its final matching."""
@@ -114,7 +115,9 @@ class _Played:
             trials = [self._match(c, USUAL_MS, _any, until_ms).log_likelihood + c.log_prior for c in candidates]
             candidates = [c for c, trial in zip(candidates, trials, strict=True) if trial > max(trials) - CLEARLY]
         found = [self._learnt(candidate) for candidate in candidates]
-        logs = [one.log_likelihood + c.log_prior for one, c in zip(found, candidates, strict=True)]
+        # The spread of n residuals is itself uncertain, by 1/√2n: so much of the likelihood is chance, and worth less.
+        worth = 1.0 / max(1.0, math.sqrt(len(self._hits) / 2) / 2)
+        logs = [worth * one.log_likelihood + c.log_prior for one, c in zip(found, candidates, strict=True)]
         shares = [math.exp(log - max(logs)) for log in logs]
         return [(share / sum(shares), one) for share, one in zip(shares, found, strict=True)]
 
@@ -125,7 +128,7 @@ class _Played:
             Stroke(at + offsets.ms[stick], k, stick)
             for k, (at, stick) in enumerate(zip(self._strokes_ms, self._stick, strict=True))
         ]
-        near = sorted(stroke for stroke in strokes if stroke.at_ms <= until_ms + USUAL_OFFSET_MS)
+        near = sorted(stroke for stroke in strokes if stroke.at_ms <= until_ms + GATE_MS)
         return match([at for at in self._hits_ms if at <= until_ms], near, jitter_ms, weigh)
 
     def _learnt(self, offsets: _Offsets) -> Matching:
@@ -154,6 +157,12 @@ class _Played:
             for hit, stroke in found.stroke.items()
             if found.by_stick[hit].get(self._stick[stroke], 0.0) >= SURE
         ]
+
+
+def _log_prior(offsets_ms: Sequence[float]) -> float:
+    far = sum((one / USUAL_OFFSET_MS) ** 2 for one in offsets_ms)
+    apart = sum(((a - b) / USUAL_APART_MS) ** 2 for a, b in itertools.pairwise(offsets_ms))
+    return -0.5 * (far + apart)
 
 
 def _any(hit: int, stroke: int) -> float:
