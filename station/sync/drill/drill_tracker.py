@@ -24,10 +24,12 @@ Array = NDArray[np.float64]
 _STEP_S = STEP_NS / NS_PER_S
 SETTLES_S = 0.15
 """Time constant of the filter: phases differ from the truth by a centre or so, for some 50 ms (our choice)."""
+BENDS = 1.25
+"""The filter's cadence stays so near to the way's tempo: five of its steps (our choice)."""
 REMEMBERS_S = 2.0
-"""Match and steadiness are means over about so long: four strokes at 120 bpm."""
+"""The match is a mean over about so long: four strokes at 120 bpm."""
 RESTS_S = 1.0
-"""Motion is a mean over about so long: a stroke every two seconds is still motion (our choice)."""
+"""Motion and steadiness are means over about so long: a stroke every two seconds is still motion (our choice)."""
 FOREIGN, OWN = 0.60, 0.75
 """The mean match of a foreign motion is below .60 for the most part, of this one, in any style, above .74; every moment
 counts by how much is going on in it, for rests are alike in all drills (table in docs/drill-phase.md)."""
@@ -59,36 +61,46 @@ class _Lock:
             self.turn, self.per_s = turn, per_s
             return False
         self.turn = (awaited + self._alpha * off) % 1.0
-        self.per_s = max(self.per_s + self._beta / _STEP_S * off, 0.25 * per_s)
+        self.per_s = min(max(self.per_s + self._beta / _STEP_S * off, per_s / BENDS), per_s * BENDS)
         return True
+
+
+class _Mean:
+    """A mean of what is added, each by its weight; what is old counts less. `filled` 0 at first, 1 at last."""
+
+    def __init__(self, time_constant_s: float) -> None:
+        self._kept = exp(-_STEP_S / time_constant_s)
+        self._sum = self._weight = 0.0
+        self.filled = 0.0
+
+    def add(self, weighted: float, weight: float) -> None:
+        self._sum = self._kept * self._sum + weighted
+        self._weight = self._kept * self._weight + weight
+        self.filled = self._kept * self.filled + (1 - self._kept)
+
+    @property
+    def mean(self) -> float:
+        """0 before anything was added."""
+        return self._sum / self._weight if self._weight else 0.0
 
 
 class _Trust:
     """How sure it is that this is the motion: running means of match, motion and cadence, where something goes on."""
 
     def __init__(self) -> None:
-        self._kept, self._power_kept = exp(-_STEP_S / REMEMBERS_S), exp(-_STEP_S / RESTS_S)
-        self._filled = self._energy = self._match = self._power = self._cadence = self._square = 0.0
+        self._match = _Mean(REMEMBERS_S)
+        self._cadence, self._square, self._power = _Mean(RESTS_S), _Mean(RESTS_S), _Mean(RESTS_S)
 
     def step(self, match: float, scaled: Array, per_s: float) -> float:
         """The confidence 0 … 1 after one more sample, of which `scaled` (12,) holds what was measured, else 0."""
         energy, cadence = float(scaled @ scaled), log(per_s)
-        self._filled = self._mean(self._filled, 1.0)
-        self._energy = self._mean(self._energy, energy)
-        self._match = self._mean(self._match, energy * match)
-        power = float(np.mean(scaled[_RATES] ** 2))
-        self._power = self._power_kept * self._power + (1 - self._power_kept) * power
-        self._cadence = self._mean(self._cadence, energy * cadence)
-        self._square = self._mean(self._square, energy * cadence * cadence)
-        if not self._energy:
-            return 0.0
-        swings = sqrt(max(self._square / self._energy - (self._cadence / self._energy) ** 2, 0.0))
-        likely = _share(self._match / self._energy, FOREIGN, OWN)
-        moving = _share(sqrt(self._power), STILL, MOVES)
-        return self._filled * likely * moving * _share(-swings, -UNSTEADY, -STEADY)
-
-    def _mean(self, before: float, now: float) -> float:
-        return self._kept * before + (1 - self._kept) * now
+        self._match.add(energy * match, energy)
+        self._cadence.add(energy * cadence, energy)
+        self._square.add(energy * cadence * cadence, energy)
+        self._power.add(float(np.mean(scaled[_RATES] ** 2)), 1.0)
+        swings = sqrt(max(self._square.mean - self._cadence.mean**2, 0.0))
+        likely = self._match.filled * _share(self._match.mean, FOREIGN, OWN)
+        return likely * _share(sqrt(self._power.mean), STILL, MOVES) * _share(-swings, -UNSTEADY, -STEADY)
 
 
 class DrillTracker:

@@ -25,7 +25,8 @@ NATURAL = Style()
 @cache
 def model_of(lesson: str) -> DrillModel:
     made = drill_model(find_lesson(lesson).score, Demonstrated(load_kit(), figure_of(), Style()))
-    return pickle.loads(pickle.dumps(made))  # as it comes to the engine
+    sent: DrillModel = pickle.loads(pickle.dumps(made))  # as it comes to the engine
+    return sent
 
 
 @dataclass(frozen=True, eq=False)
