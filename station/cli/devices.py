@@ -59,7 +59,7 @@ def _list(options: PortsOptions) -> int:
         print_json({"schema": SCHEMA, "kits": kits, "outputs": outputs, "faults": faults})
         return 0
     rows = [f"  {kit['port']}  [{kit['preset']}]" for kit in kits]
-    write("\n".join(["Kits (MIDI inputs and serial ports)", *(rows or ["  none"])]))
+    write("\n".join(["Kits (MIDI inputs, game drums, serial ports)", *(rows or ["  none"])]))
     write("\n".join(["Sound outputs", *([f"  {output['name']}" for output in outputs] or ["  none"])]))
     for text in faults:
         say(f"station: {text}")
@@ -67,8 +67,9 @@ def _list(options: PortsOptions) -> int:
 
 
 def _ports() -> tuple[list[dict[str, str]], list[str]]:
-    """A row a port, MIDI before serial, and why some cannot be listed or opened."""
+    """A row a port, MIDI before HID before serial, and why some cannot be listed or opened."""
     from station.devices.device_ports import midi_now
+    from station.devices.hid.hid_ports import HidDirectory
     from station.devices.mapping.device_file import own_kit
     from station.devices.mapping.presets import preset_for
     from station.devices.serial.serial_ports import SerialDirectory, no_access
@@ -80,6 +81,11 @@ def _ports() -> tuple[list[dict[str, str]], list[str]]:
             faults.append(f"{fault}")
         else:
             names = [(port, "midi") for port in midi.names()]
+    hid = HidDirectory()
+    for port in hid.names():
+        names.append((port, "hid"))
+        if (denied := hid.no_access(port)) is not None:
+            faults.append(f"{port}: {denied}")
     for address in SerialDirectory().addresses():
         names.append((address.port, "serial"))
         if (denied := no_access(address.path)) is not None:

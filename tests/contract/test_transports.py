@@ -15,10 +15,12 @@ import pytest
 from station.bench.rigs.serial_kit import SerialKit
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_MS, NS_PER_S
+from station.devices.hid.hid_ports import HidDirectory
 from station.devices.midi.midi_clients import SILENT_SERVER_NS
 from station.devices.midi.midi_ports import MidiDirectory
 from station.devices.serial.serial_ports import SerialDirectory
 from station.devices.transport import Packet, Transport
+from tests.fakes.hid_devices import ROCK_BAND, FakeHid
 from tests.fakes.jack_server import JackServer, jackd_is_installed, joined
 from tests.fakes.kit_player import KitPlayer, Stroke
 from tests.fakes.port_reader import PortReader
@@ -29,7 +31,9 @@ EVERY_NS = 5 * NS_PER_MS
 
 
 class Rig(Protocol):
-    """A way for bytes to come in."""
+    """A way for bytes to come in; `called` is how the device's name begins."""
+
+    called: str
 
     def open(self) -> Transport: ...
 
@@ -42,6 +46,8 @@ class Rig(Protocol):
 
 class FakeRig:
     """The fake driver, with the monotonic clock for its times."""
+
+    called = "kit"
 
     def __init__(self) -> None:
         self._driver = FakeDriver("kit 20:0")
@@ -63,6 +69,8 @@ class FakeRig:
 class SerialRig:
     """A serial line that is called kit, with a module that speaks raw MIDI."""
 
+    called = "kit"
+
     def __init__(self, folder: Path) -> None:
         self._kit = SerialKit(folder / "ttyUSB0")
 
@@ -80,8 +88,32 @@ class SerialRig:
         self._kit.unplug()
 
 
+class HidRig:
+    """A fake hidapi with game drums; a report is whatever is sent at once."""
+
+    called = "Rock Band drums"
+
+    def __init__(self) -> None:
+        self._api = FakeHid()
+        self._api.plug("/dev/hidraw0", ROCK_BAND)
+
+    def open(self) -> Transport:
+        directory = HidDirectory(self._api)
+        return directory.open(directory.names()[0])
+
+    def play(self) -> list[Packet]:
+        sent = [Packet(message, time.monotonic_ns()) for message in MESSAGES]
+        self._api.send("/dev/hidraw0", *(packet.data for packet in sent))
+        return sent
+
+    def unplug(self) -> None:
+        self._api.unplug("/dev/hidraw0")
+
+
 class JackRig:
     """rtmidi on a real JACK server, with a kit in another process."""
+
+    called = "kit"
 
     def __init__(self, server: JackServer, folder: Path) -> None:
         strokes = [Stroke(index * EVERY_NS, message) for index, message in enumerate(MESSAGES)]
@@ -103,7 +135,7 @@ class JackRig:
         self._directory.close()
 
 
-@pytest.fixture(params=["fake", "serial", pytest.param("jack", marks=pytest.mark.jack)])
+@pytest.fixture(params=["fake", "hid", "serial", pytest.param("jack", marks=pytest.mark.jack)])
 def rig(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Rig]:
     if request.param == "serial":
         if sys.platform != "linux":
@@ -116,7 +148,7 @@ def rig(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Rig]:
         yield jack_rig
         jack_rig.close()
     else:
-        yield FakeRig()
+        yield HidRig() if request.param == "hid" else FakeRig()
 
 
 def until(enough: Callable[[], bool], within_s: float = 60.0) -> bool:
@@ -188,7 +220,7 @@ def test_a_closed_transport_reads_as_empty_and_closes_twice(rig: Rig) -> None:
 
 def test_the_name_is_the_devices_own(rig: Rig) -> None:
     transport = rig.open()
-    assert transport.name.startswith("kit")
+    assert transport.name.startswith(rig.called)
     assert not transport.name.endswith(":0")
     transport.close()
 
