@@ -2,5 +2,5 @@
 
 In: the drummer of a section (`motion`), samples of the sensors on the student's sticks. Out: where in the section the
 student is, how far each hand's strokes lie from it, how alike their motion is to an earlier take of theirs.
-Read `stick_signals`, then `drill_model` and `drill_tracker`.
+Read `stick_signals`, then `drummed_model` and `drill_tracker`.
 """

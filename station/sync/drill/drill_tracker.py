@@ -13,7 +13,7 @@ from math import exp, log, pi, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.events import PhaseEstimate, SensorMounted, SensorSamples
+from station.core.events import PhaseEstimate, SensorEvent, SensorLost, SensorMounted, SensorSamples
 from station.core.units import NS_PER_S
 from station.sync.drill.drill_model import CENTRES_A_STROKE, DrillModel
 from station.sync.drill.phase_paths import PhasePaths
@@ -114,12 +114,16 @@ class DrillTracker:
         self._trust = _Trust()
         self._locked = False
 
-    def handle(self, event: SensorMounted | SensorSamples) -> list[PhaseEstimate]:
+    def handle(self, event: SensorEvent) -> list[PhaseEstimate]:
         """Where the student is, a hundred times a second, told some hundredths of a second after it was so."""
-        if isinstance(event, SensorMounted):
-            self._grid.mounted(event)
-            return []
-        return [self._estimate(step) for step in self._grid.handle(event)]
+        match event:
+            case SensorMounted():
+                self._grid.mounted(event)
+            case SensorLost():
+                self._grid.lost(event.device)
+            case SensorSamples():
+                return [self._estimate(step) for step in self._grid.handle(event)]
+        return []
 
     def _estimate(self, step: StickStep) -> PhaseEstimate:
         values = np.where(step.present, self._model.scaled(step.values), 0.0)

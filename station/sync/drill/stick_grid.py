@@ -6,7 +6,6 @@ be told only when what follows it has come: `REACH` standard deviations later. A
 step is missing there; one that fell silent is not waited for.
 """
 
-from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -16,7 +15,8 @@ from station.core.events import SensorMounted, SensorSamples
 from station.core.imu import Mounting
 from station.core.pieces import Limb
 from station.core.units import NS_PER_S
-from station.sync.drill.stick_signals import AXES, CHANNELS, HANDS
+from station.sync.drill.drill_model import AXES, CHANNELS, HANDS
+from station.sync.strokes.stick_axes import rows_of
 
 Array = NDArray[np.float64]
 
@@ -84,6 +84,12 @@ class StickGrid:
         self._mountings[event.device] = event.mounting
         self._sticks |= {each.limb: _Stick() for each in self._mountings.values() if each.limb not in self._sticks}
 
+    def lost(self, device: str) -> None:
+        """The sensor vanished: its stick is not waited for."""
+        before = self._mountings.pop(device, None)
+        if before is not None:
+            self._sticks.pop(before.limb, None)
+
     def handle(self, event: SensorSamples) -> list[StickStep]:
         """The steps that are whole now; none while the sensor's hand is unknown."""
         mounting = self._mountings.get(event.device)
@@ -127,17 +133,5 @@ def _in_stick(event: SensorSamples, mounting: Mounting) -> Array:
     """What a sensor measured, turned into its stick's axes, (n, 6); a rate that it does not send is 0."""
     still = (0.0,) * AXES
     rows = [(*sample.acceleration_m_s2, *(sample.rate_rad_s or still)) for sample in event.samples]
-    turn = rotation(mounting.turn)
+    turn = np.array(rows_of(mounting.turn))
     return (np.array(rows).reshape(-1, 2, AXES) @ turn.T).reshape(-1, _WIDTH)
-
-
-def rotation(quaternion: Sequence[float]) -> Array:
-    """The matrix (3, 3) that turns a vector as the unit quaternion (w, x, y, z) does."""
-    w, x, y, z = quaternion
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )

@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.imu import STANDARD_GRAVITY_M_S2, Mounting
-from station.core.pieces import Limb
 from station.motion.drummer import Drummer
 from station.motion.kinematics import frame
+from station.sync.drill.drill_model import AXES, HANDS
 
 Array = NDArray[np.float64]
 
@@ -29,12 +29,6 @@ CONTACT_SD_S = 0.0015
 """A Gaussian of this SD has 95 % of its weight within 6 ms, the longest contact that Wagner measured."""
 _REACH = 4
 """Beyond so many standard deviations a Gaussian is nothing (6e-5 of its weight)."""
-
-HANDS = (Limb.RIGHT_HAND, Limb.LEFT_HAND)
-"""The order in which sticks stand in arrays."""
-AXES = 3
-CHANNELS = ("force_x", "force_y", "force_z", "rate_x", "rate_y", "rate_z")
-"""What one sensor measures: specific force in m/s², angular rate in rad/s, in the stick's axes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +45,7 @@ class StickSignals:
     turn: Array
 
     def channels(self) -> Array:
-        """All of it beside one another, (n, 12): `CHANNELS` of the right stick, then of the left."""
+        """All of it beside one another, (n, 12): `drill_model.CHANNELS` of the right stick, then of the left."""
         return np.concatenate([self.force_m_s2, self.rate_rad_s], axis=2).reshape(len(self.time_s), -1)
 
 

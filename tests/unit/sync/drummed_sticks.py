@@ -14,9 +14,10 @@ from station.motion.drummer import Drummer
 from station.motion.kinematics.figure import figure_of
 from station.motion.kit.kit import load_kit
 from station.motion.style.style import Style
-from station.sync.drill.drill_model import Demonstrated, DrillModel, drill_model
+from station.sync.drill.drill_model import HANDS, DrillModel
 from station.sync.drill.drill_tracker import DrillTracker
-from station.sync.drill.stick_signals import HANDS, stick_signals
+from station.sync.drill.drummed_model import Demonstrated, drill_model
+from station.sync.drill.stick_signals import stick_signals
 
 RATE_HZ = 200.0
 NATURAL = Style()

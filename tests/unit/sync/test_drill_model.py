@@ -13,8 +13,8 @@ from station.motion.kinematics.figure import figure_of
 from station.motion.kit.kit import load_kit
 from station.motion.style.style import Style
 from station.music.score import Score
-from station.sync.drill.drill_model import Demonstrated, drill_model, low_passed
-from station.sync.drill.stick_signals import HANDS
+from station.sync.drill.drill_model import HANDS
+from station.sync.drill.drummed_model import Demonstrated, drill_model, low_passed
 from tests.unit.sync.drummed_sticks import model_of
 
 PLAYED = Demonstrated(load_kit(), figure_of(), Style())

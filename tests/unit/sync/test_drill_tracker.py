@@ -9,7 +9,7 @@ import pytest
 from station.core.events import SensorMounted
 from station.motion.style.style import Style
 from station.motion.style.style_file import load_style
-from station.sync.drill.stick_signals import HANDS
+from station.sync.drill.drill_model import HANDS
 from tests.unit.sync.drummed_sticks import Take, errors_ms, estimates, events, model_of, take
 
 LESSON = "single-paradiddle"

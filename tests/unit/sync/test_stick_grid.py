@@ -8,7 +8,7 @@ import pytest
 from station.core.events import SensorMounted, SensorSamples
 from station.core.imu import ImuSample, Mounting
 from station.core.pieces import Limb
-from station.sync.drill.stick_grid import GAP_NS, STEP_NS, StickGrid, StickStep, rotation
+from station.sync.drill.stick_grid import GAP_NS, STEP_NS, StickGrid, StickStep
 
 SD_S = 0.01
 
@@ -99,6 +99,9 @@ def test_the_mounting_turns_what_is_measured() -> None:
     assert values[1] > 0.1
 
 
-def test_a_quaternion_turns_as_its_axis_and_angle_say() -> None:
-    """A third of a turn about (1, 1, 1) takes x to y, y to z and z to x."""
-    assert rotation((0.5, 0.5, 0.5, 0.5)) @ [1.0, 2.0, 3.0] == pytest.approx([3.0, 1.0, 2.0])
+def test_a_sensor_that_vanished_is_not_waited_for() -> None:
+    grid = mounted(RIGHT, LEFT)
+    grid.handle(samples(LEFT, np.arange(20) / 200))
+    assert grid.handle(samples(RIGHT, np.arange(40) / 200))[-1].at_ns < 0.1e9
+    grid.lost(LEFT.name)
+    assert grid.handle(samples(RIGHT, 0.2 + np.arange(4) / 200))[-1].at_ns > 0.15e9
