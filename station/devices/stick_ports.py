@@ -53,23 +53,35 @@ class StickWatches:
 
 def watch_sticks(
     requests: tuple[DeviceRequest, ...],
+    claims: ClaimedPorts | None = None,
     now_ns: Callable[[], int] = monotonic_ns,
     library: Callable[[], BleLibrary] = load_bleak,
 ) -> StickWatches:
-    """A watch for each request, each with a port of its own; `library` loads bleak where Bluetooth is asked for."""
+    """A watch for each request, each with a port of its own.
+
+    `claims` are those of the kits' watches, where there are some; `library` loads bleak where Bluetooth is asked for.
+    """
     radio, fault = None, None
     if any(request.part.startswith(BLE) for request in requests):
         try:
             radio = Radio(library(), now_ns)
         except DeviceError as missing:
             fault = str(missing)
-    claims = ClaimedPorts()
+    shared = ClaimedPorts() if claims is None else claims
     watches = []
     for request in requests:
         directory = _directory(request, radio, now_ns)
         if directory is not None:
-            watches.append(PortWatch(directory, request.part.removeprefix(BLE), claims))
+            watches.append(PortWatch(directory, request.part.removeprefix(BLE), shared))
     return StickWatches(tuple(watches), fault, radio)
+
+
+def no_stick(requests: tuple[DeviceRequest, ...]) -> str:
+    """What to tell a user none of whose `requests` is there, and which serial ports there are."""
+    ports = SerialDirectory().names()
+    named = " or ".join(repr(request.part) for request in requests)
+    there = f"these serial ports are there: {', '.join(ports)}" if ports else "there is no serial port"
+    return f"no motion sensor is at {named}; {there}"
 
 
 def _directory(request: DeviceRequest, radio: Radio | None, now_ns: Callable[[], int]) -> PortDirectory | None:

@@ -36,7 +36,7 @@ def test_sticks_are_asked_for_as_kits_are() -> None:
 @linux
 def test_a_serial_sensor_is_read_in_chunks_at_its_rate(tmp_path: Path) -> None:
     with SerialKit(tmp_path / "ttyUSB0") as sensor:
-        watches = watch_sticks(parse_sticks(f"{sensor.device}@921600"), lambda: 7)
+        watches = watch_sticks(parse_sticks(f"{sensor.device}@921600"), now_ns=lambda: 7)
         (watch,) = watches.sticks
         assert watch.poll(0).found
         assert sensor.rate() == (921_600, 921_600)
@@ -79,7 +79,7 @@ class Watched:
     def __init__(self, air: FakeAir, asked: str) -> None:
         self.now_ns = 0
         self.air = air
-        self.watches = watch_sticks(parse_sticks(asked), lambda: self.now_ns, lambda: air)
+        self.watches = watch_sticks(parse_sticks(asked), None, lambda: self.now_ns, lambda: air)
 
     def poll_until(self, what: str, index: int = 0) -> PortPoll:
         """Poll until something is `found` or `lost`, or a `fault` is told."""
@@ -174,7 +174,7 @@ def test_a_missing_radio_is_told_once_and_awaited() -> None:
     sensor = FakeSensor("WT901")
     air = FakeAir(sensor, fault="No Bluetooth adapters found.")
     watched = Watched(air, "ble:WT901")
-    assert watched.poll_until("fault").fault == "Bluetooth cannot be used: No Bluetooth adapters found."
+    assert watched.poll_until("fault").fault == "Bluetooth cannot be used (No Bluetooth adapters found.): is the radio on?"
     air.fault = ""
     watched.poll_until("found")
     watched.watches.close()
