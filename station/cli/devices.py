@@ -5,7 +5,7 @@ from enum import IntEnum
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from station.cli import devices_calibrate
+from station.cli import devices_calibrate, devices_setup_stick
 from station.cli.console import print_json, say, write
 from station.cli.devices_learn_pad import LearnOptions, learn_kit_or_pad
 from station.cli.devices_monitor import monitor
@@ -212,6 +212,11 @@ COMMAND = Verbs(
             "calibrate",
             "measure the latency of a kit or a sound output",
             Command(devices_calibrate.CalibrateOptions, devices_calibrate.run),
+        ),
+        (
+            "setup-stick",
+            "set a WitMotion motion sensor to what the station has use for",
+            Command(devices_setup_stick.SetupStickOptions, devices_setup_stick.run),
         ),
         ("replay", "the hits of a capture, as they were, and a session's judgements", Command(ReplayOptions, _replay)),
     )
