@@ -1,5 +1,6 @@
 """`station devices` with motion sensors: lines of the monitor, a recording from a pty, a sensor that is set up."""
 
+import json
 import os
 import sys
 import threading
@@ -114,3 +115,11 @@ def test_a_missing_sensor_is_one_line(capsys: pytest.CaptureFixture[str]) -> Non
     assert "no motion sensor is at 'serial:/dev/no-such-port'" in capsys.readouterr().err
     assert main(["devices", "setup-stick", "serial:/dev/no-such-port", "--rate", "33"]) == 2
     assert "expected 10, 20, 50, 100, 125 or 200" in capsys.readouterr().err
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="ptys that speak as serial ports are Linux's")
+def test_the_list_says_what_a_sensor_speaks(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with SerialKit(tmp_path / "ttyUSB0") as sensor, playing(sensor):
+        assert main(["devices", "list", "--json", "--sticks", sensor.device]) == 0
+    (found,) = json.loads(capsys.readouterr().out)["sticks"]
+    assert (found["device"], found["protocol"]) == (sensor.device, "x-imu3")
