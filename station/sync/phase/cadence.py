@@ -31,21 +31,22 @@ class CadenceRule:
 
     feedback: float
     usual: float
-    span: float
+    slowest: float
+    fastest: float
     most_doubt: float
     doubt_weight: float
 
     def after(self, pace: float, likeness: float, surprise: float) -> float:
         """The pace after one sample."""
-        trust = max(0.0, (likeness - DOUBTFUL) / (1 - DOUBTFUL))
+        trust = (likeness - DOUBTFUL) / (1 - DOUBTFUL) if likeness > DOUBTFUL else 0.0
         pace += self.feedback * (trust * surprise + (1 - trust) * (self.usual - pace))
-        return min(max(pace, self.usual / self.span), self.usual * self.span)
+        return self.slowest if pace < self.slowest else self.fastest if pace > self.fastest else pace
 
     def after_all(self, pace: FloatArray, likeness: FloatArray, surprise: FloatArray) -> FloatArray:
         """The same for several signals (n,)."""
         trust = np.maximum((likeness - DOUBTFUL) / (1 - DOUBTFUL), 0.0)
         changed = pace + self.feedback * (trust * surprise + (1 - trust) * (self.usual - pace))
-        within: FloatArray = np.clip(changed, self.usual / self.span, self.usual * self.span)
+        within: FloatArray = np.clip(changed, self.slowest, self.fastest)
         return within
 
 

@@ -56,7 +56,7 @@ class Lanes:
         self._stretch, self._early = FOLLOWING if cadence.feedback else STEADY
         self._below = int(np.abs(objective.offsets).max()) + 1
         self._goes_round = 2 * self._below + 1 > objective.count
-        above = self._below + ceil(cadence.usual * cadence.span) + 1
+        above = self._below + ceil(cadence.fastest) + 1
         around = np.arange(-self._below, objective.count + above) % objective.count
         self._width = len(around)
         directions = templates.directions[:, around].reshape(-1, templates.directions.shape[2])

@@ -41,8 +41,8 @@ class TrackerSettings:
     `feedback`: the part of each surprise by which the expected cadence changes, 0 in the paper; it stays within
     `span` times Δφ and Δφ / `span`. `most_doubt`: how much less the signal may be like the model at the tracker's phase
     than at another, for some time, before it begins anew there; None in the paper, which waits. `lags`: the samples
-    that are compared together, by their age, the newest (0) first;
-    further ones make a phase unique where one instant is not, as with a single channel.
+    that are compared together, by their age, the newest (0) first; further ones make a phase unique where one instant
+    is not, as with a single channel.
     """
 
     cadence_rad: float = 0.05
@@ -103,7 +103,9 @@ class _Parts:
         span = settings.span if settings.feedback else 1.0
         most_doubt = inf if settings.most_doubt is None else settings.most_doubt
         weight = doubt_weight(settings.cadence_rad)
-        self.cadence = CadenceRule(settings.feedback, self.usual, span, most_doubt, weight)
+        self.cadence = CadenceRule(
+            settings.feedback, self.usual, self.usual / span, self.usual * span, most_doubt, weight
+        )
         ends_rad = settings.cadence_rad / span, settings.cadence_rad * span
         self.templates: Templates = templates(model, settings.lags, *ends_rad)
         self.objective = Objective(model.centre_count, settings.smoothing)
@@ -128,6 +130,7 @@ class PhaseTracker:
         self._templates, self._cadence, self._best = parts.templates, parts.cadence, parts.objective.best
         self._directions, self._energy = list(self._templates.directions), self._templates.energy.tolist()
         self._table, self._start = parts.table, parts.start
+        self._are_several = len(self._directions) > 1
         self._mean, self._per_scale = model.mean, (1 / model.scale if (model.scale != 1).any() else None)
         self._count, self._step_rad = model.centre_count, parts.step_rad
         self._place: float | None = None
@@ -147,22 +150,22 @@ class PhaseTracker:
         products = self._directions[self._table].dot(seen)
         pace, count, cadence = self._pace, self._count, self._cadence
         expected = (self._start(seen) if self._place is None else self._place) + pace
-        centre, beyond, quality, likeness = self._best(products, per_length, expected)
+        centre, beyond, quality, likeness, surprise = self._best(products, per_length, expected)
         better = float(products.max()) * per_length - likeness if likeness < DOUBTFUL else 0.0
         self._doubt += cadence.doubt_weight * (better - self._doubt)
         is_lost = self._doubt > cadence.most_doubt
         if is_lost:
-            centre, beyond, quality, likeness = self._best(products, per_length, float(products.argmax()))
+            fitting = float(products.argmax())
+            centre, beyond, quality, likeness, surprise = self._best(products, per_length, fitting)
             self._doubt = 0.0
         self._place = place = centre + beyond
-        surprise = place - expected
-        surprise -= count * round(surprise / count)
         speed = 0.0 if is_lost else (pace + surprise) / self._usual
         sureness = self._sureness
         sure = sureness.step(likeness, speed, energy, self._energy[self._table][centre])
         if cadence.feedback:
             self._pace = pace = self._usual if is_lost else cadence.after(pace, likeness, surprise)
-            self._table = self._templates.table(pace * self._step_rad)
+            if self._are_several:
+                self._table = self._templates.table(pace * self._step_rad)
         phase_rad = pi - ((count - 1 - place) * self._step_rad) % TURN
         return PhaseStep(phase_rad, quality, sure, pace * self._step_rad, sureness.is_locked)
 
