@@ -6,6 +6,7 @@ nothing.
 """
 
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import replace
 from typing import assert_never
@@ -60,7 +61,9 @@ class Controller:
         self.preferences = Preferences(store)
         self._pads = PadControl(store, self.preferences, launch.plan.score)
         self.export = Exporter(processes.animate)
-        self.phase = PhasePage(self.sessions.listen_to, self.sessions.is_listening_to, self.sessions.quiet)
+        self.phase = PhasePage(
+            self.sessions.listen_to, self.sessions.is_listening_to, self.sessions.quiet, ThreadPoolExecutor(1, "motion")
+        )
         self._chooser = Chooser(self.sessions, store, launch)
         self._shown = do.Show()
         self._now_ns = 0

@@ -5,7 +5,7 @@ card's clock says where in the motion it is.
 """
 
 from collections.abc import Callable
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Executor, Future
 from dataclasses import dataclass
 from pathlib import Path
 from typing import assert_never
@@ -54,13 +54,20 @@ class _Opened:
 
 
 class PhasePage:
-    """One motion. `hear` lets cues sound in place of what does, `is_heard` says whether they do, `quiet` ends them."""
+    """One motion. `hear` lets cues sound in place of what does, `is_heard` says whether they do, `quiet` ends them.
+
+    Files are read by the `reader`.
+    """
 
     def __init__(
-        self, hear: Callable[[Listening], None], is_heard: Callable[[Listening], bool], quiet: Callable[[], None]
+        self,
+        hear: Callable[[Listening], None],
+        is_heard: Callable[[Listening], bool],
+        quiet: Callable[[], None],
+        reader: Executor,
     ) -> None:
         self._hear, self._is_heard, self._quiet = hear, is_heard, quiet
-        self._reader = ThreadPoolExecutor(1, "motion")
+        self._reader = reader
         self._reading: Future[_Opened] | None = None
         self._names = "", ""
         self._preset = _FIRST_PRESET
@@ -106,7 +113,7 @@ class PhasePage:
                 assert_never(action)
 
     def close(self) -> None:
-        """End the thread; what it reads is dropped."""
+        """End the reader; what it reads is dropped."""
         self._reader.shutdown(wait=False, cancel_futures=True)
 
     def _open(self, model: Path, motion: Path) -> None:

@@ -21,8 +21,8 @@ ABOUT = "A recorded motion, where in its cycle it is, and drums that its phase t
 HELP = (
     "Open a motion (.amc with its .asf, or .bvh) and a model of it: a file of 'station sync fit', or another motion,"
     " whose first cycle is then the model. The upper plot shows where in its cycle the motion is, the lower one how"
-    " well it fits the model. Lines are thresholds: each time the phase passes one, its drum sounds and the foot lights up."
-    " Triangles show where the heel came down. Drag the line to go elsewhere."
+    " well it fits the model. Lines are thresholds: each time the phase passes one, its drum sounds and the foot lights"
+    " up. Triangles show where the heel came down. Drag the line to go elsewhere."
 )
 OPEN_LABEL, PLAY_LABEL, STOP_LABEL = "Open##phase", "Play##phase", "Stop##phase"
 MODEL_LABEL, MOTION_LABEL = "##phase-model", "##phase-motion"
