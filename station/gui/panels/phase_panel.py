@@ -27,10 +27,12 @@ HELP = (
 OPEN_LABEL, PLAY_LABEL, STOP_LABEL = "Open##phase", "Play##phase", "Stop##phase"
 MODEL_LABEL, MOTION_LABEL = "##phase-model", "##phase-motion"
 PHASE_PLOT, QUALITY_PLOT = "##phase-plot", "##quality-plot"
-_PATH_WIDTH, _LEAST, _BODY = 240.0, 150.0, 0.75
+_PATH_WIDTH, _LEAST, _BODY = 190.0, 130.0, 0.75
 """Design pixels of a path and of the least height of the plots; the body's width as a share of its height."""
 _QUALITY_SHARE = 0.36
 _PHASES = ([0.0, 0.5, 1.0], ["−π", "0", "π"])
+_QUALITIES, _NAME = ([-1.0, 0.0, 1.0], ["−1", "E max", "1"]), ([0.0], ["E max"])
+"""The lower axis, and where it has no room for numbers."""
 _TIP = "Drag the orange line to go there. Wheel: nearer"
 
 
@@ -45,22 +47,22 @@ class PhasePanel:
 
     def gui(self, view: PhaseView, can_play: bool) -> None:
         """Draw the panel and do what the user does in it."""
-        self._files(view)
+        row = FlowRow()
+        self._files(view, row)
         if view.is_reading:
             theme.soft("Reading…")
             return
         if view.scene is None:
             theme.soft("A motion's phase stands here, with the body that moves and the drums that it triggers.")
             return
-        self._controls(view, can_play)
+        self._controls(view, can_play, row)
         room = imgui.get_content_region_avail()
         high = max(room.y, theme.points(_LEAST))
         draw_body(view.scene, view.at_s, (_BODY * high, high))
         imgui.same_line()
         self._plots(view, view.scene.trace, high)
 
-    def _files(self, view: PhaseView) -> None:
-        row = FlowRow()
+    def _files(self, view: PhaseView, row: FlowRow) -> None:
         for label, hint, name in ((MOTION_LABEL, "motion: .amc, .bvh", "motion"), (MODEL_LABEL, "model", "model")):
             row.place(theme.points(_PATH_WIDTH))
             imgui.set_next_item_width(theme.points(_PATH_WIDTH))
@@ -73,8 +75,7 @@ class PhasePanel:
         imgui.end_disabled()
         theme.tooltip("Track the motion by the model; a motion as its own model is the plainest test")
 
-    def _controls(self, view: PhaseView, can_play: bool) -> None:
-        row = FlowRow()
+    def _controls(self, view: PhaseView, can_play: bool, row: FlowRow) -> None:
         row.place(theme.points(80))
         imgui.begin_disabled(not can_play)
         if imgui.button(STOP_LABEL if view.plays else PLAY_LABEL):
@@ -107,7 +108,7 @@ class PhasePanel:
             theme.tooltip(_TIP)
             if implot.begin_plot(QUALITY_PLOT, imgui.ImVec2(-1, low), plots.FIXED):
                 _axes(trace, QUALITY_RANGE, bare=False)
-                implot.setup_axis_ticks(implot.ImAxis_.y1, [-1.0, 0.0, 1.0], ["−1", "E max", "1"])
+                implot.setup_axis_ticks(implot.ImAxis_.y1, *(_QUALITIES if low > theme.points(_LEAST) / 2 else _NAME))
                 self._quality(trace)
                 self._line(view)
                 implot.end_plot()
