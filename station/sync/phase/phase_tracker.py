@@ -23,11 +23,12 @@ import numpy as np
 import numpy.typing as npt
 
 from station.sync.phase.cadence import CadenceRule
-from station.sync.phase.confidence import Confidence, confidences, locks, running_means, weight_of_newest
+from station.sync.phase.confidence import Confidence, confidences, locks, weight_of_newest
 from station.sync.phase.lanes import Lanes
 from station.sync.phase.objective import Objective
 from station.sync.phase.periodic_model import TURN, PeriodicModel
 from station.sync.phase.templates import Past, Templates, templates, with_past
+from station.sync.signals.running_mean import running_means
 from station.sync.signals.signal import FloatArray
 
 
@@ -104,10 +105,12 @@ class _Parts:
         self.newest = weight_of_newest(settings.cadence_rad)
 
     def start(self, seen: FloatArray) -> float:
-        """The place before the first sample (lags·c,)."""
-        if self.start_rad is not None:
-            return (self.start_rad + pi) / self.step_rad - 1
-        return float(self.templates.directions[self.table].dot(seen).argmax()) - self.usual
+        """The place from 0 to n_m before the first sample (lags·c,)."""
+        if self.start_rad is None:
+            place = float(self.templates.directions[self.table].dot(seen).argmax()) - self.usual
+        else:
+            place = (self.start_rad + pi) / self.step_rad - 1
+        return place % self.objective.count
 
 
 class PhaseTracker:
