@@ -853,7 +853,7 @@ def graph(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
 
 def phase(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """A motion is opened in the phase panel, heard, and its line dragged."""
-    motion = write_walker(drive.settings.parent)
+    motion = write_walker(Path())  # a short name, for the fields show no more
     drive.window.params.docking_params.dockable_window_of_name(PHASE).is_visible = True
     ctx.yield_(3)
     ctx.set_ref(f"//{PHASE}")
