@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 
 from station.core.events import Hit, StickStroke
-from station.core.labels import name_of
 from station.core.pieces import word
 from station.practice.records.what_next import table_in
 from station.scoring.report.assessment_document import Json
@@ -51,7 +50,7 @@ def sticks_text(document: dict[str, Json]) -> str:
     sticks = table_in(document, "sticks")
     remarks = sticks["remarks"]
     assert isinstance(remarks, list), "the report is ours"
-    lines = [_line(name_of(limb), figures) for limb, figures in table_in(sticks, "hands").items()]
+    lines = [_line(limb.replace("_", " "), figures) for limb, figures in table_in(sticks, "hands").items()]
     lines += [f"* {remark['text']}" for remark in remarks if isinstance(remark, dict)]
     return "\n".join(["", "Sticks", *lines, ""])
 
