@@ -6,9 +6,10 @@ timing?", NIME 2014, measured it: that peak comes at the same time whatever the 
 (the lowest point) comes after the beat, at a time that varies with the tempo. He measured hands; here it is the
 stick's tip, where it is sharpest and does not depend on where the sensor sits.
 
-A stroke is: the tip falls (`STARTS_M_S`), and loses much of its speed within a moment. The peak of acceleration counts from the fastest point on, for the push that starts a stroke has a peak of its
-own. A stick that turns sideways, is lowered or twirled, or comes up, makes none. The next one needs the stick to have
-risen again: armed by angle, not by time.
+A stroke is: the tip falls (`STARTS_M_S`) and loses much of its speed within a moment. The peak of acceleration counts
+from the fastest point on, for the push that starts a stroke has a peak of its own. A stick that turns sideways, is
+lowered or twirled, or comes up, makes none. The next one needs the stick to have risen again: armed by angle, not by
+time.
 """
 
 from enum import Enum, auto
@@ -31,9 +32,6 @@ BRAKED = 0.9
 """Below this share of its greatest speed a tip is being braked: beyond what noise does (our choice)."""
 _STOPPED = 0.6
 """Below this share a stroke is told from a fall that goes on; our choice: a bell-shaped brake peaks at half."""
-_SLOWED = 0.75
-"""The tip has lost a quarter of its speed in all directions too: a stick that swings through sideways has not (our
-choice)."""
 _PAST_PEAK = 0.97
 """Acceleration below this share of its highest is past the peak: beyond what noise does (our choice)."""
 _TURNED_BACK = 0.5
@@ -130,11 +128,11 @@ class AirStrokes:
         """A sample of the fall or of what brakes it."""
         self._samples += 1
         fastest = self._since_fastest[0]
-        if swing.down_m_s >= fastest.down_m_s:
+        if swing.speed_m_s >= fastest.speed_m_s and swing.down_m_s > 0.0:
             self._state, self._since_fastest = _State.FALLS, [swing]
             return None
         self._since_fastest.append(swing)
-        if swing.down_m_s < BRAKED * fastest.down_m_s:
+        if swing.speed_m_s < BRAKED * fastest.speed_m_s:
             self._state = _State.BRAKES
         if swing.at_ns - fastest.at_ns > _LONGEST_BRAKE_NS:
             self._lowered(swing)
@@ -143,7 +141,7 @@ class AirStrokes:
 
     def _told(self, swing: Swing) -> AirBeat | None:
         fastest = self._since_fastest[0]
-        if swing.down_m_s > _STOPPED * fastest.down_m_s:
+        if swing.speed_m_s > _STOPPED * fastest.speed_m_s and swing.down_m_s > 0.0:
             return None
         hardest = max(range(len(self._since_fastest)), key=lambda index: self._since_fastest[index].jolt_m_s2)
         past = swing.jolt_m_s2 <= _PAST_PEAK * self._since_fastest[hardest].jolt_m_s2
@@ -163,20 +161,22 @@ class AirStrokes:
     def _is_stroke(self, swing: Swing) -> bool:
         """Whether the fall that this sample ends was meant to strike."""
         fastest = self._since_fastest[0]
-        is_slowed = swing.speed_m_s <= _SLOWED * fastest.speed_m_s
         stop_ns = self._passed_ns(_STOPPED) - self._passed_ns(BRAKED)
-        meant = self._is_swung(swing) and is_slowed and stop_ns <= _LONGEST_STOP_NS
+        meant = self._is_swung(swing) and stop_ns <= _LONGEST_STOP_NS
         if meant and self._samples < _FEWEST_SAMPLES:
             self.unresolved += 1
             return False
         return meant
 
     def _passed_ns(self, share: float) -> int:
-        """When the fall's speed first was less than this share of its fastest, between samples; it has been."""
-        run, below = self._since_fastest, share * self._since_fastest[0].down_m_s
-        after = next(index for index, swing in enumerate(run) if swing.down_m_s <= below)
+        """When the tip first had less than this share of its greatest speed, between samples; now at the latest."""
+        run, below = self._since_fastest, share * self._since_fastest[0].speed_m_s
+        after = next((index for index, swing in enumerate(run) if swing.speed_m_s <= below), None)
+        if after is None:
+            return run[-1].at_ns
         one, other = run[after - 1], run[after]
-        return one.at_ns + round((other.at_ns - one.at_ns) * (one.down_m_s - below) / (one.down_m_s - other.down_m_s))
+        part = (one.speed_m_s - below) / (one.speed_m_s - other.speed_m_s)
+        return one.at_ns + round((other.at_ns - one.at_ns) * part)
 
     def _is_swung(self, swing: Swing) -> bool:
         """Whether it fell as fast, as straight down and as far as a stroke does."""
@@ -203,8 +203,8 @@ class AirStrokes:
 
 
 def brake_of(fastest: Swing, now: Swing) -> float:
-    """How hard the tip's fall has been braked since its fastest point, m/s²; `now` is later."""
-    return (fastest.down_m_s - now.down_m_s) * NS_PER_S / (now.at_ns - fastest.at_ns)
+    """How hard the tip has been braked since its fastest point, m/s²; `now` is later."""
+    return (fastest.speed_m_s - now.speed_m_s) * NS_PER_S / (now.at_ns - fastest.at_ns)
 
 
 def _vertex(before: float, peak: float, after: float) -> float:
