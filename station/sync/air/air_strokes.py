@@ -160,20 +160,20 @@ class AirStrokes:
 
     def _is_stroke(self, swing: Swing) -> bool:
         """Whether the fall that this sample ends was meant to strike."""
-        fastest = self._since_fastest[0]
-        stop_ns = self._passed_ns(_STOPPED) - self._passed_ns(BRAKED)
-        meant = self._is_swung(swing) and stop_ns <= _LONGEST_STOP_NS
+        braked_ns, stopped_ns = self._passed_ns(BRAKED), self._passed_ns(_STOPPED)
+        is_stopped = braked_ns is not None and stopped_ns is not None and stopped_ns - braked_ns <= _LONGEST_STOP_NS
+        meant = is_stopped and self._is_swung(swing)
         if meant and self._samples < _FEWEST_SAMPLES:
             self.unresolved += 1
             return False
         return meant
 
-    def _passed_ns(self, share: float) -> int:
-        """When the tip first had less than this share of its greatest speed, between samples; now at the latest."""
+    def _passed_ns(self, share: float) -> int | None:
+        """When the tip first had less than this share of its greatest speed, between samples; None if it has more."""
         run, below = self._since_fastest, share * self._since_fastest[0].speed_m_s
         after = next((index for index, swing in enumerate(run) if swing.speed_m_s <= below), None)
         if after is None:
-            return run[-1].at_ns
+            return None
         one, other = run[after - 1], run[after]
         part = (one.speed_m_s - below) / (one.speed_m_s - other.speed_m_s)
         return one.at_ns + round((other.at_ns - one.at_ns) * part)
