@@ -44,7 +44,8 @@ CLOSE: Pieces = {
     Limb.RIGHT_HAND: (*APART[Limb.RIGHT_HAND], Piece.RIDE),
     Limb.LEFT_HAND: (*APART[Limb.LEFT_HAND], Piece.TOM_1),
 }
-"""The second as a kit stands before its player: the ride lies 11° from the floor tom, the left tom 16° from the snare."""
+"""The second as kits stand: the ride 11° beside the floor tom for the right hand, the tom 16° beside the snare for the
+left."""
 Row = Sequence[object]
 
 
@@ -260,7 +261,7 @@ def kit_table(seeds: int) -> str:
             learnt = [taught(rate_hz, seed, pieces) for seed in range(seeds)]
             sims = [_groove(rate_hz, 50 + seed, (1.2, 6.0), pieces) for seed in range(seeds)]
             heard = [performed(each.kit, sim, None) for each, sim in zip(learnt, sims, strict=True)]
-            counts = [sum(part[place] for part in heard) for place in range(3)]
+            counts = [sum(column) for column in zip(*(part[:3] for part in heard), strict=True)]
             pairs = sorted(
                 {f"{word(pair.one.piece)}–{word(pair.other.piece)}" for each in learnt for pair in each.close}
             )
@@ -312,7 +313,7 @@ def zone_table(folder: Path) -> str:
     title = "Real strokes (imu/airdrums, 40 Hz): each piece learnt from its first eight strokes, tested on all others"
     if not folder.exists():
         return table(title, ("",), [(f"{folder} is not here",)])
-    rows = []
+    rows: list[Row] = []
     for sensor in (1, 2):
         strokes = {take: recorded_strokes(folder / f"{take}_sensor{sensor}.txt") for take in _RECORDED}
         zones = [_zone(take, aims[:STROKES]) for take, aims in strokes.items()]
