@@ -80,19 +80,13 @@ def spec_from_score(
 
 
 def spec_from_sticking(
-    sticking: str,
-    *,
-    every_s: float,
-    start_s: float = 3.0,
-    times: int = 1,
-    velocity: float = 80.0,
-    player: PlayerSpec = EXACT,
-    seed: int = 0,
+    sticking: str, *, every_s: float, start_s: float = 3.0, times: int = 1, velocity: float = 80.0
 ) -> list[StickStrokeSpec]:
     """Strokes on the snare as a method book writes them, an even `every_s` apart, `times` over.
 
     `R` and `L` are strokes, `-` a rest, `>` after a letter accents it, `B` both hands at once; lower-case letters are
-    grace strokes of the next one (a flam's `FLAM_S`, a drag's `DRAG_S` before it), spaces mean nothing.
+    grace strokes of the next one (a flam's `FLAM_S`, a drag's `DRAG_S` before it), spaces mean nothing. `as_played_by`
+    makes a human of the machine.
     """
     strokes: list[StickStrokeSpec] = []
     place, graces = 0, ""
@@ -106,7 +100,7 @@ def spec_from_sticking(
             strokes += [_struck(at_s, hand, loudness) for hand in _HANDS_OF[sign]]
             strokes += _graces(graces, at_s, velocity)
             place, graces = place + 1, ""
-    return _stroke_types(as_played_by(player, strokes, seed))
+    return _stroke_types(as_played_by(EXACT, strokes))
 
 
 def as_played_by(player: PlayerSpec, strokes: Sequence[StickStrokeSpec], seed: int = 0) -> list[StickStrokeSpec]:

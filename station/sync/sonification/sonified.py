@@ -1,0 +1,32 @@
+"""A recording tracked and sonified: its phase, and what its triggers sound where the tracker has locked."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from station.core.events import Hit
+from station.core.units import NS_PER_S
+from station.sync.phase.periodic_model import PeriodicModel
+from station.sync.phase.phase_tracker import ADAPTIVE, PhaseTrack, TrackerSettings
+from station.sync.signals.signal import Signal
+from station.sync.sonification.triggers import Trigger, triggered
+from station.sync.walking.trial import track_recording
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sonified:
+    """The `track` of a recording, and the `hits` at the recording's own times."""
+
+    signal: Signal
+    track: PhaseTrack
+    hits: tuple[Hit, ...]
+
+
+def sonified(
+    model: PeriodicModel, signal: Signal, triggers: Sequence[Trigger], settings: TrackerSettings = ADAPTIVE
+) -> Sonified:
+    """Track a whole recording and let its phase trigger sounds; raises `BadInput` where it lacks a channel."""
+    track = track_recording(model, signal, settings)
+    at_ns = np.rint(signal.time_s * NS_PER_S).astype(np.int64)
+    return Sonified(signal, track, tuple(triggered(triggers, at_ns, track.phase_rad, track.locked)))
