@@ -148,7 +148,7 @@ class Controller:
             export_bars=self._chooser.bars,
             is_filming=self.export.path is not None,
             toast=self._toasts.text,
-            is_lively=sessions.is_lively(self._now_ns),
+            is_lively=sessions.is_lively(self._now_ns) or (shown.sticks and self.sticks.is_lively),
         )
 
     # --- what the user does ------------------------------------------------------------------------------------------

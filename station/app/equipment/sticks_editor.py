@@ -121,6 +121,11 @@ class SticksEditor:
         """Whether strokes are taken for what they teach: they command nothing meanwhile."""
         return self._gesture is not None or self._air is not None
 
+    @property
+    def is_lively(self) -> bool:
+        """Whether a stick is here, which may move at any moment."""
+        return bool(self._seen)
+
     def view(self) -> SticksView:
         """What the page shows now."""
         settings = self._store.now

@@ -30,7 +30,7 @@ _HOW = (
     'Name its port in the settings, such as sticks = "serial:/dev/ttyUSB0@115200", or start the station with'
     " --sticks; docs/sensors.md says which sensors are understood."
 )
-_PICTURE_HIGH = 150.0
+_PICTURE_HIGH = 170.0
 _HANDS = ((Limb.LEFT_HAND, "left"), (Limb.RIGHT_HAND, "right"))
 _SEATS = {Limb.LEFT_HAND: 0, Limb.UNKNOWN: 1, Limb.RIGHT_HAND: 2}
 """From left to right, as the player sees their own hands."""
