@@ -113,8 +113,8 @@ class SticksEditor:
         self._play_air()
 
     def _play_air(self) -> None:
-        is_on = self._store.now.air_drums
-        self._send(SetAirDrums(self._kit, AIR_AHEAD_NS) if is_on else SetAirDrums(None))
+        if self._store.now.air_drums:
+            self._send(SetAirDrums(self._kit, AIR_AHEAD_NS))
 
     @property
     def learns(self) -> bool:
@@ -210,7 +210,7 @@ class SticksEditor:
                 self.give_up()
             case PlayInAir(on):
                 self._store.update(lambda settings: replace(settings, air_drums=on))
-                self._play_air()
+                self._send(SetAirDrums(self._kit, AIR_AHEAD_NS) if on else SetAirDrums(None))
             case FollowPhase(on):
                 self._store.update(lambda settings: replace(settings, follow_phase=on))
             case _:
