@@ -31,8 +31,9 @@ from station.core.pieces import Piece
 from station.core.settings import Settings, load_settings, save_settings
 from station.core.units import ns_from_ms
 from station.devices.mapping.device_file import own_kit
+from station.devices.mapping.stick_file import own_stick
 from station.drills.library import find_lesson
-from station.engine.messages import Play, SetLevel, WatchRawBytes
+from station.engine.messages import Play, SetLevel, WatchRawBytes, WatchSensors
 from station.gui.display import GONE, Rectangle, home_for
 from station.gui.glfw_screen import glfw_screen
 from station.gui.keyboard_kit import VIEW_KEYS
@@ -48,6 +49,7 @@ from station.gui.panels.playback_row import STOP_LABEL as HITS_STOP
 from station.gui.panels.playback_row import STUDENT_LABEL, TEACHER_LABEL
 from station.gui.panels.player_controls import COUNT_IN_LABEL, MORE_LABEL
 from station.gui.panels.practice_panel import LEARN_LABEL, PRACTICE
+from station.gui.panels.sticks_panel import FOLLOW_LABEL, GESTURE_LABEL, STICKS
 from station.gui.panels.transport_bar import VIEW_LABEL
 from station.gui.panels.velocity_part import LEARN_LABEL as TOUCH_LABEL
 from station.gui.window import Window
@@ -59,6 +61,7 @@ from station.render.files.png_file import write_png
 from station.render.notation.score_view import ScoreForm
 from station.render.snapshot import Snapshot
 from station.simulation.student_spec import parse_spec
+from tests.fakes.stick_physics import Sensor, Stroke, measured, strokes_by_angle
 from tests.gui.figure import figure
 from tests.gui.legible import present_faults
 from tests.gui.room import KIT, station
@@ -487,6 +490,35 @@ def pads_are_learnt(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.yield_(3)
     kept = own_kit(KIT)
     drive.seen["touch"] = None if kept is None else [kept.pad(Piece.SNARE).curve.table[v] for v in (0x12, 0x52)]
+
+
+def sticks(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """The sticks page: a sensor is seen, its hand chosen and kept, the gesture begun and given up, the air switched."""
+    device = "x-IMU3 1"
+    open_panel(ctx, STICKS)
+    drive.engine.plug_stick(device)
+    angle, _, _ = strokes_by_angle([Stroke(0.5)] * 2, rest_s=1.0)
+    drive.engine.move_stick(device, measured(angle, Sensor(200)))
+    ctx.yield_(3)
+    (stick,) = drive.state.sticks.sticks
+    drive.seen["facts"], drive.seen["drawn"] = stick.facts, stick.turn is not None
+    ctx.set_ref(f"//{STICKS}")
+    ctx.item_click(f"left##{device}")
+    ctx.yield_(2)
+    drive.seen["hand"] = own_stick(device).limb.name
+    drive.seen["shown"] = drive.state.sticks.sticks[0].limb.name
+    ctx.item_click(GESTURE_LABEL)
+    ctx.yield_(3)
+    drive.seen["asks"] = drive.state.sticks.lesson and drive.state.sticks.lesson.asks
+    ctx.key_press(imgui.Key.escape)
+    ctx.yield_(2)
+    drive.seen["given up"] = drive.state.sticks.lesson is None
+    ctx.item_click(f"**/{FOLLOW_LABEL}")
+    ctx.yield_(2)
+    drive.seen["follows"] = load_settings(drive.settings).follow_phase
+    open_panel(ctx, STICKS)  # and close it again
+    ctx.yield_(2)
+    drive.seen["watched"] = [command.on for command in drive.engine.sent if isinstance(command, WatchSensors)]
 
 
 def habits(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
