@@ -44,7 +44,8 @@ LEAST_BLOCK_FRAMES = 16
 class Settings:
     """What a user has chosen.
 
-    `kit` part of the MIDI port's name, empty for the first kit found; `output` part of the sound device's name, empty
+    `kit` part of the MIDI port's name, empty for the first kit found; `sticks` where the motion sensors on the sticks are
+    (`devices.stick_ports`), empty for none; `output` part of the sound device's name, empty
     for the system's default; `block_frames` the size of one audio block, 0 for the driver's own choice; `rate_hz` its
     sample rate; `drums` the name or the path of the drum kit that sounds, `click` the name of the click,
     `click_pattern` what clicks (`practice.session.click_options`), `levels` of what sounds (`engine.level_words`),
@@ -69,6 +70,7 @@ class Settings:
 
     student: str = "student"
     kit: str = ""
+    sticks: str = ""
     output: str = ""
     block_frames: int = 0
     rate_hz: int = 48_000
