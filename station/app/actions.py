@@ -486,6 +486,13 @@ CalibrationAction = Measure | CancelMeasuring | KeepMeasured | ForgetMeasured
 
 
 @dataclass(frozen=True, slots=True)
+class LookForSticks:
+    """Listen to the sensors at these ports from now on (`devices.stick_ports`); the engine starts anew."""
+
+    ports: str
+
+
+@dataclass(frozen=True, slots=True)
 class SetHand:
     """The stick of the sensor `device` is in this hand."""
 
@@ -522,7 +529,7 @@ class FollowPhase:
     on: bool
 
 
-StickAction = SetHand | LearnMounting | LearnAir | GiveUpSticks | PlayInAir | FollowPhase
+StickAction = LookForSticks | SetHand | LearnMounting | LearnAir | GiveUpSticks | PlayInAir | FollowPhase
 
 # --- files ------------------------------------------------------------------------------------------------------------
 

@@ -49,7 +49,7 @@ from station.gui.panels.playback_row import STOP_LABEL as HITS_STOP
 from station.gui.panels.playback_row import STUDENT_LABEL, TEACHER_LABEL
 from station.gui.panels.player_controls import COUNT_IN_LABEL, MORE_LABEL
 from station.gui.panels.practice_panel import LEARN_LABEL, PRACTICE
-from station.gui.panels.sticks_panel import FOLLOW_LABEL, GESTURE_LABEL, STICKS
+from station.gui.panels.sticks_panel import FOLLOW_LABEL, GESTURE_LABEL, LOOK_LABEL, PORTS_LABEL, STICKS
 from station.gui.panels.transport_bar import VIEW_LABEL
 from station.gui.panels.velocity_part import LEARN_LABEL as TOUCH_LABEL
 from station.gui.window import Window
@@ -61,7 +61,7 @@ from station.render.files.png_file import write_png
 from station.render.notation.score_view import ScoreForm
 from station.render.snapshot import Snapshot
 from station.simulation.student_spec import parse_spec
-from tests.fakes.stick_physics import Sensor, Stroke, measured, strokes_by_angle
+from tests.fakes.stick_physics import FINE_HZ, Sensor, Stroke, measured, strokes_by_angle
 from tests.gui.figure import figure
 from tests.gui.legible import present_faults
 from tests.gui.room import KIT, station
@@ -507,6 +507,8 @@ def sticks(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.yield_(2)
     drive.seen["hand"] = own_stick(device).limb.name
     drive.seen["shown"] = drive.state.sticks.sticks[0].limb.name
+    ctx.yield_(25)  # it falls silent, and says so
+    drive.seen["silent"] = drive.state.sticks.sticks[0].troubles
     ctx.item_click(GESTURE_LABEL)
     ctx.yield_(3)
     drive.seen["asks"] = drive.state.sticks.lesson and drive.state.sticks.lesson.asks
@@ -516,6 +518,10 @@ def sticks(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.item_click(f"**/{FOLLOW_LABEL}")
     ctx.yield_(2)
     drive.seen["follows"] = load_settings(drive.settings).follow_phase
+    ctx.item_input_value(f"**/{PORTS_LABEL}", "serial:/dev/ttyUSB0@fast")
+    ctx.item_click(f"**/{LOOK_LABEL}")
+    ctx.yield_(2)
+    drive.seen["refused"] = drive.state.toast
     open_panel(ctx, STICKS)  # and close it again
     ctx.yield_(2)
     drive.seen["watched"] = [command.on for command in drive.engine.sent if isinstance(command, WatchSensors)]
@@ -884,6 +890,8 @@ def graph(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
 def legible(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """Every tool is opened, at both ends of the usual sizes, and what cannot be read in it is told."""
     docking = drive.window.params.docking_params
+    drive.engine.plug_stick("x-IMU3 1")
+    drive.engine.move_stick("x-IMU3 1", measured(np.full(FINE_HZ, 0.2), Sensor(100)))
     for scale in (1.0, 2.0):
         drive.station.dispatch(SetView(replace(drive.state.view_settings, scale=scale)))
         for page in drive.window.pages.tools:
@@ -922,6 +930,7 @@ SCENARIOS = {
     "drill": drill,
     "closes": closes,
     "unplugged": unplugged,
+    "sticks": sticks,
     "habits": habits,
     "player": player,
     "graph": graph,

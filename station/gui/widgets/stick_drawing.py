@@ -20,16 +20,22 @@ _FULCRUM = (-0.16, 0.20)
 seen."""
 
 
-def draw_sticks(turns: Sequence[Quaternion | None], size: tuple[float, float]) -> None:
-    """Draw the sticks side by side into the next `size` pixels of the panel; None where a stick's turn is unknown."""
+def draw_sticks(sticks: Sequence[tuple[str, Quaternion | None]], size: tuple[float, float]) -> None:
+    """Draw sticks, each with its name, side by side into the next `size` pixels of the panel.
+
+    A stick's turn is earth from stick, with the heading 0 ahead; None where it is unknown.
+    """
     corner, brush = imgui.get_cursor_screen_pos(), imgui.get_window_draw_list()
     wide, high = size
     imgui.dummy(imgui.ImVec2(wide, high))
     low, far = corner, imgui.ImVec2(corner.x + wide, corner.y + high)
     brush.push_clip_rect(low, far, True)
     brush.add_rect_filled(low, far, _ink(palette.PAPER), theme.points(6))
-    for place, turn in enumerate(turns):
-        middle = np.array([corner.x + wide * (place + 0.5) / len(turns), corner.y + 0.5 * high])
+    for place, (name, turn) in enumerate(sticks):
+        left = corner.x + wide * place / len(sticks)
+        at = imgui.ImVec2(left + theme.points(10), corner.y + theme.points(8))
+        brush.add_text(at, _ink(palette.INK_SOFT), name)
+        middle = np.array([left + wide * 0.5 / len(sticks), corner.y + 0.5 * high])
         middle += high * np.array(_FULCRUM)
         _head(brush, middle, high)
         if turn is not None:

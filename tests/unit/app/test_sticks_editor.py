@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from station.app.actions import FollowPhase, GiveUpSticks, LearnAir, LearnMounting, PlayInAir, SetHand
+from station.app.actions import FollowPhase, GiveUpSticks, LearnAir, LearnMounting, LookForSticks, PlayInAir, SetHand
 from station.app.equipment.sticks_editor import SticksEditor
 from station.app.settings_store import SettingsStore
-from station.core.errors import DeviceError
+from station.core.errors import BadInput, DeviceError
 from station.core.events import (
     PhaseEstimate,
     SensorLost,
@@ -44,8 +44,16 @@ class Page:
     def __init__(self, folder: Path, **chosen: object) -> None:
         self.folder, self.air = folder / "sticks", folder / "air.toml"
         self.sent: list[Command] = []
+        self.engines: list[str] = []
+        """The sensors for which engines were started."""
+        self.plays = False
         self.store: SettingsStore = store_with(folder, **chosen)
-        self.editor = SticksEditor(self.sent.append, self.store, self.folder, self.air)
+        self.editor = SticksEditor(self.sent.append, self.store, self.start_anew, self.folder, self.air)
+
+    def start_anew(self) -> None:
+        if self.plays:
+            raise DeviceError("end the session first")
+        self.engines.append(self.store.now.sticks)
 
     def here(self, *devices: str, mounting: Mounting | None = None) -> None:
         for device in devices:
@@ -145,6 +153,25 @@ def test_a_phase_is_shown_as_it_was_told_last(page: Page) -> None:
     told = PhaseEstimate(5, 1.0, 0.9, 0.95, 6.0, locked=True)
     page.editor.handle(told)
     assert page.editor.view().phase == told
+
+
+# --- where they are ---------------------------------------------------------------------------------------------------
+
+
+def test_another_port_is_kept_and_the_engine_looks_there(page: Page) -> None:
+    page.here(RIGHT)
+    page.editor.act(LookForSticks(" serial:/dev/ttyUSB0@115200; ble:WT901 "))
+    assert page.engines == ["serial:/dev/ttyUSB0@115200; ble:WT901"]
+    assert page.editor.view().sticks == ()
+
+
+def test_what_is_no_port_and_what_comes_while_somebody_plays_changes_nothing(page: Page) -> None:
+    with pytest.raises(BadInput):
+        page.editor.act(LookForSticks("serial:/dev/ttyUSB0@fast"))
+    page.plays = True
+    with pytest.raises(DeviceError):
+        page.editor.act(LookForSticks("ble:WT901"))
+    assert (page.engines, page.store.now.sticks) == ([], "")
 
 
 # --- which hand -------------------------------------------------------------------------------------------------------
