@@ -1,8 +1,8 @@
 """Everything that can be asked of the controller, by mouse, keys or kit: a closed set of plain values.
 
 `Controller.dispatch` takes them all. The parts that own what is changed take theirs: `PlayerAction` the demonstration's
-player, `MappingAction` the editor of kits, `CalibrationAction` the measuring of latency, `StickAction` that of sticks, `StyleAction` the editor of
-the demonstrator's style. Bars and slots count from 0 where nothing else is said.
+player, `MappingAction` the editor of kits, `StickAction` that of sticks, `CalibrationAction` the measuring of latency,
+`StyleAction` the editor of the demonstrator's style. Bars and slots count from 0 where nothing else is said.
 """
 
 from dataclasses import dataclass
@@ -487,6 +487,13 @@ CalibrationAction = Measure | CancelMeasuring | KeepMeasured | ForgetMeasured
 
 
 @dataclass(frozen=True, slots=True)
+class LookForSticks:
+    """Listen to the sensors at these ports from now on (`devices.stick_ports`); the engine starts anew."""
+
+    ports: str
+
+
+@dataclass(frozen=True, slots=True)
 class SetHand:
     """The stick of the sensor `device` is in this hand."""
 
@@ -523,7 +530,7 @@ class FollowPhase:
     on: bool
 
 
-StickAction = SetHand | LearnMounting | LearnAir | GiveUpSticks | PlayInAir | FollowPhase
+StickAction = LookForSticks | SetHand | LearnMounting | LearnAir | GiveUpSticks | PlayInAir | FollowPhase
 
 # --- files ------------------------------------------------------------------------------------------------------------
 

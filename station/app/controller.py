@@ -60,7 +60,7 @@ class Controller:
         self.sessions = SessionControl(self._engine, store, launch, self._style.demonstrator, notify)
         self.mapping = MappingEditor(self._engine.forward)
         self.calibration = Calibration(self._rest, self._engine.wake, processes.measure)
-        self.sticks = SticksEditor(self._engine.forward, store)
+        self.sticks = SticksEditor(self._engine.forward, store, self._start_anew)
         self._tried(self.sticks.begin)
         self.preferences = Preferences(store)
         self._pads = PadControl(store, self.preferences, launch.plan.score)
@@ -155,7 +155,7 @@ class Controller:
             export_bars=self._chooser.bars,
             is_filming=self.export.path is not None,
             toast=self._toasts.text,
-            is_lively=sessions.is_lively(self._now_ns),
+            is_lively=sessions.is_lively(self._now_ns) or (shown.sticks and self.sticks.is_lively),
         )
 
     # --- what the user does ------------------------------------------------------------------------------------------
@@ -321,6 +321,11 @@ class Controller:
         for kit in self.sessions.rest():
             self.mapping.handle(DeviceLost(0, kit))
         return self._engine.has_rested
+
+    def _start_anew(self) -> None:
+        """Have an engine by the settings as they are now; raises `DeviceError` while somebody plays."""
+        self._rest()
+        self._engine.wake()
 
     def close(self) -> StationError | None:
         """Keep what runs and what was set, end a measurement and a video; returns what nobody can be shown any more."""

@@ -15,6 +15,7 @@ from station.app.actions import (
     GiveUpSticks,
     LearnAir,
     LearnMounting,
+    LookForSticks,
     PlayInAir,
     SetHand,
     StickAction,
@@ -35,6 +36,7 @@ from station.core.imu import ImuSample
 from station.core.pieces import Limb
 from station.core.units import NS_PER_MS, ns_from_s
 from station.devices.mapping.stick_file import save_stick
+from station.devices.stick_ports import parse_sticks
 from station.engine.messages import Command, EngineEvent, ReloadDevice, SetAirDrums, WatchSensors
 from station.sync.air.air_file import air_path, read_air, save_air
 from station.sync.air.air_zones import AirKit
@@ -89,15 +91,20 @@ class _Gesture:
 
 
 class SticksEditor:
-    """The sticks of the settings `store`; `send` reaches the engine, `folder` holds the user's files of sticks.
+    """The sticks of the settings `store`; `send` reaches the engine, and `anew` has it start by other settings.
 
-    `air` is the air kit's file; None for this user's, both.
+    `folder` holds the user's files of sticks, `air` is the air kit's file; None for this user's, both.
     """
 
     def __init__(
-        self, send: Callable[[Command], None], store: SettingsStore, folder: Path | None = None, air: Path | None = None
+        self,
+        send: Callable[[Command], None],
+        store: SettingsStore,
+        anew: Callable[[], None] = lambda: None,
+        folder: Path | None = None,
+        air: Path | None = None,
     ) -> None:
-        self._send, self._store = send, store
+        self._send, self._store, self._anew = send, store, anew
         self._folder, self._air_path = folder, air or air_path()
         self._seen: dict[str, SeenStick] = {}
         self._gesture: _Gesture | None = None
@@ -113,13 +120,18 @@ class SticksEditor:
         self._play_air()
 
     def _play_air(self) -> None:
-        is_on = self._store.now.air_drums
-        self._send(SetAirDrums(self._kit, AIR_AHEAD_NS) if is_on else SetAirDrums(None))
+        if self._store.now.air_drums:
+            self._send(SetAirDrums(self._kit, AIR_AHEAD_NS))
 
     @property
     def learns(self) -> bool:
         """Whether strokes are taken for what they teach: they command nothing meanwhile."""
         return self._gesture is not None or self._air is not None
+
+    @property
+    def is_lively(self) -> bool:
+        """Whether a stick is here, which may move at any moment."""
+        return bool(self._seen)
 
     def view(self) -> SticksView:
         """What the page shows now."""
@@ -194,6 +206,8 @@ class SticksEditor:
     def act(self, action: StickAction) -> None:
         """Do what the user asks; raises `StationError` where it cannot be done."""
         match action:
+            case LookForSticks(ports):
+                self._look(ports)
             case SetHand(device, limb):
                 self._set_hand(device, limb)
             case LearnMounting():
@@ -205,7 +219,7 @@ class SticksEditor:
                 self.give_up()
             case PlayInAir(on):
                 self._store.update(lambda settings: replace(settings, air_drums=on))
-                self._play_air()
+                self._send(SetAirDrums(self._kit, AIR_AHEAD_NS) if on else SetAirDrums(None))
             case FollowPhase(on):
                 self._store.update(lambda settings: replace(settings, follow_phase=on))
             case _:
@@ -221,6 +235,19 @@ class SticksEditor:
             self._send(WatchSensors(on=False))
             if was_air:
                 self._play_air()
+
+    def _look(self, ports: str) -> None:
+        """Raises `BadInput` for ports that cannot be meant, `DeviceError` while somebody plays."""
+        parse_sticks(ports)
+        self.give_up()
+        before = self._store.now.sticks
+        self._store.update(lambda settings: replace(settings, sticks=ports.strip()))
+        try:
+            self._anew()
+        except DeviceError:
+            self._store.update(lambda settings: replace(settings, sticks=before))
+            raise
+        self._seen.clear()
 
     def _listen(self) -> None:
         """Have the samples told; raises `DeviceError` where there is nobody to tell them."""

@@ -13,32 +13,40 @@ from station.render.text.draw_list import Colour
 
 _WOOD, _WOOD_DARK = (0.91, 0.74, 0.50, 1.0), (0.36, 0.24, 0.13, 1.0)
 """Hickory in light and in shade (our choice)."""
-_HEAD_AT, _HEAD_M = (0.0, 0.22, -0.10), 0.165
-"""A 13-inch head ahead of the hands, where a tip at rest lies."""
-_LOW = 0.06
-"""The picture's middle lies a little below that of the frame, so that a raised tip is seen."""
+_HEAD_AT, _HEAD_M = (0.0, 0.24, -0.06), 0.13
+"""A 10-inch head ahead of the hands, just under where a tip at rest lies."""
+_FULCRUM = (-0.16, 0.20)
+"""Where in its half of the picture a stick's fulcrum lies from the middle, in heights: a raised tip and the head are
+seen."""
 
 
-def draw_sticks(turns: Sequence[Quaternion | None], size: tuple[float, float]) -> None:
-    """Draw the sticks side by side into the next `size` pixels of the panel; None where a stick's turn is unknown."""
+def draw_sticks(sticks: Sequence[tuple[str, Quaternion | None]], size: tuple[float, float]) -> None:
+    """Draw sticks, each with its name, side by side into the next `size` pixels of the panel.
+
+    A stick's turn is earth from stick, with the heading 0 ahead; None where it is unknown.
+    """
     corner, brush = imgui.get_cursor_screen_pos(), imgui.get_window_draw_list()
     wide, high = size
     imgui.dummy(imgui.ImVec2(wide, high))
     low, far = corner, imgui.ImVec2(corner.x + wide, corner.y + high)
     brush.push_clip_rect(low, far, True)
     brush.add_rect_filled(low, far, _ink(palette.PAPER), theme.points(6))
-    for place, turn in enumerate(turns):
-        middle = np.array([corner.x + wide * (place + 0.5) / len(turns), corner.y + high * (0.5 + _LOW)])
+    for place, (name, turn) in enumerate(sticks):
+        left = corner.x + wide * place / len(sticks)
+        at = imgui.ImVec2(left + theme.points(10), corner.y + theme.points(8))
+        brush.add_text(at, _ink(palette.INK_SOFT), name)
+        middle = np.array([left + wide * 0.5 / len(sticks), corner.y + 0.5 * high])
+        middle += high * np.array(_FULCRUM)
         _head(brush, middle, high)
         if turn is not None:
-            _stick(brush, stick_shape(turn), middle, high)
+            _stick(brush, stick_shape(turn, -_HEAD_AT[2]), middle, high)
     brush.pop_clip_rect()
 
 
 def _head(brush: imgui.ImDrawList, middle: Points, high: float) -> None:
     edge = _at(head_outline(_HEAD_M, _HEAD_AT), middle, high)
-    brush.add_convex_poly_filled(edge, _ink(palette.with_opacity(palette.INK, 0.10)))
-    brush.add_polyline(edge, _ink(palette.INK_FAINT), theme.points(1.5), imgui.ImDrawFlags_.closed)
+    brush.add_convex_poly_filled(edge, _ink(palette.with_opacity(palette.INK, 0.22)))
+    brush.add_polyline(edge, _ink(palette.INK_SOFT), theme.points(2), imgui.ImDrawFlags_.closed)
 
 
 def _stick(brush: imgui.ImDrawList, shape: StickShape, middle: Points, high: float) -> None:
