@@ -17,6 +17,8 @@ from station.app.engine_client import EngineClient
 from station.app.equipment.calibration import Calibration, CalibrationView
 from station.app.equipment.mapping_editor import MappingEditor
 from station.app.equipment.mapping_view import MappingView
+from station.app.equipment.sticks_editor import SticksEditor
+from station.app.equipment.sticks_view import SticksView
 from station.app.export import Exporter
 from station.app.first_start import answered, student_level
 from station.app.preferences import Preferences
@@ -56,6 +58,8 @@ class Controller:
         self.sessions = SessionControl(self._engine, store, launch, self._style.demonstrator, notify)
         self.mapping = MappingEditor(self._engine.forward)
         self.calibration = Calibration(self._rest, self._engine.wake, processes.measure)
+        self.sticks = SticksEditor(self._engine.forward, store)
+        self._tried(self.sticks.begin)
         self.preferences = Preferences(store)
         self._pads = PadControl(store, self.preferences, launch.plan.score)
         self.export = Exporter(processes.animate)
@@ -74,6 +78,7 @@ class Controller:
         events = self._heard()
         asked = [action for event in events if (action := self._handle(event)) is not None]
         self.mapping.advance(now_ns)
+        self._tried(lambda: self.sticks.advance(now_ns))
         self.sessions.advance(now_ns)
         message = self.export.news()
         if message is not None:
@@ -96,8 +101,9 @@ class Controller:
     def _handle(self, event: EngineEvent) -> do.Begin | None:
         """Handle one event; a session that it asks for begins when all others are handled, anything else at once."""
         self.mapping.handle(event)
+        self.sticks.handle(event)
         self.sessions.handle(event, self._now_ns)
-        if self.mapping.learns:  # strokes teach, and ask for nothing
+        if self.mapping.learns or self.sticks.learns:  # strokes teach, and ask for nothing
             return None
         asked = self._pads.handle(event, self.sessions.practice)
         if asked is None or isinstance(asked, do.Begin):
@@ -134,6 +140,7 @@ class Controller:
             preferences=self.preferences.now,
             mapping=self.mapping.view() if shown.devices else MappingView(),
             calibration=self.calibration.view() if shown.devices else _NO_CALIBRATION,
+            sticks=self.sticks.view() if shown.sticks else SticksView(),
             snapshot=snapshot,
             report=sessions.practice.last_result.report,
             curves=sessions.curves() if shown.curves else None,
@@ -169,6 +176,8 @@ class Controller:
             self._toasts.notify(self.mapping.act(action))
         elif isinstance(action, do.CalibrationAction):
             self._measure(action)
+        elif isinstance(action, do.StickAction):
+            self.sticks.act(action)
         elif isinstance(action, do.StyleAction):
             self._restyle(action)
         elif isinstance(action, do.SettingsAction):
@@ -202,13 +211,15 @@ class Controller:
 
     def _begin(self, bar: int | None = None) -> None:
         self.calibration.refuse()
+        self.sticks.give_up()
         self.preferences.learn(on=False)  # what is played from now on is no gesture to be learnt
         self._chooser.begin(bar)
 
     def _leave(self) -> None:
         stage = self.sessions.practice.stage
-        if self.mapping.learns:
+        if self.mapping.learns or self.sticks.learns:
             self.mapping.give_up()
+            self.sticks.give_up()
         elif stage is Stage.PLAYING:
             self.sessions.practice.end()
         elif stage is Stage.RESULT:
@@ -219,6 +230,8 @@ class Controller:
     def _show(self, shown: do.Show) -> None:
         before, self._shown = self._shown, shown
         self.mapping.listen(shown.devices)
+        if not shown.sticks:
+            self.sticks.give_up()
         if not shown.practice:
             self.preferences.learn(on=False)
         if shown.catalog:

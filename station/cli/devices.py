@@ -9,7 +9,7 @@ from station.cli import devices_calibrate
 from station.cli.console import print_json, say, write
 from station.cli.devices_learn_pad import LearnOptions, learn_kit_or_pad
 from station.cli.devices_monitor import monitor
-from station.cli.input.device_listening import ListenOptions, event_line, listening, polls
+from station.cli.input.device_listening import HearOptions, event_line, listening, listening_to_sticks, polls
 from station.cli.options.option_fields import Command, Verbs, argument, flag
 from station.core.clock import monotonic_ns
 from station.core.errors import BadInput, DeviceError
@@ -32,7 +32,7 @@ class PortsOptions:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RecordOptions(ListenOptions):
+class RecordOptions(HearOptions):
     """Where what is heard is kept."""
 
     file: Path = argument("FILE", "the capture to write; one that is there goes on", Path)
@@ -107,29 +107,31 @@ def _ports() -> tuple[list[dict[str, str]], list[str]]:
 
 def _record(options: RecordOptions) -> int:
     from station.devices.mapping.device_file import own_kit
+    from station.devices.mapping.stick_file import own_stick
+    from station.devices.port_watch import ClaimedPorts
     from station.engine.engine import Engine
     from station.engine.messages import RecordCapture
 
-    engine, hits, records = Engine(own_kit=own_kit), 0, False
-    with listening(options) as kits:
+    engine, hits, records, claims = Engine(own_kit=own_kit, own_stick=own_stick), 0, False, ClaimedPorts()
+    with listening(options, claims) as kits, listening_to_sticks(options, claims) as sticks:
         try:
-            for findings in polls(kits, options.seconds):
+            for findings in polls(kits, options.seconds, sticks):
                 if findings.found and not records:  # no sooner: where nothing can be heard, no file is left behind
                     engine.advance(monotonic_ns())
                     engine.handle(RecordCapture(options.file))
                     records = True
-                _feed(engine, findings)
+                _feed(engine, findings, any(stick.device == findings.device for stick in sticks))
                 hits += _print_events(engine)
         finally:
             engine.handle(RecordCapture(None))
     hits += _print_events(engine)
-    say(f"{hits} hits in {options.file}" if records else "no kit came: nothing was recorded")
+    say(f"{hits} hits in {options.file}" if records else "nothing came: nothing was recorded")
     return 0
 
 
-def _feed(engine: "Engine", findings: PortPoll) -> None:
+def _feed(engine: "Engine", findings: PortPoll, is_stick: bool) -> None:
     if findings.found:
-        engine.device_found(findings.device, monotonic_ns())
+        (engine.sensor_found if is_stick else engine.device_found)(findings.device, monotonic_ns())
     for packet in findings.packets:
         engine.feed(findings.device, packet.data, packet.at_ns)
     if findings.lost:
@@ -197,11 +199,15 @@ COMMAND = Verbs(
         ("list", "the kits and sound outputs that this computer sees", Command(PortsOptions, _list)),
         (
             "monitor",
-            "every hit with its raw bytes, and what looks like a false trigger; Ctrl-C ends",
-            Command(ListenOptions, monitor),
+            "every hit with its raw bytes, and what looks like a false trigger, or how motion sensors do; Ctrl-C ends",
+            Command(HearOptions, monitor),
         ),
         ("learn", "teach the station your kit: strike what is asked for", Command(LearnOptions, learn_kit_or_pad)),
-        ("record", "keep every byte of a kit with its time; Ctrl-C ends", Command(RecordOptions, _record)),
+        (
+            "record",
+            "keep every byte of a kit and of motion sensors with its time; Ctrl-C ends",
+            Command(RecordOptions, _record),
+        ),
         (
             "calibrate",
             "measure the latency of a kit or a sound output",

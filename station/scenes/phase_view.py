@@ -42,7 +42,7 @@ def trace_of(
         marks += [PhaseMark(at_s, limb) for at_s in foot.contact_s.tolist()]
     lines = tuple((trigger.threshold, trigger.limb) for trigger in triggers)
     time_s = told.signal.time_s
-    return PhaseTrace(title, time_s, share, told.track.quality, told.sure, tuple(marks), lines, remark)
+    return PhaseTrace(title, time_s, share, told.track.quality, told.track.locked, tuple(marks), lines, remark)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -16,7 +16,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from station.core.events import Choke, Hit
+from station.core.events import Choke, Hit, StickStroke
 from station.core.units import NS_PER_MS
 from station.drills.mastery.feedback_fading import Feedback
 from station.engine.messages import Annotate, Command, EngineEvent, Play, SetBacking, Started, Stop
@@ -32,6 +32,7 @@ from station.practice.session.plan import TAIL_NS, Phase, Plan, Segment
 from station.scoring.align import align
 from station.scoring.matching.alignment import Alignment
 from station.sound.track import PreparedTrack
+from station.sync.strokes.hand_naming import limb_of, strokes_of_hits
 
 LEAD_IN_NS = 300 * NS_PER_MS
 """How long after `start` the first click is heard: time for the engine to wake; our choice."""
@@ -57,7 +58,8 @@ class SessionResult:
 
     `score` is what is judged: the plan's, or, when the session was stopped early (`complete` False), its strokes up to
     there. `device` is what most hits were played on, `output` what the click was heard on; None where there was none.
-    `pauses` are those after which it went on, each by its bar of `score`.
+    `pauses` are those after which it went on, each by its bar of `score`; `felt` are the hits, each with its
+    stroke, of which the sticks' sensors told the hand, in its own score's time.
     """
 
     plan: Plan
@@ -69,6 +71,7 @@ class SessionResult:
     device: str | None
     output: str | None = None
     pauses: tuple[SessionPause, ...] = ()
+    felt: tuple[tuple[Hit, StickStroke], ...] = ()
 
 
 @dataclass(eq=False)
@@ -96,6 +99,7 @@ class Session:
         self._run = Stretch(0, 0, self.plan.cues)
         self._held_ns: int | None = None  # the place on the plan's timeline, while nothing moves
         self._has_left = False  # a stroke has come after so long a silence
+        self._strokes: list[StickStroke] = []
         self.paused = False
         """Whether the transport stands and waits for `resume`."""
         self.pauses: list[SessionPause] = []
@@ -154,6 +158,7 @@ class Session:
             return ()
         bar = 0 if whole else bar_of(self.plan.score, self._judging.last_ns)
         self._run = from_bar(self.plan, bar)
+        self._strokes = [stroke for stroke in self._strokes if stroke.at_ns < self._run.from_ns]
         self.pauses.append(SessionPause(bar, asked, self._judging.forget_from(self._run.from_ns)))
         self.heard.zero_ns, self.paused = None, False
         self._held_ns = self.plan.passes_start_ns + self._run.from_ns
@@ -172,6 +177,10 @@ class Session:
             case Choke():
                 if self._held_ns is None and (score_ns := self._score_of(event)) is not None:
                     self._judging.chokes.append(replace(event, at_ns=score_ns))
+            case StickStroke():
+                felt_ns = self._score_ns(event.at_ns)
+                if self._held_ns is None and felt_ns is not None:
+                    self._strokes.append(replace(event, at_ns=felt_ns))
             case _:
                 pass
         return ()
@@ -247,7 +256,9 @@ class Session:
 
     def result(self) -> SessionResult:
         """The final alignment of all that was heard so far."""
-        performance, last_ns = self._judging.performance(), self._judging.last_ns
+        hits, strokes = self._judging.hits, strokes_of_hits(self._judging.hits, self._strokes)
+        limbs = [limb_of(hit, stroke) for hit, stroke in zip(hits, strokes, strict=True)] if self._strokes else None
+        performance, last_ns = self._judging.performance(limbs), self._judging.last_ns
         heard_until_ns = self.state().score_ns
         if self.paused:  # what came after the last stroke is nobody's
             heard_until_ns = 0 if last_ns is None else last_ns + NEAR_NS
@@ -264,6 +275,7 @@ class Session:
             self._played_on(),
             self.heard.output,
             tuple(self.pauses),
+            tuple((hit, stroke) for hit, stroke in zip(hits, strokes, strict=True) if stroke is not None),
         )
 
     def _played_on(self) -> str | None:

@@ -15,8 +15,9 @@ from station.render.phase.phase_plot import LIMB_COLOURS, PLAIN
 from station.render.report.report_layout import ReportBox
 from station.render.text.draw_list import Colour, DrawList
 
-YAW_RAD, PITCH_RAD = np.radians(62.0), np.radians(10.0)
-"""How the camera looks at a body that walks along z: almost from its left, a little from above (our choice)."""
+YAW_RAD, PITCH_RAD = np.radians(-62.0), np.radians(10.0)
+"""How the camera looks at a body that walks along z: almost from its right, a little from above (our choice: it walks
+as time runs in the plot)."""
 _HEIGHT_M, _LOW_M = 2.15, -0.22
 """What is seen of the room between the picture's edges, and where its lower edge lies (our choice: a tall man)."""
 _TILE_M, _TILES = 0.5, 5
@@ -26,7 +27,10 @@ _BONE, _JOINT, _STRUCK = 6.0, 4.2, 15.0
 
 @dataclass(frozen=True, slots=True)
 class Walker:
-    """The bones of a skeleton as pairs of joints, and each bone's side (UNKNOWN in the middle); `root` a joint."""
+    """The bones of a skeleton as pairs of joints, and the `feet`; `root` is a joint.
+
+    A bone's near end tells its side, UNKNOWN in the middle.
+    """
 
     bones: tuple[tuple[int, int], ...]
     sides: tuple[Limb, ...]
@@ -35,19 +39,19 @@ class Walker:
 
     @classmethod
     def of(cls, names: tuple[str, ...], bones: tuple[tuple[int, int], ...]) -> "Walker":
-        """By the joints' names: r and l (CMU's) or Right and Left (of its BVH edition) begin those of a side."""
-        sides = tuple(_side(names[child]) for _, child in bones)
+        """By the joints' names: r and l, or R and L in the BVH edition, begin those of a side."""
+        sides = tuple(_side(names[parent]) for parent, _ in bones)
         feet = tuple((_side(name), k) for k, name in enumerate(names) if name in ("rfoot", "lfoot"))
         return cls(bones, sides, feet)
 
 
-_FIRST = {"r": Limb.RIGHT_FOOT, "Right": Limb.RIGHT_FOOT, "l": Limb.LEFT_FOOT, "Left": Limb.LEFT_FOOT}
-_MIDDLE = ("root", "lowerback", "lowerneck")
+_FIRST = {"r": Limb.RIGHT_FOOT, "R": Limb.RIGHT_FOOT, "l": Limb.LEFT_FOOT, "L": Limb.LEFT_FOOT}
+_MIDDLE = ("root", "lowerback", "lowerneck", "LowerBack")
 """Names that begin with the letter of a side and are of none."""
 
 
 def _side(name: str) -> Limb:
-    if name.startswith(_MIDDLE) or name.startswith("LowerBack"):
+    if name.startswith(_MIDDLE):
         return Limb.UNKNOWN
     return next((limb for begin, limb in _FIRST.items() if name.startswith(begin)), Limb.UNKNOWN)
 

@@ -3,7 +3,8 @@
 Nothing stops a stick in the air but the player, and what they mean by "now" is the sharp stop: the peak of the
 acceleration's magnitude. L. Dahl, "Triggering sounds from discrete air gestures: what movement feature has the best
 timing?", NIME 2014, measured it: that peak comes at the same time whatever the tempo, while the end of the movement
-(the lowest point) comes after the beat and the later the slower one plays.
+(the lowest point) comes after the beat, at a time that varies with the tempo. He measured hands; here it is the
+stick's tip, where it is sharpest and does not depend on where the sensor sits.
 
 A stroke is: the tip falls (`STARTS_M_S`), is braked by half its weight or more, and loses much of its speed within a
 moment. The peak of acceleration counts from the fastest point on, for the push that starts a stroke has a peak of its
@@ -126,7 +127,7 @@ class AirStrokes:
         if swing.down_m_s < BRAKED * fastest.down_m_s:
             self._state = _State.BRAKES
         if swing.at_ns - fastest.at_ns > _LONGEST_BRAKE_NS:
-            self._end(swing)
+            self._state, self._since_fastest = _State.ARMED, []
             return None
         return self._told(swing) if self._state is _State.BRAKES else None
 
@@ -138,8 +139,12 @@ class AirStrokes:
         past = swing.jolt_m_s2 <= _PAST_PEAK * self._since_fastest[hardest].jolt_m_s2
         if not past and swing.down_m_s > -_TURNED_BACK * fastest.down_m_s:
             return None
-        beat = self._beat(hardest) if self._is_stroke(swing) else None
-        self._end(swing)
+        if not self._is_stroke(swing):
+            self._state, self._since_fastest = _State.ARMED, []
+            return None
+        beat = self._beat(hardest)
+        self._fall_rad = self._top_rad - swing.elevation_rad
+        self._state, self._lowest_rad, self._since_fastest = _State.SPENT, swing.elevation_rad, []
         return beat
 
     def _is_stroke(self, swing: Swing) -> bool:
@@ -174,10 +179,6 @@ class AirStrokes:
             near.heading_rad + share * wrapped(beside.heading_rad - near.heading_rad),
             near.elevation_rad + share * (beside.elevation_rad - near.elevation_rad),
         )
-
-    def _end(self, swing: Swing) -> None:
-        self._fall_rad = self._top_rad - swing.elevation_rad
-        self._state, self._lowest_rad, self._since_fastest = _State.SPENT, swing.elevation_rad, []
 
 
 def brake_of(fastest: Swing, now: Swing) -> float:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from station.sync.phase.exemplars import cycles
 from station.sync.phase.periodic_model import CENTRES, PeriodicModel, fitted
-from station.sync.phase.phase_tracker import PhaseTrack, TrackerSettings, tracked
+from station.sync.phase.phase_tracker import PAPER, PhaseTrack, TrackerSettings, tracked
 from station.sync.signals.signal import CHANNEL_SETS, Signal
 from station.sync.signals.signal_files import read_signal
 from station.sync.walking.footfall import Steps, footfalls
@@ -67,6 +67,6 @@ def zero_mean(model: PeriodicModel, signal: Signal) -> Signal:
     return replace(channels, values=channels.values - channels.values.mean(axis=0) + model.mean)
 
 
-def track_recording(model: PeriodicModel, signal: Signal, settings: TrackerSettings = TrackerSettings()) -> PhaseTrack:
+def track_recording(model: PeriodicModel, signal: Signal, settings: TrackerSettings = PAPER) -> PhaseTrack:
     """The phase of a whole recording, made zero-mean; raises `BadInput` where it lacks a channel."""
     return tracked(model, zero_mean(model, signal).values, settings)
