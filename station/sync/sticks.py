@@ -51,8 +51,16 @@ class Sticks:
 
     def handle(self, event: SensorEvent) -> list[StickEvent | Hit]:
         """What `event` tells of the sticks; a sensor that nobody announced is mounted as sensors mostly are."""
-        phases: list[StickEvent | Hit] = [] if self._drill is None else [*self._drill.handle(event)]
+        phases = [] if self._drill is None else [*self._drill.handle(event)]
+        if self._air is not None:
+            for phase in phases:
+                self._air.phase(phase)
         return [*self._felt(event), *phases]
+
+    def pad(self, hit: Hit) -> None:
+        """A pad was struck: it tells the air kit where a stick points."""
+        if self._air is not None:
+            self._air.pad(hit)
 
     def _felt(self, event: SensorEvent) -> list[StickEvent | Hit]:
         match event:
@@ -96,5 +104,7 @@ class Sticks:
             told += self._air.moved(device, motion)
         if motion.at_ns >= self._next_pose_ns.get(device, motion.at_ns):
             self._next_pose_ns[device] = motion.at_ns + POSE_EVERY_NS
-            told.append(StickPose(motion.at_ns, device, detector.mounting.limb, motion.turn, motion.resting))
+            air = None if self._air is None else self._air.status(device)
+            doubt_rad = None if air is None else air.doubt_rad
+            told.append(StickPose(motion.at_ns, device, detector.mounting.limb, motion.turn, motion.resting, doubt_rad))
         return told

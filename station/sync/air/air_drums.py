@@ -64,11 +64,16 @@ class AirDrums:
         return None if hand is None else hand.status()
 
     def pad(self, hit: Hit) -> None:
-        """A pad was struck; where the limb is known, its stick pointed there, whatever its heading has become."""
+        """A pad was struck: the stick pointed there, whatever its heading has become.
+
+        Where nobody says which hand it was, it is the one that strikes just then; where both do, it tells nothing.
+        """
         if hit.device == AIR_DEVICE:
             return
         self._padded.add(hit.piece)
-        for hand in self._of(hit.limb):
+        striking = [hand for hand in self._hands.values() if hand.strikes(hit.at_ns)]
+        hands = striking if hit.limb is Limb.UNKNOWN else self._of(hit.limb)
+        for hand in hands if len(hands) == 1 else ():
             aimed = (index for index, zone in enumerate(hand.tracker.zones) if zone.piece is hit.piece)
             index = next(aimed, None)
             if index is not None:
