@@ -29,8 +29,8 @@ _OWN_SD = radians(4.0)
 _OWN_WALK = radians(0.05)
 """How much it moves from stroke to stroke (our choice: half a degree in a hundred strokes)."""
 _ASTRAY = 3.0
-"""A stroke that is known to mean a zone, and is so many deviations beside it, says that the heading was wrong: one right
-stroke in 370 is (normal distribution)."""
+"""A stroke that is known to mean a zone and lies so many deviations beside it says that the heading was wrong: of
+strokes whose heading is right one in 370 does (normal distribution)."""
 _TURN, _RATE, _FIRST = 0, 1, 2
 """Places in the state: heading turned, its rate, and the zones' own from there on."""
 
