@@ -48,6 +48,7 @@ from station.engine.messages import (
     Started,
     Status,
     Stop,
+    TrackPhase,
     WatchRawBytes,
     WatchSensors,
 )
@@ -134,6 +135,9 @@ class Engine:
         for event in heard.sounding:
             self._player.sound(event)
         self._events += heard.certain
+        for event in heard.certain:
+            if isinstance(event, Hit):
+                self._sticks.struck(event)
         for sensed in heard.sensed:
             self._sense(sensed)
 
@@ -213,7 +217,7 @@ class Engine:
                 self._zero_ns = None
                 self._player.stop()
                 self._midi.stop()
-            case SetLevel() | SetPiece() | SetBacking() | SetMidiOut() | SetAirDrums():
+            case SetLevel() | SetPiece() | SetBacking() | SetMidiOut() | SetAirDrums() | TrackPhase():
                 self._set(command)
             case KeyHit():
                 self._strike_key(command)
@@ -244,6 +248,8 @@ class Engine:
                 self._midi.choose(command.port)
             case SetAirDrums():
                 self._sticks.play_air(command.kit, command.ahead_ns)
+            case TrackPhase():
+                self._sticks.track_drill(command.model)
 
     def _set_backing(self, command: SetBacking) -> None:
         track = command.loaded

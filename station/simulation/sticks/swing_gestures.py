@@ -83,14 +83,14 @@ def _twirl(gesture: StickGesture, times_s: Floats, base: Floats) -> dict[str, Fl
 
 def _rest(gesture: StickGesture, times_s: Floats, base: Floats) -> dict[str, Floats]:
     """Laid on the lap, still, and taken up again; it lands softly, at a few tenths of a metre a second."""
-    ease = min(0.5, gesture.lasts_s / 3)
+    ease, settles = min(0.5, gesture.lasts_s / 4), min(0.2, gesture.lasts_s / 8)
     start, end = gesture.at_s, gesture.at_s + gesture.lasts_s
     landing = 0.004
     shape = along(
         [
             Knot(start, 0.0),
             Knot(start + ease, 1 - landing, 0.5),
-            Knot(start + ease + 0.03, 1.0),
+            Knot(start + ease + min(0.03, settles), 1.0),
             Knot(end - ease, 1.0),
             Knot(end, 0.0),
         ],
@@ -99,7 +99,7 @@ def _rest(gesture: StickGesture, times_s: Floats, base: Floats) -> dict[str, Flo
     side = 1.0 if len(base) and base[0, 0] > 0 else -1.0
     lap = np.array([side * LAP[0], LAP[1] - 0.25, LAP[2]]) - base
     still = along(
-        [Knot(start + ease, 0.0), Knot(start + ease + 0.2, 1.0), Knot(end - ease, 1.0), Knot(end, 0.0)], times_s
+        [Knot(start + ease, 0.0), Knot(start + ease + settles, 1.0), Knot(end - ease, 1.0), Knot(end, 0.0)], times_s
     )
     return {"x_m": lap[:, 0] * shape, "y_m": lap[:, 1] * shape, "z_m": lap[:, 2] * shape, "calm": still}
 

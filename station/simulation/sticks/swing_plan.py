@@ -19,12 +19,16 @@ SLOW_FALL = 0.07
 """Share of the height that is lost slowly before the whip (4 of 56 cm, Pearl 2023)."""
 CATCH_S, CATCH = 0.030, 1.7
 """After a touch the stick is held again 29 ms later, (speed × time)/1.7 up (Pearl 2023: 4.8 m/s, 8.4 cm)."""
+AIR_CATCH_S = 0.12
+"""In the air nothing throws the stick back: the arm returns by itself, gently (our choice)."""
 HOVER_M = 0.05
 """Where a stick waits above the head; our choice, a fist's height less than the rebound that is caught."""
 WAIT_S = 0.10
 """How long a caught stick at least stays low before the next lift, where there is time (our choice)."""
 LIFT_M_S = 2.3
 """The tip's greatest speed when it is raised (Pearl 2023)."""
+QUICK_LIFT_S, CALM_LIFT_S = 0.06, 0.15
+"""The shortest time that a lift takes, and the least where there is no hurry (our choice)."""
 TOP_S = 0.12
 """How long the slow fall at the top takes (−212 … −120 ms in Pearl 2023), where there is time."""
 LEAST_DOWN = 0.35
@@ -36,6 +40,9 @@ LOW_HAND = 0.10
 HAND_SPEED = 0.38
 """The hand's speed at the touch for one unit of (its rise / the stick's rise) of the tip's: 0.22 for .58 (Pearl 2023:
 2.1 of 9.4 m/s)."""
+AIR_HAND = 0.4
+"""In the air the forearm stops with the stick, which turns about a point 18 cm behind the fulcrum, half way to the
+elbow: the hand has 18/(18 + 27) of the tip's motion (our choice)."""
 HAND_STOPS_S = 0.015
 """How long the hand goes on after the touch (10 ms in Pearl 2023, filtered)."""
 
@@ -63,39 +70,42 @@ def tip_knots(touches: Sequence[Contact], lead_s: float) -> list[Knot]:
         knots.append(Knot(touch.onset_s, 0.0, -touch.speed_m_s))
         left = Knot(touch.end_s, -touch.sunk_m, touch.speed_after_m_s)
         knots.append(left)
-        knots += _after(left) if following is None else _between(left, touch, following)
+        knots += _after(left, touch) if following is None else _between(left, touch, following)
     return knots
 
 
 def hand_knots(tip: Sequence[Knot], touches: Sequence[Contact]) -> list[Knot]:
     """The hand's part of the tip's height: it rises with it, comes down before it, and turns round after the touch."""
-    onsets = {touch.onset_s for touch in touches}
-    ends = {touch.end_s: touch.kind is StrokeKind.AIR for touch in touches}
+    onsets = {touch.onset_s: touch for touch in touches}
+    ends = {touch.end_s: touch for touch in touches}
+    coming = touches[-1] if touches else None
     knots: list[Knot] = []
-    for before, knot in zip([tip[0], *tip], tip, strict=False):
-        if knot.at_s in ends:
-            if ends[knot.at_s]:  # an arm that is stopped by nothing swings through
-                knots.append(Knot(knot.at_s, -hand_rise(-knot.place)))
-        elif knot.at_s in onsets:
+    for before, knot in zip([tip[0], *tip[:-1]][::-1], tip[::-1], strict=True):
+        struck, left = onsets.get(knot.at_s), ends.get(knot.at_s)
+        coming = struck or coming
+        owner = struck or left or coming
+        if owner is not None and owner.kind is StrokeKind.AIR:
+            knots.append(Knot(knot.at_s, *(AIR_HAND * value for value in knot[1:])))
+        elif struck is not None:
             risen = max(before.place, 1e-3)
             speed = -knot.speed * min(HAND_SPEED * hand_rise(risen) / risen, 0.4)
             knots.append(Knot(knot.at_s, speed * HAND_STOPS_S / 2.5, -speed))
-        else:
+        elif left is None:
             place = max(knot.place, 0.0)
             share = (hand_rise(place + SLOPE_STEP_M) - hand_rise(place)) / SLOPE_STEP_M
             knots.append(Knot(knot.at_s, hand_rise(place), share * knot.speed, share * knot.push))
-    return knots
+    return knots[::-1]
 
 
 def _between(left: Knot, touch: Contact, following: Contact) -> list[Knot]:
     """From `left`, the end of `touch`, to just before `following`."""
     gap = following.onset_s - left.at_s
-    caught = _caught(left)
+    caught = _caught(left, touch.kind is StrokeKind.AIR)
     down = DESCENT * following.height_m * (1 - SLOW_FALL) / following.speed_m_s
-    up = max(0.06, 2.0 * max(following.height_m - caught.place, 0.0) / LIFT_M_S)
-    if gap < CATCH_S + up + down:
+    up = max(QUICK_LIFT_S, 2.0 * max(following.height_m - caught.place, 0.0) / LIFT_M_S)
+    if gap < caught.at_s - left.at_s + up + down:
         return [_bounce(left, gap, following)]
-    if touch.kind.is_caught and gap > CATCH_S + WAIT_S + up + down:
+    if touch.kind.is_caught and gap > caught.at_s - left.at_s + WAIT_S + up + down:
         return [caught, *_late_rise(caught.at_s, caught.place, following)]
     return [caught, *_top(caught.at_s + up, following)]
 
@@ -114,8 +124,10 @@ def _bounce(left: Knot, gap: float, following: Contact) -> Knot:
 def _late_rise(from_s: float, place: float, following: Contact) -> list[Knot]:
     """Wait, then rise in time for `following`."""
     down = DESCENT * following.height_m * (1 - SLOW_FALL) / following.speed_m_s
-    up = max(0.06, 2.0 * max(following.height_m - place, 0.0) / LIFT_M_S)
-    start = following.onset_s - down - TOP_S / 2 - up
+    latest = following.onset_s - down - TOP_S / 2
+    quick = max(QUICK_LIFT_S, 2.0 * max(following.height_m - place, 0.0) / LIFT_M_S)
+    up = max(quick, min(CALM_LIFT_S, latest - from_s))
+    start = latest - up
     waited = [Knot(start, place)] if start > from_s + 0.01 else []
     return waited + _top(max(start, from_s) + up, following)
 
@@ -132,12 +144,13 @@ def _top(top_s: float, following: Contact) -> list[Knot]:
     return [Knot(top_s, height), *waited, Knot(whip_s, height * (1 - SLOW_FALL), fall_speed)]
 
 
-def _caught(left: Knot) -> Knot:
+def _caught(left: Knot, in_air: bool) -> Knot:
     """The stick held again after a touch."""
-    return Knot(left.at_s + CATCH_S, left.place + left.speed * CATCH_S / CATCH + 0.005)
+    lasts = AIR_CATCH_S if in_air else CATCH_S
+    return Knot(left.at_s + lasts, left.place + left.speed * lasts / CATCH + 0.005)
 
 
-def _after(left: Knot) -> list[Knot]:
+def _after(left: Knot, touch: Contact) -> list[Knot]:
     """The end: caught, and brought to the hover."""
-    caught = _caught(left)
+    caught = _caught(left, touch.kind is StrokeKind.AIR)
     return [caught, Knot(caught.at_s + 0.4, HOVER_M)]

@@ -112,6 +112,7 @@ class SimulatedStick:
     orientation: Floats | None
     temperature_c: Floats
     measured: int
+    sensor: SensorSpec
     motion: StickMotion
 
     @property
@@ -186,6 +187,7 @@ def measure(motion: StickMotion, sensor: SensorSpec, device: str, rng: np.random
         orientation=orientation,
         temperature_c=temperature_c(time_s[kept] - motion.time_s[0]),
         measured=len(time_s),
+        sensor=sensor,
         motion=motion,
     )
 

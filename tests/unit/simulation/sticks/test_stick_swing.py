@@ -171,6 +171,12 @@ def test_the_tip_strikes_what_it_is_meant_to() -> None:
         assert np.linalg.norm(tip[np.searchsorted(motion.time_s, at_s)] - place) < 0.05
 
 
+def test_a_hand_strikes_a_piece_at_its_usual_angle() -> None:
+    truth = play([StickStrokeSpec(3 + 0.2 * i, (R, L)[i % 2]) for i in range(80)], seed=3).truth
+    for hand in (R, L):
+        assert truth["angle_rad"][truth["limb"] == hand].std() < 0.03
+
+
 def test_the_stick_keeps_its_length() -> None:
     motion = _full_stroke().sticks[R].motion
     apart = np.linalg.norm(motion.point_m(LENGTH_M) - motion.fulcrum_m, axis=1)
@@ -196,6 +202,14 @@ def test_air_stroke_has_its_greatest_push_at_the_beat() -> None:
     assert motion.time_s[near][push[near].argmax()] == pytest.approx(played.truth["at_s"][0], abs=0.002)
     assert played.truth["at_s"][0] == pytest.approx(3.0, abs=0.005)
     assert not played.pad_hits
+
+
+@pytest.mark.parametrize("speed", [2.0, 5.0, 8.0])
+def test_sensor_on_the_butt_feels_an_air_stroke_at_its_beat(speed: float) -> None:
+    """Nothing before or after pushes as much: at ± 40 ms |acceleration| is past its peak, without any touch."""
+    motion = play([StickStrokeSpec(3.0, R, speed_m_s=speed, kind=StrokeKind.AIR)]).sticks[R].motion
+    felt = np.linalg.norm(motion.force_free_of_gravity(0.076), axis=1)
+    assert abs(motion.time_s[felt.argmax()] - 3.0) < 0.03
 
 
 def test_buzz_bounces_ever_weaker() -> None:
@@ -224,6 +238,16 @@ def test_crash_is_struck_with_the_shoulder() -> None:
     assert np.linalg.norm(motion.point_m(0.33)[touch] - (-0.45, 0.85, 1.10)) < 0.05
     assert played.truth["speed_m_s"][0] > 4.3
     assert played.truth["lasts_s"][0] < 0.002
+
+
+@pytest.mark.parametrize("kind", list(GestureKind))
+@pytest.mark.parametrize("lasts_s", [0.1, 1.0])
+def test_every_motion_ends_where_it_began(kind: GestureKind, lasts_s: float) -> None:
+    """Tips are back over their drums a moment later, within sway's centimetres."""
+    motion = play([StickStrokeSpec(3.0, R)], [StickGesture(4.0, lasts_s, R, kind)]).sticks[R].motion
+    tip = motion.point_m(LENGTH_M)
+    before, after = np.searchsorted(motion.time_s, [3.95, 4.05 + lasts_s])
+    assert np.linalg.norm(tip[after] - tip[before]) < 0.03
 
 
 def test_same_seed_same_bits_other_seed_others() -> None:

@@ -8,7 +8,7 @@ from station.simulation.sticks.swing_path import Knot, along, smooth_steps
 
 def test_reach_is_minimum_jerk() -> None:
     # Flash & Hogan 1985, eq. 3: x = d·(10 s³ − 15 s⁴ + 6 s⁵)
-    s = np.arange(11).astype(np.float64) / 10
+    s = np.array([i / 10 for i in range(11)])
     assert along([Knot(0, 0.0), Knot(1, 0.4)], s) == pytest.approx(0.4 * (10 * s**3 - 15 * s**4 + 6 * s**5))
 
 
@@ -16,7 +16,7 @@ def test_passes_its_knots_with_their_speeds_and_accelerations() -> None:
     knots = [Knot(0.0, 1.0, 2.0, -3.0), Knot(0.3, 0.5, -1.0, 4.0), Knot(1.0, 0.0, 0.5, 0.0)]
     step = 1e-4
     for knot in knots[:2]:
-        near = along(knots, knot.at_s + step * np.arange(4))
+        near = along(knots, np.array([knot.at_s + step * i for i in range(4)]))
         assert near[0] == pytest.approx(knot.place)
         assert (near[1] - near[0]) / step == pytest.approx(knot.speed, abs=2e-3)
         assert (near[2] - 2 * near[1] + near[0]) / step**2 == pytest.approx(knot.push, abs=0.25)  # jerk · step
