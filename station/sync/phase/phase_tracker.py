@@ -178,8 +178,8 @@ def tracked(model: PeriodicModel, values: FloatArray, settings: TrackerSettings 
         return _in_lanes(parts, lanes, Seen(model, values, settings.lags))
     tracker = PhaseTracker(model, settings)
     steps = np.array([tracker.step(sample) for sample in values], dtype=np.float64).reshape(-1, len(PhaseStep._fields))
-    *rows, locked = steps.T
-    return PhaseTrack(*rows, locked > 0)
+    phase_rad, quality, confidence, cadence_rad, locked = steps.T
+    return PhaseTrack(phase_rad, quality, confidence, cadence_rad, locked > 0)
 
 
 def _in_lanes(parts: _Parts, lanes: Lanes, seen: Seen) -> PhaseTrack:
