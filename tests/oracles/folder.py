@@ -14,6 +14,7 @@ KINDS = {
     "Hydrogen's kit": "charts/hydrogen/**/GMRockKit/drumkit.xml",
     "OpenGameArt's songs": "midi/opengameart/**/*.mid",
     "the Groove MIDI Dataset": "gmd/**/*.mid",
+    "the CMU motions": "mocap/**/*.[ab][mv][ch]",
 }
 """What is compared with, and the pattern of its files."""
 
