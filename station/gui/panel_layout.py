@@ -21,6 +21,7 @@ from station.gui.panels import (
     hits_panel,
     phase_panel,
     practice_panel,
+    sticks_panel,
     style_panel,
 )
 from station.gui.panels.bars_panel import bars_panel
@@ -47,6 +48,7 @@ class Pages:
         self.figure = style_panel.StylePanel(dispatch)
         self._practice = practice_panel.PracticePanel(dispatch)
         self._devices = devices_panel.DevicesPanel(dispatch)
+        self._sticks = sticks_panel.SticksPanel(dispatch)
         self._export = export_panel.ExportPanel(dispatch)
         self.graph = graph_panel.GraphPanel(lambda to_s: dispatch(Seek(ns_from_s(to_s))))
         self._phase = phase_panel.PhasePanel(dispatch)
@@ -67,6 +69,7 @@ class Pages:
             Panel(style_panel.FIGURE, right, self.figure.gui, style_panel.ABOUT, help=style_panel.HELP),
             Panel(practice_panel.PRACTICE, right, self._practice.gui, practice_panel.ABOUT, help=practice_panel.HELP),
             Panel(devices_panel.DEVICES, right, self._devices.gui, devices_panel.ABOUT, help=devices_panel.HELP),
+            Panel(sticks_panel.STICKS, right, self._sticks.gui, sticks_panel.ABOUT, help=sticks_panel.HELP),
             Panel(export_panel.EXPORT, right, self._export.gui, export_panel.ABOUT, help=export_panel.HELP),
             Panel(GRAPH, strip, self._graph_gui, graph_panel.ABOUT, help=graph_panel.HELP),
             Panel(phase_panel.PHASE, strip, self._phase_gui, phase_panel.ABOUT, help=phase_panel.HELP),
@@ -99,6 +102,7 @@ class Pages:
         return replace(
             shown,
             devices=self.is_open(devices_panel.DEVICES),
+            sticks=self.is_open(sticks_panel.STICKS),
             practice=self.is_open(practice_panel.PRACTICE),
             curves=self.is_open(GRAPH),
             phase=self.is_open(phase_panel.PHASE),
