@@ -5,7 +5,7 @@
 Walk model from 07_01, run model from 09_01, Δφ 0.05, λ 100, n_m 16, right and left femur and tibia about x, zero-mean.
 
 * convergence: from every one of `STARTS` phases, how much of a gait cycle passes until the phase stays within `NEAR` of
-  that of a tracker that started at the right one, which one that goes through the take backwards has found;
+  that of the tracker that fits best in the first `SETTLED` of a cycle: it began where the motion did;
 * scatter: SD of the phase at the right femur's zero crossings, of a cycle, once converged;
 * footfalls: how far from its trigger's threshold the phase is where the heel is lowest, and where it first touches;
 * backward: how the phase runs while the body walks backwards, with λ = 100 and with λ = 0.
@@ -22,10 +22,11 @@ from numpy.typing import NDArray
 from station.core.errors import BadInput
 from station.sync.phase.exemplars import rising_crossings_s
 from station.sync.phase.periodic_model import TURN, PeriodicModel, wrapped
-from station.sync.phase.phase_tracker import TrackerSettings, tracked
+from station.sync.phase.phase_tracker import PAPER, TrackerSettings, tracked
+from station.sync.phase.recordings import track_recording, zero_mean
 from station.sync.sonification.trigger_table import PRESETS
 from station.sync.sonification.triggers import share_of
-from station.sync.walking.trial import GAIT_CHANNELS, Trial, gait_model, track_recording, zero_mean
+from station.sync.walking.trial import GAIT_CHANNELS, Trial, gait_model
 
 STARTS = 16
 """Phases to start from, all round the cycle."""
@@ -33,6 +34,10 @@ NEAR = 0.05
 """Of a cycle: a phase so near has converged (our choice: half of what the paper's triggers are judged by)."""
 SETTLED = 0.75
 """Of a cycle: what comes later is converged (the paper's longest)."""
+
+
+LEAP = 0.05
+"""Of a cycle from one sample to the next: six times what the motion does (our choice)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,14 +116,13 @@ def cycle_s(trial: Trial) -> float:
 def convergence(model: PeriodicModel, trial: Trial) -> NDArray[np.float64]:
     """Of every start the share of a cycle until the phase stays where it belongs, (STARTS,)."""
     values = zero_mean(model, trial.signal).values
-    cadence_rad = TrackerSettings().cadence_rad
-    first_rad = float(tracked(model, values[::-1], TrackerSettings(-cadence_rad)).phase_rad[-1])
-    belongs = tracked(model, values, TrackerSettings(start_rad=first_rad - cadence_rad)).phase_rad
     rate_hz, cycle = trial.signal.rate_hz, cycle_s(trial)
+    tracks = [tracked(model, values, TrackerSettings(start_rad=TURN * start / STARTS)) for start in range(STARTS)]
+    first = round(SETTLED * cycle * rate_hz)
+    belongs = max(tracks, key=lambda track: float(track.quality[:first].mean())).phase_rad
     found = []
-    for start in range(STARTS):
-        phase = tracked(model, values, TrackerSettings(start_rad=TURN * start / STARTS)).phase_rad
-        far = np.flatnonzero(abs(wrapped(phase - belongs)) > NEAR * TURN)
+    for track in tracks:
+        far = np.flatnonzero(abs(wrapped(track.phase_rad - belongs)) > NEAR * TURN)
         found.append((far[-1] + 1 if len(far) else 0) / rate_hz / cycle)
     return np.array(found)
 
@@ -126,7 +130,7 @@ def convergence(model: PeriodicModel, trial: Trial) -> NDArray[np.float64]:
 def crossing_phases(model: PeriodicModel, trial: Trial) -> NDArray[np.float64]:
     """The phase at the right femur's zero crossings after convergence, in cycles about 0."""
     signal = trial.signal
-    phase = np.unwrap(track_recording(model, signal).phase_rad)
+    phase = np.unwrap(track_recording(model, signal, PAPER).phase_rad)
     crossings_s = rising_crossings_s(signal.time_s, signal.only(GAIT_CHANNELS[:1]).values[:, 0])
     late_s = crossings_s[crossings_s > signal.time_s[0] + SETTLED * cycle_s(trial)]
     return wrapped(np.interp(late_s, signal.time_s, phase)) / TURN
@@ -135,7 +139,7 @@ def crossing_phases(model: PeriodicModel, trial: Trial) -> NDArray[np.float64]:
 def trigger_errors(model: PeriodicModel, trial: Trial, preset: str) -> tuple[NDArray[np.float64], ...]:
     """Share of the cycle at heel lows and at first contacts, less the threshold, once converged: two arrays."""
     signal = trial.signal
-    phase = np.unwrap(track_recording(model, signal).phase_rad)
+    phase = np.unwrap(track_recording(model, signal, PAPER).phase_rad)
     converged_s = signal.time_s[0] + SETTLED * cycle_s(trial)
     errors: tuple[list[float], list[float]] = ([], [])
     for foot, trigger in zip(trial.steps, PRESETS[preset], strict=True):
@@ -160,19 +164,21 @@ def gaits(data: Data, model: PeriodicModel, rows: Sequence[Row], preset: str) ->
         trial = data.trial(row)
         after, at_zero = convergence(model, trial), crossing_phases(model, trial)
         low, contact = trigger_errors(model, trial, preset)
-        quality = np.median(track_recording(model, trial.signal).quality)
+        quality = np.median(track_recording(model, trial.signal, PAPER).quality)
         print(
-            f"{row.title:16} {cycle_s(trial):5.2f}  {quality:5.3f}  {np.median(after):6.2f} {np.quantile(after, 0.9):6.2f}"
-            f" {after.max():6.2f}  {at_zero.mean() if len(at_zero) else np.nan:6.3f} {sd(at_zero)}"
+            f"{row.title:16} {cycle_s(trial):5.2f}  {quality:5.3f}  {np.median(after):6.2f}"
+            f" {np.quantile(after, 0.9):6.2f} {after.max():6.2f}  {at_zero.mean():6.3f} {sd(at_zero)}"
             f"   {np.median(abs(low)):.3f} {abs(low).max():.3f}   {len(low):2d}   {row.holds}"
         )
         lows.append(low)
         contacts.append(contact)
         all_after.append(after)
     every = np.concatenate(all_after)
-    share = float((every <= SETTLED).mean())
-    print(f"converged: median {np.median(every):.2f} cycles, 95 % {np.quantile(every, 0.95):.2f}, most {every.max():.2f};"
-          f" within {SETTLED} of a cycle {100 * share:.0f} % of {len(every)} starts")  # fmt: skip
+    share = 100 * float((every <= SETTLED).mean())
+    print(
+        f"converged: median {np.median(every):.2f} cycles, 95 % {np.quantile(every, 0.95):.2f}, most {every.max():.2f};"
+        f" within {SETTLED} of a cycle {share:.0f} % of {len(every)} starts"
+    )
     for name, parts in (("heel lows", lows), ("first contacts", contacts)):
         error = abs(np.concatenate(parts))
         print(f"{name}: median {np.median(error):.3f}, 95 % {np.quantile(error, 0.95):.3f}, within .1 of a cycle"
@@ -186,9 +192,13 @@ def qualities(data: Data, model: PeriodicModel) -> None:
         trial = data.trial(row)
         for smoothing in (100.0, 0.0):
             track = track_recording(model, trial.signal, TrackerSettings(smoothing=smoothing))
-            rate = np.diff(np.unwrap(track.phase_rad)).sum() / TURN / (len(track.phase_rad) / trial.signal.rate_hz)
-            print(f"{row.title:16} λ {smoothing:3.0f}   {np.median(track.quality):6.3f}     {np.quantile(track.quality, 0.1):6.3f}"
-                  f"  {100 * float((track.quality < 0.5).mean()):5.0f} %   {rate:6.2f}/s    {row.holds}")  # fmt: skip
+            length_s = len(track.phase_rad) / trial.signal.rate_hz
+            rate = np.diff(np.unwrap(track.phase_rad)).sum() / TURN / length_s
+            low = 100 * float((track.quality < 0.5).mean())
+            print(
+                f"{row.title:16} λ {smoothing:3.0f}   {np.median(track.quality):6.3f}     "
+                f"{np.quantile(track.quality, 0.1):6.3f}  {low:5.0f} %   {rate:6.2f}/s    {row.holds}"
+            )
 
 
 def backward(data: Data, model: PeriodicModel) -> None:
@@ -198,9 +208,9 @@ def backward(data: Data, model: PeriodicModel) -> None:
         track = track_recording(model, trial.signal, TrackerSettings(smoothing=smoothing))
         steps = wrapped(np.diff(track.phase_rad))
         turns = np.diff(np.unwrap(track.phase_rad)).sum() / TURN
-        jitter = np.median(abs(np.diff(steps))) / TURN
-        print(f"λ {smoothing:3.0f}: {turns:+.2f} cycles in {len(steps) / trial.signal.rate_hz:.1f} s, {100 * (steps < 0).mean():.0f} %"
-              f" of steps downward, a step differs from the one before by {jitter:.4f} cycles in the median")  # fmt: skip
+        down, length_s = 100 * float((steps < 0).mean()), len(steps) / trial.signal.rate_hz
+        leaps = int((abs(steps) > LEAP * TURN).sum())
+        print(f"λ {smoothing:3.0f}: {turns:+.2f} cycles in {length_s:.1f} s, {down:.0f} % of steps down, {leaps} leaps")
 
 
 def main() -> None:

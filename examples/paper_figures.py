@@ -34,7 +34,7 @@ from station.sync.walking.trial import GAIT_CHANNELS, Trial, gait_model
 WALK_MODEL, RUN_MODEL = "07_01", "09_01"
 SIZE = (1600, 1000)
 _EDGE, _HEAD, _GAP = 20.0, 76.0, 14.0
-_CHANNEL_COLOURS = (BRAND, WRONG, EARLY, GOOD)
+_COLOURS = (BRAND, WRONG, EARLY, GOOD)
 _NAMES = {"rfemur_rx": "right femur", "lfemur_rx": "left femur", "rtibia_rx": "right tibia", "ltibia_rx": "left tibia"}
 
 
@@ -52,17 +52,18 @@ class Panel:
 FIGURE_5 = (
     Panel("(a) the model's own sequence", "07_01: converges in less than half a cycle", "07_01"),
     Panel("(b) a slower walk, another person", "49_01: 1.4 s a cycle, and yet it locks", "49_01"),
-    Panel("(c) walks, turns round, walks back", "09_12, 0–7.4 s: turns at 4–5 s", "09_12", (0.0, 7.4)),
-    Panel("(d) walks backwards", "09_12, 12.4–15.9 s: fails, as in the paper", "09_12", (12.4, 15.9)),
-    Panel("(d) the same with λ = 0", "runs downwards, and is noisier", "09_12", (12.4, 15.9), 0.0),
+    Panel("(c) walks and turns", "09_12: a U-turn on the way at 4-5 s; stops and turns at 7.3 s", "09_12", (0.0, 8.0)),
+    Panel("(d) walks backwards", "09_12: the phase is driven to and fro, E max is often low", "09_12", (12.4, 15.9)),
+    Panel("(d) the same with λ = 0", "09_12: the phase runs downwards, in leaps", "09_12", (12.4, 15.9), 0.0),
 )
 FIGURE_6 = (
+    Panel("(a) the model's own sequence", "09_01: 0.72 s a cycle", "09_01"),
     Panel("(a) the model's person, another trial", "09_05: 0.73 s a cycle", "09_05"),
     Panel("(b) another person", "02_03: 0.77 s a cycle", "02_03"),
 )
 ABSENT = (
-    "(c) a run that stops and turns with a hop: no such trial is in this data",
-    "(d) a run around a square: no such trial is in this data",
+    "The paper's (c), a run that stops and turns with a hop, and (d), a run around a square: no such trial is among the"
+    " data that this was made for."
 )
 
 
@@ -91,14 +92,15 @@ def tracked_figure(
     """A figure of tracked phases, three plots a row."""
     draw_list = DrawList(maker.atlas)
     _heading(draw_list, heading)
-    boxes = _boxes(len(panels) + (len(ABSENT) if preset == "run" else 0))
+    absent = (ABSENT,) if preset == "run" else ()
+    boxes = _boxes(len(panels) + len(absent))
     for panel, box in zip(panels, boxes, strict=False):
         trial = trials.trial(panel.trial).between(*panel.span_s)
         settings = TrackerSettings(smoothing=panel.smoothing)
         told = sonified(model, trial.signal, PRESETS[preset], settings)
         trace = trace_of(told, PRESETS[preset], panel.title, trial.steps, panel.remark)
         draw_phase_plot(draw_list, trace, box)
-    for words, box in zip(ABSENT, boxes[len(panels) :], strict=False):
+    for words, box in zip(absent, boxes[len(panels) :], strict=True):
         paper(draw_list, box)
         draw_list.paragraph(
             words, (box.left + 40, box.top + box.height / 2 - 10), TypeStyle(16, INK_SOFT), box.width - 80
@@ -128,24 +130,29 @@ def model_figure(maker: FlatPictures, exemplar: Trial, model: PeriodicModel) -> 
     _polar(draw_list, d, "(d) the same, polar", phase, basis)
     for k, name in enumerate(GAIT_CHANNELS):
         left = a.left + 60 + k * 150
-        draw_list.box((left, a.bottom - 24), (18, 3), _CHANNEL_COLOURS[k])
+        draw_list.box((left, a.bottom - 24), (18, 3), _COLOURS[k])
         draw_list.text(_NAMES[name], (left + 24, a.bottom - 17), TypeStyle(14, INK_SOFT))
     return draw_list
 
 
 def _heading(draw_list: DrawList, words: str) -> None:
     draw_list.text(words, (_EDGE, 36), TypeStyle(24, INK, Face.BOLD))
-    about = "After Boyd and Godbout, ICAD 2012. Data: mocap.cs.cmu.edu, created with funding from NSF EIA-0196217."
+    about = (
+        "After Boyd and Godbout, ICAD 2012. Data: mocap.cs.cmu.edu, created with funding from NSF EIA-0196217."
+        "   Pale: not locked. Discs: what sounds. Triangles: a heel comes down, right orange, left pink."
+    )
     draw_list.text(about, (_EDGE, 60), TypeStyle(14, INK_SOFT))
 
 
 def _boxes(count: int) -> list[ReportBox]:
-    """Places for `count` plots: two rows."""
-    columns = -(-count // 2)
-    width = (SIZE[0] - 2 * _EDGE - (columns - 1) * _GAP) / columns
+    """Places for `count` plots in two rows, each as wide as there is room for."""
     height = (SIZE[1] - _HEAD - _EDGE - _GAP) / 2
-    places = [divmod(k, columns) for k in range(count)]
-    return [ReportBox(_EDGE + j * (width + _GAP), _HEAD + i * (height + _GAP), width, height) for i, j in places]
+    found = []
+    for row, columns in enumerate((-(-count // 2), count // 2)):
+        width = (SIZE[0] - 2 * _EDGE - (columns - 1) * _GAP) / columns
+        top = _HEAD + row * (height + _GAP)
+        found += [ReportBox(_EDGE + column * (width + _GAP), top, width, height) for column in range(columns)]
+    return found
 
 
 def _curves(
@@ -163,7 +170,7 @@ def _curves(
         draw_list.text(words.replace("-", "−"), (left - 8, height + 5), TypeStyle(13, INK_SOFT, Face.REGULAR, 1.0))
     for k in range(y.shape[1]):
         heights = low - (low - top) * (y[:, k] - least) / (most - least)
-        _line(draw_list, across, heights, _CHANNEL_COLOURS[k % 4] if y.shape[1] == 4 else _shade(k, y.shape[1]))
+        _line(draw_list, across, heights, _COLOURS[k % len(_COLOURS)])
     for at, words, align in ((left, ends[0], 0.0), (right, ends[1], 1.0)):
         draw_list.text(words, (at, low + 20), TypeStyle(13, INK_SOFT, Face.REGULAR, align))
 
@@ -181,11 +188,7 @@ def _polar(draw_list: DrawList, box: ReportBox, title: str, phase: np.ndarray, b
         )
     for k in range(basis.shape[1]):
         radius = reach * basis[:, k] / basis.max()
-        _line(draw_list, x + radius * np.cos(phase), y - radius * np.sin(phase), _shade(k, basis.shape[1]))
-
-
-def _shade(k: int, count: int) -> Colour:
-    return _CHANNEL_COLOURS[k % len(_CHANNEL_COLOURS)] if count else INK
+        _line(draw_list, x + radius * np.cos(phase), y - radius * np.sin(phase), _COLOURS[k % len(_COLOURS)])
 
 
 def _line(draw_list: DrawList, x: np.ndarray, y: np.ndarray, colour: Colour) -> None:

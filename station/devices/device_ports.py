@@ -43,14 +43,14 @@ class DeviceRequest:
         return self.part.removeprefix(SERIAL) if self.part.startswith(SERIAL) else ""
 
 
-def parse_device(text: str) -> DeviceRequest:
-    """The request that `text` spells; raises `BadInput` for a rate that no serial port has."""
+def parse_device(text: str, baud: int = MIDI_BAUD) -> DeviceRequest:
+    """The request that `text` spells; at `baud` where it says none. Raises `BadInput` for a rate that no port has."""
     request = text.strip()
     rated = _BAUD.fullmatch(request)
     if rated is None:
         if request.startswith(SERIAL) and "@" in request:
             raise BadInput(f"kit {request}", "", "expected serial:PATH@BAUD, such as serial:/dev/ttyUSB0@115200")
-        return DeviceRequest(request)
+        return DeviceRequest(request, baud)
     baud = int(rated[2])
     if not SLOWEST_BAUD <= baud <= FASTEST_BAUD:
         raise BadInput(f"kit {request}", "", f"{baud} baud: expected {SLOWEST_BAUD} to {FASTEST_BAUD}")
@@ -124,10 +124,12 @@ def watch_devices(
     driver: str = "auto",
     now_ns: Callable[[], int] = monotonic_ns,
     sound: SoundServer | None = None,
+    claims: ClaimedPorts | None = None,
 ) -> Watches:
     """A watch for each request, each with a port of its own; without a MIDI driver other ports are heard all the same.
 
-    Raises `BadInput` for a driver that there is not; the other parameters stand as in `MidiDirectory`.
+    Raises `BadInput` for a driver that there is not. `claims` are shared with other watches of the station; the other
+    parameters stand as in `MidiDirectory`.
     """
     midi, fault = None, None
     if any(not request.path for request in requests):
@@ -135,9 +137,10 @@ def watch_devices(
             midi = MidiDirectory(driver, now_ns, sound)
         except DeviceError as error:
             fault = str(error)
-    claims = ClaimedPorts()
+    shared = ClaimedPorts() if claims is None else claims
     heard = [request for request in requests if midi is not None or request.path or _is_elsewhere(request)]
-    return Watches(tuple(PortWatch(ports_for(request, midi), request.part, claims) for request in heard), fault, midi)
+    kits = tuple(PortWatch(ports_for(request, midi), request.part, shared) for request in heard)
+    return Watches(kits, fault, midi)
 
 
 def devices_there(requests: tuple[DeviceRequest, ...]) -> list[str]:

@@ -48,6 +48,7 @@ from station.engine.messages import (
     Started,
     Status,
     Stop,
+    TrackPhase,
     WatchRawBytes,
     WatchSensors,
 )
@@ -213,7 +214,7 @@ class Engine:
                 self._zero_ns = None
                 self._player.stop()
                 self._midi.stop()
-            case SetLevel() | SetPiece() | SetBacking() | SetMidiOut() | SetAirDrums():
+            case SetLevel() | SetPiece() | SetBacking() | SetMidiOut() | SetAirDrums() | TrackPhase():
                 self._set(command)
             case KeyHit():
                 self._strike_key(command)
@@ -244,6 +245,8 @@ class Engine:
                 self._midi.choose(command.port)
             case SetAirDrums():
                 self._sticks.play_air(command.kit, command.ahead_ns)
+            case TrackPhase():
+                self._sticks.track_drill(command.model)
 
     def _set_backing(self, command: SetBacking) -> None:
         track = command.loaded

@@ -5,6 +5,7 @@ from typing import Self
 
 from station.core.settings import Settings, setting_source
 from station.devices.device_ports import DeviceRequest, parse_devices
+from station.devices.stick_ports import parse_sticks
 from station.engine.levels_option import parse_levels
 from station.engine.messages import Bus, Command, SetLevel, SetMidiOut, SetPiece
 
@@ -27,12 +28,13 @@ class Prepare:
 class EngineConfig:
     """What the engine process opens.
 
-    `kits` are those to listen to, none for an engine without; `midi_driver` is "auto" or one of
-    `station.devices.midi.midi_ports.compiled_drivers()`; `output`, `block_frames`, `rate_hz`, `drums`, `click`
-    `own_sound`, `levels` and `midi_out` stand as in `Settings`; without `sound` no card is opened.
+    `kits` are those to listen to, none for an engine without, `sticks` the sensors on the sticks; `midi_driver` is
+    "auto" or one of `station.devices.midi.midi_ports.compiled_drivers()`; `output`, `block_frames`, `rate_hz`, `drums`,
+    `click`, `own_sound`, `levels` and `midi_out` stand as in `Settings`; without `sound` no card is opened.
     """
 
     kits: tuple[DeviceRequest, ...] = (DeviceRequest(""),)
+    sticks: tuple[DeviceRequest, ...] = ()
     midi_driver: str = "auto"
     sound: bool = True
     output: str = ""
@@ -49,6 +51,7 @@ class EngineConfig:
         """What a user has chosen; raises `BadInput` for kits and levels that cannot be meant."""
         return cls(
             kits=parse_devices(settings.kit),
+            sticks=parse_sticks(settings.sticks),
             output=settings.output,
             block_frames=settings.block_frames,
             rate_hz=settings.rate_hz,

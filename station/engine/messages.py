@@ -15,6 +15,7 @@ from station.core.pieces import Articulation, Piece, Zone
 from station.sound.buses import Bus, ClickVoice
 from station.sound.track import PreparedTrack, Track
 from station.sync.air.air_zones import AirKit
+from station.sync.drill.drill_model import DrillModel
 
 __all__ = [
     "CUE_DTYPE",
@@ -42,6 +43,7 @@ __all__ = [
     "Started",
     "Status",
     "Stop",
+    "TrackPhase",
     "Watch",
     "WatchRawBytes",
     "WatchSensors",
@@ -136,6 +138,13 @@ class SetAirDrums:
 
 
 @dataclass(frozen=True, slots=True)
+class TrackPhase:
+    """Tell where in the drill of `model` the sticks are, as `PhaseEstimate`s from now on; None for no longer."""
+
+    model: DrillModel | None
+
+
+@dataclass(frozen=True, slots=True)
 class KeyHit:
     """A stroke played on the computer's keyboard, stamped `at_ns` when it was polled."""
 
@@ -187,7 +196,7 @@ class Quit:
     """End the engine process."""
 
 
-Setting = SetLevel | SetPiece | SetBacking | SetMidiOut | SetAirDrums
+Setting = SetLevel | SetPiece | SetBacking | SetMidiOut | SetAirDrums | TrackPhase
 Watch = WatchRawBytes | WatchSensors
 Command = Play | Resume | Stop | Setting | KeyHit | RecordCapture | Annotate | Watch | ReloadDevice | Quit
 

@@ -40,6 +40,7 @@ from station.engine.messages import (
     Started,
     Status,
     Stop,
+    TrackPhase,
     Watch,
     WatchRawBytes,
     WatchSensors,
@@ -228,7 +229,7 @@ class _Standing:
                 self._levels[command.bus] = command
             case SetPiece():
                 self._pieces[command.piece] = command
-            case SetBacking() | SetMidiOut() | SetAirDrums() | WatchRawBytes() | WatchSensors():
+            case SetBacking() | SetMidiOut() | SetAirDrums() | TrackPhase() | WatchRawBytes() | WatchSensors():
                 self._others[type(command)] = command
             case RecordCapture():
                 self._others[RecordCapture] = command
@@ -254,7 +255,7 @@ class _Standing:
         """What a new engine is sent at `now_ns`, in order."""
         yield from self._levels.values()
         yield from self._pieces.values()
-        for kind in (SetBacking, SetMidiOut, SetAirDrums, WatchRawBytes, WatchSensors):
+        for kind in (SetBacking, SetMidiOut, SetAirDrums, TrackPhase, WatchRawBytes, WatchSensors):
             if kind in self._others:
                 yield self._others[kind]
         record = self._others.get(RecordCapture)

@@ -18,6 +18,8 @@ from station.core.imu import Mounting
 from station.core.units import NS_PER_S
 from station.sync.air.air_drums import AirDrums
 from station.sync.air.air_zones import AirKit
+from station.sync.drill.drill_model import DrillModel
+from station.sync.drill.drill_tracker import DrillTracker
 from station.sync.strokes.stick_orientation import StickMotion
 from station.sync.strokes.stroke_detector import StrokeDetector
 
@@ -32,6 +34,14 @@ class Sticks:
         self._detectors: dict[str, StrokeDetector] = {}
         self._next_pose_ns: dict[str, int] = {}
         self._air: AirDrums | None = None
+        self._drill: DrillTracker | None = None
+
+    def track_drill(self, model: DrillModel | None) -> None:
+        """Tell where in the drill of `model` the sticks are from now on; no longer where it is None."""
+        self._drill = None if model is None else DrillTracker(model)
+        if self._drill is not None:
+            for device, detector in self._detectors.items():
+                self._drill.handle(SensorMounted(0, device, detector.mounting))
 
     def play_air(self, kit: AirKit | None, ahead_ns: int | None = None) -> None:
         """Make hits of strokes in the air from now on, as `AirDrums` does; no longer where `kit` is None."""
@@ -41,6 +51,10 @@ class Sticks:
 
     def handle(self, event: SensorEvent) -> list[StickEvent | Hit]:
         """What `event` tells of the sticks; a sensor that nobody announced is mounted as sensors mostly are."""
+        phases: list[StickEvent | Hit] = [] if self._drill is None else [*self._drill.handle(event)]
+        return [*self._felt(event), *phases]
+
+    def _felt(self, event: SensorEvent) -> list[StickEvent | Hit]:
         match event:
             case SensorMounted():
                 self._mount(event.device, event.mounting)

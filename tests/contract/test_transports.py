@@ -5,7 +5,7 @@ A rig plays known messages and can pull the plug. Expected values are what was p
 
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 from typing import Protocol
@@ -16,10 +16,12 @@ from station.bench.rigs.serial_kit import SerialKit
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.devices.hid.hid_ports import HidDirectory
+from station.devices.imu.ble_ports import BleDirectory, Radio
 from station.devices.midi.midi_clients import SILENT_SERVER_NS
 from station.devices.midi.midi_ports import MidiDirectory
 from station.devices.serial.serial_ports import SerialDirectory
 from station.devices.transport import Packet, Transport
+from tests.fakes.ble_air import FakeAir, FakeSensor, until
 from tests.fakes.hid_devices import ROCK_BAND, FakeHid
 from tests.fakes.jack_server import JackServer, jackd_is_installed, joined
 from tests.fakes.kit_player import KitPlayer, Stroke
@@ -88,6 +90,36 @@ class SerialRig:
         self._kit.unplug()
 
 
+class BleRig:
+    """A Bluetooth sensor, whose notifications carry the messages."""
+
+    called = "kit"
+
+    def __init__(self) -> None:
+        self._sensor = FakeSensor("kit")
+        self._radio = Radio(FakeAir(self._sensor))
+
+    def open(self) -> Transport:
+        directory = BleDirectory(self._radio, "kit")
+        assert until(lambda: bool(directory.names()))
+        port = directory.open(directory.names()[0])
+        assert self._sensor.is_subscribed.wait(20)
+        return port
+
+    def play(self) -> list[Packet]:
+        sent = []
+        for message in MESSAGES:
+            sent.append(Packet(message, time.monotonic_ns()))
+            self._sensor.notify(message)
+        return sent
+
+    def unplug(self) -> None:
+        self._sensor.switch_off()
+
+    def close(self) -> None:
+        self._radio.close()
+
+
 class HidRig:
     """A fake hidapi with game drums; a report is whatever is sent at once."""
 
@@ -135,7 +167,7 @@ class JackRig:
         self._directory.close()
 
 
-@pytest.fixture(params=["fake", "hid", "serial", pytest.param("jack", marks=pytest.mark.jack)])
+@pytest.fixture(params=["fake", "hid", "serial", "ble", pytest.param("jack", marks=pytest.mark.jack)])
 def rig(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Rig]:
     if request.param == "serial":
         if sys.platform != "linux":
@@ -147,17 +179,12 @@ def rig(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Rig]:
         jack_rig = JackRig(request.getfixturevalue("jack_server"), tmp_path)
         yield jack_rig
         jack_rig.close()
+    elif request.param == "ble":
+        ble_rig = BleRig()
+        yield ble_rig
+        ble_rig.close()
     else:
         yield HidRig() if request.param == "hid" else FakeRig()
-
-
-def until(enough: Callable[[], bool], within_s: float = 60.0) -> bool:
-    give_up_s = time.monotonic() + within_s
-    while not enough():
-        if time.monotonic() > give_up_s:
-            return False
-        time.sleep(0.0005)
-    return True
 
 
 def read_all(transport: Transport, count: int) -> list[Packet]:

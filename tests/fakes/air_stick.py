@@ -2,8 +2,8 @@
 
 The stick swings in a vertical plane about a grip that moves with it (HUMANS, Pearl 2023: the hand has a third of the
 tip's speed). A stroke speeds the tip up along a raised cosine and brakes it along another, shorter one. Position is
-summed from it at 20 kHz and differentiated twice; the beat is where the acceleration at the sensor is greatest while
-the tip is being braked (L. Dahl, NIME 2014), found on that fine grid. No reckoning of the station's own is used.
+summed from it at 20 kHz and differentiated twice; the beat is where the tip's acceleration is greatest while it is
+being braked (after L. Dahl, NIME 2014), found on that fine grid. No reckoning of the station's own is used.
 """
 
 from dataclasses import dataclass
@@ -64,9 +64,10 @@ def play(strokes: tuple[Stroke, ...], rate_hz: float, seconds: float, seed: int 
     elevation, heading = _elevation(strokes, fine_s), _heading(strokes, fine_s)
     along = np.stack([np.cos(elevation) * np.cos(heading), np.cos(elevation) * np.sin(heading), np.sin(elevation)], 1)
     tip_drop = GRIP_TO_TIP_M * elevation * HAND_SHARE
-    position = -SENSOR_BEHIND_GRIP_M * along + tip_drop[:, None] * np.array([0.0, 0.0, 1.0])
-    moved = np.gradient(np.gradient(position, fine_s, axis=0), fine_s, axis=0)
-    beats = np.array([_beat(fine_s, moved, each) for each in strokes])
+    grip = tip_drop[:, None] * np.array([0.0, 0.0, 1.0])
+    moved = _twice_differentiated(grip - SENSOR_BEHIND_GRIP_M * along, fine_s)
+    tip = _twice_differentiated(grip + GRIP_TO_TIP_M * along, fine_s)
+    beats = np.array([_beat(fine_s, tip, each) for each in strokes])
     at_s = np.arange(0.02 + offset_s, seconds - 0.02, 1.0 / rate_hz)
     pick = np.rint(at_s * FINE_HZ).astype(np.int64)
     axes = _axes(elevation[pick], heading[pick])
@@ -111,6 +112,10 @@ def _heading(strokes: tuple[Stroke, ...], fine_s: Array) -> Array:
         share = np.clip((fine_s - begin) / (end - begin), 0.0, 1.0)
         heading += np.radians(after.heading_deg - one.heading_deg) * (1 - np.cos(np.pi * share)) / 2
     return heading
+
+
+def _twice_differentiated(position: Array, fine_s: Array) -> Array:
+    return np.asarray(np.gradient(np.gradient(position, fine_s, axis=0), fine_s, axis=0))
 
 
 def _beat(fine_s: Array, moved: Array, stroke: Stroke) -> float:

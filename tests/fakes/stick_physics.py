@@ -60,6 +60,12 @@ def strokes_by_angle(strokes: Sequence[Stroke], rest_s: float = 0.5) -> tuple[Ar
     return np.concatenate(angle), onsets, rates
 
 
+def moved_slowly(start_rad: float, goal_rad: float, within_s: float) -> Array:
+    """From one angle to another with a hand's minimum jerk (Flash & Hogan 1985)."""
+    share = np.linspace(0, 1, round(within_s * FINE_HZ))
+    return np.asarray(start_rad + (goal_rad - start_rad) * (10 * share**3 - 15 * share**4 + 6 * share**5))
+
+
 @dataclass(frozen=True)
 class Sensor:
     """How a sensor measures: `rate_hz`, ranges, noise (standard deviations), bias, and whether it is band-limited."""

@@ -61,6 +61,10 @@ class ArrivalLine:
         self._offset_ns = min(self._offset_ns, y - self.slope * x)
         self._is_due = self._is_due or y < _OFTEN_NS
 
+    def narrow(self, least_slope: float, most_slope: float) -> None:
+        """Only slopes between these two occur, as is known by now."""
+        self._least, self._most, self._is_due = least_slope, most_slope, True
+
     def draw(self) -> None:
         """Draw the line anew, where enough has come since the last time."""
         if self._is_due:

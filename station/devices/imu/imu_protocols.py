@@ -8,6 +8,7 @@ from station.devices.imu.bno085_rvc import Bno085RvcDecoder
 from station.devices.imu.imu_csv import ImuCsvDecoder
 from station.devices.imu.imu_reading import ImuDecoder, Ticks
 from station.devices.imu.witmotion import WitMotionBleDecoder, WitMotionDecoder
+from station.devices.imu.witmotion_setup import RATES
 from station.devices.imu.x_imu3 import XImu3Decoder
 
 
@@ -16,6 +17,7 @@ class ImuProtocol:
     """One protocol: its `title`, its `decoder`, and the `ticks` by which it tells time.
 
     `bauds` are the rates at which such sensors leave the factory, the usual one first; none where there is no wire.
+    `rates_hz` are all that such a sensor can be set to, where they are few and samples can only be counted.
     """
 
     name: str
@@ -23,8 +25,10 @@ class ImuProtocol:
     decoder: Callable[[], ImuDecoder]
     ticks: Ticks
     bauds: tuple[int, ...] = ()
+    rates_hz: tuple[float, ...] = ()
 
 
+_WIT_RATES_HZ = tuple(RATES)
 PROTOCOLS: Mapping[str, ImuProtocol] = MappingProxyType(
     {
         each.name: each
@@ -32,8 +36,10 @@ PROTOCOLS: Mapping[str, ImuProtocol] = MappingProxyType(
             ImuProtocol("x-imu3", "x-IMU3", XImu3Decoder, Ticks.MICROSECONDS, (115_200,)),
             ImuProtocol("csv", "lines of CSV", ImuCsvDecoder, Ticks.MICROSECONDS, (115_200, 921_600)),
             ImuProtocol("bno085-rvc", "BNO085 in RVC mode", Bno085RvcDecoder, Ticks.INDEX_OF_256, (115_200,)),
-            ImuProtocol("witmotion", "WitMotion", WitMotionDecoder, Ticks.MILLISECONDS, (9_600, 115_200, 921_600)),
-            ImuProtocol("witmotion-ble", "WitMotion over Bluetooth", WitMotionBleDecoder, Ticks.NOTHING),
+            ImuProtocol(
+                "witmotion", "WitMotion", WitMotionDecoder, Ticks.MILLISECONDS, (9_600, 115_200), _WIT_RATES_HZ
+            ),
+            ImuProtocol("witmotion-ble", "WitMotion Bluetooth", WitMotionBleDecoder, Ticks.NOTHING, (), _WIT_RATES_HZ),
         )
     }
 )

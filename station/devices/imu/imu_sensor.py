@@ -53,7 +53,7 @@ class ImuSensor:
             self._clock = None
             return ()
         if self._clock is None:
-            self._clock = SampleClock(protocol.ticks)
+            self._clock = SampleClock(protocol.ticks, protocol.rates_hz)
         readings = []
         for each in heard:
             if isinstance(each, Reading):

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from station.core.units import NS_PER_S
 from station.devices.imu.arrival_line import ArrivalLine
 from station.devices.imu.imu_reading import Reading, Ticks
-from station.devices.imu.sample_counters import Counter, counter_of
+from station.devices.imu.sample_counters import Counter, counter_for
 
 _CATCH_UP = 0.25
 """Where a time must be taken back, samples stand this much of their true distance apart until it is made up, for a
@@ -23,11 +23,13 @@ clock never goes back (our choice)."""
 class SampleClock:
     """Session times for the samples of one sensor."""
 
-    def __init__(self, ticks: Ticks) -> None:
+    def __init__(self, ticks: Ticks, rates_hz: Sequence[float] = ()) -> None:
+        """`rates_hz` are all that the sensor can be set to, none where nobody knows."""
         self.samples = 0
         """How many samples were timed."""
-        self._ticks = ticks
-        self._counter, self._line = _begun(ticks)
+        self._ticks, self._rates_hz = ticks, rates_hz
+        self._counter: Counter | None = None
+        self._line = ArrivalLine(1.0, 1.0)
         self._lost = 0
         self._last_ns: int | None = None
         self._suspect: Reading | None = None
@@ -35,12 +37,12 @@ class SampleClock:
     @property
     def lost(self) -> int:
         """How many samples did not come, or came with a time that cannot be."""
-        return self._lost + self._counter.lost
+        return self._lost + (0 if self._counter is None else self._counter.lost)
 
     @property
     def rate_hz(self) -> float | None:
         """How many samples a second the sensor sends, losses included; None until a few have come."""
-        period_ns = self._counter.period_ns(self._line)
+        period_ns = None if self._counter is None else self._counter.period_ns(self._line)
         return NS_PER_S / period_ns if period_ns else None
 
     def stamps(self, readings: Sequence[Reading]) -> list[int | None]:
@@ -57,9 +59,11 @@ class SampleClock:
 
     def _place(self, reading: Reading) -> tuple[int, int] | None:
         """The position of `reading`, and how far it lies behind the one before."""
+        if self._counter is None:
+            self._counter, self._line = self._begun(reading)
         step = self._counter.step(reading, self._line)
-        if step is None:
-            step = self._begin_anew(reading)
+        if step is None and self._suspect is not None:
+            step = self._begin_anew(self._suspect, reading)
         if step is None:
             self._lost, self._suspect = self._lost + 1, reading
             return None
@@ -68,17 +72,15 @@ class SampleClock:
         self.samples += 1
         return self._counter.position, step
 
-    def _begin_anew(self, reading: Reading) -> int | None:
+    def _begin_anew(self, suspect: Reading, reading: Reading) -> int | None:
         """Where two readings in a row agree with each other and not with those before, the device's clock was set."""
-        if self._suspect is None:
+        counter, line = self._begun(suspect)
+        if counter.step(suspect, line) is None:
             return None
-        counter, line = _begun(self._ticks)
-        if counter.step(self._suspect, line) is None:
-            return None
-        line.add(counter.position, self._suspect.at_ns)
+        line.add(counter.position, suspect.at_ns)
         step = counter.step(reading, line)
         if step is not None:
-            self._lost += self._counter.lost
+            self._lost = self.lost
             self._counter, self._line = counter, line
         return step
 
@@ -89,7 +91,6 @@ class SampleClock:
         self._last_ns = at_ns
         return at_ns
 
-
-def _begun(ticks: Ticks) -> tuple[Counter, ArrivalLine]:
-    counter = counter_of(ticks)
-    return counter, counter.new_line()
+    def _begun(self, first: Reading) -> tuple[Counter, ArrivalLine]:
+        counter = counter_for(first, self._ticks, self._rates_hz)
+        return counter, counter.new_line()

@@ -3,7 +3,7 @@
 A counter gives each sample a position, in the device's nanoseconds or in samples; `arrival_line` says when that was.
 """
 
-from collections import deque
+from collections.abc import Sequence
 from statistics import median_low
 from typing import Protocol
 
@@ -18,20 +18,27 @@ _SHORTEST_NS, _LONGEST_NS = 100 * NS_PER_US, 500 * NS_PER_MS
 _APART_NS = NS_PER_S
 """A sample whose clock says that it lies so far from when it came was damaged, or its clock was set anew (our choice:
 longer than a radio holds samples back)."""
-_WRAP_NS = 2**32 * NS_PER_US
-"""A microcontroller's count of µs begins again after 71 minutes (Arduino's `micros`)."""
-_INDICES = 256
-_LONGEST_GAP_MS = 60_000
-_FEW = 16
-"""After so many samples the time between two is known well enough to count by (our choice)."""
+_WRAP = 2**32
+"""Where a microcontroller's count of µs begins again, after 71 minutes (Arduino's `micros`)."""
 _STEPS = 31
 """The time between two samples is the median of so many: losses are fewer than half of them."""
-_LATE = 0.8
+
+_INDICES = 256
+_FEW = 16
+"""After so many samples the time between two is known well enough to count by (our choice)."""
+_SURE = 100
+"""After so many it is known to a few percent, losses included: enough to tell which of a sensor's rates it is."""
+_NEAR, _TRUE = 0.1, 0.001
+"""A rate that is measured so near one of the sensor's own is that one, and true to so much: ten times what a crystal
+strays (our choice). Without this, losses would pass for a slower clock."""
+_TOGETHER = 0.5
+"""Samples that come within so many sample times waited for one another: the last of them waited least."""
+_LATE = 0.9
 """Samples without a counter are late by one that was lost, or by more, if they come so many sample times after they
 were due: less is jitter (our choice, near 1, for a line a little too low makes nobody late)."""
-_PATIENCE = 2
-"""They count as lost when all that follow come late for so many times as long as it has taken, at the longest of late,
-until one came in time (our choice)."""
+_PATIENCE, _AT_LEAST = 1.2, 4
+"""They count as lost when all that follow come late so many times as often as it happened at the longest of late, and
+so many times more: the quickest of several that found no loss in 25 s of exponential waits where there was none."""
 _FORGETS = 0.99
 """How much of that longest is left with each that comes in time (our choice: a burst is forgotten in some hundreds)."""
 
@@ -56,13 +63,14 @@ class Counter(Protocol):
 
 
 class DeviceClock:
-    """Positions are ns by the device's own clock, which it tells in µs."""
+    """Positions are ns by the device's own clock, of which a tick is `tick_ns`."""
 
-    def __init__(self) -> None:
+    def __init__(self, tick_ns: int) -> None:
         self.position = 0
         self.lost = 0
+        self._tick_ns = tick_ns
         self._base_ns = 0
-        self._steps: deque[int] = deque(maxlen=_STEPS)
+        self._steps: list[int] = []
         self._period_ns = 0
 
     def new_line(self) -> ArrivalLine:
@@ -73,15 +81,16 @@ class DeviceClock:
         """By the device's clock; it must not go back, unless it began anew, nor be far from when the sample came."""
         if reading.ticks is None:
             return None
-        position = reading.ticks * NS_PER_US + self._base_ns
+        position = reading.ticks * self._tick_ns + self._base_ns
         if line.is_new:
             self.position = position
             return 0
-        wraps = _WRAP_NS if position - self.position < -_WRAP_NS // 2 else 0
-        step = position + wraps - self.position
-        if step <= 0 or abs(line.at(position + wraps) - reading.at_ns) > _APART_NS:
+        round_ns = _WRAP * self._tick_ns
+        wrapped_ns = round_ns if position - self.position < -round_ns // 2 else 0
+        step = position + wrapped_ns - self.position
+        if step <= 0 or abs(line.at(position + wrapped_ns) - reading.at_ns) > _APART_NS:
             return None
-        self._base_ns += wraps
+        self._base_ns += wrapped_ns
         self.position += step
         self._count(step)
         return step
@@ -100,15 +109,18 @@ class DeviceClock:
 
 
 class SampleCount:
-    """Positions are samples, counted by an index, by a clock too coarse to place them, or one by one."""
+    """Positions are samples, counted by the index that they carry, or one by one."""
 
-    def __init__(self, ticks: Ticks) -> None:
+    def __init__(self, rates_hz: Sequence[float]) -> None:
+        """`rates_hz` are all that the sensor can be set to, none where nobody knows."""
         self.position = 0
         self.lost = 0
-        self._kind = ticks
-        self._ticks: int | None = None
-        self._since = 0  # samples since one came in time
-        self._longest = 1.0  # how many these were of late, at the most
+        self._rates_hz = rates_hz
+        self._index: int | None = None
+        self._came_ns = 0
+        self._late = 0.0  # by how many sample times the newest is late
+        self._lates = 0  # how often in a row the last of those that came together was late
+        self._longest = 0.0  # how often it was of late, at the most
         self._least_late = 0.0
 
     def new_line(self) -> ArrivalLine:
@@ -117,45 +129,54 @@ class SampleCount:
 
     def step(self, reading: Reading, line: ArrivalLine) -> int | None:
         """How many samples; None for one that came twice."""
-        before, self._ticks = self._ticks, reading.ticks
+        before, self._index = self._index, reading.ticks
         if line.is_new:
+            self._came_ns = reading.at_ns
             return 0
-        late = (reading.at_ns - line.at(self.position + 1)) / line.slope if self.position >= _FEW else 0.0
-        step = 1
-        if before is not None and reading.ticks is not None:
-            step = self._by_ticks(reading.ticks - before, late, line.slope)
-        elif self.position >= _FEW:
-            step += self._missing(late, line.slope)
+        if reading.ticks is None or before is None:
+            step = 1 + self._missing(reading.at_ns, line)
+        else:
+            step = self._by_index(reading.ticks - before, reading.at_ns, line)
         if step < 1:
             return None
+        if self.position < _SURE <= self.position + step:
+            self._settle(line)
         self.position += step
         self.lost += step - 1
         return step
 
-    def _by_ticks(self, ticks: int, late: float, period_ns: float) -> int:
-        """Steps by what the device counts; `late` by how many samples it came after the next was due."""
-        if self._kind is Ticks.INDEX_OF_256:
-            rounds = max(0, round((late + 1 - ticks % _INDICES) / _INDICES))
-            return ticks % _INDICES + rounds * _INDICES
-        if self.position < _FEW:
-            return 1
-        if not 0 < ticks < _LONGEST_GAP_MS:  # its clock was set
-            return 1 + self._missing(late, period_ns)
-        return max(1, round(ticks * NS_PER_MS / period_ns))
+    def _by_index(self, ahead: int, at_ns: int, line: ArrivalLine) -> int:
+        """By an index that went round as often as the time since the last sample says."""
+        due = (at_ns - line.at(self.position)) / line.slope if self.position >= _FEW else 0.0
+        rounds = max(0, round((due - ahead % _INDICES) / _INDICES))
+        return ahead % _INDICES + rounds * _INDICES
 
-    def _missing(self, late: float, period_ns: float) -> int:
-        """How many samples must have been lost, for all have come `late` since."""
-        if late * period_ns > _APART_NS:
-            return round(late)
+    def _settle(self, line: ArrivalLine) -> None:
+        """Know the sensor's rate, where it is one of a few."""
+        for rate_hz in self._rates_hz:
+            if abs(rate_hz * line.slope / NS_PER_S - 1.0) < _NEAR:
+                line.narrow((1.0 - _TRUE) * NS_PER_S / rate_hz, (1.0 + _TRUE) * NS_PER_S / rate_hz)
+
+    def _missing(self, at_ns: int, line: ArrivalLine) -> int:
+        """How many samples must have been lost before the one that comes at `at_ns`, for all have come late since."""
+        missing = 0
+        if self.position >= _FEW and (at_ns - self._came_ns) / line.slope > _TOGETHER:
+            missing = self._judge(self._late, line.slope)
+        self._came_ns = at_ns
+        self._late = (at_ns - line.at(self.position + 1 + missing)) / line.slope
+        return missing
+
+    def _judge(self, late: float, period_ns: float) -> int:
+        """How many are missing, once the last of those that came together has come so `late`."""
         if late < _LATE:
-            self._longest = max(self._since + 1, _FORGETS * self._longest)
-            self._since = 0
+            self._longest = max(self._lates, _FORGETS * self._longest)
+            self._lates = 0
             return 0
-        self._least_late = late if self._since == 0 else min(late, self._least_late)
-        self._since += 1
-        if self._since <= _PATIENCE * self._longest + _FEW / 2:
+        self._least_late = late if self._lates == 0 else min(late, self._least_late)
+        self._lates += 1
+        if self._lates <= _PATIENCE * self._longest + _AT_LEAST and late * period_ns < _APART_NS:
             return 0
-        self._since = 0
+        self._lates = 0
         return round(self._least_late)
 
     def period_ns(self, line: ArrivalLine) -> float | None:
@@ -163,6 +184,10 @@ class SampleCount:
         return line.slope if self.position >= _FEW else None
 
 
-def counter_of(ticks: Ticks) -> Counter:
-    """The counter for what a protocol says of time."""
-    return DeviceClock() if ticks is Ticks.MICROSECONDS else SampleCount(ticks)
+_TICK_NS = {Ticks.MICROSECONDS: NS_PER_US, Ticks.MILLISECONDS: NS_PER_MS}
+
+
+def counter_for(reading: Reading, ticks: Ticks, rates_hz: Sequence[float] = ()) -> Counter:
+    """The counter for samples such as `reading`, of a protocol that counts `ticks` where it counts at all."""
+    tick_ns = _TICK_NS.get(ticks)
+    return SampleCount(rates_hz) if tick_ns is None or reading.ticks is None else DeviceClock(tick_ns)

@@ -83,6 +83,8 @@ class WitMotionDecoder:
             kind = frame[1]
             if kind <= self._group.newest_type:
                 heard += self._ended()
+            elif self._last_type and self._group.newest_type < 0:  # what ended the one before was not its end
+                self._last_type = max(kind, self._last_type)
             self._group.take(frame, at_ns)
             if kind == self._last_type:
                 heard += self._ended()

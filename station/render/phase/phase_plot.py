@@ -23,9 +23,11 @@ LIMB_COLOURS = {Limb.RIGHT_FOOT: BRAND, Limb.RIGHT_HAND: BRAND, Limb.LEFT_FOOT: 
 PLAIN: Colour = INK
 QUALITY_RANGE = (-1.0, 1.0)
 """E₁ is a correlation, and λE₂ takes from it at most what is seldom more than a correlation has (our choice)."""
-_LEFT, _RIGHT, _HEAD, _FOOT, _BETWEEN = 54.0, 16.0, 34.0, 26.0, 12.0
+_LEFT, _RIGHT, _HEAD, _FOOT, _BETWEEN = 54.0, 16.0, 54.0, 26.0, 16.0
 """Units round the two axes: for their numbers, for the title, and between them."""
 _QUALITY_SHARE = 0.36
+_UNSURE = 0.5
+"""How opaque a phase is that nobody should use."""
 _WRAP = 0.5
 """A phase that changes by more between two samples has wrapped."""
 _TEXT = 13.0
@@ -97,11 +99,8 @@ def draw_phase_plot(draw_list: DrawList, trace: PhaseTrace, box: ReportBox) -> P
     axes = PlotAxes.within(trace, box)
     paper(draw_list, box)
     title, soft = TypeStyle(16, INK, Face.BOLD), TypeStyle(_TEXT, INK_SOFT)
-    shown = draw_list.fitted(trace.title, title, axes.phase.width)
-    width = draw_list.text(shown, (axes.phase.left, box.top + 23), title)
-    room = axes.phase.width - width - 14
-    remark = draw_list.fitted(trace.remark, soft, room)
-    draw_list.text(remark, (axes.phase.left + width + 14, box.top + 23), soft)
+    for words, style, y in ((trace.title, title, 23.0), (trace.remark, soft, 41.0)):
+        draw_list.text(draw_list.fitted(words, style, axes.phase.width), (axes.phase.left, box.top + y), style)
     _grid(draw_list, axes)
     _curves(draw_list, axes)
     _marks(draw_list, axes)
@@ -138,13 +137,13 @@ def time_ticks(span_s: tuple[float, float]) -> list[tuple[float, str]]:
     step = next((step for step in _TICKS_S if (last - first) / step <= _MOST_TICKS), _TICKS_S[-1])
     places = 0 if step >= 1 else 1
     ticks = np.arange(np.ceil(first / step - 1e-9), np.floor(last / step + 1e-9) + 1) * step
-    return [(at_s, f"{at_s:.{places}f} s") for at_s in ticks.tolist()]
+    return [(at_s, f"{at_s:.{places}f} s") for at_s in (ticks + 0.0).tolist()]
 
 
 def _curves(draw_list: DrawList, axes: PlotAxes) -> None:
     trace = axes.trace
     for is_sure, part in _runs(trace.sure):
-        colour = with_opacity(GOOD, 1.0 if is_sure else 0.4)
+        colour = with_opacity(GOOD, 1.0 if is_sure else _UNSURE)
         for piece in _unwrapped(trace.share, part):
             _polyline(draw_list, [(axes.x(trace.time_s[k]), axes.y_of_share(trace.share[k])) for k in piece], colour)
         _polyline(draw_list, [(axes.x(trace.time_s[k]), axes.y_of_quality(trace.quality[k])) for k in part], colour)

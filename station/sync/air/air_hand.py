@@ -12,7 +12,7 @@ from station.sync.air.air_status import AirCounts, AirStatus, status_of
 from station.sync.air.air_strokes import AirBeat, AirStrokes
 from station.sync.air.air_zones import AirZone
 from station.sync.air.heading_tracker import HeadingTracker
-from station.sync.air.stick_swing import Swing, swing_of, wrapped
+from station.sync.air.stick_swing import Swing, SwingReader, wrapped
 from station.sync.strokes.stick_orientation import LONGEST_GAP_S, StickMotion
 
 _TURNS_ON = 0.75
@@ -49,6 +49,8 @@ class AirHand:
         self._ahead_ns = ahead_ns
         self._strokes = AirStrokes()
         self._by_stroke, self._by_loop = StrokeForecast(), LoopForecast()
+        self._reader = SwingReader(mounting.tip_m)
+        self._before: StickMotion | None = None
         self._swings: deque[Swing] = deque()
         self._pending: _Pending | None = None
         self._interval_s: float | None = None
@@ -56,9 +58,12 @@ class AirHand:
 
     def feed(self, motion: StickMotion) -> AirBeat | None:
         """The stroke that is certain with this motion, or None."""
-        swing = swing_of(motion, self.mounting.tip_m)
-        if self._swings:
-            self._time((swing.at_ns - self._swings[-1].at_ns) / NS_PER_S)
+        before, self._before = self._before, motion
+        if before is not None:
+            self._follow(motion.at_ns - before.at_ns)
+        swing = self._reader.feed(motion)
+        if swing is None:
+            return None
         self._swings.append(swing)
         while swing.at_ns - self._swings[0].at_ns > _PAD_WITHIN_NS:
             self._swings.popleft()
@@ -96,6 +101,8 @@ class AirHand:
 
     def foretell(self) -> AirCall | None:
         """The call for a stroke that has begun and is sure to come, once."""
+        if not self._swings:
+            return None
         now = self._swings[-1]
         if self._pending is not None:
             self._check()
@@ -112,15 +119,16 @@ class AirHand:
 
     # --- inside -------------------------------------------------------------------------------------------------------
 
-    def _time(self, gone_s: float) -> None:
+    def _follow(self, gone_ns: int) -> None:
+        """A sample so long after the one before."""
+        gone_s = gone_ns / NS_PER_S
         if gone_s > LONGEST_GAP_S:  # the orientation has started afresh, its heading anywhere
             self.tracker.lose()
-            self._strokes, self._pending = AirStrokes(), None
+            self._strokes, self._reader, self._pending = AirStrokes(), SwingReader(self.mounting.tip_m), None
             self._swings.clear()
-        elif self._interval_s is None:
-            self._interval_s = gone_s
-        else:
-            self._interval_s += _RATE_GAIN * (gone_s - self._interval_s)
+            return
+        self._interval_s = gone_s if self._interval_s is None else self._interval_s
+        self._interval_s += _RATE_GAIN * (gone_s - self._interval_s)
 
     def _check(self) -> None:
         """A stroke that was foretold has ended without a beat: what foretold it is no longer believed."""

@@ -19,7 +19,7 @@ from station.core.events import Hit, StickStroke
 from station.core.pieces import HAND_PIECES, Limb, Piece
 from station.core.units import NS_PER_MS
 from station.sync.strokes.stick_offsets import offset_candidates
-from station.sync.strokes.stroke_matching import Matching, Stroke, Weigh, match
+from station.sync.strokes.stroke_matching import GATE_MS, Matching, Stroke, Weigh, match
 
 FOOT_OF = {Piece.KICK: Limb.RIGHT_FOOT, Piece.HIHAT_PEDAL: Limb.LEFT_FOOT}
 """Who plays what no stick plays, where the kit tells no limb."""
@@ -33,8 +33,11 @@ SAMPLE_HITS = 200
 """So many hits weigh the candidates before all do; our choice."""
 CLEARLY = 25.0
 """A candidate this much less likely (natural logarithm) on the sample is given up; our choice: e⁻²⁵."""
-USUAL_OFFSET_MS = 40.0
+USUAL_OFFSET_MS = 25.0
 """Spread of the offsets that sensors have before anything is heard; our choice, a guide where all else is equal."""
+USUAL_APART_MS = 15.0
+"""Spread of the difference between the two sticks' offsets: sensors of one make, a link each; our choice. It decides
+only where hands alternate like a machine, so that either may have begun."""
 ENOUGH = 8
 """So many sure strokes teach a mean; our choice."""
 LEAST_HABIT = 0.05
@@ -47,16 +50,26 @@ def name_hands(hits: Sequence[Hit], strokes: Sequence[StickStroke]) -> tuple[Lim
     Hits and strokes in any order, in the same time base; strokes in the air and of sticks whose hand is unknown count
     for nothing.
     """
-    named = [hit.limb if hit.limb is not Limb.UNKNOWN else FOOT_OF.get(hit.piece, Limb.UNKNOWN) for hit in hits]
+    found = strokes_of_hits(hits, strokes)
+    return tuple(limb_of(hit, stroke) for hit, stroke in zip(hits, found, strict=True))
+
+
+def limb_of(hit: Hit, stroke: StickStroke | None) -> Limb:
+    """Who played a hit that `stroke` made, None where nobody can tell."""
+    if hit.limb is not Limb.UNKNOWN:
+        return hit.limb
+    return FOOT_OF.get(hit.piece, Limb.UNKNOWN) if stroke is None else stroke.limb
+
+
+def strokes_of_hits(hits: Sequence[Hit], strokes: Sequence[StickStroke]) -> tuple[StickStroke | None, ...]:
+    """The stroke that made each hit, None where nobody can tell; hits and strokes as `name_hands` takes them."""
     order = sorted((k for k, hit in enumerate(hits) if hit.piece in HAND_PIECES), key=lambda k: hits[k].at_ns)
     felt = sorted((s for s in strokes if not s.in_air and s.limb.is_hand), key=lambda s: s.at_ns)
-    if not order or not felt:
-        return tuple(named)
-    played = _Played([hits[k] for k in order], felt)
-    for k, limb in zip(order, played.limbs(), strict=True):
-        if named[k] is Limb.UNKNOWN:
-            named[k] = limb
-    return tuple(named)
+    made: list[StickStroke | None] = [None] * len(hits)
+    if order and felt:
+        for k, stroke in zip(order, _Played([hits[k] for k in order], felt).strokes(), strict=True):
+            made[k] = stroke
+    return tuple(made)
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,21 +91,21 @@ class _Played:
         self._devices = sorted({stroke.device for stroke in strokes})
         self._stick = [self._devices.index(stroke.device) for stroke in strokes]
 
-    def limbs(self) -> list[Limb]:
-        """The limb of each hit."""
+    def strokes(self) -> list[StickStroke | None]:
+        """The stroke that made each hit, None where no stick is likely enough."""
         weights = self._weighed(self._candidates())
-        sums: list[dict[Limb, float]] = [{} for _ in self._hits]
+        likeliest = max(weights, key=lambda one: one[0])[1]
+        sums: list[dict[int, float]] = [{} for _ in self._hits]
         for weight, found in weights:
             for hit, by_stick in found.by_stick.items():
                 for stick, share in by_stick.items():
-                    limb = self._limb(stick, found.stroke.get(hit))
-                    sums[hit][limb] = sums[hit].get(limb, 0.0) + weight * share
-        return [max(of, key=lambda limb: of[limb]) if of and max(of.values()) >= SURE else Limb.UNKNOWN for of in sums]
+                    sums[hit][stick] = sums[hit].get(stick, 0.0) + weight * share
+        return [self._sure_stroke(of, likeliest.stroke.get(hit)) for hit, of in enumerate(sums)]
 
-    def _limb(self, stick: int, stroke: int | None) -> Limb:
-        if stroke is not None and self._stick[stroke] == stick:
-            return self._strokes[stroke].limb
-        return next(s.limb for s, of in zip(self._strokes, self._stick, strict=True) if of == stick)
+    def _sure_stroke(self, of_stick: dict[int, float], likeliest: int | None) -> StickStroke | None:
+        if likeliest is None or of_stick.get(self._stick[likeliest], 0.0) < SURE:
+            return None
+        return self._strokes[likeliest]
 
     # --- offsets ------------------------------------------------------------------------------------------------------
 
@@ -103,9 +116,7 @@ class _Played:
         for stick in range(len(self._devices)):
             own = np.array([at for at, of in zip(self._strokes_ms, self._stick, strict=True) if of == stick])
             found.append(offset_candidates(hits, own) or [0.0])
-        return [
-            _Offsets(ms, sum(-0.5 * (one / USUAL_OFFSET_MS) ** 2 for one in ms)) for ms in itertools.product(*found)
-        ]
+        return [_Offsets(ms, _log_prior(ms)) for ms in itertools.product(*found)]
 
     def _weighed(self, candidates: list[_Offsets]) -> list[tuple[float, Matching]]:
         """The candidates that stay, each with its probability and its final matching."""
@@ -114,7 +125,9 @@ class _Played:
             trials = [self._match(c, USUAL_MS, _any, until_ms).log_likelihood + c.log_prior for c in candidates]
             candidates = [c for c, trial in zip(candidates, trials, strict=True) if trial > max(trials) - CLEARLY]
         found = [self._learnt(candidate) for candidate in candidates]
-        logs = [one.log_likelihood + c.log_prior for one, c in zip(found, candidates, strict=True)]
+        # The spread of n residuals is itself uncertain, by 1/√2n: so much of the likelihood is chance, and worth less.
+        worth = 1.0 / max(1.0, math.sqrt(len(self._hits) / 2) / 2)
+        logs = [worth * one.log_likelihood + c.log_prior for one, c in zip(found, candidates, strict=True)]
         shares = [math.exp(log - max(logs)) for log in logs]
         return [(share / sum(shares), one) for share, one in zip(shares, found, strict=True)]
 
@@ -125,7 +138,7 @@ class _Played:
             Stroke(at + offsets.ms[stick], k, stick)
             for k, (at, stick) in enumerate(zip(self._strokes_ms, self._stick, strict=True))
         ]
-        near = sorted(stroke for stroke in strokes if stroke.at_ms <= until_ms + USUAL_OFFSET_MS)
+        near = sorted(stroke for stroke in strokes if stroke.at_ms <= until_ms + GATE_MS)
         return match([at for at in self._hits_ms if at <= until_ms], near, jitter_ms, weigh)
 
     def _learnt(self, offsets: _Offsets) -> Matching:
@@ -154,6 +167,12 @@ class _Played:
             for hit, stroke in found.stroke.items()
             if found.by_stick[hit].get(self._stick[stroke], 0.0) >= SURE
         ]
+
+
+def _log_prior(offsets_ms: Sequence[float]) -> float:
+    far = sum((one / USUAL_OFFSET_MS) ** 2 for one in offsets_ms)
+    apart = sum(((a - b) / USUAL_APART_MS) ** 2 for a, b in itertools.pairwise(offsets_ms))
+    return -0.5 * (far + apart)
 
 
 def _any(hit: int, stroke: int) -> float:

@@ -34,9 +34,12 @@ SLOWEST_FALL_RAD_S = 1.0
 """A slower fall is no stroke: 0.3 m/s at the tip, as after a free fall from 4 mm."""
 LEAST_FALL_RAD = 0.02
 """A shorter fall is no stroke: 5 mm at the tip; our choice, a quarter of the lowest ghost stroke's height."""
-RAISED_S = 0.004
-"""Armed again when raised by what the stick falls within a contact (3–6 ms): a stick that rebounds at 0.3 needs 15 ms
-for that, and a second bounce comes after 50 ms at the earliest (HUMANS.md)."""
+RAISED_S, LEAST_RAISE_RAD = 0.003, 0.01
+"""Armed again when raised by what the stick fell within the shortest contact (3 ms), at least by 3 mm at the tip: a
+stick that rebounds at 0.3 needs 10 ms for that, and a second bounce comes after 50 ms at the earliest (HUMANS.md)."""
+SUNK_RAD = 0.04
+"""Or when it has sunk by 1 cm at the tip since the contact: a head does not give way so far (8 mm at 5 m/s, HUMANS.md),
+so the stick was in the air; the hand went down as the tip bounced."""
 AFTER_S = 0.012
 """So long after a contact was noticed its pulse and rebound are gathered: twice the longest contact."""
 KEPT_S = 0.045
@@ -58,6 +61,7 @@ class _Instant(NamedTuple):
     speed: float
     height: float
     sine: float
+    roll: float
     is_clipped: bool
 
 
@@ -77,7 +81,7 @@ class StrokeDetector:
         self._below = self._sink = 0.0  # how far the tip has sunk since its top, and how fast it does
         self._is_armed = True
         self._fastest = 0.0  # of this fall
-        self._top = self._low = 0.0
+        self._top = self._low = self._high = 0.0
         self._raise = 0.0
         self._due_s: float | None = None
 
@@ -98,8 +102,9 @@ class StrokeDetector:
         if self._due_s is None:
             if self._is_armed and self._is_contact(now):
                 self._doubt = CONTACT_M_S
-                self._is_armed, self._due_s, self._low = False, now.at_s + self._after_s(), now.sine
-                self._raise = max(LEAST_FALL_RAD, self._fastest * RAISED_S)
+                self._is_armed, self._due_s = False, now.at_s + self._after_s()
+                self._low = self._high = now.sine
+                self._raise = max(LEAST_RAISE_RAD, self._fastest * RAISED_S)
             return None
         if now.at_s < self._due_s:
             return None
@@ -119,7 +124,7 @@ class StrokeDetector:
         before = kept[-1] if kept else None
         dt_s = 0.0 if before is None else at_s - before.at_s
         speed = self._tip(rows, motion, fall, dt_s)
-        now = _Instant(at_s, fall, speed, self._below, rows[2][0], motion.is_clipped)
+        now = _Instant(at_s, fall, speed, self._below, rows[2][0], math.atan2(left, up), motion.is_clipped)
         kept.append(now)
         while kept[0].at_s < at_s - max(KEPT_S, 4 * dt_s):
             kept.popleft()
@@ -159,8 +164,9 @@ class StrokeDetector:
 
     def _arm(self, now: _Instant) -> None:
         if not self._is_armed:
-            self._low = min(self._low, now.sine)
-            self._is_armed = now.sine - self._low >= self._raise and self._due_s is None
+            self._low, self._high = min(self._low, now.sine), max(self._high, now.sine)
+            is_free = now.sine - self._low >= self._raise or self._high - now.sine >= SUNK_RAD
+            self._is_armed = is_free and self._due_s is None
             self._fastest, self._top = 0.0, now.sine
         if self._is_armed:
             if now.fall <= 0.0 and self._kept[-2].fall <= 0.0:
@@ -215,6 +221,7 @@ class StrokeDetector:
             min(max(up / down, 0.0), 1.0) if down > 0 else None,
             math.asin(min(max(clean.sine - fall * left_s, -1.0), 1.0)),
             any(instant.is_clipped for instant in kept),
+            roll_rad=clean.roll,
         )
 
 

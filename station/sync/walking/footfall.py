@@ -18,11 +18,14 @@ from station.sync.walking.skeleton import SIDES, Skeleton
 SMOOTHED_S = 0.04
 """The heel's height is averaged over so long before its velocity is taken (our choice: five frames at 120 Hz)."""
 SETTLED = 0.1
-"""A fall is over where the heel sinks at a tenth of the fall's greatest speed (our choice)."""
+"""A fall is over where the heel sinks at a tenth of the fall's greatest speed (our choice; a twentieth or a fifth moves
+contacts by 12 and 17 ms in the median, lows not at all)."""
 LOW = 0.35
 """A heel is down in the lowest 35 % of its range (O'Connor et al. 2007)."""
 LEAST_RANGE_M = 0.1
 """A heel that rises less takes no step: it rises by 0.2 m in a slow walk (our choice)."""
+FEWEST = 3
+"""Samples that a velocity takes."""
 UP = 1
 """The axis that points up in motion capture."""
 
@@ -45,9 +48,9 @@ def footfalls(skeleton: Skeleton, signal: Signal) -> tuple[Steps, Steps]:
 
 def heel_steps(height_m: NDArray[np.float64], rate_hz: float) -> Steps:
     """The steps of a heel at `height_m` (n,), `rate_hz` samples a second."""
-    smooth = _smoothed(height_m, round(SMOOTHED_S * rate_hz))
-    if len(smooth) < 3 or np.ptp(smooth) < LEAST_RANGE_M:
+    if len(height_m) < FEWEST or np.ptp(height_m) < LEAST_RANGE_M:
         return Steps(np.zeros(0), np.zeros(0))
+    smooth = _smoothed(height_m, round(SMOOTHED_S * rate_hz))
     speed_m_s = np.gradient(smooth) * rate_hz
     is_down = smooth < smooth.min() + LOW * np.ptp(smooth)
     stances = [(begin, end) for begin, end in _runs(is_down) if begin > 0]

@@ -23,7 +23,7 @@ LEG = 0.245 + 0.246
 ANKLE_HEIGHT, FOOT_LENGTH = 0.039, 0.152
 """The ankle above the sole, the foot's length: shares of stature (the same source)."""
 BEHIND_ANKLE = 0.25
-"""So much of the foot's length lies behind the ankle (our choice; footfalls move by 4 ms where it is halved)."""
+"""So much of the foot's length lies behind the ankle (our choice; half of it moves contacts by 13 ms)."""
 SIDES = ("r", "l")
 
 
@@ -81,7 +81,8 @@ class Skeleton:
 
     def at_rest(self) -> Points:
         """Where the joints are with every channel at 0, shape (joints, 3)."""
-        return self.positions((), np.zeros((1, 0)))[0]
+        rest: Points = self.positions((), np.zeros((1, 0)))[0]
+        return rest
 
     def positions(self, names: Sequence[str], values: NDArray[np.float64]) -> Points:
         """Where the joints are: `values` (n, channels) of the channels `names`; a channel that is missing is 0."""

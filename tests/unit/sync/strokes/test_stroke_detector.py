@@ -13,7 +13,15 @@ from station.core.imu import STANDARD_GRAVITY_M_S2, ImuSample, Mounting
 from station.core.pieces import Limb
 from station.sync.strokes.stick_axes import rows_of, turn_of
 from station.sync.strokes.stroke_detector import StrokeDetector
-from tests.fakes.stick_physics import FINE_HZ, FULCRUM_FROM_TIP_M, Sensor, Stroke, measured, strokes_by_angle
+from tests.fakes.stick_physics import (
+    FINE_HZ,
+    FULCRUM_FROM_TIP_M,
+    Sensor,
+    Stroke,
+    measured,
+    moved_slowly,
+    strokes_by_angle,
+)
 from tests.real_data import DATA
 
 Array = NDArray[np.float64]
@@ -105,12 +113,10 @@ def wave(rate_hz: float, size_rad: float) -> Array:
 
 
 def moved(goals_rad: list[float], within_s: float) -> Array:
-    """From goal to goal with a hand's minimum jerk (Flash & Hogan 1985), half a second still in each."""
-    share = np.linspace(0, 1, round(within_s * FINE_HZ))
-    way = 10 * share**3 - 15 * share**4 + 6 * share**5
+    """From goal to goal, half a second still in each."""
     parts = [np.full(FINE_HZ // 2, goals_rad[0])]
     for start, goal in pairwise(goals_rad):
-        parts += [start + (goal - start) * way, np.full(FINE_HZ // 2, goal)]
+        parts += [moved_slowly(start, goal, within_s), np.full(FINE_HZ // 2, goal)]
     return np.concatenate(parts)
 
 
