@@ -126,7 +126,7 @@ class StrokeDetector:
         speed = self._tip(rows, motion, fall, dt_s)
         now = _Instant(at_s, fall, speed, self._below, rows[2][0], math.atan2(left, up), motion.is_clipped)
         kept.append(now)
-        while kept[0].at_s < at_s - max(KEPT_S, 4 * dt_s):
+        while self._due_s is None and kept[0].at_s < at_s - max(KEPT_S, 4 * dt_s):
             kept.popleft()
         return now if before is not None else None
 
