@@ -47,6 +47,7 @@ class Show:
     sticks: bool = False
     practice: bool = False
     curves: bool = False
+    phase: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -565,6 +566,40 @@ class CancelFilm:
 
 FileAction = Export | FilmTake | CancelFilm
 
+# --- a motion and its phase -------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class OpenMotion:
+    """Track the motion by a model: a file of `station sync fit`, or a motion whose first cycle makes one."""
+
+    model: Path
+    motion: Path
+
+
+@dataclass(frozen=True, slots=True)
+class ChooseTriggers:
+    """Let the phase trigger the sounds of this preset."""
+
+    preset: str
+
+
+@dataclass(frozen=True, slots=True)
+class PlayMotion:
+    """Let the motion go on, and sound, or stand."""
+
+    on: bool
+
+
+@dataclass(frozen=True, slots=True)
+class SeekMotion:
+    """Go to a time of the motion."""
+
+    to_s: float
+
+
+PhaseAction = OpenMotion | ChooseTriggers | PlayMotion | SeekMotion
+
 Action = (
     Show
     | Notify
@@ -577,4 +612,5 @@ Action = (
     | CalibrationAction
     | StickAction
     | FileAction
+    | PhaseAction
 )

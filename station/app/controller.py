@@ -6,6 +6,7 @@ nothing.
 """
 
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import replace
 from typing import assert_never
@@ -21,6 +22,7 @@ from station.app.equipment.sticks_editor import SticksEditor
 from station.app.equipment.sticks_view import SticksView
 from station.app.export import Exporter
 from station.app.first_start import answered, student_level
+from station.app.phase_page import PhasePage, PhaseView
 from station.app.preferences import Preferences
 from station.app.room_state import Stage
 from station.app.sessions.pad_control import PadControl
@@ -63,6 +65,9 @@ class Controller:
         self.preferences = Preferences(store)
         self._pads = PadControl(store, self.preferences, launch.plan.score)
         self.export = Exporter(processes.animate)
+        self.phase = PhasePage(
+            self.sessions.listen_to, self.sessions.is_listening_to, self.sessions.quiet, ThreadPoolExecutor(1, "motion")
+        )
         self._chooser = Chooser(self.sessions, store, launch)
         self._shown = do.Show()
         self._now_ns = 0
@@ -80,6 +85,7 @@ class Controller:
         self.mapping.advance(now_ns)
         self._tried(lambda: self.sticks.advance(now_ns))
         self.sessions.advance(now_ns)
+        self._tried(lambda: self.phase.advance(now_ns))
         message = self.export.news()
         if message is not None:
             self._toasts.notify(message)
@@ -144,6 +150,7 @@ class Controller:
             snapshot=snapshot,
             report=sessions.practice.last_result.report,
             curves=sessions.curves() if shown.curves else None,
+            phase=self.phase.view() if shown.phase else PhaseView(),
             learns_pause=self.preferences.learns,
             export_bars=self._chooser.bars,
             is_filming=self.export.path is not None,
@@ -185,6 +192,8 @@ class Controller:
         elif isinstance(action, do.FileAction):
             lesson, bars = self.sessions.player.lesson, self._chooser.bars
             self._toasts.notify(self.export.act(action, lesson, bars, self._store.now, self._view_settings))
+        elif isinstance(action, do.PhaseAction):
+            self.phase.act(action)
         elif isinstance(action, do.Show):
             self._show(action)
         elif isinstance(action, do.Notify):
@@ -323,6 +332,7 @@ class Controller:
         self._view, fault = None, None
         self.calibration.close()
         self.export.cancel()
+        self.phase.close()
         if self.sessions.practice.is_playing:
             self.sessions.practice.end()
             fault = self.sessions.practice.fault

@@ -19,7 +19,7 @@ from station.cli.options.option_fields import (
 from station.core.errors import BadInput
 from station.core.units import NS_PER_S
 from station.sync.phase.model_file import load_model
-from station.sync.phase.phase_tracker import ADAPTIVE, PAPER
+from station.sync.phase.phase_tracker import PAPER
 from station.sync.signals.signal import Signal
 from station.sync.signals.signal_files import read_signal
 from station.sync.sonification.sonified import Sonified, sonified
@@ -65,7 +65,7 @@ def run(options: SonifyOptions) -> int:
         raise BadInput(options.out, "", f"expected a name that ends in {ENDINGS}")
     triggers = _triggers(options)
     model, signal = load_model(options.model), read_signal(options.signal)
-    told = sonified(model, signal, triggers, PAPER if options.paper else ADAPTIVE)
+    told = sonified(model, signal, triggers, PAPER if options.paper else None)
     _write(options, ending, triggers, told)
     if options.json:
         print_json(_document(told))

@@ -143,8 +143,8 @@ class StickStroke:
 
     `speed_m_s` of the tip just before; `height_m` how far above the point of impact the tip had been raised; `rebound`
     its speed just after over that before, 0 … 1; `angle_rad` of the stick above (+) or below (−) the horizontal at
-    impact. None where the sensor could not tell. `clipped` says that the sensor was at its limit: the speed is a lower
-    bound.
+    impact; `roll_rad` how far the stick is turned about its own axis from how it was mounted. None where the sensor
+    could not tell. `clipped` says that the sensor was at its limit: the speed is a lower bound.
     """
 
     at_ns: int
@@ -156,6 +156,7 @@ class StickStroke:
     angle_rad: float | None = None
     clipped: bool = False
     in_air: bool = False
+    roll_rad: float | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -44,7 +44,7 @@ LEAST_BLOCK_FRAMES = 16
 class Settings:
     """What a user has chosen.
 
-    `kit` part of the MIDI port's name, empty for the first kit found; `sticks` where the motion sensors on the sticks are
+    `kit` part of the MIDI port's name, empty for the first kit found; `sticks` where the motion sensors are
     (`devices.stick_ports`), empty for none; `output` part of the sound device's name, empty
     for the system's default; `block_frames` the size of one audio block, 0 for the driver's own choice; `rate_hz` its
     sample rate; `drums` the name or the path of the drum kit that sounds, `click` the name of the click,

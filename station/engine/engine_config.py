@@ -29,8 +29,8 @@ class EngineConfig:
     """What the engine process opens.
 
     `kits` are those to listen to, none for an engine without, `sticks` the sensors on the sticks; `midi_driver` is
-    "auto" or one of `station.devices.midi.midi_ports.compiled_drivers()`; `output`, `block_frames`, `rate_hz`, `drums`, `click`
-    `own_sound`, `levels` and `midi_out` stand as in `Settings`; without `sound` no card is opened.
+    "auto" or one of `station.devices.midi.midi_ports.compiled_drivers()`; `output`, `block_frames`, `rate_hz`, `drums`,
+    `click`, `own_sound`, `levels` and `midi_out` stand as in `Settings`; without `sound` no card is opened.
     """
 
     kits: tuple[DeviceRequest, ...] = (DeviceRequest(""),)

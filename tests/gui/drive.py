@@ -45,6 +45,7 @@ from station.gui.panels.lessons_panel import ADAPT_LABEL, FILM_LABEL, FREE_LABEL
 from station.gui.panels.pads_part import LEARN_LABEL as LEARN_PAD_LABEL
 from station.gui.panels.pads_part import UNDO_LABEL
 from station.gui.panels.panel import PANELS_LABEL
+from station.gui.panels.phase_panel import MODEL_LABEL, MOTION_LABEL, OPEN_LABEL, PHASE, PLAY_LABEL, STOP_LABEL
 from station.gui.panels.playback_row import STOP_LABEL as HITS_STOP
 from station.gui.panels.playback_row import STUDENT_LABEL, TEACHER_LABEL
 from station.gui.panels.player_controls import COUNT_IN_LABEL, MORE_LABEL
@@ -62,6 +63,7 @@ from station.render.notation.score_view import ScoreForm
 from station.render.snapshot import Snapshot
 from station.simulation.student_spec import parse_spec
 from tests.fakes.stick_physics import FINE_HZ, Sensor, Stroke, measured, strokes_by_angle
+from tests.fakes.walker_files import write_walker
 from tests.gui.figure import figure
 from tests.gui.legible import present_faults
 from tests.gui.room import KIT, station
@@ -69,7 +71,7 @@ from tests.gui.screen_shot import screen_shot
 
 STEP_NS = ns_from_ms(100)
 SIZE = (760, 480)
-SIZES = {"player": (1280, 560), "legible": (1280, 720)}
+SIZES = {"player": (1280, 560), "phase": (1280, 720), "legible": (1280, 720)}
 LESSON = "rock-2"
 MOST_FRAMES = 1000
 PICTURE_EVERY = 25
@@ -891,6 +893,30 @@ def graph(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     seen["result"] = curves is not None and curves.played is not None
 
 
+def phase(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """A motion is opened in the phase panel, heard, and its line dragged."""
+    motion = write_walker(Path())  # a short name, for the fields show no more
+    drive.window.params.docking_params.dockable_window_of_name(PHASE).is_visible = True
+    ctx.yield_(3)
+    ctx.set_ref(f"//{PHASE}")
+    for label in (MOTION_LABEL, MODEL_LABEL):
+        ctx.item_input_value(label, str(motion))
+    ctx.item_click(OPEN_LABEL)
+    for _ in range(MOST_FRAMES):
+        if drive.state.phase.scene is not None:
+            break
+        ctx.yield_()
+    drive.seen["opened"] = drive.state.phase.motion
+    ctx.yield_(2)
+    ctx.item_click(PLAY_LABEL)
+    ctx.yield_(20)
+    drive.seen["plays"], drive.seen["at_s"] = drive.state.phase.plays, drive.state.phase.at_s
+    drive.seen["unread"] = drive.unread(ctx)
+    ctx.item_click(STOP_LABEL)
+    ctx.yield_(2)
+    drive.seen["stopped"] = not drive.state.phase.plays
+
+
 def legible(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """Every tool is opened, at both ends of the usual sizes, and what cannot be read in it is told."""
     docking = drive.window.params.docking_params
@@ -940,6 +966,7 @@ SCENARIOS = {
     "graph": graph,
     "fault": fault,
     "legible": legible,
+    "phase": phase,
     "figure": figure,
 }
 

@@ -137,10 +137,11 @@ def a_free_take_is_recorded_and_heard_again(seen: dict[str, Any]) -> None:
 
 
 def test_player_graph_and_figure_in_one_window(environment: dict[str, str], tmp_path: Path) -> None:
-    seen = run_in_turn(["player", "figure", "graph", "legible"], environment, tmp_path)
+    seen = run_in_turn(["player", "figure", "graph", "phase", "legible"], environment, tmp_path)
     the_demonstration_is_watched_as_in_a_player(seen["player"])
     the_demonstrator_is_made_to_move_otherwise(seen["figure"])
     the_graph_follows_and_is_zoomed(seen["graph"])
+    a_motion_walks_and_sounds(seen["phase"])
     nothing_is_cut_off_nor_written_over(seen["legible"])
     assert (tmp_path / "sessions" / "styles" / "slots.toml").exists()
 
@@ -197,6 +198,14 @@ def the_graph_follows_and_is_zoomed(seen: dict[str, Any]) -> None:
     assert 50 < seen["dragged"] < 80, "the line stays under the mouse, which moved by 60 pixels"
     assert seen["during"] == "PLAYING"
     assert seen["result"]
+
+
+def a_motion_walks_and_sounds(seen: dict[str, Any]) -> None:
+    assert seen["opened"] == "1_01.amc"
+    assert seen["plays"]
+    assert seen["at_s"] > 0.5
+    assert seen["stopped"]
+    assert seen["unread"] == []
 
 
 def keys_play_the_kit_and_escape_stops(seen: dict[str, Any]) -> None:

@@ -15,6 +15,7 @@ KINDS = {
     "OpenGameArt's songs": "midi/opengameart/**/*.mid",
     "the Groove MIDI Dataset": "gmd/**/*.mid",
     "CMU's walks": "mocap/amc/0[278]/*.amc",
+    "a WitMotion's packets": "imu/witmotion_hazer/*.txt",
 }
 """What is compared with, and the pattern of its files."""
 

@@ -27,6 +27,8 @@ WAIT_S = 0.10
 """How long a caught stick at least stays low before the next lift, where there is time (our choice)."""
 LIFT_M_S = 2.3
 """The tip's greatest speed when it is raised (Pearl 2023)."""
+QUICK_LIFT_S, CALM_LIFT_S = 0.06, 0.15
+"""The shortest time that a lift takes, and the least where there is no hurry (our choice)."""
 TOP_S = 0.12
 """How long the slow fall at the top takes (−212 … −120 ms in Pearl 2023), where there is time."""
 LEAST_DOWN = 0.35
@@ -100,7 +102,7 @@ def _between(left: Knot, touch: Contact, following: Contact) -> list[Knot]:
     gap = following.onset_s - left.at_s
     caught = _caught(left, touch.kind is StrokeKind.AIR)
     down = DESCENT * following.height_m * (1 - SLOW_FALL) / following.speed_m_s
-    up = max(0.06, 2.0 * max(following.height_m - caught.place, 0.0) / LIFT_M_S)
+    up = max(QUICK_LIFT_S, 2.0 * max(following.height_m - caught.place, 0.0) / LIFT_M_S)
     if gap < caught.at_s - left.at_s + up + down:
         return [_bounce(left, gap, following)]
     if touch.kind.is_caught and gap > caught.at_s - left.at_s + WAIT_S + up + down:
@@ -122,8 +124,10 @@ def _bounce(left: Knot, gap: float, following: Contact) -> Knot:
 def _late_rise(from_s: float, place: float, following: Contact) -> list[Knot]:
     """Wait, then rise in time for `following`."""
     down = DESCENT * following.height_m * (1 - SLOW_FALL) / following.speed_m_s
-    up = max(0.06, 2.0 * max(following.height_m - place, 0.0) / LIFT_M_S)
-    start = following.onset_s - down - TOP_S / 2 - up
+    latest = following.onset_s - down - TOP_S / 2
+    quick = max(QUICK_LIFT_S, 2.0 * max(following.height_m - place, 0.0) / LIFT_M_S)
+    up = max(quick, min(CALM_LIFT_S, latest - from_s))
+    start = latest - up
     waited = [Knot(start, place)] if start > from_s + 0.01 else []
     return waited + _top(max(start, from_s) + up, following)
 

@@ -8,10 +8,10 @@ import numpy as np
 from station.core.events import Hit
 from station.core.units import NS_PER_S
 from station.sync.phase.periodic_model import PeriodicModel
-from station.sync.phase.phase_tracker import ADAPTIVE, PhaseTrack, TrackerSettings
+from station.sync.phase.phase_tracker import PhaseTrack, TrackerSettings
+from station.sync.phase.recordings import track_recording
 from station.sync.signals.signal import Signal
 from station.sync.sonification.triggers import Trigger, triggered
-from station.sync.walking.trial import track_recording
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -24,9 +24,9 @@ class Sonified:
 
 
 def sonified(
-    model: PeriodicModel, signal: Signal, triggers: Sequence[Trigger], settings: TrackerSettings = ADAPTIVE
+    model: PeriodicModel, signal: Signal, triggers: Sequence[Trigger], settings: TrackerSettings | None = None
 ) -> Sonified:
-    """Track a whole recording and let its phase trigger sounds; raises `BadInput` where it lacks a channel."""
+    """Track a whole recording as `track_recording` does and let its phase trigger sounds; raises `BadInput`."""
     track = track_recording(model, signal, settings)
     at_ns = np.rint(signal.time_s * NS_PER_S).astype(np.int64)
     return Sonified(signal, track, tuple(triggered(triggers, at_ns, track.phase_rad, track.locked)))

@@ -50,16 +50,26 @@ def name_hands(hits: Sequence[Hit], strokes: Sequence[StickStroke]) -> tuple[Lim
     Hits and strokes in any order, in the same time base; strokes in the air and of sticks whose hand is unknown count
     for nothing.
     """
-    named = [hit.limb if hit.limb is not Limb.UNKNOWN else FOOT_OF.get(hit.piece, Limb.UNKNOWN) for hit in hits]
+    found = strokes_of_hits(hits, strokes)
+    return tuple(limb_of(hit, stroke) for hit, stroke in zip(hits, found, strict=True))
+
+
+def limb_of(hit: Hit, stroke: StickStroke | None) -> Limb:
+    """Who played a hit that `stroke` made, None where nobody can tell."""
+    if hit.limb is not Limb.UNKNOWN:
+        return hit.limb
+    return FOOT_OF.get(hit.piece, Limb.UNKNOWN) if stroke is None else stroke.limb
+
+
+def strokes_of_hits(hits: Sequence[Hit], strokes: Sequence[StickStroke]) -> tuple[StickStroke | None, ...]:
+    """The stroke that made each hit, None where nobody can tell; hits and strokes as `name_hands` takes them."""
     order = sorted((k for k, hit in enumerate(hits) if hit.piece in HAND_PIECES), key=lambda k: hits[k].at_ns)
     felt = sorted((s for s in strokes if not s.in_air and s.limb.is_hand), key=lambda s: s.at_ns)
-    if not order or not felt:
-        return tuple(named)
-    played = _Played([hits[k] for k in order], felt)
-    for k, limb in zip(order, played.limbs(), strict=True):
-        if named[k] is Limb.UNKNOWN:
-            named[k] = limb
-    return tuple(named)
+    made: list[StickStroke | None] = [None] * len(hits)
+    if order and felt:
+        for k, stroke in zip(order, _Played([hits[k] for k in order], felt).strokes(), strict=True):
+            made[k] = stroke
+    return tuple(made)
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,21 +91,21 @@ class _Played:
         self._devices = sorted({stroke.device for stroke in strokes})
         self._stick = [self._devices.index(stroke.device) for stroke in strokes]
 
-    def limbs(self) -> list[Limb]:
-        """The limb of each hit."""
+    def strokes(self) -> list[StickStroke | None]:
+        """The stroke that made each hit, None where no stick is likely enough."""
         weights = self._weighed(self._candidates())
-        sums: list[dict[Limb, float]] = [{} for _ in self._hits]
+        likeliest = max(weights, key=lambda one: one[0])[1]
+        sums: list[dict[int, float]] = [{} for _ in self._hits]
         for weight, found in weights:
             for hit, by_stick in found.by_stick.items():
                 for stick, share in by_stick.items():
-                    limb = self._limb(stick, found.stroke.get(hit))
-                    sums[hit][limb] = sums[hit].get(limb, 0.0) + weight * share
-        return [max(of, key=lambda limb: of[limb]) if of and max(of.values()) >= SURE else Limb.UNKNOWN for of in sums]
+                    sums[hit][stick] = sums[hit].get(stick, 0.0) + weight * share
+        return [self._sure_stroke(of, likeliest.stroke.get(hit)) for hit, of in enumerate(sums)]
 
-    def _limb(self, stick: int, stroke: int | None) -> Limb:
-        if stroke is not None and self._stick[stroke] == stick:
-            return self._strokes[stroke].limb
-        return next(s.limb for s, of in zip(self._strokes, self._stick, strict=True) if of == stick)
+    def _sure_stroke(self, of_stick: dict[int, float], likeliest: int | None) -> StickStroke | None:
+        if likeliest is None or of_stick.get(self._stick[likeliest], 0.0) < SURE:
+            return None
+        return self._strokes[likeliest]
 
     # --- offsets ------------------------------------------------------------------------------------------------------
 

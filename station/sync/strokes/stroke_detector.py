@@ -61,6 +61,7 @@ class _Instant(NamedTuple):
     speed: float
     height: float
     sine: float
+    roll: float
     is_clipped: bool
 
 
@@ -123,7 +124,7 @@ class StrokeDetector:
         before = kept[-1] if kept else None
         dt_s = 0.0 if before is None else at_s - before.at_s
         speed = self._tip(rows, motion, fall, dt_s)
-        now = _Instant(at_s, fall, speed, self._below, rows[2][0], motion.is_clipped)
+        now = _Instant(at_s, fall, speed, self._below, rows[2][0], math.atan2(left, up), motion.is_clipped)
         kept.append(now)
         while kept[0].at_s < at_s - max(KEPT_S, 4 * dt_s):
             kept.popleft()
@@ -220,6 +221,7 @@ class StrokeDetector:
             min(max(up / down, 0.0), 1.0) if down > 0 else None,
             math.asin(min(max(clean.sine - fall * left_s, -1.0), 1.0)),
             any(instant.is_clipped for instant in kept),
+            roll_rad=clean.roll,
         )
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import soundfile
 
-from station.cli.sync_sonify import COMMAND
+from station.cli.sync import COMMAND as SYNC
 from station.core.errors import BadInput
 from station.core.pieces import Piece
 from station.music.formats.smf.standard_midi import performance_from_midi, read_midi
@@ -34,7 +34,8 @@ def folder(tmp_path: Path) -> Path:
 
 
 def sonify(folder: Path, *words: str) -> int:
-    return COMMAND.main("station sync sonify", "", [str(folder / "walk.toml"), str(folder / "walk.csv"), *words])
+    model, signal = str(folder / "walk.toml"), str(folder / "walk.csv")
+    return SYNC.main("station sync", "", ["sonify", model, signal, *words])
 
 
 def test_a_midi_file_has_a_kick_and_a_snare_in_turn(folder: Path) -> None:

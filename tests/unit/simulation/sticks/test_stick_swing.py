@@ -171,6 +171,12 @@ def test_the_tip_strikes_what_it_is_meant_to() -> None:
         assert np.linalg.norm(tip[np.searchsorted(motion.time_s, at_s)] - place) < 0.05
 
 
+def test_a_hand_strikes_a_piece_at_its_usual_angle() -> None:
+    truth = play([StickStrokeSpec(3 + 0.2 * i, (R, L)[i % 2]) for i in range(80)], seed=3).truth
+    for hand in (R, L):
+        assert truth["angle_rad"][truth["limb"] == hand].std() < 0.03
+
+
 def test_the_stick_keeps_its_length() -> None:
     motion = _full_stroke().sticks[R].motion
     apart = np.linalg.norm(motion.point_m(LENGTH_M) - motion.fulcrum_m, axis=1)

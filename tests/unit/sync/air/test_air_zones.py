@@ -168,7 +168,7 @@ class TestLearning:
         assert [each.piece for each in learning.learnt().kit.zones] == [Piece.SNARE]
         learning.strike(Limb.LEFT_HAND, aim._replace(speed_m_s=5.0))
         learning.strike(Limb.LEFT_HAND, aim._replace(speed_m_s=5.0))
-        assert learning.now is None
+        assert learning.left == 0
         assert not learning.strike(Limb.LEFT_HAND, aim)
         assert learning.learnt().kit.normal_speed_m_s == pytest.approx(4.0)
 
