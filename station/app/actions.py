@@ -532,6 +532,8 @@ class FollowPhase:
 
 StickAction = LookForSticks | SetHand | LearnMounting | LearnAir | GiveUpSticks | PlayInAir | FollowPhase
 
+EquipmentAction = MappingAction | CalibrationAction | StickAction
+
 # --- files ------------------------------------------------------------------------------------------------------------
 
 
@@ -608,9 +610,7 @@ Action = (
     | PlayerAction
     | StyleAction
     | SettingsAction
-    | MappingAction
-    | CalibrationAction
-    | StickAction
+    | EquipmentAction
     | FileAction
     | PhaseAction
 )
