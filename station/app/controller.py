@@ -196,10 +196,8 @@ class Controller:
             self.phase.act(action)
         elif isinstance(action, do.Show):
             self._show(action)
-        elif isinstance(action, do.Notify):
-            self._toasts.notify(action.line)
         else:
-            assert_never(action)
+            self._toasts.notify(action.line)
 
     def _practise(self, action: do.PracticeAction) -> None:
         match action:
