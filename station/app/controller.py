@@ -192,10 +192,8 @@ class Controller:
             self.phase.act(action)
         elif isinstance(action, do.Show):
             self._show(action)
-        elif isinstance(action, do.Notify):
-            self._toasts.notify(action.line)
         else:
-            assert_never(action)
+            self._toasts.notify(action.line)
 
     def _set_up(self, action: do.EquipmentAction) -> None:
         if isinstance(action, do.MappingAction):
