@@ -42,13 +42,9 @@ def knot_between(first: Knot, second: Knot, share: float) -> Knot:
     """The knot at `share` 0 … 1 of the time from one knot to the next, on the path between them."""
     span = second.at_s - first.at_s
     weights = _weights(np.array([first, second]), np.array([span]))[0]
-    place, speed, push = (np.polynomial.polynomial.polyval(share, _derived(weights, n)) for n in range(3))
+    path = np.polynomial.Polynomial(weights)
+    place, speed, push = path(share), path.deriv()(share), path.deriv(2)(share)
     return Knot(first.at_s + share * span, float(place), float(speed) / span, float(push) / span**2)
-
-
-def _derived(weights: NDArray[np.float64], times: int) -> NDArray[np.float64]:
-    derived: NDArray[np.float64] = np.polynomial.polynomial.polyder(weights, times)
-    return derived
 
 
 def smooth_steps(times: Sequence[tuple[float, float, float]], at_s: NDArray[np.float64]) -> NDArray[np.float64]:
