@@ -64,10 +64,11 @@ def _stick(brush: imgui.ImDrawList, shape: StickShape, middle: Points, high: flo
 
 
 def _quad(brush: imgui.ImDrawList, corners: Points, middle: Points, high: float, ink: int) -> None:
-    brush.add_quad_filled(*_at(corners, middle, high), ink)
+    a, b, c, d = _at(corners, middle, high)
+    brush.add_quad_filled(a, b, c, d, ink)
 
 
-def _at(points: Points, middle: Points, high: float) -> list[imgui.ImVec2]:
+def _at(points: Points, middle: Points, high: float) -> "list[imgui.ImVec2Like]":
     return [imgui.ImVec2(float(x), float(y)) for x, y in middle + high * points]
 
 
