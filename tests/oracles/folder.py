@@ -14,6 +14,7 @@ KINDS = {
     "Hydrogen's kit": "charts/hydrogen/**/GMRockKit/drumkit.xml",
     "OpenGameArt's songs": "midi/opengameart/**/*.mid",
     "the Groove MIDI Dataset": "gmd/**/*.mid",
+    "air drums": "imu/airdrums/1_sensor?.txt",
     "CMU's walks": "mocap/amc/0[278]/*.amc",
 }
 """What is compared with, and the pattern of its files."""
