@@ -135,6 +135,9 @@ class Engine:
         for event in heard.sounding:
             self._player.sound(event)
         self._events += heard.certain
+        for event in heard.certain:
+            if isinstance(event, Hit):
+                self._sticks.struck(event)
         for sensed in heard.sensed:
             self._sense(sensed)
 

@@ -34,19 +34,16 @@ from station.core.events import (
 )
 from station.core.imu import ImuSample
 from station.core.pieces import Limb
-from station.core.units import NS_PER_MS, ns_from_s
+from station.core.units import ns_from_s
 from station.devices.mapping.stick_file import save_stick
 from station.devices.stick_ports import parse_sticks
 from station.engine.messages import Command, EngineEvent, ReloadDevice, SetAirDrums, WatchSensors
+from station.sync.air.air_drums import AIR_AHEAD_NS
 from station.sync.air.air_file import air_path, read_air, save_air
 from station.sync.air.air_zones import AirKit
 
 if TYPE_CHECKING:
     from station.app.equipment.air_learning import AirLearning
-
-AIR_AHEAD_NS = 20 * NS_PER_MS
-"""How long before its beat a stroke in the air may sound where it is foretold; our choice: about the latency of a sound
-card and a wireless sensor together."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,9 +112,8 @@ class SticksEditor:
         self._now_ns = 0
 
     def begin(self) -> None:
-        """Read the air kit and have the engine play it, if that is set; raises `StationError` where it cannot be."""
+        """Read the air kit, as the engine does; raises `StationError` where it cannot be."""
         self._kit = read_air(self._air_path)
-        self._play_air()
 
     def _play_air(self) -> None:
         if self._store.now.air_drums:

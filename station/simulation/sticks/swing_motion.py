@@ -174,7 +174,7 @@ def _targets(touches: Sequence[Contact], limb: Limb, time_s: Floats) -> tuple[Fl
     aims = []
     for touch in touches:
         at = CLICK_PLACE if touch.kind is StrokeKind.CLICK else place(touch.piece)
-        aims.append((*at, heading_rad(limb, at), touch.angle_rad, touch.struck_m - FULCRUM_M))
+        aims.append((*at, heading_rad(limb, at) + touch.aside_rad, touch.angle_rad, touch.struck_m - FULCRUM_M))
     if not aims:
         at = place(Piece.SNARE)
         aims = [(*at, heading_rad(limb, at), 0.05, REACH_M)]

@@ -32,11 +32,12 @@ SUDDEN_SHARE = 0.65
 a hand at 10 Hz takes 31 % in 5 ms and 63 % in 10 ms."""
 SLOWEST_FALL_RAD_S = 1.0
 """A slower fall is no stroke: 0.3 m/s at the tip, as after a free fall from 4 mm."""
-LEAST_FALL_RAD = 0.02
-"""A shorter fall is no stroke: 5 mm at the tip; our choice, a quarter of the lowest ghost stroke's height."""
-RAISED_S, LEAST_RAISE_RAD = 0.003, 0.01
-"""Armed again when raised by what the stick fell within the shortest contact (3 ms), at least by 3 mm at the tip: a
-stick that rebounds at 0.3 needs 10 ms for that, and a second bounce comes after 50 ms at the earliest (HUMANS.md)."""
+LEAST_RAD = 0.01
+"""A shorter fall is no stroke, a shorter rise arms nothing: 3 mm at the tip, as a free bounce of 50 ms rises (g t²/8),
+the shortest of a double stroke (HUMANS.md)."""
+RAISED_S = 0.003
+"""Armed again when raised by what the stick fell within the shortest contact (3 ms): one that rebounds at 0.3 needs
+10 ms for that."""
 SUNK_RAD = 0.04
 """Or when it has sunk by 1 cm at the tip since the contact: a head does not give way so far (8 mm at 5 m/s, HUMANS.md),
 so the stick was in the air; the hand went down as the tip bounced."""
@@ -83,7 +84,8 @@ class StrokeDetector:
         self._fastest = 0.0  # of this fall
         self._top = self._low = self._high = 0.0
         self._raise = 0.0
-        self._due_s: float | None = None
+        self._due_s: float | None = None  # when a contact that was noticed is told, and from when on it may have been
+        self._since_s = 0.0
 
     def feed(self, sample: ImuSample) -> list[StickStroke]:
         """The strokes that are certain with `sample`: about 15 ms after their contact."""
@@ -103,8 +105,9 @@ class StrokeDetector:
             if self._is_armed and self._is_contact(now):
                 self._doubt = CONTACT_M_S
                 self._is_armed, self._due_s = False, now.at_s + self._after_s()
+                self._since_s = self._earlier(now).at_s
                 self._low = self._high = now.sine
-                self._raise = max(LEAST_RAISE_RAD, self._fastest * RAISED_S)
+                self._raise = max(LEAST_RAD, self._fastest * RAISED_S)
             return None
         if now.at_s < self._due_s:
             return None
@@ -126,7 +129,7 @@ class StrokeDetector:
         speed = self._tip(rows, motion, fall, dt_s)
         now = _Instant(at_s, fall, speed, self._below, rows[2][0], math.atan2(left, up), motion.is_clipped)
         kept.append(now)
-        while kept[0].at_s < at_s - max(KEPT_S, 4 * dt_s):
+        while self._due_s is None and kept[0].at_s < at_s - max(KEPT_S, 4 * dt_s):
             kept.popleft()
         return now if before is not None else None
 
@@ -175,7 +178,7 @@ class StrokeDetector:
             self._fastest = max(self._fastest, now.fall)
 
     def _is_contact(self, now: _Instant) -> bool:
-        if self._fastest < SLOWEST_FALL_RAD_S or self._top - min(i.sine for i in self._kept) < LEAST_FALL_RAD:
+        if self._fastest < SLOWEST_FALL_RAD_S or self._top - min(i.sine for i in self._kept) < LEAST_RAD:
             return False
         return self._earlier(now).fall - now.fall >= SUDDEN_SHARE * self._fastest
 
@@ -202,7 +205,8 @@ class StrokeDetector:
         interval_s = min(b.at_s - a.at_s for a, b in pairs)
         times = [(a.at_s + b.at_s) / 2 for a, b in pairs]
         pulse = [max(0.0, (a.fall - b.fall) / (b.at_s - a.at_s)) for a, b in pairs]
-        contact = contact_of(times, pulse, interval_s, pulse.index(max(pulse)))
+        peak = max((k for k, at_s in enumerate(times) if at_s >= self._since_s), key=lambda k: pulse[k])
+        contact = contact_of(times, pulse, interval_s, peak)
         onset_s = contact.onset_s - (interval_s / 2 if is_derived else 0.0)
         foot = max(contact.first, 1)
         clean = kept[foot] if kept[foot].fall > kept[foot - 1].fall else kept[foot - 1]  # the foot's own may be smeared

@@ -288,9 +288,9 @@ def test_the_air_kit_is_played_where_it_is_set_and_asked_for(tmp_path: Path) -> 
     assert load_settings(tmp_path / "settings.toml").air_drums
     again = Page(tmp_path, air_drums=True)
     again.editor.begin()
-    assert again.sent == [asked]
+    assert again.sent == [], "the engine begins with what is set"
     again.editor.act(PlayInAir(on=False))
-    assert again.sent[1:] == [SetAirDrums(None)]
+    assert again.sent == [SetAirDrums(None)]
 
 
 def test_a_stick_whose_hand_nobody_knows_learns_no_zones(page: Page) -> None:

@@ -177,6 +177,15 @@ def test_a_hand_strikes_a_piece_at_its_usual_angle() -> None:
         assert truth["angle_rad"][truth["limb"] == hand].std() < 0.03
 
 
+def test_strokes_in_the_air_scatter_about_their_place() -> None:
+    strokes = [StickStrokeSpec(3 + 0.4 * i, R, kind=StrokeKind.AIR) for i in range(60)]
+    played = play(strokes, seed=4)
+    motion = played.sticks[R].motion
+    at = np.searchsorted(motion.time_s, played.truth["at_s"])
+    assert 3 < np.degrees(motion.heading_rad[at].std()) < 9
+    assert 4 < np.degrees(motion.elevation_rad[at].std()) < 12
+
+
 def test_the_stick_keeps_its_length() -> None:
     motion = _full_stroke().sticks[R].motion
     apart = np.linalg.norm(motion.point_m(LENGTH_M) - motion.fulcrum_m, axis=1)
