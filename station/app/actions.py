@@ -531,6 +531,7 @@ class FollowPhase:
 
 
 StickAction = LookForSticks | SetHand | LearnMounting | LearnAir | GiveUpSticks | PlayInAir | FollowPhase
+EquipmentAction = MappingAction | CalibrationAction | StickAction
 
 EquipmentAction = MappingAction | CalibrationAction | StickAction
 
