@@ -533,8 +533,6 @@ class FollowPhase:
 StickAction = LookForSticks | SetHand | LearnMounting | LearnAir | GiveUpSticks | PlayInAir | FollowPhase
 EquipmentAction = MappingAction | CalibrationAction | StickAction
 
-EquipmentAction = MappingAction | CalibrationAction | StickAction
-
 # --- files ------------------------------------------------------------------------------------------------------------
 
 
