@@ -531,6 +531,7 @@ class FollowPhase:
 
 
 StickAction = LookForSticks | SetHand | LearnMounting | LearnAir | GiveUpSticks | PlayInAir | FollowPhase
+EquipmentAction = MappingAction | CalibrationAction | StickAction
 
 # --- files ------------------------------------------------------------------------------------------------------------
 
@@ -608,9 +609,7 @@ Action = (
     | PlayerAction
     | StyleAction
     | SettingsAction
-    | MappingAction
-    | CalibrationAction
-    | StickAction
+    | EquipmentAction
     | FileAction
     | PhaseAction
 )

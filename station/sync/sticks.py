@@ -61,8 +61,9 @@ class Sticks:
             self._mount_in_air(device, detector.mounting)
 
     def struck(self, hit: Hit) -> None:
-        """Take a stroke on a pad: the air kit learns from it where the stick that made it points."""
+        """Take a stroke on a pad: the air kit leaves its piece to it, and learns where that stick points."""
         if self._air is not None and hit.device != AIR_DEVICE:
+            self._air.pad(hit)
             self._pads.append(hit)
 
     def _aim(self, air: AirDrums, stroke: StickStroke) -> None:
@@ -74,7 +75,10 @@ class Sticks:
 
     def handle(self, event: SensorEvent) -> list[StickEvent | Hit]:
         """What `event` tells of the sticks; a sensor that nobody announced is mounted as sensors mostly are."""
-        phases: list[StickEvent | Hit] = [] if self._drill is None else [*self._drill.handle(event)]
+        phases = [] if self._drill is None else [*self._drill.handle(event)]
+        if self._air is not None:
+            for phase in phases:
+                self._air.phase(phase)
         return [*self._felt(event), *phases]
 
     def _felt(self, event: SensorEvent) -> list[StickEvent | Hit]:
@@ -121,5 +125,7 @@ class Sticks:
             told += self._air.moved(device, motion)
         if motion.at_ns >= self._next_pose_ns.get(device, motion.at_ns):
             self._next_pose_ns[device] = motion.at_ns + POSE_EVERY_NS
-            told.append(StickPose(motion.at_ns, device, detector.mounting.limb, motion.turn, motion.resting))
+            air = None if self._air is None else self._air.status(device)
+            doubt_rad = None if air is None else air.doubt_rad
+            told.append(StickPose(motion.at_ns, device, detector.mounting.limb, motion.turn, motion.resting, doubt_rad))
         return told

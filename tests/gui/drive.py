@@ -297,8 +297,12 @@ def just_play(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.yield_(3)
     drive.seen["after"] = drive.room.stage.name
     ctx.item_click(LISTEN_LABEL)
-    ctx.yield_(8)
+    ctx.yield_(2)
     drive.seen["listening"] = drive.room.listening
+    for _ in range(MOST_FRAMES):
+        if drive.picture.strikes or not drive.room.listening:
+            break
+        ctx.yield_()
     drive.seen["lit"] = [strike.piece.name for strike in drive.picture.strikes]
     for _ in range(MOST_FRAMES):
         if not drive.room.listening:

@@ -101,8 +101,9 @@ class DirectEngine:
         for sample in samples:
             t_s, back_ns = 1.0 + sample.at_ns / NS_PER_S, samples[-1].at_ns - sample.at_ns
             assert sample.rate_rad_s is not None
-            g = tuple(each / STANDARD_GRAVITY_M_S2 for each in sample.acceleration_m_s2)
-            said = x_imu3(Measured(t_s, g, tuple(map(degrees, sample.rate_rad_s))))
+            x, y, z = (each / STANDARD_GRAVITY_M_S2 for each in sample.acceleration_m_s2)
+            p, q, r = map(degrees, sample.rate_rad_s)
+            said = x_imu3(Measured(t_s, (x, y, z), (p, q, r)))
             self._engine.feed(device, said, self._clock.now_ns() - back_ns)
 
     @property

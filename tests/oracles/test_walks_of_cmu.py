@@ -37,7 +37,7 @@ def test_both_editions_put_the_legs_in_one_place(trial: str) -> None:
     assert np.abs(ours - theirs).max() < 1e-4
 
 
-@pytest.mark.parametrize("path", oracles("CMU's walks"))
+@pytest.mark.parametrize("path", oracles("the CMU motions"))
 def test_a_body_walks_upright_on_the_floor(path: Path) -> None:
     """Heels within 8 cm of the floor (a marker's shift, a sole) whenever they are lowest; the head a stature above."""
     trial = Trial.read(path)

@@ -22,6 +22,9 @@ HARD_CONTACT_S = 0.0012
 HEAD_REBOUND, HARD_REBOUND = (0.35, 0.60), (0.20, 0.40)
 """Speed after over before: 0.51 was measured on a head (Pearl 2023); a cymbal yields and takes more (our choice)."""
 AIR_REBOUND = (0.05, 0.25)
+AIR_SCATTER_RAD = (0.09, 0.12)
+"""In the air nothing is there to aim at: strokes meant for one place scatter by 5° to the sides and 7° up and down
+(one deviation; our choice, somewhat under what half a minute of playing spreads over in `data/imu/airdrums`)."""
 AIR_STOP_S = (0.045, 0.075)
 """How a hand stops a stick in the air; our choice: slower than any head, as fast as forearm muscles reverse."""
 
@@ -38,7 +41,10 @@ and strays from it by half a degree (our choice)."""
 
 @dataclass(frozen=True, slots=True)
 class Contact:
-    """One touch. `spec` its row in the specification, `bounce` 0 for the stroke itself, 1 … for a buzz's bounces."""
+    """One touch. `spec` its row in the specification, `bounce` 0 for the stroke itself, 1 … for a buzz's bounces.
+
+    `angle_rad` the stick's elevation at its beginning, `aside_rad` how far to the left of its aim it points.
+    """
 
     spec: int
     bounce: int
@@ -53,6 +59,7 @@ class Contact:
     height_m: float
     struck_m: float
     angle_rad: float
+    aside_rad: float = 0.0
 
     @property
     def end_s(self) -> float:
@@ -115,7 +122,8 @@ def _first_touch(row: int, stroke: StickStrokeSpec, angle_rad: float, rng: np.ra
         rebound=drawn if stroke.rebound is None else stroke.rebound,
         height_m=height_for(stroke.speed_m_s) if stroke.height_m is None else stroke.height_m,
         struck_m=SHOULDER_M if stroke.shoulder else LENGTH_M,
-        angle_rad=angle_rad,
+        angle_rad=angle_rad + in_air * rng.normal(0, AIR_SCATTER_RAD[1]),
+        aside_rad=in_air * rng.normal(0, AIR_SCATTER_RAD[0]),
     )
 
 

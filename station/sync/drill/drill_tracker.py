@@ -18,6 +18,7 @@ from station.core.units import NS_PER_S
 from station.sync.drill.drill_model import CENTRES_A_STROKE, DrillModel
 from station.sync.drill.phase_paths import PhasePaths
 from station.sync.drill.stick_grid import STEP_NS, StickGrid, StickStep
+from station.sync.drill.taken_motion import TakenMotion
 
 Array = NDArray[np.float64]
 
@@ -93,7 +94,7 @@ class _Trust:
         self._cadence, self._square, self._power, self._lead = (_Mean(RESTS_S) for _ in range(4))
 
     def step(self, scaled: Array, model: Array, lead: float, per_s: float) -> float:
-        """The confidence 0 … 1 after one more sample, `scaled` (12,), and the `model` (12,) at its phase; 0 for none."""
+        """The confidence 0 … 1 after one more sample, `scaled` (12,), with the `model` (12,) at its phase."""
         energy, cadence = float(scaled @ scaled), log(per_s)
         self._like.add(float(model @ scaled))
         self._ours.add(float(model @ model))
@@ -118,6 +119,8 @@ class DrillTracker:
         self._paths = PhasePaths(model.table(), _STEP_S)
         self._lock = _Lock(CENTRES_A_STROKE / 2 / model.centre_count)
         self._trust = _Trust()
+        self.taken = TakenMotion(model)
+        """How the student's own sticks moved while it was locked."""
         self._locked = False
 
     def handle(self, event: SensorEvent) -> list[PhaseEstimate]:
@@ -138,6 +141,8 @@ class DrillTracker:
         model = np.where(step.present, self._paths.model_at(self._lock.turn, end.speed), 0.0)
         confidence = self._trust.step(values, model, end.lead, self._lock.per_s)
         self._locked = near and confidence > (LETS_GO if self._locked else LOCKS)
+        if self._locked:
+            self.taken.add(self._lock.turn, step.values, step.present)
         return PhaseEstimate(
             at_ns=step.at_ns,
             phase_rad=pi - (pi - 2 * pi * self._lock.turn) % (2 * pi),

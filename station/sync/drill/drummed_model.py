@@ -24,7 +24,7 @@ from station.motion.kinematics.figure import Figure
 from station.motion.kit.kit import Kit
 from station.motion.style.style import Style
 from station.music.score import Score
-from station.sync.drill.drill_model import CENTRES_A_STROKE, CHANNELS, HANDS, DrillModel
+from station.sync.drill.drill_model import CENTRES_A_STROKE, HANDS, DrillModel, channel_names
 from station.sync.drill.loop_repeats import repeats
 from station.sync.drill.stick_grid import levelled
 from station.sync.drill.stick_signals import stick_signals
@@ -140,7 +140,7 @@ def low_passed(values: Array, sd: float) -> Array:
 def _fitted(loop: Array, parts: int, count: int, loop_s: float) -> PeriodicModel:
     """The model of one tempo, of its repeats' mean; two samples a centre, for the low-pass left no more."""
     turn = np.arange(2 * count) / (2 * count)
-    return fitted(_names(), [Exemplar(_repeat(loop, parts, turn), TURN * turn, loop_s / parts)], count)
+    return fitted(channel_names(), [Exemplar(_repeat(loop, parts, turn), TURN * turn, loop_s / parts)], count)
 
 
 def _repeat(loop: Array, parts: int, turn: Array) -> Array:
@@ -148,7 +148,3 @@ def _repeat(loop: Array, parts: int, turn: Array) -> Array:
     at = (turn[:, None] + np.arange(parts)) / parts
     grid = np.arange(len(loop)) / len(loop)
     return np.stack([np.interp(at, grid, column, period=1.0).mean(axis=1) for column in loop.T], axis=1)
-
-
-def _names() -> list[str]:
-    return [f"{side}_{name}" for side in ("right", "left") for name in CHANNELS]

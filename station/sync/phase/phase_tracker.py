@@ -27,7 +27,7 @@ from station.sync.phase.confidence import Confidence, confidences, locks, weight
 from station.sync.phase.lanes import Lanes
 from station.sync.phase.objective import Objective
 from station.sync.phase.periodic_model import TURN, PeriodicModel
-from station.sync.phase.templates import Past, Templates, templates, with_past
+from station.sync.phase.templates import Past, Seen, Templates, templates
 from station.sync.signals.running_mean import running_means
 from station.sync.signals.signal import FloatArray
 
@@ -172,16 +172,20 @@ class PhaseTracker:
 
 def tracked(model: PeriodicModel, values: FloatArray, settings: TrackerSettings = PAPER) -> PhaseTrack:
     """The phase at every sample of `values` (n, c), which are in the model's channels and their own units."""
-    if not len(values):
-        nothing = np.zeros(0)
-        return PhaseTrack(nothing, nothing, nothing, nothing, np.zeros(0, np.bool_))
     parts = _Parts(model, settings)
-    seen = with_past(model.zero_mean(values), settings.lags)
-    way = Lanes(parts.objective, parts.templates, parts.cadence).way(seen, parts.start(seen[0]), parts.usual)
-    paces = np.concatenate([[parts.usual], way.pace[:-1]])
-    tables = parts.templates.tables(paces * parts.step_rad)
-    expected = parts.templates.energy[tables, way.centre.astype(np.int64)]
-    asked = np.array([way.likeness, way.speed / parts.usual, way.energy, expected])
+    lanes = Lanes(parts.objective, parts.templates, parts.cadence)
+    if len(values) >= lanes.worth:
+        return _in_lanes(parts, lanes, Seen(model, values, settings.lags))
+    tracker = PhaseTracker(model, settings)
+    steps = np.array([tracker.step(sample) for sample in values], dtype=np.float64).reshape(-1, len(PhaseStep._fields))
+    phase_rad, quality, confidence, cadence_rad, locked = steps.T
+    return PhaseTrack(phase_rad, quality, confidence, cadence_rad, locked > 0)
+
+
+def _in_lanes(parts: _Parts, lanes: Lanes, seen: Seen) -> PhaseTrack:
+    start = parts.start(seen.at(np.zeros(1, np.int64))[0])
+    way = lanes.way(seen, start, parts.usual)
+    asked = np.array([way.likeness, way.speed / parts.usual, way.energy, way.expected])
     confidence = confidences(running_means(asked, parts.newest))
     phase_rad = pi - np.mod((parts.objective.count - 1 - way.place) * parts.step_rad, TURN)
     return PhaseTrack(phase_rad, way.quality, confidence, way.pace * parts.step_rad, locks(confidence))

@@ -3,6 +3,7 @@
 import json
 from pathlib import Path
 
+import mido
 import numpy as np
 import pytest
 import soundfile
@@ -49,6 +50,16 @@ def test_a_midi_file_has_a_kick_and_a_snare_in_turn(folder: Path) -> None:
     assert gaps_s == pytest.approx(PERIOD_S / 2, abs=0.06)
 
 
+def test_a_channel_moves_a_controller_while_locked(folder: Path) -> None:
+    """The knee bends and stretches once a cycle: its controller goes from end to end."""
+    assert sonify(folder, "--out", str(folder / "knee.mid"), "--level", "rtibia_rx=74") == 0
+    (track,) = mido.MidiFile(folder / "knee.mid").tracks
+    values = [message.value for message in track if message.type == "control_change" and message.control == 74]
+    assert min(values) == 0
+    assert max(values) == 127
+    assert len(values) > 200
+
+
 def test_a_sound_file_lasts_as_long_as_the_motion_and_what_rings(folder: Path) -> None:
     assert sonify(folder, "--out", str(folder / "walk.wav"), "--sounds", "electronic") == 0
     sound, rate_hz = soundfile.read(folder / "walk.wav")
@@ -70,6 +81,7 @@ def test_own_triggers_instead_of_a_preset(folder: Path, capsys: pytest.CaptureFi
     [
         (("--out", "a.txt"), "expected a name that ends in .mid, .wav, .mp4 or .png"),
         (("--out", "a.png"), "holds no skeleton"),
+        (("--out", "a.wav", "--level", "rtibia_rx=74"), "--level: expected with a file that ends in .mid"),
         (("--out", "a.mid", "--preset", "walk", "--trigger", "0=kick"), "not both"),
         (("--out", "a.mid", "--trigger", "2=kick"), "--trigger: 2=kick"),
         (("--out", "a.mid", "--preset", "skip"), "no such choice"),
