@@ -223,7 +223,7 @@ _RATE_HZ = 48_000
 def _excerpt(row: Row, sounds: Sounds, pictures: int, quality: int, sink: VideoSink) -> None:
     drummer = drummer_of(row)
     start_s = float(drummer.score.onset_s[len(drummer.score) // 3])
-    soundtrack = Soundtrack(drummer.score, start_s, sounds)
+    soundtrack = Soundtrack.of_score(drummer.score, start_s, sounds)
     shot = Shot(FILM_SIZE, QUALITIES[quality], _camera(row))
     with artist(shot, pictures) as drawer:
         snapshots = _snapshots(row, drummer, start_s, pictures)

@@ -1,8 +1,8 @@
 """Everything that can be asked of the controller, by mouse, keys or kit: a closed set of plain values.
 
 `Controller.dispatch` takes them all. The parts that own what is changed take theirs: `PlayerAction` the demonstration's
-player, `MappingAction` the editor of kits, `CalibrationAction` the measuring of latency, `StyleAction` the editor of
-the demonstrator's style. Bars and slots count from 0 where nothing else is said.
+player, `MappingAction` the editor of kits, `StickAction` that of sticks, `CalibrationAction` the measuring of latency,
+`StyleAction` the editor of the demonstrator's style. Bars and slots count from 0 where nothing else is said.
 """
 
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ from station.app.style.style_options import StyleOptions
 from station.app.view_settings import ViewSettings
 from station.core.events import Hit
 from station.core.note_map import NoteMeaning
-from station.core.pieces import Piece
+from station.core.pieces import Limb, Piece
 from station.devices.mapping.device_map import Sent
 from station.devices.mapping.suspect_hits import Suspicion
 from station.devices.mapping.velocity_curve import VelocityCurve
@@ -44,8 +44,10 @@ class Show:
     picture: bool = True
     catalog: bool = False
     devices: bool = False
+    sticks: bool = False
     practice: bool = False
     curves: bool = False
+    phase: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -481,6 +483,57 @@ class ForgetMeasured:
 
 CalibrationAction = Measure | CancelMeasuring | KeepMeasured | ForgetMeasured
 
+# --- sticks -----------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class LookForSticks:
+    """Listen to the sensors at these ports from now on (`devices.stick_ports`); the engine starts anew."""
+
+    ports: str
+
+
+@dataclass(frozen=True, slots=True)
+class SetHand:
+    """The stick of the sensor `device` is in this hand."""
+
+    device: str
+    limb: Limb
+
+
+@dataclass(frozen=True, slots=True)
+class LearnMounting:
+    """The gesture begins that shows how each sensor sits on its stick, and in which hand."""
+
+
+@dataclass(frozen=True, slots=True)
+class LearnAir:
+    """The next strokes in the air say where each piece of the air kit is."""
+
+
+@dataclass(frozen=True, slots=True)
+class GiveUpSticks:
+    """Learn no longer of the sticks."""
+
+
+@dataclass(frozen=True, slots=True)
+class PlayInAir:
+    """Let strokes in the air be hits of the air kit, or no longer."""
+
+    on: bool
+
+
+@dataclass(frozen=True, slots=True)
+class FollowPhase:
+    """Let the drummer follow the student's phase, or the clock."""
+
+    on: bool
+
+
+StickAction = LookForSticks | SetHand | LearnMounting | LearnAir | GiveUpSticks | PlayInAir | FollowPhase
+
+EquipmentAction = MappingAction | CalibrationAction | StickAction
+
 # --- files ------------------------------------------------------------------------------------------------------------
 
 
@@ -515,6 +568,40 @@ class CancelFilm:
 
 FileAction = Export | FilmTake | CancelFilm
 
+# --- a motion and its phase -------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class OpenMotion:
+    """Track the motion by a model: a file of `station sync fit`, or a motion whose first cycle makes one."""
+
+    model: Path
+    motion: Path
+
+
+@dataclass(frozen=True, slots=True)
+class ChooseTriggers:
+    """Let the phase trigger the sounds of this preset."""
+
+    preset: str
+
+
+@dataclass(frozen=True, slots=True)
+class PlayMotion:
+    """Let the motion go on, and sound, or stand."""
+
+    on: bool
+
+
+@dataclass(frozen=True, slots=True)
+class SeekMotion:
+    """Go to a time of the motion."""
+
+    to_s: float
+
+
+PhaseAction = OpenMotion | ChooseTriggers | PlayMotion | SeekMotion
+
 Action = (
     Show
     | Notify
@@ -523,7 +610,7 @@ Action = (
     | PlayerAction
     | StyleAction
     | SettingsAction
-    | MappingAction
-    | CalibrationAction
+    | EquipmentAction
     | FileAction
+    | PhaseAction
 )

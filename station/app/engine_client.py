@@ -10,7 +10,7 @@ from typing import Protocol
 
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound, DeviceLost, Hit
-from station.engine.messages import Command, EngineEvent, Ready, SetLevel, Sounding, WatchRawBytes
+from station.engine.messages import Command, EngineEvent, Ready, SetAirDrums, SetLevel, Sounding, Watch
 from station.practice.headless.live import EngineLink
 
 
@@ -79,7 +79,7 @@ class EngineClient:
 
     def forward(self, command: Command) -> None:
         """Send a command; what later engines need too stands. Raises `DeviceError` as `send`."""
-        self.stand(command) if isinstance(command, WatchRawBytes) else self.send(command)
+        self.stand(command) if isinstance(command, Watch | SetAirDrums) else self.send(command)
 
     def send(self, command: Command) -> None:
         """Hand the engine a command; raises `DeviceError` where it has ended."""

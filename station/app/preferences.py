@@ -11,7 +11,12 @@ from station.core.settings import Settings
 from station.engine.messages import EngineEvent
 from station.practice.control.pause_learning import PauseLearning
 
-_SWITCHES = {"cc": "controller", "program": "program"}
+_SWITCHES = {
+    "cc": "foot switch, controller",
+    "program": "foot switch, program",
+    "key": "foot switch, key",
+    "button": "game kit, button",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +61,7 @@ def pause_in_words(word: str) -> str:
     """A word of `pause` for people: "crash and ride at once", "foot switch, controller 64"."""
     kind, _, number = word.partition("=")
     if kind in _SWITCHES:
-        return f"foot switch, {_SWITCHES[kind]} {number}"
+        return f"{_SWITCHES[kind]} {number}"
     return f"{' and '.join(name_of(piece) for piece in word.split('+'))} at once"
 
 

@@ -5,7 +5,8 @@ that would make a rule of it; typed in, they hold at once, and `save` keeps them
 """
 
 from station.cli.console import write
-from station.cli.input.device_listening import ListenOptions, TypedLines, event_line, listening, polls
+from station.cli.devices_monitor_sticks import monitor_sticks
+from station.cli.input.device_listening import HearOptions, TypedLines, event_line, listening, polls
 from station.core.clock import monotonic_ns
 from station.core.errors import StationError
 from station.core.events import DeviceEvent, Hit
@@ -18,8 +19,10 @@ from station.devices.monitor import DeviceMonitor, MonitorLine, rule_against, su
 from station.devices.port_watch import PortPoll
 
 
-def monitor(options: ListenOptions) -> int:
-    """Show what the kits send until Ctrl-C."""
+def monitor(options: HearOptions) -> int:
+    """Show what the kits send until Ctrl-C, or, where they are named, how the motion sensors do."""
+    if options.sticks:
+        return monitor_sticks(options)
     page, typed = MonitorPage(monotonic_ns()), TypedLines()
     with listening(options) as kits:
         for findings in polls(kits, options.seconds):

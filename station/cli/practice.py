@@ -13,7 +13,7 @@ from station.cli.console import print_json, say, write
 from station.cli.input.read_scores import bars_of_gap
 from station.cli.input.self_estimate_question import ask_first
 from station.cli.input.tapping import TAP, tapped_tempo
-from station.cli.options.device_option import devices_option, wanted_kits
+from station.cli.options.device_option import devices_option, sticks_option, wanted_kits, wanted_sticks
 from station.cli.options.option_fields import (
     Command,
     choice,
@@ -85,6 +85,7 @@ class PracticeOptions:
     gap: Gap | None = option("ON/OFF", "bars with a click and bars without, in turn", bars_of_gap, None, rivals="click")
     no_click: bool = flag("no click after the count-in: the score follows you, and waits", rivals="click")
     device: tuple[str, ...] = devices_option()
+    sticks: tuple[str, ...] = sticks_option()
     virtual_student: str | None = option("SPEC", "who plays instead of a person, such as pro,seed=3", str, None)
     headless: bool = flag("no window; a virtual student plays faster than real time")
     no_demonstration: bool = flag("count in and play at once")
@@ -290,6 +291,7 @@ def _wanted(options: PracticeOptions) -> SettingsStore:
             raise kept.fault
         say(f"{kept.fault}; the defaults hold for what is wrong")
     said = {**options.sound.settings(), "kit": wanted_kits(options.device, kept.now.kit)}
+    said["sticks"] = wanted_sticks(options.sticks, kept.now.sticks)
     if options.student is not None:
         said["student"] = options.student
     store = SettingsStore(said=said, source="practice")

@@ -22,6 +22,7 @@ from station.cli.options.option_fields import (
     unread,
     whole_number,
 )
+from station.cli.sync_sonify import COMMAND as SONIFY
 from station.core.errors import BadInput
 
 if TYPE_CHECKING:
@@ -198,25 +199,25 @@ def _track(options: TrackOptions) -> int:
 def _settings(options: TrackOptions, model: PeriodicModel, signal: Signal) -> TrackerSettings:
     """The settings that were said; the model's own period tells the cadence where nothing else does."""
     from station.sync.phase.phase_tracker import ADAPTIVE, PAPER
+    from station.sync.phase.recordings import own_cadence
 
     settings = PAPER if options.paper else ADAPTIVE
     cadence = options.cadence
-    if cadence is None and not options.paper and model.period_s is not None:
-        cadence = 2 * pi / (model.period_s * signal.rate_hz)
-        if not cadence < pi:
-            raise BadInput(signal.name, "", f"has fewer than 2 samples in the model's period of {model.period_s:g} s")
+    if cadence is None and not options.paper:
+        cadence = own_cadence(model, signal)
     said = {"cadence_rad": cadence, "smoothing": options.smoothing, "feedback": options.feedback}
     return replace(settings, lags=options.ages, **{name: value for name, value in said.items() if value is not None})
 
 
-def _in_units_of(model: PeriodicModel, signal: Signal, zero_mean: str) -> FloatArray:
+def _in_units_of(model: PeriodicModel, signal: Signal, taken: str) -> FloatArray:
     """The signal about the model's own mean."""
-    if zero_mean == _MODEL or not len(signal):
+    from station.sync.phase.recordings import zero_mean
+
+    if taken == _MODEL:
         return signal.values
-    if zero_mean == _HIGH_PASS:
+    if taken == _HIGH_PASS and len(signal):
         return _high_passed(signal) + model.mean
-    own: FloatArray = signal.values - signal.values.mean(axis=0) + model.mean
-    return own
+    return zero_mean(model, signal).values
 
 
 def _document(options: TrackOptions, settings: TrackerSettings, signal: Signal, track: PhaseTrack) -> dict[str, object]:
@@ -249,5 +250,6 @@ COMMAND = Verbs(
     (
         ("fit", "fit a periodic model to one or more motions", Command(FitOptions, _fit)),
         ("track", "tell the phase of a signal against a model, sample by sample", Command(TrackOptions, _track)),
+        ("sonify", "let a motion's phase trigger drums: as sound, MIDI, a film or a picture", SONIFY),
     )
 )

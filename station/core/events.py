@@ -56,7 +56,8 @@ class PedalMoved:
 class Switched:
     """A switch that plays nothing is pressed, and reported again while it moves.
 
-    `switch` is `cc=64` for a controller, `program=5` for a program.
+    `switch` is `cc=64` for a controller, `program=5` for a program, `key=5` for a key of a keyboard and `button=10` for
+    a button of a game kit, both by their numbers in the HID usage tables.
     """
 
     at_ns: int
@@ -88,11 +89,19 @@ DeviceEvent = Hit | Choke | PedalMoved | Switched | DeviceLost | DeviceFound
 
 @dataclass(frozen=True, slots=True)
 class SensorMounted:
-    """The sensor `device` is mounted so from now on; its sample clock and its orientation start afresh."""
+    """The sensor `device` is here, and mounted so from now on; its sample clock and its orientation start afresh."""
 
     at_ns: int
     device: str
     mounting: Mounting
+
+
+@dataclass(frozen=True, slots=True)
+class SensorLost:
+    """The sensor `device` vanished; no kit is lost with it."""
+
+    at_ns: int
+    device: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,7 +117,8 @@ class SensorSamples:
 class SensorStatus:
     """How a sensor does, about once a second: what it sends and what was lost since it was found.
 
-    `battery` 0 … 1 and `temperature_c` are None where it tells none.
+    `battery` 0 … 1 and `temperature_c` are None where it tells none; `note` is what it said last of itself, such as an
+    error. An empty `protocol` means that nothing readable comes.
     """
 
     at_ns: int
@@ -120,10 +130,11 @@ class SensorStatus:
     bad_bytes: int = 0
     battery: float | None = None
     temperature_c: float | None = None
+    note: str = ""
 
 
-SensorEvent = SensorMounted | SensorSamples | SensorStatus
-"""What decoders make of a sensor's bytes; samples stay in the engine."""
+SensorEvent = SensorMounted | SensorLost | SensorSamples | SensorStatus
+"""What decoders make of a sensor and its bytes; samples stay in the engine unless somebody watches them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,8 +143,8 @@ class StickStroke:
 
     `speed_m_s` of the tip just before; `height_m` how far above the point of impact the tip had been raised; `rebound`
     its speed just after over that before, 0 … 1; `angle_rad` of the stick above (+) or below (−) the horizontal at
-    impact. None where the sensor could not tell. `clipped` says that the sensor was at its limit: the speed is a lower
-    bound.
+    impact; `roll_rad` how far the stick is turned about its own axis from how it was mounted. None where the sensor
+    could not tell. `clipped` says that the sensor was at its limit: the speed is a lower bound.
     """
 
     at_ns: int
@@ -145,6 +156,7 @@ class StickStroke:
     angle_rad: float | None = None
     clipped: bool = False
     in_air: bool = False
+    roll_rad: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -178,5 +190,5 @@ class PhaseEstimate:
     locked: bool
 
 
-StickEvent = StickStroke | StickPose | SensorStatus | PhaseEstimate
+StickEvent = SensorMounted | SensorLost | SensorStatus | StickStroke | StickPose | PhaseEstimate
 """What is told of sensors beyond the engine."""

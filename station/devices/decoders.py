@@ -1,13 +1,17 @@
-"""All the kits that are heard, each with its own decoder and filter, by its name: for live bytes and captures.
+"""All the kits and sensors that are heard, each with its own decoder, by its name: for live bytes and captures.
 
 What is a stroke is judged by what the pads sent; what comes out has the velocities as they count (`velocity_curve`).
+What sensors measure comes out beside it, and waits for nothing.
 """
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
-from station.core.events import DeviceEvent, DeviceFound, DeviceLost, Hit, SensorEvent
+from station.core.events import DeviceEvent, DeviceFound, DeviceLost, Hit, SensorEvent, SensorLost
+from station.core.imu import Mounting
+from station.devices.hid.hid_decoder import HidDecoder
+from station.devices.imu.imu_sensor import ImuSensor
 from station.devices.mapping.device_map import DeviceMap
 from station.devices.mapping.presets import preset_for
 from station.devices.mapping.trigger_filter import FalseTrigger, TriggerFilter
@@ -27,7 +31,7 @@ class _Kit:
     """One kit: what it sends, and which of it counts."""
 
     def __init__(self, preset: DeviceMap, device: str, with_curves: bool) -> None:
-        self.decoder = MidiDecoder(preset, device)
+        self.decoder = HidDecoder(preset, device) if preset.reports else MidiDecoder(preset, device)
         self.filter = TriggerFilter(preset)
         self.is_filtered = preset.has_rules
         pads = preset.pads if with_curves else {}
@@ -63,9 +67,20 @@ class DecoderBank:
         self._suggest = suggest
         self._with_curves = with_curves
         self._kits: dict[str, _Kit] = {}
+        self._sensors: dict[str, ImuSensor] = {}
+
+    def add_sensor(self, device: str, mounting: Mounting) -> None:
+        """Understand `device` as a motion sensor mounted so; with its next bytes it says so, and starts afresh."""
+        self._sensors[device] = ImuSensor(device, mounting)
+
+    def mounting_of(self, device: str) -> Mounting | None:
+        """How `device` is mounted, if it is a motion sensor."""
+        sensor = self._sensors.get(device)
+        return None if sensor is None else sensor.mounting
 
     def add(self, device: str, preset: DeviceMap) -> None:
-        """Understand `device` by `preset` from now on; what its decoder knew is forgotten."""
+        """Understand `device` as a kit, by `preset`, from now on; what its decoder knew is forgotten."""
+        self._sensors.pop(device, None)
         self._kits[device] = _Kit(preset, device, self._with_curves)
 
     def preset_of(self, device: str) -> DeviceMap:
@@ -74,6 +89,9 @@ class DecoderBank:
 
     def feed(self, device: str, data: bytes, at_ns: int) -> DecodedEvents:
         """What `data` from `device`, come at `at_ns`, brings."""
+        sensor = self._sensors.get(device)
+        if sensor is not None:
+            return DecodedEvents([], [], sensor.feed(data, at_ns))
         kit = self._kit(device)
         events = kit.decoder.feed(data, at_ns)
         if not kit.is_filtered:
@@ -88,16 +106,18 @@ class DecoderBank:
 
     def settle_until(self, device: str, until_ns: int) -> list[DeviceEvent]:
         """What a clock had made certain of `device` at `until_ns`; see `overtaken_ns`."""
+        if device in self._sensors:
+            return []
         kit = self._kit(device)
         return kit.as_counts(kit.filter.settle_until(until_ns))
 
     def overtaken_ns(self, device: str, at_ns: int) -> int | None:
         """Up to when events of `device` were let go, if bytes from before that come only now; see `TriggerFilter`."""
-        return self._kit(device).filter.overtaken_ns(at_ns)
+        return None if device in self._sensors else self._kit(device).filter.overtaken_ns(at_ns)
 
     def waits(self, device: str) -> bool:
         """Whether something of `device` is not certain yet."""
-        return self._kit(device).filter.waits
+        return device not in self._sensors and self._kit(device).filter.waits
 
     def flush(self) -> list[DeviceEvent]:
         """All that still waits, as it stands."""
@@ -111,18 +131,32 @@ class DecoderBank:
         return found
 
     def restart_state(self, device: str) -> bytes:
-        """Bytes that tell a later decoder of `device` how the kit stands now; see `MidiDecoder.restart_state`."""
+        """Bytes that tell a later decoder of `device` how the kit stands now; see `MidiDecoder.restart_state`.
+
+        A sensor has no such bytes: it starts afresh here as it will there.
+        """
+        if device in self._sensors:
+            self._sensors[device].reset()
+            return b""
         kit = self._kit(device)
         kit.filter.reset()
         return kit.decoder.restart_state()
 
-    def lost(self, device: str, at_ns: int) -> list[DeviceEvent]:
+    def lost(self, device: str, at_ns: int) -> list[DeviceEvent | SensorEvent]:
         """`device` is gone: half a message and the pedal's position mean nothing any more."""
-        return [*self._kit(device).reset(), DeviceLost(at_ns, device)]
+        sensor = self._sensors.get(device)
+        if sensor is None:
+            return [*self._kit(device).reset(), DeviceLost(at_ns, device)]
+        sensor.reset()
+        return [SensorLost(at_ns, device)]
 
-    def found(self, device: str, at_ns: int) -> list[DeviceEvent]:
+    def found(self, device: str, at_ns: int) -> list[DeviceEvent | SensorEvent]:
         """`device` is there, or there again."""
-        return [*self._kit(device).reset(), DeviceFound(at_ns, device)]
+        sensor = self._sensors.get(device)
+        if sensor is None:
+            return [*self._kit(device).reset(), DeviceFound(at_ns, device)]
+        sensor.reset()
+        return [sensor.found(at_ns)]
 
     def _kit(self, device: str) -> _Kit:
         kit = self._kits.get(device)

@@ -6,11 +6,12 @@ here at once, and `save` keeps them. Velocities are those that were sent, for wh
 monotonic ns.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from station.core.errors import BadInput
-from station.core.events import DeviceEvent, Hit
+from station.core.events import DeviceEvent, Hit, SensorEvent
 from station.core.pieces import word
 from station.core.units import NS_PER_MS, ms_from_ns
 from station.devices.decoders import DecoderBank
@@ -129,7 +130,7 @@ class DeviceMonitor:
         curve = self.kit(hit.device).pad(hit.piece).curve
         return None if curve == AS_SENT else curve.table[hit.velocity]
 
-    def _lines(self, events: list[DeviceEvent]) -> list[MonitorLine]:
+    def _lines(self, events: Sequence[DeviceEvent | SensorEvent]) -> list[MonitorLine]:
         lines = []
         for false_trigger in self._bank.pop_false_triggers():
             hit = false_trigger.hit
@@ -137,6 +138,8 @@ class DeviceMonitor:
                 MonitorLine(hit.at_ns, hit.device, self._sent(hit.device, hit.at_ns), false_trigger=false_trigger)
             )
         for event in events:
+            if isinstance(event, SensorEvent):  # what sensors send is no line each
+                continue
             raw = self._sent(event.device, event.at_ns)
             suspicions: tuple[Suspicion, ...] = ()
             counts = None

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_MS
+from station.devices.hid.hid_names import HID
 from station.devices.mapping.presets import GENERAL_MIDI_PRESET, preset_for, stable_name
 from station.devices.serial.serial_names import SERIAL, device_of_port
 from station.devices.transport import Packet, PortDirectory, Transport
@@ -63,18 +64,21 @@ class ClaimedPorts:
 
 
 def choose_port(ports: Iterable[str], wanted: str) -> str | None:
-    """The port to open: the first whose name contains `wanted` in any case of letters, a serial one by its whole path.
+    """The port to open: the first whose name contains `wanted` in any case of letters, one with a path by all of it.
 
-    With `wanted` empty the first of a module that has a preset, else the first behind which a kit may sit.
+    With `wanted` empty the first of a module that has a preset, else the first behind which a kit may sit, else the
+    first game drums.
     """
     names = list(ports)
-    if wanted.startswith(SERIAL):
+    if wanted.startswith((SERIAL, HID)):
         return next((name for name in names if name == wanted or name.endswith(f" {wanted}")), None)
     if wanted:
         return next((name for name in names if wanted.lower() in name.lower()), None)
-    likely = [name for name in names if SERIAL not in name and not any(part in name.lower() for part in _NO_KITS)]
+    midi = [name for name in names if SERIAL not in name and HID not in name]
+    likely = [name for name in midi if not any(part in name.lower() for part in _NO_KITS)]
     known = [name for name in likely if preset_for(name) is not GENERAL_MIDI_PRESET]
-    return next(iter(known or likely), None)
+    drums = [name for name in names if HID in name and preset_for(name).notes]
+    return next(iter(known or likely or drums), None)
 
 
 class PortWatch:

@@ -13,7 +13,8 @@ from station.devices.capture.capture import CaptureRecord, RecordKind, device_re
 from station.devices.capture.capture_writer import CaptureSink
 from station.devices.decoders import DecoderBank
 from station.devices.mapping.device_writer import kit_text
-from station.devices.mapping.presets import PRESETS
+from station.devices.mapping.presets import KNOWN_KITS
+from station.devices.mapping.stick_file import SENSOR_PRESET, stick_text
 
 OpenCapture = Callable[[Path, int], CaptureSink]
 """Begins a capture at a path and a session time; raises `StationError`."""
@@ -34,11 +35,17 @@ class Recorder:
 
     def add_device(self, device: str, at_ns: int) -> None:
         """Record who `device` is and how it stands; later bytes refer to it."""
-        preset = self._decoders.preset_of(device)
-        own = None if PRESETS.get(preset.name) == preset else kit_text(preset)
         number = self._numbers.setdefault(device, len(self._numbers) + 1)
-        self._sink.append(device_record(number, at_ns, device, preset.name, own))
+        self._sink.append(device_record(number, at_ns, device, *self._understood(device)))
         self._sink.append(CaptureRecord(RecordKind.BYTES, number, at_ns, self._decoders.restart_state(device)))
+
+    def _understood(self, device: str) -> tuple[str, str | None]:
+        """How `device` is understood: the name of its preset, and the text of its own file, if any."""
+        mounting = self._decoders.mounting_of(device)
+        if mounting is not None:
+            return SENSOR_PRESET, stick_text(mounting)
+        preset = self._decoders.preset_of(device)
+        return preset.name, None if KNOWN_KITS.get(preset.name) == preset else kit_text(preset)
 
     def put(self, kind: RecordKind, device: str, at_ns: int, payload: bytes = b"") -> None:
         """Record something of `device`."""

@@ -9,7 +9,7 @@ Times are session time (monotonic ns). With a mixer the transport starts with th
 without one it runs on the times that `advance` is told.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,7 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.errors import DeviceError, StationError
-from station.core.events import DeviceFound, DeviceLost, Hit
+from station.core.events import DeviceEvent, DeviceFound, DeviceLost, Hit, PhaseEstimate, SensorEvent, SensorSamples
+from station.core.imu import Mounting
 from station.core.units import NS_PER_S
 from station.devices.capture.capture_writer import CaptureFile
 from station.devices.decoders import DecoderBank
@@ -37,6 +38,7 @@ from station.engine.messages import (
     RecordCapture,
     ReloadDevice,
     Resume,
+    SetAirDrums,
     SetBacking,
     SetLevel,
     SetMidiOut,
@@ -46,12 +48,16 @@ from station.engine.messages import (
     Started,
     Status,
     Stop,
+    TrackPhase,
     WatchRawBytes,
+    WatchSensors,
 )
 from station.engine.midi_player import MidiOut, OpenMidiOut, no_midi_out
 from station.engine.sound_player import SoundPlayer
 from station.sound.mixer import Mixer
 from station.sound.track import load
+from station.sync.sonification.live_triggers import LiveTriggers
+from station.sync.sticks import Sticks
 
 STATUS_EVERY_NS = NS_PER_S
 KEYBOARD = "keyboard"
@@ -64,6 +70,15 @@ FindKit = Callable[[str], DeviceMap | None]
 def no_own_kit(_: str) -> DeviceMap | None:
     """For an engine that knows kits by their presets alone."""
     return None
+
+
+FindStick = Callable[[str], Mounting]
+"""How the user's sensor of that name is mounted; raises `BadInput` where its file is at fault."""
+
+
+def no_own_stick(_: str) -> Mounting:
+    """For an engine whose sensors are mounted as sensors mostly are."""
+    return Mounting()
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,17 +100,19 @@ class Engine:
         open_capture: OpenCapture = CaptureFile,
         open_midi_out: OpenMidiOut = no_midi_out,
         own_kit: FindKit = no_own_kit,
+        own_stick: FindStick = no_own_stick,
     ) -> None:
         self.output = OutputState()
         """What the next `Status` says of the sound card; set by whoever owns it."""
         self.quitting = False
         """Whether `Quit` was handled."""
         self._player = SoundPlayer(mixer)
-        self._own_kit = own_kit
+        self._own_kit, self._own_stick = own_kit, own_stick
         self._midi = MidiOut(open_midi_out, self.notify)
         self._decoders = DecoderBank()
         self._devices: list[str] = []
-        self._watches_bytes = False
+        self._watches_bytes = self._watches_sensors = False
+        self._sticks, self._triggers = Sticks(), LiveTriggers(())
         self._recording = RunningCapture(open_capture, self._decoders)
         self._zero_ns: int | None = None
         self._events: list[EngineEvent] = []
@@ -119,14 +136,57 @@ class Engine:
         for event in heard.sounding:
             self._player.sound(event)
         self._events += heard.certain
+        for event in heard.certain:
+            if isinstance(event, Hit):
+                self._sticks.struck(event)
+        for sensed in heard.sensed:
+            self._sense(sensed)
+
+    def _sense(self, event: SensorEvent) -> None:
+        """Take what a sensor told; a stroke in the air sounds, and is kept with the hand that played it."""
+        if self._watches_sensors and isinstance(event, SensorSamples):
+            self._events.append(event)
+        for told in self._sticks.handle(event):
+            if isinstance(told, Hit):
+                self._player.sound(told)
+                self._recording.stroke(told)
+            elif isinstance(told, PhaseEstimate):
+                for struck in self._triggers.handle(told, self._now_ns):
+                    self._player.sound(struck)
+            self._events.append(told)
 
     def device_found(self, device: str, at_ns: int) -> None:
         """`device` is connected, or connected again; the user's own kit for it, if there is one, holds from now on."""
         self._load_own_kit(device)
+        self._connected(device, at_ns)
+
+    def sensor_found(self, device: str, at_ns: int) -> None:
+        """`device` is connected, or connected again, and is a motion sensor on a stick."""
+        self._load_own_stick(device)
+        self._connected(device, at_ns)
+
+    def _connected(self, device: str, at_ns: int) -> None:
         if device not in self._devices:
             self._devices.append(device)
         self._recording.device_changed(DeviceFound(at_ns, device))
-        self._events += self._decoders.found(device, at_ns)
+        self._tell(self._decoders.found(device, at_ns))
+
+    def _tell(self, events: Iterable[DeviceEvent | SensorEvent]) -> None:
+        for event in events:
+            if isinstance(event, SensorEvent):
+                self._sense(event)
+            else:
+                self._events.append(event)
+
+    def _load_own_stick(self, device: str) -> None:
+        mounting = Mounting()
+        try:
+            mounting = self._own_stick(device)
+        except StationError as fault:
+            self.notify(f"{fault}; {device} is taken to be mounted as sensors mostly are")
+        if mounting != self._decoders.mounting_of(device):
+            self._decoders.add_sensor(device, mounting)
+            self._recording.add_device(device, self._now_ns)
 
     def _load_own_kit(self, device: str) -> None:
         try:
@@ -143,7 +203,7 @@ class Engine:
         if device in self._devices:
             self._devices.remove(device)
         self._recording.device_changed(DeviceLost(at_ns, device))
-        self._events += self._decoders.lost(device, at_ns)
+        self._tell(self._decoders.lost(device, at_ns))
 
     # --- commands ----------------------------------------------------------------------------------------------------
 
@@ -161,7 +221,7 @@ class Engine:
                 self._zero_ns = None
                 self._player.stop()
                 self._midi.stop()
-            case SetLevel() | SetPiece() | SetBacking() | SetMidiOut():
+            case SetLevel() | SetPiece() | SetBacking() | SetMidiOut() | SetAirDrums() | TrackPhase():
                 self._set(command)
             case KeyHit():
                 self._strike_key(command)
@@ -171,6 +231,10 @@ class Engine:
                 self._recording.annotate(text, self._now_ns)
             case WatchRawBytes(on):
                 self._watches_bytes = on
+            case WatchSensors(on):
+                self._watches_sensors = on
+            case ReloadDevice(device) if self._decoders.mounting_of(device) is not None:
+                self._load_own_stick(device)
             case ReloadDevice(device):
                 self._load_own_kit(device)
             case Quit():
@@ -186,6 +250,11 @@ class Engine:
                 self._set_backing(command)
             case SetMidiOut():
                 self._midi.choose(command.port)
+            case SetAirDrums():
+                self._sticks.play_air(command.kit, command.ahead_ns)
+            case TrackPhase():
+                self._sticks.track_drill(command.model)
+                self._triggers = LiveTriggers(command.triggers)
 
     def _set_backing(self, command: SetBacking) -> None:
         track = command.loaded

@@ -18,7 +18,9 @@ from station.core.clock import monotonic_ns
 from station.core.errors import StationError
 from station.devices.device_ports import Watches, watch_devices
 from station.devices.mapping.device_file import own_kit
+from station.devices.mapping.stick_file import own_stick
 from station.devices.midi.midi_out import open_midi_output
+from station.devices.stick_ports import StickWatches, watch_sticks
 from station.engine.card import Card
 from station.engine.engine import Engine
 from station.engine.engine_config import WORN_OUT, EngineConfig, Prepare
@@ -79,11 +81,15 @@ def _make_ready(sounds: Prepare) -> None:
 
 def _live(config: EngineConfig, inbox: Inbox, outbox: Outbox) -> bool:
     """Runs until told to quit, or the parent is gone; returns whether it ended because it is worn out."""
-    engine = Engine(open_midi_out=lambda port: open_midi_output(config.midi_driver, port, undisturbed), own_kit=own_kit)
+    engine = Engine(
+        open_midi_out=lambda port: open_midi_output(config.midi_driver, port, undisturbed),
+        own_kit=own_kit,
+        own_stick=own_stick,
+    )
     card = _card(engine, config, outbox) if config.sound else None
     undisturbed = card.paused if card is not None else nullcontext
-    watches = _watches(engine, config, card)
-    runner = Runner(engine, watches.kits, card)
+    watches, sticks = _watches(engine, config, card), _stick_watches(engine, config)
+    runner = Runner(engine, watches.kits, card, sticks=sticks.sticks)
     for command in config.first_commands:
         engine.handle(command)
     try:
@@ -105,6 +111,7 @@ def _live(config: EngineConfig, inbox: Inbox, outbox: Outbox) -> bool:
     finally:
         runner.close()
         watches.close()
+        sticks.close()
         outbox.put(engine.advance(monotonic_ns()))
     return runner.is_worn_out and not engine.quitting
 
@@ -113,6 +120,13 @@ def _watches(engine: Engine, config: EngineConfig, card: Card | None) -> Watches
     watches = watch_devices(config.kits, config.midi_driver, monotonic_ns, card)
     if watches.fault is not None:
         engine.notify(f"no MIDI kit can be heard: {watches.fault}")
+    return watches
+
+
+def _stick_watches(engine: Engine, config: EngineConfig) -> StickWatches:
+    watches = watch_sticks(config.sticks)
+    if watches.fault is not None:
+        engine.notify(f"not every stick can be heard: {watches.fault}")
     return watches
 
 

@@ -21,7 +21,10 @@ LATCH_WITHIN_S = 0.0002
 
 
 class Runner:
-    """An engine with its kits and its card; `card` is None where no sound is wanted, `pause` sleeps some seconds."""
+    """An engine with its kits, the sensors on its sticks and its card.
+
+    `card` is None where no sound is wanted, `pause` sleeps some seconds.
+    """
 
     def __init__(
         self,
@@ -29,10 +32,12 @@ class Runner:
         kits: Sequence[PortWatch],
         card: Card | None,
         pause: Callable[[float], None] = time.sleep,
+        sticks: Sequence[PortWatch] = (),
     ) -> None:
         self.engine = engine
         self._pause = pause
         self._kits = kits
+        self._sticks = sticks
         self._card = card
         self._next_supervision_ns = 0
         self._engine_lock = threading.Lock()
@@ -46,16 +51,14 @@ class Runner:
 
     def start(self, now_ns: int) -> None:
         """Open kits and card, the kits first: what they change in the driver then disturbs no sound."""
-        for kit in self._kits:
-            self._poll(kit, now_ns)
+        self._poll_all(now_ns)
         if self._card is not None:
             self._card.start(now_ns)
 
     def step(self, now_ns: int) -> list[EngineEvent]:
         """Do all that is to do at `now_ns`; returns what happened."""
         with self._engine_lock:
-            for kit in self._kits:
-                self._poll(kit, now_ns)
+            self._poll_all(now_ns)
             if self._card is not None and now_ns >= self._next_supervision_ns:
                 self._next_supervision_ns = now_ns + SUPERVISE_EVERY_NS
                 self._card.supervise(now_ns)
@@ -82,8 +85,14 @@ class Runner:
             finally:
                 self._engine_lock.release()
 
-    def _poll(self, kit: PortWatch, now_ns: int) -> None:
-        findings = kit.poll(now_ns)
+    def _poll_all(self, now_ns: int) -> None:
+        for kit in self._kits:
+            self._poll(kit, now_ns, self.engine.device_found)
+        for stick in self._sticks:
+            self._poll(stick, now_ns, self.engine.sensor_found)
+
+    def _poll(self, watch: PortWatch, now_ns: int, found: Callable[[str, int], None]) -> None:
+        findings = watch.poll(now_ns)
         for packet in findings.packets:
             self.engine.feed(findings.device, packet.data, packet.at_ns)
         if findings.fault:
@@ -91,12 +100,12 @@ class Runner:
         if findings.lost:
             self.engine.device_lost(findings.device, now_ns)
         if findings.found:
-            self.engine.device_found(findings.device, now_ns)
+            found(findings.device, now_ns)
 
     def close(self) -> None:
         """Leave card, kits and capture, in that order: nothing is played any more, and every hit is on the disk."""
         if self._card is not None:
             self._card.close()
-        for kit in self._kits:
-            kit.close()
+        for watch in (*self._kits, *self._sticks):
+            watch.close()
         self.engine.close()

@@ -10,10 +10,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.events import DeviceEvent
+from station.core.events import DeviceEvent, SensorSamples, StickEvent
 from station.core.pieces import Articulation, Piece, Zone
 from station.sound.buses import Bus, ClickVoice
 from station.sound.track import PreparedTrack, Track
+from station.sync.air.air_zones import AirKit
+from station.sync.drill.drill_model import DrillModel
+from station.sync.sonification.triggers import Trigger
 
 __all__ = [
     "CUE_DTYPE",
@@ -32,6 +35,7 @@ __all__ = [
     "RecordCapture",
     "ReloadDevice",
     "Resume",
+    "SetAirDrums",
     "SetBacking",
     "SetLevel",
     "SetMidiOut",
@@ -40,7 +44,10 @@ __all__ = [
     "Started",
     "Status",
     "Stop",
+    "TrackPhase",
+    "Watch",
     "WatchRawBytes",
+    "WatchSensors",
 ]
 
 CUE_DTYPE = np.dtype(
@@ -121,6 +128,28 @@ class SetMidiOut:
 
 
 @dataclass(frozen=True, slots=True)
+class SetAirDrums:
+    """Make hits of what the sticks play in the air, by `kit`; None for no air drums.
+
+    `ahead_ns` is how long before its beat a stroke may sound, where it is foretold; None for none that is.
+    """
+
+    kit: AirKit | None
+    ahead_ns: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class TrackPhase:
+    """Tell where in the drill of `model` the sticks are, as `PhaseEstimate`s from now on; None for no longer.
+
+    The phase lets `triggers` sound; what they sound is heard, and is no hit of the student's.
+    """
+
+    model: DrillModel | None
+    triggers: tuple[Trigger, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class KeyHit:
     """A stroke played on the computer's keyboard, stamped `at_ns` when it was polled."""
 
@@ -154,8 +183,15 @@ class WatchRawBytes:
 
 
 @dataclass(frozen=True, slots=True)
+class WatchSensors:
+    """Tell every sample of the sticks as `SensorSamples` from now on, for who learns from them; or no longer."""
+
+    on: bool
+
+
+@dataclass(frozen=True, slots=True)
 class ReloadDevice:
-    """Read the user's own kit for `device` anew: it was changed."""
+    """Read what the user taught of `device` anew, a kit's pads or a sensor's mounting: it was changed."""
 
     device: str
 
@@ -165,8 +201,9 @@ class Quit:
     """End the engine process."""
 
 
-Setting = SetLevel | SetPiece | SetBacking | SetMidiOut
-Command = Play | Resume | Stop | Setting | KeyHit | RecordCapture | Annotate | WatchRawBytes | ReloadDevice | Quit
+Setting = SetLevel | SetPiece | SetBacking | SetMidiOut | SetAirDrums | TrackPhase
+Watch = WatchRawBytes | WatchSensors
+Command = Play | Resume | Stop | Setting | KeyHit | RecordCapture | Annotate | Watch | ReloadDevice | Quit
 
 
 # --- from the engine -------------------------------------------------------------------------------------------------
@@ -241,4 +278,5 @@ class RawBytes:
     data: bytes
 
 
-EngineEvent = DeviceEvent | RawBytes | Ready | Sounding | CaptureSaved | Started | Notice | Status
+Heard = DeviceEvent | StickEvent | SensorSamples | RawBytes
+EngineEvent = Heard | Ready | Sounding | CaptureSaved | Started | Notice | Status

@@ -31,6 +31,7 @@ from station.engine.messages import (
     Ready,
     RecordCapture,
     Resume,
+    SetAirDrums,
     SetBacking,
     SetLevel,
     SetMidiOut,
@@ -39,7 +40,10 @@ from station.engine.messages import (
     Started,
     Status,
     Stop,
+    TrackPhase,
+    Watch,
     WatchRawBytes,
+    WatchSensors,
 )
 
 MOST_RESTARTS = 3
@@ -225,7 +229,7 @@ class _Standing:
                 self._levels[command.bus] = command
             case SetPiece():
                 self._pieces[command.piece] = command
-            case SetBacking() | SetMidiOut() | WatchRawBytes():
+            case SetBacking() | SetMidiOut() | SetAirDrums() | TrackPhase() | WatchRawBytes() | WatchSensors():
                 self._others[type(command)] = command
             case RecordCapture():
                 self._others[RecordCapture] = command
@@ -235,7 +239,7 @@ class _Standing:
 
     def misses(self, command: Command) -> bool:
         """Whether `commands` leaves `command` out."""
-        return not isinstance(command, Play | Stop | Setting | WatchRawBytes | RecordCapture)
+        return not isinstance(command, Play | Stop | Setting | Watch | RecordCapture)
 
     def heard(self, event: EngineEvent) -> None:
         """The engine said `event`."""
@@ -251,7 +255,7 @@ class _Standing:
         """What a new engine is sent at `now_ns`, in order."""
         yield from self._levels.values()
         yield from self._pieces.values()
-        for kind in (SetBacking, SetMidiOut, WatchRawBytes):
+        for kind in (SetBacking, SetMidiOut, SetAirDrums, TrackPhase, WatchRawBytes, WatchSensors):
             if kind in self._others:
                 yield self._others[kind]
         record = self._others.get(RecordCapture)

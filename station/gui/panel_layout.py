@@ -14,7 +14,16 @@ from station.app.room_state import Stage
 from station.app.window_state import State
 from station.core.units import ns_from_s
 from station.gui import theme
-from station.gui.panels import devices_panel, export_panel, graph_panel, hits_panel, practice_panel, style_panel
+from station.gui.panels import (
+    devices_panel,
+    export_panel,
+    graph_panel,
+    hits_panel,
+    phase_panel,
+    practice_panel,
+    sticks_panel,
+    style_panel,
+)
 from station.gui.panels.bars_panel import bars_panel
 from station.gui.panels.lessons_panel import LessonsPanel
 from station.gui.panels.panel import DockSide, Panel, panels_popup
@@ -39,8 +48,10 @@ class Pages:
         self.figure = style_panel.StylePanel(dispatch)
         self._practice = practice_panel.PracticePanel(dispatch)
         self._devices = devices_panel.DevicesPanel(dispatch)
+        self._sticks = sticks_panel.SticksPanel(dispatch)
         self._export = export_panel.ExportPanel(dispatch)
         self.graph = graph_panel.GraphPanel(lambda to_s: dispatch(Seek(ns_from_s(to_s))))
+        self._phase = phase_panel.PhasePanel(dispatch)
         viewpoints = ViewActions(self.view_keys.keep, self.view_keys.go)
         self._transport = TransportBar(dispatch, viewpoints, self._open_tools)
         self.controls = self._transport.controls
@@ -58,8 +69,10 @@ class Pages:
             Panel(style_panel.FIGURE, right, self.figure.gui, style_panel.ABOUT, help=style_panel.HELP),
             Panel(practice_panel.PRACTICE, right, self._practice.gui, practice_panel.ABOUT, help=practice_panel.HELP),
             Panel(devices_panel.DEVICES, right, self._devices.gui, devices_panel.ABOUT, help=devices_panel.HELP),
+            Panel(sticks_panel.STICKS, right, self._sticks.gui, sticks_panel.ABOUT, help=sticks_panel.HELP),
             Panel(export_panel.EXPORT, right, self._export.gui, export_panel.ABOUT, help=export_panel.HELP),
             Panel(GRAPH, strip, self._graph_gui, graph_panel.ABOUT, help=graph_panel.HELP),
+            Panel(phase_panel.PHASE, strip, self._phase_gui, phase_panel.ABOUT, help=phase_panel.HELP),
             Panel(TRANSPORT, DockSide.BELOW, self._transport_gui, shown=lambda state: True),
         )
 
@@ -89,8 +102,10 @@ class Pages:
         return replace(
             shown,
             devices=self.is_open(devices_panel.DEVICES),
+            sticks=self.is_open(sticks_panel.STICKS),
             practice=self.is_open(practice_panel.PRACTICE),
             curves=self.is_open(GRAPH),
+            phase=self.is_open(phase_panel.PHASE),
         )
 
     # --- drawing -----------------------------------------------------------------------------------------------------
@@ -115,3 +130,6 @@ class Pages:
 
     def _graph_gui(self, state: State) -> None:
         self.graph.gui(state.curves, can_seek=state.room.stage is Stage.IDLE)
+
+    def _phase_gui(self, state: State) -> None:
+        self._phase.gui(state.phase, can_play=state.room.stage is not Stage.PLAYING)

@@ -54,7 +54,7 @@ def write_film(
     encoder()
     from station.render.files.video_file import EFFORTS, VideoFormat, video_file
 
-    soundtrack = Soundtrack(drummer.score, stretch.start_s, sounds)
+    soundtrack = Soundtrack.of_score(drummer.score, stretch.start_s, sounds)
     effort = EFFORTS[QUALITIES.index(shot.quality)]
     video = VideoFormat(shot.size, stretch.fps, soundtrack.rate_hz, effort)
     with artist(shot, stretch.pictures) as drawer, video_file(path, video) as sink:

@@ -1,4 +1,4 @@
-"""What a score sounds like without a sound card: the drums and the click as the station plays them, frame by frame."""
+"""What cues sound like without a sound card: drums and click as the station plays them, frame by frame."""
 
 from dataclasses import dataclass
 
@@ -25,14 +25,19 @@ class Sounds:
 
 
 class Soundtrack:
-    """Plays `score` from `start_s` of it on (negative: before its first bar)."""
+    """Plays `cues` (n,) of `CUE_DTYPE`, whose times count from its start."""
 
-    def __init__(self, score: Score, start_s: float, sounds: Sounds) -> None:
+    def __init__(self, cues: NDArray[np.void], sounds: Sounds) -> None:
         self.rate_hz = sounds.kit.rate_hz
         self._done = 0
         clicks = click_sounds(self.rate_hz, sounds.click or DEFAULT_TIMBRE)
         self._player = SoundPlayer(Mixer(sounds.kit, clicks))
-        self._player.play(CueRun(_cues(score, start_s, sounds.click is not None)), 0)
+        self._player.play(CueRun(cues), 0)
+
+    @classmethod
+    def of_score(cls, score: Score, start_s: float, sounds: Sounds) -> "Soundtrack":
+        """Plays `score` from `start_s` of it on (negative: before its first bar)."""
+        return cls(_cues(score, start_s, sounds.click is not None), sounds)
 
     def until(self, after_s: float) -> Frames:
         """The sound from where the last call ended to `after_s` seconds after the start: float32 (n, 2)."""

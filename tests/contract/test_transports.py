@@ -5,7 +5,7 @@ A rig plays known messages and can pull the plug. Expected values are what was p
 
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 from typing import Protocol
@@ -15,10 +15,14 @@ import pytest
 from station.bench.rigs.serial_kit import SerialKit
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_MS, NS_PER_S
+from station.devices.hid.hid_ports import HidDirectory
+from station.devices.imu.ble_ports import BleDirectory, Radio
 from station.devices.midi.midi_clients import SILENT_SERVER_NS
 from station.devices.midi.midi_ports import MidiDirectory
 from station.devices.serial.serial_ports import SerialDirectory
 from station.devices.transport import Packet, Transport
+from tests.fakes.ble_air import FakeAir, FakeSensor, until
+from tests.fakes.hid_devices import ROCK_BAND, FakeHid
 from tests.fakes.jack_server import JackServer, jackd_is_installed, joined
 from tests.fakes.kit_player import KitPlayer, Stroke
 from tests.fakes.port_reader import PortReader
@@ -29,7 +33,9 @@ EVERY_NS = 5 * NS_PER_MS
 
 
 class Rig(Protocol):
-    """A way for bytes to come in."""
+    """A way for bytes to come in; `called` is how the device's name begins."""
+
+    called: str
 
     def open(self) -> Transport: ...
 
@@ -42,6 +48,8 @@ class Rig(Protocol):
 
 class FakeRig:
     """The fake driver, with the monotonic clock for its times."""
+
+    called = "kit"
 
     def __init__(self) -> None:
         self._driver = FakeDriver("kit 20:0")
@@ -63,6 +71,8 @@ class FakeRig:
 class SerialRig:
     """A serial line that is called kit, with a module that speaks raw MIDI."""
 
+    called = "kit"
+
     def __init__(self, folder: Path) -> None:
         self._kit = SerialKit(folder / "ttyUSB0")
 
@@ -80,8 +90,62 @@ class SerialRig:
         self._kit.unplug()
 
 
+class BleRig:
+    """A Bluetooth sensor, whose notifications carry the messages."""
+
+    called = "kit"
+
+    def __init__(self) -> None:
+        self._sensor = FakeSensor("kit")
+        self._radio = Radio(FakeAir(self._sensor))
+
+    def open(self) -> Transport:
+        directory = BleDirectory(self._radio, "kit")
+        assert until(lambda: bool(directory.names()))
+        port = directory.open(directory.names()[0])
+        assert self._sensor.is_subscribed.wait(20)
+        return port
+
+    def play(self) -> list[Packet]:
+        sent = []
+        for message in MESSAGES:
+            sent.append(Packet(message, time.monotonic_ns()))
+            self._sensor.notify(message)
+        return sent
+
+    def unplug(self) -> None:
+        self._sensor.switch_off()
+
+    def close(self) -> None:
+        self._radio.close()
+
+
+class HidRig:
+    """A fake hidapi with game drums; a report is whatever is sent at once."""
+
+    called = "Rock Band drums"
+
+    def __init__(self) -> None:
+        self._api = FakeHid()
+        self._api.plug("/dev/hidraw0", ROCK_BAND)
+
+    def open(self) -> Transport:
+        directory = HidDirectory(self._api)
+        return directory.open(directory.names()[0])
+
+    def play(self) -> list[Packet]:
+        sent = [Packet(message, time.monotonic_ns()) for message in MESSAGES]
+        self._api.send("/dev/hidraw0", *(packet.data for packet in sent))
+        return sent
+
+    def unplug(self) -> None:
+        self._api.unplug("/dev/hidraw0")
+
+
 class JackRig:
     """rtmidi on a real JACK server, with a kit in another process."""
+
+    called = "kit"
 
     def __init__(self, server: JackServer, folder: Path) -> None:
         strokes = [Stroke(index * EVERY_NS, message) for index, message in enumerate(MESSAGES)]
@@ -103,7 +167,7 @@ class JackRig:
         self._directory.close()
 
 
-@pytest.fixture(params=["fake", "serial", pytest.param("jack", marks=pytest.mark.jack)])
+@pytest.fixture(params=["fake", "hid", "serial", "ble", pytest.param("jack", marks=pytest.mark.jack)])
 def rig(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Rig]:
     if request.param == "serial":
         if sys.platform != "linux":
@@ -115,17 +179,12 @@ def rig(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Rig]:
         jack_rig = JackRig(request.getfixturevalue("jack_server"), tmp_path)
         yield jack_rig
         jack_rig.close()
+    elif request.param == "ble":
+        ble_rig = BleRig()
+        yield ble_rig
+        ble_rig.close()
     else:
-        yield FakeRig()
-
-
-def until(enough: Callable[[], bool], within_s: float = 60.0) -> bool:
-    give_up_s = time.monotonic() + within_s
-    while not enough():
-        if time.monotonic() > give_up_s:
-            return False
-        time.sleep(0.0005)
-    return True
+        yield HidRig() if request.param == "hid" else FakeRig()
 
 
 def read_all(transport: Transport, count: int) -> list[Packet]:
@@ -188,7 +247,7 @@ def test_a_closed_transport_reads_as_empty_and_closes_twice(rig: Rig) -> None:
 
 def test_the_name_is_the_devices_own(rig: Rig) -> None:
     transport = rig.open()
-    assert transport.name.startswith("kit")
+    assert transport.name.startswith(rig.called)
     assert not transport.name.endswith(":0")
     transport.close()
 

@@ -36,6 +36,7 @@ def _all_checks() -> tuple[Callable[[], Check], ...]:
         check_settings,
         check_midi,
         check_serial,
+        check_hid,
         check_own_kits,
         check_sound,
         check_real_time,
@@ -136,6 +137,21 @@ def check_serial() -> Check:
         finding, remedy = ("; ".join(sorted(set(texts))) for texts in zip(*denied, strict=True))
         return Check("kit (serial)", False, f"{finding} cannot be opened", remedy)
     return Check("kit (serial)", True, ", ".join(address.port for address in addresses))
+
+
+def check_hid() -> Check:
+    """Game drums and foot switches, and whether this user may open them."""
+    from station.devices.hid.hid_ports import HidDirectory
+
+    directory = HidDirectory()
+    ports = directory.names()
+    denied = [(port, why) for port in ports if (why := directory.no_access(port)) is not None]
+    if denied:
+        finding, remedy = ("; ".join(sorted(set(texts))) for texts in zip(*denied, strict=True))
+        return Check("kit (game drums)", False, f"{finding} cannot be opened", remedy)
+    return Check(
+        "kit (game drums)", True, ", ".join(ports) or "no game drums, no foot switch; only who has them needs them"
+    )
 
 
 def check_sound() -> Check:

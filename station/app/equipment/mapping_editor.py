@@ -38,7 +38,7 @@ from station.devices.mapping.device_map import DeviceMap, Sent
 from station.devices.mapping.trigger_filter import HeldBack
 from station.devices.mapping_commands import obey
 from station.devices.monitor import DeviceMonitor, MonitorLine, rule_against
-from station.devices.wizard.one_hit import in_words, taught
+from station.devices.wizard.one_hit import PadListener, in_words, taught
 from station.devices.wizard.pad_choices import pad_name
 from station.devices.wizard.velocity_learning import VelocityLearning
 from station.engine.messages import Command, EngineEvent, RawBytes, ReloadDevice, WatchRawBytes
@@ -153,7 +153,7 @@ class MappingEditor:
         match event:
             case DeviceFound(at_ns, device):
                 lines, fault = self._monitor.found(device, at_ns)
-                self._seen[device] = SeenKit(fault=fault)
+                self._seen[device] = SeenKit(fault=fault, listener=PadListener(self._monitor.kit(device).reports))
                 self._kept[device] = self._monitor.kit(device)
                 self.device = self.device or device
                 self._show(lines)

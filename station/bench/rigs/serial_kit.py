@@ -60,6 +60,13 @@ class SerialKit:
             os.write(self._master, data[index : index + 1])
         return sent_ns
 
+    def heard(self, count: int) -> bytes:
+        """The next `count` bytes that the station has written; waits for them."""
+        found = b""
+        while len(found) < count:
+            found += os.read(self._master, count - len(found))
+        return found
+
     def rate(self) -> tuple[int, int]:
         """The input and output rates that the station has set, as the kernel keeps them."""
         settings = bytearray(_TERMIOS2.size)

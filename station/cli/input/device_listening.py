@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from queue import SimpleQueue
 
 from station.cli.console import say
-from station.cli.options.device_option import devices_option, wanted_kits
+from station.cli.options.device_option import devices_option, sticks_option, wanted_kits, wanted_sticks
 from station.cli.options.option_fields import option, unread
 from station.core.clock import monotonic_ns
 from station.core.errors import DeviceError
@@ -18,7 +18,7 @@ from station.core.labels import piece_name
 from station.core.pieces import word
 from station.core.settings import load_settings
 from station.core.units import NS_PER_S, ns_from_s
-from station.devices.port_watch import PortPoll, PortWatch
+from station.devices.port_watch import ClaimedPorts, PortPoll, PortWatch
 
 POLL_S = 0.0005
 """Pause between two looks at the kit: the engine's own pace."""
@@ -46,6 +46,18 @@ class ListenOptions:
     seconds: float | None = option("S", "end by itself after so long", _length_s, None)
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HearOptions(ListenOptions):
+    """Which kits and which motion sensors are listened to; where sensors alone are named, they alone."""
+
+    sticks: tuple[str, ...] = sticks_option()
+
+    @property
+    def are_sticks_alone(self) -> bool:
+        """Whether no kit is meant."""
+        return bool(self.sticks) and not self.device
+
+
 class TypedLines:
     """What a person types, line by line, read in a thread of its own; `ended` once there is no more to come."""
 
@@ -66,12 +78,40 @@ class TypedLines:
 
 
 @contextmanager
-def listening(options: ListenOptions) -> Iterator[tuple[PortWatch, ...]]:
-    """The chosen kits; raises `DeviceError` where none can be heard. Ctrl-C, wherever it falls, ends the block."""
+def listening_to_sticks(options: HearOptions, claims: ClaimedPorts | None = None) -> Iterator[tuple[PortWatch, ...]]:
+    """The chosen sensors, those of the settings where nothing is chosen; Ctrl-C, wherever it falls, ends the block.
+
+    `claims` are those of the kits' watches. Raises `DeviceError` where sensors alone are meant and none can be heard.
+    """
+    from station.devices.stick_ports import parse_sticks, watch_sticks
+
+    otherwise = "" if options.device else load_settings().sticks
+    watches = watch_sticks(parse_sticks(wanted_sticks(options.sticks, otherwise)), claims)
+    if watches.fault is not None:
+        if options.are_sticks_alone and not watches.sticks:
+            raise DeviceError(watches.fault)
+        say(f"station: {watches.fault}")
+    try:
+        yield watches.sticks
+    except KeyboardInterrupt:
+        pass
+    finally:
+        watches.close()
+
+
+@contextmanager
+def listening(options: ListenOptions, claims: ClaimedPorts | None = None) -> Iterator[tuple[PortWatch, ...]]:
+    """The chosen kits, none where sensors alone are named; Ctrl-C, wherever it falls, ends the block.
+
+    `claims` are shared with the watches over sensors. Raises `DeviceError` where none can be heard.
+    """
     from station.devices.device_ports import no_device, parse_devices, watch_devices
 
+    if isinstance(options, HearOptions) and options.are_sticks_alone:
+        yield ()
+        return
     requests = parse_devices(wanted_kits(options.device, load_settings().kit))
-    watches = watch_devices(requests)
+    watches = watch_devices(requests, claims=claims)
     if not watches.kits:
         raise DeviceError(no_device(requests))
     if watches.fault is not None:
@@ -84,23 +124,22 @@ def listening(options: ListenOptions) -> Iterator[tuple[PortWatch, ...]]:
         watches.close()
 
 
-def polls(kits: tuple[PortWatch, ...], seconds: float | None) -> Iterator[PortPoll]:
-    """What the kits bring, poll by poll, until the time is up; each is looked at once at the least.
+def polls(kits: tuple[PortWatch, ...], seconds: float | None, sticks: tuple[PortWatch, ...] = ()) -> Iterator[PortPoll]:
+    """What kits and sensors bring, poll by poll, until the time is up; each is looked at once at the least.
 
-    Raises `DeviceError` where no kit comes: any kit is awaited to the end, a kit with a name not long.
+    Raises `DeviceError` where none comes: any kit is awaited to the end, what has a name not long.
     """
-    from station.devices.device_ports import DeviceRequest, no_device
-
-    begun_ns, found = monotonic_ns(), False
+    begun_ns, found, watches = monotonic_ns(), False, (*kits, *sticks)
     end_ns = None if seconds is None else begun_ns + ns_from_s(seconds)
-    names = " and ".join(f"a kit called {kit.wanted!r}" if kit.wanted else "a kit" for kit in kits)
-    say(f"waiting for {names}; Ctrl-C ends")
-    is_named = all(kit.wanted for kit in kits)
+    names = [f"a kit called {kit.wanted!r}" if kit.wanted else "a kit" for kit in kits]
+    names += [f"a motion sensor at {stick.wanted!r}" if stick.wanted else "a motion sensor" for stick in sticks]
+    say(f"waiting for {' and '.join(names)}; Ctrl-C ends")
+    is_named = all(watch.wanted for watch in watches)
     while True:
-        for kit in kits:
-            findings = kit.poll(monotonic_ns())
+        for watch in watches:
+            findings = watch.poll(monotonic_ns())
             found = found or findings.found
-            if findings.fault and not found and is_named and len(kits) == 1:
+            if findings.fault and not found and is_named and len(watches) == 1:
                 raise DeviceError(findings.fault)
             if findings.fault:
                 say(f"station: {findings.fault}")
@@ -112,7 +151,16 @@ def polls(kits: tuple[PortWatch, ...], seconds: float | None) -> Iterator[PortPo
             break
         time.sleep(POLL_S)
     if not found:
-        raise DeviceError(no_device(tuple(DeviceRequest(kit.wanted) for kit in kits)))
+        raise DeviceError(_nothing_came(kits, sticks))
+
+
+def _nothing_came(kits: tuple[PortWatch, ...], sticks: tuple[PortWatch, ...]) -> str:
+    from station.devices.device_ports import DeviceRequest, no_device
+    from station.devices.stick_ports import no_stick
+
+    if kits:
+        return no_device(tuple(DeviceRequest(kit.wanted) for kit in kits))
+    return no_stick(tuple(DeviceRequest(stick.wanted) for stick in sticks))
 
 
 def event_line(event: DeviceEvent, start_ns: int) -> str:

@@ -13,7 +13,7 @@ the first fault and has everything before it. Kinds that it does not know it pas
 | DEVICE | its number from now on | when it was first heard | JSON: `name`, `preset`; `kit`, its own file, if any |
 | BYTES | number | when they came | the bytes as they came |
 | LOST, FOUND | number | when | none |
-| STROKE | number | when it was played | a hit that had no bytes (computer keyboard): `_STROKE` |
+| STROKE | number | when it was played | a hit that had no bytes (computer keyboard, air): `_STROKE`, `_LIMB` |
 | ZERO | 0 | when cue time 0 was heard | none |
 | END | 0 | when the capture was closed | none |
 | SETTLED | number | until when its hits had been told | none; only before bytes from earlier, that came late |
@@ -34,7 +34,7 @@ from typing import NamedTuple
 from station.core.errors import BadInput
 from station.core.events import Hit
 from station.core.files import read_regular
-from station.core.pieces import Articulation, Piece, Zone
+from station.core.pieces import Articulation, Limb, Piece, Zone
 
 MOST_BYTES = 256 << 20
 """No capture is longer (our choice: more than a day of playing)."""
@@ -47,6 +47,7 @@ FURTHEST_NS = 2**62
 """No clock says so much (146 years): two times lie within 64 bits of each other."""
 _UNIX = struct.Struct("<q")
 _STROKE = struct.Struct("<BBBBf")  # piece, zone, articulation, velocity, openness (NaN: cannot tell)
+_LIMB = struct.Struct("<b")  # after it, where the limb is known
 
 
 class RecordKind(IntEnum):
@@ -178,13 +179,16 @@ def stroke_record(number: int, hit: Hit) -> CaptureRecord:
     """A hit that came without bytes."""
     openness = math.nan if hit.openness is None else hit.openness
     payload = _STROKE.pack(hit.piece, hit.zone, hit.articulation, hit.velocity, openness)
+    if hit.limb is not Limb.UNKNOWN:
+        payload += _LIMB.pack(hit.limb)
     return CaptureRecord(RecordKind.STROKE, number, hit.at_ns, payload)
 
 
 def stroke_of(record: CaptureRecord, device: str) -> Hit:
     """The hit of a STROKE record; raises `BadInput` where its payload is not ours."""
     try:
-        piece, zone, articulation, velocity, openness = _STROKE.unpack(record.payload)
+        piece, zone, articulation, velocity, openness = _STROKE.unpack(record.payload[: _STROKE.size])
+        limb = record.payload[_STROKE.size :]
         if not (1 <= velocity <= _HARDEST and (math.isnan(openness) or 0.0 <= openness <= 1.0)):
             raise ValueError
         return Hit(
@@ -194,6 +198,7 @@ def stroke_of(record: CaptureRecord, device: str) -> Hit:
             velocity=velocity,
             articulation=Articulation(articulation),
             openness=None if math.isnan(openness) else openness,
+            limb=Limb(*_LIMB.unpack(limb)) if limb else Limb.UNKNOWN,
             device=device,
         )
     except (struct.error, ValueError):

@@ -3,12 +3,13 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from station.core.events import DeviceEvent
+from station.core.events import DeviceEvent, SensorEvent, SensorLost, SensorMounted, SensorSamples, SensorStatus
 from station.devices.capture.capture import Capture, CaptureRecord, DeviceWord, RecordKind, device_of, stroke_of
 from station.devices.decoders import DecoderBank
 from station.devices.mapping.device_file import parse_kit
 from station.devices.mapping.device_map import DeviceMap
-from station.devices.mapping.presets import GENERAL_MIDI_PRESET, PRESETS
+from station.devices.mapping.presets import GENERAL_MIDI_PRESET, KNOWN_KITS
+from station.devices.mapping.stick_file import SENSOR_PRESET, parse_stick
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,16 +39,24 @@ class LoggedText:
     text: str
 
 
-Entry = DeviceEvent | CaptureBegan | TransportZero | OutputChanged | LoggedText
+Entry = DeviceEvent | SensorEvent | CaptureBegan | TransportZero | OutputChanged | LoggedText
 
 
 def replay(capture: Capture) -> Iterator[DeviceEvent]:
-    """Every event of a capture with the time it had; raises `BadInput` where a record says what it cannot."""
-    return (
-        entry
-        for entry in replay_all(capture)
-        if not isinstance(entry, CaptureBegan | TransportZero | OutputChanged | LoggedText)
-    )
+    """Every event of a kit with the time it had; raises `BadInput` where a record says what it cannot."""
+    return (entry for entry in replay_all(capture) if not isinstance(entry, _BESIDE_KITS))
+
+
+_BESIDE_KITS = (
+    SensorMounted,
+    SensorLost,
+    SensorSamples,
+    SensorStatus,
+    CaptureBegan,
+    TransportZero,
+    OutputChanged,
+    LoggedText,
+)
 
 
 def replay_all(capture: Capture) -> Iterator[Entry]:
@@ -60,7 +69,7 @@ def replay_all(capture: Capture) -> Iterator[Entry]:
                 yield from decoders.flush()
                 device = device_of(record)
                 names[record.device] = device.name
-                decoders.add(device.name, _kit_of(device))
+                _announce(decoders, device)
             case RecordKind.ZERO:
                 yield TransportZero(record.at_ns)
             case RecordKind.ANNOTATION:
@@ -77,11 +86,20 @@ def replay_all(capture: Capture) -> Iterator[Entry]:
     yield from decoders.flush()
 
 
-def _of_device(decoders: DecoderBank, name: str, record: CaptureRecord) -> Iterable[DeviceEvent]:
+def _announce(decoders: DecoderBank, device: DeviceWord) -> None:
+    """From now on `device` is understood as the capture says."""
+    if device.preset == SENSOR_PRESET:
+        decoders.add_sensor(device.name, parse_stick(device.kit or "", device.name))
+    else:
+        decoders.add(device.name, _kit_of(device))
+
+
+def _of_device(decoders: DecoderBank, name: str, record: CaptureRecord) -> Iterable[DeviceEvent | SensorEvent]:
     """What a record of the device `name` brings; nothing where its kind is not known."""
     match record.kind:
         case RecordKind.BYTES:
-            return decoders.feed(name, record.payload, record.at_ns).certain
+            heard = decoders.feed(name, record.payload, record.at_ns)
+            return (*heard.sensed, *heard.certain)
         case RecordKind.SETTLED:
             return decoders.settle_until(name, record.at_ns)
         case RecordKind.STROKE:
@@ -97,7 +115,7 @@ def _of_device(decoders: DecoderBank, name: str, record: CaptureRecord) -> Itera
 def _kit_of(device: DeviceWord) -> DeviceMap:
     if device.kit is not None:
         return parse_kit(device.kit, device.preset)
-    return PRESETS.get(device.preset, GENERAL_MIDI_PRESET)
+    return KNOWN_KITS.get(device.preset, GENERAL_MIDI_PRESET)
 
 
 def transport_zeros_ns(capture: Capture) -> list[int]:

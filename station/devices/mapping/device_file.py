@@ -62,7 +62,7 @@ from station.devices.mapping.device_map import (
     PedalRange,
 )
 from station.devices.mapping.device_writer import kit_text
-from station.devices.mapping.presets import GENERAL_MIDI_PRESET, PRESETS, stable_name
+from station.devices.mapping.presets import GENERAL_MIDI_PRESET, KNOWN_KITS, stable_name
 from station.devices.mapping.velocity_curve import (
     LEAST_SPAN,
     LOUDEST_FROM,
@@ -156,6 +156,7 @@ def _kit(name: str, base: DeviceMap, values: Mapping[str, Any]) -> DeviceMap:
         name=name,
         title=name if values["title"] is None else values["title"],
         base=base.name,
+        reports=base.reports,
         notes=MappingProxyType(notes),
         channel_notes=MappingProxyType(on_channel),
         pedal=values["pedal"],
@@ -169,7 +170,7 @@ def _kit(name: str, base: DeviceMap, values: Mapping[str, Any]) -> DeviceMap:
     )
 
 
-_preset = choice(PRESETS, "kit preset")
+_preset = choice(KNOWN_KITS, "kit preset")
 _PIECES = members_by_label(Piece)
 _NOTE = whole_key(0, 127)
 _PIECE = choice(_PIECES, "piece")

@@ -116,7 +116,7 @@ class DeviceMap:
     aftertouch that means a grabbed cymbal; `choke_notes` the notes that mean one; `grab_velocity` the hardest stroke
     that a grabbing hand fires on the cymbal's edge (0: none); `position_controllers` tell where the next stroke on one
     of their pieces lands, 0 centre … 127 edge; `base` names the preset that a user's own kit is built on, empty for a
-    preset.
+    preset; `reports` the table by which its HID reports are read (`devices.hid.hid_reports`), empty for MIDI.
     """
 
     name: str
@@ -133,6 +133,7 @@ class DeviceMap:
     crosstalk: tuple[Crosstalk, ...] = ()
     base: str = ""
     channel_notes: Mapping[Sent, NoteMeaning] = field(default_factory=lambda: MappingProxyType({}))
+    reports: str = ""
 
     def strike(self, channel: int, note: int) -> NoteMeaning:
         """What `note` of `channel`, 1–16, means; `Piece.PERCUSSION` where nobody has said."""

@@ -7,13 +7,13 @@ from station.core.pieces import Articulation, Zone, word
 from station.core.toml_write import toml_text
 from station.core.units import ms_from_ns
 from station.devices.mapping.device_map import PLAIN_PAD, Crosstalk, DeviceMap, Foot, Pad, PedalRange
-from station.devices.mapping.presets import GENERAL_MIDI_PRESET, PRESETS
+from station.devices.mapping.presets import GENERAL_MIDI_PRESET, KNOWN_KITS
 from station.devices.mapping.velocity_curve import SHAPES, VelocityCurve
 
 
 def kit_text(kit: DeviceMap) -> str:
     """The file of `kit`; reading it gives an equal kit, but for its name and its ports."""
-    base = PRESETS.get(kit.base or kit.name, GENERAL_MIDI_PRESET)
+    base = KNOWN_KITS.get(kit.base or kit.name, GENERAL_MIDI_PRESET)
     lines = [f"title = {toml_text(kit.title)}", f"base = {toml_text(base.name)}"]
     lines += _notes(kit, base)
     lines += [f"channels.{at}.notes.{note} = {_strike(to)}" for (at, note), to in sorted(kit.channel_notes.items())]

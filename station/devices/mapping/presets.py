@@ -19,6 +19,7 @@ from station.core.errors import BadInput
 from station.core.note_map import GENERAL_MIDI, V_DRUMS, KitMap, NoteMeaning
 from station.core.pieces import CLOSED, HALF_OPEN, OPEN, TOMS, Articulation, Piece, Zone
 from station.devices.mapping.device_map import DeviceMap, PedalRange
+from station.devices.mapping.game_presets import GAME_PRESETS
 
 _ROLAND: KitMap = MappingProxyType(
     {**V_DRUMS, 27: NoteMeaning(Piece.PERCUSSION, Zone.HEAD), 28: NoteMeaning(Piece.PERCUSSION, Zone.RIM)}
@@ -132,6 +133,9 @@ _TABLE = (
 )
 
 PRESETS: Mapping[str, DeviceMap] = MappingProxyType({preset.name: preset for preset in _TABLE})
+"""The modules that speak MIDI."""
+KNOWN_KITS: Mapping[str, DeviceMap] = MappingProxyType({**PRESETS, **GAME_PRESETS})
+"""All presets by name: those a kit's own file may build on, and a capture may name."""
 
 _WINDOWS_COUNT = re.compile(r"^\d+- ")
 _ALSA_ADDRESS = re.compile(r" \d+:\d+$")
@@ -143,9 +147,9 @@ def stable_name(port: str) -> str:
 
 
 def preset_for(port: str) -> DeviceMap:
-    """The preset of the module whose port this is, in any case of letters; General MIDI where none is known."""
+    """The preset of the kit whose port this is, in any case of letters; General MIDI where none is known."""
     name = port.lower()
-    for preset in _TABLE:
+    for preset in KNOWN_KITS.values():
         if any(word in name for word in preset.port_words):
             return preset
     return GENERAL_MIDI_PRESET
@@ -154,6 +158,6 @@ def preset_for(port: str) -> DeviceMap:
 def preset_named(name: str) -> DeviceMap:
     """The preset called `name`; raises `BadInput` that lists those there are."""
     try:
-        return PRESETS[name]
+        return KNOWN_KITS[name]
     except KeyError:
-        raise BadInput(name, "", f"no such kit preset{did_you_mean(name, PRESETS)}") from None
+        raise BadInput(name, "", f"no such kit preset{did_you_mean(name, KNOWN_KITS)}") from None

@@ -9,7 +9,8 @@ import re
 
 SERIAL = "serial:"
 
-_ADDRESS = re.compile(r" serial:\S+$")
+_ADDRESS = re.compile(r" (?:serial|hid):\S+$")
+"""Of HID devices too, whose ports are named in the same way (`hid_names`)."""
 
 
 def serial_port(path: str, title: str = "") -> str:
@@ -18,5 +19,5 @@ def serial_port(path: str, title: str = "") -> str:
 
 
 def device_of_port(port: str) -> str:
-    """The name of what is behind a serial port: the same whichever path it gets, if the system knows it at all."""
+    """The name of what is behind a port with an address: the same whichever it gets, if the system knows it at all."""
     return _ADDRESS.sub("", port)

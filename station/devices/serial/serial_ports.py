@@ -1,10 +1,12 @@
-"""Raw MIDI over a serial port: home-built modules, microcontrollers, DIN MIDI on a UART; the only user of pyserial.
+"""Serial ports: raw MIDI of home-built modules, and motion sensors; the only user of pyserial.
 
 MIDI is 31,250 baud (MIDI 1.0 Electrical Specification), no standard rate of serial ports: pyserial sets it through the
 system's own call. USB adapters hold bytes back for up to 16 ms to fill a packet (FTDI's latency timer) unless they are
 told not to, so they are, where the system lets us.
 
-Reading never waits. Bytes are stamped by the moment of reading and by what the wire allows (`stamps.WireClock`).
+Reading never waits. Bytes of MIDI are stamped one by one, by the moment of reading and by what the wire allows
+(`driver_clocks.WireClock`). A sensor sends so many that they stay together as they were read, stamped with that moment:
+its samples get their times later, by all that came (`imu.sample_clock`).
 """
 
 import errno
@@ -57,7 +59,11 @@ def no_access(path: str) -> str | None:
 class SerialDirectory:
     """The serial ports of this computer, and the one at `asked` even where the system does not list it."""
 
-    def __init__(self, baud: int = MIDI_BAUD, asked: str = "", now_ns: MonotonicNs = monotonic_ns) -> None:
+    def __init__(
+        self, baud: int = MIDI_BAUD, asked: str = "", now_ns: MonotonicNs = monotonic_ns, *, in_chunks: bool = False
+    ) -> None:
+        """`in_chunks` for sensors: bytes that were read together are one packet."""
+        self._in_chunks = in_chunks
         self._baud = baud
         self._asked = asked
         self._now_ns = now_ns
@@ -87,17 +93,18 @@ class SerialDirectory:
             raise DeviceError(f"{port}: {_why_not(path, fault)}") from fault
         with suppress(OSError, ValueError, AttributeError, NotImplementedError):  # a pty, or not Linux
             line.set_low_latency_mode(True)
-        return SerialPort(device_of_port(port), line, self._baud, self._now_ns)
+        clock = None if self._in_chunks else WireClock(self._baud, self._now_ns())
+        return SerialPort(device_of_port(port), line, clock, self._now_ns)
 
 
 class SerialPort:
-    """One open serial port."""
+    """One open serial port; `clock` stamps byte by byte, None where what was read together stays together."""
 
-    def __init__(self, name: str, line: serial.Serial, baud: int, now_ns: MonotonicNs) -> None:
+    def __init__(self, name: str, line: serial.Serial, clock: WireClock | None, now_ns: MonotonicNs) -> None:
         self._name = name
         self._line: serial.Serial | None = line
         self._now_ns = now_ns
-        self._clock = WireClock(baud, now_ns())
+        self._clock = clock
 
     @property
     def name(self) -> str:
@@ -105,7 +112,7 @@ class SerialPort:
         return self._name
 
     def read(self) -> list[Packet]:
-        """The bytes since the last call, each with its own time; raises `DeviceError` where the port has gone."""
+        """The bytes since the last call; raises `DeviceError` where the port has gone."""
         if self._line is None:
             return []
         polled_ns = self._now_ns()
@@ -114,8 +121,20 @@ class SerialPort:
             data = self._line.read(waiting) if waiting else b""
         except OSError as fault:
             raise DeviceError(f"{self._name}: the serial port has gone: {fault}") from fault
+        if self._clock is None:
+            return [Packet(data, self._now_ns())] if data else []
         times_ns = self._clock.stamp(len(data), polled_ns, self._now_ns())
         return [Packet(data[index : index + 1], at_ns) for index, at_ns in enumerate(times_ns)]
+
+    def write(self, data: bytes) -> None:
+        """Send `data`, such as a sensor's settings; raises `DeviceError` where the port has gone."""
+        if self._line is None:
+            raise DeviceError(f"{self._name}: the serial port is closed")
+        try:
+            self._line.write(data)
+            self._line.flush()
+        except OSError as fault:
+            raise DeviceError(f"{self._name}: the serial port has gone: {fault}") from fault
 
     def close(self) -> None:
         """End the connection; a closed port reads as empty."""

@@ -32,7 +32,8 @@ def guess(numbers: Mapping[WizardStep, int], port: str, pedal: PedalRange | None
         bonus += _PEDAL if pedal is not None and preset.pedal is not None and are_alike(pedal, preset.pedal) else 0
         return bonus + sum(_worth(preset, step, number) for step, number in numbers.items())
 
-    best = max(PRESETS.values(), key=lambda preset: (merit(preset), preset is named))
+    candidates = [named] if named.reports else PRESETS.values()
+    best = max(candidates, key=lambda preset: (merit(preset), preset is named))
     agreeing = sum(_worth(best, step, number) > 0 for step, number in numbers.items())
     return ModuleGuess(best, agreeing, len(numbers) - agreeing)
 

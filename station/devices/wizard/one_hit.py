@@ -9,8 +9,8 @@ from types import MappingProxyType
 
 from station.core.note_map import NoteMeaning
 from station.devices.mapping.device_map import DeviceMap, Sent
-from station.devices.mapping.presets import PRESETS
-from station.devices.midi.midi_tokens import MidiTokenizer
+from station.devices.mapping.presets import KNOWN_KITS
+from station.devices.message_tokens import tokens_for
 from station.devices.wizard.answers import ONE_STROKE_NS
 from station.devices.wizard.pad_choices import pad_name
 
@@ -18,10 +18,13 @@ _NOTE_ON, _CHANNEL = 0x9, 0x0F
 
 
 class PadListener:
-    """What one kit sends, as far as learning a pad asks: its notes by channel, and the note of the hit awaited."""
+    """What one kit sends, as far as learning a pad asks: its notes by channel, and the note of the hit awaited.
 
-    def __init__(self) -> None:
-        self._tokens = MidiTokenizer()
+    `reports` is how the kit's bytes are read (`DeviceMap.reports`).
+    """
+
+    def __init__(self, reports: str = "") -> None:
+        self._tokens = tokens_for(reports)
         self._heard: dict[Sent, int] = {}
         self._begun_ns: int | None = None
         self._loudest: tuple[int, Sent] = (0, (1, 0))
@@ -65,7 +68,7 @@ class PadListener:
 
 def taught(kit: DeviceMap, sent: Sent, strike: NoteMeaning, is_shared: bool = False) -> DeviceMap:
     """The kit in which `sent` is `strike`: on every channel, on its own alone where the number `is_shared`."""
-    own = kit if kit.base else replace(kit, base=kit.name if kit.name in PRESETS else "", port_words=())
+    own = kit if kit.base else replace(kit, base=kit.name if kit.name in KNOWN_KITS else "", port_words=())
     channels = {other: strikes for other, strikes in kit.channel_notes.items() if other != sent}
     chokes = {number: piece for number, piece in kit.choke_notes.items() if number != sent[1]}
     notes: Mapping[int, NoteMeaning] = kit.notes if is_shared else MappingProxyType({**kit.notes, sent[1]: strike})

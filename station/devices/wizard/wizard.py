@@ -7,7 +7,8 @@ keeps what it has `learned`. A step ends by itself when its strokes were played 
 from dataclasses import dataclass
 
 from station.core.units import NS_PER_MS
-from station.devices.midi.midi_tokens import MidiTokenizer
+from station.devices.mapping.presets import preset_for
+from station.devices.message_tokens import tokens_for
 from station.devices.wizard.answers import ONE_STROKE_NS, Said, StepAnswer, groups
 from station.devices.wizard.infer import Learned, grab_notes, learn, main_notes, main_of
 from station.devices.wizard.module_guess import ModuleGuess, guess
@@ -52,7 +53,7 @@ class Wizard:
         self._takes: dict[WizardStep, StepAnswer] = {}
         self._at = 0
         self._now_ns = 0
-        self._tokens = MidiTokenizer()
+        self._tokens = tokens_for(preset_for(port).reports)
         self._take = StepAnswer()
         self._hint = ""
         self._asked_ns = -READING_NS

@@ -9,7 +9,7 @@ no session.
 from collections import deque
 from collections.abc import Iterable
 
-from station.core.events import Choke, Hit
+from station.core.events import Choke, Hit, SensorEvent, SensorLost, SensorMounted, SensorSamples, SensorStatus
 from station.core.pieces import word
 from station.devices.capture.capture import Capture
 from station.devices.capture.replay import CaptureBegan, Entry, LoggedText, OutputChanged, TransportZero, replay_all
@@ -20,6 +20,7 @@ from station.practice.session.event_log import Ended, PassBegan, Paused, Said, W
 from station.practice.session.session import Session, SessionResult
 from station.scoring.matching.alignment import judgements
 from station.scoring.report.assessment_document import Json
+from station.sync.sticks import Sticks
 
 
 def judge_again(capture: Capture) -> list[Session]:
@@ -42,6 +43,7 @@ class RejudgedSessions:
         self._part = self._strokes = 0
         self._output: str | None = None
         self._is_ended = False
+        self._sticks = Sticks()
 
     def _log_texts(self) -> Iterable[tuple[int, LoggedText, Said | None]]:
         """Every text of the log, with the part of the capture that it is in: each part counts its strokes from 0."""
@@ -76,14 +78,24 @@ class RejudgedSessions:
                 self._output = output
                 self._hand_over(Sounding(output))
             case Hit() | Choke():
-                while self._due and self._due[0][0] == self._part and self._is_due(self._due[0][2]):
-                    self._apply_next()
-                if isinstance(entry, Hit):
-                    self._hits.append(entry)
-                self._hand_over(entry)
-                self._strokes += 1
+                self._struck(entry)
+            case SensorMounted() | SensorLost() | SensorSamples() | SensorStatus():
+                self._sensed(entry)
             case _:
                 self._hand_over(entry)
+
+    def _struck(self, entry: Hit | Choke) -> None:
+        while self._due and self._due[0][0] == self._part and self._is_due(self._due[0][2]):
+            self._apply_next()
+        if isinstance(entry, Hit):
+            self._hits.append(entry)
+        self._hand_over(entry)
+        self._strokes += 1
+
+    def _sensed(self, entry: SensorEvent) -> None:
+        for told in self._sticks.handle(entry):
+            if not isinstance(told, Hit):  # a stroke in the air has a record of its own
+                self._hand_over(told)
 
     def _is_due(self, said: Said | None) -> bool:
         return said is None or said.strokes <= self._strokes

@@ -20,8 +20,10 @@ from station.devices.mapping.device_file import own_kit
 from station.drills.lesson import Goals
 from station.engine.engine import KEYBOARD
 from station.practice.records.mastery_report import passes_text
+from station.practice.records.stick_words import sticking_words, sticks_document, sticks_text
 from station.practice.records.what_next import advice_of, table_in, what_next
 from station.practice.session.adaptation import lesson_bars
+from station.practice.session.lesson_places import written_hands
 from station.practice.session.session import SessionResult
 from station.scoring.analysis.points import FREE_LEAN_MS, Feel
 from station.scoring.analysis.summary import SummaryView, summarise
@@ -74,6 +76,7 @@ def practice_document(result: SessionResult, settings: Settings) -> dict[str, Js
         ],
         "next": [*what_next(document, plan)],
     }
+    document["sticks"] = sticks_document(result.felt)
     return document
 
 
@@ -110,6 +113,7 @@ def session_view(result: SessionResult, settings: Settings) -> SummaryView:
         bar_names=None if plan.rounds is None else plan.rounds.bars,
         beat_ticks=plan.lesson.beat_ticks,
         faults=plan.lesson.goals.faults,
+        asks_hand=written_hands(result),
     )
 
 
@@ -148,7 +152,7 @@ def report_text(document: dict[str, Json]) -> str:
     return (
         f"{head}{'' if session['complete'] else ' (stopped early)'}\n\n"
         f"{_figures_text(document)}{_praise_text(document)}{_passes(document)}"
-        f"{_steps_text(map(str, steps))}{_paused(session)}"
+        f"{_steps_text(map(str, steps))}{sticks_text(document)}{_paused(session)}"
         f"\nLatency taken out: {session['latency']}.\n"
     )
 
@@ -203,6 +207,7 @@ def _figures_text(document: dict[str, Json]) -> str:
     if rows:
         lines += ["", f"{'piece':17}" + "".join(f"{name:>9}" for name in _COLUMNS)]
     lines += [f"{name_of(piece):17}" + "".join(f"{cell:>9}" for cell in _cells(group)) for piece, group in rows]
+    lines += sticking_words(document)
     craft = technique_lines(document)
     return "\n".join([*lines, "", *craft] if craft else lines) + "\n"
 

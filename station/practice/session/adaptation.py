@@ -266,6 +266,7 @@ def whole(results: list[SessionResult], bars: tuple[int, int]) -> SessionResult:
             for start, result in zip(row.start_bars, results, strict=True)
             for pause in result.pauses
         ),
+        felt=tuple(pair for result in results for pair in result.felt),
     )
 
 

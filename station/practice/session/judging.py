@@ -9,6 +9,7 @@ from dataclasses import replace
 from typing import TypeVar
 
 from station.core.events import Choke, Hit
+from station.core.pieces import Limb
 from station.music.judgement import Judgement, Label
 from station.music.performance import Performance
 from station.music.score import Score
@@ -63,16 +64,22 @@ class Judging:
         if strokes:
             self._judge_anew([hit for hit in self.hits if hit not in strokes])
 
-    def performance(self) -> Performance:
-        """What was played; where the score waited for the student, so does the time of what came after."""
+    def performance(self, limbs: Sequence[Limb] | None = None) -> Performance:
+        """What was played; where the score waited for the student, so does the time of what came after.
+
+        `limbs` are those of the hits, where more is known than the hits tell themselves.
+        """
+        hits = self.hits
+        if limbs is not None:
+            hits = [replace(hit, limb=limb) for hit, limb in zip(hits, limbs, strict=True)]
         waited = [(self.hits[hit].at_ns, by_ns) for hit, by_ns in self._follower.waited]
 
         def moved(event: _Played) -> _Played:
             return replace(event, at_ns=event.at_ns - sum(by_ns for from_ns, by_ns in waited if event.at_ns >= from_ns))
 
         if not waited:
-            return Performance.from_hits(self.hits, self.chokes)
-        return Performance.from_hits(map(moved, self.hits), map(moved, self.chokes))
+            return Performance.from_hits(hits, self.chokes)
+        return Performance.from_hits(map(moved, hits), map(moved, self.chokes))
 
     def extras(self) -> list[int]:
         """Indices of the hits that answer no note, as far as is known."""

@@ -3,6 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.pieces import Limb
+from station.music.score import Score
 from station.practice.session.adaptation import lesson_bars
 from station.practice.session.session import SessionResult
 
@@ -35,6 +37,25 @@ def places_of(result: SessionResult, ticks: NDArray[np.int64]) -> NDArray[np.voi
     else:
         places["pass"] = row // plan.section.bar_count + 1
     return places
+
+
+def written_hands(result: SessionResult) -> NDArray[np.bool_]:
+    """The notes (n,) of the result's score whose hand the lesson writes; all others have the drummer's."""
+    lesson = result.plan.lesson.score
+    written = np.isin(lesson.notes["limb"], (Limb.RIGHT_HAND, Limb.LEFT_HAND))
+    starts = np.asarray([lesson.tempo_map.bar_start(bar) for bar in range(lesson.bar_count + 1)])
+    asked = set(zip(lesson.bar[written].tolist(), *_within(lesson, starts, written), strict=True))
+    score, names = result.score, np.asarray(lesson_bars(result.plan))
+    starts = np.asarray([score.tempo_map.bar_start(bar) for bar in range(int(score.bar.max(initial=0)) + 1)])
+    row = np.minimum(score.bar, len(names) - 1)
+    here = zip(names[row].tolist(), *_within(score, starts, np.ones(len(score), np.bool_)), strict=True)
+    return np.fromiter((one in asked for one in here), np.bool_, len(score))
+
+
+def _within(score: Score, starts: NDArray[np.int64], rows: NDArray[np.bool_]) -> tuple[list[int], list[int]]:
+    """How many ticks after its bar's start each of the rows lies, and its piece."""
+    ticks = score.notes["tick"][rows] - starts[score.bar[rows]]
+    return ticks.tolist(), score.notes["piece"][rows].tolist()
 
 
 def ticks_of_hits(result: SessionResult, at_ns: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -16,7 +16,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from station.core.events import Choke, Hit
+from station.core.events import Choke, Hit, StickStroke
 from station.core.units import NS_PER_MS
 from station.drills.mastery.feedback_fading import Feedback
 from station.engine.messages import Annotate, Command, EngineEvent, Play, SetBacking, Started, Stop
@@ -29,6 +29,7 @@ from station.practice.session.event_log import Ended, PassBegan, Paused, WentOn,
 from station.practice.session.judging import Judging
 from station.practice.session.pausing import NEAR_NS, SILENT_BARS, SessionPause, Silence, Stretch, bar_of, from_bar
 from station.practice.session.plan import TAIL_NS, Phase, Plan, Segment
+from station.practice.session.played_hands import PlayedHands, limbs_of
 from station.scoring.align import align
 from station.scoring.matching.alignment import Alignment
 from station.sound.track import PreparedTrack
@@ -57,7 +58,8 @@ class SessionResult:
 
     `score` is what is judged: the plan's, or, when the session was stopped early (`complete` False), its strokes up to
     there. `device` is what most hits were played on, `output` what the click was heard on; None where there was none.
-    `pauses` are those after which it went on, each by its bar of `score`.
+    `pauses` are those after which it went on, each by its bar of `score`; `felt` are the hits whose hand the sensors on
+    the sticks told, each with its stroke, which is in session time.
     """
 
     plan: Plan
@@ -69,6 +71,7 @@ class SessionResult:
     device: str | None
     output: str | None = None
     pauses: tuple[SessionPause, ...] = ()
+    felt: tuple[tuple[Hit, StickStroke], ...] = ()
 
 
 @dataclass(eq=False)
@@ -96,6 +99,7 @@ class Session:
         self._run = Stretch(0, 0, self.plan.cues)
         self._held_ns: int | None = None  # the place on the plan's timeline, while nothing moves
         self._has_left = False  # a stroke has come after so long a silence
+        self._hands = PlayedHands()
         self.paused = False
         """Whether the transport stands and waits for `resume`."""
         self.pauses: list[SessionPause] = []
@@ -172,6 +176,8 @@ class Session:
             case Choke():
                 if self._held_ns is None and (score_ns := self._score_of(event)) is not None:
                     self._judging.chokes.append(replace(event, at_ns=score_ns))
+            case StickStroke():
+                self._hands.strokes.append(event)
             case _:
                 pass
         return ()
@@ -191,7 +197,9 @@ class Session:
         if self.waits and self.plan.click is not None and (self._has_left or self._is_silent_at(score_ns)):
             self._has_left = True  # they come back: however rarely anybody looks, the silence before it counts
             return ()
-        return self._judging.hit(replace(hit, at_ns=score_ns))
+        judged = replace(hit, at_ns=score_ns)
+        self._hands.judged(judged, hit.at_ns - self.latency.of_stroke(hit.device, hit.piece))
+        return self._judging.hit(judged)
 
     # --- output -----------------------------------------------------------------------------------------------------
 
@@ -247,7 +255,8 @@ class Session:
 
     def result(self) -> SessionResult:
         """The final alignment of all that was heard so far."""
-        performance, last_ns = self._judging.performance(), self._judging.last_ns
+        felt = self._hands.felt(self._judging.hits)
+        performance, last_ns = self._judging.performance(limbs_of(self._judging.hits, felt)), self._judging.last_ns
         heard_until_ns = self.state().score_ns
         if self.paused:  # what came after the last stroke is nobody's
             heard_until_ns = 0 if last_ns is None else last_ns + NEAR_NS
@@ -264,6 +273,7 @@ class Session:
             self._played_on(),
             self.heard.output,
             tuple(self.pauses),
+            tuple((hit, stroke) for hit, stroke in zip(self._judging.hits, felt, strict=False) if stroke is not None),
         )
 
     def _played_on(self) -> str | None:

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from station.music.judgement import Label
 from station.render.files.png_file import write_png
-from station.render.gpu.gl import RenderTarget, standalone_context
-from station.render.gpu.shape_renderer import ShapeRenderer, Transform
+from station.render.flat_picture import flat_pictures
+from station.render.gpu.shape_renderer import Transform
 from station.render.palette import (
     BRAND,
     EXTRA,
@@ -21,7 +21,6 @@ from station.render.palette import (
     INK_FAINT,
     INK_SOFT,
     MISSED,
-    NIGHT,
     WRONG,
     with_opacity,
 )
@@ -53,17 +52,9 @@ def report_sheet(size: tuple[int, int], page: ReportPage) -> Transform:
 
 def draw_report_png(facts: ResultFacts, path: Path, size: tuple[int, int] = (1280, 800)) -> None:
     """Write the page to `path`; raises `DeviceError` without OpenGL or if the disk refuses."""
-    ctx = standalone_context()
-    with ctx:
-        target, atlas, page = RenderTarget(ctx, size), Atlas(), page_for(size)
-        printer = ShapeRenderer(ctx, atlas)
-        target.framebuffer.use()
-        target.framebuffer.clear(*NIGHT)
-        printer.draw(report_shapes(facts, atlas, page), report_sheet(size, page))
-        picture = target.read()
-        target.release()
-    ctx.release()
-    write_png(picture, path)
+    page = page_for(size)
+    with flat_pictures(size, page.unit) as maker:
+        write_png(maker.picture(report_shapes(facts, maker.atlas, page)), path)
 
 
 class _Drawn:

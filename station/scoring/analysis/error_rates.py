@@ -64,6 +64,16 @@ def wrong_pieces(summary: Summary) -> list[Finding]:
     return found
 
 
+def wrong_hands(summary: Summary) -> list[Finding]:
+    """Strokes of the other hand than is written, where sensors told the hands."""
+    sticking = summary.sticking
+    if sticking is None:
+        return []
+    told = sticking.right | sticking.wrong
+    bars = worst_bars(summary, sticking.wrong[told].astype(np.float64), told)
+    return _of_share(summary, "wrong_sticking", "", (int(sticking.wrong.sum()), sticking.told), bars, CHANCE)
+
+
 def _of_share(
     summary: Summary, fault: str, subject: str, share: tuple[int, int], bars: Sequence[int], z: float
 ) -> list[Finding]:

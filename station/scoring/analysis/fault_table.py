@@ -54,6 +54,7 @@ _ROWS = (
     FaultKind("missed", Group.NOTES, "%", 4.0, _SHARE),
     FaultKind("extra", Group.NOTES, "%", 3.0, _SHARE + "; what a kit adds is rarer"),
     FaultKind("wrong_piece", Group.NOTES, "%", 5.0, _SHARE),
+    FaultKind("wrong_sticking", Group.NOTES, "%", 5.0, _SHARE + "; sensors on the sticks tell the hand"),
     *_both("stopped left_out_bars repeated_bars", Group.NOTES, "times", 1.0, _ONCE),
     *_both("open_hats closed_hats", Group.NOTES, "%", 25.0, _BRIEF),
     *_both("rushing dragging", Group.PULSE, "% in 8 bars", 4.0, "HUMANS: professionals hold ±1–2 %; " + _BRIEF),

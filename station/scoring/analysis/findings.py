@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from station.core.labels import name_of
 from station.music import passages
 from station.music.score import Score
-from station.scoring.analysis.error_rates import misses_and_extras, wilson, wrong_pieces
+from station.scoring.analysis.error_rates import misses_and_extras, wilson, wrong_hands, wrong_pieces
 from station.scoring.analysis.fault_table import kind_of, of_piece
 from station.scoring.analysis.finding import CHANCE, MIN_SLOTS, Finding, farthest_bars, worst_bars
 from station.scoring.analysis.habits import FILL_EFFECTS, HANDS, OFFBEATS
@@ -64,6 +64,7 @@ def find_all(summary: Summary) -> list[Finding]:
         *_jumps(summary, way),
         *misses_and_extras(summary, way),
         *wrong_pieces(summary),
+        *wrong_hands(summary),
         *_hats(summary),
         *_pulse(summary),
         *spread_findings(summary),

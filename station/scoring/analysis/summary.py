@@ -29,6 +29,7 @@ from station.scoring.analysis.technique.click_gaps import Silences
 from station.scoring.analysis.technique.observability import KitFacts, Swallowed, swallowed_notes
 from station.scoring.analysis.technique.openness import choke_faults, hat_faults
 from station.scoring.analysis.technique.ornaments import loud_graces
+from station.scoring.analysis.technique.played_sticking import PlayedSticking, played_sticking
 from station.scoring.analysis.technique.technique import Circumstances, Technique, technique
 from station.scoring.analysis.timing_spread import Spread, asynchrony_ms, spread, timed_notes
 from station.scoring.matching.alignment import Alignment
@@ -93,7 +94,8 @@ class SummaryView:
     `first_bar` + b mod `pass_bars`, from 0; where passes differ `bar_names` says it of each bar. `hears_velocity` False
     where the input cannot tell loud from soft. `feel` is what costs nothing, `silences` where the click was silent,
     `kit` what was measured of the student's. `beat_ticks` is the beat that tempi in sentences count. `faults` are the
-    sizes from which the lesson names faults.
+    sizes from which the lesson names faults. `asks_hand` (n,) says of which notes the lesson writes the hand, None: of
+    all that have one.
     """
 
     windows: Windows = DEFAULT_LEVEL
@@ -106,6 +108,7 @@ class SummaryView:
     kit: KitFacts = field(default_factory=KitFacts)
     beat_ticks: int = PPQ
     faults: Asked = field(default_factory=Asked)
+    asks_hand: NDArray[np.bool_] | None = field(default=None, compare=False)
 
     @property
     def least_lean_ms(self) -> float:
@@ -154,6 +157,11 @@ class Summary:
     habits: Habits
     tempo: TempoCurve
     swallowed: NDArray[np.uint8]
+
+    @cached_property
+    def sticking(self) -> PlayedSticking | None:
+        """The hands beside those that are written; None where no hit's hand is known."""
+        return played_sticking(self.score, self.performance, self.alignment, self.view.asks_hand)
 
     @cached_property
     def technique(self) -> Technique:

@@ -55,6 +55,7 @@ HEARD = MappingProxyType(
         "repeated_bars": "You played {stops} again",
         "missed": "You leave out {size:.0f} % of the {subject}{where}",
         "extra": "{size:.0f} % of your strokes{subject} are not written",
+        "wrong_sticking": "{size:.0f} % of your strokes come from the other hand than is written{where}",
         "wrong_piece": "{size:.0f} % of the time you strike {subject}{where}",
     }
 )
@@ -109,6 +110,7 @@ DO = MappingProxyType(
         "repeated_bars": "count the bars aloud through the whole form",
         "missed": "play it at {slow:.0f} bpm until every stroke is there",
         "extra": "leave out all that is not written for one pass; if you did not strike it, raise that pad's threshold",
+        "wrong_sticking": "say the sticking aloud while you play it at {slow:.0f} bpm",
         "wrong_piece": "loop that move alone at {slow:.0f} bpm",
     }
 )

@@ -4,6 +4,7 @@ Every figure is a number or null; null means "no data" and never zero. Percentag
 names say, bars are counted from 1 as people do.
 """
 
+from collections import Counter
 from collections.abc import Mapping
 
 from station.core.pieces import Dynamic, Limb, word
@@ -59,6 +60,7 @@ def assessment(summary: Summary) -> dict[str, Json]:
             {"written": word(wrong.written), "played": word(wrong.played), "count": wrong.count}
             for wrong in summary.wrong_pieces
         ],
+        "sticking": _sticking(summary),
         "praise": praise(summary, said),
         "advice": [
             {
@@ -76,6 +78,21 @@ def assessment(summary: Summary) -> dict[str, Json]:
             }
             for advice in said
         ],
+    }
+
+
+def _sticking(summary: Summary) -> dict[str, Json] | None:
+    """The hands beside those that are written, with the lesson's bars in which they were the others."""
+    sticking = summary.sticking
+    if sticking is None:
+        return None
+    bars = Counter((summary.view.bars(summary.score)[sticking.wrong] + 1).tolist())
+    return {
+        "right": int(sticking.right.sum()),
+        "wrong": int(sticking.wrong.sum()),
+        "cannot_tell": int(sticking.cannot_tell.sum()),
+        "wrong_bars": [{"bar": bar, "wrong": bars[bar]} for bar in sorted(bars)],
+        "played": {word(limb): count for limb, count in sticking.played.items()},
     }
 
 

@@ -32,6 +32,9 @@ def _sentences(summary: Summary, named: frozenset[str]) -> Iterator[str]:
         yield f"You played all {counts.notes} notes, and nothing else."
     if sd is not None and sd < STEADY_MS and not any(word.startswith("unsteady") for word in named):
         yield f"Your time is steady: your strokes lie within {sd:.0f} ms of each other (SD)."
+    sticking = summary.sticking
+    if sticking is not None and sticking.told >= FEWEST and not sticking.wrong.any():
+        yield f"Your sticking is as written: all {sticking.told} strokes came from the right hand or the left as asked."
     if counts.matched >= _NEARLY_ALL * counts.notes:
         yield f"You played {counts.matched} of {counts.notes} notes."
     if (marks := _marks(summary)) is not None:

@@ -65,4 +65,6 @@ def test_while_it_learns_the_kit_commands_nothing_and_afterwards_it_does() -> No
 def test_words() -> None:
     assert pause_in_words("crash_1+ride") == "crash and ride at once"
     assert pause_in_words("cc=64") == "foot switch, controller 64"
+    assert pause_in_words("key=5") == "foot switch, key 5"
+    assert pause_in_words("button=10") == "game kit, button 10"
     assert pause_in_words("program=5") == "foot switch, program 5"

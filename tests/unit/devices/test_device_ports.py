@@ -74,7 +74,8 @@ def test_the_kit_goes_by_the_adapters_name_whatever_its_path() -> None:
 
 def test_without_a_name_no_serial_port_is_looked_at() -> None:
     driver = FakeDriver("TD-17 20:0")
-    assert ports_for(DeviceRequest(""), driver) is driver
+    drums = "Guitar Hero drums (PS3) hid:/dev/hidraw0"
+    assert ports_for(DeviceRequest(""), driver, FakeDriver(drums)).names() == ["TD-17 20:0", drums]
 
 
 def test_a_serial_kit_that_comes_back_under_another_path_is_the_same() -> None:

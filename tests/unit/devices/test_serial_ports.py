@@ -171,7 +171,7 @@ def test_the_group_in_the_remedy_is_the_ports_own(tmp_path: Path, monkeypatch: p
 def test_midi_and_serial_ports_are_one_list(path: Path) -> None:
     midi = FakeDriver("TD-17 20:0")
     with SerialKit(path) as kit:
-        ports = DevicePorts(midi, SerialDirectory(asked=str(path)))
+        ports = DevicePorts(midi, SerialDirectory(asked=str(path)), FakeDriver())
         assert ports.names()[0] == "TD-17 20:0"
         assert kit.device in ports.names()
         assert ports.open("TD-17 20:0").name == "TD-17"

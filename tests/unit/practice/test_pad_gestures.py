@@ -84,14 +84,15 @@ def test_a_pedal_that_moves_is_pressed_once() -> None:
 
 
 def test_what_pauses_in_words() -> None:
-    wish = parse_pause("crash_1+crash_2 ride+snare cc=064 program=5")
+    wish = parse_pause("crash_1+crash_2 ride+snare cc=064 program=5 key=224 button=10")
     assert wish.pairs == (CRASHES, frozenset({Piece.RIDE, S}))
-    assert wish.switches == {"cc=64", "program=5"}
+    assert wish.switches == {"cc=64", "program=5", "key=224", "button=10"}
     assert parse_pause("") == PauseOptions()
 
 
 @pytest.mark.parametrize(
-    "text", ["snare", "snare+snare", "snare+cowbells", "cc=128", "cc=", "cc=-1", "a+b+c", "note=3"]
+    "text",
+    ["snare", "snare+snare", "snare+cowbells", "cc=128", "key=232", "button=14", "cc=", "cc=-1", "a+b+c", "note=3"],
 )
 def test_a_word_that_pauses_nothing_is_named(text: str) -> None:
     with pytest.raises(BadInput, match="expected two pads such as"):

@@ -4,9 +4,9 @@ from datetime import date
 
 import pytest
 
-from station.core.events import DeviceFound, DeviceLost, Hit
+from station.core.events import DeviceFound, DeviceLost, Hit, StickStroke
 from station.core.measured_latency import DeviceLatency, MeasuredLatency, StoredCalibration
-from station.core.pieces import Piece, Zone
+from station.core.pieces import Limb, Piece, Zone
 from station.core.settings import Settings
 from station.core.units import NS_PER_MS, NS_PER_S, PPQ
 from station.drills.lesson import Lesson
@@ -243,3 +243,24 @@ def test_an_output_that_changes_within_the_session_brings_its_own_latency() -> N
         (verdict,) = practice.handle(Hit(due_ns + (6 + late_ms) * NS_PER_MS, Piece.SNARE, Zone.HEAD, 90, device=KIT))
         assert verdict.asynchrony_ns == 0
     assert practice.heard.output == "headphones"
+
+
+def test_strokes_of_the_sticks_tell_which_hand_played() -> None:
+    """Right, left, right, left; the sensors' clocks run 30 ms behind the pads."""
+    practice = session(loops=3)
+    for beat in range(12):
+        hand = Limb.LEFT_HAND if beat % 2 else Limb.RIGHT_HAND
+        uneven_ns = (beat * 37 % 11) * NS_PER_MS
+        practice.handle(snare(beat * BEAT_NS + uneven_ns))
+        at_ns = ZERO_NS + BAR_NS + beat * BEAT_NS + uneven_ns + 30 * NS_PER_MS
+        practice.handle(StickStroke(at_ns, hand.name, hand, 2.0))
+    result = practice.result()
+    assert result.performance.hits["limb"].tolist() == [Limb.RIGHT_HAND, Limb.LEFT_HAND] * 6
+    first_hit, first_stroke = result.felt[0]
+    assert (first_hit.at_ns, first_stroke.at_ns) == (0, ZERO_NS + BAR_NS + 30 * NS_PER_MS)
+
+
+def test_without_sensors_nobody_knows_the_hands() -> None:
+    practice = session()
+    practice.handle(snare(0))
+    assert practice.result().performance.hits["limb"].tolist() == [Limb.UNKNOWN]

@@ -24,17 +24,17 @@ def test_every_stroke_falls_on_its_frame_however_the_sound_is_asked_for() -> Non
     expected = [RATE_HZ + k * EIGHTH for k in range(8)]
     for fps in (1, 24, 29.97, 60):
         ends = [k / fps for k in range(1, ceil(3.1 * fps) + 1)]
-        assert onsets(Soundtrack(rock(), -1.0, Sounds(KIT, None)), ends) == expected
+        assert onsets(Soundtrack.of_score(rock(), -1.0, Sounds(KIT, None)), ends) == expected
 
 
 def test_from_the_middle_on_what_was_before_is_silent() -> None:
-    assert onsets(Soundtrack(rock(2), 1.625, Sounds(KIT, None)), [0.5]) == [EIGHTH // 2, EIGHTH // 2 + EIGHTH]
+    assert onsets(Soundtrack.of_score(rock(2), 1.625, Sounds(KIT, None)), [0.5]) == [EIGHTH // 2, EIGHTH // 2 + EIGHTH]
 
 
 def test_a_click_sounds_on_every_beat_of_the_score_and_not_before_it() -> None:
     """A click of the station's lasts longer than a frame: the frames between the strokes are its."""
-    plain = Soundtrack(rock(), -1.0, Sounds(KIT, None)).until(3.5)
-    clicked = Soundtrack(rock(), -1.0, Sounds(KIT)).until(3.5)
+    plain = Soundtrack.of_score(rock(), -1.0, Sounds(KIT, None)).until(3.5)
+    clicked = Soundtrack.of_score(rock(), -1.0, Sounds(KIT)).until(3.5)
     difference = np.abs(clicked - plain)[:, 0]
     assert difference[:RATE_HZ].max() == 0
     level = difference.reshape(-1, EIGHTH // 12).max(axis=1)  # pieces of 1/12 of an eighth: 21 ms

@@ -13,6 +13,7 @@ from station.devices.mapping.device_writer import kit_text
 from station.devices.mapping.presets import preset_named
 from station.devices.wizard.wizard import Wizard
 from station.devices.wizard.wizard_steps import STEPS
+from tests.fakes.hid_devices import drum_report
 from tests.fakes.module import FakeModule, Sent
 from tests.unit.devices.wizard.drummer import answer, teach
 
@@ -298,3 +299,16 @@ def test_without_an_answer_nothing_is_learned() -> None:
     kit = wizard.learned().kit
     assert kit.notes == preset_named("roland-td-17").notes
     assert kit.pedal == preset_named("roland-td-17").pedal
+
+
+def test_game_drums_are_learned_from_their_reports_and_stay_game_drums() -> None:
+    """The kick's bit is L1, its velocity byte 15 (PlasticBand)."""
+    wizard, ms = Wizard("Guitar Hero drums (PS3)"), 1000
+    for velocity in (110, 100, 90, 30, 25, 20):
+        wizard.feed(drum_report("l1", b15=velocity), ms * NS_PER_MS)
+        wizard.feed(drum_report(), (ms + 20) * NS_PER_MS)
+        ms += 300
+    wizard.advance((ms + 1000) * NS_PER_MS)
+    assert wizard.view().step == 2
+    kit = wizard.learned().kit
+    assert (kit.base, kit.reports, kit.pad(Piece.KICK).least_velocity) == ("guitar-hero", "guitar-hero", 20)

@@ -1,0 +1,154 @@
+"""How a stick is held, from its sensor's samples: orientation without a magnetometer, gyro bias, and rest.
+
+The gyro is integrated by VQF (Laidig & Seel 2023, doi 10.1016/j.inffus.2022.10.014), which also learns the gyro's bias
+while the stick lies still. Its inclination is corrected by the accelerometer in calm moments only: a stick's contacts
+go far beyond ± 16 g, so that the mean of a clipped accelerometer is no gravity (a stroke of 9 m/s loses about 3 m/s of
+its sensor's change of speed; at four strokes a second that is more than 1 g).
+A sensor without a gyro must tell its own orientation, which then is taken as it is; its rate is that orientation's.
+The heading starts anywhere and drifts; `sync.air` knows what to do about it.
+"""
+
+import math
+from itertools import pairwise
+from statistics import median
+from typing import NamedTuple
+
+import numpy as np
+from vqf import VQF
+
+from station.core.imu import NO_TURN, STANDARD_GRAVITY_M_S2, ImuSample, Mounting, Quaternion, Vector
+from station.core.units import NS_PER_S
+from station.sync.strokes.stick_axes import Rows, between, inverse, product, rows_of, turned
+
+FIRST_SAMPLES = 8
+"""So many samples tell the rate before the first is used: VQF wants it beforehand; our choice, 80 ms at 100 Hz."""
+LONGEST_GAP_S = 0.25
+"""After a longer gap the orientation starts afresh: a stroke (HUMANS.md: 0.1–0.6 s) may have gone by; our choice."""
+CALM_G = 0.1
+"""So near 1 g is a calm stick's acceleration, as a share of g: a tilt of 6° at the most; our choice."""
+CALM_RAD_S = 1.0
+"""A calm stick turns more slowly: its centripetal acceleration is then under 0.4 m/s² anywhere on it; our choice."""
+RATE_LIMIT_RAD_S = math.radians(2000.0)
+"""Where the gyros of all sensors that we know end (PROTOCOLS.md § 1 and 2)."""
+AT_LIMIT = 0.998
+"""From this share of the limit on a rate counts as clipped: limits are calibrated to about 0.2 %; our choice."""
+CALM_S = 0.05
+"""Calm lasts longer: at 10 Hz, the fastest hand (Fujii 2009), acceleration passes 1 g more quickly than that."""
+
+
+class StickMotion(NamedTuple):
+    """The motion of a stick at a sample's time.
+
+    `turn` earth from stick; `rate_rad_s` without its bias and `acceleration_m_s2` with gravity, where the sensor sits,
+    in the stick's axes (`core.imu`); `resting` whether it has lain still for a while.
+    """
+
+    at_ns: int
+    turn: Quaternion
+    rate_rad_s: Vector
+    acceleration_m_s2: Vector
+    resting: bool
+    is_derived: bool
+    """Whether the rate is the orientation's, a mean since the sample before."""
+    is_clipped: bool
+    """Whether the gyro was at its limit."""
+
+
+class StickOrientation:
+    """Orientation of one stick; `feed` it every sample. The same samples give the same motion, however they come."""
+
+    def __init__(self, mounting: Mounting, rate_limit_rad_s: float = RATE_LIMIT_RAD_S) -> None:
+        self._to_stick: Rows = rows_of(mounting.turn)
+        self._from_stick = inverse(mounting.turn)
+        self._waiting: list[ImuSample] = []
+        self._filter: VQF | None = None
+        self._interval_s = 0.0
+        self._before: ImuSample | None = None
+        self._rate = (0.0, 0.0, 0.0)
+        self._calm_s = 0.0
+        self._limit_rad_s = AT_LIMIT * rate_limit_rad_s
+
+    @property
+    def rate_hz(self) -> float | None:
+        """The sensor's rate, as its first samples tell it."""
+        return 1.0 / self._interval_s if self._filter is not None else None
+
+    def feed(self, sample: ImuSample) -> list[StickMotion]:
+        """The stick's motion at `sample`, none before its rate is known, then that of all so far.
+
+        A sample with neither rate nor orientation tells no motion; nor does one that is not later than the last.
+        """
+        if sample.rate_rad_s is None and sample.orientation is None:
+            return []
+        if self._filter is not None:
+            return self._moved(sample)
+        if self._waiting and sample.at_ns <= self._waiting[-1].at_ns:
+            return []
+        self._waiting.append(sample)
+        return self._begin() if len(self._waiting) == FIRST_SAMPLES else []
+
+    def _begin(self) -> list[StickMotion]:
+        times = [sample.at_ns for sample in self._waiting]
+        self._interval_s = median(b - a for a, b in pairwise(times)) / NS_PER_S
+        self._filter = VQF(self._interval_s)
+        waiting, self._waiting = self._waiting, []
+        return [motion for sample in waiting for motion in self._moved(sample)]
+
+    def _moved(self, sample: ImuSample) -> list[StickMotion]:
+        before, vqf = self._before, self._filter
+        assert vqf is not None
+        dt_s = self._interval_s if before is None else (sample.at_ns - before.at_ns) / NS_PER_S
+        if dt_s <= 0.0:
+            return []
+        if dt_s > LONGEST_GAP_S:
+            vqf = self._afresh(vqf)
+            before, dt_s = None, self._interval_s
+        rate = sample.rate_rad_s if sample.rate_rad_s is not None else _derived(before, sample, dt_s)
+        self._update(vqf, rate, sample, dt_s)
+        self._before, self._rate = sample, rate
+        if sample.rate_rad_s is None:
+            turn, unbiased = sample.orientation or NO_TURN, rate
+        else:
+            turn, unbiased = vqf.getQuat6D().tolist(), _less(rate, vqf.getBiasEstimate()[0].tolist())
+        return [
+            StickMotion(
+                sample.at_ns,
+                product(turn, self._from_stick),
+                turned(self._to_stick, unbiased),
+                turned(self._to_stick, sample.acceleration_m_s2),
+                bool(vqf.getRestDetected()),
+                sample.rate_rad_s is None,
+                max(map(abs, rate)) >= self._limit_rad_s,
+            )
+        ]
+
+    def _afresh(self, before: VQF) -> VQF:
+        """A filter that knows nothing but the bias of the one before."""
+        self._filter, self._calm_s = VQF(self._interval_s), 0.0
+        bias, sigma = before.getBiasEstimate()
+        self._filter.setBiasEstimate(bias, sigma)
+        return self._filter
+
+    def _update(self, vqf: VQF, rate: Vector, sample: ImuSample, dt_s: float) -> None:
+        """Turn by the mean rate since the sample before, also over the time of samples that were lost."""
+        share = dt_s / self._interval_s
+        before = self._rate if self._before is not None and sample.rate_rad_s is not None else rate
+        half = 0.5 * share
+        vqf.updateGyr(np.array([half * (a + b) for a, b in zip(before, rate, strict=True)]))
+        x, y, z = sample.acceleration_m_s2
+        p, q, r = rate
+        is_calm = abs(math.sqrt(x * x + y * y + z * z) - STANDARD_GRAVITY_M_S2) < CALM_G * STANDARD_GRAVITY_M_S2
+        is_calm = is_calm and p * p + q * q + r * r < CALM_RAD_S * CALM_RAD_S
+        self._calm_s = self._calm_s + dt_s if is_calm else 0.0
+        if self._calm_s > CALM_S or self._before is None:
+            vqf.updateAcc(np.array(sample.acceleration_m_s2))
+
+
+def _derived(before: ImuSample | None, sample: ImuSample, dt_s: float) -> Vector:
+    if before is None or before.orientation is None or sample.orientation is None:
+        return (0.0, 0.0, 0.0)
+    return between(before.orientation, sample.orientation, dt_s)
+
+
+def _less(rate: Vector, bias: Vector) -> Vector:
+    return (rate[0] - bias[0], rate[1] - bias[1], rate[2] - bias[2])
