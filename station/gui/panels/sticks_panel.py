@@ -35,7 +35,7 @@ HELP = (
 )
 GESTURE_LABEL, AIR_LABEL, GIVE_UP_LABEL = "Mounting gesture##sticks", "Learn the air kit##sticks", "Give up##sticks"
 PLAY_AIR_LABEL, FOLLOW_LABEL = "play in the air", "follow my phase"
-SOUND_LABEL = "my phase plays the drill"
+SOUND_LABEL = "sound my phase"
 PORTS_LABEL, LOOK_LABEL = "##stick-ports", "Look there##sticks"
 _NO_STICKS = "No sensor is here."
 _HOW = "Plug one in or switch it on, and say below where it is: docs/sensors.md has the sensors that are understood."
