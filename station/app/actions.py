@@ -538,6 +538,7 @@ class SoundPhase:
 
 
 StickAction = LookForSticks | SetHand | LearnMounting | LearnAir | GiveUpSticks | PlayInAir | FollowPhase | SoundPhase
+EquipmentAction = MappingAction | CalibrationAction | StickAction
 
 # --- files ------------------------------------------------------------------------------------------------------------
 
@@ -615,9 +616,7 @@ Action = (
     | PlayerAction
     | StyleAction
     | SettingsAction
-    | MappingAction
-    | CalibrationAction
-    | StickAction
+    | EquipmentAction
     | FileAction
     | PhaseAction
 )
