@@ -19,6 +19,7 @@ from station.app.actions import (
     LookForSticks,
     PlayInAir,
     SetHand,
+    SoundPhase,
     StickAction,
 )
 from station.app.equipment.sticks_view import Lesson, SeenStick, SticksView, view_of
@@ -149,6 +150,7 @@ class SticksEditor:
             settings.air_drums,
             self._kit.zones,
             settings.follow_phase,
+            settings.sound_phase,
             self._phase,
         )
 
@@ -228,6 +230,8 @@ class SticksEditor:
                 self._send(SetAirDrums(self._kit, AIR_AHEAD_NS) if on else SetAirDrums(None))
             case FollowPhase(on):
                 self._store.update(lambda settings: replace(settings, follow_phase=on))
+            case SoundPhase(on):
+                self._store.update(lambda settings: replace(settings, sound_phase=on))
             case _:
                 assert_never(action)
 

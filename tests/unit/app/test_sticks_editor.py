@@ -10,7 +10,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from station.app.actions import FollowPhase, GiveUpSticks, LearnAir, LearnMounting, LookForSticks, PlayInAir, SetHand
+from station.app.actions import (
+    FollowPhase,
+    GiveUpSticks,
+    LearnAir,
+    LearnMounting,
+    LookForSticks,
+    PlayInAir,
+    SetHand,
+    SoundPhase,
+)
 from station.app.equipment.sticks_editor import SticksEditor
 from station.app.settings_store import SettingsStore
 from station.core.errors import BadInput, DeviceError
@@ -332,3 +341,9 @@ def test_a_switch_lets_the_drummer_follow_the_phase(page: Page) -> None:
     page.editor.act(FollowPhase(on=True))
     assert page.store.now.follow_phase
     assert page.editor.view().follows_phase
+
+
+def test_a_switch_lets_the_phase_sound_the_drill(page: Page) -> None:
+    page.editor.act(SoundPhase(on=True))
+    assert page.store.now.sound_phase
+    assert page.editor.view().sounds_phase
