@@ -1,6 +1,7 @@
 """Fills snapshots: what the drummer, the score and the words over them show at one instant of a session.
 
-The drummer demonstrates, then plays along. The score shown is the demonstration's, then that of all passes in a row.
+The drummer demonstrates, then plays along: by the clock, or by the student's own phase where sensors tell it. The score
+shown is the demonstration's, then that of all passes in a row.
 """
 
 from collections.abc import Iterable, Sequence
@@ -62,6 +63,7 @@ class SessionView:
         self._cue: TimingCue = TimingCue.NONE
         self._cue_ns = 0
         self._double = StudentFigure()
+        self._student_s: float | None = None
 
     @property
     def style(self) -> Style:
@@ -71,6 +73,17 @@ class SessionView:
     def move_as(self, style: Style, hands_stay: bool = False) -> None:
         """Let the demonstrator move in another style from now on; with `hands_stay` they hold what they held."""
         self._demonstrator = replace(self._demonstrator, style=style.holding_as(self.style) if hands_stay else style)
+
+    def follow(self, place_s: float | None) -> None:
+        """In the passes let the drummer be where the student is, `place_s` in their score; None to go by the clock."""
+        self._student_s = place_s
+
+    def pass_place_s(self, session: Session) -> float | None:
+        """Where the session's clock is in the passes' score; None while none is played."""
+        state = session.state()
+        if state.transport_ns is None or state.segment.phase is not Phase.PASS:
+            return None
+        return self._passes.position_s(state.transport_ns)
 
     def judged(self, verdicts: tuple[Judgement, ...], hits: Sequence[Hit], now_ns: int, windows: Windows) -> None:
         """Take in judgements of `hits` that the student may see; marks that older snapshots hold stay as they were."""
@@ -106,16 +119,18 @@ class SessionView:
                 hud=self._hud(session, now_ns, message or _why(session)),
             )
         drummer = part.drummer(self._demonstrator.style)
-        double = None
+        double, drummer_s = None, position_s
         if part is self._passes:
-            self._double.heard(session.heard.recent, drummer, position_s, now_ns)
-            double = self._double.double(drummer, position_s, now_ns)
+            if self._student_s is not None and state.segment.phase is Phase.PASS:
+                drummer_s = self._student_s
+            self._double.heard(session.heard.recent, drummer, drummer_s, now_ns)
+            double = self._double.double(drummer, drummer_s, now_ns)
         return Snapshot(
             score=part.score,
             position_s=position_s,
             kit=drummer.kit,
             figure=drummer.figure,
-            pose=drummer.pose(position_s),
+            pose=drummer.pose(drummer_s),
             limbs=drummer.assignment.limbs,
             marks=self._marks if part is self._passes else None,
             extras=self._extras(session) if part is self._passes and session.feedback is not Feedback.NONE else (),

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 from station.app.engine_client import EngineClient
 from station.app.room_state import PlaceNow, RoomState, ShownResult, Stage
+from station.app.sessions.phase_following import PhaseFollowing
 from station.app.sessions.session_preparation import PreparedSession
 from station.core.errors import DeviceError, StationError
 from station.core.events import Hit
@@ -67,6 +68,7 @@ class LessonSession:
         self._runner = SessionRunner(laid.plan if laid.followed is None else laid.followed.adaptation, latency)
         self.view: SessionView = SessionView(self.plan, demonstrator, None if before is None else before.view)
         self._folder: SessionFolder | None = None
+        self._following: PhaseFollowing | None = None
 
     @property
     def session(self) -> Session:
@@ -89,11 +91,15 @@ class LessonSession:
             raise
         self._folder = folder
         self.view.make_ahead()
+        if settings.follow_phase:
+            self._following = PhaseFollowing(self._engine, self.plan, self._demonstrator, self._notify)
 
     # --- while it runs -----------------------------------------------------------------------------------------------
 
     def handle(self, event: EngineEvent, now_ns: int) -> None:
         """Handle one event of the engine."""
+        if self._following is not None:
+            self._following.handle(event)
         notices = self._runner.heard.notices
         known = len(notices)
         self._follow(self._runner.handle(event), now_ns)
@@ -103,6 +109,9 @@ class LessonSession:
     def advance(self, now_ns: int) -> bool:
         """Move on, or wait for a student who has stopped; returns whether the session is over."""
         self._follow(self._runner.advance(now_ns), now_ns)
+        if self._following is not None:
+            clock_s = self.view.pass_place_s(self.session)
+            self.view.follow(self._following.advance(now_ns, self.plan.section, clock_s))
         return self._runner.over
 
     def veto(self) -> bool:
@@ -193,6 +202,8 @@ class LessonSession:
     def finish(self, settings: Settings) -> SavedSession:
         """End the session, judge what was played and keep it."""
         fault = end(self._engine, self._runner) if self._engine.alive else None
+        if self._following is not None:
+            self._following.end()
         assert self._folder is not None, "it was begun"
         result = self._runner.finish()
         saved = save(self._folder, result, practice_document(result, settings), self._followed)

@@ -17,11 +17,16 @@ is foretold (`air_latency`): its time may then lie in the future, and it should 
 from station.core.events import Hit, PhaseEstimate
 from station.core.imu import Mounting
 from station.core.pieces import Limb, Piece
+from station.core.units import NS_PER_MS
 from station.sync.air.air_hand import AirCall, AirHand
 from station.sync.air.air_status import AirStatus
 from station.sync.air.air_zones import AIR_DEVICE, AirKit, velocity_of
 from station.sync.air.zone_learning import AirAim, ZoneLearning
 from station.sync.strokes.stick_orientation import StickMotion
+
+AIR_AHEAD_NS = 20 * NS_PER_MS
+"""How long before its beat a stroke in the air may sound where it is foretold; our choice: about the latency of a sound
+card and a wireless sensor together."""
 
 
 class AirDrums:
@@ -64,16 +69,11 @@ class AirDrums:
         return None if hand is None else hand.status()
 
     def pad(self, hit: Hit) -> None:
-        """A pad was struck: the stick pointed there, whatever its heading has become.
-
-        Where nobody says which hand it was, it is the one that strikes just then; where both do, it tells nothing.
-        """
+        """A pad was struck; where the limb is known, its stick pointed there, whatever its heading has become."""
         if hit.device == AIR_DEVICE:
             return
         self._padded.add(hit.piece)
-        striking = [hand for hand in self._hands.values() if hand.strikes(hit.at_ns)]
-        hands = striking if hit.limb is Limb.UNKNOWN else self._of(hit.limb)
-        for hand in hands if len(hands) == 1 else ():
+        for hand in self._of(hit.limb):
             aimed = (index for index, zone in enumerate(hand.tracker.zones) if zone.piece is hit.piece)
             index = next(aimed, None)
             if index is not None:

@@ -20,8 +20,6 @@ _TURNS_ON = 0.75
 then (our choice)."""
 _PAD_WITHIN_NS = NS_PER_S // 4
 """How old a pad's hit may be when it is told: MIDI and its queue take far less (our choice)."""
-_TOGETHER_NS = NS_PER_S // 20
-"""So near a pad's hit and a stick's stroke are one; our choice: what latencies of both may differ by, 50 ms."""
 _RATE_GAIN = 0.02
 """The mean of some fifty samples' intervals tells the rate (our choice)."""
 
@@ -53,7 +51,6 @@ class AirHand:
         self._by_stroke, self._by_loop = StrokeForecast(), LoopForecast()
         self._reader = SwingReader(mounting.tip_m)
         self._before: StickMotion | None = None
-        self._beat_ns: int | None = None
         self._swings: deque[Swing] = deque()
         self._pending: _Pending | None = None
         self._interval_s: float | None = None
@@ -70,18 +67,11 @@ class AirHand:
         self._swings.append(swing)
         while swing.at_ns - self._swings[0].at_ns > _PAD_WITHIN_NS:
             self._swings.popleft()
-        beat = self._strokes.feed(swing)
-        self._beat_ns = beat.at_ns if beat is not None else self._beat_ns
-        return beat
+        return self._strokes.feed(swing)
 
     def phase(self, estimate: PhaseEstimate) -> None:
         """Where the loop is that is being played."""
         self._by_loop.phase(estimate)
-
-    def strikes(self, at_ns: int) -> bool:
-        """Whether the stick strikes at that time: it falls just now, or its last stroke was then."""
-        goes_on = self._strokes.goes_on and self._strokes.begun(self._swings[-1]) is not None
-        return goes_on or (self._beat_ns is not None and abs(at_ns - self._beat_ns) <= _TOGETHER_NS)
 
     def fix(self, at_ns: int, index: int) -> None:
         """The stick pointed at zone `index` at that time, for a pad says so; nothing where that is too long ago."""

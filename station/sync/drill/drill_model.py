@@ -20,6 +20,13 @@ HANDS = (Limb.RIGHT_HAND, Limb.LEFT_HAND)
 AXES = 3
 CHANNELS = ("force_x", "force_y", "force_z", "rate_x", "rate_y", "rate_z")
 """What one sensor measures: specific force in m/s², angular rate in rad/s, in the stick's axes."""
+
+
+def channel_names() -> list[str]:
+    """Every channel's name, the right stick's first."""
+    return [f"{side}_{name}" for side in ("right", "left") for name in CHANNELS]
+
+
 CENTRES_A_STROKE = 16
 """n_m of the paper, for each stroke of the busiest hand."""
 

@@ -4,8 +4,8 @@ Three steps: both sensors on one grid (`stick_grid`), the best way through phase
 end, which moves in steps of the model's centres, a phase and a cadence without jitter (an α–β filter, critically
 damped). The phase is that of the loop's shortest repeat; which repeat it is the kit's hits may tell (`loop_repeats`).
 
-How well model and sample match says whether it locked, never how well somebody plays. Who holds still matches a model
-at rest: so the sticks must move about as much as the drummer's, too.
+How alike model and sample are says whether it locked, never how well somebody plays. Who holds still is like a model at
+rest: so the sticks must move about as much as the drummer's, too.
 """
 
 from math import exp, log, pi, sqrt
@@ -18,6 +18,7 @@ from station.core.units import NS_PER_S
 from station.sync.drill.drill_model import CENTRES_A_STROKE, DrillModel
 from station.sync.drill.phase_paths import PhasePaths
 from station.sync.drill.stick_grid import STEP_NS, StickGrid, StickStep
+from station.sync.drill.taken_motion import TakenMotion
 
 Array = NDArray[np.float64]
 
@@ -27,18 +28,19 @@ SETTLES_S = 0.15
 BENDS = 1.25
 """The filter's cadence stays so near to the way's tempo: five of its steps (our choice)."""
 REMEMBERS_S = 2.0
-"""The match is a mean over about so long: four strokes at 120 bpm."""
+"""Likeness is a mean over about so long: four strokes at 120 bpm."""
 RESTS_S = 1.0
 """Motion and steadiness are means over about so long: a stroke every two seconds is still motion (our choice)."""
-FOREIGN, OWN = 0.60, 0.75
-"""The mean match of a foreign motion is below .60 for the most part, of this one, in any style, above .74; every moment
-counts by how much is going on in it, for rests are alike in all drills (table in docs/drill-phase.md)."""
+FOREIGN, OWN = 0.30, 0.50
+"""The correlation of model and sample over the last seconds, with what happens when and how much of it: of this motion
+.44 to .9, by other people and in other styles, of a foreign one .1 to .5 (medians in docs/drill-phase.md)."""
+UNSURE, SURE = 0.5, 2.0
+"""By how much the best way is ahead of any to another phase: .3 to 1.5 where the motion is foreign, for the most part,
+above 2.3 where it is this one (docs/drill-phase.md); 2 are odds of seven to one."""
 STILL, MOVES = 0.08, 0.25
 """RMS of the rates beside the drummer's: noise and a held stick, and the softest player's (our choice)."""
-UNSTEADY, STEADY = 0.30, 0.12
-"""SD of the cadence's logarithm: foreign motions .03 to .57, this one at most .09 (table in docs/drill-phase.md)."""
-SURE = 2.0
-"""It locks when the best way is so far ahead of any to another phase: the odds are seven to one (our choice)."""
+UNSTEADY, STEADY = 0.40, 0.20
+"""SD of the cadence's logarithm: foreign motions .03 to .57, this one at most .19 (docs/drill-phase.md)."""
 LOCKS, LETS_GO = 0.5, 0.2
 """Confidence from which on it is locked, and under which no more (our choice, hysteresis)."""
 
@@ -73,7 +75,7 @@ class _Mean:
         self._sum = self._weight = 0.0
         self.filled = 0.0
 
-    def add(self, weighted: float, weight: float) -> None:
+    def add(self, weighted: float, weight: float = 1.0) -> None:
         self._sum = self._kept * self._sum + weighted
         self._weight = self._kept * self._weight + weight
         self.filled = self._kept * self.filled + (1 - self._kept)
@@ -85,21 +87,26 @@ class _Mean:
 
 
 class _Trust:
-    """How sure it is that this is the motion: running means of match, motion and cadence, where something goes on."""
+    """How sure it is that this is the motion: running means of likeness, lead, motion and cadence."""
 
     def __init__(self) -> None:
-        self._match = _Mean(REMEMBERS_S)
-        self._cadence, self._square, self._power = _Mean(RESTS_S), _Mean(RESTS_S), _Mean(RESTS_S)
+        self._like, self._ours, self._theirs = (_Mean(REMEMBERS_S) for _ in range(3))
+        self._cadence, self._square, self._power, self._lead = (_Mean(RESTS_S) for _ in range(4))
 
-    def step(self, match: float, scaled: Array, per_s: float) -> float:
-        """The confidence 0 … 1 after one more sample, of which `scaled` (12,) holds what was measured, else 0."""
+    def step(self, scaled: Array, model: Array, lead: float, per_s: float) -> float:
+        """The confidence 0 … 1 after one more sample, `scaled` (12,), with the `model` (12,) at its phase."""
         energy, cadence = float(scaled @ scaled), log(per_s)
-        self._match.add(energy * match, energy)
+        self._like.add(float(model @ scaled))
+        self._ours.add(float(model @ model))
+        self._theirs.add(energy)
         self._cadence.add(energy * cadence, energy)
         self._square.add(energy * cadence * cadence, energy)
-        self._power.add(float(np.mean(scaled[_RATES] ** 2)), 1.0)
+        self._power.add(float(np.mean(scaled[_RATES] ** 2)))
+        self._lead.add(lead)
+        both = sqrt(self._ours.mean * self._theirs.mean)
+        likeness = self._like.mean / both if both else 0.0
         swings = sqrt(max(self._square.mean - self._cadence.mean**2, 0.0))
-        likely = self._match.filled * _share(self._match.mean, FOREIGN, OWN)
+        likely = self._like.filled * _share(likeness, FOREIGN, OWN) * _share(self._lead.mean, UNSURE, SURE)
         return likely * _share(sqrt(self._power.mean), STILL, MOVES) * _share(-swings, -UNSTEADY, -STEADY)
 
 
@@ -112,6 +119,8 @@ class DrillTracker:
         self._paths = PhasePaths(model.table(), _STEP_S)
         self._lock = _Lock(CENTRES_A_STROKE / 2 / model.centre_count)
         self._trust = _Trust()
+        self.taken = TakenMotion(model)
+        """How the student's own sticks moved while it was locked."""
         self._locked = False
 
     def handle(self, event: SensorEvent) -> list[PhaseEstimate]:
@@ -129,9 +138,11 @@ class DrillTracker:
         values = np.where(step.present, self._model.scaled(step.values), 0.0)
         end = self._paths.step(values, step.present)
         near = self._lock.step(end.turn, end.speed / self._model.cycle_s)
-        confidence = self._trust.step(end.match, values, self._lock.per_s)
-        sure = confidence > LETS_GO if self._locked else confidence > LOCKS and end.lead > SURE
-        self._locked = near and sure
+        model = np.where(step.present, self._paths.model_at(self._lock.turn, end.speed), 0.0)
+        confidence = self._trust.step(values, model, end.lead, self._lock.per_s)
+        self._locked = near and confidence > (LETS_GO if self._locked else LOCKS)
+        if self._locked:
+            self.taken.add(self._lock.turn, step.values, step.present)
         return PhaseEstimate(
             at_ns=step.at_ns,
             phase_rad=pi - (pi - 2 * pi * self._lock.turn) % (2 * pi),

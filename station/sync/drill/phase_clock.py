@@ -4,7 +4,7 @@ A phase says where in the loop's shortest repeat the student is. The clock count
 through loop after loop. It never goes back and never leaps: between two phases it runs on at their cadence, what it
 lags behind it makes up at `FASTEST` times the written tempo at most, and where it is ahead it waits. When the student
 is lost it stands, and goes on from there when they are found. In which repeat they are nobody sees in their hands: the
-clock begins with the one that is nearest to the session's own place, and where the kit's hits settle it, it skips
+clock begins where the session's own is, in the repeat that is nearest, and where the kit's hits settle it, it skips
 whole repeats, in which the hands are alike.
 """
 
@@ -61,7 +61,9 @@ class PhaseClock:
         """Move on to session time `now_ns`, at which the session's own place in the score is `clock_s`."""
         estimate = self._estimate
         if estimate is not None and estimate.locked and not self._found:
-            self._find(now_ns, clock_s if self._shown_s is None else self._shown_s)
+            if self._shown_s is None:
+                self._shown_s, self._shown_ns = clock_s, now_ns
+            self._find(now_ns, self._shown_s)
         if self._shown_s is not None and self._found:
             self._settle()
             passed_s = max(now_ns - self._shown_ns, 0) / NS_PER_S
@@ -73,8 +75,6 @@ class PhaseClock:
         """Count the repeats so that the student is as near as may be to `near_s`."""
         self._cycles, self._found = 0, True
         self._cycles = round((near_s - self._target_s(now_ns)) / self._model.cycle_s)
-        if self._shown_s is None:
-            self._shown_s, self._shown_ns = max(self._target_s(now_ns), 0.0), now_ns
 
     def _settle(self) -> None:
         """Skip the repeats that the hits say are over."""

@@ -70,7 +70,8 @@ class PhasePaths:
         self._count = table.values.shape[1]
         steps = int(np.ceil(np.log(FASTEST / SLOWEST) / np.log(TEMPO_STEP)))
         self._speeds = SLOWEST * TEMPO_STEP ** np.arange(steps + 1)
-        nearest = np.argmin(np.abs(np.log(self._speeds[:, None] / np.array(table.tempi))), axis=1)
+        self._tempi = np.array(table.tempi)
+        nearest = np.argmin(np.abs(np.log(self._speeds[:, None] / self._tempi)), axis=1)
         self._advance = self._speeds * (self._count * step_s / table.cycle_s)
         self._moved = np.zeros(len(self._speeds))
         self._score = np.zeros((len(self._speeds), self._count))
@@ -94,6 +95,11 @@ class PhasePaths:
         if self._steps % self._every == 0:
             self._change(moved)
         return self._best(moved, matches)
+
+    def model_at(self, turn: float, speed: float) -> Array:
+        """What the model does at a phase [0, 1), at `speed` times its tempo: (c,)."""
+        kind = int(np.argmin(np.abs(np.log(speed / self._tempi))))
+        return np.asarray(self._table.values[kind, round(turn * self._count) % self._count])
 
     def _matches(self, values: Array, present: NDArray[np.bool_]) -> Array | None:
         """E₁ (k, n) of the sample at every phase; None without a channel."""

@@ -6,6 +6,8 @@ be told only when what follows it has come: `REACH` standard deviations later. A
 step is missing there; one that fell silent is not waited for.
 """
 
+from collections.abc import Sequence
+from math import exp, hypot
 from typing import NamedTuple
 
 import numpy as np
@@ -28,6 +30,8 @@ SILENT_NS = 300_000_000
 """A stick so far behind the other is not waited for: ten of Bluetooth's slowest intervals (our choice)."""
 GAP_NS = 2_000_000_000
 """After so long without a sample the steps between are left out (our choice)."""
+LEVELS_NS = 3_000_000_000
+"""The way up is the mean force of so long: some strokes, whose own forces cancel out (our choice)."""
 _WIDTH = len(CHANNELS)
 
 
@@ -39,10 +43,38 @@ class StickStep(NamedTuple):
     present: NDArray[np.bool_]
 
 
+class _Level:
+    """Turns a stick about its length until its mean force has no part to the left: the way up, however it is held."""
+
+    def __init__(self) -> None:
+        self._kept = exp(-STEP_NS / LEVELS_NS)
+        self._left = self._up = 0.0
+
+    def turned(self, values: Array) -> Array:
+        """`values` (6,) of one more step, levelled."""
+        self._left = self._kept * self._left + values[1]
+        self._up = self._kept * self._up + values[2]
+        return levelled(values, (self._left, self._up))
+
+
+def levelled(values: Array, left_up: Sequence[float] | Array) -> Array:
+    """One stick's channels (…, 6), turned about x until the mean force `left_up` (2,) would point up alone."""
+    left, up = left_up
+    length = hypot(left, up)
+    if not length:
+        return values
+    turn = np.array([[up, -left], [left, up]]) / length
+    found = values.copy()
+    for pair in (slice(1, 3), slice(4, 6)):
+        found[..., pair] = values[..., pair] @ turn.T
+    return found
+
+
 class _Stick:
     """The samples of one stick that are still needed."""
 
     def __init__(self) -> None:
+        self.level = _Level()
         self.time_ns = np.empty(0, np.int64)
         self.values = np.empty((0, _WIDTH))
         self.has_rate = True
@@ -124,7 +156,7 @@ class StickGrid:
             found = None if stick is None else stick.at(at_ns, self._sd_ns)
             if stick is not None and found is not None:
                 first = index * _WIDTH
-                values[first : first + _WIDTH] = found
+                values[first : first + _WIDTH] = stick.level.turned(found)
                 present[first : first + (_WIDTH if stick.has_rate else AXES)] = True
         return StickStep(at_ns, values, present)
 
@@ -134,4 +166,4 @@ def _in_stick(event: SensorSamples, mounting: Mounting) -> Array:
     still = (0.0,) * AXES
     rows = [(*sample.acceleration_m_s2, *(sample.rate_rad_s or still)) for sample in event.samples]
     turn = np.array(rows_of(mounting.turn))
-    return (np.array(rows).reshape(-1, 2, AXES) @ turn.T).reshape(-1, _WIDTH)
+    return np.asarray((np.array(rows).reshape(-1, 2, AXES) @ turn.T).reshape(-1, _WIDTH))

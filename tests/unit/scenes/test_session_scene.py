@@ -159,3 +159,29 @@ def test_the_stickings_that_are_shown_are_those_of_the_drummer() -> None:
     shown = view.snapshot(began(PLAN, start_of(PLAN, Phase.PASS) + 1), start_of(PLAN, Phase.PASS) + 1).limbs
     assert shown is not None
     assert shown.tolist() == PLAN.score.notes["limb"].tolist()
+
+
+def test_in_the_passes_the_drummer_is_where_the_student_is_and_in_a_demonstration_by_the_clock() -> None:
+    view, place_s = SessionView(PLAN), 1.234
+    student = Drummer(PLAN.score, PLAN.kit).pose(place_s).tip_m
+    begin = {phase: start_of(PLAN, phase) for phase in (Phase.DEMONSTRATION, Phase.PASS)}
+    by_clock = {phase: tips(view, PLAN, at_ns) for phase, at_ns in begin.items()}
+    view.follow(place_s)
+    assert tips(view, PLAN, begin[Phase.PASS]) == pytest.approx(np.array([student] * len(AT_S)), abs=1e-9)
+    assert tips(view, PLAN, begin[Phase.DEMONSTRATION]) == pytest.approx(by_clock[Phase.DEMONSTRATION])
+    view.follow(None)
+    assert tips(view, PLAN, begin[Phase.PASS]) == pytest.approx(by_clock[Phase.PASS])
+
+
+def test_the_place_in_the_passes_is_told_while_they_are_played() -> None:
+    view = SessionView(PLAN)
+
+    def place_s(at_ns: int) -> float | None:
+        session = Session(PLAN)
+        session.handle(Started(0, None))
+        session.advance(at_ns)
+        return view.pass_place_s(session)
+
+    second = start_of(PLAN, Phase.PASS, 1)
+    assert place_s(second + NS_PER_S // 2) == pytest.approx(PLAN.section.length_ns / NS_PER_S + 0.5)
+    assert place_s(start_of(PLAN, Phase.DEMONSTRATION) + NS_PER_S) is None

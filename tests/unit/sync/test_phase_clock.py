@@ -45,12 +45,15 @@ def test_it_runs_on_through_repeats_and_loops_at_the_students_tempo(tempo: float
     shown = run(PhaseClock(model()), steps)
     shown = shown[~np.isnan(shown)]
     assert shown[-1] == pytest.approx(0.3 + 10.0 * tempo, abs=0.05 * tempo)
-    assert np.diff(shown) == pytest.approx(0.016 * tempo, abs=1e-3)
+    assert np.diff(shown)[60:] == pytest.approx(0.016 * tempo, abs=1e-3)
 
 
-def test_it_begins_in_the_repeat_that_is_nearest_to_the_session() -> None:
-    shown = run(PhaseClock(model()), [estimate(k * STEP_NS, 0.9 + k * 0.01) for k in range(50)], clock_s=7.1)
-    assert shown[~np.isnan(shown)][0] == pytest.approx(6.95, abs=0.05)
+def test_it_begins_at_the_sessions_place_in_the_repeat_that_is_nearest() -> None:
+    """The session is at 7.1 s, the student at .94 of a repeat: at 6.94 s, so that the clock waits for them."""
+    shown = run(PhaseClock(model()), [estimate(k * STEP_NS, 0.9 + k * 0.01) for k in range(100)], clock_s=7.1)
+    shown = shown[~np.isnan(shown)]
+    assert shown[:9] == pytest.approx(7.1)
+    assert shown[-1] == pytest.approx(7.9, abs=0.05)
 
 
 def test_it_stands_while_the_student_is_lost_and_goes_on_without_a_leap() -> None:

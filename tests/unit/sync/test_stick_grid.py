@@ -90,13 +90,21 @@ def test_a_sensor_of_no_hand_tells_nothing() -> None:
 
 
 def test_the_mounting_turns_what_is_measured() -> None:
-    """A sensor a quarter turn about z: its y is the stick's −x, its x the stick's y."""
-    half = math.sqrt(0.5)
+    """A sensor upside down, half a turn about y: its x is the stick's −x, its z the stick's −z."""
     grid = StickGrid(SD_S)
-    grid.mounted(SensorMounted(0, RIGHT.name, Mounting(RIGHT, turn=(half, 0.0, 0.0, half))))
-    values = grid.handle(samples(RIGHT, np.arange(100) / 200))[20].values
-    assert values[:6] == pytest.approx([0.0, values[1], 9.8, -5.0, 0.0, 0.0], abs=1e-9)
-    assert values[1] > 0.1
+    grid.mounted(SensorMounted(0, RIGHT.name, Mounting(RIGHT, turn=(0.0, 0.0, 1.0, 0.0))))
+    times = np.arange(100) / 200
+    row = tuple(ImuSample(round(t * 1e9), (1.0, 0.0, -9.8), (2.0, 5.0, 0.0)) for t in times.tolist())
+    values = grid.handle(SensorSamples(row[-1].at_ns, RIGHT.name, row))[20].values
+    assert values[:6] == pytest.approx([-1.0, 0.0, 9.8, -2.0, 5.0, 0.0], abs=1e-9)
+
+
+def test_a_stick_rolled_in_the_hand_is_levelled_by_its_mean_force() -> None:
+    """Rolled by 40° about its length, gravity points to its left too, and a turn about y shows on y and z."""
+    sine, cosine = math.sin(math.radians(40)), math.cos(math.radians(40))
+    row = tuple(ImuSample(k * 5_000_000, (0.0, 9.8 * sine, 9.8 * cosine), (0.0, cosine, -sine)) for k in range(100))
+    values = mounted(RIGHT).handle(SensorSamples(row[-1].at_ns, RIGHT.name, row))[20].values
+    assert values[:6] == pytest.approx([0.0, 0.0, 9.8, 0.0, 1.0, 0.0], abs=1e-9)
 
 
 def test_a_sensor_that_vanished_is_not_waited_for() -> None:
